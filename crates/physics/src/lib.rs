@@ -1,1 +1,23 @@
-//! placeholder
+//! The laws: numbers in, numbers out.
+//!
+//! No state, no allocation, no input or output. Every public law names its formula, its arguments with units,
+//! its source and its valid range. Laws used inside the time loop are generic over [`number::Real`];
+//! laws used once, when constants are built, are plain `f64`.
+//!
+//! | module | law |
+//! |---|---|
+//! | [`materials`] | elastic constants and densities |
+//! | [`hertz`] | point contact between ball and race: exact elliptic integrals |
+//! | [`contact`] | normal force of a contact in time: Hertz with damping, Hunt-Crossley |
+//! | [`traction`] | sliding friction between ball and race |
+//! | [`palmgren`] | steady friction moment of a rolling bearing |
+//! | [`rolling`] | a bearing whose balls roll: the source paper's equations 6-19 |
+//! | [`kinematics`] | speeds of cage and balls, passing frequencies |
+
+pub mod contact;
+pub mod hertz;
+pub mod kinematics;
+pub mod materials;
+pub mod palmgren;
+pub mod rolling;
+pub mod traction;

@@ -1,0 +1,116 @@
+//! The number trait.
+
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
+
+/// Outcome of a comparison, one truth value per lane.
+pub trait Mask:
+    Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
+{
+    /// True where any lane is true.
+    fn any(self) -> bool;
+    /// The truth value of one lane.
+    fn lane(self, index: usize) -> bool;
+    /// A mask from one truth value per lane.
+    fn from_lanes(lane: impl FnMut(usize) -> bool) -> Self;
+}
+
+/// A real number in one of its shapes: `f64`, [`Lanes`](crate::Lanes) or [`Dual`](crate::Dual).
+///
+/// Code over `Real` must not branch on values: it compares to a [`Mask`] and [selects](Real::select).
+/// Both sides of a selection are computed, so arguments of `sqrt` and `ln` are clamped *before* the call.
+pub trait Real:
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+{
+    /// Outcome of a comparison.
+    type Mask: Mask;
+    /// Number of machines side by side.
+    const LANES: usize;
+
+    /// The same constant in every lane; its derivative is zero.
+    fn splat(value: f64) -> Self;
+    /// One value per lane; derivatives are zero.
+    fn from_lanes(lane: impl FnMut(usize) -> f64) -> Self;
+    /// The value of one lane, without its derivative.
+    fn lane(self, index: usize) -> f64;
+
+    /// √x, for x ≥ 0. The derivative needs x > 0: clamp first.
+    fn sqrt(self) -> Self;
+    /// |x|.
+    fn abs(self) -> Self;
+    /// The nearest integer, ties to even, for |x| < 2^51; its derivative is zero.
+    fn round(self) -> Self;
+    /// eˣ, the argument clamped to ±700.
+    fn exp(self) -> Self;
+    /// Natural logarithm, for normal x > 0.
+    fn ln(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// Sine and cosine of an angle in rad.
+    fn sin_cos(self) -> (Self, Self);
+    /// Arc tangent for |x| ≤ 0.125; meaningless beyond.
+    fn atan_small(self) -> Self;
+
+    /// self > other.
+    fn greater(self, other: Self) -> Self::Mask;
+    /// `yes` where the mask holds, else `no`.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// Zero.
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::splat(0.0)
+    }
+    /// One.
+    #[inline(always)]
+    fn one() -> Self {
+        Self::splat(1.0)
+    }
+    /// self < other.
+    #[inline(always)]
+    fn less(self, other: Self) -> Self::Mask {
+        other.greater(self)
+    }
+    /// The larger of two; `other` when they do not compare.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self::select(self.greater(other), self, other)
+    }
+    /// The smaller of two; `other` when they do not compare.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self::select(other.greater(self), self, other)
+    }
+    /// self², cheaper to read than a product of long names.
+    #[inline(always)]
+    fn square(self) -> Self {
+        self * self
+    }
+    /// 1/x.
+    #[inline(always)]
+    fn recip(self) -> Self {
+        Self::one() / self
+    }
+    /// x^y for x > 0: e^(y ln x).
+    #[inline(always)]
+    fn powf(self, exponent: Self) -> Self {
+        (self.ln() * exponent).exp()
+    }
+    /// The sign with `sign(0) = +1`.
+    #[inline(always)]
+    fn sign_or_plus(self) -> Self {
+        Self::select(Self::zero().greater(self), -Self::one(), Self::one())
+    }
+}
