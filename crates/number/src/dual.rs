@@ -97,6 +97,20 @@ assign!(MulAssign, mul_assign, *);
 impl<const K: usize> Real for Dual<K> {
     type Mask = bool;
     const LANES: usize = 1;
+    type Group = Self;
+    const GROUP: usize = 1;
+    #[inline(always)]
+    fn grouped(self) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn load_group(parts: &[Self], from: usize) -> Self {
+        parts[from]
+    }
+    #[inline(always)]
+    fn store_group(group: Self, parts: &mut [Self], from: usize) {
+        parts[from] = group;
+    }
     #[inline(always)]
     fn splat(value: f64) -> Self {
         Dual {

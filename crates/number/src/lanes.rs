@@ -24,6 +24,31 @@ impl Mask for bool {
 impl Real for f64 {
     type Mask = bool;
     const LANES: usize = 1;
+    type Group = Lanes<4>;
+    const GROUP: usize = 4;
+    #[inline(always)]
+    fn grouped(self) -> Lanes<4> {
+        Lanes([self; 4])
+    }
+    #[inline(always)]
+    fn load_group(parts: &[f64], from: usize) -> Lanes<4> {
+        if let Some(full) = parts.get(from..from + 4) {
+            Lanes([full[0], full[1], full[2], full[3]])
+        } else {
+            let last = parts.len() - 1;
+            Lanes(each_lane_of_four(|i| parts[last.min(from + i)]))
+        }
+    }
+    #[inline(always)]
+    fn store_group(group: Lanes<4>, parts: &mut [f64], from: usize) {
+        if let Some(full) = parts.get_mut(from..from + 4) {
+            full.copy_from_slice(&group.0);
+        } else {
+            for (part, value) in parts[from..].iter_mut().zip(group.0) {
+                *part = value;
+            }
+        }
+    }
     #[inline(always)]
     fn splat(value: f64) -> f64 {
         value
@@ -196,6 +221,20 @@ impl<const W: usize> Mask for LaneMask<W> {
 impl<const W: usize> Real for Lanes<W> {
     type Mask = LaneMask<W>;
     const LANES: usize = W;
+    type Group = Self;
+    const GROUP: usize = 1;
+    #[inline(always)]
+    fn grouped(self) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn load_group(parts: &[Self], from: usize) -> Self {
+        parts[from]
+    }
+    #[inline(always)]
+    fn store_group(group: Self, parts: &mut [Self], from: usize) {
+        parts[from] = group;
+    }
     #[inline(always)]
     fn splat(value: f64) -> Self {
         Lanes([value; W])
@@ -249,6 +288,11 @@ impl<const W: usize> Real for Lanes<W> {
         Lanes(each_lane!(i: self_or(&no) =>
             f64::from_bits((yes.0[i].to_bits() & mask.0[i]) | (no.0[i].to_bits() & !mask.0[i]))))
     }
+}
+
+#[inline(always)]
+fn each_lane_of_four(lane: impl Fn(usize) -> f64) -> [f64; 4] {
+    [lane(0), lane(1), lane(2), lane(3)]
 }
 
 /// Starting value of a lane loop that overwrites every lane.
@@ -325,6 +369,16 @@ mod tests {
             Lanes::select(positive, Lanes::one(), Lanes::zero()).0,
             [1.0, 0.0]
         );
+    }
+    #[test]
+    fn a_group_holds_the_parts_and_repeats_the_last() {
+        let parts = [1.0, 2.0, 3.0, 4.0, 5.0];
+        assert_eq!(f64::load_group(&parts, 0).0, [1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(f64::load_group(&parts, 4).0, [5.0; 4]);
+        let mut out = [0.0; 5];
+        f64::store_group(Lanes([1.0, 2.0, 3.0, 4.0]), &mut out, 0);
+        f64::store_group(Lanes([9.0; 4]), &mut out, 4);
+        assert_eq!(out, [1.0, 2.0, 3.0, 4.0, 9.0]);
     }
     #[test]
     fn rounding_is_to_even() {

@@ -8,6 +8,7 @@
 //!
 //! A lane gives bitwise the result of the scalar run: all shapes share the same elementary functions
 //! ([`elementary`]), nothing is contracted (`mul_add`), and nothing branches on a lane.
+//! A single `f64` machine computes its equal parts (balls) four at a time as a [`Real::Group`].
 //! [`Level`] picks the widest vector unit at run time.
 //!
 //! # Accuracy of the elementary functions

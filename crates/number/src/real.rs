@@ -38,6 +38,11 @@ pub trait Real:
     type Mask: Mask;
     /// Number of machines side by side.
     const LANES: usize;
+    /// Several equal parts of one machine (the balls of a bearing) side by side: four for `f64`, so that a
+    /// single machine uses the vector unit too; one for the other shapes, which are wide already.
+    type Group: Real;
+    /// Number of parts in a group.
+    const GROUP: usize;
 
     /// The same constant in every lane; its derivative is zero.
     fn splat(value: f64) -> Self;
@@ -45,6 +50,14 @@ pub trait Real:
     fn from_lanes(lane: impl FnMut(usize) -> f64) -> Self;
     /// The value of one lane, without its derivative.
     fn lane(self, index: usize) -> f64;
+
+    /// The same value for every part of a group.
+    #[must_use]
+    fn grouped(self) -> Self::Group;
+    /// The parts `from..from + GROUP` of a list; the last part repeated where the list ends.
+    fn load_group(parts: &[Self], from: usize) -> Self::Group;
+    /// Writes a group over the parts `from..from + GROUP` of a list, as far as the list goes.
+    fn store_group(group: Self::Group, parts: &mut [Self], from: usize);
 
     /// √x, for x ≥ 0. The derivative needs x > 0: clamp first.
     fn sqrt(self) -> Self;

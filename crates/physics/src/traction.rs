@@ -1,1 +1,195 @@
-//! (in preparation)
+//! Sliding friction between ball and race: traction coefficient against slip speed.
+//!
+//! Every law is odd in the slip u, so friction always opposes sliding and only makes heat.
+//! The friction force is μ(u) Q along the slip, Q the ball load.
+
+use number::{Gather, Real, constants};
+
+/// A traction law: coefficient of friction over slip speed.
+pub trait TractionLaw<R: Real> {
+    /// Traction coefficient μ at slip speed u, m/s. Odd in u.
+    fn coefficient(&self, slip: R) -> R;
+}
+
+constants! {
+    /// Law (a): a smooth step, the regularised Coulomb friction of the reference cases.
+    ///
+    /// Formula: μ = μ_max tanh(u/u0).
+    pub struct TanhTraction {
+        /// Largest coefficient μ_max.
+        maximum: R,
+        /// 1/u0, s/m: inverse of the slip at which μ reaches 76 % of its maximum.
+        inverse_reference_speed: R,
+    }
+}
+impl<R: Real> TractionLaw<R> for TanhTraction<R> {
+    #[inline(always)]
+    fn coefficient(&self, slip: R) -> R {
+        self.maximum * (slip * self.inverse_reference_speed).tanh()
+    }
+}
+
+constants! {
+    /// Law (b): four parameters, with a peak at small slip when B is large.
+    ///
+    /// Formula: μ = sgn(u)[(A + B|u|) e^(-C|u|) + D], D = -A so that μ(0) = 0.
+    pub struct FourParameterTraction {
+        /// A.
+        a: R,
+        /// B, s/m.
+        b: R,
+        /// C, s/m.
+        c: R,
+        /// D = -A: the coefficient at large slip.
+        d: R,
+    }
+}
+impl<R: Real> TractionLaw<R> for FourParameterTraction<R> {
+    #[inline(always)]
+    fn coefficient(&self, slip: R) -> R {
+        let u = slip.abs();
+        let magnitude = (self.a + self.b * u) * (-(self.c * u)).exp() + self.d;
+        slip.sign_or_plus() * magnitude
+    }
+}
+
+impl FourParameterTraction<f64> {
+    /// The smallest coefficient at any slip > 0: negative means a law that would make energy.
+    ///
+    /// Source: μ(|u|) has its only stationary point at |u| = 1/C - A/B; its ends are 0 and D.
+    /// Valid: C > 0.
+    pub fn smallest(&self) -> f64 {
+        let stationary = 1.0 / self.c - self.a / self.b;
+        let inside = if self.b != 0.0 && stationary > 0.0 {
+            self.coefficient(stationary)
+        } else {
+            0.0
+        };
+        inside.min(self.d).min(0.0)
+    }
+}
+
+constants! {
+    /// Law (d): dry or solid-film contact, static friction falling to kinetic friction.
+    ///
+    /// Formula: μ = [μ_k + (μ_s - μ_k) e^(-|u|/u_s)] tanh(u/u0).
+    pub struct DryTraction {
+        /// Kinetic coefficient μ_k.
+        kinetic: R,
+        /// Static coefficient less the kinetic one, μ_s - μ_k.
+        static_excess: R,
+        /// 1/u_s, s/m: inverse of the speed at which the excess has fallen to 37 %.
+        inverse_decay_speed: R,
+        /// 1/u0, s/m: inverse of the speed that regularises the sign of u.
+        inverse_reference_speed: R,
+    }
+}
+impl<R: Real> TractionLaw<R> for DryTraction<R> {
+    #[inline(always)]
+    fn coefficient(&self, slip: R) -> R {
+        let level =
+            self.kinetic + self.static_excess * (-(slip.abs() * self.inverse_decay_speed)).exp();
+        level * (slip * self.inverse_reference_speed).tanh()
+    }
+}
+
+/// The traction laws a bearing can be built with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Traction<R> {
+    /// Law (a).
+    Tanh(TanhTraction<R>),
+    /// Law (b).
+    FourParameter(FourParameterTraction<R>),
+    /// Law (d).
+    Dry(DryTraction<R>),
+}
+
+impl<R: Real> Traction<R> {
+    /// Traction coefficient at a slip speed.
+    ///
+    /// Formula: that of the chosen law.
+    ///
+    /// - `slip` u, m/s, race surface minus ball surface
+    ///
+    /// Source: (a) regularised Coulomb; (b) the four-parameter form of
+    /// P. K. Gupta, Advanced Dynamics of Rolling Elements, 1984 (from memory);
+    /// (d) the exponential Stribeck form of L. C. Bo, D. Pavelescu, Wear 82 (1982) 277 (from memory).
+    /// Valid: any slip; (b) only with C > 0 and μ ≥ 0 for all |u|.
+    #[inline(always)]
+    pub fn coefficient(&self, slip: R) -> R {
+        match self {
+            Traction::Tanh(law) => law.coefficient(slip),
+            Traction::FourParameter(law) => law.coefficient(slip),
+            Traction::Dry(law) => law.coefficient(slip),
+        }
+    }
+}
+
+impl<R: Real> Gather<R> for Traction<f64> {
+    type Out = Traction<R>;
+    fn gather<'a>(machine: &dyn Fn(usize) -> &'a Self) -> Traction<R>
+    where
+        Self: 'a,
+    {
+        macro_rules! variant {
+            ($Variant:ident) => {
+                Traction::$Variant(Gather::<R>::gather(&|lane| match machine(lane) {
+                    Traction::$Variant(law) => law,
+                    _ => panic!("lanes share the traction law"),
+                }))
+            };
+        }
+        match machine(0) {
+            Traction::Tanh(_) => variant!(Tanh),
+            Traction::FourParameter(_) => variant!(FourParameter),
+            Traction::Dry(_) => variant!(Dry),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const TANH: TanhTraction<f64> =
+        TanhTraction { maximum: 0.07, inverse_reference_speed: 10.0 };
+    const FOUR: FourParameterTraction<f64> =
+        FourParameterTraction { a: -0.07, b: 0.35, c: 5.0, d: 0.07 };
+    const DRY: DryTraction<f64> = DryTraction {
+        kinetic: 0.1,
+        static_excess: 0.1,
+        inverse_decay_speed: 2.0,
+        inverse_reference_speed: 100.0,
+    };
+
+    #[test]
+    fn limits() {
+        assert_eq!(TANH.coefficient(0.0), 0.0);
+        assert!((TANH.coefficient(10.0) - 0.07).abs() < 1e-15);
+        assert!((FOUR.coefficient(1e3) - 0.07).abs() < 1e-15);
+        assert!(FOUR.coefficient(1e-12).abs() < 1e-12);
+        // 0.1 + 0.1 e^-1 at the decay speed, the regularisation saturated
+        assert!((DRY.coefficient(0.5) - 0.136_787_944_117_144_23).abs() < 1e-15);
+        assert!((DRY.coefficient(100.0) - 0.1).abs() < 1e-15);
+    }
+    #[test]
+    fn four_parameters_that_make_energy_are_found() {
+        assert_eq!(FOUR.smallest(), 0.0);
+        let pump = FourParameterTraction { a: -0.07, b: -0.9, c: 5.0, d: 0.07 };
+        assert!(pump.smallest() < 0.0);
+        let sink = (1..10_000).map(|i| pump.coefficient(i as f64 * 1e-3)).fold(0.0, f64::min);
+        assert!((pump.smallest() - sink).abs() < 1e-6);
+    }
+
+    proptest! {
+        #[test]
+        fn friction_is_odd_and_opposes_slip(u in -100.0..100.0_f64) {
+            for law in [Traction::Tanh(TANH), Traction::FourParameter(FOUR), Traction::Dry(DRY)] {
+                let mu = law.coefficient(u);
+                prop_assert!(mu * u >= 0.0);
+                prop_assert!((mu + law.coefficient(-u)).abs() < 1e-15);
+            }
+        }
+    }
+}
