@@ -1,0 +1,204 @@
+//! Guard: every package that can be built in is under a licence that deny.toml allows.
+
+use crate::repository::{Outcome, Repository};
+use crate::toolchain::cargo;
+use serde_json::Value;
+
+const LIST: &str = "deny.toml";
+
+/// Compares the licences of all packages in Cargo.lock, for every platform, with the list.
+pub fn check(repository: &Repository) -> Outcome {
+    match packages(repository).and_then(|packages| Ok((allowed(repository)?, packages))) {
+        Ok((allowed, packages)) => {
+            let findings = packages
+                .iter()
+                .filter_map(|package| fault(package, &allowed))
+                .collect();
+            Outcome::new(format!("{} packages", packages.len()), findings)
+        }
+        Err(error) => Outcome::new("", vec![error]),
+    }
+}
+
+fn allowed(repository: &Repository) -> Result<Vec<String>, String> {
+    let text = repository
+        .text(LIST)
+        .ok_or_else(|| format!("{LIST}: missing"))?;
+    let table: toml::Table = text.parse().map_err(|error| format!("{LIST}: {error}"))?;
+    let list = table
+        .get("licenses")
+        .and_then(|part| part.get("allow"))
+        .and_then(toml::Value::as_array)
+        .ok_or_else(|| format!("{LIST}: has no list licenses.allow"))?;
+    Ok(list
+        .iter()
+        .filter_map(|name| name.as_str().map(str::to_owned))
+        .collect())
+}
+
+fn packages(repository: &Repository) -> Result<Vec<Value>, String> {
+    let output = cargo(repository)
+        .args(["metadata", "--format-version", "1", "--locked", "--quiet"])
+        .output()
+        .map_err(|error| format!("cargo could not be started: {error}"))?;
+    if !output.status.success() {
+        return Err(format!(
+            "cargo metadata failed: {}",
+            String::from_utf8_lossy(&output.stderr).trim()
+        ));
+    }
+    let metadata: Value = serde_json::from_slice(&output.stdout)
+        .map_err(|error| format!("cargo metadata printed what is not JSON: {error}"))?;
+    metadata["packages"]
+        .as_array()
+        .cloned()
+        .ok_or_else(|| "cargo metadata printed no packages".to_owned())
+}
+
+fn fault(package: &Value, allowed: &[String]) -> Option<String> {
+    let name = format!(
+        "{} {}",
+        package["name"].as_str().unwrap_or("?"),
+        package["version"].as_str().unwrap_or("?")
+    );
+    let Some(expression) = package["license"].as_str() else {
+        return Some(format!("{name}: names no licence"));
+    };
+    match is_allowed(expression, allowed) {
+        Ok(true) => None,
+        Ok(false) => Some(format!("{name}: {expression} is not allowed")),
+        Err(error) => Some(format!("{name}: {expression}: {error}")),
+    }
+}
+
+/// Whether an SPDX expression can be met with allowed licences alone.
+///
+/// `AND` binds closer than `OR`; the older `MIT/Apache-2.0` reads as `OR`; `X WITH Y` must be allowed as a whole.
+fn is_allowed(expression: &str, allowed: &[String]) -> Result<bool, String> {
+    let spaced = expression
+        .replace('/', " OR ")
+        .replace('(', " ( ")
+        .replace(')', " ) ");
+    let mut words = Words {
+        rest: spaced.split_whitespace().collect(),
+        allowed,
+    };
+    let verdict = words.any()?;
+    match words.rest.first() {
+        None => Ok(verdict),
+        Some(word) => Err(format!("`{word}` is not expected there")),
+    }
+}
+
+/// What is left of an expression while it is read.
+struct Words<'a> {
+    rest: Vec<&'a str>,
+    allowed: &'a [String],
+}
+
+impl<'a> Words<'a> {
+    fn take(&mut self, word: &str) -> bool {
+        let is_next = self.rest.first() == Some(&word);
+        if is_next {
+            self.rest.remove(0);
+        }
+        is_next
+    }
+
+    fn next(&mut self) -> Result<&'a str, String> {
+        if self.rest.is_empty() {
+            return Err("ends too early".to_owned());
+        }
+        Ok(self.rest.remove(0))
+    }
+
+    fn any(&mut self) -> Result<bool, String> {
+        let mut verdict = self.all()?;
+        while self.take("OR") {
+            verdict |= self.all()?;
+        }
+        Ok(verdict)
+    }
+
+    fn all(&mut self) -> Result<bool, String> {
+        let mut verdict = self.one()?;
+        while self.take("AND") {
+            verdict &= self.one()?;
+        }
+        Ok(verdict)
+    }
+
+    fn one(&mut self) -> Result<bool, String> {
+        if self.take("(") {
+            let verdict = self.any()?;
+            return if self.take(")") {
+                Ok(verdict)
+            } else {
+                Err("a parenthesis stays open".to_owned())
+            };
+        }
+        let mut licence = self.next()?.to_owned();
+        if ["OR", "AND", "WITH", ")"].contains(&licence.as_str()) {
+            return Err(format!("`{licence}` is not expected there"));
+        }
+        if self.take("WITH") {
+            licence = format!("{licence} WITH {}", self.next()?);
+        }
+        Ok(self.allowed.contains(&licence))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn verdict(expression: &str) -> Result<bool, String> {
+        is_allowed(
+            expression,
+            &["MIT".to_owned(), "Apache-2.0".to_owned(), "Zlib".to_owned()],
+        )
+    }
+
+    #[test]
+    fn one_allowed_alternative_is_enough_and_every_part_of_a_sum_counts() {
+        for good in [
+            "MIT",
+            "GPL-3.0-only OR MIT",
+            "MIT/GPL-2.0",
+            "MIT AND Zlib",
+            "(MIT OR LGPL-3.0) AND Apache-2.0",
+            "GPL-3.0-only AND Zlib OR MIT",
+            "Apache-2.0 WITH LLVM-exception OR Apache-2.0",
+        ] {
+            assert_eq!(verdict(good), Ok(true), "{good}");
+        }
+        for bad in [
+            "MPL-2.0",
+            "mit",
+            "MIT AND MPL-2.0",
+            "(MIT OR Zlib) AND LGPL-3.0",
+            "GPL-3.0-only AND (Zlib OR MIT)",
+            "Apache-2.0 WITH LLVM-exception",
+        ] {
+            assert_eq!(verdict(bad), Ok(false), "{bad}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_expression_is_an_error() {
+        for broken in [
+            "", "MIT OR", "(MIT", "MIT)", "MIT Zlib", "OR MIT", "MIT WITH",
+        ] {
+            assert!(verdict(broken).is_err(), "{broken}");
+        }
+    }
+
+    #[test]
+    fn a_package_without_a_licence_is_found() {
+        let package = serde_json::json!({"name": "a", "version": "1.0.0", "license": null});
+        assert_eq!(
+            fault(&package, &["MIT".to_owned()]),
+            Some("a 1.0.0: names no licence".to_owned())
+        );
+    }
+}

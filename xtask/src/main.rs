@@ -1,0 +1,38 @@
+//! `cargo xtask`: what the repository demands of every change, in one command.
+
+mod architecture;
+mod check;
+mod crate_directions;
+mod documentation;
+mod licences;
+mod module_order;
+mod repository;
+mod rust_text;
+mod scenarios;
+mod source_text;
+mod toolchain;
+
+use std::process::ExitCode;
+
+const HELP: &str = "\
+cargo xtask check           all guards, then all tests; exit status 1 on any finding
+cargo xtask check --fast    the guards that build nothing of the product
+cargo xtask help            this text
+";
+
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    match words.as_slice() {
+        ["check"] => check::run(check::Extent::Full),
+        ["check", "--fast"] => check::run(check::Extent::Fast),
+        ["help" | "--help" | "-h"] => {
+            print!("{HELP}");
+            ExitCode::SUCCESS
+        }
+        _ => {
+            eprint!("not understood: {}\n{HELP}", words.join(" "));
+            ExitCode::from(2)
+        }
+    }
+}

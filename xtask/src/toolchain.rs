@@ -1,0 +1,143 @@
+//! Guards that are commands of the Rust toolchain: format, lints, documentation, tests.
+
+use crate::repository::{Outcome, Repository};
+use std::process::{Command, Stdio};
+
+/// The cargo that started this tool, in the root of the checkout.
+pub fn cargo(repository: &Repository) -> Command {
+    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(program);
+    command.current_dir(&repository.root).stdin(Stdio::null());
+    command
+}
+
+/// Every source file is as rustfmt writes it.
+pub fn format(repository: &Repository) -> Outcome {
+    let mut command = cargo(repository);
+    command.args(["fmt", "--all", "--check", "--", "--files-with-diff"]);
+    let mut outcome = quiet(&mut command);
+    for finding in &mut outcome.findings {
+        if let Ok(file) = std::path::Path::new(finding.as_str()).strip_prefix(&repository.root) {
+            *finding = format!("{}: differs; run cargo fmt --all", file.display());
+        }
+    }
+    outcome
+}
+
+/// No lint of the compiler or of clippy, in any target.
+pub fn lints(repository: &Repository) -> Outcome {
+    quiet(cargo(repository).args([
+        "clippy",
+        "--quiet",
+        "--workspace",
+        "--all-targets",
+        "--locked",
+        "--",
+        "-D",
+        "warnings",
+    ]))
+}
+
+/// The documentation of the libraries builds without a warning.
+///
+/// Libraries only: the command and the library share the name `auxbear`, and so would their pages.
+pub fn pages(repository: &Repository) -> Outcome {
+    quiet(
+        cargo(repository)
+            .args([
+                "doc",
+                "--quiet",
+                "--workspace",
+                "--lib",
+                "--no-deps",
+                "--locked",
+            ])
+            .env("RUSTDOCFLAGS", "-D warnings"),
+    )
+}
+
+/// The examples inside the documentation compile and run.
+pub fn examples(repository: &Repository) -> Outcome {
+    quiet(cargo(repository).args([
+        "test",
+        "--quiet",
+        "--workspace",
+        "--doc",
+        "--no-fail-fast",
+        "--locked",
+    ]))
+}
+
+/// All other tests, with the runner's own lines as the last ones printed; true when all passed.
+pub fn tests(repository: &Repository) -> bool {
+    let has_nextest = cargo(repository)
+        .args(["nextest", "--version"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status()
+        .is_ok_and(|status| status.success());
+    let mut command = cargo(repository);
+    if has_nextest {
+        command.args(["nextest", "run", "--cargo-quiet", "--status-level", "slow"]);
+    } else {
+        command.args(["test", "--quiet", "--lib", "--bins", "--tests"]);
+    }
+    command
+        .args(["--workspace", "--no-fail-fast", "--locked"])
+        .stderr(std::io::stdout()); // one stream, so that the last lines are the last everywhere
+    command.status().is_ok_and(|status| status.success())
+}
+
+/// Runs a command; what it printed are the findings when it failed.
+pub fn quiet(command: &mut Command) -> Outcome {
+    let output = match command.output() {
+        Ok(output) => output,
+        Err(error) => {
+            return Outcome::new(
+                "",
+                vec![format!("{command:?} could not be started: {error}")],
+            );
+        }
+    };
+    if output.status.success() {
+        return Outcome::new("", Vec::new());
+    }
+    let printed = [output.stdout, output.stderr].concat();
+    let mut findings: Vec<String> = String::from_utf8_lossy(&printed)
+        .lines()
+        .filter(|line| !line.trim().is_empty())
+        .map(str::to_owned)
+        .collect();
+    if findings.is_empty() {
+        findings.push(format!("{command:?} ended with {}", output.status));
+    }
+    Outcome::new("", findings)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_command_that_fails_is_a_finding_even_when_it_says_nothing() {
+        assert_eq!(
+            quiet(Command::new("sh").args(["-c", "exit 3"]))
+                .findings
+                .len(),
+            1
+        );
+        assert_eq!(
+            quiet(Command::new("sh").args(["-c", "echo a; echo b >&2; exit 1"])).findings,
+            ["a", "b"]
+        );
+        assert!(
+            quiet(Command::new("sh").args(["-c", "echo fine"]))
+                .findings
+                .is_empty()
+        );
+        assert_eq!(
+            quiet(&mut Command::new("no such program")).findings.len(),
+            1
+        );
+    }
+}
