@@ -18,7 +18,10 @@ pub fn check(repository: &Repository) -> Outcome {
         }
     }
     for folder in packages(&repository.files) {
-        if !names_package(&page, folder) {
+        let is_path = named
+            .iter()
+            .any(|(_, path)| path.trim_end_matches('/') == folder);
+        if !is_path && !names_package(&page, folder) {
             findings.push(format!("{PAGE}: {folder} is not named"));
         }
     }
