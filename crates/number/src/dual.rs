@@ -159,10 +159,10 @@ impl<const K: usize> Real for Dual<K> {
         (self.chain(s, c), self.chain(c, -s))
     }
     #[inline(always)]
-    fn atan_small(self) -> Self {
+    fn asin_small(self) -> Self {
         self.chain(
-            Real::atan_small(self.value),
-            1.0 / (1.0 + self.value * self.value),
+            Real::asin_small(self.value),
+            1.0 / (1.0 - self.value * self.value).sqrt(),
         )
     }
     #[inline(always)]
@@ -183,7 +183,7 @@ mod tests {
         let (s, c) = (x * y).sin_cos();
         let root = (x * x + y * y).sqrt();
         s * root / (c + R::splat(3.0)) + (x - y).tanh().exp() - root.ln() * x.abs()
-            + y.powf(x) * (s * R::splat(0.1)).atan_small()
+            + y.powf(x) * (s * R::splat(0.1)).asin_small()
     }
 
     #[test]

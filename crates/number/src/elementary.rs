@@ -179,18 +179,19 @@ pub fn ln<R: Bits>(x: R) -> R {
     e * R::splat(LN2_HIGH) + (e * R::splat(LN2_LOW) + l)
 }
 
-/// Arc tangent for |x| ≤ 0.125.
+/// Arc sine for |x| ≤ 0.125.
 #[inline(always)]
-pub fn atan_small<R: Real>(x: R) -> R {
+pub fn asin_small<R: Real>(x: R) -> R {
+    // (2k)!/(4^k k!² (2k+1)), k = 1…8
     const A: [f64; 8] = [
-        -1.0 / 3.0,
-        1.0 / 5.0,
-        -1.0 / 7.0,
-        1.0 / 9.0,
-        -1.0 / 11.0,
-        1.0 / 13.0,
-        -1.0 / 15.0,
-        1.0 / 17.0,
+        1.0 / 6.0,
+        3.0 / 40.0,
+        15.0 / 336.0,
+        105.0 / 3_456.0,
+        945.0 / 42_240.0,
+        10_395.0 / 599_040.0,
+        135_135.0 / 9_676_800.0,
+        2_027_025.0 / 175_472_640.0,
     ];
     let z = x * x;
     x + x * z * polynomial(z, &A)
@@ -261,7 +262,7 @@ mod tests {
         }
     }
     #[test]
-    fn atan_small_is_within_two_ulp() {
-        assert!(largest(-0.125, 0.125, |x| ulp(atan_small(x), x.atan())) <= 2.0);
+    fn asin_small_is_within_two_ulp() {
+        assert!(largest(-0.125, 0.125, |x| ulp(asin_small(x), x.asin())) <= 2.0);
     }
 }

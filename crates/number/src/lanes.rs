@@ -90,8 +90,8 @@ impl Real for f64 {
         elementary::sin_cos(self)
     }
     #[inline(always)]
-    fn atan_small(self) -> f64 {
-        elementary::atan_small(self)
+    fn asin_small(self) -> f64 {
+        elementary::asin_small(self)
     }
     #[inline(always)]
     fn greater(self, other: f64) -> bool {
@@ -276,8 +276,8 @@ impl<const W: usize> Real for Lanes<W> {
         elementary::sin_cos(self)
     }
     #[inline(always)]
-    fn atan_small(self) -> Self {
-        elementary::atan_small(self)
+    fn asin_small(self) -> Self {
+        elementary::asin_small(self)
     }
     #[inline(always)]
     fn greater(self, other: Self) -> LaneMask<W> {
@@ -341,7 +341,7 @@ mod tests {
             R::select(
                 x.greater(R::zero()),
                 x.max(y),
-                (x * R::splat(0.1)).atan_small(),
+                (x * R::splat(0.1)).asin_small(),
             ),
         ]
     }

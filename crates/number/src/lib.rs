@@ -21,7 +21,7 @@
 //! | `powf` | 1e-300 ≤ x^y ≤ 1e300 | relative 2.3e-16 (2 + \|y ln x\|) |
 //! | `tanh` | all x | 4 ulp |
 //! | `sin_cos` | \|x\| ≤ 1e5 rad | absolute 2.3e-16 |
-//! | `atan_small` | \|x\| ≤ 0.125 | 2 ulp |
+//! | `asin_small` | \|x\| ≤ 0.125 | 2 ulp |
 //! | `sqrt`, `abs`, `+ - * /` | all | correctly rounded |
 
 mod constants;

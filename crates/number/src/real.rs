@@ -73,8 +73,8 @@ pub trait Real:
     fn tanh(self) -> Self;
     /// Sine and cosine of an angle in rad.
     fn sin_cos(self) -> (Self, Self);
-    /// Arc tangent for |x| ≤ 0.125; meaningless beyond.
-    fn atan_small(self) -> Self;
+    /// Arc sine for |x| ≤ 0.125; meaningless beyond.
+    fn asin_small(self) -> Self;
 
     /// self > other.
     fn greater(self, other: Self) -> Self::Mask;

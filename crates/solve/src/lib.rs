@@ -1,1 +1,27 @@
-//! placeholder
+//! Time integration. Knows no physics.
+//!
+//! A [`Machine`] is one initial value problem over `f64`; a [`Batch`] is the same problem over lanes, one machine each.
+//! [`run`] advances a batch, every lane with its own step, and shows each accepted [`Step`] of each lane to an
+//! [`Observer`], which samples it, looks for events on its dense output, and may end it.
+//!
+//! | subject | file |
+//! |---|---|
+//! | what a problem is | [`system`] |
+//! | the method: Tsitouras 5(4) with dense output | [`tsitouras`] |
+//! | one attempted step of all lanes | [`attempt`] |
+//! | the loop: step control, landed instants, endings | [`drive`] |
+//! | one accepted step of one lane | [`step`] |
+//! | roots and maxima on dense output | [`watch`] |
+//!
+//! Nothing in the loop allocates.
+
+pub mod attempt;
+pub mod drive;
+pub mod step;
+pub mod system;
+pub mod tsitouras;
+pub mod watch;
+
+pub use drive::{Ending, Flow, Observer, Settings, Stop, Work, run};
+pub use step::Step;
+pub use system::{Batch, Machine};

@@ -1,0 +1,359 @@
+//! The loop: per-lane step control, landed instants, endings.
+
+use crate::attempt::{Advance, Attempt, Begin, Workspace};
+use crate::step::{LaneOf, Scratch, Step};
+use crate::system::{Batch, Machine};
+use crate::tsitouras::STAGES;
+use number::{Level, Mask, Real};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// How to integrate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Time at the start, s.
+    pub start: f64,
+    /// Time at the end, s.
+    pub end: f64,
+    /// Allowed error of a step, in units of each channel's error scale.
+    pub tolerance: f64,
+    /// Length of the first step, s.
+    pub first_step: f64,
+    /// Longest step, s.
+    pub largest_step: f64,
+    /// Steps, accepted and rejected, after which a machine is given up.
+    pub step_limit: u64,
+}
+
+/// What an observer wants next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow {
+    /// Go on.
+    Continue,
+    /// This machine is done; the text says why.
+    Halt(&'static str),
+}
+
+/// Sees every accepted step of one machine.
+pub trait Observer<M: Machine> {
+    /// Called once for each accepted step, in order.
+    fn step(&mut self, step: &mut Step<M>) -> Flow;
+}
+
+/// Why a machine stopped.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stop {
+    /// The end was reached.
+    Finished,
+    /// Somebody asked to stop.
+    Interrupted,
+    /// The observer ended it.
+    Halted(&'static str),
+    /// The step shrank below what time can resolve: the named channel is the stiffest or no longer a number.
+    Diverged {
+        /// The channel whose error stood out.
+        channel: String,
+        /// The step length at which it was given up, s.
+        step: f64,
+    },
+    /// The step limit was reached.
+    StepLimit,
+}
+
+/// How much work a machine took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Accepted steps.
+    pub accepted: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+    /// Evaluations of the right-hand side in the steps.
+    pub rate_calls: u64,
+}
+
+/// Where and why a machine ended, and what it took.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ending {
+    /// The reason.
+    pub stop: Stop,
+    /// Time of the last accepted state, s.
+    pub time: f64,
+    /// The last accepted state.
+    pub state: Vec<f64>,
+    /// The work.
+    pub work: Work,
+}
+
+/// Smallest step relative to the time it starts from: below, time no longer advances reliably.
+const SMALLEST_STEP: f64 = 64.0 * f64::EPSILON;
+
+/// What the loop keeps per lane.
+struct Lane<M: Machine> {
+    time: f64,
+    /// The length wanted by the error; a landing may cut it short for one step.
+    length: f64,
+    /// End of the current step: the landing itself where it lands.
+    step_end: f64,
+    mode: M::Mode,
+    next_landing: usize,
+    /// Error of the last accepted step, for the controller.
+    last_error: f64,
+    after_rejection: bool,
+    work: Work,
+    stop: Option<Stop>,
+}
+
+/// Integrates up to `R::LANES` machines side by side; `starts` are their initial states.
+///
+/// Every lane has its own step: a machine gives bitwise the same result alone, in any company and on any lane.
+/// `interrupt` is looked at every few hundred steps.
+///
+/// # Panics
+/// When there are no machines, more than lanes, or lists of different length.
+pub fn run<R, B, O>(
+    machines: &[&B::Machine],
+    starts: &[Vec<f64>],
+    observers: &mut [O],
+    settings: &Settings,
+    level: Level,
+    interrupt: &AtomicBool,
+) -> Vec<Ending>
+where
+    R: Real,
+    B: Batch<R>,
+    O: Observer<B::Machine>,
+{
+    let count = machines.len();
+    assert!(count >= 1 && count <= R::LANES, "one machine per lane");
+    assert!(starts.len() == count && observers.len() == count);
+    let dimension = machines[0].dimension();
+    let probes = machines[0].probes();
+    // spare lanes copy the last machine and stand still
+    let owner = |lane: usize| lane.min(count - 1);
+
+    let batch = B::gather(&|lane| machines[owner(lane)]);
+    let mut lanes: Vec<Lane<B::Machine>> = (0..R::LANES)
+        .map(|lane| Lane {
+            time: settings.start,
+            length: settings.first_step,
+            step_end: settings.start,
+            mode: machines[owner(lane)].start_mode(),
+            next_landing: 0,
+            last_error: 1.0,
+            after_rejection: false,
+            work: Work::default(),
+            stop: (lane >= count).then_some(Stop::Finished),
+        })
+        .collect();
+    let mut scratch = Scratch::new(dimension, probes);
+    let mut work = Workspace::<R>::new(dimension, probes);
+    for channel in 0..dimension {
+        work.state[channel] = R::from_lanes(|lane| starts[owner(lane)][channel]);
+        work.inverse_error[channel] = R::from_lanes(|lane| {
+            1.0 / (settings.tolerance * machines[owner(lane)].error_scale(channel))
+        });
+    }
+    work.time = R::splat(settings.start);
+    let mut mode = B::gather_mode(&|lane| lanes[lane].mode);
+    level.run(Begin {
+        batch: &batch,
+        mode: &mode,
+        work: &mut work,
+    });
+
+    let mut iteration: u64 = 0;
+    loop {
+        if iteration.is_multiple_of(256) && interrupt.load(Ordering::Relaxed) {
+            for lane in &mut lanes {
+                lane.stop.get_or_insert(Stop::Interrupted);
+            }
+        }
+        iteration += 1;
+        for (index, lane) in lanes.iter_mut().enumerate() {
+            if lane.stop.is_none() {
+                aim(lane, machines[index], settings, &work, index);
+                if lane.stop.is_some() {
+                    continue;
+                }
+            }
+        }
+        if lanes.iter().all(|lane| lane.stop.is_some()) {
+            break;
+        }
+        work.length = R::from_lanes(|i| match lanes[i].stop {
+            None => lanes[i].step_end - lanes[i].time,
+            Some(_) => 0.0,
+        });
+
+        let error = level.run(Attempt {
+            batch: &batch,
+            mode: &mode,
+            work: &mut work,
+        });
+
+        let mut jumped = false;
+        for (index, lane) in lanes.iter_mut().enumerate().take(count) {
+            if lane.stop.is_some() {
+                continue;
+            }
+            if !control(lane, error.lane(index)) {
+                continue;
+            }
+            let flow = observers[index].step(&mut Step {
+                machine: machines[index],
+                mode: &lane.mode,
+                start: lane.time,
+                end: lane.step_end,
+                data: &LaneOf {
+                    work: &work,
+                    lane: index,
+                },
+                scratch: &mut scratch,
+            });
+            lane.time = lane.step_end;
+            if let Flow::Halt(why) = flow {
+                lane.stop = Some(Stop::Halted(why));
+            }
+        }
+        let accepted = R::Mask::from_lanes(|i| {
+            i < count && lanes[i].time == lanes[i].step_end && work.length.lane(i) > 0.0
+        });
+        level.run(Advance {
+            work: &mut work,
+            accepted,
+        });
+        work.time = R::from_lanes(|i| lanes[i].time);
+        for (index, lane) in lanes.iter_mut().enumerate().take(count) {
+            let landings = machines[index].landings();
+            while lane.next_landing < landings.len() && landings[lane.next_landing] <= lane.time {
+                for (channel, value) in scratch.state.iter_mut().enumerate() {
+                    *value = work.state[channel].lane(index);
+                }
+                machines[index].transition(lane.next_landing, &mut lane.mode, &mut scratch.state);
+                for (channel, value) in scratch.state.iter().enumerate() {
+                    let old = work.state[channel];
+                    work.state[channel] =
+                        R::from_lanes(|i| if i == index { *value } else { old.lane(i) });
+                }
+                lane.next_landing += 1;
+                jumped = true;
+            }
+        }
+        if jumped {
+            mode = B::gather_mode(&|lane| lanes[lane].mode);
+            level.run(Begin {
+                batch: &batch,
+                mode: &mode,
+                work: &mut work,
+            });
+        }
+    }
+
+    lanes
+        .into_iter()
+        .take(count)
+        .enumerate()
+        .map(|(index, lane)| Ending {
+            stop: lane.stop.unwrap_or(Stop::Finished),
+            time: lane.time,
+            state: work.state.iter().map(|value| value.lane(index)).collect(),
+            work: lane.work,
+        })
+        .collect()
+}
+
+/// Chooses where the next step of a lane ends, or why there is none.
+fn aim<R: Real, M: Machine>(
+    lane: &mut Lane<M>,
+    machine: &M,
+    settings: &Settings,
+    work: &Workspace<R>,
+    index: usize,
+) {
+    let target = machine
+        .landings()
+        .get(lane.next_landing)
+        .copied()
+        .unwrap_or(f64::INFINITY)
+        .min(settings.end);
+    if lane.time >= settings.end {
+        lane.stop = Some(Stop::Finished);
+        return;
+    }
+    if lane.work.accepted + lane.work.rejected >= settings.step_limit {
+        lane.stop = Some(Stop::StepLimit);
+        return;
+    }
+    lane.length = lane.length.min(settings.largest_step);
+    let scale = lane.time.abs().max(settings.end.abs());
+    if !(lane.length > SMALLEST_STEP * scale) {
+        lane.stop = Some(Stop::Diverged {
+            channel: machine.channel_name(worst_channel(work, index)),
+            step: lane.length,
+        });
+        return;
+    }
+    let remaining = target - lane.time;
+    lane.step_end = if lane.length >= remaining {
+        target
+    } else if lane.length > 0.5 * remaining {
+        // two equal steps rather than a long and a tiny one
+        lane.time + 0.5 * remaining
+    } else {
+        lane.time + lane.length
+    };
+}
+
+/// The channel whose rate is largest in units of its error scale, or not a number.
+fn worst_channel<R: Real>(work: &Workspace<R>, lane: usize) -> usize {
+    let n = work.state.len();
+    let urgency = |channel: usize| {
+        let rate = work.rates[(STAGES - 1) * n + channel].lane(lane);
+        let urgency = (rate * work.inverse_error[channel].lane(lane)).abs();
+        if urgency.is_nan() {
+            f64::INFINITY
+        } else {
+            urgency
+        }
+    };
+    (0..n)
+        .max_by(|a, b| urgency(*a).total_cmp(&urgency(*b)))
+        .unwrap_or(0)
+}
+
+/// Accepts or rejects a step by its error and chooses the next length. True when accepted.
+///
+/// PI control (Gustafsson; exponents of Hairer, Norsett, Wanner, Solving ODEs I, II.4): steadier than I control
+/// where stability, not accuracy, bounds the step.
+fn control<M: Machine>(lane: &mut Lane<M>, error: f64) -> bool {
+    const SAFETY: f64 = 0.9;
+    const PROPORTIONAL: f64 = 0.7 / 5.0;
+    const INTEGRAL: f64 = 0.4 / 5.0;
+    lane.work.rate_calls += 6;
+    let taken = lane.step_end - lane.time;
+    if error <= 1.0 {
+        lane.work.accepted += 1;
+        let error = error.max(1e-8);
+        let mut factor = SAFETY * error.powf(-PROPORTIONAL) * lane.last_error.powf(INTEGRAL);
+        factor = factor.clamp(0.2, if lane.after_rejection { 1.0 } else { 5.0 });
+        // a step cut short by a landing does not shrink the next one
+        let proposed = taken * factor;
+        lane.length = if taken < 0.99 * lane.length {
+            proposed.max(lane.length)
+        } else {
+            proposed
+        };
+        lane.last_error = error.max(1e-4);
+        lane.after_rejection = false;
+        true
+    } else {
+        lane.work.rejected += 1;
+        let factor = if error.is_finite() {
+            (SAFETY * error.powf(-0.2)).clamp(0.1, 0.9)
+        } else {
+            0.1
+        };
+        lane.length = taken * factor;
+        lane.after_rejection = true;
+        false
+    }
+}

@@ -1,0 +1,75 @@
+//! Events on dense output: where a watched probe crosses zero, and how high it rises.
+
+use crate::step::Step;
+use crate::system::Machine;
+
+/// Fraction of a step within which an event is found: 1e-12 of a step of microseconds is far below any physics.
+const RESOLUTION: f64 = 1e-12;
+
+/// The fraction in (low, high] at which a probe changes sign, by bisection with secant steps (Illinois).
+///
+/// The signs at both ends must differ; a zero end counts as negative.
+pub fn crossing<M: Machine>(step: &mut Step<M>, probe: usize, low: f64, high: f64) -> f64 {
+    let (mut a, mut b) = (low, high);
+    let (mut fa, mut fb) = (value(step, probe, a), value(step, probe, b));
+    let end_positive = fb > 0.0;
+    for _ in 0..80 {
+        if b - a <= RESOLUTION {
+            break;
+        }
+        let secant = b - fb * (b - a) / (fb - fa);
+        // keep away from the ends so that the interval always shrinks
+        let margin = 0.5 * RESOLUTION;
+        let x = if secant.is_finite() {
+            secant.clamp(a + margin, b - margin)
+        } else {
+            0.5 * (a + b)
+        };
+        let fx = step.probe(x, probe);
+        if (fx > 0.0) == end_positive {
+            b = x;
+            fb = fx;
+            fa *= 0.5;
+        } else {
+            a = x;
+            fa = fx;
+            fb *= 0.5;
+        }
+    }
+    b
+}
+
+/// The largest value of a probe between two fractions of a step, with its fraction: (fraction, value).
+///
+/// Golden-section search: the probe must have one hump there. Ends are not compared.
+pub fn maximum<M: Machine>(step: &mut Step<M>, probe: usize, low: f64, high: f64) -> (f64, f64) {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    let (mut a, mut b) = (low, high);
+    let mut x = b - GOLDEN * (b - a);
+    let mut y = a + GOLDEN * (b - a);
+    let (mut fx, mut fy) = (step.probe(x, probe), step.probe(y, probe));
+    // 24 halvings by the golden ratio: 1e-5 of a step, and its square in the value
+    for _ in 0..24 {
+        if fx > fy {
+            (b, y, fy) = (y, x, fx);
+            x = b - GOLDEN * (b - a);
+            fx = step.probe(x, probe);
+        } else {
+            (a, x, fx) = (x, y, fy);
+            y = a + GOLDEN * (b - a);
+            fy = step.probe(y, probe);
+        }
+    }
+    if fx > fy { (x, fx) } else { (y, fy) }
+}
+
+/// A probe at a fraction; the stored values at the ends, so that neighbouring steps agree on the sign.
+fn value<M: Machine>(step: &mut Step<M>, probe: usize, theta: f64) -> f64 {
+    if theta == 0.0 {
+        step.start_probe(probe)
+    } else if theta == 1.0 {
+        step.end_probe(probe)
+    } else {
+        step.probe(theta, probe)
+    }
+}
