@@ -1,0 +1,372 @@
+//! The report of one run, or of several side by side, as a single HTML file that needs no network.
+//!
+//! Rust only packs the data: each column becomes base64 text inside a JSON block of the page, and the scripts of
+//! `page/` draw it. Long histories are thinned to [`ROW_LIMIT`] rows, the same rows for every column, in a way that keeps
+//! the extremes; peaks that must be exact come from the summary, not from these columns.
+
+use std::collections::BTreeSet;
+
+/// Largest number of rows of a history that the page carries.
+pub const ROW_LIMIT: usize = 4000;
+
+/// One run as the page needs it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PageRun {
+    /// Name shown in legends.
+    pub name: String,
+    /// Run directory, shown as text.
+    pub directory: String,
+    /// The text of `summary.json`.
+    pub summary_json: String,
+    /// The text of the resolved scenario.
+    pub scenario_toml: String,
+    /// The time histories; the column `time` is the common axis.
+    pub columns: Vec<PageColumn>,
+}
+
+/// One time history.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PageColumn {
+    /// Channel name, such as `bearing.contact.force`.
+    pub name: String,
+    /// SI unit of the values.
+    pub unit: String,
+    /// What the channel is, in a few words.
+    pub meaning: String,
+    /// The values, one a row.
+    pub values: Vec<f64>,
+}
+
+const TEMPLATE: &str = include_str!("page/page.html");
+const STYLE: &[&str] = &[include_str!("page/vendor/uPlot.min.css"), include_str!("page/page.css")];
+const PLOT_LIBRARY: &str = include_str!("page/vendor/uPlot.iife.min.js");
+/// Licence of the plot library, which travels with every copy of it.
+const PLOT_LICENCE: &str = include_str!("page/vendor/uPlot.LICENSE");
+const SCRIPTS: &[&str] = &[
+    include_str!("page/elements.js"),
+    include_str!("page/format.js"),
+    include_str!("page/colour.js"),
+    include_str!("page/run.js"),
+    include_str!("page/header.js"),
+    include_str!("page/timeline.js"),
+    include_str!("page/histories.js"),
+    include_str!("page/orbit.js"),
+    include_str!("page/maps.js"),
+    include_str!("page/energy.js"),
+    include_str!("page/tables.js"),
+    include_str!("page/start.js"),
+];
+
+/// The report page of one run, or of several side by side, as one self-contained HTML text.
+pub fn html(runs: &[PageRun]) -> String {
+    let title = match runs {
+        [] => "auxbear report".to_string(),
+        [only] => format!("{} · auxbear report", only.name),
+        several => format!("{} runs · auxbear report", several.len()),
+    };
+    let mut script = String::from("\"use strict\";\n(() => {\n");
+    for part in SCRIPTS {
+        script.push_str(part);
+    }
+    script.push_str("})();\n");
+    let data: String = runs.iter().map(|run| block(&run_json(run))).collect();
+    let library = format!("/*\n{PLOT_LICENCE}\n*/\n{PLOT_LIBRARY}");
+    fill(
+        TEMPLATE,
+        &[
+            ("title", &escape_text(&title)),
+            ("style", &STYLE.concat()),
+            ("data", &data),
+            ("library", &library),
+            ("script", &script),
+        ],
+    )
+}
+
+/// Replaces each `{{name}}` of the template once; the inserted text itself is never searched.
+fn fill(template: &str, parts: &[(&str, &str)]) -> String {
+    let mut page = String::new();
+    let mut rest = template;
+    while let Some((before, after)) = rest.split_once("{{") {
+        let (name, behind) = after.split_once("}}").unwrap_or((after, ""));
+        page.push_str(before);
+        if let Some((_, text)) = parts.iter().find(|(part, _)| *part == name) {
+            page.push_str(text);
+        }
+        rest = behind;
+    }
+    page.push_str(rest);
+    page
+}
+
+fn block(json: &str) -> String {
+    // Inside a JSON string "<" may be written as an escape; it occurs nowhere else in JSON, and without it no text
+    // can close the script element.
+    format!(
+        "<script type=\"application/json\" class=\"run\">{}</script>\n",
+        json.replace('<', "\\u003c")
+    )
+}
+
+fn run_json(run: &PageRun) -> String {
+    let total = run.columns.iter().map(|column| column.values.len()).max().unwrap_or(0);
+    let rows = kept_rows(&run.columns, ROW_LIMIT);
+    let columns: Vec<String> = run.columns.iter().map(|column| column_json(column, &rows)).collect();
+    // The summary travels as text: should it not be JSON, only its own part of the page is missing.
+    format!(
+        "{{\"name\":{},\"directory\":{},\"summary\":{},\"scenario\":{},\"rows\":{},\"rows_total\":{total},\"columns\":[{}]}}",
+        json_text(&run.name),
+        json_text(&run.directory),
+        json_text(&run.summary_json),
+        json_text(&run.scenario_toml),
+        rows.len(),
+        columns.join(",\n")
+    )
+}
+
+fn column_json(column: &PageColumn, rows: &[usize]) -> String {
+    let values: Vec<f64> = rows.iter().map(|&row| column.values.get(row).copied().unwrap_or(f64::NAN)).collect();
+    let (kind, bytes) = if column.name == "time" || single_precision_is_coarse(&values) {
+        ("f64", values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>())
+    } else {
+        ("f32", values.iter().flat_map(|&value| (value as f32).to_le_bytes()).collect())
+    };
+    format!(
+        "{{\"name\":{},\"unit\":{},\"meaning\":{},\"type\":\"{kind}\",\"data\":\"{}\"}}",
+        json_text(&column.name),
+        json_text(&column.unit),
+        json_text(&column.meaning),
+        base64(&bytes)
+    )
+}
+
+/// True when rounding to single precision would be visible in a picture of these values: more than 1e-5 of their
+/// range, a hundredth of a pixel in a plot of 1000.
+fn single_precision_is_coarse(values: &[f64]) -> bool {
+    let finite = || values.iter().copied().filter(|value| value.is_finite());
+    let low = finite().fold(f64::INFINITY, f64::min);
+    let high = finite().fold(f64::NEG_INFINITY, f64::max);
+    let error = finite().map(|value| (value - f64::from(value as f32)).abs()).fold(0.0, f64::max);
+    error > 1e-5 * (high - low)
+}
+
+/// The rows of a history that the page carries, in order: all of them up to `limit`, else first and last, the
+/// extremes of each column, and in equal stretches the first row and those where the contact and the balls peak.
+fn kept_rows(columns: &[PageColumn], limit: usize) -> Vec<usize> {
+    let total = columns.iter().map(|column| column.values.len()).max().unwrap_or(0);
+    if total <= limit {
+        return (0..total).collect();
+    }
+    let mut kept = BTreeSet::from([0, total - 1]);
+    for column in columns {
+        if kept.len() + 2 > limit / 2 {
+            break;
+        }
+        kept.extend(extreme(column, 0, total, 1.0));
+        kept.extend(extreme(column, 0, total, -1.0));
+    }
+    let watched: Vec<(&PageColumn, f64)> = [
+        ("bearing.contact.force", 1.0),
+        ("bearing.contact.penetration", 1.0),
+        ("bearing.contact.penetration", -1.0),
+        ("bearing.inner_pressure", 1.0),
+    ]
+    .into_iter()
+    .filter_map(|(name, sign)| Some((columns.iter().find(|column| column.name == name)?, sign)))
+    .collect();
+    let stretches = (limit - kept.len()) / (1 + watched.len());
+    for stretch in 0..stretches {
+        let begin = total * stretch / stretches;
+        let end = total * (stretch + 1) / stretches;
+        kept.insert(begin);
+        for (column, sign) in &watched {
+            kept.extend(extreme(column, begin, end, *sign));
+        }
+    }
+    let room = limit - kept.len();
+    kept.extend((0..room).map(|index| total * index / room));
+    kept.into_iter().collect()
+}
+
+/// Row of the largest `sign * value` in `begin..end`; none where no value is a number.
+fn extreme(column: &PageColumn, begin: usize, end: usize, sign: f64) -> Option<usize> {
+    let end = end.min(column.values.len());
+    (begin..end)
+        .filter(|&row| !column.values[row].is_nan())
+        .max_by(|&left, &right| (sign * column.values[left]).total_cmp(&(sign * column.values[right])))
+}
+
+fn json_text(text: &str) -> String {
+    let mut json = String::from("\"");
+    for letter in text.chars() {
+        match letter {
+            '"' => json.push_str("\\\""),
+            '\\' => json.push_str("\\\\"),
+            '\n' => json.push_str("\\n"),
+            control if control < ' ' => json.push_str(&format!("\\u{:04x}", control as u32)),
+            other => json.push(other),
+        }
+    }
+    json.push('"');
+    json
+}
+
+fn escape_text(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for group in bytes.chunks(3) {
+        let byte = |index: usize| u32::from(group.get(index).copied().unwrap_or(0));
+        let word = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for place in 0..4 {
+            if place <= group.len() {
+                text.push(LETTERS[(word >> (18 - 6 * place) & 63) as usize] as char);
+            } else {
+                text.push('=');
+            }
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn column(name: &str, values: Vec<f64>) -> PageColumn {
+        PageColumn { name: name.to_string(), values, ..PageColumn::default() }
+    }
+
+    /// A long quiet history with a few sharp events.
+    fn eventful(rows: usize) -> Vec<PageColumn> {
+        let mut force = vec![0.0; rows];
+        force[rows / 3 + 1] = 675.5;
+        force[rows - 7] = 12.0;
+        let mut friction = vec![0.0; rows];
+        friction[rows / 5] = -80.0;
+        let penetration = (0..rows).map(|row| -1e-4 + 1e-6 * (row as f64 * 0.37).sin()).collect();
+        vec![
+            column("time", (0..rows).map(|row| row as f64 * 1e-5).collect()),
+            column("bearing.contact.force", force),
+            column("bearing.contact.friction_force", friction),
+            column("bearing.contact.penetration", penetration),
+        ]
+    }
+
+    #[test]
+    fn base64_follows_rfc_4648() {
+        // The test vectors of RFC 4648, section 10.
+        let vectors = [
+            ("", ""),
+            ("f", "Zg=="),
+            ("fo", "Zm8="),
+            ("foo", "Zm9v"),
+            ("foob", "Zm9vYg=="),
+            ("fooba", "Zm9vYmE="),
+            ("foobar", "Zm9vYmFy"),
+        ];
+        for (plain, coded) in vectors {
+            assert_eq!(base64(plain.as_bytes()), coded);
+        }
+        assert_eq!(base64(&[0xfb, 0xff, 0xfe]), "+//+");
+    }
+
+    #[test]
+    fn values_are_little_endian_single_precision_unless_that_is_coarse() {
+        // 1.0f32 is 00 00 80 3f and 2.0f32 is 00 00 00 40 in memory order.
+        let json = column_json(&column("force", vec![1.0, 2.0]), &[0, 1]);
+        assert!(json.contains("\"type\":\"f32\",\"data\":\"AACAPwAAAEA=\""), "{json}");
+        // A change of 4 J on top of 6321 J: single precision steps are 5e-4 J there, 1e-4 of the change.
+        let energy = column("energy.kinetic", vec![6321.3, 6320.123456, 6317.234567]);
+        assert!(column_json(&energy, &[0, 1, 2]).contains("\"type\":\"f64\""));
+        assert!(column_json(&column("time", vec![0.0, 1.0]), &[0, 1]).contains("\"type\":\"f64\""));
+    }
+
+    #[test]
+    fn short_histories_keep_every_row() {
+        assert_eq!(kept_rows(&eventful(50), 50), (0..50).collect::<Vec<_>>());
+        assert!(kept_rows(&[], 50).is_empty());
+    }
+
+    #[test]
+    fn thinning_keeps_peaks_ends_and_the_bound() {
+        for rows in [ROW_LIMIT + 1, 10 * ROW_LIMIT + 3, 200_000] {
+            let kept = kept_rows(&eventful(rows), ROW_LIMIT);
+            assert!(kept.len() <= ROW_LIMIT, "{} rows of {rows}", kept.len());
+            // Three watched values and one uniform row a stretch: even if they coincide, a quarter of the limit is used.
+            assert!(kept.len() >= ROW_LIMIT / 4 - 10, "{} rows of {rows}", kept.len());
+            for row in [0, rows / 5, rows / 3 + 1, rows - 7, rows - 1] {
+                assert!(kept.contains(&row), "row {row} of {rows} was dropped");
+            }
+            assert!(kept.windows(2).all(|pair| pair[0] < pair[1]));
+        }
+    }
+
+    #[test]
+    fn thinning_leaves_no_long_gap() {
+        let kept = kept_rows(&eventful(100_000), ROW_LIMIT);
+        let gap = kept.windows(2).map(|pair| pair[1] - pair[0]).max().unwrap();
+        // 100 000 rows in (4000 - 12) / 4 stretches: at most one stretch of 101 rows between kept rows.
+        assert!(gap <= 101, "gap of {gap} rows");
+    }
+
+    #[test]
+    fn thinning_survives_many_columns_and_missing_numbers() {
+        let mut columns: Vec<PageColumn> =
+            (0..200).map(|index| column(&format!("c{index}"), vec![f64::NAN; 300])).collect();
+        for (index, column) in columns.iter_mut().enumerate() {
+            column.values[index] = 1.0;
+        }
+        let kept = kept_rows(&columns, 100);
+        assert!(kept.len() <= 100);
+        assert!(kept.len() > 50);
+    }
+
+    #[test]
+    fn columns_of_unequal_length_are_filled_with_not_a_number() {
+        let run = PageRun {
+            columns: vec![column("time", vec![0.0, 1.0]), column("force", vec![1.0])],
+            ..PageRun::default()
+        };
+        // 1.0f32 then the quiet NaN 7fc00000.
+        assert!(run_json(&run).contains("\"data\":\"AACAPwAAwH8=\""), "{}", run_json(&run));
+    }
+
+    #[test]
+    fn no_text_can_leave_its_place() {
+        let run = PageRun {
+            name: "</script><b>\"quoted\" & {{script}}".to_string(),
+            summary_json: "{\"title\": \"</script>\"}".to_string(),
+            scenario_toml: "title = '</SCRIPT>'\t\\ \u{1}".to_string(),
+            ..PageRun::default()
+        };
+        let page = html(std::slice::from_ref(&run));
+        let empty = html(&[PageRun::default()]);
+        let closings = |text: &str| text.to_lowercase().matches("</script").count();
+        assert_eq!(closings(&page), closings(&empty));
+        assert!(page.contains("<title>&lt;/script&gt;&lt;b&gt;&quot;quoted&quot; &amp; {{script}} · auxbear report</title>"));
+        assert!(page.contains("\\u003c/SCRIPT>'\\u0009\\\\ \\u0001\""));
+    }
+
+    #[test]
+    fn the_page_needs_no_network() {
+        let page = html(&[PageRun::default()]);
+        for remote in ["src=\"http", "href=\"http", "src='http", "@import", "url(http", "fetch(", "XMLHttpRequest"] {
+            assert!(!page.contains(remote), "{remote}");
+        }
+        assert!(page.contains("default-src 'none'"));
+        assert!(page.contains("Permission is hereby granted"));
+    }
+
+    #[test]
+    fn every_place_of_the_template_is_filled() {
+        let page = html(&[]);
+        for part in ["title", "style", "data", "library", "script"] {
+            assert!(TEMPLATE.contains(&format!("{{{{{part}}}}}")));
+            assert!(!page.contains(&format!("{{{{{part}}}}}")), "{part}");
+        }
+    }
+}

@@ -1,0 +1,73 @@
+// Building the page. Texts only ever enter as text nodes, so no input can become markup.
+
+const SVG = "http://www.w3.org/2000/svg";
+
+function fillElement(node, attributes, children) {
+  for (const [name, value] of Object.entries(attributes || {})) {
+    if (value === null || value === undefined || value === false) continue;
+    if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
+    else node.setAttribute(name, value === true ? "" : value);
+  }
+  for (const child of children.flat(Infinity)) {
+    if (child === null || child === undefined || child === false) continue;
+    node.append(child instanceof Node ? child : document.createTextNode(String(child)));
+  }
+  return node;
+}
+
+function element(tag, attributes, ...children) {
+  return fillElement(document.createElement(tag), attributes, children);
+}
+
+function drawing(tag, attributes, ...children) {
+  return fillElement(document.createElementNS(SVG, tag), attributes, children);
+}
+
+function section(id, title, ...content) {
+  return element("section", { id }, element("h2", {}, title), content);
+}
+
+function figure(title, note, ...content) {
+  const caption = element("figcaption", {}, element("strong", {}, title), note ? element("span", {}, note) : null);
+  return element("figure", {}, caption, content);
+}
+
+// What stands where a picture or a number cannot: always with the reason.
+function notInThisRun(why) {
+  return element("p", { class: "absent" }, "not in this run: " + why);
+}
+
+function list(value) {
+  return Array.isArray(value) ? value : [];
+}
+
+function isNumber(value) {
+  return typeof value === "number" && Number.isFinite(value);
+}
+
+// A canvas that knows its size in page pixels, scaled for the screen and for paper.
+function sizedCanvas(width, height, canvas) {
+  const ratio = window.devicePixelRatio;
+  const sheet = canvas || element("canvas");
+  sheet.width = Math.round(width * ratio);
+  sheet.height = Math.round(height * ratio);
+  sheet.style.width = width + "px";
+  sheet.style.height = height + "px";
+  const pen = sheet.getContext("2d");
+  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+  pen.clearRect(0, 0, width, height);
+  pen.font = FONT;
+  return pen;
+}
+
+const FONT = "12px system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif";
+const INK = "#22303c";
+const PALE_INK = "#5d6b78";
+const RULE = "#dfe4e8";
+
+// Everything that must be drawn anew when the width of the page changes.
+const resizable = [];
+
+function redrawAll() {
+  for (const redraw of resizable) redraw();
+}

@@ -1,0 +1,68 @@
+// Numbers as an engineer writes them.
+
+const SUPERSCRIPT = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
+
+// Prefixed units, largest first: [unit, size in SI].
+const PREFIXED = {
+  N: [["kN", 1e3], ["N", 1], ["mN", 1e-3]],
+  m: [["m", 1], ["mm", 1e-3], ["µm", 1e-6], ["nm", 1e-9]],
+  s: [["s", 1], ["ms", 1e-3], ["µs", 1e-6]],
+  Pa: [["MPa", 1e6], ["kPa", 1e3], ["Pa", 1]],
+  J: [["kJ", 1e3], ["J", 1], ["mJ", 1e-3], ["µJ", 1e-6]],
+  W: [["kW", 1e3], ["W", 1], ["mW", 1e-3]],
+  "rad/s": [["rpm", Math.PI / 30]],
+  rad: [["°", Math.PI / 180]],
+  "m/s": [["m/s", 1], ["mm/s", 1e-3]],
+};
+
+function numberText(value, digits = 5) {
+  if (!isNumber(value)) return "–";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (Number.isInteger(value) && size < 1e7) return String(value).replace("-", "−");
+  if (size >= 1e6 || size < 1e-3) {
+    const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
+    const power = [...String(Number(exponent))].map((sign) => SUPERSCRIPT[sign]).join("");
+    return `${trimmed(mantissa)} × 10${power}`;
+  }
+  return trimmed(value.toPrecision(digits));
+}
+
+function trimmed(text) {
+  const short = text.includes(".") && !text.includes("e") ? text.replace(/\.?0+$/, "") : text;
+  return short.replace("-", "−");
+}
+
+function unitText(unit) {
+  return unit === "1" || !unit ? "" : unit;
+}
+
+// The prefixed unit in which a value of this size reads best.
+function readableUnit(size, unit) {
+  const choices = PREFIXED[unit];
+  if (!choices) return [unitText(unit), 1];
+  return choices.find(([, scale]) => Math.abs(size) >= scale) || choices[choices.length - 1];
+}
+
+function engineeringText(value, unit, digits) {
+  if (!isNumber(value)) return "–";
+  const [name, scale] = value === 0 ? [unitText(unit), 1] : readableUnit(value, unit);
+  const gap = name && name !== "°" ? " " : "";
+  return numberText(value / scale, digits) + gap + name;
+}
+
+function siText(value, unit) {
+  if (!isNumber(value)) return "–";
+  return (numberText(value, 9) + " " + unitText(unit)).trim();
+}
+
+function percentText(share, digits = 3) {
+  return numberText(100 * share, digits) + " %";
+}
+
+// "bearing.inner_race.time_to_50_percent" reads "bearing inner race: time to 50 %".
+function wordsOf(name) {
+  const parts = String(name).split(".");
+  const last = parts.pop().replace(/_/g, " ").replace(/\bpercent\b/g, "%");
+  return parts.length ? parts.join(" ").replace(/_/g, " ") + ": " + last : last;
+}

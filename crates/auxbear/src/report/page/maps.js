@@ -1,0 +1,266 @@
+// Ball loads and slip as maps: time to the right, azimuth of the balls in the ground frame upwards, value as colour.
+
+// The turn is cut at the top, so that the zone under the weight lies in the middle.
+const MAP_BINS = 144;
+const MAP_LOWEST_AZIMUTH = Math.PI / 2;
+const MAP_TICKS = [[0, "up 90°"], [0.25, "left 180°"], [0.5, "down 270°"], [0.75, "right 0°"], [1, "up 90°"]];
+
+const MAPS = [
+  { part: "inner_load", title: "Load between ball and inner race", label: "load", unit: "N", load: "inner_load", slip: "inner_slip" },
+  { part: "outer_load", title: "Load between ball and outer race", label: "load", unit: "N", load: "outer_load", slip: "outer_slip" },
+  { part: "inner_slip", title: "Slip speed between ball and inner race, size", label: "slip", unit: "m/s" },
+  { part: "outer_slip", title: "Slip speed between ball and outer race, size", label: "slip", unit: "m/s" },
+];
+
+const SHADES = {
+  "square root": (share) => Math.sqrt(share),
+  linear: (share) => share,
+  "logarithmic, 4 decades": (share) => (share > 0 ? Math.max(0, 1 + Math.log10(share) / 4) : 0),
+};
+
+const mapState = { shade: "square root", skid: true, redraws: [] };
+
+// A loaded ball counts as skidding where its slip exceeds twice the reference speed of the traction law: with the tanh
+// law the friction there has reached 96 % of its limit.
+function skidLimit(runs) {
+  for (const run of runs) {
+    const input = inputOf(run, "bearing.traction.reference_speed");
+    const match = input && /^\s*([0-9.eE+-]+)\s*m\/s\s*$/.exec(String(input.value));
+    if (match && Number(match[1]) > 0) return { speed: 2 * Number(match[1]), source: "twice the reference speed of the traction law" };
+  }
+  return { speed: 0.2, source: "this report's own mark: the inputs name no reference speed of the traction law" };
+}
+
+function turnShare(azimuth) {
+  const turns = (azimuth - MAP_LOWEST_AZIMUTH) / (2 * Math.PI);
+  return turns - Math.floor(turns);
+}
+
+function between(values, row, share, periodic) {
+  const [left, right] = [values[row], values[row + 1]];
+  if (!isNumber(left) || !isNumber(right)) return left;
+  let step = right - left;
+  if (periodic) step -= 2 * Math.PI * Math.round(step / (2 * Math.PI));
+  return left + share * step;
+}
+
+// Calls visit(column, ball index, azimuth, row, share) for every sample that falls into each picture column, or for
+// one interpolated sample where the zoom is finer than the rows.
+function visitSamples(run, balls, columns, visit) {
+  const { time } = run;
+  const width = (timeline.end - timeline.begin) / columns;
+  let row = rowBefore(time, timeline.begin);
+  for (let column = 0; column < columns; column++) {
+    const begin = timeline.begin + column * width;
+    const end = begin + width;
+    if (end < time[0] || begin > time[time.length - 1]) continue;
+    while (row + 1 < time.length && time[row] < begin) row += 1;
+    const samples = [];
+    for (let next = row; next < time.length && time[next] < end; next++) samples.push([next, 0]);
+    if (!samples.length) {
+      const middle = Math.min(time[time.length - 1], Math.max(time[0], begin + width / 2));
+      const before = rowBefore(time, middle);
+      const gap = time[before + 1] - time[before];
+      samples.push([before, gap > 0 ? (middle - time[before]) / gap : 0]);
+    }
+    for (const [at, share] of samples) {
+      balls.forEach((ball, index) => {
+        const azimuth = ball.azimuth ? between(ball.azimuth, at, share, true) : null;
+        visit(column, index, azimuth, at, share);
+      });
+    }
+  }
+}
+
+function mapGrid(run, map, columns, skidSpeed) {
+  const balls = ballsOf(run);
+  const byAzimuth = balls.every((ball) => ball.azimuth);
+  const bins = byAzimuth ? MAP_BINS : balls.length;
+  const half = byAzimuth ? Math.ceil(MAP_BINS / balls.length / 2) : 0;
+  const values = new Float32Array(columns * bins).fill(-1);
+  const skid = new Uint8Array(columns * bins);
+  visitSamples(run, balls, columns, (column, index, azimuth, row, share) => {
+    const ball = balls[index];
+    if (!ball[map.part] || (byAzimuth && !isNumber(azimuth))) return;
+    const value = between(ball[map.part], row, share, false);
+    if (!isNumber(value)) return;
+    const slips = map.slip && ball[map.slip] && ball[map.load][row] > 0 && Math.abs(ball[map.slip][row]) > skidSpeed;
+    const centre = byAzimuth ? Math.floor(turnShare(azimuth) * bins) : index;
+    for (let step = -half; step <= half; step++) {
+      const bin = column * bins + ((centre + step + bins) % bins);
+      values[bin] = Math.max(values[bin], Math.abs(value));
+      if (slips) skid[bin] = 1;
+    }
+  });
+  return { balls, byAzimuth, bins, values, skid };
+}
+
+function paintGrid(grid, columns, largest, showSkid) {
+  const sheet = element("canvas", { width: columns, height: grid.bins });
+  const pen = sheet.getContext("2d");
+  const image = pen.createImageData(columns, grid.bins);
+  const shade = SHADES[mapState.shade];
+  for (let column = 0; column < columns; column++) {
+    for (let bin = 0; bin < grid.bins; bin++) {
+      const value = grid.values[column * grid.bins + bin];
+      if (value < 0) continue;
+      const colour = mapColour(shade(largest > 0 ? value / largest : 0));
+      const marked = showSkid && grid.skid[column * grid.bins + bin];
+      const at = 4 * ((grid.bins - 1 - bin) * columns + column);
+      for (let part = 0; part < 3; part++) image.data[at + part] = marked ? 0.25 * colour[part] + 0.75 * SKID[part] : colour[part];
+      image.data[at + 3] = 255;
+    }
+  }
+  pen.putImageData(image, 0, 0);
+  return sheet;
+}
+
+function largestOf(runs, part) {
+  let most = 0;
+  for (const run of runs) for (const ball of ballsOf(run)) for (const value of ball[part] || []) most = Math.max(most, Math.abs(value || 0));
+  return most;
+}
+
+function colourBar(pen, left, top, height, largest, map) {
+  const shade = SHADES[mapState.shade];
+  paintRamp(pen, left, top, 11, height, (share) => `rgb(${mapColour(share).join(",")})`, true);
+  pen.fillStyle = INK;
+  pen.textAlign = "left";
+  pen.textBaseline = "middle";
+  const candidates = [];
+  for (let power = Math.floor(Math.log10(largest || 1)); power >= Math.log10(largest || 1) - 5; power--) for (const digit of [5, 2, 1]) candidates.push(digit * 10 ** power);
+  const taken = [top + height];
+  if (mapState.shade.startsWith("log")) taken.pop();
+  else pen.fillText("0", left + 15, top + height);
+  for (const value of candidates.filter((each) => each <= largest)) {
+    const y = top + height * (1 - shade(value / largest));
+    if (y > top + height || taken.some((other) => Math.abs(other - y) < 14)) continue;
+    taken.push(y);
+    pen.fillText(numberText(Number(value.toPrecision(3)), 3), left + 15, y);
+  }
+  pen.textBaseline = "alphabetic";
+  pen.fillText(`${map.label} [${map.unit}]`, left - 4, top - 7);
+}
+
+function mapCanvas(run, runs, map, limit) {
+  const holder = element("div", { class: "map" });
+  const canvas = element("canvas");
+  const readout = element("p", { class: "readout" }, " ");
+  const largest = largestOf(runs, map.part);
+  const place = { left: AXIS_WIDTH, top: 22, height: 176, width: 0 };
+  let grid = null;
+  const draw = () => {
+    const width = holder.clientWidth || 600;
+    place.width = Math.max(50, width - 2 * AXIS_WIDTH);
+    const pen = sizedCanvas(width, place.top + place.height + 40, canvas);
+    const columns = Math.round(place.width);
+    grid = mapGrid(run, map, columns, limit.speed);
+    pen.imageSmoothingEnabled = false;
+    pen.drawImage(paintGrid(grid, columns, largest, mapState.skid), place.left, place.top, place.width, place.height);
+    drawMapAxes(pen, place, grid);
+    colourBar(pen, place.left + place.width + 12, place.top, place.height, largest, map);
+  };
+  canvas.addEventListener("pointermove", (event) => {
+    const area = canvas.getBoundingClientRect();
+    readout.textContent = mapReadout(run, grid, place, event.clientX - area.left, event.clientY - area.top);
+  });
+  canvas.addEventListener("pointerleave", () => (readout.textContent = " "));
+  canvas.addEventListener("dblclick", () => timeline.all());
+  resizable.push(draw);
+  timeline.listeners.push(draw);
+  mapState.redraws.push(draw);
+  return fillElement(holder, {}, [canvas, readout]);
+}
+
+function drawMapAxes(pen, place, grid) {
+  const { left, top, width, height } = place;
+  pen.strokeStyle = PALE_INK;
+  pen.lineWidth = 0.75;
+  pen.strokeRect(left, top, width, height);
+  pen.fillStyle = INK;
+  pen.textAlign = "right";
+  pen.textBaseline = "middle";
+  const step = Math.max(1, Math.ceil((14 * grid.bins) / height));
+  const ticks = grid.byAzimuth ? MAP_TICKS : grid.balls.flatMap((ball, index) => (index % step ? [] : [[(index + 0.5) / grid.bins, ball.name]]));
+  for (const [share, words] of ticks) {
+    const y = top + height * (1 - share);
+    pen.fillText(words, left - 7, y);
+    pen.beginPath();
+    pen.moveTo(left - 4, y);
+    pen.lineTo(left, y);
+    pen.stroke();
+  }
+  pen.textAlign = "center";
+  pen.textBaseline = "top";
+  const spacing = niceStep((timeline.end - timeline.begin) / timeline.unit[1], Math.max(2, width / 90)) * timeline.unit[1];
+  for (let n = Math.ceil(timeline.begin / spacing - 1e-9); n * spacing <= timeline.end * (1 + 1e-9); n++) {
+    const x = left + (width * (n * spacing - timeline.begin)) / (timeline.end - timeline.begin);
+    pen.fillText(numberText(Number(((n * spacing) / timeline.unit[1]).toPrecision(10)), 6), x, top + height + 6);
+    pen.beginPath();
+    pen.moveTo(x, top + height);
+    pen.lineTo(x, top + height + 4);
+    pen.stroke();
+  }
+  pen.fillText(`time since release [${timeline.unit[0]}]`, left + width / 2, top + height + 22);
+}
+
+function mapReadout(run, grid, place, px, py) {
+  const [across, upwards] = [(px - place.left) / place.width, 1 - (py - place.top) / place.height];
+  if (!grid || across < 0 || across > 1 || upwards < 0 || upwards > 1) return " ";
+  const instant = timeline.begin + across * (timeline.end - timeline.begin);
+  if (instant < run.time[0] || instant > run.time[run.time.length - 1]) return " ";
+  const row = rowBefore(run.time, instant);
+  let ball = grid.balls[Math.min(grid.balls.length - 1, Math.floor(upwards * grid.balls.length))];
+  if (grid.byAzimuth) {
+    const distance = (each) => Math.abs(turnShare(each.azimuth[row] + Math.PI + MAP_LOWEST_AZIMUTH - (MAP_LOWEST_AZIMUTH + 2 * Math.PI * upwards)) - 0.5);
+    ball = grid.balls.reduce((best, each) => (distance(each) < distance(best) ? each : best));
+  }
+  const parts = [timeline.text(run.time[row]), ball.name];
+  if (ball.azimuth) parts.push("azimuth " + numberText((((ball.azimuth[row] * 180) / Math.PI) % 360 + 360) % 360, 4) + "°");
+  const named = { inner_load: ["inner load", "N"], outer_load: ["outer load", "N"], inner_slip: ["inner slip", "m/s"], outer_slip: ["outer slip", "m/s"] };
+  for (const [part, [words, unit]] of Object.entries(named)) if (ball[part]) parts.push(words + " " + numberText(ball[part][row], 4) + " " + unit);
+  return parts.join(", ");
+}
+
+function mapControls() {
+  const redraw = () => mapState.redraws.forEach((draw) => draw());
+  const choice = (name) => element("option", { value: name, selected: name === mapState.shade }, name);
+  const onShade = (event) => {
+    mapState.shade = event.target.value;
+    redraw();
+  };
+  const onSkid = (event) => {
+    mapState.skid = event.target.checked;
+    redraw();
+  };
+  return element(
+    "div",
+    { class: "controls" },
+    element("label", {}, "colour scale ", element("select", { onchange: onShade }, Object.keys(SHADES).map(choice))),
+    element("label", {}, element("input", { type: "checkbox", checked: true, onchange: onSkid }), " mark skidding balls"),
+  );
+}
+
+function mapSection(runs) {
+  const limit = skidLimit(runs);
+  const figures = MAPS.map((map) => {
+    const drawn = runs.filter((run) => run.time && ballsOf(run).some((ball) => ball[map.part]));
+    const missing = runs.filter((run) => !drawn.includes(run));
+    const notes = [];
+    if (drawn.some((run) => !ballsOf(run).every((ball) => ball.azimuth))) notes.push("This fidelity gives no ball positions: one row a ball.");
+    if (map.slip && drawn.some((run) => ballsOf(run).some((ball) => ball[map.slip])))
+      notes.push(`Red: loaded balls that slip faster than ${engineeringText(limit.speed, "m/s", 3)} (${limit.source}).`);
+    const canvases = drawn.map((run) => [runs.length > 1 ? element("p", { class: "run-label" }, element("span", { class: "swatch", style: "background:" + run.colour }), run.label) : null, mapCanvas(run, drawn, map, limit)]);
+    const why = missing.map((run) =>
+      notInThisRun(run.prefix + (run.time ? `its history has no ${map.part.replace("_", " ")} of the balls (the rolling fidelity gives loads only)` : "it has no time history")),
+    );
+    return figure(map.title, notes.join(" "), canvases, why);
+  });
+  const drawn = runs.some((run) => run.time && ballsOf(run).length);
+  const note = element(
+    "p",
+    { class: "lead" },
+    "Azimuth is that of the ball seen from the ground, counter-clockwise from the right; where a column of the picture holds several instants, the largest value is shown.",
+  );
+  return section("balls", "Ball loads and slip", drawn ? [note, mapControls()] : null, figures, pocketFigure(runs));
+}

@@ -1,0 +1,168 @@
+// Quantities, inputs and the facts of the run, as tables.
+
+const LIST_SHOWN = 6;
+
+function quantityText(quantity) {
+  const { value, unit } = quantity;
+  if (value === null || value === undefined) return element("span", { class: "absent" }, "not in this run: " + (quantity.why || "no reason given"));
+  if (Array.isArray(value)) return listText(value, unit);
+  if (!isNumber(value)) return String(value);
+  return engineeringText(value, unit, 5);
+}
+
+function listText(values, unit) {
+  if (!values.length) return "none";
+  const words = values.map((value) => (isNumber(value) ? engineeringText(value, unit, 5) : String(value)));
+  if (words.length <= LIST_SHOWN) return words.join(", ");
+  const short = words.slice(0, LIST_SHOWN).join(", ") + ", …";
+  return element("details", {}, element("summary", {}, `${values.length} values: ${short}`), words.join(", "));
+}
+
+function siCell(quantity) {
+  if (isNumber(quantity.value)) return siText(quantity.value, quantity.unit);
+  return Array.isArray(quantity.value) ? `list in ${quantity.unit || "1"}` : "";
+}
+
+function spreadCell(quantity) {
+  const spread = quantity.spread;
+  if (!spread || !isNumber(spread.mean)) return "";
+  const [unit, scale] = spread.mean === 0 ? [unitText(quantity.unit), 1] : readableUnit(spread.mean, quantity.unit);
+  const gap = unit && unit !== "°" ? " " : "";
+  // The mean is written to the digit that the spread makes meaningful.
+  const digits = isNumber(spread.sd) && spread.sd > 0 ? Math.min(9, Math.max(3, Math.ceil(Math.log10(Math.abs(spread.mean) / spread.sd)) + 2)) : 6;
+  const text = (value) => numberText(isNumber(value) ? value / scale : null, digits);
+  const deviation = isNumber(spread.sd) ? " ± " + numberText(spread.sd / scale, 2) : "";
+  return [
+    element("div", {}, text(spread.mean) + deviation + gap + unit),
+    element("div", { class: "small" }, `${text(spread.min)} to ${text(spread.max)}${gap}${unit}` + (isNumber(spread.members) ? `, ${spread.members} members` : "")),
+  ];
+}
+
+function lawLine(quantity) {
+  const parts = [["Law", quantity.law], ["Source", quantity.source], ["Valid", quantity.valid]].filter(([, words]) => words);
+  return parts.map(([title, words]) => element("span", { class: "law" }, element("b", {}, title + ": "), words + "  "));
+}
+
+function differenceText(first, other) {
+  if (!isNumber(first) || !isNumber(other)) return first === other ? "same" : "–";
+  if (first === other) return "same";
+  if (first === 0) return "from 0";
+  const share = (other - first) / Math.abs(first);
+  return (share > 0 ? "+" : "") + percentText(share);
+}
+
+function quantitySection(runs) {
+  const names = [...new Set(runs.flatMap((run) => Object.keys(run.quantities)))];
+  if (!names.length) return section("quantities", "Quantities", notInThisRun("the summary holds no quantities"));
+  const repeated = runs.some((run) => names.some((name) => quantityOf(run, name).spread));
+  const single = runs.length === 1;
+  const heads = ["Quantity"];
+  if (single) heads.push("Value", "In SI units");
+  else runs.forEach((run, index) => heads.push(run.label, ...(index ? [`${run.letter} against A`] : [])));
+  if (repeated) heads.push(...(single ? ["Mean ± deviation, range"] : runs.map((run) => `Spread of ${run.letter}`)));
+  const bodies = names.map((name) => {
+    const all = runs.map((run) => quantityOf(run, name));
+    const told = all.find((quantity) => quantity.law || quantity.source || quantity.valid) || all[0];
+    const cells = [element("td", { class: "name" }, wordsOf(name), element("code", {}, name))];
+    if (single) cells.push(element("td", {}, quantityText(all[0])), element("td", { class: "small" }, siCell(all[0])));
+    else {
+      all.forEach((quantity, index) => {
+        cells.push(element("td", {}, quantityText(quantity)));
+        if (index) cells.push(element("td", { class: "difference" }, differenceText(all[0].value, quantity.value)));
+      });
+    }
+    if (repeated) all.forEach((quantity) => cells.push(element("td", {}, spreadCell(quantity))));
+    const laws = lawLine(told);
+    return element("tbody", {}, element("tr", {}, cells), laws.length ? element("tr", { class: "laws" }, element("td", { colspan: heads.length }, laws)) : null);
+  });
+  const table = element("table", { class: "quantities" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), bodies);
+  const note = repeated ? element("p", { class: "lead" }, "Spread: mean and standard deviation over the members of the repeated run, and their smallest and largest value.") : null;
+  return section("quantities", "Quantities", note, element("div", { class: "wide" }, table), runs.map(memberDetails));
+}
+
+function memberDetails(run) {
+  const members = list(run.summary.members).filter((member) => member && typeof member === "object");
+  if (!members.length) return null;
+  const plain = (cell) => (cell && typeof cell === "object" && !Array.isArray(cell) ? cell.value : cell);
+  const names = [...new Set(members.flatMap(Object.keys))].filter((name) => members.some((member) => isNumber(plain(member[name]))));
+  const row = (member, index) => element("tr", {}, element("td", {}, index + 1), names.map((name) => element("td", {}, numberText(plain(member[name]), 7))));
+  const unit = (name) => unitText(quantityOf(run, name).unit);
+  const heads = names.map((name) => element("th", {}, wordsOf(name) + (unit(name) ? ` [${unit(name)}]` : "")));
+  return element(
+    "details",
+    { class: "screen-only" },
+    element("summary", {}, `${run.prefix}${members.length} members of the repeated run, in SI units`),
+    element("div", { class: "wide" }, element("table", { class: "numbers" }, element("thead", {}, element("tr", {}, element("th", {}, "member"), heads)), element("tbody", {}, members.map(row)))),
+  );
+}
+
+const MARK_WORDS = { given: "given", default: "default", assumed: "assumed", catalogue: "catalogue", derived: "derived" };
+
+function markBadge(mark) {
+  return element("span", { class: "mark mark-" + (MARK_WORDS[mark] || "other") }, MARK_WORDS[mark] || String(mark || "not said"));
+}
+
+function inputRow(paths, path, runs) {
+  const inputs = paths.get(path);
+  const cells = runs.map((run, index) => {
+    const input = inputs[index];
+    return [element("td", {}, input ? String(input.value) : element("span", { class: "absent" }, "not in this run")), element("td", {}, input ? markBadge(input.mark) : null)];
+  });
+  const notes = [...new Set(inputs.filter(Boolean).map((input) => input.note).filter(Boolean))].join("; ");
+  const assumed = inputs.some((input) => input && input.mark === "assumed");
+  return element("tr", { class: assumed ? "assumed" : null }, element("td", {}, element("code", {}, path)), cells, element("td", { class: "small" }, notes));
+}
+
+function inputSection(runs) {
+  const paths = new Map();
+  runs.forEach((run, index) => {
+    for (const input of list(run.summary.inputs)) {
+      if (!input || !input.path) continue;
+      if (!paths.has(input.path)) paths.set(input.path, runs.map(() => null));
+      paths.get(input.path)[index] = input;
+    }
+  });
+  const scenario = runs.map((run) =>
+    run.scenario ? element("details", { class: "screen-only" }, element("summary", {}, run.prefix + "scenario.toml as it was run"), element("pre", {}, run.scenario)) : notInThisRun(run.prefix + "its scenario text"),
+  );
+  if (!paths.size) return section("inputs", "Inputs", notInThisRun("the summary lists no inputs"), scenario);
+  const single = runs.length === 1;
+  const heads = ["Input", ...runs.flatMap((run) => [single ? "Value" : run.label, "Origin"]), "Note"];
+  const table = (keys) =>
+    element("table", { class: "inputs" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), element("tbody", {}, keys.map((path) => inputRow(paths, path, runs))));
+  const differs = (path) => new Set(paths.get(path).map((input) => (input ? String(input.value) : null))).size > 1;
+  const keys = [...paths.keys()];
+  const counts = Object.keys(MARK_WORDS).map((mark) => [mark, list(runs[0].summary.inputs).filter((input) => input && input.mark === mark).length]);
+  const parts = single
+    ? [element("p", { class: "lead" }, "Origin of the values: ", counts.filter(([, count]) => count).map(([mark, count]) => [markBadge(mark), ` ${count}   `])), table(keys)]
+    : [
+        element("h3", {}, "Inputs that differ"),
+        keys.some(differs) ? table(keys.filter(differs)) : element("p", {}, "None: all inputs are the same."),
+        element("h3", {}, "Inputs that are the same"),
+        table(keys.filter((path) => !differs(path))),
+      ];
+  return section("inputs", "Inputs", parts, scenario);
+}
+
+function factSection(runs) {
+  const work = (run) => run.summary.work || {};
+  const largest = (run, name) => {
+    const values = columnOf(run, name);
+    return values ? values.reduce((most, value) => Math.max(most, Math.abs(value || 0)), 0) : null;
+  };
+  const number = (value, unit) => (isNumber(value) ? engineeringText(value, unit, 4) : element("span", { class: "absent" }, "not in this run"));
+  const facts = [
+    ["Program", (run) => (run.summary.version ? "auxbear " + run.summary.version : number(null))],
+    ["Summary format", (run) => run.summary.format || number(null)],
+    ["End of the run", (run) => [run.summary.stop && run.summary.stop.reason, run.summary.stop && isNumber(run.summary.stop.time_s) && engineeringText(run.summary.stop.time_s, "s", 5)].filter(Boolean).join(" at ") || number(null)],
+    ["Steps taken", (run) => number(work(run).steps, "1")],
+    ["Steps rejected", (run) => number(work(run).rejected, "1")],
+    ["Calls of the right-hand side", (run) => number(work(run).rate_calls, "1")],
+    ["Processor time", (run) => number(work(run).cpu_s, "s")],
+    ["Largest angular momentum residual", (run) => number(largest(run, "angular_momentum.residual"), "N m s")],
+    ["Rows in this page", (run) => (run.time ? (run.rows === run.rowsTotal ? `all ${run.rows} of history.parquet` : `${run.rows} of the ${run.rowsTotal} in history.parquet, extremes kept`) : number(null))],
+  ];
+  const rows = facts.map(([title, fact]) => element("tr", {}, element("th", {}, title), runs.map((run) => element("td", {}, fact(run)))));
+  const head = runs.length > 1 ? element("thead", {}, element("tr", {}, element("th", {}, ""), runs.map((run) => element("th", {}, run.label)))) : null;
+  return section("facts", "Run facts", element("table", { class: "facts" }, head, element("tbody", {}, rows)), residualFigures(runs));
+}

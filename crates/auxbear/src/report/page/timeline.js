@@ -1,0 +1,203 @@
+// Time plots that share one time window: drag in any of them to zoom all, double-click to see everything again.
+
+const AXIS_WIDTH = 74;
+
+const timeline = {
+  first: 0,
+  last: 1,
+  begin: 0,
+  end: 1,
+  unit: ["s", 1],
+  listeners: [],
+  span(runs) {
+    const times = runs.filter((run) => run.time && run.time.length > 1).map((run) => run.time);
+    if (!times.length) return;
+    this.first = Math.min(...times.map((time) => time[0]));
+    this.last = Math.max(...times.map((time) => time[time.length - 1]));
+    if (!(this.last > this.first)) this.last = this.first + 1;
+    [this.begin, this.end] = [this.first, this.last];
+    this.unit = this.last - this.first < 2 ? ["ms", 1e-3] : ["s", 1];
+  },
+  zoom(begin, end) {
+    // A window shorter than a millionth of the run shows nothing but rounding.
+    if (!(end - begin > 1e-6 * (this.last - this.first))) return;
+    [this.begin, this.end] = [Math.max(begin, this.first), Math.min(end, this.last)];
+    for (const listener of this.listeners) listener();
+  },
+  all() {
+    this.zoom(this.first, this.last);
+  },
+  text(instant) {
+    return numberText(instant / this.unit[1], 6) + " " + this.unit[0];
+  },
+};
+
+// Lines of several runs have several time columns: they are joined, and lines span the rows of the other runs.
+function joined(series) {
+  const times = [...new Set(series.map((line) => line.time))];
+  const ordered = times.flatMap((time) => series.filter((line) => line.time === time));
+  if (times.length === 1) return { ordered, data: [times[0], ...ordered.map((line) => line.values)] };
+  const tables = times.map((time) => [time, ...series.filter((line) => line.time === time).map((line) => line.values)]);
+  return { ordered, data: uPlot.join(tables) };
+}
+
+function paddedRange(low, high, extra) {
+  const values = [low, high, ...extra].filter(isNumber);
+  if (!values.length) return [0, 1];
+  let [least, most] = [Math.min(...values), Math.max(...values)];
+  if (least === most) return least === 0 ? [0, 1] : [least - 0.1 * Math.abs(least), most + 0.1 * Math.abs(most)];
+  const room = 0.06 * (most - least);
+  const nearZero = least >= 0 && least < 0.4 * most;
+  return [nearZero ? 0 : least - room, most <= 0 && least < 0 && most > 0.4 * least ? 0 : most + room];
+}
+
+function axisNumbers(scale) {
+  return (_, splits) => splits.map((split) => numberText(Number((split / scale).toPrecision(12)), 6));
+}
+
+function axis(options) {
+  return {
+    stroke: INK,
+    font: FONT,
+    labelFont: FONT,
+    labelSize: 20,
+    labelGap: 2,
+    grid: { stroke: RULE, width: 1 },
+    ticks: { stroke: RULE, width: 1, size: 5 },
+    ...options,
+  };
+}
+
+// options: series [{label, time, values, shown?, colour, width?, dash?, fill?}], label, height?, second? {label, factor},
+// include? (begin, end) -> values the vertical range must hold, marks? (pen, plot) draws on top, ticks? runs whose
+// contact starts are marked.
+function timePlot(options) {
+  const { ordered, data } = joined(options.series);
+  const holder = element("div", { class: "plot" });
+  const factor = options.second ? options.second.factor : 1;
+  const configuration = {
+    width: 600,
+    height: options.height || 250,
+    padding: [12, options.second ? 0 : AXIS_WIDTH, 0, 0],
+    scales: {
+      x: { time: false, range: () => [timeline.begin, timeline.end] },
+      y: { range: (_, low, high) => paddedRange(low, high, options.include ? options.include(timeline.begin, timeline.end) : []) },
+      second: { from: "y", range: (_, low, high) => [low * factor, high * factor] },
+    },
+    axes: [
+      axis({ label: `time since release [${timeline.unit[0]}]`, size: 34, values: axisNumbers(timeline.unit[1]), space: 70 }),
+      axis({ label: options.label, size: AXIS_WIDTH - 20, values: axisNumbers(1) }),
+    ],
+    series: [{ label: "time", value: (_, instant) => (isNumber(instant) ? timeline.text(instant) : "–") }],
+    legend: { live: true, markers: { width: 2 } },
+    cursor: {
+      sync: { key: "auxbear", setSeries: false, filters: { pub: (kind) => kind === "mousemove" || kind === "mouseleave" } },
+      drag: { x: true, y: false, setScale: false },
+      bind: { dblclick: () => () => timeline.all() },
+      points: { size: 6 },
+    },
+    hooks: {
+      setSelect: [
+        (plot) => {
+          if (plot.select.width < 4) return;
+          const begin = plot.posToVal(plot.select.left, "x");
+          const end = plot.posToVal(plot.select.left + plot.select.width, "x");
+          plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+          timeline.zoom(begin, end);
+        },
+      ],
+      draw: [(plot) => drawMarks(plot, options)],
+    },
+  };
+  if (options.second) {
+    configuration.axes.push(
+      axis({ label: options.second.label, scale: "second", side: 1, size: AXIS_WIDTH - 20, grid: { show: false }, values: axisNumbers(1) }),
+    );
+  }
+  for (const line of ordered) {
+    const shown = line.shown || line.values;
+    configuration.series.push({
+      label: line.label,
+      stroke: line.colour,
+      fill: line.fill,
+      width: line.width || 1.25,
+      dash: line.dash,
+      spanGaps: true,
+      points: { show: false },
+      value: (plot, _, __, row) => {
+        const instant = row === null || row === undefined ? null : plot.data[0][row];
+        return isNumber(instant) ? numberText(valueAt(line.time, shown, instant), 5) : "–";
+      },
+    });
+  }
+  const plot = new uPlot(configuration, data, holder);
+  resizable.push(() => plot.setSize({ width: holder.clientWidth, height: configuration.height }));
+  timeline.listeners.push(() => plot.setScale("x", { min: timeline.begin, max: timeline.end }));
+  return holder;
+}
+
+function drawMarks(plot, options) {
+  const pen = plot.ctx;
+  const ratio = window.devicePixelRatio;
+  const { left, top, width, height } = plot.bbox;
+  pen.save();
+  pen.beginPath();
+  pen.rect(left, top - 10 * ratio, width, height + 10 * ratio);
+  pen.clip();
+  for (const run of options.ticks || []) {
+    pen.strokeStyle = (options.ticks || []).length > 1 ? run.colour : PALE_INK;
+    pen.lineWidth = ratio;
+    pen.beginPath();
+    for (const contact of run.contacts) {
+      const x = plot.valToPos(contact.start_s, "x", true);
+      pen.moveTo(x, top + height);
+      pen.lineTo(x, top + height - 6 * ratio);
+    }
+    pen.stroke();
+  }
+  if (options.marks) options.marks(pen, plot, ratio);
+  pen.restore();
+}
+
+// A vertical line at an instant, its words on their own row so that close instants stay readable.
+function instantMark(pen, plot, ratio, instant, words, colour, row) {
+  const x = plot.valToPos(instant, "x", true);
+  const { left, top, width, height } = plot.bbox;
+  if (x < left || x > left + width) return;
+  pen.strokeStyle = colour;
+  pen.lineWidth = ratio;
+  pen.setLineDash([3 * ratio, 3 * ratio]);
+  pen.beginPath();
+  pen.moveTo(x, top);
+  pen.lineTo(x, top + height);
+  pen.stroke();
+  pen.setLineDash([]);
+  pen.font = FONT.replace("12px", 11 * ratio + "px");
+  const space = pen.measureText(words).width + 8 * ratio;
+  const start = x + space > left + width ? x - space + 4 * ratio : x + 4 * ratio;
+  const base = top + height - (14 + 15 * row) * ratio;
+  pen.fillStyle = "rgba(255,255,255,0.85)";
+  pen.fillRect(start - 2 * ratio, base - 11 * ratio, space - 4 * ratio, 14 * ratio);
+  pen.fillStyle = colour;
+  pen.textAlign = "left";
+  pen.textBaseline = "alphabetic";
+  pen.fillText(words, start, base);
+}
+
+function levelMark(pen, plot, ratio, level, words, colour) {
+  const y = plot.valToPos(level, "y", true);
+  const { left, width } = plot.bbox;
+  pen.strokeStyle = colour;
+  pen.lineWidth = 1.5 * ratio;
+  pen.setLineDash([7 * ratio, 4 * ratio]);
+  pen.beginPath();
+  pen.moveTo(left, y);
+  pen.lineTo(left + width, y);
+  pen.stroke();
+  pen.setLineDash([]);
+  pen.font = FONT.replace("12px", 11 * ratio + "px");
+  pen.fillStyle = colour;
+  pen.textAlign = "right";
+  pen.textBaseline = "bottom";
+  pen.fillText(words, left + width - 6 * ratio, y - 3 * ratio);
+}
