@@ -48,7 +48,7 @@ impl Panel {
     fn axes(&self, svg: &mut String, title: &str, x_label: &str, y_label: &str) {
         let (right, bottom) = (self.left + self.width, self.top + self.height);
         text(svg, self.left, self.top - 12.0, "start", &format!("<tspan font-weight=\"600\">{title}</tspan>"));
-        for value in ticks(self.x, self.width / 70.0) {
+        for value in ticks(self.x, self.width / 60.0) {
             let (x, _) = self.place(value, self.y.0);
             line(svg, (x, self.top), (x, bottom), RULE, "");
             text(svg, x, bottom + 17.0, "middle", &number(value));
@@ -130,7 +130,13 @@ fn draw_orbit(svg: &mut String, run: &PageRun) {
         let (x, y) = panel.place(x, y);
         let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4.5\" fill=\"#b3261e\" stroke=\"#ffffff\"/>");
         let (anchor, shift) = if x < centre.0 { ("start", 9.0) } else { ("end", -9.0) };
-        text(svg, x + shift, y - 8.0, anchor, "peak force");
+        let _ = writeln!(
+            svg,
+            "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\" stroke=\"#ffffff\" stroke-width=\"4\" \
+             stroke-linejoin=\"round\" paint-order=\"stroke\">peak force</text>",
+            x + shift,
+            y - 9.0
+        );
     }
 }
 

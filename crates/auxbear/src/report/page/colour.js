@@ -25,7 +25,7 @@ function screenColour(lightness, chroma, hue) {
 
 const COLOUR_MAP = Array.from({ length: 256 }, (_, index) => {
   const share = index / 255;
-  const chroma = 0.02 + 0.13 * Math.sin(Math.PI * Math.min(1, 0.08 + 0.86 * share));
+  const chroma = 0.03 + 0.072 * Math.sin(Math.PI * share);
   return screenColour(0.975 - 0.7 * share, chroma, ((105 + 195 * share) * Math.PI) / 180);
 });
 

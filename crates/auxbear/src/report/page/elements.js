@@ -32,9 +32,9 @@ function figure(title, note, ...content) {
   return element("figure", {}, caption, content);
 }
 
-// What stands where a picture or a number cannot: always with the reason.
-function notInThisRun(why) {
-  return element("p", { class: "absent" }, "not in this run: " + why);
+// What stands where a picture or a number cannot: always with the reason. With several runs it names the one.
+function notInThisRun(why, run) {
+  return element("p", { class: "absent" }, (run && run.prefix ? `not in run ${run.letter}: ` : "not in this run: ") + why);
 }
 
 function list(value) {

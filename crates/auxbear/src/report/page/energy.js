@@ -29,15 +29,21 @@ function heatHistory(run, runs) {
   if (!heats.length) return figure(title, null, notInThisRun(run.time ? "its history has no heats" : "it has no time history"));
   const sums = [];
   let below = run.time.map(() => 0);
-  for (const heat of heats) {
+  for (const heat of [...heats].reverse()) {
     below = below.map((sum, row) => sum + (heat.values[row] || 0));
-    sums.push(below);
+    sums.unshift(below);
   }
-  // The tallest sum is painted first, the smaller ones over it.
-  const series = heats
-    .map((heat, index) => ({ label: heat.name + " [J]", time: run.time, values: sums[index], shown: heat.values, colour: heat.colour, fill: heat.colour, width: 0.5 }))
-    .reverse();
-  return figure(title, "Stacked: each band is one kind of heat, the upper edge their sum.", timePlot({ series, label: "energy [J]", ticks: [run], height: 240 }));
+  // The tallest sum is painted first, the smaller ones over it: the largest heat lies on top of the small ones.
+  const series = heats.map((heat, index) => ({
+    label: heat.name + " [J]",
+    time: run.time,
+    values: sums[index],
+    shown: heat.values,
+    colour: heat.colour,
+    fill: heat.colour,
+    width: 0.5,
+  }));
+  return figure(title, "Stacked: each band is one kind of heat, the upper edge their sum.", timePlot({ series, label: "energy [J]", stacked: true, height: 240 }));
 }
 
 // Every entry with a positive amount, on the side of the balance where it stands.
@@ -108,7 +114,7 @@ function energySection(runs) {
     "Where the energy went",
     totals,
     runs.map((run) => [heatHistory(run, runs), balanceFigure(run, runs)]),
-    absentSources.map((run) => notInThisRun(run.prefix + "energy sources: nothing drives or brakes this machine, or its history does not say")),
+    absentSources.map((run) => notInThisRun("energy sources: nothing drives or brakes this machine, or its history does not say", run)),
   );
 }
 

@@ -79,7 +79,7 @@ function warningBox(run) {
   );
   if (run.summaryProblem) items.unshift(element("li", {}, run.summaryProblem));
   if (!items.length) return null;
-  return element("div", { class: "warnings" }, element("strong", {}, run.prefix + "Warnings"), element("ul", {}, items));
+  return element("div", { class: "warnings" }, element("strong", {}, run.prefix ? "Warnings of run " + run.letter : "Warnings"), element("ul", {}, items));
 }
 
 function header(runs) {

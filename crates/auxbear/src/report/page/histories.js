@@ -16,7 +16,7 @@ function lines(runs, name, scale, look) {
 function history(title, note, runs, names, series, options) {
   const missing = runs
     .filter((run) => names.some((name) => !columnOf(run, name)))
-    .map((run) => notInThisRun(run.prefix + whyNoColumn(run, names)));
+    .map((run) => notInThisRun(whyNoColumn(run, names), run));
   return figure(title, series.length ? note : null, series.length ? timePlot({ series, ...options }) : null, missing);
 }
 
@@ -86,7 +86,7 @@ function speedSection(runs) {
     const ratio = run.summary.rolling_cage_ratio;
     if (!race) continue;
     if (!isNumber(ratio)) {
-      absent.push(notInThisRun(run.prefix + "the rolling speed of the cage, because the summary gives no rolling cage ratio"));
+      absent.push(notInThisRun("the rolling speed of the cage, because the summary gives no rolling cage ratio", run));
       continue;
     }
     series.push({
@@ -99,15 +99,10 @@ function speedSection(runs) {
     });
   }
   const marks = (pen, plot, ratio) => {
-    let row = 0;
-    for (const run of runs) {
-      for (const [name, words, part] of INSTANTS) {
-        const instant = numberOf(run, name);
-        if (instant === null) continue;
-        instantMark(pen, plot, ratio, instant, run.prefix + words, several ? run.colour : SERIES_COLOURS[part], row);
-        row += 1;
-      }
-    }
+    const known = runs.flatMap((run) =>
+      INSTANTS.map(([name, words, part]) => ({ instant: numberOf(run, name), words: run.prefix + words, colour: several ? run.colour : SERIES_COLOURS[part] })),
+    );
+    instantMarks(pen, plot, ratio, known.filter((mark) => mark.instant !== null));
   };
   const names = ["rotor.speed", "bearing.inner_race.speed", "bearing.cage.speed"];
   return section(
@@ -136,7 +131,7 @@ function pressureSection(runs) {
   };
   const absent = runs
     .filter((run) => !isNumber(run.summary.hertz_pressure_limit_Pa))
-    .map((run) => notInThisRun(run.prefix + "a pressure limit, because none is given for these balls"));
+    .map((run) => notInThisRun("a pressure limit, because none is given for these balls", run));
   return section(
     "pressure",
     "Hertz pressure",
@@ -160,7 +155,7 @@ function pocketFigure(runs) {
   });
   const missing = runs
     .filter((run) => !largestOverBalls(run, "pocket_force"))
-    .map((run) => notInThisRun(run.prefix + "this run has no cage pocket forces (only the planar fidelity with pocket contact gives them)"));
+    .map((run) => notInThisRun("this run has no cage pocket forces (only the planar fidelity with pocket contact gives them)", run));
   const plot = series.length ? timePlot({ series, label: "force [N]", ticks: runs, height: 190 }) : null;
   return figure("Cage pockets", plot ? "Largest force between a ball and its cage pocket; pocket impacts are what makes late details of a drop irreproducible." : null, plot, missing);
 }

@@ -152,7 +152,7 @@ function mapCanvas(run, runs, map, limit) {
   const draw = () => {
     const width = holder.clientWidth || 600;
     place.width = Math.max(50, width - 2 * AXIS_WIDTH);
-    const pen = sizedCanvas(width, place.top + place.height + 40, canvas);
+    const pen = sizedCanvas(width, place.top + place.height + 38, canvas);
     const columns = Math.round(place.width);
     grid = mapGrid(run, map, columns, limit.speed);
     pen.imageSmoothingEnabled = false;
@@ -252,15 +252,15 @@ function mapSection(runs) {
       notes.push(`Red: loaded balls that slip faster than ${engineeringText(limit.speed, "m/s", 3)} (${limit.source}).`);
     const canvases = drawn.map((run) => [runs.length > 1 ? element("p", { class: "run-label" }, element("span", { class: "swatch", style: "background:" + run.colour }), run.label) : null, mapCanvas(run, drawn, map, limit)]);
     const why = missing.map((run) =>
-      notInThisRun(run.prefix + (run.time ? `its history has no ${map.part.replace("_", " ")} of the balls (the rolling fidelity gives loads only)` : "it has no time history")),
+      notInThisRun(run.time ? `its history has no ${map.part.replace("_", " ")} of the balls (the rolling fidelity gives loads only)` : "it has no time history", run),
     );
     return figure(map.title, notes.join(" "), canvases, why);
   });
-  const drawn = runs.some((run) => run.time && ballsOf(run).length);
+  const drawn = runs.filter((run) => run.time && ballsOf(run).length);
   const note = element(
     "p",
     { class: "lead" },
     "Azimuth is that of the ball seen from the ground, counter-clockwise from the right; where a column of the picture holds several instants, the largest value is shown.",
   );
-  return section("balls", "Ball loads and slip", drawn ? [note, mapControls()] : null, figures, pocketFigure(runs));
+  return section("balls", "Ball loads and slip", [drawn.some((run) => ballsOf(run).some((ball) => ball.azimuth)) ? note : null, drawn.length ? mapControls() : null], figures, pocketFigure(runs));
 }

@@ -219,31 +219,33 @@ function drawOrbitPath(pen, place, run, ground) {
   const first = run.contacts[0];
   const peak = peakContact(run);
   const same = first && peak && first === peak;
-  if (first) drawOrbitMark(pen, place, run, path, first.start_s, "first contact", 1);
-  if (peak) drawOrbitMark(pen, place, run, path, peak.peak_time_s, same ? "peak force (first contact)" : "peak force", -1);
+  if (first) drawOrbitMark(pen, place, run, path, first.start_s, "first contact", "#ffffff", 100, -1);
+  if (peak) drawOrbitMark(pen, place, run, path, peak.peak_time_s, same ? "peak force (first contact)" : "peak force", SERIES_COLOURS.limit, 76, 1);
 }
 
-function drawOrbitMark(pen, place, run, path, instant, words, side) {
+// A dot on the orbit and its words further inside, where a drop leaves the circle empty, left or right of the leader.
+function drawOrbitMark(pen, place, run, path, instant, words, fill, inwards, side) {
   const [x, y] = [valueAt(run.time, path.x, instant), valueAt(run.time, path.y, instant)];
   if (!isNumber(x) || !isNumber(y)) return;
   const [px, py] = [place.toX(x), place.toY(y)];
-  const middle = place.left + place.width / 2;
-  const toRight = px < middle ? 1 : -1;
-  const [tx, ty] = [px + toRight * 22, py - 30 - (side > 0 ? 22 : 0)];
+  const [dx, dy] = [place.left + place.width / 2 - px, place.top + place.width / 2 - py];
+  const distance = Math.max(1, Math.hypot(dx, dy));
+  const [tx, ty] = [px + (inwards * dx) / distance + 14 * side, py + (inwards * dy) / distance];
   pen.strokeStyle = INK;
-  pen.fillStyle = side > 0 ? "#ffffff" : SERIES_COLOURS.limit;
-  pen.lineWidth = 1.25;
+  pen.fillStyle = fill;
+  pen.lineWidth = 1;
   pen.beginPath();
   pen.moveTo(px, py);
   pen.lineTo(tx, ty);
   pen.stroke();
+  pen.lineWidth = 1.25;
   pen.beginPath();
   pen.arc(px, py, 4.5, 0, 2 * Math.PI);
   pen.fill();
   pen.stroke();
   const width = pen.measureText(words).width + 10;
-  const left = toRight > 0 ? tx : tx - width;
-  pen.fillStyle = "rgba(255,255,255,0.9)";
+  const left = Math.min(Math.max(side > 0 ? tx : tx - width, place.left + 1), place.left + place.width - width - 1);
+  pen.fillStyle = "rgba(255,255,255,0.85)";
   pen.fillRect(left, ty - 9, width, 18);
   pen.fillStyle = INK;
   pen.textAlign = "left";
@@ -284,7 +286,7 @@ function orbitReadout(run, ground, place, px, py) {
 const CONTACTS_SHOWN = 12;
 
 function contactTable(run) {
-  if (!run.contacts.length) return notInThisRun(run.prefix + "a list of contacts; none happened, or the summary does not hold them");
+  if (!run.contacts.length) return notInThisRun("a list of contacts; none happened, or the summary does not hold them", run);
   const row = (contact, index) =>
     element(
       "tr",

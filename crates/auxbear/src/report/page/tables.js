@@ -31,9 +31,9 @@ function spreadCell(quantity) {
   // The mean is written to the digit that the spread makes meaningful.
   const digits = isNumber(spread.sd) && spread.sd > 0 ? Math.min(9, Math.max(3, Math.ceil(Math.log10(Math.abs(spread.mean) / spread.sd)) + 2)) : 6;
   const text = (value) => numberText(isNumber(value) ? value / scale : null, digits);
-  const deviation = isNumber(spread.sd) ? " ± " + numberText(spread.sd / scale, 2) : "";
+  const deviation = isNumber(spread.sd) ? " ± " + engineeringText(spread.sd, quantity.unit, 2) : "";
   return [
-    element("div", {}, text(spread.mean) + deviation + gap + unit),
+    element("div", {}, text(spread.mean) + gap + unit + deviation),
     element("div", { class: "small" }, `${text(spread.min)} to ${text(spread.max)}${gap}${unit}` + (isNumber(spread.members) ? `, ${spread.members} members` : "")),
   ];
 }
@@ -75,7 +75,7 @@ function quantitySection(runs) {
     const laws = lawLine(told);
     return element("tbody", {}, element("tr", {}, cells), laws.length ? element("tr", { class: "laws" }, element("td", { colspan: heads.length }, laws)) : null);
   });
-  const table = element("table", { class: "quantities" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), bodies);
+  const table = element("table", { class: single ? "quantities single" : "quantities" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), bodies);
   const note = repeated ? element("p", { class: "lead" }, "Spread: mean and standard deviation over the members of the repeated run, and their smallest and largest value.") : null;
   return section("quantities", "Quantities", note, element("div", { class: "wide" }, table), runs.map(memberDetails));
 }
@@ -123,7 +123,7 @@ function inputSection(runs) {
     }
   });
   const scenario = runs.map((run) =>
-    run.scenario ? element("details", { class: "screen-only" }, element("summary", {}, run.prefix + "scenario.toml as it was run"), element("pre", {}, run.scenario)) : notInThisRun(run.prefix + "its scenario text"),
+    run.scenario ? element("details", { class: "screen-only" }, element("summary", {}, run.prefix + "scenario.toml as it was run"), element("pre", {}, run.scenario)) : notInThisRun("its scenario text", run),
   );
   if (!paths.size) return section("inputs", "Inputs", notInThisRun("the summary lists no inputs"), scenario);
   const single = runs.length === 1;

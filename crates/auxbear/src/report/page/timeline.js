@@ -70,10 +70,10 @@ function axis(options) {
 
 // options: series [{label, time, values, shown?, colour, width?, dash?, fill?}], label, height?, second? {label, factor},
 // include? (begin, end) -> values the vertical range must hold, marks? (pen, plot) draws on top, ticks? runs whose
-// contact starts are marked.
+// contact starts are marked, stacked: lines that cannot be hidden one by one.
 function timePlot(options) {
   const { ordered, data } = joined(options.series);
-  const holder = element("div", { class: "plot" });
+  const holder = element("div", { class: options.stacked ? "plot stacked" : "plot" });
   const factor = options.second ? options.second.factor : 1;
   const configuration = {
     width: 600,
@@ -144,6 +144,7 @@ function drawMarks(plot, options) {
   pen.beginPath();
   pen.rect(left, top - 10 * ratio, width, height + 10 * ratio);
   pen.clip();
+  pen.setLineDash([]);
   for (const run of options.ticks || []) {
     pen.strokeStyle = (options.ticks || []).length > 1 ? run.colour : PALE_INK;
     pen.lineWidth = ratio;
@@ -159,11 +160,19 @@ function drawMarks(plot, options) {
   pen.restore();
 }
 
-// A vertical line at an instant, its words on their own row so that close instants stay readable.
-function instantMark(pen, plot, ratio, instant, words, colour, row) {
-  const x = plot.valToPos(instant, "x", true);
-  const { left, top, width, height } = plot.bbox;
-  if (x < left || x > left + width) return;
+// Vertical lines at instants [{instant, words, colour}], each with its words on its own row, so that close instants
+// stay readable.
+function instantMarks(pen, plot, ratio, instants) {
+  const { left, width } = plot.bbox;
+  const placed = instants
+    .map((mark) => ({ ...mark, x: plot.valToPos(mark.instant, "x", true) }))
+    .filter((mark) => mark.x >= left && mark.x <= left + width);
+  for (const mark of placed) instantLine(pen, plot, ratio, mark);
+  placed.forEach((mark, row) => instantWords(pen, plot, ratio, mark, row));
+}
+
+function instantLine(pen, plot, ratio, { x, colour }) {
+  const { top, height } = plot.bbox;
   pen.strokeStyle = colour;
   pen.lineWidth = ratio;
   pen.setLineDash([3 * ratio, 3 * ratio]);
@@ -172,10 +181,16 @@ function instantMark(pen, plot, ratio, instant, words, colour, row) {
   pen.lineTo(x, top + height);
   pen.stroke();
   pen.setLineDash([]);
+}
+
+function instantWords(pen, plot, ratio, { x, words, colour }, row) {
+  const { left, top, width, height } = plot.bbox;
   pen.font = FONT.replace("12px", 11 * ratio + "px");
   const space = pen.measureText(words).width + 8 * ratio;
   const start = x + space > left + width ? x - space + 4 * ratio : x + 4 * ratio;
-  const base = top + height - (14 + 15 * row) * ratio;
+  // At the zero end of the range, where the curves have not yet risen.
+  const downwards = Math.abs(plot.scales.y.min) > Math.abs(plot.scales.y.max);
+  const base = downwards ? top + (14 + 15 * row) * ratio : top + height - (14 + 15 * row) * ratio;
   pen.fillStyle = "rgba(255,255,255,0.85)";
   pen.fillRect(start - 2 * ratio, base - 11 * ratio, space - 4 * ratio, 14 * ratio);
   pen.fillStyle = colour;
