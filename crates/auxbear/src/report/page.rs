@@ -38,7 +38,10 @@ pub struct PageColumn {
 }
 
 const TEMPLATE: &str = include_str!("page/page.html");
-const STYLE: &[&str] = &[include_str!("page/vendor/uPlot.min.css"), include_str!("page/page.css")];
+const STYLE: &[&str] = &[
+    include_str!("page/vendor/uPlot.min.css"),
+    include_str!("page/page.css"),
+];
 const PLOT_LIBRARY: &str = include_str!("page/vendor/uPlot.iife.min.js");
 /// Licence of the plot library, which travels with every copy of it.
 const PLOT_LICENCE: &str = include_str!("page/vendor/uPlot.LICENSE");
@@ -109,9 +112,18 @@ fn block(json: &str) -> String {
 }
 
 fn run_json(run: &PageRun) -> String {
-    let total = run.columns.iter().map(|column| column.values.len()).max().unwrap_or(0);
+    let total = run
+        .columns
+        .iter()
+        .map(|column| column.values.len())
+        .max()
+        .unwrap_or(0);
     let rows = kept_rows(&run.columns, ROW_LIMIT);
-    let columns: Vec<String> = run.columns.iter().map(|column| column_json(column, &rows)).collect();
+    let columns: Vec<String> = run
+        .columns
+        .iter()
+        .map(|column| column_json(column, &rows))
+        .collect();
     // The summary travels as text: should it not be JSON, only its own part of the page is missing.
     format!(
         "{{\"name\":{},\"directory\":{},\"summary\":{},\"scenario\":{},\"rows\":{},\"rows_total\":{total},\"columns\":[{}]}}",
@@ -125,11 +137,26 @@ fn run_json(run: &PageRun) -> String {
 }
 
 fn column_json(column: &PageColumn, rows: &[usize]) -> String {
-    let values: Vec<f64> = rows.iter().map(|&row| column.values.get(row).copied().unwrap_or(f64::NAN)).collect();
+    let values: Vec<f64> = rows
+        .iter()
+        .map(|&row| column.values.get(row).copied().unwrap_or(f64::NAN))
+        .collect();
     let (kind, bytes) = if column.name == "time" || single_precision_is_coarse(&values) {
-        ("f64", values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>())
+        (
+            "f64",
+            values
+                .iter()
+                .flat_map(|value| value.to_le_bytes())
+                .collect::<Vec<u8>>(),
+        )
     } else {
-        ("f32", values.iter().flat_map(|&value| (value as f32).to_le_bytes()).collect())
+        (
+            "f32",
+            values
+                .iter()
+                .flat_map(|&value| (value as f32).to_le_bytes())
+                .collect(),
+        )
     };
     format!(
         "{{\"name\":{},\"unit\":{},\"meaning\":{},\"type\":\"{kind}\",\"data\":\"{}\"}}",
@@ -146,14 +173,20 @@ fn single_precision_is_coarse(values: &[f64]) -> bool {
     let finite = || values.iter().copied().filter(|value| value.is_finite());
     let low = finite().fold(f64::INFINITY, f64::min);
     let high = finite().fold(f64::NEG_INFINITY, f64::max);
-    let error = finite().map(|value| (value - f64::from(value as f32)).abs()).fold(0.0, f64::max);
+    let error = finite()
+        .map(|value| (value - f64::from(value as f32)).abs())
+        .fold(0.0, f64::max);
     error > 1e-5 * (high - low)
 }
 
 /// The rows of a history that the page carries, in order: all of them up to `limit`, else first and last, the
 /// extremes of each column, and in equal stretches the first row and those where the contact and the balls peak.
 fn kept_rows(columns: &[PageColumn], limit: usize) -> Vec<usize> {
-    let total = columns.iter().map(|column| column.values.len()).max().unwrap_or(0);
+    let total = columns
+        .iter()
+        .map(|column| column.values.len())
+        .max()
+        .unwrap_or(0);
     if total <= limit {
         return (0..total).collect();
     }
@@ -193,7 +226,9 @@ fn extreme(column: &PageColumn, begin: usize, end: usize, sign: f64) -> Option<u
     let end = end.min(column.values.len());
     (begin..end)
         .filter(|&row| !column.values[row].is_nan())
-        .max_by(|&left, &right| (sign * column.values[left]).total_cmp(&(sign * column.values[right])))
+        .max_by(|&left, &right| {
+            (sign * column.values[left]).total_cmp(&(sign * column.values[right]))
+        })
 }
 
 fn json_text(text: &str) -> String {
@@ -212,7 +247,10 @@ fn json_text(text: &str) -> String {
 }
 
 fn escape_text(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }
 
 fn base64(bytes: &[u8]) -> String {
@@ -237,7 +275,11 @@ mod tests {
     use super::*;
 
     fn column(name: &str, values: Vec<f64>) -> PageColumn {
-        PageColumn { name: name.to_string(), values, ..PageColumn::default() }
+        PageColumn {
+            name: name.to_string(),
+            values,
+            ..PageColumn::default()
+        }
     }
 
     /// A long quiet history with a few sharp events.
@@ -247,7 +289,9 @@ mod tests {
         force[rows - 7] = 12.0;
         let mut friction = vec![0.0; rows];
         friction[rows / 5] = -80.0;
-        let penetration = (0..rows).map(|row| -1e-4 + 1e-6 * (row as f64 * 0.37).sin()).collect();
+        let penetration = (0..rows)
+            .map(|row| -1e-4 + 1e-6 * (row as f64 * 0.37).sin())
+            .collect();
         vec![
             column("time", (0..rows).map(|row| row as f64 * 1e-5).collect()),
             column("bearing.contact.force", force),
@@ -278,7 +322,10 @@ mod tests {
     fn values_are_little_endian_single_precision_unless_that_is_coarse() {
         // 1.0f32 is 00 00 80 3f and 2.0f32 is 00 00 00 40 in memory order.
         let json = column_json(&column("force", vec![1.0, 2.0]), &[0, 1]);
-        assert!(json.contains("\"type\":\"f32\",\"data\":\"AACAPwAAAEA=\""), "{json}");
+        assert!(
+            json.contains("\"type\":\"f32\",\"data\":\"AACAPwAAAEA=\""),
+            "{json}"
+        );
         // A change of 4 J on top of 6321 J: single precision steps are 5e-4 J there, 1e-4 of the change.
         let energy = column("energy.kinetic", vec![6321.3, 6320.123456, 6317.234567]);
         assert!(column_json(&energy, &[0, 1, 2]).contains("\"type\":\"f64\""));
@@ -297,7 +344,11 @@ mod tests {
             let kept = kept_rows(&eventful(rows), ROW_LIMIT);
             assert!(kept.len() <= ROW_LIMIT, "{} rows of {rows}", kept.len());
             // Three watched values and one uniform row a stretch: even if they coincide, a quarter of the limit is used.
-            assert!(kept.len() >= ROW_LIMIT / 4 - 10, "{} rows of {rows}", kept.len());
+            assert!(
+                kept.len() >= ROW_LIMIT / 4 - 10,
+                "{} rows of {rows}",
+                kept.len()
+            );
             for row in [0, rows / 5, rows / 3 + 1, rows - 7, rows - 1] {
                 assert!(kept.contains(&row), "row {row} of {rows} was dropped");
             }
@@ -315,8 +366,9 @@ mod tests {
 
     #[test]
     fn thinning_survives_many_columns_and_missing_numbers() {
-        let mut columns: Vec<PageColumn> =
-            (0..200).map(|index| column(&format!("c{index}"), vec![f64::NAN; 300])).collect();
+        let mut columns: Vec<PageColumn> = (0..200)
+            .map(|index| column(&format!("c{index}"), vec![f64::NAN; 300]))
+            .collect();
         for (index, column) in columns.iter_mut().enumerate() {
             column.values[index] = 1.0;
         }
@@ -332,7 +384,11 @@ mod tests {
             ..PageRun::default()
         };
         // 1.0f32 then the quiet NaN 7fc00000.
-        assert!(run_json(&run).contains("\"data\":\"AACAPwAAwH8=\""), "{}", run_json(&run));
+        assert!(
+            run_json(&run).contains("\"data\":\"AACAPwAAwH8=\""),
+            "{}",
+            run_json(&run)
+        );
     }
 
     #[test]
@@ -354,7 +410,15 @@ mod tests {
     #[test]
     fn the_page_needs_no_network() {
         let page = html(&[PageRun::default()]);
-        for remote in ["src=\"http", "href=\"http", "src='http", "@import", "url(http", "fetch(", "XMLHttpRequest"] {
+        for remote in [
+            "src=\"http",
+            "href=\"http",
+            "src='http",
+            "@import",
+            "url(http",
+            "fetch(",
+            "XMLHttpRequest",
+        ] {
             assert!(!page.contains(remote), "{remote}");
         }
         assert!(page.contains("default-src 'none'"));

@@ -47,7 +47,13 @@ impl Panel {
 
     fn axes(&self, svg: &mut String, title: &str, x_label: &str, y_label: &str) {
         let (right, bottom) = (self.left + self.width, self.top + self.height);
-        text(svg, self.left, self.top - 12.0, "start", &format!("<tspan font-weight=\"600\">{title}</tspan>"));
+        text(
+            svg,
+            self.left,
+            self.top - 12.0,
+            "start",
+            &format!("<tspan font-weight=\"600\">{title}</tspan>"),
+        );
         for value in ticks(self.x, self.width / 60.0) {
             let (x, _) = self.place(value, self.y.0);
             line(svg, (x, self.top), (x, bottom), RULE, "");
@@ -63,7 +69,13 @@ impl Panel {
             "<rect x=\"{:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"none\" stroke=\"#8995a0\"/>",
             self.left, self.top, self.width, self.height
         );
-        text(svg, self.left + self.width / 2.0, bottom + 36.0, "middle", x_label);
+        text(
+            svg,
+            self.left + self.width / 2.0,
+            bottom + 36.0,
+            "middle",
+            x_label,
+        );
         let (x, y) = (self.left - 46.0, self.top + self.height / 2.0);
         let _ = writeln!(
             svg,
@@ -80,15 +92,27 @@ impl Panel {
             if (x - last.0).hypot(y - last.1) < 0.2 {
                 continue;
             }
-            let _ = write!(path, "{}{x:.1} {y:.1}", if path.is_empty() { 'M' } else { 'L' });
+            let _ = write!(
+                path,
+                "{}{x:.1} {y:.1}",
+                if path.is_empty() { 'M' } else { 'L' }
+            );
             last = (x, y);
         }
-        let _ = writeln!(svg, "<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-linejoin=\"round\" {style}/>");
+        let _ = writeln!(
+            svg,
+            "<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-linejoin=\"round\" {style}/>"
+        );
     }
 }
 
 fn draw_orbit(svg: &mut String, run: &PageRun) {
-    let names = ["rotor.x", "rotor.y", "bearing.inner_race.x", "bearing.inner_race.y"];
+    let names = [
+        "rotor.x",
+        "rotor.y",
+        "bearing.inner_race.x",
+        "bearing.inner_race.y",
+    ];
     let Some([x, y, race_x, race_y]) = columns(run, names) else {
         absent(svg, 60.0, "orbit");
         return;
@@ -102,17 +126,37 @@ fn draw_orbit(svg: &mut String, run: &PageRun) {
         .filter(|(x, y)| x.is_finite() && y.is_finite())
         .collect();
     let clearance = summary_number(run, "clearance_radius_m").map(|radius| micro * radius);
-    let reach = points.iter().map(|(x, y)| x.abs().max(y.abs())).fold(clearance.unwrap_or(0.0), f64::max);
+    let reach = points
+        .iter()
+        .map(|(x, y)| x.abs().max(y.abs()))
+        .fold(clearance.unwrap_or(0.0), f64::max);
     let reach = if reach > 0.0 { 1.08 * reach } else { 1.0 };
-    let panel = Panel { left: 62.0, top: 40.0, width: 325.0, height: 325.0, x: (-reach, reach), y: (-reach, reach) };
-    panel.axes(svg, "Rotor centre relative to the inner race", "x, to the right [µm]", "y, up [µm]");
+    let panel = Panel {
+        left: 62.0,
+        top: 40.0,
+        width: 325.0,
+        height: 325.0,
+        x: (-reach, reach),
+        y: (-reach, reach),
+    };
+    panel.axes(
+        svg,
+        "Rotor centre relative to the inner race",
+        "x, to the right [µm]",
+        "y, up [µm]",
+    );
     // Colour by time: the orbit in stretches, pale green to dark violet.
     let stretches = 48;
     for stretch in 0..stretches {
         let begin = points.len() * stretch / stretches;
         let end = (points.len() * (stretch + 1) / stretches + 1).min(points.len());
         let share = stretch as f64 / (stretches - 1) as f64;
-        panel.curve(svg, &points[begin..end], &colour(share), "stroke-width=\"1\"");
+        panel.curve(
+            svg,
+            &points[begin..end],
+            &colour(share),
+            "stroke-width=\"1\"",
+        );
     }
     let centre = panel.place(0.0, 0.0);
     if let Some(radius) = clearance {
@@ -122,14 +166,28 @@ fn draw_orbit(svg: &mut String, run: &PageRun) {
             "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"{pixels:.1}\" fill=\"none\" stroke=\"{INK}\" stroke-dasharray=\"5 4\"/>",
             centre.0, centre.1
         );
-        text(svg, centre.0, centre.1 - pixels + 17.0, "middle", "clearance");
+        text(
+            svg,
+            centre.0,
+            centre.1 - pixels + 17.0,
+            "middle",
+            "clearance",
+        );
     }
     let force = column(run, "bearing.contact.force");
-    let peak = force.and_then(|force| (0..force.len()).max_by(|&a, &b| force[a].total_cmp(&force[b])));
+    let peak =
+        force.and_then(|force| (0..force.len()).max_by(|&a, &b| force[a].total_cmp(&force[b])));
     if let Some(&(x, y)) = peak.and_then(|row| points.get(row)) {
         let (x, y) = panel.place(x, y);
-        let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4.5\" fill=\"#b3261e\" stroke=\"#ffffff\"/>");
-        let (anchor, shift) = if x < centre.0 { ("start", 9.0) } else { ("end", -9.0) };
+        let _ = writeln!(
+            svg,
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4.5\" fill=\"#b3261e\" stroke=\"#ffffff\"/>"
+        );
+        let (anchor, shift) = if x < centre.0 {
+            ("start", 9.0)
+        } else {
+            ("end", -9.0)
+        };
         let _ = writeln!(
             svg,
             "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\" stroke=\"#ffffff\" stroke-width=\"4\" \
@@ -147,29 +205,61 @@ fn draw_force(svg: &mut String, run: &PageRun) {
     };
     let points = curve_points(time, force, 1.0);
     let top = 1.06 * highest(&points);
-    let panel = Panel { left: 470.0, top: 40.0, width: 310.0, height: 325.0, x: span(&points), y: (0.0, top.max(1e-9)) };
+    let panel = Panel {
+        left: 470.0,
+        top: 40.0,
+        width: 310.0,
+        height: 325.0,
+        x: span(&points),
+        y: (0.0, top.max(1e-9)),
+    };
     panel.axes(svg, "Contact force", "time since release [ms]", "force [N]");
     panel.curve(svg, &points, ROTOR, "stroke-width=\"1.1\"");
 }
 
 fn draw_speeds(svg: &mut String, run: &PageRun) {
     let rpm = 30.0 / PI;
-    let names = ["time", "rotor.speed", "bearing.inner_race.speed", "bearing.cage.speed"];
+    let names = [
+        "time",
+        "rotor.speed",
+        "bearing.inner_race.speed",
+        "bearing.cage.speed",
+    ];
     let Some([time, rotor, race, cage]) = columns(run, names) else {
         absent(svg, 865.0, "speeds");
         return;
     };
-    let curves = [("rotor", ROTOR, rotor), ("inner race", RACE, race), ("cage", CAGE, cage)]
-        .map(|(name, colour, values)| (name, colour, curve_points(time, values, rpm)));
-    let values = || curves.iter().flat_map(|(_, _, points)| points.iter().map(|point| point.1));
+    let curves = [
+        ("rotor", ROTOR, rotor),
+        ("inner race", RACE, race),
+        ("cage", CAGE, cage),
+    ]
+    .map(|(name, colour, values)| (name, colour, curve_points(time, values, rpm)));
+    let values = || {
+        curves
+            .iter()
+            .flat_map(|(_, _, points)| points.iter().map(|point| point.1))
+    };
     let high = 1.08 * values().fold(0.0, f64::max);
     let low = 1.08 * values().fold(0.0, f64::min);
     let y = if high > low { (low, high) } else { (0.0, 1.0) };
-    let panel = Panel { left: 870.0, top: 40.0, width: 310.0, height: 325.0, x: span(&curves[0].2), y };
+    let panel = Panel {
+        left: 870.0,
+        top: 40.0,
+        width: 310.0,
+        height: 325.0,
+        x: span(&curves[0].2),
+        y,
+    };
     panel.axes(svg, "Speeds", "time since release [ms]", "speed [rpm]");
     if let Some(ratio) = summary_number(run, "rolling_cage_ratio") {
         let rolling: Vec<(f64, f64)> = curves[1].2.iter().map(|&(x, y)| (x, ratio * y)).collect();
-        panel.curve(svg, &rolling, CAGE, "stroke-width=\"1\" stroke-dasharray=\"2 3\"");
+        panel.curve(
+            svg,
+            &rolling,
+            CAGE,
+            "stroke-width=\"1\" stroke-dasharray=\"2 3\"",
+        );
     }
     for (name, colour, points) in &curves {
         panel.curve(svg, points, colour, "stroke-width=\"1.5\"");
@@ -177,7 +267,13 @@ fn draw_speeds(svg: &mut String, run: &PageRun) {
         if let Some(&(x, y)) = points.get(points.len() * 9 / 10) {
             let (x, y) = panel.place(x, y);
             let shift = if *name == "inner race" { 17.0 } else { -7.0 };
-            text(svg, x, y + shift, "end", &format!("<tspan fill=\"{colour}\">{name}</tspan>"));
+            text(
+                svg,
+                x,
+                y + shift,
+                "end",
+                &format!("<tspan fill=\"{colour}\">{name}</tspan>"),
+            );
         }
     }
 }
@@ -187,8 +283,14 @@ fn column<'a>(run: &'a PageRun, name: &str) -> Option<&'a [f64]> {
     (column.values.len() > 1).then_some(column.values.as_slice())
 }
 
-fn columns<'a, const COUNT: usize>(run: &'a PageRun, names: [&str; COUNT]) -> Option<[&'a [f64]; COUNT]> {
-    let found: Vec<&[f64]> = names.into_iter().map_while(|name| column(run, name)).collect();
+fn columns<'a, const COUNT: usize>(
+    run: &'a PageRun,
+    names: [&str; COUNT],
+) -> Option<[&'a [f64]; COUNT]> {
+    let found: Vec<&[f64]> = names
+        .into_iter()
+        .map_while(|name| column(run, name))
+        .collect();
     found.try_into().ok()
 }
 
@@ -197,7 +299,10 @@ fn summary_number(run: &PageRun, key: &str) -> Option<f64> {
     let (_, after) = run.summary_json.split_once(&format!("\"{key}\""))?;
     let value = after.trim_start().strip_prefix(':')?.trim_start();
     let end = value.find([',', '}', '\n', ' ']).unwrap_or(value.len());
-    value[..end].parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0)
+    value[..end]
+        .parse()
+        .ok()
+        .filter(|number: &f64| number.is_finite() && *number > 0.0)
 }
 
 fn curve_points(time: &[f64], values: &[f64], scale: f64) -> Vec<(f64, f64)> {
@@ -223,7 +328,10 @@ fn span(points: &[(f64, f64)]) -> (f64, f64) {
 fn ticks(range: (f64, f64), count: f64) -> Vec<f64> {
     let rough = (range.1 - range.0) / count.max(1.0);
     let power = 10f64.powf(rough.log10().floor());
-    let factor = [1.0, 2.0, 5.0].into_iter().find(|factor| factor * power >= rough * (1.0 - 1e-9)).unwrap_or(10.0);
+    let factor = [1.0, 2.0, 5.0]
+        .into_iter()
+        .find(|factor| factor * power >= rough * (1.0 - 1e-9))
+        .unwrap_or(10.0);
     let step = factor * power;
     let first = (range.0 / step - 1e-9).ceil() as i64;
     let last = (range.1 / step + 1e-9).floor() as i64;
@@ -237,16 +345,32 @@ fn number(value: f64) -> String {
 
 /// From pale green over blue to dark violet.
 fn colour(share: f64) -> String {
-    let stops = [(147.0, 200.0, 120.0), (42.0, 143.0, 143.0), (48.0, 84.0, 160.0), (66.0, 25.0, 95.0)];
+    let stops = [
+        (147.0, 200.0, 120.0),
+        (42.0, 143.0, 143.0),
+        (48.0, 84.0, 160.0),
+        (66.0, 25.0, 95.0),
+    ];
     let place = share.clamp(0.0, 1.0) * 3.0;
-    let (index, rest) = ((place as usize).min(2), place - (place as usize).min(2) as f64);
+    let (index, rest) = (
+        (place as usize).min(2),
+        place - (place as usize).min(2) as f64,
+    );
     let mix = |from: f64, to: f64| (from + rest * (to - from)).round() as u8;
     let (from, to) = (stops[index], stops[index + 1]);
-    format!("#{:02x}{:02x}{:02x}", mix(from.0, to.0), mix(from.1, to.1), mix(from.2, to.2))
+    format!(
+        "#{:02x}{:02x}{:02x}",
+        mix(from.0, to.0),
+        mix(from.1, to.1),
+        mix(from.2, to.2)
+    )
 }
 
 fn text(svg: &mut String, x: f64, y: f64, anchor: &str, words: &str) {
-    let _ = writeln!(svg, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{words}</text>");
+    let _ = writeln!(
+        svg,
+        "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{words}</text>"
+    );
 }
 
 fn line(svg: &mut String, from: (f64, f64), to: (f64, f64), colour: &str, style: &str) {
@@ -258,7 +382,13 @@ fn line(svg: &mut String, from: (f64, f64), to: (f64, f64), colour: &str, style:
 }
 
 fn absent(svg: &mut String, left: f64, what: &str) {
-    text(svg, left, 60.0, "start", &format!("not in this run: {what}"));
+    text(
+        svg,
+        left,
+        60.0,
+        "start",
+        &format!("not in this run: {what}"),
+    );
 }
 
 #[cfg(test)]
@@ -274,17 +404,24 @@ mod tests {
             ..PageColumn::default()
         };
         PageRun {
-            summary_json: "{\"clearance_radius_m\": 0.00025, \"rolling_cage_ratio\":0.4118}".to_string(),
+            summary_json: "{\"clearance_radius_m\": 0.00025, \"rolling_cage_ratio\":0.4118}"
+                .to_string(),
             columns: vec![
                 make("time", &|t| t),
                 make("rotor.x", &|t| 2e-4 * (300.0 * t).cos()),
                 make("rotor.y", &|t| 2e-4 * (300.0 * t).sin()),
                 make("bearing.inner_race.x", &|_| 0.0),
                 make("bearing.inner_race.y", &|_| 0.0),
-                make("bearing.contact.force", &|t| 600.0 * (-((t - 0.03) / 1e-3).powi(2)).exp()),
+                make("bearing.contact.force", &|t| {
+                    600.0 * (-((t - 0.03) / 1e-3).powi(2)).exp()
+                }),
                 make("rotor.speed", &|_| -1256.6),
-                make("bearing.inner_race.speed", &|t| -1256.6 * (1.0 - (-t / 0.02).exp())),
-                make("bearing.cage.speed", &|t| -517.0 * (1.0 - (-t / 0.02).exp())),
+                make("bearing.inner_race.speed", &|t| {
+                    -1256.6 * (1.0 - (-t / 0.02).exp())
+                }),
+                make("bearing.cage.speed", &|t| {
+                    -517.0 * (1.0 - (-t / 0.02).exp())
+                }),
             ],
             ..PageRun::default()
         }
@@ -293,7 +430,14 @@ mod tests {
     #[test]
     fn the_picture_holds_three_panels_and_no_broken_number() {
         let svg = orbit_svg(&run());
-        for words in ["Rotor centre", "Contact force", "Speeds", "clearance", "peak force", "inner race"] {
+        for words in [
+            "Rotor centre",
+            "Contact force",
+            "Speeds",
+            "clearance",
+            "peak force",
+            "inner race",
+        ] {
             assert!(svg.contains(words), "{words}");
         }
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
@@ -333,7 +477,10 @@ mod tests {
     #[test]
     fn summary_numbers_are_found_or_left_out() {
         assert_eq!(summary_number(&run(), "clearance_radius_m"), Some(0.00025));
-        let absent = PageRun { summary_json: "{\"clearance_radius_m\": null}".to_string(), ..PageRun::default() };
+        let absent = PageRun {
+            summary_json: "{\"clearance_radius_m\": null}".to_string(),
+            ..PageRun::default()
+        };
         assert_eq!(summary_number(&absent, "clearance_radius_m"), None);
     }
 }

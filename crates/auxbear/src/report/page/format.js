@@ -22,10 +22,13 @@ function numberText(value, digits = 5) {
   if (Number.isInteger(value) && size < 1e7) return String(value).replace("-", "−");
   if (size >= 1e6 || size < 1e-3) {
     const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
-    const power = [...String(Number(exponent))].map((sign) => SUPERSCRIPT[sign]).join("");
-    return `${trimmed(mantissa)} × 10${power}`;
+    return `${trimmed(mantissa)} × ${powerOfTen(Number(exponent))}`;
   }
   return trimmed(value.toPrecision(digits));
+}
+
+function powerOfTen(exponent) {
+  return "10" + [...String(exponent)].map((sign) => SUPERSCRIPT[sign]).join("");
 }
 
 function trimmed(text) {

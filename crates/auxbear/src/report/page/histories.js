@@ -160,16 +160,30 @@ function pocketFigure(runs) {
   return figure("Cage pockets", plot ? "Largest force between a ball and its cage pocket; pocket impacts are what makes late details of a drop irreproducible." : null, plot, missing);
 }
 
+// The unit in which the largest value of a column over all runs reads best; without prefixed units a power of ten.
+function axisUnit(runs, name, unit) {
+  const most = runs.flatMap((run) => columnOf(run, name) || []).reduce((largest, value) => Math.max(largest, Math.abs(value || 0)), 0);
+  if (!(most > 0)) return [unit, 1];
+  if (PREFIXED[unit] && most >= PREFIXED[unit].at(-1)[1]) return readableUnit(most, unit);
+  const exponent = 3 * Math.floor(Math.log10(most) / 3);
+  return [exponent === 0 ? unit : `${powerOfTen(exponent)} ${unit}`, 10 ** exponent];
+}
+
 function residualFigures(runs) {
-  const energy = lines(runs, "energy.residual", 1, { label: "energy residual [J]", colour: SERIES_COLOURS.rotor });
-  const momentum = lines(runs, "angular_momentum.residual", 1, { label: "angular momentum residual [N m s]", colour: SERIES_COLOURS.race });
+  const [energyUnit, energyScale] = axisUnit(runs, "energy.residual", "J");
+  const [momentumUnit, momentumScale] = axisUnit(runs, "angular_momentum.residual", "N m s");
+  const energy = lines(runs, "energy.residual", 1 / energyScale, { label: `energy residual [${energyUnit}]`, colour: SERIES_COLOURS.rotor });
+  const momentum = lines(runs, "angular_momentum.residual", 1 / momentumScale, {
+    label: `angular momentum residual [${momentumUnit}]`,
+    colour: SERIES_COLOURS.race,
+  });
   return [
     history("Energy residual", "Sources minus change of stored energy minus heats: what the time integration lost or made.", runs, ["energy.residual"], energy, {
-      label: "energy [J]",
+      label: `[${energyUnit}]`,
       height: 170,
     }),
     history("Angular momentum residual", "Change of angular momentum minus the impulse of all outer moments.", runs, ["angular_momentum.residual"], momentum, {
-      label: "[N m s]",
+      label: `[${momentumUnit}]`,
       height: 170,
     }),
   ];

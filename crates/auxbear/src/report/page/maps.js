@@ -20,8 +20,10 @@ const SHADES = {
 
 const mapState = { shade: "square root", skid: true, redraws: [] };
 
-// A loaded ball counts as skidding where its slip exceeds twice the reference speed of the traction law: with the tanh
-// law the friction there has reached 96 % of its limit.
+// A ball that carries at least a hundredth of the largest load counts as skidding where its slip exceeds twice the
+// reference speed of the traction law: with the tanh law the friction there has reached 96 % of its limit.
+const SKID_LOAD_SHARE = 0.01;
+
 function skidLimit(runs) {
   for (const run of runs) {
     const input = inputOf(run, "bearing.traction.reference_speed");
@@ -72,27 +74,27 @@ function visitSamples(run, balls, columns, visit) {
   }
 }
 
-function mapGrid(run, map, columns, skidSpeed) {
+function mapGrid(run, map, columns, skid) {
   const balls = ballsOf(run);
   const byAzimuth = balls.every((ball) => ball.azimuth);
   const bins = byAzimuth ? MAP_BINS : balls.length;
   const half = byAzimuth ? Math.ceil(MAP_BINS / balls.length / 2) : 0;
   const values = new Float32Array(columns * bins).fill(-1);
-  const skid = new Uint8Array(columns * bins);
+  const marked = new Uint8Array(columns * bins);
   visitSamples(run, balls, columns, (column, index, azimuth, row, share) => {
     const ball = balls[index];
     if (!ball[map.part] || (byAzimuth && !isNumber(azimuth))) return;
     const value = between(ball[map.part], row, share, false);
     if (!isNumber(value)) return;
-    const slips = map.slip && ball[map.slip] && ball[map.load][row] > 0 && Math.abs(ball[map.slip][row]) > skidSpeed;
+    const slips = map.slip && ball[map.slip] && ball[map.load][row] > skid.load && Math.abs(ball[map.slip][row]) > skid.speed;
     const centre = byAzimuth ? Math.floor(turnShare(azimuth) * bins) : index;
     for (let step = -half; step <= half; step++) {
       const bin = column * bins + ((centre + step + bins) % bins);
       values[bin] = Math.max(values[bin], Math.abs(value));
-      if (slips) skid[bin] = 1;
+      if (slips) marked[bin] = 1;
     }
   });
-  return { balls, byAzimuth, bins, values, skid };
+  return { balls, byAzimuth, bins, values, marked };
 }
 
 function paintGrid(grid, columns, largest, showSkid) {
@@ -105,9 +107,9 @@ function paintGrid(grid, columns, largest, showSkid) {
       const value = grid.values[column * grid.bins + bin];
       if (value < 0) continue;
       const colour = mapColour(shade(largest > 0 ? value / largest : 0));
-      const marked = showSkid && grid.skid[column * grid.bins + bin];
+      const marked = showSkid && grid.marked[column * grid.bins + bin];
       const at = 4 * ((grid.bins - 1 - bin) * columns + column);
-      for (let part = 0; part < 3; part++) image.data[at + part] = marked ? 0.25 * colour[part] + 0.75 * SKID[part] : colour[part];
+      for (let part = 0; part < 3; part++) image.data[at + part] = marked ? 0.4 * colour[part] + 0.6 * SKID[part] : colour[part];
       image.data[at + 3] = 255;
     }
   }
@@ -154,7 +156,7 @@ function mapCanvas(run, runs, map, limit) {
     place.width = Math.max(50, width - 2 * AXIS_WIDTH);
     const pen = sizedCanvas(width, place.top + place.height + 38, canvas);
     const columns = Math.round(place.width);
-    grid = mapGrid(run, map, columns, limit.speed);
+    grid = mapGrid(run, map, columns, { speed: limit.speed, load: SKID_LOAD_SHARE * largest });
     pen.imageSmoothingEnabled = false;
     pen.drawImage(paintGrid(grid, columns, largest, mapState.skid), place.left, place.top, place.width, place.height);
     drawMapAxes(pen, place, grid);
@@ -249,7 +251,7 @@ function mapSection(runs) {
     const notes = [];
     if (drawn.some((run) => !ballsOf(run).every((ball) => ball.azimuth))) notes.push("This fidelity gives no ball positions: one row a ball.");
     if (map.slip && drawn.some((run) => ballsOf(run).some((ball) => ball[map.slip])))
-      notes.push(`Red: loaded balls that slip faster than ${engineeringText(limit.speed, "m/s", 3)} (${limit.source}).`);
+      notes.push(`Red: balls with more than ${percentText(SKID_LOAD_SHARE)} of the largest load that slip faster than ${engineeringText(limit.speed, "m/s", 3)} (${limit.source}).`);
     const canvases = drawn.map((run) => [runs.length > 1 ? element("p", { class: "run-label" }, element("span", { class: "swatch", style: "background:" + run.colour }), run.label) : null, mapCanvas(run, drawn, map, limit)]);
     const why = missing.map((run) =>
       notInThisRun(run.time ? `its history has no ${map.part.replace("_", " ")} of the balls (the rolling fidelity gives loads only)` : "it has no time history", run),

@@ -164,6 +164,26 @@ function drawOrbitAxes(pen, place, view) {
   pen.strokeRect(left, top, width, width);
 }
 
+const GROUND_KEY = [["inner race centre", "#b98a5e"], ["outer race centre", "#4b5a66"], ["clearance circle at the end of the time shown", INK]];
+
+function drawOrbitKey(pen, place) {
+  pen.textAlign = "left";
+  pen.textBaseline = "middle";
+  GROUND_KEY.forEach(([words, colour], index) => {
+    const [x, y] = [place.left + 10, place.top + 14 + 16 * index];
+    pen.strokeStyle = colour;
+    pen.lineWidth = 1.5;
+    pen.setLineDash(index === 2 ? [5, 4] : []);
+    pen.beginPath();
+    pen.moveTo(x, y);
+    pen.lineTo(x + 20, y);
+    pen.stroke();
+    pen.fillStyle = INK;
+    pen.fillText(words, x + 26, y);
+  });
+  pen.setLineDash([]);
+}
+
 function drawCircle(pen, place, x, y, radius, dash) {
   pen.beginPath();
   pen.setLineDash(dash);
@@ -198,10 +218,11 @@ function drawOrbitPath(pen, place, run, ground) {
   if (zoomed) drawTrace(pen, place, path.x, path.y, "#e3e7ea");
   if (ground) {
     const others = ["bearing.inner_race", "bearing.outer_race"].map((name) => [columnOf(run, name + ".x"), columnOf(run, name + ".y")]);
-    others.forEach(([x, y], index) => x && y && drawTrace(pen, place, x, y, index === 0 ? "#9a8f86" : "#4b5a66"));
+    others.forEach(([x, y], index) => x && y && drawTrace(pen, place, x, y, GROUND_KEY[index][1]));
     const [x, y] = others[0];
     const row = rowBefore(run.time, timeline.end);
     if (isNumber(clearance) && x && y) drawCircle(pen, place, x[row] || 0, y[row] || 0, clearance, [5, 4]);
+    drawOrbitKey(pen, place);
   } else if (isNumber(clearance)) drawCircle(pen, place, 0, 0, clearance, []);
   pen.lineWidth = 1.1;
   pen.lineCap = "round";

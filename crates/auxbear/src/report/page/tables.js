@@ -33,7 +33,7 @@ function spreadCell(quantity) {
   const text = (value) => numberText(isNumber(value) ? value / scale : null, digits);
   const deviation = isNumber(spread.sd) ? " ± " + engineeringText(spread.sd, quantity.unit, 2) : "";
   return [
-    element("div", {}, text(spread.mean) + gap + unit + deviation),
+    element("div", { class: "spread" }, text(spread.mean) + gap + unit + deviation),
     element("div", { class: "small" }, `${text(spread.min)} to ${text(spread.max)}${gap}${unit}` + (isNumber(spread.members) ? `, ${spread.members} members` : "")),
   ];
 }
@@ -44,6 +44,7 @@ function lawLine(quantity) {
 }
 
 function differenceText(first, other) {
+  if (first === null || other === null) return "–";
   if (!isNumber(first) || !isNumber(other)) return first === other ? "same" : "–";
   if (first === other) return "same";
   if (first === 0) return "from 0";
@@ -58,8 +59,8 @@ function quantitySection(runs) {
   const single = runs.length === 1;
   const heads = ["Quantity"];
   if (single) heads.push("Value", "In SI units");
-  else runs.forEach((run, index) => heads.push(run.label, ...(index ? [`${run.letter} against A`] : [])));
-  if (repeated) heads.push(...(single ? ["Mean ± deviation, range"] : runs.map((run) => `Spread of ${run.letter}`)));
+  else runs.forEach((run, index) => heads.push(run.label, ...(index ? [`${run.letter} − A`] : [])));
+  if (repeated && single) heads.push("Mean ± deviation, range");
   const bodies = names.map((name) => {
     const all = runs.map((run) => quantityOf(run, name));
     const told = all.find((quantity) => quantity.law || quantity.source || quantity.valid) || all[0];
@@ -67,15 +68,15 @@ function quantitySection(runs) {
     if (single) cells.push(element("td", {}, quantityText(all[0])), element("td", { class: "small" }, siCell(all[0])));
     else {
       all.forEach((quantity, index) => {
-        cells.push(element("td", {}, quantityText(quantity)));
+        cells.push(element("td", {}, quantityText(quantity), spreadCell(quantity)));
         if (index) cells.push(element("td", { class: "difference" }, differenceText(all[0].value, quantity.value)));
       });
     }
-    if (repeated) all.forEach((quantity) => cells.push(element("td", {}, spreadCell(quantity))));
+    if (repeated && single) cells.push(element("td", {}, spreadCell(all[0])));
     const laws = lawLine(told);
     return element("tbody", {}, element("tr", {}, cells), laws.length ? element("tr", { class: "laws" }, element("td", { colspan: heads.length }, laws)) : null);
   });
-  const table = element("table", { class: single ? "quantities single" : "quantities" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), bodies);
+  const table = element("table", { class: single ? "quantities single" : "quantities several", style: single ? null : `--columns:${heads.length}` }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), bodies);
   const note = repeated ? element("p", { class: "lead" }, "Spread: mean and standard deviation over the members of the repeated run, and their smallest and largest value.") : null;
   return section("quantities", "Quantities", note, element("div", { class: "wide" }, table), runs.map(memberDetails));
 }

@@ -28,7 +28,7 @@ const timeline = {
     this.zoom(this.first, this.last);
   },
   text(instant) {
-    return numberText(instant / this.unit[1], 6) + " " + this.unit[0];
+    return numberText(instant / this.unit[1], 5) + " " + this.unit[0];
   },
 };
 
@@ -91,6 +91,7 @@ function timePlot(options) {
     series: [{ label: "time", value: (_, instant) => (isNumber(instant) ? timeline.text(instant) : "–") }],
     legend: { live: true, markers: { width: 2 } },
     cursor: {
+      y: false,
       sync: { key: "auxbear", setSeries: false, filters: { pub: (kind) => kind === "mousemove" || kind === "mouseleave" } },
       drag: { x: true, y: false, setScale: false },
       bind: { dblclick: () => () => timeline.all() },
