@@ -1,1 +1,4 @@
 //! placeholder
+
+pub mod problem;
+pub mod scenario;

@@ -1,0 +1,490 @@
+//! The one message for wrong input: file, line, key, what was found, what is needed, what was meant.
+
+use std::fmt;
+use std::path::Path;
+
+/// What kind of wrong input it is. The printed form (`AB0103`) is stable: a number is never used again for another thing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Code {
+    /// AB0001
+    FileMissing,
+    /// AB0002
+    FileIsFolder,
+    /// AB0003
+    FileNotUtf8,
+    /// AB0004
+    FileEmpty,
+    /// AB0005
+    FileTooLarge,
+    /// AB0006
+    FileUnreadable,
+    /// AB0100
+    Syntax,
+    /// AB0101
+    UnknownKey,
+    /// AB0102
+    WrongType,
+    /// AB0103
+    BareNumber,
+    /// AB0104
+    UnreadableQuantity,
+    /// AB0105
+    WrongDimension,
+    /// AB0106
+    OutOfRange,
+    /// AB0107
+    MissingKey,
+    /// AB0108
+    UnknownWord,
+    /// AB0109
+    Conflict,
+    /// AB0110
+    UnusedKey,
+    /// AB0111
+    UnknownFormat,
+    /// AB0112
+    NotBuilt,
+    /// AB0113
+    UnreadableSet,
+    /// AB0201
+    UnknownBearing,
+    /// AB0202
+    BallsDoNotFit,
+    /// AB0203
+    BearingGeometry,
+    /// AB0204
+    ClearanceTooLarge,
+    /// AB0205
+    ContactAtStart,
+    /// AB0206
+    OutputInterval,
+    /// AB0207
+    TooManyRows,
+    /// AB0301
+    OutputExists,
+    /// AB0302
+    OutputFailed,
+}
+
+impl Code {
+    /// Every code with its printed form, title and one sentence of explanation.
+    const TABLE: &'static [(Code, &'static str, &'static str, &'static str)] = &[
+        (
+            Code::FileMissing,
+            "AB0001",
+            "File not found",
+            "The input file does not exist at the path given.",
+        ),
+        (
+            Code::FileIsFolder,
+            "AB0002",
+            "Folder instead of a file",
+            "The path given names a folder where an input file is needed.",
+        ),
+        (
+            Code::FileNotUtf8,
+            "AB0003",
+            "Not UTF-8 text",
+            "Input files are text in UTF-8; this one holds other bytes, for example a binary file or an old code page.",
+        ),
+        (
+            Code::FileEmpty,
+            "AB0004",
+            "Empty file",
+            "The input file holds nothing but white space.",
+        ),
+        (
+            Code::FileTooLarge,
+            "AB0005",
+            "File too large",
+            "The input file is larger than 10 MB, so it is certainly not a scenario.",
+        ),
+        (
+            Code::FileUnreadable,
+            "AB0006",
+            "File cannot be read",
+            "The operating system refuses to read the input file.",
+        ),
+        (
+            Code::Syntax,
+            "AB0100",
+            "Not valid TOML",
+            "The file breaks a rule of the TOML format at the line named.",
+        ),
+        (
+            Code::UnknownKey,
+            "AB0101",
+            "Unknown key",
+            "A key or section is not one that the format knows; a misspelt key is never ignored.",
+        ),
+        (
+            Code::WrongType,
+            "AB0102",
+            "Wrong kind of value",
+            "The value is of another kind than the key takes, for example a list where a quantity is needed.",
+        ),
+        (
+            Code::BareNumber,
+            "AB0103",
+            "Number without a unit",
+            "The key takes a quantity, which is a text of number and unit; no unit is ever guessed.",
+        ),
+        (
+            Code::UnreadableQuantity,
+            "AB0104",
+            "Quantity cannot be read",
+            "The text is not a number followed by a known unit.",
+        ),
+        (
+            Code::WrongDimension,
+            "AB0105",
+            "Wrong dimension",
+            "The unit belongs to another dimension than the key takes, for example a length where a mass is needed.",
+        ),
+        (
+            Code::OutOfRange,
+            "AB0106",
+            "Value out of range",
+            "The value is outside the range that the key allows.",
+        ),
+        (
+            Code::MissingKey,
+            "AB0107",
+            "Required key is missing",
+            "A value that has no default is neither in the file nor in the bearing catalogue.",
+        ),
+        (
+            Code::UnknownWord,
+            "AB0108",
+            "Unknown word",
+            "The key takes one of a few words, and this is none of them.",
+        ),
+        (
+            Code::Conflict,
+            "AB0109",
+            "Two values for one thing",
+            "Two keys that exclude each other are both given.",
+        ),
+        (
+            Code::UnusedKey,
+            "AB0110",
+            "Key without effect",
+            "The key is known but has no effect with the other choices of the file, so it is refused instead of ignored.",
+        ),
+        (
+            Code::UnknownFormat,
+            "AB0111",
+            "Unknown file format",
+            "The first key of an input file names its format and version; this one is missing or not known.",
+        ),
+        (
+            Code::NotBuilt,
+            "AB0112",
+            "Not built yet",
+            "The thing asked for is planned, but this version does not have it.",
+        ),
+        (
+            Code::UnreadableSet,
+            "AB0113",
+            "Override cannot be read",
+            "An override on the command line is not of the form path=value.",
+        ),
+        (
+            Code::UnknownBearing,
+            "AB0201",
+            "Unknown bearing",
+            "The bearing is not in the catalogue; its dimensions can be given in the file instead.",
+        ),
+        (
+            Code::BallsDoNotFit,
+            "AB0202",
+            "Balls do not fit",
+            "The balls overlap when they are spaced evenly on the pitch circle.",
+        ),
+        (
+            Code::BearingGeometry,
+            "AB0203",
+            "Impossible bearing geometry",
+            "The diameters of the bearing contradict each other.",
+        ),
+        (
+            Code::ClearanceTooLarge,
+            "AB0204",
+            "Air clearance too large",
+            "The radial air clearance is not smaller than the radius of the bore, so there is no rotor left.",
+        ),
+        (
+            Code::ContactAtStart,
+            "AB0205",
+            "Contact at the start",
+            "The levitated rotor would already touch the inner race before the drop.",
+        ),
+        (
+            Code::OutputInterval,
+            "AB0206",
+            "Run shorter than the output interval",
+            "The output interval is longer than the run, so there would be no history.",
+        ),
+        (
+            Code::TooManyRows,
+            "AB0207",
+            "Too many rows of output",
+            "The run would write more than five million rows.",
+        ),
+        (
+            Code::OutputExists,
+            "AB0301",
+            "Output folder exists",
+            "The run directory exists already; results are never written over others.",
+        ),
+        (
+            Code::OutputFailed,
+            "AB0302",
+            "Output cannot be written",
+            "The operating system refuses to write a result file, for example because the disk is full.",
+        ),
+    ];
+
+    /// Every code, in the order of its number.
+    pub fn all() -> impl Iterator<Item = Code> {
+        Code::TABLE.iter().map(|row| row.0)
+    }
+
+    fn row(self) -> &'static (Code, &'static str, &'static str, &'static str) {
+        let position = self as usize;
+        &Code::TABLE[position]
+    }
+
+    /// The printed form, such as `AB0103`.
+    pub fn text(self) -> &'static str {
+        self.row().1
+    }
+
+    /// A short title.
+    pub fn title(self) -> &'static str {
+        self.row().2
+    }
+
+    /// One sentence that explains it.
+    pub fn sentence(self) -> &'static str {
+        self.row().3
+    }
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.text())
+    }
+}
+
+/// Where in the input the wrong thing stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Place {
+    /// Nowhere in particular: the file as a whole, or something that is missing.
+    #[default]
+    Whole,
+    /// A line of the file, counted from 1.
+    Line {
+        /// Line, from 1.
+        line: usize,
+        /// Column in characters, from 1.
+        column: usize,
+    },
+    /// An override on the command line.
+    Set,
+}
+
+impl Place {
+    /// The place of a byte offset in a text.
+    pub fn of_offset(text: &str, offset: usize) -> Place {
+        let mut offset = offset.min(text.len());
+        while !text.is_char_boundary(offset) {
+            offset -= 1;
+        }
+        let before = &text[..offset];
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        Place::Line {
+            line: before.matches('\n').count() + 1,
+            column: before[line_start..].chars().count() + 1,
+        }
+    }
+
+    /// The line, where there is one.
+    pub fn line(self) -> Option<usize> {
+        match self {
+            Place::Line { line, .. } => Some(line),
+            Place::Whole | Place::Set => None,
+        }
+    }
+}
+
+/// One thing that is wrong with the input, told so that it can be put right. Prints as one paragraph.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// Stable code.
+    pub code: Code,
+    /// The file, as the user named it.
+    pub file: String,
+    /// Where in the file.
+    pub place: Place,
+    /// Dotted path of the key, where one is concerned.
+    pub key: Option<String>,
+    /// What was found.
+    pub found: String,
+    /// What is needed or allowed.
+    pub allowed: String,
+    /// What was probably meant.
+    pub hint: Option<String>,
+}
+
+impl Problem {
+    /// A problem of a file as a whole; the other methods add what else is known.
+    pub fn new(
+        code: Code,
+        file: impl Into<String>,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Problem {
+        Problem {
+            code,
+            file: file.into(),
+            place: Place::Whole,
+            key: None,
+            found: found.into(),
+            allowed: allowed.into(),
+            hint: None,
+        }
+    }
+
+    /// A problem at a path of the file system.
+    pub fn at_path(
+        code: Code,
+        path: &Path,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Problem {
+        Problem::new(code, path.display().to_string(), found, allowed)
+    }
+
+    /// Adds the place.
+    pub fn at(mut self, place: Place) -> Problem {
+        self.place = place;
+        self
+    }
+
+    /// Adds the dotted path of the key.
+    pub fn on_key(mut self, key: impl Into<String>) -> Problem {
+        self.key = Some(key.into());
+        self
+    }
+
+    /// Adds a hint; `None` adds nothing.
+    pub fn with_hint(mut self, hint: impl Into<Option<String>>) -> Problem {
+        self.hint = hint.into();
+        self
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "error[{}]: {}", self.code, self.file)?;
+        match self.place {
+            Place::Whole => {}
+            Place::Line { line, .. } => write!(f, ":{line}")?,
+            Place::Set => write!(f, ", --set")?,
+        }
+        if let Some(key) = &self.key {
+            write!(f, ": {}", one_line(key))?;
+        }
+        write!(f, ": found {}; {}", one_line(&self.found), self.allowed)?;
+        if let Some(hint) = &self.hint {
+            write!(f, ". {hint}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Problem {}
+
+/// What a user typed, without line breaks and control characters and not longer than a line.
+fn one_line(text: &str) -> String {
+    const LONGEST: usize = 160;
+    let clean = text.chars().map(|c| if c.is_control() { ' ' } else { c });
+    let mut short: String = clean.clone().take(LONGEST).collect();
+    if clean.count() > LONGEST {
+        short.push('…');
+    }
+    short
+}
+
+/// The names near a misspelt one, as a question: `did you mean "mass"?`; `None` when none is near.
+pub fn did_you_mean<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    question(&units::nearest_names(found, known))
+}
+
+/// The names as a question: `did you mean "mass" or "planes"?`; `None` for no names.
+pub(crate) fn question(names: &[&str]) -> Option<String> {
+    let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
+    (!quoted.is_empty()).then(|| format!("Did you mean {}?", quoted.join(" or ")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_are_distinct_ordered_and_explained() {
+        let mut last = "";
+        for (position, code) in Code::all().enumerate() {
+            assert_eq!(code as usize, position, "{code:?}");
+            assert!(code.text() > last, "{code} after {last}");
+            assert!(code.sentence().ends_with('.') && !code.title().ends_with('.'));
+            last = code.text();
+        }
+    }
+
+    #[test]
+    fn prints_as_one_paragraph() {
+        let problem = Problem::new(
+            Code::BareNumber,
+            "drop.toml",
+            "a bare number 8",
+            "a quantity with a unit is needed, e.g. \"8 kg\"",
+        )
+        .at(Place::Line {
+            line: 12,
+            column: 8,
+        })
+        .on_key("rotor.mass");
+        assert_eq!(
+            problem.to_string(),
+            "error[AB0103]: drop.toml:12: rotor.mass: found a bare number 8; a quantity with a unit is needed, e.g. \"8 kg\""
+        );
+        assert_eq!(
+            problem
+                .at(Place::Set)
+                .with_hint(did_you_mean("mas", ["mass", "speed"]))
+                .to_string(),
+            "error[AB0103]: drop.toml, --set: rotor.mass: found a bare number 8; a quantity with a unit is needed, e.g. \"8 kg\". Did you mean \"mass\"?"
+        );
+    }
+
+    #[test]
+    fn what_a_user_typed_cannot_break_the_line() {
+        let problem = Problem::new(Code::UnknownWord, "a.toml", "\"a\nb\"", "x")
+            .on_key("k\u{1b}[2J".repeat(100));
+        let text = problem.to_string();
+        assert!(!text.contains('\n') && !text.contains('\u{1b}') && text.len() < 300);
+    }
+
+    #[test]
+    fn offsets_become_lines_and_columns() {
+        let text = "a = 1\nµ = 2\n";
+        let line = |offset| Place::of_offset(text, offset);
+        assert_eq!(line(0), Place::Line { line: 1, column: 1 });
+        assert_eq!(line(6), Place::Line { line: 2, column: 1 });
+        assert_eq!(line(9), Place::Line { line: 2, column: 3 });
+        assert_eq!(line(7), Place::Line { line: 2, column: 1 });
+        assert_eq!(line(999), Place::Line { line: 3, column: 1 });
+    }
+}

@@ -1,0 +1,34 @@
+//! What a scenario asks of a bearing catalogue.
+
+use super::provenance::Provenance;
+
+/// A catalogue of bearings, asked by name.
+pub trait BearingSource {
+    /// The bearing of this name; `None` when it is not known.
+    fn find(&self, name: &str) -> Option<BearingRecord>;
+    /// All names, for messages.
+    fn names(&self) -> Vec<String>;
+}
+
+/// What a catalogue knows of one bearing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BearingRecord {
+    /// Name of the bearing.
+    pub name: String,
+    /// Key of the `[bearing]` section (and `bore_diameter`), value in SI, and where the value comes from.
+    pub values: Vec<(String, f64, Provenance)>,
+}
+
+/// A catalogue without bearings: every dimension stands in the file.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoBearings;
+
+impl BearingSource for NoBearings {
+    fn find(&self, _name: &str) -> Option<BearingRecord> {
+        None
+    }
+
+    fn names(&self) -> Vec<String> {
+        Vec::new()
+    }
+}

@@ -1,0 +1,236 @@
+//! Checks between values: each refuses what no simulation could mean.
+
+use super::drop::{Drop, Moment, Traction};
+use super::resolve::Values;
+use crate::problem::{Code, Problem};
+
+/// Most rows of a history.
+const MOST_ROWS: f64 = 5e6;
+
+/// How far D may be from -A: the sum of two decimals of four digits.
+const NO_TRACTION_AT_REST: f64 = 1e-9;
+
+type Check = Result<(), Box<Problem>>;
+
+/// Refuses values that contradict each other.
+pub(super) fn check(drop: &Drop, values: &Values, file: &str) -> Check {
+    let context = Context { drop, values, file };
+    context.bearing_diameters()?;
+    context.balls_fit()?;
+    context.air_clearance()?;
+    context.traction()?;
+    context.moment()?;
+    context.output()?;
+    context.levitated_orbit()
+}
+
+struct Context<'a> {
+    drop: &'a Drop,
+    values: &'a Values,
+    file: &'a str,
+}
+
+impl Context<'_> {
+    fn problem(&self, code: Code, path: &str, found: String, allowed: String) -> Problem {
+        Problem::new(code, self.file, found, allowed)
+            .at(self.values.place(path))
+            .on_key(path)
+    }
+
+    /// The value as the file or catalogue writes it.
+    fn text(&self, path: &str) -> String {
+        self.values.text(path).unwrap_or_default()
+    }
+
+    fn bearing_diameters(&self) -> Check {
+        let bearing = &self.drop.bearing;
+        let (ball, pitch) = (bearing.ball_diameter, bearing.pitch_diameter);
+        if pitch <= ball {
+            return Err(Box::new(self.problem(
+                Code::BearingGeometry,
+                "bearing.pitch_diameter",
+                self.text("bearing.pitch_diameter"),
+                format!(
+                    "more than bearing.ball_diameter = {} is needed",
+                    self.text("bearing.ball_diameter")
+                ),
+            )));
+        }
+        let bore = self.drop.contact.bore_diameter;
+        if bore >= pitch - ball {
+            return Err(Box::new(self.problem(
+                Code::BearingGeometry,
+                "contact.bore_diameter",
+                self.text("contact.bore_diameter"),
+                format!(
+                    "less than the track of the inner race is needed: pitch_diameter - ball_diameter = {}",
+                    millimetres(pitch - ball)
+                ),
+            )));
+        }
+        Ok(())
+    }
+
+    fn balls_fit(&self) -> Check {
+        let bearing = &self.drop.bearing;
+        if bearing.ball_count < 2 {
+            return Ok(());
+        }
+        let half_angle = std::f64::consts::PI / bearing.ball_count as f64;
+        let spacing = bearing.pitch_diameter * half_angle.sin();
+        if spacing >= bearing.ball_diameter {
+            return Ok(());
+        }
+        let most = std::f64::consts::PI / (bearing.ball_diameter / bearing.pitch_diameter).asin();
+        Err(Box::new(self.problem(
+            Code::BallsDoNotFit,
+            "bearing.ball_count",
+            format!(
+                "{} balls of {} on a pitch circle of {}, whose centres are only {} apart",
+                bearing.ball_count,
+                self.text("bearing.ball_diameter"),
+                self.text("bearing.pitch_diameter"),
+                millimetres(spacing)
+            ),
+            format!("at most {most:.0} balls fit", most = most.floor()),
+        )))
+    }
+
+    fn air_clearance(&self) -> Check {
+        let contact = &self.drop.contact;
+        if contact.radial_air_clearance < 0.5 * contact.bore_diameter {
+            return Ok(());
+        }
+        Err(Box::new(self.problem(
+            Code::ClearanceTooLarge,
+            "contact.radial_air_clearance",
+            self.text("contact.radial_air_clearance"),
+            format!(
+                "less than half of contact.bore_diameter = {} is needed",
+                self.text("contact.bore_diameter")
+            ),
+        )))
+    }
+
+    fn traction(&self) -> Check {
+        match self.drop.bearing.traction {
+            Traction::FourParameter { a, d, .. } if (a + d).abs() > NO_TRACTION_AT_REST => {
+                Err(Box::new(self.problem(
+                    Code::Conflict,
+                    "bearing.traction.d",
+                    units::number_text(d),
+                    format!(
+                        "d = -a = {} is needed, so that there is no traction without slip",
+                        units::number_text(-a)
+                    ),
+                )))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn moment(&self) -> Check {
+        let bearing = &self.drop.bearing;
+        if matches!(bearing.moment, Moment::Palmgren { .. }) && bearing.static_load_rating.is_none()
+        {
+            return Err(Box::new(self.problem(
+                Code::MissingKey,
+                "bearing.static_load_rating",
+                "no value".to_string(),
+                "bearing.moment.law = \"palmgren\" needs it, e.g. \"6.55 kN\"".to_string(),
+            )));
+        }
+        Ok(())
+    }
+
+    fn output(&self) -> Check {
+        let run = &self.drop.run;
+        if run.output_interval > run.duration {
+            return Err(Box::new(self.problem(
+                Code::OutputInterval,
+                "run.output_interval",
+                self.text("run.output_interval"),
+                format!(
+                    "at most run.duration = {} is needed",
+                    self.text("run.duration")
+                ),
+            )));
+        }
+        let rows = run.duration / run.output_interval;
+        if rows > MOST_ROWS {
+            return Err(Box::new(self.problem(
+                Code::TooManyRows,
+                "run.output_interval",
+                format!(
+                    "{}, which gives {rows:.3e} rows in {}",
+                    self.text("run.output_interval"),
+                    self.text("run.duration")
+                ),
+                format!("at most {MOST_ROWS:e} rows are written"),
+            )));
+        }
+        Ok(())
+    }
+
+    /// The geometric centre of the levitated rotor circles the centre of levitation; it must not touch before the release.
+    fn levitated_orbit(&self) -> Check {
+        let levitation = &self.drop.levitation;
+        let clearance = self.drop.contact.radial_air_clearance;
+        let offset = levitation.offset_x.hypot(levitation.offset_y);
+        let whirl = levitated_whirl_radius(self.drop);
+        if offset + whirl < clearance {
+            return Ok(());
+        }
+        let rotor = &self.drop.rotor;
+        let share = rotor.mass / f64::from(rotor.planes);
+        let resonance = (levitation.stiffness / share).sqrt();
+        let near = (0.7..1.4).contains(&(rotor.speed.abs() / resonance));
+        let hint = near.then(|| {
+            format!(
+                "The levitation is near resonance: its natural frequency is {:.4e} rad/s and the speed {:.4e} rad/s",
+                resonance,
+                rotor.speed.abs()
+            )
+        });
+        Err(Box::new(
+            self.problem(
+                Code::ContactAtStart,
+                "contact.radial_air_clearance",
+                format!(
+                    "a levitated rotor that reaches {} from the bearing centre (offset {}, whirl by unbalance {})",
+                    millimetres(offset + whirl),
+                    millimetres(offset),
+                    millimetres(whirl)
+                ),
+                format!(
+                    "less than the radial air clearance {} is needed, so that nothing touches before the drop",
+                    self.text("contact.radial_air_clearance")
+                ),
+            )
+            .with_hint(hint),
+        ))
+    }
+}
+
+/// Radius of the circle of the geometric centre C = G - e·exp(jφ) of the levitated rotor, m.
+///
+/// The steady orbit of the centre of mass is G = (k + jcΩ)e/(k + jcΩ - mΩ²) for the rotor's share m at one plane, so
+/// |C| = e mΩ²/|k + jcΩ - mΩ²|.
+fn levitated_whirl_radius(drop: &Drop) -> f64 {
+    let rotor = &drop.rotor;
+    let levitation = &drop.levitation;
+    let inertial = rotor.mass / f64::from(rotor.planes) * rotor.speed * rotor.speed;
+    let unbalance = rotor.unbalance_eccentricity * inertial;
+    if unbalance == 0.0 {
+        return 0.0;
+    }
+    unbalance / (levitation.stiffness - inertial).hypot(levitation.damping * rotor.speed)
+}
+
+/// A length for a message, to four digits.
+fn millimetres(length: f64) -> String {
+    let rounded: f64 = format!("{:.3e}", length * 1e3)
+        .parse()
+        .unwrap_or(length * 1e3);
+    format!("{} mm", units::number_text(rounded))
+}

@@ -1,0 +1,149 @@
+//! Scenario files: what a user writes, read into typed values with their origin.
+//!
+//! One table of keys (`table.rs`) is the single source of names, kinds, units, ranges, defaults and explanations. From it
+//! come the reading, the messages, the overrides, the resolved file and the starting file.
+//!
+//! ```text
+//! text + overrides ──document──▶ key, raw value, place
+//!                  ──resolve───▶ one value per key: given ▸ catalogue ▸ default ▸ derived
+//!                  ──drop──────▶ typed SI values  ──checks──▶ Scenario
+//! ```
+
+mod bearing_source;
+mod checks;
+mod document;
+mod drop;
+mod key;
+mod provenance;
+mod read;
+mod resolve;
+mod resolved;
+mod table;
+mod table_bearing;
+mod template;
+
+pub use bearing_source::{BearingRecord, BearingSource, NoBearings};
+pub use drop::{
+    BallMaterial, Bearing, Cage, Contact, Drag, Drop, Fidelity, Gravity, Levitation, Moment,
+    MomentForm, Mount, Repeat, Rotor, Run, Spin, Traction,
+};
+pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
+pub use provenance::Provenance;
+pub use resolved::{Resolved, ResolvedValue};
+pub use table::{FORMAT, keys, sections};
+pub use template::template;
+
+use crate::problem::{Code, Problem};
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+use std::path::Path;
+
+/// Largest input file, bytes.
+const LARGEST_FILE: u64 = 10_000_000;
+
+/// What is simulated.
+#[derive(Clone, Debug, PartialEq)]
+pub enum System {
+    /// A levitated rotor is released onto its auxiliary bearing.
+    Drop(Drop),
+}
+
+/// A scenario that was read and checked. It does not change; to vary it, read it again with an override.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    /// Format of the file.
+    pub format: String,
+    /// Title of the report.
+    pub title: Option<String>,
+    /// Introduction of the report.
+    pub description: Option<String>,
+    /// What is simulated.
+    pub system: System,
+    /// Every value with its origin.
+    pub resolved: Resolved,
+}
+
+impl Scenario {
+    /// Reads a file. An override is `path=value`, as after `--set`.
+    pub fn read(
+        path: &Path,
+        sets: &[String],
+        bearings: &dyn BearingSource,
+    ) -> Result<Scenario, Box<Problem>> {
+        let text = read_text(path)?;
+        Scenario::parse(&text, &path.display().to_string(), sets, bearings)
+    }
+
+    /// Reads a text; the name stands for the file in messages.
+    pub fn parse(
+        text: &str,
+        name: &str,
+        sets: &[String],
+        bearings: &dyn BearingSource,
+    ) -> Result<Scenario, Box<Problem>> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        if text.trim().is_empty() {
+            return Err(Box::new(Problem::new(
+                Code::FileEmpty,
+                name,
+                "an empty file",
+                "a scenario is needed; auxbear new drop writes one to start from",
+            )));
+        }
+        let document = document::Document::read(text, name, sets)?;
+        let values = resolve::Values::resolve(&document, bearings)?;
+        let drop = Drop::from_values(&values);
+        checks::check(&drop, &values, name)?;
+        Ok(Scenario {
+            format: FORMAT.to_string(),
+            title: values.text("title"),
+            description: values.text("description"),
+            system: System::Drop(drop),
+            resolved: values.resolved(),
+        })
+    }
+}
+
+fn read_text(path: &Path) -> Result<String, Box<Problem>> {
+    const NEEDED: &str = "the path of a scenario file is needed";
+    let problem = |code, found: &str| Box::new(Problem::at_path(code, path, found, NEEDED));
+    let unreadable = |error: std::io::Error| match error.kind() {
+        ErrorKind::NotFound => problem(Code::FileMissing, "no file of this name"),
+        ErrorKind::IsADirectory => problem(Code::FileIsFolder, "a folder"),
+        _ => problem(
+            Code::FileUnreadable,
+            &format!("a file that cannot be read ({error})"),
+        ),
+    };
+    let file = File::open(path).map_err(unreadable)?;
+    let metadata = file.metadata().map_err(unreadable)?;
+    if metadata.is_dir() {
+        return Err(problem(Code::FileIsFolder, "a folder"));
+    }
+    // Not the size of the metadata: a pipe or a device has none.
+    let mut bytes = Vec::new();
+    file.take(LARGEST_FILE + 1)
+        .read_to_end(&mut bytes)
+        .map_err(unreadable)?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(Box::new(Problem::at_path(
+            Code::FileTooLarge,
+            path,
+            "more than 10 MB",
+            "a scenario file of at most 10 MB is needed",
+        )));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let text = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();
+        Box::new(
+            Problem::at_path(
+                Code::FileNotUtf8,
+                path,
+                "bytes that are not UTF-8 text",
+                "a text file in UTF-8 is needed",
+            )
+            .at(crate::problem::Place::of_offset(&text, valid)),
+        )
+    })
+}

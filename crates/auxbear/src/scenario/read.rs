@@ -1,0 +1,239 @@
+//! From one raw value to a value of the kind that its key takes.
+
+use super::document::{Given, Raw};
+use super::key::{Key, Kind, article, quoted};
+use super::provenance::Provenance;
+use super::resolve::{Known, Value, Values};
+use crate::problem::{Code, Place, Problem, did_you_mean, question};
+use units::{Dimension, ParseError, Rational, parse_quantity};
+
+/// How far the power in the unit of a contact stiffness may be from its exponent: decimals of 10/9 are accepted.
+pub(super) const POWER_TOLERANCE: f64 = 1e-6;
+
+impl Values {
+    /// Reads one given value.
+    pub(super) fn read(&self, key: &Key, given: &Given) -> Result<Known, Box<Problem>> {
+        let (raw, provenance) = self.unwrap_table(key, given)?;
+        // The name 6005 typed as an override is a text, though it reads as a number too.
+        let text = match (key.kind, &given.typed, raw) {
+            (Kind::Text, Some(typed), Raw::Integer(..) | Raw::Float(_) | Raw::Switch(_)) => {
+                Some(Raw::Text(typed.clone()))
+            }
+            _ => None,
+        };
+        let (value, text) = self.read_raw(key, text.as_ref().unwrap_or(raw), given.place)?;
+        if let Some(number) = value.number()
+            && !key.range.holds(number)
+        {
+            return Err(Box::new(self.problem(
+                Code::OutOfRange,
+                key.path,
+                given.place,
+                key.literal(&text),
+                key.needed(),
+            )));
+        }
+        Ok(Known {
+            value,
+            text,
+            provenance,
+            place: given.place,
+        })
+    }
+
+    /// The value of `{ value = …, source = … }`, or the value itself.
+    fn unwrap_table<'a>(
+        &self,
+        key: &Key,
+        given: &'a Given,
+    ) -> Result<(&'a Raw, Provenance), Box<Problem>> {
+        let Raw::Table(parts) = &given.raw else {
+            return Ok((&given.raw, Provenance::Given));
+        };
+        let example = key.literal(key.example);
+        let form = format!(
+            "{{ value = {example}, source = \"…\" }} or {{ value = {example}, assumed = \"why\" }} is needed"
+        );
+        let mut value = None;
+        let mut provenance = None;
+        for (name, raw) in parts {
+            match (name.as_str(), raw) {
+                ("value", raw) => value = Some(raw),
+                ("source" | "assumed", Raw::Text(_)) if provenance.is_some() => {
+                    return Err(Box::new(self.problem(
+                        Code::Conflict,
+                        key.path,
+                        given.place,
+                        "both source and assumed",
+                        form,
+                    )));
+                }
+                ("source", Raw::Text(text)) => {
+                    provenance = Some(Provenance::GivenWithSource(text.clone()));
+                }
+                ("assumed", Raw::Text(text)) => {
+                    provenance = Some(Provenance::Assumed(text.clone()));
+                }
+                ("source" | "assumed", raw) => {
+                    return Err(Box::new(self.problem(
+                        Code::WrongType,
+                        key.path,
+                        given.place,
+                        format!("{} for {name}", raw.text()),
+                        form,
+                    )));
+                }
+                (unknown, _) => {
+                    let hint = did_you_mean(unknown, ["value", "source", "assumed"]);
+                    return Err(Box::new(
+                        self.problem(
+                            Code::UnknownKey,
+                            &format!("{}.{unknown}", key.path),
+                            given.place,
+                            "an unknown key",
+                            form,
+                        )
+                        .with_hint(hint),
+                    ));
+                }
+            }
+        }
+        match value {
+            Some(value) => Ok((value, provenance.unwrap_or(Provenance::Given))),
+            None => Err(Box::new(self.problem(
+                Code::MissingKey,
+                key.path,
+                given.place,
+                "a table without value",
+                form,
+            ))),
+        }
+    }
+
+    fn read_raw(
+        &self,
+        key: &Key,
+        raw: &Raw,
+        place: Place,
+    ) -> Result<(Value, String), Box<Problem>> {
+        let wrong = |code, found: String| {
+            Box::new(self.problem(code, key.path, place, found, key.needed()))
+        };
+        match (key.kind, raw) {
+            (Kind::Quantity(_) | Kind::ContactStiffness { .. }, Raw::Text(text)) => {
+                self.read_quantity(key, text, place)
+            }
+            (
+                Kind::Quantity(_) | Kind::ContactStiffness { .. },
+                Raw::Integer(..) | Raw::Float(_),
+            ) => {
+                let number = raw.text();
+                let number = number.trim_start_matches("the number ");
+                Err(Box::new(self.problem(
+                    Code::BareNumber,
+                    key.path,
+                    place,
+                    format!("a bare number {number}"),
+                    format!(
+                        "a quantity with a unit is needed, e.g. {}",
+                        key.literal(key.example)
+                    ),
+                )))
+            }
+            (Kind::Coefficient | Kind::Exponent, Raw::Float(value)) => {
+                Ok((Value::Number(*value), format!("{value:?}")))
+            }
+            (Kind::Coefficient | Kind::Exponent, Raw::Integer(_, Some(value))) => {
+                let value = *value as f64;
+                Ok((Value::Number(value), format!("{value:?}")))
+            }
+            (Kind::Exponent, Raw::Text(text)) => match Rational::parse(text) {
+                Some(fraction) => Ok((Value::Number(fraction.value()), fraction.to_string())),
+                None => Err(wrong(Code::WrongType, raw.text())),
+            },
+            (Kind::Count, Raw::Integer(text, value)) => match value {
+                Some(value) if *value >= 0 => {
+                    Ok((Value::Count(value.unsigned_abs()), value.to_string()))
+                }
+                _ => Err(wrong(Code::OutOfRange, text.clone())),
+            },
+            (Kind::Word(words), Raw::Text(text)) => match words.iter().find(|word| *word == text) {
+                Some(word) => Ok((Value::Word(word), text.clone())),
+                None => {
+                    let mut problem = wrong(Code::UnknownWord, quoted(text));
+                    problem.hint = did_you_mean(text, words.iter().copied());
+                    Err(problem)
+                }
+            },
+            (Kind::Switch, Raw::Switch(value)) => Ok((Value::Switch(*value), value.to_string())),
+            (Kind::Text, Raw::Text(text)) => Ok((Value::Text(text.clone()), text.clone())),
+            _ => Err(wrong(Code::WrongType, raw.text())),
+        }
+    }
+
+    fn read_quantity(
+        &self,
+        key: &Key,
+        text: &str,
+        place: Place,
+    ) -> Result<(Value, String), Box<Problem>> {
+        let text = text.trim();
+        let quantity = parse_quantity(text).map_err(|error| {
+            let code = match error {
+                ParseError::MissingUnit { .. } => Code::BareNumber,
+                ParseError::OutOfRange { .. } | ParseError::NotFinite { .. } => Code::OutOfRange,
+                _ => Code::UnreadableQuantity,
+            };
+            // The near unit stands at the end of the message, not in its middle.
+            let (found, hint) = match &error {
+                ParseError::UnknownUnit { unit, nearest } => (
+                    format!("the unknown unit \"{unit}\""),
+                    nearest.as_deref().and_then(|nearest| question(&[nearest])),
+                ),
+                other => (other.to_string(), None),
+            };
+            Box::new(
+                self.problem(code, key.path, place, found, key.needed())
+                    .with_hint(hint),
+            )
+        })?;
+        let (fits, wanted) = match key.kind {
+            Kind::ContactStiffness { exponent } => {
+                let n = self.number(exponent).unwrap_or(f64::NAN);
+                let power = quantity.dimension.length_power_under_force();
+                let fits = power.is_some_and(|power| (power.value() - n).abs() <= POWER_TOLERANCE);
+                let here = self.text(exponent).unwrap_or_default();
+                (fits, format!("{}; here n = {here}", key.needed()))
+            }
+            _ => (key.dimension() == Some(quantity.dimension), key.needed()),
+        };
+        if fits {
+            return Ok((Value::Number(quantity.value_si), text.to_string()));
+        }
+        let hint = (quantity.dimension == Dimension::FREQUENCY
+            && key.dimension() == Some(Dimension::ANGULAR_SPEED))
+        .then(|| {
+            let speed = quantity.value_si * 2.0 * std::f64::consts::PI;
+            format!(
+                "That frequency in cycles per second is \"{speed:.6} rad/s\" as an angular speed"
+            )
+        });
+        Err(Box::new(
+            self.problem(
+                Code::WrongDimension,
+                key.path,
+                place,
+                format!("\"{text}\", which is {}", described(quantity.dimension)),
+                wanted,
+            )
+            .with_hint(hint),
+        ))
+    }
+}
+
+fn described(dimension: Dimension) -> String {
+    match dimension.name() {
+        Some(name) => format!("{} {name}", article(name)),
+        None => format!("in {}", dimension.si_unit()),
+    }
+}

@@ -1,0 +1,495 @@
+//! From the table of keys and the given values to one value for every key.
+
+use super::bearing_source::{BearingRecord, BearingSource};
+use super::document::{Document, Given, Raw};
+use super::key::{Condition, Fallback, Key, Kind, Otherwise, Presence, quoted};
+use super::provenance::Provenance;
+use super::read::POWER_TOLERANCE;
+use super::resolved::{Resolved, ResolvedValue};
+use super::table;
+use crate::problem::{Code, Place, Problem, did_you_mean};
+use std::collections::BTreeMap;
+use units::{Quantity, Rational, parse_quantity};
+
+/// A value that was read.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Value {
+    /// A quantity in SI or a bare number.
+    Number(f64),
+    /// A whole number, not negative.
+    Count(u64),
+    /// One of the words of the key.
+    Word(&'static str),
+    /// `true` or `false`.
+    Switch(bool),
+    /// Any text.
+    Text(String),
+}
+
+impl Value {
+    pub(super) fn number(&self) -> Option<f64> {
+        match self {
+            Value::Number(value) => Some(*value),
+            Value::Count(count) => Some(*count as f64),
+            Value::Word(_) | Value::Switch(_) | Value::Text(_) => None,
+        }
+    }
+}
+
+/// A value with everything known of it.
+#[derive(Clone, Debug)]
+pub(super) struct Known {
+    pub(super) value: Value,
+    pub(super) text: String,
+    pub(super) provenance: Provenance,
+    pub(super) place: Place,
+}
+
+/// One value for every key that has one.
+#[derive(Debug)]
+pub(super) struct Values {
+    file: String,
+    known: BTreeMap<&'static str, Known>,
+}
+
+impl Values {
+    /// Reads every given value and fills the rest from catalogue and defaults.
+    pub(super) fn resolve(
+        document: &Document,
+        bearings: &dyn BearingSource,
+    ) -> Result<Values, Box<Problem>> {
+        let mut values = Values {
+            file: document.file.clone(),
+            known: BTreeMap::new(),
+        };
+        values.refuse_planned_system(document)?;
+        let record = values.find_bearing(document, bearings)?;
+        for key in table::keys() {
+            let given = document.values.get(key.path);
+            if let Some(unmet) = values.unmet(key) {
+                if let Some(given) = given {
+                    return Err(Box::new(values.unused(key, given, &unmet)));
+                }
+                continue;
+            }
+            let known = match given {
+                Some(given) => {
+                    values.refuse_conflict(key, given, document)?;
+                    Some(values.read(key, given)?)
+                }
+                None => match values.catalogued(key, record.as_ref())? {
+                    Some(known) => Some(known),
+                    None => values.without(key, record.as_ref(), document)?,
+                },
+            };
+            if let Some(known) = known {
+                values.known.insert(key.path, known);
+            }
+        }
+        values.derive()?;
+        Ok(values)
+    }
+
+    pub(super) fn problem(
+        &self,
+        code: Code,
+        path: &str,
+        place: Place,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Problem {
+        Problem::new(code, &self.file, found, allowed)
+            .at(place)
+            .on_key(path)
+    }
+
+    fn refuse_planned_system(&self, document: &Document) -> Result<(), Box<Problem>> {
+        if let Some(Given {
+            raw: Raw::Text(found),
+            place,
+            ..
+        }) = document.values.get("system")
+            && table::PLANNED_SYSTEMS.contains(&found.as_str())
+        {
+            return Err(Box::new(self.problem(
+                Code::NotBuilt,
+                "system",
+                *place,
+                format!("\"{found}\", which is planned but not built yet"),
+                "system = \"drop\" is what this version simulates",
+            )));
+        }
+        Ok(())
+    }
+
+    /// The condition that keeps a key from having a meaning, followed to its root.
+    fn unmet(&self, key: &Key) -> Option<Condition> {
+        let condition = key.when?;
+        if let Some(parent) = table::keys().find(|other| other.path == condition.path)
+            && let Some(root) = self.unmet(parent)
+        {
+            return Some(root);
+        }
+        (!self.holds(&condition)).then_some(condition)
+    }
+
+    fn holds(&self, condition: &Condition) -> bool {
+        let Some(known) = self.known.get(condition.path) else {
+            return false;
+        };
+        condition.values.iter().any(|wanted| match &known.value {
+            Value::Word(word) => word == wanted,
+            Value::Text(text) => text == wanted,
+            Value::Switch(value) => value.to_string() == *wanted,
+            Value::Number(value) => Rational::parse(wanted)
+                .is_some_and(|wanted| (wanted.value() - value).abs() <= POWER_TOLERANCE),
+            Value::Count(count) => count.to_string() == *wanted,
+        })
+    }
+
+    fn unused(&self, key: &Key, given: &Given, unmet: &Condition) -> Problem {
+        let here = self.known.get(unmet.path).map_or(String::new(), |known| {
+            format!("; here it is {}", quoted(&known.text))
+        });
+        let reason = if unmet.reason.is_empty() {
+            String::new()
+        } else {
+            format!(" ({})", unmet.reason)
+        };
+        self.problem(
+            Code::UnusedKey,
+            key.path,
+            given.place,
+            "a key that has no effect",
+            format!("it is used only with {}{reason}{here}", unmet.text()),
+        )
+    }
+
+    fn refuse_conflict(
+        &self,
+        key: &Key,
+        given: &Given,
+        document: &Document,
+    ) -> Result<(), Box<Problem>> {
+        let Some(other) = key.excludes else {
+            return Ok(());
+        };
+        let Some(second) = document.values.get(other) else {
+            return Ok(());
+        };
+        let (path, place, first) = if second.place.line() > given.place.line() {
+            (other, second.place, key.path)
+        } else {
+            (key.path, given.place, other)
+        };
+        Err(Box::new(self.problem(
+            Code::Conflict,
+            path,
+            place,
+            format!("this and {first}, which give the same thing"),
+            "one of the two is needed",
+        )))
+    }
+
+    /// The catalogue's knowledge of the bearing named. It comes first, because other sections take values from it.
+    fn find_bearing(
+        &self,
+        document: &Document,
+        bearings: &dyn BearingSource,
+    ) -> Result<Option<BearingRecord>, Box<Problem>> {
+        let given = document.values.get("bearing.name");
+        let key = table::keys().find(|key| key.path == "bearing.name");
+        let (Some(key), Some(given)) = (key, given) else {
+            return Ok(None);
+        };
+        let known = self.read(key, given)?;
+        let name = known.text.as_str();
+        let record = bearings.find(name);
+        if record.is_some() {
+            return Ok(record);
+        }
+        let names = bearings.names();
+        let mut listed: Vec<&str> = names.iter().map(String::as_str).collect();
+        let near = did_you_mean(name, listed.iter().copied());
+        listed.truncate(12);
+        let allowed = if listed.is_empty() {
+            "the catalogue is empty; give the dimensions of the bearing instead of its name"
+                .to_string()
+        } else {
+            format!(
+                "a bearing of the catalogue is needed ({}{}), or its dimensions instead of its name",
+                listed.join(", "),
+                if names.len() > listed.len() {
+                    ", …"
+                } else {
+                    ""
+                }
+            )
+        };
+        Err(Box::new(
+            self.problem(
+                Code::UnknownBearing,
+                "bearing.name",
+                known.place,
+                format!("\"{name}\", which is not in the catalogue"),
+                allowed,
+            )
+            .with_hint(near),
+        ))
+    }
+
+    fn catalogued(
+        &self,
+        key: &Key,
+        record: Option<&BearingRecord>,
+    ) -> Result<Option<Known>, Box<Problem>> {
+        let Some(record) = record else {
+            return Ok(None);
+        };
+        let name = match key.section() {
+            "bearing" => key.name(),
+            _ if key.path == "contact.bore_diameter" => key.name(),
+            _ => return Ok(None),
+        };
+        let Some((_, si, provenance)) = record.values.iter().find(|(known, ..)| known == name)
+        else {
+            return Ok(None);
+        };
+        let (value, text) = match key.kind {
+            Kind::Quantity(_) => (Value::Number(*si), quantity_text(key, *si)),
+            Kind::Count => (Value::Count(*si as u64), format!("{}", *si as u64)),
+            Kind::Coefficient => (Value::Number(*si), format!("{si:?}")),
+            _ => return Ok(None),
+        };
+        if !key.range.holds(*si) {
+            return Err(Box::new(self.problem(
+                Code::OutOfRange,
+                key.path,
+                Place::Whole,
+                format!("{text} in the catalogue for \"{}\"", record.name),
+                key.needed(),
+            )));
+        }
+        Ok(Some(Known {
+            value,
+            text,
+            provenance: provenance.clone(),
+            place: Place::Whole,
+        }))
+    }
+
+    fn without(
+        &self,
+        key: &Key,
+        record: Option<&BearingRecord>,
+        document: &Document,
+    ) -> Result<Option<Known>, Box<Problem>> {
+        let replaced = table::keys().any(|other| {
+            other.excludes == Some(key.path) && document.values.contains_key(other.path)
+        });
+        if replaced {
+            return Ok(None);
+        }
+        match key.presence {
+            Presence::Optional(_) | Presence::Derived(_) => Ok(None),
+            Presence::Default(fallback) => self.fall_back(key, &fallback).map(Some),
+            Presence::DefaultWhen(condition, fallback, _) if self.holds(&condition) => {
+                self.fall_back(key, &fallback).map(Some)
+            }
+            Presence::DefaultWhen(_, _, Otherwise::Optional(_)) => Ok(None),
+            Presence::DefaultWhen(condition, _, Otherwise::Required) => Err(Box::new(
+                self.missing(key)
+                    .with_hint(format!("It has a default only with {}", condition.text())),
+            )),
+            Presence::Required => Err(Box::new(self.missing(key))),
+            Presence::FromBearing => {
+                let hint = match record {
+                    Some(record) => {
+                        format!("The catalogue does not know it of \"{}\"", record.name)
+                    }
+                    None => "bearing.name takes it from the catalogue".to_string(),
+                };
+                Err(Box::new(self.missing(key).with_hint(hint)))
+            }
+        }
+    }
+
+    fn missing(&self, key: &Key) -> Problem {
+        self.problem(
+            Code::MissingKey,
+            key.path,
+            Place::Whole,
+            "no value",
+            key.needed(),
+        )
+    }
+
+    fn fall_back(&self, key: &Key, fallback: &Fallback) -> Result<Known, Box<Problem>> {
+        let raw = match key.kind {
+            Kind::Count => Raw::Integer(fallback.text.to_string(), fallback.text.parse().ok()),
+            Kind::Switch => Raw::Switch(fallback.text == "true"),
+            Kind::Coefficient => Raw::Float(fallback.text.parse().unwrap_or(f64::NAN)),
+            _ => Raw::Text(fallback.text.to_string()),
+        };
+        let given = Given {
+            raw,
+            typed: None,
+            place: Place::Whole,
+        };
+        let mut known = self.read(key, &given)?;
+        let reason = fallback.reason.to_string();
+        known.provenance = if fallback.assumed {
+            Provenance::DefaultAssumed(reason)
+        } else {
+            Provenance::Default(reason)
+        };
+        Ok(known)
+    }
+
+    /// Values that follow from others without physics.
+    fn derive(&mut self) -> Result<(), Box<Problem>> {
+        if let (Some(unbalance), Some(mass)) =
+            (self.number("rotor.unbalance"), self.number("rotor.mass"))
+        {
+            self.put_derived(
+                "rotor.unbalance_eccentricity",
+                unbalance / mass,
+                "unbalance / mass",
+            )?;
+        }
+        if !self.known.contains_key("bearing.cage_inertia")
+            && let (Some(mass), Some(pitch)) = (
+                self.number("bearing.cage_mass"),
+                self.number("bearing.pitch_diameter"),
+            )
+        {
+            let radius = 0.5 * pitch;
+            self.put_derived(
+                "bearing.cage_inertia",
+                mass * radius * radius,
+                "cage_mass (pitch_diameter/2)^2: a thin ring at the pitch circle",
+            )?;
+        }
+        Ok(())
+    }
+
+    fn put_derived(
+        &mut self,
+        path: &'static str,
+        value: f64,
+        how: &str,
+    ) -> Result<(), Box<Problem>> {
+        let Some(key) = table::keys().find(|key| key.path == path) else {
+            return Ok(());
+        };
+        let text = quantity_text(key, value);
+        if !key.range.holds(value) {
+            return Err(Box::new(self.problem(
+                Code::OutOfRange,
+                path,
+                Place::Whole,
+                format!("{text}, derived by {how}"),
+                key.needed(),
+            )));
+        }
+        let known = Known {
+            value: Value::Number(value),
+            text,
+            provenance: Provenance::Derived(how.to_string()),
+            place: Place::Whole,
+        };
+        self.known.insert(path, known);
+        Ok(())
+    }
+
+    /// Where a value was given.
+    pub(super) fn place(&self, path: &str) -> Place {
+        self.known
+            .get(path)
+            .map_or(Place::Whole, |known| known.place)
+    }
+
+    /// The value as written.
+    pub(super) fn text(&self, path: &str) -> Option<String> {
+        self.known.get(path).map(|known| known.text.clone())
+    }
+
+    /// A number in SI, where there is one.
+    pub(super) fn number(&self, path: &str) -> Option<f64> {
+        self.known.get(path).and_then(|known| known.value.number())
+    }
+
+    /// A word; empty where there is none.
+    pub(super) fn word(&self, path: &str) -> &'static str {
+        match self.known.get(path).map(|known| &known.value) {
+            Some(Value::Word(word)) => word,
+            _ => "",
+        }
+    }
+
+    /// A switch; off where there is none.
+    pub(super) fn switch(&self, path: &str) -> bool {
+        matches!(
+            self.known.get(path).map(|known| &known.value),
+            Some(Value::Switch(true))
+        )
+    }
+
+    /// A whole number; 0 where there is none.
+    pub(super) fn count(&self, path: &str) -> u64 {
+        match self.known.get(path).map(|known| &known.value) {
+            Some(Value::Count(count)) => *count,
+            _ => 0,
+        }
+    }
+
+    /// The list of all values for people and for the resolved file.
+    pub(super) fn resolved(&self) -> Resolved {
+        let mut list = Vec::new();
+        for key in table::keys().filter(|key| self.unmet(key).is_none()) {
+            let known = self.known.get(key.path);
+            let absent = match key.presence {
+                Presence::Derived(how) => Some(Provenance::Derived(how.to_string())),
+                Presence::Optional(meaning)
+                | Presence::DefaultWhen(_, _, Otherwise::Optional(meaning)) => {
+                    Some(Provenance::Default(format!("not given: {meaning}")))
+                }
+                _ => None,
+            };
+            let Some(provenance) = known.map(|known| known.provenance.clone()).or(absent) else {
+                continue;
+            };
+            list.push(ResolvedValue {
+                path: key.path,
+                text: known.map(|known| known.text.clone()),
+                value_si: known.and_then(|known| known.value.number()),
+                unit: self.si_unit(key),
+                provenance,
+                place: known.map_or(Place::Whole, |known| known.place),
+            });
+        }
+        Resolved { values: list }
+    }
+
+    fn si_unit(&self, key: &Key) -> String {
+        match key.kind {
+            Kind::ContactStiffness { .. } => self
+                .text(key.path)
+                .and_then(|text| parse_quantity(&text).ok())
+                .map_or(String::new(), |quantity| quantity.dimension.si_unit()),
+            _ => key.unit().to_string(),
+        }
+    }
+}
+
+/// A value in SI as a text that reads back bit for bit.
+fn quantity_text(key: &Key, value_si: f64) -> String {
+    match key.dimension() {
+        Some(dimension) => Quantity {
+            value_si,
+            dimension,
+        }
+        .to_string(),
+        None => units::number_text(value_si),
+    }
+}

@@ -1,0 +1,429 @@
+//! The part of the table of keys that describes the rolling bearing.
+
+use super::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
+
+pub(super) const SECTIONS: &[Section] = &[
+    Section {
+        path: "bearing",
+        doc: "The auxiliary rolling bearing at one plane. What the catalogue knows of the bearing named need not be given; what is given here counts.",
+    },
+    Section {
+        path: "bearing.cage",
+        doc: "The pockets of the cage.",
+    },
+    Section {
+        path: "bearing.traction",
+        doc: "Traction between balls and races: traction force over ball load, as a function of the slip speed.",
+    },
+    Section {
+        path: "bearing.drag",
+        doc: "Drag of balls and cage to ground. Real lubricant drags against the rings; these values exist to reproduce reference cases.",
+    },
+    Section {
+        path: "bearing.moment",
+        doc: "Steady friction moment of the bearing, for the fidelity \"rolling\".",
+    },
+];
+
+const SILICON_NITRIDE_LIMIT: &str = "no limit is known for hybrid bearings; none is compared";
+
+const STEEL_BALLS: Condition = Condition {
+    path: "bearing.ball_material",
+    values: &["steel"],
+    reason: "",
+};
+
+const fn traction(values: &'static [&'static str]) -> Condition {
+    Condition {
+        path: "bearing.traction.law",
+        values,
+        reason: "",
+    }
+}
+
+const ROLLING: Condition = Condition {
+    path: "bearing.fidelity",
+    values: &["rolling"],
+    reason: "the fidelity \"planar\" has no steady moment yet",
+};
+
+const PALMGREN: Condition = Condition {
+    path: "bearing.moment.law",
+    values: &["palmgren"],
+    reason: "",
+};
+
+pub(super) const KEYS: &[Key] = &[
+    Key::new(
+        "bearing.name",
+        Kind::Text,
+        "6005",
+        "Name in the bearing catalogue.",
+    )
+    .optional("all dimensions stand in this file"),
+    Key::new(
+        "bearing.fidelity",
+        Kind::Word(&["planar", "rolling"]),
+        "planar",
+        "How the bearing is modelled: planar moves each ball and the cage with slip; rolling assumes pure rolling and is far faster.",
+    )
+    .default("planar", "slip of the balls matters in a drop"),
+    Key::new("bearing.ball_count", Kind::Count, "10", "Number of balls.")
+        .within(Range::FromTo(1.0, 60.0))
+        .catalogued(),
+    Key::new(
+        "bearing.ball_diameter",
+        Kind::Quantity("m"),
+        "6.35 mm",
+        "Diameter of a ball.",
+    )
+    .positive()
+    .catalogued(),
+    Key::new(
+        "bearing.pitch_diameter",
+        Kind::Quantity("m"),
+        "36 mm",
+        "Diameter of the circle through the ball centres.",
+    )
+    .positive()
+    .catalogued(),
+    Key::new(
+        "bearing.operating_diametral_clearance",
+        Kind::Quantity("m"),
+        "5 um",
+        "Diametral internal clearance as mounted, after fits; negative is preload.",
+    )
+    .default("0 m", "neither clearance nor preload"),
+    Key::new(
+        "bearing.inner_groove_curvature",
+        Kind::Coefficient,
+        "0.52",
+        "Groove radius of the inner race over ball diameter.",
+    )
+    .within(Range::Above(0.5))
+    .assumed("0.52", "usual for deep groove ball bearings; makers differ"),
+    Key::new(
+        "bearing.outer_groove_curvature",
+        Kind::Coefficient,
+        "0.53",
+        "Groove radius of the outer race over ball diameter.",
+    )
+    .within(Range::Above(0.5))
+    .assumed("0.53", "usual for deep groove ball bearings; makers differ"),
+    Key::new(
+        "bearing.ball_material",
+        Kind::Word(&["steel", "silicon nitride"]),
+        "steel",
+        "Material of the balls; the races are of bearing steel.",
+    )
+    .default("steel", "the usual material"),
+    Key::new(
+        "bearing.static_load_rating",
+        Kind::Quantity("N"),
+        "6.55 kN",
+        "Static load rating C0.",
+    )
+    .positive()
+    .optional("no static safety and no load-dependent friction from it"),
+    Key::new(
+        "bearing.inner_race_mass",
+        Kind::Quantity("kg"),
+        "20.4 g",
+        "Mass of the inner race with its sleeve.",
+    )
+    .positive()
+    .catalogued(),
+    Key::new(
+        "bearing.inner_race_inertia",
+        Kind::Quantity("kg m^2"),
+        "3.9e-6 kg m^2",
+        "Moment of inertia of the inner race with its sleeve, about the axis.",
+    )
+    .positive()
+    .catalogued(),
+    Key::new(
+        "bearing.cage_mass",
+        Kind::Quantity("kg"),
+        "5 g",
+        "Mass of the cage.",
+    )
+    .positive()
+    .catalogued(),
+    Key::new(
+        "bearing.cage_inertia",
+        Kind::Quantity("kg m^2"),
+        "1.62e-6 kg m^2",
+        "Moment of inertia of the cage about the axis.",
+    )
+    .positive()
+    .derived("cage_mass (pitch_diameter/2)^2: a thin ring at the pitch circle"),
+    Key::new(
+        "bearing.ball_mass",
+        Kind::Quantity("kg"),
+        "1.05 g",
+        "Mass of one ball.",
+    )
+    .positive()
+    .derived("from ball_diameter and the density of ball_material"),
+    Key::new(
+        "bearing.inner_contact_stiffness",
+        Kind::Quantity("N/m^1.5"),
+        "2.5e10 N/m^1.5",
+        "Stiffness K of the contact of one ball with the inner race, Q = K δ^1.5.",
+    )
+    .positive()
+    .derived("Hertz contact of ball and inner groove"),
+    Key::new(
+        "bearing.outer_contact_stiffness",
+        Kind::Quantity("N/m^1.5"),
+        "2.2e10 N/m^1.5",
+        "Stiffness K of the contact of one ball with the outer race, Q = K δ^1.5.",
+    )
+    .positive()
+    .derived("Hertz contact of ball and outer groove"),
+    Key::new(
+        "bearing.contact_damping_time",
+        Kind::Quantity("s"),
+        "2.5 us",
+        "Retardation time β of the ball contacts, Q = K(δ^1.5 + 1.5 β δ^0.5 δ̇).",
+    )
+    .not_negative()
+    .assumed("2.5 us", "not measured; weak damping of the ball contacts"),
+    Key::new(
+        "bearing.inner_race_centre_held",
+        Kind::Switch,
+        "false",
+        "Hold the centre of the inner race, which then only turns.",
+    )
+    .default("false", "the inner race moves on its balls"),
+    Key::new(
+        "bearing.inner_race_torque",
+        Kind::Quantity("N m"),
+        "0 N m",
+        "Torque from ground on the inner race, counter-clockwise positive.",
+    )
+    .default("0 N m", "nothing but rotor and balls drives the inner race"),
+    Key::new(
+        "bearing.first_ball_angle",
+        Kind::Quantity("rad"),
+        "0 deg",
+        "Angle of the first ball at the release, from x.",
+    )
+    .default("0 rad", "the first ball lies on the x axis at the release"),
+    Key::new(
+        "bearing.hertz_pressure_limit",
+        Kind::Quantity("Pa"),
+        "4200 MPa",
+        "Contact pressure that the report compares with.",
+    )
+    .positive()
+    .default_when(
+        STEEL_BALLS,
+        Fallback {
+            text: "4200 MPa",
+            reason: "static limit for ball bearings of steel, ISO 76",
+            assumed: false,
+        },
+        Otherwise::Optional(SILICON_NITRIDE_LIMIT),
+    ),
+    Key::new(
+        "bearing.cage.pocket_contact",
+        Kind::Switch,
+        "true",
+        "Whether balls and cage touch at all.",
+    )
+    .default("true", "balls drive the cage by its pockets"),
+    Key::new(
+        "bearing.cage.pocket_gap",
+        Kind::Quantity("m"),
+        "0.1 mm",
+        "Gap between ball and pocket on one side, along the pitch circle.",
+    )
+    .not_negative()
+    .assumed("0.1 mm", "order of magnitude of small bearings"),
+    Key::new(
+        "bearing.cage.pocket_stiffness",
+        Kind::Quantity("N/m"),
+        "1e7 N/m",
+        "Stiffness of the contact of a ball with its pocket.",
+    )
+    .positive()
+    .assumed("1e7 N/m", "order of magnitude; cage materials differ widely"),
+    Key::new(
+        "bearing.cage.pocket_damping",
+        Kind::Quantity("s/m"),
+        "0.5 s/m",
+        "Hunt-Crossley damping of the pocket contact.",
+    )
+    .not_negative()
+    .assumed("0.5 s/m", "not measured"),
+    Key::new(
+        "bearing.cage.pocket_friction_coefficient",
+        Kind::Coefficient,
+        "0.05",
+        "Coefficient of friction of a ball in its pocket.",
+    )
+    .not_negative()
+    .assumed("0.05", "lubricated sliding; not measured"),
+    Key::new(
+        "bearing.cage.pocket_friction_reference_speed",
+        Kind::Quantity("m/s"),
+        "0.1 m/s",
+        "Slip speed that regularises the pocket friction.",
+    )
+    .positive()
+    .default("0.1 m/s", "numerical regularisation: small against the surface speed of a ball"),
+    Key::new(
+        "bearing.traction.law",
+        Kind::Word(&["tanh", "four parameter", "dry"]),
+        "tanh",
+        "Traction law: tanh is maximum·tanh(u/reference_speed); four parameter is (A + B u)exp(-C u) + D; dry falls from static to kinetic friction.",
+    )
+    .default("tanh", "two parameters suffice where no traction curve is measured"),
+    Key::new(
+        "bearing.traction.maximum",
+        Kind::Coefficient,
+        "0.07",
+        "Largest traction coefficient of the tanh law.",
+    )
+    .not_negative()
+    .assumed("0.07", "order of magnitude of mineral oils")
+    .when(traction(&["tanh"])),
+    Key::new(
+        "bearing.traction.a",
+        Kind::Coefficient,
+        "-0.07",
+        "A of the four parameter law.",
+    )
+    .when(traction(&["four parameter"])),
+    Key::new(
+        "bearing.traction.b",
+        Kind::Quantity("s/m"),
+        "0.35 s/m",
+        "B of the four parameter law.",
+    )
+    .when(traction(&["four parameter"])),
+    Key::new(
+        "bearing.traction.c",
+        Kind::Quantity("s/m"),
+        "5 s/m",
+        "C of the four parameter law.",
+    )
+    .not_negative()
+    .when(traction(&["four parameter"])),
+    Key::new(
+        "bearing.traction.d",
+        Kind::Coefficient,
+        "0.07",
+        "D of the four parameter law; D = -A, so that there is no traction without slip.",
+    )
+    .when(traction(&["four parameter"])),
+    Key::new(
+        "bearing.traction.kinetic",
+        Kind::Coefficient,
+        "0.1",
+        "Friction coefficient of the dry law at high slip.",
+    )
+    .not_negative()
+    .when(traction(&["dry"])),
+    Key::new(
+        "bearing.traction.static",
+        Kind::Coefficient,
+        "0.15",
+        "Friction coefficient of the dry law at small slip.",
+    )
+    .not_negative()
+    .when(traction(&["dry"])),
+    Key::new(
+        "bearing.traction.decay_speed",
+        Kind::Quantity("m/s"),
+        "0.5 m/s",
+        "Slip speed over which the dry law falls from static to kinetic.",
+    )
+    .positive()
+    .when(traction(&["dry"])),
+    Key::new(
+        "bearing.traction.reference_speed",
+        Kind::Quantity("m/s"),
+        "0.1 m/s",
+        "Slip speed that regularises the tanh and dry laws.",
+    )
+    .positive()
+    .default(
+        "0.1 m/s",
+        "numerical regularisation; it stands for the slope of a traction curve",
+    )
+    .when(traction(&["tanh", "dry"])),
+    Key::new(
+        "bearing.drag.orbit",
+        Kind::Quantity("N s/m"),
+        "2e-4 N s/m",
+        "Drag force on a ball over its orbital speed.",
+    )
+    .not_negative()
+    .default("0 N s/m", "drag to ground is not physical"),
+    Key::new(
+        "bearing.drag.spin",
+        Kind::Quantity("N m s"),
+        "1e-9 N m s",
+        "Drag torque on a ball over its spin.",
+    )
+    .not_negative()
+    .default("0 N m s", "drag to ground is not physical"),
+    Key::new(
+        "bearing.drag.cage",
+        Kind::Quantity("N m s"),
+        "1e-7 N m s",
+        "Drag torque on the cage over its speed.",
+    )
+    .not_negative()
+    .default("0 N m s", "drag to ground is not physical"),
+    Key::new(
+        "bearing.moment.law",
+        Kind::Word(&["none", "palmgren"]),
+        "palmgren",
+        "Law of the steady friction moment.",
+    )
+    .default("none", "no moment unless one is asked for")
+    .when(ROLLING),
+    Key::new(
+        "bearing.moment.form",
+        Kind::Word(&["continuous", "printed"]),
+        "continuous",
+        "Form of the load-independent moment: continuous and odd in speed, or as printed, with its step of one percent.",
+    )
+    .default("continuous", "a moment without step")
+    .when(PALMGREN),
+    Key::new(
+        "bearing.moment.f0",
+        Kind::Coefficient,
+        "2",
+        "Palmgren factor f0 of bearing type and lubrication.",
+    )
+    .not_negative()
+    .when(PALMGREN),
+    Key::new(
+        "bearing.moment.viscosity",
+        Kind::Quantity("m^2/s"),
+        "100 mm^2/s",
+        "Kinematic viscosity of the lubricant at running temperature.",
+    )
+    .not_negative()
+    .when(PALMGREN),
+    Key::new(
+        "bearing.moment.f1_factor",
+        Kind::Coefficient,
+        "0.0009",
+        "Factor z of the load-dependent friction f1 = z (P0/C0)^y.",
+    )
+    .not_negative()
+    .when(PALMGREN),
+    Key::new(
+        "bearing.moment.f1_exponent",
+        Kind::Coefficient,
+        "0.55",
+        "Exponent y of the load-dependent friction f1 = z (P0/C0)^y.",
+    )
+    .not_negative()
+    .when(PALMGREN),
+];

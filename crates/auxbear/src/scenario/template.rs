@@ -1,0 +1,108 @@
+//! The commented starting file, written from the table of keys.
+
+use super::key::{Key, Otherwise, Presence};
+use super::table;
+
+/// Width of a comment line.
+const WIDTH: usize = 100;
+
+/// The commented starting file of a kind; `None` for a kind that is not built yet. It reads without a problem.
+pub fn template(kind: &str) -> Option<String> {
+    if kind != "drop" {
+        return None;
+    }
+    let mut out = String::new();
+    comment(
+        &mut out,
+        "A levitated rotor drops onto its auxiliary bearing. Replace the examples by your machine. A value is a text with a unit, or a table that tells where it comes from:",
+    );
+    out.push_str("#   mass = { value = \"8 kg\", source = \"drawing 4711\" }\n");
+    out.push_str("#   mass = { value = \"8 kg\", assumed = \"not weighed yet\" }\n");
+    comment(
+        &mut out,
+        "A line that starts with # is not read. Such lines show each default, or an example where there is none.",
+    );
+    out.push('\n');
+    let mut section = "";
+    for key in table::keys() {
+        if key.section() != section {
+            section = key.section();
+            if let Some(section) = table::sections().find(|known| known.path == section) {
+                comment(&mut out, section.doc);
+            }
+            out.push_str(&format!("[{section}]\n\n"));
+        }
+        describe(&mut out, key);
+    }
+    Some(out.trim_end().to_string() + "\n")
+}
+
+fn describe(out: &mut String, key: &Key) {
+    let mut doc = key.doc.to_string();
+    if let Some(condition) = key.when {
+        doc.push_str(&format!(" Only with {}.", condition.text()));
+    }
+    let line = |text: &str| format!("{} = {}", key.name(), key.literal(text));
+    let (active, text) = match key.presence {
+        Presence::Required => (key.when.is_none(), line(key.example)),
+        Presence::FromBearing => {
+            doc.push_str(" Not needed with a bearing.name that the catalogue knows.");
+            (true, line(key.example))
+        }
+        Presence::Optional(meaning) => {
+            doc.push_str(&format!(" Without it {meaning}."));
+            (false, line(key.example))
+        }
+        Presence::Derived(how) => {
+            doc.push_str(&format!(" Without it: {how}."));
+            (false, line(key.example))
+        }
+        Presence::Default(fallback) => {
+            let mark = if fallback.assumed {
+                "assumed"
+            } else {
+                "default"
+            };
+            (
+                false,
+                format!("{} # {mark}: {}", line(fallback.text), fallback.reason),
+            )
+        }
+        Presence::DefaultWhen(condition, fallback, otherwise) => {
+            let mark = if fallback.assumed {
+                "assumed"
+            } else {
+                "default"
+            };
+            let rest = match otherwise {
+                Otherwise::Required => "required otherwise",
+                Otherwise::Optional(meaning) => meaning,
+            };
+            doc.push_str(&format!(" Default with {}; {rest}.", condition.text()));
+            (
+                false,
+                format!("{} # {mark}: {}", line(fallback.text), fallback.reason),
+            )
+        }
+    };
+    comment(out, &doc);
+    out.push_str(if active { "" } else { "# " });
+    out.push_str(&text);
+    out.push_str("\n\n");
+}
+
+/// Writes a text as comment lines of limited width.
+fn comment(out: &mut String, text: &str) {
+    let mut line = String::from("#");
+    for word in text.split_whitespace() {
+        if line.chars().count() + 1 + word.chars().count() > WIDTH {
+            out.push_str(&line);
+            out.push('\n');
+            line = String::from("#");
+        }
+        line.push(' ');
+        line.push_str(word);
+    }
+    out.push_str(&line);
+    out.push('\n');
+}
