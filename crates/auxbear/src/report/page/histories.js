@@ -99,8 +99,10 @@ function speedSection(runs) {
     });
   }
   const marks = (pen, plot, ratio) => {
+    // With more than two runs the words would cover the curves: one instant each, the others are in the table.
+    const shown = INSTANTS.filter(([name]) => runs.length <= 2 || name === "inner_race_time_to_95_percent");
     const known = runs.flatMap((run) =>
-      INSTANTS.map(([name, words, part]) => ({ instant: numberOf(run, name), words: run.prefix + words, colour: several ? run.colour : SERIES_COLOURS[part] })),
+      shown.map(([name, words, part]) => ({ instant: numberOf(run, name), words: run.prefix + words, colour: several ? run.colour : SERIES_COLOURS[part] })),
     );
     instantMarks(pen, plot, ratio, known.filter((mark) => mark.instant !== null));
   };

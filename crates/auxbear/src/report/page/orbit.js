@@ -53,9 +53,8 @@ function orbitFigure(run, runs) {
   };
 
   const draw = () => {
-    const columns = runs.length > 1 && window.innerWidth > 1000 ? 2 : 1;
-    size = Math.max(280, Math.min(runs.length > 1 ? 560 : 600, holder.clientWidth || 500));
-    if (columns === 1 && runs.length > 1) size = Math.min(size, 520);
+    const most = document.documentElement.classList.contains("paper") ? 480 : 600;
+    size = Math.max(280, Math.min(most, holder.clientWidth || 500));
     const pen = sizedCanvas(size, size + 40, canvas);
     const place = frame();
     drawOrbitAxes(pen, place, view);

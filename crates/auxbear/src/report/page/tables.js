@@ -49,6 +49,7 @@ function differenceText(first, other) {
   if (first === other) return "same";
   if (first === 0) return "from 0";
   const share = (other - first) / Math.abs(first);
+  if (Math.abs(share) < 1e-5) return "below 0.001 %";
   return (share > 0 ? "+" : "") + percentText(share);
 }
 
@@ -59,7 +60,7 @@ function quantitySection(runs) {
   const single = runs.length === 1;
   const heads = ["Quantity"];
   if (single) heads.push("Value", "In SI units");
-  else runs.forEach((run, index) => heads.push(run.label, ...(index ? [`${run.letter} − A`] : [])));
+  else runs.forEach((run, index) => heads.push(run.label, ...(index ? [`(${run.letter} − A) / A`] : [])));
   if (repeated && single) heads.push("Mean ± deviation, range");
   const bodies = names.map((name) => {
     const all = runs.map((run) => quantityOf(run, name));
