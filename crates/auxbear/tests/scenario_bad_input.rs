@@ -326,6 +326,12 @@ fn contact_at_the_start_is_refused_with_both_numbers() {
         )
         .is_ok()
     );
+    // Far above resonance the rotor turns about its centre of mass: the whirl is the eccentricity, 5 µm.
+    let fast = |clearance: &str| {
+        let clearance = format!("contact.radial_air_clearance={clearance}");
+        parse(GOOD, &["rotor.speed=1e200 rpm", &clearance])
+    };
+    assert!(fast("4.99 um").is_err() && fast("5.01 um").is_ok());
     // Without damping the whirl at resonance has no bound.
     let resonant = parse(
         GOOD,

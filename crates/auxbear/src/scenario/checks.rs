@@ -215,16 +215,18 @@ impl Context<'_> {
 /// Radius of the circle of the geometric centre C = G - e·exp(jφ) of the levitated rotor, m.
 ///
 /// The steady orbit of the centre of mass is G = (k + jcΩ)e/(k + jcΩ - mΩ²) for the rotor's share m at one plane, so
-/// |C| = e mΩ²/|k + jcΩ - mΩ²|.
+/// |C| = e mΩ²/|k + jcΩ - mΩ²| = e/|k/(mΩ²) - 1 + jc/(mΩ)|; the second form bears any speed but zero.
 fn levitated_whirl_radius(drop: &Drop) -> f64 {
     let rotor = &drop.rotor;
     let levitation = &drop.levitation;
-    let inertial = rotor.mass / f64::from(rotor.planes) * rotor.speed * rotor.speed;
-    let unbalance = rotor.unbalance_eccentricity * inertial;
-    if unbalance == 0.0 {
+    let eccentricity = rotor.unbalance_eccentricity;
+    if rotor.speed == 0.0 || eccentricity == 0.0 {
         return 0.0;
     }
-    unbalance / (levitation.stiffness - inertial).hypot(levitation.damping * rotor.speed)
+    let share = rotor.mass / f64::from(rotor.planes);
+    let stiffness = levitation.stiffness / share / rotor.speed / rotor.speed;
+    let damping = levitation.damping / share / rotor.speed;
+    eccentricity / (stiffness - 1.0).hypot(damping)
 }
 
 /// A length for a message, to four digits.

@@ -340,7 +340,8 @@ fn meant(path: &[String]) -> Option<String> {
         names = nearest_names(&dotted, all());
         names.truncate(1);
     }
-    if names.is_empty() {
+    // Short names are near too many others.
+    if names.is_empty() && name.len() > 3 {
         let near = nearest_names(name, all().map(last));
         names = all()
             .filter(|path| near.first() == Some(&last(path)))
