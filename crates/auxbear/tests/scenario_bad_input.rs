@@ -53,6 +53,7 @@ impl BearingSource for TwoBearings {
                         source: "a catalogue".to_string(),
                     },
                 )],
+                words: Vec::new(),
             })
     }
 

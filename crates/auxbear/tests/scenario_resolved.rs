@@ -1,8 +1,8 @@
 //! The resolved file: every value with its origin, and the same numbers bit for bit when it is read again.
 
 use auxbear::scenario::{
-    BearingRecord, BearingSource, Fidelity, Kind, Moment, MomentForm, NoBearings, Presence,
-    Provenance, Range, Scenario, Spin, System, Traction, keys, sections, template,
+    BallMaterial, BearingRecord, BearingSource, Fidelity, Kind, Moment, MomentForm, NoBearings,
+    Presence, Provenance, Range, Scenario, Spin, System, Traction, keys, sections, template,
 };
 use proptest::prelude::*;
 
@@ -10,35 +10,42 @@ struct OneBearing;
 
 impl BearingSource for OneBearing {
     fn find(&self, name: &str) -> Option<BearingRecord> {
-        let value = |key: &str, value_si: f64, mark: &str| {
-            (
-                key.to_string(),
-                value_si,
-                Provenance::Catalogue {
-                    bearing: "6005".to_string(),
-                    mark: mark.to_string(),
-                    source: "a \"catalogue\", p. 3".to_string(),
-                },
-            )
+        let origin = |mark: &str| Provenance::Catalogue {
+            bearing: "6005".to_string(),
+            mark: mark.to_string(),
+            source: "a \"catalogue\", p. 3".to_string(),
         };
-        (name == "6005").then(|| BearingRecord {
-            name: "6005".to_string(),
-            values: vec![
-                value("bore_diameter", 0.025, "read"),
-                value("ball_count", 10.0, "derived"),
-                value("ball_diameter", 0.00635, "read"),
-                value("pitch_diameter", 0.036, "read"),
-                value("static_load_rating", 6550.0, "read"),
-                value("inner_race_mass", 0.0204, "assumed"),
-                value("inner_race_inertia", 3.9e-6, "assumed"),
-                value("cage_mass", 0.005, "assumed"),
-                value("inner_groove_curvature", 0.515, "assumed"),
-            ],
-        })
+        let value =
+            |key: &str, value_si: f64, mark: &str| (key.to_string(), value_si, origin(mark));
+        let material = match name {
+            "6005" => "steel",
+            _ => "silicon nitride",
+        };
+        self.names()
+            .contains(&name.to_string())
+            .then(|| BearingRecord {
+                name: name.to_string(),
+                words: vec![(
+                    "ball_material".to_string(),
+                    material.to_string(),
+                    origin("read"),
+                )],
+                values: vec![
+                    value("bore_diameter", 0.025, "read"),
+                    value("ball_count", 10.0, "derived"),
+                    value("ball_diameter", 0.00635, "read"),
+                    value("pitch_diameter", 0.036, "read"),
+                    value("static_load_rating", 6550.0, "read"),
+                    value("inner_race_mass", 0.0204, "assumed"),
+                    value("inner_race_inertia", 3.9e-6, "assumed"),
+                    value("cage_mass", 0.005, "assumed"),
+                    value("inner_groove_curvature", 0.515, "assumed"),
+                ],
+            })
     }
 
     fn names(&self) -> Vec<String> {
-        vec!["6005".to_string()]
+        vec!["6005".to_string(), "6005 hybrid".to_string()]
     }
 }
 
@@ -143,6 +150,8 @@ fn every_value_tells_its_origin() {
     assert_eq!(provenance("rotor.speed"), Provenance::Given);
     assert_eq!(provenance("bearing.cage_mass"), Provenance::Given);
     assert_eq!(provenance("bearing.ball_diameter").mark(), "catalogue");
+    assert_eq!(provenance("bearing.ball_material").mark(), "catalogue");
+    assert_eq!(provenance("bearing.inner_race_mass").mark(), "assumed");
     assert_eq!(provenance("contact.friction_coefficient").mark(), "assumed");
     assert_eq!(provenance("gravity.acceleration").mark(), "default");
     assert_eq!(provenance("rotor.unbalance_eccentricity").mark(), "derived");
@@ -257,8 +266,15 @@ fn choices_become_typed_values() {
             f1_exponent: 0.55
         }
     );
-    let hybrid = drop(&["bearing.ball_material=silicon nitride"]).bearing;
-    assert_eq!(hybrid.hertz_pressure_limit, None);
+    for hybrid in [
+        "bearing.ball_material=silicon nitride",
+        "bearing.name=6005 hybrid",
+    ] {
+        let hybrid = drop(&[hybrid]).bearing;
+        assert_eq!(hybrid.ball_material, BallMaterial::SiliconNitride);
+        // No limit for steel balls is compared with a hybrid bearing.
+        assert_eq!(hybrid.hertz_pressure_limit, None);
+    }
     // A linear contact, a power with decimals, and the same power as a fraction.
     let linear = drop(&["contact.exponent=1", "contact.stiffness=2e7 N/m"]).contact;
     assert_eq!((linear.exponent, linear.stiffness), (1.0, 2e7));

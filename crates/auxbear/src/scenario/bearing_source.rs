@@ -17,6 +17,8 @@ pub struct BearingRecord {
     pub name: String,
     /// Key of the `[bearing]` section (and `bore_diameter`), value in SI, and where the value comes from.
     pub values: Vec<(String, f64, Provenance)>,
+    /// The same for keys that take a word, such as `ball_material`.
+    pub words: Vec<(String, String, Provenance)>,
 }
 
 /// A catalogue without bearings: every dimension stands in the file.

@@ -17,7 +17,7 @@ pub enum Provenance {
     Catalogue {
         /// Name of the bearing.
         bearing: String,
-        /// How sure the catalogue is, for example "read", "derived" or "assumed".
+        /// How sure the catalogue is, for example "catalogue", "derived" or "assumed".
         mark: String,
         /// Source of the number.
         source: String,
@@ -33,6 +33,7 @@ impl Provenance {
             Provenance::Given | Provenance::GivenWithSource(_) => "given",
             Provenance::Assumed(_) | Provenance::DefaultAssumed(_) => "assumed",
             Provenance::Default(_) => "default",
+            Provenance::Catalogue { mark, .. } if mark == "assumed" => "assumed",
             Provenance::Catalogue { .. } => "catalogue",
             Provenance::Derived(_) => "derived",
         }

@@ -251,6 +251,9 @@ impl Values {
             _ if key.path == "contact.bore_diameter" => key.name(),
             _ => return Ok(None),
         };
+        if let Kind::Word(_) = key.kind {
+            return self.catalogued_word(key, name, record);
+        }
         let Some((_, si, provenance)) = record.values.iter().find(|(known, ..)| known == name)
         else {
             return Ok(None);
@@ -276,6 +279,26 @@ impl Values {
             provenance: provenance.clone(),
             place: Place::Whole,
         }))
+    }
+
+    fn catalogued_word(
+        &self,
+        key: &Key,
+        name: &str,
+        record: &BearingRecord,
+    ) -> Result<Option<Known>, Box<Problem>> {
+        let Some((_, word, provenance)) = record.words.iter().find(|(known, ..)| known == name)
+        else {
+            return Ok(None);
+        };
+        let given = Given {
+            raw: Raw::Text(word.clone()),
+            typed: None,
+            place: Place::Whole,
+        };
+        let mut known = self.read(key, &given)?;
+        known.provenance = provenance.clone();
+        Ok(Some(known))
     }
 
     fn without(
