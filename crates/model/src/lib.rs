@@ -1,1 +1,16 @@
-//! placeholder
+//! Parts and systems.
+//!
+//! A *part* ([`bearing`], [`contact`], [`mount`], [`levitation`], [`rotor`]) turns a motion into a reaction and
+//! reports the heat it makes. A *system* ([`system`]) unpacks motions from its state, lets its parts react, and
+//! accelerates its bodies: one page that reads like the equations.
+//!
+//! Frame: ground, x to the right, y up; angles and spins counter-clockwise.
+//! n points from a race centre to a ball or rotor centre, t is n turned by +90°.
+
+pub mod bearing;
+pub mod contact;
+pub mod levitation;
+pub mod motion;
+pub mod mount;
+pub mod rotor;
+pub mod system;

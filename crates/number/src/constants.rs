@@ -78,9 +78,8 @@ impl<R: Real, T: Gather<R>> Gather<R> for Option<T> {
 ///     }
 /// }
 /// let soft = Spring { stiffness: 1.0, damping: 0.1 };
-/// let hard = Spring { stiffness: 9.0, damping: 0.1 };
-/// let both: Spring<number::Lanes<2>> = number::Gather::gather(&|lane| [&soft, &hard][lane]);
-/// assert_eq!(both.stiffness.0, [1.0, 9.0]);
+/// let one: Spring<number::Dual<2>> = number::Gather::gather(&|_lane| &soft);
+/// assert_eq!(one.stiffness.value, 1.0);
 /// ```
 #[macro_export]
 macro_rules! constants {

@@ -1,6 +1,7 @@
 //! Forward derivatives.
 
 use crate::Real;
+use crate::scalar::group_of_one;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// A number with `K` partial derivatives, over `f64`.
@@ -97,20 +98,7 @@ assign!(MulAssign, mul_assign, *);
 impl<const K: usize> Real for Dual<K> {
     type Mask = bool;
     const LANES: usize = 1;
-    type Group = Self;
-    const GROUP: usize = 1;
-    #[inline(always)]
-    fn grouped(self) -> Self {
-        self
-    }
-    #[inline(always)]
-    fn load_group(parts: &[Self], from: usize) -> Self {
-        parts[from]
-    }
-    #[inline(always)]
-    fn store_group(group: Self, parts: &mut [Self], from: usize) {
-        parts[from] = group;
-    }
+    group_of_one!();
     #[inline(always)]
     fn splat(value: f64) -> Self {
         Dual {

@@ -18,7 +18,7 @@ pub trait Bits: Real {
 }
 
 /// Adding and subtracting 1.5·2^52 rounds to the nearest integer and leaves it in the low bits.
-const ROUNDING: f64 = 6_755_399_441_055_744.0;
+pub(crate) const ROUNDING: f64 = 6_755_399_441_055_744.0;
 
 /// ln 2 in two parts; the high part has 33 significant bits, so n·LN2_HIGH is exact for |n| < 2^20.
 const LN2_HIGH: f64 = 6.931_471_803_691_238_16e-1;
@@ -30,6 +30,11 @@ const HALF_PI: [f64; 3] = [
     2.022_266_248_795_950_63e-21,
 ];
 
+/// 2^52: a number with this exponent has its integer in its low bits.
+pub(crate) const LOW_EXPONENT: f64 = 4_503_599_627_370_496.0;
+/// The bits of 1.0: exponent 0, mantissa 1.
+pub(crate) const ONE_BITS: u64 = 1023 << 52;
+
 /// `ROUNDING` arithmetic for one `f64`.
 #[inline(always)]
 pub(crate) fn round_f64(x: f64) -> f64 {
@@ -37,15 +42,14 @@ pub(crate) fn round_f64(x: f64) -> f64 {
 }
 #[inline(always)]
 pub(crate) fn exp2_integer_f64(x: f64) -> f64 {
-    f64::from_bits(((x + ROUNDING).to_bits() << 52).wrapping_add(1023_u64 << 52))
+    f64::from_bits(((x + ROUNDING).to_bits() << 52).wrapping_add(ONE_BITS))
 }
 #[inline(always)]
 pub(crate) fn mantissa_exponent_f64(x: f64) -> (f64, f64) {
     let bits = x.to_bits();
-    let mantissa = f64::from_bits((bits & 0x000f_ffff_ffff_ffff) | (1023_u64 << 52));
+    let mantissa = f64::from_bits((bits & 0x000f_ffff_ffff_ffff) | ONE_BITS);
     // 2^52 + biased exponent, as a number, without an integer conversion.
-    let exponent =
-        f64::from_bits((bits >> 52) | 0x4330_0000_0000_0000) - 4_503_599_627_370_496.0 - 1023.0;
+    let exponent = f64::from_bits((bits >> 52) | 0x4330_0000_0000_0000) - LOW_EXPONENT - 1023.0;
     (mantissa, exponent)
 }
 #[inline(always)]

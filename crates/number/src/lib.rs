@@ -3,13 +3,14 @@
 //! Every law, part, system and solver of auxbear is written once over [`Real`] and runs on
 //!
 //! - `f64`: one machine;
-//! - [`Lanes`]: `W` machines side by side, one per SIMD lane, each with its own constants and its own step;
+//! - several machines side by side, one per lane of the vector unit, each with its own constants and its own step;
+//! - one machine whose equal parts (balls) are computed several at a time, a [`Real::Group`];
 //! - [`Dual`]: one machine with `K` partial derivatives.
 //!
-//! A lane gives bitwise the result of the scalar run: all shapes share the same elementary functions
-//! ([`elementary`]), nothing is contracted (`mul_add`), and nothing branches on a lane.
-//! A single `f64` machine computes its equal parts (balls) four at a time as a [`Real::Group`].
-//! [`Level`] picks the widest vector unit at run time.
+//! [`Level`] sees at run time what the machine can do and hands a [`Task`] the number type to use: the code outside
+//! this crate never names a vector type.
+//! All shapes give bitwise the same result: they share the elementary functions ([`elementary`]), nothing is
+//! contracted (`mul_add`), and nothing branches on a lane.
 //!
 //! # Accuracy of the elementary functions
 //! Measured against the platform's `libm`, in units of the last place (ulp) of the result unless said:
@@ -27,14 +28,15 @@
 mod constants;
 mod dual;
 pub mod elementary;
-mod lanes;
 mod level;
 mod real;
+mod scalar;
 mod vector;
+#[cfg(target_arch = "x86_64")]
+mod x86;
 
 pub use constants::Gather;
 pub use dual::Dual;
-pub use lanes::{LaneMask, Lanes};
 pub use level::{Level, Task};
-pub use real::{Mask, Real};
+pub use real::{Mask, Real, Vectorized};
 pub use vector::Vec2;

@@ -15,7 +15,15 @@ pub trait Mask:
     fn from_lanes(lane: impl FnMut(usize) -> bool) -> Self;
 }
 
-/// A real number in one of its shapes: `f64`, [`Lanes`](crate::Lanes) or [`Dual`](crate::Dual).
+/// Work that a number runs on its vector unit.
+pub trait Vectorized {
+    /// What the work returns.
+    type Output;
+    /// Does the work; `#[inline(always)]`.
+    fn run(self) -> Self::Output;
+}
+
+/// A real number in one of its shapes: one machine, several side by side, or one with derivatives ([`Dual`](crate::Dual)).
 ///
 /// Code over `Real` must not branch on values: it compares to a [`Mask`] and [selects](Real::select).
 /// Both sides of a selection are computed, so arguments of `sqrt` and `ln` are clamped *before* the call.
@@ -38,8 +46,8 @@ pub trait Real:
     type Mask: Mask;
     /// Number of machines side by side.
     const LANES: usize;
-    /// Several equal parts of one machine (the balls of a bearing) side by side: four for `f64`, so that a
-    /// single machine uses the vector unit too; one for the other shapes, which are wide already.
+    /// Several equal parts of one machine (the balls of a bearing) side by side: so a single machine uses the
+    /// vector unit too. One where the number is wide already.
     type Group: Real;
     /// Number of parts in a group.
     const GROUP: usize;
@@ -75,6 +83,13 @@ pub trait Real:
     fn sin_cos(self) -> (Self, Self);
     /// Arc sine for |x| ≤ 0.125; meaningless beyond.
     fn asin_small(self) -> Self;
+
+    /// Runs a task compiled for this number's vector unit. What the task calls must be `#[inline(always)]` down to
+    /// the last law: only inlined code is compiled for the unit.
+    #[inline(always)]
+    fn vectorized<T: Vectorized>(task: T) -> T::Output {
+        task.run()
+    }
 
     /// self > other.
     fn greater(self, other: Self) -> Self::Mask;

@@ -9,6 +9,11 @@ use number::{Gather, Real, constants};
 pub trait TractionLaw<R: Real> {
     /// Traction coefficient μ at slip speed u, m/s. Odd in u.
     fn coefficient(&self, slip: R) -> R;
+    /// The coefficients at two slips, where a law can share work between them.
+    #[inline(always)]
+    fn coefficients(&self, first: R, second: R) -> (R, R) {
+        (self.coefficient(first), self.coefficient(second))
+    }
 }
 
 constants! {
@@ -104,19 +109,15 @@ pub enum Traction<R> {
     Dry(DryTraction<R>),
 }
 
-impl<R: Real> Traction<R> {
-    /// Traction coefficient at a slip speed.
+impl<R: Real> TractionLaw<R> for Traction<R> {
+    /// Traction coefficient of the chosen law.
     ///
-    /// Formula: that of the chosen law.
-    ///
-    /// - `slip` u, m/s, race surface minus ball surface
-    ///
-    /// Source: (a) regularised Coulomb; (b) the four-parameter form of
+    /// Source: (a) regularised Coulomb friction; (b) the four-parameter form of
     /// P. K. Gupta, Advanced Dynamics of Rolling Elements, 1984 (from memory);
     /// (d) the exponential Stribeck form of L. C. Bo, D. Pavelescu, Wear 82 (1982) 277 (from memory).
     /// Valid: any slip; (b) only with C > 0 and μ ≥ 0 for all |u|.
     #[inline(always)]
-    pub fn coefficient(&self, slip: R) -> R {
+    fn coefficient(&self, slip: R) -> R {
         match self {
             Traction::Tanh(law) => law.coefficient(slip),
             Traction::FourParameter(law) => law.coefficient(slip),

@@ -2,7 +2,7 @@
 
 use crate::system::Batch;
 use crate::tsitouras::{A, C, E, STAGES};
-use number::{Real, Task};
+use number::{Real, Vectorized};
 
 /// Everything a step works on: allocated once, reused for every step.
 #[derive(Debug)]
@@ -45,35 +45,19 @@ impl<R: Real> Workspace<R> {
     }
 }
 
-/// Rates and probes at the start of a step, for all lanes.
-pub(crate) struct Begin<'a, R, B: Batch<R>>
-where
-    R: Real,
-{
-    pub batch: &'a B,
-    pub mode: &'a B::Mode,
-    pub work: &'a mut Workspace<R>,
-}
-
-impl<R: Real, B: Batch<R>> Task for Begin<'_, R, B> {
-    type Output = ();
-    #[inline(always)]
-    fn run(self) {
-        let w = self.work;
-        let n = w.state.len();
-        self.batch
-            .rate(self.mode, w.time, &w.state, &mut w.rates[..n], &mut w.probe);
-    }
-}
-
-/// One step: returns the error of each lane relative to what is allowed.
+/// Stages of a step, or only the rates and probes at its start.
+///
+/// The right-hand side stands once in the compiled code, inside one loop over the stages: it is large.
 pub(crate) struct Attempt<'a, R: Real, B: Batch<R>> {
     pub batch: &'a B,
     pub mode: &'a B::Mode,
     pub work: &'a mut Workspace<R>,
+    /// `true`: the rates and probes at the start of a step. `false`: a step from there.
+    pub begin: bool,
 }
 
-impl<R: Real, B: Batch<R>> Task for Attempt<'_, R, B> {
+impl<R: Real, B: Batch<R>> Vectorized for Attempt<'_, R, B> {
+    /// Error of each lane relative to what is allowed; zero where nothing was attempted.
     type Output = R;
     #[inline(always)]
     fn run(self) -> R {
@@ -81,31 +65,31 @@ impl<R: Real, B: Batch<R>> Task for Attempt<'_, R, B> {
             batch,
             mode,
             work: w,
+            begin,
         } = self;
         let n = w.state.len();
         let (time, h) = (w.time, w.length);
-        macro_rules! stage {
-            ($s:literal, $out:expr, $probe:expr) => {{
-                let (earlier, rest) = w.rates.split_at_mut($s * n);
-                combine::<R, $s>(h, &w.state, earlier, $out);
-                batch.rate(
-                    mode,
-                    time + h * R::splat(C[$s]),
-                    $out,
-                    &mut rest[..n],
-                    $probe,
-                );
-            }};
+        let stages = if begin { 0..1 } else { 1..STAGES };
+        for s in stages {
+            combine(s, h, &w.state, &w.rates, &mut w.stage);
+            let probe: &mut [R] = match s {
+                0 => &mut w.probe,
+                LAST => &mut w.next_probe,
+                _ => &mut [],
+            };
+            let rate = &mut w.rates[s * n..(s + 1) * n];
+            batch.rate(mode, time + h * R::splat(C[s]), &w.stage, rate, probe);
         }
-        stage!(1, &mut w.stage, &mut []);
-        stage!(2, &mut w.stage, &mut []);
-        stage!(3, &mut w.stage, &mut []);
-        stage!(4, &mut w.stage, &mut []);
-        stage!(5, &mut w.stage, &mut []);
-        stage!(6, &mut w.next, &mut w.next_probe);
+        if begin {
+            return R::zero();
+        }
+        w.next.copy_from_slice(&w.stage);
         error(h, &w.rates, &w.inverse_error)
     }
 }
+
+/// The stage at the end of the step.
+const LAST: usize = STAGES - 1;
 
 /// The end of an accepted step becomes the start of the next.
 pub(crate) struct Advance<'a, R: Real> {
@@ -113,7 +97,7 @@ pub(crate) struct Advance<'a, R: Real> {
     pub accepted: R::Mask,
 }
 
-impl<R: Real> Task for Advance<'_, R> {
+impl<R: Real> Vectorized for Advance<'_, R> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
@@ -131,25 +115,18 @@ impl<R: Real> Task for Advance<'_, R> {
     }
 }
 
-/// out = state + h Σ a_j k_j over the first `S` rates.
+/// out = state + h Σ a_j k_j over the earlier rates of a stage.
 #[inline(always)]
-fn combine<R: Real, const S: usize>(h: R, state: &[R], rates: &[R], out: &mut [R]) {
+fn combine<R: Real>(stage: usize, h: R, state: &[R], rates: &[R], out: &mut [R]) {
     let n = state.len();
-    assert!(rates.len() == S * n && out.len() == n);
-    let mut weight = [R::zero(); S];
-    let mut j = 0;
-    while j < S {
-        weight[j] = h * R::splat(A[S][j]);
-        j += 1;
-    }
-    for i in 0..n {
-        let mut sum = weight[0] * rates[i];
-        let mut j = 1;
-        while j < S {
-            sum += weight[j] * rates[j * n + i];
-            j += 1;
+    assert!(rates.len() == STAGES * n && out.len() == n);
+    out.copy_from_slice(state);
+    for j in 0..stage {
+        let weight = h * R::splat(A[stage][j]);
+        let rate = &rates[j * n..(j + 1) * n];
+        for (value, rate) in out.iter_mut().zip(rate) {
+            *value += weight * *rate;
         }
-        out[i] = state[i] + sum;
     }
 }
 

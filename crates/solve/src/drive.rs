@@ -1,10 +1,10 @@
 //! The loop: per-lane step control, landed instants, endings.
 
-use crate::attempt::{Advance, Attempt, Begin, Workspace};
+use crate::attempt::{Advance, Attempt, Workspace};
 use crate::step::{LaneOf, Scratch, Step};
 use crate::system::{Batch, Machine};
 use crate::tsitouras::STAGES;
-use number::{Level, Mask, Real};
+use number::{Mask, Real};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How to integrate.
@@ -114,7 +114,6 @@ pub fn run<R, B, O>(
     starts: &[Vec<f64>],
     observers: &mut [O],
     settings: &Settings,
-    level: Level,
     interrupt: &AtomicBool,
 ) -> Vec<Ending>
 where
@@ -154,11 +153,7 @@ where
     }
     work.time = R::splat(settings.start);
     let mut mode = B::gather_mode(&|lane| lanes[lane].mode);
-    level.run(Begin {
-        batch: &batch,
-        mode: &mode,
-        work: &mut work,
-    });
+    attempt(&batch, &mode, &mut work, true);
 
     let mut iteration: u64 = 0;
     loop {
@@ -184,11 +179,7 @@ where
             Some(_) => 0.0,
         });
 
-        let error = level.run(Attempt {
-            batch: &batch,
-            mode: &mode,
-            work: &mut work,
-        });
+        let error = attempt(&batch, &mode, &mut work, false);
 
         let mut jumped = false;
         for (index, lane) in lanes.iter_mut().enumerate().take(count) {
@@ -217,7 +208,7 @@ where
         let accepted = R::Mask::from_lanes(|i| {
             i < count && lanes[i].time == lanes[i].step_end && work.length.lane(i) > 0.0
         });
-        level.run(Advance {
+        R::vectorized(Advance {
             work: &mut work,
             accepted,
         });
@@ -240,11 +231,7 @@ where
         }
         if jumped {
             mode = B::gather_mode(&|lane| lanes[lane].mode);
-            level.run(Begin {
-                batch: &batch,
-                mode: &mode,
-                work: &mut work,
-            });
+            attempt(&batch, &mode, &mut work, true);
         }
     }
 
@@ -259,6 +246,21 @@ where
             work: lane.work,
         })
         .collect()
+}
+
+/// One attempt on the vector unit.
+fn attempt<R: Real, B: Batch<R>>(
+    batch: &B,
+    mode: &B::Mode,
+    work: &mut Workspace<R>,
+    begin: bool,
+) -> R {
+    R::vectorized(Attempt {
+        batch,
+        mode,
+        work,
+        begin,
+    })
 }
 
 /// Chooses where the next step of a lane ends, or why there is none.

@@ -1,0 +1,369 @@
+//! One ball between inner race, outer race and cage: the whole planar bearing is this function, summed.
+//!
+//! ```text
+//!   ball centre  b = ρ e_r(θ),  spin σ counter-clockwise           n: race centre → ball,  t: n turned +90°
+//!
+//!   contact   approach δ                      slip u, race less ball surface       arms (mid-overlap)
+//!   inner     R_i + r - |b - c_i|             (v_i - v_b)·t + ω_i a_i + σ a         a = r - δ/2, a_i = R_i - δ/2
+//!   outer     |b - c_o| + r - R_o             (v_o - v_b)·t + ω_o a_o - σ a         a = r - δ/2, a_o = R_o + δ/2
+//!
+//!   on the ball: inner  +Q n + μ(u)Q t, moment -a μQ       outer  -Q n + μ(u)Q t, moment +a μQ
+//!
+//!   pocket    ψ = R_p wrap(β - φ_c - seat), β azimuth about c_o;  s = sign ψ;  p = |ψ| - gap
+//!             on the ball  -s P R_p/|b - c_o| t - μ_c tanh(v/v0) P n,   v = (v_b - v_o)·n - s r (σ - ω_c)
+//! ```
+//! Every force stands once and is added with both signs.
+//!
+//! Assumes: motion in the plane; the cage is centred on the outer race.
+//! Does not model: axial motion, tilt, gyroscopic moments, ball-to-ball contact, cage translation, lubricant film.
+
+use crate::motion::Wrench;
+use number::{Gather, Mask, Real, Vec2, constants};
+use physics::contact::{ball_race, ball_race_energy, linear_contact};
+use physics::traction::TractionLaw;
+
+constants! {
+    /// What one ball, its two contacts and its pocket are made of.
+    pub struct BallConstants {
+        /// Ball radius r, m.
+        radius: R,
+        /// Ball mass, kg.
+        mass: R,
+        /// 1/mass, 1/kg.
+        inverse_mass: R,
+        /// 1/(moment of inertia), 1/(kg m²).
+        inverse_inertia: R,
+        /// Radius of the inner track R_i, m.
+        inner_track: R,
+        /// Radius of the outer track R_o, m.
+        outer_track: R,
+        /// Hertz stiffness at the inner race K_i, N/m^1.5.
+        inner_stiffness: R,
+        /// Hertz stiffness at the outer race K_o, N/m^1.5.
+        outer_stiffness: R,
+        /// Contact damping time β, s.
+        damping_time: R,
+        /// Radius of the circle of the pockets R_p, m.
+        pocket_radius: R,
+        /// Free travel of the ball in its pocket to either side, m.
+        pocket_gap: R,
+        /// Pocket stiffness, N/m.
+        pocket_stiffness: R,
+        /// Pocket damping, s/m.
+        pocket_damping: R,
+        /// Pocket friction coefficient.
+        pocket_friction: R,
+        /// Inverse of the reference speed of pocket friction, s/m.
+        pocket_inverse_reference_speed: R,
+        /// Drag to ground on the orbit speed, N s/m.
+        orbit_drag: R,
+        /// Drag to ground on the spin, N m s.
+        spin_drag: R,
+        /// Gravity, m/s².
+        gravity: Vec2<R>,
+    }
+}
+
+/// Motion of a ball about the fixed origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BallMotion<R> {
+    /// Distance from the origin ρ, m.
+    pub radius: R,
+    /// ρ̇, m/s.
+    pub radial_speed: R,
+    /// Azimuth θ, rad.
+    pub azimuth: R,
+    /// θ̇, rad/s.
+    pub orbit_speed: R,
+    /// Spin σ, rad/s.
+    pub spin: R,
+}
+
+/// A race as a ball sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RaceMotion<R> {
+    /// Centre, m.
+    pub position: Vec2<R>,
+    /// Speed of the centre, m/s.
+    pub velocity: Vec2<R>,
+    /// Spin, rad/s.
+    pub spin: R,
+}
+
+/// A pocket as its ball sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PocketMotion<R> {
+    /// Angle of the pocket centre, cage angle and seat, rad.
+    pub angle: R,
+    /// Cage speed, rad/s.
+    pub spin: R,
+}
+
+/// The two accelerations and the spin acceleration of a ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BallAcceleration<R> {
+    /// ρ̈, m/s².
+    pub radial: R,
+    /// θ̈, rad/s².
+    pub orbit: R,
+    /// σ̇, rad/s².
+    pub spin: R,
+}
+
+/// Heat made around a ball by kind, W; all are never negative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BallHeat<R> {
+    /// Contact damping at the inner race.
+    pub inner_damping: R,
+    /// Contact damping at the outer race.
+    pub outer_damping: R,
+    /// Sliding at the inner race.
+    pub inner_sliding: R,
+    /// Sliding at the outer race.
+    pub outer_sliding: R,
+    /// Drag to ground.
+    pub drag: R,
+    /// Contact damping in the pocket.
+    pub pocket_damping: R,
+    /// Sliding in the pocket.
+    pub pocket_sliding: R,
+}
+
+/// What a ball feels and does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BallReaction<R> {
+    /// Acceleration of the ball.
+    pub acceleration: BallAcceleration<R>,
+    /// On the inner race, moment about its centre.
+    pub on_inner: Wrench<R>,
+    /// On the outer race, moment about its centre.
+    pub on_outer: Wrench<R>,
+    /// Moment on the cage, N m.
+    pub on_cage: R,
+    /// Moment about the origin from outside the bearing: weight and drag to ground, N m.
+    pub external_moment: R,
+    /// Heat by kind.
+    pub heat: BallHeat<R>,
+    /// Load at the inner race Q_i, N.
+    pub inner_load: R,
+    /// Load at the outer race Q_o, N.
+    pub outer_load: R,
+    /// Slip at the inner race, m/s.
+    pub inner_slip: R,
+    /// Slip at the outer race, m/s.
+    pub outer_slip: R,
+    /// Pocket force, N.
+    pub pocket_force: R,
+    /// Side of the pocket: +1 where the ball leads its pocket.
+    pub pocket_side: R,
+    /// Pocket penetration, m; negative when free.
+    pub pocket_penetration: R,
+}
+
+/// Four reciprocals for one division.
+#[inline(always)]
+fn reciprocals<R: Real>(a: R, b: R, c: R) -> (R, R, R) {
+    let ab = a * b;
+    let inverse = (ab * c).recip();
+    let inverse_ab = inverse * c;
+    (inverse_ab * b, inverse_ab * a, inverse * ab)
+}
+
+impl<R: Real> BallConstants<R> {
+    /// Acceleration of a ball and its reactions on its three neighbours.
+    #[inline(always)]
+    pub fn react<L: TractionLaw<R>>(
+        &self,
+        traction: &L,
+        inner: &RaceMotion<R>,
+        outer: &RaceMotion<R>,
+        pocket: &PocketMotion<R>,
+        ball: &BallMotion<R>,
+    ) -> BallReaction<R> {
+        let zero = R::zero();
+        let half = R::splat(0.5);
+        let (sine, cosine) = ball.azimuth.sin_cos();
+        let e_r = Vec2::new(cosine, sine);
+        let e_t = e_r.turned();
+        let orbital = ball.radius * ball.orbit_speed;
+        let position = e_r * ball.radius;
+        let velocity = e_r * ball.radial_speed + e_t * orbital;
+
+        let from_inner = position - inner.position;
+        let from_outer = position - outer.position;
+        let inner_distance = from_inner.length_squared().sqrt();
+        let outer_distance = from_outer.length_squared().sqrt();
+        let (inverse_inner, inverse_outer, inverse_radius) =
+            reciprocals(inner_distance, outer_distance, ball.radius);
+
+        // inner race
+        let n_i = from_inner * inverse_inner;
+        let t_i = n_i.turned();
+        let past_inner = velocity - inner.velocity;
+        let inner_approach = self.inner_track + self.radius - inner_distance;
+        let inner_closing = -past_inner.dot(n_i);
+        let q_i = ball_race(
+            self.inner_stiffness,
+            self.damping_time,
+            inner_approach,
+            inner_closing,
+        );
+        let arm_bi = self.radius - half * inner_approach;
+        let arm_i = self.inner_track - half * inner_approach;
+        let inner_slip = inner.spin * arm_i + ball.spin * arm_bi - past_inner.dot(t_i);
+
+        // outer race
+        let n_o = from_outer * inverse_outer;
+        let t_o = n_o.turned();
+        let past_outer = velocity - outer.velocity;
+        let outer_approach = outer_distance + self.radius - self.outer_track;
+        let outer_closing = past_outer.dot(n_o);
+        let q_o = ball_race(
+            self.outer_stiffness,
+            self.damping_time,
+            outer_approach,
+            outer_closing,
+        );
+        let arm_bo = self.radius - half * outer_approach;
+        let arm_o = self.outer_track + half * outer_approach;
+        let past_outer_t = past_outer.dot(t_o);
+        let outer_slip = outer.spin * arm_o - ball.spin * arm_bo - past_outer_t;
+
+        // traction: computed only where any ball of the group is loaded; the answer is the same
+        let inner_loaded = q_i.force.greater(zero);
+        let outer_loaded = q_o.force.greater(zero);
+        let (mut inner_traction, mut outer_traction) = (zero, zero);
+        if (inner_loaded | outer_loaded).any() {
+            let (mu_i, mu_o) = traction.coefficients(inner_slip, outer_slip);
+            inner_traction = R::select(inner_loaded, mu_i * q_i.force, zero);
+            outer_traction = R::select(outer_loaded, mu_o * q_o.force, zero);
+        }
+
+        // pocket: azimuth about the outer race's centre, as a small correction of θ
+        let azimuth = ball.azimuth + (e_r.cross(from_outer) * inverse_outer).asin_small();
+        let turns = (azimuth - pocket.angle) * R::splat(0.5 / std::f64::consts::PI);
+        let offset =
+            (azimuth - pocket.angle) - turns.round() * R::splat(2.0 * std::f64::consts::PI);
+        let side = offset.sign_or_plus();
+        let penetration = side * offset * self.pocket_radius - self.pocket_gap;
+        let (mut pocket_force, mut pocket_push, mut pocket_friction) = (zero, zero, zero);
+        let (mut pocket_damping_heat, mut pocket_sliding_heat) = (zero, zero);
+        let pressed = penetration.greater(zero);
+        if pressed.any() {
+            let penetration_speed =
+                side * self.pocket_radius * (past_outer_t * inverse_outer - pocket.spin);
+            let p = linear_contact(
+                self.pocket_stiffness,
+                self.pocket_damping,
+                penetration,
+                penetration_speed,
+            );
+            let slide = outer_closing - side * self.radius * (ball.spin - pocket.spin);
+            let coefficient =
+                self.pocket_friction * (slide * self.pocket_inverse_reference_speed).tanh();
+            pocket_force = p.force;
+            pocket_push = R::select(pressed, -(side * p.force * self.pocket_radius), zero);
+            pocket_friction = R::select(pressed, -(coefficient * p.force), zero);
+            pocket_damping_heat = (p.force - p.elastic) * penetration_speed;
+            pocket_sliding_heat = R::select(pressed, coefficient * p.force * slide, zero);
+        }
+        let pocket_moment = side * self.radius * pocket_friction;
+
+        // the three force pairs
+        let by_inner = n_i * q_i.force + t_i * inner_traction;
+        let by_outer = n_o * (pocket_friction - q_o.force)
+            + t_o * (outer_traction + pocket_push * inverse_outer);
+        let drag = self.orbit_drag * orbital;
+        let force = by_inner + by_outer - e_t * drag;
+        let moment = arm_bo * outer_traction
+            - arm_bi * inner_traction
+            - pocket_moment
+            - self.spin_drag * ball.spin;
+
+        let acceleration = force * self.inverse_mass + self.gravity;
+        let two = R::splat(2.0);
+        BallReaction {
+            acceleration: BallAcceleration {
+                radial: acceleration.dot(e_r) + orbital * ball.orbit_speed,
+                orbit: (acceleration.dot(e_t) - two * ball.radial_speed * ball.orbit_speed)
+                    * inverse_radius,
+                spin: moment * self.inverse_inertia,
+            },
+            on_inner: Wrench::planar(-by_inner, -(arm_i * inner_traction)),
+            on_outer: Wrench::planar(-by_outer, -(arm_o * outer_traction)),
+            on_cage: pocket_moment - pocket_push,
+            external_moment: position.cross(self.gravity) * self.mass
+                - drag * ball.radius
+                - self.spin_drag * ball.spin,
+            heat: BallHeat {
+                inner_damping: (q_i.force - q_i.elastic) * inner_closing,
+                outer_damping: (q_o.force - q_o.elastic) * outer_closing,
+                inner_sliding: inner_traction * inner_slip,
+                outer_sliding: outer_traction * outer_slip,
+                drag: drag * orbital + self.spin_drag * ball.spin.square(),
+                pocket_damping: pocket_damping_heat,
+                pocket_sliding: pocket_sliding_heat,
+            },
+            inner_load: q_i.force,
+            outer_load: q_o.force,
+            inner_slip,
+            outer_slip,
+            pocket_force,
+            pocket_side: side,
+            pocket_penetration: penetration,
+        }
+    }
+
+    /// Energy stored around a ball, J: (two Hertz contacts and the pocket, weight).
+    #[inline(always)]
+    pub fn energy(
+        &self,
+        inner: &RaceMotion<R>,
+        outer: &RaceMotion<R>,
+        pocket_penetration: R,
+        ball: &BallMotion<R>,
+    ) -> (R, R) {
+        let (sine, cosine) = ball.azimuth.sin_cos();
+        let position = Vec2::new(cosine, sine) * ball.radius;
+        let inner_distance = (position - inner.position).length_squared().sqrt();
+        let outer_distance = (position - outer.position).length_squared().sqrt();
+        let pocket = pocket_penetration.max(R::zero());
+        (
+            ball_race_energy(
+                self.inner_stiffness,
+                self.inner_track + self.radius - inner_distance,
+            ) + ball_race_energy(
+                self.outer_stiffness,
+                outer_distance + self.radius - self.outer_track,
+            ) + R::splat(0.5) * self.pocket_stiffness * pocket.square(),
+            -(self.mass * self.gravity.dot(position)),
+        )
+    }
+
+    /// Kinetic energy of a ball, J: (translation, spin).
+    #[inline(always)]
+    pub fn kinetic_energy(&self, ball: &BallMotion<R>) -> (R, R) {
+        let half = R::splat(0.5);
+        let orbital = ball.radius * ball.orbit_speed;
+        (
+            half * self.mass * (ball.radial_speed.square() + orbital.square()),
+            half * ball.spin.square() / self.inverse_inertia,
+        )
+    }
+
+    /// Angular momentum of a ball about the origin, N m s.
+    #[inline(always)]
+    pub fn angular_momentum(&self, ball: &BallMotion<R>) -> R {
+        self.mass * ball.radius.square() * ball.orbit_speed + ball.spin / self.inverse_inertia
+    }
+}
+
+/// The constants of one machine for every part of a group, or of one machine per lane.
+pub(crate) fn gather_group<'a, R: Real, T: Gather<R::Group>>(
+    machine: &dyn Fn(usize) -> &'a T,
+) -> T::Out
+where
+    T: 'a,
+{
+    T::gather(&|part| machine(part % R::LANES))
+}

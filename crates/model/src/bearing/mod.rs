@@ -1,0 +1,268 @@
+//! The rolling bearing: one motion in, one reaction out, several fidelities.
+//!
+//! | fidelity | file | balls |
+//! |---|---|---|
+//! | [`Rolling`] | [`rolling`] | roll always; loads are quasi-static |
+//! | [`Planar`] | [`planar`] | each ball moves by its own equations ([`ball`]) |
+//!
+//! A bearing owns the states of its cage and balls; the system owns the races.
+//! Besides its reaction it fills, where asked, a *detail* list with five values a ball:
+//! inner load, outer load (N), inner slip, outer slip (m/s), pocket force (N), each value for all balls in turn.
+
+pub mod ball;
+pub mod planar;
+pub mod rolling;
+
+use crate::motion::{Motion, Wrench};
+use number::Real;
+pub use planar::{Planar, PlanarConstants};
+pub use rolling::{Rolling, RollingConstants, SteadyMoment};
+
+/// Values a ball in a bearing's detail.
+pub const DETAIL_PER_BALL: usize = 5;
+
+/// Heat made in a bearing by kind, W; all are never negative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BearingHeat<R> {
+    /// Contact damping at the inner race; in the rolling fidelity at both races.
+    pub inner_damping: R,
+    /// Contact damping at the outer race.
+    pub outer_damping: R,
+    /// Balls sliding on the inner race.
+    pub inner_sliding: R,
+    /// Balls sliding on the outer race.
+    pub outer_sliding: R,
+    /// Drag on balls and cage.
+    pub drag: R,
+    /// Contact damping in the pockets.
+    pub pocket_damping: R,
+    /// Balls sliding in the pockets.
+    pub pocket_sliding: R,
+    /// The steady friction moment.
+    pub steady_moment: R,
+}
+
+/// What a bearing does to its two bodies.
+///
+/// The moment on the inner race is `on_inner.moment - inner_inertia · Ω̇`: the part that is proportional to the race's
+/// acceleration moves to the left side of its equation. The outer race receives `on_outer.moment - outer_inertia · Ω̇`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BearingReaction<R> {
+    /// On the inner race, moment about its centre.
+    pub on_inner: Wrench<R>,
+    /// On the outer race, moment about its centre.
+    pub on_outer: Wrench<R>,
+    /// Inertia that the balls and cage add to the inner race, kg m².
+    pub inner_inertia: R,
+    /// Moment on the outer race per acceleration of the inner race, reversed, kg m².
+    pub outer_inertia: R,
+    /// Moment about the origin that balls and cage receive from outside: weight and drag to ground, N m.
+    pub external_moment: R,
+    /// Heat by kind.
+    pub heat: BearingHeat<R>,
+    /// Largest ball load at the inner race, N.
+    pub largest_inner_load: R,
+    /// Largest ball load at the outer race, N.
+    pub largest_outer_load: R,
+}
+
+/// Energies and angular momentum inside a bearing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BearingEnergy {
+    /// Kinetic energy of the centres of the balls, J.
+    pub translation: f64,
+    /// Kinetic energy of the spins of balls and cage, J.
+    pub spin: f64,
+    /// Energy in contacts and pockets, J.
+    pub elastic: f64,
+    /// Potential of the weight, J.
+    pub weight: f64,
+    /// Angular momentum of balls and cage about the origin, N m s.
+    pub angular_momentum: f64,
+}
+
+/// Constants of a bearing of one machine.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BearingConstants {
+    /// The balls roll.
+    Rolling(RollingConstants),
+    /// Every ball by its own equations.
+    Planar(PlanarConstants),
+}
+
+/// A bearing over `R`.
+#[derive(Clone, Debug)]
+pub enum Bearing<R: Real> {
+    /// The balls roll.
+    Rolling(Rolling<R>),
+    /// Every ball by its own equations.
+    Planar(Planar<R>),
+}
+
+impl BearingConstants {
+    /// Number of balls.
+    pub fn balls(&self) -> usize {
+        match self {
+            BearingConstants::Rolling(bearing) => bearing.balls,
+            BearingConstants::Planar(bearing) => bearing.balls,
+        }
+    }
+    /// Number of states of cage and balls.
+    pub fn states(&self) -> usize {
+        match self {
+            BearingConstants::Rolling(_) => rolling::STATES,
+            BearingConstants::Planar(bearing) => planar::states(bearing.balls),
+        }
+    }
+    /// Mass that moves with the outer race, kg: the cage, and the balls where they have no states.
+    pub fn mass_with_outer_race(&self) -> f64 {
+        match self {
+            BearingConstants::Rolling(bearing) => bearing.mass_with_outer_race,
+            BearingConstants::Planar(bearing) => bearing.cage_mass,
+        }
+    }
+    /// Mass of balls that move by their own states, kg.
+    pub fn free_ball_mass(&self) -> f64 {
+        match self {
+            BearingConstants::Rolling(_) => 0.0,
+            BearingConstants::Planar(bearing) => bearing.balls as f64 * bearing.ball.mass,
+        }
+    }
+    /// Energies and angular momentum at a state.
+    pub fn energy(&self, motion: &Motion<f64>, state: &[f64]) -> BearingEnergy {
+        match self {
+            BearingConstants::Rolling(bearing) => bearing.energy(motion, state),
+            BearingConstants::Planar(bearing) => bearing.energy(motion, state),
+        }
+    }
+    /// States of a bearing at rest with concentric races.
+    pub fn rest(&self, state: &mut [f64]) {
+        match self {
+            BearingConstants::Rolling(bearing) => bearing.rest(state),
+            BearingConstants::Planar(bearing) => bearing.rest(state),
+        }
+    }
+    /// Azimuth of a ball, rad.
+    pub fn azimuth(&self, state: &[f64], ball: usize) -> f64 {
+        match self {
+            BearingConstants::Rolling(bearing) => state[0] + bearing.seat(ball),
+            BearingConstants::Planar(bearing) => bearing.motion(state, ball).azimuth,
+        }
+    }
+    /// Cage speed, rad/s.
+    pub fn cage_speed(&self, motion: &Motion<f64>, state: &[f64]) -> f64 {
+        match self {
+            BearingConstants::Rolling(bearing) => {
+                bearing.cage_ratio * (motion.inner.spin - motion.outer.spin) + motion.outer.spin
+            }
+            BearingConstants::Planar(_) => state[1],
+        }
+    }
+}
+
+impl<R: Real> Bearing<R> {
+    /// One bearing per lane.
+    ///
+    /// # Panics
+    /// When the lanes do not share fidelity, traction law and number of balls.
+    pub fn gather<'a>(machine: &dyn Fn(usize) -> &'a BearingConstants) -> Self {
+        match machine(0) {
+            BearingConstants::Rolling(_) => {
+                Bearing::Rolling(Rolling::gather(&|lane| match machine(lane) {
+                    BearingConstants::Rolling(bearing) => bearing,
+                    BearingConstants::Planar(_) => panic!("lanes share the fidelity"),
+                }))
+            }
+            BearingConstants::Planar(_) => {
+                Bearing::Planar(Planar::gather(&|lane| match machine(lane) {
+                    BearingConstants::Planar(bearing) => bearing,
+                    BearingConstants::Rolling(_) => panic!("lanes share the fidelity"),
+                }))
+            }
+        }
+    }
+
+    /// Reaction to the motion of the races; writes the rates of the bearing's own states, and the detail where asked.
+    #[inline(always)]
+    pub fn react(
+        &self,
+        motion: &Motion<R>,
+        state: &[R],
+        rate: &mut [R],
+        detail: &mut [R],
+    ) -> BearingReaction<R> {
+        match self {
+            Bearing::Rolling(bearing) => bearing.react(motion, state, rate, detail),
+            Bearing::Planar(bearing) => bearing.react(motion, state, rate, detail),
+        }
+    }
+}
+
+/// Sums over the balls in an order that does not depend on how many balls are computed at a time: ball `j` adds to
+/// part `j mod 4`, and the four parts are added last. So a lane of many machines equals the machine alone bitwise.
+pub(crate) struct BallSums<R: Real, const K: usize> {
+    count: usize,
+    part: [[R::Group; K]; 4],
+}
+
+impl<R: Real, const K: usize> BallSums<R, K> {
+    #[inline(always)]
+    pub fn new(count: usize) -> Self {
+        BallSums {
+            count,
+            part: [[R::Group::zero(); K]; 4],
+        }
+    }
+    /// Adds the group of balls that starts at `from`.
+    #[inline(always)]
+    pub fn add(&mut self, from: usize, values: &[R::Group; K]) {
+        let full = from + R::GROUP <= self.count;
+        let valid = self.valid(from);
+        let part = &mut self.part[(from % 4) / R::GROUP];
+        if full {
+            for (sum, value) in part.iter_mut().zip(values) {
+                *sum += *value;
+            }
+        } else {
+            for (sum, value) in part.iter_mut().zip(values) {
+                *sum += R::Group::select(valid, *value, R::Group::zero());
+            }
+        }
+    }
+    /// True for the parts of a group that are balls, false for the padding behind the last.
+    #[inline(always)]
+    fn valid(&self, from: usize) -> <R::Group as Real>::Mask {
+        <<R::Group as Real>::Mask as number::Mask>::from_lanes(|part| {
+            R::GROUP == 1 || from + part < self.count
+        })
+    }
+    /// The sums.
+    #[inline(always)]
+    pub fn total(&self) -> [R; K] {
+        let mut total = [R::zero(); K];
+        for (k, sum) in total.iter_mut().enumerate() {
+            let mut part = [R::zero(); 4];
+            let mut from = 0;
+            while from < 4 {
+                R::store_group(self.part[from / R::GROUP][k], &mut part, from);
+                from += R::GROUP;
+            }
+            *sum = (part[0] + part[1]) + (part[2] + part[3]);
+        }
+        total
+    }
+}
+
+/// The largest part of a group; the padding repeats a ball and does not matter.
+#[inline(always)]
+pub(crate) fn largest<R: Real>(group: R::Group) -> R {
+    let mut part = [R::zero(); 4];
+    R::store_group(group, &mut part, 0);
+    let mut largest = part[0];
+    let mut i = 1;
+    while i < R::GROUP {
+        largest = largest.max(part[i]);
+        i += 1;
+    }
+    largest
+}

@@ -1,0 +1,333 @@
+//! The bearing ball by ball, in the plane.
+//!
+//! States: cage angle φ_c (rad) and speed ω_c (rad/s); then for all balls ρ (m), ρ̇ (m/s), θ (rad), θ̇ (rad/s), σ (rad/s).
+//!
+//! ```text
+//!   I_c ω̇_c = Σ cage moments of the balls - c_c ω_c        ball j: see `ball`
+//! ```
+//! The cage is guided by the outer race: its mass moves with it.
+//! Drag to ground (c_d on the orbit, c_w on the spin, c_c on the cage) exists to reproduce reference cases; it is no
+//! bearing friction moment.
+//!
+//! Does not model: the steady friction moment, cage translation and land friction, full complement, film, heat.
+
+use super::ball::{BallConstants, BallMotion, PocketMotion, RaceMotion, gather_group};
+use super::{BallSums, BearingEnergy, BearingHeat, BearingReaction, largest};
+use crate::motion::{Motion, Wrench};
+use number::{Gather, Real, Vec2};
+use physics::traction::{Traction, TractionLaw};
+
+/// Constants of one planar bearing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanarConstants {
+    /// Number of balls.
+    pub balls: usize,
+    /// The ball, its contacts and its pocket.
+    pub ball: BallConstants<f64>,
+    /// Friction between ball and race.
+    pub traction: Traction<f64>,
+    /// Cage mass, kg.
+    pub cage_mass: f64,
+    /// Cage moment of inertia, kg m².
+    pub cage_inertia: f64,
+    /// Drag of the cage to ground, N m s.
+    pub cage_drag: f64,
+    /// Azimuth of ball 1 at the start, rad.
+    pub first_ball_angle: f64,
+}
+
+/// The planar bearing over `R`.
+#[derive(Clone, Debug)]
+pub struct Planar<R: Real> {
+    balls: usize,
+    ball: BallConstants<R::Group>,
+    traction: Traction<R::Group>,
+    cage_inverse_inertia: R,
+    cage_drag: R,
+    /// Angle of each pocket on the cage, rad.
+    seats: Vec<R>,
+}
+
+/// First state of the balls.
+pub const BALLS: usize = 2;
+
+/// States of a bearing with that many balls.
+pub fn states(balls: usize) -> usize {
+    BALLS + 5 * balls
+}
+
+/// The lists of ball states, one after the other.
+#[inline(always)]
+fn split<R>(state: &[R], balls: usize) -> [&[R]; 5] {
+    let (radius, rest) = state[BALLS..].split_at(balls);
+    let (radial_speed, rest) = rest.split_at(balls);
+    let (azimuth, rest) = rest.split_at(balls);
+    let (orbit_speed, rest) = rest.split_at(balls);
+    [radius, radial_speed, azimuth, orbit_speed, &rest[..balls]]
+}
+
+/// The same lists, to write.
+#[inline(always)]
+fn split_mut<R>(state: &mut [R], balls: usize) -> [&mut [R]; 5] {
+    let (radius, rest) = state[BALLS..].split_at_mut(balls);
+    let (radial_speed, rest) = rest.split_at_mut(balls);
+    let (azimuth, rest) = rest.split_at_mut(balls);
+    let (orbit_speed, rest) = rest.split_at_mut(balls);
+    [
+        radius,
+        radial_speed,
+        azimuth,
+        orbit_speed,
+        &mut rest[..balls],
+    ]
+}
+
+impl<R: Real> Planar<R> {
+    /// One bearing per lane.
+    pub(crate) fn gather<'a>(machine: &dyn Fn(usize) -> &'a PlanarConstants) -> Self {
+        let balls = Gather::<R>::gather(&|lane| &machine(lane).balls);
+        Planar {
+            balls,
+            ball: gather_group::<R, _>(&|lane| &machine(lane).ball),
+            traction: gather_group::<R, _>(&|lane| &machine(lane).traction),
+            cage_inverse_inertia: R::from_lanes(|lane| 1.0 / machine(lane).cage_inertia),
+            cage_drag: R::from_lanes(|lane| machine(lane).cage_drag),
+            seats: (0..balls)
+                .map(|j| R::from_lanes(|lane| machine(lane).seat(j)))
+                .collect(),
+        }
+    }
+
+    /// Reaction to the motion of the races.
+    #[inline(always)]
+    pub(crate) fn react(
+        &self,
+        motion: &Motion<R>,
+        state: &[R],
+        rate: &mut [R],
+        detail: &mut [R],
+    ) -> BearingReaction<R> {
+        // the law is chosen once a call, not once a ball
+        match &self.traction {
+            Traction::Tanh(law) => self.sum(law, motion, state, rate, detail),
+            Traction::FourParameter(law) => self.sum(law, motion, state, rate, detail),
+            Traction::Dry(law) => self.sum(law, motion, state, rate, detail),
+        }
+    }
+
+    #[inline(always)]
+    fn sum<L: TractionLaw<R::Group>>(
+        &self,
+        traction: &L,
+        motion: &Motion<R>,
+        state: &[R],
+        rate: &mut [R],
+        detail: &mut [R],
+    ) -> BearingReaction<R> {
+        let n = self.balls;
+        let (cage_angle, cage_speed) = (state[0], state[1]);
+        let [radius, radial_speed, azimuth, orbit_speed, spin] = split(state, n);
+        let [d_radius, d_radial_speed, d_azimuth, d_orbit_speed, d_spin] = split_mut(rate, n);
+        d_radius.copy_from_slice(radial_speed);
+        d_azimuth.copy_from_slice(orbit_speed);
+
+        let race = |body: &crate::motion::Body<R>| RaceMotion {
+            position: grouped(body.position),
+            velocity: grouped(body.velocity),
+            spin: body.spin.grouped(),
+        };
+        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
+        let mut sums = BallSums::<R, 15>::new(n);
+        let zero = R::Group::zero();
+        let (mut largest_inner, mut largest_outer) = (zero, zero);
+        let mut from = 0;
+        while from < n {
+            let ball = BallMotion {
+                radius: R::load_group(radius, from),
+                radial_speed: R::load_group(radial_speed, from),
+                azimuth: R::load_group(azimuth, from),
+                orbit_speed: R::load_group(orbit_speed, from),
+                spin: R::load_group(spin, from),
+            };
+            let pocket = PocketMotion {
+                angle: cage_angle.grouped() + R::load_group(&self.seats, from),
+                spin: cage_speed.grouped(),
+            };
+            let r = self.ball.react(traction, &inner, &outer, &pocket, &ball);
+            R::store_group(r.acceleration.radial, d_radial_speed, from);
+            R::store_group(r.acceleration.orbit, d_orbit_speed, from);
+            R::store_group(r.acceleration.spin, d_spin, from);
+            sums.add(
+                from,
+                &[
+                    r.on_inner.force.x,
+                    r.on_inner.force.y,
+                    r.on_inner.moment,
+                    r.on_outer.force.x,
+                    r.on_outer.force.y,
+                    r.on_outer.moment,
+                    r.on_cage,
+                    r.external_moment,
+                    r.heat.inner_damping,
+                    r.heat.outer_damping,
+                    r.heat.inner_sliding,
+                    r.heat.outer_sliding,
+                    r.heat.drag,
+                    r.heat.pocket_damping,
+                    r.heat.pocket_sliding,
+                ],
+            );
+            if !detail.is_empty() {
+                largest_inner = largest_inner.max(r.inner_load);
+                largest_outer = largest_outer.max(r.outer_load);
+                for (k, value) in [
+                    r.inner_load,
+                    r.outer_load,
+                    r.inner_slip,
+                    r.outer_slip,
+                    r.pocket_force,
+                ]
+                .into_iter()
+                .enumerate()
+                {
+                    R::store_group(value, &mut detail[k * n..(k + 1) * n], from);
+                }
+            }
+            from += R::GROUP;
+        }
+        let s = sums.total();
+        let cage_drag = self.cage_drag * cage_speed;
+        rate[0] = cage_speed;
+        rate[1] = (s[6] - cage_drag) * self.cage_inverse_inertia;
+        BearingReaction {
+            on_inner: Wrench::planar(Vec2::new(s[0], s[1]), s[2]),
+            on_outer: Wrench::planar(Vec2::new(s[3], s[4]), s[5]),
+            inner_inertia: R::zero(),
+            outer_inertia: R::zero(),
+            external_moment: s[7] - cage_drag,
+            heat: BearingHeat {
+                inner_damping: s[8],
+                outer_damping: s[9],
+                inner_sliding: s[10],
+                outer_sliding: s[11],
+                drag: s[12] + cage_drag * cage_speed,
+                pocket_damping: s[13],
+                pocket_sliding: s[14],
+                steady_moment: R::zero(),
+            },
+            largest_inner_load: largest::<R>(largest_inner),
+            largest_outer_load: largest::<R>(largest_outer),
+        }
+    }
+}
+
+#[inline(always)]
+fn grouped<R: Real>(v: Vec2<R>) -> Vec2<R::Group> {
+    Vec2::new(v.x.grouped(), v.y.grouped())
+}
+
+impl PlanarConstants {
+    /// Angle of a pocket on the cage, rad.
+    pub fn seat(&self, ball: usize) -> f64 {
+        2.0 * std::f64::consts::PI * ball as f64 / self.balls as f64
+    }
+    /// Motion of one ball.
+    pub fn motion(&self, state: &[f64], ball: usize) -> BallMotion<f64> {
+        let [radius, radial_speed, azimuth, orbit_speed, spin] =
+            split(state, self.balls).map(|list| list[ball]);
+        BallMotion {
+            radius,
+            radial_speed,
+            azimuth,
+            orbit_speed,
+            spin,
+        }
+    }
+    /// Writes the motion of one ball.
+    pub fn set_motion(&self, state: &mut [f64], ball: usize, motion: &BallMotion<f64>) {
+        let [radius, radial_speed, azimuth, orbit_speed, spin] = split_mut(state, self.balls);
+        radius[ball] = motion.radius;
+        radial_speed[ball] = motion.radial_speed;
+        azimuth[ball] = motion.azimuth;
+        orbit_speed[ball] = motion.orbit_speed;
+        spin[ball] = motion.spin;
+    }
+    /// Index of the azimuth of a ball among the bearing's states.
+    pub fn azimuth_channel(&self, ball: usize) -> usize {
+        BALLS + 2 * self.balls + ball
+    }
+    /// The distance from the centre at which a ball rests between concentric races.
+    ///
+    /// With interference the loads of both contacts are equal; with clearance the ball is in the middle of the gap.
+    pub fn rest_radius(&self) -> f64 {
+        let b = &self.ball;
+        let interference = b.inner_track + 2.0 * b.radius - b.outer_track;
+        let inner_share = if interference > 0.0 {
+            let softness = (b.inner_stiffness / b.outer_stiffness).powf(2.0 / 3.0);
+            interference / (1.0 + softness)
+        } else {
+            0.5 * interference
+        };
+        b.inner_track + b.radius - inner_share
+    }
+    pub(super) fn rest(&self, state: &mut [f64]) {
+        state[0] = self.first_ball_angle;
+        state[1] = 0.0;
+        for ball in 0..self.balls {
+            let motion = BallMotion {
+                radius: self.rest_radius(),
+                radial_speed: 0.0,
+                azimuth: self.first_ball_angle + self.seat(ball),
+                orbit_speed: 0.0,
+                spin: 0.0,
+            };
+            self.set_motion(state, ball, &motion);
+        }
+    }
+    /// Reaction of one ball, for inspection.
+    pub fn ball_reaction(
+        &self,
+        motion: &Motion<f64>,
+        state: &[f64],
+        ball: usize,
+    ) -> super::ball::BallReaction<f64> {
+        let (inner, outer) = races(motion);
+        let pocket = PocketMotion {
+            angle: state[0] + self.seat(ball),
+            spin: state[1],
+        };
+        let motion = self.motion(state, ball);
+        self.ball
+            .react(&self.traction, &inner, &outer, &pocket, &motion)
+    }
+    pub(super) fn energy(&self, motion: &Motion<f64>, state: &[f64]) -> BearingEnergy {
+        let (inner, outer) = races(motion);
+        let cage_speed = state[1];
+        let mut sum = BearingEnergy {
+            spin: 0.5 * self.cage_inertia * cage_speed * cage_speed,
+            angular_momentum: self.cage_inertia * cage_speed,
+            ..BearingEnergy::default()
+        };
+        for j in 0..self.balls {
+            let ball = self.motion(state, j);
+            let penetration = self.ball_reaction(motion, state, j).pocket_penetration;
+            let (elastic, weight) = self.ball.energy(&inner, &outer, penetration, &ball);
+            let (translation, spin) = self.ball.kinetic_energy(&ball);
+            sum.translation += translation;
+            sum.spin += spin;
+            sum.elastic += elastic;
+            sum.weight += weight;
+            sum.angular_momentum += self.ball.angular_momentum(&ball);
+        }
+        sum
+    }
+}
+
+fn races(motion: &Motion<f64>) -> (RaceMotion<f64>, RaceMotion<f64>) {
+    let race = |body: &crate::motion::Body<f64>| RaceMotion {
+        position: body.position,
+        velocity: body.velocity,
+        spin: body.spin,
+    };
+    (race(&motion.inner), race(&motion.outer))
+}

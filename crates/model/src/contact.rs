@@ -1,0 +1,144 @@
+//! Rotor against inner race.
+//!
+//! ```text
+//!   e = C - c_i,  n = e/|e|,  t = n turned +90°          d = |e| - c0        penetration
+//!   N = max(0, k dⁿ (1 + a ḋ))                            u = race less rotor surface speed along t
+//!   on the rotor, at C + arm·n:  -N n + μ tanh(u/u0) N t;  on the race the opposite
+//!   arms (mid-overlap): rotor R0 - c0 - d/2,  race R0 + d/2
+//! ```
+//! The moment on the rotor is taken about G. No states of its own.
+//!
+//! Assumes: one contact point, power-law normal force, Coulomb friction regularised by tanh.
+//! Does not model: the conformal contact of journal and bore, wear, lubricant on the landing surface, heat fading of μ.
+
+use crate::motion::{Body, Wrench};
+use crate::rotor::GeometricCentre;
+use number::{Mask, Real, Vec2, constants};
+use physics::contact::{hunt_crossley, hunt_crossley_energy};
+
+constants! {
+    /// The pair of landing surfaces.
+    pub struct RotorContact {
+        /// Radial air clearance c0, m.
+        radial_clearance: R,
+        /// Radius of the race's bore (or its sleeve's) R0, m.
+        bore_radius: R,
+        /// Stiffness k, N/mⁿ.
+        stiffness: R,
+        /// Exponent n.
+        exponent: R,
+        /// Hunt-Crossley damping a, s/m.
+        damping: R,
+        /// Friction coefficient μ.
+        friction: R,
+        /// 1/u0, s/m: inverse of the slip at which friction reaches 76 % of its value.
+        inverse_reference_speed: R,
+    }
+}
+
+/// What the contact does to both bodies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactReaction<R> {
+    /// On the rotor, the moment about G.
+    pub on_rotor: Wrench<R>,
+    /// On the inner race.
+    pub on_race: Wrench<R>,
+    /// Penetration d, m; negative when open.
+    pub penetration: R,
+    /// Rate of penetration ḋ, m/s.
+    pub penetration_speed: R,
+    /// Normal force N, N.
+    pub normal_force: R,
+    /// Friction force on the rotor along t, N.
+    pub friction_force: R,
+    /// Sliding speed, race less rotor, m/s.
+    pub slip_speed: R,
+    /// Heat of contact damping, W.
+    pub damping_heat: R,
+    /// Heat of sliding, W.
+    pub friction_heat: R,
+}
+
+impl<R: Real> RotorContact<R> {
+    /// Reaction of the contact to the motion of rotor and race.
+    #[inline(always)]
+    pub fn react(
+        &self,
+        rotor: &GeometricCentre<R>,
+        rotor_spin: R,
+        race: &Body<R>,
+    ) -> ContactReaction<R> {
+        let half = R::splat(0.5);
+        let e = rotor.position - race.position;
+        // a centred rotor has no direction; any will do, as nothing acts
+        let distance = e.length_squared().max(R::splat(1e-30)).sqrt();
+        let n = e * distance.recip();
+        let t = n.turned();
+        let relative = rotor.velocity - race.velocity;
+        let d = distance - self.radial_clearance;
+        let d_rate = relative.dot(n);
+        let rotor_arm = self.bore_radius - self.radial_clearance - half * d;
+        let race_arm = self.bore_radius + half * d;
+        let slip = race.spin * race_arm - rotor_spin * rotor_arm - relative.dot(t);
+
+        let zero = R::zero();
+        let touching = d.greater(zero);
+        let (mut normal, mut damping_heat, mut friction) = (zero, zero, zero);
+        if touching.any() {
+            let force = hunt_crossley(self.stiffness, self.exponent, self.damping, d, d_rate);
+            normal = force.force;
+            damping_heat = (force.force - force.elastic) * d_rate;
+            let coefficient = self.friction * (slip * self.inverse_reference_speed).tanh();
+            friction = R::select(touching, coefficient * normal, zero);
+        }
+        let force = t * friction - n * normal;
+        let arm = rotor.arm + n * rotor_arm;
+        ContactReaction {
+            on_rotor: Wrench::planar(force, arm.cross(force)),
+            on_race: Wrench::planar(-force, -(race_arm * friction)),
+            penetration: d,
+            penetration_speed: d_rate,
+            normal_force: normal,
+            friction_force: friction,
+            slip_speed: slip,
+            damping_heat,
+            friction_heat: friction * slip,
+        }
+    }
+
+    /// Rate of the normal force, N/s, for given accelerations of the two centres.
+    #[inline(always)]
+    pub fn force_rate(
+        &self,
+        reaction: &ContactReaction<R>,
+        rotor: &GeometricCentre<R>,
+        race: &Body<R>,
+        relative_acceleration: Vec2<R>,
+    ) -> R {
+        let zero = R::zero();
+        let d = reaction.penetration;
+        let touching = d.greater(zero);
+        if !touching.any() {
+            return zero;
+        }
+        let e = rotor.position - race.position;
+        let distance = d + self.radial_clearance;
+        let n = e * distance.recip();
+        let relative = rotor.velocity - race.velocity;
+        let d_rate = reaction.penetration_speed;
+        let tangential = relative.cross(n);
+        let d_acceleration = relative_acceleration.dot(n) + tangential.square() * distance.recip();
+        let safe = d.max(R::splat(1e-18));
+        let spring = self.stiffness * safe.powf(self.exponent);
+        let rate = spring
+            * (self.exponent * d_rate / safe * (R::one() + self.damping * d_rate)
+                + self.damping * d_acceleration);
+        R::select(reaction.normal_force.greater(zero), rate, zero)
+    }
+
+    /// Energy in the contact, J.
+    #[inline(always)]
+    pub fn energy(&self, reaction: &ContactReaction<R>) -> R {
+        hunt_crossley_energy(self.stiffness, self.exponent, reaction.penetration)
+    }
+}

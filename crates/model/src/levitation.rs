@@ -1,0 +1,36 @@
+//! Linear levitation: the magnetic bearing before it fails.
+//!
+//! F = -k (C - C_0) - c Ċ - m g, applied at the rotor's geometric centre C: it carries the weight and holds the
+//! rotor at C_0. Its work is a signed source (its damping is electronic, no part gets warm).
+//!
+//! Does not model: saturation, delay, sensor runout, the force that remains after the currents are cut.
+
+use number::{Real, Vec2, constants};
+
+constants! {
+    /// A levitated point held by a linear spring and damper.
+    pub struct Levitation {
+        /// Stiffness k, N/m.
+        stiffness: R,
+        /// Damping c, N s/m.
+        damping: R,
+        /// Held position C_0, m.
+        centre: Vec2<R>,
+        /// Carried force, opposite to the weight, N.
+        carried: Vec2<R>,
+    }
+}
+
+impl<R: Real> Levitation<R> {
+    /// Force on the rotor at its geometric centre, N.
+    #[inline(always)]
+    pub fn force(&self, centre: Vec2<R>, velocity: Vec2<R>) -> Vec2<R> {
+        self.carried - (centre - self.centre) * self.stiffness - velocity * self.damping
+    }
+    /// Potential of spring and carried weight, J.
+    #[inline(always)]
+    pub fn energy(&self, centre: Vec2<R>) -> R {
+        R::splat(0.5) * self.stiffness * (centre - self.centre).length_squared()
+            - self.carried.dot(centre)
+    }
+}

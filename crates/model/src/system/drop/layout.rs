@@ -1,0 +1,170 @@
+//! Where everything stands in the state of a drop.
+//!
+//! ```text
+//!   0..6    rotor        x y (of G), ẋ ẏ, φ, ω
+//!   6..12   inner race   x y, ẋ ẏ, φ_i, ω_i
+//!   12..16  outer race   x y, ẋ ẏ
+//!   16..    bearing      its own states
+//!   then    ledger       heats, works of the sources, external angular impulse
+//! ```
+
+use super::DropConstants;
+use crate::bearing::{BearingConstants, DETAIL_PER_BALL, planar};
+
+/// First channel of the rotor.
+pub const ROTOR: usize = 0;
+/// First channel of the inner race.
+pub const INNER: usize = 6;
+/// First channel of the outer race.
+pub const OUTER: usize = 12;
+/// First channel of the bearing.
+pub const BEARING: usize = 16;
+
+/// Kinds of heat, in the order of their channels: names as in results.
+pub const HEATS: [&str; 11] = [
+    "inner_contact_damping",
+    "outer_contact_damping",
+    "inner_ball_slip",
+    "outer_ball_slip",
+    "drag",
+    "pocket_damping",
+    "pocket_friction",
+    "steady_moment",
+    "mount_damping",
+    "rotor_race_damping",
+    "rotor_race_friction",
+];
+/// Kinds of source, in the order of their channels.
+pub const SOURCES: [&str; 3] = ["levitation", "rotor_torque", "inner_race_torque"];
+/// Channels of the ledger: heats, sources, external angular impulse.
+pub const LEDGER: usize = HEATS.len() + SOURCES.len() + 1;
+
+/// Probe: penetration of the rotor/race contact, m.
+pub const PENETRATION: usize = 0;
+/// Probe: its rate, m/s.
+pub const PENETRATION_SPEED: usize = 1;
+/// Probe: normal force, N.
+pub const NORMAL_FORCE: usize = 2;
+/// Probe: its rate, N/s.
+pub const NORMAL_FORCE_RATE: usize = 3;
+/// Probe: friction force on the rotor along t, N.
+pub const FRICTION_FORCE: usize = 4;
+/// Probe: sliding speed, race less rotor, m/s.
+pub const SLIP_SPEED: usize = 5;
+/// Probe: largest ball load at the inner race, N.
+pub const LARGEST_INNER_LOAD: usize = 6;
+/// Probe: largest ball load at the outer race, N.
+pub const LARGEST_OUTER_LOAD: usize = 7;
+/// First probe of the bearing's detail.
+pub const DETAIL: usize = 8;
+
+/// Sizes of a drop's state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// Number of balls.
+    pub balls: usize,
+    /// Number of the bearing's own states.
+    pub bearing_states: usize,
+    /// True where the balls have states of their own.
+    pub ball_states: bool,
+}
+
+impl Layout {
+    /// The layout of a machine.
+    pub fn of(constants: &DropConstants) -> Self {
+        Layout {
+            balls: constants.bearing.balls(),
+            bearing_states: constants.bearing.states(),
+            ball_states: matches!(constants.bearing, BearingConstants::Planar(_)),
+        }
+    }
+    /// First channel of the ledger.
+    pub fn ledger(&self) -> usize {
+        BEARING + self.bearing_states
+    }
+    /// Number of channels.
+    pub fn dimension(&self) -> usize {
+        self.ledger() + LEDGER
+    }
+    /// Number of probes.
+    pub fn probes(&self) -> usize {
+        DETAIL + DETAIL_PER_BALL * self.balls
+    }
+    /// Channel of a heat of [`HEATS`].
+    pub fn heat(&self, index: usize) -> usize {
+        self.ledger() + index
+    }
+    /// Channel of the work of a source of [`SOURCES`].
+    pub fn source(&self, index: usize) -> usize {
+        self.ledger() + HEATS.len() + index
+    }
+    /// Channel of the external angular impulse.
+    pub fn angular_impulse(&self) -> usize {
+        self.ledger() + HEATS.len() + SOURCES.len()
+    }
+
+    /// Name of a channel.
+    pub fn channel_name(&self, channel: usize) -> String {
+        const BODY: [&str; 6] = ["x", "y", "x_speed", "y_speed", "angle", "speed"];
+        let ledger = self.ledger();
+        match channel {
+            c if c < INNER => format!("rotor.{}", BODY[c]),
+            c if c < OUTER => format!("bearing.inner_race.{}", BODY[c - INNER]),
+            c if c < BEARING => format!("bearing.outer_race.{}", BODY[c - OUTER]),
+            c if c == BEARING => "bearing.cage.angle".to_string(),
+            c if c < ledger && c == BEARING + 1 => "bearing.cage.speed".to_string(),
+            c if c < ledger => {
+                const BALL: [&str; 5] =
+                    ["radius", "radial_speed", "azimuth", "orbit_speed", "spin"];
+                let index = c - BEARING - 2;
+                format!(
+                    "bearing.ball_{:02}.{}",
+                    index % self.balls + 1,
+                    BALL[index / self.balls]
+                )
+            }
+            c if c < ledger + HEATS.len() => format!("energy.heat.{}", HEATS[c - ledger]),
+            c if c < ledger + HEATS.len() + SOURCES.len() => {
+                format!("energy.source.{}", SOURCES[c - ledger - HEATS.len()])
+            }
+            _ => "angular_momentum.impulse".to_string(),
+        }
+    }
+
+    /// The magnitude that matters in each channel: a tolerance of 1e-6 allows errors of one millionth of it a step.
+    ///
+    /// Lengths by the radial air clearance, ball radii by a thousandth of the ball, speeds by the fall through the
+    /// clearance, spins by the release speed, energies by the spin energy of the inner race brought to speed.
+    pub fn error_scale(&self, constants: &DropConstants) -> Vec<f64> {
+        let machine = &constants.machine;
+        let clearance = machine.contact.radial_clearance;
+        let fall_speed = (2.0 * 9.81 * clearance).sqrt();
+        let spin = constants.speed.abs().max(10.0);
+        let energy = 0.5 * machine.inner_race_inertia * spin * spin
+            + 0.5 * machine.rotor.mass * fall_speed * fall_speed;
+        let mut scale = vec![0.0; self.dimension()];
+        for body in [ROTOR, INNER, OUTER] {
+            scale[body..body + 2].fill(clearance);
+            scale[body + 2..body + 4].fill(fall_speed);
+            if body != OUTER {
+                scale[body + 4] = 1.0;
+                scale[body + 5] = spin;
+            }
+        }
+        scale[BEARING] = 1.0;
+        if let BearingConstants::Planar(bearing) = &constants.bearing {
+            let radius = bearing.ball.radius;
+            let n = self.balls;
+            scale[BEARING + 1] = spin;
+            let ball = planar::BALLS + BEARING;
+            scale[ball..ball + n].fill(1e-3 * radius);
+            scale[ball + n..ball + 2 * n].fill(fall_speed);
+            scale[ball + 2 * n..ball + 3 * n].fill(1.0);
+            scale[ball + 3 * n..ball + 4 * n].fill(spin);
+            scale[ball + 4 * n..ball + 5 * n].fill(spin * bearing.ball.inner_track / radius);
+        }
+        scale[self.ledger()..self.angular_impulse()].fill(energy);
+        scale[self.angular_impulse()] = machine.inner_race_inertia * spin;
+        scale
+    }
+}

@@ -1,0 +1,109 @@
+//! Energies and angular momentum of a drop, and what must close.
+//!
+//! At all times: works of the sources = change of (kinetic + potential) + heats, and
+//! change of angular momentum about the origin = external angular impulse.
+
+use super::DropMachine;
+use super::layout::{BEARING, HEATS, SOURCES};
+use super::rate::{race_motion, rotor_motion};
+use solve::Machine;
+
+/// Energies and angular momentum at one state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Content {
+    /// Kinetic energy of all centres, J.
+    pub translation: f64,
+    /// Kinetic energy of all spins, J.
+    pub spin: f64,
+    /// Potential: springs, contacts, weight, J.
+    pub potential: f64,
+    /// Angular momentum about the origin, N m s.
+    pub angular_momentum: f64,
+}
+
+impl Content {
+    /// Kinetic and potential energy, J.
+    pub fn energy(&self) -> f64 {
+        self.translation + self.spin + self.potential
+    }
+}
+
+/// What flowed since the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flows {
+    /// Sum of the heats, J.
+    pub heat: f64,
+    /// Sum of the works of the sources, J.
+    pub work: f64,
+    /// Sum of the sizes of these works, J.
+    pub work_size: f64,
+    /// External angular impulse, N m s.
+    pub angular_impulse: f64,
+}
+
+impl DropMachine {
+    /// Energies and angular momentum at a state. The levitation is a source: it stores nothing.
+    pub fn content(&self, state: &[f64]) -> Content {
+        let m = &self.constants.machine;
+        let rotor = rotor_motion(state);
+        let races = race_motion(state);
+        let (inner, outer) = (&races.inner, &races.outer);
+        let centre = m.rotor.geometric_centre(&rotor);
+        let contact = m.contact.react(&centre, rotor.spin, inner);
+        let own = BEARING..self.layout().ledger();
+        let bearing = self.constants.bearing.energy(&races, &state[own]);
+        let outer_mass = self.constants.outer_moving_mass();
+
+        let (rotor_translation, rotor_spin) = m.rotor.kinetic_energy(&rotor);
+        let half_square = |mass: f64, speed: number::Vec2<f64>| 0.5 * mass * speed.length_squared();
+        let weight = |mass: f64, position: number::Vec2<f64>| -mass * m.gravity.dot(position);
+        let inner_weight = if m.inner_race_centre_held {
+            0.0
+        } else {
+            weight(m.inner_race_mass, inner.position)
+        };
+        let momentum = |mass: f64, position: number::Vec2<f64>, velocity: number::Vec2<f64>| {
+            mass * position.cross(velocity)
+        };
+        Content {
+            translation: rotor_translation
+                + half_square(m.inner_race_mass, inner.velocity)
+                + half_square(outer_mass, outer.velocity)
+                + bearing.translation,
+            spin: rotor_spin + 0.5 * m.inner_race_inertia * inner.spin * inner.spin + bearing.spin,
+            potential: m.contact.energy(&contact)
+                + m.mount.energy(outer.position)
+                + weight(m.rotor.mass, rotor.position)
+                + inner_weight
+                + weight(outer_mass, outer.position)
+                + bearing.elastic
+                + bearing.weight,
+            angular_momentum: momentum(m.rotor.mass, rotor.position, rotor.velocity)
+                + m.rotor.polar_inertia * rotor.spin
+                + momentum(m.inner_race_mass, inner.position, inner.velocity)
+                + m.inner_race_inertia * inner.spin
+                + momentum(outer_mass, outer.position, outer.velocity)
+                + bearing.angular_momentum,
+        }
+    }
+
+    /// What the ledger channels of a state have summed up.
+    pub fn flows(&self, state: &[f64]) -> Flows {
+        let layout = self.layout();
+        let works = (0..SOURCES.len()).map(|i| state[layout.source(i)]);
+        Flows {
+            heat: (0..HEATS.len()).map(|i| state[layout.heat(i)]).sum(),
+            work: works.clone().sum(),
+            work_size: works.map(f64::abs).sum(),
+            angular_impulse: state[layout.angular_impulse()],
+        }
+    }
+
+    /// The rate of change of a state, for inspection: (rate, probes).
+    pub fn inspect(&self, state: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let mut rate = vec![0.0; self.dimension()];
+        let mut probe = vec![0.0; self.probes()];
+        self.rate(&self.start_mode(), 0.0, state, &mut rate, &mut probe);
+        (rate, probe)
+    }
+}

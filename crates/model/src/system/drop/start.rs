@@ -1,0 +1,62 @@
+//! The levitated state at release: a steady orbit above a bearing at rest.
+
+use super::layout::{BEARING, ROTOR};
+use super::{DropConstants, DropMachine};
+use crate::bearing::BearingConstants;
+use number::Vec2;
+
+/// The mass centre of a rotor that orbits steadily on its levitation: (position, velocity).
+///
+/// ```text
+///   G = C_0 + e^(jφ) (k + jcΩ) e/(k + jcΩ - mΩ²)
+/// ```
+/// The levitation acts at C = G - e e^(jφ), carries the weight, and needs no moment that the spin would feel.
+pub fn levitated_orbit(constants: &DropConstants) -> (Vec2<f64>, Vec2<f64>) {
+    let m = &constants.machine;
+    let (k, c, mass) = (m.levitation.stiffness, m.levitation.damping, m.rotor.mass);
+    let spin = constants.speed;
+    let (re, im) = (k, c * spin);
+    let (dre, dim) = (k - mass * spin * spin, c * spin);
+    let size = dre * dre + dim * dim;
+    let e = m.rotor.eccentricity;
+    let (gre, gim) = if e == 0.0 {
+        (0.0, 0.0)
+    } else {
+        (
+            e * (re * dre + im * dim) / size,
+            e * (im * dre - re * dim) / size,
+        )
+    };
+    let (sine, cosine) = constants.unbalance_angle.sin_cos();
+    let orbit = Vec2::new(gre * cosine - gim * sine, gre * sine + gim * cosine);
+    (m.levitation.centre + orbit, orbit.turned() * spin)
+}
+
+impl DropMachine {
+    /// The state at release.
+    pub fn start(&self) -> Vec<f64> {
+        let mut state = vec![0.0; self.layout().dimension()];
+        let (position, velocity) = levitated_orbit(&self.constants);
+        state[ROTOR] = position.x;
+        state[ROTOR + 1] = position.y;
+        state[ROTOR + 2] = velocity.x;
+        state[ROTOR + 3] = velocity.y;
+        state[ROTOR + 4] = self.constants.unbalance_angle;
+        state[ROTOR + 5] = self.constants.speed;
+        let own = BEARING..self.layout().ledger();
+        self.constants.bearing.rest(&mut state[own]);
+        state
+    }
+
+    /// Moves a start state: the rotor by `rotor` (m), each ball along its orbit by its `ball_angle` (rad).
+    /// Balls without states of their own stay.
+    pub fn perturb(&self, state: &mut [f64], rotor: Vec2<f64>, ball_angle: &dyn Fn(usize) -> f64) {
+        state[ROTOR] += rotor.x;
+        state[ROTOR + 1] += rotor.y;
+        if let BearingConstants::Planar(bearing) = &self.constants.bearing {
+            for ball in 0..bearing.balls {
+                state[BEARING + bearing.azimuth_channel(ball)] += ball_angle(ball);
+            }
+        }
+    }
+}

@@ -1,0 +1,3 @@
+//! Systems: one readable page each.
+
+pub mod drop;

@@ -1,0 +1,151 @@
+//! Plain `f64`, and `f64` whose equal parts are computed four at a time.
+
+use crate::elementary::{self, Bits};
+use crate::{Mask, Real};
+
+impl Mask for bool {
+    #[inline(always)]
+    fn any(self) -> bool {
+        self
+    }
+    #[inline(always)]
+    fn lane(self, _index: usize) -> bool {
+        self
+    }
+    #[inline(always)]
+    fn from_lanes(mut lane: impl FnMut(usize) -> bool) -> bool {
+        lane(0)
+    }
+}
+
+/// A group of one part: the number itself.
+macro_rules! group_of_one {
+    () => {
+        type Group = Self;
+        const GROUP: usize = 1;
+        #[inline(always)]
+        fn grouped(self) -> Self {
+            self
+        }
+        #[inline(always)]
+        fn load_group(parts: &[Self], from: usize) -> Self {
+            parts[from]
+        }
+        #[inline(always)]
+        fn store_group(group: Self, parts: &mut [Self], from: usize) {
+            parts[from] = group;
+        }
+    };
+}
+pub(crate) use group_of_one;
+
+/// Implements `Real` and `Bits` for `f64` or a wrapper of it, `$get` and `$make` being the way in and out.
+macro_rules! scalar_real {
+    ($Type:ty, |$x:ident| $get:expr, $make:expr, { $($group:tt)* }) => {
+        impl Real for $Type {
+            type Mask = bool;
+            const LANES: usize = 1;
+            $($group)*
+            #[inline(always)]
+            fn splat(value: f64) -> Self {
+                $make(value)
+            }
+            #[inline(always)]
+            fn from_lanes(mut lane: impl FnMut(usize) -> f64) -> Self {
+                $make(lane(0))
+            }
+            #[inline(always)]
+            fn lane(self, _index: usize) -> f64 {
+                let $x = self;
+                $get
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                let $x = self;
+                $make(f64::sqrt($get))
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                let $x = self;
+                $make(f64::abs($get))
+            }
+            #[inline(always)]
+            fn round(self) -> Self {
+                let $x = self;
+                $make(elementary::round_f64($get))
+            }
+            #[inline(always)]
+            fn exp(self) -> Self {
+                elementary::exp(self)
+            }
+            #[inline(always)]
+            fn ln(self) -> Self {
+                elementary::ln(self)
+            }
+            #[inline(always)]
+            fn tanh(self) -> Self {
+                elementary::tanh(self)
+            }
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                elementary::sin_cos(self)
+            }
+            #[inline(always)]
+            fn asin_small(self) -> Self {
+                elementary::asin_small(self)
+            }
+            #[inline(always)]
+            fn greater(self, other: Self) -> bool {
+                self.lane(0) > other.lane(0)
+            }
+            #[inline(always)]
+            fn select(mask: bool, yes: Self, no: Self) -> Self {
+                if mask { yes } else { no }
+            }
+        }
+
+        impl Bits for $Type {
+            #[inline(always)]
+            fn exp2_integer(self) -> Self {
+                $make(elementary::exp2_integer_f64(self.lane(0)))
+            }
+            #[inline(always)]
+            fn mantissa_exponent(self) -> (Self, Self) {
+                let (mantissa, exponent) = elementary::mantissa_exponent_f64(self.lane(0));
+                ($make(mantissa), $make(exponent))
+            }
+            #[inline(always)]
+            fn integer_bit(self, n: u32) -> bool {
+                elementary::integer_bit_f64(self.lane(0), n) == 1
+            }
+        }
+    };
+}
+pub(crate) use scalar_real;
+
+scalar_real!(f64, |x| x, std::convert::identity, {
+    group_of_one!();
+});
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_is_to_even() {
+        for (x, nearest) in [
+            (0.5, 0.0),
+            (1.5, 2.0),
+            (-2.5, -2.0),
+            (2.499, 2.0),
+            (-7.51, -8.0),
+        ] {
+            assert_eq!(Real::round(x), nearest);
+        }
+    }
+    #[test]
+    fn not_a_number_is_never_the_larger() {
+        assert_eq!(Real::max(f64::NAN, 1.0), 1.0);
+        assert_eq!(Real::min(f64::NAN, 1.0), 1.0);
+    }
+}

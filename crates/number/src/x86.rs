@@ -1,0 +1,437 @@
+//! Numbers on the vector units of x86-64.
+//!
+//! These types are private: code outside meets them only as type parameters of a [`Task`](crate::Task), which
+//! [`Level::run`](crate::Level::run) starts after it has seen that the machine has the instructions. That makes the
+//! intrinsics below sound. Their methods are inlined into functions compiled for the unit ([`Real::vectorized`]).
+
+use crate::elementary::{self, Bits, LOW_EXPONENT, ONE_BITS, ROUNDING};
+use crate::real::Vectorized;
+use crate::scalar::{group_of_one, scalar_real};
+use crate::{Mask, Real};
+use std::arch::x86_64::*;
+use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
+
+/// Four machines side by side, or four parts of one: AVX2.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+pub struct Four(__m256d);
+/// Truth of four lanes: the sign bits.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+pub struct FourMask(__m256d);
+/// Eight machines side by side: AVX-512.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+pub struct Eight(__m512d);
+/// Truth of eight lanes.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+pub struct EightMask(__mmask8);
+/// One machine whose equal parts are computed four at a time.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+pub struct Single(f64);
+
+// SAFETY of every block below: the types are reachable only on machines with the instructions, see the module.
+macro_rules! binary {
+    ($Type:ident, $Trait:ident, $method:ident, $Assign:ident, $assign:ident, $intrinsic:ident) => {
+        impl $Trait for $Type {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                // SAFETY: see the module.
+                $Type(unsafe { $intrinsic(self.0, other.0) })
+            }
+        }
+        impl $Assign for $Type {
+            #[inline(always)]
+            fn $assign(&mut self, other: Self) {
+                *self = $Trait::$method(*self, other);
+            }
+        }
+    };
+}
+macro_rules! operators {
+    ($Type:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $set:ident, $xor:ident) => {
+        binary!($Type, Add, add, AddAssign, add_assign, $add);
+        binary!($Type, Sub, sub, SubAssign, sub_assign, $sub);
+        binary!($Type, Mul, mul, MulAssign, mul_assign, $mul);
+        impl Div for $Type {
+            type Output = Self;
+            #[inline(always)]
+            fn div(self, other: Self) -> Self {
+                // SAFETY: see the module.
+                $Type(unsafe { $div(self.0, other.0) })
+            }
+        }
+        impl Neg for $Type {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                // SAFETY: see the module.
+                $Type(unsafe { $xor(self.0, $set(-0.0)) })
+            }
+        }
+    };
+}
+operators!(
+    Four,
+    _mm256_add_pd,
+    _mm256_sub_pd,
+    _mm256_mul_pd,
+    _mm256_div_pd,
+    _mm256_set1_pd,
+    _mm256_xor_pd
+);
+operators!(
+    Eight,
+    _mm512_add_pd,
+    _mm512_sub_pd,
+    _mm512_mul_pd,
+    _mm512_div_pd,
+    _mm512_set1_pd,
+    _mm512_xor_pd
+);
+
+/// The methods of `Real` that are the same for both widths.
+macro_rules! shared_methods {
+    ($Type:ident, $Array:ty, $set:ident, $sqrt:ident, $andnot:ident, $level:ident) => {
+        #[inline(always)]
+        fn splat(value: f64) -> Self {
+            // SAFETY: see the module.
+            $Type(unsafe { $set(value) })
+        }
+        #[inline(always)]
+        fn from_lanes(lane: impl FnMut(usize) -> f64) -> Self {
+            let array: $Array = std::array::from_fn(lane);
+            // SAFETY: an array of as many f64 has the size and the bits of the vector.
+            $Type(unsafe { std::mem::transmute::<$Array, _>(array) })
+        }
+        #[inline(always)]
+        fn lane(self, index: usize) -> f64 {
+            // SAFETY: as in `from_lanes`.
+            let array: $Array = unsafe { std::mem::transmute(self.0) };
+            array[index]
+        }
+        #[inline(always)]
+        fn sqrt(self) -> Self {
+            // SAFETY: see the module.
+            $Type(unsafe { $sqrt(self.0) })
+        }
+        #[inline(always)]
+        fn abs(self) -> Self {
+            // SAFETY: see the module.
+            $Type(unsafe { $andnot($set(-0.0), self.0) })
+        }
+        #[inline(always)]
+        fn round(self) -> Self {
+            (self + Self::splat(ROUNDING)) - Self::splat(ROUNDING)
+        }
+        #[inline(always)]
+        fn exp(self) -> Self {
+            elementary::exp(self)
+        }
+        #[inline(always)]
+        fn ln(self) -> Self {
+            elementary::ln(self)
+        }
+        #[inline(always)]
+        fn tanh(self) -> Self {
+            elementary::tanh(self)
+        }
+        #[inline(always)]
+        fn sin_cos(self) -> (Self, Self) {
+            elementary::sin_cos(self)
+        }
+        #[inline(always)]
+        fn asin_small(self) -> Self {
+            elementary::asin_small(self)
+        }
+        #[inline(always)]
+        fn vectorized<T: Vectorized>(task: T) -> T::Output {
+            // SAFETY: see the module.
+            unsafe { $level(task) }
+        }
+    };
+}
+
+impl Real for Four {
+    type Mask = FourMask;
+    const LANES: usize = 4;
+    group_of_one!();
+    shared_methods!(
+        Four,
+        [f64; 4],
+        _mm256_set1_pd,
+        _mm256_sqrt_pd,
+        _mm256_andnot_pd,
+        for_avx2
+    );
+    #[inline(always)]
+    fn greater(self, other: Self) -> FourMask {
+        // SAFETY: see the module.
+        FourMask(unsafe { _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn select(mask: FourMask, yes: Self, no: Self) -> Self {
+        // SAFETY: see the module.
+        Four(unsafe { _mm256_blendv_pd(no.0, yes.0, mask.0) })
+    }
+}
+
+impl Bits for Four {
+    #[inline(always)]
+    fn exp2_integer(self) -> Self {
+        // SAFETY: see the module.
+        Four(unsafe {
+            let shifted =
+                _mm256_slli_epi64::<52>(_mm256_castpd_si256((self + Self::splat(ROUNDING)).0));
+            _mm256_castsi256_pd(_mm256_add_epi64(
+                shifted,
+                _mm256_set1_epi64x(ONE_BITS as i64),
+            ))
+        })
+    }
+    #[inline(always)]
+    fn mantissa_exponent(self) -> (Self, Self) {
+        // SAFETY: see the module.
+        unsafe {
+            let bits = _mm256_castpd_si256(self.0);
+            let fraction = _mm256_and_si256(bits, _mm256_set1_epi64x(0x000f_ffff_ffff_ffff));
+            let mantissa = _mm256_or_si256(fraction, _mm256_set1_epi64x(ONE_BITS as i64));
+            let exponent = _mm256_or_si256(
+                _mm256_srli_epi64::<52>(bits),
+                _mm256_set1_epi64x(0x4330_0000_0000_0000),
+            );
+            (
+                Four(_mm256_castsi256_pd(mantissa)),
+                Four(_mm256_castsi256_pd(exponent))
+                    - Self::splat(LOW_EXPONENT)
+                    - Self::splat(1023.0),
+            )
+        }
+    }
+    #[inline(always)]
+    fn integer_bit(self, n: u32) -> FourMask {
+        // SAFETY: see the module. The wanted bit moves to the sign, the only bit a mask needs.
+        FourMask(unsafe {
+            let bits = _mm256_castpd_si256((self + Self::splat(ROUNDING)).0);
+            let count = _mm_cvtsi32_si128(63 - n as i32);
+            _mm256_castsi256_pd(_mm256_sll_epi64(bits, count))
+        })
+    }
+}
+
+impl BitAnd for FourMask {
+    type Output = Self;
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        // SAFETY: see the module.
+        FourMask(unsafe { _mm256_and_pd(self.0, other.0) })
+    }
+}
+impl BitOr for FourMask {
+    type Output = Self;
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        // SAFETY: see the module.
+        FourMask(unsafe { _mm256_or_pd(self.0, other.0) })
+    }
+}
+impl Not for FourMask {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        // SAFETY: see the module.
+        FourMask(unsafe { _mm256_xor_pd(self.0, _mm256_set1_pd(-0.0)) })
+    }
+}
+impl Mask for FourMask {
+    #[inline(always)]
+    fn any(self) -> bool {
+        // SAFETY: see the module.
+        unsafe { _mm256_movemask_pd(self.0) != 0 }
+    }
+    #[inline(always)]
+    fn lane(self, index: usize) -> bool {
+        Four(self.0).lane(index).is_sign_negative()
+    }
+    #[inline(always)]
+    fn from_lanes(mut lane: impl FnMut(usize) -> bool) -> Self {
+        FourMask(Four::from_lanes(|i| if lane(i) { -1.0 } else { 1.0 }).0)
+    }
+}
+
+impl Real for Eight {
+    type Mask = EightMask;
+    const LANES: usize = 8;
+    group_of_one!();
+    shared_methods!(
+        Eight,
+        [f64; 8],
+        _mm512_set1_pd,
+        _mm512_sqrt_pd,
+        _mm512_andnot_pd,
+        for_avx512
+    );
+    #[inline(always)]
+    fn greater(self, other: Self) -> EightMask {
+        // SAFETY: see the module.
+        EightMask(unsafe { _mm512_cmp_pd_mask::<_CMP_GT_OQ>(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn select(mask: EightMask, yes: Self, no: Self) -> Self {
+        // SAFETY: see the module.
+        Eight(unsafe { _mm512_mask_blend_pd(mask.0, no.0, yes.0) })
+    }
+}
+
+impl Bits for Eight {
+    #[inline(always)]
+    fn exp2_integer(self) -> Self {
+        // SAFETY: see the module.
+        Eight(unsafe {
+            let shifted =
+                _mm512_slli_epi64::<52>(_mm512_castpd_si512((self + Self::splat(ROUNDING)).0));
+            _mm512_castsi512_pd(_mm512_add_epi64(
+                shifted,
+                _mm512_set1_epi64(ONE_BITS as i64),
+            ))
+        })
+    }
+    #[inline(always)]
+    fn mantissa_exponent(self) -> (Self, Self) {
+        // SAFETY: see the module.
+        unsafe {
+            let bits = _mm512_castpd_si512(self.0);
+            let fraction = _mm512_and_si512(bits, _mm512_set1_epi64(0x000f_ffff_ffff_ffff));
+            let mantissa = _mm512_or_si512(fraction, _mm512_set1_epi64(ONE_BITS as i64));
+            let exponent = _mm512_or_si512(
+                _mm512_srli_epi64::<52>(bits),
+                _mm512_set1_epi64(0x4330_0000_0000_0000),
+            );
+            (
+                Eight(_mm512_castsi512_pd(mantissa)),
+                Eight(_mm512_castsi512_pd(exponent))
+                    - Self::splat(LOW_EXPONENT)
+                    - Self::splat(1023.0),
+            )
+        }
+    }
+    #[inline(always)]
+    fn integer_bit(self, n: u32) -> EightMask {
+        // SAFETY: see the module.
+        EightMask(unsafe {
+            let bits = _mm512_castpd_si512((self + Self::splat(ROUNDING)).0);
+            _mm512_test_epi64_mask(bits, _mm512_set1_epi64(1 << n))
+        })
+    }
+}
+
+impl BitAnd for EightMask {
+    type Output = Self;
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        EightMask(self.0 & other.0)
+    }
+}
+impl BitOr for EightMask {
+    type Output = Self;
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        EightMask(self.0 | other.0)
+    }
+}
+impl Not for EightMask {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        EightMask(!self.0)
+    }
+}
+impl Mask for EightMask {
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.0 != 0
+    }
+    #[inline(always)]
+    fn lane(self, index: usize) -> bool {
+        self.0 >> index & 1 == 1
+    }
+    #[inline(always)]
+    fn from_lanes(mut lane: impl FnMut(usize) -> bool) -> Self {
+        EightMask((0..8).fold(0, |mask, i| mask | u8::from(lane(i)) << i))
+    }
+}
+
+macro_rules! single_operator {
+    ($Trait:ident, $method:ident, $Assign:ident, $assign:ident, $op:tt) => {
+        impl $Trait for Single {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Single(self.0 $op other.0)
+            }
+        }
+        impl $Assign for Single {
+            #[inline(always)]
+            fn $assign(&mut self, other: Self) {
+                self.0 = self.0 $op other.0;
+            }
+        }
+    };
+}
+single_operator!(Add, add, AddAssign, add_assign, +);
+single_operator!(Sub, sub, SubAssign, sub_assign, -);
+single_operator!(Mul, mul, MulAssign, mul_assign, *);
+impl Div for Single {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        Single(self.0 / other.0)
+    }
+}
+impl Neg for Single {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Single(-self.0)
+    }
+}
+
+scalar_real!(Single, |x| x.0, Single, {
+    type Group = Four;
+    const GROUP: usize = 4;
+    #[inline(always)]
+    fn grouped(self) -> Four {
+        Four::splat(self.0)
+    }
+    #[inline(always)]
+    fn load_group(parts: &[Self], from: usize) -> Four {
+        match parts.get(from..from + 4) {
+            Some(full) => Four::from_lanes(|i| full[i].0),
+            None => Four::from_lanes(|i| parts[(parts.len() - 1).min(from + i)].0),
+        }
+    }
+    #[inline(always)]
+    fn store_group(group: Four, parts: &mut [Self], from: usize) {
+        for (i, part) in parts[from..].iter_mut().take(4).enumerate() {
+            part.0 = group.lane(i);
+        }
+    }
+    #[inline(always)]
+    fn vectorized<T: Vectorized>(task: T) -> T::Output {
+        // SAFETY: see the module.
+        unsafe { for_avx2(task) }
+    }
+});
+
+#[target_feature(enable = "avx2")]
+fn for_avx2<T: Vectorized>(task: T) -> T::Output {
+    task.run()
+}
+
+#[target_feature(enable = "avx2,avx512f,avx512dq,avx512vl")]
+fn for_avx512<T: Vectorized>(task: T) -> T::Output {
+    task.run()
+}
