@@ -1,0 +1,157 @@
+//! What a simulation hands over: quantities, history, contacts, warnings. Plain data, SI.
+
+/// Everything known after a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// Name of the system, e.g. `drop`.
+    pub system: &'static str,
+    /// Title of the scenario, or a plain one.
+    pub title: String,
+    /// Named results, in the order of the report.
+    pub quantities: Vec<Quantity>,
+    /// Time histories: columns of equal length, `time` first.
+    pub history: Vec<Column>,
+    /// Contacts of rotor and inner race, in order.
+    pub contacts: Vec<Contact>,
+    /// What the user should know before trusting the numbers.
+    pub warnings: Vec<Warning>,
+    /// How the run ended.
+    pub stop: Stop,
+    /// What it took.
+    pub work: Work,
+    /// Named results of each member, when repeated; member 0 is the unperturbed run.
+    pub members: Vec<Vec<(String, Option<f64>)>>,
+    /// Numbers that only the pictures need.
+    pub picture: Picture,
+}
+
+/// A named result.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quantity {
+    /// Name, e.g. `first_impact_force`.
+    pub name: String,
+    /// Its value.
+    pub value: Value,
+    /// SI unit; empty for text and counts.
+    pub unit: &'static str,
+    /// The law or definition it comes from.
+    pub law: &'static str,
+    /// Source of that law.
+    pub source: &'static str,
+    /// Where it is valid.
+    pub valid: &'static str,
+    /// Spread over the members, when repeated.
+    pub spread: Option<Spread>,
+}
+
+/// A result in one of its kinds.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// A list of numbers.
+    List(Vec<f64>),
+    /// A word.
+    Text(String),
+    /// It does not exist in this run, and why.
+    None {
+        /// The reason.
+        why: String,
+    },
+}
+
+/// Mean and spread over members in which the quantity exists.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// Number of members in which it exists.
+    pub members: usize,
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation of the sample.
+    pub standard_deviation: f64,
+    /// Smallest.
+    pub smallest: f64,
+    /// Largest.
+    pub largest: f64,
+}
+
+/// One column of a history.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Channel name, e.g. `bearing.inner_race.speed`.
+    pub name: String,
+    /// SI unit, `1` for a ratio.
+    pub unit: &'static str,
+    /// What it is, in words.
+    pub meaning: String,
+    /// The values.
+    pub values: Vec<f64>,
+}
+
+/// One contact of rotor and inner race.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Begin, s.
+    pub start: f64,
+    /// End, s; none where it lasts to the end of the run.
+    pub end: Option<f64>,
+    /// Largest normal force, N.
+    pub peak_force: f64,
+    /// Its instant, s.
+    pub peak_time: f64,
+}
+
+/// Something the user should know.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// Stable code, e.g. `AB1001`.
+    pub code: &'static str,
+    /// One or two sentences.
+    pub text: String,
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stop {
+    /// `finished`, `interrupted`, `diverged`, `step limit` or `left the model`.
+    pub reason: &'static str,
+    /// Time of the last state, s.
+    pub time: f64,
+    /// One sentence.
+    pub text: String,
+}
+
+impl Stop {
+    /// True where the whole run was computed.
+    pub fn complete(&self) -> bool {
+        self.reason == "finished"
+    }
+}
+
+/// Work of a run, all members together.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Work {
+    /// Machines simulated.
+    pub members: usize,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+    /// Evaluations of the right-hand side.
+    pub rate_calls: u64,
+    /// Wall-clock time, s.
+    pub seconds: f64,
+}
+
+/// Numbers that only the pictures need.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Picture {
+    /// Radius of the clearance circle, m.
+    pub clearance: f64,
+    /// Limit of the Hertz pressure, Pa.
+    pub pressure_limit: Option<f64>,
+    /// Cage speed per inner race speed when the balls roll.
+    pub rolling_cage_ratio: f64,
+    /// Number of balls.
+    pub balls: usize,
+}
