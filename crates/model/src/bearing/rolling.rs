@@ -16,20 +16,7 @@ use super::{BallSums, BearingEnergy, BearingHeat, BearingReaction, largest};
 use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, constants};
 use physics::contact::{ball_race, ball_race_energy};
-// STUB until physics::palmgren lands
-number::constants! {
-    /// stub
-    pub struct ContinuousMoment {
-        /// stub
-        factor: R,
-    }
-}
-impl<R: Real> ContinuousMoment<R> {
-    #[inline(always)]
-    fn moment(&self, spin: R, load: R) -> R {
-        self.factor * spin * load
-    }
-}
+use physics::palmgren::Palmgren;
 
 /// Number of states.
 pub const STATES: usize = 1;
@@ -39,8 +26,30 @@ pub const STATES: usize = 1;
 pub enum SteadyMoment<R> {
     /// None.
     None,
-    /// Palmgren's law in its continuous form.
-    Palmgren(ContinuousMoment<R>),
+    /// Palmgren's law, continuous and odd in speed.
+    Palmgren(Palmgren<R>),
+    /// Palmgren's law as the source paper prints it, with its steps.
+    PalmgrenPrinted(Palmgren<R>),
+}
+
+impl<R: Real> Gather<R> for SteadyMoment<f64> {
+    type Out = SteadyMoment<R>;
+    fn gather<'a>(machine: &dyn Fn(usize) -> &'a Self) -> SteadyMoment<R>
+    where
+        Self: 'a,
+    {
+        let law = || {
+            Gather::<R>::gather(&|lane| match machine(lane) {
+                SteadyMoment::Palmgren(law) | SteadyMoment::PalmgrenPrinted(law) => law,
+                SteadyMoment::None => panic!("lanes share the friction law"),
+            })
+        };
+        match machine(0) {
+            SteadyMoment::None => SteadyMoment::None,
+            SteadyMoment::Palmgren(_) => SteadyMoment::Palmgren(law()),
+            SteadyMoment::PalmgrenPrinted(_) => SteadyMoment::PalmgrenPrinted(law()),
+        }
+    }
 }
 
 constants! {
@@ -100,17 +109,7 @@ impl<R: Real> Rolling<R> {
             inner_inertia: R::from_lanes(|lane| machine(lane).inner_inertia),
             outer_inertia: R::from_lanes(|lane| machine(lane).outer_inertia),
             cage_ratio: R::from_lanes(|lane| machine(lane).cage_ratio),
-            moment: match machine(0).moment {
-                SteadyMoment::None => SteadyMoment::None,
-                SteadyMoment::Palmgren(_) => {
-                    SteadyMoment::Palmgren(Gather::<R>::gather(
-                        &|lane| match &machine(lane).moment {
-                            SteadyMoment::Palmgren(law) => law,
-                            SteadyMoment::None => panic!("lanes share the friction law"),
-                        },
-                    ))
-                }
-            },
+            moment: SteadyMoment::gather(&|lane| &machine(lane).moment),
             seats: (0..balls)
                 .map(|j| R::from_lanes(|lane| machine(lane).seat(j)))
                 .collect(),
@@ -170,12 +169,11 @@ impl<R: Real> Rolling<R> {
         }
         let [x, y, damping] = sums.total();
         let push = Vec2::new(x, y);
+        let load = || push.length_squared().max(R::splat(1e-30)).sqrt();
         let moment = match &self.moment {
             SteadyMoment::None => R::zero(),
-            SteadyMoment::Palmgren(law) => {
-                let load = push.length_squared().max(R::splat(1e-30)).sqrt();
-                law.moment(spin, load)
-            }
+            SteadyMoment::Palmgren(law) => law.moment(spin, load()),
+            SteadyMoment::PalmgrenPrinted(law) => law.printed_moment(spin, load()),
         };
         BearingReaction {
             on_inner: Wrench::planar(-push, -moment),
