@@ -1,0 +1,358 @@
+//! The product's own case format, `auxbear.case/1`.
+//!
+//! ```toml
+//! format = "auxbear.case/1"
+//! kind = "hertz_point_contact"
+//!
+//! [source]
+//! citation = "…"
+//! where = "…"            # optional
+//! note = "…"             # optional
+//!
+//! [inputs]               # quantities with units, ratios and counts as numbers, words as texts
+//! ball_diameter = "6.35 mm"
+//!
+//! [[results]]
+//! quantity = "stiffness"
+//! value = "2.518829e10 N/m^1.5"
+//! tolerance = 2e-7       # share of the value; or absolute with a unit: "0.2 us"
+//! reason = "seven printed digits"
+//! ```
+//!
+//! The kinds, their inputs and their quantities stand in [`kinds`]. Unknown keys, missing inputs and
+//! wrong dimensions make the case fail with the reason: a case that cannot be compared must not look well.
+
+use super::kinds;
+use super::report::{Row, Tolerance};
+use super::simulator::Simulator;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use units::{Dimension, parse_quantity};
+
+/// Name and version of the format.
+pub const FORMAT: &str = "auxbear.case/1";
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(rename = "format")]
+    _format: String,
+    kind: String,
+    #[serde(rename = "source")]
+    _source: Source,
+    inputs: BTreeMap<String, Raw>,
+    results: Vec<Expected>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Source {
+    #[serde(rename = "citation")]
+    _citation: String,
+    #[serde(rename = "where")]
+    _place: Option<String>,
+    #[serde(rename = "note")]
+    _note: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Expected {
+    quantity: String,
+    value: Raw,
+    tolerance: Raw,
+    reason: String,
+}
+
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(untagged)]
+enum Raw {
+    Number(f64),
+    Text(String),
+}
+
+/// The inputs of a case: each is taken once, so that what is left over is unknown.
+pub struct Inputs {
+    values: BTreeMap<String, Raw>,
+}
+
+impl Inputs {
+    /// A quantity in SI, if it is given.
+    pub fn maybe_quantity(
+        &mut self,
+        key: &str,
+        dimension: Dimension,
+    ) -> Result<Option<f64>, String> {
+        let Some(raw) = self.values.remove(key) else {
+            return Ok(None);
+        };
+        let Raw::Text(text) = raw else {
+            return Err(format!(
+                "inputs.{key}: a quantity with a unit is needed, in {}",
+                dimension.si_unit()
+            ));
+        };
+        let quantity = parse_quantity(&text).map_err(|error| format!("inputs.{key}: {error}"))?;
+        if quantity.dimension != dimension {
+            return Err(format!(
+                "inputs.{key}: found \"{text}\", a quantity in {} is needed",
+                dimension.si_unit()
+            ));
+        }
+        Ok(Some(quantity.value_si))
+    }
+    /// A quantity in SI.
+    pub fn quantity(&mut self, key: &str, dimension: Dimension) -> Result<f64, String> {
+        self.maybe_quantity(key, dimension)?
+            .ok_or_else(|| missing(key))
+    }
+    /// A ratio or count, if it is given.
+    pub fn maybe_number(&mut self, key: &str) -> Result<Option<f64>, String> {
+        match self.values.remove(key) {
+            None => Ok(None),
+            Some(Raw::Number(number)) => Ok(Some(number)),
+            Some(Raw::Text(text)) => Err(format!(
+                "inputs.{key}: found \"{text}\", a number is needed"
+            )),
+        }
+    }
+    /// A ratio or count.
+    pub fn number(&mut self, key: &str) -> Result<f64, String> {
+        self.maybe_number(key)?.ok_or_else(|| missing(key))
+    }
+    /// A whole number from 1.
+    pub fn count(&mut self, key: &str) -> Result<usize, String> {
+        let number = self.number(key)?;
+        if (1.0..1e6).contains(&number) && number.fract() == 0.0 {
+            Ok(number as usize)
+        } else {
+            Err(format!(
+                "inputs.{key}: found {number}, a whole number from 1 is needed"
+            ))
+        }
+    }
+    /// One of the words allowed.
+    pub fn word(&mut self, key: &str, allowed: &[&str]) -> Result<String, String> {
+        match self.values.remove(key) {
+            Some(Raw::Text(text)) if allowed.contains(&text.as_str()) => Ok(text),
+            Some(_) => Err(format!(
+                "inputs.{key}: one of {} is needed",
+                allowed.join(", ")
+            )),
+            None => Err(missing(key)),
+        }
+    }
+    /// Refuses what was not taken.
+    fn finish(self) -> Result<(), String> {
+        match self.values.keys().next() {
+            None => Ok(()),
+            Some(key) => Err(format!("inputs.{key}: unknown for this kind")),
+        }
+    }
+}
+
+fn missing(key: &str) -> String {
+    format!("inputs.{key} is missing")
+}
+
+/// What a kind computed under one name.
+pub struct Computed {
+    /// Name of the quantity.
+    pub quantity: &'static str,
+    /// Its dimension.
+    pub dimension: Dimension,
+    /// Its value in SI, or why it could not be computed.
+    pub value: Result<f64, String>,
+}
+
+/// Rows of a case file of this format.
+pub fn rows(text: &str, simulator: &dyn Simulator) -> Vec<Row> {
+    match read(text, simulator) {
+        Ok(rows) => rows,
+        Err(why) => vec![Row::wrong(why)],
+    }
+}
+
+fn read(text: &str, simulator: &dyn Simulator) -> Result<Vec<Row>, String> {
+    let file: File = toml::from_str(text).map_err(|error| error.message().to_string())?;
+    let mut inputs = Inputs {
+        values: file.inputs,
+    };
+    let computed = kinds::compute(&file.kind, &mut inputs, simulator)?;
+    let computed = match computed {
+        Some(computed) => computed,
+        None => {
+            return Ok(vec![Row::not_run(format!(
+                "kind \"{}\" is not known; known are {}",
+                file.kind,
+                kinds::NAMES.join(", ")
+            ))]);
+        }
+    };
+    inputs.finish()?;
+    if file.results.is_empty() {
+        return Err("results: at least one is needed".into());
+    }
+    file.results
+        .into_iter()
+        .map(|expected| row(expected, &computed))
+        .collect()
+}
+
+fn row(expected: Expected, computed: &[Computed]) -> Result<Row, String> {
+    let name = &expected.quantity;
+    let Some(ours) = computed.iter().find(|known| known.quantity == name) else {
+        let known: Vec<_> = computed.iter().map(|known| known.quantity).collect();
+        return Err(format!(
+            "results: quantity \"{name}\" is not known; this kind has {}",
+            known.join(", ")
+        ));
+    };
+    let (reference, unit, factor) = amount(&expected.value, ours.dimension)
+        .map_err(|error| format!("results, value of {name}: {error}"))?;
+    let tolerance = match &expected.tolerance {
+        Raw::Number(share) => Tolerance::Relative(*share),
+        text => {
+            let (value, _, own) = amount(text, ours.dimension)
+                .map_err(|error| format!("results, tolerance of {name}: {error}"))?;
+            Tolerance::Absolute(value * own / factor)
+        }
+    };
+    Ok(match &ours.value {
+        Ok(value) => Row::compared(
+            name.clone(),
+            unit,
+            reference,
+            value / factor,
+            tolerance,
+            expected.reason,
+        ),
+        Err(why) => Row {
+            reference: Some(reference),
+            ..Row::not_run(why.clone()).of(name.clone(), unit)
+        },
+    })
+}
+
+/// (number as written, unit as written, SI value of the unit).
+fn amount(raw: &Raw, dimension: Dimension) -> Result<(f64, String, f64), String> {
+    match raw {
+        Raw::Number(number) if dimension == Dimension::NONE => Ok((*number, String::new(), 1.0)),
+        Raw::Number(_) => Err(format!("a quantity in {} is needed", dimension.si_unit())),
+        Raw::Text(text) => {
+            let quantity = parse_quantity(text).map_err(|error| error.to_string())?;
+            if quantity.dimension != dimension {
+                return Err(format!(
+                    "found \"{text}\", a quantity in {} is needed",
+                    dimension.si_unit()
+                ));
+            }
+            let unit = text
+                .trim()
+                .trim_start_matches(|c: char| !c.is_whitespace())
+                .trim();
+            let factor = parse_quantity(&format!("1 {unit}"))
+                .map_err(|error| error.to_string())?
+                .value_si;
+            Ok((quantity.value_si / factor, unit.to_string(), factor))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::report::Verdict;
+    use super::super::simulator::LawsOnly;
+    use super::*;
+
+    const GOOD: &str = r#"
+format = "auxbear.case/1"
+kind = "bearing_kinematics"
+[source]
+citation = "closed form"
+[inputs]
+ball_count = 10
+ball_diameter = "6 mm"
+pitch_diameter = "36 mm"
+[[results]]
+quantity = "cage"
+value = 0.41666667
+tolerance = 1e-7
+reason = "eight digits"
+"#;
+
+    fn verdict_and_why(text: &str) -> (Verdict, String) {
+        let rows = rows(text, &LawsOnly);
+        assert_eq!(rows.len(), 1);
+        (rows[0].verdict, rows[0].why.clone())
+    }
+
+    #[test]
+    fn a_good_case_passes_and_a_wrong_number_fails() {
+        assert_eq!(
+            verdict_and_why(GOOD),
+            (Verdict::Pass, "eight digits".into())
+        );
+        assert_eq!(
+            verdict_and_why(&GOOD.replace("0.41666667", "0.4166")).0,
+            Verdict::Fail
+        );
+    }
+    #[test]
+    fn what_cannot_be_compared_fails_with_its_reason() {
+        for (from, to, why) in [
+            ("ball_count = 10", "", "inputs.ball_count is missing"),
+            (
+                "ball_count = 10",
+                "ball_count = 2.5",
+                "a whole number from 1",
+            ),
+            (
+                "ball_count = 10",
+                "ball_count = 10\nballs = 3",
+                "inputs.balls: unknown",
+            ),
+            ("\"6 mm\"", "6", "a quantity with a unit"),
+            ("\"6 mm\"", "\"6 kg\"", "a quantity in m is needed"),
+            (
+                "quantity = \"cage\"",
+                "quantity = \"cages\"",
+                "quantity \"cages\" is not known",
+            ),
+            ("tolerance = 1e-7", "", "tolerance"),
+            ("citation = \"closed form\"", "", "citation"),
+            (
+                "tolerance = 1e-7",
+                "tolerance = \"1 mm\"",
+                "tolerance of cage",
+            ),
+        ] {
+            let (verdict, reason) = verdict_and_why(&GOOD.replace(from, to));
+            assert_eq!(verdict, Verdict::Fail, "{to}");
+            assert!(reason.contains(why), "{to}: {reason}");
+        }
+    }
+    #[test]
+    fn an_unknown_kind_is_not_run() {
+        let (verdict, why) = verdict_and_why(&GOOD.replace("bearing_kinematics", "gear_noise"));
+        assert_eq!(verdict, Verdict::NotRun);
+        assert!(why.contains("gear_noise") && why.contains("hertz_point_contact"));
+    }
+    #[test]
+    fn rows_keep_the_unit_of_the_source() {
+        let text = GOOD
+            .replace("bearing_kinematics", "free_fall")
+            .replace(
+                "ball_count = 10\nball_diameter = \"6 mm\"\npitch_diameter = \"36 mm\"",
+                "clearance = \"0.25 mm\"\ngravity = \"9.81 m/s^2\"",
+            )
+            .replace("\"cage\"", "\"closed_form_time\"")
+            .replace("0.41666667", "\"7.13921 ms\"")
+            .replace("tolerance = 1e-7", "tolerance = \"0.2 us\"");
+        let rows = rows(&text, &LawsOnly);
+        assert_eq!(rows[0].verdict, Verdict::Pass, "{rows:?}");
+        assert_eq!(rows[0].unit, "ms");
+        assert!((rows[0].ours.unwrap() - 7.13921).abs() < 1e-5);
+        assert!((rows[0].tolerance.unwrap() - 0.2e-3 / 7.13921).abs() < 1e-9);
+    }
+}

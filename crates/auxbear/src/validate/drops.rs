@@ -1,0 +1,175 @@
+//! Half a second of a drop (`drop_*.json`): mean and spread of an ensemble.
+//!
+//! Accepted is |x - mean| ≤ 5 sd + 1e-4 |mean|, for the two displacements also 3e-4 |mean|, since the reference takes
+//! them on a grid of 50 µs. `null` in the reference means that the event must not happen.
+
+use super::machine::ReferenceMachine;
+use super::reference::{never, part};
+use super::report::{Row, Tolerance};
+use super::simulator::{DropAnswer, Simulator};
+use serde::Deserialize;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// A drop as the reference file describes it.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+pub struct DropReference {
+    /// The machine; its levitation vanishes at the release.
+    pub params: ReferenceMachine,
+    /// Rotor speed at the release, rad/s.
+    #[serde(rename = "Om")]
+    pub rotor_speed: f64,
+    /// Duration, s.
+    #[serde(rename = "T")]
+    pub duration: f64,
+    /// State at the release, then the energy accounts; layout as in the derivative points.
+    pub y0: Vec<f64>,
+    /// Means over the ensemble.
+    pub mean: BTreeMap<String, Option<f64>>,
+    /// Standard deviations over the ensemble.
+    pub sd: BTreeMap<String, Option<f64>>,
+    /// Means of the first contact start times, s.
+    pub t_on_mean: Vec<f64>,
+    /// Their standard deviations, s.
+    pub t_on_sd: Vec<f64>,
+}
+
+type Pick = fn(&DropAnswer) -> Option<f64>;
+
+/// Key of the file, our name, unit, our value.
+const QUANTITIES: [(&str, &str, &str, Pick); 14] = [
+    ("peak1", "first_impact_force", "N", |a| a.first_impact_force),
+    ("peak_all", "peak_contact_force", "N", |a| {
+        a.peak_contact_force
+    }),
+    ("n_contacts", "contact_count", "", |a| a.contact_count),
+    ("t_inner_50%", "inner_race_time_to_50_percent", "s", |a| {
+        a.inner_race_time_to_50_percent
+    }),
+    ("t_inner_95%", "inner_race_time_to_95_percent", "s", |a| {
+        a.inner_race_time_to_95_percent
+    }),
+    (
+        "t_cage_95%roll",
+        "cage_time_to_95_percent_of_rolling",
+        "s",
+        |a| a.cage_time_to_95_percent_of_rolling,
+    ),
+    ("fric", "rotor_race_friction_energy", "J", |a| {
+        a.rotor_race_friction_energy
+    }),
+    ("slip", "ball_slip_energy", "J", |a| a.ball_slip_energy),
+    ("dissipated", "dissipated_energy", "J", |a| {
+        a.dissipated_energy
+    }),
+    ("wi_end", "inner_race_final_speed", "rad/s", |a| {
+        a.inner_race_final_speed
+    }),
+    ("wc_end", "cage_final_speed", "rad/s", |a| {
+        a.cage_final_speed
+    }),
+    ("rotor_end", "rotor_final_speed", "rad/s", |a| {
+        a.rotor_final_speed
+    }),
+    ("maxrel", "max_rotor_race_displacement", "m", |a| {
+        a.max_rotor_race_displacement
+    }),
+    ("maxouter", "max_mount_displacement", "m", |a| {
+        a.max_mount_displacement
+    }),
+];
+
+/// Rows of a file.
+pub(super) fn rows(value: &Value, simulator: &dyn Simulator) -> Result<Vec<Row>, String> {
+    let reference: DropReference = part(value)?;
+    if reference.y0.len() < reference.params.states()? {
+        return Err("y0 is shorter than the state".into());
+    }
+    if reference.t_on_sd.len() != reference.t_on_mean.len() {
+        return Err("t_on_mean and t_on_sd differ in length".into());
+    }
+    Ok(match simulator.drop(&reference) {
+        Err(why) => vec![Row::not_run(why)],
+        Ok(answer) => compare(&reference, &answer),
+    })
+}
+
+fn compare(reference: &DropReference, answer: &DropAnswer) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for (key, quantity, unit, pick) in QUANTITIES {
+        let Some(&mean) = reference.mean.get(key) else {
+            continue;
+        };
+        let sd = reference.sd.get(key).copied().flatten().unwrap_or(0.0);
+        let share = if key.starts_with("max") { 3e-4 } else { 1e-4 };
+        rows.push(match (mean, pick(answer)) {
+            (Some(mean), Some(ours)) => accept(quantity, unit, mean, sd, share, ours),
+            (mean, ours) => never(quantity, unit, mean, ours),
+        });
+    }
+    let times = reference.t_on_mean.iter().zip(&reference.t_on_sd);
+    for (index, (&mean, &sd)) in times.enumerate() {
+        let quantity = format!("contact_start_times[{index:02}]");
+        rows.push(match answer.contact_start_times.get(index) {
+            Some(&ours) => accept(&quantity, "s", mean, sd, 1e-4, ours),
+            None => never(quantity, "s", Some(mean), None),
+        });
+    }
+    rows
+}
+
+fn accept(quantity: &str, unit: &str, mean: f64, sd: f64, share: f64, ours: f64) -> Row {
+    let tolerance = Tolerance::Absolute(5.0 * sd + share * mean.abs());
+    let why = format!("5 standard deviations of the reference ensemble and {share:e} of its mean");
+    Row::compared(quantity, unit, mean, ours, tolerance, why)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::report::Verdict;
+    use super::*;
+
+    fn reference() -> DropReference {
+        let json = include_str!("test_drop.json");
+        part(&serde_json::from_str(json).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn spread_and_mean_bound_the_answer() {
+        let answer = DropAnswer {
+            first_impact_force: Some(675.5 + 5.0 * 0.04 + 0.06),
+            peak_contact_force: Some(676.0),
+            max_mount_displacement: Some(3e-5 * 1.00025),
+            contact_start_times: vec![0.007],
+            ..DropAnswer::default()
+        };
+        let rows = compare(&reference(), &answer);
+        let verdict = |name: &str| {
+            rows.iter()
+                .find(|row| row.quantity == name)
+                .unwrap()
+                .verdict
+        };
+        assert_eq!(verdict("first_impact_force"), Verdict::Pass);
+        assert_eq!(verdict("peak_contact_force"), Verdict::Fail);
+        assert_eq!(verdict("max_mount_displacement"), Verdict::Pass);
+        // null in the reference and nothing from us: as it must be
+        assert_eq!(verdict("cage_time_to_95_percent_of_rolling"), Verdict::Pass);
+        // in the reference but not with us
+        assert_eq!(verdict("contact_start_times[01]"), Verdict::Fail);
+        assert_eq!(verdict("contact_start_times[00]"), Verdict::Pass);
+    }
+    #[test]
+    fn an_event_that_must_not_happen_fails() {
+        let answer = DropAnswer {
+            cage_time_to_95_percent_of_rolling: Some(0.04),
+            ..DropAnswer::default()
+        };
+        let rows = compare(&reference(), &answer);
+        let row = rows
+            .iter()
+            .find(|row| row.quantity == "cage_time_to_95_percent_of_rolling")
+            .unwrap();
+        assert_eq!(row.verdict, Verdict::Fail);
+    }
+}

@@ -1,0 +1,296 @@
+//! The kinds of cases: what each takes and what it computes.
+//!
+//! | kind | inputs | quantities |
+//! |---|---|---|
+//! | `hertz_point_contact` | `load`, `ball_diameter`, `race` ("inner", "outer"), `groove_curvature` or `groove_radius`, `pitch_diameter` (and `contact_angle`) or `race_radius`, `young_modulus`, `poisson_ratio` (of both bodies; `ball_…` for a ball of its own) | `stiffness`, `ellipticity`, `semi_major_axis`, `semi_minor_axis`, `approach`, `max_pressure`, `max_shear`, `max_shear_depth` |
+//! | `bearing_kinematics` | `ball_count`, `ball_diameter`, `pitch_diameter`, `contact_angle` (0) | per turn: `ball_pass_outer`, `ball_pass_inner`, `ball_spin`, `cage` |
+//! | `rolling_moments` | `inner_track_radius`, `ball_radius`, `ball_count`, `ball_mass`, `cage_mass`, `race_acceleration`, `pocket_friction` (0), `steady_moment` (0) | `inner_traction`, `outer_traction`, `inner_moment`, `outer_moment`, `cage_load` |
+//! | `palmgren_moment` | `form` ("printed", "continuous"), `viscous_factor`, `viscosity`, `speed`, `pitch_diameter`, and for the load part `load`, `static_load_rating`, `load_factor`, `load_exponent` | `viscous_moment`; with a load also `load_friction_factor`, `load_moment` |
+//! | `free_fall` | `clearance`, `gravity` | `time_to_first_contact` (simulated), `closed_form_time` |
+//! | `elastic_bounce` | `mass`, `stiffness`, `clearance`, `gravity` | `peak_contact_force` (simulated), `closed_form_force` |
+
+use super::case::{Computed, Inputs};
+use super::simulator::{ElasticBounce, FreeFall, Simulator};
+use physics::hertz::{BallRace, Curvature, PointContact, Race, maximum_pressure};
+use physics::kinematics::BallSet;
+use physics::materials::{BEARING_STEEL, Material, contact_modulus};
+use physics::palmgren::{
+    load_friction_factor, load_moment, printed_viscous_moment, viscous_moment,
+};
+use physics::rolling::RollingSet;
+use units::Dimension;
+
+/// Names of all kinds.
+pub const NAMES: [&str; 6] = [
+    "hertz_point_contact",
+    "bearing_kinematics",
+    "rolling_moments",
+    "palmgren_moment",
+    "free_fall",
+    "elastic_bounce",
+];
+
+/// Computes a case; `None` for an unknown kind.
+pub fn compute(
+    kind: &str,
+    inputs: &mut Inputs,
+    simulator: &dyn Simulator,
+) -> Result<Option<Vec<Computed>>, String> {
+    match kind {
+        "hertz_point_contact" => hertz_point_contact(inputs),
+        "bearing_kinematics" => bearing_kinematics(inputs),
+        "rolling_moments" => rolling_moments(inputs),
+        "palmgren_moment" => palmgren_moment(inputs),
+        "free_fall" => free_fall(inputs, simulator),
+        "elastic_bounce" => elastic_bounce(inputs, simulator),
+        _ => return Ok(None),
+    }
+    .map(Some)
+}
+
+fn law(quantity: &'static str, dimension: Dimension, value: f64) -> Computed {
+    Computed {
+        quantity,
+        dimension,
+        value: Ok(value),
+    }
+}
+
+fn positive(key: &str, value: f64) -> Result<f64, String> {
+    if value > 0.0 {
+        Ok(value)
+    } else {
+        Err(format!("inputs.{key}: must be positive"))
+    }
+}
+
+fn length(inputs: &mut Inputs, key: &str) -> Result<f64, String> {
+    positive(key, inputs.quantity(key, Dimension::LENGTH)?)
+}
+
+fn either<T>(first: (&str, Option<T>), second: (&str, Option<T>)) -> Result<(), String> {
+    match (first.1.is_some(), second.1.is_some()) {
+        (true, false) | (false, true) => Ok(()),
+        _ => Err(format!(
+            "inputs: either {} or {} is needed",
+            first.0, second.0
+        )),
+    }
+}
+
+fn hertz_point_contact(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {
+    let load = positive("load", inputs.quantity("load", Dimension::FORCE)?)?;
+    let ball_diameter = length(inputs, "ball_diameter")?;
+    let race = match inputs.word("race", &["inner", "outer"])?.as_str() {
+        "inner" => Race::Inner,
+        _ => Race::Outer,
+    };
+    let ratio = inputs.maybe_number("groove_curvature")?;
+    let radius = inputs.maybe_quantity("groove_radius", Dimension::LENGTH)?;
+    either(("groove_curvature", ratio), ("groove_radius", radius))?;
+    let groove_curvature = ratio
+        .or(radius.map(|r| r / ball_diameter))
+        .unwrap_or(f64::NAN);
+    let pitch = inputs.maybe_quantity("pitch_diameter", Dimension::LENGTH)?;
+    let race_radius = inputs.maybe_quantity("race_radius", Dimension::LENGTH)?;
+    either(("pitch_diameter", pitch), ("race_radius", race_radius))?;
+    let contact_angle = inputs
+        .maybe_quantity("contact_angle", Dimension::ANGLE)?
+        .unwrap_or(0.0);
+    let geometry = BallRace {
+        ball_diameter,
+        pitch_diameter: pitch.unwrap_or(f64::INFINITY),
+        groove_curvature,
+        contact_angle,
+        race,
+    };
+    let mut curvature = geometry.curvature();
+    if let Some(radius) = race_radius {
+        let track = match race {
+            Race::Inner => 1.0 / radius,
+            Race::Outer => -1.0 / radius,
+        };
+        curvature = Curvature {
+            rolling: 2.0 / ball_diameter + track,
+            ..curvature
+        };
+    }
+    let race_material = Material {
+        young_modulus: inputs.quantity("young_modulus", Dimension::PRESSURE)?,
+        poisson_ratio: inputs.number("poisson_ratio")?,
+        ..BEARING_STEEL
+    };
+    let ball_material = Material {
+        young_modulus: inputs
+            .maybe_quantity("ball_young_modulus", Dimension::PRESSURE)?
+            .unwrap_or(race_material.young_modulus),
+        poisson_ratio: inputs
+            .maybe_number("ball_poisson_ratio")?
+            .unwrap_or(race_material.poisson_ratio),
+        ..BEARING_STEEL
+    };
+    let modulus = contact_modulus(ball_material, race_material);
+    let contact = PointContact::new(curvature, modulus).map_err(|error| error.to_string())?;
+    let shear = contact.maximum_shear(load, race_material.poisson_ratio);
+    let stiffness_dimension = units::parse_quantity("1 N/m^1.5")
+        .map_err(|error| error.to_string())?
+        .dimension;
+    Ok(vec![
+        law("stiffness", stiffness_dimension, contact.stiffness),
+        law("ellipticity", Dimension::NONE, contact.ellipticity),
+        law(
+            "semi_major_axis",
+            Dimension::LENGTH,
+            contact.semi_major(load),
+        ),
+        law(
+            "semi_minor_axis",
+            Dimension::LENGTH,
+            contact.semi_minor(load),
+        ),
+        law("approach", Dimension::LENGTH, contact.approach(load)),
+        law(
+            "max_pressure",
+            Dimension::PRESSURE,
+            maximum_pressure(contact.pressure_factor, load),
+        ),
+        law("max_shear", Dimension::PRESSURE, shear.shear),
+        law("max_shear_depth", Dimension::LENGTH, shear.depth),
+    ])
+}
+
+fn bearing_kinematics(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {
+    let orders = BallSet {
+        ball_count: inputs.count("ball_count")?,
+        ball_diameter: length(inputs, "ball_diameter")?,
+        pitch_diameter: length(inputs, "pitch_diameter")?,
+        contact_angle: inputs
+            .maybe_quantity("contact_angle", Dimension::ANGLE)?
+            .unwrap_or(0.0),
+    }
+    .passing_orders();
+    Ok(vec![
+        law("ball_pass_outer", Dimension::NONE, orders.outer_race),
+        law("ball_pass_inner", Dimension::NONE, orders.inner_race),
+        law("ball_spin", Dimension::NONE, orders.ball_spin),
+        law("cage", Dimension::NONE, orders.cage),
+    ])
+}
+
+fn rolling_moments(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {
+    let inner_track_radius = length(inputs, "inner_track_radius")?;
+    let set = RollingSet {
+        inner_track_radius,
+        ball_ratio: length(inputs, "ball_radius")? / inner_track_radius,
+        balls_mass: inputs.count("ball_count")? as f64
+            * inputs.quantity("ball_mass", Dimension::MASS)?,
+        cage_mass: inputs.quantity("cage_mass", Dimension::MASS)?,
+    };
+    let angular_acceleration = units::parse_quantity("1 rad/s^2")
+        .map_err(|error| error.to_string())?
+        .dimension;
+    let motion = set.rolling(inputs.quantity("race_acceleration", angular_acceleration)?);
+    let friction = inputs
+        .maybe_quantity("pocket_friction", Dimension::FORCE)?
+        .unwrap_or(0.0);
+    let steady = inputs
+        .maybe_quantity("steady_moment", Dimension::TORQUE)?
+        .unwrap_or(0.0);
+    let (inner, outer) = (
+        set.inner_traction(motion, friction),
+        set.outer_traction(motion, friction),
+    );
+    Ok(vec![
+        law("inner_traction", Dimension::FORCE, inner),
+        law("outer_traction", Dimension::FORCE, outer),
+        law(
+            "inner_moment",
+            Dimension::TORQUE,
+            set.inner_moment(steady, inner),
+        ),
+        law(
+            "outer_moment",
+            Dimension::TORQUE,
+            set.outer_moment(steady, outer),
+        ),
+        law(
+            "cage_load",
+            Dimension::FORCE,
+            set.cage_load(motion.cage, friction),
+        ),
+    ])
+}
+
+fn palmgren_moment(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {
+    let form = inputs.word("form", &["printed", "continuous"])?;
+    let pitch_diameter = length(inputs, "pitch_diameter")?;
+    let viscous_factor = inputs.number("viscous_factor")?;
+    let viscosity = inputs.quantity("viscosity", Dimension::KINEMATIC_VISCOSITY)?;
+    let speed = inputs.quantity("speed", Dimension::ANGULAR_SPEED)?;
+    let viscous = if form == "printed" {
+        printed_viscous_moment(viscous_factor, viscosity, speed, pitch_diameter)
+    } else {
+        viscous_moment(viscous_factor, viscosity, speed, pitch_diameter)
+    };
+    let mut computed = vec![law("viscous_moment", Dimension::TORQUE, viscous)];
+    if let Some(load) = inputs.maybe_quantity("load", Dimension::FORCE)? {
+        let factor = load_friction_factor(
+            inputs.number("load_factor")?,
+            inputs.number("load_exponent")?,
+            load,
+            inputs.quantity("static_load_rating", Dimension::FORCE)?,
+        );
+        computed.push(law("load_friction_factor", Dimension::NONE, factor));
+        let moment = load_moment(factor, load, pitch_diameter);
+        computed.push(law("load_moment", Dimension::TORQUE, moment));
+    }
+    Ok(computed)
+}
+
+fn free_fall(inputs: &mut Inputs, simulator: &dyn Simulator) -> Result<Vec<Computed>, String> {
+    let case = FreeFall {
+        clearance: length(inputs, "clearance")?,
+        gravity: positive(
+            "gravity",
+            inputs.quantity("gravity", Dimension::ACCELERATION)?,
+        )?,
+    };
+    Ok(vec![
+        law(
+            "closed_form_time",
+            Dimension::TIME,
+            (2.0 * case.clearance / case.gravity).sqrt(),
+        ),
+        Computed {
+            quantity: "time_to_first_contact",
+            dimension: Dimension::TIME,
+            value: simulator.free_fall(&case),
+        },
+    ])
+}
+
+fn elastic_bounce(inputs: &mut Inputs, simulator: &dyn Simulator) -> Result<Vec<Computed>, String> {
+    let case = ElasticBounce {
+        mass: positive("mass", inputs.quantity("mass", Dimension::MASS)?)?,
+        stiffness: positive(
+            "stiffness",
+            inputs.quantity("stiffness", Dimension::STIFFNESS)?,
+        )?,
+        clearance: length(inputs, "clearance")?,
+        gravity: positive(
+            "gravity",
+            inputs.quantity("gravity", Dimension::ACCELERATION)?,
+        )?,
+    };
+    // At the lowest point ½ k x² = m g (c0 + x) and F = k x: F = m g + √((m g)² + 2 k m g c0).
+    let weight = case.mass * case.gravity;
+    let force = weight + (weight * weight + 2.0 * case.stiffness * weight * case.clearance).sqrt();
+    Ok(vec![
+        law("closed_form_force", Dimension::FORCE, force),
+        Computed {
+            quantity: "peak_contact_force",
+            dimension: Dimension::FORCE,
+            value: simulator.elastic_bounce(&case),
+        },
+    ])
+}

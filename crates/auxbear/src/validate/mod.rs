@@ -1,0 +1,280 @@
+//! Validation: published and reference results against this program.
+//!
+//! The cases that ship stand in `validation/` and are part of the program; a folder of the user's own is read in
+//! addition. Three things are understood there: case files of the format `auxbear.case/1` ([`case`]), the files of the
+//! reference implementation ([`mod@reference`]), and nothing else: any other file is "not run".
+//!
+//! Laws are computed here. Whole simulations are asked of a [`Simulator`].
+
+pub mod case;
+pub mod kinds;
+pub mod report;
+pub mod simulator;
+
+mod drops;
+mod machine;
+mod points;
+pub mod reference;
+mod shipped;
+
+pub use machine::ReferenceMachine;
+pub use report::{Report, Row, Tolerance, Verdict};
+pub use simulator::{LawsOnly, Simulator};
+
+use crate::problem::{Code, Problem};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Largest file read, bytes.
+const LARGEST_FILE: u64 = 10_000_000;
+/// Most files read of one folder.
+const MOST_FILES: usize = 2000;
+/// Deepest folder below the one given.
+const DEEPEST: usize = 8;
+
+/// Runs the shipped cases and, with a folder, every `*.toml` and `*.json` in and below it.
+pub fn run(folder: Option<&Path>, simulator: &dyn Simulator) -> Result<Report, Box<Problem>> {
+    let mut rows = Vec::new();
+    for (name, text) in shipped::CASES {
+        rows.extend(named(name, case::rows(text, simulator)));
+    }
+    if let Some(folder) = folder {
+        for (name, path) in files(folder)? {
+            rows.extend(named(&name, of_file(&path, simulator)));
+        }
+    }
+    Ok(Report::new(rows))
+}
+
+fn named(case: &str, rows: Vec<Row>) -> impl Iterator<Item = Row> {
+    rows.into_iter().map(move |row| Row {
+        case: case.to_string(),
+        ..row
+    })
+}
+
+fn of_file(path: &Path, simulator: &dyn Simulator) -> Vec<Row> {
+    let size = fs::metadata(path).map(|data| data.len());
+    if size.is_ok_and(|size| size > LARGEST_FILE) {
+        return vec![Row::not_run(format!("larger than {LARGEST_FILE} bytes"))];
+    }
+    let text = match fs::read(path).map(String::from_utf8) {
+        Ok(Ok(text)) => text,
+        Ok(Err(_)) => return vec![Row::not_run("not UTF-8 text")],
+        Err(error) => return vec![Row::not_run(format!("cannot be read: {error}"))],
+    };
+    let is_json = path
+        .extension()
+        .is_some_and(|extension| extension == "json");
+    if is_json {
+        of_json(&text, simulator)
+    } else {
+        of_toml(&text, simulator)
+    }
+}
+
+fn of_json(text: &str, simulator: &dyn Simulator) -> Vec<Row> {
+    match serde_json::from_str(text) {
+        Err(error) => vec![Row::not_run(format!("not JSON: {error}"))],
+        Ok(value) => reference::rows(&value, simulator)
+            .unwrap_or_else(|| vec![Row::not_run("a JSON file of no known format")]),
+    }
+}
+
+fn of_toml(text: &str, simulator: &dyn Simulator) -> Vec<Row> {
+    let table: toml::Table = match toml::from_str(text) {
+        Err(error) => return vec![Row::not_run(format!("not TOML: {}", error.message()))],
+        Ok(table) => table,
+    };
+    match table.get("format").and_then(toml::Value::as_str) {
+        Some(case::FORMAT) => case::rows(text, simulator),
+        Some(other) => vec![Row::not_run(format!(
+            "format \"{other}\", known is \"{}\"",
+            case::FORMAT
+        ))],
+        None => vec![Row::not_run(format!(
+            "a TOML file without format = \"{}\"",
+            case::FORMAT
+        ))],
+    }
+}
+
+/// Case name and path of every file to read, by name: the file's stem, with its folders where two share a stem.
+fn files(folder: &Path) -> Result<BTreeMap<String, PathBuf>, Box<Problem>> {
+    if !folder.exists() {
+        let problem = Problem::at_path(
+            Code::FileMissing,
+            folder,
+            "nothing there",
+            "a folder of cases is needed",
+        );
+        return Err(Box::new(problem));
+    }
+    if !folder.is_dir() {
+        let problem = Problem::at_path(
+            Code::FileUnreadable,
+            folder,
+            "a file",
+            "a folder of cases is needed",
+        );
+        return Err(Box::new(problem));
+    }
+    let mut paths = Vec::new();
+    collect(folder, 0, &mut paths).map_err(|error| {
+        Box::new(Problem::at_path(
+            Code::FileUnreadable,
+            folder,
+            error.to_string(),
+            "a readable folder is needed",
+        ))
+    })?;
+    if paths.len() > MOST_FILES {
+        let found = format!("{} files of cases", paths.len());
+        let allowed = format!("at most {MOST_FILES} are read at once");
+        return Err(Box::new(Problem::at_path(
+            Code::FileTooLarge,
+            folder,
+            found,
+            allowed,
+        )));
+    }
+    let stem = |path: &Path| {
+        path.file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned()
+    };
+    let mut uses: BTreeMap<String, usize> = BTreeMap::new();
+    for path in &paths {
+        *uses.entry(stem(path)).or_default() += 1;
+    }
+    for (name, _) in shipped::CASES {
+        *uses.entry(name.to_string()).or_default() += 1;
+    }
+    Ok(paths
+        .into_iter()
+        .map(|path| {
+            let name = if uses[&stem(&path)] == 1 {
+                stem(&path)
+            } else {
+                path.strip_prefix(folder)
+                    .unwrap_or(&path)
+                    .display()
+                    .to_string()
+            };
+            (name, path)
+        })
+        .collect())
+}
+
+/// Files with a known ending in and below a folder; links are not followed.
+fn collect(folder: &Path, depth: usize, paths: &mut Vec<PathBuf>) -> std::io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let (kind, path) = (entry.file_type()?, entry.path());
+        if kind.is_dir() && depth < DEEPEST {
+            collect(&path, depth + 1, paths)?;
+        } else if kind.is_file()
+            && path
+                .extension()
+                .is_some_and(|extension| extension == "toml" || extension == "json")
+        {
+            paths.push(path);
+        }
+        if paths.len() > MOST_FILES {
+            break;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder(name: &str) -> PathBuf {
+        let folder =
+            std::env::temp_dir().join(format!("auxbear-validate-{}-{name}", std::process::id()));
+        fs::create_dir_all(folder.join("inner")).unwrap();
+        folder
+    }
+
+    #[test]
+    fn every_shipped_law_passes() {
+        let report = run(None, &LawsOnly).unwrap();
+        assert!(report.passed(), "{}", report.to_text());
+        // all that is not run waits for a simulation
+        assert_eq!(report.count(Verdict::NotRun), 2);
+        for (name, _) in shipped::CASES {
+            assert!(report.cases.iter().any(|row| row.case == *name), "{name}");
+        }
+    }
+    #[test]
+    fn a_folder_is_read_with_all_below_it() {
+        let folder = folder("reading");
+        let good = shipped::CASES
+            .iter()
+            .find(|(name, _)| *name == "palmgren_low_speed")
+            .unwrap()
+            .1;
+        fs::write(folder.join("inner/mine.toml"), good).unwrap();
+        fs::write(
+            folder.join("free_fall.toml"),
+            good.replace("16 N mm", "17 N mm"),
+        )
+        .unwrap();
+        fs::write(folder.join("later.toml"), good.replace("case/1", "case/9")).unwrap();
+        fs::write(folder.join("context.toml"), "a = 1").unwrap();
+        fs::write(folder.join("broken.toml"), "a = ").unwrap();
+        fs::write(folder.join("list.json"), "[1, 2]").unwrap();
+        fs::write(folder.join("broken.json"), "{").unwrap();
+        fs::write(folder.join("bytes.toml"), [0xff, 0xfe]).unwrap();
+        fs::write(folder.join("notes.txt"), "not read").unwrap();
+        let report = run(Some(&folder), &LawsOnly).unwrap();
+        fs::remove_dir_all(&folder).unwrap();
+        let find = |case: &str| {
+            let row = report.cases.iter().find(|row| row.case == case);
+            row.unwrap_or_else(|| panic!("no row of {case}"))
+        };
+        assert_eq!(find("mine").verdict, Verdict::Pass);
+        // shares its stem with a shipped case
+        assert_eq!(find("free_fall.toml").verdict, Verdict::Fail);
+        for (case, why) in [
+            ("later", "auxbear.case/9"),
+            ("context", "without format"),
+            ("broken.toml", "not TOML"),
+            ("broken.json", "not JSON"),
+            ("list", "no known format"),
+            ("bytes", "not UTF-8"),
+        ] {
+            assert_eq!(find(case).verdict, Verdict::NotRun, "{case}");
+            assert!(find(case).why.contains(why), "{case}: {}", find(case).why);
+        }
+        assert!(report.cases.iter().all(|row| row.case != "notes"));
+    }
+    #[test]
+    fn no_folder_is_one_message() {
+        let nowhere = run(Some(Path::new("/nowhere/cases")), &LawsOnly).unwrap_err();
+        assert_eq!(nowhere.code, Code::FileMissing);
+        let file = run(Some(Path::new(file!())), &LawsOnly);
+        assert!(file.is_err());
+    }
+    #[test]
+    fn the_laws_meet_the_reference_files() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/cases/reference");
+        if !folder.is_dir() {
+            println!("DID NOT RUN: the reference files are not beside this repository");
+            return;
+        }
+        let report = run(Some(&folder), &LawsOnly).unwrap();
+        assert!(report.passed(), "{}", report.to_text());
+        for (case, quantities) in [("hertz", 12), ("rolling", 6 + 12)] {
+            let passed = report
+                .cases
+                .iter()
+                .filter(|row| row.case == case && row.verdict == Verdict::Pass);
+            assert_eq!(passed.count(), quantities, "{case}");
+        }
+    }
+}

@@ -1,0 +1,338 @@
+//! Whole states with their derivative (`derivative_points*.json`).
+//!
+//! State of the files, n = 18 + 5N: rotor x y vx vy φ ω (mass centre), inner race likewise, outer race x y vx vy,
+//! cage φ ω, then per ball ρ ρ̇ θ θ̇ σ; 12 energy accounts follow. The files accept
+//! |dy - ref| ≤ 1e-9 max(|ref|, 1e-3 max |dy| of the same variable class): the deviation of a row is that quotient.
+
+use super::machine::ReferenceMachine;
+use super::reference::{Worst, part};
+use super::report::{Row, Tolerance};
+use super::simulator::{DerivativeAnswer, Simulator};
+use serde::Deserialize;
+use serde_json::Value;
+
+const SHARE: f64 = 1e-9;
+
+#[derive(Deserialize)]
+struct File {
+    points: Vec<DerivativePoint>,
+    per_ball_cols: Vec<String>,
+    #[serde(default)]
+    global_cols: Vec<String>,
+    quadratures: Vec<String>,
+}
+
+/// One state of a machine with everything that the reference computed for it.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+pub struct DerivativePoint {
+    /// The machine.
+    pub params: ReferenceMachine,
+    /// The state, then the energy accounts.
+    pub y: Vec<f64>,
+    /// Reference rates of both.
+    pub dy: Vec<f64>,
+    /// Reference values per ball, columns as in the file's `per_ball_cols`.
+    pub per_ball: Vec<Vec<f64>>,
+    /// Reference global values, columns as in the file's `global_cols`.
+    #[serde(default)]
+    pub globals: Vec<f64>,
+    /// Reference kinetic energy, J.
+    pub kinetic: f64,
+    /// Reference potential energy, J.
+    pub potential: f64,
+}
+
+/// Rows of a file: per quantity the worst of all points.
+pub(super) fn rows(value: &Value, simulator: &dyn Simulator) -> Result<Vec<Row>, String> {
+    let file: File = part(value)?;
+    let mut worst = Worst::default();
+    for (index, point) in file.points.iter().enumerate() {
+        check(point, &file).map_err(|error| format!("points[{index}]: {error}"))?;
+        match simulator.derivative(point) {
+            Err(why) => return Ok(vec![Row::not_run(why)]),
+            Ok(answer) => compare(&file, index, point, &answer, &mut worst)?,
+        }
+    }
+    Ok(worst.into_rows())
+}
+
+fn check(point: &DerivativePoint, file: &File) -> Result<(), String> {
+    let balls = point.params.ball_count;
+    let states = point.params.states()? + file.quadratures.len();
+    let shape = point.y.len() == states
+        && point.dy.len() == states
+        && point.per_ball.len() == balls
+        && point
+            .per_ball
+            .iter()
+            .all(|ball| ball.len() == file.per_ball_cols.len());
+    if shape {
+        Ok(())
+    } else {
+        Err(format!(
+            "not the {states} states and columns of {balls} balls"
+        ))
+    }
+}
+
+/// Name and unit of the class of a rate: the same letter of the state over all bodies.
+fn class(state: usize, balls: usize) -> (&'static str, &'static str) {
+    const BODY: [(&str, &str); 6] = [
+        ("rate_of_positions", "m/s"),
+        ("rate_of_positions", "m/s"),
+        ("rate_of_velocities", "m/s^2"),
+        ("rate_of_velocities", "m/s^2"),
+        ("rate_of_angles", "rad/s"),
+        ("rate_of_angular_speeds", "rad/s^2"),
+    ];
+    const BALL: [(&str, &str); 5] = [
+        ("rate_of_ball_radius", "m/s"),
+        ("rate_of_ball_radial_speed", "m/s^2"),
+        ("rate_of_ball_azimuth", "rad/s"),
+        ("rate_of_ball_orbit_speed", "rad/s^2"),
+        ("rate_of_ball_spin", "rad/s^2"),
+    ];
+    match state {
+        0..12 => BODY[state % 6],
+        12..16 => BODY[state - 12],
+        16 => BODY[4],
+        17 => BODY[5],
+        _ if state < 18 + 5 * balls => BALL[(state - 18) % 5],
+        _ => ("power_of_energy_accounts", "W"),
+    }
+}
+
+/// Unit of a column of the files.
+fn unit_of(column: &str) -> &'static str {
+    if column.contains("torque") {
+        "N m"
+    } else if column.starts_with("u_") || column.starts_with("slip") {
+        "m/s"
+    } else if ["delta", "pen", "arm"]
+        .iter()
+        .any(|part| column.starts_with(part))
+        || column.ends_with("penetration")
+    {
+        "m"
+    } else if column == "side" {
+        ""
+    } else {
+        "N"
+    }
+}
+
+fn compare(
+    file: &File,
+    index: usize,
+    point: &DerivativePoint,
+    answer: &DerivativeAnswer,
+    worst: &mut Worst,
+) -> Result<(), String> {
+    let lengths = [
+        (point.dy.len(), answer.rates.len()),
+        (point.per_ball.len(), answer.per_ball.len()),
+        (point.globals.len(), answer.globals.len()),
+    ];
+    if lengths.iter().any(|(reference, ours)| reference != ours) {
+        return Err(format!(
+            "points[{index}]: the simulation gave another number of values"
+        ));
+    }
+    let balls = point.params.ball_count;
+    let largest = |name: &str| {
+        let of_class = |(state, _): &(usize, &f64)| class(*state, balls).0 == name;
+        point
+            .dy
+            .iter()
+            .enumerate()
+            .filter(of_class)
+            .fold(0.0_f64, |most, (_, rate)| most.max(rate.abs()))
+    };
+    for (state, (reference, ours)) in point.dy.iter().zip(&answer.rates).enumerate() {
+        let (name, unit) = class(state, balls);
+        let why = format!("point {index}, state {state}");
+        worst.add(scaled(name, unit, *reference, *ours, largest(name), why));
+    }
+    for (column, name) in file.per_ball_cols.iter().enumerate() {
+        let largest = point
+            .per_ball
+            .iter()
+            .fold(0.0_f64, |most, ball| most.max(ball[column].abs()));
+        for (ball, (reference, ours)) in point.per_ball.iter().zip(&answer.per_ball).enumerate() {
+            let ours = ours.get(column).copied().unwrap_or(f64::NAN);
+            let why = format!("point {index}, ball {ball}");
+            let quantity = format!("ball {name}");
+            worst.add(scaled(
+                &quantity,
+                unit_of(name),
+                reference[column],
+                ours,
+                largest,
+                why,
+            ));
+        }
+    }
+    for (name, (&reference, &ours)) in file
+        .global_cols
+        .iter()
+        .zip(point.globals.iter().zip(&answer.globals))
+    {
+        // a force or torque near zero is measured by the largest of its unit
+        let largest = file
+            .global_cols
+            .iter()
+            .zip(&point.globals)
+            .filter(|(other, _)| unit_of(other) == unit_of(name))
+            .fold(0.0_f64, |most, (_, value)| most.max(value.abs()));
+        worst.add(scaled(
+            name,
+            unit_of(name),
+            reference,
+            ours,
+            largest,
+            format!("point {index}"),
+        ));
+    }
+    for (name, reference, ours) in [
+        ("kinetic_energy", point.kinetic, answer.kinetic),
+        ("potential_energy", point.potential, answer.potential),
+    ] {
+        worst.add(scaled(
+            name,
+            "J",
+            reference,
+            ours,
+            reference.abs(),
+            format!("point {index}"),
+        ));
+    }
+    Ok(())
+}
+
+/// The criterion of the files: relative to the value, or to 1e-3 of the largest of its class.
+fn scaled(name: &str, unit: &str, reference: f64, ours: f64, largest: f64, why: String) -> Row {
+    let allowed = SHARE * reference.abs().max(1e-3 * largest);
+    let why = format!("{why}; 1e-9 of the value or of 1e-3 of the largest of its class");
+    Row::compared(
+        name,
+        unit,
+        reference,
+        ours,
+        Tolerance::Absolute(allowed),
+        why,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::report::Verdict;
+    use super::super::simulator::{DropAnswer, ElasticBounce, FreeFall};
+    use super::*;
+
+    /// Answers with the reference itself, one value changed.
+    struct Echo {
+        change: fn(&mut DerivativeAnswer),
+    }
+
+    impl Simulator for Echo {
+        fn free_fall(&self, _: &FreeFall) -> Result<f64, String> {
+            Err("not asked".into())
+        }
+        fn elastic_bounce(&self, _: &ElasticBounce) -> Result<f64, String> {
+            Err("not asked".into())
+        }
+        fn derivative(&self, point: &DerivativePoint) -> Result<DerivativeAnswer, String> {
+            let mut answer = DerivativeAnswer {
+                rates: point.dy.clone(),
+                per_ball: point.per_ball.clone(),
+                globals: point.globals.clone(),
+                kinetic: point.kinetic,
+                potential: point.potential,
+            };
+            (self.change)(&mut answer);
+            Ok(answer)
+        }
+        fn drop(&self, _: &super::super::drops::DropReference) -> Result<DropAnswer, String> {
+            Err("not asked".into())
+        }
+    }
+
+    fn file() -> Value {
+        let drop: Value = serde_json::from_str(include_str!("test_drop.json")).unwrap();
+        let mut params = drop["params"].clone();
+        params["N"] = 1.into();
+        let rates: Vec<f64> = (0..24).map(|state| 1.0 + f64::from(state)).collect();
+        serde_json::json!({
+            "points": [{"params": params, "y": vec![0.0; 24], "dy": rates, "per_ball": [[5.0, 0.0]],
+                        "globals": [2.0, 0.0], "kinetic": 3.0, "potential": 0.5}],
+            "per_ball_cols": ["Q_i", "u_i"],
+            "global_cols": ["force_x", "force_y"],
+            "quadratures": ["heat"]
+        })
+    }
+
+    fn failures(change: fn(&mut DerivativeAnswer)) -> Vec<String> {
+        rows(&file(), &Echo { change })
+            .unwrap()
+            .into_iter()
+            .filter(|row| row.verdict == Verdict::Fail)
+            .map(|row| row.quantity)
+            .collect()
+    }
+
+    #[test]
+    fn the_reference_itself_passes_and_every_change_is_seen() {
+        assert!(failures(|_| ()).is_empty());
+        assert_eq!(
+            failures(|a| a.rates[3] *= 1.0 + 2e-9),
+            ["rate_of_velocities"]
+        );
+        assert_eq!(failures(|a| a.rates[22] += 1e-6), ["rate_of_ball_spin"]);
+        assert_eq!(
+            failures(|a| a.rates[23] = f64::NAN),
+            ["power_of_energy_accounts"]
+        );
+        assert_eq!(failures(|a| a.per_ball[0][1] = 1e-12), ["ball u_i"]);
+        assert_eq!(failures(|a| a.globals[1] = 1e-11), ["force_y"]);
+        assert!(failures(|a| a.globals[1] = 1e-12).is_empty());
+        assert_eq!(failures(|a| a.kinetic += 1e-8), ["kinetic_energy"]);
+    }
+    #[test]
+    fn files_of_another_shape_are_refused() {
+        let mut short = file();
+        short["points"][0]["dy"] = serde_json::json!([1.0]);
+        assert!(rows(&short, &Echo { change: |_| () }).is_err());
+        let mut crowded = file();
+        crowded["points"][0]["params"]["N"] = serde_json::json!(u64::MAX);
+        assert!(rows(&crowded, &Echo { change: |_| () }).is_err());
+        let shorter = Echo {
+            change: |answer| answer.rates.truncate(3),
+        };
+        assert!(rows(&file(), &shorter).is_err());
+    }
+
+    #[test]
+    fn every_state_has_its_class() {
+        let names: Vec<_> = (0..18 + 10 + 12).map(|state| class(state, 2).0).collect();
+        assert_eq!(names[..6], names[6..12]);
+        assert_eq!(names[..4], names[12..16]);
+        assert_eq!(names[4..6], names[16..18]);
+        assert_eq!(names[18..23], names[23..28]);
+        assert!(
+            names[28..]
+                .iter()
+                .all(|name| *name == "power_of_energy_accounts")
+        );
+    }
+    #[test]
+    fn the_criterion_is_that_of_the_files() {
+        let verdict = |reference, ours, largest| {
+            scaled("x", "", reference, ours, largest, String::new()).verdict
+        };
+        assert_eq!(verdict(1.0, 1.0 + 0.9e-9, 1.0), Verdict::Pass);
+        assert_eq!(verdict(1.0, 1.0 + 1.1e-9, 1.0), Verdict::Fail);
+        assert_eq!(verdict(1e-9, 2e-9, 1e3), Verdict::Pass);
+        assert_eq!(verdict(0.0, 1.1e-9, 1e3), Verdict::Fail);
+        assert_eq!(verdict(0.0, 0.0, 0.0), Verdict::Pass);
+    }
+}

@@ -1,0 +1,403 @@
+//! Files of an independent reference implementation, read as they are.
+//!
+//! They name no format; their keys tell them apart: contacts (`hertz.json`), rolling moments (`rolling.json`), whole
+//! states with their derivative (`derivative_points*.json`), drops (`drop_*.json`). Laws are compared here; states
+//! and drops go to the [`Simulator`] and are compared in `points.rs` and `drops.rs`.
+//! A file with hundreds of numbers becomes one row per quantity: the one that deviates most.
+
+use super::report::{Row, Tolerance};
+use super::simulator::Simulator;
+use super::{drops, points};
+use physics::hertz::{BallRace, EllipseFactors, PointContact, Race, maximum_pressure};
+use physics::materials::{BEARING_STEEL, Material, contact_modulus};
+use physics::palmgren::Palmgren;
+use physics::rolling::{RollingSet, spin_up_time};
+use serde::Deserialize;
+use serde_json::{Map, Value};
+
+pub use drops::DropReference;
+pub use points::DerivativePoint;
+
+/// Rows of a reference file; `None` when the keys are those of no known file.
+pub fn rows(value: &Value, simulator: &dyn Simulator) -> Option<Vec<Row>> {
+    let top = value.as_object()?;
+    let has = |keys: &[&str]| keys.iter().all(|key| top.contains_key(*key));
+    let rows = if has(&["rows", "spinup", "params"]) {
+        rolling(value)
+    } else if has(&["rows", "tol_rel"]) && first_row_has(top, "stars") {
+        hertz(value)
+    } else if has(&["points", "per_ball_cols", "quadratures"]) {
+        points::rows(value, simulator)
+    } else if has(&["params", "y0", "mean", "sd"]) {
+        drops::rows(value, simulator)
+    } else {
+        return None;
+    };
+    Some(rows.unwrap_or_else(|error| vec![Row::wrong(error)]))
+}
+
+fn first_row_has(top: &Map<String, Value>, key: &str) -> bool {
+    top["rows"]
+        .as_array()
+        .and_then(|rows| rows.first())
+        .is_some_and(|row| row.get(key).is_some())
+}
+
+/// Reads a part of a reference file.
+pub(super) fn part<T: for<'de> Deserialize<'de>>(value: &Value) -> Result<T, String> {
+    T::deserialize(value).map_err(|error| error.to_string())
+}
+
+/// Keeps, of many comparisons under one name, the one that deviates most against its tolerance.
+#[derive(Default)]
+pub(super) struct Worst {
+    rows: Vec<(Row, usize)>,
+}
+
+impl Worst {
+    /// Adds a comparison.
+    pub(super) fn add(&mut self, row: Row) {
+        let excess = |row: &Row| match (row.deviation, row.tolerance) {
+            (Some(deviation), _) if deviation.is_nan() => f64::INFINITY,
+            (Some(0.0), _) => 0.0,
+            (Some(deviation), Some(tolerance)) => deviation / tolerance,
+            _ => 0.0,
+        };
+        match self
+            .rows
+            .iter_mut()
+            .find(|(known, _)| known.quantity == row.quantity)
+        {
+            None => self.rows.push((row, 1)),
+            Some((known, count)) => {
+                *count += 1;
+                if excess(&row) > excess(known) {
+                    *known = row;
+                }
+            }
+        }
+    }
+    /// The worst of each name, with how many there were.
+    pub(super) fn into_rows(self) -> Vec<Row> {
+        self.rows
+            .into_iter()
+            .map(|(mut row, count)| {
+                if count > 1 {
+                    row.why = format!("worst of {count}: {}", row.why);
+                }
+                row
+            })
+            .collect()
+    }
+}
+
+#[derive(Deserialize)]
+struct HertzFile {
+    rows: Vec<HertzRow>,
+    tol_rel: f64,
+}
+
+#[derive(Deserialize)]
+struct HertzRow {
+    #[serde(rename = "D")]
+    ball_diameter: f64,
+    #[serde(rename = "d_m")]
+    pitch_diameter: f64,
+    #[serde(rename = "f")]
+    groove_curvature: f64,
+    inner: bool,
+    #[serde(rename = "E")]
+    young_modulus: f64,
+    #[serde(rename = "nu")]
+    poisson_ratio: f64,
+    sum_rho: f64,
+    #[serde(rename = "F_rho")]
+    difference: f64,
+    /// a*, b*, δ*, κ.
+    stars: [f64; 4],
+    #[serde(rename = "K")]
+    stiffness: f64,
+    #[serde(rename = "K_hamrock_brewe")]
+    fast_stiffness: Option<f64>,
+    /// a, b, δ, p_max.
+    #[serde(rename = "contact_100N")]
+    at_100_newton: [f64; 4],
+}
+
+fn hertz(value: &Value) -> Result<Vec<Row>, String> {
+    let file: HertzFile = part(value)?;
+    let mut worst = Worst::default();
+    for row in &file.rows {
+        let geometry = BallRace {
+            ball_diameter: row.ball_diameter,
+            pitch_diameter: row.pitch_diameter,
+            groove_curvature: row.groove_curvature,
+            contact_angle: 0.0,
+            race: if row.inner { Race::Inner } else { Race::Outer },
+        };
+        let material = Material {
+            young_modulus: row.young_modulus,
+            poisson_ratio: row.poisson_ratio,
+            ..BEARING_STEEL
+        };
+        let curvature = geometry.curvature();
+        let modulus = contact_modulus(material, material);
+        let contact = PointContact::new(curvature, modulus).map_err(|error| error.to_string())?;
+        let fast =
+            PointContact::hamrock_brewe(curvature, modulus).map_err(|error| error.to_string())?;
+        let factors = EllipseFactors::exact(curvature.difference().abs())
+            .ok_or("a curvature difference outside 0 to 1")?;
+        let which = format!(
+            "{} race, f {}, D {} mm; exact integrals on both sides",
+            if row.inner { "inner" } else { "outer" },
+            row.groove_curvature,
+            row.ball_diameter * 1e3
+        );
+        let load = 100.0;
+        let mut compare = |quantity: &str, unit: &str, reference: f64, ours: f64| {
+            let tolerance = Tolerance::Relative(file.tol_rel);
+            worst.add(Row::compared(
+                quantity,
+                unit,
+                reference,
+                ours,
+                tolerance,
+                which.as_str(),
+            ));
+        };
+        compare("curvature_sum", "1/m", row.sum_rho, curvature.sum());
+        compare(
+            "curvature_difference",
+            "",
+            row.difference,
+            curvature.difference(),
+        );
+        compare("semi_major_factor", "", row.stars[0], factors.semi_major);
+        compare("semi_minor_factor", "", row.stars[1], factors.semi_minor);
+        compare("approach_factor", "", row.stars[2], factors.approach);
+        compare("ellipticity", "", row.stars[3], factors.ellipticity);
+        compare("stiffness", "N/m^1.5", row.stiffness, contact.stiffness);
+        compare(
+            "semi_major_axis_at_100_N",
+            "m",
+            row.at_100_newton[0],
+            contact.semi_major(load),
+        );
+        compare(
+            "semi_minor_axis_at_100_N",
+            "m",
+            row.at_100_newton[1],
+            contact.semi_minor(load),
+        );
+        compare(
+            "approach_at_100_N",
+            "m",
+            row.at_100_newton[2],
+            contact.approach(load),
+        );
+        let pressure = maximum_pressure(contact.pressure_factor, load);
+        compare(
+            "max_pressure_at_100_N",
+            "Pa",
+            row.at_100_newton[3],
+            pressure,
+        );
+        if let Some(reference) = row.fast_stiffness {
+            compare(
+                "stiffness_hamrock_brewe",
+                "N/m^1.5",
+                reference,
+                fast.stiffness,
+            );
+        }
+    }
+    Ok(worst.into_rows())
+}
+
+#[derive(Deserialize)]
+struct RollingFile {
+    params: RollingParameters,
+    rows: Vec<RollingRow>,
+    spinup: Vec<SpinUp>,
+    tol_rel: f64,
+    tol_spinup_rel: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RollingParameters {
+    #[serde(rename = "N")]
+    ball_count: f64,
+    #[serde(rename = "R")]
+    inner_track_radius: f64,
+    #[serde(rename = "r")]
+    ball_radius: f64,
+    #[serde(rename = "m_b")]
+    ball_mass: f64,
+    #[serde(rename = "m_c")]
+    cage_mass: f64,
+    #[serde(rename = "C0")]
+    static_load_rating: f64,
+    /// Kinematic viscosity, mm²/s.
+    #[serde(rename = "nu")]
+    nu_mm2_s: f64,
+    #[serde(rename = "f0")]
+    viscous_factor: f64,
+    #[serde(rename = "z")]
+    load_factor: f64,
+    #[serde(rename = "y")]
+    load_exponent: f64,
+    #[serde(rename = "I_i")]
+    race_inertia: f64,
+    #[serde(rename = "R0")]
+    bore_radius: f64,
+}
+
+#[derive(Deserialize)]
+struct RollingRow {
+    #[serde(rename = "W")]
+    load: f64,
+    #[serde(rename = "Om")]
+    speed: f64,
+    #[serde(rename = "dOm")]
+    acceleration: f64,
+    #[serde(rename = "F")]
+    pocket_friction: f64,
+    #[serde(rename = "M0")]
+    viscous: f64,
+    #[serde(rename = "M1")]
+    by_load: f64,
+    #[serde(rename = "T_I")]
+    inner_traction: f64,
+    #[serde(rename = "T_O")]
+    outer_traction: f64,
+    #[serde(rename = "t_I")]
+    inner_moment: f64,
+    #[serde(rename = "t_O")]
+    outer_moment: f64,
+}
+
+#[derive(Deserialize)]
+struct SpinUp {
+    #[serde(rename = "W")]
+    load: f64,
+    #[serde(rename = "mu")]
+    friction_coefficient: f64,
+    #[serde(rename = "Om_end")]
+    end_speed: f64,
+    /// Pocket friction over acceleration, N s²/rad.
+    q: f64,
+    /// Time to the end speed, s; null where it is never reached.
+    t: Option<f64>,
+}
+
+fn rolling(value: &Value) -> Result<Vec<Row>, String> {
+    let file: RollingFile = part(value)?;
+    let p = &file.params;
+    let set = RollingSet {
+        inner_track_radius: p.inner_track_radius,
+        ball_ratio: p.ball_radius / p.inner_track_radius,
+        balls_mass: p.ball_count * p.ball_mass,
+        cage_mass: p.cage_mass,
+    };
+    let palmgren = Palmgren {
+        viscous_factor: p.viscous_factor,
+        viscosity: p.nu_mm2_s * 1e-6,
+        pitch_diameter: 2.0 * (p.inner_track_radius + p.ball_radius),
+        load_factor: p.load_factor,
+        load_exponent: p.load_exponent,
+        static_load_rating: p.static_load_rating,
+    };
+    let mut worst = Worst::default();
+    for row in &file.rows {
+        let motion = set.rolling(row.acceleration);
+        let inner = set.inner_traction(motion, row.pocket_friction);
+        let outer = set.outer_traction(motion, row.pocket_friction);
+        let steady = palmgren.printed_moment(row.speed, row.load);
+        let by_load = palmgren.load_moment(row.load);
+        let which = format!(
+            "W {} N, speed {} rad/s, acceleration {} rad/s², F {} N; (16) as printed on both sides",
+            row.load, row.speed, row.acceleration, row.pocket_friction
+        );
+        for (quantity, unit, reference, ours) in [
+            (
+                "viscous_moment",
+                "N m",
+                row.viscous,
+                palmgren.printed_moment(row.speed, 0.0),
+            ),
+            ("load_moment", "N m", row.by_load, by_load),
+            ("inner_traction", "N", row.inner_traction, inner),
+            ("outer_traction", "N", row.outer_traction, outer),
+            (
+                "inner_moment",
+                "N m",
+                row.inner_moment,
+                set.inner_moment(steady, inner),
+            ),
+            (
+                "outer_moment",
+                "N m",
+                row.outer_moment,
+                set.outer_moment(steady, outer),
+            ),
+        ] {
+            let tolerance = Tolerance::Relative(file.tol_rel);
+            worst.add(Row::compared(
+                quantity,
+                unit,
+                reference,
+                ours,
+                tolerance,
+                which.as_str(),
+            ));
+        }
+    }
+    let mut rows = worst.into_rows();
+    for case in &file.spinup {
+        let quantity = format!(
+            "spin_up_time W {} N, mu {}, q {}",
+            case.load, case.friction_coefficient, case.q
+        );
+        let inertia = p.race_inertia + set.inner_inertia() + set.pocket_friction_arm() * case.q;
+        let drive = p.bore_radius * case.friction_coefficient * case.load;
+        // (16) as printed steps where ν Ω = 209 mm²/s·rad/s.
+        let knots = [0.0, 209.0 / p.nu_mm2_s, case.end_speed];
+        let moment = |speed: f64| palmgren.printed_moment(speed, case.load);
+        let ours = spin_up_time(inertia, drive, moment, &knots);
+        rows.push(match (case.t, ours) {
+            (Some(reference), Some(ours)) => Row::compared(
+                quantity,
+                "s",
+                reference,
+                ours,
+                Tolerance::Relative(file.tol_spinup_rel),
+                "quadrature of (19)",
+            ),
+            (reference, ours) => never(quantity, "s", reference, ours),
+        });
+    }
+    Ok(rows)
+}
+
+/// A comparison where at least one side says that the event does not happen.
+pub(super) fn never(
+    quantity: impl Into<String>,
+    unit: &str,
+    reference: Option<f64>,
+    ours: Option<f64>,
+) -> Row {
+    let row = Row {
+        reference,
+        ours,
+        ..Row::wrong("happens on one side only").of(quantity, unit)
+    };
+    match (reference, ours) {
+        (None, None) => Row {
+            verdict: super::report::Verdict::Pass,
+            why: "must not happen, and does not".into(),
+            ..row
+        },
+        _ => row,
+    }
+}

@@ -1,0 +1,46 @@
+//! The cases of `validation/`, part of the program.
+
+macro_rules! cases {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_str!(concat!("../../../../validation/", $name, ".toml")))),*]
+    };
+}
+
+/// Name and text of every shipped case.
+pub(super) const CASES: &[(&str, &str)] = cases![
+    "elastic_bounce",
+    "free_fall",
+    "hertz_amesweb_ball_in_race",
+    "hertz_engtools_6206",
+    "hertz_stiffness_6005_inner",
+    "hertz_stiffness_6005_outer",
+    "kinematics_cwru_6203",
+    "kinematics_cwru_6205",
+    "palmgren_high_speed",
+    "palmgren_low_speed",
+    "palmgren_paper_form",
+    "rolling_moments_6005",
+];
+
+#[cfg(test)]
+mod tests {
+    use super::CASES;
+    use std::path::Path;
+
+    #[test]
+    fn every_file_of_the_folder_is_shipped() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation");
+        let mut files: Vec<_> = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+            .filter(|path| {
+                path.extension()
+                    .is_some_and(|extension| extension == "toml")
+            })
+            .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
+            .collect();
+        files.sort();
+        let shipped: Vec<_> = CASES.iter().map(|(name, _)| name.to_string()).collect();
+        assert_eq!(files, shipped);
+    }
+}

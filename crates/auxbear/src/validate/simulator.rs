@@ -1,0 +1,108 @@
+//! What validation asks of the simulation.
+
+use super::reference::{DerivativePoint, DropReference};
+
+/// Free fall of a rotor from rest, centred, without unbalance and without friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeFall {
+    /// Radial air clearance, m.
+    pub clearance: f64,
+    /// Gravity, m/s².
+    pub gravity: f64,
+}
+
+/// One bounce of a rotor on a held race with a linear contact without damping and friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElasticBounce {
+    /// Rotor mass, kg.
+    pub mass: f64,
+    /// Contact stiffness, N/m.
+    pub stiffness: f64,
+    /// Radial air clearance, m.
+    pub clearance: f64,
+    /// Gravity, m/s².
+    pub gravity: f64,
+}
+
+/// The right-hand side at one state, in the layout of the reference files.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DerivativeAnswer {
+    /// Rates of the state, then the powers of the 12 energy accounts.
+    pub rates: Vec<f64>,
+    /// Per ball: Q_i, Q_o, T_i, T_o (paper sign), pocket force, side, F_j, δ_i, δ_o, u_i, u_o, pen, arm_i, arm_o.
+    pub per_ball: Vec<Vec<f64>>,
+    /// Global columns, in the order of the file's `global_cols`.
+    pub globals: Vec<f64>,
+    /// Kinetic energy, J.
+    pub kinetic: f64,
+    /// Potential energy, J.
+    pub potential: f64,
+}
+
+/// A drop, in the words of the reference files: what did not happen is `None`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DropAnswer {
+    /// `peak1`, N.
+    pub first_impact_force: Option<f64>,
+    /// `peak_all`, N.
+    pub peak_contact_force: Option<f64>,
+    /// `n_contacts`.
+    pub contact_count: Option<f64>,
+    /// `t_inner_50%`, s.
+    pub inner_race_time_to_50_percent: Option<f64>,
+    /// `t_inner_95%`, s.
+    pub inner_race_time_to_95_percent: Option<f64>,
+    /// `t_cage_95%roll`, s.
+    pub cage_time_to_95_percent_of_rolling: Option<f64>,
+    /// `fric`, J.
+    pub rotor_race_friction_energy: Option<f64>,
+    /// `slip`, J.
+    pub ball_slip_energy: Option<f64>,
+    /// `dissipated`, J.
+    pub dissipated_energy: Option<f64>,
+    /// `wi_end`, rad/s.
+    pub inner_race_final_speed: Option<f64>,
+    /// `wc_end`, rad/s.
+    pub cage_final_speed: Option<f64>,
+    /// `rotor_end`, rad/s.
+    pub rotor_final_speed: Option<f64>,
+    /// `maxrel`, m.
+    pub max_rotor_race_displacement: Option<f64>,
+    /// `maxouter`, m.
+    pub max_mount_displacement: Option<f64>,
+    /// `t_on`, s: starts of contact in their order; more than the reference lists may follow.
+    pub contact_start_times: Vec<f64>,
+}
+
+/// The simulation as validation sees it. `Err` tells why a case cannot be run: its rows become "not run".
+pub trait Simulator {
+    /// Time to first contact, s.
+    fn free_fall(&self, case: &FreeFall) -> Result<f64, String>;
+    /// Largest contact force, N.
+    fn elastic_bounce(&self, case: &ElasticBounce) -> Result<f64, String>;
+    /// The right-hand side at the state `point.y` of the machine `point.params`.
+    fn derivative(&self, point: &DerivativePoint) -> Result<DerivativeAnswer, String>;
+    /// The drop from the state `reference.y0` over `reference.duration`, at a relative tolerance of 3e-7 or less.
+    fn drop(&self, reference: &DropReference) -> Result<DropAnswer, String>;
+}
+
+/// A simulator that runs nothing: only laws are validated.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LawsOnly;
+
+const LAWS_ONLY: &str = "needs a simulation";
+
+impl Simulator for LawsOnly {
+    fn free_fall(&self, _: &FreeFall) -> Result<f64, String> {
+        Err(LAWS_ONLY.into())
+    }
+    fn elastic_bounce(&self, _: &ElasticBounce) -> Result<f64, String> {
+        Err(LAWS_ONLY.into())
+    }
+    fn derivative(&self, _: &DerivativePoint) -> Result<DerivativeAnswer, String> {
+        Err(LAWS_ONLY.into())
+    }
+    fn drop(&self, _: &DropReference) -> Result<DropAnswer, String> {
+        Err(LAWS_ONLY.into())
+    }
+}
