@@ -309,7 +309,7 @@ const GAUSS_10: [(f64, f64); 5] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use number::{Gather, Lanes};
+    use number::{Gather, Level, Task};
 
     /// The 6005 of the reference file `rolling.json`.
     fn set() -> RollingSet<f64> {
@@ -422,17 +422,32 @@ mod tests {
         assert!(race_acceleration(3.9e-6, j, 0.01, 0.02) < 0.0);
         assert!(near(race_acceleration(3e-6, 1e-6, 0.03, 0.01), 5000.0));
     }
-    #[test]
-    fn lanes_agree_with_the_scalar() {
-        let light = RollingSet {
-            cage_mass: 1e-3,
+    /// Both inertias of machines whose cages differ, one machine a lane.
+    struct SideBySide;
+    impl Task for SideBySide {
+        type Output = Vec<(f64, f64)>;
+        #[inline(always)]
+        fn run<R: Real>(self) -> Vec<(f64, f64)> {
+            let machines = machines();
+            let wide: RollingSet<R> = Gather::gather(&|lane| &machines[lane]);
+            let (inner, outer) = (wide.inner_inertia(), wide.outer_inertia());
+            (0..R::LANES)
+                .map(|lane| (inner.lane(lane), outer.lane(lane)))
+                .collect()
+        }
+    }
+    fn machines() -> [RollingSet<f64>; 8] {
+        std::array::from_fn(|lane| RollingSet {
+            cage_mass: 1e-3 * lane as f64,
             ..set()
-        };
-        let machines = [set(), light];
-        let wide: RollingSet<Lanes<2>> = Gather::gather(&|lane| &machines[lane]);
-        for (lane, machine) in machines.iter().enumerate() {
-            assert_eq!(wide.inner_inertia().0[lane], machine.inner_inertia());
-            assert_eq!(wide.outer_inertia().0[lane], machine.outer_inertia());
+        })
+    }
+
+    #[test]
+    fn lanes_agree_with_the_scalar_bit_for_bit() {
+        let wide = Level::detect().run_many(SideBySide);
+        for (lane, machine) in wide.into_iter().zip(machines()) {
+            assert_eq!(lane, (machine.inner_inertia(), machine.outer_inertia()));
         }
     }
 }

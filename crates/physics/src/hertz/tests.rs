@@ -126,6 +126,20 @@ fn a_slender_ellipse_approaches_a_line() {
     assert!(relative(contact.semi_minor(q), b) < 1e-4);
 }
 #[test]
+fn the_root_holds_for_the_thinnest_ellipse() {
+    // For b << a the ratio of the curvature sums is x (ln(4/√x) - 1), x = (b/a)²; the next term is x smaller.
+    for exponent in [-6, -9, -12] {
+        let ratio = 10_f64.powi(exponent);
+        let factors = EllipseFactors::of_ratio(ratio);
+        let x = factors.ellipticity.powi(-2);
+        let asymptote = x * ((4.0 / x.sqrt()).ln() - 1.0);
+        assert!(
+            relative(asymptote, ratio) < 1e-13 + 3.0 * ratio,
+            "{exponent}"
+        );
+    }
+}
+#[test]
 fn powers_of_the_load() {
     let contact = PointContact::new(bearing_6005(Race::Inner, 0.52).curvature(), steel()).unwrap();
     let p = |q: f64| maximum_pressure(contact.pressure_factor, q);
