@@ -79,6 +79,8 @@ pub struct RollingConstants {
     pub outer_inertia: f64,
     /// Cage speed per inner race speed, 1/(2(1+s)).
     pub cage_ratio: f64,
+    /// Radius of the circle of the ball centres, m.
+    pub pitch_radius: f64,
     /// Mass of balls and cage, kg.
     pub mass_with_outer_race: f64,
     /// Azimuth of ball 1 at the start, rad.

@@ -1,1 +1,504 @@
-//! placeholder
+//! What is watched and kept of a drop.
+//!
+//! Contacts begin, end and peak on dense output, not on the steps. Rows are sampled at equal intervals and at the end.
+//! The rows are allocated before the run; only the list of contacts may grow during it.
+
+use super::DropMachine;
+use super::layout::{
+    BEARING, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, NORMAL_FORCE, NORMAL_FORCE_RATE, OUTER,
+    PENETRATION, PENETRATION_SPEED, ROTOR,
+};
+use super::ledger::Content;
+use super::rate::{race_motion, rotor_motion};
+use number::Vec2;
+use solve::watch::crossing;
+use solve::{Flow, Machine, Observer, Step};
+
+/// One contact of rotor and inner race.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Begin, s.
+    pub start: f64,
+    /// End, s; none while it lasts.
+    pub end: Option<f64>,
+    /// Largest normal force, N.
+    pub peak_force: f64,
+    /// Its instant, s.
+    pub peak_time: f64,
+}
+
+/// The largest value of something, and when.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peak {
+    /// Value.
+    pub value: f64,
+    /// Instant, s.
+    pub time: f64,
+}
+
+impl Peak {
+    const NONE: Peak = Peak {
+        value: 0.0,
+        time: 0.0,
+    };
+    fn raise(&mut self, value: f64, time: f64) {
+        if value > self.value {
+            *self = Peak { value, time };
+        }
+    }
+}
+
+/// A value that rises through a level for the first time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Rise {
+    channel: usize,
+    /// +1 or -1: direction of the machine's spin.
+    sign: f64,
+    level: f64,
+    time: Option<f64>,
+}
+
+/// One sampled row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row<'a> {
+    /// Time, s.
+    pub time: f64,
+    /// State.
+    pub state: &'a [f64],
+    /// Probes.
+    pub probe: &'a [f64],
+    /// Energies and momentum.
+    pub content: Content,
+}
+
+/// Everything kept of one machine.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// Contacts in order.
+    pub contacts: Vec<Contact>,
+    /// Largest ball load at the inner race, N.
+    pub largest_inner_load: Peak,
+    /// Largest ball load at the outer race, N.
+    pub largest_outer_load: Peak,
+    /// Largest distance of the rotor's geometric centre from the inner race's centre, m.
+    pub rotor_race_displacement: Peak,
+    /// Largest displacement of the outer race, m.
+    pub mount_displacement: Peak,
+    /// Largest kinetic energy of the centres, J, at the rows.
+    pub largest_translation: f64,
+    /// Turns of the rotor about the inner race while it is out of the middle half of its clearance.
+    pub whirl_turns: f64,
+    rises: Vec<Rise>,
+    interval: f64,
+    next_row: u64,
+    rows: Vec<f64>,
+    keep_rows: bool,
+    dimension: usize,
+    probes: usize,
+    clearance: f64,
+    whirl_angle: Option<f64>,
+    limits: Limits,
+    limit_passed: bool,
+}
+
+/// Where the equations stop being true.
+#[derive(Clone, Copy, Debug)]
+struct Limits {
+    mount_displacement: f64,
+    penetration: f64,
+}
+
+/// A peak is searched for inside a step when a value comes this near to the record.
+const NEAR_RECORD: f64 = 0.9;
+/// Values after a row's state and probes: time and [`Content`].
+const EXTRA: usize = 5;
+/// Contacts for which room is made before the run.
+const CONTACTS: usize = 4096;
+
+impl Record {
+    /// A record for a run until `end`, with a row every `interval`, or without rows.
+    pub fn new(machine: &DropMachine, end: f64, interval: f64, keep_rows: bool) -> Self {
+        let (dimension, probes) = (machine.dimension(), machine.probes());
+        let rows = if keep_rows {
+            (end / interval) as usize + 3
+        } else {
+            0
+        };
+        let constants = &machine.constants;
+        let sign = if constants.speed < 0.0 { -1.0 } else { 1.0 };
+        let speed = constants.speed.abs();
+        let rise = |channel, level| Rise {
+            channel,
+            sign,
+            level,
+            time: None,
+        };
+        let mut rises = vec![rise(INNER + 5, 0.5 * speed), rise(INNER + 5, 0.95 * speed)];
+        if machine.layout().ball_states {
+            let ratio = machine.rolling_cage_ratio();
+            rises.push(rise(BEARING + 1, 0.95 * speed * ratio));
+        }
+        Record {
+            contacts: Vec::with_capacity(CONTACTS),
+            largest_inner_load: Peak::NONE,
+            largest_outer_load: Peak::NONE,
+            rotor_race_displacement: Peak::NONE,
+            mount_displacement: Peak::NONE,
+            largest_translation: 0.0,
+            whirl_turns: 0.0,
+            rises,
+            interval,
+            next_row: 0,
+            rows: Vec::with_capacity(rows * (dimension + probes + EXTRA)),
+            keep_rows,
+            dimension,
+            probes,
+            clearance: constants.machine.contact.radial_clearance,
+            whirl_angle: None,
+            limits: Limits {
+                mount_displacement: 0.1 * machine.pitch_radius(),
+                penetration: 0.1 * constants.machine.contact.bore_radius,
+            },
+            limit_passed: false,
+        }
+    }
+
+    /// First instant the inner race reaches half the rotor's release speed, s.
+    pub fn inner_race_time_to_50_percent(&self) -> Option<f64> {
+        self.rises[0].time
+    }
+    /// First instant the inner race reaches 95 % of the rotor's release speed, s.
+    pub fn inner_race_time_to_95_percent(&self) -> Option<f64> {
+        self.rises[1].time
+    }
+    /// First instant the cage reaches 95 % of the rolling cage speed of the rotor's release speed, s.
+    pub fn cage_time_to_95_percent(&self) -> Option<f64> {
+        // where balls roll the cage follows the race
+        self.rises.get(2).unwrap_or(&self.rises[1]).time
+    }
+    /// The largest normal force of all contacts.
+    pub fn peak_contact_force(&self) -> Option<Peak> {
+        let peaks = self.contacts.iter().map(|c| Peak {
+            value: c.peak_force,
+            time: c.peak_time,
+        });
+        peaks.reduce(|a, b| if b.value > a.value { b } else { a })
+    }
+    /// Number of rows.
+    pub fn row_count(&self) -> usize {
+        self.rows.len() / self.width()
+    }
+    /// The sampled rows.
+    pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+        self.rows.chunks_exact(self.width()).map(|row| {
+            let (state, rest) = row.split_at(self.dimension);
+            let (probe, extra) = rest.split_at(self.probes);
+            Row {
+                time: extra[0],
+                state,
+                probe,
+                content: Content {
+                    translation: extra[1],
+                    spin: extra[2],
+                    potential: extra[3],
+                    angular_momentum: extra[4],
+                },
+            }
+        })
+    }
+
+    fn width(&self) -> usize {
+        self.dimension + self.probes + EXTRA
+    }
+
+    fn sample(&mut self, step: &mut Step<DropMachine>, theta: f64) {
+        let time = step.time(theta);
+        let machine = step.machine;
+        let (state, probe) = step.evaluate(theta);
+        let content = machine.content(state);
+        self.largest_translation = self.largest_translation.max(content.translation);
+        if self.keep_rows {
+            self.rows.extend_from_slice(state);
+            self.rows.extend_from_slice(probe);
+            self.rows.extend([
+                time,
+                content.translation,
+                content.spin,
+                content.potential,
+                content.angular_momentum,
+            ]);
+        }
+    }
+
+    /// Adds the last state of a run as a row, where it is not one already.
+    pub fn finish(&mut self, machine: &DropMachine, time: f64, state: &[f64]) {
+        let last = self.rows().last().map(|row| row.time);
+        if self.keep_rows && last.is_none_or(|last| last < time) {
+            let (_, probe) = machine.inspect(state);
+            let content = machine.content(state);
+            self.rows.extend_from_slice(state);
+            self.rows.extend_from_slice(&probe);
+            self.rows.extend([
+                time,
+                content.translation,
+                content.spin,
+                content.potential,
+                content.angular_momentum,
+            ]);
+        }
+    }
+
+    fn rows_of(&mut self, step: &mut Step<DropMachine>) {
+        let length = step.end - step.start;
+        loop {
+            let time = self.next_row as f64 * self.interval;
+            if time > step.end {
+                break;
+            }
+            // a row on the very end of the step is the end itself
+            let theta = ((time - step.start) / length).clamp(0.0, 1.0);
+            self.sample(step, theta);
+            self.next_row += 1;
+        }
+    }
+
+    fn contacts_of(&mut self, step: &mut Step<DropMachine>) {
+        let (start, end) = (step.start_probe(PENETRATION), step.end_probe(PENETRATION));
+        let rates = (
+            step.start_probe(PENETRATION_SPEED),
+            step.end_probe(PENETRATION_SPEED),
+        );
+        let length = step.end - step.start;
+        // the extremum of the penetration inside the step, where its rate changes sign
+        let turning = if (rates.0 > 0.0) != (rates.1 > 0.0) {
+            // Hermite estimate of the bulge beyond the ends; searched only where it matters
+            let bulge = 0.125 * length * (rates.0 - rates.1);
+            let middle = 0.5 * (start + end) + bulge;
+            let flips = (start > 0.0) == (end > 0.0) && (middle + bulge > 0.0) != (end > 0.0);
+            let record = rates.0 > 0.0
+                && middle + self.clearance + bulge > self.rotor_race_displacement.value;
+            (flips || record).then(|| {
+                let theta = crossing(step, PENETRATION_SPEED, 0.0, 1.0);
+                (theta, step.probe(theta, PENETRATION))
+            })
+        } else {
+            None
+        };
+        if let Some((theta, value)) = turning {
+            let time = step.time(theta);
+            self.rotor_race_displacement
+                .raise(value + self.clearance, time);
+        }
+        self.rotor_race_displacement
+            .raise(end + self.clearance, step.end);
+
+        let mut from = (0.0, start);
+        for (theta, value) in turning.into_iter().chain([(1.0, end)]) {
+            if from.1 <= 0.0 && value > 0.0 {
+                let begin = crossing(step, PENETRATION, from.0, theta);
+                self.contacts.push(Contact {
+                    start: step.time(begin),
+                    end: None,
+                    peak_force: 0.0,
+                    peak_time: step.time(begin),
+                });
+                self.force_peak(step, begin, theta);
+            } else if from.1 > 0.0 {
+                let open = (value <= 0.0).then(|| crossing(step, PENETRATION, from.0, theta));
+                self.force_peak(step, from.0, open.unwrap_or(theta));
+                if let (Some(theta), Some(contact)) = (open, self.contacts.last_mut()) {
+                    contact.end = Some(step.time(theta));
+                }
+            }
+            from = (theta, value);
+        }
+    }
+
+    /// The largest normal force between two fractions of a step raises the peak of the current contact.
+    fn force_peak(&mut self, step: &mut Step<DropMachine>, low: f64, high: f64) {
+        let Some(contact) = self.contacts.last_mut() else {
+            return;
+        };
+        let mut peak = Peak {
+            value: contact.peak_force,
+            time: contact.peak_time,
+        };
+        if high == 1.0 {
+            peak.raise(step.end_probe(NORMAL_FORCE), step.end);
+        }
+        let force = (step.start_probe(NORMAL_FORCE), step.end_probe(NORMAL_FORCE));
+        let rate = (
+            step.start_probe(NORMAL_FORCE_RATE),
+            step.end_probe(NORMAL_FORCE_RATE),
+        );
+        let whole = low == 0.0 && high == 1.0;
+        if whole && rate.0 > 0.0 && rate.1 < 0.0 {
+            let bulge = 0.125 * (step.end - step.start) * (rate.0 - rate.1);
+            if force.0.max(force.1) + 2.0 * bulge > peak.value {
+                let theta = crossing(step, NORMAL_FORCE_RATE, 0.0, 1.0);
+                let value = step.probe(theta, NORMAL_FORCE);
+                peak.raise(value, step.time(theta));
+            }
+        } else if !whole {
+            // begin or end inside the step: a few points decide whether the peak is here too
+            for i in 1..8 {
+                let theta = low + (high - low) * f64::from(i) / 8.0;
+                let value = step.probe(theta, NORMAL_FORCE);
+                peak.raise(value, step.time(theta));
+            }
+        }
+        contact.peak_force = peak.value;
+        contact.peak_time = peak.time;
+    }
+
+    fn ball_loads_of(&mut self, step: &mut Step<DropMachine>) {
+        let inner = step.end_probe(LARGEST_INNER_LOAD);
+        let outer = step.end_probe(LARGEST_OUTER_LOAD);
+        self.largest_inner_load.raise(inner, step.end);
+        self.largest_outer_load.raise(outer, step.end);
+        if inner > NEAR_RECORD * self.largest_inner_load.value
+            || outer > NEAR_RECORD * self.largest_outer_load.value
+        {
+            for theta in [0.25, 0.5, 0.75] {
+                let time = step.time(theta);
+                let (_, probe) = step.evaluate(theta);
+                self.largest_inner_load
+                    .raise(probe[LARGEST_INNER_LOAD], time);
+                self.largest_outer_load
+                    .raise(probe[LARGEST_OUTER_LOAD], time);
+            }
+        }
+    }
+
+    fn rises_of(&mut self, step: &mut Step<DropMachine>) {
+        for rise in &mut self.rises {
+            let excess = |value: f64| rise.sign * value - rise.level;
+            if rise.time.is_none()
+                && rise.level > 0.0
+                && excess(step.end_state(rise.channel)) >= 0.0
+            {
+                let (mut low, mut high) = (0.0, 1.0);
+                // 40 halvings: 1e-12 of a step
+                for _ in 0..40 {
+                    let middle = 0.5 * (low + high);
+                    if excess(step.state(middle)[rise.channel]) >= 0.0 {
+                        high = middle;
+                    } else {
+                        low = middle;
+                    }
+                }
+                rise.time = Some(step.time(high));
+            }
+        }
+    }
+
+    fn mount_of(&mut self, step: &mut Step<DropMachine>) {
+        let end = |k: usize| step.end_state(OUTER + k);
+        let start = |k: usize| step.start_state(OUTER + k);
+        let outward = (
+            start(0) * start(2) + start(1) * start(3),
+            end(0) * end(2) + end(1) * end(3),
+        );
+        let distance = end(0).hypot(end(1));
+        self.mount_displacement.raise(distance, step.end);
+        if outward.0 > 0.0
+            && outward.1 < 0.0
+            && distance > NEAR_RECORD * self.mount_displacement.value
+        {
+            for i in 1..8 {
+                let theta = f64::from(i) / 8.0;
+                let time = step.time(theta);
+                let state = step.state(theta);
+                self.mount_displacement
+                    .raise(state[OUTER].hypot(state[OUTER + 1]), time);
+            }
+        }
+    }
+
+    fn whirl_of(&mut self, step: &Step<DropMachine>) {
+        if step.end_probe(PENETRATION) < -0.5 * self.clearance {
+            self.whirl_angle = None;
+            return;
+        }
+        let mut state = [0.0; OUTER];
+        for (channel, value) in state.iter_mut().enumerate().skip(ROTOR) {
+            *value = step.end_state(channel);
+        }
+        let centre = step
+            .machine
+            .constants
+            .machine
+            .rotor
+            .geometric_centre(&rotor_motion(&state));
+        let race = Vec2::new(state[INNER], state[INNER + 1]);
+        let offset = centre.position - race;
+        let angle = offset.y.atan2(offset.x);
+        if let Some(last) = self.whirl_angle {
+            let turn = (angle - last) / (2.0 * std::f64::consts::PI);
+            self.whirl_turns += turn - turn.round();
+        }
+        self.whirl_angle = Some(angle);
+    }
+}
+
+impl Observer<DropMachine> for Record {
+    fn step(&mut self, step: &mut Step<DropMachine>) -> Flow {
+        self.contacts_of(step);
+        self.ball_loads_of(step);
+        self.rises_of(step);
+        self.mount_of(step);
+        self.whirl_of(step);
+        self.rows_of(step);
+        let too_far = self.mount_displacement.value > self.limits.mount_displacement
+            || step.end_probe(PENETRATION) > self.limits.penetration;
+        if too_far && !self.limit_passed {
+            self.limit_passed = true;
+            return Flow::Halt(
+                "a displacement exceeded a tenth of the bearing: far outside what the model describes",
+            );
+        }
+        Flow::Continue
+    }
+}
+
+impl DropMachine {
+    /// Cage speed per inner race speed when the balls roll.
+    pub fn rolling_cage_ratio(&self) -> f64 {
+        match &self.constants.bearing {
+            crate::bearing::BearingConstants::Rolling(bearing) => bearing.cage_ratio,
+            crate::bearing::BearingConstants::Planar(bearing) => {
+                let ball = &bearing.ball;
+                0.5 * ball.inner_track / (ball.inner_track + ball.radius)
+            }
+        }
+    }
+    /// Radius of the circle of the ball centres, m.
+    pub fn pitch_radius(&self) -> f64 {
+        match &self.constants.bearing {
+            crate::bearing::BearingConstants::Rolling(bearing) => bearing.pitch_radius,
+            crate::bearing::BearingConstants::Planar(bearing) => {
+                bearing.ball.inner_track + bearing.ball.radius
+            }
+        }
+    }
+    /// Position of the rotor's geometric centre, m.
+    pub fn rotor_centre(&self, state: &[f64]) -> Vec2<f64> {
+        self.constants
+            .machine
+            .rotor
+            .geometric_centre(&rotor_motion(state))
+            .position
+    }
+    /// Cage speed at a state, rad/s.
+    pub fn cage_speed(&self, state: &[f64]) -> f64 {
+        let own = BEARING..self.layout().ledger();
+        self.constants
+            .bearing
+            .cage_speed(&race_motion(state), &state[own])
+    }
+    /// Azimuth of a ball at a state, rad.
+    pub fn ball_azimuth(&self, state: &[f64], ball: usize) -> f64 {
+        let own = BEARING..self.layout().ledger();
+        self.constants.bearing.azimuth(&state[own], ball)
+    }
+}
