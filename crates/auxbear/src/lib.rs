@@ -1,4 +1,27 @@
-//! placeholder
+//! What happens when a magnetically levitated rotor falls onto its auxiliary rolling bearings.
+//!
+//! A [`scenario::Scenario`] is read and checked, [`simulate::run`] computes it, and the results are plain data
+//! ([`simulate::Outcome`]) that [`report`] writes and draws and [`validate`] holds against published numbers.
+//!
+//! ```
+//! use auxbear::scenario::{BuiltIn, Scenario, template};
+//! use auxbear::simulate::{Options, run};
+//! use std::sync::atomic::AtomicBool;
+//!
+//! let text = template("drop").unwrap();
+//! let short = [String::from("run.duration=12 ms")];
+//! let scenario = Scenario::parse(&text, "template", &short, &BuiltIn).unwrap();
+//! let options = Options { repeat: None, threads: None, interrupt: &AtomicBool::new(false), progress: &|_| {} };
+//! let outcome = run(&scenario, &options).unwrap();
+//! assert!(outcome.stop.complete());
+//! ```
+//!
+//! Modules, each using only those before it: [`problem`], [`catalogue`], [`scenario`], [`simulate`], [`report`],
+//! [`validate`].
 
+pub mod catalogue;
 pub mod problem;
+pub mod report;
 pub mod scenario;
+pub mod simulate;
+pub mod validate;

@@ -22,7 +22,7 @@ mod table;
 mod table_bearing;
 mod template;
 
-pub use bearing_source::{BearingRecord, BearingSource, NoBearings};
+pub use bearing_source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
 pub use drop::{
     BallMaterial, Bearing, Cage, Contact, Drag, Drop, Fidelity, Gravity, Levitation, Moment,
     MomentForm, Mount, Repeat, Rotor, Run, Spin, Traction,

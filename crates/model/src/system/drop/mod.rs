@@ -147,6 +147,18 @@ impl DropConstants {
     pub fn outer_moving_mass(&self) -> f64 {
         self.machine.outer_race_mass + self.bearing.mass_with_outer_race()
     }
+    /// Chooses where the mount's spring is free so that it carries the bearing's weight with the outer race at the
+    /// origin. The weight of an inner race whose centre is held rests elsewhere.
+    pub fn balance_mount(&mut self) {
+        let inner = if self.machine.inner_race_centre_held {
+            0.0
+        } else {
+            self.machine.inner_race_mass
+        };
+        let mass = self.outer_moving_mass() + self.bearing.free_ball_mass() + inner;
+        let mount = &mut self.machine.mount;
+        mount.free_position = -(self.machine.gravity * (mass / mount.stiffness));
+    }
 }
 
 impl Machine for DropMachine {

@@ -1,0 +1,236 @@
+//! Runs a drop and names what came out.
+
+use super::build::{self, Built};
+use super::ensemble::{self, Finished, Member, Plan};
+use super::outcome::{Contact, Outcome, Picture, Spread, Stop, Value, Work};
+use super::{Options, columns, quantities, warnings};
+use crate::problem::Problem;
+use crate::scenario::{Drop, Scenario};
+use model::system::drop::DropMachine;
+use number::Vec2;
+use rand_distr::{Distribution, StandardNormal};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use rand_xoshiro::rand_core::SeedableRng;
+use solve::Settings;
+use std::time::Instant;
+
+/// First step, s: shorter than any time constant; the controller takes over from there.
+const FIRST_STEP: f64 = 1e-8;
+/// Steps after which a machine is given up: a thousand times the reference drop.
+const STEP_LIMIT: u64 = 100_000_000;
+
+/// Everything the pages that name results need to know.
+pub(super) struct Context<'a> {
+    pub drop: &'a Drop,
+    pub built: &'a Built,
+    pub machine: &'a DropMachine,
+    pub finished: &'a Finished,
+    pub members: usize,
+}
+
+/// Settings of the integration of a drop.
+pub fn settings(drop: &Drop) -> Settings {
+    Settings {
+        start: 0.0,
+        end: drop.run.duration,
+        tolerance: drop.run.tolerance,
+        first_step: FIRST_STEP.min(1e-3 * drop.run.duration),
+        largest_step: drop.run.largest_step,
+        step_limit: STEP_LIMIT,
+    }
+}
+
+/// Runs a drop.
+pub(super) fn run(
+    scenario: &Scenario,
+    drop: &Drop,
+    options: &Options,
+) -> Result<Outcome, Box<Problem>> {
+    let built = build::drop(drop)?;
+    let machine = DropMachine::new(built.constants.clone());
+    let count = options.repeat.unwrap_or(drop.repeat.count as usize).max(1);
+    let members: Vec<Member> = (0..count).map(|k| member(&machine, drop, k)).collect();
+    let clock = Instant::now();
+    let finished = ensemble::run(
+        &members,
+        &Plan {
+            settings: settings(drop),
+            interval: drop.run.output_interval,
+            threads: options.threads,
+            interrupt: options.interrupt,
+            progress: options.progress,
+        },
+    );
+    let seconds = clock.elapsed().as_secs_f64();
+
+    let context = |k: usize| Context {
+        drop,
+        built: &built,
+        machine: &machine,
+        finished: &finished[k],
+        members: count,
+    };
+    let first = context(0);
+    let mut named = quantities::name(&first);
+    let mut table = Vec::new();
+    if count > 1 {
+        table = (0..count)
+            .map(|k| {
+                quantities::name(&context(k))
+                    .into_iter()
+                    .filter_map(|q| match q.value {
+                        Value::Number(value) => Some((q.name, Some(value))),
+                        Value::None { .. } => Some((q.name, None)),
+                        Value::List(_) | Value::Text(_) => None,
+                    })
+                    .collect()
+            })
+            .collect();
+        for quantity in &mut named {
+            quantity.spread = spread(&table, &quantity.name);
+        }
+    }
+    Ok(Outcome {
+        system: "drop",
+        title: scenario
+            .title
+            .clone()
+            .unwrap_or_else(|| "Drop of a levitated rotor".to_string()),
+        quantities: named,
+        history: columns::history(&first),
+        contacts: contacts(&finished[0]),
+        warnings: warnings::of(scenario, &first, &finished),
+        stop: worst_stop(&finished),
+        work: work(&finished, seconds),
+        members: table,
+        picture: Picture {
+            clearance: drop.contact.radial_air_clearance,
+            pressure_limit: drop.bearing.hertz_pressure_limit,
+            rolling_cage_ratio: machine.rolling_cage_ratio(),
+            balls: drop.bearing.ball_count,
+        },
+    })
+}
+
+/// Member `k`: the unperturbed start for 0, else one perturbed by numbers that depend on (seed, k) alone.
+fn member(machine: &DropMachine, drop: &Drop, k: usize) -> Member {
+    let mut start = machine.start();
+    if k > 0 {
+        let mut random = Xoshiro256PlusPlus::seed_from_u64(member_seed(drop.repeat.seed, k));
+        let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
+        let shift = Vec2::new(normal(), normal()) * drop.repeat.rotor_position_deviation;
+        let angles: Vec<f64> = (0..drop.bearing.ball_count)
+            .map(|_| normal() * drop.repeat.ball_angle_deviation)
+            .collect();
+        machine.perturb(&mut start, shift, &|ball| angles[ball]);
+    }
+    Member {
+        machine: machine.clone(),
+        start,
+        keep_rows: k == 0,
+    }
+}
+
+/// The seed of a member: (study seed, k) mixed so that neighbouring pairs share nothing.
+fn member_seed(seed: u64, k: usize) -> u64 {
+    // finaliser of SplitMix64, twice
+    let mix = |mut x: u64| {
+        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^ (x >> 31)
+    };
+    mix(mix(seed.wrapping_add(0x9e37_79b9_7f4a_7c15)).wrapping_add(k as u64))
+}
+
+fn spread(members: &[Vec<(String, Option<f64>)>], name: &str) -> Option<Spread> {
+    let values: Vec<f64> = members
+        .iter()
+        .filter_map(|member| member.iter().find(|(n, _)| n == name)?.1)
+        .collect();
+    if values.len() < 2 {
+        return None;
+    }
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let square = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
+    Some(Spread {
+        members: values.len(),
+        mean,
+        standard_deviation: (square / (count - 1.0)).sqrt(),
+        smallest: values.iter().copied().fold(f64::INFINITY, f64::min),
+        largest: values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    })
+}
+
+fn contacts(finished: &Finished) -> Vec<Contact> {
+    finished
+        .record
+        .contacts
+        .iter()
+        .map(|c| Contact {
+            start: c.start,
+            end: c.end,
+            peak_force: c.peak_force,
+            peak_time: c.peak_time,
+        })
+        .collect()
+}
+
+/// How a member ended, in words.
+fn stop(finished: &Finished) -> Stop {
+    let time = finished.ending.time;
+    let (reason, text) = match &finished.ending.stop {
+        solve::Stop::Finished => ("finished", "The whole duration was computed.".to_string()),
+        solve::Stop::Interrupted => (
+            "interrupted",
+            format!("Interrupted at {time:.6e} s; everything until then is kept."),
+        ),
+        solve::Stop::Halted(why) => ("left the model", format!("Stopped at {time:.6e} s: {why}.")),
+        solve::Stop::Diverged { channel, step } => (
+            "diverged",
+            format!(
+                "Diverged at {time:.6e} s: the step shrank to {step:.1e} s, {channel} changes fastest. \
+                 Stiff contact, friction with a very small reference speed or an unphysical input are the usual causes."
+            ),
+        ),
+        solve::Stop::StepLimit => (
+            "step limit",
+            format!("Given up at {time:.6e} s after {STEP_LIMIT} steps."),
+        ),
+    };
+    Stop { reason, time, text }
+}
+
+/// The ending of the unperturbed run; if that is whole, of the first member that is not.
+fn worst_stop(finished: &[Finished]) -> Stop {
+    let first = stop(&finished[0]);
+    if !first.complete() {
+        return first;
+    }
+    match finished
+        .iter()
+        .map(stop)
+        .enumerate()
+        .find(|(_, s)| !s.complete())
+    {
+        Some((k, mut stop)) => {
+            stop.text = format!("Member {k} of the repetition: {}", stop.text);
+            stop
+        }
+        None => first,
+    }
+}
+
+fn work(finished: &[Finished], seconds: f64) -> Work {
+    let mut work = Work {
+        members: finished.len(),
+        seconds,
+        ..Work::default()
+    };
+    for member in finished {
+        work.steps += member.ending.work.accepted;
+        work.rejected += member.ending.work.rejected;
+        work.rate_calls += member.ending.work.rate_calls;
+    }
+    work
+}

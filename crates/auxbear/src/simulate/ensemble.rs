@@ -1,0 +1,172 @@
+//! Many machines: in lanes of the vector unit, and in threads.
+//!
+//! A member's result depends on its constants and its start alone, bit for bit: not on the lane, the company, the
+//! vector unit or the number of threads.
+
+use model::system::drop::record::Record;
+use model::system::drop::{Drop, DropMachine};
+use number::{Level, Real, Task};
+use rayon::prelude::*;
+use solve::{Ending, Flow, Observer, Settings, Step};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+/// One machine with its start.
+#[derive(Clone, Debug)]
+pub struct Member {
+    /// The machine.
+    pub machine: DropMachine,
+    /// Its state at the start.
+    pub start: Vec<f64>,
+    /// Whether its history is kept.
+    pub keep_rows: bool,
+}
+
+/// What came out of one member.
+#[derive(Clone, Debug)]
+pub struct Finished {
+    /// The state at the start.
+    pub start: Vec<f64>,
+    /// What was watched and kept.
+    pub record: Record,
+    /// How it ended.
+    pub ending: Ending,
+}
+
+/// How to run the members.
+pub struct Plan<'a> {
+    /// Of the integration.
+    pub settings: Settings,
+    /// Time between rows, s.
+    pub interval: f64,
+    /// Number of threads; all cores if none.
+    pub threads: Option<usize>,
+    /// Stops everything when true.
+    pub interrupt: &'a AtomicBool,
+    /// Told the fraction done.
+    pub progress: &'a (dyn Fn(f64) + Sync),
+}
+
+/// Runs all members; the results stand in their order.
+pub fn run(members: &[Member], plan: &Plan) -> Vec<Finished> {
+    let level = Level::detect();
+    let done = AtomicU64::new(0);
+    let report = Report {
+        done: &done,
+        members: members.len(),
+        progress: plan.progress,
+    };
+    let chunk = |members: &[Member]| {
+        let task = Chunk {
+            members,
+            plan,
+            report: &report,
+        };
+        if members.len() == 1 {
+            level.run_one(task)
+        } else {
+            level.run_many(task)
+        }
+    };
+    let all = || -> Vec<Finished> {
+        members
+            .par_chunks(level.lanes())
+            .flat_map_iter(chunk)
+            .collect()
+    };
+    match plan.threads {
+        _ if members.len() <= level.lanes() => chunk(members),
+        None => all(),
+        Some(threads) => match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+            Ok(pool) => pool.install(all),
+            // the machine refuses more threads: the shared pool gives the same numbers
+            Err(_) => all(),
+        },
+    }
+}
+
+/// The members that share a vector register.
+struct Chunk<'a> {
+    members: &'a [Member],
+    plan: &'a Plan<'a>,
+    report: &'a Report<'a>,
+}
+
+impl Task for Chunk<'_> {
+    type Output = Vec<Finished>;
+    fn run<R: Real>(self) -> Vec<Finished> {
+        let Chunk {
+            members,
+            plan,
+            report,
+        } = self;
+        let machines: Vec<&DropMachine> = members.iter().map(|m| &m.machine).collect();
+        let starts: Vec<Vec<f64>> = members.iter().map(|m| m.start.clone()).collect();
+        let end = plan.settings.end;
+        let mut watched: Vec<Watched> = members
+            .iter()
+            .map(|m| Watched {
+                record: Record::new(&m.machine, end, plan.interval, m.keep_rows),
+                report,
+                told: 0,
+                end,
+            })
+            .collect();
+        let endings = solve::run::<R, Drop<R>, _>(
+            &machines,
+            &starts,
+            &mut watched,
+            &plan.settings,
+            plan.interrupt,
+        );
+        watched
+            .into_iter()
+            .zip(endings)
+            .zip(members)
+            .map(|((watched, ending), member)| {
+                watched.tell(1000);
+                let mut record = watched.record;
+                record.finish(&member.machine, ending.time, &ending.state);
+                Finished {
+                    start: member.start.clone(),
+                    record,
+                    ending,
+                }
+            })
+            .collect()
+    }
+}
+
+/// Adds up the thousandths of all members.
+struct Report<'a> {
+    done: &'a AtomicU64,
+    members: usize,
+    progress: &'a (dyn Fn(f64) + Sync),
+}
+
+/// A record that also reports progress.
+struct Watched<'a> {
+    record: Record,
+    report: &'a Report<'a>,
+    told: u64,
+    end: f64,
+}
+
+impl Watched<'_> {
+    /// Tells that this member stands at so many thousandths.
+    fn tell(&self, thousandths: u64) {
+        let more = thousandths.saturating_sub(self.told);
+        let done = self.report.done.fetch_add(more, Ordering::Relaxed) + more;
+        (self.report.progress)(done as f64 / (1000 * self.report.members) as f64);
+    }
+}
+
+impl Observer<DropMachine> for Watched<'_> {
+    fn step(&mut self, step: &mut Step<DropMachine>) -> Flow {
+        let thousandths = (1000.0 * step.end / self.end) as u64;
+        if thousandths > self.told {
+            self.tell(thousandths);
+            self.told = thousandths;
+        }
+        self.record.step(step)
+    }
+}

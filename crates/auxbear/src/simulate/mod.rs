@@ -1,0 +1,43 @@
+//! From a scenario to results.
+//!
+//! | page | subject |
+//! |---|---|
+//! | [`build`] | scenario → constants of the model |
+//! | [`ensemble`] | one machine or many, in lanes and threads |
+//! | [`drop`] | runs a drop and names what came out |
+//! | [`quantities`] | each named result with its law, source and valid range |
+//! | [`columns`] | the history |
+//! | [`warnings`] | what to know before trusting the numbers |
+//! | [`outcome`] | the data handed over |
+
+pub mod build;
+mod columns;
+mod drop;
+pub mod ensemble;
+pub mod outcome;
+mod quantities;
+mod warnings;
+
+use crate::problem::Problem;
+use crate::scenario::{Scenario, System};
+pub use outcome::Outcome;
+use std::sync::atomic::AtomicBool;
+
+/// What a caller decides besides the scenario.
+pub struct Options<'a> {
+    /// Number of members instead of the scenario's.
+    pub repeat: Option<usize>,
+    /// Number of threads; all cores if none.
+    pub threads: Option<usize>,
+    /// Set to true, it stops the run at the next opportunity; what was computed is kept.
+    pub interrupt: &'a AtomicBool,
+    /// Told the fraction of the work done, from 0 to 1, from any thread.
+    pub progress: &'a (dyn Fn(f64) + Sync),
+}
+
+/// Simulates what the scenario describes. A run that fails is an [`Outcome`] whose `stop` says where and why.
+pub fn run(scenario: &Scenario, options: &Options) -> Result<Outcome, Box<Problem>> {
+    match &scenario.system {
+        System::Drop(drop) => drop::run(scenario, drop, options),
+    }
+}

@@ -1,0 +1,315 @@
+//! Every named result of a drop with its law, source and valid range.
+
+use super::drop::Context;
+use super::outcome::{Quantity, Value};
+use model::system::drop::layout::{HEATS, INNER, ROTOR};
+use physics::hertz::maximum_pressure;
+
+const EQUATIONS: &str =
+    "equations of motion, crates/model/src/system/drop/rate.rs and bearing/ball.rs";
+const CONTACT: &str = "Hunt-Crossley contact, crates/model/src/contact.rs";
+const EVENT: &str = "root on dense output of the Tsitouras 5(4) method";
+const LEDGER: &str = "energy ledger, crates/model/src/system/drop/ledger.rs";
+
+/// Names the results of one member.
+pub(super) fn name(context: &Context) -> Vec<Quantity> {
+    let record = &context.finished.record;
+    let ending = &context.finished.ending;
+    let machine = context.machine;
+    let layout = machine.layout();
+    let state = &ending.state;
+    let mut list = List(Vec::new());
+    let no_contact = || "rotor and inner race never touched in this run".to_string();
+
+    // contacts
+    let first = record.contacts.first();
+    list.number(
+        "time_to_first_contact",
+        "s",
+        first.map(|c| c.start).ok_or_else(no_contact),
+        &FIRST_CONTACT,
+    );
+    list.number(
+        "first_impact_force",
+        "N",
+        first.map(|c| c.peak_force).ok_or_else(no_contact),
+        &CONTACT_FORCE,
+    );
+    list.number(
+        "peak_contact_force",
+        "N",
+        record
+            .peak_contact_force()
+            .map(|p| p.value)
+            .ok_or_else(no_contact),
+        &CONTACT_FORCE,
+    );
+    list.number(
+        "contact_count",
+        "",
+        Ok(record.contacts.len() as f64),
+        &CONTACT_COUNT,
+    );
+    let starts = record.contacts.iter().map(|c| c.start).collect();
+    list.push(
+        "contact_start_times",
+        "s",
+        Value::List(starts),
+        &CONTACT_COUNT,
+    );
+
+    // speeds
+    let never = |what: &str| {
+        let text = format!("{what} was not reached by {:.4e} s", ending.time);
+        move || text
+    };
+    list.number(
+        "inner_race_time_to_50_percent",
+        "s",
+        record
+            .inner_race_time_to_50_percent()
+            .ok_or_else(never("half of the rotor's release speed")),
+        &RISE,
+    );
+    list.number(
+        "inner_race_time_to_95_percent",
+        "s",
+        record
+            .inner_race_time_to_95_percent()
+            .ok_or_else(never("95 % of the rotor's release speed")),
+        &RISE,
+    );
+    list.number(
+        "cage_time_to_95_percent_of_rolling",
+        "s",
+        record.cage_time_to_95_percent().ok_or_else(never(
+            "95 % of the rolling cage speed of the rotor's release speed",
+        )),
+        &RISE,
+    );
+    list.number(
+        "inner_race_final_speed",
+        "rad/s",
+        Ok(state[INNER + 5]),
+        &SPEED,
+    );
+    list.number(
+        "cage_final_speed",
+        "rad/s",
+        Ok(machine.cage_speed(state)),
+        &SPEED,
+    );
+    list.number("rotor_final_speed", "rad/s", Ok(state[ROTOR + 5]), &SPEED);
+
+    // loads
+    let pressure = maximum_pressure(
+        context.built.inner_pressure_factor,
+        record.largest_inner_load.value,
+    )
+    .max(maximum_pressure(
+        context.built.outer_pressure_factor,
+        record.largest_outer_load.value,
+    ));
+    let load = record
+        .largest_inner_load
+        .value
+        .max(record.largest_outer_load.value);
+    list.number("peak_ball_load", "N", Ok(load), &BALL_LOAD);
+    list.number("peak_hertz_pressure", "Pa", Ok(pressure), &PRESSURE);
+    list.number(
+        "hertz_pressure_share_of_limit",
+        "1",
+        context
+            .drop
+            .bearing
+            .hertz_pressure_limit
+            .map(|limit| pressure / limit)
+            .ok_or_else(|| {
+                "no limit is given: for hybrid bearings bearing.hertz_pressure_limit is yours to set"
+                    .to_string()
+            }),
+        &PRESSURE,
+    );
+
+    // displacements and whirl
+    list.number(
+        "max_rotor_race_displacement",
+        "m",
+        Ok(record.rotor_race_displacement.value),
+        &DISPLACEMENT,
+    );
+    list.number(
+        "max_mount_displacement",
+        "m",
+        Ok(record.mount_displacement.value),
+        &DISPLACEMENT,
+    );
+    let turns = record.whirl_turns;
+    let forward = turns * machine.constants.speed.signum() > 0.0;
+    let direction = if turns.abs() < 1.0 {
+        "none"
+    } else if forward {
+        "forward"
+    } else {
+        "backward"
+    };
+    list.push(
+        "whirl_direction",
+        "",
+        Value::Text(direction.to_string()),
+        &WHIRL,
+    );
+    list.number("whirl_turns", "", Ok(turns), &WHIRL);
+
+    // energies
+    let heat = |name: &str| -> f64 {
+        let index = HEATS.iter().position(|heat| *heat == name);
+        index.map_or(0.0, |index| state[layout.heat(index)])
+    };
+    list.number(
+        "rotor_race_friction_energy",
+        "J",
+        Ok(heat("rotor_race_friction")),
+        &ENERGY,
+    );
+    list.number(
+        "ball_slip_energy",
+        "J",
+        if layout.ball_states {
+            Ok(heat("inner_ball_slip") + heat("outer_ball_slip"))
+        } else {
+            Err("balls do not slip in the rolling fidelity".to_string())
+        },
+        &ENERGY,
+    );
+    let flows = machine.flows(state);
+    list.number("dissipated_energy", "J", Ok(flows.heat), &ENERGY);
+    let (energy, momentum) = residuals(context);
+    list.number("energy_residual", "1", energy, &RESIDUAL);
+    list.number("angular_momentum_residual", "1", momentum, &RESIDUAL);
+    list.0
+}
+
+/// Largest residuals of the run, relative: (energy, angular momentum).
+fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, String>) {
+    let machine = context.machine;
+    let record = &context.finished.record;
+    let ending = &context.finished.ending;
+    let start = &context.finished.start;
+    let (content, now) = (machine.content(start), machine.content(&ending.state));
+    let (before, flows) = (machine.flows(start), machine.flows(&ending.state));
+    let heat = flows.heat - before.heat;
+    let energy = now.energy() - content.energy() + heat - (flows.work - before.work);
+    let scale = heat.max(flows.work_size).max(record.largest_translation);
+    let momentum = now.angular_momentum
+        - content.angular_momentum
+        - (flows.angular_impulse - before.angular_impulse);
+    let momentum_scale = content
+        .angular_momentum
+        .abs()
+        .max(now.angular_momentum.abs());
+    let relative = |residual: f64, scale: f64| {
+        if scale > 0.0 {
+            Ok(residual / scale)
+        } else {
+            Err("nothing moved and nothing was dissipated".to_string())
+        }
+    };
+    (relative(energy, scale), relative(momentum, momentum_scale))
+}
+
+/// Law, source and valid range of a kind of result.
+struct Origin {
+    law: &'static str,
+    source: &'static str,
+    valid: &'static str,
+}
+
+const FIRST_CONTACT: Origin = Origin {
+    law: "gap d = |C - c_i| - c0 closes; gravity and the levitated orbit's speed at release",
+    source: EVENT,
+    valid: "sudden, total loss of levitation at t = 0; rigid rotor",
+};
+const CONTACT_FORCE: Origin = Origin {
+    law: "N = max(0, k dⁿ(1 + a ḋ)), largest of each contact",
+    source: CONTACT,
+    valid: "stiffness, exponent and damping of the landing surfaces as given; late impacts are chaotic: repeat the run",
+};
+const CONTACT_COUNT: Origin = Origin {
+    law: "begins of contact, d = 0 rising; one that lasts to the end is included",
+    source: EVENT,
+    valid: "late contacts are chaotic: repeat the run",
+};
+const RISE: Origin = Origin {
+    law: "first instant at which the speed reaches the level; levels refer to the rotor's speed at release",
+    source: EQUATIONS,
+    valid: "constant friction coefficient between rotor and race; no grease drag",
+};
+const SPEED: Origin = Origin {
+    law: "angular momentum of each body about its axis",
+    source: EQUATIONS,
+    valid: "the planar fidelity has no steady friction moment: coasting is too free",
+};
+const BALL_LOAD: Origin = Origin {
+    law: "Q = max(0, K(δ^1.5 + 1.5 β δ^½ δ̇)), largest over balls and races, dense output sampled four times a step",
+    source: "Hertz 1881 with viscoelastic damping, crates/physics/src/contact.rs",
+    valid: "elastic contact; pure radial load",
+};
+const PRESSURE: Origin = Origin {
+    law: "p_max = 3Q/(2πab) of the largest ball load, exact elliptic integrals",
+    source: "Hertz 1881, crates/physics/src/hertz.rs; static limit 4200 MPa for steel balls: ISO 76",
+    valid: "elastic contact, groove curvatures as given",
+};
+const DISPLACEMENT: Origin = Origin {
+    law: "largest distance of rotor centre from inner race centre, and of outer race from its rest position",
+    source: EVENT,
+    valid: "below a tenth of the bearing's size",
+};
+const WHIRL: Origin = Origin {
+    law: "net turns of the rotor about the inner race while outside half its clearance; below one turn: none",
+    source: "definition",
+    valid: "rigid rotor; backward whirl of flexible rotors needs the flexible model",
+};
+const ENERGY: Origin = Origin {
+    law: "time integral of friction force times sliding speed, and of every other loss",
+    source: LEDGER,
+    valid: "heat of this plane's bearing; nothing is cooled or warmed by it",
+};
+const RESIDUAL: Origin = Origin {
+    law: "what the ledger misses at the end, over max(heat, works, largest kinetic energy of the centres); \
+          momentum over the largest angular momentum",
+    source: LEDGER,
+    valid: "a measure of the integration error; it falls with run.tolerance",
+};
+
+struct List(Vec<Quantity>);
+
+impl List {
+    fn push(&mut self, name: &str, unit: &'static str, value: Value, origin: &Origin) {
+        self.0.push(Quantity {
+            name: name.to_string(),
+            value,
+            unit,
+            law: origin.law,
+            source: origin.source,
+            valid: origin.valid,
+            spread: None,
+        });
+    }
+    fn number(
+        &mut self,
+        name: &str,
+        unit: &'static str,
+        value: Result<f64, String>,
+        origin: &Origin,
+    ) {
+        let value = match value {
+            Ok(value) if value.is_finite() => Value::Number(value),
+            Ok(value) => Value::None {
+                why: format!("the run ended with {value} here"),
+            },
+            Err(why) => Value::None { why },
+        };
+        self.push(name, unit, value, origin);
+    }
+}
