@@ -1,0 +1,10 @@
+//! The method: order, events, landings, lanes, endings, work, allocations.
+
+mod allocation;
+mod endings;
+mod events;
+mod landings;
+mod lanes;
+mod order;
+mod problems;
+mod work;
