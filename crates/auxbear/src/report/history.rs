@@ -1,0 +1,251 @@
+//! `history.parquet`: one column of doubles a channel.
+//!
+//! Unit and meaning of a column stand in its Arrow field metadata (`schema.field(i).metadata` in pyarrow) and once more
+//! as JSON under the file's key [`COLUMNS`], for readers that know nothing of Arrow. A value that is not a finite number is
+//! written as an empty cell and read back as not-a-number.
+
+use super::arrow_schema::{self, Field};
+use super::page::PageColumn;
+use crate::simulate::outcome::Column;
+use parquet::basic::{Compression, Encoding, Repetition, Type as Physical};
+use parquet::column::reader::ColumnReader;
+use parquet::data_type::DoubleType;
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::{EnabledStatistics, WriterProperties};
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::types::Type;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::fs::File;
+use std::sync::Arc;
+
+/// Key of names, units and meanings in the metadata of the file.
+pub(super) const COLUMNS: &str = "auxbear.columns";
+
+/// Rows of a row group: a reader holds one of them at a time.
+const GROUP_ROWS: usize = 1 << 17;
+
+/// What is known of a column besides its values.
+#[derive(Serialize, Deserialize)]
+struct About<'a> {
+    name: Cow<'a, str>,
+    unit: Cow<'a, str>,
+    meaning: Cow<'a, str>,
+}
+
+/// Writes the columns, which have equal length.
+pub(super) fn write(file: &File, columns: &[Column]) -> Result<(), ParquetError> {
+    let schema = Arc::new(
+        Type::group_type_builder("history")
+            .with_fields(
+                columns
+                    .iter()
+                    .map(|column| {
+                        let repetition = if is_whole(column) {
+                            Repetition::REQUIRED
+                        } else {
+                            Repetition::OPTIONAL
+                        };
+                        Type::primitive_type_builder(&column.name, Physical::DOUBLE)
+                            .with_repetition(repetition)
+                            .build()
+                            .map(Arc::new)
+                    })
+                    .collect::<Result<_, _>>()?,
+            )
+            .build()?,
+    );
+    let mut writer = SerializedFileWriter::new(file, schema, Arc::new(properties(columns)?))?;
+    let rows = columns.iter().map(|column| column.values.len()).max();
+    for begin in (0..rows.unwrap_or(0)).step_by(GROUP_ROWS) {
+        let mut group = writer.next_row_group()?;
+        for column in columns {
+            let end = (begin + GROUP_ROWS).min(column.values.len());
+            let part = &column.values[begin..end];
+            let Some(mut out) = group.next_column()? else {
+                break;
+            };
+            let typed = out.typed::<DoubleType>();
+            if is_whole(column) {
+                typed.write_batch(part, None, None)?;
+            } else {
+                let present: Vec<i16> = part.iter().map(|v| i16::from(v.is_finite())).collect();
+                let values: Vec<f64> = part.iter().copied().filter(|v| v.is_finite()).collect();
+                typed.write_batch(&values, Some(&present), None)?;
+            }
+            out.close()?;
+        }
+        group.close()?;
+    }
+    writer.close()?;
+    Ok(())
+}
+
+fn is_whole(column: &Column) -> bool {
+    column.values.iter().all(|value| value.is_finite())
+}
+
+fn properties(columns: &[Column]) -> Result<WriterProperties, ParquetError> {
+    let metadata: Vec<[(&str, &str); 2]> = columns
+        .iter()
+        .map(|column| [("unit", column.unit), ("meaning", &column.meaning)])
+        .collect();
+    let fields: Vec<Field> = columns
+        .iter()
+        .zip(&metadata)
+        .map(|(column, metadata)| Field {
+            name: &column.name,
+            nullable: !is_whole(column),
+            metadata,
+        })
+        .collect();
+    let about: Vec<About> = columns
+        .iter()
+        .map(|column| About {
+            name: column.name.as_str().into(),
+            unit: column.unit.into(),
+            meaning: column.meaning.as_str().into(),
+        })
+        .collect();
+    let about =
+        serde_json::to_string(&about).map_err(|error| ParquetError::External(Box::new(error)))?;
+    Ok(WriterProperties::builder()
+        .set_created_by(format!("auxbear {}", env!("CARGO_PKG_VERSION")))
+        .set_key_value_metadata(Some(vec![
+            KeyValue::new(
+                arrow_schema::KEY.to_string(),
+                arrow_schema::encoded(&fields),
+            ),
+            KeyValue::new(COLUMNS.to_string(), about),
+        ]))
+        // Doubles of a simulation hardly repeat, so a dictionary only adds to them; their bytes of equal rank do.
+        .set_dictionary_enabled(false)
+        .set_encoding(Encoding::BYTE_STREAM_SPLIT)
+        .set_compression(Compression::SNAPPY)
+        .set_statistics_enabled(EnabledStatistics::Chunk)
+        .build())
+}
+
+/// Reads the columns of doubles; columns of another type are left out.
+pub(super) fn read(file: File) -> Result<Vec<PageColumn>, ParquetError> {
+    let reader = SerializedFileReader::new(file)?;
+    let metadata = reader.metadata().file_metadata();
+    let text = metadata
+        .key_value_metadata()
+        .and_then(|pairs| pairs.iter().find(|pair| pair.key == COLUMNS))
+        .and_then(|pair| pair.value.as_deref())
+        .unwrap_or("[]");
+    let about: Vec<About> = serde_json::from_str(text)
+        .map_err(|error| ParquetError::General(format!("{COLUMNS}: {error}")))?;
+    let schema = metadata.schema_descr_ptr();
+    let mut columns = Vec::new();
+    for (index, description) in schema.columns().iter().enumerate() {
+        if description.physical_type() != Physical::DOUBLE || description.max_rep_level() > 0 {
+            continue;
+        }
+        let name = description.path().string();
+        let known = about.iter().find(|known| known.name == name.as_str());
+        let mut values = Vec::new();
+        for group in 0..reader.num_row_groups() {
+            let column = reader.get_row_group(group)?.get_column_reader(index)?;
+            read_part(column, description.max_def_level(), &mut values)?;
+        }
+        columns.push(PageColumn {
+            name,
+            unit: known.map_or(String::new(), |known| known.unit.to_string()),
+            meaning: known.map_or(String::new(), |known| known.meaning.to_string()),
+            values,
+        });
+    }
+    Ok(columns)
+}
+
+/// Appends one row group of one column.
+fn read_part(column: ColumnReader, full: i16, values: &mut Vec<f64>) -> Result<(), ParquetError> {
+    let ColumnReader::DoubleColumnReader(mut column) = column else {
+        return Err(ParquetError::General("a column of doubles".to_string()));
+    };
+    let (mut levels, mut present) = (Vec::new(), Vec::new());
+    loop {
+        let before = present.len();
+        let (rows, ..) = column.read_records(
+            GROUP_ROWS,
+            (full > 0).then_some(&mut levels),
+            None,
+            &mut present,
+        )?;
+        if rows == 0 && present.len() == before {
+            break;
+        }
+    }
+    if full == 0 {
+        values.extend(present);
+    } else {
+        let mut present = present.into_iter();
+        values.extend(levels.iter().map(|&level| {
+            let cell = (level == full).then(|| present.next());
+            cell.flatten().unwrap_or(f64::NAN)
+        }));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn column(name: &str, unit: &'static str, values: Vec<f64>) -> Column {
+        Column {
+            name: name.to_string(),
+            unit,
+            meaning: format!("meaning of {name} µ"),
+            values,
+        }
+    }
+
+    fn round_trip(columns: &[Column]) -> Vec<PageColumn> {
+        let mut file = tempfile::tempfile().unwrap();
+        write(&file, columns).unwrap();
+        std::io::Seek::rewind(&mut file).unwrap();
+        read(file).unwrap()
+    }
+
+    #[test]
+    fn values_come_back_bit_for_bit_over_several_row_groups() {
+        let rows = GROUP_ROWS + 1000;
+        let odd = [0.0, -0.0, f64::MIN_POSITIVE, 5e-324, f64::MAX, 1.0 / 3.0];
+        let columns = [
+            column("time", "s", (0..rows).map(|k| k as f64 * 1e-4).collect()),
+            column("odd", "1", (0..rows).map(|k| odd[k % odd.len()]).collect()),
+        ];
+        let back = round_trip(&columns);
+        for (back, column) in back.iter().zip(&columns) {
+            assert_eq!(
+                (&*back.name, &*back.unit, &*back.meaning),
+                (&*column.name, column.unit, &*column.meaning)
+            );
+            let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+            assert!(bits(&back.values) == bits(&column.values), "{}", back.name);
+        }
+        assert_eq!(back.len(), 2);
+    }
+
+    #[test]
+    fn what_is_not_finite_becomes_an_empty_cell() {
+        let values = vec![1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 2.0];
+        let back = round_trip(&[column("a", "N", values), column("b", "N", vec![1.5; 5])]);
+        assert_eq!(back[0].values[0], 1.0);
+        assert!(back[0].values[1..4].iter().all(|value| value.is_nan()));
+        assert_eq!(back[0].values[4], 2.0);
+        assert_eq!(back[1].values, [1.5; 5]);
+    }
+
+    #[test]
+    fn a_history_without_rows_keeps_its_columns() {
+        let back = round_trip(&[column("time", "s", Vec::new())]);
+        assert_eq!(back.len(), 1);
+        assert!(back[0].values.is_empty() && back[0].unit == "s");
+    }
+}

@@ -1,0 +1,226 @@
+//! `summary.json`: what a run found, in the words of the interface.
+//!
+//! No number in it is infinite or not-a-number: such a quantity is `null` with the reason.
+
+use crate::scenario::{Provenance, ResolvedValue, Scenario};
+use crate::simulate::outcome::{Contact, Outcome, Quantity, Spread, Value, Warning};
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+
+const FORMAT: &str = "auxbear.summary/1";
+const NOT_FINITE: &str = "what was computed is not a finite number";
+
+/// The summary of a run as JSON text.
+pub(super) fn json(scenario: &Scenario, outcome: &Outcome) -> Result<String, serde_json::Error> {
+    let quantities = outcome
+        .quantities
+        .iter()
+        .map(|quantity| (quantity.name.as_str(), result(quantity)));
+    let members = outcome.members.iter().map(|member| {
+        let values = member
+            .iter()
+            .map(|(name, value)| (name.as_str(), value.and_then(finite)));
+        Named(values.collect())
+    });
+    let summary = Summary {
+        format: FORMAT,
+        system: outcome.system,
+        title: &outcome.title,
+        version: env!("CARGO_PKG_VERSION"),
+        complete: outcome.stop.complete(),
+        stop: Stop {
+            reason: outcome.stop.reason,
+            time_s: finite(outcome.stop.time),
+            text: &outcome.stop.text,
+        },
+        quantities: Named(quantities.collect()),
+        warnings: outcome.warnings.iter().map(warning).collect(),
+        contacts: outcome.contacts.iter().map(contact).collect(),
+        inputs: scenario.resolved.values.iter().map(input).collect(),
+        members: members.collect(),
+        clearance_radius_m: finite(outcome.picture.clearance),
+        hertz_pressure_limit_pa: outcome.picture.pressure_limit.and_then(finite),
+        rolling_cage_ratio: finite(outcome.picture.rolling_cage_ratio),
+        ball_count: outcome.picture.balls,
+        work: Work {
+            members: outcome.work.members,
+            steps: outcome.work.steps,
+            rejected: outcome.work.rejected,
+            rate_calls: outcome.work.rate_calls,
+            wall_s: finite(outcome.work.seconds),
+        },
+    };
+    let mut text = serde_json::to_string_pretty(&summary)?;
+    text.push('\n');
+    Ok(text)
+}
+
+/// Name and value in the order given: a JSON object.
+struct Named<'a, T>(Vec<(&'a str, T)>);
+
+impl<T: Serialize> Serialize for Named<'_, T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (name, value) in &self.0 {
+            map.serialize_entry(name, value)?;
+        }
+        map.end()
+    }
+}
+
+#[derive(Serialize)]
+struct Summary<'a> {
+    format: &'static str,
+    system: &'static str,
+    title: &'a str,
+    version: &'static str,
+    complete: bool,
+    stop: Stop<'a>,
+    quantities: Named<'a, Found<'a>>,
+    warnings: Vec<Message<'a>>,
+    contacts: Vec<Touch>,
+    inputs: Vec<Input<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    members: Vec<Named<'a, Option<f64>>>,
+    clearance_radius_m: Option<f64>,
+    #[serde(rename = "hertz_pressure_limit_Pa")]
+    hertz_pressure_limit_pa: Option<f64>,
+    rolling_cage_ratio: Option<f64>,
+    ball_count: usize,
+    work: Work,
+}
+
+#[derive(Serialize)]
+struct Stop<'a> {
+    reason: &'static str,
+    time_s: Option<f64>,
+    text: &'a str,
+}
+
+#[derive(Serialize)]
+struct Found<'a> {
+    value: Json<'a>,
+    unit: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why: Option<&'a str>,
+    law: &'static str,
+    source: &'static str,
+    valid: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    spread: Option<Range>,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Json<'a> {
+    Number(f64),
+    List(&'a [f64]),
+    Text(&'a str),
+    Null,
+}
+
+#[derive(Serialize)]
+struct Range {
+    members: usize,
+    mean: Option<f64>,
+    sd: Option<f64>,
+    min: Option<f64>,
+    max: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Message<'a> {
+    code: &'static str,
+    text: &'a str,
+}
+
+#[derive(Serialize)]
+struct Touch {
+    start_s: Option<f64>,
+    end_s: Option<f64>,
+    #[serde(rename = "peak_force_N")]
+    peak_force: Option<f64>,
+    peak_time_s: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Input<'a> {
+    path: &'static str,
+    value: &'a str,
+    mark: &'static str,
+    note: String,
+}
+
+#[derive(Serialize)]
+struct Work {
+    members: usize,
+    steps: u64,
+    rejected: u64,
+    rate_calls: u64,
+    wall_s: Option<f64>,
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+fn result(quantity: &Quantity) -> Found<'_> {
+    let (value, why) = match &quantity.value {
+        Value::Number(number) if number.is_finite() => (Json::Number(*number), None),
+        Value::List(list) if list.iter().all(|number| number.is_finite()) => {
+            (Json::List(list), None)
+        }
+        Value::Number(_) | Value::List(_) => (Json::Null, Some(NOT_FINITE)),
+        Value::Text(text) => (Json::Text(text), None),
+        Value::None { why } => (Json::Null, Some(why.as_str())),
+    };
+    Found {
+        value,
+        unit: quantity.unit,
+        why,
+        law: quantity.law,
+        source: quantity.source,
+        valid: quantity.valid,
+        spread: quantity.spread.as_ref().map(range),
+    }
+}
+
+fn range(spread: &Spread) -> Range {
+    Range {
+        members: spread.members,
+        mean: finite(spread.mean),
+        sd: finite(spread.standard_deviation),
+        min: finite(spread.smallest),
+        max: finite(spread.largest),
+    }
+}
+
+fn warning(warning: &Warning) -> Message<'_> {
+    Message {
+        code: warning.code,
+        text: &warning.text,
+    }
+}
+
+fn contact(contact: &Contact) -> Touch {
+    Touch {
+        start_s: finite(contact.start),
+        end_s: contact.end.and_then(finite),
+        peak_force: finite(contact.peak_force),
+        peak_time_s: finite(contact.peak_time),
+    }
+}
+
+fn input(value: &ResolvedValue) -> Input<'_> {
+    let text = match (&value.text, &value.provenance) {
+        (Some(text), _) => text,
+        (None, Provenance::Derived(_)) => "from other values",
+        (None, _) => "not given",
+    };
+    Input {
+        path: value.path,
+        value: text,
+        mark: value.provenance.mark(),
+        note: value.provenance.note(),
+    }
+}
