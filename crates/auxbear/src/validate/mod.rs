@@ -16,9 +16,11 @@ mod machine;
 mod points;
 pub mod reference;
 mod shipped;
+mod simulation;
 
 pub use machine::ReferenceMachine;
 pub use report::{Report, Row, Tolerance, Verdict};
+pub use simulation::Simulation;
 pub use simulator::{LawsOnly, Simulator};
 
 use crate::problem::{Code, Problem};

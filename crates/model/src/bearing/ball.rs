@@ -148,12 +148,22 @@ pub struct BallReaction<R> {
     pub inner_load: R,
     /// Load at the outer race Q_o, N.
     pub outer_load: R,
+    /// Approach at the inner race, m; negative when open.
+    pub inner_approach: R,
+    /// Approach at the outer race, m; negative when open.
+    pub outer_approach: R,
+    /// Traction of the inner race on the ball along t, N.
+    pub inner_traction: R,
+    /// Traction of the outer race on the ball along t, N.
+    pub outer_traction: R,
     /// Slip at the inner race, m/s.
     pub inner_slip: R,
     /// Slip at the outer race, m/s.
     pub outer_slip: R,
     /// Pocket force, N.
     pub pocket_force: R,
+    /// Pocket friction on the ball along n of the outer race, N.
+    pub pocket_friction: R,
     /// Side of the pocket: +1 where the ball leads its pocket.
     pub pocket_side: R,
     /// Pocket penetration, m; negative when free.
@@ -306,9 +316,14 @@ impl<R: Real> BallConstants<R> {
             },
             inner_load: q_i.force,
             outer_load: q_o.force,
+            inner_approach,
+            outer_approach,
+            inner_traction,
+            outer_traction,
             inner_slip,
             outer_slip,
             pocket_force,
+            pocket_friction,
             pocket_side: side,
             pocket_penetration: penetration,
         }

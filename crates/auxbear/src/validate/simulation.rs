@@ -1,0 +1,446 @@
+//! The program's own simulation behind [`Simulator`].
+
+use super::machine::ReferenceMachine;
+use super::reference::{DerivativePoint, DropReference};
+use super::simulator::{DerivativeAnswer, DropAnswer, ElasticBounce, FreeFall, Simulator};
+use crate::simulate::ensemble::{self, Finished, Member, Plan};
+use model::bearing::ball::{BallConstants, BallMotion, BallReaction};
+use model::bearing::{BearingConstants, PlanarConstants};
+use model::contact::RotorContact;
+use model::levitation::Levitation;
+use model::mount::Mount;
+use model::rotor::Rotor;
+use model::system::drop::layout::{
+    BEARING, FRICTION_FORCE, HEATS, INNER, NORMAL_FORCE, PENETRATION, ROTOR, SLIP_SPEED,
+};
+use model::system::drop::rate::{race_motion, rotor_motion};
+use model::system::drop::{DropConstants, DropMachine, MachineConstants};
+use number::Vec2;
+use physics::traction::{FourParameterTraction, TanhTraction, Traction};
+use solve::Settings;
+use std::sync::atomic::AtomicBool;
+
+/// Runs the cases with this program's model and solver.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Simulation;
+
+/// Tolerance of reference drops: ten times tighter than the default of a scenario.
+const TOLERANCE: f64 = 1e-5;
+/// Tolerance of closed forms, which ask for more digits.
+const CLOSED_FORM_TOLERANCE: f64 = 1e-8;
+
+impl Simulator for Simulation {
+    fn free_fall(&self, case: &FreeFall) -> Result<f64, String> {
+        let machine = falling_machine(1.0, 1e7, case.clearance, case.gravity);
+        let fall = (2.0 * case.clearance / case.gravity).sqrt();
+        let finished = simulate(machine, None, 1.1 * fall, CLOSED_FORM_TOLERANCE)?;
+        finished
+            .record
+            .contacts
+            .first()
+            .map(|contact| contact.start)
+            .ok_or_else(|| "the rotor never touched".to_string())
+    }
+
+    fn elastic_bounce(&self, case: &ElasticBounce) -> Result<f64, String> {
+        let machine = falling_machine(case.mass, case.stiffness, case.clearance, case.gravity);
+        let fall = (2.0 * case.clearance / case.gravity).sqrt();
+        let half_period = std::f64::consts::PI * (case.mass / case.stiffness).sqrt();
+        let finished = simulate(
+            machine,
+            None,
+            fall + 1.2 * half_period,
+            CLOSED_FORM_TOLERANCE,
+        )?;
+        finished
+            .record
+            .peak_contact_force()
+            .map(|peak| peak.value)
+            .ok_or_else(|| "the rotor never touched".to_string())
+    }
+
+    fn derivative(&self, point: &DerivativePoint) -> Result<DerivativeAnswer, String> {
+        let machine = &point.params;
+        let levitated = machine.levitation_stiffness > 0.0;
+        let drop = DropMachine::with_levitation(constants(machine, 0.0)?, levitated);
+        let state = state(&drop, &point.y);
+        let (rate, probe) = drop.inspect(&state);
+        let layout = drop.layout();
+
+        let mut rates = reference_order(&drop, &rate);
+        let rotor = rotor_motion(&state);
+        let centre = drop.constants.machine.rotor.geometric_centre(&rotor);
+        let levitation = if levitated { 1.0 } else { 0.0 };
+        let heat = |name: &str| -> f64 {
+            let index = HEATS.iter().position(|heat| *heat == name);
+            index.map_or(f64::NAN, |index| rate[layout.heat(index)])
+        };
+        rates.extend([
+            heat("inner_contact_damping"),
+            heat("outer_contact_damping"),
+            heat("inner_ball_slip"),
+            heat("outer_ball_slip"),
+            heat("drag"),
+            heat("pocket_damping"),
+            heat("pocket_friction"),
+            heat("mount_damping"),
+            heat("rotor_race_damping"),
+            heat("rotor_race_friction"),
+            levitation * machine.levitation_damping * centre.velocity.length_squared(),
+            rate[layout.source(2)],
+        ]);
+
+        let content = drop.content(&state);
+        let held = drop.constants.machine.levitation.energy(centre.position);
+        Ok(DerivativeAnswer {
+            rates,
+            per_ball: per_ball(&drop, &state),
+            globals: globals(&drop, &state, &probe),
+            kinetic: content.translation + content.spin,
+            potential: content.potential + levitation * held,
+        })
+    }
+
+    fn drop(&self, reference: &DropReference) -> Result<DropAnswer, String> {
+        let machine = DropMachine::new(constants(&reference.params, reference.rotor_speed)?);
+        let start = state(&machine, &reference.y0);
+        let layout = *machine.layout();
+        let finished = simulate(machine.clone(), Some(start), reference.duration, TOLERANCE)?;
+        let (record, end) = (&finished.record, &finished.ending.state);
+        let heat = |name: &str| -> f64 {
+            let index = HEATS.iter().position(|heat| *heat == name);
+            index.map_or(f64::NAN, |index| end[layout.heat(index)])
+        };
+        Ok(DropAnswer {
+            first_impact_force: record.contacts.first().map(|contact| contact.peak_force),
+            peak_contact_force: record.peak_contact_force().map(|peak| peak.value),
+            contact_count: Some(record.contacts.len() as f64),
+            inner_race_time_to_50_percent: record.inner_race_time_to_50_percent(),
+            inner_race_time_to_95_percent: record.inner_race_time_to_95_percent(),
+            cage_time_to_95_percent_of_rolling: record.cage_time_to_95_percent(),
+            rotor_race_friction_energy: Some(heat("rotor_race_friction")),
+            ball_slip_energy: Some(heat("inner_ball_slip") + heat("outer_ball_slip")),
+            dissipated_energy: Some(machine.flows(end).heat),
+            inner_race_final_speed: Some(end[INNER + 5]),
+            cage_final_speed: Some(machine.cage_speed(end)),
+            rotor_final_speed: Some(end[ROTOR + 5]),
+            max_rotor_race_displacement: Some(record.rotor_race_displacement.value),
+            max_mount_displacement: Some(record.mount_displacement.value),
+            contact_start_times: record
+                .contacts
+                .iter()
+                .map(|contact| contact.start)
+                .collect(),
+        })
+    }
+}
+
+fn simulate(
+    machine: DropMachine,
+    start: Option<Vec<f64>>,
+    duration: f64,
+    tolerance: f64,
+) -> Result<Finished, String> {
+    let member = Member {
+        start: start.unwrap_or_else(|| machine.start()),
+        machine,
+        keep_rows: false,
+    };
+    let mut finished = ensemble::run(
+        std::slice::from_ref(&member),
+        &Plan {
+            settings: Settings {
+                start: 0.0,
+                end: duration,
+                tolerance,
+                first_step: 1e-8,
+                largest_step: 1e-3,
+                step_limit: 100_000_000,
+            },
+            interval: duration,
+            threads: None,
+            interrupt: &AtomicBool::new(false),
+            progress: &|_| {},
+        },
+    );
+    match finished.pop() {
+        Some(finished) if finished.ending.stop == solve::Stop::Finished => Ok(finished),
+        Some(finished) => Err(format!(
+            "the run ended at {} s: {:?}",
+            finished.ending.time, finished.ending.stop
+        )),
+        None => Err("nothing was run".to_string()),
+    }
+}
+
+/// A rotor without spin, unbalance and friction above a race whose centre is held, on a linear contact.
+fn falling_machine(mass: f64, stiffness: f64, clearance: f64, gravity: f64) -> DropMachine {
+    let gravity = Vec2::new(0.0, -gravity);
+    let (ball_mass, radius) = (1e-3, 3e-3);
+    let bearing = PlanarConstants {
+        balls: 8,
+        ball: BallConstants {
+            radius,
+            mass: ball_mass,
+            inverse_mass: 1.0 / ball_mass,
+            inverse_inertia: 1.0 / (0.4 * ball_mass * radius * radius),
+            inner_track: 15e-3,
+            outer_track: 21e-3,
+            inner_stiffness: 2e10,
+            outer_stiffness: 2e10,
+            damping_time: 2e-6,
+            pocket_radius: 18e-3,
+            pocket_gap: 1e-4,
+            pocket_stiffness: 1e7,
+            pocket_damping: 0.0,
+            pocket_friction: 0.0,
+            pocket_inverse_reference_speed: 10.0,
+            orbit_drag: 0.0,
+            spin_drag: 0.0,
+            gravity: Vec2::zero(),
+        },
+        traction: Traction::Tanh(TanhTraction {
+            maximum: 0.0,
+            inverse_reference_speed: 10.0,
+        }),
+        cage_mass: 5e-3,
+        cage_inertia: 1.6e-6,
+        cage_drag: 0.0,
+        first_ball_angle: 0.0,
+    };
+    let mut constants = DropConstants {
+        machine: MachineConstants {
+            rotor: Rotor {
+                mass,
+                polar_inertia: 1e-2,
+                eccentricity: 0.0,
+                brake_torque: 0.0,
+                spin_held: false,
+            },
+            levitation: Levitation {
+                stiffness: 1e6,
+                damping: 0.0,
+                centre: Vec2::zero(),
+                carried: Vec2::zero(),
+            },
+            contact: RotorContact {
+                radial_clearance: clearance,
+                bore_radius: 12.5e-3 + clearance,
+                stiffness,
+                exponent: 1.0,
+                damping: 0.0,
+                friction: 0.0,
+                inverse_reference_speed: 10.0,
+            },
+            mount: Mount {
+                stiffness: 1e8,
+                damping: 0.0,
+                free_position: Vec2::zero(),
+            },
+            inner_race_mass: 0.02,
+            inner_race_inertia: 4e-6,
+            inner_race_centre_held: true,
+            inner_race_torque: 0.0,
+            outer_race_mass: 0.15,
+            gravity,
+        },
+        bearing: BearingConstants::Planar(bearing),
+        speed: 0.0,
+        unbalance_angle: 0.0,
+        brake_start: f64::INFINITY,
+    };
+    constants.balance_mount();
+    DropMachine::new(constants)
+}
+
+/// The machine of a reference file.
+fn constants(machine: &ReferenceMachine, speed: f64) -> Result<DropConstants, String> {
+    if machine.has_rotor != 1 {
+        return Err("a machine without a rotor is no drop".to_string());
+    }
+    let gravity = Vec2::new(0.0, -machine.gravity);
+    let traction = match machine.traction_kind {
+        0 => Traction::Tanh(TanhTraction {
+            maximum: machine.traction_maximum,
+            inverse_reference_speed: 1.0 / machine.traction_reference_speed,
+        }),
+        1 => Traction::FourParameter(FourParameterTraction {
+            a: machine.traction_a,
+            b: machine.traction_b,
+            c: machine.traction_c,
+            d: machine.traction_d,
+        }),
+        other => return Err(format!("traction law {other} is not known")),
+    };
+    let radius = machine.ball_radius;
+    let mut constants = DropConstants {
+        machine: MachineConstants {
+            rotor: Rotor {
+                mass: machine.rotor_mass,
+                polar_inertia: machine.rotor_inertia,
+                eccentricity: machine.unbalance_eccentricity,
+                brake_torque: 0.0,
+                spin_held: false,
+            },
+            levitation: Levitation {
+                stiffness: machine.levitation_stiffness,
+                damping: machine.levitation_damping,
+                centre: Vec2::zero(),
+                carried: -(gravity * machine.rotor_mass),
+            },
+            contact: RotorContact {
+                radial_clearance: machine.radial_air_clearance,
+                bore_radius: machine.bore_radius,
+                stiffness: machine.contact_stiffness,
+                exponent: machine.contact_exponent,
+                damping: machine.contact_damping,
+                friction: machine.contact_friction_coefficient,
+                inverse_reference_speed: 1.0 / machine.contact_friction_reference_speed,
+            },
+            mount: Mount {
+                stiffness: machine.mount_stiffness,
+                damping: machine.mount_damping,
+                free_position: Vec2::zero(),
+            },
+            inner_race_mass: machine.inner_race_mass,
+            inner_race_inertia: machine.inner_race_inertia,
+            inner_race_centre_held: machine.inner_race_centre_held == 1,
+            inner_race_torque: machine.inner_race_torque,
+            outer_race_mass: machine.outer_race_mass,
+            gravity,
+        },
+        bearing: BearingConstants::Planar(PlanarConstants {
+            balls: machine.ball_count,
+            ball: BallConstants {
+                radius,
+                mass: machine.ball_mass,
+                inverse_mass: 1.0 / machine.ball_mass,
+                inverse_inertia: 1.0 / (0.4 * machine.ball_mass * radius * radius),
+                inner_track: machine.inner_track_radius,
+                outer_track: machine.outer_track_radius,
+                inner_stiffness: machine.inner_contact_stiffness,
+                outer_stiffness: machine.outer_contact_stiffness,
+                damping_time: machine.contact_damping_time,
+                pocket_radius: machine.pocket_radius,
+                pocket_gap: machine.pocket_gap,
+                pocket_stiffness: machine.pocket_stiffness,
+                pocket_damping: machine.pocket_damping,
+                pocket_friction: machine.pocket_friction_coefficient,
+                pocket_inverse_reference_speed: 1.0 / machine.pocket_friction_reference_speed,
+                orbit_drag: machine.orbit_drag,
+                spin_drag: machine.spin_drag,
+                gravity,
+            },
+            traction,
+            cage_mass: machine.cage_mass,
+            cage_inertia: machine.cage_inertia,
+            cage_drag: machine.cage_drag,
+            first_ball_angle: 0.0,
+        }),
+        speed,
+        unbalance_angle: 0.0,
+        brake_start: f64::INFINITY,
+    };
+    constants.balance_mount();
+    Ok(constants)
+}
+
+/// First ball channel of the reference files.
+const REFERENCE_BALLS: usize = 18;
+
+fn planar(machine: &DropMachine) -> &PlanarConstants {
+    match &machine.constants.bearing {
+        BearingConstants::Planar(bearing) => bearing,
+        BearingConstants::Rolling(_) => unreachable!("reference machines are planar"),
+    }
+}
+
+/// A state of the reference files in our layout; the ledger starts at zero.
+fn state(machine: &DropMachine, reference: &[f64]) -> Vec<f64> {
+    let layout = machine.layout();
+    let mut state = vec![0.0; layout.ledger()];
+    state[..REFERENCE_BALLS].copy_from_slice(&reference[..REFERENCE_BALLS]);
+    for (ball, values) in reference[REFERENCE_BALLS..]
+        .chunks_exact(5)
+        .take(layout.balls)
+        .enumerate()
+    {
+        let motion = BallMotion {
+            radius: values[0],
+            radial_speed: values[1],
+            azimuth: values[2],
+            orbit_speed: values[3],
+            spin: values[4],
+        };
+        planar(machine).set_motion(&mut state[BEARING..], ball, &motion);
+    }
+    state.resize(layout.ledger() + model::system::drop::layout::LEDGER, 0.0);
+    state
+}
+
+/// Our rates in the order of the reference files, without their accounts.
+fn reference_order(machine: &DropMachine, rate: &[f64]) -> Vec<f64> {
+    let mut out = rate[..REFERENCE_BALLS].to_vec();
+    for ball in 0..machine.layout().balls {
+        let m = planar(machine).motion(&rate[BEARING..], ball);
+        out.extend([m.radius, m.radial_speed, m.azimuth, m.orbit_speed, m.spin]);
+    }
+    out
+}
+
+fn reactions(machine: &DropMachine, state: &[f64]) -> Vec<BallReaction<f64>> {
+    let own = &state[BEARING..machine.layout().ledger()];
+    (0..machine.layout().balls)
+        .map(|ball| planar(machine).ball_reaction(&race_motion(state), own, ball))
+        .collect()
+}
+
+fn per_ball(machine: &DropMachine, state: &[f64]) -> Vec<Vec<f64>> {
+    let ball = &planar(machine).ball;
+    reactions(machine, state)
+        .iter()
+        .map(|r| {
+            vec![
+                r.inner_load,
+                r.outer_load,
+                r.inner_traction,
+                // the source paper counts the outer traction against the rotation
+                -r.outer_traction,
+                r.pocket_force,
+                r.pocket_side,
+                -(r.pocket_side * r.pocket_friction),
+                r.inner_approach,
+                r.outer_approach,
+                r.inner_slip,
+                r.outer_slip,
+                r.pocket_penetration,
+                ball.inner_track - 0.5 * r.inner_approach,
+                ball.outer_track + 0.5 * r.outer_approach,
+            ]
+        })
+        .collect()
+}
+
+fn globals(machine: &DropMachine, state: &[f64], probe: &[f64]) -> Vec<f64> {
+    let constants = &machine.constants.machine;
+    let rotor = rotor_motion(state);
+    let races = race_motion(state);
+    let centre = constants.rotor.geometric_centre(&rotor);
+    let contact = constants.contact.react(&centre, rotor.spin, &races.inner);
+    let balls = reactions(machine, state);
+    let mount = constants
+        .mount
+        .force(races.outer.position, races.outer.velocity);
+    vec![
+        probe[NORMAL_FORCE],
+        probe[FRICTION_FORCE],
+        probe[PENETRATION],
+        -probe[SLIP_SPEED],
+        balls.iter().map(|r| r.on_inner.moment).sum(),
+        balls.iter().map(|r| r.on_outer.moment).sum(),
+        contact.on_rotor.force.x,
+        contact.on_rotor.force.y,
+        mount.x,
+        mount.y,
+    ]
+}

@@ -1,0 +1,41 @@
+//! Every shipped case, and every reference file where it is at hand, is met.
+
+use auxbear::validate::{Simulation, Verdict, run};
+use std::path::{Path, PathBuf};
+
+/// The folder of reference cases beside the project; a user's clone does not have it.
+fn reference_cases() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/cases")
+}
+
+fn assert_nothing_fails(folder: Option<&Path>, least: usize) {
+    let report = run(folder, &Simulation).expect("readable cases");
+    let failed: Vec<String> = report
+        .cases
+        .iter()
+        .filter(|row| row.verdict == Verdict::Fail)
+        .map(|row| format!("{row:?}"))
+        .collect();
+    assert!(failed.is_empty(), "{failed:#?}");
+    let passed = report
+        .cases
+        .iter()
+        .filter(|row| row.verdict == Verdict::Pass)
+        .count();
+    assert!(passed >= least, "only {passed} rows passed");
+}
+
+#[test]
+fn shipped_cases_are_met() {
+    assert_nothing_fails(None, 30);
+}
+
+#[test]
+fn reference_files_are_met() {
+    let folder = reference_cases();
+    if folder.is_dir() {
+        assert_nothing_fails(Some(&folder), 100);
+    } else {
+        println!("not run: no reference cases beside the project");
+    }
+}
