@@ -1,0 +1,317 @@
+//! The reference machine of the tests, random states of it, and runs.
+//!
+//! A rotor of 8 kg at 12 000 rpm over a 6005 bearing (10 balls of 6.35 mm on a pitch circle of 36 mm, 2 µm of
+//! interference), 0.25 mm above its inner race, the outer race on a mount of 20 N/µm. The numbers are those of the
+//! reference drop of an independent implementation; 0.15 between rotor and race is arbitrary there and here.
+
+use model::bearing::ball::{BallConstants, BallMotion};
+use model::bearing::{
+    BearingConstants, PlanarConstants, RollingConstants, SteadyMoment, rolling::RollingBall,
+};
+use model::contact::RotorContact;
+use model::levitation::Levitation;
+use model::mount::Mount;
+use model::rotor::Rotor;
+use model::system::drop::layout::{BEARING, INNER, OUTER, ROTOR};
+use model::system::drop::{Drop, DropConstants, DropMachine, MachineConstants};
+use number::Vec2;
+use physics::rolling::RollingSet;
+use physics::traction::{TanhTraction, Traction};
+use solve::{Ending, Flow, Observer, Settings, Step};
+use std::f64::consts::PI;
+use std::sync::atomic::AtomicBool;
+
+/// Gravity, m/s².
+pub const G: f64 = 9.81;
+
+/// A vector.
+pub fn vec2(x: f64, y: f64) -> Vec2<f64> {
+    Vec2::new(x, y)
+}
+
+/// The bearing, ball by ball.
+pub fn planar_bearing() -> PlanarConstants {
+    let (radius, mass) = (3.175e-3, 1.052_420_877_679_688_1e-3);
+    PlanarConstants {
+        balls: 10,
+        ball: BallConstants {
+            radius,
+            mass,
+            inverse_mass: 1.0 / mass,
+            inverse_inertia: 1.0 / (0.4 * mass * radius * radius),
+            inner_track: 14.825e-3,
+            outer_track: 21.173e-3,
+            inner_stiffness: 25_188_251_676.112_152,
+            outer_stiffness: 22_185_150_515.377_434,
+            damping_time: 2.5e-6,
+            pocket_radius: 18e-3,
+            pocket_gap: 0.1e-3,
+            pocket_stiffness: 1e7,
+            pocket_damping: 0.5,
+            pocket_friction: 0.05,
+            pocket_inverse_reference_speed: 1.0 / 0.1,
+            orbit_drag: 2e-4,
+            spin_drag: 1e-9,
+            gravity: vec2(0.0, -G),
+        },
+        traction: Traction::Tanh(TanhTraction {
+            maximum: 0.07,
+            inverse_reference_speed: 1.0 / 0.1,
+        }),
+        cage_mass: 5e-3,
+        cage_inertia: 1.62e-6,
+        cage_drag: 0.0,
+        first_ball_angle: 0.0,
+    }
+}
+
+/// The same bearing with balls that roll: contacts in series, the source paper's inertias, no friction moment.
+pub fn rolling_bearing(planar: &PlanarConstants) -> RollingConstants {
+    let ball = &planar.ball;
+    let soft = |stiffness: f64| stiffness.powf(-2.0 / 3.0);
+    let balls_mass = planar.balls as f64 * ball.mass;
+    let set = RollingSet {
+        inner_track_radius: ball.inner_track,
+        ball_ratio: ball.radius / ball.inner_track,
+        balls_mass,
+        cage_mass: planar.cage_mass,
+    };
+    RollingConstants {
+        balls: planar.balls,
+        ball: RollingBall {
+            series_stiffness: (soft(ball.inner_stiffness) + soft(ball.outer_stiffness)).powf(-1.5),
+            damping_time: ball.damping_time,
+            interference: ball.inner_track + 2.0 * ball.radius - ball.outer_track,
+            mass_radius: ball.mass * (ball.inner_track + ball.radius),
+        },
+        inner_inertia: set.inner_inertia(),
+        outer_inertia: set.outer_inertia(),
+        cage_ratio: set.cage_speed(1.0),
+        pitch_radius: ball.inner_track + ball.radius,
+        mass_with_outer_race: balls_mass + planar.cage_mass,
+        first_ball_angle: planar.first_ball_angle,
+        moment: SteadyMoment::None,
+    }
+}
+
+/// The reference machine.
+pub fn reference() -> DropConstants {
+    let bearing = planar_bearing();
+    let rotor_mass = 8.0;
+    let mut constants = DropConstants {
+        machine: MachineConstants {
+            rotor: Rotor {
+                mass: rotor_mass,
+                polar_inertia: 0.01,
+                eccentricity: 5e-6,
+                brake_torque: 0.0,
+                spin_held: false,
+            },
+            levitation: Levitation {
+                stiffness: 1e6,
+                damping: 1e3,
+                centre: vec2(0.0, 0.0),
+                carried: vec2(0.0, rotor_mass * G),
+            },
+            contact: RotorContact {
+                radial_clearance: 0.25e-3,
+                bore_radius: 12.5e-3,
+                stiffness: 5e8,
+                exponent: 10.0 / 9.0,
+                damping: 0.5,
+                friction: 0.15,
+                inverse_reference_speed: 1.0 / 0.05,
+            },
+            mount: Mount {
+                stiffness: 2e7,
+                damping: 5e3,
+                free_position: vec2(0.0, 0.0),
+            },
+            inner_race_mass: 20.4e-3,
+            inner_race_inertia: 3.9e-6,
+            inner_race_centre_held: false,
+            inner_race_torque: 0.0,
+            outer_race_mass: 0.15,
+            gravity: vec2(0.0, -G),
+        },
+        bearing: BearingConstants::Planar(bearing),
+        speed: 400.0 * PI,
+        unbalance_angle: 0.0,
+        brake_start: f64::INFINITY,
+    };
+    balance_mount(&mut constants);
+    constants
+}
+
+/// Sets the free position of the mount so that the weight of the bearing is balanced at zero.
+pub fn balance_mount(constants: &mut DropConstants) {
+    let m = &constants.machine;
+    let mut mass = constants.outer_moving_mass() + constants.bearing.free_ball_mass();
+    if !m.inner_race_centre_held {
+        mass += m.inner_race_mass;
+    }
+    let sag = m.gravity * (mass / m.mount.stiffness);
+    constants.machine.mount.free_position = -sag;
+}
+
+/// The planar bearing of a machine.
+pub fn planar(constants: &mut DropConstants) -> &mut PlanarConstants {
+    match &mut constants.bearing {
+        BearingConstants::Planar(bearing) => bearing,
+        BearingConstants::Rolling(_) => panic!("the bearing is planar here"),
+    }
+}
+
+/// Gives a machine the rolling bearing that corresponds to its planar one.
+pub fn let_roll(constants: &mut DropConstants) {
+    constants.bearing = BearingConstants::Rolling(rolling_bearing(planar(constants)));
+    balance_mount(constants);
+}
+
+/// Removes gravity from a machine, and the weight that the levitation carries.
+pub fn weightless(constants: &mut DropConstants) {
+    constants.machine.gravity = vec2(0.0, 0.0);
+    constants.machine.levitation.carried = vec2(0.0, 0.0);
+    planar(constants).ball.gravity = vec2(0.0, 0.0);
+    balance_mount(constants);
+}
+
+/// The states of the bearing within the state of a machine, or their rates within its rate.
+pub fn bearing_part<'a>(machine: &DropMachine, state: &'a [f64]) -> &'a [f64] {
+    &state[BEARING..machine.layout().ledger()]
+}
+
+/// One ball within the state of a machine. Of a rate it gives the derivatives of the same quantities.
+pub fn ball_of(machine: &DropMachine, state: &[f64], ball: usize) -> BallMotion<f64> {
+    match &machine.constants.bearing {
+        BearingConstants::Planar(bearing) => bearing.motion(bearing_part(machine, state), ball),
+        BearingConstants::Rolling(_) => panic!("the bearing is planar here"),
+    }
+}
+
+/// Error control at a tolerance, from 0 to an end.
+pub fn settings(end: f64, tolerance: f64) -> Settings {
+    Settings {
+        start: 0.0,
+        end,
+        tolerance,
+        first_step: 1e-7,
+        largest_step: 1e-3,
+        step_limit: 10_000_000,
+    }
+}
+
+/// Equal steps: the tolerance accepts whatever comes.
+pub fn equal_steps(end: f64, length: f64) -> Settings {
+    Settings {
+        first_step: length,
+        largest_step: length,
+        tolerance: 1e12,
+        ..settings(end, 1.0)
+    }
+}
+
+/// Watches nothing.
+pub struct Blind;
+
+impl Observer<DropMachine> for Blind {
+    fn step(&mut self, _step: &mut Step<DropMachine>) -> Flow {
+        Flow::Continue
+    }
+}
+
+/// Runs a machine from a state under an observer; it must finish.
+pub fn observe<O: Observer<DropMachine>>(
+    machine: &DropMachine,
+    start: &[f64],
+    settings: &Settings,
+    observer: &mut O,
+) -> Ending {
+    let ending = solve::run::<f64, Drop<f64>, O>(
+        &[machine],
+        &[start.to_vec()],
+        std::slice::from_mut(observer),
+        settings,
+        &AtomicBool::new(false),
+    )
+    .remove(0);
+    assert_eq!(ending.stop, solve::Stop::Finished);
+    assert!(ending.state.iter().all(|value| value.is_finite()));
+    ending
+}
+
+/// Runs a machine from a state; returns the last state.
+pub fn run(machine: &DropMachine, start: &[f64], settings: &Settings) -> Vec<f64> {
+    observe(machine, start, settings, &mut Blind).state
+}
+
+/// Pseudo-random numbers, the same on every machine: SplitMix64 (Steele, Lea, Flood 2014; from memory).
+pub struct Random(pub u64);
+
+impl Random {
+    /// A number between -size and size.
+    pub fn within(&mut self, size: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut bits = self.0;
+        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        bits ^= bits >> 31;
+        let unit = (bits >> 11) as f64 / (1_u64 << 53) as f64;
+        size * (2.0 * unit - 1.0)
+    }
+}
+
+/// A state in which anything may touch anything: half of the contacts are closed, slips have both signs.
+pub fn random_state(machine: &DropMachine, random: &mut Random) -> Vec<f64> {
+    let c = &machine.constants;
+    let mut state = machine.start();
+    let mut body = |at: usize, position: f64, speed: f64| {
+        for channel in at..at + 2 {
+            state[channel] = random.within(position);
+            state[channel + 2] = random.within(speed);
+        }
+    };
+    let held = c.machine.inner_race_centre_held;
+    body(
+        INNER,
+        if held { 0.0 } else { 1e-5 },
+        if held { 0.0 } else { 0.2 },
+    );
+    body(OUTER, 1e-5, 0.2);
+    body(ROTOR, 0.0, 0.3);
+    let (angle, spin) = (random.within(7.0), random.within(1500.0));
+    state[ROTOR + 4] = angle;
+    state[ROTOR + 5] = spin;
+    state[INNER + 4] = random.within(7.0);
+    state[INNER + 5] = random.within(1500.0);
+    // the geometric centre on either side of contact
+    let distance = c.machine.contact.radial_clearance + random.within(2e-5);
+    let (sine, cosine) = random.within(PI).sin_cos();
+    let e = c.machine.rotor.eccentricity;
+    state[ROTOR] = state[INNER] + distance * cosine + e * angle.cos();
+    state[ROTOR + 1] = state[INNER + 1] + distance * sine + e * angle.sin();
+
+    let own = BEARING..machine.layout().ledger();
+    match &c.bearing {
+        BearingConstants::Rolling(_) => state[own.start] = random.within(7.0),
+        BearingConstants::Planar(bearing) => {
+            let (cage_angle, cage_speed) = (random.within(7.0), random.within(600.0));
+            let part = &mut state[own];
+            part[0] = cage_angle;
+            part[1] = cage_speed;
+            let b = &bearing.ball;
+            for ball in 0..bearing.balls {
+                let travel = 2.0 * b.pocket_gap / b.pocket_radius;
+                let motion = BallMotion {
+                    radius: bearing.rest_radius() + random.within(8e-6),
+                    radial_speed: random.within(0.2),
+                    azimuth: cage_angle + bearing.seat(ball) + random.within(travel),
+                    orbit_speed: random.within(600.0),
+                    spin: random.within(6000.0),
+                };
+                bearing.set_motion(part, ball, &motion);
+            }
+        }
+    }
+    state
+}

@@ -1,0 +1,513 @@
+//! Momentum, angular momentum, energy and heat at random states.
+//!
+//! What acts from outside is computed here a second time, from the sections of the model's pages; everything inside
+//! must cancel.
+
+use crate::machines::{
+    Random, balance_mount, ball_of, bearing_part, let_roll, planar, random_state, reference, vec2,
+};
+use model::bearing::BearingConstants;
+use model::system::drop::DropMachine;
+use model::system::drop::layout::{
+    BEARING, DETAIL, HEATS, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, OUTER, ROTOR, SOURCES,
+};
+use model::system::drop::rate::race_motion;
+use number::Vec2;
+use physics::traction::{DryTraction, FourParameterTraction, TanhTraction, Traction, TractionLaw};
+
+/// States tried for each machine.
+const STATES: u32 = 300;
+
+/// The reference machine and its relatives: other traction laws, brakes, drives, levitation, a held race, seven balls.
+fn machines() -> Vec<DropMachine> {
+    let base = || {
+        let mut c = reference();
+        planar(&mut c).cage_drag = 1e-6;
+        c.machine.inner_race_torque = 0.01;
+        c.machine.rotor.brake_torque = 0.3;
+        c.brake_start = 0.0;
+        c
+    };
+    let mut peaked = base();
+    planar(&mut peaked).traction = Traction::FourParameter(FourParameterTraction {
+        a: -0.07,
+        b: 0.35,
+        c: 5.0,
+        d: 0.07,
+    });
+    let mut dry = base();
+    planar(&mut dry).traction = Traction::Dry(DryTraction {
+        kinetic: 0.1,
+        static_excess: 0.05,
+        inverse_decay_speed: 2.0,
+        inverse_reference_speed: 50.0,
+    });
+    let mut seven = base();
+    planar(&mut seven).balls = 7;
+    balance_mount(&mut seven);
+    let mut held = base();
+    held.machine.inner_race_centre_held = true;
+    balance_mount(&mut held);
+    let mut slanted = base();
+    let gravity = vec2(3.0, -7.0);
+    slanted.machine.gravity = gravity;
+    planar(&mut slanted).ball.gravity = gravity;
+    let mut rolls = base();
+    let_roll(&mut rolls);
+    [peaked, dry, seven, held, slanted, rolls, base()]
+        .into_iter()
+        .enumerate()
+        .map(|(i, constants)| DropMachine::with_levitation(constants, i % 2 == 0))
+        .collect()
+}
+
+/// Calls with every machine, at many states: (machine, state, rate, probe).
+fn at_random_states(mut check: impl FnMut(&DropMachine, &[f64], &[f64], &[f64])) {
+    for (number, machine) in machines().iter().enumerate() {
+        let mut random = Random(number as u64);
+        for _ in 0..STATES {
+            let mut state = random_state(machine, &mut random);
+            if matches!(machine.constants.bearing, BearingConstants::Rolling(_)) {
+                // with concentric races, where the loads of its balls are central
+                state.copy_within(INNER..INNER + 2, OUTER);
+            }
+            let (rate, probe) = machine.inspect(&state);
+            check(machine, &state, &rate, &probe);
+        }
+    }
+}
+
+fn pair(list: &[f64], at: usize) -> Vec2<f64> {
+    vec2(list[at], list[at + 1])
+}
+
+/// A sum that remembers how large its terms were.
+#[derive(Default)]
+struct Sum {
+    total: f64,
+    size: f64,
+}
+
+impl Sum {
+    fn add(&mut self, term: f64) {
+        self.total += term;
+        self.size += term.abs();
+    }
+    /// What is left, relative to the terms.
+    fn rest(&self) -> f64 {
+        self.total.abs() / self.size
+    }
+}
+
+/// Centre of a ball with its speed and acceleration, Cartesian.
+fn ball_centre(machine: &DropMachine, state: &[f64], rate: &[f64], j: usize) -> [Vec2<f64>; 3] {
+    let (now, change) = (ball_of(machine, state, j), ball_of(machine, rate, j));
+    let (s, c) = now.azimuth.sin_cos();
+    let (e_r, e_t) = (vec2(c, s), vec2(-s, c));
+    let w = now.orbit_speed;
+    [
+        e_r * now.radius,
+        e_r * now.radial_speed + e_t * (now.radius * w),
+        e_r * (change.radial_speed - now.radius * w * w)
+            + e_t * (now.radius * change.orbit_speed + 2.0 * now.radial_speed * w),
+    ]
+}
+
+/// Bodies that translate: (mass, position, velocity, acceleration).
+fn centres(machine: &DropMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, [Vec2<f64>; 3])> {
+    let c = &machine.constants;
+    let m = &c.machine;
+    let mut list: Vec<_> = [
+        (m.rotor.mass, ROTOR),
+        (m.inner_race_mass, INNER),
+        (c.outer_moving_mass(), OUTER),
+    ]
+    .map(|(mass, at)| {
+        (
+            mass,
+            [pair(state, at), pair(state, at + 2), pair(rate, at + 2)],
+        )
+    })
+    .to_vec();
+    if let BearingConstants::Planar(bearing) = &c.bearing {
+        for j in 0..bearing.balls {
+            list.push((bearing.ball.mass, ball_centre(machine, state, rate, j)));
+        }
+    }
+    list
+}
+
+/// Bodies that spin: (inertia, spin, spin acceleration).
+fn spins(machine: &DropMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, f64, f64)> {
+    let m = &machine.constants.machine;
+    let mut list = vec![
+        (m.rotor.polar_inertia, state[ROTOR + 5], rate[ROTOR + 5]),
+        (m.inner_race_inertia, state[INNER + 5], rate[INNER + 5]),
+    ];
+    match &machine.constants.bearing {
+        BearingConstants::Rolling(b) => {
+            list.push((b.inner_inertia, state[INNER + 5], rate[INNER + 5]));
+        }
+        BearingConstants::Planar(b) => {
+            let part = (bearing_part(machine, state), bearing_part(machine, rate));
+            list.push((b.cage_inertia, part.0[1], part.1[1]));
+            let inertia = 0.4 * b.ball.mass * b.ball.radius * b.ball.radius;
+            for j in 0..b.balls {
+                let (now, change) = (ball_of(machine, state, j), ball_of(machine, rate, j));
+                list.push((inertia, now.spin, change.spin));
+            }
+        }
+    }
+    list
+}
+
+/// Force of the levitation on the rotor, with the point where it acts.
+fn levitation(machine: &DropMachine, state: &[f64]) -> (Vec2<f64>, Vec2<f64>) {
+    let m = &machine.constants.machine;
+    let (s, c) = state[ROTOR + 4].sin_cos();
+    let e = m.rotor.eccentricity;
+    let centre = pair(state, ROTOR) - vec2(c, s) * e;
+    let velocity = pair(state, ROTOR + 2) - vec2(-s, c) * (e * state[ROTOR + 5]);
+    let l = &m.levitation;
+    let on = solve::Machine::start_mode(machine).levitation;
+    let force = l.carried - (centre - l.centre) * l.stiffness - velocity * l.damping;
+    (force * on, centre)
+}
+
+fn mount(machine: &DropMachine, state: &[f64]) -> Vec2<f64> {
+    let mount = &machine.constants.machine.mount;
+    let stretch = pair(state, OUTER) - mount.free_position;
+    -(stretch * mount.stiffness + pair(state, OUTER + 2) * mount.damping)
+}
+
+#[test]
+fn momentum_changes_by_outer_forces_alone() {
+    let mut worst = 0.0_f64;
+    at_random_states(|machine, state, rate, _| {
+        let c = &machine.constants;
+        if c.machine.inner_race_centre_held {
+            return;
+        }
+        let (mut x, mut y) = (Sum::default(), Sum::default());
+        let mut add = |force: Vec2<f64>| {
+            x.add(force.x);
+            y.add(force.y);
+        };
+        for (mass, [_, _, acceleration]) in centres(machine, state, rate) {
+            add(acceleration * mass);
+            add(c.machine.gravity * -mass);
+        }
+        add(-levitation(machine, state).0);
+        add(-mount(machine, state));
+        if let BearingConstants::Planar(bearing) = &c.bearing {
+            for j in 0..bearing.balls {
+                let ball = ball_of(machine, state, j);
+                let (s, co) = ball.azimuth.sin_cos();
+                let drag = bearing.ball.orbit_drag * ball.radius * ball.orbit_speed;
+                add(vec2(-s, co) * drag);
+            }
+        }
+        worst = worst.max(x.rest()).max(y.rest());
+    });
+    // rounding of forces of some kN
+    assert!(worst < 1e-9, "{worst}");
+}
+
+/// Moment that the bearing exerts on the outer race about its centre: the traction of the balls on their true arms.
+fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f64 {
+    match &machine.constants.bearing {
+        BearingConstants::Rolling(b) => {
+            let (_, probe) = machine.inspect(state);
+            let mut push = vec2(0.0, 0.0);
+            for j in 0..b.balls {
+                let (s, c) = (bearing_part(machine, state)[0] + b.seat(j)).sin_cos();
+                push += vec2(c, s) * probe[DETAIL + j];
+            }
+            let turning = (pair(state, INNER) - pair(state, OUTER)).cross(push);
+            (1.0 - b.cage_ratio) * turning - b.outer_inertia * rate[INNER + 5]
+        }
+        BearingConstants::Planar(b) => {
+            let motion = race_motion(state);
+            let part = bearing_part(machine, state);
+            (0..b.balls)
+                .map(|j| {
+                    let reaction = b.ball_reaction(&motion, part, j);
+                    let traction =
+                        b.traction.coefficient(reaction.outer_slip) * reaction.outer_load;
+                    let [centre, ..] = ball_centre(machine, state, rate, j);
+                    let distance = (centre - pair(state, OUTER)).length_squared().sqrt();
+                    let approach = distance + b.ball.radius - b.ball.outer_track;
+                    -(b.ball.outer_track + 0.5 * approach) * traction
+                })
+                .sum()
+        }
+    }
+}
+
+#[test]
+fn angular_momentum_changes_by_outer_moments_alone() {
+    let (mut worst, mut worst_ledger) = (0.0_f64, 0.0_f64);
+    at_random_states(|machine, state, rate, _| {
+        let c = &machine.constants;
+        let m = &c.machine;
+        let mut change = Sum::default();
+        for (mass, [position, _, acceleration]) in centres(machine, state, rate) {
+            change.add(mass * position.cross(acceleration));
+        }
+        for (inertia, _, acceleration) in spins(machine, state, rate) {
+            change.add(inertia * acceleration);
+        }
+        let mut outer = Sum::default();
+        for (mass, [position, ..]) in centres(machine, state, rate) {
+            outer.add(mass * position.cross(m.gravity));
+        }
+        let (force, at) = levitation(machine, state);
+        outer.add(at.cross(force));
+        outer.add(pair(state, OUTER).cross(mount(machine, state)));
+        outer.add(m.inner_race_torque);
+        outer.add(-m.rotor.brake_torque * state[ROTOR + 5].tanh());
+        // the ground keeps the outer race from turning
+        outer.add(-moment_on_outer_race(machine, state, rate));
+        match &c.bearing {
+            BearingConstants::Rolling(b) => {
+                // the angular momentum of the balls that the inner race does not feel
+                change.add(b.outer_inertia * rate[INNER + 5]);
+            }
+            BearingConstants::Planar(b) => {
+                outer.add(-b.cage_drag * bearing_part(machine, state)[1]);
+                for j in 0..b.balls {
+                    let ball = ball_of(machine, state, j);
+                    outer.add(-b.ball.orbit_drag * ball.radius * ball.radius * ball.orbit_speed);
+                    outer.add(-b.ball.spin_drag * ball.spin);
+                }
+            }
+        }
+        let size = change.size + outer.size;
+        worst = worst.max((change.total - outer.total).abs() / size);
+        let ledger = rate[machine.layout().angular_impulse()];
+        worst_ledger = worst_ledger.max((ledger - outer.total).abs() / size);
+    });
+    assert!(worst < 1e-9, "{worst}");
+    assert!(worst_ledger < 1e-9, "{worst_ledger}");
+}
+
+#[test]
+fn every_loss_is_passive() {
+    let mut seen = [0; HEATS.len()];
+    at_random_states(|machine, _, rate, _| {
+        for (kind, name) in HEATS.iter().enumerate() {
+            let heat = rate[machine.layout().heat(kind)];
+            assert!(heat >= 0.0, "{name} {heat}");
+            seen[kind] += u32::from(heat > 0.0);
+        }
+    });
+    for (kind, name) in HEATS.iter().enumerate() {
+        // no machine here has a steady moment; every other loss must have been at work
+        let expected = *name != "steady_moment";
+        assert_eq!(
+            seen[kind] > 100,
+            expected,
+            "{name} seen {} times",
+            seen[kind]
+        );
+    }
+}
+
+/// d/dt of the potential: its directional derivative along the rate, by central differences of order four.
+fn potential_rate(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f64 {
+    // motions of 1e-9 m against approaches of 1e-6 m: truncation near 1e-12, rounding near 1e-11
+    const H: f64 = 2e-9;
+    let at = |steps: f64| {
+        let moved: Vec<f64> = state
+            .iter()
+            .zip(rate)
+            .map(|(y, f)| y + steps * H * f)
+            .collect();
+        machine.content(&moved).potential
+    };
+    (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * H)
+}
+
+#[test]
+fn energy_changes_by_sources_less_heats() {
+    let mut errors = Vec::new();
+    at_random_states(|machine, state, rate, _| {
+        let mut power = Sum::default();
+        for (mass, [_, velocity, acceleration]) in centres(machine, state, rate) {
+            power.add(mass * velocity.dot(acceleration));
+        }
+        for (inertia, spin, acceleration) in spins(machine, state, rate) {
+            power.add(inertia * spin * acceleration);
+        }
+        power.add(potential_rate(machine, state, rate));
+        for kind in 0..HEATS.len() {
+            power.add(rate[machine.layout().heat(kind)]);
+        }
+        for source in 0..SOURCES.len() {
+            power.add(-rate[machine.layout().source(source)]);
+        }
+        errors.push(power.rest());
+    });
+    // a contact that opens within the difference of 4e-9 s breaks its order: all stay below 1e-6, nearly all far below
+    errors.sort_by(f64::total_cmp);
+    let (most, worst) = (errors[errors.len() * 99 / 100], errors[errors.len() - 1]);
+    assert!(worst < 1e-6 && most < 1e-8, "{most} {worst}");
+}
+
+#[test]
+fn contents_are_those_of_the_bodies() {
+    at_random_states(|machine, state, rate, _| {
+        let content = machine.content(state);
+        let bodies = centres(machine, state, rate);
+        let turning = spins(machine, state, rate);
+        let translation: f64 = bodies
+            .iter()
+            .map(|(m, b)| 0.5 * m * b[1].length_squared())
+            .sum();
+        let spin: f64 = turning.iter().map(|(i, w, _)| 0.5 * i * w * w).sum();
+        // rounding of sums of a few tens of terms
+        assert!((content.translation / translation - 1.0).abs() < 1e-13);
+        assert!((content.spin / spin - 1.0).abs() < 1e-13);
+        if matches!(machine.constants.bearing, BearingConstants::Planar(_)) {
+            let orbits = bodies.iter().map(|(m, b)| m * b[0].cross(b[1]));
+            let total: f64 = orbits.chain(turning.iter().map(|(i, w, _)| i * w)).sum();
+            let size: f64 = turning.iter().map(|(i, w, _)| (i * w).abs()).sum();
+            assert!((content.angular_momentum - total).abs() < 1e-13 * size);
+        }
+    });
+}
+
+#[test]
+fn rolling_balls_carry_the_angular_momentum_of_their_motion() {
+    // orbit ω_c on R(1+s), spin against Ω by Ω/(2s): the bearing's own inertias are not used here
+    let mut c = reference();
+    let p = planar(&mut c).clone();
+    let (r, track) = (p.ball.radius, p.ball.inner_track);
+    let s = r / track;
+    let cage_speed = 1.0 / (2.0 * (1.0 + s));
+    let ball_spin = -1.0 / (2.0 * s);
+    let balls_mass = p.balls as f64 * p.ball.mass;
+    let expected = (balls_mass + p.cage_mass) * (track + r).powi(2) * cage_speed
+        + 0.4 * balls_mass * r * r * ball_spin;
+    let_roll(&mut c);
+    let machine = DropMachine::new(c);
+    let mut state = machine.start();
+    let at_rest = machine.content(&state).angular_momentum;
+    state[INNER + 5] = 1000.0;
+    let race = machine.constants.machine.inner_race_inertia * 1000.0;
+    let balls = machine.content(&state).angular_momentum - at_rest - race;
+    // the difference of two momenta a thousand times larger
+    assert!((balls / (1000.0 * expected) - 1.0).abs() < 1e-11, "{balls}");
+}
+
+#[test]
+fn pocket_and_cage_answer_each_other() {
+    let (mut worst, mut pressed) = (0.0_f64, 0);
+    at_random_states(|machine, state, rate, _| {
+        let BearingConstants::Planar(b) = &machine.constants.bearing else {
+            return;
+        };
+        let Traction::Tanh(law) = &b.traction else {
+            return;
+        };
+        let motion = race_motion(state);
+        let part = bearing_part(machine, state);
+        // what the cage receives, from its own acceleration
+        let cage = b.cage_inertia * bearing_part(machine, rate)[1] + b.cage_drag * part[1];
+        let mut sum = Sum::default();
+        sum.add(cage);
+        for j in 0..b.balls {
+            let (moment, size) = moment_from_pocket(machine, state, rate, j, law);
+            sum.total += moment;
+            sum.size += size;
+            pressed += u32::from(b.ball_reaction(&motion, part, j).pocket_force > 0.0);
+        }
+        worst = worst.max(sum.rest());
+    });
+    assert!(pressed > 1000, "half of the pockets press");
+    // rounding of the forces on the balls
+    assert!(worst < 1e-9, "{worst}");
+}
+
+/// Moment about the outer race's centre that a ball receives from its pocket: what its motion needs beyond races,
+/// drag and weight. With the size of what it is the rest of.
+fn moment_from_pocket(
+    machine: &DropMachine,
+    state: &[f64],
+    rate: &[f64],
+    j: usize,
+    law: &TanhTraction<f64>,
+) -> (f64, f64) {
+    let BearingConstants::Planar(b) = &machine.constants.bearing else {
+        panic!("the bearing is planar here")
+    };
+    let motion = race_motion(state);
+    let reaction = b.ball_reaction(&motion, bearing_part(machine, state), j);
+    let [centre, velocity, acceleration] = ball_centre(machine, state, rate, j);
+    let (now, change) = (ball_of(machine, state, j), ball_of(machine, rate, j));
+    let (r, mass) = (b.ball.radius, b.ball.mass);
+    let mut force = (acceleration - b.ball.gravity) * mass;
+    let mut moment = 0.4 * mass * r * r * change.spin + b.ball.spin_drag * now.spin;
+    let tangent = vec2(-now.azimuth.sin(), now.azimuth.cos());
+    force += tangent * (b.ball.orbit_drag * velocity.dot(tangent));
+    for (race, load, slip, out, track) in [
+        (
+            &motion.inner,
+            reaction.inner_load,
+            reaction.inner_slip,
+            1.0,
+            b.ball.inner_track,
+        ),
+        (
+            &motion.outer,
+            reaction.outer_load,
+            reaction.outer_slip,
+            -1.0,
+            b.ball.outer_track,
+        ),
+    ] {
+        let from_race = centre - race.position;
+        let distance = from_race.length_squared().sqrt();
+        let n = from_race * (1.0 / distance);
+        let traction = law.coefficient(slip) * load;
+        let approach = out * (track - distance) + r;
+        force = force - n * (out * load) - n.turned() * traction;
+        moment += out * (r - 0.5 * approach) * traction;
+    }
+    let arm = centre - motion.outer.position;
+    (
+        arm.cross(force) + moment,
+        mass * acceleration.length_squared().sqrt() * b.ball.pocket_radius,
+    )
+}
+
+#[test]
+fn detail_and_probes_are_those_of_the_balls() {
+    at_random_states(|machine, state, _, probe| {
+        let BearingConstants::Planar(b) = &machine.constants.bearing else {
+            return;
+        };
+        let motion = race_motion(state);
+        let part = &state[BEARING..machine.layout().ledger()];
+        let (mut inner, mut outer) = (0.0_f64, 0.0_f64);
+        for j in 0..b.balls {
+            let r = b.ball_reaction(&motion, part, j);
+            let expected = [
+                r.inner_load,
+                r.outer_load,
+                r.inner_slip,
+                r.outer_slip,
+                r.pocket_force,
+            ];
+            for (kind, value) in expected.into_iter().enumerate() {
+                assert_eq!(probe[DETAIL + kind * b.balls + j], value);
+            }
+            inner = inner.max(r.inner_load);
+            outer = outer.max(r.outer_load);
+        }
+        assert_eq!(
+            (probe[LARGEST_INNER_LOAD], probe[LARGEST_OUTER_LOAD]),
+            (inner, outer)
+        );
+    });
+}

@@ -1,0 +1,12 @@
+//! Physics sentences about parts and systems: each test's name is one.
+
+#[path = "../machines/mod.rs"]
+mod machines;
+
+mod allocation;
+mod balances;
+mod drops;
+mod loads;
+mod rest;
+mod spin_up;
+mod symmetry;
