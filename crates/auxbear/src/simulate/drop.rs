@@ -16,8 +16,8 @@ use std::time::Instant;
 
 /// First step, s: shorter than any time constant; the controller takes over from there.
 const FIRST_STEP: f64 = 1e-8;
-/// Steps after which a machine is given up: a thousand times the reference drop.
-const STEP_LIMIT: u64 = 100_000_000;
+/// Steps after which a machine is given up: four hundred times the reference drop, minutes of computing.
+const STEP_LIMIT: u64 = 20_000_000;
 
 /// Everything the pages that name results need to know.
 pub(super) struct Context<'a> {
