@@ -117,7 +117,7 @@ impl<const K: usize> Real for Dual<K> {
     #[inline(always)]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
-        self.chain(root, 0.5 / root)
+        self.chain(root, if root > 0.0 { 0.5 / root } else { 0.0 })
     }
     #[inline(always)]
     fn abs(self) -> Self {
@@ -140,6 +140,11 @@ impl<const K: usize> Real for Dual<K> {
     fn tanh(self) -> Self {
         let t = Real::tanh(self.value);
         self.chain(t, 1.0 - t * t)
+    }
+    #[inline(always)]
+    fn tanh_pair(self, other: Self) -> (Self, Self) {
+        let (t, u) = Real::tanh_pair(self.value, other.value);
+        (self.chain(t, 1.0 - t * t), other.chain(u, 1.0 - u * u))
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
@@ -186,6 +191,11 @@ mod tests {
             assert!((exact.partial[1] - dy).abs() < 1e-8 * (1.0 + dy.abs()));
             assert!((exact.value - mixed(x, y)).abs() < 1e-15 * (1.0 + exact.value.abs()));
         }
+    }
+    #[test]
+    fn a_root_that_is_zero_stays_without_slope() {
+        let open = Dual::<1>::variable(-1e-6, 0).max(Dual::splat(0.0));
+        assert_eq!(open.sqrt(), Dual::splat(0.0));
     }
     #[test]
     fn rounding_and_constants_have_no_slope() {

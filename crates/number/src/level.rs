@@ -2,7 +2,11 @@
 
 use crate::Real;
 #[cfg(target_arch = "x86_64")]
-use crate::x86::{Eight, Four, Single};
+use crate::pair::Pair;
+#[cfg(target_arch = "x86_64")]
+use crate::single::Single;
+#[cfg(target_arch = "x86_64")]
+use crate::x86::{Eight, Four};
 
 /// How wide this machine computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -66,7 +70,9 @@ impl Level {
         self.assert_available();
         match self {
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 | Level::Avx512 => task.run::<Single>(),
+            Level::Avx2 => task.run::<Single<Pair<Four>>>(),
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 => task.run::<Single<Pair<Eight>>>(),
             _ => task.run::<f64>(),
         }
     }
@@ -99,7 +105,7 @@ mod tests {
     /// Every operation on each lane; returns the bits of all lanes.
     struct Everything;
     impl Task for Everything {
-        type Output = Vec<[u64; 16]>;
+        type Output = Vec<[u64; 18]>;
         fn run<R: Real>(self) -> Self::Output {
             // the same number in every lane; then lane by lane other numbers
             let mut lanes = Vec::new();
@@ -113,7 +119,7 @@ mod tests {
         }
     }
 
-    fn everything<R: Real>(x: R, y: R) -> [R; 16] {
+    fn everything<R: Real>(x: R, y: R) -> [R; 18] {
         let (s, c) = (x * R::splat(7.0)).sin_cos();
         let positive = x.greater(R::zero());
         let small = x.abs().less(R::splat(0.5));
@@ -134,6 +140,8 @@ mod tests {
             R::select(positive & small, x, y),
             R::select(positive | !small, x, y).round(),
             x.sign_or_plus() * y.min(x),
+            x.tanh_pair(y).0,
+            x.tanh_pair(y).1,
         ]
     }
 
@@ -181,8 +189,9 @@ mod tests {
             while from < 5 {
                 let group = R::load_group(&parts, from);
                 for part in 0..R::GROUP {
-                    if R::GROUP > 1 {
-                        assert_eq!(group.lane(part), (from + part).min(4) as f64);
+                    for machine in 0..R::LANES {
+                        let value = group.lane(part * R::LANES + machine);
+                        assert_eq!(value, (from + part).min(4) as f64);
                     }
                 }
                 R::store_group(group, &mut copy, from);
@@ -191,7 +200,21 @@ mod tests {
             for (a, b) in parts.iter().zip(&copy) {
                 assert_eq!(a.lane(0), b.lane(0));
             }
+            for count in 1..20 {
+                assert_eq!(sum_of_parts::<R>(count), sum_of_parts::<f64>(count));
+            }
         }
+    }
+    /// The sum of numbers whose sum depends on the order of addition.
+    fn sum_of_parts<R: Real>(count: usize) -> u64 {
+        let value = |i: usize| 0.1 * (i as f64 + 1.0).powi(5);
+        let parts: Vec<R> = (0..count).map(|i| R::splat(value(i))).collect();
+        let mut sums = [R::zero(); 4];
+        for from in (0..count).step_by(R::GROUP) {
+            R::add_group(R::load_group(&parts, from), &mut sums, from, count - from);
+        }
+        let total = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+        total.lane(R::LANES - 1).to_bits()
     }
     #[test]
     fn groups_hold_the_parts_and_repeat_the_last() {

@@ -21,6 +21,7 @@
 //! | `ln` | normal x > 0 | 2 ulp (near 1: 4 ulp) |
 //! | `powf` | 1e-300 ≤ x^y ≤ 1e300 | relative 2.3e-16 (2 + \|y ln x\|) |
 //! | `tanh` | all x | 4 ulp |
+//! | `tanh_pair` | all x | 6 ulp |
 //! | `sin_cos` | \|x\| ≤ 1e5 rad | absolute 2.3e-16 |
 //! | `asin_small` | \|x\| ≤ 0.125 | 2 ulp |
 //! | `sqrt`, `abs`, `+ - * /` | all | correctly rounded |
@@ -29,8 +30,11 @@ mod constants;
 mod dual;
 pub mod elementary;
 mod level;
+mod pair;
 mod real;
 mod scalar;
+#[cfg(target_arch = "x86_64")]
+mod single;
 mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;

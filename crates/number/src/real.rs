@@ -7,6 +7,8 @@ use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, MulAssign, Neg, Not, Sub
 pub trait Mask:
     Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
 {
+    /// Number of truth values.
+    const LANES: usize;
     /// True where any lane is true.
     fn any(self) -> bool;
     /// The truth value of one lane.
@@ -46,8 +48,8 @@ pub trait Real:
     type Mask: Mask;
     /// Number of machines side by side.
     const LANES: usize;
-    /// Several equal parts of one machine (the balls of a bearing) side by side: so a single machine uses the
-    /// vector unit too. One where the number is wide already.
+    /// Several equal parts of a machine (the balls of a bearing) side by side: so a single machine uses the vector
+    /// unit too, and several machines keep it busier. Part `i` of machine `m` is lane `i · LANES + m`.
     type Group: Real;
     /// Number of parts in a group.
     const GROUP: usize;
@@ -66,8 +68,11 @@ pub trait Real:
     fn load_group(parts: &[Self], from: usize) -> Self::Group;
     /// Writes a group over the parts `from..from + GROUP` of a list, as far as the list goes.
     fn store_group(group: Self::Group, parts: &mut [Self], from: usize);
+    /// Adds the first `count` parts of a group to four running sums, one after the other: part `i` to sum
+    /// `(from + i) mod 4`. The order does not depend on the width of a group, so the sums do not either.
+    fn add_group(group: Self::Group, sums: &mut [Self; 4], from: usize, count: usize);
 
-    /// √x, for x ≥ 0. The derivative needs x > 0: clamp first.
+    /// √x, for x ≥ 0. Its derivative at 0 is taken as zero: what is clamped to 0 does not move.
     fn sqrt(self) -> Self;
     /// |x|.
     fn abs(self) -> Self;
@@ -79,6 +84,8 @@ pub trait Real:
     fn ln(self) -> Self;
     /// Hyperbolic tangent.
     fn tanh(self) -> Self;
+    /// Hyperbolic tangents of two numbers for one division.
+    fn tanh_pair(self, other: Self) -> (Self, Self);
     /// Sine and cosine of an angle in rad.
     fn sin_cos(self) -> (Self, Self);
     /// Arc sine for |x| ≤ 0.125; meaningless beyond.

@@ -1,9 +1,10 @@
-//! Plain `f64`, and `f64` whose equal parts are computed four at a time.
+//! Plain `f64`, and what its wrappers share with it.
 
 use crate::elementary::{self, Bits};
 use crate::{Mask, Real};
 
 impl Mask for bool {
+    const LANES: usize = 1;
     #[inline(always)]
     fn any(self) -> bool {
         self
@@ -35,14 +36,18 @@ macro_rules! group_of_one {
         fn store_group(group: Self, parts: &mut [Self], from: usize) {
             parts[from] = group;
         }
+        #[inline(always)]
+        fn add_group(group: Self, sums: &mut [Self; 4], from: usize, _count: usize) {
+            sums[from % 4] += group;
+        }
     };
 }
 pub(crate) use group_of_one;
 
 /// Implements `Real` and `Bits` for `f64` or a wrapper of it, `$get` and `$make` being the way in and out.
 macro_rules! scalar_real {
-    ($Type:ty, |$x:ident| $get:expr, $make:expr, { $($group:tt)* }) => {
-        impl Real for $Type {
+    (impl $([$V:ident: $Bound:ident])? for $Type:ty, |$x:ident| $get:expr, $make:expr, { $($group:tt)* }) => {
+        impl $(<$V: $Bound>)? Real for $Type {
             type Mask = bool;
             const LANES: usize = 1;
             $($group)*
@@ -87,6 +92,10 @@ macro_rules! scalar_real {
                 elementary::tanh(self)
             }
             #[inline(always)]
+            fn tanh_pair(self, other: Self) -> (Self, Self) {
+                elementary::tanh_pair(self, other)
+            }
+            #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 elementary::sin_cos(self)
             }
@@ -104,10 +113,10 @@ macro_rules! scalar_real {
             }
         }
 
-        impl Bits for $Type {
+        impl $(<$V: $Bound>)? Bits for $Type {
             #[inline(always)]
-            fn exp2_integer(self) -> Self {
-                $make(elementary::exp2_integer_f64(self.lane(0)))
+            fn exp2_shifted(self) -> Self {
+                $make(elementary::exp2_shifted_f64(self.lane(0)))
             }
             #[inline(always)]
             fn mantissa_exponent(self) -> (Self, Self) {
@@ -115,15 +124,29 @@ macro_rules! scalar_real {
                 ($make(mantissa), $make(exponent))
             }
             #[inline(always)]
-            fn integer_bit(self, n: u32) -> bool {
-                elementary::integer_bit_f64(self.lane(0), n) == 1
+            fn odd_shifted(self) -> bool {
+                elementary::odd_shifted_f64(self.lane(0))
+            }
+            #[inline(always)]
+            fn negated_where_negative(self, other: Self) -> Self {
+                $make(elementary::negated_where_negative_f64(
+                    self.lane(0),
+                    other.lane(0),
+                ))
+            }
+            #[inline(always)]
+            fn negated_by_bit_one(self, shifted: Self) -> Self {
+                $make(elementary::negated_by_bit_one_f64(
+                    self.lane(0),
+                    shifted.lane(0),
+                ))
             }
         }
     };
 }
 pub(crate) use scalar_real;
 
-scalar_real!(f64, |x| x, std::convert::identity, {
+scalar_real!(impl for f64, |x| x, std::convert::identity, {
     group_of_one!();
 });
 

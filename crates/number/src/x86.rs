@@ -4,9 +4,10 @@
 //! [`Level::run`](crate::Level::run) starts after it has seen that the machine has the instructions. That makes the
 //! intrinsics below sound. Their methods are inlined into functions compiled for the unit ([`Real::vectorized`]).
 
-use crate::elementary::{self, Bits, LOW_EXPONENT, ONE_BITS, ROUNDING};
+use crate::elementary::{self, Bits, LOW_EXPONENT, ONE_BITS, ROUNDING, SIGN_BIT};
+use crate::pair::{Pair, group_of_two};
 use crate::real::Vectorized;
-use crate::scalar::{group_of_one, scalar_real};
+use crate::single::Parts;
 use crate::{Mask, Real};
 use std::arch::x86_64::*;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
@@ -27,11 +28,6 @@ pub struct Eight(__m512d);
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
 pub struct EightMask(__mmask8);
-/// One machine whose equal parts are computed four at a time.
-#[derive(Clone, Copy, Debug)]
-#[repr(transparent)]
-pub struct Single(f64);
-
 // SAFETY of every block below: the types are reachable only on machines with the instructions, see the module.
 macro_rules! binary {
     ($Type:ident, $Trait:ident, $method:ident, $Assign:ident, $assign:ident, $intrinsic:ident) => {
@@ -52,7 +48,7 @@ macro_rules! binary {
     };
 }
 macro_rules! operators {
-    ($Type:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $set:ident, $xor:ident) => {
+    ($Type:ident, $add:ident, $sub:ident, $mul:ident, $div:ident) => {
         binary!($Type, Add, add, AddAssign, add_assign, $add);
         binary!($Type, Sub, sub, SubAssign, sub_assign, $sub);
         binary!($Type, Mul, mul, MulAssign, mul_assign, $mul);
@@ -68,8 +64,8 @@ macro_rules! operators {
             type Output = Self;
             #[inline(always)]
             fn neg(self) -> Self {
-                // SAFETY: see the module.
-                $Type(unsafe { $xor(self.0, $set(-0.0)) })
+                // -0 - x, not a flip of the sign bit: the compiler knows it and folds it into sums
+                $Type::splat(-0.0) - self
             }
         }
     };
@@ -79,23 +75,19 @@ operators!(
     _mm256_add_pd,
     _mm256_sub_pd,
     _mm256_mul_pd,
-    _mm256_div_pd,
-    _mm256_set1_pd,
-    _mm256_xor_pd
+    _mm256_div_pd
 );
 operators!(
     Eight,
     _mm512_add_pd,
     _mm512_sub_pd,
     _mm512_mul_pd,
-    _mm512_div_pd,
-    _mm512_set1_pd,
-    _mm512_xor_pd
+    _mm512_div_pd
 );
 
 /// The methods of `Real` that are the same for both widths.
 macro_rules! shared_methods {
-    ($Type:ident, $Array:ty, $set:ident, $sqrt:ident, $andnot:ident, $level:ident) => {
+    ($Type:ident, $Array:ty, $set:ident, $sqrt:ident, $andnot:ident, $max:ident, $min:ident, $level:ident) => {
         #[inline(always)]
         fn splat(value: f64) -> Self {
             // SAFETY: see the module.
@@ -123,6 +115,17 @@ macro_rules! shared_methods {
             // SAFETY: see the module.
             $Type(unsafe { $andnot($set(-0.0), self.0) })
         }
+        // the instructions return their second operand where the two do not compare or are both zero, as promised
+        #[inline(always)]
+        fn max(self, other: Self) -> Self {
+            // SAFETY: see the module.
+            $Type(unsafe { $max(self.0, other.0) })
+        }
+        #[inline(always)]
+        fn min(self, other: Self) -> Self {
+            // SAFETY: see the module.
+            $Type(unsafe { $min(self.0, other.0) })
+        }
         #[inline(always)]
         fn round(self) -> Self {
             (self + Self::splat(ROUNDING)) - Self::splat(ROUNDING)
@@ -138,6 +141,10 @@ macro_rules! shared_methods {
         #[inline(always)]
         fn tanh(self) -> Self {
             elementary::tanh(self)
+        }
+        #[inline(always)]
+        fn tanh_pair(self, other: Self) -> (Self, Self) {
+            elementary::tanh_pair(self, other)
         }
         #[inline(always)]
         fn sin_cos(self) -> (Self, Self) {
@@ -158,13 +165,15 @@ macro_rules! shared_methods {
 impl Real for Four {
     type Mask = FourMask;
     const LANES: usize = 4;
-    group_of_one!();
+    group_of_two!();
     shared_methods!(
         Four,
         [f64; 4],
         _mm256_set1_pd,
         _mm256_sqrt_pd,
         _mm256_andnot_pd,
+        _mm256_max_pd,
+        _mm256_min_pd,
         for_avx2
     );
     #[inline(always)]
@@ -181,15 +190,12 @@ impl Real for Four {
 
 impl Bits for Four {
     #[inline(always)]
-    fn exp2_integer(self) -> Self {
+    fn exp2_shifted(self) -> Self {
         // SAFETY: see the module.
         Four(unsafe {
-            let shifted =
-                _mm256_slli_epi64::<52>(_mm256_castpd_si256((self + Self::splat(ROUNDING)).0));
-            _mm256_castsi256_pd(_mm256_add_epi64(
-                shifted,
-                _mm256_set1_epi64x(ONE_BITS as i64),
-            ))
+            let exponent = _mm256_slli_epi64::<52>(_mm256_castpd_si256(self.0));
+            let one = _mm256_set1_epi64x(ONE_BITS as i64);
+            _mm256_castsi256_pd(_mm256_add_epi64(exponent, one))
         })
     }
     #[inline(always)]
@@ -212,12 +218,27 @@ impl Bits for Four {
         }
     }
     #[inline(always)]
-    fn integer_bit(self, n: u32) -> FourMask {
-        // SAFETY: see the module. The wanted bit moves to the sign, the only bit a mask needs.
+    fn odd_shifted(self) -> FourMask {
+        // SAFETY: see the module.
         FourMask(unsafe {
-            let bits = _mm256_castpd_si256((self + Self::splat(ROUNDING)).0);
-            let count = _mm_cvtsi32_si128(63 - n as i32);
-            _mm256_castsi256_pd(_mm256_sll_epi64(bits, count))
+            _mm256_castsi256_pd(_mm256_slli_epi64::<63>(_mm256_castpd_si256(self.0)))
+        })
+    }
+    #[inline(always)]
+    fn negated_where_negative(self, other: Self) -> Self {
+        // SAFETY: see the module.
+        Four(unsafe {
+            let sign = _mm256_and_pd(other.0, _mm256_set1_pd(-0.0));
+            _mm256_xor_pd(self.0, sign)
+        })
+    }
+    #[inline(always)]
+    fn negated_by_bit_one(self, shifted: Self) -> Self {
+        // SAFETY: see the module.
+        Four(unsafe {
+            let bit = _mm256_slli_epi64::<62>(_mm256_castpd_si256(shifted.0));
+            let sign = _mm256_and_si256(bit, _mm256_set1_epi64x(SIGN_BIT as i64));
+            _mm256_xor_pd(self.0, _mm256_castsi256_pd(sign))
         })
     }
 }
@@ -247,6 +268,7 @@ impl Not for FourMask {
     }
 }
 impl Mask for FourMask {
+    const LANES: usize = 4;
     #[inline(always)]
     fn any(self) -> bool {
         // SAFETY: see the module.
@@ -265,13 +287,15 @@ impl Mask for FourMask {
 impl Real for Eight {
     type Mask = EightMask;
     const LANES: usize = 8;
-    group_of_one!();
+    group_of_two!();
     shared_methods!(
         Eight,
         [f64; 8],
         _mm512_set1_pd,
         _mm512_sqrt_pd,
         _mm512_andnot_pd,
+        _mm512_max_pd,
+        _mm512_min_pd,
         for_avx512
     );
     #[inline(always)]
@@ -288,15 +312,12 @@ impl Real for Eight {
 
 impl Bits for Eight {
     #[inline(always)]
-    fn exp2_integer(self) -> Self {
+    fn exp2_shifted(self) -> Self {
         // SAFETY: see the module.
         Eight(unsafe {
-            let shifted =
-                _mm512_slli_epi64::<52>(_mm512_castpd_si512((self + Self::splat(ROUNDING)).0));
-            _mm512_castsi512_pd(_mm512_add_epi64(
-                shifted,
-                _mm512_set1_epi64(ONE_BITS as i64),
-            ))
+            let exponent = _mm512_slli_epi64::<52>(_mm512_castpd_si512(self.0));
+            let one = _mm512_set1_epi64(ONE_BITS as i64);
+            _mm512_castsi512_pd(_mm512_add_epi64(exponent, one))
         })
     }
     #[inline(always)]
@@ -319,11 +340,27 @@ impl Bits for Eight {
         }
     }
     #[inline(always)]
-    fn integer_bit(self, n: u32) -> EightMask {
+    fn odd_shifted(self) -> EightMask {
         // SAFETY: see the module.
         EightMask(unsafe {
-            let bits = _mm512_castpd_si512((self + Self::splat(ROUNDING)).0);
-            _mm512_test_epi64_mask(bits, _mm512_set1_epi64(1 << n))
+            _mm512_test_epi64_mask(_mm512_castpd_si512(self.0), _mm512_set1_epi64(1))
+        })
+    }
+    #[inline(always)]
+    fn negated_where_negative(self, other: Self) -> Self {
+        // SAFETY: see the module.
+        Eight(unsafe {
+            let sign = _mm512_and_pd(other.0, _mm512_set1_pd(-0.0));
+            _mm512_xor_pd(self.0, sign)
+        })
+    }
+    #[inline(always)]
+    fn negated_by_bit_one(self, shifted: Self) -> Self {
+        // SAFETY: see the module.
+        Eight(unsafe {
+            let bit = _mm512_slli_epi64::<62>(_mm512_castpd_si512(shifted.0));
+            let sign = _mm512_and_si512(bit, _mm512_set1_epi64(SIGN_BIT as i64));
+            _mm512_xor_pd(self.0, _mm512_castsi512_pd(sign))
         })
     }
 }
@@ -350,6 +387,7 @@ impl Not for EightMask {
     }
 }
 impl Mask for EightMask {
+    const LANES: usize = 8;
     #[inline(always)]
     fn any(self) -> bool {
         self.0 != 0
@@ -364,67 +402,80 @@ impl Mask for EightMask {
     }
 }
 
-macro_rules! single_operator {
-    ($Trait:ident, $method:ident, $Assign:ident, $assign:ident, $op:tt) => {
-        impl $Trait for Single {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Single(self.0 $op other.0)
-            }
-        }
-        impl $Assign for Single {
-            #[inline(always)]
-            fn $assign(&mut self, other: Self) {
-                self.0 = self.0 $op other.0;
-            }
-        }
-    };
-}
-single_operator!(Add, add, AddAssign, add_assign, +);
-single_operator!(Sub, sub, SubAssign, sub_assign, -);
-single_operator!(Mul, mul, MulAssign, mul_assign, *);
-impl Div for Single {
-    type Output = Self;
+impl Parts for Four {
     #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        Single(self.0 / other.0)
+    fn load(parts: &[f64], from: usize) -> Self {
+        match parts.get(from..from + 4) {
+            // SAFETY: see the module; the slice has four elements.
+            Some(full) => Four(unsafe { _mm256_loadu_pd(full.as_ptr()) }),
+            None => Four::from_lanes(|i| parts[(parts.len() - 1).min(from + i)]),
+        }
     }
-}
-impl Neg for Single {
-    type Output = Self;
     #[inline(always)]
-    fn neg(self) -> Self {
-        Single(-self.0)
+    fn store(self, parts: &mut [f64], from: usize) {
+        match parts.get_mut(from..from + 4) {
+            // SAFETY: see the module; the slice has four elements.
+            Some(full) => unsafe { _mm256_storeu_pd(full.as_mut_ptr(), self.0) },
+            None => {
+                for (i, part) in parts.iter_mut().skip(from).enumerate() {
+                    *part = self.lane(i);
+                }
+            }
+        }
+    }
+    #[inline(always)]
+    fn add_to(self, sums: &mut [f64; 4], count: usize) {
+        let valid = FourMask::from_lanes(|i| i < count);
+        let added = Four::load(sums, 0) + Four::select(valid, self, Four::zero());
+        added.store(sums, 0);
     }
 }
 
-scalar_real!(Single, |x| x.0, Single, {
-    type Group = Four;
-    const GROUP: usize = 4;
+impl Parts for Eight {
     #[inline(always)]
-    fn grouped(self) -> Four {
-        Four::splat(self.0)
+    fn load(parts: &[f64], from: usize) -> Self {
+        let last = Eight::splat(parts[parts.len() - 1]);
+        // SAFETY: see the module; the mask keeps the load inside the slice.
+        Eight(unsafe {
+            let pointer = parts.as_ptr().wrapping_add(from);
+            _mm512_mask_loadu_pd(
+                last.0,
+                first_lanes(parts.len().saturating_sub(from)),
+                pointer,
+            )
+        })
     }
     #[inline(always)]
-    fn load_group(parts: &[Self], from: usize) -> Four {
-        match parts.get(from..from + 4) {
-            Some(full) => Four::from_lanes(|i| full[i].0),
-            None => Four::from_lanes(|i| parts[(parts.len() - 1).min(from + i)].0),
+    fn store(self, parts: &mut [f64], from: usize) {
+        // SAFETY: see the module; the mask keeps the store inside the slice.
+        unsafe {
+            let pointer = parts.as_mut_ptr().wrapping_add(from);
+            _mm512_mask_storeu_pd(
+                pointer,
+                first_lanes(parts.len().saturating_sub(from)),
+                self.0,
+            );
         }
     }
     #[inline(always)]
-    fn store_group(group: Four, parts: &mut [Self], from: usize) {
-        for (i, part) in parts[from..].iter_mut().take(4).enumerate() {
-            part.0 = group.lane(i);
+    fn add_to(self, sums: &mut [f64; 4], count: usize) {
+        let mask = first_lanes(count);
+        // SAFETY: see the module; `sums` has the size of the vector.
+        unsafe {
+            let old = _mm256_loadu_pd(sums.as_ptr());
+            let half = _mm256_mask_add_pd(old, mask, old, _mm512_castpd512_pd256(self.0));
+            let high = _mm512_extractf64x4_pd::<1>(self.0);
+            let full = _mm256_mask_add_pd(half, mask >> 4, half, high);
+            _mm256_storeu_pd(sums.as_mut_ptr(), full);
         }
     }
-    #[inline(always)]
-    fn vectorized<T: Vectorized>(task: T) -> T::Output {
-        // SAFETY: see the module.
-        unsafe { for_avx2(task) }
-    }
-});
+}
+
+/// The mask of the first `count` of eight lanes.
+#[inline(always)]
+fn first_lanes(count: usize) -> __mmask8 {
+    ((1_u32 << count.min(8)) - 1) as u8
+}
 
 #[target_feature(enable = "avx2")]
 fn for_avx2<T: Vectorized>(task: T) -> T::Output {

@@ -16,7 +16,7 @@ pub struct NormalForce<R> {
     pub elastic: R,
 }
 
-/// Smallest approach that enters a square root or a logarithm, m: far below an atom.
+/// Smallest approach that enters a logarithm, m: far below an atom.
 const SMALLEST_APPROACH: f64 = 1e-18;
 
 /// Force of a ball on a race: Hertz with viscoelastic damping.
@@ -37,12 +37,13 @@ pub fn ball_race<R: Real>(
     approach: R,
     approach_speed: R,
 ) -> NormalForce<R> {
-    let closed = approach.greater(R::zero());
-    let slope = stiffness * approach.max(R::splat(SMALLEST_APPROACH)).sqrt();
-    let damped = slope * (approach + R::splat(1.5) * damping_time * approach_speed);
+    // an open contact has no depth: its root, and with it everything, is zero
+    let depth = approach.max(R::zero());
+    let slope = stiffness * depth.sqrt();
+    let damped = slope * (depth + R::splat(1.5) * damping_time * approach_speed);
     NormalForce {
-        force: R::select(closed, damped.max(R::zero()), R::zero()),
-        elastic: R::select(closed, slope * approach, R::zero()),
+        force: damped.max(R::zero()),
+        elastic: slope * depth,
     }
 }
 
@@ -56,10 +57,8 @@ pub fn ball_race<R: Real>(
 /// Valid: as [`ball_race`].
 #[inline(always)]
 pub fn ball_race_energy<R: Real>(stiffness: R, approach: R) -> R {
-    let open = R::zero();
-    let root = approach.max(R::splat(SMALLEST_APPROACH)).sqrt();
-    let energy = R::splat(0.4) * stiffness * approach * approach * root;
-    R::select(approach.greater(open), energy, open)
+    let depth = approach.max(R::zero());
+    R::splat(0.4) * stiffness * depth.square() * depth.sqrt()
 }
 
 /// Force of a contact that hardens with a power of its penetration, with Hunt-Crossley damping.

@@ -32,6 +32,12 @@ impl<R: Real> TractionLaw<R> for TanhTraction<R> {
     fn coefficient(&self, slip: R) -> R {
         self.maximum * (slip * self.inverse_reference_speed).tanh()
     }
+    #[inline(always)]
+    fn coefficients(&self, first: R, second: R) -> (R, R) {
+        let (first, second) =
+            (first * self.inverse_reference_speed).tanh_pair(second * self.inverse_reference_speed);
+        (self.maximum * first, self.maximum * second)
+    }
 }
 
 constants! {
@@ -153,10 +159,16 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const TANH: TanhTraction<f64> =
-        TanhTraction { maximum: 0.07, inverse_reference_speed: 10.0 };
-    const FOUR: FourParameterTraction<f64> =
-        FourParameterTraction { a: -0.07, b: 0.35, c: 5.0, d: 0.07 };
+    const TANH: TanhTraction<f64> = TanhTraction {
+        maximum: 0.07,
+        inverse_reference_speed: 10.0,
+    };
+    const FOUR: FourParameterTraction<f64> = FourParameterTraction {
+        a: -0.07,
+        b: 0.35,
+        c: 5.0,
+        d: 0.07,
+    };
     const DRY: DryTraction<f64> = DryTraction {
         kinetic: 0.1,
         static_excess: 0.1,
@@ -177,9 +189,16 @@ mod tests {
     #[test]
     fn four_parameters_that_make_energy_are_found() {
         assert_eq!(FOUR.smallest(), 0.0);
-        let pump = FourParameterTraction { a: -0.07, b: -0.9, c: 5.0, d: 0.07 };
+        let pump = FourParameterTraction {
+            a: -0.07,
+            b: -0.9,
+            c: 5.0,
+            d: 0.07,
+        };
         assert!(pump.smallest() < 0.0);
-        let sink = (1..10_000).map(|i| pump.coefficient(i as f64 * 1e-3)).fold(0.0, f64::min);
+        let sink = (1..10_000)
+            .map(|i| pump.coefficient(i as f64 * 1e-3))
+            .fold(0.0, f64::min);
         assert!((pump.smallest() - sink).abs() < 1e-6);
     }
 

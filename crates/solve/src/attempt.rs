@@ -71,20 +71,29 @@ impl<R: Real, B: Batch<R>> Vectorized for Attempt<'_, R, B> {
         let (time, h) = (w.time, w.length);
         let stages = if begin { 0..1 } else { 1..STAGES };
         for s in stages {
-            combine(s, h, &w.state, &w.rates, &mut w.stage);
+            let (earlier, rate) = w.rates.split_at_mut(s * n);
+            let stage = if s == LAST { &mut w.next } else { &mut w.stage };
+            match s {
+                1 => combine::<R, 1>(h, &w.state, earlier, stage),
+                2 => combine::<R, 2>(h, &w.state, earlier, stage),
+                3 => combine::<R, 3>(h, &w.state, earlier, stage),
+                4 => combine::<R, 4>(h, &w.state, earlier, stage),
+                5 => combine::<R, 5>(h, &w.state, earlier, stage),
+                6 => combine::<R, 6>(h, &w.state, earlier, stage),
+                _ => stage.copy_from_slice(&w.state),
+            }
             let probe: &mut [R] = match s {
                 0 => &mut w.probe,
                 LAST => &mut w.next_probe,
                 _ => &mut [],
             };
-            let rate = &mut w.rates[s * n..(s + 1) * n];
-            batch.rate(mode, time + h * R::splat(C[s]), &w.stage, rate, probe);
+            let time = time + h * R::splat(C[s]);
+            batch.rate(mode, time, stage, &mut rate[..n], probe);
         }
         if begin {
             return R::zero();
         }
-        w.next.copy_from_slice(&w.stage);
-        error(h, &w.rates, &w.inverse_error)
+        error(h, &w.rates, &w.inverse_error, &mut w.stage)
     }
 }
 
@@ -115,42 +124,59 @@ impl<R: Real> Vectorized for Advance<'_, R> {
     }
 }
 
-/// out = state + h Σ a_j k_j over the earlier rates of a stage.
+/// out = state + h Σ a_j k_j over the rates of the `S` earlier stages.
 #[inline(always)]
-fn combine<R: Real>(stage: usize, h: R, state: &[R], rates: &[R], out: &mut [R]) {
+fn combine<R: Real, const S: usize>(h: R, state: &[R], rates: &[R], out: &mut [R]) {
     let n = state.len();
-    assert!(rates.len() == STAGES * n && out.len() == n);
-    out.copy_from_slice(state);
-    for j in 0..stage {
-        let weight = h * R::splat(A[stage][j]);
-        let rate = &rates[j * n..(j + 1) * n];
-        for (value, rate) in out.iter_mut().zip(rate) {
-            *value += weight * *rate;
+    assert!(rates.len() == S * n && out.len() == n);
+    let weight: [R; S] = std::array::from_fn(|j| h * R::splat(A[S][j]));
+    for i in 0..n {
+        let mut value = state[i];
+        let mut j = 0;
+        while j < S {
+            value += weight[j] * rates[j * n + i];
+            j += 1;
         }
+        out[i] = value;
     }
 }
 
-/// Largest error over the channels, each relative to what is allowed there.
+/// Largest error over the channels, each relative to what is allowed there; infinite where any is not a number.
 #[inline(always)]
-fn error<R: Real>(h: R, rates: &[R], inverse_error: &[R]) -> R {
+fn error<R: Real>(h: R, rates: &[R], inverse_error: &[R], relative: &mut [R]) -> R {
     let n = inverse_error.len();
-    assert!(rates.len() == STAGES * n);
-    let mut largest = R::zero();
+    assert!(rates.len() == STAGES * n && relative.len() == n);
     for i in 0..n {
-        let mut sum = R::splat(E[0]) * rates[i];
+        let mut difference = R::splat(E[0]) * rates[i];
         let mut j = 1;
         while j < STAGES {
-            sum += R::splat(E[j]) * rates[j * n + i];
+            difference += R::splat(E[j]) * rates[j * n + i];
             j += 1;
         }
-        let relative = (h * sum).abs() * inverse_error[i];
-        // `max` keeps its second operand when they do not compare: a NaN, once in, must stay.
-        largest = R::select(largest.greater(relative), largest, relative);
-        largest = R::select(
-            relative.greater(R::splat(-1.0)),
-            largest,
-            R::splat(f64::INFINITY),
-        );
+        relative[i] = (h * difference).abs() * inverse_error[i];
     }
-    largest
+    // side by side, because one maximum after the other is a long wait
+    let mut largest = [R::zero(); WAYS];
+    let mut sum = [R::zero(); WAYS];
+    let (ways, rest) = relative.as_chunks::<WAYS>();
+    for values in ways {
+        for k in 0..WAYS {
+            largest[k] = values[k].max(largest[k]);
+            sum[k] += values[k];
+        }
+    }
+    for value in rest {
+        largest[0] = value.max(largest[0]);
+        sum[0] += *value;
+    }
+    for k in 1..WAYS {
+        largest[0] = largest[0].max(largest[k]);
+        sum[0] += sum[k];
+    }
+    // `max` forgets what is not a number, the sum does not
+    let infinite = R::splat(f64::INFINITY);
+    R::select(sum[0].less(infinite), largest[0], infinite)
 }
+
+/// Maxima that run side by side.
+const WAYS: usize = 8;

@@ -95,8 +95,8 @@ struct Lane<M: Machine> {
     step_end: f64,
     mode: M::Mode,
     next_landing: usize,
-    /// Error of the last accepted step, for the controller.
-    last_error: f64,
+    /// Natural logarithm of the error of the last accepted step, for the controller.
+    last_logarithm: f64,
     after_rejection: bool,
     work: Work,
     stop: Option<Stop>,
@@ -137,7 +137,7 @@ where
             step_end: settings.start,
             mode: machines[owner(lane)].start_mode(),
             next_landing: 0,
-            last_error: 1.0,
+            last_logarithm: 0.0,
             after_rejection: false,
             work: Work::default(),
             stop: (lane >= count).then_some(Stop::Finished),
@@ -189,6 +189,7 @@ where
             if !control(lane, error.lane(index)) {
                 continue;
             }
+            scratch.copied = false;
             let flow = observers[index].step(&mut Step {
                 machine: machines[index],
                 mode: &lane.mode,
@@ -325,17 +326,22 @@ fn worst_channel<R: Real>(work: &Workspace<R>, lane: usize) -> usize {
 /// Accepts or rejects a step by its error and chooses the next length. True when accepted.
 ///
 /// PI control (Gustafsson; exponents of Hairer, Norsett, Wanner, Solving ODEs I, II.4): steadier than I control
-/// where stability, not accuracy, bounds the step.
+/// where stability, not accuracy, bounds the step. Logarithm and exponential are those of `number`: the standard
+/// library's may differ from machine to machine.
 fn control<M: Machine>(lane: &mut Lane<M>, error: f64) -> bool {
     const SAFETY: f64 = 0.9;
     const PROPORTIONAL: f64 = 0.7 / 5.0;
     const INTEGRAL: f64 = 0.4 / 5.0;
+    /// ln 1e-4: a step of next to no error does not say much about the following one.
+    const LEAST_LOGARITHM: f64 = -9.210_340_371_976_182;
     lane.work.rate_calls += 6;
     let taken = lane.step_end - lane.time;
     if error <= 1.0 {
         lane.work.accepted += 1;
         let error = error.max(1e-8);
-        let mut factor = SAFETY * error.powf(-PROPORTIONAL) * lane.last_error.powf(INTEGRAL);
+        let logarithm = Real::ln(error);
+        let mut factor =
+            SAFETY * Real::exp(INTEGRAL * lane.last_logarithm - PROPORTIONAL * logarithm);
         factor = factor.clamp(0.2, if lane.after_rejection { 1.0 } else { 5.0 });
         // a step cut short by a landing does not shrink the next one
         let proposed = taken * factor;
@@ -344,13 +350,13 @@ fn control<M: Machine>(lane: &mut Lane<M>, error: f64) -> bool {
         } else {
             proposed
         };
-        lane.last_error = error.max(1e-4);
+        lane.last_logarithm = logarithm.max(LEAST_LOGARITHM);
         lane.after_rejection = false;
         true
     } else {
         lane.work.rejected += 1;
         let factor = if error.is_finite() {
-            (SAFETY * error.powf(-0.2)).clamp(0.1, 0.9)
+            (SAFETY * Real::powf(error, -0.2)).clamp(0.1, 0.9)
         } else {
             0.1
         };

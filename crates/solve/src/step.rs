@@ -19,12 +19,17 @@ pub struct Step<'a, M: Machine> {
     pub(crate) scratch: &'a mut Scratch,
 }
 
-/// Room for one state, one rate and one set of probes of a single machine.
+/// Room for a single machine: one state, one rate, one set of probes, and the step itself.
 #[derive(Debug)]
 pub(crate) struct Scratch {
     pub state: Vec<f64>,
     pub rate: Vec<f64>,
     pub probe: Vec<f64>,
+    /// State at the start of the step and rates of its stages, copied when dense output is first asked for.
+    pub start: Vec<f64>,
+    pub stages: Vec<f64>,
+    /// True once they are copied.
+    pub copied: bool,
 }
 
 impl Scratch {
@@ -33,6 +38,9 @@ impl Scratch {
             state: vec![0.0; dimension],
             rate: vec![0.0; dimension],
             probe: vec![0.0; probes],
+            start: vec![0.0; dimension],
+            stages: vec![0.0; STAGES * dimension],
+            copied: false,
         }
     }
 }
@@ -43,7 +51,7 @@ pub(crate) trait StepData {
     fn end_probe(&self, index: usize) -> f64;
     fn start_state(&self, channel: usize) -> f64;
     fn end_state(&self, channel: usize) -> f64;
-    fn dense(&self, weights: &[f64; STAGES], length: f64, out: &mut [f64]);
+    fn copy(&self, start: &mut [f64], stages: &mut [f64]);
 }
 
 /// One lane of a workspace.
@@ -65,14 +73,12 @@ impl<R: Real> StepData for LaneOf<'_, R> {
     fn end_state(&self, channel: usize) -> f64 {
         self.work.next[channel].lane(self.lane)
     }
-    fn dense(&self, weights: &[f64; STAGES], length: f64, out: &mut [f64]) {
-        let n = out.len();
-        for (i, value) in out.iter_mut().enumerate() {
-            let rates = weights
-                .iter()
-                .enumerate()
-                .map(|(j, w)| w * self.work.rates[j * n + i].lane(self.lane));
-            *value = self.work.state[i].lane(self.lane) + length * rates.sum::<f64>();
+    fn copy(&self, start: &mut [f64], stages: &mut [f64]) {
+        for (value, lanes) in start.iter_mut().zip(&self.work.state) {
+            *value = lanes.lane(self.lane);
+        }
+        for (value, lanes) in stages.iter_mut().zip(&self.work.rates) {
+            *value = lanes.lane(self.lane);
         }
     }
 }
@@ -132,9 +138,19 @@ impl<M: Machine> Step<'_, M> {
                 *value = self.data.end_state(channel);
             }
         } else {
-            let weights = dense_weights(theta);
-            self.data
-                .dense(&weights, self.end - self.start, &mut scratch.state);
+            if !scratch.copied {
+                self.data.copy(&mut scratch.start, &mut scratch.stages);
+                scratch.copied = true;
+            }
+            let length = self.end - self.start;
+            let weights = dense_weights(theta).map(|weight| length * weight);
+            scratch.state.copy_from_slice(&scratch.start);
+            let stages = scratch.stages.chunks_exact(scratch.state.len());
+            for (weight, rates) in weights.into_iter().zip(stages) {
+                for (value, rate) in scratch.state.iter_mut().zip(rates) {
+                    *value += weight * rate;
+                }
+            }
         }
     }
 }

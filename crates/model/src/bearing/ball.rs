@@ -170,7 +170,7 @@ pub struct BallReaction<R> {
     pub pocket_penetration: R,
 }
 
-/// Four reciprocals for one division.
+/// Three reciprocals for one division.
 #[inline(always)]
 fn reciprocals<R: Real>(a: R, b: R, c: R) -> (R, R, R) {
     let ab = a * b;
@@ -239,45 +239,42 @@ impl<R: Real> BallConstants<R> {
         let past_outer_t = past_outer.dot(t_o);
         let outer_slip = outer.spin * arm_o - ball.spin * arm_bo - past_outer_t;
 
-        // traction: computed only where any ball of the group is loaded; the answer is the same
-        let inner_loaded = q_i.force.greater(zero);
-        let outer_loaded = q_o.force.greater(zero);
-        let (mut inner_traction, mut outer_traction) = (zero, zero);
-        if (inner_loaded | outer_loaded).any() {
-            let (mu_i, mu_o) = traction.coefficients(inner_slip, outer_slip);
-            inner_traction = R::select(inner_loaded, mu_i * q_i.force, zero);
-            outer_traction = R::select(outer_loaded, mu_o * q_o.force, zero);
-        }
+        // traction: zero by itself where the load is
+        let (mu_i, mu_o) = traction.coefficients(inner_slip, outer_slip);
+        let inner_traction = mu_i * q_i.force;
+        let outer_traction = mu_o * q_o.force;
 
         // pocket: azimuth about the outer race's centre, as a small correction of θ
         let azimuth = ball.azimuth + (e_r.cross(from_outer) * inverse_outer).asin_small();
         let turns = (azimuth - pocket.angle) * R::splat(0.5 / std::f64::consts::PI);
         let offset =
             (azimuth - pocket.angle) - turns.round() * R::splat(2.0 * std::f64::consts::PI);
-        let side = offset.sign_or_plus();
-        let penetration = side * offset * self.pocket_radius - self.pocket_gap;
+        let penetration = offset.abs() * self.pocket_radius - self.pocket_gap;
         let (mut pocket_force, mut pocket_push, mut pocket_friction) = (zero, zero, zero);
-        let (mut pocket_damping_heat, mut pocket_sliding_heat) = (zero, zero);
+        let (mut pocket_moment, mut damping_heat, mut sliding_heat) = (zero, zero, zero);
+        let side = offset.sign_or_plus();
+        // computed only where any ball of the group is pressed; the answer is the same
         let pressed = penetration.greater(zero);
         if pressed.any() {
-            let penetration_speed =
-                side * self.pocket_radius * (past_outer_t * inverse_outer - pocket.spin);
+            let lever = side * self.pocket_radius;
+            let penetration_speed = lever * (past_outer_t * inverse_outer - pocket.spin);
             let p = linear_contact(
                 self.pocket_stiffness,
                 self.pocket_damping,
                 penetration,
                 penetration_speed,
             );
-            let slide = outer_closing - side * self.radius * (ball.spin - pocket.spin);
+            let arm = side * self.radius;
+            let slide = outer_closing - arm * (ball.spin - pocket.spin);
             let coefficient =
                 self.pocket_friction * (slide * self.pocket_inverse_reference_speed).tanh();
             pocket_force = p.force;
-            pocket_push = R::select(pressed, -(side * p.force * self.pocket_radius), zero);
+            pocket_push = R::select(pressed, -(p.force * lever), zero);
             pocket_friction = R::select(pressed, -(coefficient * p.force), zero);
-            pocket_damping_heat = (p.force - p.elastic) * penetration_speed;
-            pocket_sliding_heat = R::select(pressed, coefficient * p.force * slide, zero);
+            pocket_moment = R::select(pressed, arm * pocket_friction, zero);
+            damping_heat = (p.force - p.elastic) * penetration_speed;
+            sliding_heat = R::select(pressed, coefficient * p.force * slide, zero);
         }
-        let pocket_moment = side * self.radius * pocket_friction;
 
         // the three force pairs
         let by_inner = n_i * q_i.force + t_i * inner_traction;
@@ -311,8 +308,8 @@ impl<R: Real> BallConstants<R> {
                 inner_sliding: inner_traction * inner_slip,
                 outer_sliding: outer_traction * outer_slip,
                 drag: drag * orbital + self.spin_drag * ball.spin.square(),
-                pocket_damping: pocket_damping_heat,
-                pocket_sliding: pocket_sliding_heat,
+                pocket_damping: damping_heat,
+                pocket_sliding: sliding_heat,
             },
             inner_load: q_i.force,
             outer_load: q_o.force,

@@ -202,7 +202,7 @@ impl<R: Real> Bearing<R> {
 /// part `j mod 4`, and the four parts are added last. So a lane of many machines equals the machine alone bitwise.
 pub(crate) struct BallSums<R: Real, const K: usize> {
     count: usize,
-    part: [[R::Group; K]; 4],
+    part: [[R; 4]; K],
 }
 
 impl<R: Real, const K: usize> BallSums<R, K> {
@@ -210,59 +210,37 @@ impl<R: Real, const K: usize> BallSums<R, K> {
     pub fn new(count: usize) -> Self {
         BallSums {
             count,
-            part: [[R::Group::zero(); K]; 4],
+            part: [[R::zero(); 4]; K],
         }
     }
     /// Adds the group of balls that starts at `from`.
     #[inline(always)]
     pub fn add(&mut self, from: usize, values: &[R::Group; K]) {
-        let full = from + R::GROUP <= self.count;
-        let valid = self.valid(from);
-        let part = &mut self.part[(from % 4) / R::GROUP];
-        if full {
-            for (sum, value) in part.iter_mut().zip(values) {
-                *sum += *value;
-            }
-        } else {
-            for (sum, value) in part.iter_mut().zip(values) {
-                *sum += R::Group::select(valid, *value, R::Group::zero());
-            }
+        let count = self.count - from;
+        for (part, value) in self.part.iter_mut().zip(values) {
+            R::add_group(*value, part, from, count);
         }
-    }
-    /// True for the parts of a group that are balls, false for the padding behind the last.
-    #[inline(always)]
-    fn valid(&self, from: usize) -> <R::Group as Real>::Mask {
-        <<R::Group as Real>::Mask as number::Mask>::from_lanes(|part| {
-            R::GROUP == 1 || from + part < self.count
-        })
     }
     /// The sums.
     #[inline(always)]
     pub fn total(&self) -> [R; K] {
+        // a loop, not `map`: the closure of `map` would not be compiled for the vector unit
         let mut total = [R::zero(); K];
-        for (k, sum) in total.iter_mut().enumerate() {
-            let mut part = [R::zero(); 4];
-            let mut from = 0;
-            while from < 4 {
-                R::store_group(self.part[from / R::GROUP][k], &mut part, from);
-                from += R::GROUP;
-            }
+        for (sum, part) in total.iter_mut().zip(&self.part) {
             *sum = (part[0] + part[1]) + (part[2] + part[3]);
         }
         total
     }
 }
 
-/// The largest part of a group; the padding repeats a ball and does not matter.
+/// The largest of one of the lists of a detail; zero where no detail was asked for.
 #[inline(always)]
-pub(crate) fn largest<R: Real>(group: R::Group) -> R {
-    let mut part = [R::zero(); 4];
-    R::store_group(group, &mut part, 0);
-    let mut largest = part[0];
-    let mut i = 1;
-    while i < R::GROUP {
-        largest = largest.max(part[i]);
-        i += 1;
+pub(crate) fn largest<R: Real>(detail: &[R], balls: usize, list: usize) -> R {
+    let mut largest = R::zero();
+    if !detail.is_empty() {
+        for value in &detail[list * balls..(list + 1) * balls] {
+            largest = largest.max(*value);
+        }
     }
     largest
 }

@@ -128,8 +128,6 @@ impl<R: Real> Planar<R> {
         let (cage_angle, cage_speed) = (state[0], state[1]);
         let [radius, radial_speed, azimuth, orbit_speed, spin] = split(state, n);
         let [d_radius, d_radial_speed, d_azimuth, d_orbit_speed, d_spin] = split_mut(rate, n);
-        d_radius.copy_from_slice(radial_speed);
-        d_azimuth.copy_from_slice(orbit_speed);
 
         let race = |body: &crate::motion::Body<R>| RaceMotion {
             position: grouped(body.position),
@@ -138,8 +136,6 @@ impl<R: Real> Planar<R> {
         };
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
         let mut sums = BallSums::<R, 15>::new(n);
-        let zero = R::Group::zero();
-        let (mut largest_inner, mut largest_outer) = (zero, zero);
         let mut from = 0;
         while from < n {
             let ball = BallMotion {
@@ -154,7 +150,9 @@ impl<R: Real> Planar<R> {
                 spin: cage_speed.grouped(),
             };
             let r = self.ball.react(traction, &inner, &outer, &pocket, &ball);
+            R::store_group(ball.radial_speed, d_radius, from);
             R::store_group(r.acceleration.radial, d_radial_speed, from);
+            R::store_group(ball.orbit_speed, d_azimuth, from);
             R::store_group(r.acceleration.orbit, d_orbit_speed, from);
             R::store_group(r.acceleration.spin, d_spin, from);
             sums.add(
@@ -178,8 +176,6 @@ impl<R: Real> Planar<R> {
                 ],
             );
             if !detail.is_empty() {
-                largest_inner = largest_inner.max(r.inner_load);
-                largest_outer = largest_outer.max(r.outer_load);
                 for (k, value) in [
                     r.inner_load,
                     r.outer_load,
@@ -215,8 +211,8 @@ impl<R: Real> Planar<R> {
                 pocket_sliding: s[14],
                 steady_moment: R::zero(),
             },
-            largest_inner_load: largest::<R>(largest_inner),
-            largest_outer_load: largest::<R>(largest_outer),
+            largest_inner_load: largest(detail, n, 0),
+            largest_outer_load: largest(detail, n, 1),
         }
     }
 }

@@ -139,7 +139,6 @@ impl<R: Real> Rolling<R> {
             Vec2::new(closing.x.grouped(), closing.y.grouped()),
         );
         let mut sums = BallSums::<R, 3>::new(n);
-        let mut largest_load = R::Group::zero();
         let mut from = 0;
         while from < n {
             let azimuth = state[0].grouped() + R::load_group(&self.seats, from);
@@ -158,7 +157,6 @@ impl<R: Real> Rolling<R> {
                 &[push.x, push.y, (load.force - load.elastic) * approach_speed],
             );
             if !detail.is_empty() {
-                largest_load = largest_load.max(load.force);
                 R::store_group(load.force, &mut detail[..n], from);
                 R::store_group(load.force + centrifugal, &mut detail[n..2 * n], from);
             }
@@ -193,8 +191,8 @@ impl<R: Real> Rolling<R> {
                 pocket_sliding: R::zero(),
                 steady_moment: moment * spin,
             },
-            largest_inner_load: largest::<R>(largest_load),
-            largest_outer_load: largest::<R>(largest_load + centrifugal),
+            largest_inner_load: largest(detail, n, 0),
+            largest_outer_load: largest(detail, n, 1),
         }
     }
 }

@@ -7,7 +7,7 @@ use super::layout::{
 use super::{Drop, Mode};
 use crate::motion::{Body, Motion};
 use crate::rotor::RotorMotion;
-use number::{Real, Vec2};
+use number::{Mask, Real, Vec2};
 
 /// Motion of the rotor in a state.
 #[inline(always)]
@@ -73,7 +73,12 @@ impl<R: Real> Drop<R> {
             .react(&races, &state[own.clone()], &mut rate[own], detail);
         let levitation = m.levitation.force(centre.position, centre.velocity) * mode.levitation;
         let mount = m.mount.force(outer.position, outer.velocity);
-        let brake = m.rotor.brake_moment(rotor.spin) * mode.brake;
+        let braking = mode.brake.greater(zero);
+        let brake = if braking.any() {
+            R::select(braking, m.rotor.brake_moment(rotor.spin), zero)
+        } else {
+            zero
+        };
 
         // rotor
         let rotor_force = contact.on_rotor.force + levitation;

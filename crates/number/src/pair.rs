@@ -1,0 +1,206 @@
+//! Two vectors as one number.
+//!
+//! The arithmetic of a ball is one long chain in which every operation waits for the one before: two independent
+//! chains side by side keep the vector unit busy.
+
+use crate::elementary::{self, Bits};
+use crate::real::Vectorized;
+use crate::scalar::group_of_one;
+use crate::{Mask, Real};
+use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
+
+/// Two numbers, or two masks, side by side: the lanes of the first, then those of the second.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair<V>(pub V, pub V);
+
+macro_rules! operator {
+    ($Trait:ident, $method:ident, $op:tt) => {
+        impl<V: Real> $Trait for Pair<V> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Pair(self.0 $op other.0, self.1 $op other.1)
+            }
+        }
+    };
+    ($Trait:ident, $method:ident, $Assign:ident, $assign:ident, $op:tt) => {
+        operator!($Trait, $method, $op);
+        impl<V: Real> $Assign for Pair<V> {
+            #[inline(always)]
+            fn $assign(&mut self, other: Self) {
+                *self = *self $op other;
+            }
+        }
+    };
+}
+operator!(Add, add, AddAssign, add_assign, +);
+operator!(Sub, sub, SubAssign, sub_assign, -);
+operator!(Mul, mul, MulAssign, mul_assign, *);
+operator!(Div, div, /);
+impl<V: Real> Neg for Pair<V> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Pair(-self.0, -self.1)
+    }
+}
+
+impl<M: Mask> BitAnd for Pair<M> {
+    type Output = Self;
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        Pair(self.0 & other.0, self.1 & other.1)
+    }
+}
+impl<M: Mask> BitOr for Pair<M> {
+    type Output = Self;
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        Pair(self.0 | other.0, self.1 | other.1)
+    }
+}
+impl<M: Mask> Not for Pair<M> {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        Pair(!self.0, !self.1)
+    }
+}
+impl<M: Mask> Mask for Pair<M> {
+    const LANES: usize = 2 * M::LANES;
+    #[inline(always)]
+    fn any(self) -> bool {
+        (self.0 | self.1).any()
+    }
+    #[inline(always)]
+    fn lane(self, index: usize) -> bool {
+        if index < M::LANES {
+            self.0.lane(index)
+        } else {
+            self.1.lane(index - M::LANES)
+        }
+    }
+    #[inline(always)]
+    fn from_lanes(mut lane: impl FnMut(usize) -> bool) -> Self {
+        let first = M::from_lanes(&mut lane);
+        Pair(first, M::from_lanes(|i| lane(M::LANES + i)))
+    }
+}
+
+/// A method of both halves.
+macro_rules! halves {
+    ($($method:ident($($other:ident)?);)*) => {$(
+        #[inline(always)]
+        fn $method(self $(, $other: Self)?) -> Self {
+            Pair(self.0.$method($($other.0)?), self.1.$method($($other.1)?))
+        }
+    )*};
+}
+
+impl<V: Bits> Real for Pair<V> {
+    type Mask = Pair<V::Mask>;
+    const LANES: usize = 2 * V::LANES;
+    group_of_one!();
+    halves! { sqrt(); abs(); round(); max(other); min(other); }
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Pair(V::splat(value), V::splat(value))
+    }
+    #[inline(always)]
+    fn from_lanes(mut lane: impl FnMut(usize) -> f64) -> Self {
+        let first = V::from_lanes(&mut lane);
+        Pair(first, V::from_lanes(|i| lane(V::LANES + i)))
+    }
+    #[inline(always)]
+    fn lane(self, index: usize) -> f64 {
+        if index < V::LANES {
+            self.0.lane(index)
+        } else {
+            self.1.lane(index - V::LANES)
+        }
+    }
+    #[inline(always)]
+    fn exp(self) -> Self {
+        elementary::exp(self)
+    }
+    #[inline(always)]
+    fn ln(self) -> Self {
+        elementary::ln(self)
+    }
+    #[inline(always)]
+    fn tanh(self) -> Self {
+        elementary::tanh(self)
+    }
+    #[inline(always)]
+    fn tanh_pair(self, other: Self) -> (Self, Self) {
+        elementary::tanh_pair(self, other)
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        elementary::sin_cos(self)
+    }
+    #[inline(always)]
+    fn asin_small(self) -> Self {
+        elementary::asin_small(self)
+    }
+    #[inline(always)]
+    fn vectorized<T: Vectorized>(task: T) -> T::Output {
+        V::vectorized(task)
+    }
+    #[inline(always)]
+    fn greater(self, other: Self) -> Self::Mask {
+        Pair(self.0.greater(other.0), self.1.greater(other.1))
+    }
+    #[inline(always)]
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        Pair(
+            V::select(mask.0, yes.0, no.0),
+            V::select(mask.1, yes.1, no.1),
+        )
+    }
+}
+
+impl<V: Bits> Bits for Pair<V> {
+    halves! { exp2_shifted(); negated_where_negative(other); negated_by_bit_one(shifted); }
+    #[inline(always)]
+    fn mantissa_exponent(self) -> (Self, Self) {
+        let (first, second) = (self.0.mantissa_exponent(), self.1.mantissa_exponent());
+        (Pair(first.0, second.0), Pair(first.1, second.1))
+    }
+    #[inline(always)]
+    fn odd_shifted(self) -> Self::Mask {
+        Pair(self.0.odd_shifted(), self.1.odd_shifted())
+    }
+}
+
+/// A group of two parts of every machine.
+macro_rules! group_of_two {
+    () => {
+        type Group = Pair<Self>;
+        const GROUP: usize = 2;
+        #[inline(always)]
+        fn grouped(self) -> Pair<Self> {
+            Pair(self, self)
+        }
+        #[inline(always)]
+        fn load_group(parts: &[Self], from: usize) -> Pair<Self> {
+            Pair(parts[from], parts[(from + 1).min(parts.len() - 1)])
+        }
+        #[inline(always)]
+        fn store_group(group: Pair<Self>, parts: &mut [Self], from: usize) {
+            parts[from] = group.0;
+            if let Some(second) = parts.get_mut(from + 1) {
+                *second = group.1;
+            }
+        }
+        #[inline(always)]
+        fn add_group(group: Pair<Self>, sums: &mut [Self; 4], from: usize, count: usize) {
+            sums[from % 4] += group.0;
+            if count > 1 {
+                sums[(from + 1) % 4] += group.1;
+            }
+        }
+    };
+}
+#[cfg(target_arch = "x86_64")]
+pub(crate) use group_of_two;
