@@ -1,1 +1,95 @@
-fn main() {}
+//! The command `auxbear`: reads the command line, calls the library, prints. No physics and no default values of its own.
+
+mod arguments;
+mod bearings;
+mod console;
+mod progress;
+mod run;
+mod start;
+mod summary;
+
+use arguments::{Arguments, Command};
+use auxbear::problem::{Code, Problem};
+use auxbear::report::directory;
+use auxbear::scenario::{BuiltIn, Scenario};
+use auxbear::validate::{self, Simulation};
+use clap::Parser;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// How the command ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Exit {
+    /// All done.
+    Done,
+    /// The run failed, or results could not be kept; for `validate`, a case failed.
+    Failed,
+    /// The input is wrong.
+    WrongInput,
+    /// Interrupted; what was computed is kept.
+    Interrupted,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> ExitCode {
+        ExitCode::from(match exit {
+            Exit::Done => 0,
+            Exit::Failed => 1,
+            Exit::WrongInput => 2,
+            Exit::Interrupted => 130,
+        })
+    }
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let exit = match perform(&arguments.command) {
+        Ok(exit) => exit,
+        Err(problem) => {
+            console::tell(&problem.to_string());
+            match problem.code {
+                Code::OutputFailed => Exit::Failed,
+                _ => Exit::WrongInput,
+            }
+        }
+    };
+    exit.into()
+}
+
+fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
+    match command {
+        Command::Run(wish) => return run::perform(wish),
+        Command::Check { file, set } => {
+            let scenario = Scenario::read(file, set, &BuiltIn)?;
+            console::print(&scenario.resolved.toml());
+        }
+        Command::New { kind, path } => start::perform(kind, path.as_deref())?,
+        Command::Report { directories, out } => report(directories, out.as_deref())?,
+        Command::Validate { cases, json } => {
+            let report = validate::run(cases.as_deref(), &Simulation)?;
+            console::print(&if *json {
+                report.to_json() + "\n"
+            } else {
+                report.to_text()
+            });
+            if !report.passed() {
+                return Ok(Exit::Failed);
+            }
+        }
+        Command::Bearings { command } => bearings::perform(command)?,
+    }
+    Ok(Exit::Done)
+}
+
+fn report(directories: &[PathBuf], out: Option<&Path>) -> Result<(), Box<Problem>> {
+    let written = match (directories, out) {
+        ([only], None) => directory::rewrite_report(only)?,
+        (_, out) => {
+            let file = out.unwrap_or(Path::new("comparison.html"));
+            directory::write_report(file, directories)?;
+            file.to_path_buf()
+        }
+    };
+    console::print(&format!("{}\n", written.display()));
+    Ok(())
+}

@@ -67,6 +67,11 @@ impl NewDirectory {
         &self.path
     }
 
+    /// The directory as it is called until it is finished.
+    pub fn partial(&self) -> &Path {
+        &self.partial
+    }
+
     /// Writes the files and gives the directory its name.
     pub fn finish(self, scenario: &Scenario, outcome: &Outcome) -> Result<(), Box<Problem>> {
         let summary_json = summary::json(scenario, outcome)

@@ -1,0 +1,95 @@
+//! The command line as types; its texts are what `--help` prints.
+
+use clap::{Args, Parser, Subcommand};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+/// What happens when a magnetically levitated rotor falls onto its auxiliary rolling bearings.
+#[derive(Debug, Parser)]
+#[command(
+    name = "auxbear",
+    version,
+    after_help = "Start with `auxbear new drop my_drop.toml`, then `auxbear run my_drop.toml`.\n\
+                  Exit status: 0 done, 1 the run failed, 2 the input is wrong, 130 interrupted."
+)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Simulate what a file describes and write a run directory
+    Run(Run),
+    /// Read and check a file, print it with every default and its unit; run nothing
+    Check {
+        /// Scenario file
+        file: PathBuf,
+        /// Override a value of the file, e.g. rotor.mass="8 kg"; may be repeated
+        #[arg(long, value_name = "PATH=VALUE")]
+        set: Vec<String>,
+    },
+    /// Write a commented starting file
+    New {
+        /// What to describe: drop
+        kind: String,
+        /// File to write; printed if none is given
+        path: Option<PathBuf>,
+    },
+    /// Draw the HTML report of one run again, or of several side by side
+    Report {
+        /// Run directories
+        #[arg(required = true, value_name = "DIR")]
+        directories: Vec<PathBuf>,
+        /// File to write [one run: its own report.html; several: comparison.html here]
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
+    /// Run published and reference cases and print how far the results lie from them
+    Validate {
+        /// Folder with more cases, besides those that ship
+        #[arg(long, value_name = "DIR")]
+        cases: Option<PathBuf>,
+        /// Print JSON instead of a table
+        #[arg(long)]
+        json: bool,
+    },
+    /// The catalogue of bearings
+    Bearings {
+        #[command(subcommand)]
+        command: Bearings,
+    },
+}
+
+#[derive(Debug, Args)]
+pub struct Run {
+    /// Scenario file
+    pub file: PathBuf,
+    /// Run directory to write [runs/NAME of the file, with a number where that is taken]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Override a value of the file, e.g. rotor.mass="8 kg"; may be repeated
+    #[arg(long, value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Number of runs from perturbed starts; the same as --set repeat.count=N
+    #[arg(long, value_name = "N")]
+    pub repeat: Option<String>,
+    /// Number of threads [all cores]; the numbers do not depend on it
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
+    /// Print nothing but problems
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Bearings {
+    /// List all bearings
+    List,
+    /// Show every number of one bearing with its source
+    Show {
+        /// Name of the bearing, e.g. 6005
+        #[arg(required = true)]
+        name: Vec<String>,
+    },
+}

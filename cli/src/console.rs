@@ -1,0 +1,43 @@
+//! Printing that outlives its reader: a closed pipe ends the output, not the program.
+
+use std::io::{Write, stderr, stdout};
+
+/// Prints results.
+pub fn print(text: &str) {
+    // The reader may have left, as `head` does; there is nobody to tell.
+    let mut out = stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// Tells a problem or how far things are, on a line of its own beside the results.
+pub fn tell(line: &str) {
+    let _ = writeln!(stderr().lock(), "{line}");
+}
+
+/// A table: columns aligned but for the last, two spaces between them, no space at the end of a line.
+pub fn table<const N: usize>(rows: &[[String; N]]) -> String {
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
+    let widths: [usize; N] = std::array::from_fn(|column| width(column).unwrap_or(0));
+    let mut text = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (cell, width) in row.iter().zip(widths) {
+            line.push_str(&format!("{cell:width$}  "));
+        }
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_aligned_by_letters() {
+        let row = |a: &str, b: &str| [a.to_string(), b.to_string()];
+        let rows = [row("µm", "x"), row("metre", ""), row("", "y")];
+        assert_eq!(table(&rows), "µm     x\nmetre\n       y\n");
+    }
+}

@@ -1,0 +1,67 @@
+//! How far a run is: a bar on a terminal, a few lines in a log, nothing when quiet.
+
+use crate::console;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+/// Time between lines in a log, at least.
+const PAUSE: Duration = Duration::from_secs(1);
+
+/// Shows how far a run is.
+pub enum Progress {
+    Quiet,
+    Bar(ProgressBar),
+    Lines(Mutex<Lines>),
+}
+
+/// What was told in a log: a line each 10 %, and none sooner than a second after the last.
+pub struct Lines {
+    tenths: u32,
+    last: Instant,
+}
+
+impl Progress {
+    /// The way that fits where the messages go.
+    pub fn new(quiet: bool) -> Progress {
+        if quiet {
+            return Progress::Quiet;
+        }
+        if !std::io::stderr().is_terminal() {
+            return Progress::Lines(Mutex::new(Lines {
+                tenths: 0,
+                last: Instant::now(),
+            }));
+        }
+        let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::stderr());
+        let style = ProgressStyle::with_template("run {wide_bar} {percent:>3} % {eta:>5}");
+        Progress::Bar(bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())))
+    }
+
+    /// Shows a fraction of the work, from any thread.
+    pub fn show(&self, fraction: f64) {
+        match self {
+            Progress::Quiet => {}
+            Progress::Bar(bar) => bar.set_position((1000.0 * fraction) as u64),
+            Progress::Lines(lines) => {
+                let tenths = (10.0 * fraction) as u32;
+                if let Ok(mut lines) = lines.lock()
+                    && tenths > lines.tenths
+                    && lines.last.elapsed() >= PAUSE
+                {
+                    lines.tenths = tenths;
+                    lines.last = Instant::now();
+                    console::tell(&format!("run: {} %", 10 * tenths));
+                }
+            }
+        }
+    }
+
+    /// Takes the bar away.
+    pub fn end(&self) {
+        if let Progress::Bar(bar) = self {
+            bar.finish_and_clear();
+        }
+    }
+}

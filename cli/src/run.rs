@@ -1,0 +1,87 @@
+//! `auxbear run`.
+
+use crate::arguments::Run;
+use crate::progress::Progress;
+use crate::{Exit, console, summary};
+use auxbear::problem::Problem;
+use auxbear::report::directory::{NewDirectory, free_path};
+use auxbear::scenario::{BuiltIn, Scenario};
+use auxbear::simulate::outcome::Stop;
+use auxbear::simulate::{self, Options};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+use std::{fs, process};
+
+/// Set by the first Ctrl-C.
+static INTERRUPT: AtomicBool = AtomicBool::new(false);
+
+/// Signals within this time are one: job systems send theirs to a process and again to its group.
+const ECHO: Duration = Duration::from_millis(500);
+
+/// Simulates a scenario and writes its run directory.
+pub fn perform(wish: &Run) -> Result<Exit, Box<Problem>> {
+    let mut sets = wish.set.clone();
+    // As an override it is checked like any value, and the resolved file repeats it.
+    sets.extend(wish.repeat.iter().map(|n| format!("repeat.count={n}")));
+    let scenario = Scenario::read(&wish.file, &sets, &BuiltIn)?;
+    let path = wish.out.clone().unwrap_or_else(|| {
+        let stem = wish.file.file_stem().unwrap_or_default();
+        free_path(&stem.to_string_lossy())
+    });
+    let directory = NewDirectory::reserve(&path)?;
+    listen(directory.partial().to_path_buf());
+
+    let progress = Progress::new(wish.quiet);
+    let outcome = simulate::run(
+        &scenario,
+        &Options {
+            repeat: None,
+            threads: wish.threads.map(usize::from),
+            interrupt: &INTERRUPT,
+            progress: &|fraction| progress.show(fraction),
+        },
+    );
+    progress.end();
+    let outcome = outcome?;
+    directory.finish(&scenario, &outcome)?;
+    if !wish.quiet {
+        console::print(&summary::text(&path, &outcome));
+    }
+    let exit = exit_of(&outcome.stop);
+    let word = match exit {
+        Exit::Done => return Ok(exit),
+        Exit::Interrupted => "interrupted",
+        _ => "run failed",
+    };
+    let text = outcome.stop.text.trim_end_matches('.');
+    console::tell(&format!(
+        "{word}: {text}. What was computed is in {}",
+        path.display()
+    ));
+    Ok(exit)
+}
+
+fn exit_of(stop: &Stop) -> Exit {
+    match stop.reason {
+        _ if stop.complete() => Exit::Done,
+        "interrupted" => Exit::Interrupted,
+        _ => Exit::Failed,
+    }
+}
+
+/// The first Ctrl-C (or termination) ends the run and keeps what was computed; one that follows later ends the program
+/// and takes the unfinished directory away.
+fn listen(partial: PathBuf) {
+    let mut first = None;
+    let handler = move || {
+        let first = first.get_or_insert_with(Instant::now);
+        if INTERRUPT.swap(true, Ordering::Relaxed) && first.elapsed() > ECHO {
+            let _ = fs::remove_dir_all(&partial);
+            process::exit(130);
+        }
+    };
+    if let Err(error) = ctrlc::set_handler(handler) {
+        console::tell(&format!("an interrupt will not keep results: {error}"));
+    }
+}

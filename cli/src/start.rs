@@ -1,0 +1,59 @@
+//! `auxbear new`.
+
+use crate::console;
+use auxbear::problem::{Code, Problem, did_you_mean};
+use auxbear::scenario::template;
+use std::fs::{self, File};
+use std::io::{ErrorKind, Write};
+use std::path::Path;
+
+const BUILT: &str = "drop";
+/// Kinds of files that the command will know, so that asking for one is no spelling mistake.
+const PLANNED: [&str; 5] = ["spin_up", "rig", "identify", "rotor", "study"];
+
+/// Prints or writes the starting file of a kind.
+pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
+    let text = template(kind).ok_or_else(|| unknown(kind))?;
+    let Some(path) = path else {
+        console::print(&text);
+        return Ok(());
+    };
+    let mut file = File::create_new(path).map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists => Box::new(Problem::at_path(
+            Code::OutputExists,
+            path,
+            "something of this name",
+            "a starting file is never written over another: choose another path",
+        )),
+        _ => failed(path, &error),
+    })?;
+    file.write_all(text.as_bytes()).map_err(|error| {
+        let _ = fs::remove_file(path);
+        failed(path, &error)
+    })
+}
+
+fn unknown(kind: &str) -> Box<Problem> {
+    let needed = format!("a kind is needed: {BUILT}");
+    Box::new(if PLANNED.contains(&kind) {
+        let found = format!("\"{kind}\", which is planned but not built yet");
+        Problem::new(Code::NotBuilt, "auxbear new", found, needed)
+    } else {
+        Problem::new(
+            Code::UnknownWord,
+            "auxbear new",
+            format!("\"{kind}\""),
+            needed,
+        )
+        .with_hint(did_you_mean(kind, [BUILT]))
+    })
+}
+
+fn failed(path: &Path, error: &std::io::Error) -> Box<Problem> {
+    Box::new(Problem::at_path(
+        Code::OutputFailed,
+        path,
+        format!("that it cannot be written ({error})"),
+        "a place with room and permission to write is needed",
+    ))
+}

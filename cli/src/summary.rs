@@ -1,0 +1,121 @@
+//! What is printed after a run: where it is, the quantities most looked for, warnings, cost.
+
+use crate::console;
+use auxbear::simulate::outcome::{Outcome, Quantity, Value};
+use std::path::Path;
+
+/// The quantities most looked for; those a run does not have say why in the report.
+const KEY_QUANTITIES: [&str; 8] = [
+    "time_to_first_contact",
+    "first_impact_force",
+    "peak_contact_force",
+    "contact_count",
+    "inner_race_time_to_95_percent",
+    "peak_hertz_pressure",
+    "dissipated_energy",
+    "energy_residual",
+];
+
+/// Units for people: SI unit, then units from large to small with their value in SI.
+const UNITS: &[(&str, &[(&str, f64)])] = &[
+    ("s", &[("s", 1.0), ("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)]),
+    ("m", &[("m", 1.0), ("mm", 1e-3), ("µm", 1e-6), ("nm", 1e-9)]),
+    ("N", &[("kN", 1e3), ("N", 1.0), ("mN", 1e-3), ("µN", 1e-6)]),
+    (
+        "Pa",
+        &[("GPa", 1e9), ("MPa", 1e6), ("kPa", 1e3), ("Pa", 1.0)],
+    ),
+    ("J", &[("kJ", 1e3), ("J", 1.0), ("mJ", 1e-3), ("µJ", 1e-6)]),
+];
+
+/// The text printed after a run.
+pub fn text(path: &Path, outcome: &Outcome) -> String {
+    let mut rows = Vec::new();
+    for name in KEY_QUANTITIES {
+        if let Some(quantity) = outcome.quantities.iter().find(|q| q.name == name) {
+            rows.push([format!("  {}", name.replace('_', " ")), value(quantity)]);
+        }
+    }
+    let mut text = format!("{}\n{}", outcome.title, console::table(&rows));
+    for warning in &outcome.warnings {
+        text.push_str(&format!("warning[{}]: {}\n", warning.code, warning.text));
+    }
+    let work = &outcome.work;
+    text.push_str(&format!(
+        "{} in {:.2} s, {} steps\n",
+        match work.members {
+            1 => "1 run".to_string(),
+            members => format!("{members} runs"),
+        },
+        work.seconds,
+        work.steps
+    ));
+    text.push_str(&format!("{}\n", path.join("report.html").display()));
+    text
+}
+
+fn value(quantity: &Quantity) -> String {
+    let text = match &quantity.value {
+        Value::Number(number) => readable(*number, quantity.unit),
+        Value::List(list) => format!("{} values", list.len()),
+        Value::Text(text) => text.clone(),
+        Value::None { why } => format!("none: {why}"),
+    };
+    match &quantity.spread {
+        Some(spread) => format!(
+            "{text} (mean {} ± {} of {} runs)",
+            readable(spread.mean, quantity.unit),
+            readable(spread.standard_deviation, quantity.unit),
+            spread.members
+        ),
+        None => text,
+    }
+}
+
+/// A value with four digits in the unit that keeps it between 1 and 1000, where there is one.
+fn readable(si: f64, unit: &str) -> String {
+    let units = UNITS.iter().find(|(known, _)| *known == unit);
+    let units = units.map_or(&[][..], |(_, units)| units);
+    let fitting = units.iter().find(|(_, size)| si.abs() >= *size);
+    let (unit, size) = match fitting.or(units.last()) {
+        Some((unit, size)) if si != 0.0 => (*unit, *size),
+        _ => (unit, 1.0),
+    };
+    let number = four_digits(si / size);
+    match unit {
+        "" | "1" => number,
+        unit => format!("{number} {unit}"),
+    }
+}
+
+fn four_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    // A count is a whole number and keeps all its digits.
+    if value == value.trunc() && value.abs() < 1e9 {
+        return format!("{value}");
+    }
+    units::number_text(rounded)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_printed_in_the_unit_that_fits() {
+        for (si, unit, text) in [
+            (7.139_21e-3, "s", "7.139 ms"),
+            (675.498, "N", "675.5 N"),
+            (13_450.0, "N", "13.45 kN"),
+            (3.2e9, "Pa", "3.2 GPa"),
+            (-2.5e-4, "m", "-250 µm"),
+            (0.0, "m", "0 m"),
+            (12.0, "", "12"),
+            (123_456.0, "", "123456"),
+            (3.21e-8, "1", "3.21e-8"),
+            (1256.64, "rad/s", "1257 rad/s"),
+        ] {
+            assert_eq!(readable(si, unit), text);
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! Everything but runs: help, starting files, checks, the catalogue, validation.
+
+use crate::place::Place;
+use std::fs;
+use std::process::Stdio;
+
+#[test]
+fn help_names_what_is_there_and_nothing_else() {
+    let place = Place::new();
+    let called = place.call(&["--help"]).done();
+    for command in ["run", "check", "new", "report", "validate", "bearings"] {
+        assert!(called.out.contains(&format!("\n  {command} ")), "{command}");
+        place.call(&[command, "--help"]).done();
+    }
+    for later in ["rotor", "identify", "study", "torque", "schema", "studio"] {
+        assert!(!called.out.contains(&format!("\n  {later} ")), "{later}");
+    }
+}
+
+#[test]
+fn the_starting_file_is_written_or_printed_and_reads() {
+    let place = Place::new();
+    let printed = place.call(&["new", "drop"]).done().out;
+    place.call(&["new", "drop", "mine.toml"]).done();
+    assert_eq!(
+        fs::read_to_string(place.path("mine.toml")).unwrap(),
+        printed
+    );
+    place.call(&["check", "mine.toml"]).done();
+}
+
+#[test]
+fn check_prints_a_file_that_checks_to_itself() {
+    let place = Place::new();
+    let once = place
+        .call(&["check", "drop.toml", "--set", "rotor.mass=9 kg"])
+        .done();
+    assert!(once.out.contains("mass = \"9 kg\""));
+    assert!(once.out.contains("acceleration = \"9.81 m/s^2\" # default"));
+    fs::write(place.path("resolved.toml"), &once.out).unwrap();
+    let twice = place.call(&["check", "resolved.toml"]).done();
+    // Defaults have become given values; the values themselves stay.
+    let value = |line: &str| line.split(" #").next().unwrap().to_string();
+    let values = |text: &str| -> Vec<String> {
+        let kept = text.lines().filter(|line| !line.starts_with('#'));
+        kept.map(value).collect()
+    };
+    assert_eq!(values(&once.out), values(&twice.out));
+    assert_eq!(place.names(), ["resolved.toml"]);
+}
+
+#[test]
+fn the_catalogue_is_listed_and_shown_with_its_sources() {
+    let place = Place::new();
+    let list = place.call(&["bearings", "list"]).done().out;
+    assert_eq!(list.lines().count(), 4);
+    assert!(list.starts_with("6005         deep groove ball bearing"));
+    let shown = place.call(&["bearings", "show", "6005"]).done().out;
+    let row = |key: &str| {
+        let row = shown.lines().find(|line| line.starts_with(key));
+        row.unwrap_or_else(|| panic!("no {key} in {shown}"))
+    };
+    assert!(row("bore_diameter").contains("25 mm"));
+    assert!(row("bore_diameter").contains("catalogue  SKF"));
+    assert!(row("inner_groove_curvature").contains("assumed"));
+    assert!(row("pitch_diameter").contains("derived"));
+    // all marks stand in one column
+    let column = |key: &str, mark: &str| row(key).find(mark).unwrap();
+    assert_eq!(
+        column("bore_diameter", "catalogue"),
+        column("pitch_diameter", "derived")
+    );
+    let hybrid = place.call(&["bearings", "show", "6005", "hybrid"]).done();
+    assert!(hybrid.out.contains("silicon nitride"));
+}
+
+#[test]
+fn a_reader_that_leaves_early_is_no_error() {
+    let place = Place::new();
+    for words in [
+        &["new", "drop"][..],
+        &["check", "drop.toml"],
+        &["bearings", "show", "6005"],
+        &["--help"],
+    ] {
+        let mut child = place
+            .command(words)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{words:?}");
+        assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    }
+}
+
+#[test]
+fn validation_prints_rows_and_fails_with_a_failing_case() {
+    let place = Place::new();
+    let text = place.call(&["validate"]).done().out;
+    assert!(text.contains("palmgren_low_speed"));
+    let json = place.call(&["validate", "--json"]).done().out;
+    let report: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let rows = report["cases"].as_array().unwrap();
+    assert!(rows.len() > 10);
+    for row in rows {
+        assert!(["pass", "not run"].contains(&row["verdict"].as_str().unwrap()));
+    }
+    let case = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../validation/palmgren_low_speed.toml"
+    );
+    let wrong = fs::read_to_string(case)
+        .unwrap()
+        .replace("value = \"16", "value = \"17");
+    fs::create_dir(place.path("cases")).unwrap();
+    fs::write(place.path("cases/wrong.toml"), wrong).unwrap();
+    let called = place.call(&["validate", "--cases", "cases"]);
+    assert_eq!(called.code, Some(1), "{called:?}");
+}
