@@ -11,11 +11,10 @@ use solve::{Flow, Observer, Step, watch};
 use std::f64::consts::PI;
 
 /// Residuals of a run: of the energy, relative to what flowed or moved; of the angular momentum, relative to what the
-/// inner race and the bearing received.
-fn residuals(machine: &DropMachine, end: f64, tolerance: f64) -> (f64, f64) {
-    let start = machine.start();
-    let state = run(machine, &start, &settings(end, tolerance));
-    let (before, after) = (machine.content(&start), machine.content(&state));
+/// inner race received.
+fn residuals(machine: &DropMachine, start: &[f64], tolerance: f64) -> (f64, f64) {
+    let state = run(machine, start, &settings(TWO_IMPACTS, tolerance));
+    let (before, after) = (machine.content(start), machine.content(&state));
     let flows = machine.flows(&state);
     let energy = after.energy() - before.energy() + flows.heat - flows.work;
     let size = flows.heat.max(flows.work_size).max(after.translation);
@@ -28,23 +27,36 @@ fn residuals(machine: &DropMachine, end: f64, tolerance: f64) -> (f64, f64) {
 /// Long enough for two impacts, the first a long slide.
 const TWO_IMPACTS: f64 = 0.018;
 
+/// The largest residuals of six drops that start a few nanometres apart: where steps meet the corners of contact forces
+/// is chance, and with it the residual of one drop.
+fn largest_residuals(constants: &DropConstants, tolerance: f64) -> (f64, f64) {
+    let machine = DropMachine::new(constants.clone());
+    let mut largest = (0.0_f64, 0.0_f64);
+    for member in 0..6 {
+        let mut start = machine.start();
+        machine.perturb(&mut start, vec2(1e-9 * f64::from(member), 0.0), &|_| 0.0);
+        let (energy, momentum) = residuals(&machine, &start, tolerance);
+        largest = (largest.0.max(energy), largest.1.max(momentum));
+    }
+    largest
+}
+
 #[test]
 fn energy_and_angular_momentum_close() {
-    let machine = DropMachine::new(reference());
-    let at = |tolerance| residuals(&machine, TWO_IMPACTS, tolerance);
-    let (coarse, fine, finest) = (at(1e-3), at(1e-5), at(1e-7));
-    // the tolerance at which drops are run; measured 3e-7
-    let usual = at(1e-4);
-    assert!(usual.0 < 1e-6, "energy {usual:?}");
-    // measured 5.5e-6, 1.1e-7 and 4e-9
-    assert!(
-        fine.0 < 0.1 * coarse.0 && finest.0 < 0.1 * fine.0,
-        "{coarse:?} {fine:?} {finest:?}"
-    );
-    assert!(finest.0 < 2e-8, "energy {finest:?}");
-    // angular momentum: measured 1e-9 at 1e-3
-    for (_, momentum) in [coarse, usual, fine, finest] {
-        assert!(momentum < 1e-8, "angular momentum {momentum}");
+    let mut held = reference();
+    held.machine.rotor.spin_held = true;
+    for constants in [reference(), held] {
+        // measured rms of 16 drops: 9e-7, 2.3e-7 and 3e-8, the largest twice that
+        let residuals = [1e-4, 1e-5, 1e-6].map(|t| largest_residuals(&constants, t));
+        for ((energy, momentum), bound) in residuals.into_iter().zip([4e-6, 1e-6, 2e-7]) {
+            assert!(energy < bound, "energy {residuals:?}");
+            // measured 2e-10: the moments of a pair are the same number twice
+            assert!(momentum < 1e-8, "angular momentum {residuals:?}");
+        }
+        assert!(
+            residuals[2].0 < 0.3 * residuals[0].0,
+            "falls with the tolerance: {residuals:?}"
+        );
     }
 }
 
@@ -197,7 +209,7 @@ fn a_brake_stops_and_does_not_reverse() {
 }
 
 #[test]
-fn a_held_spin_stays_and_its_drive_closes_the_ledger() {
+fn a_held_spin_stays_and_its_drive_pays_the_friction() {
     let mut c = reference();
     c.machine.rotor.spin_held = true;
     let machine = DropMachine::new(c);
@@ -209,8 +221,6 @@ fn a_held_spin_stays_and_its_drive_closes_the_ledger() {
     let friction = end[machine.layout().heat(10)];
     assert_eq!(HEATS[10], "rotor_race_friction");
     assert!(drive > friction && friction > 0.1, "{drive} {friction}");
-    let (energy, _) = residuals(&machine, TWO_IMPACTS, 1e-4);
-    assert!(energy < 2e-6, "{energy}");
 }
 
 #[test]
