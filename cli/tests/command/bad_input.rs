@@ -38,7 +38,7 @@ fn an_unknown_key_names_the_near_one() {
     fs::write(place.path("wrong.toml"), wrong).unwrap();
     let place_named = format!("error[AB0101]: wrong.toml:{line}: rotor.mas");
     let called = place.call(&["run", "wrong.toml"]);
-    called.refused(&[&place_named, "Did you mean \"mass\"?"]);
+    called.refused(&[&place_named, "Did you mean \"rotor.mass\"?"]);
     assert_eq!(place.names(), ["wrong.toml"]);
 }
 
@@ -85,7 +85,7 @@ fn words_that_are_no_command() {
     ] {
         let called = place.call(words);
         assert_eq!(called.code, Some(2), "{called:?}");
-        assert!(called.err.contains("Usage"), "{called:?}");
+        assert!(called.err.contains("help"), "{called:?}");
     }
     assert!(place.names().is_empty());
 }
