@@ -224,3 +224,54 @@ fn input(value: &ResolvedValue) -> Input<'_> {
         note: value.provenance.note(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn printed(value: Value) -> serde_json::Value {
+        let quantity = Quantity {
+            name: "force".to_string(),
+            value,
+            unit: "N",
+            law: "",
+            source: "",
+            valid: "",
+            spread: Some(Spread {
+                members: 2,
+                mean: f64::NAN,
+                standard_deviation: f64::INFINITY,
+                smallest: 1.0,
+                largest: 2.0,
+            }),
+        };
+        serde_json::to_value(result(&quantity)).unwrap()
+    }
+
+    #[test]
+    fn what_is_not_finite_is_null_with_the_reason() {
+        for value in [
+            Value::Number(f64::NAN),
+            Value::Number(f64::NEG_INFINITY),
+            Value::List(vec![1.0, f64::INFINITY]),
+        ] {
+            let printed = printed(value);
+            assert!(printed["value"].is_null());
+            assert_eq!(printed["why"], NOT_FINITE);
+            assert!(printed["spread"]["mean"].is_null() && printed["spread"]["min"] == 1.0);
+        }
+        let absent = printed(Value::None {
+            why: "no contact".to_string(),
+        });
+        assert!(absent["value"].is_null() && absent["why"] == "no contact");
+        let list = printed(Value::List(vec![1.0, 2.5]));
+        assert_eq!(list["value"], serde_json::json!([1.0, 2.5]));
+        assert!(list.get("why").is_none());
+    }
+
+    #[test]
+    fn named_values_keep_their_order() {
+        let named = Named(vec![("b", 1), ("a", 2)]);
+        assert_eq!(serde_json::to_string(&named).unwrap(), "{\"b\":1,\"a\":2}");
+    }
+}

@@ -160,7 +160,7 @@ function factSection(runs) {
     ["Steps taken", (run) => number(work(run).steps, "1")],
     ["Steps rejected", (run) => number(work(run).rejected, "1")],
     ["Calls of the right-hand side", (run) => number(work(run).rate_calls, "1")],
-    ["Processor time", (run) => number(work(run).cpu_s, "s")],
+    ["Wall-clock time of the simulation", (run) => number(work(run).wall_s, "s")],
     ["Largest angular momentum residual", (run) => number(largest(run, "angular_momentum.residual"), "N m s")],
     ["Rows in this page", (run) => (run.time ? (run.rows === run.rowsTotal ? `all ${run.rows} of history.parquet` : `${run.rows} of the ${run.rowsTotal} in history.parquet, extremes kept`) : number(null))],
   ];
