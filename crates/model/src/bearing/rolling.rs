@@ -136,7 +136,11 @@ impl<R: Real> Rolling<R> {
         let closing = motion.inner.velocity - motion.outer.velocity;
         let (offset, closing) = (
             Vec2::new(offset.x.grouped(), offset.y.grouped()),
-            Vec2::new(closing.x.grouped(), closing.y.grouped()),
+            // as the balls see the races part: they turn with the cage
+            Vec2::new(
+                (closing.x + cage_speed * offset.y).grouped(),
+                (closing.y - cage_speed * offset.x).grouped(),
+            ),
         );
         let mut sums = BallSums::<R, 3>::new(n);
         let mut from = 0;
@@ -175,9 +179,13 @@ impl<R: Real> Rolling<R> {
             SteadyMoment::Palmgren(law) => law.moment(spin, load()),
             SteadyMoment::PalmgrenPrinted(law) => law.printed_moment(spin, load()),
         };
+        // the balls of eccentric races push past the centres: what turns them comes from the races in the shares of
+        // their motion
+        let turning = (motion.inner.position - motion.outer.position).cross(push);
+        let by_inner = self.cage_ratio * turning;
         BearingReaction {
-            on_inner: Wrench::planar(-push, -moment),
-            on_outer: Wrench::planar(push, moment),
+            on_inner: Wrench::planar(-push, by_inner - moment),
+            on_outer: Wrench::planar(push, turning - by_inner + moment),
             inner_inertia: self.inner_inertia,
             outer_inertia: self.outer_inertia,
             external_moment: R::zero(),
