@@ -10,7 +10,8 @@ use number::Vec2;
 /// ```text
 ///   G = C_0 + e^(jφ) (k + jcΩ) e/(k + jcΩ - mΩ²)
 /// ```
-/// The levitation acts at C = G - e e^(jφ), carries the weight, and needs no moment that the spin would feel.
+/// The levitation acts at C = G - e e^(jφ) and carries the weight. Its moment about G, which a real drive balances, is
+/// neglected: the spin is held while levitated.
 pub fn levitated_orbit(constants: &DropConstants) -> (Vec2<f64>, Vec2<f64>) {
     let m = &constants.machine;
     let (k, c, mass) = (m.levitation.stiffness, m.levitation.damping, m.rotor.mass);
