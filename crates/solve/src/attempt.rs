@@ -57,10 +57,10 @@ pub(crate) struct Attempt<'a, R: Real, B: Batch<R>> {
 }
 
 impl<R: Real, B: Batch<R>> Vectorized for Attempt<'_, R, B> {
-    /// Error of each lane relative to what is allowed; zero where nothing was attempted.
-    type Output = R;
+    /// Error of each lane relative to what is allowed, and its natural logarithm (of no less than 1e-8).
+    type Output = (R, R);
     #[inline(always)]
-    fn run(self) -> R {
+    fn run(self) -> (R, R) {
         let Attempt {
             batch,
             mode,
@@ -91,9 +91,10 @@ impl<R: Real, B: Batch<R>> Vectorized for Attempt<'_, R, B> {
             batch.rate(mode, time, stage, &mut rate[..n], probe);
         }
         if begin {
-            return R::zero();
+            return (R::zero(), R::zero());
         }
-        error(h, &w.rates, &w.inverse_error, &mut w.stage)
+        let error = error(h, &w.rates, &w.inverse_error, &mut w.stage);
+        (error, error.max(R::splat(1e-8)).ln())
     }
 }
 

@@ -136,7 +136,9 @@ where
             length: settings.first_step,
             step_end: settings.start,
             mode: machines[owner(lane)].start_mode(),
-            next_landing: 0,
+            // landings before the start are past
+            next_landing: (machines[owner(lane)].landings())
+                .partition_point(|instant| *instant < settings.start),
             last_logarithm: 0.0,
             after_rejection: false,
             work: Work::default(),
@@ -179,14 +181,14 @@ where
             Some(_) => 0.0,
         });
 
-        let error = attempt(&batch, &mode, &mut work, false);
+        let (error, logarithm) = attempt(&batch, &mode, &mut work, false);
 
         let mut jumped = false;
         for (index, lane) in lanes.iter_mut().enumerate().take(count) {
             if lane.stop.is_some() {
                 continue;
             }
-            if !control(lane, error.lane(index)) {
+            if !control(lane, error.lane(index), logarithm.lane(index)) {
                 continue;
             }
             scratch.copied = false;
@@ -255,7 +257,7 @@ fn attempt<R: Real, B: Batch<R>>(
     mode: &B::Mode,
     work: &mut Workspace<R>,
     begin: bool,
-) -> R {
+) -> (R, R) {
     R::vectorized(Attempt {
         batch,
         mode,
@@ -328,7 +330,7 @@ fn worst_channel<R: Real>(work: &Workspace<R>, lane: usize) -> usize {
 /// PI control (Gustafsson; exponents of Hairer, Norsett, Wanner, Solving ODEs I, II.4): steadier than I control
 /// where stability, not accuracy, bounds the step. Logarithm and exponential are those of `number`: the standard
 /// library's may differ from machine to machine.
-fn control<M: Machine>(lane: &mut Lane<M>, error: f64) -> bool {
+fn control<M: Machine>(lane: &mut Lane<M>, error: f64, logarithm: f64) -> bool {
     const SAFETY: f64 = 0.9;
     const PROPORTIONAL: f64 = 0.7 / 5.0;
     const INTEGRAL: f64 = 0.4 / 5.0;
@@ -338,10 +340,8 @@ fn control<M: Machine>(lane: &mut Lane<M>, error: f64) -> bool {
     let taken = lane.step_end - lane.time;
     if error <= 1.0 {
         lane.work.accepted += 1;
-        let error = error.max(1e-8);
-        let logarithm = Real::ln(error);
-        let mut factor =
-            SAFETY * Real::exp(INTEGRAL * lane.last_logarithm - PROPORTIONAL * logarithm);
+        let exponent = INTEGRAL * lane.last_logarithm - PROPORTIONAL * logarithm;
+        let mut factor = SAFETY * Real::exp(exponent);
         factor = factor.clamp(0.2, if lane.after_rejection { 1.0 } else { 5.0 });
         // a step cut short by a landing does not shrink the next one
         let proposed = taken * factor;
@@ -356,7 +356,7 @@ fn control<M: Machine>(lane: &mut Lane<M>, error: f64) -> bool {
     } else {
         lane.work.rejected += 1;
         let factor = if error.is_finite() {
-            (SAFETY * Real::powf(error, -0.2)).clamp(0.1, 0.9)
+            (SAFETY * Real::exp(-0.2 * logarithm)).clamp(0.1, 0.9)
         } else {
             0.1
         };

@@ -1,0 +1,152 @@
+//! A machine gives the same bits whatever computes it: alone without a vector unit, alone with its balls in groups,
+//! or on any lane among other machines.
+
+#[path = "machines/mod.rs"]
+#[allow(dead_code)] // shared with the other tests
+mod machines;
+
+use machines::{reference, settings};
+use model::bearing::BearingConstants;
+use model::system::drop::{Drop, DropConstants, DropMachine};
+use number::{Level, Real, Task};
+use physics::traction::{DryTraction, FourParameterTraction, Traction};
+use solve::{Ending, Flow, Machine, Observer, Step};
+use std::sync::atomic::AtomicBool;
+
+/// Every accepted step: its end, and the state and probes in its middle, from dense output.
+#[derive(Default)]
+struct Bits(Vec<u64>);
+impl Observer<DropMachine> for Bits {
+    fn step(&mut self, step: &mut Step<DropMachine>) -> Flow {
+        self.0.push(step.end.to_bits());
+        if self.0.len() % 50 == 0 {
+            let (state, probes) = step.evaluate(0.5);
+            self.0
+                .extend(state.iter().chain(probes).map(|value| value.to_bits()));
+        }
+        Flow::Continue
+    }
+}
+
+/// A run of machines side by side: how each ended, and the bits of what was seen on the way.
+struct Side<'a>(&'a [DropMachine], f64);
+impl Task for Side<'_> {
+    type Output = Vec<(Ending, Vec<u64>)>;
+    fn run<R: Real>(self) -> Self::Output {
+        let Side(machines, end) = self;
+        let starts: Vec<_> = machines.iter().map(DropMachine::start).collect();
+        let machines: Vec<_> = machines.iter().collect();
+        let mut seen: Vec<_> = machines.iter().map(|_| Bits::default()).collect();
+        let never = AtomicBool::new(false);
+        let endings = solve::run::<R, Drop<R>, _>(
+            &machines,
+            &starts,
+            &mut seen,
+            &settings(end, 1e-4),
+            &never,
+        );
+        endings
+            .into_iter()
+            .zip(seen.into_iter().map(|bits| bits.0))
+            .collect()
+    }
+}
+
+/// Asserts that each machine ends alone at every level as it does without a vector unit, and on the lane it has
+/// among the others.
+fn same_bits(machines: &[DropMachine], end: f64) {
+    let alone = |level: Level, machine: &DropMachine| {
+        let mut runs = level.run_one(Side(std::slice::from_ref(machine), end));
+        runs.remove(0)
+    };
+    let expected: Vec<_> = machines
+        .iter()
+        .map(|machine| alone(Level::Baseline, machine))
+        .collect();
+    for level in Level::available() {
+        for (machine, expected) in machines.iter().zip(&expected) {
+            assert_equal(
+                &alone(level, machine),
+                expected,
+                &format!("alone, {level:?}"),
+            );
+        }
+        for (from, batch) in machines.chunks(level.lanes()).enumerate() {
+            let runs = level.run_many(Side(batch, end));
+            for (lane, run) in runs.iter().enumerate() {
+                let machine = from * level.lanes() + lane;
+                assert_equal(run, &expected[machine], &format!("lane {lane}, {level:?}"));
+            }
+        }
+    }
+}
+
+fn assert_equal(ours: &(Ending, Vec<u64>), expected: &(Ending, Vec<u64>), place: &str) {
+    let bits = |ending: &Ending| -> Vec<u64> { ending.state.iter().map(|v| v.to_bits()).collect() };
+    assert_eq!(ours.0.work, expected.0.work, "{place}");
+    assert!(
+        bits(&ours.0) == bits(&expected.0),
+        "{place}: final states differ"
+    );
+    assert!(ours.1 == expected.1, "{place}: steps differ");
+}
+
+/// The reference machine with one more change for each number: lanes that differ in everything a lane may differ in.
+fn variant(number: usize) -> DropConstants {
+    let x = number as f64;
+    let mut constants = reference();
+    constants.speed *= 1.0 - 0.07 * x;
+    constants.unbalance_angle = 0.4 * x;
+    let machine = &mut constants.machine;
+    machine.rotor.mass *= 1.0 + 0.05 * x;
+    machine.contact.radial_clearance *= 1.0 - 0.03 * x;
+    machine.contact.friction *= 1.0 + 0.1 * x;
+    machine.mount.stiffness *= 1.0 + 0.2 * x;
+    if let BearingConstants::Planar(bearing) = &mut constants.bearing {
+        bearing.ball.inner_stiffness *= 1.0 + 0.02 * x;
+        bearing.ball.pocket_gap *= 1.0 - 0.05 * x;
+    }
+    constants
+}
+
+#[test]
+fn the_reference_drop_has_the_same_bits_everywhere() {
+    same_bits(&[DropMachine::new(reference())], 0.02);
+}
+
+#[test]
+fn machines_side_by_side_do_not_touch_each_other() {
+    let machines: Vec<_> = (0..8).map(|i| DropMachine::new(variant(i))).collect();
+    let spread: Vec<_> = machines.iter().map(|m| m.start()[1]).collect();
+    assert!(spread.windows(2).all(|pair| pair[0] != pair[1]));
+    same_bits(&machines, 0.01);
+}
+
+#[test]
+fn any_number_of_balls_and_any_traction_law_has_the_same_bits() {
+    let laws = [
+        Traction::FourParameter(FourParameterTraction {
+            a: -0.07,
+            b: 0.35,
+            c: 5.0,
+            d: 0.07,
+        }),
+        Traction::Dry(DryTraction {
+            kinetic: 0.1,
+            static_excess: 0.1,
+            inverse_decay_speed: 2.0,
+            inverse_reference_speed: 10.0,
+        }),
+    ];
+    // fewer than a group, a group, one more, several groups
+    for (balls, law) in [3, 8, 9, 19].into_iter().zip(laws.into_iter().cycle()) {
+        let mut constants = reference();
+        if let BearingConstants::Planar(bearing) = &mut constants.bearing {
+            bearing.balls = balls;
+            bearing.traction = law;
+        }
+        let machine = DropMachine::new(constants);
+        assert!(machine.dimension() > 5 * balls);
+        same_bits(&[machine], 0.008);
+    }
+}
