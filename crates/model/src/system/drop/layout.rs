@@ -133,7 +133,7 @@ impl Layout {
 
     /// The magnitude that matters in each channel: a tolerance of 1e-6 allows errors of one millionth of it a step.
     ///
-    /// Lengths by the radial air clearance, ball radii by a thousandth of the ball, speeds by the fall through the
+    /// Lengths by the radial air clearance, ball radii by a ten-thousandth of the ball, speeds by the fall through the
     /// clearance, spins by the release speed, energies by the spin energy of the inner race brought to speed.
     /// Speeds of cage and balls along the orbit count a hundred times more: pocket impacts live on their small
     /// differences, and nearly all of the energy residual arises there.
@@ -159,7 +159,7 @@ impl Layout {
             let n = self.balls;
             scale[BEARING + 1] = 0.01 * spin;
             let ball = planar::BALLS + BEARING;
-            scale[ball..ball + n].fill(1e-3 * radius);
+            scale[ball..ball + n].fill(1e-4 * radius);
             scale[ball + n..ball + 2 * n].fill(fall_speed);
             scale[ball + 2 * n..ball + 3 * n].fill(1.0);
             scale[ball + 3 * n..ball + 4 * n].fill(0.01 * spin);
