@@ -41,7 +41,7 @@ pub enum Command {
         /// Run directories
         #[arg(required = true, value_name = "DIR")]
         directories: Vec<PathBuf>,
-        /// File to write [one run: its own report.html; several: comparison.html here]
+        /// File to write [one run: its own report.html; several: comparison.html here]; *.svg: one run as a picture
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },

@@ -36,7 +36,6 @@ pub fn perform(wish: &Run) -> Result<Exit, Box<Problem>> {
     let outcome = simulate::run(
         &scenario,
         &Options {
-            repeat: None,
             threads: wish.threads.map(usize::from),
             interrupt: &INTERRUPT,
             progress: &|fraction| progress.show(fraction),

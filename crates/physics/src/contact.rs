@@ -152,7 +152,11 @@ mod tests {
     fn energy_is_the_work_of_the_spring() {
         // midpoint rule, 4000 strips: relative error near 1e-7
         let work = |force: &dyn Fn(f64) -> f64| {
-            (0..4000).map(|i| force((i as f64 + 0.5) * 1e-5 / 4000.0)).sum::<f64>() * 1e-5 / 4000.0
+            (0..4000)
+                .map(|i| force((i as f64 + 0.5) * 1e-5 / 4000.0))
+                .sum::<f64>()
+                * 1e-5
+                / 4000.0
         };
         let hertz = work(&|d| ball_race(2e10, 0.0, d, 0.0).elastic);
         assert!((ball_race_energy(2e10, 1e-5) / hertz - 1.0).abs() < 1e-6);

@@ -4,6 +4,7 @@
 //! that looks whole is whole. Whatever goes wrong before, the partial one is removed.
 
 use super::page::{self, PageColumn, PageRun};
+use super::picture;
 use super::{history, summary};
 use crate::problem::{Code, Problem};
 use crate::scenario::Scenario;
@@ -209,18 +210,31 @@ pub fn rewrite_report(path: &Path) -> Result<PathBuf, Box<Problem>> {
     Ok(report)
 }
 
-/// Writes the page of one run directory, or of several side by side, to a new file.
+/// Writes the page of one run directory, or of several side by side, to a new file; to a file `*.svg` one run's orbit,
+/// contact force and speeds as a picture.
 pub fn write_report(file: &Path, directories: &[PathBuf]) -> Result<(), Box<Problem>> {
     let runs = directories
         .iter()
         .map(|path| read(path))
         .collect::<Result<Vec<_>, _>>()?;
-    let html = page::html(&runs);
+    let picture = file.extension().is_some_and(|end| end == "svg");
+    let text = match (picture, runs.as_slice()) {
+        (false, _) => page::html(&runs),
+        (true, [run]) => picture::orbit_svg(run),
+        (true, _) => {
+            return Err(Box::new(Problem::at_path(
+                Code::Conflict,
+                file,
+                format!("a picture of {} runs", runs.len()),
+                "a picture (*.svg) shows one run; name one directory, or a *.html file",
+            )));
+        }
+    };
     let mut out = File::create_new(file).map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => taken(file),
         _ => failed(file, &error),
     })?;
-    out.write_all(html.as_bytes()).map_err(|error| {
+    out.write_all(text.as_bytes()).map_err(|error| {
         let _ = fs::remove_file(file);
         failed(file, &error)
     })

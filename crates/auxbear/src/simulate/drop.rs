@@ -48,7 +48,7 @@ pub(super) fn run(
 ) -> Result<Outcome, Box<Problem>> {
     let built = build::drop(drop)?;
     let machine = DropMachine::new(built.constants.clone());
-    let count = options.repeat.unwrap_or(drop.repeat.count as usize).max(1);
+    let count = drop.repeat.count.max(1) as usize;
     let members: Vec<Member> = (0..count).map(|k| member(&machine, drop, k)).collect();
     let clock = Instant::now();
     let finished = ensemble::run(

@@ -25,8 +25,6 @@ use std::sync::atomic::AtomicBool;
 
 /// What a caller decides besides the scenario.
 pub struct Options<'a> {
-    /// Number of members instead of the scenario's.
-    pub repeat: Option<usize>,
     /// Number of threads; all cores if none.
     pub threads: Option<usize>,
     /// Set to true, it stops the run at the next opportunity; what was computed is kept.

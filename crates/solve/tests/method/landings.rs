@@ -115,3 +115,12 @@ fn a_landing_beyond_the_end_is_not_taken() {
     assert_eq!((end.stop, end.time), (Stop::Finished, 1.0));
     assert!((end.state[1] - 1.0_f64.sin()).abs() < 1e-8);
 }
+
+#[test]
+fn a_landing_before_the_start_is_past() {
+    let problem = staircase(&[-1.0, 0.5]);
+    let end = run_alone(&problem, &[0.0, 0.0], &mut Blind, &adaptive(1.0, 1e-9));
+    assert_eq!((&end.stop, end.time), (&Stop::Finished, 1.0));
+    // the landing at 0.5 is still the second: it sets the mode to 3
+    assert!((end.state[0] - (0.5 + 3.0 * 0.5)).abs() < 1e-14);
+}

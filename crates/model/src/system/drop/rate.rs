@@ -61,6 +61,7 @@ impl<R: Real> Drop<R> {
         let (inner, outer) = (&races.inner, &races.outer);
 
         // parts react
+        let contact = m.contact.react(&centre, rotor.spin, inner);
         let own = BEARING..layout.ledger();
         let detail = if probe.is_empty() {
             &mut [][..]
@@ -70,7 +71,6 @@ impl<R: Real> Drop<R> {
         let bearing = self
             .bearing
             .react(&races, &state[own.clone()], &mut rate[own], detail);
-        let contact = m.contact.react(&centre, rotor.spin, inner);
         let levitation = m.levitation.force(centre.position, centre.velocity) * mode.levitation;
         let mount = m.mount.force(outer.position, outer.velocity);
         let braking = mode.brake.greater(zero);
