@@ -19,7 +19,7 @@ struct Bits(Vec<u64>);
 impl Observer<DropMachine> for Bits {
     fn step(&mut self, step: &mut Step<DropMachine>) -> Flow {
         self.0.push(step.end.to_bits());
-        if self.0.len() % 50 == 0 {
+        if self.0.len().is_multiple_of(50) {
             let (state, probes) = step.evaluate(0.5);
             self.0
                 .extend(state.iter().chain(probes).map(|value| value.to_bits()));

@@ -87,7 +87,7 @@ operators!(
 
 /// The methods of `Real` that are the same for both widths.
 macro_rules! shared_methods {
-    ($Type:ident, $Array:ty, $set:ident, $sqrt:ident, $andnot:ident, $max:ident, $min:ident, $level:ident) => {
+    ($Type:ident, $Vector:ty, $Array:ty, $set:ident, $sqrt:ident, $andnot:ident, $max:ident, $min:ident, $level:ident) => {
         #[inline(always)]
         fn splat(value: f64) -> Self {
             // SAFETY: see the module.
@@ -97,7 +97,7 @@ macro_rules! shared_methods {
         fn from_lanes(lane: impl FnMut(usize) -> f64) -> Self {
             let array: $Array = std::array::from_fn(lane);
             // SAFETY: an array of as many f64 has the size and the bits of the vector.
-            $Type(unsafe { std::mem::transmute::<$Array, _>(array) })
+            $Type(unsafe { std::mem::transmute::<$Array, $Vector>(array) })
         }
         #[inline(always)]
         fn lane(self, index: usize) -> f64 {
@@ -168,6 +168,7 @@ impl Real for Four {
     group_of_two!();
     shared_methods!(
         Four,
+        __m256d,
         [f64; 4],
         _mm256_set1_pd,
         _mm256_sqrt_pd,
@@ -290,6 +291,7 @@ impl Real for Eight {
     group_of_two!();
     shared_methods!(
         Eight,
+        __m512d,
         [f64; 8],
         _mm512_set1_pd,
         _mm512_sqrt_pd,

@@ -147,11 +147,12 @@ where
         .collect();
     let mut scratch = Scratch::new(dimension, probes);
     let mut work = Workspace::<R>::new(dimension, probes);
-    for channel in 0..dimension {
-        work.state[channel] = R::from_lanes(|lane| starts[owner(lane)][channel]);
-        work.inverse_error[channel] = R::from_lanes(|lane| {
-            1.0 / (settings.tolerance * machines[owner(lane)].error_scale(channel))
-        });
+    for (channel, value) in work.state.iter_mut().enumerate() {
+        *value = R::from_lanes(|lane| starts[owner(lane)][channel]);
+    }
+    for (channel, inverse) in work.inverse_error.iter_mut().enumerate() {
+        let allowed = |lane| settings.tolerance * machines[owner(lane)].error_scale(channel);
+        *inverse = R::from_lanes(|lane| 1.0 / allowed(lane));
     }
     work.time = R::splat(settings.start);
     let mut mode = B::gather_mode(&|lane| lanes[lane].mode);
@@ -290,7 +291,7 @@ fn aim<R: Real, M: Machine>(
     }
     lane.length = lane.length.min(settings.largest_step);
     let scale = lane.time.abs().max(settings.end.abs());
-    if !(lane.length > SMALLEST_STEP * scale) {
+    if lane.length.is_nan() || lane.length <= SMALLEST_STEP * scale {
         lane.stop = Some(Stop::Diverged {
             channel: machine.channel_name(worst_channel(work, index)),
             step: lane.length,

@@ -371,11 +371,9 @@ impl<R: Real> BallConstants<R> {
 }
 
 /// The constants of one machine for every part of a group, or of one machine per lane.
-pub(crate) fn gather_group<'a, R: Real, T: Gather<R::Group>>(
-    machine: &dyn Fn(usize) -> &'a T,
-) -> T::Out
+pub(crate) fn gather_group<'a, R: Real, T>(machine: &dyn Fn(usize) -> &'a T) -> T::Out
 where
-    T: 'a,
+    T: Gather<R::Group> + 'a,
 {
     T::gather(&|part| machine(part % R::LANES))
 }
