@@ -70,7 +70,7 @@ impl Level {
         self.assert_available();
         match self {
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 => task.run::<Single<Pair<Four>>>(),
+            Level::Avx2 => task.run::<Single<Four>>(),
             #[cfg(target_arch = "x86_64")]
             Level::Avx512 => task.run::<Single<Pair<Eight>>>(),
             _ => task.run::<f64>(),
