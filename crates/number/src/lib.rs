@@ -30,6 +30,7 @@ mod constants;
 mod dual;
 pub mod elementary;
 mod level;
+#[cfg(target_arch = "x86_64")]
 mod pair;
 mod real;
 mod scalar;

@@ -202,5 +202,4 @@ macro_rules! group_of_two {
         }
     };
 }
-#[cfg(target_arch = "x86_64")]
 pub(crate) use group_of_two;
