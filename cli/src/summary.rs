@@ -2,6 +2,7 @@
 
 use crate::console;
 use auxbear::simulate::outcome::{Outcome, Quantity, Value};
+use auxbear::units::number_text;
 use std::path::Path;
 
 /// The quantities most looked for; those a run does not have say why in the report.
@@ -94,7 +95,7 @@ fn four_digits(value: f64) -> String {
     if value == value.trunc() && value.abs() < 1e9 {
         return format!("{value}");
     }
-    units::number_text(rounded)
+    number_text(rounded)
 }
 
 #[cfg(test)]

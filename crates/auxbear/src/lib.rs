@@ -25,3 +25,5 @@ pub mod report;
 pub mod scenario;
 pub mod simulate;
 pub mod validate;
+
+pub use units;

@@ -4,10 +4,10 @@
 //! |---|---|
 //! | [`build`] | scenario → constants of the model |
 //! | [`ensemble`] | one machine or many, in lanes and threads |
-//! | [`drop`] | runs a drop and names what came out |
-//! | [`quantities`] | each named result with its law, source and valid range |
-//! | [`columns`] | the history |
-//! | [`warnings`] | what to know before trusting the numbers |
+//! | `drop` | runs a drop and names what came out |
+//! | `quantities` | each named result with its law, source and valid range |
+//! | `columns` | the history |
+//! | `warnings` | what to know before trusting the numbers |
 //! | [`outcome`] | the data handed over |
 
 pub mod build;

@@ -206,6 +206,7 @@ pub(crate) struct BallSums<R: Real, const K: usize> {
 }
 
 impl<R: Real, const K: usize> BallSums<R, K> {
+    /// Empty sums over so many balls.
     #[inline(always)]
     pub fn new(count: usize) -> Self {
         BallSums {
