@@ -20,7 +20,8 @@ pub struct Settings {
     pub first_step: f64,
     /// Longest step, s.
     pub largest_step: f64,
-    /// Steps, accepted and rejected, after which a machine is given up.
+    /// Steps, accepted and rejected, after which a machine is given up; after a twentieth of them already when it would
+    /// need them ten times over.
     pub step_limit: u64,
 }
 
@@ -85,6 +86,11 @@ pub struct Ending {
 
 /// Smallest step relative to the time it starts from: below, time no longer advances reliably.
 const SMALLEST_STEP: f64 = 64.0 * f64::EPSILON;
+
+/// After this part of the step limit a machine is given up early…
+const HOPELESS_PART: u64 = 20;
+/// …when its pace would need the limit so many times over.
+const HOPELESS_FACTOR: u64 = 10;
 
 /// What the loop keeps per lane.
 struct Lane<M: Machine> {
@@ -285,7 +291,12 @@ fn aim<R: Real, M: Machine>(
         lane.stop = Some(Stop::Finished);
         return;
     }
-    if lane.work.accepted + lane.work.rejected >= settings.step_limit {
+    let steps = lane.work.accepted + lane.work.rejected;
+    let share = (lane.time - settings.start) / (settings.end - settings.start);
+    // far from the end after many steps: at this pace the limit would be passed many times over
+    let hopeless = steps >= settings.step_limit / HOPELESS_PART
+        && (HOPELESS_FACTOR * HOPELESS_PART) as f64 * share < 1.0;
+    if steps >= settings.step_limit || hopeless {
         lane.stop = Some(Stop::StepLimit);
         return;
     }

@@ -6,13 +6,19 @@ use crate::system::Machine;
 /// Fraction of a step within which an event is found: 1e-12 of a step of microseconds is far below any physics.
 const RESOLUTION: f64 = 1e-12;
 
-/// The fraction in (low, high] at which a probe changes sign, by bisection with secant steps (Illinois).
+/// The fraction in (low, high] at which a function of the step changes sign, by the Illinois method.
 ///
-/// The signs at both ends must differ; a zero end counts as negative.
-pub fn crossing<M: Machine>(step: &mut Step<M>, probe: usize, low: f64, high: f64) -> f64 {
-    let (mut a, mut b) = (low, high);
-    let (mut fa, mut fb) = (value(step, probe, a), value(step, probe, b));
+/// `low` and `high` are fractions with the function's values there. The signs must differ; zero counts as negative.
+pub fn root<M: Machine>(
+    step: &mut Step<M>,
+    low: (f64, f64),
+    high: (f64, f64),
+    mut function: impl FnMut(&mut Step<M>, f64) -> f64,
+) -> f64 {
+    let ((mut a, mut fa), (mut b, mut fb)) = (low, high);
     let end_positive = fb > 0.0;
+    // which end the last point replaced: an end that stays twice has its value halved
+    let mut replaced_high = None;
     for _ in 0..80 {
         if b - a <= RESOLUTION {
             break;
@@ -25,18 +31,30 @@ pub fn crossing<M: Machine>(step: &mut Step<M>, probe: usize, low: f64, high: f6
         } else {
             0.5 * (a + b)
         };
-        let fx = step.probe(x, probe);
-        if (fx > 0.0) == end_positive {
-            b = x;
-            fb = fx;
-            fa *= 0.5;
+        let fx = function(step, x);
+        let replaces_high = (fx > 0.0) == end_positive;
+        if replaces_high {
+            (b, fb) = (x, fx);
+            if replaced_high == Some(true) {
+                fa *= 0.5;
+            }
         } else {
-            a = x;
-            fa = fx;
-            fb *= 0.5;
+            (a, fa) = (x, fx);
+            if replaced_high == Some(false) {
+                fb *= 0.5;
+            }
         }
+        replaced_high = Some(replaces_high);
     }
     b
+}
+
+/// The fraction in (low, high] at which a probe changes sign: see [`root`].
+pub fn crossing<M: Machine>(step: &mut Step<M>, probe: usize, low: f64, high: f64) -> f64 {
+    let ends = (value(step, probe, low), value(step, probe, high));
+    root(step, (low, ends.0), (high, ends.1), |step, theta| {
+        step.probe(theta, probe)
+    })
 }
 
 /// The largest value of a probe between two fractions of a step, with its fraction: (fraction, value).

@@ -195,7 +195,12 @@ fn stop(finished: &Finished) -> Stop {
         ),
         solve::Stop::StepLimit => (
             "step limit",
-            format!("Given up at {time:.6e} s after {STEP_LIMIT} steps."),
+            format!(
+                "Given up at {time:.6e} s after {} steps: something in the machine is so stiff that the end would not be \
+                 reached. A damper or spring with too many zeros, or friction with a very small reference speed, are the \
+                 usual causes.",
+                finished.ending.work.accepted + finished.ending.work.rejected
+            ),
         ),
     };
     Stop { reason, time, text }

@@ -6,12 +6,13 @@
 use super::DropMachine;
 use super::layout::{
     BEARING, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, NORMAL_FORCE, NORMAL_FORCE_RATE, OUTER,
-    PENETRATION, PENETRATION_SPEED, ROTOR,
+    PENETRATION, PENETRATION_SPEED,
 };
 use super::ledger::Content;
 use super::rate::{race_motion, rotor_motion};
+use crate::contact::ContactReaction;
 use number::Vec2;
-use solve::watch::crossing;
+use solve::watch::{crossing, root};
 use solve::{Flow, Machine, Observer, Step};
 
 /// One contact of rotor and inner race.
@@ -84,7 +85,7 @@ pub struct Record {
     pub rotor_race_displacement: Peak,
     /// Largest displacement of the outer race, m.
     pub mount_displacement: Peak,
-    /// Largest kinetic energy of the centres, J, at the rows.
+    /// Largest kinetic energy of the rotor's centre, J.
     pub largest_translation: f64,
     /// Turns of the rotor about the inner race while it is out of the middle half of its clearance.
     pub whirl_turns: f64,
@@ -97,6 +98,8 @@ pub struct Record {
     probes: usize,
     clearance: f64,
     whirl_angle: Option<f64>,
+    next_look: f64,
+    look_interval: f64,
     limits: Limits,
     limit_passed: bool,
 }
@@ -110,6 +113,10 @@ struct Limits {
 
 /// A peak is searched for inside a step when a value comes this near to the record.
 const NEAR_RECORD: f64 = 0.9;
+/// A value that changes by less than this share of the record in a step has no peak worth searching.
+const STEADY: f64 = 1e-3;
+/// Points a turn of the rotor at which its whirl is followed.
+const WHIRL_POINTS: f64 = 64.0;
 /// Values after a row's state and probes: time and [`Content`].
 const EXTRA: usize = 5;
 /// Contacts for which room is made before the run.
@@ -155,6 +162,8 @@ impl Record {
             probes,
             clearance: constants.machine.contact.radial_clearance,
             whirl_angle: None,
+            next_look: 0.0,
+            look_interval: 2.0 * std::f64::consts::PI / (WHIRL_POINTS * speed.max(1.0)),
             limits: Limits {
                 mount_displacement: 0.1 * machine.pitch_radius(),
                 penetration: 0.1 * constants.machine.contact.bore_radius,
@@ -211,23 +220,17 @@ impl Record {
         self.dimension + self.probes + EXTRA
     }
 
-    fn sample(&mut self, step: &mut Step<DropMachine>, theta: f64) {
-        let time = step.time(theta);
-        let machine = step.machine;
-        let (state, probe) = step.evaluate(theta);
+    fn push_row(&mut self, machine: &DropMachine, time: f64, state: &[f64], probe: &[f64]) {
         let content = machine.content(state);
-        self.largest_translation = self.largest_translation.max(content.translation);
-        if self.keep_rows {
-            self.rows.extend_from_slice(state);
-            self.rows.extend_from_slice(probe);
-            self.rows.extend([
-                time,
-                content.translation,
-                content.spin,
-                content.potential,
-                content.angular_momentum,
-            ]);
-        }
+        self.rows.extend_from_slice(state);
+        self.rows.extend_from_slice(probe);
+        self.rows.extend([
+            time,
+            content.translation,
+            content.spin,
+            content.potential,
+            content.angular_momentum,
+        ]);
     }
 
     /// Adds the last state of a run as a row, where it is not one already.
@@ -235,20 +238,14 @@ impl Record {
         let last = self.rows().last().map(|row| row.time);
         if self.keep_rows && last.is_none_or(|last| last < time) {
             let (_, probe) = machine.inspect(state);
-            let content = machine.content(state);
-            self.rows.extend_from_slice(state);
-            self.rows.extend_from_slice(&probe);
-            self.rows.extend([
-                time,
-                content.translation,
-                content.spin,
-                content.potential,
-                content.angular_momentum,
-            ]);
+            self.push_row(machine, time, state, &probe);
         }
     }
 
     fn rows_of(&mut self, step: &mut Step<DropMachine>) {
+        if !self.keep_rows {
+            return;
+        }
         let length = step.end - step.start;
         loop {
             let time = self.next_row as f64 * self.interval;
@@ -257,7 +254,9 @@ impl Record {
             }
             // a row on the very end of the step is the end itself
             let theta = ((time - step.start) / length).clamp(0.0, 1.0);
-            self.sample(step, theta);
+            let (machine, time) = (step.machine, step.time(theta));
+            let (state, probe) = step.evaluate(theta);
+            self.push_row(machine, time, state, probe);
             self.next_row += 1;
         }
     }
@@ -278,8 +277,10 @@ impl Record {
             let record = rates.0 > 0.0
                 && middle + self.clearance + bulge > self.rotor_race_displacement.value;
             (flips || record).then(|| {
-                let theta = crossing(step, PENETRATION_SPEED, 0.0, 1.0);
-                (theta, step.probe(theta, PENETRATION))
+                let theta = root(step, (0.0, rates.0), (1.0, rates.1), |step, theta| {
+                    contact_at(step, theta).penetration_speed
+                });
+                (theta, contact_at(step, theta).penetration)
             })
         } else {
             None
@@ -293,24 +294,28 @@ impl Record {
             .raise(end + self.clearance, step.end);
 
         let mut from = (0.0, start);
-        for (theta, value) in turning.into_iter().chain([(1.0, end)]) {
-            if from.1 <= 0.0 && value > 0.0 {
-                let begin = crossing(step, PENETRATION, from.0, theta);
+        for to in turning.into_iter().chain([(1.0, end)]) {
+            let crosses = (from.1 > 0.0) != (to.1 > 0.0);
+            let event = crosses.then(|| {
+                root(step, from, to, |step, theta| {
+                    contact_at(step, theta).penetration
+                })
+            });
+            if let (Some(begin), true) = (event, to.1 > 0.0) {
                 self.contacts.push(Contact {
                     start: step.time(begin),
                     end: None,
                     peak_force: 0.0,
                     peak_time: step.time(begin),
                 });
-                self.force_peak(step, begin, theta);
+                self.force_peak(step, begin, to.0);
             } else if from.1 > 0.0 {
-                let open = (value <= 0.0).then(|| crossing(step, PENETRATION, from.0, theta));
-                self.force_peak(step, from.0, open.unwrap_or(theta));
-                if let (Some(theta), Some(contact)) = (open, self.contacts.last_mut()) {
-                    contact.end = Some(step.time(theta));
+                self.force_peak(step, from.0, event.unwrap_or(to.0));
+                if let (Some(open), Some(contact)) = (event, self.contacts.last_mut()) {
+                    contact.end = Some(step.time(open));
                 }
             }
-            from = (theta, value);
+            from = to;
         }
     }
 
@@ -343,7 +348,7 @@ impl Record {
             // begin or end inside the step: a few points decide whether the peak is here too
             for i in 1..8 {
                 let theta = low + (high - low) * f64::from(i) / 8.0;
-                let value = step.probe(theta, NORMAL_FORCE);
+                let value = contact_at(step, theta).normal_force;
                 peak.raise(value, step.time(theta));
             }
         }
@@ -356,8 +361,16 @@ impl Record {
         let outer = step.end_probe(LARGEST_OUTER_LOAD);
         self.largest_inner_load.raise(inner, step.end);
         self.largest_outer_load.raise(outer, step.end);
-        if inner > NEAR_RECORD * self.largest_inner_load.value
-            || outer > NEAR_RECORD * self.largest_outer_load.value
+        let start = (
+            step.start_probe(LARGEST_INNER_LOAD),
+            step.start_probe(LARGEST_OUTER_LOAD),
+        );
+        let may_peak = |start: f64, end: f64, record: Peak| {
+            start.max(end) > NEAR_RECORD * record.value
+                && (end - start).abs() > STEADY * record.value
+        };
+        if may_peak(start.0, inner, self.largest_inner_load)
+            || may_peak(start.1, outer, self.largest_outer_load)
         {
             for theta in [0.25, 0.5, 0.75] {
                 let time = step.time(theta);
@@ -394,17 +407,18 @@ impl Record {
 
     fn mount_of(&mut self, step: &mut Step<DropMachine>) {
         let end = |k: usize| step.end_state(OUTER + k);
+        let square = end(0) * end(0) + end(1) * end(1);
+        let record = self.mount_displacement.value;
+        if square < (NEAR_RECORD * record).powi(2) {
+            return;
+        }
         let start = |k: usize| step.start_state(OUTER + k);
         let outward = (
             start(0) * start(2) + start(1) * start(3),
             end(0) * end(2) + end(1) * end(3),
         );
-        let distance = end(0).hypot(end(1));
-        self.mount_displacement.raise(distance, step.end);
-        if outward.0 > 0.0
-            && outward.1 < 0.0
-            && distance > NEAR_RECORD * self.mount_displacement.value
-        {
+        self.mount_displacement.raise(square.sqrt(), step.end);
+        if outward.0 > 0.0 && outward.1 < 0.0 {
             for i in 1..8 {
                 let theta = f64::from(i) / 8.0;
                 let time = step.time(theta);
@@ -415,23 +429,24 @@ impl Record {
         }
     }
 
-    fn whirl_of(&mut self, step: &Step<DropMachine>) {
-        if step.end_probe(PENETRATION) < -0.5 * self.clearance {
+    /// Follows the whirl, and the kinetic energy of the rotor's centre, at a few points of each turn.
+    fn rotor_of(&mut self, step: &mut Step<DropMachine>) {
+        if step.end < self.next_look {
+            return;
+        }
+        self.next_look = step.end + self.look_interval;
+        let gap = -step.end_probe(PENETRATION);
+        let constants = &step.machine.constants.machine;
+        let state = step.state(1.0);
+        let rotor = rotor_motion(state);
+        let (translation, _) = constants.rotor.kinetic_energy(&rotor);
+        self.largest_translation = self.largest_translation.max(translation);
+        if gap > 0.5 * self.clearance {
             self.whirl_angle = None;
             return;
         }
-        let mut state = [0.0; OUTER];
-        for (channel, value) in state.iter_mut().enumerate().skip(ROTOR) {
-            *value = step.end_state(channel);
-        }
-        let centre = step
-            .machine
-            .constants
-            .machine
-            .rotor
-            .geometric_centre(&rotor_motion(&state));
-        let race = Vec2::new(state[INNER], state[INNER + 1]);
-        let offset = centre.position - race;
+        let centre = constants.rotor.geometric_centre(&rotor);
+        let offset = centre.position - Vec2::new(state[INNER], state[INNER + 1]);
         let angle = offset.y.atan2(offset.x);
         if let Some(last) = self.whirl_angle {
             let turn = (angle - last) / (2.0 * std::f64::consts::PI);
@@ -441,13 +456,24 @@ impl Record {
     }
 }
 
+/// The contact of rotor and race at a fraction of a step.
+fn contact_at(step: &mut Step<DropMachine>, theta: f64) -> ContactReaction<f64> {
+    let machine = &step.machine.constants.machine;
+    let state = step.state(theta);
+    let rotor = rotor_motion(state);
+    let centre = machine.rotor.geometric_centre(&rotor);
+    machine
+        .contact
+        .react(&centre, rotor.spin, &race_motion(state).inner)
+}
+
 impl Observer<DropMachine> for Record {
     fn step(&mut self, step: &mut Step<DropMachine>) -> Flow {
         self.contacts_of(step);
         self.ball_loads_of(step);
         self.rises_of(step);
         self.mount_of(step);
-        self.whirl_of(step);
+        self.rotor_of(step);
         self.rows_of(step);
         let too_far = self.mount_displacement.value > self.limits.mount_displacement
             || step.end_probe(PENETRATION) > self.limits.penetration;
