@@ -133,12 +133,14 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
         ),
     }
     if bearing.drag.orbit != 0.0 || bearing.drag.spin != 0.0 || bearing.drag.cage != 0.0 {
-        warn(
-            "AB1010",
-            "Balls or cage are dragged to the ground (bearing.drag): that reproduces reference cases, it is no \
-             friction moment of a real bearing."
-                .to_string(),
-        );
+        let text = match bearing.fidelity {
+            Fidelity::Planar => {
+                "Balls or cage are dragged to the ground (bearing.drag): that reproduces reference cases, it is no \
+                 friction moment of a real bearing."
+            }
+            Fidelity::Rolling => "bearing.drag belongs to the planar fidelity and is ignored here.",
+        };
+        warn("AB1010", text.to_string());
     }
     if record.contacts.len() > CHAOTIC_CONTACTS && context.members == 1 {
         warn(
