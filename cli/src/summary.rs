@@ -6,11 +6,12 @@ use auxbear::units::number_text;
 use std::path::Path;
 
 /// The quantities most looked for; those a run does not have say why in the report.
-const KEY_QUANTITIES: [&str; 8] = [
+const KEY_QUANTITIES: [&str; 9] = [
     "time_to_first_contact",
     "first_impact_force",
     "peak_contact_force",
     "contact_count",
+    "whirl_direction",
     "inner_race_time_to_95_percent",
     "peak_hertz_pressure",
     "dissipated_energy",
@@ -40,6 +41,11 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
     let mut text = format!("{}\n{}", outcome.title, console::table(&rows));
     for warning in &outcome.warnings {
         text.push_str(&format!("warning[{}]: {}\n", warning.code, warning.text));
+    }
+    if outcome.quantities.iter().any(|q| q.spread.is_some()) {
+        text.push_str(
+            "± is one standard deviation over the perturbed starts (repeat.*): chaos, not tolerances of the machine\n",
+        );
     }
     let work = &outcome.work;
     text.push_str(&format!(

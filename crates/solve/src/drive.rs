@@ -89,6 +89,8 @@ const SMALLEST_STEP: f64 = 64.0 * f64::EPSILON;
 
 /// After this part of the step limit a machine is given up early…
 const HOPELESS_PART: u64 = 20;
+/// …but not before so many steps, since the first ones are short everywhere…
+const HOPELESS_LEAST: u64 = 10_000;
 /// …when its pace would need the limit so many times over.
 const HOPELESS_FACTOR: u64 = 10;
 
@@ -294,7 +296,7 @@ fn aim<R: Real, M: Machine>(
     let steps = lane.work.accepted + lane.work.rejected;
     let share = (lane.time - settings.start) / (settings.end - settings.start);
     // far from the end after many steps: at this pace the limit would be passed many times over
-    let hopeless = steps >= settings.step_limit / HOPELESS_PART
+    let hopeless = steps >= (settings.step_limit / HOPELESS_PART).max(HOPELESS_LEAST)
         && (HOPELESS_FACTOR * HOPELESS_PART) as f64 * share < 1.0;
     if steps >= settings.step_limit || hopeless {
         lane.stop = Some(Stop::StepLimit);

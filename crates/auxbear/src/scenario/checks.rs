@@ -10,6 +10,11 @@ const MOST_ROWS: f64 = 5e6;
 /// How far D may be from -A: the sum of two decimals of four digits.
 const NO_TRACTION_AT_REST: f64 = 1e-9;
 
+/// Tightest internal clearance, as a share of the ball diameter: beyond, the balls are pressed past any elastic law.
+const MOST_PRELOAD: f64 = -0.01;
+/// Widest internal clearance, as a share of the ball diameter.
+const MOST_CLEARANCE: f64 = 0.1;
+
 type Check = Result<(), Box<Problem>>;
 
 /// Refuses values that contradict each other.
@@ -17,6 +22,7 @@ pub(super) fn check(drop: &Drop, values: &Values, file: &str) -> Check {
     let context = Context { drop, values, file };
     context.bearing_diameters()?;
     context.balls_fit()?;
+    context.internal_clearance()?;
     context.air_clearance()?;
     context.traction()?;
     context.moment()?;
@@ -94,6 +100,33 @@ impl Context<'_> {
             ),
             format!("at most {most:.0} balls fit", most = most.floor()),
         )))
+    }
+
+    /// Fits and clearances are micrometres: a value of the ball's own size is a slip of the unit.
+    fn internal_clearance(&self) -> Check {
+        let bearing = &self.drop.bearing;
+        let share = bearing.operating_diametral_clearance / bearing.ball_diameter;
+        if (MOST_PRELOAD..=MOST_CLEARANCE).contains(&share) {
+            return Ok(());
+        }
+        let path = "bearing.operating_diametral_clearance";
+        Err(Box::new(
+            self.problem(
+                Code::ClearanceTooLarge,
+                path,
+                self.text(path),
+                format!(
+                    "between {} and {} is needed, {:.0} % to {:.0} % of the ball diameter",
+                    millimetres(MOST_PRELOAD * bearing.ball_diameter),
+                    millimetres(MOST_CLEARANCE * bearing.ball_diameter),
+                    100.0 * MOST_PRELOAD,
+                    100.0 * MOST_CLEARANCE
+                ),
+            )
+            .with_hint(Some(
+                "bearing clearances are a few um, and diametral".to_string(),
+            )),
+        ))
     }
 
     fn air_clearance(&self) -> Check {

@@ -74,7 +74,9 @@ pub(super) fn run(
     let mut named = quantities::name(&first);
     let mut table = Vec::new();
     if count > 1 {
+        // a member that did not end as planned would pull every mean
         table = (0..count)
+            .filter(|k| stop(&finished[*k]).complete())
             .map(|k| {
                 quantities::name(&context(k))
                     .into_iter()
@@ -176,6 +178,15 @@ fn contacts(finished: &Finished) -> Vec<Contact> {
         .collect()
 }
 
+/// An instant for people.
+fn instant(time: f64) -> String {
+    match time {
+        t if t >= 1.0 => format!("{t:.4} s"),
+        t if t >= 1e-3 => format!("{:.4} ms", 1e3 * t),
+        t => format!("{t:.3e} s"),
+    }
+}
+
 /// How a member ended, in words.
 fn stop(finished: &Finished) -> Stop {
     let time = finished.ending.time;
@@ -183,22 +194,30 @@ fn stop(finished: &Finished) -> Stop {
         solve::Stop::Finished => ("finished", "The whole duration was computed.".to_string()),
         solve::Stop::Interrupted => (
             "interrupted",
-            format!("Interrupted at {time:.6e} s; everything until then is kept."),
+            format!(
+                "Interrupted at {}; everything until then is kept.",
+                instant(time)
+            ),
         ),
-        solve::Stop::Halted(why) => ("left the model", format!("Stopped at {time:.6e} s: {why}.")),
+        solve::Stop::Halted(why) => (
+            "left the model",
+            format!("Stopped at {}: {why}.", instant(time)),
+        ),
         solve::Stop::Diverged { channel, step } => (
             "diverged",
             format!(
-                "Diverged at {time:.6e} s: the step shrank to {step:.1e} s, {channel} changes fastest. \
-                 Stiff contact, friction with a very small reference speed or an unphysical input are the usual causes."
+                "Diverged at {}: the step shrank to {step:.1e} s, {channel} changes fastest. \
+                 Stiff contact, friction with a very small reference speed or an unphysical input are the usual causes.",
+                instant(time)
             ),
         ),
         solve::Stop::StepLimit => (
             "step limit",
             format!(
-                "Given up at {time:.6e} s after {} steps: something in the machine is so stiff that the end would not be \
+                "Given up at {} after {} steps: something in the machine is so stiff that the end would not be \
                  reached. A damper or spring with too many zeros, or friction with a very small reference speed, are the \
                  usual causes.",
+                instant(time),
                 finished.ending.work.accepted + finished.ending.work.rejected
             ),
         ),
@@ -219,7 +238,15 @@ fn worst_stop(finished: &[Finished]) -> Stop {
         .find(|(_, s)| !s.complete())
     {
         Some((k, mut stop)) => {
-            stop.text = format!("Member {k} of the repetition: {}", stop.text);
+            let whole = finished
+                .iter()
+                .filter(|member| self::stop(member).complete());
+            stop.text = format!(
+                "Member {k} of the repetition: {} {} of {} members are whole; only these enter the spread.",
+                stop.text,
+                whole.count(),
+                finished.len()
+            );
             stop
         }
         None => first,

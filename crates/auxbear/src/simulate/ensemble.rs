@@ -123,7 +123,9 @@ impl Task for Chunk<'_> {
             .zip(endings)
             .zip(members)
             .map(|((watched, ending), member)| {
-                watched.tell(1000);
+                if ending.stop == solve::Stop::Finished {
+                    watched.tell(1000);
+                }
                 let mut record = watched.record;
                 record.finish(&member.machine, ending.time, &ending.state);
                 Finished {

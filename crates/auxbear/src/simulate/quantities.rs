@@ -139,6 +139,16 @@ pub(super) fn name(context: &Context) -> Vec<Quantity> {
         &DISPLACEMENT,
     );
     list.number(
+        "max_rotor_displacement",
+        "m",
+        if record.contacts.is_empty() {
+            Err(no_contact())
+        } else {
+            Ok(record.rotor_displacement.value)
+        },
+        &ROTOR_DISPLACEMENT,
+    );
+    list.number(
         "max_mount_displacement",
         "m",
         Ok(record.mount_displacement.value),
@@ -264,6 +274,11 @@ const DISPLACEMENT: Origin = Origin {
     law: "largest distance of rotor centre from inner race centre, and of outer race from its rest position",
     source: EVENT,
     valid: "below a tenth of the bearing's size",
+};
+const ROTOR_DISPLACEMENT: Origin = Origin {
+    law: "largest distance of the rotor centre from the origin, while in contact, at the steps",
+    source: EVENT,
+    valid: "compare it with seals and other air gaps at this plane; rigid rotor",
 };
 const WHIRL: Origin = Origin {
     law: "net turns of the rotor about the inner race while outside half its clearance; below one turn: none",

@@ -3,6 +3,7 @@
 use super::drop::Context;
 use super::ensemble::Finished;
 use super::outcome::Warning;
+use crate::catalogue;
 use crate::scenario::{BallMaterial, Fidelity, Moment, Scenario};
 use model::system::drop::layout::PENETRATION_SPEED;
 use physics::hertz::maximum_pressure;
@@ -22,6 +23,35 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
     let mut list = Vec::new();
     let mut warn = |code: &'static str, text: String| list.push(Warning { code, text });
 
+    let turns = record.whirl_turns * context.machine.constants.speed.signum();
+    if turns <= -1.0 {
+        warn(
+            "AB1014",
+            format!(
+                "Backward whirl: the rotor runs {:.0} turns round the bore against its spin. Contact forces of this kind \
+                 destroy bearings and shafts.",
+                -turns
+            ),
+        );
+    }
+    let rated = bearing
+        .name
+        .as_deref()
+        .and_then(catalogue::find)
+        .and_then(|entry| Some((entry.name.clone(), entry.number("limiting_speed")?)));
+    if let Some((name, limit)) = rated
+        && drop.rotor.speed.abs() > limit
+    {
+        warn(
+            "AB1015",
+            format!(
+                "The rotor's speed is {:.1} times the limiting speed of a {name} in its catalogue ({:.0} rpm), which \
+                 holds for continuous running.",
+                drop.rotor.speed.abs() / limit,
+                limit * 30.0 / std::f64::consts::PI
+            ),
+        );
+    }
     if let Some(bending) = drop.rotor.first_bending_frequency
         && bending < drop.rotor.speed.abs()
     {
@@ -121,8 +151,8 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
     match bearing.fidelity {
         Fidelity::Planar => warn(
             "AB1008",
-            "The planar bearing has no steady friction moment yet: spin-up by the rotor is described, long coasting \
-             is too free."
+            "The planar bearing has no steady friction moment yet: spin-up by the rotor is described; long coasting \
+             is too free, and a swing of the rotor in the bore after spin-up decays too slowly."
                 .to_string(),
         ),
         Fidelity::Rolling => warn(
@@ -171,7 +201,7 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
         warn(
             "AB1013",
             format!(
-                "{} values are assumed, none of them measured: {}.",
+                "Assumed, not measured ({}): {}.",
                 assumed.len(),
                 assumed.join(", ")
             ),

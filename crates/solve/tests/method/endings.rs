@@ -75,6 +75,23 @@ fn the_step_limit_counts_accepted_and_rejected_steps() {
     assert_eq!(end.work.rate_calls, 60);
 }
 
+#[test]
+fn a_pace_that_would_need_the_limit_many_times_is_given_up_early() {
+    let mut log = Log::default();
+    let settings = Settings {
+        first_step: 1e-9,
+        largest_step: 1e-9,
+        step_limit: 1_000_000,
+        ..adaptive(1.0, 1e-6)
+    };
+    let start = [0.5, 0.0, 0.0, 1.7];
+    let end = run_alone(&Problem::kepler(), &start, &mut log, &settings);
+    assert_sane(&end, &log);
+    assert_eq!(end.stop, Stop::StepLimit);
+    // a twentieth of the limit: then the end is seen to need a billion steps
+    assert_eq!(end.work.accepted, 50_000);
+}
+
 /// Halts, or raises a flag, after some steps.
 struct After<'a> {
     count: usize,

@@ -83,6 +83,8 @@ pub struct Record {
     pub largest_outer_load: Peak,
     /// Largest distance of the rotor's geometric centre from the inner race's centre, m.
     pub rotor_race_displacement: Peak,
+    /// Largest distance of the rotor's geometric centre from the origin while it touches the race, m.
+    pub rotor_displacement: Peak,
     /// Largest displacement of the outer race, m.
     pub mount_displacement: Peak,
     /// Largest kinetic energy of the rotor's centre, J.
@@ -150,6 +152,7 @@ impl Record {
             largest_inner_load: Peak::NONE,
             largest_outer_load: Peak::NONE,
             rotor_race_displacement: Peak::NONE,
+            rotor_displacement: Peak::NONE,
             mount_displacement: Peak::NONE,
             largest_translation: 0.0,
             whirl_turns: 0.0,
@@ -292,6 +295,11 @@ impl Record {
         }
         self.rotor_race_displacement
             .raise(end + self.clearance, step.end);
+        if end > 0.0 {
+            let centre = step.machine.rotor_centre(step.state(1.0));
+            self.rotor_displacement
+                .raise(centre.length_squared().sqrt(), step.end);
+        }
 
         let mut from = (0.0, start);
         for to in turning.into_iter().chain([(1.0, end)]) {
