@@ -51,10 +51,10 @@ function balance(run) {
   const came = [];
   const went = heatsOf(run).map((heat) => ({ name: "heat: " + heat.name, amount: heat.final, colour: heat.colour }));
   const enter = (name, gain) => {
-    if (gain < 0) came.push({ name: name + " given up", amount: -gain, colour: SERIES_COLOURS.rotor });
-    else went.push({ name: name + " gained", amount: gain, colour: SERIES_COLOURS.quiet });
+    if (gain < 0) came.push({ name, amount: -gain, colour: SERIES_COLOURS.rotor });
+    else went.push({ name, amount: gain, colour: SERIES_COLOURS.quiet });
   };
-  for (const [name, words] of [["energy.kinetic", "kinetic energy"], ["energy.potential", "potential energy"]]) {
+  for (const [name, words] of [["energy.kinetic", "net change of kinetic energy of all bodies"], ["energy.potential", "net change of potential energy"]]) {
     const values = columnOf(run, name);
     if (values) enter(words, change(values));
   }

@@ -56,11 +56,40 @@ function engineeringText(value, unit, digits) {
 
 function siText(value, unit) {
   if (!isNumber(value)) return "–";
-  return (numberText(value, 9) + " " + unitText(unit)).trim();
+  return (numberText(value, 6) + " " + unitText(unit)).trim();
 }
 
 function percentText(share, digits = 3) {
   return numberText(100 * share, digits) + " %";
+}
+
+// A number with a fixed count of decimals, never with a power of ten.
+function decimalText(value, decimals) {
+  return isNumber(value) ? value.toFixed(Math.min(20, Math.max(0, decimals))).replace("-", "−") : "–";
+}
+
+// Power of ten of the leading digit.
+function leadingPower(value) {
+  return value === 0 ? 0 : Math.floor(Math.log10(Math.abs(value)));
+}
+
+// One unit for a whole column of values, and as many decimals as give the largest of them so many digits.
+function columnScale(values, unit, digits) {
+  const largest = values.filter(isNumber).reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+  const [name, scale] = readableUnit(largest, unit);
+  const decimals = digits - 1 - leadingPower(largest / scale);
+  return { name, text: (value) => decimalText(isNumber(value) ? value / scale : null, decimals) };
+}
+
+// The value of an input without float noise: numbers of more than six digits are rounded, counts and words stay.
+function inputText(value) {
+  const text = String(value);
+  if (!/^[[+-]?\d/.test(text)) return text;
+  const short = text.replace(/(\d+\.\d*)([eE][+-]?\d+)?/g, (number, mantissa) => {
+    const digits = mantissa.replace(".", "").replace(/^0+/, "");
+    return digits.length > 6 ? String(Number(Number(number).toPrecision(6))) : number;
+  });
+  return short.replace(/\bum\b/, "µm");
 }
 
 // "bearing.inner_race.time_to_50_percent" reads "bearing inner race: time to 50 %".

@@ -1,22 +1,33 @@
 // The verdict: what an engineer wants to know before any picture.
 
-// Above this share of the energies an energy picture can no longer be trusted at a glance.
-const RESIDUAL_TO_DOUBT = 1e-3;
+// Above this share of what was turned over the energy ledger counts as open.
+const RESIDUAL_TO_DOUBT = 1e-6;
 
-function tile(title, value, note, doubtful) {
+// state: "good" or "bad" where there is a criterion, else nothing.
+function tile(title, value, notes, state) {
   return element(
     "div",
-    { class: doubtful ? "tile doubtful" : "tile" },
+    { class: state ? "tile " + state : "tile" },
     element("div", { class: "tile-title" }, title),
     element("div", { class: "tile-value" }, value),
-    element("div", { class: "tile-note" }, note),
+    list(notes).filter(Boolean).map((note) => element("div", { class: "tile-note" }, note)),
   );
 }
 
-function quantityTile(run, title, name, note, doubtful) {
+function verdictState(bad) {
+  return bad ? "bad" : "good";
+}
+
+// The unperturbed run is the value; the members of a repeated run stand below it.
+function meanNote(quantity) {
+  const spread = quantity.spread;
+  return spread && isNumber(spread.mean) ? `mean ${spreadText(quantity).mean} of ${spread.members}` : null;
+}
+
+function quantityTile(run, title, name, note, state) {
   const quantity = quantityOf(run, name);
-  if (!isNumber(quantity.value)) return tile(title, "–", "not in this run: " + (quantity.why || "no reason given"), true);
-  return tile(title, engineeringText(quantity.value, quantity.unit, 4), note(quantity.value), doubtful && doubtful(quantity.value));
+  if (!isNumber(quantity.value)) return tile(title, "–", ["not in this run: " + (quantity.why || "no reason given")]);
+  return tile(title, engineeringText(quantity.value, quantity.unit, 4), [meanNote(quantity), note(quantity.value)], state && state(quantity.value));
 }
 
 function stateTile(run) {
@@ -24,7 +35,7 @@ function stateTile(run) {
   const complete = run.summary.complete === true;
   const time = isNumber(stop.time_s) ? engineeringText(stop.time_s, "s", 4) : "";
   const reason = stop.text || stop.reason || run.summaryProblem || "the summary does not say";
-  return tile("Run", complete ? "complete" : "not complete", [time, reason].filter(Boolean).join(": "), !complete);
+  return tile("Run", complete ? "complete" : "not complete", [[time, reason].filter(Boolean).join(": ")], verdictState(!complete));
 }
 
 function forceNote(run) {
@@ -47,6 +58,22 @@ function spinUpNote(run) {
   return share + "time 0 is the release";
 }
 
+function whirlTile(run) {
+  const quantity = quantityOf(run, "whirl_direction");
+  if (typeof quantity.value !== "string") return tile("Whirl", "–", ["not in this run: " + (quantity.why || "no reason given")]);
+  const turns = quantityOf(run, "whirl_turns");
+  const count = isNumber(turns.value) ? numberText(Math.abs(turns.value), 3) + " net turns in the inner race" : null;
+  const rule = quantity.value === "none" ? "below one turn there is no whirl" : null;
+  return tile("Whirl", quantity.value, [meanNote(turns), count, rule], verdictState(quantity.value === "backward"));
+}
+
+function displacementTile(run) {
+  if (!("max_rotor_displacement" in run.quantities)) return null;
+  const clearance = run.summary.clearance_radius_m;
+  const beside = isNumber(clearance) ? `; the clearance is ${engineeringText(clearance, "m", 4)}` : "";
+  return quantityTile(run, "Largest rotor displacement", "max_rotor_displacement", () => "of its centre from the origin" + beside);
+}
+
 function verdict(run) {
   const limit = run.summary.hertz_pressure_limit_Pa;
   return element(
@@ -59,27 +86,75 @@ function verdict(run) {
       "Peak Hertz pressure",
       "peak_hertz_pressure",
       (pressure) => pressureNote(run, pressure),
-      (pressure) => isNumber(limit) && pressure > limit,
+      (pressure) => (isNumber(limit) ? verdictState(pressure > limit) : null),
     ),
     quantityTile(run, "Inner race at 95 % speed", "inner_race_time_to_95_percent", () => spinUpNote(run)),
+    whirlTile(run),
+    displacementTile(run),
     quantityTile(
       run,
       "Energy residual",
       "energy_residual",
       () => "share of the energies that the ledger leaves unexplained",
-      (residual) => Math.abs(residual) > RESIDUAL_TO_DOUBT,
+      (residual) => verdictState(Math.abs(residual) > RESIDUAL_TO_DOUBT),
     ),
   );
 }
 
-function warningBox(run) {
-  const warnings = list(run.summary.warnings).filter(Boolean);
-  const items = warnings.map((warning) =>
-    element("li", {}, warning.code ? element("code", {}, warning.code) : null, " ", warning.text || String(warning)),
-  );
-  if (run.summaryProblem) items.unshift(element("li", {}, run.summaryProblem));
-  if (!items.length) return null;
-  return element("div", { class: "warnings" }, element("strong", {}, run.prefix ? "Warnings of run " + run.letter : "Warnings"), element("ul", {}, items));
+// Rotor, speed, bearing, clearance and friction in one line, as far as the inputs tell.
+function machineLine(run) {
+  const given = (path) => {
+    const input = inputOf(run, path);
+    return input && String(input.value) !== "not given" ? inputText(input.value) : null;
+  };
+  const speed = given("rotor.speed");
+  const radians = speed && /^([0-9.eE+-]+)\s*rad\/s$/.exec(speed);
+  const mass = given("rotor.mass");
+  const clearance = given("contact.radial_air_clearance");
+  const friction = given("contact.friction_coefficient");
+  const fidelity = given("bearing.fidelity");
+  const bearing = given("bearing.name") || (inputOf(run, "bearing.ball_count") ? "bearing without a name" : null);
+  const planes = given("rotor.planes");
+  const assumed = (path) => (inputOf(run, path).mark === "assumed" ? " (assumed)" : "");
+  const facts = [
+    mass && `rotor ${mass}`,
+    speed && (radians ? numberText((Number(radians[1]) * 30) / Math.PI, 6) + " rpm" : speed),
+    bearing && bearing + (planes ? ` × ${planes} ${planes === "1" ? "plane" : "planes"}` : ""),
+    clearance && `radial air clearance ${clearance}${assumed("contact.radial_air_clearance")}`,
+    friction && `friction coefficient ${friction}${assumed("contact.friction_coefficient")}`,
+    fidelity && `${fidelity} fidelity`,
+  ].filter(Boolean);
+  return facts.length ? element("p", { class: "machine" }, facts.join(" · ")) : null;
+}
+
+// Where the spread of a repeated run comes from, or null for a single one.
+function spreadOrigin(run) {
+  const repeated = Object.values(run.quantities).some((quantity) => quantity && quantity.spread);
+  if (!repeated) return null;
+  const [position, angle] = ["repeat.rotor_position_deviation", "repeat.ball_angle_deviation"].map((path) => inputOf(run, path));
+  const by = [position && inputText(position.value), angle && inputText(angle.value)].filter(Boolean).join(" and ");
+  return `spread of starts perturbed by ${by || "tiny amounts"} (see repeat.*): shows numerical chaos, not tolerances of the machine`;
+}
+
+// Each warning once; with several runs it names those that have it.
+function warningBox(runs) {
+  const found = new Map();
+  const add = (run, code, text) => {
+    const key = `${code} ${text}`;
+    if (!found.has(key)) found.set(key, { code, text, letters: [] });
+    found.get(key).letters.push(run.letter);
+  };
+  for (const run of runs) {
+    if (run.summaryProblem) add(run, "", run.summaryProblem);
+    for (const warning of list(run.summary.warnings).filter(Boolean)) add(run, warning.code || "", warning.text || String(warning));
+  }
+  if (!found.size) return null;
+  const who = ({ letters }) => {
+    if (runs.length === 1) return null;
+    return element("strong", {}, letters.length === runs.length ? "all runs: " : (letters.length > 1 ? "runs " : "run ") + letters.join(", ") + ": ");
+  };
+  const items = [...found.values()].map((warning) => element("li", {}, warning.code ? element("code", {}, warning.code) : null, " ", who(warning), warning.text));
+  return element("div", { class: "warnings" }, element("strong", {}, "Warnings"), element("ul", {}, items));
 }
 
 function header(runs) {
@@ -88,8 +163,10 @@ function header(runs) {
   for (const run of runs) {
     const facts = [run.summary.system, run.directory, run.summary.version && "auxbear " + run.summary.version];
     const key = single ? null : element("span", { class: "swatch", style: "background:" + run.colour });
-    parts.push(element("p", { class: "subtitle" }, key, single ? null : element("strong", {}, run.label + "  "), facts.filter(Boolean).join(" · ")));
-    parts.push(verdict(run), warningBox(run));
+    const origin = spreadOrigin(run);
+    const about = element("p", { class: "subtitle" }, key, single ? null : element("strong", {}, run.label + "  "), facts.filter(Boolean).join(" · "));
+    parts.push(single ? [machineLine(run), about] : [about, machineLine(run)], verdict(run), origin ? element("p", { class: "small" }, "Large numbers: the unperturbed run. Below them: " + origin + ".") : null);
   }
+  parts.push(warningBox(runs));
   return element("header", {}, parts);
 }

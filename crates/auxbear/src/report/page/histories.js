@@ -78,7 +78,7 @@ function speedSection(runs) {
   const series = [
     ...lines(runs, "rotor.speed", RPM, { label: "rotor [rpm]", colour: SERIES_COLOURS.rotor, width: 1.25, dash: several ? [8, 4] : undefined }),
     ...lines(runs, "bearing.inner_race.speed", RPM, { label: "inner race [rpm]", colour: SERIES_COLOURS.race, width: several ? 1.75 : 1.5 }),
-    ...lines(runs, "bearing.cage.speed", RPM, { label: "cage [rpm]", colour: SERIES_COLOURS.cage, width: 1.5 }),
+    ...lines(runs, "bearing.cage.speed", RPM, { label: "cage [rpm]", colour: SERIES_COLOURS.cage, width: 1.5, dash: several ? [9, 3, 2, 3] : undefined }),
   ];
   const absent = [];
   for (const run of runs) {

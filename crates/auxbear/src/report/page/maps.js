@@ -129,7 +129,7 @@ function colourBar(pen, left, top, height, largest, map) {
   pen.fillStyle = INK;
   pen.textAlign = "left";
   pen.textBaseline = "middle";
-  const candidates = [];
+  const candidates = [largest];
   for (let power = Math.floor(Math.log10(largest || 1)); power >= Math.log10(largest || 1) - 5; power--) for (const digit of [5, 2, 1]) candidates.push(digit * 10 ** power);
   const taken = [top + height];
   if (mapState.shade.startsWith("log")) taken.pop();
@@ -160,7 +160,7 @@ function mapCanvas(run, runs, map, limit) {
     pen.imageSmoothingEnabled = false;
     pen.drawImage(paintGrid(grid, columns, largest, mapState.skid), place.left, place.top, place.width, place.height);
     drawMapAxes(pen, place, grid);
-    colourBar(pen, place.left + place.width + 12, place.top, place.height, largest, map);
+    colourBar(pen, place.left + place.width + 20, place.top, place.height, largest, map);
   };
   canvas.addEventListener("pointermove", (event) => {
     const area = canvas.getBoundingClientRect();

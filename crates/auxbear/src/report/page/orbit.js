@@ -53,7 +53,7 @@ function orbitFigure(run, runs) {
   };
 
   const draw = () => {
-    const most = document.documentElement.classList.contains("paper") ? 480 : 600;
+    const most = document.documentElement.classList.contains("paper") ? 370 : 600;
     size = Math.max(280, Math.min(most, holder.clientWidth || 500));
     const pen = sizedCanvas(size, size + 40, canvas);
     const place = frame();
@@ -116,7 +116,8 @@ function orbitFigure(run, runs) {
   resizable.push(draw);
   timeline.listeners.push(draw);
   const why = orbitPath(run, false) ? null : notInThisRun(whyNoColumn(run, ["rotor.x", "rotor.y", "bearing.inner_race.x", "bearing.inner_race.y"]));
-  fillElement(holder, {}, why ? [why] : [controls, canvas, readout]);
+  const remarks = why ? [] : orbitRemarks(run).map((words) => element("p", { class: "small" }, words));
+  fillElement(holder, {}, why ? [why] : [controls, canvas, remarks, readout]);
   const note = "Geometric centre of the rotor at the bearing plane. Drag a box to zoom, double-click to reset; a time zoom below shows its part of the orbit in colour.";
   return figure(runs.length > 1 ? run.label : "Orbit of the rotor centre", why ? null : note, holder);
 }
@@ -236,41 +237,50 @@ function drawOrbitPath(pen, place, run, ground) {
     pen.lineTo(place.toX(corners[2]), place.toY(corners[3]));
     pen.stroke();
   }
-  const first = run.contacts[0];
-  const peak = peakContact(run);
-  const same = first && peak && first === peak;
-  if (first) drawOrbitMark(pen, place, run, path, first.start_s, "first contact", "#ffffff", 100, -1);
-  if (peak) drawOrbitMark(pen, place, run, path, peak.peak_time_s, same ? "peak force (first contact)" : "peak force", SERIES_COLOURS.limit, 76, 1);
+  const marks = orbitMarks(run).filter((mark) => mark.sure);
+  for (const { instant, fill } of marks) {
+    const [x, y] = [valueAt(run.time, path.x, instant), valueAt(run.time, path.y, instant)];
+    if (isNumber(x) && isNumber(y)) drawDot(pen, place.toX(x), place.toY(y), fill);
+  }
+  drawMarkKey(pen, place, marks);
 }
 
-// A dot on the orbit and its words further inside, where a drop leaves the circle empty, left or right of the leader.
-function drawOrbitMark(pen, place, run, path, instant, words, fill, inwards, side) {
-  const [x, y] = [valueAt(run.time, path.x, instant), valueAt(run.time, path.y, instant)];
-  if (!isNumber(x) || !isNumber(y)) return;
-  const [px, py] = [place.toX(x), place.toY(y)];
-  const [dx, dy] = [place.left + place.width / 2 - px, place.top + place.width / 2 - py];
-  const distance = Math.max(1, Math.hypot(dx, dy));
-  const [tx, ty] = [px + (inwards * dx) / distance + 14 * side, py + (inwards * dy) / distance];
+// The instants worth a mark, and whether the rows around them are close enough to place it.
+function orbitMarks(run) {
+  const first = run.contacts[0];
+  const peak = peakContact(run);
+  const marks = [];
+  if (first) marks.push({ words: "first contact", instant: first.start_s, fill: "#ffffff" });
+  if (peak) marks.push({ words: first === peak ? "peak force (first contact)" : "peak force", instant: peak.peak_time_s, fill: SERIES_COLOURS.limit });
+  return marks.map((mark) => ({ ...mark, sure: rowsAround(run.time, mark.instant) }));
+}
+
+function orbitRemarks(run) {
+  const unsure = orbitMarks(run).filter((mark) => !mark.sure);
+  const places = unsure.map(({ words, instant }) => `${words} at ${timeline.text(instant)}`).join(", ");
+  return [coarseRowsNote(run), unsure.length ? `rows too coarse for marks: ${places}.` : null].filter(Boolean);
+}
+
+function drawDot(pen, x, y, fill) {
   pen.strokeStyle = INK;
   pen.fillStyle = fill;
-  pen.lineWidth = 1;
-  pen.beginPath();
-  pen.moveTo(px, py);
-  pen.lineTo(tx, ty);
-  pen.stroke();
   pen.lineWidth = 1.25;
   pen.beginPath();
-  pen.arc(px, py, 4.5, 0, 2 * Math.PI);
+  pen.arc(x, y, 4.5, 0, 2 * Math.PI);
   pen.fill();
   pen.stroke();
-  const width = pen.measureText(words).width + 10;
-  const left = Math.min(Math.max(side > 0 ? tx : tx - width, place.left + 1), place.left + place.width - width - 1);
-  pen.fillStyle = "rgba(255,255,255,0.85)";
-  pen.fillRect(left, ty - 9, width, 18);
-  pen.fillStyle = INK;
+}
+
+// The words stand in the lower corner, which an orbit inside its clearance circle leaves free.
+function drawMarkKey(pen, place, marks) {
   pen.textAlign = "left";
   pen.textBaseline = "middle";
-  pen.fillText(words, left + 5, ty);
+  marks.forEach(({ words, fill }, index) => {
+    const [x, y] = [place.left + 14, place.top + place.width - 14 - 17 * (marks.length - 1 - index)];
+    drawDot(pen, x, y, fill);
+    pen.fillStyle = INK;
+    pen.fillText(words, x + 11, y);
+  });
 }
 
 function drawTimeBar(pen, place, size) {
@@ -303,26 +313,26 @@ function orbitReadout(run, ground, place, px, py) {
   return `${timeline.text(run.time[best])}: x ${engineeringText(x, "m", 4)}, y ${engineeringText(y, "m", 4)}, distance ${engineeringText(radius, "m", 4)}${share}`;
 }
 
-const CONTACTS_SHOWN = 12;
+const CONTACTS_PRINTED = 100;
 
 function contactTable(run) {
   if (!run.contacts.length) return notInThisRun("a list of contacts; none happened, or the summary does not hold them", run);
+  const lasting = (contact) => (isNumber(contact.end_s) ? contact.end_s - contact.start_s : null);
+  const parts = [
+    ["start", (contact) => contact.start_s, "s", 6],
+    ["lasts", lasting, "s", 5, "still closed"],
+    ["peak force", (contact) => contact.peak_force_N, "N", 5],
+    ["peak at", (contact) => contact.peak_time_s, "s", 6],
+  ].map(([words, value, unit, digits, absent]) => ({ words, value, absent: absent || "–", scale: columnScale(run.contacts.map(value), unit, digits) }));
+  const cell = (part, contact) => (isNumber(part.value(contact)) ? part.scale.text(part.value(contact)) : part.absent);
   const row = (contact, index) =>
-    element(
-      "tr",
-      { class: index >= CONTACTS_SHOWN ? "screen-only" : null },
-      element("td", {}, index + 1),
-      element("td", {}, timeline.text(contact.start_s)),
-      element("td", {}, isNumber(contact.end_s) ? engineeringText(contact.end_s - contact.start_s, "s", 4) : "still closed"),
-      element("td", {}, engineeringText(contact.peak_force_N, "N", 5)),
-      element("td", {}, isNumber(contact.peak_time_s) ? timeline.text(contact.peak_time_s) : "–"),
-    );
-  const heads = ["", "start", "lasts", "peak force", "peak at"].map((words) => element("th", {}, words));
-  const more = run.contacts.length - CONTACTS_SHOWN;
+    element("tr", { class: index >= CONTACTS_PRINTED ? "screen-only" : null }, element("td", {}, index + 1), parts.map((part) => element("td", {}, cell(part, contact))));
+  const heads = ["", ...parts.map((part) => `${part.words} [${part.scale.name}]`)].map((words) => element("th", {}, words));
+  const more = run.contacts.length - CONTACTS_PRINTED;
   return figure(
     run.prefix + "Contacts",
     run.contacts.length + (run.contacts.length === 1 ? " contact" : " contacts") + " of rotor and inner race, in order of time.",
-    element("div", { class: "scroll" }, element("table", { class: "numbers" }, element("thead", {}, element("tr", {}, heads)), element("tbody", {}, run.contacts.map(row)))),
+    element("div", { class: "scroll" }, element("table", { class: "numbers contacts" }, element("thead", {}, element("tr", {}, heads)), element("tbody", {}, run.contacts.map(row)))),
     more > 0 ? element("p", { class: "print-only" }, `and ${more} more, in summary.json`) : null,
   );
 }

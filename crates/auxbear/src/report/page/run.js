@@ -101,6 +101,36 @@ function valueAt(time, values, instant) {
   return left + ((right - left) * (instant - time[row])) / (time[row + 1] - time[row]);
 }
 
+// Marks on a curve, and curves through an orbit, are only as good as the rows they are drawn from.
+const COARSE_ROWS = 0.5e-3;
+const ROWS_A_TURN = 40;
+
+// True when rows on both sides of an instant lie close enough to place a mark between them.
+function rowsAround(time, instant) {
+  if (!time.length || instant < time[0] || instant > time[time.length - 1]) return false;
+  const row = rowBefore(time, instant);
+  if (time[row] === instant) return true;
+  return instant - time[row] <= COARSE_ROWS && time[row + 1] - instant <= COARSE_ROWS;
+}
+
+function medianSpacing(time) {
+  const gaps = time.slice(1).map((instant, row) => instant - time[row]);
+  gaps.sort((left, right) => left - right);
+  return gaps.length ? gaps[gaps.length >> 1] : 0;
+}
+
+// What to say about rows too far apart to show an orbit, or null.
+function coarseRowsNote(run) {
+  const spacing = medianSpacing(run.time);
+  const speed = (columnOf(run, "rotor.speed") || []).reduce((most, value) => Math.max(most, Math.abs(value || 0)), 0);
+  const limits = [COARSE_ROWS, ...(speed > 0 ? [(2 * Math.PI) / speed / ROWS_A_TURN] : [])];
+  // Rows written at just the limit differ from it by rounding.
+  if (!(spacing > 1.001 * Math.min(...limits))) return null;
+  const turn = speed > 0 ? `, a rotor turn takes ${engineeringText((2 * Math.PI) / speed, "s", 3)}` : "";
+  const thinned = run.rows < run.rowsTotal ? ` (this page holds ${run.rows} of ${run.rowsTotal} rows)` : "";
+  return `rows every ${engineeringText(spacing, "s", 3)}${thinned}${turn}: the orbit is drawn from rows, not from every step.`;
+}
+
 // The balls of a run: one entry each with the columns that exist, or an empty list.
 function ballsOf(run) {
   const names = [...run.columns.keys()].map((name) => /^bearing\.(ball_\d+)\.inner_load$/.exec(name)).filter(Boolean);

@@ -31,7 +31,7 @@ function start() {
     return;
   }
   timeline.span(runs);
-  const builders = [orbitSection, contactSection, speedSection, mapSection, pressureSection, energySection, quantitySection, inputSection, factSection];
+  const builders = [...(runs.length > 1 ? [differenceSection] : []), orbitSection, contactSection, speedSection, mapSection, pressureSection, energySection, quantitySection, inputSection, factSection];
   const sections = builders.map((build) => guarded(build, runs));
   main.append(guarded(header, runs), navigation(sections), ...sections);
   redrawAll();

@@ -23,20 +23,39 @@ function siCell(quantity) {
   return Array.isArray(quantity.value) ? `list in ${quantity.unit || "1"}` : "";
 }
 
+// Mean ± standard deviation and range in one unit: plain decimals, at most six digits of the mean, two of the deviation.
+function spreadText(quantity) {
+  const { mean, sd, min, max } = quantity.spread;
+  let [unit, scale] = mean === 0 ? [unitText(quantity.unit), 1] : readableUnit(mean, quantity.unit);
+  const size = Math.abs(mean) / scale;
+  if (size > 0 && (size < 1e-3 || size >= 1e6)) {
+    const power = leadingPower(size);
+    scale *= 10 ** power;
+    unit = `× ${powerOfTen(power)} ${unit}`.trim();
+  }
+  const finest = 5 - leadingPower(mean / scale);
+  const known = isNumber(sd) && sd > 0;
+  const decimals = known ? Math.min(finest, 1 - leadingPower(sd / scale)) : finest;
+  const tail = unit === "°" ? unit : unit && " " + unit;
+  const text = (value) => decimalText(isNumber(value) ? value / scale : null, decimals);
+  const deviation = known ? " ± " + decimalText(sd / scale, 1 - leadingPower(sd / scale)) : sd === 0 ? " ± 0" : "";
+  const grouped = deviation && tail ? `(${text(mean)}${deviation})` : text(mean) + deviation;
+  const range = text(min) === text(max) ? "smallest and largest agree in these digits" : `${text(min)} to ${text(max)}${tail}`;
+  return { mean: grouped + tail, range };
+}
+
 function spreadCell(quantity) {
   const spread = quantity.spread;
   if (!spread || !isNumber(spread.mean)) return "";
-  const [unit, scale] = spread.mean === 0 ? [unitText(quantity.unit), 1] : readableUnit(spread.mean, quantity.unit);
-  const gap = unit && unit !== "°" ? " " : "";
-  // The mean is written to the digit that the spread makes meaningful.
-  const digits = isNumber(spread.sd) && spread.sd > 0 ? Math.min(9, Math.max(3, Math.ceil(Math.log10(Math.abs(spread.mean) / spread.sd)) + 2)) : 6;
-  const text = (value) => numberText(isNumber(value) ? value / scale : null, digits);
-  const deviation = isNumber(spread.sd) ? " ± " + engineeringText(spread.sd, quantity.unit, 2) : "";
+  const { mean, range } = spreadText(quantity);
   return [
-    element("div", { class: "spread" }, text(spread.mean) + gap + unit + deviation),
-    element("div", { class: "small" }, `${text(spread.min)} to ${text(spread.max)}${gap}${unit}` + (isNumber(spread.members) ? `, ${spread.members} members` : "")),
+    element("div", { class: "spread" }, mean),
+    element("div", { class: "small" }, range + (isNumber(spread.members) ? `, ${spread.members} members` : "")),
   ];
 }
+
+// Changes of these carry no meaning as a share: they scatter about zero.
+const WITHOUT_SHARE = /(residual|whirl_turns)$/;
 
 function lawLine(quantity) {
   const parts = [["Law", quantity.law], ["Source", quantity.source], ["Valid", quantity.valid]].filter(([, words]) => words);
@@ -70,7 +89,7 @@ function quantitySection(runs) {
     else {
       all.forEach((quantity, index) => {
         cells.push(element("td", {}, quantityText(quantity), spreadCell(quantity)));
-        if (index) cells.push(element("td", { class: "difference" }, differenceText(all[0].value, quantity.value)));
+        if (index) cells.push(element("td", { class: "difference" }, WITHOUT_SHARE.test(name) ? "–" : differenceText(all[0].value, quantity.value)));
       });
     }
     if (repeated && single) cells.push(element("td", {}, spreadCell(all[0])));
@@ -78,7 +97,8 @@ function quantitySection(runs) {
     return element("tbody", {}, element("tr", {}, cells), laws.length ? element("tr", { class: "laws" }, element("td", { colspan: heads.length }, laws)) : null);
   });
   const table = element("table", { class: single ? "quantities single" : "quantities several", style: single ? null : `--columns:${heads.length}` }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), bodies);
-  const note = repeated ? element("p", { class: "lead" }, "Spread: mean and standard deviation over the members of the repeated run, and their smallest and largest value.") : null;
+  const origin = runs.map(spreadOrigin).find(Boolean);
+  const note = repeated ? element("p", { class: "lead" }, `Value: the unperturbed run. Then mean ± standard deviation, smallest and largest value over all members: ${origin}.`) : null;
   return section("quantities", "Quantities", note, element("div", { class: "wide" }, table), runs.map(memberDetails));
 }
 
@@ -87,7 +107,7 @@ function memberDetails(run) {
   if (!members.length) return null;
   const plain = (cell) => (cell && typeof cell === "object" && !Array.isArray(cell) ? cell.value : cell);
   const names = [...new Set(members.flatMap(Object.keys))].filter((name) => members.some((member) => isNumber(plain(member[name]))));
-  const row = (member, index) => element("tr", {}, element("td", {}, index + 1), names.map((name) => element("td", {}, numberText(plain(member[name]), 7))));
+  const row = (member, index) => element("tr", {}, element("td", {}, index + 1), names.map((name) => element("td", {}, numberText(plain(member[name]), 6))));
   const unit = (name) => unitText(quantityOf(run, name).unit);
   const heads = names.map((name) => element("th", {}, wordsOf(name) + (unit(name) ? ` [${unit(name)}]` : "")));
   return element(
@@ -104,18 +124,24 @@ function markBadge(mark) {
   return element("span", { class: "mark mark-" + (MARK_WORDS[mark] || "other") }, MARK_WORDS[mark] || String(mark || "not said"));
 }
 
+// A dotted path may break after its dots and underscores, nowhere else.
+function breakable(path) {
+  return path.split(/(?<=[._])/).flatMap((part, index) => (index ? [element("wbr"), part] : [part]));
+}
+
 function inputRow(paths, path, runs) {
   const inputs = paths.get(path);
   const cells = runs.map((run, index) => {
     const input = inputs[index];
-    return [element("td", {}, input ? String(input.value) : element("span", { class: "absent" }, "not in this run")), element("td", {}, input ? markBadge(input.mark) : null)];
+    return [element("td", {}, input ? inputText(input.value) : element("span", { class: "absent" }, "not in this run")), element("td", {}, input ? markBadge(input.mark) : null)];
   });
   const notes = [...new Set(inputs.filter(Boolean).map((input) => input.note).filter(Boolean))].join("; ");
   const assumed = inputs.some((input) => input && input.mark === "assumed");
-  return element("tr", { class: assumed ? "assumed" : null }, element("td", {}, element("code", {}, path)), cells, element("td", { class: "small" }, notes));
+  return element("tr", { class: assumed ? "assumed" : null }, element("td", {}, element("code", {}, breakable(path))), cells, element("td", { class: "small" }, notes));
 }
 
-function inputSection(runs) {
+// The inputs of all runs by path, in the order of the file.
+function inputPaths(runs) {
   const paths = new Map();
   runs.forEach((run, index) => {
     for (const input of list(run.summary.inputs)) {
@@ -124,26 +150,38 @@ function inputSection(runs) {
       paths.get(input.path)[index] = input;
     }
   });
+  return paths;
+}
+
+function inputsDiffer(inputs) {
+  return new Set(inputs.map((input) => (input ? String(input.value) : null))).size > 1;
+}
+
+function inputTable(runs, paths, keys) {
+  const heads = ["Input", ...runs.flatMap((run) => [runs.length === 1 ? "Value" : run.label, "Origin"]), "Note"];
+  return element("table", { class: "inputs" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), element("tbody", {}, keys.map((path) => inputRow(paths, path, runs))));
+}
+
+function differenceSection(runs) {
+  const paths = inputPaths(runs);
+  const keys = [...paths.keys()].filter((path) => inputsDiffer(paths.get(path)));
+  const same = paths.size ? "None: all inputs are the same." : "The summaries list no inputs.";
+  return section("differences", "Inputs that differ", keys.length ? inputTable(runs, paths, keys) : element("p", {}, same));
+}
+
+function inputSection(runs) {
+  const paths = inputPaths(runs);
   const scenario = runs.map((run) =>
     run.scenario ? element("details", { class: "screen-only" }, element("summary", {}, run.prefix + "scenario.toml as it was run"), element("pre", {}, run.scenario)) : notInThisRun("its scenario text", run),
   );
   if (!paths.size) return section("inputs", "Inputs", notInThisRun("the summary lists no inputs"), scenario);
   const single = runs.length === 1;
-  const heads = ["Input", ...runs.flatMap((run) => [single ? "Value" : run.label, "Origin"]), "Note"];
-  const table = (keys) =>
-    element("table", { class: "inputs" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), element("tbody", {}, keys.map((path) => inputRow(paths, path, runs))));
-  const differs = (path) => new Set(paths.get(path).map((input) => (input ? String(input.value) : null))).size > 1;
-  const keys = [...paths.keys()];
+  const keys = [...paths.keys()].filter((path) => single || !inputsDiffer(paths.get(path)));
   const counts = Object.keys(MARK_WORDS).map((mark) => [mark, list(runs[0].summary.inputs).filter((input) => input && input.mark === mark).length]);
-  const parts = single
-    ? [element("p", { class: "lead" }, "Origin of the values: ", counts.filter(([, count]) => count).map(([mark, count]) => [markBadge(mark), ` ${count}   `])), table(keys)]
-    : [
-        element("h3", {}, "Inputs that differ"),
-        keys.some(differs) ? table(keys.filter(differs)) : element("p", {}, "None: all inputs are the same."),
-        element("h3", {}, "Inputs that are the same"),
-        table(keys.filter((path) => !differs(path))),
-      ];
-  return section("inputs", "Inputs", parts, scenario);
+  const lead = single
+    ? element("p", { class: "lead" }, "Origin of the values: ", counts.filter(([, count]) => count).map(([mark, count]) => [markBadge(mark), ` ${count}   `]), "Six digits are shown; scenario.toml holds them all.")
+    : element("p", { class: "lead" }, "Inputs that are the same in all runs; those that differ stand at the top of this page.");
+  return section("inputs", "Inputs", lead, inputTable(runs, paths, keys), scenario);
 }
 
 function factSection(runs) {

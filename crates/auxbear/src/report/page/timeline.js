@@ -1,6 +1,8 @@
 // Time plots that share one time window: drag in any of them to zoom all, double-click to see everything again.
 
 const AXIS_WIDTH = 74;
+const SHORTEST_SPAN = 1e-9;
+const SMALLEST_RANGE = 1e-12;
 
 const timeline = {
   first: 0,
@@ -15,8 +17,11 @@ const timeline = {
     this.first = Math.min(...times.map((time) => time[0]));
     this.last = Math.max(...times.map((time) => time[time.length - 1]));
     if (!(this.last > this.first)) this.last = this.first + 1;
+    // A run that failed at once still gets an axis whose steps are above rounding.
+    if (this.last - this.first < SHORTEST_SPAN) this.last = this.first + SHORTEST_SPAN;
     [this.begin, this.end] = [this.first, this.last];
-    this.unit = this.last - this.first < 2 ? ["ms", 1e-3] : ["s", 1];
+    const units = [["s", 1, 2], ["ms", 1e-3, 1e-5], ["µs", 1e-6, 0]];
+    this.unit = units.find(([, , shortest]) => this.last - this.first >= shortest);
   },
   zoom(begin, end) {
     // A window shorter than a millionth of the run shows nothing but rounding.
@@ -45,7 +50,7 @@ function paddedRange(low, high, extra) {
   const values = [low, high, ...extra].filter(isNumber);
   if (!values.length) return [0, 1];
   let [least, most] = [Math.min(...values), Math.max(...values)];
-  if (least === most) return least === 0 ? [0, 1] : [least - 0.1 * Math.abs(least), most + 0.1 * Math.abs(most)];
+  if (most - least < SMALLEST_RANGE) return Math.abs(least) < SMALLEST_RANGE ? [0, 1] : [least - 0.1 * Math.abs(least), most + 0.1 * Math.abs(most)];
   const room = 0.06 * (most - least);
   const nearZero = least >= 0 && least < 0.4 * most;
   return [nearZero ? 0 : least - room, most <= 0 && least < 0 && most > 0.4 * least ? 0 : most + room];
@@ -132,9 +137,18 @@ function timePlot(options) {
     });
   }
   const plot = new uPlot(configuration, data, holder);
+  holder.querySelectorAll(".u-legend .u-series").forEach((row, index) => index && showLineStyle(row.querySelector(".u-marker"), ordered[index - 1]));
   resizable.push(() => plot.setSize({ width: holder.clientWidth, height: configuration.height }));
   timeline.listeners.push(() => plot.setScale("x", { min: timeline.begin, max: timeline.end }));
   return holder;
+}
+
+// The legend shows each line as it is drawn: colour, width and dashes; bands as a filled box.
+function showLineStyle(marker, line) {
+  marker.removeAttribute("style");
+  const stroke = { x1: 0, y1: 6, x2: 30, y2: 6, stroke: line.colour, "stroke-width": (line.width || 1.25) + 0.5, "stroke-dasharray": line.dash ? line.dash.join(" ") : null };
+  const sample = line.fill ? drawing("rect", { x: 8, y: 0, width: 12, height: 12, fill: line.fill }) : drawing("line", stroke);
+  marker.append(drawing("svg", { width: 30, height: 12, viewBox: "0 0 30 12" }, sample));
 }
 
 function drawMarks(plot, options) {
