@@ -28,6 +28,12 @@ pub fn check(repository: &Repository) -> Outcome {
             &program,
             &["run", file, "--quiet", "--out", &out],
         ));
+        let summary = std::fs::read_to_string(Path::new(&*out).join("summary.json"));
+        let faults = summary.map_or_else(
+            |error| vec![format!("no summary: {error}")],
+            |text| faults_of(&text),
+        );
+        findings.extend(faults.into_iter().map(|fault| format!("{file}: {fault}")));
     }
     // Nothing depends on the folder any more; one that stays behind is no fault of the product.
     let _ = std::fs::remove_dir_all(&folder);
@@ -37,6 +43,28 @@ pub fn check(repository: &Repository) -> Outcome {
         count => format!("{count} run; validation passed"),
     };
     Outcome::new(seen, findings)
+}
+
+/// Largest share of the energy turned over that the ledger of a shipped scenario may miss.
+const LARGEST_RESIDUAL: f64 = 1e-6;
+
+/// What a summary says against its run: it must be whole, and its energy must close.
+fn faults_of(summary: &str) -> Vec<String> {
+    let Ok(summary) = serde_json::from_str::<Value>(summary) else {
+        return vec!["its summary is no JSON".to_owned()];
+    };
+    let mut faults = Vec::new();
+    if summary["complete"] != true {
+        faults.push(format!("not complete: {}", summary["stop"]));
+    }
+    match summary["quantities"]["energy_residual"]["value"].as_f64() {
+        Some(residual) if residual.abs() < LARGEST_RESIDUAL => {}
+        Some(residual) => faults.push(format!(
+            "its energy residual {residual:e} is not below {LARGEST_RESIDUAL:e}"
+        )),
+        None => faults.push("it has no energy residual".to_owned()),
+    }
+    faults
 }
 
 fn build(repository: &Repository) -> Result<PathBuf, Vec<String>> {
@@ -85,6 +113,19 @@ fn call(repository: &Repository, program: &Path, words: &[&str]) -> Vec<String> 
 mod tests {
     use super::*;
 
+    #[test]
+    fn a_summary_is_held_to_its_energy() {
+        let summary = |complete: bool, residual: f64| {
+            format!(
+                "{{\"complete\": {complete}, \"quantities\": {{\"energy_residual\": {{\"value\": {residual:e}}}}}}}"
+            )
+        };
+        assert!(faults_of(&summary(true, -9e-7)).is_empty());
+        assert_eq!(faults_of(&summary(true, 2e-6)).len(), 1);
+        assert_eq!(faults_of(&summary(false, 2e-6)).len(), 2);
+        assert_eq!(faults_of("{}").len(), 2);
+        assert_eq!(faults_of("half").len(), 1);
+    }
     #[test]
     fn the_program_is_found_among_the_messages() {
         let messages = "{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"auxbear\",\"kind\":[\"lib\"]},\"executable\":null}\n{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"auxbear\",\"kind\":[\"bin\"]},\"executable\":\"target/release/auxbear\"}\n{\"reason\":\"build-finished\"}\n";

@@ -350,6 +350,54 @@ fn contact_at_the_start_is_refused_with_both_numbers() {
 }
 
 #[test]
+fn a_traction_law_that_would_make_energy_is_refused() {
+    let law = |a: &str, b: &str, d: &str| {
+        let sets = [
+            "bearing.traction.law=four parameter".to_string(),
+            format!("bearing.traction.a={a}"),
+            format!("bearing.traction.b={b}"),
+            "bearing.traction.c=5 s/m".to_string(),
+            format!("bearing.traction.d={d}"),
+        ];
+        parse(GOOD, &sets.each_ref().map(String::as_str))
+    };
+    assert!(law("-0.07", "0.35 s/m", "0.07").is_ok());
+    for (a, b, d) in [("0.07", "0 s/m", "-0.07"), ("-0.07", "-0.9 s/m", "0.07")] {
+        let message = law(a, b, d).unwrap_err();
+        assert!(
+            message.starts_with("error[AB0109]") && message.contains("which would make energy"),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn a_clearance_of_the_size_of_a_ball_is_refused() {
+    for clearance in ["-0.3 mm", "2 mm", "1 m"] {
+        let message = set_message(&format!(
+            "bearing.operating_diametral_clearance={clearance}"
+        ));
+        assert!(
+            message.starts_with("error[AB0204]") && message.contains("a few um"),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn perturbed_starts_that_touch_are_refused() {
+    let perturbed = |deviation: &str| parse(GOOD, &["repeat.count=8", deviation]);
+    let rotor = perturbed("repeat.rotor_position_deviation=1 mm").unwrap_err();
+    assert!(
+        rotor.contains("repeat.rotor_position_deviation") && rotor.contains("no perturbed start"),
+        "{rotor}"
+    );
+    let balls = perturbed("repeat.ball_angle_deviation=1 rad").unwrap_err();
+    assert!(balls.contains("bearing.cage.pocket_gap"), "{balls}");
+    assert!(perturbed("repeat.rotor_position_deviation=1 um").is_ok());
+}
+
+#[test]
 fn output_that_makes_no_sense_is_refused() {
     assert_eq!(
         set_message("run.output_interval=1 s"),
@@ -357,7 +405,7 @@ fn output_that_makes_no_sense_is_refused() {
     );
     assert_eq!(
         set_message("run.output_interval=1 ns"),
-        "error[AB0207]: drop.toml, --set: run.output_interval: found 1 ns, which gives 5.000e8 rows in 0.5 s; at most 5e6 rows are written"
+        "error[AB0207]: drop.toml, --set: run.output_interval: found 1 ns, which gives 5.000e8 rows in 0.5 s; at most 6.67e5 rows are kept with 10 balls"
     );
 }
 

@@ -4,7 +4,7 @@
 //!          outer race (at rest)            R      radius of the inner race track
 //!     ──────────────────────────           r = sR ball radius
 //!        T_O ←   ( ball )   H →            Ω      speed of the inner race
-//!                 ω_b ↻                    ω_c    speed of the cage, sign of Ω
+//!                 ω_b ↺                    ω_c    speed of the cage, sign of Ω
 //!     ──────────── T_I → ───────           ω_b    ball spin *against* Ω, absolute
 //!          inner race, Ω →                 F      pocket friction, sum over the balls
 //! ```

@@ -3,9 +3,16 @@
 use super::drop::{Drop, Moment, Traction};
 use super::resolve::Values;
 use crate::problem::{Code, Problem};
+use physics::traction::FourParameterTraction;
 
-/// Most rows of a history.
-const MOST_ROWS: f64 = 5e6;
+/// Most values of a history, in memory at the end of a run: 1.6 GB.
+const MOST_VALUES: f64 = 2e8;
+/// Values of a row that do not depend on the balls, kept twice: as states and as columns.
+const VALUES_PER_ROW: f64 = 100.0;
+/// Values of a row for each ball, likewise.
+const VALUES_PER_BALL: f64 = 20.0;
+/// Standard deviations within which every perturbed start is taken to lie.
+const SPREAD: f64 = 6.0;
 
 /// How far D may be from -A: the sum of two decimals of four digits.
 const NO_TRACTION_AT_REST: f64 = 1e-9;
@@ -27,6 +34,7 @@ pub(super) fn check(drop: &Drop, values: &Values, file: &str) -> Check {
     context.traction()?;
     context.moment()?;
     context.output()?;
+    context.perturbed_balls()?;
     context.levitated_orbit()
 }
 
@@ -158,6 +166,20 @@ impl Context<'_> {
                     ),
                 )))
             }
+            Traction::FourParameter { a, b, c, d } => {
+                let smallest = FourParameterTraction { a, b, c, d }.smallest();
+                if smallest >= -NO_TRACTION_AT_REST {
+                    return Ok(());
+                }
+                Err(Box::new(self.problem(
+                    Code::Conflict,
+                    "bearing.traction.law",
+                    format!(
+                        "four parameters whose coefficient falls to {smallest:.3e} at some slip, which would make energy"
+                    ),
+                    "a coefficient that is nowhere negative is needed: d >= 0, and b not below c·d".to_string(),
+                )))
+            }
             _ => Ok(()),
         }
     }
@@ -190,7 +212,9 @@ impl Context<'_> {
             )));
         }
         let rows = run.duration / run.output_interval;
-        if rows > MOST_ROWS {
+        let most =
+            MOST_VALUES / (VALUES_PER_ROW + VALUES_PER_BALL * self.drop.bearing.ball_count as f64);
+        if rows > most {
             return Err(Box::new(self.problem(
                 Code::TooManyRows,
                 "run.output_interval",
@@ -199,10 +223,31 @@ impl Context<'_> {
                     self.text("run.output_interval"),
                     self.text("run.duration")
                 ),
-                format!("at most {MOST_ROWS:e} rows are written"),
+                format!(
+                    "at most {most:.2e} rows are kept with {} balls",
+                    self.drop.bearing.ball_count
+                ),
             )));
         }
         Ok(())
+    }
+
+    /// A perturbed ball must stay in its pocket.
+    fn perturbed_balls(&self) -> Check {
+        let (repeat, bearing) = (&self.drop.repeat, &self.drop.bearing);
+        let shift = SPREAD * repeat.ball_angle_deviation * 0.5 * bearing.pitch_diameter;
+        if repeat.count < 2 || shift <= bearing.cage.pocket_gap {
+            return Ok(());
+        }
+        Err(Box::new(self.problem(
+            Code::OutOfRange,
+            "repeat.ball_angle_deviation",
+            self.text("repeat.ball_angle_deviation"),
+            format!(
+                "at most a sixth of bearing.cage.pocket_gap = {} along the pitch circle is needed",
+                self.text("bearing.cage.pocket_gap")
+            ),
+        )))
     }
 
     /// The geometric centre of the levitated rotor circles the centre of levitation; it must not touch before the release.
@@ -211,6 +256,24 @@ impl Context<'_> {
         let clearance = self.drop.contact.radial_air_clearance;
         let offset = levitation.offset_x.hypot(levitation.offset_y);
         let whirl = levitated_whirl_radius(self.drop);
+        let repeat = &self.drop.repeat;
+        let spread = if repeat.count > 1 {
+            SPREAD * repeat.rotor_position_deviation
+        } else {
+            0.0
+        };
+        if offset + whirl < clearance && offset + whirl + spread >= clearance {
+            return Err(Box::new(self.problem(
+                Code::ContactAtStart,
+                "repeat.rotor_position_deviation",
+                self.text("repeat.rotor_position_deviation"),
+                format!(
+                    "less than a sixth of the {} that the levitated rotor leaves free is needed, so that no perturbed \
+                     start touches",
+                    millimetres(clearance - offset - whirl)
+                ),
+            )));
+        }
         if offset + whirl < clearance {
             return Ok(());
         }

@@ -309,7 +309,7 @@ pub(super) const KEYS: &[Key] = &[
         "5 s/m",
         "C of the four parameter law.",
     )
-    .not_negative()
+    .positive()
     .when(traction(&["four parameter"])),
     Key::new(
         "bearing.traction.d",

@@ -214,9 +214,9 @@ fn stop(finished: &Finished) -> Stop {
         solve::Stop::StepLimit => (
             "step limit",
             format!(
-                "Given up at {} after {} steps: something in the machine is so stiff that the end would not be \
-                 reached. A damper or spring with too many zeros, or friction with a very small reference speed, are the \
-                 usual causes.",
+                "Given up at {} after {} steps, the limit being {STEP_LIMIT}. Either the duration is very long, or \
+                 something in the machine is very stiff: a damper or spring with too many zeros, friction with a very \
+                 small reference speed.",
                 instant(time),
                 finished.ending.work.accepted + finished.ending.work.rejected
             ),

@@ -6,7 +6,7 @@ use model::system::drop::layout::{HEATS, INNER, ROTOR};
 use physics::hertz::maximum_pressure;
 
 const EQUATIONS: &str =
-    "equations of motion, crates/model/src/system/drop/rate.rs and bearing/ball.rs";
+    "equations of motion, crates/model/src/system/drop/rate.rs and crates/model/src/bearing/";
 const CONTACT: &str = "Hunt-Crossley contact, crates/model/src/contact.rs";
 const EVENT: &str = "root on dense output of the Tsitouras 5(4) method";
 const LEDGER: &str = "energy ledger, crates/model/src/system/drop/ledger.rs";
@@ -152,7 +152,7 @@ pub(super) fn name(context: &Context) -> Vec<Quantity> {
         "max_mount_displacement",
         "m",
         Ok(record.mount_displacement.value),
-        &DISPLACEMENT,
+        &MOUNT_DISPLACEMENT,
     );
     let turns = record.whirl_turns;
     let forward = turns * machine.constants.speed.signum() > 0.0;
@@ -214,15 +214,16 @@ fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, String>) {
     let momentum = now.angular_momentum
         - content.angular_momentum
         - (flows.angular_impulse - before.angular_impulse);
-    let momentum_scale = content
-        .angular_momentum
-        .abs()
-        .max(now.angular_momentum.abs());
+    let constants = &machine.constants;
+    let momentum_scale = constants.machine.inner_race_inertia * constants.speed.abs();
     let relative = |residual: f64, scale: f64| {
         if scale > 0.0 {
             Ok(residual / scale)
         } else {
-            Err("nothing moved and nothing was dissipated".to_string())
+            Err(
+                "nothing turned, moved or was dissipated that it could be compared with"
+                    .to_string(),
+            )
         }
     };
     (relative(energy, scale), relative(momentum, momentum_scale))
@@ -253,15 +254,16 @@ const CONTACT_COUNT: Origin = Origin {
 const RISE: Origin = Origin {
     law: "first instant at which the speed reaches the level; levels refer to the rotor's speed at release",
     source: EQUATIONS,
-    valid: "constant friction coefficient between rotor and race; no grease drag",
+    valid: "constant friction coefficient between rotor and race; friction of the bearing only as its fidelity has it",
 };
 const SPEED: Origin = Origin {
     law: "angular momentum of each body about its axis",
     source: EQUATIONS,
-    valid: "the planar fidelity has no steady friction moment: coasting is too free",
+    valid: "coasting is as true as the friction moment: none in the planar fidelity, bearing.moment in the rolling one",
 };
 const BALL_LOAD: Origin = Origin {
-    law: "Q = max(0, K(δ^1.5 + 1.5 β δ^½ δ̇)), largest over balls and races, dense output sampled four times a step",
+    law: "Q = max(0, K(δ^1.5 + 1.5 β δ^½ δ̇)), the rolling fidelity adds the centrifugal force at the outer race; largest \
+          over balls and races, at the steps and, near the record, on dense output between them",
     source: "Hertz 1881 with viscoelastic damping, crates/physics/src/contact.rs",
     valid: "elastic contact; pure radial load",
 };
@@ -271,9 +273,14 @@ const PRESSURE: Origin = Origin {
     valid: "elastic contact, groove curvatures as given",
 };
 const DISPLACEMENT: Origin = Origin {
-    law: "largest distance of rotor centre from inner race centre, and of outer race from its rest position",
+    law: "largest |C - c_i|, where its rate changes sign",
     source: EVENT,
     valid: "below a tenth of the bearing's size",
+};
+const MOUNT_DISPLACEMENT: Origin = Origin {
+    law: "largest |c_o|, at the steps and, near the record, on dense output between them",
+    source: EQUATIONS,
+    valid: "linear mount; below a tenth of the bearing's size",
 };
 const ROTOR_DISPLACEMENT: Origin = Origin {
     law: "largest distance of the rotor centre from the origin, while in contact, at the steps",
@@ -291,8 +298,8 @@ const ENERGY: Origin = Origin {
     valid: "heat of this plane's bearing; nothing is cooled or warmed by it",
 };
 const RESIDUAL: Origin = Origin {
-    law: "what the ledger misses at the end, over max(heat, works, largest kinetic energy of the centres); \
-          momentum over the largest angular momentum",
+    law: "what the ledger misses at the end, over max(heat, works, largest kinetic energy of the rotor's centre); \
+          momentum over that of the inner race at the release speed",
     source: LEDGER,
     valid: "a measure of the integration error; it falls with run.tolerance",
 };

@@ -10,6 +10,8 @@ use physics::hertz::maximum_pressure;
 
 /// Contacts after which pocket and bounce chaos shows in the later ones.
 const CHAOTIC_CONTACTS: usize = 10;
+/// Share of the first bending frequency from which on a rotor bends noticeably.
+const BENDING_SHARE: f64 = 0.7;
 /// Relative energy residual above which the run's tolerance is too loose.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 /// Hunt-Crossley damping a·ḋ above which the law leaves its valid range.
@@ -53,12 +55,17 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
         );
     }
     if let Some(bending) = drop.rotor.first_bending_frequency
-        && bending < drop.rotor.speed.abs()
+        && BENDING_SHARE * bending < drop.rotor.speed.abs()
     {
+        let side = if bending < drop.rotor.speed.abs() {
+            "lies below"
+        } else {
+            "is near"
+        };
         warn(
             "AB1001",
             format!(
-                "The first free-free bending mode ({bending:.0} rad/s) lies below the release speed ({:.0} rad/s): \
+                "The first free-free bending mode ({bending:.0} rad/s) {side} the release speed ({:.0} rad/s): \
                  this rigid rotor is indicative only.",
                 drop.rotor.speed.abs()
             ),
@@ -130,6 +137,7 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
         .find(|quantity| quantity.name == "energy_residual");
     if let Some(super::outcome::Value::Number(residual)) = residual.map(|quantity| quantity.value)
         && residual.abs() > LARGEST_RESIDUAL
+        && context.finished.ending.stop == solve::Stop::Finished
     {
         warn(
             "AB1006",
@@ -161,6 +169,13 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
              and losses are not true."
                 .to_string(),
         ),
+    }
+    if bearing.fidelity == Fidelity::Rolling && bearing.moment == Moment::None {
+        warn(
+            "AB1016",
+            "The rolling bearing runs without a friction moment (bearing.moment.law is none)."
+                .to_string(),
+        );
     }
     if bearing.drag.orbit != 0.0 || bearing.drag.spin != 0.0 || bearing.drag.cage != 0.0 {
         let text = match bearing.fidelity {
@@ -195,6 +210,12 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
         .values
         .iter()
         .filter(|value| value.provenance.mark() == "assumed")
+        .filter(|value| {
+            // what only skidding balls have
+            let planar = ["bearing.cage.", "bearing.traction.", "bearing.drag."];
+            bearing.fidelity == Fidelity::Planar
+                || !planar.iter().any(|p| value.path.starts_with(p))
+        })
         .map(|value| value.path)
         .collect();
     if !assumed.is_empty() {

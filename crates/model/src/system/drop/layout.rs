@@ -58,6 +58,9 @@ pub const LARGEST_OUTER_LOAD: usize = 7;
 /// First probe of the bearing's detail.
 pub const DETAIL: usize = 8;
 
+/// Gravity that scales speeds where there is less, m/s²: a rotor in a vertical machine still touches.
+const LEAST_GRAVITY: f64 = 1.0;
+
 /// Sizes of a drop's state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
@@ -140,7 +143,8 @@ impl Layout {
     pub fn error_scale(&self, constants: &DropConstants) -> Vec<f64> {
         let machine = &constants.machine;
         let clearance = machine.contact.radial_clearance;
-        let fall_speed = (2.0 * 9.81 * clearance).sqrt();
+        let gravity = machine.gravity.length_squared().sqrt().max(LEAST_GRAVITY);
+        let fall_speed = (2.0 * gravity * clearance).sqrt();
         let spin = constants.speed.abs().max(10.0);
         let energy = 0.5 * machine.inner_race_inertia * spin * spin
             + 0.5 * machine.rotor.mass * fall_speed * fall_speed;

@@ -301,6 +301,15 @@ impl Record {
                 .raise(centre.length_squared().sqrt(), step.end);
         }
 
+        if start > 0.0 && self.contacts.is_empty() {
+            // a start in contact: it began before the run
+            self.contacts.push(Contact {
+                start: step.start,
+                end: None,
+                peak_force: step.start_probe(NORMAL_FORCE),
+                peak_time: step.start,
+            });
+        }
         let mut from = (0.0, start);
         for to in turning.into_iter().chain([(1.0, end)]) {
             let crosses = (from.1 > 0.0) != (to.1 > 0.0);
