@@ -11,6 +11,8 @@ const RULE: &str = "#dfe4e8";
 const ROTOR: &str = "#1f5fa8";
 const RACE: &str = "#c2571a";
 const CAGE: &str = "#2f8f5b";
+/// Rows further than this from an instant, in seconds, are too coarse to mark it on the orbit.
+const COARSE_ROWS: f64 = 0.5e-3;
 
 /// The picture of one run, 1200 × 420 pixels: the orbit of the rotor centre relative to the inner race in its clearance
 /// circle, the contact force, and the speeds of rotor, inner race and cage. What the run lacks is said in its place.
@@ -59,10 +61,13 @@ impl Panel {
             line(svg, (x, self.top), (x, bottom), RULE, "");
             text(svg, x, bottom + 17.0, "middle", &number(value));
         }
+        let mut widest = 0;
         for value in ticks(self.y, self.height / 45.0) {
             let (_, y) = self.place(self.x.0, value);
             line(svg, (self.left, y), (right, y), RULE, "");
-            text(svg, self.left - 7.0, y + 4.0, "end", &number(value));
+            let words = number(value);
+            text(svg, self.left - 7.0, y + 4.0, "end", &words);
+            widest = widest.max(words.chars().count());
         }
         let _ = writeln!(
             svg,
@@ -76,7 +81,11 @@ impl Panel {
             "middle",
             x_label,
         );
-        let (x, y) = (self.left - 46.0, self.top + self.height / 2.0);
+        // Digits of 12 px are at most 7.7 px wide in the usual fonts; the label stands left of the longest number.
+        let (x, y) = (
+            self.left - 14.0 - 7.7 * widest as f64,
+            self.top + self.height / 2.0,
+        );
         let _ = writeln!(
             svg,
             "<text transform=\"translate({x:.1} {y:.1}) rotate(-90)\" text-anchor=\"middle\">{y_label}</text>"
@@ -166,36 +175,75 @@ fn draw_orbit(svg: &mut String, run: &PageRun) {
             "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"{pixels:.1}\" fill=\"none\" stroke=\"{INK}\" stroke-dasharray=\"5 4\"/>",
             centre.0, centre.1
         );
-        text(
+        let y = panel.top + 14.0;
+        line(
             svg,
-            centre.0,
-            centre.1 - pixels + 17.0,
-            "middle",
-            "clearance",
+            (panel.left + 8.0, y),
+            (panel.left + 30.0, y),
+            INK,
+            "stroke-dasharray=\"5 4\"",
         );
+        text(svg, panel.left + 36.0, y + 4.0, "start", "clearance");
     }
-    let force = column(run, "bearing.contact.force");
-    let peak =
-        force.and_then(|force| (0..force.len()).max_by(|&a, &b| force[a].total_cmp(&force[b])));
-    if let Some(&(x, y)) = peak.and_then(|row| points.get(row)) {
-        let (x, y) = panel.place(x, y);
-        let _ = writeln!(
-            svg,
-            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4.5\" fill=\"#b3261e\" stroke=\"#ffffff\"/>"
-        );
-        let (anchor, shift) = if x < centre.0 {
-            ("start", 9.0)
-        } else {
-            ("end", -9.0)
-        };
-        let _ = writeln!(
-            svg,
-            "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\" stroke=\"#ffffff\" stroke-width=\"4\" \
-             stroke-linejoin=\"round\" paint-order=\"stroke\">peak force</text>",
-            x + shift,
-            y - 9.0
-        );
+    if let Some(instant) = peak_contact(run) {
+        // The words stand in the lower corner, which an orbit inside its clearance circle leaves free.
+        let (left, bottom) = (panel.left + 12.0, panel.top + panel.height - 12.0);
+        match place_at(run, &names, instant) {
+            Some((x, y)) => {
+                let at = panel.place(micro * x, micro * y);
+                for (x, y) in [at, (left, bottom)] {
+                    let _ = writeln!(
+                        svg,
+                        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4.5\" fill=\"#b3261e\" stroke=\"#ffffff\"/>"
+                    );
+                }
+                text(svg, left + 9.0, bottom + 4.0, "start", "peak force");
+            }
+            None => text(
+                svg,
+                panel.left + panel.width,
+                HEIGHT - 5.0,
+                "end",
+                "rows too coarse for marks",
+            ),
+        }
     }
+}
+
+/// Instant of the largest contact force, from the contacts of the summary.
+fn peak_contact(run: &PageRun) -> Option<f64> {
+    let summary: serde_json::Value = serde_json::from_str(&run.summary_json).ok()?;
+    let contacts = summary.get("contacts")?.as_array()?;
+    let known = contacts.iter().filter_map(|contact| {
+        let force = contact.get("peak_force_N")?.as_f64()?;
+        let instant = contact.get("peak_time_s")?.as_f64()?;
+        Some((force, instant))
+    });
+    let (_, instant) = known.max_by(|left, right| left.0.total_cmp(&right.0))?;
+    Some(instant)
+}
+
+/// Rotor centre relative to the inner race at an instant, between the rows around it; none where these are further
+/// than [`COARSE_ROWS`] from the instant.
+fn place_at(run: &PageRun, names: &[&str; 4], instant: f64) -> Option<(f64, f64)> {
+    let time = column(run, "time")?;
+    let [x, y, race_x, race_y] = columns(run, *names)?;
+    let after = time
+        .partition_point(|&row| row <= instant)
+        .clamp(1, time.len() - 1);
+    let before = after - 1;
+    let (begin, end) = (*time.get(before)?, *time.get(after)?);
+    let around = begin <= instant && instant <= end && end > begin;
+    if !around || instant - begin > COARSE_ROWS || end - instant > COARSE_ROWS {
+        return None;
+    }
+    let share = (instant - begin) / (end - begin);
+    let between = |part: &[f64], race: &[f64]| {
+        let at = |row: usize| Some(part.get(row)? - race.get(row)?);
+        Some(at(before)? + share * (at(after)? - at(before)?))
+    };
+    let (x, y) = (between(x, race_x)?, between(y, race_y)?);
+    (x.is_finite() && y.is_finite()).then_some((x, y))
 }
 
 fn draw_force(svg: &mut String, run: &PageRun) {
@@ -404,7 +452,9 @@ mod tests {
             ..PageColumn::default()
         };
         PageRun {
-            summary_json: "{\"clearance_radius_m\": 0.00025, \"rolling_cage_ratio\":0.4118}"
+            summary_json: "{\"clearance_radius_m\": 0.00025, \"rolling_cage_ratio\":0.4118, \
+                \"contacts\": [{\"start_s\": 0.029, \"peak_force_N\": 1.0, \"peak_time_s\": 0.0291}, \
+                {\"start_s\": 0.0295, \"peak_force_N\": 600.0, \"peak_time_s\": 0.03005}]}"
                 .to_string(),
             columns: vec![
                 make("time", &|t| t),
@@ -442,6 +492,28 @@ mod tests {
         }
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
         assert!(svg.len() < 200_000, "{} bytes", svg.len());
+    }
+
+    #[test]
+    fn the_peak_is_marked_where_the_summary_says_between_its_rows() {
+        // Angle 300 × 0.03005 = 9.015 rad on a circle of 200 µm; the panel spans ±1.08 × 250 µm over 325 px.
+        let (sin, cos) = 9.015f64.sin_cos();
+        let x = 62.0 + 325.0 * (200.0 * cos + 270.0) / 540.0;
+        let y = 40.0 + 325.0 * (270.0 - 200.0 * sin) / 540.0;
+        let mark = format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4.5\"");
+        assert!(orbit_svg(&run()).contains(&mark), "{mark}");
+    }
+
+    #[test]
+    fn coarse_rows_bear_no_mark() {
+        let mut run = run();
+        for column in &mut run.columns {
+            // Every hundredth row: 10 ms apart, and the peak at 30.05 ms has its next row at 40 ms.
+            column.values = column.values.iter().copied().step_by(100).collect();
+        }
+        let svg = orbit_svg(&run);
+        assert!(svg.contains("rows too coarse for marks"));
+        assert!(!svg.contains("peak force") && !svg.contains("r=\"4.5\""));
     }
 
     #[test]

@@ -141,7 +141,7 @@ function colourBar(pen, left, top, height, largest, map) {
     pen.fillText(numberText(Number(value.toPrecision(3)), 3), left + 15, y);
   }
   pen.textBaseline = "alphabetic";
-  pen.fillText(`${map.label} [${map.unit}]`, left - 4, top - 7);
+  pen.fillText(`${map.label} [${map.unit}]`, left - 4, top - 12);
 }
 
 function mapCanvas(run, runs, map, limit) {
@@ -149,10 +149,11 @@ function mapCanvas(run, runs, map, limit) {
   const canvas = element("canvas");
   const readout = element("p", { class: "readout" }, " ");
   const largest = largestOf(runs, map.part);
-  const place = { left: AXIS_WIDTH, top: 22, height: 176, width: 0 };
+  const place = { left: AXIS_WIDTH, top: 26, height: 176, width: 0 };
   let grid = null;
   const draw = () => {
     const width = holder.clientWidth || 600;
+    place.height = document.documentElement.classList.contains("paper") ? 120 : 176;
     place.width = Math.max(50, width - 2 * AXIS_WIDTH);
     const pen = sizedCanvas(width, place.top + place.height + 38, canvas);
     const columns = Math.round(place.width);

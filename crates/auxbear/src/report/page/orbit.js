@@ -251,7 +251,7 @@ function orbitMarks(run) {
   const peak = peakContact(run);
   const marks = [];
   if (first) marks.push({ words: "first contact", instant: first.start_s, fill: "#ffffff" });
-  if (peak) marks.push({ words: first === peak ? "peak force (first contact)" : "peak force", instant: peak.peak_time_s, fill: SERIES_COLOURS.limit });
+  if (peak) marks.push({ words: "peak force", instant: peak.peak_time_s, fill: SERIES_COLOURS.limit });
   return marks.map((mark) => ({ ...mark, sure: rowsAround(run.time, mark.instant) }));
 }
 
@@ -271,15 +271,16 @@ function drawDot(pen, x, y, fill) {
   pen.stroke();
 }
 
-// The words stand in the lower corner, which an orbit inside its clearance circle leaves free.
+// The words stand in the lower corners, which an orbit inside its clearance circle leaves free.
 function drawMarkKey(pen, place, marks) {
-  pen.textAlign = "left";
   pen.textBaseline = "middle";
   marks.forEach(({ words, fill }, index) => {
-    const [x, y] = [place.left + 14, place.top + place.width - 14 - 17 * (marks.length - 1 - index)];
+    const [side, edge] = index ? [-1, place.left + place.width] : [1, place.left];
+    const [x, y] = [edge + 13 * side, place.top + place.width - 13];
     drawDot(pen, x, y, fill);
     pen.fillStyle = INK;
-    pen.fillText(words, x + 11, y);
+    pen.textAlign = index ? "right" : "left";
+    pen.fillText(words, x + 10 * side, y);
   });
 }
 

@@ -40,7 +40,7 @@ function spreadText(quantity) {
   const text = (value) => decimalText(isNumber(value) ? value / scale : null, decimals);
   const deviation = known ? " ± " + decimalText(sd / scale, 1 - leadingPower(sd / scale)) : sd === 0 ? " ± 0" : "";
   const grouped = deviation && tail ? `(${text(mean)}${deviation})` : text(mean) + deviation;
-  const range = text(min) === text(max) ? "smallest and largest agree in these digits" : `${text(min)} to ${text(max)}${tail}`;
+  const range = text(min) === text(max) ? "smallest and largest agree in these digits" : unit.startsWith("×") ? `(${text(min)} to ${text(max)})${tail}` : `${text(min)} to ${text(max)}${tail}`;
   return { mean: grouped + tail, range };
 }
 

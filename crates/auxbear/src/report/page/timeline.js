@@ -138,7 +138,9 @@ function timePlot(options) {
   }
   const plot = new uPlot(configuration, data, holder);
   holder.querySelectorAll(".u-legend .u-series").forEach((row, index) => index && showLineStyle(row.querySelector(".u-marker"), ordered[index - 1]));
-  resizable.push(() => plot.setSize({ width: holder.clientWidth, height: configuration.height }));
+  // Lower on paper, so that pages fill.
+  const height = () => (document.documentElement.classList.contains("paper") ? 0.8 : 1) * configuration.height;
+  resizable.push(() => plot.setSize({ width: holder.clientWidth, height: height() }));
   timeline.listeners.push(() => plot.setScale("x", { min: timeline.begin, max: timeline.end }));
   return holder;
 }
@@ -206,11 +208,14 @@ function instantWords(pen, plot, ratio, { x, words, colour }, row) {
   // At the zero end of the range, where the curves have not yet risen.
   const downwards = Math.abs(plot.scales.y.min) > Math.abs(plot.scales.y.max);
   const base = downwards ? top + (14 + 15 * row) * ratio : top + height - (14 + 15 * row) * ratio;
-  pen.fillStyle = "rgba(255,255,255,0.85)";
-  pen.fillRect(start - 2 * ratio, base - 11 * ratio, space - 4 * ratio, 14 * ratio);
+  // A thin pale edge keeps the words readable on a curve and the curve visible beside them.
+  pen.strokeStyle = "rgba(255,255,255,0.9)";
+  pen.lineWidth = 3 * ratio;
+  pen.lineJoin = "round";
   pen.fillStyle = colour;
   pen.textAlign = "left";
   pen.textBaseline = "alphabetic";
+  pen.strokeText(words, start, base);
   pen.fillText(words, start, base);
 }
 
