@@ -85,9 +85,9 @@ function columnScale(values, unit, digits) {
 function inputText(value) {
   const text = String(value);
   if (!/^[[+-]?\d/.test(text)) return text;
-  const short = text.replace(/(\d+\.\d*)([eE][+-]?\d+)?/g, (number, mantissa) => {
+  const short = text.replace(/(\d+\.\d*)([eE][+-]?\d+)?/g, (number, mantissa, exponent = "") => {
     const digits = mantissa.replace(".", "").replace(/^0+/, "");
-    return digits.length > 6 ? String(Number(Number(number).toPrecision(6))) : number;
+    return digits.length > 6 ? String(Number(Number(mantissa).toPrecision(6))) + exponent : number;
   });
   return short.replace(/\bum\b/, "µm");
 }

@@ -14,8 +14,10 @@ function tile(title, value, notes, state) {
   );
 }
 
-function verdictState(bad) {
-  return bad ? "bad" : "good";
+// A run that ended early passes no criterion; it can only fail one.
+function verdictState(run, bad) {
+  if (bad) return "bad";
+  return run.summary.complete === true ? "good" : null;
 }
 
 // The unperturbed run is the value; the members of a repeated run stand below it.
@@ -35,7 +37,7 @@ function stateTile(run) {
   const complete = run.summary.complete === true;
   const time = isNumber(stop.time_s) ? engineeringText(stop.time_s, "s", 4) : "";
   const reason = stop.text || stop.reason || run.summaryProblem || "the summary does not say";
-  return tile("Run", complete ? "complete" : "not complete", [[time, reason].filter(Boolean).join(": ")], verdictState(!complete));
+  return tile("Run", complete ? "complete" : "not complete", [[time, reason].filter(Boolean).join(": ")], verdictState(run, !complete));
 }
 
 function forceNote(run) {
@@ -64,7 +66,7 @@ function whirlTile(run) {
   const turns = quantityOf(run, "whirl_turns");
   const count = isNumber(turns.value) ? numberText(Math.abs(turns.value), 3) + " net turns in the inner race" : null;
   const rule = quantity.value === "none" ? "below one turn there is no whirl" : null;
-  return tile("Whirl", quantity.value, [meanNote(turns), count, rule], verdictState(quantity.value === "backward"));
+  return tile("Whirl", quantity.value, [meanNote(turns), count, rule], verdictState(run, quantity.value === "backward"));
 }
 
 function displacementTile(run) {
@@ -86,7 +88,7 @@ function verdict(run) {
       "Peak Hertz pressure",
       "peak_hertz_pressure",
       (pressure) => pressureNote(run, pressure),
-      (pressure) => (isNumber(limit) ? verdictState(pressure > limit) : null),
+      (pressure) => (isNumber(limit) ? verdictState(run, pressure > limit) : null),
     ),
     quantityTile(run, "Inner race at 95 % speed", "inner_race_time_to_95_percent", () => spinUpNote(run)),
     whirlTile(run),
@@ -96,7 +98,7 @@ function verdict(run) {
       "Energy residual",
       "energy_residual",
       () => "share of the energies that the ledger leaves unexplained",
-      (residual) => verdictState(Math.abs(residual) > RESIDUAL_TO_DOUBT),
+      (residual) => verdictState(run, Math.abs(residual) > RESIDUAL_TO_DOUBT),
     ),
   );
 }
