@@ -70,7 +70,8 @@ pub fn ball_race_energy<R: Real>(stiffness: R, approach: R) -> R {
 /// - `penetration` d, m; `penetration_speed` ḋ, m/s
 ///
 /// Source: K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440 (from memory);
-/// n = 10/9 is the usual power-law fit of the line contact of crowned cylinders, A. Palmgren 1959 (from memory).
+/// n = 10/9 is A. Palmgren's exponent of a line contact, 1959 (from memory); a journal in a bore is conformal, so its use
+/// there is an assumption.
 /// Valid: 1 ≤ n ≤ 2; a·ḋ well below 1.
 #[inline(always)]
 pub fn hunt_crossley<R: Real>(

@@ -13,6 +13,7 @@
 //! | [`palmgren`] | steady friction moment of a rolling bearing |
 //! | [`rolling`] | a bearing whose balls roll: the source paper's equations 6-19 |
 //! | [`kinematics`] | speeds of cage and balls, passing frequencies |
+//! | [`unbalance`] | whirl of an unbalanced rotor on a linear support |
 
 pub mod contact;
 pub mod hertz;
@@ -21,3 +22,4 @@ pub mod materials;
 pub mod palmgren;
 pub mod rolling;
 pub mod traction;
+pub mod unbalance;

@@ -4,6 +4,7 @@ use super::drop::{Drop, Moment, Traction};
 use super::resolve::Values;
 use crate::problem::{Code, Problem};
 use physics::traction::FourParameterTraction;
+use physics::unbalance::whirl;
 
 /// Most values of a history, in memory at the end of a run: 1.6 GB.
 const MOST_VALUES: f64 = 2e8;
@@ -308,21 +309,17 @@ impl Context<'_> {
     }
 }
 
-/// Radius of the circle of the geometric centre C = G - e·exp(jφ) of the levitated rotor, m.
-///
-/// The steady orbit of the centre of mass is G = (k + jcΩ)e/(k + jcΩ - mΩ²) for the rotor's share m at one plane, so
-/// |C| = e mΩ²/|k + jcΩ - mΩ²| = e/|k/(mΩ²) - 1 + jc/(mΩ)|; the second form bears any speed but zero.
+/// Radius of the whirl of the levitated rotor's geometric centre at one plane, m.
 fn levitated_whirl_radius(drop: &Drop) -> f64 {
-    let rotor = &drop.rotor;
-    let levitation = &drop.levitation;
-    let eccentricity = rotor.unbalance_eccentricity;
-    if rotor.speed == 0.0 || eccentricity == 0.0 {
-        return 0.0;
-    }
-    let share = rotor.mass / f64::from(rotor.planes);
-    let stiffness = levitation.stiffness / share / rotor.speed / rotor.speed;
-    let damping = levitation.damping / share / rotor.speed;
-    eccentricity / (stiffness - 1.0).hypot(damping)
+    let (rotor, levitation) = (&drop.rotor, &drop.levitation);
+    let (along, ahead) = whirl(
+        levitation.stiffness,
+        levitation.damping,
+        rotor.mass / f64::from(rotor.planes),
+        rotor.speed,
+        rotor.unbalance_eccentricity,
+    );
+    along.hypot(ahead)
 }
 
 /// A length for a message, to four digits.

@@ -12,6 +12,7 @@ use super::ledger::Content;
 use super::rate::{race_motion, rotor_motion};
 use crate::contact::ContactReaction;
 use number::Vec2;
+use physics::kinematics::BallSet;
 use solve::watch::{crossing, root};
 use solve::{Flow, Machine, Observer, Step};
 
@@ -511,7 +512,13 @@ impl DropMachine {
             crate::bearing::BearingConstants::Rolling(bearing) => bearing.cage_ratio,
             crate::bearing::BearingConstants::Planar(bearing) => {
                 let ball = &bearing.ball;
-                0.5 * ball.inner_track / (ball.inner_track + ball.radius)
+                let set = BallSet {
+                    ball_count: bearing.balls,
+                    ball_diameter: 2.0 * ball.radius,
+                    pitch_diameter: 2.0 * (ball.inner_track + ball.radius),
+                    contact_angle: 0.0,
+                };
+                set.cage_speed(1.0, 0.0)
             }
         }
     }

@@ -4,6 +4,7 @@ use super::layout::{BEARING, ROTOR};
 use super::{DropConstants, DropMachine};
 use crate::bearing::BearingConstants;
 use number::Vec2;
+use physics::unbalance::whirl;
 
 /// The mass centre of a rotor that orbits steadily on its levitation: (position, velocity).
 ///
@@ -14,22 +15,18 @@ use number::Vec2;
 /// neglected: the spin is held while levitated.
 pub fn levitated_orbit(constants: &DropConstants) -> (Vec2<f64>, Vec2<f64>) {
     let m = &constants.machine;
-    let (k, c, mass) = (m.levitation.stiffness, m.levitation.damping, m.rotor.mass);
     let spin = constants.speed;
-    let (re, im) = (k, c * spin);
-    let (dre, dim) = (k - mass * spin * spin, c * spin);
-    let size = dre * dre + dim * dim;
     let e = m.rotor.eccentricity;
-    let (gre, gim) = if e == 0.0 {
-        (0.0, 0.0)
-    } else {
-        (
-            e * (re * dre + im * dim) / size,
-            e * (im * dre - re * dim) / size,
-        )
-    };
+    let (along, ahead) = whirl(
+        m.levitation.stiffness,
+        m.levitation.damping,
+        m.rotor.mass,
+        spin,
+        e,
+    );
     let (sine, cosine) = constants.unbalance_angle.sin_cos();
-    let orbit = Vec2::new(gre * cosine - gim * sine, gre * sine + gim * cosine);
+    let radial = Vec2::new(cosine, sine);
+    let orbit = radial * (along + e) + radial.turned() * ahead;
     (m.levitation.centre + orbit, orbit.turned() * spin)
 }
 
