@@ -1,6 +1,7 @@
 //! `cargo xtask`: what the repository demands of every change, in one command.
 
 mod architecture;
+mod bench;
 mod check;
 mod crate_directions;
 mod documentation;
@@ -17,6 +18,8 @@ use std::process::ExitCode;
 const HELP: &str = "\
 cargo xtask check           all guards, then all tests; exit status 1 on any finding
 cargo xtask check --fast    the guards that build nothing of the product
+cargo xtask bench           the reference drop beside SciPy, in CPU time (benchmarks/README.md); minutes
+cargo xtask bench PROGRAM   the same with a command that is built already
 cargo xtask help            this text
 ";
 
@@ -26,6 +29,8 @@ fn main() -> ExitCode {
     match words.as_slice() {
         ["check"] => check::run(check::Extent::Full),
         ["check", "--fast"] => check::run(check::Extent::Fast),
+        ["bench"] => bench::run(None),
+        ["bench", program] => bench::run(Some(program)),
         ["help" | "--help" | "-h"] => {
             print!("{HELP}");
             ExitCode::SUCCESS
