@@ -44,7 +44,7 @@ fn long_run(place: &Place) -> Child {
         "--set",
         "run.duration=1000 s",
         "--set",
-        "run.output_interval=1 ms",
+        "run.output_interval=10 ms",
     ];
     let child = place
         .command(&words)
