@@ -244,12 +244,13 @@ impl<R: Real> BallConstants<R> {
         let inner_traction = mu_i * q_i.force;
         let outer_traction = mu_o * q_o.force;
 
-        // pocket: azimuth about the outer race's centre, as a small correction of θ
-        let azimuth = ball.azimuth + (e_r.cross(from_outer) * inverse_outer).asin_small();
-        let turns = (azimuth - pocket.angle) * R::splat(0.5 / std::f64::consts::PI);
-        let offset =
-            (azimuth - pocket.angle) - turns.round() * R::splat(2.0 * std::f64::consts::PI);
-        let penetration = offset.abs() * self.pocket_radius - self.pocket_gap;
+        // pocket
+        let offset = pocket_offset(
+            ball.azimuth,
+            e_r.cross(from_outer) * inverse_outer,
+            pocket.angle,
+        );
+        let penetration = self.pocket_penetration(offset);
         let (mut pocket_force, mut pocket_push, mut pocket_friction) = (zero, zero, zero);
         let (mut pocket_moment, mut damping_heat, mut sliding_heat) = (zero, zero, zero);
         let side = offset.sign_or_plus();
@@ -326,20 +327,30 @@ impl<R: Real> BallConstants<R> {
         }
     }
 
+    /// Depth of a ball in its pocket at an angle off the pocket's middle, m; negative when free.
+    #[inline(always)]
+    fn pocket_penetration(&self, offset: R) -> R {
+        offset.abs() * self.pocket_radius - self.pocket_gap
+    }
+
     /// Energy stored around a ball, J: (two Hertz contacts and the pocket, weight).
     #[inline(always)]
     pub fn energy(
         &self,
         inner: &RaceMotion<R>,
         outer: &RaceMotion<R>,
-        pocket_penetration: R,
+        pocket: &PocketMotion<R>,
         ball: &BallMotion<R>,
     ) -> (R, R) {
         let (sine, cosine) = ball.azimuth.sin_cos();
-        let position = Vec2::new(cosine, sine) * ball.radius;
+        let e_r = Vec2::new(cosine, sine);
+        let position = e_r * ball.radius;
+        let from_outer = position - outer.position;
         let inner_distance = (position - inner.position).length_squared().sqrt();
-        let outer_distance = (position - outer.position).length_squared().sqrt();
-        let pocket = pocket_penetration.max(R::zero());
+        let outer_distance = from_outer.length_squared().sqrt();
+        let side = e_r.cross(from_outer) / outer_distance;
+        let offset = pocket_offset(ball.azimuth, side, pocket.angle);
+        let pressed = self.pocket_penetration(offset).max(R::zero());
         (
             ball_race_energy(
                 self.inner_stiffness,
@@ -347,7 +358,7 @@ impl<R: Real> BallConstants<R> {
             ) + ball_race_energy(
                 self.outer_stiffness,
                 outer_distance + self.radius - self.outer_track,
-            ) + R::splat(0.5) * self.pocket_stiffness * pocket.square(),
+            ) + R::splat(0.5) * self.pocket_stiffness * pressed.square(),
             -(self.mass * self.gravity.dot(position)),
         )
     }
@@ -368,6 +379,16 @@ impl<R: Real> BallConstants<R> {
     pub fn angular_momentum(&self, ball: &BallMotion<R>) -> R {
         self.mass * ball.radius.square() * ball.orbit_speed + ball.spin / self.inverse_inertia
     }
+}
+
+/// Angle of a ball from the middle of its pocket, between -π and π.
+///
+/// The azimuth counts about the outer race's centre: a small correction of θ, whose sine is given.
+#[inline(always)]
+fn pocket_offset<R: Real>(azimuth: R, sine_of_correction: R, pocket: R) -> R {
+    let angle = azimuth + sine_of_correction.asin_small() - pocket;
+    let turns = angle * R::splat(0.5 / std::f64::consts::PI);
+    angle - turns.round() * R::splat(2.0 * std::f64::consts::PI)
 }
 
 /// The constants of one machine for every part of a group, or of one machine per lane.

@@ -288,13 +288,16 @@ impl PlanarConstants {
         ball: usize,
     ) -> super::ball::BallReaction<f64> {
         let (inner, outer) = races(motion);
-        let pocket = PocketMotion {
-            angle: state[0] + self.seat(ball),
-            spin: state[1],
-        };
+        let pocket = self.pocket(state, ball);
         let motion = self.motion(state, ball);
         self.ball
             .react(&self.traction, &inner, &outer, &pocket, &motion)
+    }
+    fn pocket(&self, state: &[f64], ball: usize) -> PocketMotion<f64> {
+        PocketMotion {
+            angle: state[0] + self.seat(ball),
+            spin: state[1],
+        }
     }
     pub(super) fn energy(&self, motion: &Motion<f64>, state: &[f64]) -> BearingEnergy {
         let (inner, outer) = races(motion);
@@ -306,8 +309,8 @@ impl PlanarConstants {
         };
         for j in 0..self.balls {
             let ball = self.motion(state, j);
-            let penetration = self.ball_reaction(motion, state, j).pocket_penetration;
-            let (elastic, weight) = self.ball.energy(&inner, &outer, penetration, &ball);
+            let pocket = self.pocket(state, j);
+            let (elastic, weight) = self.ball.energy(&inner, &outer, &pocket, &ball);
             let (translation, spin) = self.ball.kinetic_energy(&ball);
             sum.translation += translation;
             sum.spin += spin;

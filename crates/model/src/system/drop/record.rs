@@ -6,7 +6,7 @@
 use super::DropMachine;
 use super::layout::{
     BEARING, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, NORMAL_FORCE, NORMAL_FORCE_RATE, OUTER,
-    PENETRATION, PENETRATION_SPEED,
+    PENETRATION, PENETRATION_SPEED, ROTOR,
 };
 use super::ledger::Content;
 use super::rate::{race_motion, rotor_motion};
@@ -297,7 +297,7 @@ impl Record {
         self.rotor_race_displacement
             .raise(end + self.clearance, step.end);
         if end > 0.0 {
-            let centre = step.machine.rotor_centre(step.state(1.0));
+            let centre = step.machine.rotor_centre(&end_of_rotor(step));
             self.rotor_displacement
                 .raise(centre.length_squared().sqrt(), step.end);
         }
@@ -390,15 +390,28 @@ impl Record {
         if may_peak(start.0, inner, self.largest_inner_load)
             || may_peak(start.1, outer, self.largest_outer_load)
         {
-            for theta in [0.25, 0.5, 0.75] {
-                let time = step.time(theta);
-                let (_, probe) = step.evaluate(theta);
-                self.largest_inner_load
-                    .raise(probe[LARGEST_INNER_LOAD], time);
-                self.largest_outer_load
-                    .raise(probe[LARGEST_OUTER_LOAD], time);
+            // where the middle lies above both ends, its neighbours may lie higher still
+            if self.ball_loads_at(step, 0.5, start, (inner, outer)) {
+                self.ball_loads_at(step, 0.25, start, (inner, outer));
+                self.ball_loads_at(step, 0.75, start, (inner, outer));
             }
         }
+    }
+
+    /// Looks at the ball loads inside a step. True where one of them is larger than at both ends.
+    fn ball_loads_at(
+        &mut self,
+        step: &mut Step<DropMachine>,
+        theta: f64,
+        start: (f64, f64),
+        end: (f64, f64),
+    ) -> bool {
+        let time = step.time(theta);
+        let (_, probe) = step.evaluate(theta);
+        let (inner, outer) = (probe[LARGEST_INNER_LOAD], probe[LARGEST_OUTER_LOAD]);
+        self.largest_inner_load.raise(inner, time);
+        self.largest_outer_load.raise(outer, time);
+        inner > start.0.max(end.0) || outer > start.1.max(end.1)
     }
 
     fn rises_of(&mut self, step: &mut Step<DropMachine>) {
@@ -455,8 +468,7 @@ impl Record {
         self.next_look = step.end + self.look_interval;
         let gap = -step.end_probe(PENETRATION);
         let constants = &step.machine.constants.machine;
-        let state = step.state(1.0);
-        let rotor = rotor_motion(state);
+        let rotor = rotor_motion(&end_of_rotor(step));
         let (translation, _) = constants.rotor.kinetic_energy(&rotor);
         self.largest_translation = self.largest_translation.max(translation);
         if gap > 0.5 * self.clearance {
@@ -464,7 +476,8 @@ impl Record {
             return;
         }
         let centre = constants.rotor.geometric_centre(&rotor);
-        let offset = centre.position - Vec2::new(state[INNER], state[INNER + 1]);
+        let race = Vec2::new(step.end_state(INNER), step.end_state(INNER + 1));
+        let offset = centre.position - race;
         let angle = offset.y.atan2(offset.x);
         if let Some(last) = self.whirl_angle {
             let turn = (angle - last) / (2.0 * std::f64::consts::PI);
@@ -472,6 +485,15 @@ impl Record {
         }
         self.whirl_angle = Some(angle);
     }
+}
+
+/// The rotor's own channels at the end of a step.
+fn end_of_rotor(step: &Step<DropMachine>) -> [f64; INNER - ROTOR] {
+    let mut rotor = [0.0; INNER - ROTOR];
+    for (channel, value) in rotor.iter_mut().enumerate() {
+        *value = step.end_state(ROTOR + channel);
+    }
+    rotor
 }
 
 /// The contact of rotor and race at a fraction of a step.
