@@ -25,11 +25,13 @@ pub struct Workspace<R> {
     stage: Vec<R>,
     /// 1/(tolerance · error scale) of each channel.
     pub inverse_error: Vec<R>,
+    /// Number of first channels that the rate depends on.
+    active: usize,
 }
 
 impl<R: Real> Workspace<R> {
-    /// A workspace for problems of this size.
-    pub fn new(dimension: usize, probes: usize) -> Self {
+    /// A workspace for problems of this size, the last channels of which may be quadratures.
+    pub fn new(dimension: usize, quadratures: usize, probes: usize) -> Self {
         let zeros = |n| vec![R::zero(); n];
         Workspace {
             time: R::zero(),
@@ -41,6 +43,7 @@ impl<R: Real> Workspace<R> {
             next_probe: zeros(probes),
             stage: zeros(dimension),
             inverse_error: zeros(dimension),
+            active: dimension - quadratures,
         }
     }
 }
@@ -72,14 +75,18 @@ impl<R: Real, B: Batch<R>> Vectorized for Attempt<'_, R, B> {
         let stages = if begin { 0..1 } else { 1..STAGES };
         for s in stages {
             let (earlier, rate) = w.rates.split_at_mut(s * n);
-            let stage = if s == LAST { &mut w.next } else { &mut w.stage };
+            // what the rate does not depend on is summed only at the end of the step
+            let (stage, channels) = match s {
+                LAST => (&mut w.next, n),
+                _ => (&mut w.stage, w.active),
+            };
             match s {
-                1 => combine::<R, 1>(h, &w.state, earlier, stage),
-                2 => combine::<R, 2>(h, &w.state, earlier, stage),
-                3 => combine::<R, 3>(h, &w.state, earlier, stage),
-                4 => combine::<R, 4>(h, &w.state, earlier, stage),
-                5 => combine::<R, 5>(h, &w.state, earlier, stage),
-                6 => combine::<R, 6>(h, &w.state, earlier, stage),
+                1 => combine::<R, 1>(h, &w.state, earlier, &mut stage[..channels]),
+                2 => combine::<R, 2>(h, &w.state, earlier, &mut stage[..channels]),
+                3 => combine::<R, 3>(h, &w.state, earlier, &mut stage[..channels]),
+                4 => combine::<R, 4>(h, &w.state, earlier, &mut stage[..channels]),
+                5 => combine::<R, 5>(h, &w.state, earlier, &mut stage[..channels]),
+                6 => combine::<R, 6>(h, &w.state, earlier, &mut stage[..channels]),
                 _ => stage.copy_from_slice(&w.state),
             }
             let probe: &mut [R] = match s {
@@ -129,9 +136,13 @@ impl<R: Real> Vectorized for Advance<'_, R> {
 #[inline(always)]
 fn combine<R: Real, const S: usize>(h: R, state: &[R], rates: &[R], out: &mut [R]) {
     let n = state.len();
-    assert!(rates.len() == S * n && out.len() == n);
-    let weight: [R; S] = std::array::from_fn(|j| h * R::splat(A[S][j]));
-    for i in 0..n {
+    assert!(rates.len() == S * n && out.len() <= n);
+    // a loop, not `from_fn`: its closure would not be compiled for the vector unit
+    let mut weight = [R::zero(); S];
+    for (weight, a) in weight.iter_mut().zip(A[S]) {
+        *weight = h * R::splat(a);
+    }
+    for i in 0..out.len() {
         let mut value = state[i];
         let mut j = 0;
         while j < S {

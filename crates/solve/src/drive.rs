@@ -154,7 +154,7 @@ where
         })
         .collect();
     let mut scratch = Scratch::new(dimension, probes);
-    let mut work = Workspace::<R>::new(dimension, probes);
+    let mut work = Workspace::<R>::new(dimension, machines[0].quadratures(), probes);
     for (channel, value) in work.state.iter_mut().enumerate() {
         *value = R::from_lanes(|lane| starts[owner(lane)][channel]);
     }

@@ -13,6 +13,11 @@ pub trait Machine: Sync {
 
     /// Number of channels.
     fn dimension(&self) -> usize;
+    /// Number of last channels that the rate does not depend on: sums kept along the way, such as heats.
+    /// Their values in the state given to the rate are not those of its instant.
+    fn quadratures(&self) -> usize {
+        0
+    }
     /// Number of probes.
     fn probes(&self) -> usize;
     /// The error a tolerance of 1 allows in each channel: the magnitude that matters there.

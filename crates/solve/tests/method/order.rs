@@ -138,3 +138,25 @@ fn dense_output_is_continuous_from_step_to_step() {
     run_alone(&Problem::kepler(), &nearest_point(), &mut joints, &settings);
     assert!(joints.count > 10);
 }
+
+#[test]
+fn quadratures_are_sums_like_any_channel() {
+    // the area a planet sweeps: half a unit of angular momentum times the time, and nothing depends on it
+    let mut problem = Problem::new(5, 0, |_, _, y, rate, _| {
+        let cube = (y[0] * y[0] + y[1] * y[1]).powf(1.5);
+        let area = 0.5 * (y[0] * y[3] - y[1] * y[2]);
+        rate.copy_from_slice(&[y[2], y[3], -y[0] / cube, -y[1] / cube, area]);
+    });
+    let mut start = nearest_point().to_vec();
+    start.push(0.0);
+    let mut run = |quadratures| {
+        problem.quadratures = quadratures;
+        run_alone(&problem, &start, &mut Blind, &adaptive(2.0 * PI, 1e-8))
+    };
+    let (channel, quadrature) = (run(0), run(1));
+    assert_eq!(channel.state, quadrature.state);
+    assert_eq!(channel.work, quadrature.work);
+    // the whole ellipse: π a b
+    let ellipse = PI * (1.0 - ECCENTRICITY * ECCENTRICITY).sqrt();
+    assert!((quadrature.state[4] / ellipse - 1.0).abs() < 1e-7);
+}

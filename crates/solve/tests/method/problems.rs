@@ -12,6 +12,8 @@ pub type Rate = fn(&f64, f64, &[f64], &mut [f64], &mut [f64]);
 pub struct Problem {
     /// Number of channels.
     pub dimension: usize,
+    /// Number of last channels that the rate does not depend on.
+    pub quadratures: usize,
     /// Number of probes.
     pub probes: usize,
     /// The right-hand side.
@@ -27,6 +29,7 @@ impl Problem {
     pub fn new(dimension: usize, probes: usize, rate: Rate) -> Self {
         Problem {
             dimension,
+            quadratures: 0,
             probes,
             rate,
             landings: Vec::new(),
@@ -71,6 +74,9 @@ impl Machine for Problem {
     type Mode = f64;
     fn dimension(&self) -> usize {
         self.dimension
+    }
+    fn quadratures(&self) -> usize {
+        self.quadratures
     }
     fn probes(&self) -> usize {
         self.probes

@@ -28,7 +28,7 @@ use crate::contact::RotorContact;
 use crate::levitation::Levitation;
 use crate::mount::Mount;
 use crate::rotor::Rotor;
-use layout::Layout;
+use layout::{LEDGER, Layout};
 use number::{Gather, Real, Vec2, constants};
 use solve::{Batch, Machine};
 
@@ -100,7 +100,17 @@ pub struct Drop<R: Real> {
     machine: MachineConstants<R>,
     bearing: Bearing<R>,
     outer_moving_mass: R,
+    inverse: Inverses<R>,
     layout: Layout,
+}
+
+/// Reciprocals of masses and inertias, because a division costs as much as ten products.
+#[derive(Clone, Copy, Debug)]
+struct Inverses<R> {
+    rotor_mass: R,
+    rotor_polar_inertia: R,
+    inner_race_mass: R,
+    outer_moving_mass: R,
 }
 
 impl DropMachine {
@@ -133,10 +143,18 @@ impl DropMachine {
 
 impl<R: Real> Drop<R> {
     fn of<'a>(constants: &dyn Fn(usize) -> &'a DropConstants, layout: Layout) -> Self {
+        let inverse =
+            |of: &dyn Fn(&DropConstants) -> f64| R::from_lanes(|lane| 1.0 / of(constants(lane)));
         Drop {
             machine: Gather::<R>::gather(&|lane| &constants(lane).machine),
             bearing: Bearing::gather(&|lane| &constants(lane).bearing),
             outer_moving_mass: R::from_lanes(|lane| constants(lane).outer_moving_mass()),
+            inverse: Inverses {
+                rotor_mass: inverse(&|c| c.machine.rotor.mass),
+                rotor_polar_inertia: inverse(&|c| c.machine.rotor.polar_inertia),
+                inner_race_mass: inverse(&|c| c.machine.inner_race_mass),
+                outer_moving_mass: inverse(&|c| c.outer_moving_mass()),
+            },
             layout,
         }
     }
@@ -166,6 +184,9 @@ impl Machine for DropMachine {
 
     fn dimension(&self) -> usize {
         self.layout.dimension()
+    }
+    fn quadratures(&self) -> usize {
+        LEDGER
     }
     fn probes(&self) -> usize {
         self.layout.probes()

@@ -86,9 +86,12 @@ impl<R: Real> Drop<R> {
         let (rotor_torque, rotor_spin_rate) = if m.rotor.spin_held {
             (-rotor_moment, zero)
         } else {
-            (brake, (rotor_moment + brake) / m.rotor.polar_inertia)
+            (
+                brake,
+                (rotor_moment + brake) * self.inverse.rotor_polar_inertia,
+            )
         };
-        let rotor_acceleration = rotor_force * m.rotor.mass.recip() + m.gravity;
+        let rotor_acceleration = rotor_force * self.inverse.rotor_mass + m.gravity;
         write_body(rate, ROTOR, rotor.velocity, rotor_acceleration);
         rate[ROTOR + 4] = rotor.spin;
         rate[ROTOR + 5] = rotor_spin_rate;
@@ -99,7 +102,7 @@ impl<R: Real> Drop<R> {
         let inner_acceleration = if m.inner_race_centre_held {
             Vec2::zero()
         } else {
-            inner_force * m.inner_race_mass.recip()
+            inner_force * self.inverse.inner_race_mass
         };
         let inner_moment = contact.on_race.moment + bearing.on_inner.moment + m.inner_race_torque;
         let inner_spin_rate = inner_moment / (m.inner_race_inertia + bearing.inner_inertia);
@@ -109,7 +112,7 @@ impl<R: Real> Drop<R> {
 
         // outer race: the ground holds its spin
         let outer_force = bearing.on_outer.force + mount + m.gravity * self.outer_moving_mass;
-        let outer_acceleration = outer_force * self.outer_moving_mass.recip();
+        let outer_acceleration = outer_force * self.inverse.outer_moving_mass;
         write_body(rate, OUTER, outer.velocity, outer_acceleration);
         let outer_moment = bearing.on_outer.moment - bearing.outer_inertia * inner_spin_rate;
 
