@@ -1,7 +1,7 @@
 //! One attempted step of all lanes, compiled for the vector unit of the machine.
 
+use crate::bogacki_shampine::{A, C, E, STAGES};
 use crate::system::Batch;
-use crate::tsitouras::{A, C, E, STAGES};
 use number::{Real, Vectorized};
 
 /// Everything a step works on: allocated once, reused for every step.
@@ -84,9 +84,6 @@ impl<R: Real, B: Batch<R>> Vectorized for Attempt<'_, R, B> {
                 1 => combine::<R, 1>(h, &w.state, earlier, &mut stage[..channels]),
                 2 => combine::<R, 2>(h, &w.state, earlier, &mut stage[..channels]),
                 3 => combine::<R, 3>(h, &w.state, earlier, &mut stage[..channels]),
-                4 => combine::<R, 4>(h, &w.state, earlier, &mut stage[..channels]),
-                5 => combine::<R, 5>(h, &w.state, earlier, &mut stage[..channels]),
-                6 => combine::<R, 6>(h, &w.state, earlier, &mut stage[..channels]),
                 _ => stage.copy_from_slice(&w.state),
             }
             let probe: &mut [R] = match s {

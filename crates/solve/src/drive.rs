@@ -1,9 +1,9 @@
 //! The loop: per-lane step control, landed instants, endings.
 
 use crate::attempt::{Advance, Attempt, Workspace};
+use crate::bogacki_shampine::{ORDER, STAGES};
 use crate::step::{LaneOf, Scratch, Step};
 use crate::system::{Batch, Machine};
-use crate::tsitouras::STAGES;
 use number::{Mask, Real};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -346,11 +346,11 @@ fn worst_channel<R: Real>(work: &Workspace<R>, lane: usize) -> usize {
 /// library's may differ from machine to machine.
 fn control<M: Machine>(lane: &mut Lane<M>, error: f64, logarithm: f64) -> bool {
     const SAFETY: f64 = 0.9;
-    const PROPORTIONAL: f64 = 0.7 / 5.0;
-    const INTEGRAL: f64 = 0.4 / 5.0;
+    const PROPORTIONAL: f64 = 0.7 / ORDER as f64;
+    const INTEGRAL: f64 = 0.4 / ORDER as f64;
     /// ln 1e-4: a step of next to no error does not say much about the following one.
     const LEAST_LOGARITHM: f64 = -9.210_340_371_976_182;
-    lane.work.rate_calls += 6;
+    lane.work.rate_calls += STAGES as u64 - 1;
     let taken = lane.step_end - lane.time;
     if error <= 1.0 {
         lane.work.accepted += 1;
@@ -370,7 +370,7 @@ fn control<M: Machine>(lane: &mut Lane<M>, error: f64, logarithm: f64) -> bool {
     } else {
         lane.work.rejected += 1;
         let factor = if error.is_finite() {
-            (SAFETY * Real::exp(-0.2 * logarithm)).clamp(0.1, 0.9)
+            (SAFETY * Real::exp(-logarithm / ORDER as f64)).clamp(0.1, 0.9)
         } else {
             0.1
         };

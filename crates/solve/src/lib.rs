@@ -7,7 +7,7 @@
 //! | subject | file |
 //! |---|---|
 //! | what a problem is | [`system`] |
-//! | the method: Tsitouras 5(4) with dense output | [`tsitouras`] |
+//! | the method: Bogacki-Shampine 3(2) with dense output | [`bogacki_shampine`] |
 //! | one attempted step of all lanes | [`attempt`] |
 //! | the loop: step control, landed instants, endings | [`drive`] |
 //! | one accepted step of one lane | [`step`] |
@@ -16,10 +16,10 @@
 //! Nothing in the loop allocates.
 
 pub mod attempt;
+pub mod bogacki_shampine;
 pub mod drive;
 pub mod step;
 pub mod system;
-pub mod tsitouras;
 pub mod watch;
 
 pub use drive::{Ending, Flow, Observer, Settings, Stop, Work, run};
