@@ -1,8 +1,8 @@
 //! One attempted step of all lanes, compiled for the vector unit of the machine.
 
-use crate::bogacki_shampine::{A, C, E, STAGES};
+use crate::bogacki_shampine::{A, C, E, ORDER, STAGES};
 use crate::system::Batch;
-use number::{Real, Vectorized};
+use number::{Mask, Real, Vectorized};
 
 /// Everything a step works on: allocated once, reused for every step.
 #[derive(Debug)]
@@ -25,6 +25,8 @@ pub struct Workspace<R> {
     stage: Vec<R>,
     /// 1/(tolerance · error scale) of each channel.
     pub inverse_error: Vec<R>,
+    /// Natural logarithm of the error of the last accepted step.
+    pub last_logarithm: R,
     /// Number of first channels that the rate depends on.
     active: usize,
 }
@@ -43,6 +45,7 @@ impl<R: Real> Workspace<R> {
             next_probe: zeros(probes),
             stage: zeros(dimension),
             inverse_error: zeros(dimension),
+            last_logarithm: R::zero(),
             active: dimension - quadratures,
         }
     }
@@ -60,10 +63,9 @@ pub(crate) struct Attempt<'a, R: Real, B: Batch<R>> {
 }
 
 impl<R: Real, B: Batch<R>> Vectorized for Attempt<'_, R, B> {
-    /// Error of each lane relative to what is allowed, and its natural logarithm (of no less than 1e-8).
-    type Output = (R, R);
+    type Output = Judgement<R>;
     #[inline(always)]
-    fn run(self) -> (R, R) {
+    fn run(self) -> Judgement<R> {
         let Attempt {
             batch,
             mode,
@@ -94,13 +96,52 @@ impl<R: Real, B: Batch<R>> Vectorized for Attempt<'_, R, B> {
             let time = time + h * R::splat(C[s]);
             batch.rate(mode, time, stage, &mut rate[..n], probe);
         }
-        if begin {
-            return (R::zero(), R::zero());
-        }
-        let error = error(h, &w.rates, &w.inverse_error, &mut w.stage);
-        (error, error.max(R::splat(1e-8)).ln())
+        let error = if begin {
+            R::zero()
+        } else {
+            error(h, &w.rates, &w.inverse_error, &mut w.stage)
+        };
+        Judgement::of(error, w.last_logarithm)
     }
 }
+
+/// What the error of an attempt says, lane by lane.
+///
+/// PI control (Gustafsson; exponents of Hairer, Norsett, Wanner, Solving ODEs I, II.4): steadier than I control
+/// where stability, not accuracy, bounds the step. Logarithm and exponential are those of `number`: the standard
+/// library's may differ from machine to machine.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Judgement<R> {
+    /// Error relative to what is allowed; infinite where any channel is not a number.
+    pub error: R,
+    /// Its natural logarithm.
+    pub logarithm: R,
+    /// Next length over this one when the step is accepted, before limits.
+    pub next: R,
+    /// Length of the repetition over this one when the step is rejected, before limits.
+    pub again: R,
+}
+
+impl<R: Real> Judgement<R> {
+    #[inline(always)]
+    fn of(error: R, last_logarithm: R) -> Self {
+        const SAFETY: f64 = 0.9;
+        const PROPORTIONAL: f64 = 0.7 / ORDER as f64;
+        const INTEGRAL: f64 = 0.4 / ORDER as f64;
+        let logarithm = error.max(R::splat(LEAST_ERROR)).min(R::splat(1e300)).ln();
+        let exponent = R::splat(INTEGRAL) * last_logarithm - R::splat(PROPORTIONAL) * logarithm;
+        let safety = R::splat(SAFETY);
+        Judgement {
+            error,
+            logarithm,
+            next: safety * exponent.exp(),
+            again: safety * (logarithm * R::splat(-1.0 / ORDER as f64)).exp(),
+        }
+    }
+}
+
+/// A step of next to no error does not say much about the following one.
+const LEAST_ERROR: f64 = 1e-4;
 
 /// The stage at the end of the step.
 const LAST: usize = STAGES - 1;
@@ -109,23 +150,40 @@ const LAST: usize = STAGES - 1;
 pub(crate) struct Advance<'a, R: Real> {
     pub work: &'a mut Workspace<R>,
     pub accepted: R::Mask,
+    /// Logarithms of the errors of this step.
+    pub logarithm: R,
 }
 
 impl<R: Real> Vectorized for Advance<'_, R> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        let Advance { work: w, accepted } = self;
+        let Advance {
+            work: w,
+            accepted,
+            logarithm,
+        } = self;
         let n = w.state.len();
         let (rates, last) = w.rates.split_at_mut((STAGES - 1) * n);
-        assert!(w.next.len() == n && last.len() == n && rates.len() >= n);
-        for i in 0..n {
-            w.state[i] = R::select(accepted, w.next[i], w.state[i]);
-            rates[i] = R::select(accepted, last[i], rates[i]);
+        let rates = &mut rates[..n];
+        w.last_logarithm = R::select(accepted, logarithm, w.last_logarithm);
+        if !(!accepted).any() {
+            std::mem::swap(&mut w.state, &mut w.next);
+            std::mem::swap(&mut w.probe, &mut w.next_probe);
+            rates.copy_from_slice(last);
+            return;
         }
-        for (probe, next) in w.probe.iter_mut().zip(&w.next_probe) {
-            *probe = R::select(accepted, *next, *probe);
-        }
+        keep(accepted, &w.next, &mut w.state);
+        keep(accepted, last, rates);
+        keep(accepted, &w.next_probe, &mut w.probe);
+    }
+}
+
+/// Takes over the lanes of a mask.
+#[inline(always)]
+fn keep<R: Real>(accepted: R::Mask, from: &[R], to: &mut [R]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = R::select(accepted, *from, *to);
     }
 }
 

@@ -1,7 +1,7 @@
 //! The loop: per-lane step control, landed instants, endings.
 
-use crate::attempt::{Advance, Attempt, Workspace};
-use crate::bogacki_shampine::{ORDER, STAGES};
+use crate::attempt::{Advance, Attempt, Judgement, Workspace};
+use crate::bogacki_shampine::STAGES;
 use crate::step::{LaneOf, Scratch, Step};
 use crate::system::{Batch, Machine};
 use number::{Mask, Real};
@@ -103,8 +103,6 @@ struct Lane<M: Machine> {
     step_end: f64,
     mode: M::Mode,
     next_landing: usize,
-    /// Natural logarithm of the error of the last accepted step, for the controller.
-    last_logarithm: f64,
     after_rejection: bool,
     work: Work,
     stop: Option<Stop>,
@@ -147,7 +145,6 @@ where
             // landings before the start are past
             next_landing: (machines[owner(lane)].landings())
                 .partition_point(|instant| *instant < settings.start),
-            last_logarithm: 0.0,
             after_rejection: false,
             work: Work::default(),
             stop: (lane >= count).then_some(Stop::Finished),
@@ -190,17 +187,17 @@ where
             Some(_) => 0.0,
         });
 
-        let (error, logarithm) = attempt(&batch, &mode, &mut work, false);
+        let judgement = attempt(&batch, &mode, &mut work, false);
 
         let mut jumped = false;
         for (index, lane) in lanes.iter_mut().enumerate().take(count) {
             if lane.stop.is_some() {
                 continue;
             }
-            if !control(lane, error.lane(index), logarithm.lane(index)) {
+            if !control(lane, &judgement, index) {
                 continue;
             }
-            scratch.copied = false;
+            scratch.copied = 0;
             let flow = observers[index].step(&mut Step {
                 machine: machines[index],
                 mode: &lane.mode,
@@ -223,6 +220,7 @@ where
         R::vectorized(Advance {
             work: &mut work,
             accepted,
+            logarithm: judgement.logarithm,
         });
         work.time = R::from_lanes(|i| lanes[i].time);
         for (index, lane) in lanes.iter_mut().enumerate().take(count) {
@@ -266,7 +264,7 @@ fn attempt<R: Real, B: Batch<R>>(
     mode: &B::Mode,
     work: &mut Workspace<R>,
     begin: bool,
-) -> (R, R) {
+) -> Judgement<R> {
     R::vectorized(Attempt {
         batch,
         mode,
@@ -340,37 +338,30 @@ fn worst_channel<R: Real>(work: &Workspace<R>, lane: usize) -> usize {
 }
 
 /// Accepts or rejects a step by its error and chooses the next length. True when accepted.
-///
-/// PI control (Gustafsson; exponents of Hairer, Norsett, Wanner, Solving ODEs I, II.4): steadier than I control
-/// where stability, not accuracy, bounds the step. Logarithm and exponential are those of `number`: the standard
-/// library's may differ from machine to machine.
-fn control<M: Machine>(lane: &mut Lane<M>, error: f64, logarithm: f64) -> bool {
-    const SAFETY: f64 = 0.9;
-    const PROPORTIONAL: f64 = 0.7 / ORDER as f64;
-    const INTEGRAL: f64 = 0.4 / ORDER as f64;
-    /// ln 1e-4: a step of next to no error does not say much about the following one.
-    const LEAST_LOGARITHM: f64 = -9.210_340_371_976_182;
+fn control<R: Real, M: Machine>(
+    lane: &mut Lane<M>,
+    judgement: &Judgement<R>,
+    index: usize,
+) -> bool {
     lane.work.rate_calls += STAGES as u64 - 1;
     let taken = lane.step_end - lane.time;
+    let error = judgement.error.lane(index);
     if error <= 1.0 {
         lane.work.accepted += 1;
-        let exponent = INTEGRAL * lane.last_logarithm - PROPORTIONAL * logarithm;
-        let mut factor = SAFETY * Real::exp(exponent);
-        factor = factor.clamp(0.2, if lane.after_rejection { 1.0 } else { 5.0 });
+        let most = if lane.after_rejection { 1.0 } else { 5.0 };
         // a step cut short by a landing does not shrink the next one
-        let proposed = taken * factor;
+        let proposed = taken * judgement.next.lane(index).clamp(0.2, most);
         lane.length = if taken < 0.99 * lane.length {
             proposed.max(lane.length)
         } else {
             proposed
         };
-        lane.last_logarithm = logarithm.max(LEAST_LOGARITHM);
         lane.after_rejection = false;
         true
     } else {
         lane.work.rejected += 1;
         let factor = if error.is_finite() {
-            (SAFETY * Real::exp(-logarithm / ORDER as f64)).clamp(0.1, 0.9)
+            judgement.again.lane(index).clamp(0.1, 0.9)
         } else {
             0.1
         };

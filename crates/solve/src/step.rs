@@ -28,8 +28,8 @@ pub(crate) struct Scratch {
     /// State at the start of the step and rates of its stages, copied when dense output is first asked for.
     pub start: Vec<f64>,
     pub stages: Vec<f64>,
-    /// True once they are copied.
-    pub copied: bool,
+    /// How many leading channels of them are copied.
+    pub copied: usize,
 }
 
 impl Scratch {
@@ -40,7 +40,7 @@ impl Scratch {
             probe: vec![0.0; probes],
             start: vec![0.0; dimension],
             stages: vec![0.0; STAGES * dimension],
-            copied: false,
+            copied: 0,
         }
     }
 }
@@ -51,7 +51,8 @@ pub(crate) trait StepData {
     fn end_probe(&self, index: usize) -> f64;
     fn start_state(&self, channel: usize) -> f64;
     fn end_state(&self, channel: usize) -> f64;
-    fn copy(&self, start: &mut [f64], stages: &mut [f64]);
+    /// Copies the leading channels of the start and of every stage.
+    fn copy(&self, channels: usize, start: &mut [f64], stages: &mut [f64]);
 }
 
 /// One lane of a workspace.
@@ -73,12 +74,18 @@ impl<R: Real> StepData for LaneOf<'_, R> {
     fn end_state(&self, channel: usize) -> f64 {
         self.work.next[channel].lane(self.lane)
     }
-    fn copy(&self, start: &mut [f64], stages: &mut [f64]) {
-        for (value, lanes) in start.iter_mut().zip(&self.work.state) {
+    fn copy(&self, channels: usize, start: &mut [f64], stages: &mut [f64]) {
+        let n = self.work.state.len();
+        for (value, lanes) in start.iter_mut().zip(&self.work.state[..channels]) {
             *value = lanes.lane(self.lane);
         }
-        for (value, lanes) in stages.iter_mut().zip(&self.work.rates) {
-            *value = lanes.lane(self.lane);
+        for (values, rates) in stages
+            .chunks_exact_mut(n)
+            .zip(self.work.rates.chunks_exact(n))
+        {
+            for (value, lanes) in values.iter_mut().zip(&rates[..channels]) {
+                *value = lanes.lane(self.lane);
+            }
         }
     }
 }
@@ -110,12 +117,16 @@ impl<M: Machine> Step<'_, M> {
     }
     /// The state at a fraction of the step, from dense output; at 1 the end state itself.
     pub fn state(&mut self, theta: f64) -> &[f64] {
-        self.fill(theta);
-        &self.scratch.state
+        self.leading_state(theta, self.scratch.state.len())
+    }
+    /// The first so many channels of the state at a fraction of the step: cheaper where the first ones suffice.
+    pub fn leading_state(&mut self, theta: f64, channels: usize) -> &[f64] {
+        self.fill(theta, channels);
+        &self.scratch.state[..channels]
     }
     /// State and probes at a fraction of the step.
     pub fn evaluate(&mut self, theta: f64) -> (&[f64], &[f64]) {
-        self.fill(theta);
+        self.fill(theta, self.scratch.state.len());
         let time = self.time(theta);
         let scratch = &mut *self.scratch;
         self.machine.rate(
@@ -131,23 +142,24 @@ impl<M: Machine> Step<'_, M> {
     pub fn probe(&mut self, theta: f64, index: usize) -> f64 {
         self.evaluate(theta).1[index]
     }
-    fn fill(&mut self, theta: f64) {
+    fn fill(&mut self, theta: f64, channels: usize) {
         let scratch = &mut *self.scratch;
+        let n = scratch.state.len();
+        let state = &mut scratch.state[..channels];
         if theta == 1.0 {
-            for (channel, value) in scratch.state.iter_mut().enumerate() {
+            for (channel, value) in state.iter_mut().enumerate() {
                 *value = self.data.end_state(channel);
             }
         } else {
-            if !scratch.copied {
-                self.data.copy(&mut scratch.start, &mut scratch.stages);
-                scratch.copied = true;
+            if scratch.copied < channels {
+                (self.data).copy(channels, &mut scratch.start, &mut scratch.stages);
+                scratch.copied = channels;
             }
             let length = self.end - self.start;
             let weights = dense_weights(theta).map(|weight| length * weight);
-            scratch.state.copy_from_slice(&scratch.start);
-            let stages = scratch.stages.chunks_exact(scratch.state.len());
-            for (weight, rates) in weights.into_iter().zip(stages) {
-                for (value, rate) in scratch.state.iter_mut().zip(rates) {
+            state.copy_from_slice(&scratch.start[..channels]);
+            for (weight, rates) in weights.into_iter().zip(scratch.stages.chunks_exact(n)) {
+                for (value, rate) in state.iter_mut().zip(rates) {
                     *value += weight * rate;
                 }
             }

@@ -1,4 +1,4 @@
-//! Events on dense output: where a watched probe crosses zero, and how high it rises.
+//! Events on dense output: where a function of the step changes sign, and how high it rises.
 
 use crate::step::Step;
 use crate::system::Machine;
@@ -51,43 +51,43 @@ pub fn root<M: Machine>(
 
 /// The fraction in (low, high] at which a probe changes sign: see [`root`].
 pub fn crossing<M: Machine>(step: &mut Step<M>, probe: usize, low: f64, high: f64) -> f64 {
-    let ends = (value(step, probe, low), value(step, probe, high));
+    // the stored values at the ends, so that neighbouring steps agree on the sign
+    let mut value = |theta: f64| match theta {
+        0.0 => step.start_probe(probe),
+        1.0 => step.end_probe(probe),
+        _ => step.probe(theta, probe),
+    };
+    let ends = (value(low), value(high));
     root(step, (low, ends.0), (high, ends.1), |step, theta| {
         step.probe(theta, probe)
     })
 }
 
-/// The largest value of a probe between two fractions of a step, with its fraction: (fraction, value).
+/// The largest value of a function of the step between two fractions: (fraction, value).
 ///
-/// Golden-section search: the probe must have one hump there. Ends are not compared.
-pub fn maximum<M: Machine>(step: &mut Step<M>, probe: usize, low: f64, high: f64) -> (f64, f64) {
+/// Golden-section search: the function must have one hump there. Ends are not compared.
+pub fn maximum<M: Machine>(
+    step: &mut Step<M>,
+    low: f64,
+    high: f64,
+    mut function: impl FnMut(&mut Step<M>, f64) -> f64,
+) -> (f64, f64) {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let (mut a, mut b) = (low, high);
     let mut x = b - GOLDEN * (b - a);
     let mut y = a + GOLDEN * (b - a);
-    let (mut fx, mut fy) = (step.probe(x, probe), step.probe(y, probe));
+    let (mut fx, mut fy) = (function(step, x), function(step, y));
     // 24 halvings by the golden ratio: 1e-5 of a step, and its square in the value
     for _ in 0..24 {
         if fx > fy {
             (b, y, fy) = (y, x, fx);
             x = b - GOLDEN * (b - a);
-            fx = step.probe(x, probe);
+            fx = function(step, x);
         } else {
             (a, x, fx) = (x, y, fy);
             y = a + GOLDEN * (b - a);
-            fy = step.probe(y, probe);
+            fy = function(step, y);
         }
     }
     if fx > fy { (x, fx) } else { (y, fy) }
-}
-
-/// A probe at a fraction; the stored values at the ends, so that neighbouring steps agree on the sign.
-fn value<M: Machine>(step: &mut Step<M>, probe: usize, theta: f64) -> f64 {
-    if theta == 0.0 {
-        step.start_probe(probe)
-    } else if theta == 1.0 {
-        step.end_probe(probe)
-    } else {
-        step.probe(theta, probe)
-    }
 }

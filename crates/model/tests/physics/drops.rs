@@ -99,9 +99,12 @@ impl Observer<DropMachine> for Impact {
             && step.end_probe(PENETRATION_SPEED) <= 0.0
             && step.end_probe(PENETRATION) > 0.0;
         if turns {
-            self.peak = self
-                .peak
-                .max(watch::maximum(step, NORMAL_FORCE, 0.0, 1.0).1);
+            self.peak = self.peak.max(
+                watch::maximum(step, 0.0, 1.0, |step, theta| {
+                    step.probe(theta, NORMAL_FORCE)
+                })
+                .1,
+            );
         }
         Flow::Continue
     }

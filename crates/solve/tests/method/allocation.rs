@@ -41,7 +41,8 @@ impl Observer<Problem> for Busy {
         self.steps += 1;
         self.sum += step.state(0.3)[0] + step.probe(0.7, 1);
         if (step.start_probe(0) > 0.0) != (step.end_probe(0) > 0.0) {
-            self.sum += watch::crossing(step, 0, 0.0, 1.0) + watch::maximum(step, 1, 0.0, 1.0).1;
+            self.sum += watch::crossing(step, 0, 0.0, 1.0)
+                + watch::maximum(step, 0.0, 1.0, |step, theta| step.probe(theta, 1)).1;
             self.events += 1;
         }
         Flow::Continue

@@ -31,7 +31,7 @@ impl Observer<Problem> for Bounces {
         }
         // the spring is shortest where the mass turns
         if before && after && step.start_state(1) < 0.0 && step.end_state(1) >= 0.0 {
-            let (theta, force) = watch::maximum(step, 1, 0.0, 1.0);
+            let (theta, force) = watch::maximum(step, 0.0, 1.0, |step, theta| step.probe(theta, 1));
             self.peak.push((step.time(theta), force));
         }
         Flow::Continue
@@ -137,7 +137,7 @@ fn a_maximum_inside_a_step_is_found_with_its_height() {
     struct Top((f64, f64));
     impl Observer<Problem> for Top {
         fn step(&mut self, step: &mut Step<Problem>) -> Flow {
-            self.0 = watch::maximum(step, 0, 0.0, 1.0);
+            self.0 = watch::maximum(step, 0.0, 1.0, |step, theta| step.probe(theta, 0));
             Flow::Continue
         }
     }

@@ -13,7 +13,7 @@ use super::rate::{race_motion, rotor_motion};
 use crate::contact::ContactReaction;
 use number::Vec2;
 use physics::kinematics::BallSet;
-use solve::watch::{crossing, root};
+use solve::watch::{maximum, root};
 use solve::{Flow, Machine, Observer, Step};
 
 /// One contact of rotor and inner race.
@@ -93,6 +93,8 @@ pub struct Record {
     /// Turns of the rotor about the inner race while it is out of the middle half of its clearance.
     pub whirl_turns: f64,
     rises: Vec<Rise>,
+    /// Mean slopes of the largest ball loads over the last step, N/s.
+    load_slopes: [f64; 2],
     interval: f64,
     next_row: u64,
     rows: Vec<f64>,
@@ -116,8 +118,8 @@ struct Limits {
 
 /// A peak is searched for inside a step when a value comes this near to the record.
 const NEAR_RECORD: f64 = 0.9;
-/// A value that changes by less than this share of the record in a step has no peak worth searching.
-const STEADY: f64 = 1e-3;
+/// A peak that rises above both ends of its step by less than this share of the record is not worth searching.
+const STEADY: f64 = 1e-4;
 /// Points a turn of the rotor at which its whirl is followed.
 const WHIRL_POINTS: f64 = 64.0;
 /// Values after a row's state and probes: time and [`Content`].
@@ -158,6 +160,7 @@ impl Record {
             largest_translation: 0.0,
             whirl_turns: 0.0,
             rises,
+            load_slopes: [0.0; 2],
             interval,
             next_row: 0,
             rows: Vec::with_capacity(rows * (dimension + probes + EXTRA)),
@@ -358,8 +361,9 @@ impl Record {
         if whole && rate.0 > 0.0 && rate.1 < 0.0 {
             let bulge = 0.125 * (step.end - step.start) * (rate.0 - rate.1);
             if force.0.max(force.1) + 2.0 * bulge > peak.value {
-                let theta = crossing(step, NORMAL_FORCE_RATE, 0.0, 1.0);
-                let value = step.probe(theta, NORMAL_FORCE);
+                let (theta, value) = maximum(step, 0.0, 1.0, |step, theta| {
+                    contact_at(step, theta).normal_force
+                });
                 peak.raise(value, step.time(theta));
             }
         } else if !whole {
@@ -375,43 +379,35 @@ impl Record {
     }
 
     fn ball_loads_of(&mut self, step: &mut Step<DropMachine>) {
-        let inner = step.end_probe(LARGEST_INNER_LOAD);
-        let outer = step.end_probe(LARGEST_OUTER_LOAD);
-        self.largest_inner_load.raise(inner, step.end);
-        self.largest_outer_load.raise(outer, step.end);
-        let start = (
+        let end = [
+            step.end_probe(LARGEST_INNER_LOAD),
+            step.end_probe(LARGEST_OUTER_LOAD),
+        ];
+        let start = [
             step.start_probe(LARGEST_INNER_LOAD),
             step.start_probe(LARGEST_OUTER_LOAD),
-        );
-        let may_peak = |start: f64, end: f64, record: Peak| {
-            start.max(end) > NEAR_RECORD * record.value
-                && (end - start).abs() > STEADY * record.value
-        };
-        if may_peak(start.0, inner, self.largest_inner_load)
-            || may_peak(start.1, outer, self.largest_outer_load)
-        {
-            // where the middle lies above both ends, its neighbours may lie higher still
-            if self.ball_loads_at(step, 0.5, start, (inner, outer)) {
-                self.ball_loads_at(step, 0.25, start, (inner, outer));
-                self.ball_loads_at(step, 0.75, start, (inner, outer));
+        ];
+        self.largest_inner_load.raise(end[0], step.end);
+        self.largest_outer_load.raise(end[1], step.end);
+        let length = step.end - step.start;
+        let records = [self.largest_inner_load.value, self.largest_outer_load.value];
+        let mut search = false;
+        for k in 0..2 {
+            let slope = (end[k] - start[k]) / length;
+            search |= start[k].max(end[k]) > NEAR_RECORD * records[k]
+                && may_peak(self.load_slopes[k], slope, length, STEADY * records[k]);
+            self.load_slopes[k] = slope;
+        }
+        if search {
+            for theta in [0.25, 0.5, 0.75] {
+                let time = step.time(theta);
+                let (_, probe) = step.evaluate(theta);
+                self.largest_inner_load
+                    .raise(probe[LARGEST_INNER_LOAD], time);
+                self.largest_outer_load
+                    .raise(probe[LARGEST_OUTER_LOAD], time);
             }
         }
-    }
-
-    /// Looks at the ball loads inside a step. True where one of them is larger than at both ends.
-    fn ball_loads_at(
-        &mut self,
-        step: &mut Step<DropMachine>,
-        theta: f64,
-        start: (f64, f64),
-        end: (f64, f64),
-    ) -> bool {
-        let time = step.time(theta);
-        let (_, probe) = step.evaluate(theta);
-        let (inner, outer) = (probe[LARGEST_INNER_LOAD], probe[LARGEST_OUTER_LOAD]);
-        self.largest_inner_load.raise(inner, time);
-        self.largest_outer_load.raise(outer, time);
-        inner > start.0.max(end.0) || outer > start.1.max(end.1)
     }
 
     fn rises_of(&mut self, step: &mut Step<DropMachine>) {
@@ -425,7 +421,7 @@ impl Record {
                 // 40 halvings: 1e-12 of a step
                 for _ in 0..40 {
                     let middle = 0.5 * (low + high);
-                    if excess(step.state(middle)[rise.channel]) >= 0.0 {
+                    if excess(step.leading_state(middle, rise.channel + 1)[rise.channel]) >= 0.0 {
                         high = middle;
                     } else {
                         low = middle;
@@ -453,7 +449,7 @@ impl Record {
             for i in 1..8 {
                 let theta = f64::from(i) / 8.0;
                 let time = step.time(theta);
-                let state = step.state(theta);
+                let state = step.leading_state(theta, BEARING);
                 self.mount_displacement
                     .raise(state[OUTER].hypot(state[OUTER + 1]), time);
             }
@@ -487,6 +483,14 @@ impl Record {
     }
 }
 
+/// Whether a value with these mean slopes over the last and this step may have a peak inside this step that rises
+/// above both ends by more than `least`: judged by the parabola through the three values, taken half as curved again.
+fn may_peak(last_slope: f64, slope: f64, length: f64, least: f64) -> bool {
+    let curving = 1.5 * (slope - last_slope);
+    let (at_start, at_end) = (slope - 0.5 * curving, slope + 0.5 * curving);
+    at_start > 0.0 && at_end < 0.0 && -0.125 * curving * length > least
+}
+
 /// The rotor's own channels at the end of a step.
 fn end_of_rotor(step: &Step<DropMachine>) -> [f64; INNER - ROTOR] {
     let mut rotor = [0.0; INNER - ROTOR];
@@ -499,7 +503,7 @@ fn end_of_rotor(step: &Step<DropMachine>) -> [f64; INNER - ROTOR] {
 /// The contact of rotor and race at a fraction of a step.
 fn contact_at(step: &mut Step<DropMachine>, theta: f64) -> ContactReaction<f64> {
     let machine = &step.machine.constants.machine;
-    let state = step.state(theta);
+    let state = step.leading_state(theta, BEARING);
     let rotor = rotor_motion(state);
     let centre = machine.rotor.geometric_centre(&rotor);
     machine
