@@ -10,16 +10,23 @@
 //! | [`hertz`] | point contact between ball and race: exact elliptic integrals |
 //! | [`contact`] | normal force of a contact in time: Hertz with damping, Hunt-Crossley |
 //! | [`traction`] | sliding friction between ball and race |
-//! | [`palmgren`] | steady friction moment of a rolling bearing |
+//! | [`friction`] | steady friction moment of a rolling bearing: one interface to the next three |
+//! | [`palmgren`] | Palmgren's moment |
+//! | [`skf`] | the SKF model: rolling, sliding, drag, seals |
+//! | [`moment_curve`] | a measured moment over speed |
 //! | [`rolling`] | a bearing whose balls roll: the source paper's equations 6-19 |
 //! | [`kinematics`] | speeds of cage and balls, passing frequencies |
 //! | [`unbalance`] | whirl of an unbalanced rotor on a linear support |
 
 pub mod contact;
+pub mod friction;
 pub mod hertz;
 pub mod kinematics;
 pub mod materials;
+pub mod moment_curve;
 pub mod palmgren;
+mod power;
 pub mod rolling;
+pub mod skf;
 pub mod traction;
 pub mod unbalance;

@@ -1,0 +1,289 @@
+//! A measured friction moment over speed, as a curve through the points.
+//!
+//! ```text
+//!   M │            ·───── constant beyond the last point
+//!     │        · ╱
+//!     │ ──·───·        between points a cubic that rises and falls only where the points do
+//!     │╱  first point: constant below it, fading to 0 at rest with tanh(Ω/0.1 rad/s)
+//!     └──────────────── |Ω|
+//! ```
+//! The curve is odd in speed and has a continuous slope between its first and last point. At its ends it goes on
+//! constant: a slope is never extrapolated. [`MomentCurve::covers`] tells whether a speed lies inside.
+//!
+//! Not modelled: load and temperature; the curve holds for those it was measured at.
+
+use crate::palmgren::fading;
+use number::{Gather, Real};
+use std::fmt;
+
+/// Most points of a curve: each costs a comparison in every evaluation.
+pub const MOST_POINTS: usize = 200;
+
+number::constants! {
+    /// A cubic between two points: M = value + t (first + t (second + t third)), t = |Ω| - start.
+    pub struct CurvePiece {
+        /// Speed at its start, rad/s.
+        start: R,
+        /// Moment at its start, N m.
+        value: R,
+        /// Slope at its start, N m s.
+        first: R,
+        /// Coefficient of t², N m s².
+        second: R,
+        /// Coefficient of t³, N m s³.
+        third: R,
+    }
+}
+
+/// A measured moment over speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MomentCurve<R> {
+    /// The pieces, by rising speed.
+    pieces: Vec<CurvePiece<R>>,
+    /// Speed of the last point, rad/s.
+    last: R,
+}
+
+/// Why points make no curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CurveError {
+    /// Fewer than two points.
+    TooFewPoints {
+        /// How many there are.
+        found: usize,
+    },
+    /// More points than [`MOST_POINTS`].
+    TooManyPoints {
+        /// How many there are.
+        found: usize,
+    },
+    /// A speed or moment that is not finite.
+    NotFinite {
+        /// Its point, from 0.
+        point: usize,
+    },
+    /// A speed below zero: the curve is given for one direction and holds for both.
+    NegativeSpeed {
+        /// Its point, from 0.
+        point: usize,
+        /// The speed, rad/s.
+        speed: f64,
+    },
+    /// A speed not above the one before it.
+    NotRising {
+        /// Its point, from 0.
+        point: usize,
+        /// The speed, rad/s.
+        speed: f64,
+    },
+    /// A negative moment: it would drive the bearing and create energy.
+    NegativeMoment {
+        /// Its point, from 0.
+        point: usize,
+        /// The moment, N m.
+        moment: f64,
+    },
+}
+
+impl fmt::Display for CurveError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            CurveError::TooFewPoints { found } => {
+                write!(out, "{found} points; a curve needs at least two")
+            }
+            CurveError::TooManyPoints { found } => {
+                write!(out, "{found} points; at most {MOST_POINTS} are possible")
+            }
+            CurveError::NotFinite { point } => write!(out, "point {}: not finite", point + 1),
+            CurveError::NegativeSpeed { point, speed } => write!(
+                out,
+                "point {}: speed {speed} rad/s; the curve is given for speeds from 0 and holds for both directions",
+                point + 1
+            ),
+            CurveError::NotRising { point, speed } => write!(
+                out,
+                "point {}: speed {speed} rad/s is not above the one before it",
+                point + 1
+            ),
+            CurveError::NegativeMoment { point, moment } => write!(
+                out,
+                "point {}: moment {moment} N m at a positive speed would create energy",
+                point + 1
+            ),
+        }
+    }
+}
+
+impl std::error::Error for CurveError {}
+
+impl MomentCurve<f64> {
+    /// The curve through measured points (speed in rad/s, moment in N m).
+    ///
+    /// Formula: cubic Hermite pieces; slope at an inner point the weighted harmonic mean of its neighbouring secants,
+    /// 0 where they differ in sign; at the ends from three points, limited
+    ///
+    /// - `points`: speeds from 0, strictly rising; moments not negative
+    ///
+    /// Source: F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300 (from memory).
+    /// Valid: 2 to [`MOST_POINTS`] points; monotone between two points, so never negative.
+    pub fn through(points: &[(f64, f64)]) -> Result<Self, CurveError> {
+        validate(points)?;
+        let width: Vec<f64> = points.windows(2).map(|p| p[1].0 - p[0].0).collect();
+        let secant: Vec<f64> = points
+            .windows(2)
+            .map(|p| (p[1].1 - p[0].1) / (p[1].0 - p[0].0))
+            .collect();
+        let slope = slopes(&width, &secant);
+        let pieces: Vec<_> = (0..width.len())
+            .map(|k| CurvePiece {
+                start: points[k].0,
+                value: points[k].1,
+                first: slope[k],
+                second: (3.0 * secant[k] - 2.0 * slope[k] - slope[k + 1]) / width[k],
+                third: (slope[k] + slope[k + 1] - 2.0 * secant[k]) / (width[k] * width[k]),
+            })
+            .collect();
+        let steep = pieces.iter().position(|piece| !piece.third.is_finite());
+        if let Some(point) = steep {
+            return Err(CurveError::NotFinite { point });
+        }
+        Ok(MomentCurve {
+            pieces,
+            last: points[points.len() - 1].0,
+        })
+    }
+
+    /// Whether the curve was measured at a speed of this size.
+    ///
+    /// - `speed`: Ω, rad/s, either sign
+    ///
+    /// Source: the points.
+    /// Valid: any speed.
+    pub fn covers(&self, speed: f64) -> bool {
+        let (first, last) = self.range();
+        (first..=last).contains(&speed.abs())
+    }
+
+    /// Least and largest speed measured, rad/s.
+    ///
+    /// Source: the points.
+    /// Valid: always.
+    pub fn range(&self) -> (f64, f64) {
+        (self.pieces[0].start, self.last)
+    }
+}
+
+impl<R: Real> MomentCurve<R> {
+    /// The moment, N m; it has the sign of the speed and vanishes at rest.
+    ///
+    /// Formula: M = M(clamp |Ω|) tanh(Ω/0.1 rad/s)
+    ///
+    /// - `speed`: Ω, rad/s, either sign
+    ///
+    /// Source: the measured points.
+    /// Valid: between the first and last point; beyond them the moment of the nearest is returned.
+    #[inline(always)]
+    pub fn moment(&self, speed: R) -> R {
+        let size = speed.abs().max(self.pieces[0].start).min(self.last);
+        let mut piece = self.pieces[0];
+        for next in &self.pieces[1..] {
+            let beyond = size.greater(next.start);
+            piece.start = R::select(beyond, next.start, piece.start);
+            piece.value = R::select(beyond, next.value, piece.value);
+            piece.first = R::select(beyond, next.first, piece.first);
+            piece.second = R::select(beyond, next.second, piece.second);
+            piece.third = R::select(beyond, next.third, piece.third);
+        }
+        let t = size - piece.start;
+        let moment = piece.value + t * (piece.first + t * (piece.second + t * piece.third));
+        // a rounding below a point at zero must not turn the sign
+        moment.max(R::zero()) * fading(speed)
+    }
+}
+
+impl<R: Real> Gather<R> for MomentCurve<f64> {
+    type Out = MomentCurve<R>;
+    fn gather<'a>(machine: &dyn Fn(usize) -> &'a Self) -> MomentCurve<R>
+    where
+        Self: 'a,
+    {
+        let count = machine(0).pieces.len();
+        for lane in 1..R::LANES {
+            assert!(
+                machine(lane).pieces.len() == count,
+                "lanes share the number of points"
+            );
+        }
+        MomentCurve {
+            pieces: (0..count)
+                .map(|k| Gather::<R>::gather(&|lane| &machine(lane).pieces[k]))
+                .collect(),
+            last: R::from_lanes(|lane| machine(lane).last),
+        }
+    }
+}
+
+fn validate(points: &[(f64, f64)]) -> Result<(), CurveError> {
+    let found = points.len();
+    if found < 2 {
+        return Err(CurveError::TooFewPoints { found });
+    }
+    if found > MOST_POINTS {
+        return Err(CurveError::TooManyPoints { found });
+    }
+    let mut before = f64::NEG_INFINITY;
+    for (point, &(speed, moment)) in points.iter().enumerate() {
+        if !(speed.is_finite() && moment.is_finite()) {
+            return Err(CurveError::NotFinite { point });
+        }
+        if speed < 0.0 {
+            return Err(CurveError::NegativeSpeed { point, speed });
+        }
+        if speed <= before {
+            return Err(CurveError::NotRising { point, speed });
+        }
+        if moment < 0.0 {
+            return Err(CurveError::NegativeMoment { point, moment });
+        }
+        before = speed;
+    }
+    Ok(())
+}
+
+/// Slopes at the points that keep the cubics monotone between them.
+fn slopes(width: &[f64], secant: &[f64]) -> Vec<f64> {
+    let last = secant.len() - 1;
+    if last == 0 {
+        return vec![secant[0]; 2];
+    }
+    let mut slope = vec![end_slope(width[0], width[1], secant[0], secant[1])];
+    for k in 0..last {
+        let (before, after) = (secant[k], secant[k + 1]);
+        slope.push(if before * after > 0.0 {
+            let (w1, w2) = (2.0 * width[k + 1] + width[k], width[k + 1] + 2.0 * width[k]);
+            (w1 + w2) / (w1 / before + w2 / after)
+        } else {
+            0.0
+        });
+    }
+    slope.push(end_slope(
+        width[last],
+        width[last - 1],
+        secant[last],
+        secant[last - 1],
+    ));
+    slope
+}
+
+/// Slope at an end from its own and the next secant: of the parabola, within 0 and 3 times its own secant.
+fn end_slope(width: f64, next_width: f64, secant: f64, next_secant: f64) -> f64 {
+    let parabola =
+        ((2.0 * width + next_width) * secant - width * next_secant) / (width + next_width);
+    if parabola * secant <= 0.0 {
+        0.0
+    } else if parabola.abs() > 3.0 * secant.abs() {
+        3.0 * secant
+    } else {
+        parabola
+    }
+}
