@@ -13,6 +13,7 @@
 //! | [`friction`] | steady friction moment of a rolling bearing: one interface to the next three |
 //! | [`palmgren`] | Palmgren's moment |
 //! | [`skf`] | the SKF model: rolling, sliding, drag, seals |
+//! | [`skf_constants`] | its constants by bearing type and series, and what is refused |
 //! | [`moment_curve`] | a measured moment over speed |
 //! | [`rolling`] | a bearing whose balls roll: the source paper's equations 6-19 |
 //! | [`kinematics`] | speeds of cage and balls, passing frequencies |
@@ -28,5 +29,6 @@ pub mod palmgren;
 mod power;
 pub mod rolling;
 pub mod skf;
+pub mod skf_constants;
 pub mod traction;
 pub mod unbalance;

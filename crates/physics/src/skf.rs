@@ -1,4 +1,4 @@
-//! Steady friction moment after the SKF model of 2003 to 2013.
+//! Steady friction moment after the SKF model, as the catalogues of about 2005 to 2013 print it.
 //!
 //! ```text
 //!   M = φ_ish φ_rs M_rr + M_sl + M_seal + M_drag                     N mm; N, mm, rpm, mm²/s inside
@@ -12,13 +12,13 @@
 //! The product adds the sign of the speed and fades the whole with tanh(Ω/0.1 rad/s) towards rest.
 //!
 //! This page is the moment in the time loop. Which constants a bearing has, and which types are refused for want of
-//! a source, stands in `skf_constants`.
+//! a source, stands in [`skf_constants`](crate::skf_constants).
 //!
 //! G_sl of a deep groove bearing steps by the factor d_m^0.115 (1.5 at d_m 36 mm) where the axial load goes to 0: the
 //! source has two formulas and so has this page.
 //!
-//! Not modelled: starting torque, clearance and misalignment, freshly greased bearings, hybrid balls, V_M (read from a
-//! diagram of the source by the user).
+//! Not modelled: clearance and misalignment, freshly greased bearings (sliding 2 to 4 times higher for the first hours
+//! or days, after the source), V_M (read from a diagram of the source by the user).
 
 use crate::friction::MomentParts;
 use crate::palmgren::{fading, viscosity_times_speed_mm2_s_rpm};
@@ -170,8 +170,8 @@ impl<R: Real> SkfMoment<R> {
     /// - `radial_load`: F_r, N; 0 below 0
     /// - `axial_load`: F_a, N, either direction
     ///
-    /// Source: SKF General Catalogue (2005 edition), chapter Friction, pp. 88-105.
-    /// Valid: steady running at ν 2 to 500 mm²/s (from memory), at least the minimum load, normal clearance.
+    /// Source: SKF General Catalogue (edition 6000), chapter Friction, pp. 88-105.
+    /// Valid: grease, oil bath, oil spot or jet; constant load of at least the recommended minimum; normal clearance.
     #[inline(always)]
     pub fn parts(&self, speed: R, radial_load: R, axial_load: R) -> MomentParts<R> {
         let model = self.intermediates(speed, radial_load, axial_load);
@@ -183,6 +183,21 @@ impl<R: Real> SkfMoment<R> {
         }
     }
 
+    /// Moment that has to be overcome to start the bearing, N m, without sign.
+    ///
+    /// Formula: M_start = G_sl μ_bl + M_seal
+    ///
+    /// - `radial_load`: F_r, N; 0 below 0
+    /// - `axial_load`: F_a, N, either direction
+    ///
+    /// Source: SKF General Catalogue (edition 6000), p. 103.
+    /// Valid: 20 to 30 °C. The moment over time has none of it: it fades to 0 at rest.
+    #[inline(always)]
+    pub fn starting_moment(&self, radial_load: R, axial_load: R) -> R {
+        let model = self.intermediates(R::zero(), radial_load, axial_load);
+        model.sliding_variable * self.boundary_friction * R::splat(1e-3) + self.seal_moment
+    }
+
     /// Everything between loads and moment, in the units of the source (N mm), without sign.
     ///
     /// Formula: as on the page of this module
@@ -191,7 +206,7 @@ impl<R: Real> SkfMoment<R> {
     /// - `radial_load`: F_r, N; 0 below 0
     /// - `axial_load`: F_a, N, either direction
     ///
-    /// Source: SKF General Catalogue (2005 edition), chapter Friction, pp. 88-105.
+    /// Source: SKF General Catalogue (edition 6000), chapter Friction, pp. 88-105.
     /// Valid: as [`SkfMoment::parts`].
     #[inline(always)]
     pub fn intermediates(&self, speed: R, radial_load: R, axial_load: R) -> SkfIntermediates<R> {
@@ -300,5 +315,180 @@ impl<R: Real> SkfSphericalRoller<R> {
                 third,
             );
         (small.min(large), small_slide.min(large_slide))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use number::{Dual, Level, Task};
+    use proptest::prelude::*;
+
+    fn with(contacts: SkfContacts<f64>) -> SkfMoment<f64> {
+        SkfMoment {
+            contacts,
+            mean_diameter: 36e-3,
+            viscosity: 100e-6,
+            starvation: 6e-8 * 72.0 * (3.1_f64 / 44.0).sqrt(),
+            boundary_friction: 0.15,
+            film_friction: 0.05,
+            drag: 1e-7,
+            seal_moment: 1e-3,
+        }
+    }
+    /// A deep groove bearing of series 60, a single row angular contact bearing, a spherical roller bearing 222 E.
+    fn bearings() -> [SkfMoment<f64>; 3] {
+        [
+            with(SkfContacts::DeepGroove(SkfDeepGroove {
+                r1: 4.1e-7,
+                r2: 1.7,
+                s1: 3.73e-3,
+                s2: 14.6,
+                static_load_rating: 6550.0,
+            })),
+            with(SkfContacts::AngularContact(SkfAngularContact {
+                r1: 5.03e-7,
+                r2: 1.97,
+                r3: 1.90e-12,
+                s1: 1.30e-2,
+                s2: 0.68,
+                s3: 1.91e-12,
+            })),
+            with(SkfContacts::SphericalRoller(SkfSphericalRoller {
+                r1: 1.6e-6,
+                r2: 5.84,
+                r3: 2.81e-6,
+                r4: 5.8,
+                s1: 3.62e-3,
+                s2: 508.0,
+                s3: 8.8e-3,
+                s4: 117.0,
+            })),
+        ]
+    }
+
+    proptest! {
+        #[test]
+        fn odd_in_speed_and_never_a_source(
+            speed in 1e-6..3e3_f64,
+            radial in 0.0..5e3_f64,
+            axial in -2e3..2e3_f64,
+        ) {
+            for bearing in bearings() {
+                let (ahead, back) =
+                    (bearing.parts(speed, radial, axial), bearing.parts(-speed, radial, axial));
+                prop_assert_eq!(ahead.speed_dependent, -back.speed_dependent);
+                prop_assert_eq!(ahead.load_dependent, -back.load_dependent);
+                prop_assert!(ahead.speed_dependent >= 0.0 && ahead.load_dependent > 0.0);
+                prop_assert_eq!(bearing.parts(speed, radial, -axial), ahead);
+            }
+        }
+        #[test]
+        fn more_radial_load_more_moment(speed in 1.0..3e3_f64, radial in 1.0..4e3_f64, axial in 0.0..1e3_f64) {
+            for bearing in bearings() {
+                let (less, more) = (
+                    bearing.parts(speed, radial, axial).sum(),
+                    bearing.parts(speed, 1.1 * radial, axial).sum(),
+                );
+                prop_assert!(more > less);
+            }
+        }
+    }
+    #[test]
+    fn without_load_only_seals_and_bath_remain() {
+        let [groove, angular, _] = bearings();
+        let parts = groove.parts(100.0, 0.0, 0.0);
+        assert_eq!(parts.load_dependent, 1e-3);
+        let rpm = 100.0 * 30.0 / PI;
+        // N mm/rpm² to N m
+        assert!((parts.speed_dependent / (1e-10 * rpm * rpm) - 1.0).abs() < 1e-14);
+        assert_eq!(groove.parts(0.0, 500.0, 100.0).sum(), 0.0);
+        // centrifugal load: an angular contact bearing rolls and slides without any load from outside
+        assert!(angular.intermediates(1e3, 0.0, 0.0).sliding_variable > 0.0);
+    }
+    #[test]
+    fn the_source_steps_where_the_axial_load_of_a_deep_groove_bearing_begins() {
+        let [groove, ..] = bearings();
+        let sliding = |axial| groove.intermediates(100.0, 500.0, axial).sliding_variable;
+        // d_m^(0.26 - 0.145) = 36^0.115
+        let step = 36_f64.powf(0.115);
+        assert!((sliding(1e-9) / sliding(0.0) / step - 1.0).abs() < 1e-12);
+        assert!((step - 1.51).abs() < 0.01);
+        // rolling does not step: F_a/sin(α_F) falls with F_a^0.76
+        let rolling = |axial| groove.intermediates(100.0, 500.0, axial).rolling_variable;
+        assert!((rolling(1e-9) / rolling(0.0) - 1.0).abs() < 1e-6);
+    }
+    #[test]
+    fn starting_is_sliding_with_boundary_friction() {
+        let [groove, ..] = bearings();
+        let start = groove.starting_moment(80.0, 0.0);
+        // 3.73e-3·36^-0.26·80^(5/3) = 2.18216, times 0.15 N mm, and the seals
+        assert!((start - (2.182_161_2 * 0.15e-3 + 1e-3)).abs() < 1e-10);
+        let slow = groove.parts(0.5, 80.0, 0.0).load_dependent;
+        // φ_bl at 4.8 rpm and 100 mm²/s: 0.995
+        assert!(slow < start && slow > 0.99 * start);
+    }
+    /// The moments of each type at as many speeds as there are lanes, as bits.
+    struct SideBySide;
+    impl Task for SideBySide {
+        type Output = Vec<Vec<u64>>;
+        #[inline(always)]
+        fn run<R: Real>(self) -> Vec<Vec<u64>> {
+            bearings()
+                .iter()
+                .map(|bearing| {
+                    let wide: SkfMoment<R> = Gather::gather(&|_| bearing);
+                    let moment = wide
+                        .parts(
+                            R::from_lanes(|lane| SPEEDS[lane]),
+                            R::from_lanes(|lane| RADIAL[lane]),
+                            R::from_lanes(|lane| AXIAL[lane]),
+                        )
+                        .sum();
+                    (0..R::LANES)
+                        .map(|lane| moment.lane(lane).to_bits())
+                        .collect()
+                })
+                .collect()
+        }
+    }
+    const SPEEDS: [f64; 8] = [-0.05, 400.0, 0.0, 3.0, -2e3, 19.0, 21.0, 1e-9];
+    const RADIAL: [f64; 8] = [80.0, 0.0, 30.0, -5.0, 900.0, 1e-3, 3e3, 70.0];
+    const AXIAL: [f64; 8] = [0.0, 20.0, 0.0, 40.0, -300.0, 0.0, 1e-4, 0.0];
+
+    #[test]
+    fn lanes_agree_with_the_scalar_bit_for_bit() {
+        let level = Level::detect();
+        for (wide, bearing) in level.run_many(SideBySide).iter().zip(bearings()) {
+            assert_eq!(wide.len(), level.lanes());
+            for (lane, bits) in wide.iter().enumerate() {
+                let scalar = bearing.parts(SPEEDS[lane], RADIAL[lane], AXIAL[lane]).sum();
+                assert_eq!(f64::from_bits(*bits), scalar);
+            }
+        }
+    }
+    #[test]
+    fn duals_agree_with_differences() {
+        for bearing in bearings() {
+            let dual: SkfMoment<Dual<1>> = Gather::gather(&|_| &bearing);
+            for speed in [0.0, 0.03, 1.0, 400.0] {
+                let slope = dual
+                    .parts(
+                        Dual::variable(speed, 0),
+                        Dual::splat(90.0),
+                        Dual::splat(20.0),
+                    )
+                    .sum()
+                    .partial[0];
+                let h = 1e-6 * (1.0 + speed);
+                let moment = |speed| bearing.parts(speed, 90.0, 20.0).sum();
+                let difference = (moment(speed + h) - moment(speed - h)) / (2.0 * h);
+                // truncation (h/0.1)², the kink of |Ω|^1.6 at rest h^0.6, and rounding 1e-16 M/h
+                assert!(
+                    (slope - difference).abs() < 2e-3 * slope.abs() + 1e-12,
+                    "{speed}: {slope} {difference}"
+                );
+            }
+        }
     }
 }
