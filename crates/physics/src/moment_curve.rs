@@ -287,3 +287,132 @@ fn end_slope(width: f64, next_width: f64, secant: f64, next_secant: f64) -> f64 
         parabola
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use number::{Dual, Gather};
+    use proptest::prelude::*;
+
+    const MEASURED: [(f64, f64); 6] = [
+        (2.0, 0.020),
+        (10.0, 0.015),
+        (30.0, 0.015),
+        (80.0, 0.021),
+        (150.0, 0.025),
+        (400.0, 0.040),
+    ];
+    fn curve() -> MomentCurve<f64> {
+        MomentCurve::through(&MEASURED).unwrap()
+    }
+
+    #[test]
+    fn passes_its_points_and_is_odd() {
+        for (speed, moment) in MEASURED {
+            // the fading leaves 1e-17 at 2 rad/s; a cubic rounds
+            assert!((curve().moment(speed) - moment).abs() < 1e-16, "{speed}");
+            assert_eq!(curve().moment(-speed), -curve().moment(speed));
+        }
+        assert_eq!(curve().moment(0.0), 0.0);
+    }
+    #[test]
+    fn keeps_the_shape_of_its_points() {
+        let curve = curve();
+        for pair in MEASURED.windows(2) {
+            let (low, high) = (pair[0].1.min(pair[1].1), pair[0].1.max(pair[1].1));
+            let mut last = curve.moment(pair[0].0);
+            for step in 1..=100 {
+                let speed = pair[0].0 + (pair[1].0 - pair[0].0) * f64::from(step) / 100.0;
+                let moment = curve.moment(speed);
+                assert!((low - 1e-16..=high + 1e-16).contains(&moment), "{speed}");
+                // it rises and falls only where the points do
+                assert!(
+                    (moment - last) * (pair[1].1 - pair[0].1) >= -1e-18,
+                    "{speed}"
+                );
+                last = moment;
+            }
+        }
+    }
+    #[test]
+    fn the_slope_is_continuous_inside_and_follows_the_dual() {
+        let curve = curve();
+        let dual: MomentCurve<Dual<1>> = Gather::gather(&|_| &curve);
+        let slope = |speed: f64| dual.moment(Dual::variable(speed, 0)).partial[0];
+        for (speed, _) in &MEASURED[1..5] {
+            let (before, after) = (slope(speed - 1e-9), slope(speed + 1e-9));
+            // the second derivative is below 1e-3 N m s² here
+            assert!((before - after).abs() < 1e-11, "{speed}: {before} {after}");
+        }
+        for speed in [5.0, 77.0, 200.0] {
+            let difference = (curve.moment(speed + 1e-4) - curve.moment(speed - 1e-4)) / 2e-4;
+            assert!((slope(speed) - difference).abs() < 1e-9);
+        }
+    }
+    #[test]
+    fn a_straight_line_and_two_points_are_met_exactly() {
+        let line = MomentCurve::through(&[(0.0, 0.01), (50.0, 0.02), (200.0, 0.05)]).unwrap();
+        for speed in [7.0, 50.0, 120.0, 199.0] {
+            assert!((line.moment(speed) - (0.01 + 2e-4 * speed)).abs() < 1e-17);
+        }
+        let two = MomentCurve::through(&[(10.0, 0.01), (20.0, 0.03)]).unwrap();
+        assert!((two.moment(15.0) - 0.02).abs() < 1e-17);
+    }
+    #[test]
+    fn beyond_its_points_it_stays_constant_and_says_so() {
+        let curve = curve();
+        assert_eq!(curve.moment(5e3), curve.moment(400.0));
+        assert!((curve.moment(1.5) - 0.020).abs() < 1e-14);
+        assert!(!curve.covers(1.0) && !curve.covers(401.0) && !curve.covers(f64::NAN));
+        assert!(curve.covers(2.0) && curve.covers(-400.0));
+        assert_eq!(curve.range(), (2.0, 400.0));
+    }
+    #[test]
+    fn points_that_make_no_curve_are_refused() {
+        let refused = |points: &[(f64, f64)]| MomentCurve::through(points).unwrap_err().to_string();
+        for (points, why) in [
+            (vec![(1.0, 0.1)], "1 points; a curve needs at least two"),
+            (
+                vec![(1.0, 0.1), (1.0, 0.2)],
+                "point 2: speed 1 rad/s is not above",
+            ),
+            (
+                vec![(2.0, 0.1), (1.0, 0.2)],
+                "point 2: speed 1 rad/s is not above",
+            ),
+            (vec![(1.0, 0.1), (2.0, -0.2)], "would create energy"),
+            (vec![(-1.0, 0.1), (2.0, 0.2)], "holds for both directions"),
+            (vec![(1.0, f64::NAN), (2.0, 0.2)], "point 1: not finite"),
+            (
+                vec![(1.0, 0.1), (f64::INFINITY, 0.2)],
+                "point 2: not finite",
+            ),
+            (vec![(0.0, 0.0), (1e-300, 1e300)], "point 1: not finite"),
+            (vec![(0.0, 0.0); 300], "at most 200"),
+        ] {
+            let found = refused(&points);
+            assert!(found.contains(why), "{found}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn never_negative_never_beyond_its_points(
+            steps in proptest::collection::vec((0.01..50.0_f64, 0.0..1.0_f64), 2..20),
+            at in 0.0..1.2_f64,
+        ) {
+            let mut speed = 0.0;
+            let points: Vec<_> = steps
+                .iter()
+                .map(|(step, moment)| {
+                    speed += step;
+                    (speed, *moment)
+                })
+                .collect();
+            let curve = MomentCurve::through(&points).unwrap();
+            let moment = curve.moment(at * speed);
+            let largest = points.iter().map(|point| point.1).fold(0.0, f64::max);
+            prop_assert!(moment >= 0.0 && moment <= largest * (1.0 + 1e-12));
+        }
+    }
+}

@@ -162,8 +162,7 @@ impl<R: Real> PalmgrenCombined<R> {
     #[inline(always)]
     pub fn parts(&self, speed: R, radial_load: R, axial_load: R) -> MomentParts<R> {
         let axial_load = axial_load.abs();
-        let static_load = radial_load
-            .max(self.static_radial_factor * radial_load + self.static_axial_factor * axial_load);
+        let static_load = self.static_load(radial_load, axial_load);
         let factor = load_friction_factor(
             self.law.load_factor,
             self.law.load_exponent,
@@ -173,6 +172,21 @@ impl<R: Real> PalmgrenCombined<R> {
         let load = equivalent_load(self.axial_factor, radial_load, axial_load);
         let moment = load_moment(factor, load.max(R::zero()), self.law.pitch_diameter);
         self.law.parts_with(speed, moment)
+    }
+
+    /// Equivalent static load P0, N.
+    ///
+    /// Formula: P0 = max(F_r, X0 F_r + Y0 F_a)
+    ///
+    /// - `radial_load`: F_r, N
+    /// - `axial_load`: F_a, N, not negative
+    ///
+    /// Source: ISO 76 (from memory); makers print X0 0.6, Y0 0.5 for single row deep groove bearings.
+    /// Valid: as the two factors.
+    #[inline(always)]
+    pub fn static_load(&self, radial_load: R, axial_load: R) -> R {
+        radial_load
+            .max(self.static_radial_factor * radial_load + self.static_axial_factor * axial_load)
     }
 }
 
@@ -350,6 +364,26 @@ mod tests {
         let as_printed = 0.0009 * 0.01;
         // 0.01^(0.55 - 1) = 7.94
         assert!((with_exponent / as_printed - 7.943).abs() < 1e-3);
+    }
+    #[test]
+    fn axial_load_enters_through_two_equivalent_loads() {
+        let combined = PalmgrenCombined {
+            law: bearing(),
+            axial_factor: 0.9 / 25_f64.to_radians().tan(),
+            static_radial_factor: 0.5,
+            static_axial_factor: 0.38,
+        };
+        // By a script: F_r 100, F_a 400: P1 = 1.930057·400 - 10 = 762.022 N, P0 = 50 + 152 = 202 N,
+        // f1 = 0.0009 (202/6550)^0.55 = 1.328168e-4, M1 = f1·762.022·0.036 = 3.643538e-3 N m.
+        let parts = combined.parts(150.0, 100.0, -400.0);
+        assert!(
+            (parts.load_dependent / 3.643_538e-3 - 1.0).abs() < 1e-6,
+            "{parts:?}"
+        );
+        // little axial load: P1 = P0 = F_r, the law of the radial load
+        let radial = combined.parts(150.0, 100.0, 10.0);
+        assert_eq!(radial, bearing().parts(150.0, 100.0));
+        assert_eq!(parts.speed_dependent, radial.speed_dependent);
     }
     #[test]
     fn odd_in_speed_and_zero_at_rest() {
