@@ -31,7 +31,7 @@ pub enum Command {
     },
     /// Write a commented starting file
     New {
-        /// What to describe: drop
+        /// What to describe: drop, spin_up or torque
         kind: String,
         /// File to write; printed if none is given
         path: Option<PathBuf>,

@@ -2,14 +2,13 @@
 
 use crate::console;
 use auxbear::problem::{Code, Problem, did_you_mean};
-use auxbear::scenario::template;
+use auxbear::scenario::{SystemName, template};
 use std::fs::{self, File};
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
-const BUILT: &str = "drop";
 /// Kinds of files that the command will know, so that asking for one is no spelling mistake.
-const PLANNED: [&str; 5] = ["spin_up", "rig", "identify", "rotor", "study"];
+const PLANNED: [&str; 4] = ["rig", "identify", "rotor", "study"];
 
 /// Prints or writes the starting file of a kind.
 pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
@@ -34,7 +33,11 @@ pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
 }
 
 fn unknown(kind: &str) -> Box<Problem> {
-    let needed = format!("a kind is needed: {BUILT}");
+    let built = || SystemName::ALL.iter().map(|system| system.word());
+    let needed = format!(
+        "a kind is needed: {}",
+        built().collect::<Vec<_>>().join(", ")
+    );
     Box::new(if PLANNED.contains(&kind) {
         let found = format!("\"{kind}\", which is planned but not built yet");
         Problem::new(Code::NotBuilt, "auxbear new", found, needed)
@@ -45,7 +48,7 @@ fn unknown(kind: &str) -> Box<Problem> {
             format!("\"{kind}\""),
             needed,
         )
-        .with_hint(did_you_mean(kind, [BUILT]))
+        .with_hint(did_you_mean(kind, built()))
     })
 }
 

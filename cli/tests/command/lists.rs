@@ -27,6 +27,11 @@ fn the_starting_file_is_written_or_printed_and_reads() {
         printed
     );
     place.call(&["check", "mine.toml"]).done();
+    for kind in ["spin_up", "torque"] {
+        place.call(&["new", kind, "other.toml"]).done();
+        place.call(&["check", "other.toml"]).done();
+        fs::remove_file(place.path("other.toml")).unwrap();
+    }
 }
 
 #[test]

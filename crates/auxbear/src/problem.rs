@@ -46,6 +46,8 @@ pub enum Code {
     NotBuilt,
     /// AB0113
     UnreadableSet,
+    /// AB0114
+    TableOrder,
     /// AB0201
     UnknownBearing,
     /// AB0202
@@ -64,6 +66,10 @@ pub enum Code {
     OutputExists,
     /// AB0302
     OutputFailed,
+    /// AB0401
+    DuplicateBearing,
+    /// AB0402
+    RatingContradictsBalls,
 }
 
 impl Code {
@@ -190,6 +196,12 @@ impl Code {
             "An override on the command line is not of the form path=value.",
         ),
         (
+            Code::TableOrder,
+            "AB0114",
+            "Rows out of order",
+            "The first value of a table rises from row to row; this one does not, or what must rise with it does not.",
+        ),
+        (
             Code::UnknownBearing,
             "AB0201",
             "Unknown bearing",
@@ -242,6 +254,18 @@ impl Code {
             "AB0302",
             "Output cannot be written",
             "The operating system refuses to write a result file, for example because the disk is full.",
+        ),
+        (
+            Code::DuplicateBearing,
+            "AB0401",
+            "Bearing named twice",
+            "A file of bearings has two of one name, so that a scenario could not say which it means.",
+        ),
+        (
+            Code::RatingContradictsBalls,
+            "AB0402",
+            "Load rating contradicts the balls",
+            "The static load rating is absurd for bearings with such balls: a digit or a unit is wrong.",
         ),
     ];
 

@@ -21,7 +21,9 @@ fn within(tolerance: f64, name: &str, ours: f64, reference: f64) {
 fn reference_drop_is_the_reference_machine() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/reference_drop.toml");
     let scenario = Scenario::read(&path, &[], &BuiltIn).expect("the shipped scenario is right");
-    let System::Drop(drop) = &scenario.system;
+    let System::Drop(drop) = &scenario.system else {
+        panic!("the reference is a drop");
+    };
     let built = build::drop(drop).expect("it builds").constants;
     let m = &built.machine;
     near("speed", built.speed, 1_256.637_061_435_917_3);

@@ -506,14 +506,22 @@ fn other_formats_and_systems_are_named() {
         message("\"auxbear.scenario/1\"", "1"),
         "error[AB0111]: drop.toml:1: format: found the number 1; format = \"auxbear.scenario/1\" is needed"
     );
-    for planned in ["spin_up", "rig"] {
-        assert_eq!(
-            message("system = \"drop\"", &format!("system = \"{planned}\"")),
-            format!(
-                "error[AB0112]: drop.toml:2: system: found \"{planned}\", which is planned but not built yet; system = \"drop\" is what this version simulates"
-            )
-        );
-    }
+    assert_eq!(
+        message("system = \"drop\"", "system = \"rig\""),
+        "error[AB0112]: drop.toml:2: system: found \"rig\", which is planned but not built yet; one of \"drop\", \"spin_up\", \"torque\" is needed"
+    );
+    assert_eq!(
+        set_message("system=dorp"),
+        "error[AB0108]: drop.toml, --set: system: found \"dorp\"; one of \"drop\", \"spin_up\", \"torque\" is needed. Did you mean \"drop\"?"
+    );
+    assert_eq!(
+        message("system = \"drop\"", ""),
+        "error[AB0107]: drop.toml: system: found no value; one of \"drop\", \"spin_up\", \"torque\" is needed"
+    );
+    assert_eq!(
+        message("system = \"drop\"", "system = 3"),
+        "error[AB0102]: drop.toml:2: system: found the number 3; one of \"drop\", \"spin_up\", \"torque\" is needed"
+    );
 }
 
 #[test]

@@ -14,3 +14,4 @@ pub mod motion;
 pub mod mount;
 pub mod rotor;
 pub mod system;
+pub mod table;

@@ -10,16 +10,33 @@
 //! | [`hertz`] | point contact between ball and race: exact elliptic integrals |
 //! | [`contact`] | normal force of a contact in time: Hertz with damping, Hunt-Crossley |
 //! | [`traction`] | sliding friction between ball and race |
-//! | [`palmgren`] | steady friction moment of a rolling bearing |
+//! | [`friction`] | steady friction moment of a rolling bearing: one interface to the next three |
+//! | [`friction_range`] | where a friction law has been left |
+//! | [`palmgren`] | Palmgren's moment |
+//! | [`palmgren_factors`] | his factors by bearing type, series and lubrication, as makers print them |
+//! | [`skf`] | the SKF model: rolling, sliding, drag, seals |
+//! | [`skf_constants`] | its constants by bearing type and series, and what is refused |
+//! | [`moment_curve`] | a measured moment over speed |
+//! | [`viscosity`] | viscosity of an oil over temperature |
 //! | [`rolling`] | a bearing whose balls roll: the source paper's equations 6-19 |
+//! | [`spin_up_energy`] | what a bearing dissipates while it is spun up: equation 21, printed and put right |
 //! | [`kinematics`] | speeds of cage and balls, passing frequencies |
 //! | [`unbalance`] | whirl of an unbalanced rotor on a linear support |
 
 pub mod contact;
+pub mod friction;
+pub mod friction_range;
 pub mod hertz;
 pub mod kinematics;
 pub mod materials;
+pub mod moment_curve;
 pub mod palmgren;
+pub mod palmgren_factors;
+mod power;
 pub mod rolling;
+pub mod skf;
+pub mod skf_constants;
+pub mod spin_up_energy;
 pub mod traction;
 pub mod unbalance;
+pub mod viscosity;

@@ -10,6 +10,8 @@
 //! Not modelled: warming (ν is given), churning of an oil bath, seals, running-in, the factor 2 to 5 on f0 of a
 //! freshly greased bearing.
 
+use crate::friction::MomentParts;
+use crate::power::power_from_zero;
 use number::Real;
 use std::f64::consts::PI;
 
@@ -46,14 +48,35 @@ impl<R: Real> Palmgren<R> {
     /// Valid: purely radial load; ν n up to 1e6 mm²/s·rpm, W below C0.
     #[inline(always)]
     pub fn moment(&self, speed: R, load: R) -> R {
-        let fading = (speed * R::splat(1.0 / FADING_SPEED)).tanh();
+        self.parts(speed, load).sum()
+    }
+
+    /// The two parts of [`Palmgren::moment`], M0 and M1, N m, each with the sign of the speed.
+    ///
+    /// - `speed`: Ω, rad/s
+    /// - `load`: radial load W, N
+    ///
+    /// Source: as [`Palmgren::moment`].
+    /// Valid: as [`Palmgren::moment`].
+    #[inline(always)]
+    pub fn parts(&self, speed: R, load: R) -> MomentParts<R> {
+        self.parts_with(speed, self.load_moment(load))
+    }
+
+    /// M0 of this speed beside a given M1 without its sign.
+    #[inline(always)]
+    fn parts_with(&self, speed: R, load_moment: R) -> MomentParts<R> {
+        let fading = fading(speed);
         let size = viscous_magnitude(
             self.viscous_factor,
             self.viscosity,
             speed,
             self.pitch_diameter,
         );
-        (size + self.load_moment(load)) * fading
+        MomentParts {
+            speed_dependent: size * fading,
+            load_dependent: load_moment * fading,
+        }
     }
 
     /// Friction moment with (16) as printed, N m; it has the sign of the speed, with a step at rest.
@@ -67,12 +90,27 @@ impl<R: Real> Palmgren<R> {
     /// Valid: as [`Palmgren::moment`]; not at standstill.
     #[inline(always)]
     pub fn printed_moment(&self, speed: R, load: R) -> R {
-        printed_viscous_moment(
-            self.viscous_factor,
-            self.viscosity,
-            speed,
-            self.pitch_diameter,
-        ) + self.load_moment(load) * sign(speed)
+        self.printed_parts(speed, load).sum()
+    }
+
+    /// The two parts of [`Palmgren::printed_moment`], N m, each with the sign of the speed.
+    ///
+    /// - `speed`: Ω, rad/s
+    /// - `load`: radial load W, N
+    ///
+    /// Source: as [`Palmgren::printed_moment`].
+    /// Valid: as [`Palmgren::printed_moment`].
+    #[inline(always)]
+    pub fn printed_parts(&self, speed: R, load: R) -> MomentParts<R> {
+        MomentParts {
+            speed_dependent: printed_viscous_moment(
+                self.viscous_factor,
+                self.viscosity,
+                speed,
+                self.pitch_diameter,
+            ),
+            load_dependent: self.load_moment(load) * sign(speed),
+        }
     }
 
     /// Load-dependent part M1 of this bearing, N m, not negative.
@@ -95,9 +133,87 @@ impl<R: Real> Palmgren<R> {
     }
 }
 
+number::constants! {
+    /// Palmgren's moment under radial and axial load.
+    pub struct PalmgrenCombined {
+        /// The constants of the bearing.
+        law: Palmgren<R>,
+        /// Share of the axial load in P1: 0.9 cot α.
+        axial_factor: R,
+        /// X0 of the static equivalent load P0 = X0 F_r + Y0 F_a.
+        static_radial_factor: R,
+        /// Y0 of the static equivalent load.
+        static_axial_factor: R,
+    }
+}
+
+impl<R: Real> PalmgrenCombined<R> {
+    /// M0 and M1 under combined load, N m, each with the sign of the speed.
+    ///
+    /// Formula: M0 as [`Palmgren::parts`]; M1 = z (P0/C0)^y P1 d_m, P0 = max(F_r, X0 F_r + Y0 F_a),
+    /// P1 = max(F_r, 0.9 cot α F_a - 0.1 F_r)
+    ///
+    /// - `speed`: Ω, rad/s
+    /// - `radial_load`: F_r, N
+    /// - `axial_load`: F_a, N, either direction
+    ///
+    /// Source: Timken Engineering Manual, table 114 p. 184 (P1, there F_β); ISO 76 (P0, from memory).
+    /// Valid: P0 below C0; else as [`Palmgren::moment`].
+    #[inline(always)]
+    pub fn parts(&self, speed: R, radial_load: R, axial_load: R) -> MomentParts<R> {
+        let axial_load = axial_load.abs();
+        let static_load = self.static_load(radial_load, axial_load);
+        let factor = load_friction_factor(
+            self.law.load_factor,
+            self.law.load_exponent,
+            static_load,
+            self.law.static_load_rating,
+        );
+        let load = equivalent_load(self.axial_factor, radial_load, axial_load);
+        let moment = load_moment(factor, load.max(R::zero()), self.law.pitch_diameter);
+        self.law.parts_with(speed, moment)
+    }
+
+    /// Equivalent static load P0, N.
+    ///
+    /// Formula: P0 = max(F_r, X0 F_r + Y0 F_a)
+    ///
+    /// - `radial_load`: F_r, N
+    /// - `axial_load`: F_a, N, not negative
+    ///
+    /// Source: ISO 76 (from memory); makers print X0 0.6, Y0 0.5 for single row deep groove bearings.
+    /// Valid: as the two factors.
+    #[inline(always)]
+    pub fn static_load(&self, radial_load: R, axial_load: R) -> R {
+        radial_load
+            .max(self.static_radial_factor * radial_load + self.static_axial_factor * axial_load)
+    }
+}
+
+/// Load P1 that makes the load-dependent moment of a radial ball bearing under combined load, N.
+///
+/// Formula: P1 = max(0.9 cot α F_a - 0.1 F_r, F_r)
+///
+/// - `axial_factor`: 0.9 cot α, α the contact angle under load
+/// - `radial_load`: F_r, N
+/// - `axial_load`: F_a, N, not negative
+///
+/// Source: Timken Engineering Manual, table 114 p. 184 (F_β).
+/// Valid: radial and angular contact ball bearings, α > 0.
+#[inline(always)]
+pub fn equivalent_load<R: Real>(axial_factor: R, radial_load: R, axial_load: R) -> R {
+    (axial_factor * axial_load - R::splat(0.1) * radial_load).max(radial_load)
+}
+
+/// tanh(Ω/0.1 rad/s): the smooth sign that every continuous moment fades with at rest.
+#[inline(always)]
+pub(crate) fn fading<R: Real>(speed: R) -> R {
+    (speed * R::splat(1.0 / FADING_SPEED)).tanh()
+}
+
 /// ν n in the unit of Palmgren's constants, mm²/s · rpm.
 #[inline(always)]
-fn viscosity_times_speed_mm2_s_rpm<R: Real>(viscosity: R, speed: R) -> R {
+pub(crate) fn viscosity_times_speed_mm2_s_rpm<R: Real>(viscosity: R, speed: R) -> R {
     viscosity * R::splat(1e6) * speed.abs() * R::splat(30.0 / PI)
 }
 
@@ -139,8 +255,7 @@ fn viscous_magnitude<R: Real>(viscous_factor: R, viscosity: R, speed: R, pitch_d
 /// Valid: 1 to 2000 rad/s and ν 5 to 500 mm²/s: within 0.96 % of the printed (16); below 1 rad/s a smooth way to 0.
 #[inline(always)]
 pub fn viscous_moment<R: Real>(viscous_factor: R, viscosity: R, speed: R, pitch_diameter: R) -> R {
-    viscous_magnitude(viscous_factor, viscosity, speed, pitch_diameter)
-        * (speed * R::splat(1.0 / FADING_SPEED)).tanh()
+    viscous_magnitude(viscous_factor, viscosity, speed, pitch_diameter) * fading(speed)
 }
 
 /// Load-independent moment M0 as (16) is printed, N m; it has the sign of the speed and is 0 at rest.
@@ -187,10 +302,7 @@ pub fn load_friction_factor<R: Real>(
     static_load: R,
     static_load_rating: R,
 ) -> R {
-    let tiny = R::splat(1e-100);
-    let ratio = static_load / static_load_rating;
-    let power = ratio.max(tiny).powf(load_exponent);
-    R::select(ratio.greater(tiny), load_factor * power, R::zero())
+    load_factor * power_from_zero(static_load / static_load_rating, load_exponent)
 }
 
 /// Load-dependent moment M1, N m.
@@ -252,6 +364,26 @@ mod tests {
         let as_printed = 0.0009 * 0.01;
         // 0.01^(0.55 - 1) = 7.94
         assert!((with_exponent / as_printed - 7.943).abs() < 1e-3);
+    }
+    #[test]
+    fn axial_load_enters_through_two_equivalent_loads() {
+        let combined = PalmgrenCombined {
+            law: bearing(),
+            axial_factor: 0.9 / 25_f64.to_radians().tan(),
+            static_radial_factor: 0.5,
+            static_axial_factor: 0.38,
+        };
+        // By a script: F_r 100, F_a 400: P1 = 1.930057·400 - 10 = 762.022 N, P0 = 50 + 152 = 202 N,
+        // f1 = 0.0009 (202/6550)^0.55 = 1.328168e-4, M1 = f1·762.022·0.036 = 3.643538e-3 N m.
+        let parts = combined.parts(150.0, 100.0, -400.0);
+        assert!(
+            (parts.load_dependent / 3.643_538e-3 - 1.0).abs() < 1e-6,
+            "{parts:?}"
+        );
+        // little axial load: P1 = P0 = F_r, the law of the radial load
+        let radial = combined.parts(150.0, 100.0, 10.0);
+        assert_eq!(radial, bearing().parts(150.0, 100.0));
+        assert_eq!(parts.speed_dependent, radial.speed_dependent);
     }
     #[test]
     fn odd_in_speed_and_zero_at_rest() {

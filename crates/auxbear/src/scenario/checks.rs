@@ -1,10 +1,12 @@
 //! Checks between values: each refuses what no simulation could mean.
 
-use super::drop::{Drop, Moment, Traction};
+use super::bearing::{Bearing, Moment, Traction};
 use super::resolve::Values;
+use super::run::Run;
+use super::system::System;
+use super::torque::Torque;
 use crate::problem::{Code, Problem};
 use physics::traction::FourParameterTraction;
-use physics::unbalance::whirl;
 
 /// Most values of a history, in memory at the end of a run: 1.6 GB.
 const MOST_VALUES: f64 = 2e8;
@@ -12,8 +14,6 @@ const MOST_VALUES: f64 = 2e8;
 const VALUES_PER_ROW: f64 = 100.0;
 /// Values of a row for each ball, likewise.
 const VALUES_PER_BALL: f64 = 20.0;
-/// Standard deviations within which every perturbed start is taken to lie.
-const SPREAD: f64 = 6.0;
 
 /// How far D may be from -A: the sum of two decimals of four digits.
 const NO_TRACTION_AT_REST: f64 = 1e-9;
@@ -23,43 +23,60 @@ const MOST_PRELOAD: f64 = -0.01;
 /// Widest internal clearance, as a share of the ball diameter.
 const MOST_CLEARANCE: f64 = 0.1;
 
-type Check = Result<(), Box<Problem>>;
+pub(super) type Check = Result<(), Box<Problem>>;
 
 /// Refuses values that contradict each other.
-pub(super) fn check(drop: &Drop, values: &Values, file: &str) -> Check {
-    let context = Context { drop, values, file };
-    context.bearing_diameters()?;
-    context.balls_fit()?;
-    context.internal_clearance()?;
-    context.air_clearance()?;
-    context.traction()?;
-    context.moment()?;
-    context.output()?;
-    context.perturbed_balls()?;
-    context.levitated_orbit()
+pub(super) fn check(system: &System, values: &Values, file: &str) -> Check {
+    let context = Context { values, file };
+    match system {
+        System::Drop(drop) => context.drop(drop),
+        System::SpinUp(spin_up) => context.spin_up(spin_up),
+        System::Torque(torque) => context.torque(torque),
+    }
 }
 
-struct Context<'a> {
-    drop: &'a Drop,
+/// What every check needs to tell a problem.
+pub(super) struct Context<'a> {
     values: &'a Values,
     file: &'a str,
 }
 
 impl Context<'_> {
-    fn problem(&self, code: Code, path: &str, found: String, allowed: String) -> Problem {
+    pub(super) fn problem(
+        &self,
+        code: Code,
+        path: &str,
+        found: String,
+        allowed: String,
+    ) -> Problem {
         Problem::new(code, self.file, found, allowed)
             .at(self.values.place(path))
             .on_key(path)
     }
 
     /// The value as the file or catalogue writes it.
-    fn text(&self, path: &str) -> String {
+    pub(super) fn text(&self, path: &str) -> String {
         self.values.text(path).unwrap_or_default()
     }
 
-    fn bearing_diameters(&self) -> Check {
-        let bearing = &self.drop.bearing;
+    fn torque(&self, torque: &Torque) -> Check {
+        let (ball, pitch) = (torque.ball_diameter, torque.pitch_diameter);
+        self.bearing_diameters(ball, pitch, None)?;
+        self.balls_fit(torque.ball_count, ball, pitch)?;
+        self.moment(&torque.moment, torque.static_load_rating)
+    }
+
+    /// Everything about a bearing that moves; the bore is that of the key named.
+    pub(super) fn bearing(&self, bearing: &Bearing, bore: Option<(&str, f64)>) -> Check {
         let (ball, pitch) = (bearing.ball_diameter, bearing.pitch_diameter);
+        self.bearing_diameters(ball, pitch, bore)?;
+        self.balls_fit(bearing.ball_count, ball, pitch)?;
+        self.internal_clearance(bearing)?;
+        self.traction(bearing.traction)?;
+        self.moment(&bearing.moment, bearing.static_load_rating)
+    }
+
+    fn bearing_diameters(&self, ball: f64, pitch: f64, bore: Option<(&str, f64)>) -> Check {
         if pitch <= ball {
             return Err(Box::new(self.problem(
                 Code::BearingGeometry,
@@ -71,12 +88,13 @@ impl Context<'_> {
                 ),
             )));
         }
-        let bore = self.drop.contact.bore_diameter;
-        if bore >= pitch - ball {
+        if let Some((path, bore)) = bore
+            && bore >= pitch - ball
+        {
             return Err(Box::new(self.problem(
                 Code::BearingGeometry,
-                "contact.bore_diameter",
-                self.text("contact.bore_diameter"),
+                path,
+                self.text(path),
                 format!(
                     "less than the track of the inner race is needed: pitch_diameter - ball_diameter = {}",
                     millimetres(pitch - ball)
@@ -86,23 +104,22 @@ impl Context<'_> {
         Ok(())
     }
 
-    fn balls_fit(&self) -> Check {
-        let bearing = &self.drop.bearing;
-        if bearing.ball_count < 2 {
+    fn balls_fit(&self, count: usize, ball: f64, pitch: f64) -> Check {
+        if count < 2 {
             return Ok(());
         }
-        let half_angle = std::f64::consts::PI / bearing.ball_count as f64;
-        let spacing = bearing.pitch_diameter * half_angle.sin();
-        if spacing >= bearing.ball_diameter {
+        let half_angle = std::f64::consts::PI / count as f64;
+        let spacing = pitch * half_angle.sin();
+        if spacing >= ball {
             return Ok(());
         }
-        let most = std::f64::consts::PI / (bearing.ball_diameter / bearing.pitch_diameter).asin();
+        let most = std::f64::consts::PI / (ball / pitch).asin();
         Err(Box::new(self.problem(
             Code::BallsDoNotFit,
             "bearing.ball_count",
             format!(
                 "{} balls of {} on a pitch circle of {}, whose centres are only {} apart",
-                bearing.ball_count,
+                count,
                 self.text("bearing.ball_diameter"),
                 self.text("bearing.pitch_diameter"),
                 millimetres(spacing)
@@ -112,8 +129,7 @@ impl Context<'_> {
     }
 
     /// Fits and clearances are micrometres: a value of the ball's own size is a slip of the unit.
-    fn internal_clearance(&self) -> Check {
-        let bearing = &self.drop.bearing;
+    fn internal_clearance(&self, bearing: &Bearing) -> Check {
         let share = bearing.operating_diametral_clearance / bearing.ball_diameter;
         if (MOST_PRELOAD..=MOST_CLEARANCE).contains(&share) {
             return Ok(());
@@ -138,24 +154,8 @@ impl Context<'_> {
         ))
     }
 
-    fn air_clearance(&self) -> Check {
-        let contact = &self.drop.contact;
-        if contact.radial_air_clearance < 0.5 * contact.bore_diameter {
-            return Ok(());
-        }
-        Err(Box::new(self.problem(
-            Code::ClearanceTooLarge,
-            "contact.radial_air_clearance",
-            self.text("contact.radial_air_clearance"),
-            format!(
-                "less than half of contact.bore_diameter = {} is needed",
-                self.text("contact.bore_diameter")
-            ),
-        )))
-    }
-
-    fn traction(&self) -> Check {
-        match self.drop.bearing.traction {
+    fn traction(&self, traction: Traction) -> Check {
+        match traction {
             Traction::FourParameter { a, d, .. } if (a + d).abs() > NO_TRACTION_AT_REST => {
                 Err(Box::new(self.problem(
                     Code::Conflict,
@@ -185,10 +185,8 @@ impl Context<'_> {
         }
     }
 
-    fn moment(&self) -> Check {
-        let bearing = &self.drop.bearing;
-        if matches!(bearing.moment, Moment::Palmgren { .. }) && bearing.static_load_rating.is_none()
-        {
+    fn moment(&self, moment: &Moment, static_load_rating: Option<f64>) -> Check {
+        if matches!(moment, Moment::Palmgren { .. }) && static_load_rating.is_none() {
             return Err(Box::new(self.problem(
                 Code::MissingKey,
                 "bearing.static_load_rating",
@@ -199,8 +197,7 @@ impl Context<'_> {
         Ok(())
     }
 
-    fn output(&self) -> Check {
-        let run = &self.drop.run;
+    pub(super) fn output(&self, run: &Run, balls: usize) -> Check {
         if run.output_interval > run.duration {
             return Err(Box::new(self.problem(
                 Code::OutputInterval,
@@ -213,8 +210,7 @@ impl Context<'_> {
             )));
         }
         let rows = run.duration / run.output_interval;
-        let most =
-            MOST_VALUES / (VALUES_PER_ROW + VALUES_PER_BALL * self.drop.bearing.ball_count as f64);
+        let most = MOST_VALUES / (VALUES_PER_ROW + VALUES_PER_BALL * balls as f64);
         if rows > most {
             return Err(Box::new(self.problem(
                 Code::TooManyRows,
@@ -224,106 +220,15 @@ impl Context<'_> {
                     self.text("run.output_interval"),
                     self.text("run.duration")
                 ),
-                format!(
-                    "at most {most:.2e} rows are kept with {} balls",
-                    self.drop.bearing.ball_count
-                ),
+                format!("at most {most:.2e} rows are kept with {} balls", balls),
             )));
         }
         Ok(())
     }
-
-    /// A perturbed ball must stay in its pocket.
-    fn perturbed_balls(&self) -> Check {
-        let (repeat, bearing) = (&self.drop.repeat, &self.drop.bearing);
-        let shift = SPREAD * repeat.ball_angle_deviation * 0.5 * bearing.pitch_diameter;
-        if repeat.count < 2 || shift <= bearing.cage.pocket_gap {
-            return Ok(());
-        }
-        Err(Box::new(self.problem(
-            Code::OutOfRange,
-            "repeat.ball_angle_deviation",
-            self.text("repeat.ball_angle_deviation"),
-            format!(
-                "at most a sixth of bearing.cage.pocket_gap = {} along the pitch circle is needed",
-                self.text("bearing.cage.pocket_gap")
-            ),
-        )))
-    }
-
-    /// The geometric centre of the levitated rotor circles the centre of levitation; it must not touch before the release.
-    fn levitated_orbit(&self) -> Check {
-        let levitation = &self.drop.levitation;
-        let clearance = self.drop.contact.radial_air_clearance;
-        let offset = levitation.offset_x.hypot(levitation.offset_y);
-        let whirl = levitated_whirl_radius(self.drop);
-        let repeat = &self.drop.repeat;
-        let spread = if repeat.count > 1 {
-            SPREAD * repeat.rotor_position_deviation
-        } else {
-            0.0
-        };
-        if offset + whirl < clearance && offset + whirl + spread >= clearance {
-            return Err(Box::new(self.problem(
-                Code::ContactAtStart,
-                "repeat.rotor_position_deviation",
-                self.text("repeat.rotor_position_deviation"),
-                format!(
-                    "less than a sixth of the {} that the levitated rotor leaves free is needed, so that no perturbed \
-                     start touches",
-                    millimetres(clearance - offset - whirl)
-                ),
-            )));
-        }
-        if offset + whirl < clearance {
-            return Ok(());
-        }
-        let rotor = &self.drop.rotor;
-        let share = rotor.mass / f64::from(rotor.planes);
-        let resonance = (levitation.stiffness / share).sqrt();
-        let near = (0.7..1.4).contains(&(rotor.speed.abs() / resonance));
-        let hint = near.then(|| {
-            format!(
-                "The levitation is near resonance: its natural frequency is {:.4e} rad/s and the speed {:.4e} rad/s",
-                resonance,
-                rotor.speed.abs()
-            )
-        });
-        Err(Box::new(
-            self.problem(
-                Code::ContactAtStart,
-                "contact.radial_air_clearance",
-                format!(
-                    "a levitated rotor that reaches {} from the bearing centre (offset {}, whirl by unbalance {})",
-                    millimetres(offset + whirl),
-                    millimetres(offset),
-                    millimetres(whirl)
-                ),
-                format!(
-                    "less than the radial air clearance {} is needed, so that nothing touches before the drop",
-                    self.text("contact.radial_air_clearance")
-                ),
-            )
-            .with_hint(hint),
-        ))
-    }
-}
-
-/// Radius of the whirl of the levitated rotor's geometric centre at one plane, m.
-fn levitated_whirl_radius(drop: &Drop) -> f64 {
-    let (rotor, levitation) = (&drop.rotor, &drop.levitation);
-    let (along, ahead) = whirl(
-        levitation.stiffness,
-        levitation.damping,
-        rotor.mass / f64::from(rotor.planes),
-        rotor.speed,
-        rotor.unbalance_eccentricity,
-    );
-    along.hypot(ahead)
 }
 
 /// A length for a message, to four digits.
-fn millimetres(length: f64) -> String {
+pub(super) fn millimetres(length: f64) -> String {
     let rounded: f64 = format!("{:.3e}", length * 1e3)
         .parse()
         .unwrap_or(length * 1e3);

@@ -1,13 +1,14 @@
 //! The text of a scenario as a list of keys and raw values, each with its place.
 
-use super::key::Key;
+use super::key::{Key, quoted};
+use super::meant;
+use super::system::SystemName;
 use super::table;
-use crate::problem::{Code, Place, Problem, question};
+use crate::problem::{Code, Place, Problem, did_you_mean};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
-use units::nearest_names;
 
 /// A value as written, before it is known what it means.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +23,8 @@ pub(super) enum Raw {
     Switch(bool),
     /// A table: a value with its source or assumption.
     Table(Vec<(String, Raw)>),
+    /// A list.
+    List(Vec<Raw>),
     /// Something that no key takes, in words.
     Other(&'static str),
 }
@@ -35,6 +38,7 @@ impl Raw {
             Raw::Float(value) => format!("the number {}", units::number_text(*value)),
             Raw::Switch(value) => format!("the switch {value}"),
             Raw::Table(_) => "a table".to_string(),
+            Raw::List(_) => "a list".to_string(),
             Raw::Other(words) => words.to_string(),
         }
     }
@@ -53,6 +57,7 @@ pub(super) struct Given {
 #[derive(Clone, Debug)]
 pub(super) struct Document {
     pub(super) file: String,
+    pub(super) system: SystemName,
     pub(super) values: BTreeMap<&'static str, Given>,
 }
 
@@ -66,10 +71,6 @@ struct Entry {
 impl Document {
     /// Reads a text and the overrides; refuses what is no TOML and what is no key.
     pub(super) fn read(text: &str, file: &str, sets: &[String]) -> Result<Document, Box<Problem>> {
-        let mut document = Document {
-            file: file.to_string(),
-            values: BTreeMap::new(),
-        };
         let root = DeTable::parse(text).map_err(|error| {
             let message = one_clause(error.message());
             let place = error
@@ -85,7 +86,12 @@ impl Document {
                 .at(place),
             )
         })?;
-        document.require_format(text, root.get_ref())?;
+        require_format(text, root.get_ref(), file)?;
+        let mut document = Document {
+            file: file.to_string(),
+            system: find_system(text, root.get_ref(), file, sets)?,
+            values: BTreeMap::new(),
+        };
         let mut entries = Vec::new();
         flatten(root.get_ref(), &[], &mut entries);
         entries.sort_by_key(|entry| entry.start);
@@ -97,30 +103,6 @@ impl Document {
             document.add_override(set)?;
         }
         Ok(document)
-    }
-
-    /// The format comes first: a file of another format would fail on its keys with misleading words.
-    fn require_format(&self, text: &str, root: &DeTable<'_>) -> Result<(), Box<Problem>> {
-        let needed = format!("format = \"{}\" is needed", table::FORMAT);
-        let Some((key, value)) = root.get_key_value("format") else {
-            return Err(Box::new(
-                Problem::new(Code::UnknownFormat, &self.file, "nothing", needed).on_key("format"),
-            ));
-        };
-        let found = match value.get_ref() {
-            DeValue::String(found) if found == table::FORMAT => return Ok(()),
-            DeValue::String(found) => format!("\"{found}\""),
-            other => raw(other).text(),
-        };
-        let newer = found
-            .starts_with("\"auxbear.scenario/")
-            .then(|| "A file of a newer format needs a newer program".to_string());
-        Err(Box::new(
-            Problem::new(Code::UnknownFormat, &self.file, found, needed)
-                .at(Place::of_offset(text, key.span().start))
-                .on_key("format")
-                .with_hint(newer),
-        ))
     }
 
     fn add_override(&mut self, set: &str) -> Result<(), Box<Problem>> {
@@ -158,13 +140,27 @@ impl Document {
         place: Place,
     ) -> Result<(), Box<Problem>> {
         let dotted = path.join(".");
-        let is_section = table::sections().any(|section| section.path == dotted);
+        let section = table::sections().find(|section| section.path == dotted);
         let problem = |code, found: String, allowed: String| {
             Problem::new(code, &self.file, found, allowed)
                 .at(place)
                 .on_key(&dotted)
         };
-        if is_section {
+        let elsewhere = |what: &str, systems: &[SystemName]| {
+            problem(
+                Code::UnusedKey,
+                format!("a {what} that has no effect"),
+                format!(
+                    "it is used only with system = {}; here it is \"{}\"",
+                    SystemName::list(systems),
+                    self.system.word()
+                ),
+            )
+        };
+        if let Some(section) = section {
+            if !section.systems.contains(&self.system) {
+                return Err(Box::new(elsewhere("section", section.systems)));
+            }
             return match raw {
                 None => Ok(()),
                 Some(raw) => Err(Box::new(problem(
@@ -175,6 +171,14 @@ impl Document {
             };
         }
         let key = table::keys().find(|key| key.path == dotted);
+        if let Some(key) = key
+            && !table::systems(key).contains(&self.system)
+        {
+            let hint = meant::namesake(path, self.system);
+            return Err(Box::new(
+                elsewhere("key", table::systems(key)).with_hint(hint),
+            ));
+        }
         match (key, raw) {
             (Some(key), Some(raw)) => {
                 let given = Given { raw, typed, place };
@@ -187,12 +191,100 @@ impl Document {
                     (None, None) => (Code::UnknownKey, "an unknown section".to_string()),
                     (None, Some(_)) => (Code::UnknownKey, "an unknown key".to_string()),
                 };
-                let allowed = key.map_or_else(|| allowed_near(path), Key::needed);
-                let hint = if key.is_none() { meant(path) } else { None };
+                let allowed =
+                    key.map_or_else(|| meant::allowed_near(path, self.system), Key::needed);
+                let hint = if key.is_none() {
+                    meant::meant(path, self.system)
+                } else {
+                    None
+                };
                 Err(Box::new(problem(code, found, allowed).with_hint(hint)))
             }
         }
     }
+}
+
+/// The format comes first: a file of another format would fail on its keys with misleading words.
+fn require_format(text: &str, root: &DeTable<'_>, file: &str) -> Result<(), Box<Problem>> {
+    let needed = format!("format = \"{}\" is needed", table::FORMAT);
+    let Some((key, value)) = root.get_key_value("format") else {
+        return Err(Box::new(
+            Problem::new(Code::UnknownFormat, file, "nothing", needed).on_key("format"),
+        ));
+    };
+    let found = match value.get_ref() {
+        DeValue::String(found) if found == table::FORMAT => return Ok(()),
+        DeValue::String(found) => format!("\"{found}\""),
+        other => raw(other).text(),
+    };
+    let newer = found
+        .starts_with("\"auxbear.scenario/")
+        .then(|| "A file of a newer format needs a newer program".to_string());
+    Err(Box::new(
+        Problem::new(Code::UnknownFormat, file, found, needed)
+            .at(Place::of_offset(text, key.span().start))
+            .on_key("format")
+            .with_hint(newer),
+    ))
+}
+
+/// The system comes next: what it does not have is told as such. An override counts, the last of several.
+fn find_system(
+    text: &str,
+    root: &DeTable<'_>,
+    file: &str,
+    sets: &[String],
+) -> Result<SystemName, Box<Problem>> {
+    let needed = format!("one of {} is needed", quoted_words(SystemName::WORDS));
+    let problem = |code, found: String, allowed: String| {
+        Problem::new(code, file, found, allowed).on_key("system")
+    };
+    let set = sets.iter().rev().find_map(|set| {
+        let (path, typed) = set.split_once('=')?;
+        let typed = typed.trim();
+        let raw = as_toml(typed).unwrap_or_else(|| Raw::Text(typed.to_string()));
+        (path.trim() == "system").then_some((raw, Place::Set))
+    });
+    let given = || {
+        let (key, value) = root.get_key_value("system")?;
+        let place = Place::of_offset(text, key.span().start);
+        Some((raw(value.get_ref()), place))
+    };
+    let Some((raw, place)) = set.or_else(given) else {
+        return Err(Box::new(problem(
+            Code::MissingKey,
+            "no value".to_string(),
+            needed,
+        )));
+    };
+    let raw = match raw {
+        Raw::Table(parts) => match parts.into_iter().find(|(name, _)| name == "value") {
+            Some((_, value)) => value,
+            None => Raw::Other("a table without value"),
+        },
+        raw => raw,
+    };
+    let Raw::Text(word) = raw else {
+        return Err(Box::new(
+            problem(Code::WrongType, raw.text(), needed).at(place),
+        ));
+    };
+    if let Some(system) = SystemName::of(&word) {
+        return Ok(system);
+    }
+    Err(Box::new(if SystemName::PLANNED.contains(&word.as_str()) {
+        let found = format!("\"{word}\", which is planned but not built yet");
+        problem(Code::NotBuilt, found, needed).at(place)
+    } else {
+        problem(Code::UnknownWord, quoted(&word), needed)
+            .at(place)
+            .with_hint(did_you_mean(&word, SystemName::WORDS.iter().copied()))
+    }))
+}
+
+fn quoted_words(words: &[&str]) -> String {
+    let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
+    words.join(", ")
 }
 
 /// The message of the TOML reader as one clause.
@@ -265,7 +357,7 @@ fn raw(value: &DeValue<'_>) -> Raw {
         DeValue::Float(float) => Raw::Float(float.as_str().parse().unwrap_or(f64::NAN)),
         DeValue::Boolean(value) => Raw::Switch(*value),
         DeValue::Datetime(_) => Raw::Other("a date"),
-        DeValue::Array(_) => Raw::Other("a list"),
+        DeValue::Array(list) => Raw::List(list.iter().map(|item| raw(item.get_ref())).collect()),
         DeValue::Table(table) => table_raw(table),
     }
 }
@@ -274,119 +366,4 @@ fn raw(value: &DeValue<'_>) -> Raw {
 fn as_toml(typed: &str) -> Option<Raw> {
     let value = DeValue::parse(typed).ok()?;
     Some(raw(value.get_ref()))
-}
-
-/// Most names that a message lists.
-const MOST_NAMES: usize = 12;
-
-/// What may stand where the unknown key stands.
-fn allowed_near(path: &[String]) -> String {
-    let section = path[..path.len() - 1].join(".");
-    let names: Vec<&str> = if section.is_empty() {
-        let keys = table::keys().filter(|key| key.section().is_empty());
-        let sections = table::sections().filter(|section| !section.path.contains('.'));
-        keys.map(|key| key.path)
-            .chain(sections.map(|section| section.path))
-            .collect()
-    } else {
-        table::keys()
-            .filter(|key| key.section() == section)
-            .map(Key::name)
-            .chain(
-                table::sections()
-                    .filter_map(|inner| inner.path.strip_prefix(&section)?.strip_prefix('.')),
-            )
-            .collect()
-    };
-    if names.is_empty() {
-        let sections: Vec<&str> = table::sections().map(|section| section.path).collect();
-        return format!("the sections are {}", sections.join(", "));
-    }
-    if names.len() > MOST_NAMES {
-        return format!("a key of [{section}] is needed; auxbear new drop lists them");
-    }
-    let place = if section.is_empty() {
-        "the top level".to_string()
-    } else {
-        format!("[{section}]")
-    };
-    format!("{place} takes {}", names.join(", "))
-}
-
-/// What an unknown key was probably meant to be.
-fn meant(path: &[String]) -> Option<String> {
-    let name = path.last()?;
-    if let Some(hint) = confused(name) {
-        return Some(hint.to_string());
-    }
-    let dotted = path.join(".");
-    let section = path[..path.len() - 1].join(".");
-    let all = || {
-        table::keys()
-            .map(|key| key.path)
-            .chain(table::sections().map(|section| section.path))
-    };
-    let last = |path: &'static str| path.rsplit('.').next().unwrap_or(path);
-    let inside = |path: &str| path.rsplit_once('.').map_or("", |(section, _)| section) == section;
-    // The same name elsewhere, then a near name in the same section, then a near path, then a near name elsewhere.
-    let mut names: Vec<&str> = all().filter(|path| last(path) == name).collect();
-    if names.is_empty() {
-        let near = nearest_names(name, all().filter(|path| inside(path)).map(last));
-        names = all()
-            .filter(|path| inside(path) && near.first() == Some(&last(path)))
-            .collect();
-    }
-    if names.is_empty() {
-        names = nearest_names(&dotted, all());
-        names.truncate(1);
-    }
-    // Short names are near too many others.
-    if names.is_empty() && name.len() > 3 {
-        let near = nearest_names(name, all().map(last));
-        names = all()
-            .filter(|path| near.first() == Some(&last(path)))
-            .collect();
-    }
-    names.truncate(3);
-    question(&names)
-}
-
-const CLEARANCES: &str = "contact.radial_air_clearance is the radial gap between rotor and inner race, half the difference of their diameters; bearing.operating_diametral_clearance is the diametral internal clearance of the bearing";
-const DIAMETERS: &str = "The file takes diameters: bearing.ball_diameter, bearing.pitch_diameter, contact.bore_diameter";
-
-/// Names that are commonly confused, by the last part of the path.
-fn confused(name: &str) -> Option<&'static str> {
-    let name = name.to_lowercase();
-    if ["clearance", "air_gap", "airgap", "preload", "internal_play"]
-        .iter()
-        .any(|part| name.contains(part))
-    {
-        // A near miss of the right name is better told as such.
-        let right = ["radial_air_clearance", "operating_diametral_clearance"];
-        let near = right
-            .iter()
-            .any(|right| units::edit_distance(&name, right) <= 4);
-        return (!near).then_some(CLEARANCES);
-    }
-    if name.contains("radius") {
-        return Some(DIAMETERS);
-    }
-    Some(match name.as_str() {
-        "rpm" | "omega" | "spin_speed" | "rotational_speed" => {
-            "The spin of the rotor is rotor.speed, e.g. \"12000 rpm\""
-        }
-        "mu" | "friction" => {
-            "Friction between rotor and inner race is contact.friction_coefficient"
-        }
-        "inertia" | "moment_of_inertia" => {
-            "The inertia of the rotor about its axis is rotor.polar_inertia"
-        }
-        "balls" | "number_of_balls" | "n_balls" => "The number of balls is bearing.ball_count",
-        "eccentricity" => "The eccentricity of the rotor is rotor.unbalance_eccentricity",
-        "timestep" | "time_step" | "dt" | "step" => {
-            "The step follows from run.tolerance and is at most run.largest_step; run.output_interval is the time between rows of the history"
-        }
-        "gravity" | "g" => "Gravity is gravity.acceleration with gravity.direction",
-        _ => return None,
-    })
 }

@@ -3,6 +3,7 @@
 //! The table of all keys (`table.rs`) is made of these. Reading, messages, the resolved file and the starting file all
 //! come from that one table.
 
+use super::system::SystemName;
 use units::{Dimension, Unit};
 
 /// What kind of value a key takes.
@@ -27,6 +28,8 @@ pub enum Kind {
     Switch,
     /// Any text.
     Text,
+    /// A list of rows of two quantities, of the dimensions of these SI units; the first rises from row to row.
+    Table(&'static str, &'static str),
 }
 
 /// Which values of the right kind are allowed, in SI.
@@ -111,6 +114,8 @@ pub struct Key {
     pub when: Option<Condition>,
     /// The other key that gives the same thing.
     pub excludes: Option<&'static str>,
+    /// The systems that have the key, where they are fewer than those of its section.
+    pub systems: Option<&'static [SystemName]>,
 }
 
 /// One section of a scenario.
@@ -120,6 +125,8 @@ pub struct Section {
     pub path: &'static str,
     /// What it is, in one or two sentences.
     pub doc: &'static str,
+    /// The systems that have the section.
+    pub systems: &'static [SystemName],
 }
 
 impl Key {
@@ -138,7 +145,13 @@ impl Key {
             doc,
             when: None,
             excludes: None,
+            systems: None,
         }
+    }
+
+    pub(super) const fn only(mut self, systems: &'static [SystemName]) -> Key {
+        self.systems = Some(systems);
+        self
     }
 
     pub(super) const fn positive(self) -> Key {
@@ -244,7 +257,9 @@ impl Key {
                 quoted(text)
             }
             Kind::Exponent if text.contains('/') => quoted(text),
-            Kind::Exponent | Kind::Coefficient | Kind::Count | Kind::Switch => text.to_string(),
+            Kind::Exponent | Kind::Coefficient | Kind::Count | Kind::Switch | Kind::Table(..) => {
+                text.to_string()
+            }
         }
     }
 
@@ -254,14 +269,16 @@ impl Key {
         let range = self.range.text();
         match self.kind {
             Kind::Quantity(unit) => {
-                let noun = self.dimension().and_then(Dimension::name).map_or(
-                    format!("quantity in {unit}"),
-                    |name| {
-                        // Torque and energy are one dimension; a key takes the first.
-                        name.trim_end_matches(" or energy").to_string()
-                    },
-                );
+                let noun = noun(unit);
                 format!("{} {noun}{range} is needed, e.g. {example}", article(&noun))
+            }
+            Kind::Table(first, second) => {
+                let (first, second) = (noun(first), noun(second));
+                format!(
+                    "rows of {} {first}, rising from row to row, and {} {second}{range} are needed, e.g. {example}",
+                    article(&first),
+                    article(&second)
+                )
             }
             Kind::ContactStiffness { exponent } => format!(
                 "a contact stiffness{range} in N/m^n with n = {exponent} is needed, e.g. {example}"
@@ -281,6 +298,16 @@ impl Key {
             Kind::Switch => "true or false is needed".to_string(),
             Kind::Text => format!("a text in quotes is needed, e.g. {example}"),
         }
+    }
+}
+
+/// The dimension of an SI unit in words.
+fn noun(unit: &str) -> String {
+    let dimension = Unit::parse(unit).ok().map(|unit| unit.dimension());
+    match dimension.and_then(Dimension::name) {
+        // Torque and energy are one dimension; a key takes the first.
+        Some(name) => name.trim_end_matches(" or energy").to_string(),
+        None => format!("quantity in {unit}"),
     }
 }
 

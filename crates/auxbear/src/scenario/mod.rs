@@ -1,37 +1,53 @@
 //! Scenario files: what a user writes, read into typed values with their origin.
 //!
-//! One table of keys (`table.rs`) is the single source of names, kinds, units, ranges, defaults and explanations. From it
-//! come the reading, the messages, the overrides, the resolved file and the starting file.
+//! One table of keys (`table.rs`) is the single source of names, kinds, units, ranges, defaults and explanations, and of
+//! which system has which keys. From it come the reading, the messages, the overrides, the resolved file and the starting file.
 //!
 //! ```text
-//! text + overrides ──document──▶ key, raw value, place
+//! text + overrides ──document──▶ system; key, raw value, place
 //!                  ──resolve───▶ one value per key: given ▸ catalogue ▸ default ▸ derived
-//!                  ──drop──────▶ typed SI values  ──checks──▶ Scenario
+//!                  ──drop, spin_up, torque──▶ typed SI values  ──checks──▶ Scenario
 //! ```
 
+mod bearing;
 mod bearing_source;
 mod checks;
+mod checks_drop;
+mod checks_spin_up;
 mod document;
 mod drop;
+mod from_catalogue;
 mod key;
+mod meant;
 mod provenance;
 mod read;
+mod read_rows;
 mod resolve;
 mod resolved;
+mod run;
+mod section;
+mod spin_up;
+mod system;
 mod table;
 mod table_bearing;
+mod table_drive;
+mod table_drop;
+mod table_moment;
 mod template;
+mod torque;
 
+pub use bearing::{BallMaterial, Bearing, Cage, Drag, Fidelity, Moment, MomentForm, Traction};
 pub use bearing_source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
-pub use drop::{
-    BallMaterial, Bearing, Cage, Contact, Drag, Drop, Fidelity, Gravity, Levitation, Moment,
-    MomentForm, Mount, Repeat, Rotor, Run, Spin, Traction,
-};
+pub use drop::{Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor, Spin};
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
 pub use provenance::Provenance;
 pub use resolved::{Resolved, ResolvedValue};
-pub use table::{FORMAT, keys, sections};
+pub use run::Run;
+pub use spin_up::{Course, Drive, SpeedCourse, SpinUp};
+pub use system::{System, SystemName};
+pub use table::{FORMAT, keys, keys_of, sections, sections_of, systems};
 pub use template::template;
+pub use torque::Torque;
 
 use crate::problem::{Code, Problem};
 use std::fs::File;
@@ -40,13 +56,6 @@ use std::path::Path;
 
 /// Largest input file, bytes.
 const LARGEST_FILE: u64 = 10_000_000;
-
-/// What is simulated.
-#[derive(Clone, Debug, PartialEq)]
-pub enum System {
-    /// A levitated rotor is released onto its auxiliary bearing.
-    Drop(Drop),
-}
 
 /// A scenario that was read and checked. It does not change; to vary it, read it again with an override.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,7 +66,7 @@ pub struct Scenario {
     pub title: Option<String>,
     /// Introduction of the report.
     pub description: Option<String>,
-    /// What is simulated.
+    /// What is simulated or computed.
     pub system: System,
     /// Every value with its origin.
     pub resolved: Resolved,
@@ -92,13 +101,17 @@ impl Scenario {
         }
         let document = document::Document::read(text, name, sets)?;
         let values = resolve::Values::resolve(&document, bearings)?;
-        let drop = Drop::from_values(&values);
-        checks::check(&drop, &values, name)?;
+        let system = match document.system {
+            SystemName::Drop => System::Drop(Drop::from_values(&values)),
+            SystemName::SpinUp => System::SpinUp(SpinUp::from_values(&values)),
+            SystemName::Torque => System::Torque(Torque::from_values(&values)),
+        };
+        checks::check(&system, &values, name)?;
         Ok(Scenario {
             format: FORMAT.to_string(),
             title: values.text("title"),
             description: values.text("description"),
-            system: System::Drop(drop),
+            system,
             resolved: values.resolved(),
         })
     }

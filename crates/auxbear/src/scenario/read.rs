@@ -151,6 +151,9 @@ impl Values {
                 Some(fraction) => Ok((Value::Number(fraction.value()), fraction.to_string())),
                 None => Err(wrong(Code::WrongType, raw.text())),
             },
+            (Kind::Table(first, second), Raw::List(rows)) => {
+                self.read_rows(key, [first, second], rows, place)
+            }
             (Kind::Count, Raw::Integer(text, value)) => match value {
                 Some(value) if *value >= 0 => {
                     Ok((Value::Count(value.unsigned_abs()), value.to_string()))
@@ -179,19 +182,7 @@ impl Values {
     ) -> Result<(Value, String), Box<Problem>> {
         let text = text.trim();
         let quantity = parse_quantity(text).map_err(|error| {
-            let code = match error {
-                ParseError::MissingUnit { .. } => Code::BareNumber,
-                ParseError::OutOfRange { .. } | ParseError::NotFinite { .. } => Code::OutOfRange,
-                _ => Code::UnreadableQuantity,
-            };
-            // The near unit stands at the end of the message, not in its middle.
-            let (found, hint) = match &error {
-                ParseError::UnknownUnit { unit, nearest } => (
-                    format!("the unknown unit \"{unit}\""),
-                    nearest.as_deref().and_then(|nearest| question(&[nearest])),
-                ),
-                other => (other.to_string(), None),
-            };
+            let (code, found, hint) = unreadable(&error);
             Box::new(
                 self.problem(code, key.path, place, found, key.needed())
                     .with_hint(hint),
@@ -231,9 +222,27 @@ impl Values {
     }
 }
 
-fn described(dimension: Dimension) -> String {
+/// A dimension in words: `a length`.
+pub(super) fn described(dimension: Dimension) -> String {
     match dimension.name() {
         Some(name) => format!("{} {name}", article(name)),
         None => format!("in {}", dimension.si_unit()),
+    }
+}
+
+/// What is wrong with the text of a quantity. A near unit is a hint of its own, not the middle of the message.
+pub(super) fn unreadable(error: &ParseError) -> (Code, String, Option<String>) {
+    let code = match error {
+        ParseError::MissingUnit { .. } => Code::BareNumber,
+        ParseError::OutOfRange { .. } | ParseError::NotFinite { .. } => Code::OutOfRange,
+        _ => Code::UnreadableQuantity,
+    };
+    match error {
+        ParseError::UnknownUnit { unit, nearest } => (
+            code,
+            format!("the unknown unit \"{unit}\""),
+            nearest.as_deref().and_then(|nearest| question(&[nearest])),
+        ),
+        other => (code, other.to_string(), None),
     }
 }

@@ -6,8 +6,9 @@ use super::key::{Condition, Fallback, Key, Kind, Otherwise, Presence, quoted};
 use super::provenance::Provenance;
 use super::read::POWER_TOLERANCE;
 use super::resolved::{Resolved, ResolvedValue};
+use super::system::SystemName;
 use super::table;
-use crate::problem::{Code, Place, Problem, did_you_mean};
+use crate::problem::{Code, Place, Problem};
 use std::collections::BTreeMap;
 use units::{Quantity, Rational, parse_quantity};
 
@@ -24,6 +25,8 @@ pub(super) enum Value {
     Switch(bool),
     /// Any text.
     Text(String),
+    /// Rows of two quantities in SI.
+    Rows(Vec<[f64; 2]>),
 }
 
 impl Value {
@@ -31,7 +34,7 @@ impl Value {
         match self {
             Value::Number(value) => Some(*value),
             Value::Count(count) => Some(*count as f64),
-            Value::Word(_) | Value::Switch(_) | Value::Text(_) => None,
+            Value::Word(_) | Value::Switch(_) | Value::Text(_) | Value::Rows(_) => None,
         }
     }
 }
@@ -49,6 +52,7 @@ pub(super) struct Known {
 #[derive(Debug)]
 pub(super) struct Values {
     file: String,
+    system: SystemName,
     known: BTreeMap<&'static str, Known>,
 }
 
@@ -60,11 +64,11 @@ impl Values {
     ) -> Result<Values, Box<Problem>> {
         let mut values = Values {
             file: document.file.clone(),
+            system: document.system,
             known: BTreeMap::new(),
         };
-        values.refuse_planned_system(document)?;
         let record = values.find_bearing(document, bearings)?;
-        for key in table::keys() {
+        for key in table::keys_of(document.system) {
             let given = document.values.get(key.path);
             if let Some(unmet) = values.unmet(key) {
                 if let Some(given) = given {
@@ -103,32 +107,17 @@ impl Values {
             .on_key(path)
     }
 
-    fn refuse_planned_system(&self, document: &Document) -> Result<(), Box<Problem>> {
-        if let Some(Given {
-            raw: Raw::Text(found),
-            place,
-            ..
-        }) = document.values.get("system")
-            && table::PLANNED_SYSTEMS.contains(&found.as_str())
-        {
-            return Err(Box::new(self.problem(
-                Code::NotBuilt,
-                "system",
-                *place,
-                format!("\"{found}\", which is planned but not built yet"),
-                "system = \"drop\" is what this version simulates",
-            )));
-        }
-        Ok(())
-    }
-
     /// The condition that keeps a key from having a meaning, followed to its root.
     fn unmet(&self, key: &Key) -> Option<Condition> {
         let condition = key.when?;
-        if let Some(parent) = table::keys().find(|other| other.path == condition.path)
-            && let Some(root) = self.unmet(parent)
-        {
-            return Some(root);
+        if let Some(parent) = table::keys().find(|other| other.path == condition.path) {
+            if !table::systems(parent).contains(&self.system) {
+                // there is no choice to be made in this system
+                return None;
+            }
+            if let Some(root) = self.unmet(parent) {
+                return Some(root);
+            }
         }
         (!self.holds(&condition)).then_some(condition)
     }
@@ -144,6 +133,7 @@ impl Values {
             Value::Number(value) => Rational::parse(wanted)
                 .is_some_and(|wanted| (wanted.value() - value).abs() <= POWER_TOLERANCE),
             Value::Count(count) => count.to_string() == *wanted,
+            Value::Rows(_) => false,
         })
     }
 
@@ -177,7 +167,7 @@ impl Values {
         let Some(second) = document.values.get(other) else {
             return Ok(());
         };
-        let (path, place, first) = if second.place.line() > given.place.line() {
+        let (path, place, first) = if order(second.place) > order(given.place) {
             (other, second.place, key.path)
         } else {
             (key.path, given.place, other)
@@ -189,116 +179,6 @@ impl Values {
             format!("this and {first}, which give the same thing"),
             "one of the two is needed",
         )))
-    }
-
-    /// The catalogue's knowledge of the bearing named. It comes first, because other sections take values from it.
-    fn find_bearing(
-        &self,
-        document: &Document,
-        bearings: &dyn BearingSource,
-    ) -> Result<Option<BearingRecord>, Box<Problem>> {
-        let given = document.values.get("bearing.name");
-        let key = table::keys().find(|key| key.path == "bearing.name");
-        let (Some(key), Some(given)) = (key, given) else {
-            return Ok(None);
-        };
-        let known = self.read(key, given)?;
-        let name = known.text.as_str();
-        let record = bearings.find(name);
-        if record.is_some() {
-            return Ok(record);
-        }
-        let names = bearings.names();
-        let mut listed: Vec<&str> = names.iter().map(String::as_str).collect();
-        let near = did_you_mean(name, listed.iter().copied());
-        listed.truncate(12);
-        let allowed = if listed.is_empty() {
-            "the catalogue is empty; give the dimensions of the bearing instead of its name"
-                .to_string()
-        } else {
-            format!(
-                "a bearing of the catalogue is needed ({}{}), or its dimensions instead of its name",
-                listed.join(", "),
-                if names.len() > listed.len() {
-                    ", …"
-                } else {
-                    ""
-                }
-            )
-        };
-        Err(Box::new(
-            self.problem(
-                Code::UnknownBearing,
-                "bearing.name",
-                known.place,
-                format!("\"{name}\", which is not in the catalogue"),
-                allowed,
-            )
-            .with_hint(near),
-        ))
-    }
-
-    fn catalogued(
-        &self,
-        key: &Key,
-        record: Option<&BearingRecord>,
-    ) -> Result<Option<Known>, Box<Problem>> {
-        let Some(record) = record else {
-            return Ok(None);
-        };
-        let name = match key.section() {
-            "bearing" => key.name(),
-            _ if key.path == "contact.bore_diameter" => key.name(),
-            _ => return Ok(None),
-        };
-        if let Kind::Word(_) = key.kind {
-            return self.catalogued_word(key, name, record);
-        }
-        let Some((_, si, provenance)) = record.values.iter().find(|(known, ..)| known == name)
-        else {
-            return Ok(None);
-        };
-        let (value, text) = match key.kind {
-            Kind::Quantity(_) => (Value::Number(*si), quantity_text(key, *si)),
-            Kind::Count => (Value::Count(*si as u64), format!("{}", *si as u64)),
-            Kind::Coefficient => (Value::Number(*si), format!("{si:?}")),
-            _ => return Ok(None),
-        };
-        if !key.range.holds(*si) {
-            return Err(Box::new(self.problem(
-                Code::OutOfRange,
-                key.path,
-                Place::Whole,
-                format!("{text} in the catalogue for \"{}\"", record.name),
-                key.needed(),
-            )));
-        }
-        Ok(Some(Known {
-            value,
-            text,
-            provenance: provenance.clone(),
-            place: Place::Whole,
-        }))
-    }
-
-    fn catalogued_word(
-        &self,
-        key: &Key,
-        name: &str,
-        record: &BearingRecord,
-    ) -> Result<Option<Known>, Box<Problem>> {
-        let Some((_, word, provenance)) = record.words.iter().find(|(known, ..)| known == name)
-        else {
-            return Ok(None);
-        };
-        let given = Given {
-            raw: Raw::Text(word.clone()),
-            typed: None,
-            place: Place::Whole,
-        };
-        let mut known = self.read(key, &given)?;
-        known.provenance = provenance.clone();
-        Ok(Some(known))
     }
 
     fn without(
@@ -381,6 +261,7 @@ impl Values {
             )?;
         }
         if !self.known.contains_key("bearing.cage_inertia")
+            && self.system != SystemName::Torque
             && let (Some(mass), Some(pitch)) = (
                 self.number("bearing.cage_mass"),
                 self.number("bearing.pitch_diameter"),
@@ -458,6 +339,14 @@ impl Values {
         )
     }
 
+    /// The rows of a table, where there is one.
+    pub(super) fn rows(&self, path: &str) -> Option<Vec<[f64; 2]>> {
+        match self.known.get(path).map(|known| &known.value) {
+            Some(Value::Rows(rows)) => Some(rows.clone()),
+            _ => None,
+        }
+    }
+
     /// A whole number; 0 where there is none.
     pub(super) fn count(&self, path: &str) -> u64 {
         match self.known.get(path).map(|known| &known.value) {
@@ -469,7 +358,7 @@ impl Values {
     /// The list of all values for people and for the resolved file.
     pub(super) fn resolved(&self) -> Resolved {
         let mut list = Vec::new();
-        for key in table::keys().filter(|key| self.unmet(key).is_none()) {
+        for key in table::keys_of(self.system).filter(|key| self.unmet(key).is_none()) {
             let known = self.known.get(key.path);
             let absent = match key.presence {
                 Presence::Derived(how) => Some(Provenance::Derived(how.to_string())),
@@ -505,8 +394,17 @@ impl Values {
     }
 }
 
+/// Later places count more: lines in their order, then overrides.
+fn order(place: Place) -> usize {
+    match place {
+        Place::Whole => 0,
+        Place::Line { line, .. } => line,
+        Place::Set => usize::MAX,
+    }
+}
+
 /// A value in SI as a text that reads back bit for bit.
-fn quantity_text(key: &Key, value_si: f64) -> String {
+pub(super) fn quantity_text(key: &Key, value_si: f64) -> String {
     match key.dimension() {
         Some(dimension) => Quantity {
             value_si,

@@ -1,27 +1,31 @@
 //! The part of the table of keys that describes the rolling bearing.
 
 use super::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
+use super::system::SystemName;
+use super::table::MOVING;
+
+const DROP: &[SystemName] = &[SystemName::Drop];
 
 pub(super) const SECTIONS: &[Section] = &[
     Section {
         path: "bearing",
         doc: "The auxiliary rolling bearing at one plane. What the catalogue knows of the bearing named need not be given; what is given here counts.",
+        systems: SystemName::ALL,
     },
     Section {
         path: "bearing.cage",
         doc: "The pockets of the cage.",
+        systems: MOVING,
     },
     Section {
         path: "bearing.traction",
         doc: "Traction between balls and races: traction force over ball load, as a function of the slip speed.",
+        systems: MOVING,
     },
     Section {
         path: "bearing.drag",
         doc: "Drag of balls and cage to ground. Real lubricant drags against the rings; these values exist to reproduce reference cases.",
-    },
-    Section {
-        path: "bearing.moment",
-        doc: "Steady friction moment of the bearing, for the fidelity \"rolling\".",
+        systems: DROP,
     },
 ];
 
@@ -41,18 +45,6 @@ const fn traction(values: &'static [&'static str]) -> Condition {
     }
 }
 
-const ROLLING: Condition = Condition {
-    path: "bearing.fidelity",
-    values: &["rolling"],
-    reason: "the fidelity \"planar\" has no steady moment yet",
-};
-
-const PALMGREN: Condition = Condition {
-    path: "bearing.moment.law",
-    values: &["palmgren"],
-    reason: "",
-};
-
 pub(super) const KEYS: &[Key] = &[
     Key::new(
         "bearing.name",
@@ -67,7 +59,8 @@ pub(super) const KEYS: &[Key] = &[
         "planar",
         "How the bearing is modelled: planar moves each ball and the cage with slip; rolling assumes pure rolling and is far faster.",
     )
-    .default("planar", "slip of the balls matters in a drop"),
+    .default("planar", "slip of the balls matters in a drop")
+    .only(MOVING),
     Key::new("bearing.ball_count", Kind::Count, "10", "Number of balls.")
         .within(Range::FromTo(1.0, 60.0))
         .catalogued(),
@@ -93,7 +86,8 @@ pub(super) const KEYS: &[Key] = &[
         "5 um",
         "Diametral internal clearance as mounted, after fits; negative is preload.",
     )
-    .default("0 m", "neither clearance nor preload"),
+    .default("0 m", "neither clearance nor preload")
+    .only(MOVING),
     Key::new(
         "bearing.inner_groove_curvature",
         Kind::Coefficient,
@@ -101,7 +95,8 @@ pub(super) const KEYS: &[Key] = &[
         "Groove radius of the inner race over ball diameter.",
     )
     .within(Range::Above(0.5))
-    .assumed("0.52", "usual for deep groove ball bearings; makers differ"),
+    .assumed("0.52", "usual for deep groove ball bearings; makers differ")
+    .only(MOVING),
     Key::new(
         "bearing.outer_groove_curvature",
         Kind::Coefficient,
@@ -109,7 +104,8 @@ pub(super) const KEYS: &[Key] = &[
         "Groove radius of the outer race over ball diameter.",
     )
     .within(Range::Above(0.5))
-    .assumed("0.53", "usual for deep groove ball bearings; makers differ"),
+    .assumed("0.53", "usual for deep groove ball bearings; makers differ")
+    .only(MOVING),
     Key::new(
         "bearing.ball_material",
         Kind::Word(&["steel", "silicon nitride"]),
@@ -132,7 +128,8 @@ pub(super) const KEYS: &[Key] = &[
         "Mass of the inner race with its sleeve.",
     )
     .positive()
-    .catalogued(),
+    .catalogued()
+    .only(MOVING),
     Key::new(
         "bearing.inner_race_inertia",
         Kind::Quantity("kg m^2"),
@@ -140,7 +137,8 @@ pub(super) const KEYS: &[Key] = &[
         "Moment of inertia of the inner race with its sleeve, about the axis.",
     )
     .positive()
-    .catalogued(),
+    .catalogued()
+    .only(MOVING),
     Key::new(
         "bearing.cage_mass",
         Kind::Quantity("kg"),
@@ -156,7 +154,8 @@ pub(super) const KEYS: &[Key] = &[
         "Moment of inertia of the cage about the axis.",
     )
     .positive()
-    .derived("cage_mass (pitch_diameter/2)^2: a thin ring at the pitch circle"),
+    .derived("cage_mass (pitch_diameter/2)^2: a thin ring at the pitch circle")
+    .only(MOVING),
     Key::new(
         "bearing.ball_mass",
         Kind::Quantity("kg"),
@@ -172,7 +171,8 @@ pub(super) const KEYS: &[Key] = &[
         "Stiffness K of the contact of one ball with the inner race, Q = K δ^1.5.",
     )
     .positive()
-    .derived("Hertz contact of ball and inner groove"),
+    .derived("Hertz contact of ball and inner groove")
+    .only(MOVING),
     Key::new(
         "bearing.outer_contact_stiffness",
         Kind::Quantity("N/m^1.5"),
@@ -180,7 +180,8 @@ pub(super) const KEYS: &[Key] = &[
         "Stiffness K of the contact of one ball with the outer race, Q = K δ^1.5.",
     )
     .positive()
-    .derived("Hertz contact of ball and outer groove"),
+    .derived("Hertz contact of ball and outer groove")
+    .only(MOVING),
     Key::new(
         "bearing.contact_damping_time",
         Kind::Quantity("s"),
@@ -188,28 +189,32 @@ pub(super) const KEYS: &[Key] = &[
         "Retardation time β of the ball contacts, Q = K(δ^1.5 + 1.5 β δ^0.5 δ̇).",
     )
     .not_negative()
-    .assumed("2.5 us", "not measured; weak damping of the ball contacts"),
+    .assumed("2.5 us", "not measured; weak damping of the ball contacts")
+    .only(MOVING),
     Key::new(
         "bearing.inner_race_centre_held",
         Kind::Switch,
         "false",
         "Hold the centre of the inner race, which then only turns.",
     )
-    .default("false", "the inner race moves on its balls"),
+    .default("false", "the inner race moves on its balls")
+    .only(MOVING),
     Key::new(
         "bearing.inner_race_torque",
         Kind::Quantity("N m"),
         "0 N m",
         "Torque from ground on the inner race, counter-clockwise positive.",
     )
-    .default("0 N m", "nothing but rotor and balls drives the inner race"),
+    .default("0 N m", "nothing but rotor and balls drives the inner race")
+    .only(DROP),
     Key::new(
         "bearing.first_ball_angle",
         Kind::Quantity("rad"),
         "0 deg",
         "Angle of the first ball at the release, from x.",
     )
-    .default("0 rad", "the first ball lies on the x axis at the release"),
+    .default("0 rad", "the first ball lies on the x axis at the release")
+    .only(MOVING),
     Key::new(
         "bearing.hertz_pressure_limit",
         Kind::Quantity("Pa"),
@@ -225,7 +230,8 @@ pub(super) const KEYS: &[Key] = &[
             assumed: false,
         },
         Otherwise::Optional(SILICON_NITRIDE_LIMIT),
-    ),
+    )
+    .only(MOVING),
     Key::new(
         "bearing.cage.pocket_contact",
         Kind::Switch,
@@ -378,52 +384,4 @@ pub(super) const KEYS: &[Key] = &[
     )
     .not_negative()
     .default("0 N m s", "drag to ground is not physical"),
-    Key::new(
-        "bearing.moment.law",
-        Kind::Word(&["none", "palmgren"]),
-        "palmgren",
-        "Law of the steady friction moment.",
-    )
-    .default("none", "no moment unless one is asked for")
-    .when(ROLLING),
-    Key::new(
-        "bearing.moment.form",
-        Kind::Word(&["continuous", "printed"]),
-        "continuous",
-        "Form of the load-independent moment: continuous and odd in speed, or as printed, with its step of one percent.",
-    )
-    .default("continuous", "a moment without step")
-    .when(PALMGREN),
-    Key::new(
-        "bearing.moment.f0",
-        Kind::Coefficient,
-        "2",
-        "Palmgren factor f0 of bearing type and lubrication.",
-    )
-    .not_negative()
-    .when(PALMGREN),
-    Key::new(
-        "bearing.moment.viscosity",
-        Kind::Quantity("m^2/s"),
-        "100 mm^2/s",
-        "Kinematic viscosity of the lubricant at running temperature.",
-    )
-    .not_negative()
-    .when(PALMGREN),
-    Key::new(
-        "bearing.moment.f1_factor",
-        Kind::Coefficient,
-        "0.0009",
-        "Factor z of the load-dependent friction f1 = z (P0/C0)^y.",
-    )
-    .not_negative()
-    .when(PALMGREN),
-    Key::new(
-        "bearing.moment.f1_exponent",
-        Kind::Coefficient,
-        "0.55",
-        "Exponent y of the load-dependent friction f1 = z (P0/C0)^y.",
-    )
-    .not_negative()
-    .when(PALMGREN),
 ];

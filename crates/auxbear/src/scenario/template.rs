@@ -1,6 +1,7 @@
 //! The commented starting file, written from the table of keys.
 
-use super::key::{Key, Otherwise, Presence};
+use super::key::{Condition, Key, Otherwise, Presence};
+use super::system::SystemName;
 use super::table;
 
 /// Width of a comment line.
@@ -8,13 +9,18 @@ const WIDTH: usize = 100;
 
 /// The commented starting file of a kind; `None` for a kind that is not built yet. It reads without a problem.
 pub fn template(kind: &str) -> Option<String> {
-    if kind != "drop" {
-        return None;
-    }
+    let system = SystemName::of(kind)?;
+    let about = match system {
+        SystemName::Drop => "A levitated rotor drops onto its auxiliary bearing.",
+        SystemName::SpinUp => "The inner race of a bearing is brought to speed.",
+        SystemName::Torque => "The torque of a bearing over speed, load and acceleration.",
+    };
     let mut out = String::new();
     comment(
         &mut out,
-        "A levitated rotor drops onto its auxiliary bearing. Replace the examples by your machine. A value is a text with a unit, or a table that tells where it comes from:",
+        &format!(
+            "{about} Replace the examples by your machine. A value is a text with a unit, or a table that tells where it comes from:"
+        ),
     );
     out.push_str("#   mass = { value = \"8 kg\", source = \"drawing 4711\" }\n");
     out.push_str("#   mass = { value = \"8 kg\", assumed = \"not weighed yet\" }\n");
@@ -24,7 +30,7 @@ pub fn template(kind: &str) -> Option<String> {
     );
     out.push('\n');
     let mut section = "";
-    for key in table::keys() {
+    for key in table::keys_of(system) {
         if key.section() != section {
             section = key.section();
             if let Some(section) = table::sections().find(|known| known.path == section) {
@@ -32,22 +38,27 @@ pub fn template(kind: &str) -> Option<String> {
             }
             out.push_str(&format!("[{section}]\n\n"));
         }
-        describe(&mut out, key);
+        describe(&mut out, key, system);
     }
     Some(out.trim_end().to_string() + "\n")
 }
 
-fn describe(out: &mut String, key: &Key) {
+fn describe(out: &mut String, key: &Key, system: SystemName) {
     let mut doc = key.doc.to_string();
     if let Some(condition) = key.when {
         doc.push_str(&format!(" Only with {}.", condition.text()));
     }
+    let example = match key.path {
+        "system" => system.word(),
+        _ => key.example,
+    };
+    let holds = key.when.is_none_or(|condition| holds(&condition));
     let line = |text: &str| format!("{} = {}", key.name(), key.literal(text));
     let (active, text) = match key.presence {
-        Presence::Required => (key.when.is_none(), line(key.example)),
+        Presence::Required => (holds, line(example)),
         Presence::FromBearing => {
             doc.push_str(" Not needed with a bearing.name that the catalogue knows.");
-            (true, line(key.example))
+            (holds, line(key.example))
         }
         Presence::Optional(meaning) => {
             doc.push_str(&format!(" Without it {meaning}."));
@@ -89,6 +100,19 @@ fn describe(out: &mut String, key: &Key) {
     out.push_str(if active { "" } else { "# " });
     out.push_str(&text);
     out.push_str("\n\n");
+}
+
+/// Whether a condition holds with the examples and defaults of the starting file.
+fn holds(condition: &Condition) -> bool {
+    let Some(key) = table::keys().find(|key| key.path == condition.path) else {
+        return false;
+    };
+    let value = match key.presence {
+        Presence::Required | Presence::FromBearing => key.example,
+        Presence::Default(fallback) => fallback.text,
+        Presence::Optional(_) | Presence::Derived(_) | Presence::DefaultWhen(..) => return false,
+    };
+    condition.values.contains(&value) && key.when.is_none_or(|condition| holds(&condition))
 }
 
 /// Writes a text as comment lines of limited width.

@@ -6,7 +6,9 @@ use crate::scenario::{
 };
 use model::bearing::ball::BallConstants;
 use model::bearing::rolling::RollingBall;
-use model::bearing::{BearingConstants, PlanarConstants, RollingConstants, SteadyMoment};
+use model::bearing::{
+    AccelerationLoss, BearingConstants, PlanarConstants, RollingConstants, SteadyMoment,
+};
 use model::contact::RotorContact;
 use model::levitation::Levitation;
 use model::mount::Mount;
@@ -184,6 +186,7 @@ fn bearing(bearing: &Bearing, contacts: &BallContacts, gravity: Vec2<f64>) -> Be
             cage_inertia: bearing.cage_inertia,
             cage_drag: bearing.drag.cage,
             first_ball_angle: bearing.first_ball_angle,
+            moment: None,
         }),
         Fidelity::Rolling => {
             let set = RollingSet {
@@ -202,13 +205,11 @@ fn bearing(bearing: &Bearing, contacts: &BallContacts, gravity: Vec2<f64>) -> Be
                     interference: inner_track + bearing.ball_diameter - outer_track,
                     mass_radius: contacts.ball_mass * (inner_track + radius),
                 },
-                inner_inertia: set.inner_inertia(),
-                outer_inertia: set.outer_inertia(),
-                cage_ratio: set.cage_speed(1.0),
-                pitch_radius: inner_track + radius,
-                mass_with_outer_race: set.balls_mass + set.cage_mass,
+                set,
                 first_ball_angle: bearing.first_ball_angle,
                 moment: steady_moment(bearing),
+                axial_load: 0.0,
+                loss: AccelerationLoss::None,
             })
         }
     }

@@ -18,7 +18,7 @@ pub mod outcome;
 mod quantities;
 mod warnings;
 
-use crate::problem::Problem;
+use crate::problem::{Code, Problem};
 use crate::scenario::{Scenario, System};
 pub use outcome::Outcome;
 use std::sync::atomic::AtomicBool;
@@ -37,5 +37,17 @@ pub struct Options<'a> {
 pub fn run(scenario: &Scenario, options: &Options) -> Result<Outcome, Box<Problem>> {
     match &scenario.system {
         System::Drop(drop) => drop::run(scenario, drop, options),
+        System::SpinUp(_) | System::Torque(_) => Err(Box::new(
+            Problem::new(
+                Code::NotBuilt,
+                "the scenario",
+                format!(
+                    "\"{}\", which can be read and checked but not run yet",
+                    scenario.system.name().word()
+                ),
+                "system = \"drop\" is what this version simulates",
+            )
+            .on_key("system"),
+        )),
     }
 }

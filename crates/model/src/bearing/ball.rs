@@ -12,14 +12,16 @@
 //!   pocket    ψ = R_p wrap(β - φ_c - seat), β azimuth about c_o;  s = sign ψ;  p = |ψ| - gap
 //!             on the ball  -s P R_p/|b - c_o| t - μ_c tanh(v/v0) P n,   v = (v_b - v_o)·n - s r (σ - ω_c)
 //! ```
-//! Every force stands once and is added with both signs.
+//! Every force stands once and is added with both signs. The pairs of the steady moment are those of
+//! [`steady_moment`](super::steady_moment).
 //!
 //! Assumes: motion in the plane; the cage is centred on the outer race.
 //! Does not model: axial motion, tilt, gyroscopic moments, ball-to-ball contact, cage translation, lubricant film.
 
+use super::steady_moment::{BallMoment, BallPlace};
 use crate::motion::Wrench;
 use number::{Gather, Mask, Real, Vec2, constants};
-use physics::contact::{ball_race, ball_race_energy, linear_contact};
+use physics::contact::{NormalForce, ball_race, ball_race_energy, linear_contact};
 use physics::traction::TractionLaw;
 
 constants! {
@@ -127,6 +129,8 @@ pub struct BallHeat<R> {
     pub pocket_damping: R,
     /// Sliding in the pocket.
     pub pocket_sliding: R,
+    /// The steady moment.
+    pub steady_moment: R,
 }
 
 /// What a ball feels and does.
@@ -179,25 +183,51 @@ fn reciprocals<R: Real>(a: R, b: R, c: R) -> (R, R, R) {
     (inverse_ab * b, inverse_ab * a, inverse * ab)
 }
 
+/// A ball at one race.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AtRace<R> {
+    /// n, from the race's centre to the ball.
+    pub n: Vec2<R>,
+    /// Distance from the race's centre, m.
+    distance: R,
+    /// 1/distance, 1/m.
+    inverse_distance: R,
+    /// Speed of the ball past the race's centre, m/s.
+    past: Vec2<R>,
+    /// Approach δ, m.
+    approach: R,
+    /// Its rate, m/s.
+    closing: R,
+    /// Load Q.
+    pub normal: NormalForce<R>,
+}
+
+/// A ball between its races.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Between<R> {
+    e_r: Vec2<R>,
+    position: Vec2<R>,
+    from_outer: Vec2<R>,
+    inverse_radius: R,
+    /// At the inner race.
+    pub inner: AtRace<R>,
+    /// At the outer race.
+    pub outer: AtRace<R>,
+}
+
 impl<R: Real> BallConstants<R> {
-    /// Acceleration of a ball and its reactions on its three neighbours.
+    /// Where a ball stands between its races, and how it is pressed.
     #[inline(always)]
-    pub fn react<L: TractionLaw<R>>(
+    pub(super) fn between(
         &self,
-        traction: &L,
         inner: &RaceMotion<R>,
         outer: &RaceMotion<R>,
-        pocket: &PocketMotion<R>,
         ball: &BallMotion<R>,
-    ) -> BallReaction<R> {
-        let zero = R::zero();
-        let half = R::splat(0.5);
+    ) -> Between<R> {
         let (sine, cosine) = ball.azimuth.sin_cos();
         let e_r = Vec2::new(cosine, sine);
-        let e_t = e_r.turned();
-        let orbital = ball.radius * ball.orbit_speed;
         let position = e_r * ball.radius;
-        let velocity = e_r * ball.radial_speed + e_t * orbital;
+        let velocity = e_r * ball.radial_speed + e_r.turned() * (ball.radius * ball.orbit_speed);
 
         let from_inner = position - inner.position;
         let from_outer = position - outer.position;
@@ -206,9 +236,7 @@ impl<R: Real> BallConstants<R> {
         let (inverse_inner, inverse_outer, inverse_radius) =
             reciprocals(inner_distance, outer_distance, ball.radius);
 
-        // inner race
         let n_i = from_inner * inverse_inner;
-        let t_i = n_i.turned();
         let past_inner = velocity - inner.velocity;
         let inner_approach = self.inner_track + self.radius - inner_distance;
         let inner_closing = -past_inner.dot(n_i);
@@ -218,13 +246,8 @@ impl<R: Real> BallConstants<R> {
             inner_approach,
             inner_closing,
         );
-        let arm_bi = self.radius - half * inner_approach;
-        let arm_i = self.inner_track - half * inner_approach;
-        let inner_slip = inner.spin * arm_i + ball.spin * arm_bi - past_inner.dot(t_i);
 
-        // outer race
         let n_o = from_outer * inverse_outer;
-        let t_o = n_o.turned();
         let past_outer = velocity - outer.velocity;
         let outer_approach = outer_distance + self.radius - self.outer_track;
         let outer_closing = past_outer.dot(n_o);
@@ -234,9 +257,72 @@ impl<R: Real> BallConstants<R> {
             outer_approach,
             outer_closing,
         );
+        Between {
+            e_r,
+            position,
+            from_outer,
+            inverse_radius,
+            inner: AtRace {
+                n: n_i,
+                distance: inner_distance,
+                inverse_distance: inverse_inner,
+                past: past_inner,
+                approach: inner_approach,
+                closing: inner_closing,
+                normal: q_i,
+            },
+            outer: AtRace {
+                n: n_o,
+                distance: outer_distance,
+                inverse_distance: inverse_outer,
+                past: past_outer,
+                approach: outer_approach,
+                closing: outer_closing,
+                normal: q_o,
+            },
+        }
+    }
+
+    /// Acceleration of a ball and its reactions on its three neighbours.
+    #[inline(always)]
+    pub fn react<L: TractionLaw<R>, M: BallMoment<R>>(
+        &self,
+        traction: &L,
+        steady: &M,
+        inner: &RaceMotion<R>,
+        outer: &RaceMotion<R>,
+        pocket: &PocketMotion<R>,
+        ball: &BallMotion<R>,
+    ) -> BallReaction<R> {
+        let zero = R::zero();
+        let half = R::splat(0.5);
+        let orbital = ball.radius * ball.orbit_speed;
+        let Between {
+            e_r,
+            position,
+            from_outer,
+            inverse_radius,
+            inner: at_inner,
+            outer: at_outer,
+        } = self.between(inner, outer, ball);
+        let e_t = e_r.turned();
+
+        // inner race
+        let (n_i, t_i) = (at_inner.n, at_inner.n.turned());
+        let (inner_approach, inner_closing, q_i) =
+            (at_inner.approach, at_inner.closing, at_inner.normal);
+        let arm_bi = self.radius - half * inner_approach;
+        let arm_i = self.inner_track - half * inner_approach;
+        let inner_slip = inner.spin * arm_i + ball.spin * arm_bi - at_inner.past.dot(t_i);
+
+        // outer race
+        let (n_o, t_o) = (at_outer.n, at_outer.n.turned());
+        let (outer_approach, outer_closing, q_o) =
+            (at_outer.approach, at_outer.closing, at_outer.normal);
+        let inverse_outer = at_outer.inverse_distance;
         let arm_bo = self.radius - half * outer_approach;
         let arm_o = self.outer_track + half * outer_approach;
-        let past_outer_t = past_outer.dot(t_o);
+        let past_outer_t = at_outer.past.dot(t_o);
         let outer_slip = outer.spin * arm_o - ball.spin * arm_bo - past_outer_t;
 
         // traction: zero by itself where the load is
@@ -279,14 +365,32 @@ impl<R: Real> BallConstants<R> {
 
         // the three force pairs
         let by_inner = n_i * q_i.force + t_i * inner_traction;
-        let by_outer = n_o * (pocket_friction - q_o.force)
+        let mut by_outer = n_o * (pocket_friction - q_o.force)
             + t_o * (outer_traction + pocket_push * inverse_outer);
-        let drag = self.orbit_drag * orbital;
-        let force = by_inner + by_outer - e_t * drag;
-        let moment = arm_bo * outer_traction
+        let mut moment = arm_bo * outer_traction
             - arm_bi * inner_traction
             - pocket_moment
             - self.spin_drag * ball.spin;
+        let mut on_inner_moment = -(arm_i * inner_traction);
+        let mut on_outer_moment = -(arm_o * outer_traction);
+        let mut steady_heat = zero;
+        if M::PRESENT {
+            let place = BallPlace {
+                past_outer: past_outer_t,
+                distance: at_outer.distance,
+                inverse_distance: inverse_outer,
+                inner_load: q_i.force,
+                outer_load: q_o.force,
+            };
+            let pairs = steady.pairs(inner, outer, ball, &place);
+            by_outer = by_outer - t_o * pairs.orbit_drag;
+            moment = moment - pairs.inner_couple - pairs.outer_couple;
+            on_inner_moment += pairs.inner_couple;
+            on_outer_moment += pairs.orbit_drag * at_outer.distance + pairs.outer_couple;
+            steady_heat = pairs.heat;
+        }
+        let drag = self.orbit_drag * orbital;
+        let force = by_inner + by_outer - e_t * drag;
 
         let acceleration = force * self.inverse_mass + self.gravity;
         let two = R::splat(2.0);
@@ -297,8 +401,8 @@ impl<R: Real> BallConstants<R> {
                     * inverse_radius,
                 spin: moment * self.inverse_inertia,
             },
-            on_inner: Wrench::planar(-by_inner, -(arm_i * inner_traction)),
-            on_outer: Wrench::planar(-by_outer, -(arm_o * outer_traction)),
+            on_inner: Wrench::planar(-by_inner, on_inner_moment),
+            on_outer: Wrench::planar(-by_outer, on_outer_moment),
             on_cage: pocket_moment - pocket_push,
             external_moment: position.cross(self.gravity) * self.mass
                 - drag * ball.radius
@@ -311,6 +415,7 @@ impl<R: Real> BallConstants<R> {
                 drag: drag * orbital + self.spin_drag * ball.spin.square(),
                 pocket_damping: damping_heat,
                 pocket_sliding: sliding_heat,
+                steady_moment: steady_heat,
             },
             inner_load: q_i.force,
             outer_load: q_o.force,

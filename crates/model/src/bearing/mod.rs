@@ -5,21 +5,43 @@
 //! | [`Rolling`] | [`rolling`] | roll always; loads are quasi-static |
 //! | [`Planar`] | [`planar`] | each ball moves by its own equations ([`ball`]) |
 //!
+//! Both may have a steady friction moment: as a whole, or shared by the balls ([`steady_moment`]). What the pockets take
+//! while the race accelerates follows from the balls in the planar fidelity; in the rolling one it is given
+//! ([`acceleration_loss`]).
+//!
 //! A bearing owns the states of its cage and balls; the system owns the races.
 //! Besides its reaction it fills, where asked, a *detail* list with five values a ball:
 //! inner load, outer load (N), inner slip, outer slip (m/s), pocket force (N), each value for all balls in turn.
 
+pub mod acceleration_loss;
 pub mod ball;
 pub mod planar;
 pub mod rolling;
+pub mod settle;
+pub mod steady_moment;
 
 use crate::motion::{Motion, Wrench};
+pub use acceleration_loss::AccelerationLoss;
 use number::Real;
+use physics::rolling::RollingSet;
 pub use planar::{Planar, PlanarConstants};
-pub use rolling::{Rolling, RollingConstants, SteadyMoment};
+pub use rolling::{Rolling, RollingConstants};
+pub use steady_moment::{SharedMoment, SteadyMoment};
 
 /// Values a ball in a bearing's detail.
 pub const DETAIL_PER_BALL: usize = 5;
+
+/// Kinds of heat made in a bearing, in the order of [`BearingHeat::kinds`]: names as in results.
+pub const HEATS: [&str; 8] = [
+    "inner_contact_damping",
+    "outer_contact_damping",
+    "inner_ball_slip",
+    "outer_ball_slip",
+    "drag",
+    "pocket_damping",
+    "pocket_friction",
+    "steady_moment",
+];
 
 /// Heat made in a bearing by kind, W; all are never negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,16 +58,34 @@ pub struct BearingHeat<R> {
     pub drag: R,
     /// Contact damping in the pockets.
     pub pocket_damping: R,
-    /// Balls sliding in the pockets.
+    /// Balls sliding in the pockets; in the rolling fidelity what F0 takes.
     pub pocket_sliding: R,
     /// The steady friction moment.
     pub steady_moment: R,
 }
 
+impl<R: Real> BearingHeat<R> {
+    /// The heats in the order of [`HEATS`].
+    #[inline(always)]
+    pub fn kinds(&self) -> [R; HEATS.len()] {
+        [
+            self.inner_damping,
+            self.outer_damping,
+            self.inner_sliding,
+            self.outer_sliding,
+            self.drag,
+            self.pocket_damping,
+            self.pocket_sliding,
+            self.steady_moment,
+        ]
+    }
+}
+
 /// What a bearing does to its two bodies.
 ///
-/// The moment on the inner race is `on_inner.moment - inner_inertia · Ω̇`: the part that is proportional to the race's
-/// acceleration moves to the left side of its equation. The outer race receives `on_outer.moment - outer_inertia · Ω̇`.
+/// The moment on the inner race is `on_inner.moment - (inner_inertia + j) Ω̇`: the part that is proportional to the race's
+/// acceleration moves to the left side of its equation. The outer race receives `on_outer.moment - (outer_inertia - j) Ω̇`.
+/// j is `loss_inertia`, negative while the race is braked: see [`BearingReaction::with_loss`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BearingReaction<R> {
     /// On the inner race, moment about its centre.
@@ -56,6 +96,10 @@ pub struct BearingReaction<R> {
     pub inner_inertia: R,
     /// Moment on the outer race per acceleration of the inner race, reversed, kg m².
     pub outer_inertia: R,
+    /// Size of the inertia j with which the acceleration loss F1|Ω̇| acts, kg m².
+    pub loss_inertia: R,
+    /// The steady moment of the law at this speed and load, N m.
+    pub steady_moment: R,
     /// Moment about the origin that balls and cage receive from outside: weight and drag to ground, N m.
     pub external_moment: R,
     /// Heat by kind.
@@ -64,6 +108,32 @@ pub struct BearingReaction<R> {
     pub largest_inner_load: R,
     /// Largest ball load at the outer race, N.
     pub largest_outer_load: R,
+}
+
+impl<R: Real> BearingReaction<R> {
+    /// The reaction with its acceleration loss F1|Ω̇| as an inertia like the others.
+    ///
+    /// - `speed`: of the inner race against the outer, rad/s
+    /// - `acceleration`: anything with the sign of Ω̇, as the moment on the race without its inertial part
+    ///
+    /// F has the sign of Ω, so its moment is arm F1 |Ω̇| sgn Ω = j Ω̇ with j = +arm F1 while the race is sped up and
+    /// -arm F1 while it is braked. (I + J_I + j) Ω̇ = A has one solution, with the sign of A, as long as
+    /// arm F1 < I + J_I: then the sign of A tells j, and there is no loop. From rest any motion speeds up.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_loss(mut self, speed: R, acceleration: R) -> Self {
+        let braked = (speed * acceleration).less(R::zero());
+        let j = R::select(braked, -self.loss_inertia, self.loss_inertia);
+        self.inner_inertia += j;
+        self.outer_inertia -= j;
+        self.loss_inertia = j;
+        self
+    }
+    /// Heat that F1|Ω̇| makes in the pockets at an acceleration, W; of a reaction [`with_loss`](Self::with_loss).
+    #[inline(always)]
+    pub fn loss_heat(&self, speed: R, acceleration: R) -> R {
+        self.loss_inertia * acceleration * speed
+    }
 }
 
 /// Energies and angular momentum inside a bearing.
@@ -117,7 +187,7 @@ impl BearingConstants {
     /// Mass that moves with the outer race, kg: the cage, and the balls where they have no states.
     pub fn mass_with_outer_race(&self) -> f64 {
         match self {
-            BearingConstants::Rolling(bearing) => bearing.mass_with_outer_race,
+            BearingConstants::Rolling(bearing) => bearing.set.balls_mass + bearing.set.cage_mass,
             BearingConstants::Planar(bearing) => bearing.cage_mass,
         }
     }
@@ -126,6 +196,59 @@ impl BearingConstants {
         match self {
             BearingConstants::Rolling(_) => 0.0,
             BearingConstants::Planar(bearing) => bearing.balls as f64 * bearing.ball.mass,
+        }
+    }
+    /// Masses and radii of balls and cage.
+    pub fn set(&self) -> RollingSet<f64> {
+        match self {
+            BearingConstants::Rolling(bearing) => bearing.set,
+            BearingConstants::Planar(bearing) => {
+                let ball = &bearing.ball;
+                RollingSet {
+                    inner_track_radius: ball.inner_track,
+                    ball_ratio: ball.radius / ball.inner_track,
+                    balls_mass: bearing.balls as f64 * ball.mass,
+                    cage_mass: bearing.cage_mass,
+                }
+            }
+        }
+    }
+    /// Radius of the circle of the ball centres, m.
+    pub fn pitch_radius(&self) -> f64 {
+        let set = self.set();
+        set.inner_track_radius * (1.0 + set.ball_ratio)
+    }
+    /// Cage speed per inner race speed when the balls roll.
+    pub fn rolling_cage_ratio(&self) -> f64 {
+        self.set().cage_speed(1.0)
+    }
+    /// Name of a state, after `bearing.`.
+    pub fn state_name(&self, state: usize) -> String {
+        const BALL: [&str; 5] = ["radius", "radial_speed", "azimuth", "orbit_speed", "spin"];
+        match state {
+            0 => "cage.angle".to_string(),
+            1 => "cage.speed".to_string(),
+            _ => {
+                let (list, ball) = ((state - 2) / self.balls(), (state - 2) % self.balls());
+                format!("ball_{:02}.{}", ball + 1, BALL[list])
+            }
+        }
+    }
+    /// The magnitude that matters in each state; `spin` is a speed of the inner race, `speed` one of centres.
+    ///
+    /// Ball radii by a ten-thousandth of the ball. Speeds of cage and balls along the orbit count a hundred times more
+    /// than the spin: pocket impacts live on their small differences.
+    pub fn error_scale(&self, scale: &mut [f64], spin: f64, speed: f64) {
+        scale[0] = 1.0;
+        if let BearingConstants::Planar(bearing) = self {
+            let (radius, n) = (bearing.ball.radius, bearing.balls);
+            scale[1] = 0.01 * spin;
+            let ball = &mut scale[planar::BALLS..];
+            ball[..n].fill(1e-4 * radius);
+            ball[n..2 * n].fill(speed);
+            ball[2 * n..3 * n].fill(1.0);
+            ball[3 * n..4 * n].fill(0.01 * spin);
+            ball[4 * n..5 * n].fill(spin * bearing.ball.inner_track / radius);
         }
     }
     /// Energies and angular momentum at a state.
@@ -153,7 +276,8 @@ impl BearingConstants {
     pub fn cage_speed(&self, motion: &Motion<f64>, state: &[f64]) -> f64 {
         match self {
             BearingConstants::Rolling(bearing) => {
-                bearing.cage_ratio * (motion.inner.spin - motion.outer.spin) + motion.outer.spin
+                let speed = motion.inner.spin - motion.outer.spin;
+                bearing.set.cage_speed(speed) + motion.outer.spin
             }
             BearingConstants::Planar(_) => state[1],
         }
@@ -191,9 +315,33 @@ impl<R: Real> Bearing<R> {
         rate: &mut [R],
         detail: &mut [R],
     ) -> BearingReaction<R> {
+        self.react_under(motion, R::zero(), state, rate, detail)
+    }
+
+    /// The same where something holds the races apart from a radial load: that load, N, moves nothing, but adds to the
+    /// load that the steady moment's law sees.
+    #[inline(always)]
+    pub fn react_under(
+        &self,
+        motion: &Motion<R>,
+        held_load: R,
+        state: &[R],
+        rate: &mut [R],
+        detail: &mut [R],
+    ) -> BearingReaction<R> {
         match self {
-            Bearing::Rolling(bearing) => bearing.react(motion, state, rate, detail),
-            Bearing::Planar(bearing) => bearing.react(motion, state, rate, detail),
+            Bearing::Rolling(bearing) => bearing.react(motion, held_load, state, rate, detail),
+            Bearing::Planar(bearing) => bearing.react(motion, held_load, state, rate, detail),
+        }
+    }
+
+    /// Rate of the angular momentum of balls and cage about the origin, N m, from the rates of their states; the outer
+    /// race at rest.
+    #[inline(always)]
+    pub fn angular_momentum_rate(&self, state: &[R], rate: &[R], race_acceleration: R) -> R {
+        match self {
+            Bearing::Rolling(bearing) => bearing.angular_momentum_rate(race_acceleration),
+            Bearing::Planar(bearing) => bearing.angular_momentum_rate(state, rate),
         }
     }
 }

@@ -9,11 +9,18 @@
 //! Drag to ground (c_d on the orbit, c_w on the spin, c_c on the cage) exists to reproduce reference cases; it is no
 //! bearing friction moment.
 //!
-//! Does not model: the steady friction moment, cage translation and land friction, full complement, film, heat.
+//! bearing friction moment. That is [`steady_moment`](super::steady_moment), and excludes it.
+//!
+//! Does not model: cage translation and land friction, full complement, film, heat.
 
-use super::ball::{BallConstants, BallMotion, PocketMotion, RaceMotion, gather_group};
+use super::ball::{
+    BallConstants, BallMotion, BallReaction, PocketMotion, RaceMotion, gather_group,
+};
+use super::steady_moment::{
+    BallMoment, Geometry, MomentPairs, NoMoment, PairsOfBall, SharedMoment,
+};
 use super::{BallSums, BearingEnergy, BearingHeat, BearingReaction, largest};
-use crate::motion::{Motion, Wrench};
+use crate::motion::{Body, Motion, Wrench};
 use number::{Gather, Real, Vec2};
 use physics::traction::{Traction, TractionLaw};
 
@@ -34,6 +41,8 @@ pub struct PlanarConstants {
     pub cage_drag: f64,
     /// Azimuth of ball 1 at the start, rad.
     pub first_ball_angle: f64,
+    /// The steady friction moment; with it the drags to ground are zero.
+    pub moment: Option<SharedMoment>,
 }
 
 /// The planar bearing over `R`.
@@ -44,6 +53,7 @@ pub struct Planar<R: Real> {
     traction: Traction<R::Group>,
     cage_inverse_inertia: R,
     cage_drag: R,
+    moment: Option<MomentPairs<R>>,
     /// Angle of each pocket on the cage, rad.
     seats: Vec<R>,
 }
@@ -92,33 +102,116 @@ impl<R: Real> Planar<R> {
             traction: gather_group::<R, _>(&|lane| &machine(lane).traction),
             cage_inverse_inertia: R::from_lanes(|lane| 1.0 / machine(lane).cage_inertia),
             cage_drag: R::from_lanes(|lane| machine(lane).cage_drag),
+            moment: MomentPairs::gather(&|lane| {
+                let bearing = machine(lane);
+                (bearing.geometry(), bearing.moment.as_ref())
+            }),
             seats: (0..balls)
                 .map(|j| R::from_lanes(|lane| machine(lane).seat(j)))
                 .collect(),
         }
     }
 
-    /// Reaction to the motion of the races.
+    /// Reaction to the motion of the races; the load that is held besides theirs reaches the steady moment only.
     #[inline(always)]
     pub(crate) fn react(
         &self,
+        motion: &Motion<R>,
+        held_load: R,
+        state: &[R],
+        rate: &mut [R],
+        detail: &mut [R],
+    ) -> BearingReaction<R> {
+        // what there is is chosen once a call, not once a ball
+        match &self.moment {
+            None => self.slide(&NoMoment, motion, state, rate, detail),
+            Some(pairs) => {
+                let (shared, moment) = self.shared(pairs, motion, held_load, state);
+                BearingReaction {
+                    steady_moment: moment,
+                    ..self.slide(&shared, motion, state, rate, detail)
+                }
+            }
+        }
+    }
+
+    /// What the balls share of the steady moment, and the moment itself.
+    #[inline(always)]
+    fn shared<'a>(
+        &self,
+        pairs: &'a MomentPairs<R>,
+        motion: &Motion<R>,
+        held_load: R,
+        state: &[R],
+    ) -> (PairsOfBall<'a, R::Group>, R) {
+        let speed = motion.inner.spin - motion.outer.spin;
+        let [x, y, inner_sum, outer_sum] = self.loads(motion, state);
+        let load = Vec2::new(x, y).length_squared().sqrt() + held_load;
+        (
+            pairs.share(speed, load, inner_sum, outer_sum),
+            pairs.moment(speed, load),
+        )
+    }
+
+    /// Rate of the angular momentum of balls and cage about the origin, N m, from the rates of their states.
+    #[inline(always)]
+    pub(crate) fn angular_momentum_rate(&self, state: &[R], rate: &[R]) -> R {
+        let n = self.balls;
+        let (lists, rates) = (split(state, n), split(rate, n));
+        let mut sum = BallSums::<R, 1>::new(n);
+        let mut from = 0;
+        while from < n {
+            let (ball, change) = (load_ball(&lists, from), load_ball::<R>(&rates, from));
+            let two = <R::Group as Real>::splat(2.0);
+            let orbit = ball.radius.square() * change.orbit_speed
+                + two * ball.radius * ball.radial_speed * ball.orbit_speed;
+            let spin = change.spin / self.ball.inverse_inertia;
+            sum.add(from, &[self.ball.mass * orbit + spin]);
+            from += R::GROUP;
+        }
+        sum.total()[0] + rate[1] / self.cage_inverse_inertia
+    }
+
+    /// Loads of all balls: ΣQ_i n (two components), ΣQ_i, ΣQ_o, N.
+    #[inline(always)]
+    fn loads(&self, motion: &Motion<R>, state: &[R]) -> [R; 4] {
+        let n = self.balls;
+        let lists = split(state, n);
+        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
+        let mut sums = BallSums::<R, 4>::new(n);
+        let mut from = 0;
+        while from < n {
+            let ball = load_ball(&lists, from);
+            let between = self.ball.between(&inner, &outer, &ball);
+            let (inner_load, outer_load) = (between.inner.normal.force, between.outer.normal.force);
+            let push = between.inner.n * inner_load;
+            sums.add(from, &[push.x, push.y, inner_load, outer_load]);
+            from += R::GROUP;
+        }
+        sums.total()
+    }
+
+    #[inline(always)]
+    fn slide<M: BallMoment<R::Group>>(
+        &self,
+        steady: &M,
         motion: &Motion<R>,
         state: &[R],
         rate: &mut [R],
         detail: &mut [R],
     ) -> BearingReaction<R> {
-        // the law is chosen once a call, not once a ball
         match &self.traction {
-            Traction::Tanh(law) => self.sum(law, motion, state, rate, detail),
-            Traction::FourParameter(law) => self.sum(law, motion, state, rate, detail),
-            Traction::Dry(law) => self.sum(law, motion, state, rate, detail),
+            Traction::Tanh(law) => self.sum(law, steady, motion, state, rate, detail),
+            Traction::FourParameter(law) => self.sum(law, steady, motion, state, rate, detail),
+            Traction::Dry(law) => self.sum(law, steady, motion, state, rate, detail),
         }
     }
 
     #[inline(always)]
-    fn sum<L: TractionLaw<R::Group>>(
+    fn sum<L: TractionLaw<R::Group>, M: BallMoment<R::Group>>(
         &self,
         traction: &L,
+        steady: &M,
         motion: &Motion<R>,
         state: &[R],
         rate: &mut [R],
@@ -126,30 +219,20 @@ impl<R: Real> Planar<R> {
     ) -> BearingReaction<R> {
         let n = self.balls;
         let (cage_angle, cage_speed) = (state[0], state[1]);
-        let [radius, radial_speed, azimuth, orbit_speed, spin] = split(state, n);
+        let lists = split(state, n);
         let [d_radius, d_radial_speed, d_azimuth, d_orbit_speed, d_spin] = split_mut(rate, n);
 
-        let race = |body: &crate::motion::Body<R>| RaceMotion {
-            position: grouped(body.position),
-            velocity: grouped(body.velocity),
-            spin: body.spin.grouped(),
-        };
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
         let mut sums = BallSums::<R, 15>::new(n);
+        let mut steady_heat = BallSums::<R, 1>::new(n);
         let mut from = 0;
         while from < n {
-            let ball = BallMotion {
-                radius: R::load_group(radius, from),
-                radial_speed: R::load_group(radial_speed, from),
-                azimuth: R::load_group(azimuth, from),
-                orbit_speed: R::load_group(orbit_speed, from),
-                spin: R::load_group(spin, from),
-            };
+            let ball = load_ball(&lists, from);
             let pocket = PocketMotion {
                 angle: cage_angle.grouped() + R::load_group(&self.seats, from),
                 spin: cage_speed.grouped(),
             };
-            let r = self.ball.react(traction, &inner, &outer, &pocket, &ball);
+            let r = (self.ball).react(traction, steady, &inner, &outer, &pocket, &ball);
             R::store_group(ball.radial_speed, d_radius, from);
             R::store_group(r.acceleration.radial, d_radial_speed, from);
             R::store_group(ball.orbit_speed, d_azimuth, from);
@@ -175,6 +258,9 @@ impl<R: Real> Planar<R> {
                     r.heat.pocket_sliding,
                 ],
             );
+            if M::PRESENT {
+                steady_heat.add(from, &[r.heat.steady_moment]);
+            }
             if !detail.is_empty() {
                 for (k, value) in [
                     r.inner_load,
@@ -200,6 +286,8 @@ impl<R: Real> Planar<R> {
             on_outer: Wrench::planar(Vec2::new(s[3], s[4]), s[5]),
             inner_inertia: R::zero(),
             outer_inertia: R::zero(),
+            loss_inertia: R::zero(),
+            steady_moment: R::zero(),
             external_moment: s[7] - cage_drag,
             heat: BearingHeat {
                 inner_damping: s[8],
@@ -209,7 +297,7 @@ impl<R: Real> Planar<R> {
                 drag: s[12] + cage_drag * cage_speed,
                 pocket_damping: s[13],
                 pocket_sliding: s[14],
-                steady_moment: R::zero(),
+                steady_moment: steady_heat.total()[0],
             },
             largest_inner_load: largest(detail, n, 0),
             largest_outer_load: largest(detail, n, 1),
@@ -217,9 +305,28 @@ impl<R: Real> Planar<R> {
     }
 }
 
+/// A race as several balls at a time see it.
 #[inline(always)]
-fn grouped<R: Real>(v: Vec2<R>) -> Vec2<R::Group> {
-    Vec2::new(v.x.grouped(), v.y.grouped())
+fn race<R: Real>(body: &Body<R>) -> RaceMotion<R::Group> {
+    let grouped = |v: Vec2<R>| Vec2::new(v.x.grouped(), v.y.grouped());
+    RaceMotion {
+        position: grouped(body.position),
+        velocity: grouped(body.velocity),
+        spin: body.spin.grouped(),
+    }
+}
+
+/// The balls from an index on.
+#[inline(always)]
+fn load_ball<R: Real>(lists: &[&[R]; 5], from: usize) -> BallMotion<R::Group> {
+    let [radius, radial_speed, azimuth, orbit_speed, spin] = lists;
+    BallMotion {
+        radius: R::load_group(radius, from),
+        radial_speed: R::load_group(radial_speed, from),
+        azimuth: R::load_group(azimuth, from),
+        orbit_speed: R::load_group(orbit_speed, from),
+        spin: R::load_group(spin, from),
+    }
 }
 
 impl PlanarConstants {
@@ -252,20 +359,6 @@ impl PlanarConstants {
     pub fn azimuth_channel(&self, ball: usize) -> usize {
         BALLS + 2 * self.balls + ball
     }
-    /// The distance from the centre at which a ball rests between concentric races.
-    ///
-    /// With interference the loads of both contacts are equal; with clearance the ball is in the middle of the gap.
-    pub fn rest_radius(&self) -> f64 {
-        let b = &self.ball;
-        let interference = b.inner_track + 2.0 * b.radius - b.outer_track;
-        let inner_share = if interference > 0.0 {
-            let softness = (b.inner_stiffness / b.outer_stiffness).powf(2.0 / 3.0);
-            interference / (1.0 + softness)
-        } else {
-            0.5 * interference
-        };
-        b.inner_track + b.radius - inner_share
-    }
     pub(super) fn rest(&self, state: &mut [f64]) {
         state[0] = self.first_ball_angle;
         state[1] = 0.0;
@@ -280,18 +373,35 @@ impl PlanarConstants {
             self.set_motion(state, ball, &motion);
         }
     }
-    /// Reaction of one ball, for inspection.
+    /// Reaction of one ball, for inspection; without a load that is held.
     pub fn ball_reaction(
         &self,
         motion: &Motion<f64>,
         state: &[f64],
         ball: usize,
-    ) -> super::ball::BallReaction<f64> {
-        let (inner, outer) = races(motion);
-        let pocket = self.pocket(state, ball);
-        let motion = self.motion(state, ball);
-        self.ball
-            .react(&self.traction, &inner, &outer, &pocket, &motion)
+    ) -> BallReaction<f64> {
+        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
+        let (pocket, ball) = (self.pocket(state, ball), self.motion(state, ball));
+        let (law, b) = (&self.traction, &self.ball);
+        let one = Planar::<f64>::gather(&|_| self);
+        match &one.moment {
+            None => b.react(law, &NoMoment, &inner, &outer, &pocket, &ball),
+            Some(pairs) => {
+                let (shared, _) = one.shared(pairs, motion, 0.0, state);
+                b.react(law, &shared, &inner, &outer, &pocket, &ball)
+            }
+        }
+    }
+    fn geometry(&self) -> Geometry {
+        Geometry {
+            balls: self.balls,
+            ball_radius: self.ball.radius,
+            inner_track: self.ball.inner_track,
+        }
+    }
+    /// True where anything drags on balls or cage from the ground.
+    pub fn drags_to_ground(&self) -> bool {
+        self.ball.orbit_drag != 0.0 || self.ball.spin_drag != 0.0 || self.cage_drag != 0.0
     }
     fn pocket(&self, state: &[f64], ball: usize) -> PocketMotion<f64> {
         PocketMotion {
@@ -300,7 +410,7 @@ impl PlanarConstants {
         }
     }
     pub(super) fn energy(&self, motion: &Motion<f64>, state: &[f64]) -> BearingEnergy {
-        let (inner, outer) = races(motion);
+        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
         let cage_speed = state[1];
         let mut sum = BearingEnergy {
             spin: 0.5 * self.cage_inertia * cage_speed * cage_speed,
@@ -320,13 +430,4 @@ impl PlanarConstants {
         }
         sum
     }
-}
-
-fn races(motion: &Motion<f64>) -> (RaceMotion<f64>, RaceMotion<f64>) {
-    let race = |body: &crate::motion::Body<f64>| RaceMotion {
-        position: body.position,
-        velocity: body.velocity,
-        spin: body.spin,
-    };
-    (race(&motion.inner), race(&motion.outer))
 }

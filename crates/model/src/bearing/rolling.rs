@@ -1,56 +1,28 @@
 //! The bearing whose balls roll.
 //!
 //! ```text
-//!   t_I = M(Ω, W) + J_I Ω̇          t_O = M(Ω, W) - J_O Ω̇          W = |Σ Q n|
+//!   t_I = M(Ω, W) + J_I Ω̇ + arm F       t_O = M(Ω, W) - J_O Ω̇ + arm F       W = |Σ Q n|
+//!   F = F0(Ω) + F1(Ω)|Ω̇|: the pockets brake the balls, see [`acceleration_loss`](super::acceleration_loss)
 //!   radial force: every ball a Hertz spring (both contacts in series) between the races
 //!   ω_c = Ω/(2(1+s)),  s = r/R
 //! ```
 //! State: cage angle φ_c (rad). Cage and balls move with the outer race where they translate.
 //! Ball loads are quasi-static: the outer load adds the centrifugal force of the ball.
 //!
-//! Assumes: no skid, no slip. Does not model: pocket contact, losses beyond the steady moment,
+//! Assumes: no skid, no slip. Does not model: pocket contact, losses beyond M and F,
 //! the effect of centrifugal force on stiffness.
 
+use super::acceleration_loss::{AccelerationLoss, Loss};
 use super::ball::gather_group;
+use super::steady_moment::SteadyMoment;
 use super::{BallSums, BearingEnergy, BearingHeat, BearingReaction, largest};
 use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, constants};
 use physics::contact::{ball_race, ball_race_energy};
-use physics::palmgren::Palmgren;
+use physics::rolling::RollingSet;
 
 /// Number of states.
 pub const STATES: usize = 1;
-
-/// The steady friction moment M(Ω, W).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SteadyMoment<R> {
-    /// None.
-    None,
-    /// Palmgren's law, continuous and odd in speed.
-    Palmgren(Palmgren<R>),
-    /// Palmgren's law as the source paper prints it, with its steps.
-    PalmgrenPrinted(Palmgren<R>),
-}
-
-impl<R: Real> Gather<R> for SteadyMoment<f64> {
-    type Out = SteadyMoment<R>;
-    fn gather<'a>(machine: &dyn Fn(usize) -> &'a Self) -> SteadyMoment<R>
-    where
-        Self: 'a,
-    {
-        let law = || {
-            Gather::<R>::gather(&|lane| match machine(lane) {
-                SteadyMoment::Palmgren(law) | SteadyMoment::PalmgrenPrinted(law) => law,
-                SteadyMoment::None => panic!("lanes share the friction law"),
-            })
-        };
-        match machine(0) {
-            SteadyMoment::None => SteadyMoment::None,
-            SteadyMoment::Palmgren(_) => SteadyMoment::Palmgren(law()),
-            SteadyMoment::PalmgrenPrinted(_) => SteadyMoment::PalmgrenPrinted(law()),
-        }
-    }
-}
 
 constants! {
     /// What one rolling ball is made of.
@@ -73,20 +45,16 @@ pub struct RollingConstants {
     pub balls: usize,
     /// The ball.
     pub ball: RollingBall<f64>,
-    /// Inertia J_I that balls and cage add at the inner race, kg m².
-    pub inner_inertia: f64,
-    /// Inertia J_O that balls and cage subtract at the outer race, kg m².
-    pub outer_inertia: f64,
-    /// Cage speed per inner race speed, 1/(2(1+s)).
-    pub cage_ratio: f64,
-    /// Radius of the circle of the ball centres, m.
-    pub pitch_radius: f64,
-    /// Mass of balls and cage, kg.
-    pub mass_with_outer_race: f64,
+    /// Masses and radii of balls and cage.
+    pub set: RollingSet<f64>,
     /// Azimuth of ball 1 at the start, rad.
     pub first_ball_angle: f64,
-    /// The steady friction moment.
+    /// The steady friction moment M.
     pub moment: SteadyMoment<f64>,
+    /// Axial load that its law sees, N.
+    pub axial_load: f64,
+    /// Friction F of the balls in their pockets.
+    pub loss: AccelerationLoss,
 }
 
 /// The rolling bearing over `R`.
@@ -98,6 +66,8 @@ pub struct Rolling<R: Real> {
     outer_inertia: R,
     cage_ratio: R,
     moment: SteadyMoment<R>,
+    axial_load: R,
+    loss: Option<Loss<R>>,
     seats: Vec<R>,
 }
 
@@ -108,21 +78,27 @@ impl<R: Real> Rolling<R> {
         Rolling {
             balls,
             ball: gather_group::<R, _>(&|lane| &machine(lane).ball),
-            inner_inertia: R::from_lanes(|lane| machine(lane).inner_inertia),
-            outer_inertia: R::from_lanes(|lane| machine(lane).outer_inertia),
-            cage_ratio: R::from_lanes(|lane| machine(lane).cage_ratio),
+            inner_inertia: R::from_lanes(|lane| machine(lane).set.inner_inertia()),
+            outer_inertia: R::from_lanes(|lane| machine(lane).set.outer_inertia()),
+            cage_ratio: R::from_lanes(|lane| machine(lane).set.cage_speed(1.0)),
             moment: SteadyMoment::gather(&|lane| &machine(lane).moment),
+            axial_load: R::from_lanes(|lane| machine(lane).axial_load),
+            loss: Loss::gather(&|lane| {
+                let bearing = machine(lane);
+                (bearing.set.pocket_friction_arm(), &bearing.loss)
+            }),
             seats: (0..balls)
                 .map(|j| R::from_lanes(|lane| machine(lane).seat(j)))
                 .collect(),
         }
     }
 
-    /// Reaction to the motion of the races.
+    /// Reaction to the motion of the races; the load that is held besides theirs reaches the steady moment only.
     #[inline(always)]
     pub(crate) fn react(
         &self,
         motion: &Motion<R>,
+        held_load: R,
         state: &[R],
         rate: &mut [R],
         detail: &mut [R],
@@ -173,21 +149,29 @@ impl<R: Real> Rolling<R> {
         }
         let [x, y, damping] = sums.total();
         let push = Vec2::new(x, y);
-        let load = || push.length_squared().max(R::splat(1e-30)).sqrt();
         let moment = match &self.moment {
             SteadyMoment::None => R::zero(),
-            SteadyMoment::Palmgren(law) => law.moment(spin, load()),
-            SteadyMoment::PalmgrenPrinted(law) => law.printed_moment(spin, load()),
+            law => {
+                let load = push.length_squared().max(R::splat(1e-30)).sqrt() + held_load;
+                law.moment(spin, load, self.axial_load)
+            }
         };
+        let (loss_moment, loss_inertia) = match &self.loss {
+            None => (R::zero(), R::zero()),
+            Some(loss) => (loss.moment(spin), loss.inertia(spin)),
+        };
+        let resistance = moment + loss_moment;
         // the balls of eccentric races push past the centres: what turns them comes from the races in the shares of
         // their motion
         let turning = (motion.inner.position - motion.outer.position).cross(push);
         let by_inner = self.cage_ratio * turning;
         BearingReaction {
-            on_inner: Wrench::planar(-push, by_inner - moment),
-            on_outer: Wrench::planar(push, turning - by_inner + moment),
+            on_inner: Wrench::planar(-push, by_inner - resistance),
+            on_outer: Wrench::planar(push, turning - by_inner + resistance),
             inner_inertia: self.inner_inertia,
             outer_inertia: self.outer_inertia,
+            loss_inertia,
+            steady_moment: moment,
             external_moment: R::zero(),
             heat: BearingHeat {
                 inner_damping: damping,
@@ -196,12 +180,20 @@ impl<R: Real> Rolling<R> {
                 outer_sliding: R::zero(),
                 drag: R::zero(),
                 pocket_damping: R::zero(),
-                pocket_sliding: R::zero(),
+                pocket_sliding: loss_moment * spin,
                 steady_moment: moment * spin,
             },
             largest_inner_load: largest(detail, n, 0),
             largest_outer_load: largest(detail, n, 1),
         }
+    }
+}
+
+impl<R: Real> Rolling<R> {
+    /// Rate of the angular momentum of balls and cage about the origin, N m, at an acceleration of the inner race.
+    #[inline(always)]
+    pub(crate) fn angular_momentum_rate(&self, race_acceleration: R) -> R {
+        (self.inner_inertia + self.outer_inertia) * race_acceleration
     }
 }
 
@@ -226,10 +218,10 @@ impl RollingConstants {
         BearingEnergy {
             // balls and cage: ½ J_I Ω²; their translation with the outer race is the system's
             translation: 0.0,
-            spin: 0.5 * self.inner_inertia * spin * spin,
+            spin: 0.5 * self.set.inner_inertia() * spin * spin,
             elastic,
             weight: 0.0,
-            angular_momentum: (self.inner_inertia + self.outer_inertia) * spin,
+            angular_momentum: (self.set.inner_inertia() + self.set.outer_inertia()) * spin,
         }
     }
 }

@@ -1,3 +1,5 @@
 //! Systems: one readable page each.
 
 pub mod drop;
+pub mod sampling;
+pub mod spin_up;

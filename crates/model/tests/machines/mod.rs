@@ -6,7 +6,8 @@
 
 use model::bearing::ball::{BallConstants, BallMotion};
 use model::bearing::{
-    BearingConstants, PlanarConstants, RollingConstants, SteadyMoment, rolling::RollingBall,
+    AccelerationLoss, BearingConstants, PlanarConstants, RollingConstants, SteadyMoment,
+    rolling::RollingBall,
 };
 use model::contact::RotorContact;
 use model::levitation::Levitation;
@@ -62,6 +63,7 @@ pub fn planar_bearing() -> PlanarConstants {
         cage_inertia: 1.62e-6,
         cage_drag: 0.0,
         first_ball_angle: 0.0,
+        moment: None,
     }
 }
 
@@ -84,13 +86,11 @@ pub fn rolling_bearing(planar: &PlanarConstants) -> RollingConstants {
             interference: ball.inner_track + 2.0 * ball.radius - ball.outer_track,
             mass_radius: ball.mass * (ball.inner_track + ball.radius),
         },
-        inner_inertia: set.inner_inertia(),
-        outer_inertia: set.outer_inertia(),
-        cage_ratio: set.cage_speed(1.0),
-        pitch_radius: ball.inner_track + ball.radius,
-        mass_with_outer_race: balls_mass + planar.cage_mass,
+        set,
         first_ball_angle: planar.first_ball_angle,
         moment: SteadyMoment::None,
+        axial_load: 0.0,
+        loss: AccelerationLoss::None,
     }
 }
 

@@ -155,7 +155,7 @@ fn spins(machine: &DropMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, f64, f
     ];
     match &machine.constants.bearing {
         BearingConstants::Rolling(b) => {
-            list.push((b.inner_inertia, state[INNER + 5], rate[INNER + 5]));
+            list.push((b.set.inner_inertia(), state[INNER + 5], rate[INNER + 5]));
         }
         BearingConstants::Planar(b) => {
             let part = (bearing_part(machine, state), bearing_part(machine, rate));
@@ -240,7 +240,8 @@ fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f
                 }
                 other => panic!("{other:?} is not used here"),
             };
-            steady + (1.0 - b.cage_ratio) * turning - b.outer_inertia * rate[INNER + 5]
+            steady + (1.0 - b.set.cage_speed(1.0)) * turning
+                - b.set.outer_inertia() * rate[INNER + 5]
         }
         BearingConstants::Planar(b) => {
             let motion = race_motion(state);
@@ -287,7 +288,7 @@ fn angular_momentum_changes_by_outer_moments_alone() {
         match &c.bearing {
             BearingConstants::Rolling(b) => {
                 // the angular momentum of the balls that the inner race does not feel
-                change.add(b.outer_inertia * rate[INNER + 5]);
+                change.add(b.set.outer_inertia() * rate[INNER + 5]);
             }
             BearingConstants::Planar(b) => {
                 outer.add(-b.cage_drag * bearing_part(machine, state)[1]);

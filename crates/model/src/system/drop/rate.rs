@@ -105,6 +105,7 @@ impl<R: Real> Drop<R> {
             inner_force * self.inverse.inner_race_mass
         };
         let inner_moment = contact.on_race.moment + bearing.on_inner.moment + m.inner_race_torque;
+        let bearing = bearing.with_loss(inner.spin, inner_moment);
         let inner_spin_rate = inner_moment / (m.inner_race_inertia + bearing.inner_inertia);
         write_body(rate, INNER, inner.velocity, inner_acceleration);
         rate[INNER + 4] = inner.spin;
@@ -125,7 +126,7 @@ impl<R: Real> Drop<R> {
             heat.outer_sliding,
             heat.drag,
             heat.pocket_damping,
-            heat.pocket_sliding,
+            heat.pocket_sliding + bearing.loss_heat(inner.spin, inner_spin_rate),
             heat.steady_moment,
             m.mount.heat(outer.velocity),
             contact.damping_heat,

@@ -12,7 +12,6 @@ use super::ledger::Content;
 use super::rate::{race_motion, rotor_motion};
 use crate::contact::ContactReaction;
 use number::Vec2;
-use physics::kinematics::BallSet;
 use solve::watch::{maximum, root};
 use solve::{Flow, Machine, Observer, Step};
 
@@ -534,28 +533,11 @@ impl Observer<DropMachine> for Record {
 impl DropMachine {
     /// Cage speed per inner race speed when the balls roll.
     pub fn rolling_cage_ratio(&self) -> f64 {
-        match &self.constants.bearing {
-            crate::bearing::BearingConstants::Rolling(bearing) => bearing.cage_ratio,
-            crate::bearing::BearingConstants::Planar(bearing) => {
-                let ball = &bearing.ball;
-                let set = BallSet {
-                    ball_count: bearing.balls,
-                    ball_diameter: 2.0 * ball.radius,
-                    pitch_diameter: 2.0 * (ball.inner_track + ball.radius),
-                    contact_angle: 0.0,
-                };
-                set.cage_speed(1.0, 0.0)
-            }
-        }
+        self.constants.bearing.rolling_cage_ratio()
     }
     /// Radius of the circle of the ball centres, m.
     pub fn pitch_radius(&self) -> f64 {
-        match &self.constants.bearing {
-            crate::bearing::BearingConstants::Rolling(bearing) => bearing.pitch_radius,
-            crate::bearing::BearingConstants::Planar(bearing) => {
-                bearing.ball.inner_track + bearing.ball.radius
-            }
-        }
+        self.constants.bearing.pitch_radius()
     }
     /// Position of the rotor's geometric centre, m.
     pub fn rotor_centre(&self, state: &[f64]) -> Vec2<f64> {

@@ -1,0 +1,123 @@
+//! Values that a bearing catalogue knows.
+
+use super::bearing_source::{BearingRecord, BearingSource};
+use super::document::{Document, Given, Raw};
+use super::key::{Key, Kind};
+use super::resolve::{Known, Value, Values, quantity_text};
+use super::table;
+use crate::problem::{Code, Place, Problem, did_you_mean};
+
+/// Keys outside `[bearing]` that take the bore of the bearing.
+const BORES: [&str; 2] = ["contact.bore_diameter", "drive.bore_diameter"];
+
+impl Values {
+    /// The catalogue's knowledge of the bearing named. It comes first, because other sections take values from it.
+    pub(super) fn find_bearing(
+        &self,
+        document: &Document,
+        bearings: &dyn BearingSource,
+    ) -> Result<Option<BearingRecord>, Box<Problem>> {
+        let given = document.values.get("bearing.name");
+        let key = table::keys().find(|key| key.path == "bearing.name");
+        let (Some(key), Some(given)) = (key, given) else {
+            return Ok(None);
+        };
+        let known = self.read(key, given)?;
+        let name = known.text.as_str();
+        let record = bearings.find(name);
+        if record.is_some() {
+            return Ok(record);
+        }
+        let names = bearings.names();
+        let mut listed: Vec<&str> = names.iter().map(String::as_str).collect();
+        let near = did_you_mean(name, listed.iter().copied());
+        listed.truncate(12);
+        let allowed = if listed.is_empty() {
+            "the catalogue is empty; give the dimensions of the bearing instead of its name"
+                .to_string()
+        } else {
+            format!(
+                "a bearing of the catalogue is needed ({}{}), or its dimensions instead of its name",
+                listed.join(", "),
+                if names.len() > listed.len() {
+                    ", …"
+                } else {
+                    ""
+                }
+            )
+        };
+        Err(Box::new(
+            self.problem(
+                Code::UnknownBearing,
+                "bearing.name",
+                known.place,
+                format!("\"{name}\", which is not in the catalogue"),
+                allowed,
+            )
+            .with_hint(near),
+        ))
+    }
+
+    pub(super) fn catalogued(
+        &self,
+        key: &Key,
+        record: Option<&BearingRecord>,
+    ) -> Result<Option<Known>, Box<Problem>> {
+        let Some(record) = record else {
+            return Ok(None);
+        };
+        let name = match key.section() {
+            "bearing" => key.name(),
+            _ if BORES.contains(&key.path) => key.name(),
+            _ => return Ok(None),
+        };
+        if let Kind::Word(_) = key.kind {
+            return self.catalogued_word(key, name, record);
+        }
+        let Some((_, si, provenance)) = record.values.iter().find(|(known, ..)| known == name)
+        else {
+            return Ok(None);
+        };
+        let (value, text) = match key.kind {
+            Kind::Quantity(_) => (Value::Number(*si), quantity_text(key, *si)),
+            Kind::Count => (Value::Count(*si as u64), format!("{}", *si as u64)),
+            Kind::Coefficient => (Value::Number(*si), format!("{si:?}")),
+            _ => return Ok(None),
+        };
+        if !key.range.holds(*si) {
+            return Err(Box::new(self.problem(
+                Code::OutOfRange,
+                key.path,
+                Place::Whole,
+                format!("{text} in the catalogue for \"{}\"", record.name),
+                key.needed(),
+            )));
+        }
+        Ok(Some(Known {
+            value,
+            text,
+            provenance: provenance.clone(),
+            place: Place::Whole,
+        }))
+    }
+
+    fn catalogued_word(
+        &self,
+        key: &Key,
+        name: &str,
+        record: &BearingRecord,
+    ) -> Result<Option<Known>, Box<Problem>> {
+        let Some((_, word, provenance)) = record.words.iter().find(|(known, ..)| known == name)
+        else {
+            return Ok(None);
+        };
+        let given = Given {
+            raw: Raw::Text(word.clone()),
+            typed: None,
+            place: Place::Whole,
+        };
+        let mut known = self.read(key, &given)?;
+        known.provenance = provenance.clone();
+        Ok(Some(known))
+    }
+}

@@ -1,0 +1,154 @@
+//! What an unknown key was probably meant to be, and what may stand in its place.
+
+use super::key::Key;
+use super::system::SystemName;
+use super::table;
+use crate::problem::question;
+use units::nearest_names;
+
+/// Most names that a message lists.
+const MOST_NAMES: usize = 12;
+
+/// What may stand where the unknown key stands.
+pub(super) fn allowed_near(path: &[String], system: SystemName) -> String {
+    let section = path[..path.len() - 1].join(".");
+    let names: Vec<&str> = if section.is_empty() {
+        let keys = table::keys_of(system).filter(|key| key.section().is_empty());
+        let sections = table::sections_of(system).filter(|section| !section.path.contains('.'));
+        keys.map(|key| key.path)
+            .chain(sections.map(|section| section.path))
+            .collect()
+    } else {
+        table::keys_of(system)
+            .filter(|key| key.section() == section)
+            .map(Key::name)
+            .chain(
+                table::sections_of(system)
+                    .filter_map(|inner| inner.path.strip_prefix(&section)?.strip_prefix('.')),
+            )
+            .collect()
+    };
+    if names.is_empty() {
+        let sections: Vec<&str> = table::sections_of(system)
+            .map(|section| section.path)
+            .collect();
+        return format!("the sections are {}", sections.join(", "));
+    }
+    if names.len() > MOST_NAMES {
+        return format!(
+            "a key of [{section}] is needed; auxbear new {} lists them",
+            system.word()
+        );
+    }
+    let place = if section.is_empty() {
+        "the top level".to_string()
+    } else {
+        format!("[{section}]")
+    };
+    format!("{place} takes {}", names.join(", "))
+}
+
+/// What an unknown key was probably meant to be.
+pub(super) fn meant(path: &[String], system: SystemName) -> Option<String> {
+    let name = path.last()?;
+    if let Some(hint) = confused(name, system) {
+        return Some(hint.to_string());
+    }
+    let dotted = path.join(".");
+    let section = path[..path.len() - 1].join(".");
+    let all = || {
+        table::keys_of(system)
+            .map(|key| key.path)
+            .chain(table::sections_of(system).map(|section| section.path))
+    };
+    let last = |path: &'static str| path.rsplit('.').next().unwrap_or(path);
+    let inside = |path: &str| path.rsplit_once('.').map_or("", |(section, _)| section) == section;
+    // The same name elsewhere, then a near name in the same section, then a near path, then a near name elsewhere.
+    let mut names: Vec<&str> = all().filter(|path| last(path) == name).collect();
+    if names.is_empty() {
+        let near = nearest_names(name, all().filter(|path| inside(path)).map(last));
+        names = all()
+            .filter(|path| inside(path) && near.first() == Some(&last(path)))
+            .collect();
+    }
+    if names.is_empty() {
+        names = nearest_names(&dotted, all());
+        names.truncate(1);
+    }
+    // Short names are near too many others.
+    if names.is_empty() && name.len() > 3 {
+        let near = nearest_names(name, all().map(last));
+        names = all()
+            .filter(|path| near.first() == Some(&last(path)))
+            .collect();
+    }
+    names.truncate(3);
+    question(&names)
+}
+
+/// The keys of a system that bear the name of a key of another one.
+pub(super) fn namesake(path: &[String], system: SystemName) -> Option<String> {
+    let name = path.last()?;
+    let names: Vec<&str> = table::keys_of(system)
+        .filter(|key| key.name() == name)
+        .map(|key| key.path)
+        .collect();
+    question(&names)
+}
+
+const CLEARANCES: &str = "contact.radial_air_clearance is the radial gap between rotor and inner race, half the difference of their diameters; bearing.operating_diametral_clearance is the diametral internal clearance of the bearing";
+const DIAMETERS: &str = "The file takes diameters: bearing.ball_diameter, bearing.pitch_diameter, contact.bore_diameter";
+
+/// Names that are commonly confused, by the last part of the path.
+fn confused(name: &str, system: SystemName) -> Option<&'static str> {
+    let name = name.to_lowercase();
+    if system != SystemName::Drop {
+        return confused_without_rotor(&name);
+    }
+    if ["clearance", "air_gap", "airgap", "preload", "internal_play"]
+        .iter()
+        .any(|part| name.contains(part))
+    {
+        // A near miss of the right name is better told as such.
+        let right = ["radial_air_clearance", "operating_diametral_clearance"];
+        let near = right
+            .iter()
+            .any(|right| units::edit_distance(&name, right) <= 4);
+        return (!near).then_some(CLEARANCES);
+    }
+    if name.contains("radius") {
+        return Some(DIAMETERS);
+    }
+    Some(match name.as_str() {
+        "rpm" | "omega" | "spin_speed" | "rotational_speed" => {
+            "The spin of the rotor is rotor.speed, e.g. \"12000 rpm\""
+        }
+        "mu" | "friction" => {
+            "Friction between rotor and inner race is contact.friction_coefficient"
+        }
+        "inertia" | "moment_of_inertia" => {
+            "The inertia of the rotor about its axis is rotor.polar_inertia"
+        }
+        "balls" | "number_of_balls" | "n_balls" => "The number of balls is bearing.ball_count",
+        "eccentricity" => "The eccentricity of the rotor is rotor.unbalance_eccentricity",
+        "timestep" | "time_step" | "dt" | "step" => {
+            "The step follows from run.tolerance and is at most run.largest_step; run.output_interval is the time between rows of the history"
+        }
+        "gravity" | "g" => "Gravity is gravity.acceleration with gravity.direction",
+        _ => return None,
+    })
+}
+
+/// The same in systems that have no dropping rotor.
+fn confused_without_rotor(name: &str) -> Option<&'static str> {
+    if name.contains("radius") {
+        return Some("The file takes diameters: bearing.ball_diameter, bearing.pitch_diameter");
+    }
+    Some(match name {
+        "balls" | "number_of_balls" | "n_balls" => "The number of balls is bearing.ball_count",
+        "timestep" | "time_step" | "dt" | "step" => {
+            "The step follows from run.tolerance and is at most run.largest_step; run.output_interval is the time between rows of the history"
+        }
+        _ => return None,
+    })
+}

@@ -1,0 +1,110 @@
+//! Tables: rows of two quantities, of which the first rises.
+
+use super::document::Raw;
+use super::key::{Key, quoted};
+use super::read::{described, unreadable};
+use super::resolve::{Value, Values};
+use crate::problem::{Code, Place, Problem};
+use units::{Unit, parse_quantity};
+
+impl Values {
+    /// Reads the rows of a table; a problem names the row, counted from 1.
+    pub(super) fn read_rows(
+        &self,
+        key: &Key,
+        units: [&str; 2],
+        rows: &[Raw],
+        place: Place,
+    ) -> Result<(Value, String), Box<Problem>> {
+        let wrong = |code, found: String| {
+            Box::new(self.problem(code, key.path, place, found, key.needed()))
+        };
+        if rows.len() < 2 {
+            let found = if rows.is_empty() {
+                "an empty list"
+            } else {
+                "a single row"
+            };
+            let mut problem = wrong(Code::WrongType, found.to_string());
+            problem.hint = Some("At least two rows make a table".to_string());
+            return Err(problem);
+        }
+        let mut values: Vec<[f64; 2]> = Vec::new();
+        let mut texts: Vec<[&str; 2]> = Vec::new();
+        for (number, row) in rows.iter().enumerate().map(|(i, row)| (i + 1, row)) {
+            let Raw::List(cells) = row else {
+                return Err(wrong(
+                    Code::WrongType,
+                    format!("{} as row {number}", row.text()),
+                ));
+            };
+            let [first, second] = cells.as_slice() else {
+                return Err(wrong(
+                    Code::WrongType,
+                    format!("{} values in row {number}", cells.len()),
+                ));
+            };
+            let read = |raw, unit, which| {
+                cell(raw, unit).map_err(|(code, found, hint)| {
+                    let mut problem =
+                        wrong(code, format!("{found} as {which} value of row {number}"));
+                    problem.hint = hint;
+                    problem
+                })
+            };
+            let (x, x_text) = read(first, units[0], "first")?;
+            let (y, y_text) = read(second, units[1], "second")?;
+            if !key.range.holds(y) {
+                return Err(wrong(
+                    Code::OutOfRange,
+                    format!("{} in row {number}", quoted(y_text)),
+                ));
+            }
+            if x < 0.0 {
+                return Err(wrong(
+                    Code::OutOfRange,
+                    format!("{}, below 0, in row {number}", quoted(x_text)),
+                ));
+            }
+            if let (Some(last), Some([last_text, _])) = (values.last(), texts.last())
+                && x <= last[0]
+            {
+                return Err(wrong(
+                    Code::TableOrder,
+                    format!(
+                        "{} in row {number}, which is not above {} in row {}",
+                        quoted(x_text),
+                        quoted(last_text),
+                        number - 1
+                    ),
+                ));
+            }
+            values.push([x, y]);
+            texts.push([x_text, y_text]);
+        }
+        let rows: Vec<String> = texts
+            .iter()
+            .map(|[x, y]| format!("[{}, {}]", quoted(x), quoted(y)))
+            .collect();
+        Ok((Value::Rows(values), format!("[{}]", rows.join(", "))))
+    }
+}
+
+/// One quantity of a row, in SI and as written; else code, what was found and a hint.
+fn cell<'a>(raw: &'a Raw, unit: &str) -> Result<(f64, &'a str), (Code, String, Option<String>)> {
+    let Raw::Text(text) = raw else {
+        let code = match raw {
+            Raw::Integer(..) | Raw::Float(_) => Code::BareNumber,
+            _ => Code::WrongType,
+        };
+        return Err((code, raw.text(), None));
+    };
+    let text = text.trim();
+    let quantity = parse_quantity(text).map_err(|error| unreadable(&error))?;
+    let wanted = Unit::parse(unit).ok().map(|unit| unit.dimension());
+    if wanted != Some(quantity.dimension) {
+        let found = format!("{}, {},", quoted(text), described(quantity.dimension));
+        return Err((Code::WrongDimension, found, None));
+    }
+    Ok((quantity.value_si, text))
+}

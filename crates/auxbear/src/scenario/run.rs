@@ -1,0 +1,32 @@
+//! How long and how finely a system is simulated.
+
+use super::resolve::Values;
+use super::section::Section;
+
+/// The simulation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// Simulated time, s.
+    pub duration: f64,
+    /// Relative tolerance.
+    pub tolerance: f64,
+    /// Time between rows of the history, s.
+    pub output_interval: f64,
+    /// Largest step, s.
+    pub largest_step: f64,
+}
+
+impl Run {
+    pub(super) fn from_values(values: &Values) -> Run {
+        let run = Section {
+            values,
+            path: "run",
+        };
+        Run {
+            duration: run.number("duration"),
+            tolerance: run.number("tolerance"),
+            output_interval: run.number("output_interval"),
+            largest_step: run.number("largest_step"),
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! What a scenario may describe: one of several systems.
+
+use super::drop::Drop;
+use super::spin_up::SpinUp;
+use super::torque::Torque;
+
+/// Name of a system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SystemName {
+    /// A levitated rotor that is released onto its auxiliary bearing.
+    Drop,
+    /// A bearing whose inner race is brought to speed while its outer race stands.
+    SpinUp,
+    /// The torque of a bearing over speed, load and acceleration.
+    Torque,
+}
+
+impl SystemName {
+    /// All systems.
+    pub const ALL: &'static [SystemName] =
+        &[SystemName::Drop, SystemName::SpinUp, SystemName::Torque];
+    /// Their words, in the same order.
+    pub(super) const WORDS: &'static [&'static str] = &["drop", "spin_up", "torque"];
+    /// Words of systems that are planned, so that asking for one is no spelling mistake.
+    pub(super) const PLANNED: &'static [&'static str] = &["rig"];
+
+    /// The word in a file: `spin_up`.
+    pub fn word(self) -> &'static str {
+        SystemName::WORDS[self as usize]
+    }
+
+    /// The system of a word.
+    pub fn of(word: &str) -> Option<SystemName> {
+        let all = SystemName::ALL.iter().copied();
+        all.into_iter().find(|system| system.word() == word)
+    }
+
+    /// Systems in words, for messages: `"drop" or "spin_up"`.
+    pub(super) fn list(systems: &[SystemName]) -> String {
+        let words: Vec<String> = systems
+            .iter()
+            .map(|system| format!("\"{}\"", system.word()))
+            .collect();
+        words.join(" or ")
+    }
+}
+
+/// What is simulated or computed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum System {
+    /// A levitated rotor is released onto its auxiliary bearing.
+    Drop(Drop),
+    /// The inner race of a bearing is brought to speed.
+    SpinUp(SpinUp),
+    /// The torque of a bearing over speed, load and acceleration.
+    Torque(Torque),
+}
+
+impl System {
+    /// Its name.
+    pub fn name(&self) -> SystemName {
+        match self {
+            System::Drop(_) => SystemName::Drop,
+            System::SpinUp(_) => SystemName::SpinUp,
+            System::Torque(_) => SystemName::Torque,
+        }
+    }
+}

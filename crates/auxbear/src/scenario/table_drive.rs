@@ -1,0 +1,154 @@
+//! The part of the table of keys that describes what brings an inner race to speed.
+
+use super::key::{Condition, Key, Kind, Section};
+use super::system::SystemName;
+
+/// The systems of this page.
+const SPIN_UP: &[SystemName] = &[SystemName::SpinUp];
+
+pub(super) const SECTIONS: &[Section] = &[Section {
+    path: "drive",
+    doc: "What turns and loads the inner race; the outer race stands. Angles and speeds count counter-clockwise, x points right and y up. At time 0 race, balls and cage are at rest.",
+    systems: SPIN_UP,
+}];
+
+const fn drive(kinds: &'static [&'static str]) -> Condition {
+    Condition {
+        path: "drive.kind",
+        values: kinds,
+        reason: "",
+    }
+}
+
+const FREE: Condition = Condition {
+    path: "drive.rotor_spin",
+    values: &["free"],
+    reason: "",
+};
+
+pub(super) const KEYS: &[Key] = &[
+    Key::new(
+        "drive.kind",
+        Kind::Word(&["sliding rotor", "torque", "speed"]),
+        "sliding rotor",
+        "What turns the inner race: a rotor that slides in its bore, a torque, or a drive that gives it a speed.",
+    ),
+    Key::new(
+        "drive.radial_load",
+        Kind::Quantity("N"),
+        "80 N",
+        "Radial force of the rotor on the inner race, constant. Give this or load_history.",
+    )
+    .not_negative(),
+    Key::new(
+        "drive.load_history",
+        Kind::Table("s", "N"),
+        "[[\"0 s\", \"200 N\"], [\"10 ms\", \"80 N\"]]",
+        "Radial force over time, straight between the rows and constant after the last.",
+    )
+    .not_negative()
+    .optional("drive.radial_load counts")
+    .excludes("drive.radial_load"),
+    Key::new(
+        "drive.load_direction",
+        Kind::Quantity("rad"),
+        "-90 deg",
+        "Direction of the radial force, from x.",
+    )
+    .default("-90 deg", "downwards, as a weight"),
+    Key::new(
+        "drive.rotor_speed",
+        Kind::Quantity("rad/s"),
+        "12000 rpm",
+        "Spin of the rotor at time 0; the sign is the direction.",
+    )
+    .when(drive(&["sliding rotor"])),
+    Key::new(
+        "drive.rotor_spin",
+        Kind::Word(&["held", "free"]),
+        "held",
+        "Whether the spin of the rotor is held by its drive, or free to fall as the rotor spends its energy.",
+    )
+    .default("held", "a rotor of large inertia hardly slows down while it turns a bearing up")
+    .when(drive(&["sliding rotor"])),
+    Key::new(
+        "drive.rotor_polar_inertia",
+        Kind::Quantity("kg m^2"),
+        "0.01 kg m^2",
+        "Moment of inertia of the rotor about its axis; with several bearings, the share of this one.",
+    )
+    .positive()
+    .when(FREE),
+    Key::new(
+        "drive.bore_diameter",
+        Kind::Quantity("m"),
+        "25 mm",
+        "Diameter at which the rotor slides: the bore of the inner race or of the sleeve in it.",
+    )
+    .positive()
+    .catalogued()
+    .when(drive(&["sliding rotor"])),
+    Key::new(
+        "drive.friction_coefficient",
+        Kind::Coefficient,
+        "0.15",
+        "Coefficient of sliding friction between rotor and inner race.",
+    )
+    .not_negative()
+    .assumed("0.15", "arbitrary; it decides the spin-up time, so give the value of the pair")
+    .when(drive(&["sliding rotor"])),
+    Key::new(
+        "drive.friction_reference_speed",
+        Kind::Quantity("m/s"),
+        "0.05 m/s",
+        "Slip speed that regularises the friction: its coefficient is multiplied by tanh(slip speed / reference speed).",
+    )
+    .positive()
+    .default(
+        "0.05 m/s",
+        "numerical regularisation: small against the sliding speeds of a spin-up",
+    )
+    .when(drive(&["sliding rotor"])),
+    Key::new(
+        "drive.torque",
+        Kind::Quantity("N m"),
+        "0.1 N m",
+        "Torque on the inner race, constant. Give this or torque_history.",
+    )
+    .when(drive(&["torque"])),
+    Key::new(
+        "drive.torque_history",
+        Kind::Table("s", "N m"),
+        "[[\"0 s\", \"0 N m\"], [\"5 ms\", \"0.1 N m\"]]",
+        "Torque over time, straight between the rows and constant after the last.",
+    )
+    .optional("drive.torque counts")
+    .excludes("drive.torque")
+    .when(drive(&["torque"])),
+    Key::new(
+        "drive.final_speed",
+        Kind::Quantity("rad/s"),
+        "12000 rpm",
+        "Speed that the inner race is brought to. Give this or speed_history.",
+    )
+    .when(drive(&["speed"])),
+    Key::new(
+        "drive.acceleration",
+        Kind::Quantity("rad/s^2"),
+        "7200 rad/s^2",
+        "Size of the constant acceleration up to the final speed.",
+    )
+    .positive()
+    .optional("the inner race has its final speed from time 0, a step, while the balls are at rest")
+    .excludes("drive.speed_history")
+    .when(drive(&["speed"])),
+    Key::new(
+        "drive.speed_history",
+        Kind::Table("s", "rad/s"),
+        "[[\"0 s\", \"0 rad/s\"], [\"25 ms\", \"150 rad/s\"]]",
+        "Speed over time, straight between the rows and constant after the last.",
+    )
+    .optional("drive.final_speed counts")
+    .excludes("drive.final_speed")
+    .when(drive(&["speed"])),
+];

@@ -1,0 +1,272 @@
+//! The table of keys: documented, right in itself, and each number of it reaches the typed scenario.
+
+use auxbear::scenario::{
+    BuiltIn, Kind, Presence, Range, Scenario, SystemName, keys, keys_of, sections, sections_of,
+    systems,
+};
+
+const DROP: &str = r#"
+[rotor]
+mass = "8 kg"
+polar_inertia = "0.01 kg m^2"
+speed = "-12000 rpm"
+
+[levitation]
+stiffness = "1e6 N/m"
+damping = "1000 N s/m"
+
+[contact]
+radial_air_clearance = "0.25 mm"
+
+[mount]
+stiffness = "2e7 N/m"
+damping = "5000 N s/m"
+moving_mass = "150 g"
+"#;
+
+const BEARING: &str = r#"
+[bearing]
+name = "6005"
+cage_mass = "6 g"
+"#;
+
+/// A file of the system in which the key has a meaning.
+fn base(system: SystemName, path: &str) -> String {
+    let own = match system {
+        SystemName::Drop => DROP.to_string(),
+        SystemName::SpinUp => drive(path),
+        SystemName::Torque => String::new(),
+    };
+    format!(
+        "format = \"auxbear.scenario/1\"\nsystem = \"{}\"\n{own}{BEARING}",
+        system.word()
+    )
+}
+
+/// A drive of the kind that has the key.
+fn drive(path: &str) -> String {
+    let unless = |other: &str, line: &'static str| if path == other { "" } else { line };
+    let own = match path {
+        "drive.torque" | "drive.torque_history" => [
+            "kind = \"torque\"\n",
+            unless("drive.torque_history", "torque = \"1 N m\"\n"),
+        ],
+        "drive.final_speed" | "drive.acceleration" | "drive.speed_history" => [
+            "kind = \"speed\"\n",
+            unless("drive.speed_history", "final_speed = \"100 rad/s\"\n"),
+        ],
+        _ => [
+            "kind = \"sliding rotor\"\n",
+            "rotor_speed = \"1000 rad/s\"\n",
+        ],
+    };
+    let load = unless("drive.load_history", "radial_load = \"80 N\"\n");
+    format!("[drive]\n{load}{}", own.concat())
+}
+
+fn read(text: &str, sets: &[String]) -> Scenario {
+    match Scenario::parse(text, "test.toml", sets, &BuiltIn) {
+        Ok(scenario) => scenario,
+        Err(problem) => panic!("{problem}\n{sets:?}\n{text}"),
+    }
+}
+
+#[test]
+fn every_key_is_documented_and_belongs_to_a_section() {
+    let mut paths = Vec::new();
+    for key in keys() {
+        assert!(key.doc.ends_with('.') && key.doc.len() > 10, "{}", key.path);
+        assert!(!key.example.is_empty(), "{}", key.path);
+        assert!(!paths.contains(&key.path), "{} twice", key.path);
+        paths.push(key.path);
+        let section = key.section();
+        let known = sections().find(|known| known.path == section);
+        assert!(section.is_empty() || known.is_some(), "{}", key.path);
+        if let Some(known) = known {
+            let inside = systems(key).iter().all(|s| known.systems.contains(s));
+            assert!(inside, "{} in a system without [{section}]", key.path);
+        }
+        let units = match key.kind {
+            Kind::Quantity(unit) => vec![unit],
+            Kind::Table(first, second) => vec![first, second],
+            _ => Vec::new(),
+        };
+        for unit in units {
+            let unit = units::Unit::parse(unit).unwrap();
+            assert_eq!(unit.to_si(1.0), 1.0, "{}", key.path);
+            assert!(unit.dimension().name().is_some(), "{}", key.path);
+        }
+        let reason = match key.presence {
+            Presence::Required | Presence::FromBearing => "needs none",
+            Presence::Optional(text) | Presence::Derived(text) => text,
+            Presence::Default(fallback) | Presence::DefaultWhen(_, fallback, _) => fallback.reason,
+        };
+        assert!(reason.len() > 8, "{}: {reason}", key.path);
+        for condition in key.when.iter() {
+            assert!(
+                paths.contains(&condition.path),
+                "{} stands before {}",
+                key.path,
+                condition.path
+            );
+        }
+    }
+    for section in sections() {
+        assert!(section.doc.ends_with('.'), "{}", section.path);
+        for system in section.systems {
+            assert!(keys_of(*system).any(|key| key.section() == section.path));
+        }
+    }
+    for system in SystemName::ALL {
+        assert!(sections_of(*system).count() > 0);
+    }
+}
+
+/// What must be chosen for the key to have a meaning.
+fn choices(path: &str) -> Vec<String> {
+    let list: &[&str] = match path {
+        "rotor.brake_torque" => &["rotor.spin=braked"],
+        "rotor.brake_start" => &["rotor.spin=braked", "rotor.brake_torque=1 N m"],
+        "drive.rotor_polar_inertia" => &["drive.rotor_spin=free"],
+        "bearing.traction.a" | "bearing.traction.b" | "bearing.traction.c"
+        | "bearing.traction.d" => &[
+            "bearing.traction.law=four parameter",
+            "bearing.traction.a=-0.07",
+            "bearing.traction.b=0.35 s/m",
+            "bearing.traction.c=5 s/m",
+            "bearing.traction.d=0.07",
+        ],
+        "bearing.traction.kinetic" | "bearing.traction.static" | "bearing.traction.decay_speed" => {
+            &[
+                "bearing.traction.law=dry",
+                "bearing.traction.kinetic=0.1",
+                "bearing.traction.static=0.15",
+                "bearing.traction.decay_speed=0.5 m/s",
+            ]
+        }
+        "bearing.moment.law" => &["bearing.fidelity=rolling"],
+        _ if path.starts_with("bearing.moment.") => &[
+            "bearing.fidelity=rolling",
+            "bearing.moment.law=palmgren",
+            "bearing.moment.f0=2",
+            "bearing.moment.viscosity=100 mm^2/s",
+            "bearing.moment.f1_factor=9e-4",
+            "bearing.moment.f1_exponent=0.55",
+        ],
+        _ => &[],
+    };
+    list.iter().map(|set| set.to_string()).collect()
+}
+
+/// The choices that the system has.
+fn choices_of(system: SystemName, path: &str) -> Vec<String> {
+    let known =
+        |set: &String| keys_of(system).any(|key| set.starts_with(&format!("{}=", key.path)));
+    choices(path).into_iter().filter(known).collect()
+}
+
+/// A value that no other key has, and small enough for every check: its text and its size in SI.
+fn unlike_any_other(path: &str, kind: Kind, range: Range, example: &str) -> Option<(String, f64)> {
+    match kind {
+        Kind::Quantity(unit) => {
+            let si = match path {
+                "contact.bore_diameter" | "drive.bore_diameter" => 0.0234567,
+                "contact.radial_air_clearance" => 0.000234567,
+                "bearing.pitch_diameter" => 0.0367891,
+                "bearing.ball_diameter" => 0.00612345,
+                "levitation.stiffness" => 1_234_567.0,
+                "run.output_interval" => 0.000345678,
+                _ if path.starts_with("run.") => {
+                    units::parse_quantity(example).unwrap().value_si * 0.9876543
+                }
+                _ => 1.234567e-5,
+            };
+            Some((format!("{} {unit}", units::number_text(si)), si))
+        }
+        Kind::Table(first, second) => {
+            let si = 1.234567e-5;
+            let text =
+                format!("[[\"0 {first}\", \"1 {second}\"], [\"1 {first}\", \"{si} {second}\"]]");
+            Some((text, si))
+        }
+        Kind::Coefficient => {
+            let si = match range {
+                Range::Above(low) => low + 0.0123456,
+                Range::FromTo(low, _) => low * 1.234567,
+                // a traction coefficient must not become negative, so A is
+                _ if path == "bearing.traction.a" => -0.0612345,
+                _ => 0.0612345,
+            };
+            Some((format!("{si:?}"), si))
+        }
+        _ => None,
+    }
+}
+
+/// Each number reaches the typed scenario, and only under its own name: a value that nothing else has is found there once.
+#[test]
+fn every_number_reaches_the_typed_scenario() {
+    for system in SystemName::ALL {
+        for key in keys_of(*system) {
+            let Some((text, si)) = unlike_any_other(key.path, key.kind, key.range, key.example)
+            else {
+                continue;
+            };
+            // this one is replaced by the eccentricity that follows from it
+            if key.path == "rotor.unbalance" {
+                continue;
+            }
+            let mut list = choices_of(*system, key.path);
+            if key.path == "bearing.traction.a" {
+                list.push(format!("bearing.traction.d={:?}", -si));
+            }
+            if key.path == "bearing.traction.d" {
+                list.push(format!("bearing.traction.a={:?}", -si));
+            }
+            list.push(format!("{}={text}", key.path));
+            let typed = read(&base(*system, key.path), &list).system;
+            let name = match key.name() {
+                "brake_torque" => "torque",
+                "brake_start" => "start",
+                "kinetic" => "kinetic_coefficient",
+                "static" => "static_coefficient",
+                "load_history" => "radial_load",
+                "torque_history" => "torque",
+                name => name,
+            };
+            let shown = format!("{typed:#?}");
+            let wrapped = [": Some(\n", ": Constant(\n", ": Table(\n"]
+                .iter()
+                .any(|form| shown.contains(&format!("{name}{form}")))
+                || key.path == "drive.speed_history";
+            let found = shown.contains(&format!("{name}: {si:?},"))
+                || (wrapped && shown.matches(&format!(" {si:?},")).count() == 1);
+            assert!(found, "{} = {text}\n{shown}", key.path);
+        }
+    }
+}
+
+/// Each default and each example is itself a right value.
+#[test]
+fn examples_and_defaults_are_right_values() {
+    for system in SystemName::ALL {
+        let own = |path| !["format", "system"].contains(&path);
+        for key in keys_of(*system).filter(|key| own(key.path)) {
+            let fallback = match key.presence {
+                Presence::Default(fallback) | Presence::DefaultWhen(_, fallback, _) => {
+                    Some(fallback.text)
+                }
+                _ => None,
+            };
+            for text in [Some(key.example), fallback].into_iter().flatten() {
+                let mut list = choices_of(*system, key.path);
+                list.push(format!("{}={text}", key.path));
+                // A law that needs more keys is read in another test.
+                if key.path == "rotor.unbalance" || text == "palmgren" {
+                    continue;
+                }
+                read(&base(*system, key.path), &list);
+            }
+        }
+    }
+}

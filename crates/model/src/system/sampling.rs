@@ -1,0 +1,153 @@
+//! What every system's record does alike: rows at equal intervals, largest values, first rises through a level.
+
+use solve::{Machine, Step};
+
+/// The largest value of something, and when.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peak {
+    /// Value.
+    pub value: f64,
+    /// Instant, s.
+    pub time: f64,
+}
+
+impl Peak {
+    /// Nothing yet.
+    pub const NONE: Peak = Peak {
+        value: 0.0,
+        time: 0.0,
+    };
+    /// Takes a larger value.
+    pub fn raise(&mut self, value: f64, time: f64) {
+        if value > self.value {
+            *self = Peak { value, time };
+        }
+    }
+}
+
+/// A channel that rises through a level for the first time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rise {
+    /// The channel.
+    channel: usize,
+    /// The level, of either sign: the channel rises away from zero.
+    level: f64,
+    /// When it did, s.
+    pub time: Option<f64>,
+}
+
+impl Rise {
+    /// A rise that has not happened yet.
+    pub fn through(channel: usize, level: f64) -> Self {
+        Rise {
+            channel,
+            level,
+            time: None,
+        }
+    }
+    /// Looks for the rise in a step, on dense output.
+    pub fn watch<M: Machine>(&mut self, step: &mut Step<M>) {
+        let (sign, level) = (self.level.signum(), self.level.abs());
+        let above = |value: f64| sign * value >= level;
+        if self.time.is_some() || level == 0.0 || !above(step.end_state(self.channel)) {
+            return;
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        // 40 halvings: 1e-12 of a step
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            if above(step.state(middle)[self.channel]) {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        self.time = Some(step.time(high));
+    }
+}
+
+/// Rows of state, probes and `EXTRA` further values at equal intervals. Room is made before the run.
+#[derive(Clone, Debug)]
+pub struct Rows<const EXTRA: usize> {
+    interval: f64,
+    next: u64,
+    values: Vec<f64>,
+    keep: bool,
+    dimension: usize,
+    probes: usize,
+}
+
+/// One row: time, state, probes, further values.
+pub type RowParts<'a, const EXTRA: usize> = (f64, &'a [f64], &'a [f64], [f64; EXTRA]);
+
+impl<const EXTRA: usize> Rows<EXTRA> {
+    /// Rows of a run until `end`, one every `interval`, or none.
+    pub fn new<M: Machine>(machine: &M, end: f64, interval: f64, keep: bool) -> Self {
+        let (dimension, probes) = (machine.dimension(), machine.probes());
+        let count = if keep {
+            (end / interval) as usize + 3
+        } else {
+            0
+        };
+        Rows {
+            interval,
+            next: 0,
+            values: Vec::with_capacity(count * (dimension + probes + EXTRA + 1)),
+            keep,
+            dimension,
+            probes,
+        }
+    }
+    fn width(&self) -> usize {
+        self.dimension + self.probes + EXTRA + 1
+    }
+    /// Number of rows.
+    pub fn count(&self) -> usize {
+        self.values.len() / self.width()
+    }
+    /// The rows.
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = RowParts<'_, EXTRA>> {
+        self.values.chunks_exact(self.width()).map(|row| {
+            let (state, rest) = row.split_at(self.dimension);
+            let (probe, rest) = rest.split_at(self.probes);
+            let extra = std::array::from_fn(|i| rest[1 + i]);
+            (rest[0], state, probe, extra)
+        })
+    }
+    fn push(&mut self, time: f64, state: &[f64], probe: &[f64], extra: [f64; EXTRA]) {
+        self.values.extend_from_slice(state);
+        self.values.extend_from_slice(probe);
+        self.values.push(time);
+        self.values.extend_from_slice(&extra);
+    }
+    /// Takes the rows that fall into a step; `extra` gives the further values of a state.
+    pub fn sample<M: Machine>(
+        &mut self,
+        step: &mut Step<M>,
+        extra: impl Fn(&M, &[f64]) -> [f64; EXTRA],
+    ) {
+        if !self.keep {
+            return;
+        }
+        let length = step.end - step.start;
+        loop {
+            let time = self.next as f64 * self.interval;
+            if time > step.end {
+                return;
+            }
+            // a row on the very end of the step is the end itself
+            let theta = ((time - step.start) / length).clamp(0.0, 1.0);
+            let (machine, time) = (step.machine, step.time(theta));
+            let (state, probe) = step.evaluate(theta);
+            self.push(time, state, probe, extra(machine, state));
+            self.next += 1;
+        }
+    }
+    /// Adds the last state of a run, where it is not a row already; `probe` and `extra` belong to it.
+    pub fn finish(&mut self, time: f64, state: &[f64], probe: &[f64], extra: [f64; EXTRA]) {
+        let last = self.iter().next_back().map(|row| row.0);
+        if self.keep && last.is_none_or(|last| last < time) {
+            self.push(time, state, probe, extra);
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! Where everything stands in the state of a spin-up.
+//!
+//! ```text
+//!   0..6   inner race   x y, ẋ ẏ, φ_i, Ω
+//!   6..8   rotor        φ_r, ω_r; stands still where nothing slides
+//!   8..    bearing      its own states
+//!   then   ledger       heats, works of the sources, external angular impulse,
+//!                       works by the moments on the races
+//! ```
+
+use super::SpinUpConstants;
+use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
+use std::ops::Range;
+
+/// First channel of the inner race.
+pub const INNER: usize = 0;
+/// First channel of the rotor.
+pub const ROTOR: usize = 6;
+/// First channel of the bearing.
+pub const BEARING: usize = 8;
+
+/// Kinds of heat, in the order of their channels: those of the bearing, then the sliding rotor's. Names as in results.
+pub const HEATS: [&str; bearing::HEATS.len() + 1] = {
+    let mut all = ["rotor_race_friction"; bearing::HEATS.len() + 1];
+    let mut i = 0;
+    while i < bearing::HEATS.len() {
+        all[i] = bearing::HEATS[i];
+        i += 1;
+    }
+    all
+};
+/// Kinds of source, in the order of their channels.
+pub const SOURCES: [&str; 3] = ["radial_load", "rotor_torque", "inner_race_torque"];
+/// Works by the moments on the races, in the order of their channels.
+///
+/// | name | integral over time |
+/// |---|---|
+/// | `inner_moment` | t_I Ω |
+/// | `outer_moment` | t_O Ω: what a torque arm and a speed pick-up give |
+/// | `momentum` | Ω dL/dt, L of balls and cage |
+/// | `other` | t_g Ω - (c_i × F)Ω + F·v_i: drags to the ground, weight, a race that moves; 0 on the concentric rig |
+pub const WORKS: [&str; 4] = ["inner_moment", "outer_moment", "momentum", "other"];
+/// Channels of the ledger: heats, sources, external angular impulse, works.
+pub const LEDGER: usize = HEATS.len() + SOURCES.len() + 1 + WORKS.len();
+
+/// Probe: moment t_I that resists the inner race, N m.
+pub const INNER_MOMENT: usize = 0;
+/// Probe: moment t_O that the bearing exerts on the outer race, N m.
+pub const OUTER_MOMENT: usize = 1;
+/// Probe: the steady moment M of the law at this speed and load, N m.
+pub const STEADY_MOMENT: usize = 2;
+/// Probe: moment of the drive on the inner race, N m.
+pub const DRIVE_MOMENT: usize = 3;
+/// Probe: acceleration of the inner race, rad/s².
+pub const ACCELERATION: usize = 4;
+/// Probe: radial load applied, N.
+pub const APPLIED_LOAD: usize = 5;
+/// Probe: size of the force of the balls on the inner race, N.
+pub const BEARING_LOAD: usize = 6;
+/// Probe: cage speed, rad/s.
+pub const CAGE_SPEED: usize = 7;
+/// Probe: cage slip S = 1 - 2(1+s)ω_c/Ω; 0 at rest.
+pub const CAGE_SLIP: usize = 8;
+/// Probe: slip of the rotor in the bore, rotor less race, m/s.
+pub const ROTOR_SLIP: usize = 9;
+/// Probe: friction force of the rotor on the race, forward positive, N.
+pub const FRICTION_FORCE: usize = 10;
+/// Probe: sum of the ball loads at the inner race, N.
+pub const INNER_LOAD_SUM: usize = 11;
+/// Probe: largest ball load at the inner race, N.
+pub const LARGEST_INNER_LOAD: usize = 12;
+/// Probe: largest ball load at the outer race, N.
+pub const LARGEST_OUTER_LOAD: usize = 13;
+/// First probe of the bearing's detail.
+pub const DETAIL: usize = 14;
+
+/// Names and units of the probes before the detail.
+pub const PROBES: [(&str, &str); DETAIL] = [
+    ("bearing.inner_race.resisting_moment", "N m"),
+    ("bearing.outer_race.moment", "N m"),
+    ("bearing.steady_moment", "N m"),
+    ("drive.moment", "N m"),
+    ("bearing.inner_race.acceleration", "rad/s^2"),
+    ("drive.radial_load", "N"),
+    ("bearing.radial_load", "N"),
+    ("bearing.cage.speed", "rad/s"),
+    ("bearing.cage.slip", "1"),
+    ("rotor.slip_speed", "m/s"),
+    ("rotor.friction_force", "N"),
+    ("bearing.inner_race.ball_load_sum", "N"),
+    ("bearing.inner_race.largest_ball_load", "N"),
+    ("bearing.outer_race.largest_ball_load", "N"),
+];
+
+/// Sizes of a spin-up's state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// Number of balls.
+    pub balls: usize,
+    /// Number of the bearing's own states.
+    pub bearing_states: usize,
+}
+
+impl Layout {
+    /// The layout of a machine.
+    pub fn of(constants: &SpinUpConstants) -> Self {
+        Layout {
+            balls: constants.bearing.balls(),
+            bearing_states: constants.bearing.states(),
+        }
+    }
+    /// Channels of the bearing.
+    #[inline(always)]
+    pub fn bearing(&self) -> Range<usize> {
+        BEARING..self.ledger()
+    }
+    /// First channel of the ledger.
+    #[inline(always)]
+    pub fn ledger(&self) -> usize {
+        BEARING + self.bearing_states
+    }
+    /// Number of channels.
+    #[inline(always)]
+    pub fn dimension(&self) -> usize {
+        self.ledger() + LEDGER
+    }
+    /// Number of probes.
+    pub fn probes(&self) -> usize {
+        DETAIL + DETAIL_PER_BALL * self.balls
+    }
+    /// Channel of a heat of [`HEATS`].
+    #[inline(always)]
+    pub fn heat(&self, index: usize) -> usize {
+        self.ledger() + index
+    }
+    /// Channel of the work of a source of [`SOURCES`].
+    #[inline(always)]
+    pub fn source(&self, index: usize) -> usize {
+        self.heat(HEATS.len()) + index
+    }
+    /// Channel of the external angular impulse.
+    #[inline(always)]
+    pub fn angular_impulse(&self) -> usize {
+        self.source(SOURCES.len())
+    }
+    /// Channel of a work of [`WORKS`].
+    #[inline(always)]
+    pub fn work(&self, index: usize) -> usize {
+        self.angular_impulse() + 1 + index
+    }
+
+    /// Name of a channel.
+    pub fn channel_name(&self, bearing: &BearingConstants, channel: usize) -> String {
+        const BODY: [&str; 6] = ["x", "y", "x_speed", "y_speed", "angle", "speed"];
+        match channel {
+            c if c < ROTOR => format!("bearing.inner_race.{}", BODY[c]),
+            c if c < BEARING => format!("rotor.{}", BODY[c - ROTOR + 4]),
+            c if c < self.ledger() => format!("bearing.{}", bearing.state_name(c - BEARING)),
+            c if c < self.source(0) => format!("energy.heat.{}", HEATS[c - self.ledger()]),
+            c if c < self.angular_impulse() => {
+                format!("energy.source.{}", SOURCES[c - self.source(0)])
+            }
+            c if c == self.angular_impulse() => "angular_momentum.impulse".to_string(),
+            c => format!("energy.work.{}", WORKS[c - self.work(0)]),
+        }
+    }
+
+    /// The magnitude that matters in each channel: a tolerance of 1e-6 allows errors of one millionth of it a step.
+    ///
+    /// Places of race and balls by a ten-thousandth of the ball, speeds of centres by a thousandth of the speed of the
+    /// ball centres, spins by the target speed, energies by the spin energy of the race at that speed.
+    pub fn error_scale(&self, constants: &SpinUpConstants) -> Vec<f64> {
+        let spin = constants.target_speed.abs().max(1.0);
+        let pitch = constants.bearing.pitch_radius();
+        let set = constants.bearing.set();
+        let centre_speed = 1e-3 * spin * pitch;
+        let inertia = constants.race.inertia + set.inner_inertia();
+        let mut scale = vec![0.0; self.dimension()];
+        scale[INNER..INNER + 2].fill(1e-4 * set.inner_track_radius * set.ball_ratio);
+        scale[INNER + 2..INNER + 4].fill(centre_speed);
+        scale[INNER + 4] = 1.0;
+        scale[INNER + 5] = spin;
+        scale[ROTOR] = 1.0;
+        scale[ROTOR + 1] = spin;
+        let own = self.bearing();
+        (constants.bearing).error_scale(&mut scale[own], spin, centre_speed);
+        scale[self.ledger()..].fill(0.5 * inertia * spin * spin);
+        scale[self.angular_impulse()] = inertia * spin;
+        scale
+    }
+}

@@ -1,0 +1,179 @@
+//! Energies and angular momentum of a spin-up, what must close, and the energy seen from the outer race.
+//!
+//! At all times: works of the sources = change of (kinetic + potential) + heats, and
+//! change of angular momentum about the origin = external angular impulse.
+//!
+//! ```text
+//!   what the bearing dissipates, from the moment on the outer race            Ω0 final speed, start at rest
+//!   printed (21)    (1+2s) ∫ t_O Ω dt + ½ J_O Ω0²                             J_O = (1+2s)(3/20 N m_b + ¼ m_c) R²
+//!   corrected              ∫ t_O Ω dt + ½ J_O Ω0²                             balls that roll all the way
+//!   exact                  ∫ (t_O + t_g) Ω dt + ∫ Ω dL - Δ(KE + U)            any skidding, races concentric and fixed
+//!   path term              ∫ Ω dL, from ½ L0 Ω0 (rolling) to L0 Ω0 (balls spun up after the race)
+//! ```
+//! L: angular momentum of balls and cage, L0 when they roll at Ω0. dL/dt is taken from the rates of the states, not from
+//! the moments, so the exact form is a check and not an identity. Where the inner race moves, the work `other` of
+//! [`WORKS`](super::layout::WORKS) carries its part.
+
+use super::Drive;
+use super::SpinUpMachine;
+use super::layout::{HEATS, INNER, ROTOR, SOURCES};
+use super::rate::race_motion;
+use crate::bearing::{self, BearingEnergy};
+use solve::Machine;
+
+/// Energies and angular momentum at one state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Content {
+    /// Kinetic energy of all centres, J.
+    pub translation: f64,
+    /// Kinetic energy of all spins, J.
+    pub spin: f64,
+    /// Potential: contacts, weight, J.
+    pub potential: f64,
+    /// Angular momentum about the origin, N m s.
+    pub angular_momentum: f64,
+    /// Kinetic and potential energy of balls and cage alone, J.
+    pub bearing_energy: f64,
+    /// Angular momentum L of balls and cage alone, N m s.
+    pub bearing_angular_momentum: f64,
+}
+
+impl Content {
+    /// Kinetic and potential energy, J.
+    pub fn energy(&self) -> f64 {
+        self.translation + self.spin + self.potential
+    }
+}
+
+/// What flowed since the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flows {
+    /// Sum of the heats, J.
+    pub heat: f64,
+    /// Sum of the works of the sources, J.
+    pub work: f64,
+    /// Sum of the sizes of these works, J.
+    pub work_size: f64,
+    /// External angular impulse, N m s.
+    pub angular_impulse: f64,
+}
+
+/// What the bearing dissipated in a spin-up from rest, J: true, and as the outer race tells it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OuterRaceEnergy {
+    /// Sum of the heats in the bearing.
+    pub dissipated: f64,
+    /// The source paper's (21) as printed.
+    pub printed: f64,
+    /// Its correction: balls that roll all the way.
+    pub corrected: f64,
+    /// The exact form.
+    pub exact: f64,
+    /// The path term ∫Ω dL as it was.
+    pub path: f64,
+    /// The path term of balls that roll all the way, ½ L0 Ω0.
+    pub least_path: f64,
+    /// The path term of balls spun up after the race, L0 Ω0.
+    pub largest_path: f64,
+}
+
+impl SpinUpMachine {
+    /// Energies and angular momentum at a state.
+    pub fn content(&self, state: &[f64]) -> Content {
+        let race = &self.constants.race;
+        let motion = race_motion(state);
+        let inner = &motion.inner;
+        let BearingEnergy {
+            translation,
+            spin,
+            elastic,
+            weight,
+            angular_momentum,
+        } = self
+            .constants
+            .bearing
+            .energy(&motion, &state[self.layout.bearing()]);
+        let rotor_inertia = match &self.constants.drive {
+            Drive::SlidingRotor(rotor) if !rotor.spin_held => rotor.polar_inertia,
+            _ => 0.0,
+        };
+        let rotor_spin = state[ROTOR + 1];
+        Content {
+            translation: 0.5 * race.mass * inner.velocity.length_squared() + translation,
+            spin: 0.5 * race.inertia * inner.spin * inner.spin
+                + 0.5 * rotor_inertia * rotor_spin * rotor_spin
+                + spin,
+            potential: elastic + weight - race.mass * race.gravity.dot(inner.position),
+            angular_momentum: race.mass * inner.position.cross(inner.velocity)
+                + race.inertia * inner.spin
+                + rotor_inertia * rotor_spin
+                + angular_momentum,
+            bearing_energy: translation + spin + elastic + weight,
+            bearing_angular_momentum: angular_momentum,
+        }
+    }
+
+    /// What the ledger channels of a state have summed up.
+    pub fn flows(&self, state: &[f64]) -> Flows {
+        let layout = &self.layout;
+        let works = (0..SOURCES.len()).map(|i| state[layout.source(i)]);
+        Flows {
+            heat: (0..HEATS.len()).map(|i| state[layout.heat(i)]).sum(),
+            work: works.clone().sum(),
+            work_size: works.map(f64::abs).sum(),
+            angular_impulse: state[layout.angular_impulse()],
+        }
+    }
+
+    /// Energy balance between two states, J: works less heats less what is stored; zero but for errors.
+    pub fn energy_residual(&self, start: &[f64], end: &[f64]) -> f64 {
+        let (from, to) = (self.flows(start), self.flows(end));
+        (to.work - from.work)
+            - (to.heat - from.heat)
+            - (self.content(end).energy() - self.content(start).energy())
+    }
+
+    /// Balance of angular momentum between two states, N m s; zero but for errors.
+    pub fn angular_momentum_residual(&self, start: &[f64], end: &[f64]) -> f64 {
+        let impulse = self.flows(end).angular_impulse - self.flows(start).angular_impulse;
+        let change = self.content(end).angular_momentum - self.content(start).angular_momentum;
+        impulse - change
+    }
+
+    /// The energy that the bearing dissipated between two states, told in four ways.
+    ///
+    /// The printed and the corrected form and the bounds of the path term take the balls to have been at rest at the
+    /// start and to roll at the end.
+    pub fn outer_race_energy(&self, start: &[f64], end: &[f64]) -> OuterRaceEnergy {
+        let layout = &self.layout;
+        let flow = |channel: usize| end[channel] - start[channel];
+        let set = self.constants.bearing.set();
+        let final_speed = end[INNER + 5];
+        let (inner_inertia, outer_inertia) = (set.inner_inertia(), set.outer_inertia());
+        let momentum = (inner_inertia + outer_inertia) * final_speed;
+        let outer_work = flow(layout.work(1));
+        let path = flow(layout.work(2));
+        let inertial = 0.5 * outer_inertia * final_speed * final_speed;
+        let stored = self.content(end).bearing_energy - self.content(start).bearing_energy;
+        OuterRaceEnergy {
+            dissipated: (0..bearing::HEATS.len())
+                .map(|kind| flow(layout.heat(kind)))
+                .sum(),
+            printed: (1.0 + 2.0 * set.ball_ratio) * outer_work + inertial,
+            corrected: outer_work + inertial,
+            exact: outer_work + flow(layout.work(3)) + path - stored,
+            path,
+            least_path: 0.5 * momentum * final_speed,
+            largest_path: momentum * final_speed,
+        }
+    }
+
+    /// The rate of change of a state at an instant, for inspection: (rate, probes).
+    pub fn inspect(&self, time: f64, state: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let mut rate = vec![0.0; self.dimension()];
+        let mut probe = vec![0.0; self.probes()];
+        let mode = self.constants.mode(time);
+        self.rate(&mode, time, state, &mut rate, &mut probe);
+        (rate, probe)
+    }
+}

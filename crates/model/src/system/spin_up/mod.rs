@@ -1,0 +1,393 @@
+//! The inner race of a bearing is brought to speed; the outer race stands.
+//!
+//! ```text
+//!        rotor φ_r, ω_r ── slides in the bore, μ tanh(u/u0) W at R_0          drive: one of three
+//!          │                                                                  - the sliding rotor
+//!        inner race c_i, φ_i, Ω  ←── radial load W(t) in a fixed direction    - a torque over time
+//!          │ bearing: balls, cage                                             - a speed over time
+//!        outer race: the ground takes t_O
+//!
+//!   I_I Ω̇ = drive - t_I        sliding rotor: drive = R_0 μ W            (18), (19) of the source paper
+//! ```
+//! | page | subject |
+//! |---|---|
+//! | [`layout`] | where everything stands in the state, and its names |
+//! | [`rate`] | the equations of motion |
+//! | [`ledger`] | energies, momentum, what closes; the energy by the outer race, (21) |
+//! | [`record`] | what is watched and kept of a run |
+//! | [`steady`] | a steady run: its moments, λ, whether the balls can roll at all |
+//!
+//! The inner race may move in the plane under its load and weight, or be held in the middle: the concentric rig of the
+//! paper's equations. Then the load reaches the law of the steady moment and the sliding rotor, not the balls.
+//!
+//! Assumes: the rotor follows the race where it translates; what carries the load takes the reaction of its friction.
+//! Does not model: the rotor's own vibration (see [`drop`](super::drop)), clutch, shaft and torque arm.
+
+pub mod layout;
+pub mod ledger;
+pub mod rate;
+pub mod record;
+pub mod steady;
+
+use crate::bearing::{Bearing, BearingConstants};
+use crate::table::{Piece, Table};
+use layout::Layout;
+use number::{Gather, Real, Vec2, constants};
+use solve::{Batch, Machine};
+use std::fmt;
+pub use steady::{SteadyError, SteadyRun, steady_run};
+
+/// Constants of one machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpinUpConstants {
+    /// The inner race.
+    pub race: InnerRace<f64>,
+    /// The bearing.
+    pub bearing: BearingConstants,
+    /// What turns the inner race.
+    pub drive: Drive,
+    /// Radial load W on the inner race over time, N over s; not negative.
+    pub load: Table,
+    /// Speed that counts as reached, rad/s: scales of errors and of the record. Either sign, not 0.
+    pub target_speed: f64,
+}
+
+constants! {
+    /// The inner race with its sleeve.
+    pub struct InnerRace {
+        /// Mass, kg.
+        mass: R,
+        /// Polar inertia I_I, kg m².
+        inertia: R,
+        /// True where its centre is held in the middle: the concentric rig.
+        centre_held: bool,
+        /// Direction of the radial load, a unit vector.
+        load_direction: Vec2<R>,
+        /// Gravity, m/s². The balls have their own.
+        gravity: Vec2<R>,
+    }
+}
+
+/// What turns the inner race.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Drive {
+    /// A rotor that the radial load presses on the bore.
+    SlidingRotor(SlidingRotor<f64>),
+    /// A torque on the inner race over time, N m over s.
+    Torque(Table),
+    /// A speed of the inner race over time, rad/s over s; the first row is the speed at the start.
+    /// See [`Drive::ramp`] and [`Drive::step`].
+    Speed(Table),
+}
+
+constants! {
+    /// A rotor that slides in the bore of the inner race.
+    pub struct SlidingRotor {
+        /// Radius of the bore R_0, m.
+        bore_radius: R,
+        /// Friction coefficient μ.
+        friction: R,
+        /// 1/u0, s/m: inverse of the slip at which friction reaches 76 %.
+        inverse_reference_speed: R,
+        /// Spin at the start, rad/s.
+        speed: R,
+        /// Polar moment of inertia, kg m²; without effect where the spin is held.
+        polar_inertia: R,
+        /// True where a drive holds the spin whatever it takes.
+        spin_held: bool,
+    }
+}
+
+impl Drive {
+    /// A constant acceleration (its size, rad/s²) from rest to a speed of either sign (rad/s), which then stays.
+    pub fn ramp(acceleration: f64, speed: f64) -> Self {
+        let end = (speed / acceleration).abs();
+        match Table::through(vec![(0.0, 0.0), (end, speed)]) {
+            Ok(table) => Drive::Speed(table),
+            // no acceleration to speak of, or one beyond measure
+            Err(_) => Drive::step(speed),
+        }
+    }
+    /// A speed from the first instant, rad/s, while the balls are at rest.
+    pub fn step(speed: f64) -> Self {
+        Drive::Speed(Table::constant(speed))
+    }
+}
+
+/// Why a machine cannot be built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refusal {
+    /// The steady moment is shared by the balls, and something drags on them from the ground as well.
+    DragToGround,
+    /// An acceleration loss that is negative somewhere would create energy.
+    LossCreatesEnergy,
+    /// An acceleration loss per acceleration so large that braking would have no answer.
+    LossExceedsInertia,
+    /// A radial load below zero.
+    NegativeLoad,
+    /// A step of speed on balls that always roll: they would need an infinite torque.
+    StepOfRollingBalls,
+    /// A share of the steady moment outside 0 to 1, or a scale or reference spin that is not positive.
+    MomentShare,
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Refusal::DragToGround => {
+                "with the steady moment shared by the balls nothing may drag on balls or cage from the ground"
+            }
+            Refusal::LossCreatesEnergy => {
+                "the acceleration loss is negative somewhere: it would create energy"
+            }
+            Refusal::LossExceedsInertia => {
+                "the acceleration loss per acceleration exceeds the inertia: a braked race would have no answer"
+            }
+            Refusal::NegativeLoad => "the radial load is negative somewhere: turn its direction",
+            Refusal::StepOfRollingBalls => {
+                "balls that always roll cannot follow a step of speed: give a ramp, or compute them ball by ball"
+            }
+            Refusal::MomentShare => {
+                "the orbit's share of the steady moment lies outside 0 to 1, or its scale or reference spin is not positive"
+            }
+        })
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+/// One machine, ready to run.
+#[derive(Clone, Debug)]
+pub struct SpinUpMachine {
+    /// Its constants.
+    pub constants: SpinUpConstants,
+    layout: Layout,
+    one: SpinUp<f64>,
+    /// Instants at which the load or the drive changes its line.
+    landings: Vec<f64>,
+    error_scale: Vec<f64>,
+}
+
+/// Load and drive between two landings.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mode<R> {
+    /// Radial load, N.
+    pub load: Piece<R>,
+    /// Torque, N m, or speed, rad/s; zero with a sliding rotor.
+    pub drive: Piece<R>,
+}
+
+/// The drive over `R`: a torque or a speed stands in the [`Mode`].
+#[derive(Clone, Copy, Debug)]
+enum DriveKind<R> {
+    SlidingRotor(SlidingRotor<R>),
+    Torque,
+    Speed,
+}
+
+/// The system over `R`.
+#[derive(Clone, Debug)]
+pub struct SpinUp<R: Real> {
+    race: InnerRace<R>,
+    bearing: Bearing<R>,
+    drive: DriveKind<R>,
+    /// Cage speed per inner race speed when the balls roll.
+    rolling_cage_ratio: R,
+    layout: Layout,
+}
+
+impl SpinUpConstants {
+    /// Refuses what has no meaning.
+    pub fn check(&self) -> Result<(), Refusal> {
+        if self.load.smallest() < 0.0 {
+            return Err(Refusal::NegativeLoad);
+        }
+        match &self.bearing {
+            BearingConstants::Rolling(bearing) => {
+                if !bearing.loss.is_passive() {
+                    return Err(Refusal::LossCreatesEnergy);
+                }
+                let loss =
+                    bearing.set.pocket_friction_arm() * bearing.loss.largest_per_acceleration();
+                let given_speed = matches!(self.drive, Drive::Speed(_));
+                if !given_speed && loss >= self.race.inertia + bearing.set.inner_inertia() {
+                    return Err(Refusal::LossExceedsInertia);
+                }
+                if given_speed && self.start_speed() != 0.0 {
+                    return Err(Refusal::StepOfRollingBalls);
+                }
+            }
+            BearingConstants::Planar(bearing) => {
+                if let Some(moment) = &bearing.moment {
+                    if bearing.drags_to_ground() {
+                        return Err(Refusal::DragToGround);
+                    }
+                    if !moment.is_valid() {
+                        return Err(Refusal::MomentShare);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+    /// Speed of the inner race at the start, rad/s.
+    pub fn start_speed(&self) -> f64 {
+        match &self.drive {
+            Drive::Speed(speed) => speed.value(0.0),
+            _ => 0.0,
+        }
+    }
+    /// Load and drive from an instant until the next landing.
+    fn mode(&self, time: f64) -> Mode<f64> {
+        Mode {
+            load: self.load.piece(time),
+            drive: match &self.drive {
+                Drive::SlidingRotor(_) => Table::constant(0.0).piece(time),
+                Drive::Torque(table) | Drive::Speed(table) => table.piece(time),
+            },
+        }
+    }
+    fn landings(&self) -> Vec<f64> {
+        let of_drive = match &self.drive {
+            Drive::SlidingRotor(_) => &[][..],
+            Drive::Torque(table) | Drive::Speed(table) => table.points(),
+        };
+        let mut instants: Vec<f64> = (self.load.points().iter().chain(of_drive))
+            .map(|point| point.0)
+            .filter(|instant| *instant > 0.0)
+            .collect();
+        instants.sort_by(f64::total_cmp);
+        instants.dedup();
+        instants
+    }
+}
+
+impl SpinUpMachine {
+    /// A machine at rest.
+    pub fn new(constants: SpinUpConstants) -> Result<Self, Refusal> {
+        constants.check()?;
+        let layout = Layout::of(&constants);
+        Ok(SpinUpMachine {
+            one: SpinUp::of(&|_| &constants, layout),
+            landings: constants.landings(),
+            error_scale: layout.error_scale(&constants),
+            layout,
+            constants,
+        })
+    }
+    /// Where everything stands in the state.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+    /// The state at the start: the bearing at rest under its load, a given speed at its first value.
+    pub fn start(&self) -> Vec<f64> {
+        let c = &self.constants;
+        let mut state = vec![0.0; self.layout.dimension()];
+        let own = self.layout.bearing();
+        let load = if c.race.centre_held {
+            Vec2::zero()
+        } else {
+            c.race.load_direction * c.load.value(0.0) + c.race.gravity * c.race.mass
+        };
+        let shift = c.bearing.settle(load, &mut state[own]);
+        state[layout::INNER] = shift.x;
+        state[layout::INNER + 1] = shift.y;
+        state[layout::INNER + 5] = c.start_speed();
+        if let Drive::SlidingRotor(rotor) = &c.drive {
+            state[layout::ROTOR + 1] = rotor.speed;
+        }
+        state
+    }
+}
+
+impl<R: Real> SpinUp<R> {
+    fn of<'a>(constants: &dyn Fn(usize) -> &'a SpinUpConstants, layout: Layout) -> Self {
+        let drive = match &constants(0).drive {
+            Drive::SlidingRotor(_) => {
+                DriveKind::SlidingRotor(Gather::<R>::gather(&|lane| match &constants(lane).drive {
+                    Drive::SlidingRotor(rotor) => rotor,
+                    _ => panic!("lanes share the kind of drive"),
+                }))
+            }
+            Drive::Torque(_) => DriveKind::Torque,
+            Drive::Speed(_) => DriveKind::Speed,
+        };
+        SpinUp {
+            race: Gather::<R>::gather(&|lane| &constants(lane).race),
+            bearing: Bearing::gather(&|lane| &constants(lane).bearing),
+            drive,
+            rolling_cage_ratio: R::from_lanes(|lane| constants(lane).bearing.rolling_cage_ratio()),
+            layout,
+        }
+    }
+}
+
+impl Machine for SpinUpMachine {
+    type Mode = Mode<f64>;
+
+    fn dimension(&self) -> usize {
+        self.layout.dimension()
+    }
+    fn probes(&self) -> usize {
+        self.layout.probes()
+    }
+    fn error_scale(&self, channel: usize) -> f64 {
+        self.error_scale[channel]
+    }
+    fn channel_name(&self, channel: usize) -> String {
+        self.layout.channel_name(&self.constants.bearing, channel)
+    }
+    fn start_mode(&self) -> Mode<f64> {
+        self.constants.mode(0.0)
+    }
+    fn landings(&self) -> &[f64] {
+        &self.landings
+    }
+    fn transition(&self, landing: usize, mode: &mut Mode<f64>, _state: &mut [f64]) {
+        *mode = self.constants.mode(self.landings[landing]);
+    }
+    fn rate(
+        &self,
+        mode: &Mode<f64>,
+        time: f64,
+        state: &[f64],
+        rate: &mut [f64],
+        probe: &mut [f64],
+    ) {
+        self.one.rate_of_change(mode, time, state, rate, probe);
+    }
+}
+
+impl<R: Real> Batch<R> for SpinUp<R> {
+    type Machine = SpinUpMachine;
+    type Mode = Mode<R>;
+
+    fn gather<'a>(machine: &dyn Fn(usize) -> &'a SpinUpMachine) -> Self
+    where
+        SpinUpMachine: 'a,
+    {
+        let first = machine(0);
+        let kind = |machine: &SpinUpMachine| std::mem::discriminant(&machine.constants.drive);
+        for lane in 1..R::LANES {
+            let other = machine(lane);
+            assert!(other.layout == first.layout, "lanes share their layout");
+            assert!(kind(other) == kind(first), "lanes share the kind of drive");
+        }
+        SpinUp::of(&|lane| &machine(lane).constants, first.layout)
+    }
+    fn gather_mode(modes: &dyn Fn(usize) -> Mode<f64>) -> Mode<R> {
+        let piece = |of: &dyn Fn(Mode<f64>) -> Piece<f64>| Piece {
+            start: R::from_lanes(|lane| of(modes(lane)).start),
+            value: R::from_lanes(|lane| of(modes(lane)).value),
+            slope: R::from_lanes(|lane| of(modes(lane)).slope),
+        };
+        Mode {
+            load: piece(&|mode| mode.load),
+            drive: piece(&|mode| mode.drive),
+        }
+    }
+    #[inline(always)]
+    fn rate(&self, mode: &Mode<R>, time: R, state: &[R], rate: &mut [R], probe: &mut [R]) {
+        self.rate_of_change(mode, time, state, rate, probe);
+    }
+}

@@ -1,0 +1,146 @@
+//! What is watched and kept of a spin-up.
+//!
+//! Rises through a level are found on dense output; largest values are those at the ends of the steps. Rows are sampled
+//! at equal intervals and at the end. Everything is allocated before the run.
+
+use super::SpinUpMachine;
+use super::layout::{
+    BEARING, DRIVE_MOMENT, INNER, INNER_MOMENT, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD,
+    OUTER_MOMENT,
+};
+use super::ledger::Content;
+use crate::bearing::BearingConstants;
+use crate::system::sampling::{Peak, Rise, Rows};
+use solve::{Flow, Observer, Step};
+
+/// One sampled row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row<'a> {
+    /// Time, s.
+    pub time: f64,
+    /// State.
+    pub state: &'a [f64],
+    /// Probes.
+    pub probe: &'a [f64],
+    /// Energies and momentum.
+    pub content: Content,
+}
+
+/// Everything kept of one machine.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// Largest size of the moment t_I that resists the inner race, N m.
+    pub inner_moment: Peak,
+    /// Largest size of the moment t_O on the outer race, N m.
+    pub outer_moment: Peak,
+    /// Largest size of the moment of the drive, N m.
+    pub drive_moment: Peak,
+    /// Largest ball load at the inner race, N.
+    pub largest_inner_load: Peak,
+    /// Largest ball load at the outer race, N.
+    pub largest_outer_load: Peak,
+    /// Of the inner race through 50 % and 95 % of the target speed, of the cage through 95 % of its rolling speed then.
+    rises: [Rise; 3],
+    rows: Rows<EXTRA>,
+}
+
+/// Values of a [`Content`].
+const EXTRA: usize = 6;
+
+impl Record {
+    /// A record for a run until `end`, with a row every `interval`, or without rows.
+    pub fn new(machine: &SpinUpMachine, end: f64, interval: f64, keep_rows: bool) -> Self {
+        let c = &machine.constants;
+        let speed = c.target_speed;
+        let cage = match &c.bearing {
+            // where balls roll the cage follows the race
+            BearingConstants::Rolling(_) => Rise::through(INNER + 5, 0.95 * speed),
+            BearingConstants::Planar(_) => {
+                let rolling = c.bearing.rolling_cage_ratio() * speed;
+                Rise::through(BEARING + 1, 0.95 * rolling)
+            }
+        };
+        Record {
+            inner_moment: Peak::NONE,
+            outer_moment: Peak::NONE,
+            drive_moment: Peak::NONE,
+            largest_inner_load: Peak::NONE,
+            largest_outer_load: Peak::NONE,
+            rises: [
+                Rise::through(INNER + 5, 0.5 * speed),
+                Rise::through(INNER + 5, 0.95 * speed),
+                cage,
+            ],
+            rows: Rows::new(machine, end, interval, keep_rows),
+        }
+    }
+    /// First instant the inner race reaches half the target speed, s.
+    pub fn inner_race_time_to_50_percent(&self) -> Option<f64> {
+        self.rises[0].time
+    }
+    /// First instant the inner race reaches 95 % of the target speed, s.
+    pub fn inner_race_time_to_95_percent(&self) -> Option<f64> {
+        self.rises[1].time
+    }
+    /// First instant the cage reaches 95 % of its rolling speed at the target speed, s.
+    pub fn cage_time_to_95_percent(&self) -> Option<f64> {
+        self.rises[2].time
+    }
+    /// Number of rows.
+    pub fn row_count(&self) -> usize {
+        self.rows.count()
+    }
+    /// The sampled rows.
+    pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+        self.rows.iter().map(|(time, state, probe, extra)| Row {
+            time,
+            state,
+            probe,
+            content: Content {
+                translation: extra[0],
+                spin: extra[1],
+                potential: extra[2],
+                angular_momentum: extra[3],
+                bearing_energy: extra[4],
+                bearing_angular_momentum: extra[5],
+            },
+        })
+    }
+    /// Adds the last state of a run as a row, where it is not one already.
+    pub fn finish(&mut self, machine: &SpinUpMachine, time: f64, state: &[f64]) {
+        let (_, probe) = machine.inspect(time, state);
+        self.rows.finish(time, state, &probe, extra(machine, state));
+    }
+}
+
+fn extra(machine: &SpinUpMachine, state: &[f64]) -> [f64; EXTRA] {
+    let content = machine.content(state);
+    [
+        content.translation,
+        content.spin,
+        content.potential,
+        content.angular_momentum,
+        content.bearing_energy,
+        content.bearing_angular_momentum,
+    ]
+}
+
+impl Observer<SpinUpMachine> for Record {
+    fn step(&mut self, step: &mut Step<SpinUpMachine>) -> Flow {
+        for (peak, probe) in [
+            (&mut self.inner_moment, INNER_MOMENT),
+            (&mut self.outer_moment, OUTER_MOMENT),
+            (&mut self.drive_moment, DRIVE_MOMENT),
+            (&mut self.largest_inner_load, LARGEST_INNER_LOAD),
+            (&mut self.largest_outer_load, LARGEST_OUTER_LOAD),
+        ] {
+            peak.raise(step.start_probe(probe).abs(), step.start);
+            peak.raise(step.end_probe(probe).abs(), step.end);
+        }
+        for rise in &mut self.rises {
+            rise.watch(step);
+        }
+        self.rows.sample(step, extra);
+        Flow::Continue
+    }
+}

@@ -1,0 +1,275 @@
+//! Where a friction law has been left: what a run notes.
+//!
+//! | law | range | source |
+//! |---|---|---|
+//! | Palmgren | P0 up to C0; ν n up to 1e6 mm²/s·rpm; without the combined form no axial load | as [`palmgren`](crate::palmgren) |
+//! | SKF, deep groove | F_r up to C0, F_a up to ½ C0 (light series, small bores: ¼ C0) | SKF General Catalogue (edition 6000), chapter deep groove ball bearings |
+//! | curve | the measured speeds | its points |
+//! | all, with a viscosity over temperature | the temperatures of the oil's data | [`viscosity`](crate::viscosity) |
+//!
+//! Not told: a load below the recommended minimum (it needs the dynamic rating), and the fading below 1 rad/s, which
+//! every run passes on its way from rest.
+
+use crate::friction::Friction;
+use crate::palmgren::{Palmgren, viscosity_times_speed_mm2_s_rpm};
+use crate::skf::SkfContacts;
+use crate::viscosity::Viscosity;
+use std::fmt;
+
+/// Largest ν n of Palmgren's law, mm²/s · rpm.
+const LARGEST_VISCOSITY_SPEED: f64 = 1e6;
+
+/// Share of C0 that the axial load of a deep groove bearing may reach.
+const LARGEST_AXIAL_SHARE: f64 = 0.5;
+
+/// Where a law is asked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OperatingPoint {
+    /// Speed Ω, rad/s, either sign.
+    pub speed: f64,
+    /// Radial load, N.
+    pub radial_load: f64,
+    /// Axial load, N, either sign.
+    pub axial_load: f64,
+}
+
+/// A quantity outside the range of a law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Departure {
+    /// What it is.
+    pub quantity: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Least value of the range.
+    pub least: f64,
+    /// Largest value of the range.
+    pub largest: f64,
+    /// Unit of the three.
+    pub unit: &'static str,
+    /// What the law does there.
+    pub consequence: &'static str,
+}
+
+impl fmt::Display for Departure {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Departure {
+            quantity,
+            value,
+            least,
+            largest,
+            unit,
+            consequence,
+        } = self;
+        write!(
+            out,
+            "{quantity} {value:.4} {unit} is outside {least:.4} to {largest:.4} {unit}: {consequence}"
+        )
+    }
+}
+
+/// A departure where the value lies outside.
+fn outside(departure: Departure) -> Option<Departure> {
+    let inside = (departure.least..=departure.largest).contains(&departure.value);
+    (!inside).then_some(departure)
+}
+
+impl Friction<f64> {
+    /// Everything about an operating point that lies outside the range of this law.
+    ///
+    /// - `at`: speed and loads
+    ///
+    /// Source: the table of this module.
+    /// Valid: always; an empty list says that nothing known was left.
+    pub fn departures(&self, at: &OperatingPoint) -> Vec<Departure> {
+        let speed = at.speed.abs();
+        let axial = at.axial_load.abs();
+        let found = match self {
+            Friction::None => vec![],
+            Friction::Palmgren(law) | Friction::PalmgrenPrinted(law) => vec![
+                palmgren_load(law, at.radial_load),
+                palmgren_speed(law, speed),
+                outside(Departure {
+                    quantity: "axial load",
+                    value: axial,
+                    least: 0.0,
+                    largest: 0.0,
+                    unit: "N",
+                    consequence: "this form of Palmgren's law leaves it out",
+                }),
+            ],
+            Friction::PalmgrenCombined(law) => vec![
+                palmgren_load(&law.law, law.static_load(at.radial_load, axial)),
+                palmgren_speed(&law.law, speed),
+            ],
+            Friction::Skf(law) => match law.contacts {
+                SkfContacts::DeepGroove(groove) => vec![
+                    outside(Departure {
+                        quantity: "radial load",
+                        value: at.radial_load,
+                        least: 0.0,
+                        largest: groove.static_load_rating,
+                        unit: "N",
+                        consequence: "above the static load rating the rings dent",
+                    }),
+                    outside(Departure {
+                        quantity: "axial load",
+                        value: axial,
+                        least: 0.0,
+                        largest: LARGEST_AXIAL_SHARE * groove.static_load_rating,
+                        unit: "N",
+                        consequence: "above half the static load rating the contact leaves the groove",
+                    }),
+                ],
+                SkfContacts::AngularContact(_) | SkfContacts::SphericalRoller(_) => vec![],
+            },
+            Friction::Curve(law) => {
+                let (least, largest) = law.range();
+                vec![outside(Departure {
+                    quantity: "speed",
+                    value: speed,
+                    least,
+                    largest,
+                    unit: "rad/s",
+                    consequence: "the moment of the nearest measured speed is taken",
+                })]
+            }
+        };
+        found.into_iter().flatten().collect()
+    }
+}
+
+/// The departure of a lubricant temperature from the data of its viscosity, if any.
+///
+/// - `viscosity`: the oil
+/// - `temperature`: K
+///
+/// Source: [`Viscosity::range`].
+/// Valid: always.
+pub fn temperature_departure(viscosity: &Viscosity, temperature: f64) -> Option<Departure> {
+    let (least, largest) = viscosity.range();
+    outside(Departure {
+        quantity: "lubricant temperature",
+        value: temperature,
+        least,
+        largest,
+        unit: "K",
+        consequence: "the viscosity is not known there",
+    })
+}
+
+fn palmgren_load(law: &Palmgren<f64>, static_load: f64) -> Option<Departure> {
+    outside(Departure {
+        quantity: "load",
+        value: static_load,
+        least: 0.0,
+        largest: law.static_load_rating,
+        unit: "N",
+        consequence: "Palmgren's moment is extrapolated above the static load rating",
+    })
+}
+
+fn palmgren_speed(law: &Palmgren<f64>, speed: f64) -> Option<Departure> {
+    outside(Departure {
+        quantity: "viscosity times speed",
+        value: viscosity_times_speed_mm2_s_rpm(law.viscosity, speed),
+        least: 0.0,
+        largest: LARGEST_VISCOSITY_SPEED,
+        unit: "mm²/s·rpm",
+        consequence: "Palmgren's viscous moment is extrapolated",
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::moment_curve::MomentCurve;
+    use crate::palmgren::PalmgrenCombined;
+    use crate::skf_constants::{SkfBearing, SkfLubricant, SkfOil, SkfSupply, SkfType};
+    use crate::viscosity::ICE_POINT;
+
+    const PALMGREN: Palmgren<f64> = Palmgren {
+        viscous_factor: 1.7,
+        viscosity: 100e-6,
+        pitch_diameter: 36e-3,
+        load_factor: 0.0007,
+        load_exponent: 0.5,
+        static_load_rating: 6550.0,
+    };
+    fn at(speed: f64, radial_load: f64, axial_load: f64) -> OperatingPoint {
+        OperatingPoint {
+            speed,
+            radial_load,
+            axial_load,
+        }
+    }
+    fn quantities(law: &Friction<f64>, at: OperatingPoint) -> Vec<&'static str> {
+        law.departures(&at)
+            .into_iter()
+            .map(|departure| departure.quantity)
+            .collect()
+    }
+
+    #[test]
+    fn palmgren() {
+        let law = Friction::Palmgren(PALMGREN);
+        assert_eq!(quantities(&law, at(-150.0, 80.0, 0.0)), [""; 0]);
+        // 1e6/100 = 10 000 rpm = 1047.2 rad/s
+        assert_eq!(
+            quantities(&law, at(-1048.0, 7e3, -1.0)),
+            ["load", "viscosity times speed", "axial load"]
+        );
+        assert_eq!(quantities(&Friction::None, at(1e9, 1e9, 1e9)), [""; 0]);
+    }
+    #[test]
+    fn combined_palmgren_counts_the_static_equivalent_load() {
+        let law = Friction::PalmgrenCombined(PalmgrenCombined {
+            law: PALMGREN,
+            axial_factor: 3.36,
+            static_radial_factor: 0.6,
+            static_axial_factor: 0.5,
+        });
+        // P0 = 0.6·1000 + 0.5·12 000 = 6600 N
+        assert_eq!(quantities(&law, at(100.0, 1e3, 11e3)), [""; 0]);
+        assert_eq!(quantities(&law, at(100.0, 1e3, -12e3)), ["load"]);
+    }
+    #[test]
+    fn skf_deep_groove() {
+        let bearing = SkfBearing {
+            kind: SkfType::DeepGroove,
+            series: "60",
+            bore: 25e-3,
+            outer_diameter: 47e-3,
+            width: 12e-3,
+            static_load_rating: Some(6550.0),
+            ceramic_balls: false,
+        };
+        let grease = SkfLubricant {
+            viscosity: 100e-6,
+            supply: SkfSupply::GreaseOrOilAir,
+            oil: SkfOil::Mineral,
+            drag_variable: 0.0,
+            seal_moment: 0.0,
+        };
+        let law = Friction::Skf(bearing.moment(&grease).unwrap());
+        assert_eq!(quantities(&law, at(100.0, 6e3, 3e3)), [""; 0]);
+        assert_eq!(
+            quantities(&law, at(100.0, 7e3, -4e3)),
+            ["radial load", "axial load"]
+        );
+    }
+    #[test]
+    fn curve_and_temperature() {
+        let law = Friction::Curve(MomentCurve::through(&[(10.0, 0.02), (100.0, 0.03)]).unwrap());
+        assert_eq!(quantities(&law, at(-50.0, 1e9, 1e9)), [""; 0]);
+        for speed in [5.0, -101.0] {
+            assert_eq!(quantities(&law, at(speed, 0.0, 0.0)), ["speed"]);
+        }
+        let oil = Viscosity::of_grade(68, (ICE_POINT + 100.0, 8.7e-6)).unwrap();
+        assert_eq!(temperature_departure(&oil, ICE_POINT + 70.0), None);
+        let cold = temperature_departure(&oil, ICE_POINT - 20.0).unwrap();
+        assert_eq!(
+            cold.to_string(),
+            "lubricant temperature 253.1500 K is outside 283.1500 to 403.1500 K: the viscosity is not known there"
+        );
+    }
+}
