@@ -373,6 +373,18 @@ impl PlanarConstants {
             self.set_motion(state, ball, &motion);
         }
     }
+    /// Makes cage and balls roll with an inner race of this speed, rad/s, the outer race at rest.
+    pub fn roll(&self, state: &mut [f64], speed: f64) {
+        let s = self.ball.radius / self.ball.inner_track;
+        let cage_speed = speed / (2.0 * (1.0 + s));
+        state[1] = cage_speed;
+        for j in 0..self.balls {
+            let mut ball = self.motion(state, j);
+            ball.orbit_speed = cage_speed;
+            ball.spin = -speed / (2.0 * s);
+            self.set_motion(state, j, &ball);
+        }
+    }
     /// Reaction of one ball, for inspection; without a load that is held.
     pub fn ball_reaction(
         &self,

@@ -17,7 +17,7 @@
 //! A drag to the ground could not: the outer ring would not feel it.
 //!
 //! What the balls lose otherwise (creep, pockets) is in a measured M already: λ takes it out, see
-//! [`steady_run`](crate::system::spin_up::steady_run).
+//! [`moment_scale`](crate::system::spin_up::moment_scale).
 //!
 //! Assumes: χ_o (½ where nothing is known), and that all balls share M0 equally whatever their load.
 //! Does not model: drag on the cage and its lands; the flow that carries lubricant around; the moment at standstill.
@@ -46,10 +46,10 @@ pub struct SharedMoment {
 }
 
 impl SharedMoment {
-    /// True where the shares lie in 0 to 1, the scale too, and the reference spin is positive.
+    /// True where the share lies in 0 to 1 and scale and reference spin are positive.
     pub fn is_valid(&self) -> bool {
         let share = |x: f64| (0.0..=1.0).contains(&x);
-        share(self.orbit_share) && share(self.scale) && self.reference_spin > 0.0
+        share(self.orbit_share) && self.scale > 0.0 && self.reference_spin > 0.0
     }
 }
 

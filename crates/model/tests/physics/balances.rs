@@ -6,7 +6,9 @@
 use crate::machines::{
     Random, balance_mount, ball_of, bearing_part, let_roll, planar, random_state, reference, vec2,
 };
-use model::bearing::{BearingConstants, SteadyMoment};
+use model::bearing::{
+    AccelerationLoss, BearingConstants, PlanarConstants, SharedMoment, SteadyMoment,
+};
 use model::system::drop::DropMachine;
 use model::system::drop::layout::{
     BEARING, DETAIL, HEATS, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, OUTER, ROTOR, SOURCES,
@@ -57,21 +59,40 @@ fn machines() -> Vec<DropMachine> {
     let mut rolls = base();
     let_roll(&mut rolls);
     if let BearingConstants::Rolling(bearing) = &mut rolls.bearing {
-        // grease of 100 mm²/s, a 6005 of 6.55 kN
-        bearing.moment = SteadyMoment::Palmgren(Palmgren {
-            viscous_factor: 2.0,
-            viscosity: 100e-6,
-            pitch_diameter: 36e-3,
-            load_factor: 9e-4,
-            load_exponent: 0.55,
-            static_load_rating: 6550.0,
-        });
+        bearing.moment = SteadyMoment::Palmgren(grease());
+        bearing.loss = AccelerationLoss::Proportional {
+            per_acceleration: 2e-5,
+        };
     }
-    [peaked, dry, seven, held, slanted, rolls, base()]
+    let mut greased = base();
+    let bearing = planar(&mut greased);
+    bearing.cage_drag = 0.0;
+    bearing.ball.orbit_drag = 0.0;
+    bearing.ball.spin_drag = 0.0;
+    bearing.moment = Some(SharedMoment {
+        law: SteadyMoment::Palmgren(grease()),
+        axial_load: 0.0,
+        orbit_share: 0.3,
+        reference_spin: 2.0,
+        scale: 0.9,
+    });
+    [peaked, dry, seven, held, slanted, rolls, greased, base()]
         .into_iter()
         .enumerate()
         .map(|(i, constants)| DropMachine::with_levitation(constants, i % 2 == 0))
         .collect()
+}
+
+/// Grease of 100 mm²/s in a 6005 of 6.55 kN.
+fn grease() -> Palmgren<f64> {
+    Palmgren {
+        viscous_factor: 2.0,
+        viscosity: 100e-6,
+        pitch_diameter: 36e-3,
+        load_factor: 9e-4,
+        load_exponent: 0.55,
+        static_load_rating: 6550.0,
+    }
 }
 
 /// Calls with every machine, at many states: (machine, state, rate, probe).
@@ -240,13 +261,19 @@ fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f
                 }
                 other => panic!("{other:?} is not used here"),
             };
-            steady + (1.0 - b.set.cage_speed(1.0)) * turning
+            // F = q|Ω̇| against the rotation, on the same arm at both races
+            let (spin, acceleration) = (state[INNER + 5], rate[INNER + 5]);
+            let loss = b.set.pocket_friction_arm() * b.loss.force(spin, acceleration);
+            steady + loss + (1.0 - b.set.cage_speed(1.0)) * turning
                 - b.set.outer_inertia() * rate[INNER + 5]
         }
         BearingConstants::Planar(b) => {
             let motion = race_motion(state);
             let part = bearing_part(machine, state);
-            (0..b.balls)
+            let steady = (b.moment.as_ref()).map_or(0.0, |moment| {
+                steady_moment_on_outer_race(machine, state, rate, b, moment)
+            });
+            let tractions: f64 = (0..b.balls)
                 .map(|j| {
                     let reaction = b.ball_reaction(&motion, part, j);
                     let traction =
@@ -256,9 +283,54 @@ fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f
                     let approach = distance + b.ball.radius - b.ball.outer_track;
                     -(b.ball.outer_track + 0.5 * approach) * traction
                 })
-                .sum()
+                .sum();
+            tractions + steady
         }
     }
+}
+
+/// What the pairs of the steady moment do to the outer race about its centre: drag on the orbit at the balls' distance,
+/// couples against their spin.
+fn steady_moment_on_outer_race(
+    machine: &DropMachine,
+    state: &[f64],
+    rate: &[f64],
+    b: &PlanarConstants,
+    moment: &SharedMoment,
+) -> f64 {
+    let motion = race_motion(state);
+    let part = bearing_part(machine, state);
+    let (n, r, track) = (b.balls as f64, b.ball.radius, b.ball.inner_track);
+    let s = r / track;
+    let reactions: Vec<_> = (0..b.balls)
+        .map(|j| b.ball_reaction(&motion, part, j))
+        .collect();
+    let mut push = vec2(0.0, 0.0);
+    for (j, reaction) in reactions.iter().enumerate() {
+        let [centre, ..] = ball_centre(machine, state, rate, j);
+        let from_inner = centre - pair(state, INNER);
+        push += from_inner * (reaction.inner_load / from_inner.length_squared().sqrt());
+    }
+    let load = push.length_squared().sqrt();
+    let law = |speed: f64| moment.law.parts(speed, load, 0.0);
+    let outer_sum: f64 = reactions.iter().map(|reaction| reaction.outer_load).sum();
+    let mut on_race = 0.0;
+    for (j, reaction) in reactions.iter().enumerate() {
+        let [centre, velocity, _] = ball_centre(machine, state, rate, j);
+        let arm = centre - pair(state, OUTER);
+        let distance = arm.length_squared().sqrt();
+        // speed past the outer race, times distance
+        let turning = arm.cross(velocity - pair(state, OUTER + 2)) / (distance * distance);
+        let spin = ball_of(machine, state, j).spin;
+        let drag =
+            2.0 * moment.orbit_share / (n * track) * law(2.0 * (1.0 + s) * turning).speed_dependent;
+        let couple = 2.0 * s * (1.0 - moment.orbit_share) / n * law(2.0 * s * spin).speed_dependent;
+        let rolling = s / (1.0 + s) * law(1000.0).load_dependent * reaction.outer_load
+            / outer_sum.max(1e-30)
+            * (spin / moment.reference_spin).tanh();
+        on_race += moment.scale * (drag * distance + couple + rolling);
+    }
+    on_race
 }
 
 #[test]
@@ -420,6 +492,9 @@ fn pocket_and_cage_answer_each_other() {
         let Traction::Tanh(law) = &b.traction else {
             return;
         };
+        if b.moment.is_some() {
+            return;
+        }
         let motion = race_motion(state);
         let part = bearing_part(machine, state);
         // what the cage receives, from its own acceleration

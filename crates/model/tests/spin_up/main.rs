@@ -1,0 +1,10 @@
+//! Physics sentences about the system `spin_up` and the steady moment ball by ball.
+
+#[path = "../machines/mod.rs"]
+#[allow(dead_code)] // shared with the other tests
+mod machines;
+
+mod balls;
+mod rig;
+mod rolling;
+mod steady;
