@@ -94,7 +94,8 @@ fn without_friction_nothing_is_spun_up() {
     let smooth = run(planar_machine(free_bearing(), rotor(0.0)), 5e-3, 1e-5);
     // balls a rounding off their rest ring at 41 kHz
     assert!(smooth.end[INNER + 5].abs() < 1e-12);
-    assert!(smooth.machine.flows(&smooth.end).heat < 1e-15);
+    let heat = smooth.machine.flows(&smooth.end).heat;
+    assert!(heat < 1e-12, "{heat}");
     // a race that turns, but cannot grip its balls
     let mut bearing = free_bearing();
     bearing.traction = Traction::Tanh(TanhTraction {
@@ -122,8 +123,9 @@ fn a_mirrored_machine_gives_a_mirrored_answer() {
         let end = crate::rig::observe(&machine, &start, &settings, &mut record).state;
         let layout = *machine.layout();
         [
-            sign * end[INNER],
-            end[INNER + 1],
+            // places by the size of the displacement, a rounding of which rings at 41 kHz
+            1.0 + sign * end[INNER] * 1e5,
+            1.0 + end[INNER + 1] * 1e5,
             sign * end[INNER + 5],
             sign * end[BEARING + 1],
             end[layout.heat(7)],
@@ -136,7 +138,7 @@ fn a_mirrored_machine_gives_a_mirrored_answer() {
         // rounding of 8000 steps, as in the drop
         assert!((a - b).abs() <= 1e-9 * a.abs(), "{a} {b}");
     }
-    assert!(a[3] > 1.0 && a[4] > 0.0);
+    assert!(a[0] != 1.0 && a[3] > 1.0 && a[4] > 0.0);
 }
 
 #[test]
