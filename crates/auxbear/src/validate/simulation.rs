@@ -207,6 +207,7 @@ fn falling_machine(mass: f64, stiffness: f64, clearance: f64, gravity: f64) -> D
         cage_inertia: 1.6e-6,
         cage_drag: 0.0,
         first_ball_angle: 0.0,
+        moment: None,
     };
     let mut constants = DropConstants {
         machine: MachineConstants {
@@ -336,6 +337,7 @@ fn constants(machine: &ReferenceMachine, speed: f64) -> Result<DropConstants, St
             cage_inertia: machine.cage_inertia,
             cage_drag: machine.cage_drag,
             first_ball_angle: 0.0,
+            moment: None,
         }),
         speed,
         unbalance_angle: 0.0,
