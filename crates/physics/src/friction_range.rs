@@ -3,7 +3,7 @@
 //! | law | range | source |
 //! |---|---|---|
 //! | Palmgren | P0 up to C0; ν n up to 1e6 mm²/s·rpm; without the combined form no axial load | as [`palmgren`](crate::palmgren) |
-//! | SKF, deep groove | F_r up to C0, F_a up to ½ C0 (light series, small bores: ¼ C0) | SKF General Catalogue (edition 6000), chapter deep groove ball bearings |
+//! | SKF, deep groove | F_r up to C0, F_a up to ¼ C0 (½ C0 for heavier than light series and bores above 12 mm) | SKF General Catalogue (edition 6000), chapter deep groove ball bearings |
 //! | curve | the measured speeds | its points |
 //! | all, with a viscosity over temperature | the temperatures of the oil's data | [`viscosity`](crate::viscosity) |
 //!
@@ -19,8 +19,8 @@ use std::fmt;
 /// Largest ν n of Palmgren's law, mm²/s · rpm.
 const LARGEST_VISCOSITY_SPEED: f64 = 1e6;
 
-/// Share of C0 that the axial load of a deep groove bearing may reach.
-const LARGEST_AXIAL_SHARE: f64 = 0.5;
+/// Share of C0 that the axial load of a deep groove bearing of the light diameter series (8, 9, 0, 1) may reach.
+const LARGEST_AXIAL_SHARE: f64 = 0.25;
 
 /// Where a law is asked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,7 +117,7 @@ impl Friction<f64> {
                         least: 0.0,
                         largest: LARGEST_AXIAL_SHARE * groove.static_load_rating,
                         unit: "N",
-                        consequence: "above half the static load rating the contact leaves the groove",
+                        consequence: "too much for light series and bores up to 12 mm; heavier ones bear half their static load rating",
                     }),
                 ],
                 SkfContacts::AngularContact(_) | SkfContacts::SphericalRoller(_) => vec![],
@@ -251,9 +251,9 @@ mod tests {
             seal_moment: 0.0,
         };
         let law = Friction::Skf(bearing.moment(&grease).unwrap());
-        assert_eq!(quantities(&law, at(100.0, 6e3, 3e3)), [""; 0]);
+        assert_eq!(quantities(&law, at(100.0, 6e3, 1.6e3)), [""; 0]);
         assert_eq!(
-            quantities(&law, at(100.0, 7e3, -4e3)),
+            quantities(&law, at(100.0, 7e3, -1.7e3)),
             ["radial load", "axial load"]
         );
     }

@@ -1,6 +1,6 @@
 //! The laws: numbers in, numbers out.
 //!
-//! No state, no allocation, no input or output. Every public law names its formula, its arguments with units,
+//! No state, no input or output, no allocation but where a measured curve or a list for a report is built. Every public law names its formula, its arguments with units,
 //! its source and its valid range. Laws used inside the time loop are generic over [`number::Real`];
 //! laws used once, when constants are built, are plain `f64`.
 //!
@@ -10,7 +10,7 @@
 //! | [`hertz`] | point contact between ball and race: exact elliptic integrals |
 //! | [`contact`] | normal force of a contact in time: Hertz with damping, Hunt-Crossley |
 //! | [`traction`] | sliding friction between ball and race |
-//! | [`friction`] | steady friction moment of a rolling bearing: one interface to the next three |
+//! | [`friction`] | steady friction moment of a rolling bearing: one interface to Palmgren's, the SKF model and a measured curve |
 //! | [`friction_range`] | where a friction law has been left |
 //! | [`palmgren`] | Palmgren's moment |
 //! | [`palmgren_factors`] | his factors by bearing type, series and lubrication, as makers print them |

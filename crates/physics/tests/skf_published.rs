@@ -141,7 +141,7 @@ fn ball_bearings_by_an_independent_script() {
         ("single row angular contact", {
             let (bearing, lubricant) = spindle(SkfType::AngularContactSingleRow);
             bearing.moment(&lubricant).unwrap().intermediates(20_000.0 * RPM, 100.0, 200.0)
-        }, [0.060_962_280_9, 140.054_543_6, 0.672_695_606, 0.738_908_709, 1254.754_643, 0.04, 50.190_185_7]),
+        }, [0.060_962_280_9, 140.054_543_6, 0.672_695_606, 0.738_908_709, 1_254.754_643, 0.04, 50.190_185_7]),
     ];
     for (case, model, expected) in rows {
         let ours = [
@@ -176,7 +176,7 @@ fn the_other_rows_of_angular_contact() {
         (
             SkfType::AngularContactSingleRow,
             0.060_962_280_9,
-            1254.754_643,
+            1_254.754_643,
             82.972_893_4,
         ),
         (

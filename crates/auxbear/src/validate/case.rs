@@ -131,6 +131,16 @@ impl Inputs {
             ))
         }
     }
+    /// Any text.
+    pub fn text(&mut self, key: &str) -> Result<String, String> {
+        match self.values.remove(key) {
+            Some(Raw::Text(text)) => Ok(text),
+            Some(Raw::Number(number)) => Err(format!(
+                "inputs.{key}: found {number}, a text in quotes is needed"
+            )),
+            None => Err(missing(key)),
+        }
+    }
     /// One of the words allowed.
     pub fn word(&mut self, key: &str, allowed: &[&str]) -> Result<String, String> {
         match self.values.remove(key) {

@@ -6,10 +6,12 @@
 //! | `bearing_kinematics` | `ball_count`, `ball_diameter`, `pitch_diameter`, `contact_angle` (0) | per turn: `ball_pass_outer`, `ball_pass_inner`, `ball_spin`, `cage` |
 //! | `rolling_moments` | `inner_track_radius`, `ball_radius`, `ball_count`, `ball_mass`, `cage_mass`, `race_acceleration`, `pocket_friction` (0), `steady_moment` (0) | `inner_traction`, `outer_traction`, `inner_moment`, `outer_moment`, `cage_load` |
 //! | `palmgren_moment` | `form` ("printed", "continuous"), `viscous_factor`, `viscosity`, `speed`, `pitch_diameter`, and for the load part `load`, `static_load_rating`, `load_factor`, `load_exponent` | `viscous_moment`; with a load also `load_friction_factor`, `load_moment` |
+//! | `skf_friction`, `palmgren_factors`, `oil_viscosity` | see `crates/auxbear/src/validate/friction_kinds.rs` | |
 //! | `free_fall` | `clearance`, `gravity` | `time_to_first_contact` (simulated), `closed_form_time` |
 //! | `elastic_bounce` | `mass`, `stiffness`, `clearance`, `gravity` | `peak_contact_force` (simulated), `closed_form_force` |
 
 use super::case::{Computed, Inputs};
+use super::friction_kinds;
 use super::simulator::{ElasticBounce, FreeFall, Simulator};
 use physics::hertz::{BallRace, Curvature, PointContact, Race, maximum_pressure};
 use physics::kinematics::BallSet;
@@ -21,11 +23,14 @@ use physics::rolling::RollingSet;
 use units::Dimension;
 
 /// Names of all kinds.
-pub const NAMES: [&str; 6] = [
+pub const NAMES: [&str; 9] = [
     "hertz_point_contact",
     "bearing_kinematics",
     "rolling_moments",
     "palmgren_moment",
+    "skf_friction",
+    "palmgren_factors",
+    "oil_viscosity",
     "free_fall",
     "elastic_bounce",
 ];
@@ -41,6 +46,9 @@ pub fn compute(
         "bearing_kinematics" => bearing_kinematics(inputs),
         "rolling_moments" => rolling_moments(inputs),
         "palmgren_moment" => palmgren_moment(inputs),
+        "skf_friction" => friction_kinds::skf_friction(inputs),
+        "palmgren_factors" => friction_kinds::factors(inputs),
+        "oil_viscosity" => friction_kinds::oil_viscosity(inputs),
         "free_fall" => free_fall(inputs, simulator),
         "elastic_bounce" => elastic_bounce(inputs, simulator),
         _ => return Ok(None),
@@ -48,7 +56,7 @@ pub fn compute(
     .map(Some)
 }
 
-fn law(quantity: &'static str, dimension: Dimension, value: f64) -> Computed {
+pub(super) fn law(quantity: &'static str, dimension: Dimension, value: f64) -> Computed {
     Computed {
         quantity,
         dimension,
@@ -56,7 +64,7 @@ fn law(quantity: &'static str, dimension: Dimension, value: f64) -> Computed {
     }
 }
 
-fn positive(key: &str, value: f64) -> Result<f64, String> {
+pub(super) fn positive(key: &str, value: f64) -> Result<f64, String> {
     if value > 0.0 {
         Ok(value)
     } else {
@@ -64,7 +72,7 @@ fn positive(key: &str, value: f64) -> Result<f64, String> {
     }
 }
 
-fn length(inputs: &mut Inputs, key: &str) -> Result<f64, String> {
+pub(super) fn length(inputs: &mut Inputs, key: &str) -> Result<f64, String> {
     positive(key, inputs.quantity(key, Dimension::LENGTH)?)
 }
 

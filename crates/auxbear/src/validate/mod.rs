@@ -12,6 +12,7 @@ pub mod report;
 pub mod simulator;
 
 mod drops;
+mod friction_kinds;
 mod machine;
 mod points;
 pub mod reference;

@@ -16,10 +16,18 @@ pub(super) const CASES: &[(&str, &str)] = cases![
     "hertz_stiffness_6005_outer",
     "kinematics_cwru_6203",
     "kinematics_cwru_6205",
+    "oil_viscosity_sae140",
+    "oil_viscosity_vg68",
+    "palmgren_factors_60_grease",
+    "palmgren_factors_73b_oil",
+    "palmgren_factors_timken_02",
     "palmgren_high_speed",
     "palmgren_low_speed",
     "palmgren_paper_form",
     "rolling_moments_6005",
+    "skf_22208e",
+    "skf_6005_grease",
+    "skf_7006_jet",
 ];
 
 #[cfg(test)]
