@@ -91,9 +91,9 @@ pub trait Real:
     /// Arc sine for |x| ≤ 0.125; meaningless beyond.
     fn asin_small(self) -> Self;
 
-    /// Runs a task compiled for this number's vector unit. What the task calls must be `#[inline(always)]` down to
-    /// the last law: only inlined code is compiled for the unit.
-    #[inline(always)]
+    /// Runs a task compiled for this number's vector unit, once in the program wherever it is called from. What the
+    /// task calls must be `#[inline(always)]` down to the last law: only inlined code is compiled for the unit.
+    #[inline(never)]
     fn vectorized<T: Vectorized>(task: T) -> T::Output {
         task.run()
     }

@@ -21,7 +21,7 @@ use super::steady_moment::{
 };
 use super::{BallSums, BearingEnergy, BearingHeat, BearingReaction, largest};
 use crate::motion::{Body, Motion, Wrench};
-use number::{Gather, Real, Vec2};
+use number::{Gather, Real, Vec2, Vectorized};
 use physics::traction::{Traction, TractionLaw};
 
 /// Constants of one planar bearing.
@@ -145,7 +145,11 @@ impl<R: Real> Planar<R> {
         state: &[R],
     ) -> (PairsOfBall<'a, R::Group>, R) {
         let speed = motion.inner.spin - motion.outer.spin;
-        let [x, y, inner_sum, outer_sum] = self.loads(motion, state);
+        let [x, y, inner_sum, outer_sum] = R::vectorized(Loads {
+            bearing: self,
+            motion,
+            state,
+        });
         let load = Vec2::new(x, y).length_squared().sqrt() + held_load;
         (
             pairs.share(speed, load, inner_sum, outer_sum),
@@ -201,9 +205,33 @@ impl<R: Real> Planar<R> {
         detail: &mut [R],
     ) -> BearingReaction<R> {
         match &self.traction {
-            Traction::Tanh(law) => self.sum(law, steady, motion, state, rate, detail),
-            Traction::FourParameter(law) => self.sum(law, steady, motion, state, rate, detail),
-            Traction::Dry(law) => self.sum(law, steady, motion, state, rate, detail),
+            Traction::Tanh(traction) => R::vectorized(Sum {
+                bearing: self,
+                traction,
+                steady,
+                motion,
+                state,
+                rate,
+                detail,
+            }),
+            Traction::FourParameter(traction) => R::vectorized(Sum {
+                bearing: self,
+                traction,
+                steady,
+                motion,
+                state,
+                rate,
+                detail,
+            }),
+            Traction::Dry(traction) => R::vectorized(Sum {
+                bearing: self,
+                traction,
+                steady,
+                motion,
+                state,
+                rate,
+                detail,
+            }),
         }
     }
 
@@ -302,6 +330,47 @@ impl<R: Real> Planar<R> {
             largest_inner_load: largest(detail, n, 0),
             largest_outer_load: largest(detail, n, 1),
         }
+    }
+}
+
+/// The sum over the balls as a task of its own: it is compiled once for all systems, apart from their steps.
+struct Sum<'a, R: Real, L, M> {
+    bearing: &'a Planar<R>,
+    traction: &'a L,
+    steady: &'a M,
+    motion: &'a Motion<R>,
+    state: &'a [R],
+    rate: &'a mut [R],
+    detail: &'a mut [R],
+}
+
+impl<R: Real, L: TractionLaw<R::Group>, M: BallMoment<R::Group>> Vectorized for Sum<'_, R, L, M> {
+    type Output = BearingReaction<R>;
+    #[inline(always)]
+    fn run(self) -> BearingReaction<R> {
+        (self.bearing).sum(
+            self.traction,
+            self.steady,
+            self.motion,
+            self.state,
+            self.rate,
+            self.detail,
+        )
+    }
+}
+
+/// The loads of the balls as a task of its own, like [`Sum`].
+struct Loads<'a, R: Real> {
+    bearing: &'a Planar<R>,
+    motion: &'a Motion<R>,
+    state: &'a [R],
+}
+
+impl<R: Real> Vectorized for Loads<'_, R> {
+    type Output = [R; 4];
+    #[inline(always)]
+    fn run(self) -> [R; 4] {
+        self.bearing.loads(self.motion, self.state)
     }
 }
 
