@@ -84,12 +84,37 @@ pub struct Run {
 
 #[derive(Debug, Subcommand)]
 pub enum Bearings {
-    /// List all bearings
-    List,
+    /// List the bearings, all or those asked for
+    List {
+        /// Bore: "25 mm", or a range "20 mm..30 mm", which may be open: "20 mm.."
+        #[arg(long, value_name = "LENGTH")]
+        bore: Option<String>,
+        /// Least limiting speed, e.g. "20000 rpm"
+        #[arg(long, value_name = "SPEED")]
+        speed: Option<String>,
+        /// Type, e.g. "deep groove" or "angular contact"
+        #[arg(long = "type", value_name = "TYPE")]
+        kind: Option<String>,
+        /// Material of the balls: "steel" or "silicon nitride"
+        #[arg(long)]
+        material: Option<String>,
+        /// File with more bearings, or with others of the same names
+        #[arg(long, value_name = "FILE")]
+        catalogue: Option<PathBuf>,
+        /// Print JSON with every value instead of a table
+        #[arg(long)]
+        json: bool,
+    },
     /// Show every number of one bearing with its source
     Show {
         /// Name of the bearing, e.g. 6005
         #[arg(required = true)]
         name: Vec<String>,
+        /// File with more bearings, or with others of the same names
+        #[arg(long, value_name = "FILE")]
+        catalogue: Option<PathBuf>,
+        /// Print JSON instead of a table
+        #[arg(long)]
+        json: bool,
     },
 }

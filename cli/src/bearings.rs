@@ -2,60 +2,156 @@
 
 use crate::arguments::Bearings;
 use crate::console;
-use auxbear::catalogue::{self, Bearing, Datum};
+use auxbear::catalogue::{self, Bearing, Catalogue, Filter, FilterTexts, Origin};
 use auxbear::problem::{Code, Problem, did_you_mean};
+use auxbear::units;
+use std::path::Path;
 
 /// Lists the catalogue or shows one bearing.
 pub fn perform(command: &Bearings) -> Result<(), Box<Problem>> {
     match command {
-        Bearings::List => {
-            let rows: Vec<[String; 2]> = catalogue::bearings()
-                .iter()
-                .map(|bearing| [bearing.name.clone(), bearing.description.clone()])
-                .collect();
-            console::print(&console::table(&rows));
+        Bearings::List {
+            bore,
+            speed,
+            kind,
+            material,
+            catalogue,
+            json,
+        } => {
+            let texts = FilterTexts {
+                bore: bore.as_deref(),
+                speed: speed.as_deref(),
+                kind: kind.as_deref(),
+                material: material.as_deref(),
+            };
+            let filter = Filter::read(&texts, "auxbear bearings list")?;
+            let catalogue = read(catalogue.as_deref())?;
+            let wanted = catalogue.iter().filter(|bearing| filter.wants(bearing));
+            let wanted: Vec<&Bearing> = wanted.collect();
+            console::print(&if *json {
+                catalogue::to_json(wanted)
+            } else {
+                list(&wanted)
+            });
         }
-        Bearings::Show { name } => {
+        Bearings::Show {
+            name,
+            catalogue,
+            json,
+        } => {
             let name = name.join(" ");
-            let bearing = catalogue::find(&name).ok_or_else(|| unknown(&name))?;
-            console::print(&show(bearing));
+            let catalogue = read(catalogue.as_deref())?;
+            let bearing = catalogue.find(&name);
+            let bearing = bearing.ok_or_else(|| unknown(&name, &catalogue))?;
+            console::print(&if *json {
+                catalogue::to_json([bearing])
+            } else {
+                show(bearing)
+            });
         }
     }
     Ok(())
 }
 
+fn read(file: Option<&Path>) -> Result<Catalogue, Box<Problem>> {
+    file.map_or(Ok(Catalogue::built_in()), Catalogue::with_file)
+}
+
+fn list(bearings: &[&Bearing]) -> String {
+    if bearings.is_empty() {
+        return "no bearing of the catalogue is like that\n".to_string();
+    }
+    let head = [
+        "name", "type", "bore", "outside", "width", "balls", "C0", "limiting", "assumed",
+    ];
+    let units = ["", "", "mm", "mm", "mm", "mm", "kN", "rpm", "values"];
+    let rows = bearings.iter().map(|bearing| row(bearing));
+    let rows: Vec<[String; 9]> = [head, units]
+        .map(|line| line.map(String::from))
+        .into_iter()
+        .chain(rows)
+        .collect();
+    console::table(&rows)
+}
+
+fn row(bearing: &Bearing) -> [String; 9] {
+    let number = |key, unit| {
+        bearing
+            .number(key)
+            .map_or("-".to_string(), |si| in_unit(si, unit))
+    };
+    let balls = bearing.number("ball_count");
+    let balls = balls.map_or("-".to_string(), |count| {
+        format!("{count} x {}", number("ball_diameter", "mm"))
+    });
+    [
+        bearing.name.clone(),
+        bearing.word("type").unwrap_or("-").to_string(),
+        number("bore_diameter", "mm"),
+        number("outer_diameter", "mm"),
+        number("width", "mm"),
+        balls,
+        number("static_load_rating", "kN"),
+        number("limiting_speed", "rpm"),
+        bearing.assumed_count().to_string(),
+    ]
+}
+
+/// The number alone, to five digits.
+fn in_unit(si: f64, unit: &str) -> String {
+    let text = units::display(si, unit).unwrap_or_default();
+    let number = text.split(' ').next().unwrap_or_default();
+    let number: f64 = number.parse().unwrap_or(f64::NAN);
+    let rounded: f64 = format!("{number:.4e}").parse().unwrap_or(number);
+    units::number_text(rounded)
+}
+
 fn show(bearing: &Bearing) -> String {
     let head = ["quantity", "value", "mark", "source, way or reason"].map(String::from);
     let values = bearing.values.iter().map(|value| {
-        let text = match &value.datum {
-            Datum::Number { text, .. } => text,
-            Datum::Word(word) => word,
-        };
         [
             value.key.clone(),
-            text.clone(),
+            value.text().to_string(),
             value.mark.word().to_string(),
             value.note.clone(),
         ]
     });
     let rows: Vec<[String; 4]> = std::iter::once(head).chain(values).collect();
-    format!(
-        "{}: {}\n\n{}",
-        bearing.name,
-        bearing.description,
-        console::table(&rows)
-    )
+    let mut title = bearing.name.clone();
+    if !bearing.description.is_empty() {
+        title = format!("{title}: {}", bearing.description);
+    }
+    if let Origin::File {
+        file,
+        replaces_built_in,
+    } = &bearing.origin
+    {
+        title.push_str(&format!("\nfrom {file}"));
+        if *replaces_built_in {
+            title.push_str(", in place of the built-in bearing of this name");
+        }
+    }
+    let count = bearing.assumed_count();
+    let assumed = format!("{count} of {} values are assumed", bearing.values.len());
+    format!("{title}\n{assumed}\n\n{}", console::table(&rows))
 }
 
-fn unknown(name: &str) -> Box<Problem> {
-    let names = catalogue::names();
+/// Most names that a message lists.
+const MOST_NAMES: usize = 8;
+
+fn unknown(name: &str, catalogue: &Catalogue) -> Box<Problem> {
+    let names = catalogue.names();
     let near = did_you_mean(name, names.iter().map(String::as_str));
+    let listed = names[..names.len().min(MOST_NAMES)].join(", ");
     Box::new(
         Problem::new(
             Code::UnknownBearing,
             "auxbear bearings show",
             format!("\"{name}\", which is not in the catalogue"),
-            format!("one of these is needed: {}", names.join(", ")),
+            format!(
+                "one of its {} bearings is needed ({listed}, …); auxbear bearings list names them",
+                names.len()
+            ),
         )
         .with_hint(near),
     )

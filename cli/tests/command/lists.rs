@@ -55,31 +55,6 @@ fn check_prints_a_file_that_checks_to_itself() {
 }
 
 #[test]
-fn the_catalogue_is_listed_and_shown_with_its_sources() {
-    let place = Place::new();
-    let list = place.call(&["bearings", "list"]).done().out;
-    assert_eq!(list.lines().count(), 4);
-    assert!(list.starts_with("6005         deep groove ball bearing"));
-    let shown = place.call(&["bearings", "show", "6005"]).done().out;
-    let row = |key: &str| {
-        let row = shown.lines().find(|line| line.starts_with(key));
-        row.unwrap_or_else(|| panic!("no {key} in {shown}"))
-    };
-    assert!(row("bore_diameter").contains("25 mm"));
-    assert!(row("bore_diameter").contains("catalogue  SKF"));
-    assert!(row("inner_groove_curvature").contains("assumed"));
-    assert!(row("pitch_diameter").contains("derived"));
-    // all marks stand in one column
-    let column = |key: &str, mark: &str| row(key).find(mark).unwrap();
-    assert_eq!(
-        column("bore_diameter", "catalogue"),
-        column("pitch_diameter", "derived")
-    );
-    let hybrid = place.call(&["bearings", "show", "6005", "hybrid"]).done();
-    assert!(hybrid.out.contains("silicon nitride"));
-}
-
-#[test]
 fn a_reader_that_leaves_early_is_no_error() {
     let place = Place::new();
     for words in [

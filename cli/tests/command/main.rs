@@ -1,6 +1,7 @@
 //! The command as a user meets it: what it prints, how it ends, what it leaves on the disk.
 
 mod bad_input;
+mod bearings;
 mod lists;
 mod place;
 mod run_directory;

@@ -1,20 +1,63 @@
 //! Bearings known by name, with the origin of every number.
 //!
-//! The data stand in `bearings.toml`, which is part of the program. Its format `auxbear.bearings/1`:
-//! `[sources]` maps short keys to citations; each `[[bearing]]` has `name`, `description`, and values under the names of
-//! the scenario's `[bearing]` keys (and `bore_diameter` of its `[contact]`), plus `outer_diameter`, `width`, `mass`,
-//! `limiting_speed` and `dynamic_load_rating`, which describe the bearing. A value is a table
-//! `{ value = …, catalogue | derived | assumed = "…" }`: a quantity is a text with unit, a count or ratio a bare number,
-//! `ball_material` a word.
+//! The data stand in `bearings.toml`, which is part of the program; a user's file adds bearings or replaces built-in
+//! ones. Both have the format `auxbear.bearings/1`:
+//!
+//! ```toml
+//! format = "auxbear.bearings/1"
+//!
+//! [sources]                      # short keys for citations
+//! maker = "Maker's catalogue 2024, p. 12"
+//!
+//! [[bearing]]                    # one bearing; the keys are those of the scenario's [bearing] and a few more
+//! name = "my 6205"
+//! type = "deep groove"
+//! bore_diameter = { value = "25 mm", catalogue = "maker" }
+//! ball_diameter = { value = "7.938 mm", assumed = "as other makers" }
+//! ball_count = 9                 # without a mark: given by the user
+//!
+//! [[family]]                     # many bearings: common values, columns, one row each
+//! name = "mine {size}"
+//! type = "deep groove"
+//! columns = [
+//!   { note = "size" },           # text for {size} in name, description and notes
+//!   { key = "bore_diameter", unit = "mm", catalogue = "maker" },
+//!   { key = "ball_count", derived = "from C0 of {size}" },
+//! ]
+//! rows = [["A", 25, 9], ["B", 30, { value = 9, assumed = "as A" }]]
+//! ```
+//!
+//! A value carries one mark: `catalogue` (a key of `[sources]`), `derived` (how), `assumed` (why); a user's value may go
+//! without, then it is `given`. A quantity is a text with unit; a count or ratio is a bare number. What a bearing lacks
+//! follows by the rules of `complete.rs`, marked; what contradicts itself is refused.
 //!
 //! Masses and inertias are those of the bare ring: a sleeve on it belongs to the inner race and is the user's to add.
 
-use serde::Deserialize;
-use std::collections::BTreeMap;
+mod check;
+mod complete;
+mod family;
+mod filter;
+mod json;
+mod key;
+mod read;
+mod ring;
+mod value;
+
+pub use filter::{Filter, FilterTexts};
+pub use json::to_json;
+pub use ring::Ring;
+
+use crate::problem::{Code, Problem};
+use std::cmp::Ordering;
+use std::io::{ErrorKind, Read};
+use std::path::Path;
 use std::sync::OnceLock;
 
 const TEXT: &str = include_str!("bearings.toml");
-const FORMAT: &str = "auxbear.bearings/1";
+/// Format of the data file and of a user's file.
+pub const FORMAT: &str = "auxbear.bearings/1";
+/// Largest file of bearings, bytes.
+const LARGEST_FILE: u64 = 10_000_000;
 
 /// How well a number is founded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +68,8 @@ pub enum Mark {
     Derived,
     /// Neither.
     Assumed,
+    /// By the user's file, without a word on where it is from.
+    Given,
 }
 
 impl Mark {
@@ -34,6 +79,7 @@ impl Mark {
             Mark::Catalogue => "catalogue",
             Mark::Derived => "derived",
             Mark::Assumed => "assumed",
+            Mark::Given => "given",
         }
     }
 }
@@ -65,13 +111,39 @@ pub struct Value {
     pub note: String,
 }
 
+impl Value {
+    /// The value as written.
+    pub fn text(&self) -> &str {
+        match &self.datum {
+            Datum::Number { text, .. } => text,
+            Datum::Word(word) => word,
+        }
+    }
+}
+
+/// Where a bearing is from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// It is part of the program.
+    BuiltIn,
+    /// A user's file.
+    File {
+        /// The file, as the user named it.
+        file: String,
+        /// Whether the program has a bearing of this name, which this one replaces.
+        replaces_built_in: bool,
+    },
+}
+
 /// One bearing of the catalogue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bearing {
     /// Name by which a scenario asks for it.
     pub name: String,
-    /// One line for lists.
+    /// One line for people; empty where the file has none.
     pub description: String,
+    /// Where it is from.
+    pub origin: Origin,
     /// Values, in the order of the keys' names.
     pub values: Vec<Value>,
 }
@@ -84,6 +156,7 @@ impl Bearing {
             Datum::Word(_) => None,
         }
     }
+
     /// The word under a key.
     pub fn word(&self, key: &str) -> Option<&str> {
         match &self.value(key)?.datum {
@@ -91,280 +164,140 @@ impl Bearing {
             Datum::Number { .. } => None,
         }
     }
+
     /// The value under a key.
     pub fn value(&self, key: &str) -> Option<&Value> {
         self.values.iter().find(|value| value.key == key)
     }
+
+    /// How many of its values are assumed.
+    pub fn assumed_count(&self) -> usize {
+        let assumed = |value: &&Value| value.mark == Mark::Assumed;
+        self.values.iter().filter(assumed).count()
+    }
 }
 
-/// All bearings, in the order of the data file.
+/// The built-in bearings, in the order of their names.
 pub fn bearings() -> &'static [Bearing] {
     static BEARINGS: OnceLock<Vec<Bearing>> = OnceLock::new();
-    // The text is compiled in and read by a test, so a user never meets this panic.
-    BEARINGS.get_or_init(|| read(TEXT).expect("the built-in catalogue is valid"))
-}
-
-/// The bearing of this name; spaces around it and the case of letters do not matter.
-pub fn find(name: &str) -> Option<&'static Bearing> {
-    bearings()
-        .iter()
-        .find(|bearing| bearing.name.eq_ignore_ascii_case(name.trim()))
-}
-
-/// Names of all bearings.
-pub fn names() -> Vec<String> {
-    bearings()
-        .iter()
-        .map(|bearing| bearing.name.clone())
-        .collect()
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct File {
-    format: String,
-    sources: BTreeMap<String, String>,
-    bearing: Vec<Record>,
-}
-
-#[derive(Deserialize)]
-struct Record {
-    name: String,
-    description: String,
-    #[serde(flatten)]
-    values: BTreeMap<String, Entry>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Entry {
-    value: Raw,
-    catalogue: Option<String>,
-    derived: Option<String>,
-    assumed: Option<String>,
-}
-
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum Raw {
-    Number(f64),
-    Text(String),
-}
-
-fn read(text: &str) -> Result<Vec<Bearing>, String> {
-    let file: File = toml::from_str(text).map_err(|error| error.to_string())?;
-    if file.format != FORMAT {
-        return Err(format!("format {}, needed {FORMAT}", file.format));
-    }
-    file.bearing
-        .into_iter()
-        .map(|record| {
-            let values = record
-                .values
-                .into_iter()
-                .map(|(key, entry)| value(&file.sources, &key, entry))
-                .collect::<Result<_, String>>()
-                .map_err(|error| format!("{}: {error}", record.name))?;
-            Ok(Bearing {
-                name: record.name,
-                description: record.description,
-                values,
-            })
-        })
-        .collect()
-}
-
-fn value(sources: &BTreeMap<String, String>, key: &str, entry: Entry) -> Result<Value, String> {
-    let (mark, note) = match (entry.catalogue, entry.derived, entry.assumed) {
-        (Some(source), None, None) => {
-            let citation = sources
-                .get(&source)
-                .ok_or(format!("{key}: no source named {source}"))?;
-            (Mark::Catalogue, citation.clone())
-        }
-        (None, Some(how), None) => (Mark::Derived, how),
-        (None, None, Some(why)) => (Mark::Assumed, why),
-        _ => return Err(format!("{key}: exactly one mark is needed")),
-    };
-    let datum = match entry.value {
-        Raw::Number(number) => Datum::Number {
-            si: number,
-            text: format!("{number}"),
-        },
-        Raw::Text(word) if key == "ball_material" => Datum::Word(word),
-        Raw::Text(text) => Datum::Number {
-            si: units::parse_quantity(&text)
-                .map_err(|error| format!("{key}: {error}"))?
-                .value_si,
-            text,
-        },
-    };
-    Ok(Value {
-        key: key.to_string(),
-        datum,
-        mark,
-        note,
+    BEARINGS.get_or_init(|| {
+        // The text is compiled in and read by a test, so a user never meets this panic.
+        let mut bearings =
+            read::read(TEXT, "bearings.toml", true).expect("the built-in catalogue is valid");
+        bearings.sort_by(|a, b| natural_order(&a.name, &b.name));
+        bearings
     })
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use physics::materials::{BEARING_STEEL, SILICON_NITRIDE, ball_mass};
-    use std::f64::consts::PI;
+/// The built-in bearing of this name; spaces around it and the case of letters do not matter.
+pub fn find(name: &str) -> Option<&'static Bearing> {
+    bearings().iter().find(|bearing| same(&bearing.name, name))
+}
 
-    const KEYS: [&str; 16] = [
-        "ball_count",
-        "ball_diameter",
-        "ball_material",
-        "bore_diameter",
-        "cage_mass",
-        "dynamic_load_rating",
-        "inner_groove_curvature",
-        "inner_race_inertia",
-        "inner_race_mass",
-        "limiting_speed",
-        "mass",
-        "outer_diameter",
-        "outer_groove_curvature",
-        "pitch_diameter",
-        "static_load_rating",
-        "width",
-    ];
+/// Names of all built-in bearings.
+pub fn names() -> Vec<String> {
+    let name = |bearing: &Bearing| bearing.name.clone();
+    bearings().iter().map(name).collect()
+}
 
-    fn number(bearing: &Bearing, key: &str) -> f64 {
-        bearing
-            .number(key)
-            .unwrap_or_else(|| panic!("{} has no {key}", bearing.name))
+/// The built-in bearings and those of a user's file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Catalogue {
+    added: Vec<Bearing>,
+}
+
+impl Catalogue {
+    /// The built-in bearings alone.
+    pub fn built_in() -> Catalogue {
+        Catalogue::default()
     }
 
-    #[test]
-    fn every_bearing_has_every_key_and_a_reason_for_it() {
-        for bearing in bearings() {
-            for key in KEYS {
-                let value = bearing
-                    .value(key)
-                    .unwrap_or_else(|| panic!("{} has no {key}", bearing.name));
-                assert!(!value.note.is_empty(), "{} {key}", bearing.name);
-            }
-            assert_eq!(bearing.values.len(), KEYS.len(), "{}", bearing.name);
-            assert!(["steel", "silicon nitride"].contains(&bearing.word("ball_material").unwrap()));
-        }
+    /// The built-in bearings with those of a file, which replace built-in ones of the same name.
+    pub fn with_file(path: &Path) -> Result<Catalogue, Box<Problem>> {
+        Catalogue::with_text(&read_text(path)?, &path.display().to_string())
     }
-    #[test]
-    fn the_parts_fit_into_the_bearing() {
-        for bearing in bearings() {
-            let get = |key| number(bearing, key);
-            let (bore, outside) = (get("bore_diameter"), get("outer_diameter"));
-            let (ball, pitch, balls) = (
-                get("ball_diameter"),
-                get("pitch_diameter"),
-                get("ball_count"),
-            );
-            assert!(bore < pitch - ball && pitch + ball < outside);
-            // chord between neighbouring ball centres, with some room for the cage
-            assert!(pitch * (PI / balls).sin() > 1.2 * ball, "{}", bearing.name);
-            assert!(ball < get("width"));
-            for key in ["inner_groove_curvature", "outer_groove_curvature"] {
-                assert!((0.505..0.54).contains(&get(key)));
-            }
-            let density = match bearing.word("ball_material").unwrap() {
-                "steel" => BEARING_STEEL.density,
-                _ => SILICON_NITRIDE.density,
+
+    /// The same from a text; the name stands for the file in messages.
+    pub fn with_text(text: &str, file: &str) -> Result<Catalogue, Box<Problem>> {
+        let mut added = read::read(text, file, false)?;
+        for bearing in &mut added {
+            bearing.origin = Origin::File {
+                file: file.to_string(),
+                replaces_built_in: find(&bearing.name).is_some(),
             };
-            let parts =
-                get("inner_race_mass") + get("cage_mass") + balls * ball_mass(ball, density);
-            assert!(parts < 0.75 * get("mass"), "{}: {parts}", bearing.name);
-            assert!(get("static_load_rating") < get("dynamic_load_rating"));
         }
+        Ok(Catalogue { added })
     }
-    /// Mass and inertia of a ring from bore to shoulder less its groove, by thin shells.
-    fn ring(bore: f64, shoulder: f64, width: f64, track: f64, groove: f64) -> (f64, f64) {
-        let (shells, mut mass, mut inertia) = (20_000, 0.0, 0.0);
-        let thickness = (shoulder - bore) / 2.0 / f64::from(shells);
-        for shell in 0..shells {
-            let radius = bore / 2.0 + thickness * (f64::from(shell) + 0.5);
-            let cut = (groove * groove - (radius - track - groove).powi(2)).max(0.0);
-            let part =
-                BEARING_STEEL.density * 2.0 * PI * radius * thickness * (width - 2.0 * cut.sqrt());
-            mass += part;
-            inertia += part * radius * radius;
+
+    /// The bearing of this name; spaces around it and the case of letters do not matter.
+    pub fn find(&self, name: &str) -> Option<&Bearing> {
+        let added = self.added.iter().find(|bearing| same(&bearing.name, name));
+        added.or_else(|| find(name))
+    }
+
+    /// All bearings: those of the user's file in its order, then the built-in ones that they do not replace.
+    pub fn iter(&self) -> impl Iterator<Item = &Bearing> {
+        let replaced = |name: &str| self.added.iter().any(|added| same(&added.name, name));
+        let built_in = bearings().iter();
+        self.added
+            .iter()
+            .chain(built_in.filter(move |bearing| !replaced(&bearing.name)))
+    }
+
+    /// Names of all bearings.
+    pub fn names(&self) -> Vec<String> {
+        self.iter().map(|bearing| bearing.name.clone()).collect()
+    }
+}
+
+/// Whether two names mean the same bearing.
+fn same(a: &str, b: &str) -> bool {
+    a.trim().eq_ignore_ascii_case(b.trim())
+}
+
+/// The order that people expect: numbers in a name count as numbers.
+fn natural_order(a: &str, b: &str) -> Ordering {
+    let pieces = |name: &str| -> Vec<(u64, String)> {
+        let mut pieces: Vec<(u64, String)> = Vec::new();
+        let mut was_digit = None;
+        for letter in name.chars() {
+            let is_digit = letter.is_ascii_digit();
+            if was_digit != Some(is_digit) {
+                pieces.push((0, String::new()));
+            }
+            was_digit = Some(is_digit);
+            if let Some((_, piece)) = pieces.last_mut() {
+                piece.push(letter);
+            }
         }
-        (mass, inertia)
-    }
-    #[test]
-    fn ring_masses_are_those_of_the_derivation() {
-        for (name, shoulder) in [
-            ("6005", 32.0e-3),
-            ("6005 hybrid", 32.0e-3),
-            ("6007", 43.8e-3),
-            ("61807", 38.7e-3),
-        ] {
-            let bearing = find(name).unwrap();
-            let get = |key| number(bearing, key);
-            let track = (get("pitch_diameter") - get("ball_diameter")) / 2.0;
-            let groove = get("inner_groove_curvature") * get("ball_diameter");
-            let (mass, inertia) = ring(get("bore_diameter"), shoulder, get("width"), track, groove);
-            // three printed digits
-            assert!(
-                (get("inner_race_mass") / mass - 1.0).abs() < 2e-3,
-                "{name} {mass}"
-            );
-            assert!(
-                (get("inner_race_inertia") / inertia - 1.0).abs() < 2e-3,
-                "{name} {inertia}"
-            );
+        for (number, piece) in &mut pieces {
+            *number = piece.parse().unwrap_or(u64::MAX);
         }
+        pieces
+    };
+    pieces(a).cmp(&pieces(b))
+}
+
+fn read_text(path: &Path) -> Result<String, Box<Problem>> {
+    const NEEDED: &str = "the path of a file of bearings is needed";
+    let problem = |code, found: String| Box::new(Problem::at_path(code, path, found, NEEDED));
+    let unreadable = |error: std::io::Error| match error.kind() {
+        ErrorKind::NotFound => problem(Code::FileMissing, "no file of this name".to_string()),
+        ErrorKind::IsADirectory => problem(Code::FileIsFolder, "a folder".to_string()),
+        _ => problem(
+            Code::FileUnreadable,
+            format!("a file that cannot be read ({error})"),
+        ),
+    };
+    let file = std::fs::File::open(path).map_err(unreadable)?;
+    let mut bytes = Vec::new();
+    // Not the size of the metadata: a pipe or a device has none.
+    file.take(LARGEST_FILE + 1)
+        .read_to_end(&mut bytes)
+        .map_err(unreadable)?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(problem(Code::FileTooLarge, "more than 10 MB".to_string()));
     }
-    #[test]
-    fn ball_counts_follow_from_the_static_ratings_quoted() {
-        // C0 = f0 Z Dw² [N, mm], ISO 76; f0 is printed to three digits, so Z to better than 0.1.
-        for (name, rating, f0) in [
-            ("6005", 5850.0, 14.5),
-            ("6007", 10_300.0, 14.8),
-            ("6007", 10_300.0, 14.9),
-            ("61807", 3850.0, 16.5),
-        ] {
-            let bearing = find(name).unwrap();
-            let ball = number(bearing, "ball_diameter") * 1e3;
-            let balls = rating / (f0 * ball * ball);
-            assert!(
-                (balls - number(bearing, "ball_count")).abs() < 0.1,
-                "{name} {balls}"
-            );
-        }
-    }
-    #[test]
-    fn values_are_read_in_si() {
-        let bearing = find(" 6005 ").unwrap();
-        assert_eq!(bearing.number("bore_diameter"), Some(0.025));
-        assert_eq!(bearing.number("static_load_rating"), Some(6550.0));
-        assert_eq!(bearing.value("ball_count").unwrap().mark, Mark::Derived);
-        assert_eq!(
-            find("6005 Hybrid").unwrap().word("ball_material"),
-            Some("silicon nitride")
-        );
-        assert!(find("6999").is_none());
-        assert_eq!(names(), ["6005", "6005 hybrid", "6007", "61807"]);
-    }
-    #[test]
-    fn wrong_data_are_refused() {
-        for (from, to, message) in [
-            (FORMAT, "auxbear.bearings/9", "format auxbear.bearings/9"),
-            (
-                "\"25 mm\", catalogue = \"skf\"",
-                "\"25 mm\"",
-                "exactly one mark",
-            ),
-            (
-                "\"25 mm\", catalogue = \"skf\"",
-                "\"25 mm\", catalogue = \"nobody\"",
-                "no source named nobody",
-            ),
-            ("\"25 mm\"", "\"25 furlongs\"", "bore_diameter"),
-        ] {
-            let error = read(&TEXT.replacen(from, to, 1)).unwrap_err();
-            assert!(error.contains(message), "{error}");
-        }
-    }
+    String::from_utf8(bytes)
+        .map_err(|_| problem(Code::FileNotUtf8, "bytes that are not UTF-8".to_string()))
 }

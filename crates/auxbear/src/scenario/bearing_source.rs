@@ -1,7 +1,7 @@
 //! What a scenario asks of a bearing catalogue.
 
 use super::provenance::Provenance;
-use crate::catalogue::{self, Datum};
+use crate::catalogue::{self, Bearing, Catalogue, Datum};
 
 /// A catalogue of bearings, asked by name.
 pub trait BearingSource {
@@ -42,28 +42,41 @@ pub struct BuiltIn;
 
 impl BearingSource for BuiltIn {
     fn find(&self, name: &str) -> Option<BearingRecord> {
-        let bearing = catalogue::find(name)?;
-        let mut record = BearingRecord {
-            name: bearing.name.clone(),
-            values: Vec::new(),
-            words: Vec::new(),
-        };
-        for value in &bearing.values {
-            let provenance = Provenance::Catalogue {
-                bearing: bearing.name.clone(),
-                mark: value.mark.word().to_string(),
-                source: value.note.clone(),
-            };
-            let key = value.key.clone();
-            match &value.datum {
-                Datum::Number { si, .. } => record.values.push((key, *si, provenance)),
-                Datum::Word(word) => record.words.push((key, word.clone(), provenance)),
-            }
-        }
-        Some(record)
+        catalogue::find(name).map(record)
     }
 
     fn names(&self) -> Vec<String> {
         catalogue::names()
     }
+}
+
+impl BearingSource for Catalogue {
+    fn find(&self, name: &str) -> Option<BearingRecord> {
+        Catalogue::find(self, name).map(record)
+    }
+
+    fn names(&self) -> Vec<String> {
+        Catalogue::names(self)
+    }
+}
+
+fn record(bearing: &Bearing) -> BearingRecord {
+    let mut record = BearingRecord {
+        name: bearing.name.clone(),
+        values: Vec::new(),
+        words: Vec::new(),
+    };
+    for value in &bearing.values {
+        let provenance = Provenance::Catalogue {
+            bearing: bearing.name.clone(),
+            mark: value.mark.word().to_string(),
+            source: value.note.clone(),
+        };
+        let key = value.key.clone();
+        match &value.datum {
+            Datum::Number { si, .. } => record.values.push((key, *si, provenance)),
+            Datum::Word(word) => record.words.push((key, word.clone(), provenance)),
+        }
+    }
+    record
 }

@@ -12,13 +12,12 @@
 //!   pocket    ψ = R_p wrap(β - φ_c - seat), β azimuth about c_o;  s = sign ψ;  p = |ψ| - gap
 //!             on the ball  -s P R_p/|b - c_o| t - μ_c tanh(v/v0) P n,   v = (v_b - v_o)·n - s r (σ - ω_c)
 //! ```
-//! Every force stands once and is added with both signs. The pairs of the steady moment are those of
+//! Every force stands once and is added with both signs. The steady moment's pairs are added elsewhere:
 //! [`steady_moment`](super::steady_moment).
 //!
 //! Assumes: motion in the plane; the cage is centred on the outer race.
 //! Does not model: axial motion, tilt, gyroscopic moments, ball-to-ball contact, cage translation, lubricant film.
 
-use super::steady_moment::{BallMoment, BallPlace};
 use crate::motion::Wrench;
 use number::{Gather, Mask, Real, Vec2, constants};
 use physics::contact::{NormalForce, ball_race, ball_race_energy, linear_contact};
@@ -129,8 +128,6 @@ pub struct BallHeat<R> {
     pub pocket_damping: R,
     /// Sliding in the pocket.
     pub pocket_sliding: R,
-    /// The steady moment.
-    pub steady_moment: R,
 }
 
 /// What a ball feels and does.
@@ -180,11 +177,11 @@ pub(super) struct AtRace<R> {
     /// n, from the race's centre to the ball.
     pub n: Vec2<R>,
     /// Distance from the race's centre, m.
-    distance: R,
+    pub distance: R,
     /// 1/distance, 1/m.
-    inverse_distance: R,
+    pub inverse_distance: R,
     /// Speed of the ball past the race's centre, m/s.
-    past: Vec2<R>,
+    pub past: Vec2<R>,
     /// Approach δ, m.
     approach: R,
     /// Its rate, m/s.
@@ -196,10 +193,12 @@ pub(super) struct AtRace<R> {
 /// A ball between its races.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Between<R> {
-    e_r: Vec2<R>,
+    /// Unit vector from the origin to the ball.
+    pub e_r: Vec2<R>,
     position: Vec2<R>,
     from_outer: Vec2<R>,
-    inverse_radius: R,
+    /// 1/ρ, 1/m.
+    pub inverse_radius: R,
     /// At the inner race.
     pub inner: AtRace<R>,
     /// At the outer race.
@@ -280,10 +279,9 @@ impl<R: Real> BallConstants<R> {
 
     /// Acceleration of a ball and its reactions on its three neighbours.
     #[inline(always)]
-    pub fn react<L: TractionLaw<R>, M: BallMoment<R>>(
+    pub fn react<L: TractionLaw<R>>(
         &self,
         traction: &L,
-        steady: &M,
         inner: &RaceMotion<R>,
         outer: &RaceMotion<R>,
         pocket: &PocketMotion<R>,
@@ -360,32 +358,14 @@ impl<R: Real> BallConstants<R> {
 
         // the three force pairs
         let by_inner = n_i * q_i.force + t_i * inner_traction;
-        let mut by_outer = n_o * (pocket_friction - q_o.force)
+        let by_outer = n_o * (pocket_friction - q_o.force)
             + t_o * (outer_traction + pocket_push * inverse_outer);
-        let mut moment = arm_bo * outer_traction
+        let drag = self.orbit_drag * orbital;
+        let force = by_inner + by_outer - e_t * drag;
+        let moment = arm_bo * outer_traction
             - arm_bi * inner_traction
             - pocket_moment
             - self.spin_drag * ball.spin;
-        let mut on_inner_moment = -(arm_i * inner_traction);
-        let mut on_outer_moment = -(arm_o * outer_traction);
-        let mut steady_heat = zero;
-        if M::PRESENT {
-            let place = BallPlace {
-                past_outer: past_outer_t,
-                distance: at_outer.distance,
-                inverse_distance: inverse_outer,
-                inner_load: q_i.force,
-                outer_load: q_o.force,
-            };
-            let pairs = steady.pairs(inner, outer, ball, &place);
-            by_outer = by_outer - t_o * pairs.orbit_drag;
-            moment = moment - pairs.inner_couple - pairs.outer_couple;
-            on_inner_moment += pairs.inner_couple;
-            on_outer_moment += pairs.orbit_drag * at_outer.distance + pairs.outer_couple;
-            steady_heat = pairs.heat;
-        }
-        let drag = self.orbit_drag * orbital;
-        let force = by_inner + by_outer - e_t * drag;
 
         let acceleration = force * self.inverse_mass + self.gravity;
         let two = R::splat(2.0);
@@ -396,8 +376,8 @@ impl<R: Real> BallConstants<R> {
                     * inverse_radius,
                 spin: moment * self.inverse_inertia,
             },
-            on_inner: Wrench::planar(-by_inner, on_inner_moment),
-            on_outer: Wrench::planar(-by_outer, on_outer_moment),
+            on_inner: Wrench::planar(-by_inner, -(arm_i * inner_traction)),
+            on_outer: Wrench::planar(-by_outer, -(arm_o * outer_traction)),
             on_cage: pocket_moment - pocket_push,
             external_moment: position.cross(self.gravity) * self.mass
                 - drag * ball.radius
@@ -410,7 +390,6 @@ impl<R: Real> BallConstants<R> {
                 drag: drag * orbital + self.spin_drag * ball.spin.square(),
                 pocket_damping: damping_heat,
                 pocket_sliding: sliding_heat,
-                steady_moment: steady_heat,
             },
             inner_load: q_i.force,
             outer_load: q_o.force,

@@ -16,9 +16,7 @@
 use super::ball::{
     BallConstants, BallMotion, BallReaction, PocketMotion, RaceMotion, gather_group,
 };
-use super::steady_moment::{
-    BallMoment, Geometry, MomentPairs, NoMoment, PairsOfBall, SharedMoment,
-};
+use super::steady_moment::{BallPlace, Geometry, MomentPairs, SharedMoment};
 use super::{BallSums, BearingEnergy, BearingHeat, BearingReaction, largest};
 use crate::motion::{Body, Motion, Wrench};
 use number::{Gather, Real, Vec2, Vectorized};
@@ -122,58 +120,106 @@ impl<R: Real> Planar<R> {
         rate: &mut [R],
         detail: &mut [R],
     ) -> BearingReaction<R> {
-        // what there is is chosen once a call, not once a ball
-        match &self.moment {
-            None => self.slide(&NoMoment, motion, state, rate, detail),
-            Some(pairs) => {
-                let (shared, moment) = self.shared(pairs, motion, held_load, state);
-                BearingReaction {
-                    steady_moment: moment,
-                    ..self.slide(&shared, motion, state, rate, detail)
-                }
-            }
+        // the law is chosen once a call, not once a ball
+        let mut reaction = match &self.traction {
+            Traction::Tanh(law) => self.apart(law, motion, state, rate, detail),
+            Traction::FourParameter(law) => self.apart(law, motion, state, rate, detail),
+            Traction::Dry(law) => self.apart(law, motion, state, rate, detail),
+        };
+        // apart from the sum above: without a steady moment nothing is paid, and the code above stands once a law
+        if let Some(pairs) = &self.moment {
+            R::vectorized(Share {
+                bearing: self,
+                pairs,
+                motion,
+                held_load,
+                state,
+                rate,
+                reaction: &mut reaction,
+            });
         }
+        reaction
     }
 
-    /// What the balls share of the steady moment, and the moment itself.
+    /// The sum over the balls as a task of its own: it is compiled once for all systems, apart from their steps.
     #[inline(always)]
-    fn shared<'a>(
+    fn apart<L: TractionLaw<R::Group>>(
         &self,
-        pairs: &'a MomentPairs<R>,
+        traction: &L,
+        motion: &Motion<R>,
+        state: &[R],
+        rate: &mut [R],
+        detail: &mut [R],
+    ) -> BearingReaction<R> {
+        R::vectorized(Sum {
+            bearing: self,
+            traction,
+            motion,
+            state,
+            rate,
+            detail,
+        })
+    }
+
+    /// Adds the pairs of the steady moment to the rates and to the reaction.
+    #[inline(always)]
+    fn share(
+        &self,
+        pairs: &MomentPairs<R>,
         motion: &Motion<R>,
         held_load: R,
         state: &[R],
-    ) -> (PairsOfBall<'a, R::Group>, R) {
-        let speed = motion.inner.spin - motion.outer.spin;
-        let [x, y, inner_sum, outer_sum] = R::vectorized(Loads {
-            bearing: self,
-            motion,
-            state,
-        });
-        let load = Vec2::new(x, y).length_squared().sqrt() + held_load;
-        (
-            pairs.share(speed, load, inner_sum, outer_sum),
-            pairs.moment(speed, load),
-        )
-    }
-
-    /// Rate of the angular momentum of balls and cage about the origin, N m, from the rates of their states.
-    #[inline(always)]
-    pub(crate) fn angular_momentum_rate(&self, state: &[R], rate: &[R]) -> R {
+        rate: &mut [R],
+        reaction: &mut BearingReaction<R>,
+    ) {
         let n = self.balls;
-        let (lists, rates) = (split(state, n), split(rate, n));
-        let mut sum = BallSums::<R, 1>::new(n);
+        let speed = motion.inner.spin - motion.outer.spin;
+        let [x, y, inner_sum, outer_sum] = self.loads(motion, state);
+        let load = Vec2::new(x, y).length_squared().sqrt() + held_load;
+        let shared = pairs.share(speed, load, inner_sum, outer_sum);
+
+        let lists = split(state, n);
+        let [_, d_radial_speed, _, d_orbit_speed, d_spin] = split_mut(rate, n);
+        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
+        let mut sums = BallSums::<R, 5>::new(n);
         let mut from = 0;
         while from < n {
-            let (ball, change) = (load_ball(&lists, from), load_ball::<R>(&rates, from));
-            let two = <R::Group as Real>::splat(2.0);
-            let orbit = ball.radius.square() * change.orbit_speed
-                + two * ball.radius * ball.radial_speed * ball.orbit_speed;
-            let spin = change.spin / self.ball.inverse_inertia;
-            sum.add(from, &[self.ball.mass * orbit + spin]);
+            let ball = load_ball(&lists, from);
+            let place = self.ball.between(&inner, &outer, &ball);
+            let t = place.outer.n.turned();
+            let distance = place.outer.distance;
+            let p = shared.pairs(&BallPlace {
+                past: place.outer.past.dot(t) - outer.spin * distance,
+                inverse_distance: place.outer.inverse_distance,
+                on_inner: ball.spin - inner.spin,
+                on_outer: ball.spin - outer.spin,
+                inner_load: place.inner.normal.force,
+                outer_load: place.outer.normal.force,
+            });
+            let force = t * p.orbit_drag;
+            let slowing = force * self.ball.inverse_mass;
+            let sideways = slowing.dot(place.e_r.turned()) * place.inverse_radius;
+            let couple = p.inner_couple + p.outer_couple;
+            subtract(d_radial_speed, from, slowing.dot(place.e_r));
+            subtract(d_orbit_speed, from, sideways);
+            subtract(d_spin, from, couple * self.ball.inverse_inertia);
+            sums.add(
+                from,
+                &[
+                    p.inner_couple,
+                    force.x,
+                    force.y,
+                    p.orbit_drag * distance + p.outer_couple,
+                    p.heat,
+                ],
+            );
             from += R::GROUP;
         }
-        sum.total()[0] + rate[1] / self.cage_inverse_inertia
+        let [on_inner, x, y, on_outer, heat] = sums.total();
+        reaction.on_inner.moment += on_inner;
+        reaction.on_outer += Wrench::planar(Vec2::new(x, y), on_outer);
+        reaction.heat.steady_moment = heat;
+        reaction.steady_moment = shared.moment;
     }
 
     /// Loads of all balls: ΣQ_i n (two components), ΣQ_i, ΣQ_o, N.
@@ -195,51 +241,29 @@ impl<R: Real> Planar<R> {
         sums.total()
     }
 
+    /// Rate of the angular momentum of balls and cage about the origin, N m, from the rates of their states.
     #[inline(always)]
-    fn slide<M: BallMoment<R::Group>>(
-        &self,
-        steady: &M,
-        motion: &Motion<R>,
-        state: &[R],
-        rate: &mut [R],
-        detail: &mut [R],
-    ) -> BearingReaction<R> {
-        match &self.traction {
-            Traction::Tanh(traction) => R::vectorized(Sum {
-                bearing: self,
-                traction,
-                steady,
-                motion,
-                state,
-                rate,
-                detail,
-            }),
-            Traction::FourParameter(traction) => R::vectorized(Sum {
-                bearing: self,
-                traction,
-                steady,
-                motion,
-                state,
-                rate,
-                detail,
-            }),
-            Traction::Dry(traction) => R::vectorized(Sum {
-                bearing: self,
-                traction,
-                steady,
-                motion,
-                state,
-                rate,
-                detail,
-            }),
+    pub(crate) fn angular_momentum_rate(&self, state: &[R], rate: &[R]) -> R {
+        let n = self.balls;
+        let (lists, rates) = (split(state, n), split(rate, n));
+        let mut sum = BallSums::<R, 1>::new(n);
+        let mut from = 0;
+        while from < n {
+            let (ball, change) = (load_ball(&lists, from), load_ball::<R>(&rates, from));
+            let two = <R::Group as Real>::splat(2.0);
+            let orbit = ball.radius.square() * change.orbit_speed
+                + two * ball.radius * ball.radial_speed * ball.orbit_speed;
+            let spin = change.spin / self.ball.inverse_inertia;
+            sum.add(from, &[self.ball.mass * orbit + spin]);
+            from += R::GROUP;
         }
+        sum.total()[0] + rate[1] / self.cage_inverse_inertia
     }
 
     #[inline(always)]
-    fn sum<L: TractionLaw<R::Group>, M: BallMoment<R::Group>>(
+    fn sum<L: TractionLaw<R::Group>>(
         &self,
         traction: &L,
-        steady: &M,
         motion: &Motion<R>,
         state: &[R],
         rate: &mut [R],
@@ -252,7 +276,6 @@ impl<R: Real> Planar<R> {
 
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
         let mut sums = BallSums::<R, 15>::new(n);
-        let mut steady_heat = BallSums::<R, 1>::new(n);
         let mut from = 0;
         while from < n {
             let ball = load_ball(&lists, from);
@@ -260,7 +283,7 @@ impl<R: Real> Planar<R> {
                 angle: cage_angle.grouped() + R::load_group(&self.seats, from),
                 spin: cage_speed.grouped(),
             };
-            let r = (self.ball).react(traction, steady, &inner, &outer, &pocket, &ball);
+            let r = (self.ball).react(traction, &inner, &outer, &pocket, &ball);
             R::store_group(ball.radial_speed, d_radius, from);
             R::store_group(r.acceleration.radial, d_radial_speed, from);
             R::store_group(ball.orbit_speed, d_azimuth, from);
@@ -286,9 +309,6 @@ impl<R: Real> Planar<R> {
                     r.heat.pocket_sliding,
                 ],
             );
-            if M::PRESENT {
-                steady_heat.add(from, &[r.heat.steady_moment]);
-            }
             if !detail.is_empty() {
                 for (k, value) in [
                     r.inner_load,
@@ -325,7 +345,7 @@ impl<R: Real> Planar<R> {
                 drag: s[12] + cage_drag * cage_speed,
                 pocket_damping: s[13],
                 pocket_sliding: s[14],
-                steady_moment: steady_heat.total()[0],
+                steady_moment: R::zero(),
             },
             largest_inner_load: largest(detail, n, 0),
             largest_outer_load: largest(detail, n, 1),
@@ -333,24 +353,22 @@ impl<R: Real> Planar<R> {
     }
 }
 
-/// The sum over the balls as a task of its own: it is compiled once for all systems, apart from their steps.
-struct Sum<'a, R: Real, L, M> {
+/// [`Planar::sum`] as a task.
+struct Sum<'a, R: Real, L> {
     bearing: &'a Planar<R>,
     traction: &'a L,
-    steady: &'a M,
     motion: &'a Motion<R>,
     state: &'a [R],
     rate: &'a mut [R],
     detail: &'a mut [R],
 }
 
-impl<R: Real, L: TractionLaw<R::Group>, M: BallMoment<R::Group>> Vectorized for Sum<'_, R, L, M> {
+impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
     type Output = BearingReaction<R>;
     #[inline(always)]
     fn run(self) -> BearingReaction<R> {
-        (self.bearing).sum(
+        self.bearing.sum(
             self.traction,
-            self.steady,
             self.motion,
             self.state,
             self.rate,
@@ -359,18 +377,29 @@ impl<R: Real, L: TractionLaw<R::Group>, M: BallMoment<R::Group>> Vectorized for 
     }
 }
 
-/// The loads of the balls as a task of its own, like [`Sum`].
-struct Loads<'a, R: Real> {
+/// [`Planar::share`] as a task.
+struct Share<'a, R: Real> {
     bearing: &'a Planar<R>,
+    pairs: &'a MomentPairs<R>,
     motion: &'a Motion<R>,
+    held_load: R,
     state: &'a [R],
+    rate: &'a mut [R],
+    reaction: &'a mut BearingReaction<R>,
 }
 
-impl<R: Real> Vectorized for Loads<'_, R> {
-    type Output = [R; 4];
+impl<R: Real> Vectorized for Share<'_, R> {
+    type Output = ();
     #[inline(always)]
-    fn run(self) -> [R; 4] {
-        self.bearing.loads(self.motion, self.state)
+    fn run(self) {
+        self.bearing.share(
+            self.pairs,
+            self.motion,
+            self.held_load,
+            self.state,
+            self.rate,
+            self.reaction,
+        );
     }
 }
 
@@ -383,6 +412,12 @@ fn race<R: Real>(body: &Body<R>) -> RaceMotion<R::Group> {
         velocity: grouped(body.velocity),
         spin: body.spin.grouped(),
     }
+}
+
+/// Takes a change off the values of the balls from an index on.
+#[inline(always)]
+fn subtract<R: Real>(list: &mut [R], from: usize, change: R::Group) {
+    R::store_group(R::load_group(list, from) - change, list, from);
 }
 
 /// The balls from an index on.
@@ -454,7 +489,7 @@ impl PlanarConstants {
             self.set_motion(state, j, &ball);
         }
     }
-    /// Reaction of one ball, for inspection; without a load that is held.
+    /// Reaction of one ball, for inspection; without its part of the steady moment.
     pub fn ball_reaction(
         &self,
         motion: &Motion<f64>,
@@ -463,15 +498,8 @@ impl PlanarConstants {
     ) -> BallReaction<f64> {
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
         let (pocket, ball) = (self.pocket(state, ball), self.motion(state, ball));
-        let (law, b) = (&self.traction, &self.ball);
-        let one = Planar::<f64>::gather(&|_| self);
-        match &one.moment {
-            None => b.react(law, &NoMoment, &inner, &outer, &pocket, &ball),
-            Some(pairs) => {
-                let (shared, _) = one.shared(pairs, motion, 0.0, state);
-                b.react(law, &shared, &inner, &outer, &pocket, &ball)
-            }
-        }
+        self.ball
+            .react(&self.traction, &inner, &outer, &pocket, &ball)
     }
     fn geometry(&self) -> Geometry {
         Geometry {

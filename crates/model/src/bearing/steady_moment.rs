@@ -22,7 +22,6 @@
 //! Assumes: χ_o (½ where nothing is known), and that all balls share M0 equally whatever their load.
 //! Does not model: drag on the cage and its lands; the flow that carries lubricant around; the moment at standstill.
 
-use super::ball::{BallMotion, RaceMotion};
 use number::{Gather, Real};
 pub use physics::friction::Friction as SteadyMoment;
 
@@ -152,18 +151,13 @@ impl<R: Real> MomentPairs<R> {
 
     /// What the balls share at this speed of the inner race against the outer and these loads: radial W, ΣQ_i, ΣQ_o.
     #[inline(always)]
-    pub fn share(
-        &self,
-        speed: R,
-        load: R,
-        inner_sum: R,
-        outer_sum: R,
-    ) -> PairsOfBall<'_, R::Group> {
+    pub fn share(&self, speed: R, load: R, inner_sum: R, outer_sum: R) -> PairsOfBall<'_, R> {
         // without any load nothing is shared: the quotient is of zeros
         let least = R::splat(1e-30);
-        let magnitude = speed.abs().max(R::splat(LEAST_SPEED));
-        let parts = self.law.parts(magnitude, load, self.axial_load);
+        let limit = R::splat(LEAST_SPEED);
+        let parts = (self.law).parts(speed.abs().max(limit), load, self.axial_load);
         let couple = self.rolling_arm * parts.load_dependent;
+        let direction = speed.max(-limit).min(limit) * limit.recip();
         PairsOfBall {
             law: &self.of_ball,
             arms: &self.arms,
@@ -171,39 +165,22 @@ impl<R: Real> MomentPairs<R> {
             axial_load: self.axial_load.grouped(),
             inner_couple: (couple / inner_sum.max(least)).grouped(),
             outer_couple: (couple / outer_sum.max(least)).grouped(),
+            moment: parts.sum() * direction,
         }
     }
-
-    /// The law's moment at this speed and load, N m, as if nothing else made friction.
-    #[inline(always)]
-    pub fn moment(&self, speed: R, load: R) -> R {
-        self.law.moment(speed, load, self.axial_load)
-    }
 }
 
-/// The part of the steady moment that one ball feels, or nothing: chosen once a call, not once a ball.
-pub trait BallMoment<R: Real> {
-    /// False where there is nothing: then nothing is computed.
-    const PRESENT: bool;
-    /// The pairs of a ball: its speed past the outer ring along t, its distance from the ring's centre, its loads.
-    fn pairs(
-        &self,
-        inner: &RaceMotion<R>,
-        outer: &RaceMotion<R>,
-        ball: &BallMotion<R>,
-        place: &BallPlace<R>,
-    ) -> BallPairs<R>;
-}
-
-/// Where a ball stands between its races.
+/// Where a ball stands between its races; speeds against the outer ring.
 #[derive(Clone, Copy, Debug)]
-pub struct BallPlace<R> {
-    /// Speed of its centre past that of the outer race along t, m/s.
-    pub past_outer: R,
-    /// Distance from the outer race's centre, m.
-    pub distance: R,
-    /// 1/distance, 1/m.
+pub(super) struct BallPlace<R> {
+    /// Speed of its centre past the outer ring along t, m/s.
+    pub past: R,
+    /// 1/(distance from the outer race's centre), 1/m.
     pub inverse_distance: R,
+    /// Spin against the inner race, rad/s.
+    pub on_inner: R,
+    /// Spin against the outer race, rad/s.
+    pub on_outer: R,
     /// Load at the inner race, N.
     pub inner_load: R,
     /// Load at the outer race, N.
@@ -212,7 +189,7 @@ pub struct BallPlace<R> {
 
 /// The pairs of one ball, each against the motion.
 #[derive(Clone, Copy, Debug)]
-pub struct BallPairs<R> {
+pub(super) struct BallPairs<R> {
     /// Drag f against its motion along t, on the outer ring the opposite, N.
     pub orbit_drag: R,
     /// Couple against its rotation on the inner race, on the race the opposite, N m.
@@ -223,77 +200,49 @@ pub struct BallPairs<R> {
     pub heat: R,
 }
 
-/// No steady moment.
+/// The steady moment at one instant, ready for the balls.
 #[derive(Clone, Copy, Debug)]
-pub struct NoMoment;
-
-impl<R: Real> BallMoment<R> for NoMoment {
-    const PRESENT: bool = false;
-    #[inline(always)]
-    fn pairs(
-        &self,
-        _inner: &RaceMotion<R>,
-        _outer: &RaceMotion<R>,
-        _ball: &BallMotion<R>,
-        _place: &BallPlace<R>,
-    ) -> BallPairs<R> {
-        let zero = R::zero();
-        BallPairs {
-            orbit_drag: zero,
-            inner_couple: zero,
-            outer_couple: zero,
-            heat: zero,
-        }
-    }
-}
-
-/// The steady moment of several balls at one instant.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct PairsOfBall<'a, R> {
-    law: &'a SteadyMoment<R>,
-    arms: &'a Arms<R>,
-    load: R,
-    axial_load: R,
+pub(super) struct PairsOfBall<'a, R: Real> {
+    law: &'a SteadyMoment<R::Group>,
+    arms: &'a Arms<R::Group>,
+    load: R::Group,
+    axial_load: R::Group,
     /// λ s/(1+s) M1/ΣQ_i, m.
-    inner_couple: R,
+    inner_couple: R::Group,
     /// λ s/(1+s) M1/ΣQ_o, m.
-    outer_couple: R,
+    outer_couple: R::Group,
+    /// The law's moment M at this speed and load, as if nothing else made friction, N m; below 1 rad/s proportional to
+    /// the speed.
+    pub moment: R,
 }
 
 impl<R: Real> PairsOfBall<'_, R> {
-    /// M0 at a speed of the inner race.
+    /// The pairs of several balls.
     #[inline(always)]
-    fn m0(&self, speed: R) -> R {
-        let parts = self.law.parts(speed, self.load, self.axial_load);
-        parts.speed_dependent
-    }
-}
-
-impl<R: Real> BallMoment<R> for PairsOfBall<'_, R> {
-    const PRESENT: bool = true;
-    #[inline(always)]
-    fn pairs(
-        &self,
-        inner: &RaceMotion<R>,
-        outer: &RaceMotion<R>,
-        ball: &BallMotion<R>,
-        place: &BallPlace<R>,
-    ) -> BallPairs<R> {
+    pub fn pairs(&self, ball: &BallPlace<R::Group>) -> BallPairs<R::Group> {
         let a = self.arms;
-        let past = place.past_outer - outer.spin * place.distance;
-        let on_outer = ball.spin - outer.spin;
-        let on_inner = ball.spin - inner.spin;
-        let orbit_drag = a.orbit * self.m0(a.orbit_speed * (past * place.inverse_distance));
-        let spin = a.spin * self.m0(a.spin_speed * on_outer);
-        let (rolls_inner, rolls_outer) =
-            (on_inner * a.inverse_reference_spin).tanh_pair(on_outer * a.inverse_reference_spin);
-        let inner_couple = self.inner_couple * place.inner_load * rolls_inner;
-        let outer_couple = self.outer_couple * place.outer_load * rolls_outer + spin;
+        let speeds = [
+            a.orbit_speed * (ball.past * ball.inverse_distance),
+            a.spin_speed * ball.on_outer,
+        ];
+        // the law stands once in the compiled code: it is large
+        let mut m0 = speeds;
+        for value in &mut m0 {
+            let parts = self.law.parts(*value, self.load, self.axial_load);
+            *value = parts.speed_dependent;
+        }
+        let orbit_drag = a.orbit * m0[0];
+        let (rolls_inner, rolls_outer) = (ball.on_inner * a.inverse_reference_spin)
+            .tanh_pair(ball.on_outer * a.inverse_reference_spin);
+        let inner_couple = self.inner_couple * ball.inner_load * rolls_inner;
+        let outer_couple = self.outer_couple * ball.outer_load * rolls_outer + a.spin * m0[1];
         BallPairs {
             orbit_drag,
             inner_couple,
             outer_couple,
-            heat: orbit_drag * past + inner_couple * on_inner + outer_couple * on_outer,
+            heat: orbit_drag * ball.past
+                + inner_couple * ball.on_inner
+                + outer_couple * ball.on_outer,
         }
     }
 }

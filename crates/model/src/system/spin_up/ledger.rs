@@ -10,6 +10,7 @@
 //!   exact                  ∫ (t_O + t_g) Ω dt + ∫ Ω dL - Δ(KE + U)            any skidding, races concentric and fixed
 //!   path term              ∫ Ω dL, from ½ L0 Ω0 (rolling) to L0 Ω0 (balls spun up after the race)
 //! ```
+//! The laws stand in [`spin_up_energy`](physics::spin_up_energy).
 //! L: angular momentum of balls and cage, L0 when they roll at Ω0. dL/dt is taken from the rates of the states, not from
 //! the moments, so the exact form is a check and not an identity. Where the inner race moves, the work `other` of
 //! [`WORKS`](super::layout::WORKS) carries its part.
@@ -19,6 +20,7 @@ use super::SpinUpMachine;
 use super::layout::{HEATS, INNER, ROTOR, SOURCES};
 use super::rate::race_motion;
 use crate::bearing::{self, BearingEnergy};
+use physics::spin_up_energy::{SpinUpEnergy, spin_up_loss};
 use solve::Machine;
 
 /// Energies and angular momentum at one state.
@@ -147,24 +149,24 @@ impl SpinUpMachine {
     pub fn outer_race_energy(&self, start: &[f64], end: &[f64]) -> OuterRaceEnergy {
         let layout = &self.layout;
         let flow = |channel: usize| end[channel] - start[channel];
-        let set = self.constants.bearing.set();
-        let final_speed = end[INNER + 5];
-        let (inner_inertia, outer_inertia) = (set.inner_inertia(), set.outer_inertia());
-        let momentum = (inner_inertia + outer_inertia) * final_speed;
-        let outer_work = flow(layout.work(1));
-        let path = flow(layout.work(2));
-        let inertial = 0.5 * outer_inertia * final_speed * final_speed;
+        let (outer_work, path) = (flow(layout.work(1)), flow(layout.work(2)));
+        let by_outer_race = SpinUpEnergy {
+            set: self.constants.bearing.set(),
+            final_speed: end[INNER + 5],
+            outer_moment_work: outer_work,
+        };
         let stored = self.content(end).bearing_energy - self.content(start).bearing_energy;
+        let (least_path, largest_path) = by_outer_race.path_term_bounds();
         OuterRaceEnergy {
             dissipated: (0..bearing::HEATS.len())
                 .map(|kind| flow(layout.heat(kind)))
                 .sum(),
-            printed: (1.0 + 2.0 * set.ball_ratio) * outer_work + inertial,
-            corrected: outer_work + inertial,
-            exact: outer_work + flow(layout.work(3)) + path - stored,
+            printed: by_outer_race.printed_loss(),
+            corrected: by_outer_race.rolling_loss(),
+            exact: spin_up_loss(outer_work, flow(layout.work(3)), path, stored),
             path,
-            least_path: 0.5 * momentum * final_speed,
-            largest_path: momentum * final_speed,
+            least_path,
+            largest_path,
         }
     }
 

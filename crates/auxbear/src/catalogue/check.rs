@@ -1,0 +1,224 @@
+//! Refuses a bearing whose numbers contradict each other.
+
+use super::complete::mass_of_ball;
+use super::read::{Draft, Read, Reader};
+use crate::problem::{Code, Problem};
+use std::f64::consts::PI;
+
+/// Static load rating over Z D² cos α, N/m²: makers' values lie between 6e6 (spindle bearings with open grooves) and
+/// 22e6; beyond these limits a digit or a unit is wrong.
+const RATING: (f64, f64) = (2e6, 60e6);
+
+/// Refuses contradictions.
+pub(super) fn check(draft: &Draft, reader: &Reader<'_>) -> Read<()> {
+    let context = Context { draft, reader };
+    context.outline()?;
+    context.section()?;
+    context.balls_fit()?;
+    context.shoulder()?;
+    context.static_rating()?;
+    context.mass()
+}
+
+struct Context<'a, 'r> {
+    draft: &'a Draft,
+    reader: &'a Reader<'r>,
+}
+
+impl Context<'_, '_> {
+    fn number(&self, key: &str) -> Option<f64> {
+        self.draft.bearing.number(key)
+    }
+
+    fn text(&self, key: &str) -> &str {
+        self.draft
+            .bearing
+            .value(key)
+            .map_or("", |value| value.text())
+    }
+
+    /// The problem stands at the first of the keys that the file has.
+    fn refuse(&self, code: Code, keys: &[&str], found: String, allowed: String) -> Box<Problem> {
+        let given = |key: &&&str| self.draft.starts.iter().find(|start| start.0 == **key);
+        let start = keys.iter().find_map(|key| given(&key));
+        let (key, start) = start.copied().unwrap_or(("name", self.draft.start));
+        let found = format!("{found} in bearing \"{}\"", self.draft.bearing.name);
+        self.reader.problem(code, start, key, found, allowed)
+    }
+
+    /// Bore, pitch circle and outside in this order.
+    fn outline(&self) -> Read<()> {
+        for (small, large) in [
+            ("bore_diameter", "outer_diameter"),
+            ("bore_diameter", "pitch_diameter"),
+            ("pitch_diameter", "outer_diameter"),
+        ] {
+            if let (Some(a), Some(b)) = (self.number(small), self.number(large))
+                && a >= b
+            {
+                return Err(self.refuse(
+                    Code::BearingGeometry,
+                    &[small, large],
+                    self.text(small).to_string(),
+                    format!("less than {large} = {} is needed", self.text(large)),
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// The balls lie between bore and outside, and within the width.
+    fn section(&self) -> Read<()> {
+        let Some(ball) = self.number("ball_diameter") else {
+            return Ok(());
+        };
+        let too_large = |most: f64, why: String| {
+            self.refuse(
+                Code::BearingGeometry,
+                &["ball_diameter", "pitch_diameter"],
+                format!("a ball of {}", self.text("ball_diameter")),
+                format!("less than {} is needed, {why}", millimetres(most)),
+            )
+        };
+        if let Some(width) = self.number("width")
+            && ball > width
+        {
+            return Err(too_large(width, "the width".to_string()));
+        }
+        let Some(pitch) = self.number("pitch_diameter") else {
+            return Ok(());
+        };
+        let bore = self.number("bore_diameter").unwrap_or(0.0);
+        let inside = pitch - bore;
+        if ball >= inside {
+            let why = "pitch_diameter less bore_diameter, or no ring is left inside the balls";
+            return Err(too_large(inside, why.to_string()));
+        }
+        if let Some(outside) = self.number("outer_diameter")
+            && ball >= outside - pitch
+        {
+            let why = "outer_diameter less pitch_diameter, or no ring is left outside the balls";
+            return Err(too_large(outside - pitch, why.to_string()));
+        }
+        Ok(())
+    }
+
+    fn balls_fit(&self) -> Read<()> {
+        let (Some(count), Some(ball), Some(pitch)) = (
+            self.number("ball_count"),
+            self.number("ball_diameter"),
+            self.number("pitch_diameter"),
+        ) else {
+            return Ok(());
+        };
+        let spacing = pitch * (PI / count).sin();
+        if count < 2.0 || spacing >= ball {
+            return Ok(());
+        }
+        let most = (PI / (ball / pitch).asin()).floor();
+        Err(self.refuse(
+            Code::BallsDoNotFit,
+            &["ball_count", "ball_diameter", "pitch_diameter"],
+            format!(
+                "{count} balls of {} on a pitch circle of {}, whose centres are only {} apart,",
+                self.text("ball_diameter"),
+                self.text("pitch_diameter"),
+                millimetres(spacing)
+            ),
+            format!("at most {most} balls fit"),
+        ))
+    }
+
+    /// The shoulder lies between the bottom of the groove and the ball centres, and above the bore.
+    fn shoulder(&self) -> Read<()> {
+        let (Some(shoulder), Some(ball), Some(pitch)) = (
+            self.number("inner_shoulder_diameter"),
+            self.number("ball_diameter"),
+            self.number("pitch_diameter"),
+        ) else {
+            return Ok(());
+        };
+        let bore = self.number("bore_diameter").unwrap_or(0.0);
+        let least = (pitch - ball).max(bore);
+        if shoulder > least && shoulder < pitch {
+            return Ok(());
+        }
+        Err(self.refuse(
+            Code::BearingGeometry,
+            &["inner_shoulder_diameter", "pitch_diameter", "ball_diameter"],
+            format!("a shoulder of {}", self.text("inner_shoulder_diameter")),
+            format!(
+                "between {} (bottom of the groove) and {} (ball centres) is needed",
+                millimetres(least),
+                millimetres(pitch)
+            ),
+        ))
+    }
+
+    fn static_rating(&self) -> Read<()> {
+        let (Some(rating), Some(count), Some(ball)) = (
+            self.number("static_load_rating"),
+            self.number("ball_count"),
+            self.number("ball_diameter"),
+        ) else {
+            return Ok(());
+        };
+        let angle = self.number("contact_angle").unwrap_or(0.0);
+        let area = count * ball * ball * angle.cos();
+        let (least, most) = (RATING.0 * area, RATING.1 * area);
+        if (least..=most).contains(&rating) {
+            return Ok(());
+        }
+        Err(self.refuse(
+            Code::RatingContradictsBalls,
+            &["static_load_rating", "ball_count", "ball_diameter"],
+            format!(
+                "{} with {count} balls of {}",
+                self.text("static_load_rating"),
+                self.text("ball_diameter")
+            ),
+            format!(
+                "between {} kN and {} kN is needed: 2 to 60 N/mm² times Z D² cos α; makers' bearings have 6 to 22",
+                digits(least * 1e-3),
+                digits(most * 1e-3)
+            ),
+        ))
+    }
+
+    /// Inner race, balls and cage weigh less than the bearing.
+    fn mass(&self) -> Read<()> {
+        let bearing = &self.draft.bearing;
+        let (Some(mass), Some(race), Some(count), Some(ball)) = (
+            self.number("mass"),
+            self.number("inner_race_mass"),
+            self.number("ball_count"),
+            self.number("ball_diameter"),
+        ) else {
+            return Ok(());
+        };
+        let cage = self.number("cage_mass").unwrap_or(0.0);
+        let parts = race + cage + count * mass_of_ball(bearing, ball);
+        if parts < mass {
+            return Ok(());
+        }
+        Err(self.refuse(
+            Code::BearingGeometry,
+            &["mass", "inner_race_mass", "ball_diameter"],
+            format!("a mass of {}", self.text("mass")),
+            format!(
+                "more than {} g is needed, which inner race, balls and cage weigh",
+                digits(parts * 1e3)
+            ),
+        ))
+    }
+}
+
+/// A number for a message, to four digits.
+fn digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    units::number_text(rounded)
+}
+
+fn millimetres(length: f64) -> String {
+    format!("{} mm", digits(length * 1e3))
+}

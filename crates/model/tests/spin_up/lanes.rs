@@ -1,0 +1,157 @@
+//! A machine gives the same bits alone and on any lane among others, at every level of the vector unit; and its loop
+//! does not allocate.
+
+use crate::counting::ALLOCATIONS;
+use crate::machines::settings;
+use crate::rig::{greased_bearing, machine, observe, palmgren, rolling, shared};
+use model::bearing::{AccelerationLoss, BearingConstants, SteadyMoment};
+use model::system::spin_up::record::Record;
+use model::system::spin_up::{Drive, SlidingRotor, SpinUp, SpinUpConstants, SpinUpMachine};
+use model::table::Table;
+use number::{Level, Real, Task};
+use physics::moment_curve::MomentCurve;
+use solve::{Ending, Flow, Machine, Observer, Step};
+use std::sync::atomic::AtomicBool;
+
+/// Every accepted step: its end, and sometimes state and probes in its middle.
+#[derive(Default)]
+struct Bits(Vec<u64>);
+impl Observer<SpinUpMachine> for Bits {
+    fn step(&mut self, step: &mut Step<SpinUpMachine>) -> Flow {
+        self.0.push(step.end.to_bits());
+        if self.0.len().is_multiple_of(50) {
+            let (state, probes) = step.evaluate(0.5);
+            self.0
+                .extend(state.iter().chain(probes).map(|value| value.to_bits()));
+        }
+        Flow::Continue
+    }
+}
+
+struct Side<'a>(&'a [SpinUpMachine], f64);
+impl Task for Side<'_> {
+    type Output = Vec<(Ending, Vec<u64>)>;
+    fn run<R: Real>(self) -> Self::Output {
+        let Side(machines, end) = self;
+        let starts: Vec<_> = machines.iter().map(SpinUpMachine::start).collect();
+        let machines: Vec<_> = machines.iter().collect();
+        let mut seen: Vec<_> = machines.iter().map(|_| Bits::default()).collect();
+        let never = AtomicBool::new(false);
+        let settings = settings(end, 1e-4);
+        let endings =
+            solve::run::<R, SpinUp<R>, _>(&machines, &starts, &mut seen, &settings, &never);
+        let seen = seen.into_iter().map(|bits| bits.0);
+        endings.into_iter().zip(seen).collect()
+    }
+}
+
+fn same_bits(constants: impl Fn(usize) -> SpinUpConstants, end: f64) {
+    let machines: Vec<_> = (0..8)
+        .map(|i| SpinUpMachine::new(constants(i)).expect("can be built"))
+        .collect();
+    let bits = |run: &(Ending, Vec<u64>)| -> Vec<u64> {
+        let state = run.0.state.iter().map(|value| value.to_bits());
+        state.chain(run.1.iter().copied()).collect()
+    };
+    let expected: Vec<_> = machines
+        .iter()
+        .map(|machine| Level::Baseline.run_one(Side(std::slice::from_ref(machine), end)))
+        .map(|run| bits(&run[0]))
+        .collect();
+    assert!(expected.windows(2).all(|pair| pair[0] != pair[1]));
+    for level in Level::available() {
+        let alone = level.run_one(Side(&machines[..1], end));
+        assert!(bits(&alone[0]) == expected[0], "alone, {level:?}");
+        for (from, batch) in machines.chunks(level.lanes()).enumerate() {
+            for (lane, run) in level.run_many(Side(batch, end)).iter().enumerate() {
+                let which = from * level.lanes() + lane;
+                assert!(bits(run) == expected[which], "lane {lane}, {level:?}");
+            }
+        }
+    }
+}
+
+/// A load whose knots lie elsewhere in every machine.
+fn load(x: f64) -> Table {
+    let points = vec![
+        (0.0, 50.0 + x),
+        (1e-3 + 1e-4 * x, 100.0),
+        (2.5e-3 - 1e-4 * x, 60.0),
+    ];
+    Table::through(points).expect("rises")
+}
+
+#[test]
+fn greased_balls_under_a_sliding_rotor_have_the_same_bits_everywhere() {
+    same_bits(
+        |i| {
+            let x = i as f64;
+            let mut bearing = greased_bearing();
+            if let Some(moment) = &mut bearing.moment {
+                moment.orbit_share = 0.3 + 0.05 * x;
+                moment.scale = 1.0 - 0.02 * x;
+            }
+            let rotor = SlidingRotor {
+                bore_radius: 12.5e-3,
+                friction: 0.2 + 0.01 * x,
+                inverse_reference_speed: 20.0,
+                speed: 1000.0 - 30.0 * x,
+                polar_inertia: 1e-3,
+                spin_held: false,
+            };
+            let bearing = BearingConstants::Planar(bearing);
+            let mut c = machine(bearing, Drive::SlidingRotor(rotor), 1000.0);
+            c.race.centre_held = false;
+            c.load = load(x);
+            c
+        },
+        4e-3,
+    );
+}
+
+#[test]
+fn rolling_balls_with_a_loss_have_the_same_bits_everywhere() {
+    same_bits(
+        |i| {
+            let x = i as f64;
+            let mut bearing = rolling();
+            bearing.moment = SteadyMoment::Curve(
+                MomentCurve::through(&[(0.0, 0.01), (300.0, 0.02 + 1e-3 * x), (1000.0, 0.05)])
+                    .expect("a curve"),
+            );
+            bearing.loss = AccelerationLoss::Affine {
+                force: Table::through(vec![(0.0, 0.1), (200.0 + x, 0.2)]).expect("rises"),
+                per_acceleration: Table::constant(1e-6 * (1.0 + x)),
+            };
+            let bearing = BearingConstants::Rolling(bearing);
+            let torque = Table::through(vec![(0.0, 0.1), (2e-3, 0.3 + 0.01 * x), (3e-3, -0.1)]);
+            let mut c = machine(bearing, Drive::Torque(torque.expect("rises")), 1000.0);
+            c.load = load(x);
+            c
+        },
+        0.01,
+    );
+}
+
+#[test]
+fn a_spin_up_ten_times_longer_allocates_no_more() {
+    let mut bearing = greased_bearing();
+    bearing.moment = Some(shared(SteadyMoment::Palmgren(palmgren())));
+    let c = machine(
+        BearingConstants::Planar(bearing),
+        Drive::step(1000.0),
+        1000.0,
+    );
+    let machine = SpinUpMachine::new(c).expect("can be built");
+    let start = machine.start();
+    let count = |end: f64| {
+        let before = ALLOCATIONS.get();
+        let mut record = Record::new(&machine, end, end / 50.0, true);
+        observe(&machine, &start, &settings(end, 1e-4), &mut record);
+        assert!(record.row_count() > 49 && machine.dimension() > 50);
+        ALLOCATIONS.get() - before
+    };
+    let (short, long) = (count(5e-4), count(5e-3));
+    assert!(short > 0, "the counter counts");
+    assert_eq!(short, long);
+}
