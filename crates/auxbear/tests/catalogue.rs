@@ -1,6 +1,6 @@
 //! The built-in catalogue: every number has a reason, the parts fit, and the ball sets agree with what makers print.
 
-use auxbear::catalogue::{Bearing, Mark, Ring, bearings, find, names};
+use auxbear::catalogue::{Bearing, Catalogue, Mark, Ring, bearings, find, names};
 use physics::hertz::{BallRace, PointContact, Race};
 use physics::kinematics::BallSet;
 use physics::materials::{BEARING_STEEL, SILICON_NITRIDE, ball_mass, contact_modulus};
@@ -111,6 +111,21 @@ fn the_parts_fit_into_the_bearing() {
         assert!(parts < 0.75 * get("mass"), "{name}: {parts}");
         let gyration = (get("inner_race_inertia") / get("inner_race_mass")).sqrt();
         assert!(gyration > bore / 2.0 && gyration < pitch / 2.0, "{name}");
+    }
+}
+
+#[test]
+fn the_shipped_file_passes_the_checks_of_a_users_file() {
+    let text = include_str!("../src/catalogue/bearings.toml");
+    let catalogue = Catalogue::with_text(text, "bearings.toml").unwrap();
+    assert_eq!(catalogue.iter().count(), bearings().len());
+    for bearing in bearings() {
+        // found section by section, and read as a whole
+        assert_eq!(find(&bearing.name), Some(bearing));
+        assert_eq!(
+            catalogue.find(&bearing.name).unwrap().values,
+            bearing.values
+        );
     }
 }
 

@@ -48,7 +48,6 @@ pub use json::to_json;
 pub use ring::Ring;
 
 use crate::problem::{Code, Problem};
-use std::cmp::Ordering;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 use std::sync::OnceLock;
@@ -181,17 +180,35 @@ impl Bearing {
 pub fn bearings() -> &'static [Bearing] {
     static BEARINGS: OnceLock<Vec<Bearing>> = OnceLock::new();
     BEARINGS.get_or_init(|| {
-        // The text is compiled in and read by a test, so a user never meets this panic.
-        let mut bearings =
-            read::read(TEXT, "bearings.toml", true).expect("the built-in catalogue is valid");
-        bearings.sort_by(|a, b| natural_order(&a.name, &b.name));
+        let mut bearings = built_in(TEXT);
+        bearings.sort_by_cached_key(|bearing| natural_pieces(&bearing.name));
         bearings
     })
 }
 
 /// The built-in bearing of this name; spaces around it and the case of letters do not matter.
+///
+/// It reads only those sections of the data in which the first word of the name occurs: a run does not pay for bearings
+/// that it does not use.
 pub fn find(name: &str) -> Option<&'static Bearing> {
-    bearings().iter().find(|bearing| same(&bearing.name, name))
+    type Section = (&'static str, OnceLock<Vec<Bearing>>);
+    static SECTIONS: OnceLock<Vec<Section>> = OnceLock::new();
+    let mut parts = TEXT.split("\n[[");
+    let head = parts.next().unwrap_or_default();
+    let sections = SECTIONS.get_or_init(|| parts.map(|part| (part, OnceLock::new())).collect());
+    let first_word = name.split_whitespace().next()?.to_ascii_lowercase();
+    sections.iter().find_map(|(part, read)| {
+        if !part.to_ascii_lowercase().contains(&first_word) {
+            return None;
+        }
+        let bearings = read.get_or_init(|| built_in(&format!("{head}\n[[{part}")));
+        bearings.iter().find(|bearing| same(&bearing.name, name))
+    })
+}
+
+fn built_in(text: &str) -> Vec<Bearing> {
+    // The text is compiled in and read by a test, so a user never meets this panic.
+    read::read(text, "bearings.toml", true).expect("the built-in catalogue is valid")
 }
 
 /// Names of all built-in bearings.
@@ -255,27 +272,18 @@ fn same(a: &str, b: &str) -> bool {
     a.trim().eq_ignore_ascii_case(b.trim())
 }
 
-/// The order that people expect: numbers in a name count as numbers.
-fn natural_order(a: &str, b: &str) -> Ordering {
-    let pieces = |name: &str| -> Vec<(u64, String)> {
-        let mut pieces: Vec<(u64, String)> = Vec::new();
-        let mut was_digit = None;
-        for letter in name.chars() {
-            let is_digit = letter.is_ascii_digit();
-            if was_digit != Some(is_digit) {
-                pieces.push((0, String::new()));
-            }
-            was_digit = Some(is_digit);
-            if let Some((_, piece)) = pieces.last_mut() {
-                piece.push(letter);
-            }
-        }
-        for (number, piece) in &mut pieces {
-            *number = piece.parse().unwrap_or(u64::MAX);
-        }
-        pieces
-    };
-    pieces(a).cmp(&pieces(b))
+/// What sorts names as people expect: numbers in a name count as numbers.
+fn natural_pieces(name: &str) -> Vec<(u64, String)> {
+    let mut pieces = Vec::new();
+    let mut rest = name;
+    while let Some(first) = rest.chars().next() {
+        let is_digit = first.is_ascii_digit();
+        let end = rest.find(|letter: char| letter.is_ascii_digit() != is_digit);
+        let (piece, after) = rest.split_at(end.unwrap_or(rest.len()));
+        pieces.push((piece.parse().unwrap_or(u64::MAX), piece.to_string()));
+        rest = after;
+    }
+    pieces
 }
 
 fn read_text(path: &Path) -> Result<String, Box<Problem>> {
