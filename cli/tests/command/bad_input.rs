@@ -133,8 +133,8 @@ fn starting_files_of_other_kinds() {
 #[test]
 fn a_bearing_that_nobody_knows() {
     let place = Place::new();
-    let called = place.call(&["bearings", "show", "6006"]);
-    called.refused(&["AB0201", "\"6006\"", "6005, 6005 hybrid, 6007, 61807"]);
+    let called = place.call(&["bearings", "show", "6x06"]);
+    called.refused(&["AB0201", "\"6x06\"", "6000, 6000 hybrid, 6001"]);
 }
 
 #[test]
