@@ -7,8 +7,6 @@
 //! ```
 //! The cage is guided by the outer race: its mass moves with it.
 //! Drag to ground (c_d on the orbit, c_w on the spin, c_c on the cage) exists to reproduce reference cases; it is no
-//! bearing friction moment.
-//!
 //! bearing friction moment. That is [`steady_moment`](super::steady_moment), and excludes it.
 //!
 //! Does not model: cage translation and land friction, full complement, film, heat.

@@ -52,11 +52,15 @@ impl Rise {
         if self.time.is_some() || level == 0.0 || !above(step.end_state(self.channel)) {
             return;
         }
+        if above(step.start_state(self.channel)) {
+            self.time = Some(step.start);
+            return;
+        }
         let (mut low, mut high) = (0.0, 1.0);
         // 40 halvings: 1e-12 of a step
         for _ in 0..40 {
             let middle = 0.5 * (low + high);
-            if above(step.state(middle)[self.channel]) {
+            if above(step.leading_state(middle, self.channel + 1)[self.channel]) {
                 high = middle;
             } else {
                 low = middle;

@@ -39,6 +39,12 @@ fn ends_rolling(run: &Run) -> bool {
 fn after_a_step_the_exact_energy_form_is_the_true_loss_and_the_printed_one_is_not() {
     let run = run(skidding(), 0.03, 1e-5);
     assert!(ends_rolling(&run));
+    assert_eq!(run.record.inner_race_time_to_95_percent(), Some(0.0));
+    let cage = run.record.cage_time_to_95_percent();
+    assert!(
+        cage.is_some_and(|time| (1e-3..0.02).contains(&time)),
+        "{cage:?}"
+    );
     let energy = run.machine.outer_race_energy(&run.start, &run.end);
     let error = |value: f64| (value / energy.dissipated - 1.0).abs();
     // quadrature of a skid with pocket impacts; measured below 1e-4
