@@ -201,7 +201,9 @@ fn combine<R: Real, const S: usize>(h: R, state: &[R], rates: &[R], out: &mut [R
         let mut value = state[i];
         let mut j = 0;
         while j < S {
-            value += weight[j] * rates[j * n + i];
+            if A[S][j] != 0.0 {
+                value += weight[j] * rates[j * n + i];
+            }
             j += 1;
         }
         out[i] = value;

@@ -213,9 +213,8 @@ impl<R: Real> BallConstants<R> {
         inner: &RaceMotion<R>,
         outer: &RaceMotion<R>,
         ball: &BallMotion<R>,
+        e_r: Vec2<R>,
     ) -> Between<R> {
-        let (sine, cosine) = ball.azimuth.sin_cos();
-        let e_r = Vec2::new(cosine, sine);
         let position = e_r * ball.radius;
         let velocity = e_r * ball.radial_speed + e_r.turned() * (ball.radius * ball.orbit_speed);
 
@@ -286,6 +285,7 @@ impl<R: Real> BallConstants<R> {
         outer: &RaceMotion<R>,
         pocket: &PocketMotion<R>,
         ball: &BallMotion<R>,
+        direction: Vec2<R>,
     ) -> BallReaction<R> {
         let zero = R::zero();
         let half = R::splat(0.5);
@@ -297,7 +297,7 @@ impl<R: Real> BallConstants<R> {
             inverse_radius,
             inner: at_inner,
             outer: at_outer,
-        } = self.between(inner, outer, ball);
+        } = self.between(inner, outer, ball, direction);
         let e_t = e_r.turned();
 
         // inner race

@@ -183,7 +183,9 @@ impl<R: Real> Planar<R> {
         let mut from = 0;
         while from < n {
             let ball = load_ball(&lists, from);
-            let place = self.ball.between(&inner, &outer, &ball);
+            let place = self
+                .ball
+                .between(&inner, &outer, &ball, direction(ball.azimuth));
             let t = place.outer.n.turned();
             let distance = place.outer.distance;
             let p = shared.pairs(&BallPlace {
@@ -230,7 +232,9 @@ impl<R: Real> Planar<R> {
         let mut from = 0;
         while from < n {
             let ball = load_ball(&lists, from);
-            let between = self.ball.between(&inner, &outer, &ball);
+            let between = self
+                .ball
+                .between(&inner, &outer, &ball, direction(ball.azimuth));
             let (inner_load, outer_load) = (between.inner.normal.force, between.outer.normal.force);
             let push = between.inner.n * inner_load;
             sums.add(from, &[push.x, push.y, inner_load, outer_load]);
@@ -273,6 +277,14 @@ impl<R: Real> Planar<R> {
         let [d_radius, d_radial_speed, d_azimuth, d_orbit_speed, d_spin] = split_mut(rate, n);
 
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
+        // all directions first: their chains do not wait for each other; they stand where rates are written afterwards
+        let mut from = 0;
+        while from < n {
+            let e_r = direction(R::load_group(lists[2], from));
+            R::store_group(e_r.x, d_radial_speed, from);
+            R::store_group(e_r.y, d_orbit_speed, from);
+            from += R::GROUP;
+        }
         let mut sums = BallSums::<R, 15>::new(n);
         let mut from = 0;
         while from < n {
@@ -281,7 +293,11 @@ impl<R: Real> Planar<R> {
                 angle: cage_angle.grouped() + R::load_group(&self.seats, from),
                 spin: cage_speed.grouped(),
             };
-            let r = (self.ball).react(traction, &inner, &outer, &pocket, &ball);
+            let direction = Vec2::new(
+                R::load_group(d_radial_speed, from),
+                R::load_group(d_orbit_speed, from),
+            );
+            let r = (self.ball).react(traction, &inner, &outer, &pocket, &ball, direction);
             R::store_group(ball.radial_speed, d_radius, from);
             R::store_group(r.acceleration.radial, d_radial_speed, from);
             R::store_group(ball.orbit_speed, d_azimuth, from);
@@ -401,6 +417,13 @@ impl<R: Real> Vectorized for Share<'_, R> {
     }
 }
 
+/// Unit vector at an azimuth.
+#[inline(always)]
+fn direction<R: Real>(azimuth: R) -> Vec2<R> {
+    let (sine, cosine) = azimuth.sin_cos();
+    Vec2::new(cosine, sine)
+}
+
 /// A race as several balls at a time see it.
 #[inline(always)]
 fn race<R: Real>(body: &Body<R>) -> RaceMotion<R::Group> {
@@ -496,8 +519,14 @@ impl PlanarConstants {
     ) -> BallReaction<f64> {
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
         let (pocket, ball) = (self.pocket(state, ball), self.motion(state, ball));
-        self.ball
-            .react(&self.traction, &inner, &outer, &pocket, &ball)
+        self.ball.react(
+            &self.traction,
+            &inner,
+            &outer,
+            &pocket,
+            &ball,
+            direction(ball.azimuth),
+        )
     }
     fn geometry(&self) -> Geometry {
         Geometry {
