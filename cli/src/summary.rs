@@ -5,8 +5,8 @@ use auxbear::simulate::outcome::{Outcome, Quantity, Value};
 use auxbear::units::number_text;
 use std::path::Path;
 
-/// The quantities most looked for; those a run does not have say why in the report.
-const KEY_QUANTITIES: [&str; 9] = [
+/// The quantities most looked for in a drop; those a run does not have say why in the report.
+const OF_DROP: &[&str] = &[
     "time_to_first_contact",
     "first_impact_force",
     "peak_contact_force",
@@ -15,6 +15,21 @@ const KEY_QUANTITIES: [&str; 9] = [
     "inner_race_time_to_95_percent",
     "peak_hertz_pressure",
     "dissipated_energy",
+    "energy_residual",
+];
+/// The same in a spin-up.
+const OF_SPIN_UP: &[&str] = &[
+    "inner_race_time_to_95_percent",
+    "cage_time_to_95_percent_of_rolling",
+    "peak_inner_race_moment",
+    "peak_outer_race_moment",
+    "friction_moment_at_end",
+    "traction_capacity",
+    "balls_skid",
+    "bearing_dissipated_energy",
+    "outer_race_energy_exact",
+    "outer_race_energy_corrected",
+    "outer_race_energy_printed",
     "energy_residual",
 ];
 
@@ -27,13 +42,18 @@ const UNITS: &[(&str, &[(&str, f64)])] = &[
         "Pa",
         &[("GPa", 1e9), ("MPa", 1e6), ("kPa", 1e3), ("Pa", 1.0)],
     ),
+    ("N m", &[("N m", 1.0), ("N mm", 1e-3)]),
     ("J", &[("kJ", 1e3), ("J", 1.0), ("mJ", 1e-3), ("µJ", 1e-6)]),
 ];
 
 /// The text printed after a run.
 pub fn text(path: &Path, outcome: &Outcome) -> String {
     let mut rows = Vec::new();
-    for name in KEY_QUANTITIES {
+    let names = match outcome.system {
+        "spin_up" => OF_SPIN_UP,
+        _ => OF_DROP,
+    };
+    for &name in names {
         if let Some(quantity) = outcome.quantities.iter().find(|q| q.name == name) {
             rows.push([format!("  {}", name.replace('_', " ")), value(quantity)]);
         }

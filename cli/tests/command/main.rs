@@ -5,4 +5,5 @@ mod bearings;
 mod lists;
 mod place;
 mod run_directory;
+mod spin_up;
 mod stopped;

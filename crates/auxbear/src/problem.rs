@@ -62,6 +62,14 @@ pub enum Code {
     OutputInterval,
     /// AB0207
     TooManyRows,
+    /// AB0208
+    NoLawData,
+    /// AB0209
+    CreatesEnergy,
+    /// AB0210
+    LossExceedsLaw,
+    /// AB0211
+    Impossible,
     /// AB0301
     OutputExists,
     /// AB0302
@@ -242,6 +250,30 @@ impl Code {
             "AB0207",
             "Too many rows of output",
             "The run would write more than five million rows.",
+        ),
+        (
+            Code::NoLawData,
+            "AB0208",
+            "No data for the law",
+            "A law of friction or viscosity has no numbers for this bearing, lubrication or temperature; none are invented.",
+        ),
+        (
+            Code::CreatesEnergy,
+            "AB0209",
+            "Loss that would create energy",
+            "A loss must take energy out of the bearing whatever its speed and acceleration; this one would put some in.",
+        ),
+        (
+            Code::LossExceedsLaw,
+            "AB0210",
+            "Losses beyond the friction law",
+            "What the balls lose by slip and in their pockets alone is more than the steady friction moment says in all.",
+        ),
+        (
+            Code::Impossible,
+            "AB0211",
+            "Motion that cannot be",
+            "The motion asked for has no answer in the model, for example a step of speed on balls that always roll.",
         ),
         (
             Code::OutputExists,

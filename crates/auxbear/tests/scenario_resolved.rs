@@ -1,8 +1,8 @@
 //! The resolved file: every value with its origin, and the same numbers bit for bit when it is read again.
 
 use auxbear::scenario::{
-    BallMaterial, BearingRecord, BearingSource, Fidelity, Moment, MomentForm, NoBearings,
-    Provenance, Scenario, Spin, System, SystemName, Traction, keys, keys_of, template,
+    BallMaterial, BearingRecord, BearingSource, Fidelity, Moment, NoBearings, Provenance, Scenario,
+    Spin, System, SystemName, Traction, keys, keys_of, template,
 };
 use proptest::prelude::*;
 
@@ -253,8 +253,7 @@ fn choices_become_typed_values() {
     );
     let rolling = drop(&[
         "bearing.fidelity=rolling",
-        "bearing.moment.law=palmgren",
-        "bearing.moment.form=printed",
+        "bearing.moment.law=palmgren printed",
         "bearing.moment.f0=2",
         "bearing.moment.viscosity=100 mm^2/s",
         "bearing.moment.f1_factor=9e-4",
@@ -265,7 +264,7 @@ fn choices_become_typed_values() {
     assert_eq!(
         rolling.moment,
         Moment::Palmgren {
-            form: MomentForm::Printed,
+            printed: true,
             f0: 2.0,
             viscosity: 1e-4,
             f1_factor: 9e-4,

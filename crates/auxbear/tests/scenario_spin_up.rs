@@ -46,7 +46,7 @@ fn a_sliding_rotor_is_read() {
     let read = parse(GOOD, &[]).unwrap();
     assert_eq!(read.radial_load, Course::Constant(80.0));
     assert_eq!(read.load_direction, -std::f64::consts::FRAC_PI_2);
-    assert_eq!(read.target_speed(), Some(1000.0));
+    assert_eq!(read.target_speed(), 1000.0);
     let Drive::SlidingRotor {
         rotor_speed,
         rotor_polar_inertia,
@@ -117,11 +117,15 @@ fn speeds_and_torques_are_read() {
         Drive::Speed(SpeedCourse::Table(vec![[0.0, 0.0], [1.0, 60.0]]))
     );
     assert_eq!(
-        parse(&text("torque"), &["drive.torque=0.1 N m"])
-            .unwrap()
-            .drive,
+        parse(
+            &text("torque"),
+            &["drive.torque=0.1 N m", "drive.reference_speed=90 rad/s"]
+        )
+        .unwrap()
+        .drive,
         Drive::Torque {
-            torque: Course::Constant(0.1)
+            torque: Course::Constant(0.1),
+            reference_speed: 90.0
         }
     );
 }
@@ -163,7 +167,7 @@ fn names_are_near_only_within_the_system() {
     assert!(told.contains("auxbear new spin_up lists them"), "{told}");
     assert_eq!(
         message("[drive]", "[drvie]"),
-        "error[AB0101]: spin_up.toml:4: drvie: found an unknown section; the top level takes format, system, title, description, drive, bearing, run. Did you mean \"drive\"?"
+        "error[AB0101]: spin_up.toml:4: drvie: found an unknown section; the top level takes format, system, title, description, catalogue, drive, bearing, run. Did you mean \"drive\"?"
     );
 }
 
@@ -258,5 +262,36 @@ fn the_bore_is_smaller_than_the_track() {
     assert_eq!(
         set_message("drive.bore_diameter=30 mm"),
         "error[AB0203]: spin_up.toml, --set: drive.bore_diameter: found 30 mm; less than the track of the inner race is needed: pitch_diameter - ball_diameter = 29.65 mm"
+    );
+}
+
+#[test]
+fn the_speed_is_that_of_the_largest_row() {
+    let text = GOOD.replace(ROTOR, "").replace(SLIDING, SPEED);
+    let rows = "drive.speed_history=[[\"0 s\", \"0 rad/s\"], [\"1 s\", \"-60 rad/s\"], [\"2 s\", \"0 rad/s\"]]";
+    assert_eq!(parse(&text, &[rows]).unwrap().target_speed(), -60.0);
+}
+
+#[test]
+fn a_speed_of_zero_is_no_spin_up() {
+    assert_eq!(
+        set_message("drive.rotor_speed=0 rpm"),
+        "error[AB0106]: spin_up.toml, --set: drive.rotor_speed: found 0 rpm; an angular speed other than 0 is needed"
+    );
+}
+
+#[test]
+fn balls_that_always_roll_follow_no_step() {
+    let text = GOOD.replace(ROTOR, "").replace(SLIDING, SPEED);
+    let rolling =
+        |set: &str| parse(&text, &["bearing.fidelity=rolling", set]).expect_err("a step was taken");
+    assert_eq!(
+        rolling("drive.final_speed=100 rad/s"),
+        "error[AB0211]: spin_up.toml: drive.acceleration: found no value, so a step of speed; an angular acceleration above 0 is needed with bearing.fidelity = \"rolling\", e.g. \"7200 rad/s^2\": balls that always roll cannot follow a step"
+    );
+    let rows = "[[\"0 s\", \"50 rad/s\"], [\"1 s\", \"60 rad/s\"]]";
+    assert_eq!(
+        rolling(&format!("drive.speed_history={rows}")),
+        "error[AB0211]: spin_up.toml, --set: drive.speed_history: found a speed other than 0 at time 0, so a step; a first row with speed 0 is needed with bearing.fidelity = \"rolling\": balls that always roll cannot follow a step"
     );
 }

@@ -220,7 +220,15 @@ pub fn write_report(file: &Path, directories: &[PathBuf]) -> Result<(), Box<Prob
     let picture = file.extension().is_some_and(|end| end == "svg");
     let text = match (picture, runs.as_slice()) {
         (false, _) => page::html(&runs),
-        (true, [run]) => picture::orbit_svg(run),
+        (true, [run]) if picture::shows(run) => picture::orbit_svg(run),
+        (true, [run]) => {
+            return Err(Box::new(Problem::at_path(
+                Code::Conflict,
+                file,
+                format!("a picture of {}, which is no drop", run.name),
+                "a picture (*.svg) shows the orbit of a drop; name a *.html file",
+            )));
+        }
         (true, _) => {
             return Err(Box::new(Problem::at_path(
                 Code::Conflict,

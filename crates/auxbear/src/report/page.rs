@@ -56,6 +56,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("page/orbit.js"),
     include_str!("page/maps.js"),
     include_str!("page/energy.js"),
+    include_str!("page/spin_up.js"),
     include_str!("page/tables.js"),
     include_str!("page/start.js"),
 ];
@@ -203,6 +204,8 @@ fn kept_rows(columns: &[PageColumn], limit: usize) -> Vec<usize> {
         ("bearing.contact.penetration", 1.0),
         ("bearing.contact.penetration", -1.0),
         ("bearing.inner_pressure", 1.0),
+        ("bearing.inner_race.resisting_moment", 1.0),
+        ("bearing.outer_race.moment", 1.0),
     ]
     .into_iter()
     .filter_map(|(name, sign)| Some((columns.iter().find(|column| column.name == name)?, sign)))

@@ -210,6 +210,15 @@ fn draw_orbit(svg: &mut String, run: &PageRun) {
     }
 }
 
+/// Whether a run is one of a system that has this picture: a drop, or one that does not say.
+pub(super) fn shows(run: &PageRun) -> bool {
+    let summary: Option<serde_json::Value> = serde_json::from_str(&run.summary_json).ok();
+    let system = summary.as_ref().and_then(|summary| summary.get("system"));
+    system
+        .and_then(|system| system.as_str())
+        .is_none_or(|system| system == "drop")
+}
+
 /// Instant of the largest contact force, from the contacts of the summary.
 fn peak_contact(run: &PageRun) -> Option<f64> {
     let summary: serde_json::Value = serde_json::from_str(&run.summary_json).ok()?;

@@ -38,7 +38,7 @@ pub(super) fn json(scenario: &Scenario, outcome: &Outcome) -> Result<String, ser
         contacts: outcome.contacts.iter().map(contact).collect(),
         inputs: scenario.resolved.values.iter().map(input).collect(),
         members: members.collect(),
-        clearance_radius_m: finite(outcome.picture.clearance),
+        clearance_radius_m: outcome.picture.clearance.and_then(finite),
         hertz_pressure_limit_pa: outcome.picture.pressure_limit.and_then(finite),
         rolling_cage_ratio: finite(outcome.picture.rolling_cage_ratio),
         ball_count: outcome.picture.balls,

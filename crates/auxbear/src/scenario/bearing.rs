@@ -1,5 +1,6 @@
 //! A bearing as typed values in SI.
 
+use super::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 use super::resolve::Values;
 use super::section::Section;
 
@@ -10,6 +11,31 @@ pub enum Fidelity {
     Planar,
     /// Pure rolling.
     Rolling,
+}
+
+/// Type of a bearing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BearingType {
+    /// Deep groove.
+    DeepGroove,
+    /// Angular contact, single row.
+    AngularContact,
+    /// Angular contact, double row.
+    AngularContactDoubleRow,
+    /// Four-point contact.
+    FourPointContact,
+}
+
+impl BearingType {
+    /// The type of a word of the table.
+    pub(super) fn of(word: &str) -> BearingType {
+        match word {
+            "angular contact" => BearingType::AngularContact,
+            "angular contact double row" => BearingType::AngularContactDoubleRow,
+            "four-point contact" => BearingType::FourPointContact,
+            _ => BearingType::DeepGroove,
+        }
+    }
 }
 
 /// Material of the balls.
@@ -26,6 +52,8 @@ pub enum BallMaterial {
 pub struct Bearing {
     /// Name in the catalogue.
     pub name: Option<String>,
+    /// Type: it chooses factors of the friction moment.
+    pub kind: BearingType,
     /// How it is modelled.
     pub fidelity: Fidelity,
     /// Number of balls.
@@ -44,6 +72,8 @@ pub struct Bearing {
     pub ball_material: BallMaterial,
     /// Static load rating, N.
     pub static_load_rating: Option<f64>,
+    /// Limiting speed in continuous running, rad/s.
+    pub limiting_speed: Option<f64>,
     /// Mass of the inner race with its sleeve, kg.
     pub inner_race_mass: f64,
     /// Moment of inertia of the inner race with its sleeve, kg m².
@@ -74,8 +104,12 @@ pub struct Bearing {
     pub traction: Traction,
     /// Drag to ground.
     pub drag: Drag,
-    /// Steady friction moment, for the rolling fidelity.
+    /// Steady friction moment.
     pub moment: Moment,
+    /// How balls that move by themselves share it.
+    pub moment_share: MomentShare,
+    /// Friction of the balls in their pockets while the race accelerates.
+    pub acceleration_loss: AccelerationLoss,
 }
 
 /// Pockets of the cage.
@@ -140,35 +174,6 @@ pub struct Drag {
     pub cage: f64,
 }
 
-/// Steady friction moment of the rolling fidelity.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Moment {
-    /// No moment.
-    None,
-    /// Palmgren's two terms.
-    Palmgren {
-        /// Form of the load-independent term.
-        form: MomentForm,
-        /// Factor f0.
-        f0: f64,
-        /// Kinematic viscosity, m²/s.
-        viscosity: f64,
-        /// Factor z of f1 = z (P0/C0)^y.
-        f1_factor: f64,
-        /// Exponent y of f1 = z (P0/C0)^y.
-        f1_exponent: f64,
-    },
-}
-
-/// Form of the load-independent moment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MomentForm {
-    /// Continuous and odd in speed.
-    Continuous,
-    /// As printed, with its step.
-    Printed,
-}
-
 /// The bearing of a system in which it moves.
 pub(super) fn bearing(values: &Values) -> Bearing {
     let section = |path| Section { values, path };
@@ -177,6 +182,7 @@ pub(super) fn bearing(values: &Values) -> Bearing {
     let drag = section("bearing.drag");
     Bearing {
         name: values.text("bearing.name"),
+        kind: BearingType::of(bearing.word("type")),
         fidelity: match bearing.word("fidelity") {
             "rolling" => Fidelity::Rolling,
             _ => Fidelity::Planar,
@@ -189,6 +195,7 @@ pub(super) fn bearing(values: &Values) -> Bearing {
         outer_groove_curvature: bearing.number("outer_groove_curvature"),
         ball_material: ball_material(&bearing),
         static_load_rating: bearing.maybe("static_load_rating"),
+        limiting_speed: bearing.maybe("limiting_speed"),
         inner_race_mass: bearing.number("inner_race_mass"),
         inner_race_inertia: bearing.number("inner_race_inertia"),
         cage_mass: bearing.number("cage_mass"),
@@ -215,7 +222,9 @@ pub(super) fn bearing(values: &Values) -> Bearing {
             spin: drag.maybe("spin").unwrap_or(0.0),
             cage: drag.maybe("cage").unwrap_or(0.0),
         },
-        moment: moment(&section("bearing.moment")),
+        moment: Moment::from_values(values),
+        moment_share: MomentShare::from_values(values),
+        acceleration_loss: AccelerationLoss::from_values(values),
     }
 }
 
@@ -247,18 +256,14 @@ fn traction(traction: &Section<'_>) -> Traction {
     }
 }
 
-pub(super) fn moment(moment: &Section<'_>) -> Moment {
-    match moment.word("law") {
-        "palmgren" => Moment::Palmgren {
-            form: match moment.word("form") {
-                "printed" => MomentForm::Printed,
-                _ => MomentForm::Continuous,
-            },
-            f0: moment.number("f0"),
-            viscosity: moment.number("viscosity"),
-            f1_factor: moment.number("f1_factor"),
-            f1_exponent: moment.number("f1_exponent"),
-        },
-        _ => Moment::None,
+impl Bearing {
+    /// What a friction law needs to know of it.
+    pub fn rated(&self) -> RatedBearing {
+        RatedBearing {
+            kind: self.kind,
+            pitch_diameter: self.pitch_diameter,
+            static_load_rating: self.static_load_rating,
+            ball_material: self.ball_material,
+        }
     }
 }

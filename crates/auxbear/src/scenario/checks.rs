@@ -1,6 +1,7 @@
 //! Checks between values: each refuses what no simulation could mean.
 
-use super::bearing::{Bearing, Moment, Traction};
+use super::bearing::{Bearing, Fidelity, Traction};
+use super::moment::{AccelerationLoss, Moment, RatedBearing};
 use super::resolve::Values;
 use super::run::Run;
 use super::system::System;
@@ -63,7 +64,8 @@ impl Context<'_> {
         let (ball, pitch) = (torque.ball_diameter, torque.pitch_diameter);
         self.bearing_diameters(ball, pitch, None)?;
         self.balls_fit(torque.ball_count, ball, pitch)?;
-        self.moment(&torque.moment, torque.static_load_rating)
+        self.moment(&torque.moment, &torque.rated())?;
+        self.acceleration_loss(&torque.acceleration_loss)
     }
 
     /// Everything about a bearing that moves; the bore is that of the key named.
@@ -73,7 +75,9 @@ impl Context<'_> {
         self.balls_fit(bearing.ball_count, ball, pitch)?;
         self.internal_clearance(bearing)?;
         self.traction(bearing.traction)?;
-        self.moment(&bearing.moment, bearing.static_load_rating)
+        self.moment(&bearing.moment, &bearing.rated())?;
+        self.drag(bearing)?;
+        self.acceleration_loss(&bearing.acceleration_loss)
     }
 
     fn bearing_diameters(&self, ball: f64, pitch: f64, bore: Option<(&str, f64)>) -> Check {
@@ -185,16 +189,125 @@ impl Context<'_> {
         }
     }
 
-    fn moment(&self, moment: &Moment, static_load_rating: Option<f64>) -> Check {
-        if matches!(moment, Moment::Palmgren { .. }) && static_load_rating.is_none() {
+    /// A law that there is no data for, or that the balls cannot share.
+    fn moment(&self, moment: &Moment, bearing: &RatedBearing) -> Check {
+        let needs_rating = matches!(moment, Moment::Palmgren { .. });
+        if needs_rating && bearing.static_load_rating.is_none() {
             return Err(Box::new(self.problem(
                 Code::MissingKey,
                 "bearing.static_load_rating",
                 "no value".to_string(),
-                "bearing.moment.law = \"palmgren\" needs it, e.g. \"6.55 kN\"".to_string(),
+                format!(
+                    "bearing.moment.law = \"{}\" needs it, e.g. \"6.55 kN\"",
+                    self.text("bearing.moment.law")
+                ),
             )));
         }
-        Ok(())
+        if let Moment::Skf {
+            bore_diameter,
+            outer_diameter,
+            ..
+        } = moment
+            && outer_diameter <= bore_diameter
+        {
+            return Err(Box::new(self.problem(
+                Code::BearingGeometry,
+                "bearing.moment.outer_diameter",
+                self.text("bearing.moment.outer_diameter"),
+                format!(
+                    "more than bearing.moment.bore_diameter = {} is needed",
+                    self.text("bearing.moment.bore_diameter")
+                ),
+            )));
+        }
+        if let Moment::Measured { curve } = moment
+            && let Some(row) = curve.iter().position(|row| row[1] < 0.0)
+        {
+            return Err(Box::new(self.problem(
+                Code::CreatesEnergy,
+                "bearing.moment.curve",
+                format!(
+                    "a moment below 0 in row {}, which would create energy",
+                    row + 1
+                ),
+                "moments not below 0 are needed: the curve holds for both directions".to_string(),
+            )));
+        }
+        let Err(why) = moment.law(bearing) else {
+            return Ok(());
+        };
+        Err(Box::new(self.problem(
+            Code::NoLawData,
+            "bearing.moment.law",
+            why,
+            "another law is needed, or a bearing that this one has constants for".to_string(),
+        )))
+    }
+
+    /// Balls that share the moment of a real lubricant are not dragged to the ground as well.
+    fn drag(&self, bearing: &Bearing) -> Check {
+        let drags = [
+            ("bearing.drag.orbit", bearing.drag.orbit),
+            ("bearing.drag.spin", bearing.drag.spin),
+            ("bearing.drag.cage", bearing.drag.cage),
+        ];
+        let shared = bearing.fidelity == Fidelity::Planar && bearing.moment != Moment::None;
+        match drags.into_iter().find(|(_, drag)| shared && *drag != 0.0) {
+            Some((path, _)) => Err(Box::new(self.problem(
+                Code::Conflict,
+                path,
+                self.text(path),
+                format!(
+                    "no drag to the ground is possible together with bearing.moment.law = \"{}\", which holds it already",
+                    self.text("bearing.moment.law")
+                ),
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// F must take energy out whatever the race does.
+    pub(super) fn acceleration_loss(&self, loss: &AccelerationLoss) -> Check {
+        let below = |rows: &[[f64; 2]]| rows.iter().position(|row| row[1] < 0.0);
+        let (path, row) = match loss {
+            AccelerationLoss::None => return Ok(()),
+            AccelerationLoss::Constant { force } => ("force", (*force < 0.0).then_some(0)),
+            AccelerationLoss::Proportional { per_acceleration } => {
+                ("per_acceleration", (*per_acceleration < 0.0).then_some(0))
+            }
+            AccelerationLoss::OverSpeed { force_over_speed } => {
+                ("force_over_speed", below(force_over_speed))
+            }
+            AccelerationLoss::Affine {
+                force_over_speed,
+                per_acceleration_over_speed,
+            } => match below(force_over_speed) {
+                Some(row) => ("force_over_speed", Some(row)),
+                None => (
+                    "per_acceleration_over_speed",
+                    below(per_acceleration_over_speed),
+                ),
+            },
+        };
+        let Some(row) = row else {
+            return Ok(());
+        };
+        let path = format!("bearing.acceleration_loss.{path}");
+        let found = if path.ends_with("_over_speed") {
+            format!(
+                "a value below 0 in row {}, which would create energy",
+                row + 1
+            )
+        } else {
+            format!("{}, which would create energy", self.text(&path))
+        };
+        Err(Box::new(self.problem(
+            Code::CreatesEnergy,
+            &path,
+            found,
+            "a value not below 0 is needed: F has the sign of the rotation, and resists it while the race speeds up and while it slows down"
+                .to_string(),
+        )))
     }
 
     pub(super) fn output(&self, run: &Run, balls: usize) -> Check {

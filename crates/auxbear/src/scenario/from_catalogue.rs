@@ -5,12 +5,56 @@ use super::document::{Document, Given, Raw};
 use super::key::{Key, Kind};
 use super::resolve::{Known, Value, Values, quantity_text};
 use super::table;
+use crate::catalogue::Catalogue;
 use crate::problem::{Code, Place, Problem, did_you_mean};
+use std::path::{Path, PathBuf};
 
-/// Keys outside `[bearing]` that take the bore of the bearing.
-const BORES: [&str; 2] = ["contact.bore_diameter", "drive.bore_diameter"];
+/// Keys outside `[bearing]` that take a diameter of the rings.
+const RING_DIAMETERS: [&str; 4] = [
+    "contact.bore_diameter",
+    "drive.bore_diameter",
+    "bearing.moment.bore_diameter",
+    "bearing.moment.outer_diameter",
+];
+
+/// Key of the user's own catalogue.
+const CATALOGUE: &str = "catalogue";
 
 impl Values {
+    /// The catalogue with the user's own bearings, where the file names one.
+    pub(super) fn own_catalogue(
+        &self,
+        document: &Document,
+    ) -> Result<Option<Catalogue>, Box<Problem>> {
+        let key = table::keys().find(|key| key.path == CATALOGUE);
+        let (Some(key), Some(given)) = (key, document.values.get(CATALOGUE)) else {
+            return Ok(None);
+        };
+        let path = beside(&document.file, &self.read(key, given)?.text);
+        let catalogue = Catalogue::with_file(&path).map_err(|mut problem| {
+            if problem.hint.is_none() {
+                problem.hint = Some(format!("It is named by catalogue in {}", document.file));
+            }
+            problem
+        })?;
+        Ok(Some(catalogue))
+    }
+
+    /// The path of the user's own catalogue as it is found from any folder: the resolved file stands in another one.
+    pub(super) fn lasting_path(&self, key: &Key, known: Known) -> Known {
+        if key.path != CATALOGUE {
+            return known;
+        }
+        let path = beside(self.file(), &known.text);
+        let text = std::fs::canonicalize(&path).unwrap_or(path);
+        let text = text.display().to_string();
+        Known {
+            value: Value::Text(text.clone()),
+            text,
+            ..known
+        }
+    }
+
     /// The catalogue's knowledge of the bearing named. It comes first, because other sections take values from it.
     pub(super) fn find_bearing(
         &self,
@@ -68,7 +112,7 @@ impl Values {
         };
         let name = match key.section() {
             "bearing" => key.name(),
-            _ if BORES.contains(&key.path) => key.name(),
+            _ if RING_DIAMETERS.contains(&key.path) => key.name(),
             _ => return Ok(None),
         };
         if let Kind::Word(_) = key.kind {
@@ -120,4 +164,9 @@ impl Values {
         known.provenance = provenance.clone();
         Ok(Some(known))
     }
+}
+
+/// A path relative to the file that names it.
+fn beside(file: &str, path: &str) -> PathBuf {
+    Path::new(file).parent().unwrap_or(Path::new("")).join(path)
 }

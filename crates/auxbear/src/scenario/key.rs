@@ -110,8 +110,8 @@ pub struct Key {
     pub example: &'static str,
     /// What it is, in one or two sentences.
     pub doc: &'static str,
-    /// The key has a meaning only under this condition.
-    pub when: Option<Condition>,
+    /// The key has a meaning only under all of these conditions.
+    pub when: &'static [Condition],
     /// The other key that gives the same thing.
     pub excludes: Option<&'static str>,
     /// The systems that have the key, where they are fewer than those of its section.
@@ -143,7 +143,7 @@ impl Key {
             presence: Presence::Required,
             example,
             doc,
-            when: None,
+            when: &[],
             excludes: None,
             systems: None,
         }
@@ -209,8 +209,8 @@ impl Key {
         self.present(Presence::DefaultWhen(condition, fallback, otherwise))
     }
 
-    pub(super) const fn when(mut self, condition: Condition) -> Key {
-        self.when = Some(condition);
+    pub(super) const fn when(mut self, conditions: &'static [Condition]) -> Key {
+        self.when = conditions;
         self
     }
 

@@ -67,6 +67,10 @@ impl Values {
             system: document.system,
             known: BTreeMap::new(),
         };
+        let own = values.own_catalogue(document)?;
+        let bearings = own
+            .as_ref()
+            .map_or(bearings, |own| own as &dyn BearingSource);
         let record = values.find_bearing(document, bearings)?;
         for key in table::keys_of(document.system) {
             let given = document.values.get(key.path);
@@ -79,7 +83,7 @@ impl Values {
             let known = match given {
                 Some(given) => {
                     values.refuse_conflict(key, given, document)?;
-                    Some(values.read(key, given)?)
+                    Some(values.lasting_path(key, values.read(key, given)?))
                 }
                 None => match values.catalogued(key, record.as_ref())? {
                     Some(known) => Some(known),
@@ -108,18 +112,19 @@ impl Values {
     }
 
     /// The condition that keeps a key from having a meaning, followed to its root.
-    fn unmet(&self, key: &Key) -> Option<Condition> {
-        let condition = key.when?;
-        if let Some(parent) = table::keys().find(|other| other.path == condition.path) {
-            if !table::systems(parent).contains(&self.system) {
-                // there is no choice to be made in this system
-                return None;
+    pub(super) fn unmet(&self, key: &Key) -> Option<Condition> {
+        key.when.iter().find_map(|condition| {
+            if let Some(parent) = table::keys().find(|other| other.path == condition.path) {
+                if !table::systems(parent).contains(&self.system) {
+                    // there is no choice to be made in this system
+                    return None;
+                }
+                if let Some(root) = self.unmet(parent) {
+                    return Some(root);
+                }
             }
-            if let Some(root) = self.unmet(parent) {
-                return Some(root);
-            }
-        }
-        (!self.holds(&condition)).then_some(condition)
+            (!self.holds(condition)).then_some(*condition)
+        })
     }
 
     fn holds(&self, condition: &Condition) -> bool {
@@ -249,61 +254,18 @@ impl Values {
         Ok(known)
     }
 
-    /// Values that follow from others without physics.
-    fn derive(&mut self) -> Result<(), Box<Problem>> {
-        if let (Some(unbalance), Some(mass)) =
-            (self.number("rotor.unbalance"), self.number("rotor.mass"))
-        {
-            self.put_derived(
-                "rotor.unbalance_eccentricity",
-                unbalance / mass,
-                "unbalance / mass",
-            )?;
-        }
-        if !self.known.contains_key("bearing.cage_inertia")
-            && self.system != SystemName::Torque
-            && let (Some(mass), Some(pitch)) = (
-                self.number("bearing.cage_mass"),
-                self.number("bearing.pitch_diameter"),
-            )
-        {
-            let radius = 0.5 * pitch;
-            self.put_derived(
-                "bearing.cage_inertia",
-                mass * radius * radius,
-                "cage_mass (pitch_diameter/2)^2: a thin ring at the pitch circle",
-            )?;
-        }
-        Ok(())
+    /// The file, as the user named it.
+    pub(super) fn file(&self) -> &str {
+        &self.file
     }
 
-    fn put_derived(
-        &mut self,
-        path: &'static str,
-        value: f64,
-        how: &str,
-    ) -> Result<(), Box<Problem>> {
-        let Some(key) = table::keys().find(|key| key.path == path) else {
-            return Ok(());
-        };
-        let text = quantity_text(key, value);
-        if !key.range.holds(value) {
-            return Err(Box::new(self.problem(
-                Code::OutOfRange,
-                path,
-                Place::Whole,
-                format!("{text}, derived by {how}"),
-                key.needed(),
-            )));
-        }
-        let known = Known {
-            value: Value::Number(value),
-            text,
-            provenance: Provenance::Derived(how.to_string()),
-            place: Place::Whole,
-        };
+    /// The system of the file.
+    pub(super) fn system(&self) -> SystemName {
+        self.system
+    }
+
+    pub(super) fn put(&mut self, path: &'static str, known: Known) {
         self.known.insert(path, known);
-        Ok(())
     }
 
     /// Where a value was given.

@@ -49,6 +49,8 @@ pub enum Drive {
     Torque {
         /// The torque.
         torque: Course,
+        /// Speed that counts as full, rad/s.
+        reference_speed: f64,
     },
     /// A drive that gives the inner race its speed, rad/s.
     Speed(SpeedCourse),
@@ -88,15 +90,26 @@ impl SpinUp {
         }
     }
 
-    /// The speed that the inner race is to reach, rad/s; none where only a torque is given.
-    pub fn target_speed(&self) -> Option<f64> {
+    /// The speed that counts as full, rad/s, of either sign: that of the rotor, the final one, or the largest of a table.
+    pub fn target_speed(&self) -> f64 {
         match &self.drive {
-            Drive::SlidingRotor { rotor_speed, .. } => Some(*rotor_speed),
-            Drive::Torque { .. } => None,
+            Drive::SlidingRotor { rotor_speed, .. } => *rotor_speed,
+            Drive::Torque {
+                reference_speed, ..
+            } => *reference_speed,
             Drive::Speed(
                 SpeedCourse::Step { final_speed } | SpeedCourse::Ramp { final_speed, .. },
-            ) => Some(*final_speed),
-            Drive::Speed(SpeedCourse::Table(rows)) => rows.last().map(|row| row[1]),
+            ) => *final_speed,
+            Drive::Speed(SpeedCourse::Table(rows)) => {
+                let larger = |most: f64, row: &[f64; 2]| {
+                    if row[1].abs() > most.abs() {
+                        row[1]
+                    } else {
+                        most
+                    }
+                };
+                rows.iter().fold(0.0, larger)
+            }
         }
     }
 }
@@ -142,6 +155,7 @@ fn drive(section: &Section<'_>) -> Drive {
     match section.word("kind") {
         "torque" => Drive::Torque {
             torque: course(section, "torque", "torque_history"),
+            reference_speed: section.number("reference_speed"),
         },
         "speed" => Drive::Speed(
             match (section.rows("speed_history"), section.maybe("acceleration")) {

@@ -87,6 +87,13 @@ const HEAD: &[Key] = &[
         "Text for the report.",
     )
     .optional("the report has no introduction"),
+    Key::new(
+        "catalogue",
+        Kind::Text,
+        "my_bearings.toml",
+        "File with your own bearings, relative to this one; they are added to the catalogue, or replace those of the same name.",
+    )
+    .optional("the built-in catalogue alone is used"),
 ];
 
 const RUN: &[Key] = &[

@@ -45,6 +45,11 @@ const fn traction(values: &'static [&'static str]) -> Condition {
     }
 }
 
+const TANH: &[Condition] = &[traction(&["tanh"])];
+const FOUR_PARAMETER: &[Condition] = &[traction(&["four parameter"])];
+const DRY: &[Condition] = &[traction(&["dry"])];
+const TANH_OR_DRY: &[Condition] = &[traction(&["tanh", "dry"])];
+
 pub(super) const KEYS: &[Key] = &[
     Key::new(
         "bearing.name",
@@ -53,6 +58,18 @@ pub(super) const KEYS: &[Key] = &[
         "Name in the bearing catalogue.",
     )
     .optional("all dimensions stand in this file"),
+    Key::new(
+        "bearing.type",
+        Kind::Word(&[
+            "deep groove",
+            "angular contact",
+            "angular contact double row",
+            "four-point contact",
+        ]),
+        "deep groove",
+        "Type of the bearing: it chooses factors of the friction moment. Motion is computed in the plane, with the contact angle of a deep groove bearing.",
+    )
+    .default("deep groove", "the usual auxiliary bearing"),
     Key::new(
         "bearing.fidelity",
         Kind::Word(&["planar", "rolling"]),
@@ -120,7 +137,16 @@ pub(super) const KEYS: &[Key] = &[
         "Static load rating C0.",
     )
     .positive()
-    .optional("no static safety and no load-dependent friction from it"),
+    .optional("no static safety, and no friction law that needs it"),
+    Key::new(
+        "bearing.limiting_speed",
+        Kind::Quantity("rad/s"),
+        "28000 rpm",
+        "Limiting speed in continuous running. A run that exceeds it warns.",
+    )
+    .positive()
+    .optional("no warning about the speed can be given")
+    .only(MOVING),
     Key::new(
         "bearing.inner_race_mass",
         Kind::Quantity("kg"),
@@ -294,21 +320,21 @@ pub(super) const KEYS: &[Key] = &[
     )
     .not_negative()
     .assumed("0.07", "order of magnitude of mineral oils")
-    .when(traction(&["tanh"])),
+    .when(TANH),
     Key::new(
         "bearing.traction.a",
         Kind::Coefficient,
         "-0.07",
         "A of the four parameter law.",
     )
-    .when(traction(&["four parameter"])),
+    .when(FOUR_PARAMETER),
     Key::new(
         "bearing.traction.b",
         Kind::Quantity("s/m"),
         "0.35 s/m",
         "B of the four parameter law.",
     )
-    .when(traction(&["four parameter"])),
+    .when(FOUR_PARAMETER),
     Key::new(
         "bearing.traction.c",
         Kind::Quantity("s/m"),
@@ -316,14 +342,14 @@ pub(super) const KEYS: &[Key] = &[
         "C of the four parameter law.",
     )
     .positive()
-    .when(traction(&["four parameter"])),
+    .when(FOUR_PARAMETER),
     Key::new(
         "bearing.traction.d",
         Kind::Coefficient,
         "0.07",
         "D of the four parameter law; D = -A, so that there is no traction without slip.",
     )
-    .when(traction(&["four parameter"])),
+    .when(FOUR_PARAMETER),
     Key::new(
         "bearing.traction.kinetic",
         Kind::Coefficient,
@@ -331,7 +357,7 @@ pub(super) const KEYS: &[Key] = &[
         "Friction coefficient of the dry law at high slip.",
     )
     .not_negative()
-    .when(traction(&["dry"])),
+    .when(DRY),
     Key::new(
         "bearing.traction.static",
         Kind::Coefficient,
@@ -339,7 +365,7 @@ pub(super) const KEYS: &[Key] = &[
         "Friction coefficient of the dry law at small slip.",
     )
     .not_negative()
-    .when(traction(&["dry"])),
+    .when(DRY),
     Key::new(
         "bearing.traction.decay_speed",
         Kind::Quantity("m/s"),
@@ -347,7 +373,7 @@ pub(super) const KEYS: &[Key] = &[
         "Slip speed over which the dry law falls from static to kinetic.",
     )
     .positive()
-    .when(traction(&["dry"])),
+    .when(DRY),
     Key::new(
         "bearing.traction.reference_speed",
         Kind::Quantity("m/s"),
@@ -359,7 +385,7 @@ pub(super) const KEYS: &[Key] = &[
         "0.1 m/s",
         "numerical regularisation; it stands for the slope of a traction curve",
     )
-    .when(traction(&["tanh", "dry"])),
+    .when(TANH_OR_DRY),
     Key::new(
         "bearing.drag.orbit",
         Kind::Quantity("N s/m"),

@@ -20,6 +20,10 @@ const fn drive(kinds: &'static [&'static str]) -> Condition {
     }
 }
 
+const SLIDING: &[Condition] = &[drive(&["sliding rotor"])];
+const TORQUE: &[Condition] = &[drive(&["torque"])];
+const SPEED: &[Condition] = &[drive(&["speed"])];
+
 const FREE: Condition = Condition {
     path: "drive.rotor_spin",
     values: &["free"],
@@ -44,7 +48,7 @@ pub(super) const KEYS: &[Key] = &[
         "drive.load_history",
         Kind::Table("s", "N"),
         "[[\"0 s\", \"200 N\"], [\"10 ms\", \"80 N\"]]",
-        "Radial force over time, straight between the rows and constant after the last.",
+        "Radial force over time: straight between the rows, constant before the first and after the last.",
     )
     .not_negative()
     .optional("drive.radial_load counts")
@@ -62,7 +66,7 @@ pub(super) const KEYS: &[Key] = &[
         "12000 rpm",
         "Spin of the rotor at time 0; the sign is the direction.",
     )
-    .when(drive(&["sliding rotor"])),
+    .when(SLIDING),
     Key::new(
         "drive.rotor_spin",
         Kind::Word(&["held", "free"]),
@@ -70,7 +74,7 @@ pub(super) const KEYS: &[Key] = &[
         "Whether the spin of the rotor is held by its drive, or free to fall as the rotor spends its energy.",
     )
     .default("held", "a rotor of large inertia hardly slows down while it turns a bearing up")
-    .when(drive(&["sliding rotor"])),
+    .when(SLIDING),
     Key::new(
         "drive.rotor_polar_inertia",
         Kind::Quantity("kg m^2"),
@@ -78,7 +82,7 @@ pub(super) const KEYS: &[Key] = &[
         "Moment of inertia of the rotor about its axis; with several bearings, the share of this one.",
     )
     .positive()
-    .when(FREE),
+    .when(&[FREE]),
     Key::new(
         "drive.bore_diameter",
         Kind::Quantity("m"),
@@ -87,7 +91,7 @@ pub(super) const KEYS: &[Key] = &[
     )
     .positive()
     .catalogued()
-    .when(drive(&["sliding rotor"])),
+    .when(SLIDING),
     Key::new(
         "drive.friction_coefficient",
         Kind::Coefficient,
@@ -96,7 +100,7 @@ pub(super) const KEYS: &[Key] = &[
     )
     .not_negative()
     .assumed("0.15", "arbitrary; it decides the spin-up time, so give the value of the pair")
-    .when(drive(&["sliding rotor"])),
+    .when(SLIDING),
     Key::new(
         "drive.friction_reference_speed",
         Kind::Quantity("m/s"),
@@ -108,30 +112,37 @@ pub(super) const KEYS: &[Key] = &[
         "0.05 m/s",
         "numerical regularisation: small against the sliding speeds of a spin-up",
     )
-    .when(drive(&["sliding rotor"])),
+    .when(SLIDING),
     Key::new(
         "drive.torque",
         Kind::Quantity("N m"),
         "0.1 N m",
         "Torque on the inner race, constant. Give this or torque_history.",
     )
-    .when(drive(&["torque"])),
+    .when(TORQUE),
     Key::new(
         "drive.torque_history",
         Kind::Table("s", "N m"),
         "[[\"0 s\", \"0 N m\"], [\"5 ms\", \"0.1 N m\"]]",
-        "Torque over time, straight between the rows and constant after the last.",
+        "Torque over time: straight between the rows, constant before the first and after the last.",
     )
     .optional("drive.torque counts")
     .excludes("drive.torque")
-    .when(drive(&["torque"])),
+    .when(TORQUE),
+    Key::new(
+        "drive.reference_speed",
+        Kind::Quantity("rad/s"),
+        "12000 rpm",
+        "Speed that counts as full: times to 95 % refer to it, and the tolerance of the run.",
+    )
+    .when(TORQUE),
     Key::new(
         "drive.final_speed",
         Kind::Quantity("rad/s"),
         "12000 rpm",
         "Speed that the inner race is brought to. Give this or speed_history.",
     )
-    .when(drive(&["speed"])),
+    .when(SPEED),
     Key::new(
         "drive.acceleration",
         Kind::Quantity("rad/s^2"),
@@ -141,14 +152,14 @@ pub(super) const KEYS: &[Key] = &[
     .positive()
     .optional("the inner race has its final speed from time 0, a step, while the balls are at rest")
     .excludes("drive.speed_history")
-    .when(drive(&["speed"])),
+    .when(SPEED),
     Key::new(
         "drive.speed_history",
         Kind::Table("s", "rad/s"),
         "[[\"0 s\", \"0 rad/s\"], [\"25 ms\", \"150 rad/s\"]]",
-        "Speed over time, straight between the rows and constant after the last.",
+        "Speed over time: straight between the rows, constant before the first and after the last.",
     )
     .optional("drive.final_speed counts")
     .excludes("drive.final_speed")
-    .when(drive(&["speed"])),
+    .when(SPEED),
 ];

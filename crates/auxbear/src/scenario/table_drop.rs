@@ -100,7 +100,7 @@ pub(super) const KEYS: &[Key] = &[
         "Size of the braking torque; it acts against the spin until the rotor stands.",
     )
     .not_negative()
-    .when(BRAKED),
+    .when(&[BRAKED]),
     Key::new(
         "rotor.brake_start",
         Kind::Quantity("s"),
@@ -109,7 +109,7 @@ pub(super) const KEYS: &[Key] = &[
     )
     .not_negative()
     .default("0 s", "braking starts at the release")
-    .when(BRAKED),
+    .when(&[BRAKED]),
     Key::new(
         "rotor.planes",
         Kind::Count,

@@ -1,43 +1,96 @@
 //! The part of the table of keys that describes the friction of the bearing as a whole.
 
-use super::key::{Condition, Key, Kind, Section};
+use super::key::{Condition, Key, Kind, Range, Section};
 use super::system::SystemName;
 
-pub(super) const SECTIONS: &[Section] = &[Section {
-    path: "bearing.moment",
-    doc: "Steady friction moment of the bearing, for the fidelity \"rolling\".",
-    systems: SystemName::ALL,
-}];
+pub(super) const SECTIONS: &[Section] = &[
+    Section {
+        path: "bearing.moment",
+        doc: "Steady friction moment of the bearing: what its inner race feels against a steady rotation.",
+        systems: SystemName::ALL,
+    },
+    Section {
+        path: "bearing.acceleration_loss",
+        doc: "Friction F of the balls in their pockets while the race accelerates, as a sum over the balls: it resists both races, with the sign of the rotation, whatever the sign of the acceleration.",
+        systems: &[SystemName::SpinUp, SystemName::Torque],
+    },
+];
 
-const ROLLING: Condition = Condition {
+const fn law(values: &'static [&'static str]) -> Condition {
+    Condition {
+        path: "bearing.moment.law",
+        values,
+        reason: "",
+    }
+}
+
+const ANY: &[&str] = &["palmgren", "palmgren printed", "skf", "measured"];
+const PALMGREN: &[Condition] = &[law(&["palmgren", "palmgren printed"])];
+const SKF: &[Condition] = &[law(&["skf"])];
+const MEASURED: &[Condition] = &[law(&["measured"])];
+const LUBRICATED: &[Condition] = &[law(&["palmgren", "palmgren printed", "skf"])];
+/// Balls that share the moment.
+const SHARED: &[Condition] = &[
+    law(ANY),
+    Condition {
+        path: "bearing.fidelity",
+        values: &["planar"],
+        reason: "where the balls roll the moment acts on the races as a whole",
+    },
+];
+
+const fn loss(values: &'static [&'static str]) -> Condition {
+    Condition {
+        path: "bearing.acceleration_loss.kind",
+        values,
+        reason: "",
+    }
+}
+
+const CONSTANT: &[Condition] = &[loss(&["constant"])];
+const PROPORTIONAL: &[Condition] = &[loss(&["proportional"])];
+const OVER_SPEED: &[Condition] = &[loss(&["over speed", "affine"])];
+const AFFINE: &[Condition] = &[loss(&["affine"])];
+const ROLLING: &[Condition] = &[Condition {
     path: "bearing.fidelity",
     values: &["rolling"],
-    reason: "the fidelity \"planar\" has no steady moment yet",
-};
+    reason: "in the planar fidelity the pockets are computed, not given",
+}];
 
-const PALMGREN: Condition = Condition {
-    path: "bearing.moment.law",
-    values: &["palmgren"],
-    reason: "",
-};
+/// A system without fidelities shows the share of the balls nowhere.
+const MOVING: &[SystemName] = super::table::MOVING;
 
 pub(super) const KEYS: &[Key] = &[
     Key::new(
         "bearing.moment.law",
-        Kind::Word(&["none", "palmgren"]),
+        Kind::Word(&["none", "palmgren", "palmgren printed", "skf", "measured"]),
         "palmgren",
-        "Law of the steady friction moment.",
+        "Law: palmgren, continuous and odd in speed; palmgren printed, with the steps of the source; skf, the model of the SKF catalogue; measured, a curve over speed.",
     )
-    .default("none", "no moment unless one is asked for")
-    .when(ROLLING),
+    .default("none", "no moment unless one is asked for"),
     Key::new(
-        "bearing.moment.form",
-        Kind::Word(&["continuous", "printed"]),
-        "continuous",
-        "Form of the load-independent moment: continuous and odd in speed, or as printed, with its step of one percent.",
+        "bearing.moment.lubrication",
+        Kind::Word(&[
+            "grease",
+            "oil mist",
+            "oil and air",
+            "oil bath",
+            "low oil bath",
+            "oil jet",
+        ]),
+        "grease",
+        "Lubrication. A low oil bath reaches the centre of the lowest ball at most. Palmgren's tables have grease, oil mist, low oil bath and oil jet; the SKF model has all but oil mist.",
     )
-    .default("continuous", "a moment without step")
-    .when(PALMGREN),
+    .optional("f0 and f1 must be given, and the SKF model cannot be used")
+    .when(LUBRICATED),
+    Key::new(
+        "bearing.moment.series",
+        Kind::Text,
+        "60",
+        "Series of the bearing, by which factors stand in the tables.",
+    )
+    .derived("from the name of a deep groove bearing: 60 of 6005, 618 of 61807")
+    .when(LUBRICATED),
     Key::new(
         "bearing.moment.f0",
         Kind::Coefficient,
@@ -45,14 +98,7 @@ pub(super) const KEYS: &[Key] = &[
         "Palmgren factor f0 of bearing type and lubrication.",
     )
     .not_negative()
-    .when(PALMGREN),
-    Key::new(
-        "bearing.moment.viscosity",
-        Kind::Quantity("m^2/s"),
-        "100 mm^2/s",
-        "Kinematic viscosity of the lubricant at running temperature.",
-    )
-    .not_negative()
+    .derived("from the tables, by bearing type, series and lubrication")
     .when(PALMGREN),
     Key::new(
         "bearing.moment.f1_factor",
@@ -61,6 +107,7 @@ pub(super) const KEYS: &[Key] = &[
         "Factor z of the load-dependent friction f1 = z (P0/C0)^y.",
     )
     .not_negative()
+    .derived("from the tables, by bearing type, series and lubrication")
     .when(PALMGREN),
     Key::new(
         "bearing.moment.f1_exponent",
@@ -69,5 +116,158 @@ pub(super) const KEYS: &[Key] = &[
         "Exponent y of the load-dependent friction f1 = z (P0/C0)^y.",
     )
     .not_negative()
+    .derived("from the tables, by bearing type, series and lubrication")
     .when(PALMGREN),
+    Key::new(
+        "bearing.moment.viscosity",
+        Kind::Quantity("m^2/s"),
+        "100 mm^2/s",
+        "Kinematic viscosity of the lubricant at running temperature; of the base oil of a grease. Give this, or viscosity_points and temperature.",
+    )
+    .positive()
+    .when(LUBRICATED),
+    Key::new(
+        "bearing.moment.viscosity_points",
+        Kind::Table("K", "m^2/s"),
+        "[[\"40 degC\", \"100 mm^2/s\"], [\"100 degC\", \"11 mm^2/s\"]]",
+        "Viscosity at two temperatures, as data sheets print it; between and near them it follows ASTM D341.",
+    )
+    .positive()
+    .optional("bearing.moment.viscosity counts")
+    .excludes("bearing.moment.viscosity")
+    .when(LUBRICATED),
+    Key::new(
+        "bearing.moment.temperature",
+        Kind::Quantity("K"),
+        "60 degC",
+        "Running temperature of the lubricant, for viscosity_points.",
+    )
+    .positive()
+    .optional("bearing.moment.viscosity holds as it is given")
+    .when(LUBRICATED),
+    Key::new(
+        "bearing.moment.axial_load",
+        Kind::Quantity("N"),
+        "0 N",
+        "Axial load that the law sees; its sign has no effect.",
+    )
+    .default("0 N", "a purely radial load")
+    .when(SKF),
+    Key::new(
+        "bearing.moment.bore_diameter",
+        Kind::Quantity("m"),
+        "25 mm",
+        "Bore d of the bearing itself.",
+    )
+    .positive()
+    .catalogued()
+    .when(SKF),
+    Key::new(
+        "bearing.moment.outer_diameter",
+        Kind::Quantity("m"),
+        "47 mm",
+        "Outer diameter D of the bearing.",
+    )
+    .positive()
+    .catalogued()
+    .when(SKF),
+    Key::new(
+        "bearing.moment.oil",
+        Kind::Word(&["mineral", "synthetic", "transmission fluid"]),
+        "mineral",
+        "Kind of oil, also in a grease: it decides the sliding friction of a full film.",
+    )
+    .default("mineral", "the usual oil")
+    .when(SKF),
+    Key::new(
+        "bearing.moment.drag_variable",
+        Kind::Coefficient,
+        "1e-5",
+        "Variable V_M of the drag in an oil bath, read from the diagram of the SKF catalogue.",
+    )
+    .not_negative()
+    .default("0", "no drag of an oil bath is computed")
+    .when(SKF),
+    Key::new(
+        "bearing.moment.seal_moment",
+        Kind::Quantity("N m"),
+        "10 N mm",
+        "Friction moment of the seals on both sides.",
+    )
+    .not_negative()
+    .default("0 N m", "no contact seals")
+    .when(SKF),
+    Key::new(
+        "bearing.moment.curve",
+        Kind::Table("rad/s", "N m"),
+        "[[\"10 rad/s\", \"14 N mm\"], [\"150 rad/s\", \"25 N mm\"]]",
+        "Measured moment over speed: a smooth curve through the rows, constant outside them, the same in both directions.",
+    )
+    .when(MEASURED),
+    Key::new(
+        "bearing.moment.orbit_share",
+        Kind::Coefficient,
+        "0.5",
+        "Share of the speed-dependent part that drags on the orbit of the balls; the rest drags on their spin.",
+    )
+    .within(Range::FromTo(0.0, 1.0))
+    .assumed("0.5", "no measurement tells the two apart")
+    .when(SHARED)
+    .only(MOVING),
+    Key::new(
+        "bearing.moment.reference_spin",
+        Kind::Quantity("rad/s"),
+        "1 rad/s",
+        "Speed of rolling that regularises the load-dependent part: it is multiplied by tanh(speed / reference spin).",
+    )
+    .positive()
+    .default("1 rad/s", "numerical regularisation: small against the spin of balls")
+    .when(SHARED)
+    .only(MOVING),
+    Key::new(
+        "bearing.moment.scale",
+        Kind::Coefficient,
+        "1",
+        "Scale of the law: what balls lose by slip and in their pockets is in a measured moment already and must not count twice.",
+    )
+    .positive()
+    .derived("from a steady run at full speed and load, so that the whole loss there is that of the law")
+    .when(SHARED)
+    .only(MOVING),
+    Key::new(
+        "bearing.acceleration_loss.kind",
+        Kind::Word(&["none", "constant", "proportional", "over speed", "affine"]),
+        "proportional",
+        "F: none; constant, F0; proportional, F1 times the size of the acceleration; over speed, F0 over speed; affine, F0 + F1 |acceleration|, both over speed.",
+    )
+    .default("none", "no measured F is known; it is what the test rig is to find")
+    .when(ROLLING),
+    Key::new(
+        "bearing.acceleration_loss.force",
+        Kind::Quantity("N"),
+        "0.5 N",
+        "Constant F0.",
+    )
+    .when(CONSTANT),
+    Key::new(
+        "bearing.acceleration_loss.per_acceleration",
+        Kind::Quantity("N s^2/rad"),
+        "1e-5 N s^2/rad",
+        "Constant F1.",
+    )
+    .when(PROPORTIONAL),
+    Key::new(
+        "bearing.acceleration_loss.force_over_speed",
+        Kind::Table("rad/s", "N"),
+        "[[\"0 rad/s\", \"0.2 N\"], [\"1000 rad/s\", \"0.5 N\"]]",
+        "F0 over the size of the speed, straight between the rows and constant after the last.",
+    )
+    .when(OVER_SPEED),
+    Key::new(
+        "bearing.acceleration_loss.per_acceleration_over_speed",
+        Kind::Table("rad/s", "N s^2/rad"),
+        "[[\"0 rad/s\", \"1e-5 N s^2/rad\"], [\"1000 rad/s\", \"2e-5 N s^2/rad\"]]",
+        "F1 over the size of the speed, straight between the rows and constant after the last.",
+    )
+    .when(AFFINE),
 ];

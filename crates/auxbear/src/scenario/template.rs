@@ -45,14 +45,20 @@ pub fn template(kind: &str) -> Option<String> {
 
 fn describe(out: &mut String, key: &Key, system: SystemName) {
     let mut doc = key.doc.to_string();
-    if let Some(condition) = key.when {
-        doc.push_str(&format!(" Only with {}.", condition.text()));
+    let conditions: Vec<String> = key
+        .when
+        .iter()
+        .filter(|condition| choice(condition, system))
+        .map(Condition::text)
+        .collect();
+    if !conditions.is_empty() {
+        doc.push_str(&format!(" Only with {}.", conditions.join(" and ")));
     }
     let example = match key.path {
         "system" => system.word(),
         _ => key.example,
     };
-    let holds = key.when.is_none_or(|condition| holds(&condition));
+    let holds = key.when.iter().all(|condition| holds(condition, system));
     let line = |text: &str| format!("{} = {}", key.name(), key.literal(text));
     let (active, text) = match key.presence {
         Presence::Required => (holds, line(example)),
@@ -102,17 +108,22 @@ fn describe(out: &mut String, key: &Key, system: SystemName) {
     out.push_str("\n\n");
 }
 
+/// Whether the system has the choice that a condition speaks of.
+fn choice(condition: &Condition, system: SystemName) -> bool {
+    table::keys_of(system).any(|key| key.path == condition.path)
+}
+
 /// Whether a condition holds with the examples and defaults of the starting file.
-fn holds(condition: &Condition) -> bool {
-    let Some(key) = table::keys().find(|key| key.path == condition.path) else {
-        return false;
+fn holds(condition: &Condition, system: SystemName) -> bool {
+    let Some(key) = table::keys_of(system).find(|key| key.path == condition.path) else {
+        return true;
     };
     let value = match key.presence {
         Presence::Required | Presence::FromBearing => key.example,
         Presence::Default(fallback) => fallback.text,
         Presence::Optional(_) | Presence::Derived(_) | Presence::DefaultWhen(..) => return false,
     };
-    condition.values.contains(&value) && key.when.is_none_or(|condition| holds(&condition))
+    condition.values.contains(&value) && key.when.iter().all(|condition| holds(condition, system))
 }
 
 /// Writes a text as comment lines of limited width.

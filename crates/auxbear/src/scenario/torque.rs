@@ -1,6 +1,7 @@
 //! The torque of a bearing over speed, load and acceleration, as typed values in SI.
 
-use super::bearing::{BallMaterial, Moment, ball_material, moment};
+use super::bearing::{BallMaterial, BearingType, ball_material};
+use super::moment::{AccelerationLoss, Moment, RatedBearing};
 use super::resolve::Values;
 use super::section::Section;
 
@@ -9,6 +10,8 @@ use super::section::Section;
 pub struct Torque {
     /// Name in the catalogue.
     pub name: Option<String>,
+    /// Type.
+    pub kind: BearingType,
     /// Number of balls.
     pub ball_count: usize,
     /// Diameter of a ball, m.
@@ -25,14 +28,19 @@ pub struct Torque {
     pub ball_mass: Option<f64>,
     /// Steady friction moment.
     pub moment: Moment,
+    /// Friction of the balls in their pockets while the race accelerates.
+    pub acceleration_loss: AccelerationLoss,
 }
 
 impl Torque {
     pub(super) fn from_values(values: &Values) -> Torque {
-        let section = |path| Section { values, path };
-        let bearing = section("bearing");
+        let bearing = Section {
+            values,
+            path: "bearing",
+        };
         Torque {
             name: values.text("bearing.name"),
+            kind: BearingType::of(bearing.word("type")),
             ball_count: bearing.count("ball_count") as usize,
             ball_diameter: bearing.number("ball_diameter"),
             pitch_diameter: bearing.number("pitch_diameter"),
@@ -40,7 +48,18 @@ impl Torque {
             static_load_rating: bearing.maybe("static_load_rating"),
             cage_mass: bearing.number("cage_mass"),
             ball_mass: bearing.maybe("ball_mass"),
-            moment: moment(&section("bearing.moment")),
+            moment: Moment::from_values(values),
+            acceleration_loss: AccelerationLoss::from_values(values),
+        }
+    }
+
+    /// What a friction law needs to know of the bearing.
+    pub fn rated(&self) -> RatedBearing {
+        RatedBearing {
+            kind: self.kind,
+            pitch_diameter: self.pitch_diameter,
+            static_load_rating: self.static_load_rating,
+            ball_material: self.ball_material,
         }
     }
 }

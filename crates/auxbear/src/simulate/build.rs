@@ -1,25 +1,15 @@
-//! From a scenario to the constants of the model.
+//! From a drop to the constants of the model.
 
-use crate::problem::{Code, Problem};
-use crate::scenario::{
-    BallMaterial, Bearing, Drop, Fidelity, Moment, MomentForm, Spin, Traction as TractionChoice,
-};
-use model::bearing::ball::BallConstants;
-use model::bearing::rolling::RollingBall;
-use model::bearing::{
-    AccelerationLoss, BearingConstants, PlanarConstants, RollingConstants, SteadyMoment,
-};
+use super::build_bearing::{self, SteadyFinding};
+use crate::problem::Problem;
+use crate::scenario::{Drop, Spin};
 use model::contact::RotorContact;
 use model::levitation::Levitation;
 use model::mount::Mount;
 use model::rotor::Rotor;
 use model::system::drop::{DropConstants, MachineConstants};
+use model::system::spin_up::InnerRace;
 use number::Vec2;
-use physics::hertz::{BallRace, PointContact, Race};
-use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE, ball_mass, contact_modulus};
-use physics::palmgren::Palmgren;
-use physics::rolling::RollingSet;
-use physics::traction::{DryTraction, FourParameterTraction, TanhTraction, Traction};
 
 /// A drop ready to be simulated.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +20,8 @@ pub struct Built {
     pub inner_pressure_factor: f64,
     /// Pressure of a ball/outer race contact per cube root of its load, Pa/N^(1/3).
     pub outer_pressure_factor: f64,
+    /// A steady run under the rotor's weight; none where the bearing has no steady moment.
+    pub steady: Option<SteadyFinding>,
 }
 
 /// Builds the constants of one plane of a drop: identical planes share the rotor equally.
@@ -42,8 +34,21 @@ pub fn drop(drop: &Drop) -> Result<Built, Box<Problem>> {
         Spin::Braked { torque, start } => (torque * share, start),
         Spin::Free | Spin::Held => (0.0, f64::INFINITY),
     };
-    let contacts = ball_contacts(&drop.bearing)?;
-    let bearing = bearing(&drop.bearing, &contacts, gravity);
+    let contacts = build_bearing::ball_contacts(&drop.bearing)?;
+    let mut bearing = build_bearing::bearing(&drop.bearing, &contacts, gravity)?;
+    let steady = build_bearing::steady(
+        &mut bearing,
+        &drop.bearing,
+        &InnerRace {
+            mass: drop.bearing.inner_race_mass,
+            inertia: drop.bearing.inner_race_inertia,
+            centre_held: drop.bearing.inner_race_centre_held,
+            load_direction: Vec2::new(cosine, sine),
+            gravity,
+        },
+        drop.rotor.speed,
+        mass * drop.gravity.acceleration,
+    )?;
     let mut constants = DropConstants {
         machine: MachineConstants {
             rotor: Rotor {
@@ -90,179 +95,6 @@ pub fn drop(drop: &Drop) -> Result<Built, Box<Problem>> {
         constants,
         inner_pressure_factor: contacts.inner.pressure_factor,
         outer_pressure_factor: contacts.outer.pressure_factor,
+        steady,
     })
-}
-
-/// The Hertz contacts of a ball, and its mass.
-struct BallContacts {
-    inner: PointContact,
-    outer: PointContact,
-    inner_stiffness: f64,
-    outer_stiffness: f64,
-    ball_mass: f64,
-}
-
-/// Materials of the balls.
-fn material(choice: BallMaterial) -> Material {
-    match choice {
-        BallMaterial::Steel => BEARING_STEEL,
-        BallMaterial::SiliconNitride => SILICON_NITRIDE,
-    }
-}
-
-fn ball_contacts(bearing: &Bearing) -> Result<BallContacts, Box<Problem>> {
-    let ball = material(bearing.ball_material);
-    let modulus = contact_modulus(ball, BEARING_STEEL);
-    let contact = |race: Race, groove_curvature: f64| {
-        let geometry = BallRace {
-            ball_diameter: bearing.ball_diameter,
-            pitch_diameter: bearing.pitch_diameter,
-            groove_curvature,
-            contact_angle: 0.0,
-            race,
-        };
-        PointContact::new(geometry.curvature(), modulus).map_err(|_| {
-            Box::new(
-                Problem::new(
-                    Code::BearingGeometry,
-                    "the scenario",
-                    format!(
-                        "a groove curvature of {groove_curvature}, which gives no point contact"
-                    ),
-                    "a groove curvature above 0.5 and balls smaller than the pitch diameter",
-                )
-                .on_key("bearing"),
-            )
-        })
-    };
-    let inner = contact(Race::Inner, bearing.inner_groove_curvature)?;
-    let outer = contact(Race::Outer, bearing.outer_groove_curvature)?;
-    Ok(BallContacts {
-        inner_stiffness: bearing.inner_contact_stiffness.unwrap_or(inner.stiffness),
-        outer_stiffness: bearing.outer_contact_stiffness.unwrap_or(outer.stiffness),
-        ball_mass: bearing
-            .ball_mass
-            .unwrap_or_else(|| ball_mass(bearing.ball_diameter, ball.density)),
-        inner,
-        outer,
-    })
-}
-
-fn bearing(bearing: &Bearing, contacts: &BallContacts, gravity: Vec2<f64>) -> BearingConstants {
-    let radius = 0.5 * bearing.ball_diameter;
-    let inner_track = 0.5 * bearing.pitch_diameter - radius;
-    // the diametral clearance is what the outer track leaves beyond inner track and two balls, on both sides
-    let outer_track =
-        inner_track + bearing.ball_diameter + 0.5 * bearing.operating_diametral_clearance;
-    match bearing.fidelity {
-        Fidelity::Planar => BearingConstants::Planar(PlanarConstants {
-            balls: bearing.ball_count,
-            ball: BallConstants {
-                radius,
-                mass: contacts.ball_mass,
-                inverse_mass: 1.0 / contacts.ball_mass,
-                inverse_inertia: 1.0 / (0.4 * contacts.ball_mass * radius * radius),
-                inner_track,
-                outer_track,
-                inner_stiffness: contacts.inner_stiffness,
-                outer_stiffness: contacts.outer_stiffness,
-                damping_time: bearing.contact_damping_time,
-                pocket_radius: 0.5 * bearing.pitch_diameter,
-                pocket_gap: bearing.cage.pocket_gap,
-                pocket_stiffness: if bearing.cage.pocket_contact {
-                    bearing.cage.pocket_stiffness
-                } else {
-                    0.0
-                },
-                pocket_damping: bearing.cage.pocket_damping,
-                pocket_friction: bearing.cage.pocket_friction_coefficient,
-                pocket_inverse_reference_speed: 1.0 / bearing.cage.pocket_friction_reference_speed,
-                orbit_drag: bearing.drag.orbit,
-                spin_drag: bearing.drag.spin,
-                gravity,
-            },
-            traction: traction(&bearing.traction),
-            cage_mass: bearing.cage_mass,
-            cage_inertia: bearing.cage_inertia,
-            cage_drag: bearing.drag.cage,
-            first_ball_angle: bearing.first_ball_angle,
-            moment: None,
-        }),
-        Fidelity::Rolling => {
-            let set = RollingSet {
-                inner_track_radius: inner_track,
-                ball_ratio: radius / inner_track,
-                balls_mass: bearing.ball_count as f64 * contacts.ball_mass,
-                cage_mass: bearing.cage_mass,
-            };
-            let softness = contacts.inner_stiffness.powf(-2.0 / 3.0)
-                + contacts.outer_stiffness.powf(-2.0 / 3.0);
-            BearingConstants::Rolling(RollingConstants {
-                balls: bearing.ball_count,
-                ball: RollingBall {
-                    series_stiffness: softness.powf(-1.5),
-                    damping_time: bearing.contact_damping_time,
-                    interference: inner_track + bearing.ball_diameter - outer_track,
-                    mass_radius: contacts.ball_mass * (inner_track + radius),
-                },
-                set,
-                first_ball_angle: bearing.first_ball_angle,
-                moment: steady_moment(bearing),
-                axial_load: 0.0,
-                loss: AccelerationLoss::None,
-            })
-        }
-    }
-}
-
-fn traction(choice: &TractionChoice) -> Traction<f64> {
-    match *choice {
-        TractionChoice::Tanh {
-            maximum,
-            reference_speed,
-        } => Traction::Tanh(TanhTraction {
-            maximum,
-            inverse_reference_speed: 1.0 / reference_speed,
-        }),
-        TractionChoice::FourParameter { a, b, c, d } => {
-            Traction::FourParameter(FourParameterTraction { a, b, c, d })
-        }
-        TractionChoice::Dry {
-            kinetic_coefficient,
-            static_coefficient,
-            decay_speed,
-            reference_speed,
-        } => Traction::Dry(DryTraction {
-            kinetic: kinetic_coefficient,
-            static_excess: static_coefficient - kinetic_coefficient,
-            inverse_decay_speed: 1.0 / decay_speed,
-            inverse_reference_speed: 1.0 / reference_speed,
-        }),
-    }
-}
-
-fn steady_moment(bearing: &Bearing) -> SteadyMoment<f64> {
-    let Moment::Palmgren {
-        form,
-        f0,
-        viscosity,
-        f1_factor,
-        f1_exponent,
-    } = bearing.moment
-    else {
-        return SteadyMoment::None;
-    };
-    let law = Palmgren {
-        viscous_factor: f0,
-        viscosity,
-        pitch_diameter: bearing.pitch_diameter,
-        load_factor: f1_factor,
-        load_exponent: f1_exponent,
-        // the scenario refuses Palmgren's law without a load rating
-        static_load_rating: bearing.static_load_rating.unwrap_or(f64::INFINITY),
-    };
-    match form {
-        MomentForm::Continuous => SteadyMoment::Palmgren(law),
-        MomentForm::Printed => SteadyMoment::PalmgrenPrinted(law),
-    }
 }

@@ -1,6 +1,7 @@
 //! Runs a drop and names what came out.
 
 use super::build::{self, Built};
+use super::ending::{settings, stop};
 use super::ensemble::{self, Finished, Member, Plan};
 use super::outcome::{Contact, Outcome, Picture, Spread, Stop, Value, Work};
 use super::{Options, columns, quantities, warnings};
@@ -11,13 +12,7 @@ use number::Vec2;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
-use solve::Settings;
 use std::time::Instant;
-
-/// First step, s: shorter than any time constant; the controller takes over from there.
-const FIRST_STEP: f64 = 1e-8;
-/// Steps after which a machine is given up: four hundred times the reference drop, minutes of computing.
-const STEP_LIMIT: u64 = 20_000_000;
 
 /// Everything the pages that name results need to know.
 pub(super) struct Context<'a> {
@@ -26,18 +21,6 @@ pub(super) struct Context<'a> {
     pub machine: &'a DropMachine,
     pub finished: &'a Finished,
     pub members: usize,
-}
-
-/// Settings of the integration of a drop.
-pub fn settings(drop: &Drop) -> Settings {
-    Settings {
-        start: 0.0,
-        end: drop.run.duration,
-        tolerance: drop.run.tolerance,
-        first_step: FIRST_STEP.min(1e-3 * drop.run.duration),
-        largest_step: drop.run.largest_step,
-        step_limit: STEP_LIMIT,
-    }
 }
 
 /// Runs a drop.
@@ -54,7 +37,7 @@ pub(super) fn run(
     let finished = ensemble::run(
         &members,
         &Plan {
-            settings: settings(drop),
+            settings: settings(&drop.run),
             interval: drop.run.output_interval,
             threads: options.threads,
             interrupt: options.interrupt,
@@ -76,7 +59,7 @@ pub(super) fn run(
     if count > 1 {
         // a member that did not end as planned would pull every mean
         table = (0..count)
-            .filter(|k| stop(&finished[*k]).complete())
+            .filter(|k| stop(&finished[*k].ending).complete())
             .map(|k| {
                 quantities::name(&context(k))
                     .into_iter()
@@ -106,7 +89,7 @@ pub(super) fn run(
         work: work(&finished, seconds),
         members: table,
         picture: Picture {
-            clearance: drop.contact.radial_air_clearance,
+            clearance: Some(drop.contact.radial_air_clearance),
             pressure_limit: drop.bearing.hertz_pressure_limit,
             rolling_cage_ratio: machine.rolling_cage_ratio(),
             balls: drop.bearing.ball_count,
@@ -178,69 +161,22 @@ fn contacts(finished: &Finished) -> Vec<Contact> {
         .collect()
 }
 
-/// An instant for people.
-fn instant(time: f64) -> String {
-    match time {
-        t if t >= 1.0 => format!("{t:.4} s"),
-        t if t >= 1e-3 => format!("{:.4} ms", 1e3 * t),
-        t => format!("{t:.3e} s"),
-    }
-}
-
-/// How a member ended, in words.
-fn stop(finished: &Finished) -> Stop {
-    let time = finished.ending.time;
-    let (reason, text) = match &finished.ending.stop {
-        solve::Stop::Finished => ("finished", "The whole duration was computed.".to_string()),
-        solve::Stop::Interrupted => (
-            "interrupted",
-            format!(
-                "Interrupted at {}; everything until then is kept.",
-                instant(time)
-            ),
-        ),
-        solve::Stop::Halted(why) => (
-            "left the model",
-            format!("Stopped at {}: {why}.", instant(time)),
-        ),
-        solve::Stop::Diverged { channel, step } => (
-            "diverged",
-            format!(
-                "Diverged at {}: the step shrank to {step:.1e} s, {channel} changes fastest. \
-                 Stiff contact, friction with a very small reference speed or an unphysical input are the usual causes.",
-                instant(time)
-            ),
-        ),
-        solve::Stop::StepLimit => (
-            "step limit",
-            format!(
-                "Given up at {} after {} steps, the limit being {STEP_LIMIT}. Either the duration is very long, or \
-                 something in the machine is very stiff: a damper or spring with too many zeros, friction with a very \
-                 small reference speed.",
-                instant(time),
-                finished.ending.work.accepted + finished.ending.work.rejected
-            ),
-        ),
-    };
-    Stop { reason, time, text }
-}
-
 /// The ending of the unperturbed run; if that is whole, of the first member that is not.
 fn worst_stop(finished: &[Finished]) -> Stop {
-    let first = stop(&finished[0]);
+    let first = stop(&finished[0].ending);
     if !first.complete() {
         return first;
     }
     match finished
         .iter()
-        .map(stop)
+        .map(|member| stop(&member.ending))
         .enumerate()
         .find(|(_, s)| !s.complete())
     {
         Some((k, mut stop)) => {
             let whole = finished
                 .iter()
-                .filter(|member| self::stop(member).complete());
+                .filter(|member| self::stop(&member.ending).complete());
             stop.text = format!(
                 "Member {k} of the repetition: {} {} of {} members are whole; only these enter the spread.",
                 stop.text,

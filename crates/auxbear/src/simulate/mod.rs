@@ -2,21 +2,31 @@
 //!
 //! | page | subject |
 //! |---|---|
-//! | [`build`] | scenario → constants of the model |
+//! | [`build`], [`build_bearing`], [`build_spin_up`] | scenario → constants of the model |
 //! | [`ensemble`] | one machine or many, in lanes and threads |
-//! | `drop` | runs a drop and names what came out |
-//! | `quantities` | each named result with its law, source and valid range |
+//! | `drop`, `spin_up` | runs a system and names what came out |
+//! | `quantities`, `list` | each named result with its law, source and valid range |
 //! | `columns` | the history |
-//! | `warnings` | what to know before trusting the numbers |
+//! | `warnings`, `warnings_shared` | what to know before trusting the numbers |
+//! | `ending` | settings of the integration, and how a run ended |
 //! | [`outcome`] | the data handed over |
 
 pub mod build;
+pub mod build_bearing;
+pub mod build_spin_up;
 mod columns;
+mod columns_spin_up;
 mod drop;
+mod ending;
 pub mod ensemble;
+mod list;
 pub mod outcome;
 mod quantities;
+mod quantities_spin_up;
+mod spin_up;
 mod warnings;
+mod warnings_shared;
+mod warnings_spin_up;
 
 use crate::problem::{Code, Problem};
 use crate::scenario::{Scenario, System};
@@ -37,7 +47,8 @@ pub struct Options<'a> {
 pub fn run(scenario: &Scenario, options: &Options) -> Result<Outcome, Box<Problem>> {
     match &scenario.system {
         System::Drop(drop) => drop::run(scenario, drop, options),
-        System::SpinUp(_) | System::Torque(_) => Err(Box::new(
+        System::SpinUp(spin_up) => spin_up::run(scenario, spin_up, options),
+        System::Torque(_) => Err(Box::new(
             Problem::new(
                 Code::NotBuilt,
                 "the scenario",
@@ -45,7 +56,7 @@ pub fn run(scenario: &Scenario, options: &Options) -> Result<Outcome, Box<Proble
                     "\"{}\", which can be read and checked but not run yet",
                     scenario.system.name().word()
                 ),
-                "system = \"drop\" is what this version simulates",
+                "system = \"drop\" or \"spin_up\" is what this version runs",
             )
             .on_key("system"),
         )),

@@ -146,8 +146,8 @@ pub struct Work {
 /// Numbers that only the pictures need.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Picture {
-    /// Radius of the clearance circle, m.
-    pub clearance: f64,
+    /// Radius of the clearance circle, m; none where no rotor moves in the bore.
+    pub clearance: Option<f64>,
     /// Limit of the Hertz pressure, Pa.
     pub pressure_limit: Option<f64>,
     /// Cage speed per inner race speed when the balls roll.

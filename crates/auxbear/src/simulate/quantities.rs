@@ -1,6 +1,7 @@
 //! Every named result of a drop with its law, source and valid range.
 
 use super::drop::Context;
+use super::list::{List, Origin, relative, share_of_limit};
 use super::outcome::{Quantity, Value};
 use model::system::drop::layout::{HEATS, INNER, ROTOR};
 use physics::hertz::maximum_pressure;
@@ -119,15 +120,7 @@ pub(super) fn name(context: &Context) -> Vec<Quantity> {
     list.number(
         "hertz_pressure_share_of_limit",
         "1",
-        context
-            .drop
-            .bearing
-            .hertz_pressure_limit
-            .map(|limit| pressure / limit)
-            .ok_or_else(|| {
-                "no limit is given: for hybrid bearings bearing.hertz_pressure_limit is yours to set"
-                    .to_string()
-            }),
+        share_of_limit(pressure, context.drop.bearing.hertz_pressure_limit),
         &PRESSURE,
     );
 
@@ -216,24 +209,7 @@ fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, String>) {
         - (flows.angular_impulse - before.angular_impulse);
     let constants = &machine.constants;
     let momentum_scale = constants.machine.inner_race_inertia * constants.speed.abs();
-    let relative = |residual: f64, scale: f64| {
-        if scale > 0.0 {
-            Ok(residual / scale)
-        } else {
-            Err(
-                "nothing turned, moved or was dissipated that it could be compared with"
-                    .to_string(),
-            )
-        }
-    };
     (relative(energy, scale), relative(momentum, momentum_scale))
-}
-
-/// Law, source and valid range of a kind of result.
-struct Origin {
-    law: &'static str,
-    source: &'static str,
-    valid: &'static str,
 }
 
 const FIRST_CONTACT: Origin = Origin {
@@ -261,13 +237,13 @@ const SPEED: Origin = Origin {
     source: EQUATIONS,
     valid: "coasting is as true as the friction moment: none in the planar fidelity, bearing.moment in the rolling one",
 };
-const BALL_LOAD: Origin = Origin {
+pub(super) const BALL_LOAD: Origin = Origin {
     law: "Q = max(0, K(δ^1.5 + 1.5 β δ^½ δ̇)), the rolling fidelity adds the centrifugal force at the outer race; largest \
           over balls and races, at the steps and, near the record, on dense output between them",
     source: "Hertz 1881 with viscoelastic damping, crates/physics/src/contact.rs",
     valid: "elastic contact; pure radial load",
 };
-const PRESSURE: Origin = Origin {
+pub(super) const PRESSURE: Origin = Origin {
     law: "p_max = 3Q/(2πab) of the largest ball load, exact elliptic integrals",
     source: "Hertz 1881, crates/physics/src/hertz.rs; static limit 4200 MPa for steel balls: ISO 76",
     valid: "elastic contact, groove curvatures as given",
@@ -303,35 +279,3 @@ const RESIDUAL: Origin = Origin {
     source: LEDGER,
     valid: "a measure of the integration error; it falls with run.tolerance",
 };
-
-struct List(Vec<Quantity>);
-
-impl List {
-    fn push(&mut self, name: &str, unit: &'static str, value: Value, origin: &Origin) {
-        self.0.push(Quantity {
-            name: name.to_string(),
-            value,
-            unit,
-            law: origin.law,
-            source: origin.source,
-            valid: origin.valid,
-            spread: None,
-        });
-    }
-    fn number(
-        &mut self,
-        name: &str,
-        unit: &'static str,
-        value: Result<f64, String>,
-        origin: &Origin,
-    ) {
-        let value = match value {
-            Ok(value) if value.is_finite() => Value::Number(value),
-            Ok(value) => Value::None {
-                why: format!("the run ended with {value} here"),
-            },
-            Err(why) => Value::None { why },
-        };
-        self.push(name, unit, value, origin);
-    }
-}

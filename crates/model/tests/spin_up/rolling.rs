@@ -147,6 +147,12 @@ fn moments_on_both_races_are_those_of_14_and_15() {
             row.probe[INNER_MOMENT] + 3.9e-6 * rate
         ));
         assert!(near(row.probe[ACCELERATION], rate));
+        // in the pockets: F times the sliding speed r(ω_b + ω_c)
+        let (change, _) = run.machine.inspect(row.time, row.state);
+        let sliding = set.inner_track_radius
+            * set.ball_ratio
+            * (set.ball_spin(omega) + set.cage_speed(omega));
+        assert!(near(change[run.machine.layout().heat(6)], f * sliding));
         seen += 1;
     }
     assert!(seen > 90, "{seen}");
@@ -179,6 +185,27 @@ fn rolling_balls_fulfil_the_corrected_energy_form_and_not_the_printed_one() {
     );
     assert!((energy.printed / true_loss - 1.0).abs() > 0.2, "{energy:?}");
     assert_eq!(energy.largest_path, 2.0 * energy.least_path);
+}
+
+#[test]
+fn a_loss_over_speed_brakes_a_race_that_coasts() {
+    // I Ω̇ = -arm F0(Ω), F0 falling in proportion to Ω: an exponential
+    let mut bearing = rolling();
+    let force = Table::through(vec![(0.0, 0.0), (2000.0, 0.4)]).expect("rises");
+    bearing.loss = AccelerationLoss::OverSpeed { force };
+    let arm = bearing.set.pocket_friction_arm();
+    let inertia = 3.9e-6 + bearing.set.inner_inertia();
+    // 0.2 N m for 5 ms, then nothing
+    let torque = vec![(0.0, 0.2), (5e-3, 0.2), (5.001e-3, 0.0)];
+    let drive = Drive::Torque(Table::through(torque).expect("rises"));
+    let c = rolling_machine(bearing, drive, 0.0);
+    let top = run(c.clone(), 5.001e-3, 1e-8).end[INNER + 5];
+    let whole = run(c, 25.001e-3, 1e-8);
+    let expected = top * (-arm * 2e-4 * 0.02 / inertia).exp();
+    let speed = whole.end[INNER + 5];
+    // error control at 1e-8
+    assert!((speed / expected - 1.0).abs() < 1e-6, "{speed} {expected}");
+    assert!(expected < 0.999 * top);
 }
 
 #[test]

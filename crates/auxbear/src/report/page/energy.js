@@ -25,7 +25,7 @@ function heatsOf(run) {
 
 function heatHistory(run, runs) {
   const heats = heatsOf(run).filter((heat) => heat.final > 0);
-  const title = (runs.length > 1 ? run.label + ": " : "") + "Heat since the release";
+  const title = (runs.length > 1 ? run.label + ": " : "") + "Heat over time";
   if (!heats.length) return figure(title, null, notInThisRun(run.time ? "its history has no heats" : "it has no time history"));
   const sums = [];
   let below = run.time.map(() => 0);

@@ -167,7 +167,8 @@ function header(runs) {
     const key = single ? null : element("span", { class: "swatch", style: "background:" + run.colour });
     const origin = spreadOrigin(run);
     const about = element("p", { class: "subtitle" }, key, single ? null : element("strong", {}, run.label + "  "), facts.filter(Boolean).join(" · "));
-    parts.push(single ? [machineLine(run), about] : [about, machineLine(run)], verdict(run), origin ? element("p", { class: "small" }, "Large numbers: the unperturbed run. Below them: " + origin + ".") : null);
+    const line = isSpinUp(run) ? spinUpLine(run) : machineLine(run);
+    parts.push(single ? [line, about] : [about, line], isSpinUp(run) ? spinUpVerdict(run) : verdict(run), origin ? element("p", { class: "small" }, "Large numbers: the unperturbed run. Below them: " + origin + ".") : null);
   }
   parts.push(warningBox(runs));
   return element("header", {}, parts);

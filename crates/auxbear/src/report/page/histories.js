@@ -106,13 +106,16 @@ function speedSection(runs) {
     );
     instantMarks(pen, plot, ratio, known.filter((mark) => mark.instant !== null));
   };
-  const names = ["rotor.speed", "bearing.inner_race.speed", "bearing.cage.speed"];
+  // Where no rotor slides its speed is not missing.
+  const rotor = runs.some((run) => !isSpinUp(run)) ? ["rotor.speed"] : [];
+  const names = [...rotor, "bearing.inner_race.speed", "bearing.cage.speed"];
+  const full = runs.every(isSpinUp) ? "full speed" : "the rotor's speed at release";
   return section(
     "speeds",
     "Speeds",
     history(
-      "Speeds of rotor, inner race and cage",
-      "Dotted: the cage speed at which the balls would roll at the present race speed. Upright lines: first time at 50 % and 95 % of the rotor's speed at release. Counter-clockwise is positive.",
+      runs.some((run) => columnOf(run, "rotor.speed")) ? "Speeds of rotor, inner race and cage" : "Speeds of inner race and cage",
+      `Dotted: the cage speed at which the balls would roll at the present race speed. Upright lines: first time at 50 % and 95 % of ${full}. Counter-clockwise is positive.`,
       runs,
       names,
       series,
@@ -159,7 +162,7 @@ function pocketFigure(runs) {
     .filter((run) => !largestOverBalls(run, "pocket_force"))
     .map((run) => notInThisRun("this run has no cage pocket forces (only the planar fidelity with pocket contact gives them)", run));
   const plot = series.length ? timePlot({ series, label: "force [N]", ticks: runs, height: 190 }) : null;
-  return figure("Cage pockets", plot ? "Largest force between a ball and its cage pocket; pocket impacts are what makes late details of a drop irreproducible." : null, plot, missing);
+  return figure("Cage pockets", plot ? runs.every(isSpinUp) ? "Largest force between a ball and its cage pocket." : "Largest force between a ball and its cage pocket; pocket impacts are what makes late details of a drop irreproducible." : null, plot, missing);
 }
 
 // The unit in which the largest value of a column over all runs reads best; without prefixed units a power of ten.

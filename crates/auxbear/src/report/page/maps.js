@@ -204,7 +204,7 @@ function drawMapAxes(pen, place, grid) {
     pen.lineTo(x, top + height + 4);
     pen.stroke();
   }
-  pen.fillText(`time since release [${timeline.unit[0]}]`, left + width / 2, top + height + 22);
+  pen.fillText(`${timeline.words} [${timeline.unit[0]}]`, left + width / 2, top + height + 22);
 }
 
 function mapReadout(run, grid, place, px, py) {

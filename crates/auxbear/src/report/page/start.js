@@ -31,8 +31,20 @@ function start() {
     return;
   }
   timeline.span(runs);
-  const builders = [...(runs.length > 1 ? [differenceSection] : []), orbitSection, contactSection, speedSection, mapSection, pressureSection, energySection, quantitySection, inputSection, factSection];
-  const sections = builders.map((build) => guarded(build, runs));
+  // Each system has its own pictures; a page of both kinds of run shows both, each with its own runs.
+  const drops = runs.filter((run) => !isSpinUp(run));
+  const spinUps = runs.filter(isSpinUp);
+  const builders = [
+    ...(runs.length > 1 ? [[differenceSection, runs]] : []),
+    ...(drops.length ? [[orbitSection, drops], [contactSection, drops]] : []),
+    [speedSection, runs],
+    ...(spinUps.length ? [[momentSection, spinUps], [slipSection, spinUps]] : []),
+    [mapSection, runs],
+    [pressureSection, runs],
+    ...(spinUps.length ? [[outerRaceSection, spinUps]] : []),
+    ...[energySection, quantitySection, inputSection, factSection].map((build) => [build, runs]),
+  ];
+  const sections = builders.map(([build, some]) => guarded(build, some));
   main.append(guarded(header, runs), navigation(sections), ...sections);
   redrawAll();
   let waiting = false;

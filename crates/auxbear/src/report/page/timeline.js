@@ -11,7 +11,9 @@ const timeline = {
   end: 1,
   unit: ["s", 1],
   listeners: [],
+  words: "time since release",
   span(runs) {
+    if (runs.every(isSpinUp)) this.words = "time since the start";
     const times = runs.filter((run) => run.time && run.time.length > 1).map((run) => run.time);
     if (!times.length) return;
     this.first = Math.min(...times.map((time) => time[0]));
@@ -90,7 +92,7 @@ function timePlot(options) {
       second: { from: "y", range: (_, low, high) => [low * factor, high * factor] },
     },
     axes: [
-      axis({ label: `time since release [${timeline.unit[0]}]`, size: 34, values: axisNumbers(timeline.unit[1]), space: 70 }),
+      axis({ label: `${timeline.words} [${timeline.unit[0]}]`, size: 34, values: axisNumbers(timeline.unit[1]), space: 70 }),
       axis({ label: options.label, size: AXIS_WIDTH - 20, values: axisNumbers(1) }),
     ],
     series: [{ label: "time", value: (_, instant) => (isNumber(instant) ? timeline.text(instant) : "–") }],

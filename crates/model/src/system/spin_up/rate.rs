@@ -1,4 +1,17 @@
 //! The equations of motion of a spin-up.
+//!
+//! ```text
+//!   d: direction of the load, t: d turned +90°;  the rotor touches the bore at c_i + R_0 d
+//!   u = R_0 (ω_r - Ω)                      slip of the sliding rotor
+//!   S = μ tanh(u/u0) W                     its friction, on the race along t
+//!
+//!   I_I Ω̇ = R_0 S + torque - t_I           t_I = free moment + (J + j) Ω̇, solved for Ω̇; a given speed gives the torque
+//!   m c̈_i = W d + S t + bearing + m g      or held
+//!   I_r ω̇_r = -R_0 S                       or held: a source
+//! ```
+//! Heats are ≥ 0: S u, and those of the bearing. Sources: the carriage of the load (W d + S t)·ċ_i, the drives.
+//!
+//! Does not model: torsion of shaft and sleeve, the rotor's place in its clearance.
 
 use super::layout::{
     ACCELERATION, APPLIED_LOAD, BEARING_LOAD, CAGE_SLIP, CAGE_SPEED, DETAIL, DRIVE_MOMENT,
@@ -24,10 +37,13 @@ pub fn race_motion<R: Real>(state: &[R]) -> Motion<R> {
     }
 }
 
-/// What the sliding rotor does: (force on the race forward along its bore, slip), and the moment arm.
+/// What the sliding rotor does.
 struct Sliding<R> {
+    /// Friction S on the race along t, N.
     force: R,
+    /// Slip u, m/s.
     slip: R,
+    /// Radius of the bore R_0, m.
     arm: R,
 }
 

@@ -1,0 +1,119 @@
+//! A spin-up as a user meets it.
+
+use crate::place::Place;
+use std::fs;
+
+/// The quantities of a spin-up that are always there.
+const ALWAYS: [&str; 14] = [
+    "inner_race_time_to_95_percent",
+    "cage_time_to_95_percent_of_rolling",
+    "peak_inner_race_moment",
+    "peak_outer_race_moment",
+    "friction_moment_at_end",
+    "traction_capacity",
+    "cage_slip_at_end",
+    "balls_skid",
+    "bearing_dissipated_energy",
+    "outer_race_energy_printed",
+    "outer_race_energy_corrected",
+    "outer_race_energy_exact",
+    "path_term",
+    "angular_momentum_residual",
+];
+
+/// A folder with `spin_up.toml`, the starting file of the program itself.
+fn place() -> Place {
+    let place = Place::new();
+    place.call(&["new", "spin_up", "spin_up.toml"]).done();
+    place
+}
+
+/// Runs the starting file for 4 ms at the accuracy that its energies are checked with.
+fn short_run(place: &Place, out: &str) {
+    let words = [
+        "run",
+        "spin_up.toml",
+        "--set",
+        "run.duration=4 ms",
+        "--out",
+        out,
+    ];
+    let called = place.call(&words).done();
+    assert!(called.out.contains("balls skid"), "{called:?}");
+}
+
+#[test]
+fn a_run_directory_is_whole_and_its_energies_close() {
+    let place = place();
+    short_run(&place, "a");
+    let summary = place.summary("a");
+    assert_eq!(summary["system"], "spin_up");
+    assert_eq!(summary["complete"], true);
+    assert!(summary["clearance_radius_m"].is_null());
+    for name in ALWAYS {
+        let quantity = &summary["quantities"][name];
+        assert!(quantity["unit"].is_string(), "{name}");
+        if quantity["value"].is_null() {
+            assert!(quantity["why"].is_string(), "{name}");
+        }
+    }
+    let value = |name: &str| summary["quantities"][name]["value"].as_f64().unwrap();
+    // the bound of shipped scenarios: a tolerance that misses more is too loose for any statement on energies
+    assert!(value("energy_residual").abs() < 1e-6);
+    assert!(value("bearing_dissipated_energy") > 0.0);
+    let run = place.read("a");
+    let rows = run.columns[0].values.len();
+    for column in &run.columns {
+        assert_eq!(column.values.len(), rows, "{}", column.name);
+        assert!(!column.unit.is_empty() && !column.meaning.is_empty());
+        let finite = column.values.iter().all(|value| value.is_finite());
+        assert!(finite, "{}", column.name);
+    }
+    let names = [
+        "bearing.outer_race.moment",
+        "bearing.cage.slip",
+        "rotor.speed",
+    ];
+    for name in names {
+        assert!(
+            run.columns.iter().any(|column| column.name == name),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn the_resolved_scenario_gives_the_same_history_bit_for_bit() {
+    let place = place();
+    short_run(&place, "a");
+    place
+        .call(&["run", "a/scenario.toml", "--out", "b", "--quiet"])
+        .done();
+    assert!(place.history_bits("a") == place.history_bits("b"));
+}
+
+#[test]
+fn what_a_spin_up_does_not_have_is_refused() {
+    let place = place();
+    place
+        .call(&["run", "spin_up.toml", "--repeat", "4"])
+        .refused(&["AB0110", "repeat.count", "system = \"drop\""]);
+    short_run(&place, "a");
+    place
+        .call(&["report", "a", "--out", "a.svg"])
+        .refused(&["AB0109", "no drop"]);
+    place.call(&["report", "a", "--out", "a.html"]).done();
+    let page = fs::read_to_string(place.path("a.html")).unwrap();
+    assert!(page.contains("spin_up"));
+}
+
+#[test]
+fn a_torque_file_is_checked_but_not_run_yet() {
+    let place = Place::new();
+    place.call(&["new", "torque", "torque.toml"]).done();
+    place.call(&["check", "torque.toml"]).done();
+    place
+        .call(&["run", "torque.toml"])
+        .refused(&["AB0112", "torque"]);
+    assert_eq!(place.names(), ["torque.toml"]);
+}

@@ -1,0 +1,306 @@
+//! Values that follow from others.
+
+use super::bearing::BearingType;
+use super::key::Key;
+use super::provenance::Provenance;
+use super::resolve::{Known, Value, Values, quantity_text};
+use super::table;
+use crate::problem::{Code, Place, Problem};
+use physics::palmgren_factors::{FactorType, Lubrication, palmgren_factors};
+use physics::viscosity::Viscosity;
+
+const F0: &str = "bearing.moment.f0";
+const F1_FACTOR: &str = "bearing.moment.f1_factor";
+const F1_EXPONENT: &str = "bearing.moment.f1_exponent";
+const SERIES: &str = "bearing.moment.series";
+const LUBRICATION: &str = "bearing.moment.lubrication";
+const TEMPERATURE: &str = "bearing.moment.temperature";
+const VISCOSITY_POINTS: &str = "bearing.moment.viscosity_points";
+
+type Done = Result<(), Box<Problem>>;
+
+impl Values {
+    /// Fills what follows from other values.
+    pub(super) fn derive(&mut self) -> Done {
+        if let (Some(unbalance), Some(mass)) =
+            (self.number("rotor.unbalance"), self.number("rotor.mass"))
+        {
+            let eccentricity = unbalance / mass;
+            self.put_derived(
+                "rotor.unbalance_eccentricity",
+                Value::Number(eccentricity),
+                "unbalance / mass",
+            )?;
+        }
+        if self.lacks("bearing.cage_inertia")
+            && let (Some(mass), Some(pitch)) = (
+                self.number("bearing.cage_mass"),
+                self.number("bearing.pitch_diameter"),
+            )
+        {
+            let radius = 0.5 * pitch;
+            self.put_derived(
+                "bearing.cage_inertia",
+                Value::Number(mass * radius * radius),
+                "cage_mass (pitch_diameter/2)^2: a thin ring at the pitch circle",
+            )?;
+        }
+        match self.word("bearing.moment.law") {
+            "palmgren" | "palmgren printed" => {
+                self.series()?;
+                self.palmgren_factors()?;
+                self.viscosity()
+            }
+            "skf" => {
+                self.series()?;
+                self.skf_lubrication()?;
+                self.viscosity()
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether a key of this system has neither a value nor an obstacle.
+    fn lacks(&self, path: &str) -> bool {
+        let key = table::keys_of(self.system()).find(|key| key.path == path);
+        key.is_some_and(|key| self.unmet(key).is_none()) && self.text(path).is_none()
+    }
+
+    /// The series by the name of a deep groove bearing.
+    fn series(&mut self) -> Done {
+        if self.word("bearing.type") != "deep groove" || !self.lacks(SERIES) {
+            return Ok(());
+        }
+        match self.text("bearing.name").as_deref().and_then(series_of) {
+            Some(series) => {
+                let how = "the name of a deep groove bearing without its bore code";
+                self.put_derived(SERIES, Value::Text(series), how)
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// f0 and f1 by series and lubrication, where they are not given.
+    fn palmgren_factors(&mut self) -> Done {
+        let Some(missing) = [F0, F1_FACTOR, F1_EXPONENT]
+            .into_iter()
+            .find(|path| self.lacks(path))
+        else {
+            return match self.text(LUBRICATION) {
+                Some(text) => Err(Box::new(self.problem(
+                    Code::UnusedKey,
+                    LUBRICATION,
+                    self.place(LUBRICATION),
+                    format!("\"{text}\", which has no effect"),
+                    "lubrication chooses f0 and f1 from the tables, and all of these are given here",
+                ))),
+                None => Ok(()),
+            };
+        };
+        let lubrication = match self.word(LUBRICATION) {
+            "grease" | "oil mist" => Lubrication::GreaseOrOilMist,
+            "low oil bath" | "oil jet" => Lubrication::OilBath,
+            "" => {
+                return Err(Box::new(
+                    self.no_factor(missing, "bearing.moment.lubrication"),
+                ));
+            }
+            other => {
+                return Err(Box::new(self.problem(
+                    Code::NoLawData,
+                    LUBRICATION,
+                    self.place(LUBRICATION),
+                    format!("\"{other}\", which Palmgren's tables do not have"),
+                    "one of \"grease\", \"oil mist\", \"low oil bath\", \"oil jet\" is needed, or f0 and f1 by hand",
+                )));
+            }
+        };
+        let Some(series) = self.text(SERIES) else {
+            return Err(Box::new(self.no_factor(missing, "bearing.moment.series")));
+        };
+        let kind = match BearingType::of(self.word("bearing.type")) {
+            BearingType::DeepGroove => FactorType::DeepGroove,
+            BearingType::AngularContact => FactorType::AngularContact,
+            BearingType::AngularContactDoubleRow => FactorType::AngularContactDoubleRow,
+            BearingType::FourPointContact => FactorType::FourPointContact,
+        };
+        let factors = palmgren_factors(kind, &series, lubrication).map_err(|refusal| {
+            Box::new(self.problem(
+                Code::NoLawData,
+                SERIES,
+                self.place(SERIES),
+                refusal.to_string(),
+                "a series of the tables is needed, or f0, f1_factor and f1_exponent by hand",
+            ))
+        })?;
+        let told = if factors.lubrication_told {
+            ""
+        } else {
+            ", which does not tell the lubrication"
+        };
+        let how = format!(
+            "series {series}, {kind}: {}{told}",
+            factors.source.citation()
+        );
+        for (path, value) in [
+            (F0, factors.viscous_factor),
+            (F1_FACTOR, factors.load_factor),
+            (F1_EXPONENT, factors.load_exponent),
+        ] {
+            if self.lacks(path) {
+                self.put_derived(path, Value::Number(value), &how)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn no_factor(&self, path: &str, other: &str) -> Problem {
+        let needed = table::keys()
+            .find(|key| key.path == path)
+            .map_or(String::new(), Key::needed);
+        self.problem(Code::MissingKey, path, Place::Whole, "no value", needed)
+            .with_hint(format!("With {other} it is taken from the tables"))
+    }
+
+    fn skf_lubrication(&self) -> Done {
+        let needed = "one of \"grease\", \"oil and air\", \"oil bath\", \"low oil bath\", \"oil jet\" is needed for the SKF model";
+        match self.word(LUBRICATION) {
+            "" => Err(Box::new(self.problem(
+                Code::MissingKey,
+                LUBRICATION,
+                Place::Whole,
+                "no value",
+                needed,
+            ))),
+            "oil mist" => Err(Box::new(self.problem(
+                Code::NoLawData,
+                LUBRICATION,
+                self.place(LUBRICATION),
+                "\"oil mist\", which the SKF model does not have",
+                needed,
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    /// The viscosity at the running temperature, by two points.
+    fn viscosity(&mut self) -> Done {
+        let Some(points) = self.rows(VISCOSITY_POINTS) else {
+            return match self.text(TEMPERATURE) {
+                Some(text) => Err(Box::new(self.problem(
+                    Code::UnusedKey,
+                    TEMPERATURE,
+                    self.place(TEMPERATURE),
+                    format!("\"{text}\", which has no effect"),
+                    "it is used only with bearing.moment.viscosity_points; a given viscosity holds as it is",
+                ))),
+                None => Ok(()),
+            };
+        };
+        let of_points = |code, found: String, allowed: &str| {
+            let place = self.place(VISCOSITY_POINTS);
+            Box::new(self.problem(code, VISCOSITY_POINTS, place, found, allowed))
+        };
+        let [one, other] = points.as_slice() else {
+            return Err(of_points(
+                Code::WrongType,
+                format!("{} rows", points.len()),
+                "two rows are needed, e.g. at 40 degC and 100 degC",
+            ));
+        };
+        let Some(temperature) = self.number(TEMPERATURE) else {
+            return Err(Box::new(self.problem(
+                Code::MissingKey,
+                TEMPERATURE,
+                Place::Whole,
+                "no value",
+                "a temperature above 0 is needed with viscosity_points, e.g. \"60 degC\"",
+            )));
+        };
+        let line = Viscosity::through((one[0], one[1]), (other[0], other[1])).map_err(|error| {
+            of_points(
+                Code::NoLawData,
+                error.to_string(),
+                "two points of one oil are needed",
+            )
+        })?;
+        let viscosity = line.at(temperature).map_err(|error| {
+            Box::new(self.problem(
+                Code::NoLawData,
+                TEMPERATURE,
+                self.place(TEMPERATURE),
+                error.to_string(),
+                "a temperature near those of bearing.moment.viscosity_points is needed, or the viscosity itself",
+            ))
+        })?;
+        self.put_derived(
+            "bearing.moment.viscosity",
+            Value::Number(viscosity),
+            "viscosity_points at temperature, by ASTM D341",
+        )
+    }
+
+    fn put_derived(&mut self, path: &'static str, value: Value, how: &str) -> Done {
+        let Some(key) = table::keys().find(|key| key.path == path) else {
+            return Ok(());
+        };
+        let text = match &value {
+            Value::Number(number) => quantity_text(key, *number),
+            Value::Text(text) => text.clone(),
+            _ => String::new(),
+        };
+        if value
+            .number()
+            .is_some_and(|number| !key.range.holds(number))
+        {
+            return Err(Box::new(self.problem(
+                Code::OutOfRange,
+                path,
+                Place::Whole,
+                format!("{text}, derived by {how}"),
+                key.needed(),
+            )));
+        }
+        self.put(
+            path,
+            Known {
+                value,
+                text,
+                provenance: Provenance::Derived(how.to_string()),
+                place: Place::Whole,
+            },
+        );
+        Ok(())
+    }
+}
+
+/// The series in the name of a deep groove bearing: its digits without the bore code.
+fn series_of(name: &str) -> Option<String> {
+    let digits: String = name.chars().take_while(char::is_ascii_digit).collect();
+    let series = match digits.len() {
+        3 | 4 => &digits[..2],
+        5 => &digits[..3],
+        _ => return None,
+    };
+    Some(series.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_holds_its_series() {
+        for (name, series) in [
+            ("6005", Some("60")),
+            ("6005 hybrid", Some("60")),
+            ("607", Some("60")),
+            ("61807", Some("618")),
+            ("16005", Some("160")),
+            ("SNFA EX 25", None),
+            ("", None),
+        ] {
+            assert_eq!(series_of(name).as_deref(), series, "{name}");
+        }
+    }
+}

@@ -1,0 +1,358 @@
+//! From a bearing of a scenario to the constants of the model.
+
+use crate::problem::{Code, Problem};
+use crate::scenario::{
+    AccelerationLoss as LossChoice, BallMaterial, Bearing, Fidelity, Moment,
+    Traction as TractionChoice,
+};
+use model::bearing::ball::BallConstants;
+use model::bearing::rolling::RollingBall;
+use model::bearing::{
+    AccelerationLoss, BearingConstants, PlanarConstants, RollingConstants, SharedMoment,
+    SteadyMoment,
+};
+use model::system::spin_up::layout::{INNER, INNER_LOAD_SUM, STEADY_MOMENT};
+use model::system::spin_up::steady::{LEAST_CAPACITY, largest_coefficient};
+use model::system::spin_up::{
+    Drive, InnerRace, Refusal, SpinUpConstants, SpinUpMachine, SteadyError, moment_scale,
+};
+use model::table::Table;
+use number::Vec2;
+use physics::hertz::{BallRace, PointContact, Race};
+use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE, ball_mass, contact_modulus};
+use physics::rolling::RollingSet;
+use physics::traction::{DryTraction, FourParameterTraction, TanhTraction, Traction};
+
+/// What a problem found after reading names as its place.
+const SCENARIO: &str = "the scenario";
+
+/// The Hertz contacts of a ball, and its mass.
+pub(super) struct BallContacts {
+    pub inner: PointContact,
+    pub outer: PointContact,
+    inner_stiffness: f64,
+    outer_stiffness: f64,
+    ball_mass: f64,
+}
+
+/// Materials of the balls.
+fn material(choice: BallMaterial) -> Material {
+    match choice {
+        BallMaterial::Steel => BEARING_STEEL,
+        BallMaterial::SiliconNitride => SILICON_NITRIDE,
+    }
+}
+
+pub(super) fn ball_contacts(bearing: &Bearing) -> Result<BallContacts, Box<Problem>> {
+    let ball = material(bearing.ball_material);
+    let modulus = contact_modulus(ball, BEARING_STEEL);
+    let contact = |race: Race, groove_curvature: f64| {
+        let geometry = BallRace {
+            ball_diameter: bearing.ball_diameter,
+            pitch_diameter: bearing.pitch_diameter,
+            groove_curvature,
+            contact_angle: 0.0,
+            race,
+        };
+        PointContact::new(geometry.curvature(), modulus).map_err(|_| {
+            Box::new(
+                Problem::new(
+                    Code::BearingGeometry,
+                    "the scenario",
+                    format!(
+                        "a groove curvature of {groove_curvature}, which gives no point contact"
+                    ),
+                    "a groove curvature above 0.5 and balls smaller than the pitch diameter",
+                )
+                .on_key("bearing"),
+            )
+        })
+    };
+    let inner = contact(Race::Inner, bearing.inner_groove_curvature)?;
+    let outer = contact(Race::Outer, bearing.outer_groove_curvature)?;
+    Ok(BallContacts {
+        inner_stiffness: bearing.inner_contact_stiffness.unwrap_or(inner.stiffness),
+        outer_stiffness: bearing.outer_contact_stiffness.unwrap_or(outer.stiffness),
+        ball_mass: bearing
+            .ball_mass
+            .unwrap_or_else(|| ball_mass(bearing.ball_diameter, ball.density)),
+        inner,
+        outer,
+    })
+}
+
+/// The bearing, its steady moment not yet scaled.
+pub(super) fn bearing(
+    bearing: &Bearing,
+    contacts: &BallContacts,
+    gravity: Vec2<f64>,
+) -> Result<BearingConstants, Box<Problem>> {
+    let law = bearing.moment.law(&bearing.rated()).map_err(|why| {
+        Box::new(
+            Problem::new(
+                Code::NoLawData,
+                SCENARIO,
+                why,
+                "a law that has constants for this bearing",
+            )
+            .on_key("bearing.moment.law"),
+        )
+    })?;
+    let radius = 0.5 * bearing.ball_diameter;
+    let inner_track = 0.5 * bearing.pitch_diameter - radius;
+    // the diametral clearance is what the outer track leaves beyond inner track and two balls, on both sides
+    let outer_track =
+        inner_track + bearing.ball_diameter + 0.5 * bearing.operating_diametral_clearance;
+    Ok(match bearing.fidelity {
+        Fidelity::Planar => BearingConstants::Planar(PlanarConstants {
+            balls: bearing.ball_count,
+            ball: BallConstants {
+                radius,
+                mass: contacts.ball_mass,
+                inverse_mass: 1.0 / contacts.ball_mass,
+                inverse_inertia: 1.0 / (0.4 * contacts.ball_mass * radius * radius),
+                inner_track,
+                outer_track,
+                inner_stiffness: contacts.inner_stiffness,
+                outer_stiffness: contacts.outer_stiffness,
+                damping_time: bearing.contact_damping_time,
+                pocket_radius: 0.5 * bearing.pitch_diameter,
+                pocket_gap: bearing.cage.pocket_gap,
+                pocket_stiffness: if bearing.cage.pocket_contact {
+                    bearing.cage.pocket_stiffness
+                } else {
+                    0.0
+                },
+                pocket_damping: bearing.cage.pocket_damping,
+                pocket_friction: bearing.cage.pocket_friction_coefficient,
+                pocket_inverse_reference_speed: 1.0 / bearing.cage.pocket_friction_reference_speed,
+                orbit_drag: bearing.drag.orbit,
+                spin_drag: bearing.drag.spin,
+                gravity,
+            },
+            traction: traction(&bearing.traction),
+            cage_mass: bearing.cage_mass,
+            cage_inertia: bearing.cage_inertia,
+            cage_drag: bearing.drag.cage,
+            first_ball_angle: bearing.first_ball_angle,
+            moment: (law != SteadyMoment::None).then(|| SharedMoment {
+                law,
+                axial_load: bearing.moment.axial_load(),
+                orbit_share: bearing.moment_share.orbit_share,
+                reference_spin: bearing.moment_share.reference_spin,
+                scale: bearing.moment_share.scale.unwrap_or(1.0),
+            }),
+        }),
+        Fidelity::Rolling => {
+            let set = RollingSet {
+                inner_track_radius: inner_track,
+                ball_ratio: radius / inner_track,
+                balls_mass: bearing.ball_count as f64 * contacts.ball_mass,
+                cage_mass: bearing.cage_mass,
+            };
+            let softness = contacts.inner_stiffness.powf(-2.0 / 3.0)
+                + contacts.outer_stiffness.powf(-2.0 / 3.0);
+            BearingConstants::Rolling(RollingConstants {
+                balls: bearing.ball_count,
+                ball: RollingBall {
+                    series_stiffness: softness.powf(-1.5),
+                    damping_time: bearing.contact_damping_time,
+                    interference: inner_track + bearing.ball_diameter - outer_track,
+                    mass_radius: contacts.ball_mass * (inner_track + radius),
+                },
+                set,
+                first_ball_angle: bearing.first_ball_angle,
+                moment: law,
+                axial_load: bearing.moment.axial_load(),
+                loss: acceleration_loss(&bearing.acceleration_loss),
+            })
+        }
+    })
+}
+
+fn acceleration_loss(choice: &LossChoice) -> AccelerationLoss {
+    match choice {
+        LossChoice::None => AccelerationLoss::None,
+        LossChoice::Constant { force } => AccelerationLoss::Constant { force: *force },
+        LossChoice::Proportional { per_acceleration } => AccelerationLoss::Proportional {
+            per_acceleration: *per_acceleration,
+        },
+        LossChoice::OverSpeed { force_over_speed } => AccelerationLoss::OverSpeed {
+            force: table(force_over_speed),
+        },
+        LossChoice::Affine {
+            force_over_speed,
+            per_acceleration_over_speed,
+        } => AccelerationLoss::Affine {
+            force: table(force_over_speed),
+            per_acceleration: table(per_acceleration_over_speed),
+        },
+    }
+}
+
+/// Rows of a scenario, which rise, as a table of the model.
+pub(super) fn table(rows: &[[f64; 2]]) -> Table {
+    let points = rows.iter().map(|row| (row[0], row[1])).collect();
+    // the scenario holds two rows at least and refuses rows that do not rise
+    Table::through(points).unwrap_or_else(|_| Table::constant(f64::NAN))
+}
+
+/// A steady run of the bearing at one speed and load: what its friction moment would be, and whether the balls would
+/// roll.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SteadyFinding {
+    /// Speed of the inner race, rad/s.
+    pub speed: f64,
+    /// Radial load, N.
+    pub load: f64,
+    /// Moment M of the law, N m.
+    pub moment: f64,
+    /// Largest traction moment of the inner race over M.
+    pub capacity: f64,
+    /// Scale of the law that the run uses; 1 in the rolling fidelity.
+    pub scale: f64,
+    /// Where the scale comes from, in words.
+    pub origin: String,
+}
+
+impl SteadyFinding {
+    /// Whether traction does not suffice for the steady moment.
+    pub fn skids(&self) -> bool {
+        self.capacity < LEAST_CAPACITY
+    }
+}
+
+/// Looks at the bearing in a steady run and scales its moment, so that what the balls lose by slip and in their pockets
+/// does not count twice. None where there is no steady moment or no speed.
+pub(super) fn steady(
+    constants: &mut BearingConstants,
+    bearing: &Bearing,
+    race: &InnerRace<f64>,
+    speed: f64,
+    load: f64,
+) -> Result<Option<SteadyFinding>, Box<Problem>> {
+    if bearing.moment == Moment::None || speed == 0.0 {
+        return Ok(None);
+    }
+    let mut finding = at_rest(constants, &bearing.traction, race, speed, load)?;
+    let BearingConstants::Planar(planar) = constants else {
+        finding.origin = "the balls roll: no scale is needed".to_string();
+        return Ok(Some(finding));
+    };
+    if let Some(scale) = bearing.moment_share.scale {
+        finding.scale = scale;
+        finding.origin = "given".to_string();
+    } else if finding.skids() {
+        finding.origin = "none: the balls would skid in a steady run".to_string();
+    } else if race.centre_held {
+        finding.origin = "none: the centre of the inner race is held".to_string();
+    } else {
+        match moment_scale(planar, race, speed, load) {
+            Ok(run) => {
+                finding.scale = run.scale;
+                finding.capacity = run.capacity;
+                finding.origin = "a steady run at this speed and load".to_string();
+            }
+            Err(error @ SteadyError::ExplicitExceedsLaw { .. }) => {
+                return Err(Box::new(
+                    Problem::new(
+                        Code::LossExceedsLaw,
+                        SCENARIO,
+                        error.to_string(),
+                        "more moment is needed, or less loss in the pockets; bearing.moment.scale sets the share of the law by hand",
+                    )
+                    .on_key("bearing.moment"),
+                ));
+            }
+            Err(error) => finding.origin = format!("none: {error}"),
+        }
+    }
+    if let Some(moment) = planar.moment.as_mut() {
+        moment.scale = finding.scale;
+    }
+    Ok(Some(finding))
+}
+
+/// Moment and traction capacity of a bearing that is pressed together at rest.
+fn at_rest(
+    constants: &BearingConstants,
+    traction_choice: &TractionChoice,
+    race: &InnerRace<f64>,
+    speed: f64,
+    load: f64,
+) -> Result<SteadyFinding, Box<Problem>> {
+    // a race that runs at its speed from the start, or nearly so where the balls cannot follow a step
+    let drive = match constants {
+        BearingConstants::Planar(_) => Drive::step(speed),
+        BearingConstants::Rolling(_) => Drive::Torque(Table::constant(0.0)),
+    };
+    let machine = SpinUpMachine::new(SpinUpConstants {
+        race: *race,
+        bearing: constants.clone(),
+        drive,
+        load: Table::constant(load),
+        target_speed: speed,
+    })
+    .map_err(|refusal| refused(refusal))?;
+    let mut state = machine.start();
+    state[INNER + 5] = speed;
+    let (_, probe) = machine.inspect(0.0, &state);
+    let moment = probe[STEADY_MOMENT];
+    let traction = largest_coefficient(&traction(traction_choice))
+        * constants.set().inner_track_radius
+        * probe[INNER_LOAD_SUM];
+    Ok(SteadyFinding {
+        speed,
+        load,
+        moment,
+        capacity: traction / moment.abs(),
+        scale: 1.0,
+        origin: String::new(),
+    })
+}
+
+/// A machine that the model refuses, told with the key that decides.
+pub(super) fn refused(refusal: Refusal) -> Box<Problem> {
+    let key = match refusal {
+        Refusal::DragToGround => "bearing.drag",
+        Refusal::LossCreatesEnergy | Refusal::LossExceedsInertia => "bearing.acceleration_loss",
+        Refusal::NegativeLoad => "drive.radial_load",
+        Refusal::StepOfRollingBalls => "drive.acceleration",
+        Refusal::MomentShare => "bearing.moment",
+    };
+    Box::new(
+        Problem::new(
+            Code::Impossible,
+            SCENARIO,
+            refusal.to_string(),
+            "a machine that can be computed is needed",
+        )
+        .on_key(key),
+    )
+}
+
+fn traction(choice: &TractionChoice) -> Traction<f64> {
+    match *choice {
+        TractionChoice::Tanh {
+            maximum,
+            reference_speed,
+        } => Traction::Tanh(TanhTraction {
+            maximum,
+            inverse_reference_speed: 1.0 / reference_speed,
+        }),
+        TractionChoice::FourParameter { a, b, c, d } => {
+            Traction::FourParameter(FourParameterTraction { a, b, c, d })
+        }
+        TractionChoice::Dry {
+            kinetic_coefficient,
+            static_coefficient,
+            decay_speed,
+            reference_speed,
+        } => Traction::Dry(DryTraction {
+            kinetic: kinetic_coefficient,
+            static_excess: static_coefficient - kinetic_coefficient,
+            inverse_decay_speed: 1.0 / decay_speed,
+            inverse_reference_speed: 1.0 / reference_speed,
+        }),
+    }
+}

@@ -1,0 +1,69 @@
+//! How finely a run is integrated, and how it ended.
+
+use super::outcome::Stop;
+use crate::scenario::Run;
+use solve::{Ending, Settings};
+
+/// First step, s: shorter than any time constant; the controller takes over from there.
+const FIRST_STEP: f64 = 1e-8;
+/// Steps after which a machine is given up: four hundred times the reference drop, minutes of computing.
+const STEP_LIMIT: u64 = 20_000_000;
+
+/// Settings of the integration of a system.
+pub(super) fn settings(run: &Run) -> Settings {
+    Settings {
+        start: 0.0,
+        end: run.duration,
+        tolerance: run.tolerance,
+        first_step: FIRST_STEP.min(1e-3 * run.duration),
+        largest_step: run.largest_step,
+        step_limit: STEP_LIMIT,
+    }
+}
+
+/// An instant for people.
+fn instant(time: f64) -> String {
+    match time {
+        t if t >= 1.0 => format!("{t:.4} s"),
+        t if t >= 1e-3 => format!("{:.4} ms", 1e3 * t),
+        t => format!("{t:.3e} s"),
+    }
+}
+
+/// How a run ended, in words.
+pub(super) fn stop(ending: &Ending) -> Stop {
+    let time = ending.time;
+    let (reason, text) = match &ending.stop {
+        solve::Stop::Finished => ("finished", "The whole duration was computed.".to_string()),
+        solve::Stop::Interrupted => (
+            "interrupted",
+            format!(
+                "Interrupted at {}; everything until then is kept.",
+                instant(time)
+            ),
+        ),
+        solve::Stop::Halted(why) => (
+            "left the model",
+            format!("Stopped at {}: {why}.", instant(time)),
+        ),
+        solve::Stop::Diverged { channel, step } => (
+            "diverged",
+            format!(
+                "Diverged at {}: the step shrank to {step:.1e} s, {channel} changes fastest. \
+                 Stiff contact, friction with a very small reference speed or an unphysical input are the usual causes.",
+                instant(time)
+            ),
+        ),
+        solve::Stop::StepLimit => (
+            "step limit",
+            format!(
+                "Given up at {} after {} steps, the limit being {STEP_LIMIT}. Either the duration is very long, or \
+                 something in the machine is very stiff: a damper or spring with too many zeros, friction with a very \
+                 small reference speed.",
+                instant(time),
+                ending.work.accepted + ending.work.rejected
+            ),
+        ),
+    };
+    Stop { reason, time, text }
+}

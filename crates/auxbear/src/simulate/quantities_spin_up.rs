@@ -1,0 +1,337 @@
+//! Every named result of a spin-up with its law, source and valid range.
+
+use super::list::{List, Origin, relative, share_of_limit};
+use super::outcome::{Quantity, Value};
+use super::quantities::{BALL_LOAD, PRESSURE};
+use super::spin_up::Context;
+use crate::scenario::{Drive, Fidelity};
+use model::system::spin_up::layout::{
+    CAGE_SLIP, CAGE_SPEED, HEATS, INNER, INNER_MOMENT, OUTER_MOMENT, ROTOR, STEADY_MOMENT,
+};
+use physics::hertz::maximum_pressure;
+
+const EQUATIONS: &str =
+    "equations of motion, crates/model/src/system/spin_up/rate.rs and crates/model/src/bearing/";
+const LEDGER: &str = "energy ledger, crates/model/src/system/spin_up/ledger.rs";
+
+/// Cage slip from which balls are said to skid.
+const SKIDDING: f64 = 0.02;
+/// Share of the full speed below which a slip means nothing.
+const LEAST_SPEED: f64 = 0.05;
+
+/// Names the results.
+pub(super) fn name(context: &Context) -> Vec<Quantity> {
+    let mut list = List(Vec::new());
+    times(&mut list, context);
+    moments(&mut list, context);
+    slip(&mut list, context);
+    loads(&mut list, context);
+    energies(&mut list, context);
+    list.0
+}
+
+fn times(list: &mut List, context: &Context) {
+    let (record, state) = (context.record, &context.ending.state);
+    let target = context.spin_up.target_speed();
+    let never = |what: &str| {
+        let text = format!(
+            "{what} ({} rad/s) was not reached by {:.4e} s",
+            units::number_text(target),
+            context.ending.time
+        );
+        move || text
+    };
+    list.number(
+        "inner_race_time_to_50_percent",
+        "s",
+        record
+            .inner_race_time_to_50_percent()
+            .ok_or_else(never("half of the full speed")),
+        &RISE,
+    );
+    list.number(
+        "inner_race_time_to_95_percent",
+        "s",
+        record
+            .inner_race_time_to_95_percent()
+            .ok_or_else(never("95 % of the full speed")),
+        &RISE,
+    );
+    list.number(
+        "cage_time_to_95_percent_of_rolling",
+        "s",
+        record
+            .cage_time_to_95_percent()
+            .ok_or_else(never("95 % of the rolling cage speed")),
+        &RISE,
+    );
+    list.number(
+        "inner_race_final_speed",
+        "rad/s",
+        Ok(state[INNER + 5]),
+        &SPEED,
+    );
+    let probe = probes(context);
+    list.number("cage_final_speed", "rad/s", Ok(probe[CAGE_SPEED]), &SPEED);
+    list.number(
+        "rotor_final_speed",
+        "rad/s",
+        match context.spin_up.drive {
+            Drive::SlidingRotor { .. } => Ok(state[ROTOR + 1]),
+            Drive::Torque { .. } | Drive::Speed(_) => Err("no rotor slides here".to_string()),
+        },
+        &SPEED,
+    );
+}
+
+fn moments(list: &mut List, context: &Context) {
+    let record = context.record;
+    let probe = probes(context);
+    for (name, value) in [
+        ("peak_inner_race_moment", record.inner_moment.value),
+        ("peak_outer_race_moment", record.outer_moment.value),
+        ("peak_drive_moment", record.drive_moment.value),
+    ] {
+        list.number(name, "N m", Ok(value), &PEAK_MOMENT);
+    }
+    list.number(
+        "inner_race_moment_at_end",
+        "N m",
+        Ok(probe[INNER_MOMENT]),
+        &INNER_RACE,
+    );
+    list.number(
+        "outer_race_moment_at_end",
+        "N m",
+        Ok(probe[OUTER_MOMENT]),
+        &OUTER_RACE,
+    );
+    let no_law = || "bearing.moment.law is none".to_string();
+    let steady = context.built.steady.as_ref();
+    list.number(
+        "friction_moment_at_end",
+        "N m",
+        steady.map(|_| probe[STEADY_MOMENT]).ok_or_else(no_law),
+        &LAW,
+    );
+    list.number(
+        "traction_capacity",
+        "1",
+        steady.map(|steady| steady.capacity).ok_or_else(no_law),
+        &CAPACITY,
+    );
+    list.number(
+        "friction_moment_scale",
+        "1",
+        match (steady, context.spin_up.bearing.fidelity) {
+            (None, _) => Err(no_law()),
+            (Some(steady), Fidelity::Planar) => Ok(steady.scale),
+            (Some(_), Fidelity::Rolling) => {
+                Err("the balls roll: the law counts as it is".to_string())
+            }
+        },
+        &SCALE,
+    );
+}
+
+fn slip(list: &mut List, context: &Context) {
+    let rolling = || "the rolling fidelity takes the balls to roll".to_string();
+    let planar = context.spin_up.bearing.fidelity == Fidelity::Planar;
+    let end = probes(context)[CAGE_SLIP];
+    list.number(
+        "cage_slip_at_end",
+        "1",
+        if planar { Ok(end) } else { Err(rolling()) },
+        &SLIP,
+    );
+    let full = context.spin_up.target_speed().abs();
+    let fast = |speed: f64| speed.abs() > LEAST_SPEED * full;
+    let largest = context
+        .record
+        .rows()
+        .filter(|row| fast(row.state[INNER + 5]))
+        .map(|row| row.probe[CAGE_SLIP])
+        .fold(0.0, f64::max);
+    let word = if end > SKIDDING {
+        "still at the end"
+    } else if largest > SKIDDING {
+        "while the race speeds up"
+    } else {
+        "no"
+    };
+    list.push(
+        "balls_skid",
+        "",
+        if planar {
+            Value::Text(word.to_string())
+        } else {
+            Value::None { why: rolling() }
+        },
+        &SKID,
+    );
+}
+
+fn loads(list: &mut List, context: &Context) {
+    let record = context.record;
+    let (inner, outer) = (
+        record.largest_inner_load.value,
+        record.largest_outer_load.value,
+    );
+    let pressure = maximum_pressure(context.built.inner_pressure_factor, inner)
+        .max(maximum_pressure(context.built.outer_pressure_factor, outer));
+    list.number("peak_ball_load", "N", Ok(inner.max(outer)), &BALL_LOAD);
+    list.number("peak_hertz_pressure", "Pa", Ok(pressure), &PRESSURE);
+    list.number(
+        "hertz_pressure_share_of_limit",
+        "1",
+        share_of_limit(pressure, context.spin_up.bearing.hertz_pressure_limit),
+        &PRESSURE,
+    );
+}
+
+fn energies(list: &mut List, context: &Context) {
+    let machine = context.machine();
+    let layout = machine.layout();
+    let (start, state) = (context.start, &context.ending.state);
+    let heat = |name: &str| -> f64 {
+        let index = HEATS.iter().position(|heat| *heat == name);
+        index.map_or(0.0, |index| state[layout.heat(index)])
+    };
+    list.number(
+        "rotor_race_friction_energy",
+        "J",
+        Ok(heat("rotor_race_friction")),
+        &ENERGY,
+    );
+    list.number(
+        "ball_slip_energy",
+        "J",
+        match context.spin_up.bearing.fidelity {
+            Fidelity::Planar => Ok(heat("inner_ball_slip") + heat("outer_ball_slip")),
+            Fidelity::Rolling => Err("balls do not slip in the rolling fidelity".to_string()),
+        },
+        &ENERGY,
+    );
+    let (before, flows) = (machine.flows(start), machine.flows(state));
+    let heat = flows.heat - before.heat;
+    list.number("dissipated_energy", "J", Ok(heat), &ENERGY);
+    let forms = machine.outer_race_energy(start, state);
+    for (name, value, origin) in [
+        ("bearing_dissipated_energy", forms.dissipated, &ENERGY),
+        ("outer_race_energy_printed", forms.printed, &PRINTED),
+        ("outer_race_energy_corrected", forms.corrected, &CORRECTED),
+        ("outer_race_energy_exact", forms.exact, &EXACT),
+        ("path_term", forms.path, &PATH),
+        ("path_term_if_rolling", forms.least_path, &PATH),
+        ("path_term_if_spun_up_after", forms.largest_path, &PATH),
+    ] {
+        list.number(name, "J", Ok(value), origin);
+    }
+    let set = machine.constants.bearing.set();
+    let inertia = machine.constants.race.inertia + set.inner_inertia();
+    let full = inertia * machine.constants.target_speed.abs();
+    list.number(
+        "energy_residual",
+        "1",
+        relative(
+            machine.energy_residual(start, state),
+            heat.max(flows.work_size - before.work_size),
+        ),
+        &RESIDUAL,
+    );
+    list.number(
+        "angular_momentum_residual",
+        "1",
+        relative(machine.angular_momentum_residual(start, state), full),
+        &RESIDUAL,
+    );
+}
+
+/// The probes at the end.
+fn probes(context: &Context) -> Vec<f64> {
+    let machine = context.machine();
+    machine
+        .inspect(context.ending.time, &context.ending.state)
+        .1
+}
+
+const RISE: Origin = Origin {
+    law: "first instant at which the speed reaches the level; full speed is that of the rotor, the final one of the drive, or drive.reference_speed",
+    source: EQUATIONS,
+    valid: "constant friction coefficient between rotor and race",
+};
+const SPEED: Origin = Origin {
+    law: "angular momentum of each body about its axis",
+    source: EQUATIONS,
+    valid: "the outer race stands",
+};
+const PEAK_MOMENT: Origin = Origin {
+    law: "largest size of the moment at the ends of the steps",
+    source: EQUATIONS,
+    valid: "moments on the inner race t_I, on the outer race t_O, of the drive; a step of speed needs an impulse besides",
+};
+const INNER_RACE: Origin = Origin {
+    law: "t_I = Σ(R T_I + m_i), what the inner race feels against its rotation",
+    source: EQUATIONS,
+    valid: "a single instant; balls passing the load make it ripple",
+};
+const OUTER_RACE: Origin = Origin {
+    law: "t_O: everything the outer race receives; t_I - t_O = dL/dt of balls and cage on a concentric rig",
+    source: EQUATIONS,
+    valid: "a single instant; the reaction that a torque arm measures",
+};
+const LAW: Origin = Origin {
+    law: "M(Ω, W) of bearing.moment.law, unscaled",
+    source: "crates/physics/src/friction.rs and the law's own page",
+    valid: "the law's own range; leaving it is a warning of the run",
+};
+const CAPACITY: Origin = Origin {
+    law: "μ_max R ΣQ_i / M at full speed under the last load",
+    source: "crates/model/src/system/spin_up/steady.rs",
+    valid: "above 1.2 the balls roll in a steady run and t_I = t_O = M within 1 %; below they must skid",
+};
+const SCALE: Origin = Origin {
+    law: "λ: share of M that the lubricant is given, the rest being what balls lose by slip and in their pockets",
+    source: "crates/model/src/system/spin_up/steady.rs",
+    valid: "found at full speed under the last load and used at every speed",
+};
+const SLIP: Origin = Origin {
+    law: "S = 1 - 2(1+s)ω_c/Ω",
+    source: "kinematics of a rolling ball, crates/physics/src/kinematics.rs",
+    valid: "a single instant; pockets let the cage lead and lag a little",
+};
+const SKID: Origin = Origin {
+    law: "cage slip above 2 % at the end, or at any row above 5 % of the full speed",
+    source: "definition",
+    valid: "rows of the history",
+};
+const ENERGY: Origin = Origin {
+    law: "time integral of friction force times sliding speed, and of every other loss",
+    source: LEDGER,
+    valid: "nothing is cooled or warmed by it",
+};
+const PRINTED: Origin = Origin {
+    law: "D = (1+2s)∫t_O Ω dt + ½(1+2s)(3/20 N m_b + ¼ m_c)R²Ω0²",
+    source: "the source paper, (21) as printed",
+    valid: "nowhere: its integral must not bear the factor 1+2s; shown for comparison",
+};
+const CORRECTED: Origin = Origin {
+    law: "D = ∫t_O Ω dt + ½(1+2s)(3/20 N m_b + ¼ m_c)R²Ω0²",
+    source: "the source paper, (21), corrected; crates/model/src/system/spin_up/ledger.rs",
+    valid: "from rest, balls that roll all the way; wrong by up to half of L0 Ω0 where they skid",
+};
+const EXACT: Origin = Origin {
+    law: "D = ∫(t_O + t_g)Ω dt + ∫Ω dL - Δ(KE + U)",
+    source: "balance of energy and angular momentum of balls and cage, crates/model/src/system/spin_up/ledger.rs",
+    valid: "any skidding; needs the speed of the cage, or the path term as an uncertainty",
+};
+const PATH: Origin = Origin {
+    law: "∫Ω dL of balls and cage: ½ L0 Ω0 where they roll all the way, L0 Ω0 where they are spun up after the race",
+    source: "crates/model/src/system/spin_up/ledger.rs",
+    valid: "start at rest",
+};
+const RESIDUAL: Origin = Origin {
+    law: "what the ledger misses at the end, over max(heat, works); momentum over that of race, balls and cage at full speed",
+    source: LEDGER,
+    valid: "a measure of the integration error; it falls with run.tolerance",
+};

@@ -1,0 +1,175 @@
+//! Warnings that several systems give.
+
+use super::build_bearing::SteadyFinding;
+use super::outcome::{Quantity, Value, Warning};
+use crate::scenario::{BallMaterial, Bearing, BearingType, Fidelity, Moment, Scenario};
+use physics::friction_range::OperatingPoint;
+
+/// Relative energy residual above which the run's tolerance is too loose.
+const LARGEST_RESIDUAL: f64 = 1e-6;
+
+pub(super) fn warning(code: &'static str, text: String) -> Warning {
+    Warning { code, text }
+}
+
+/// A speed beyond what the bearing stands in continuous running.
+pub(super) fn speed_rating(bearing: &Bearing, speed: f64) -> Option<Warning> {
+    let limit = bearing.limiting_speed?;
+    let name = bearing.name.as_deref().unwrap_or("bearing like this");
+    (speed.abs() > limit).then(|| {
+        warning(
+            "AB1015",
+            format!(
+                "The speed is {:.1} times the limiting speed of a {name} ({:.0} rpm), which holds for continuous running.",
+                speed.abs() / limit,
+                limit * 30.0 / std::f64::consts::PI
+            ),
+        )
+    })
+}
+
+/// A Hertz pressure above its limit, or no limit to compare with.
+pub(super) fn pressure(bearing: &Bearing, pressure: f64) -> Option<Warning> {
+    match bearing.hertz_pressure_limit {
+        Some(limit) if pressure > limit => Some(warning(
+            "AB1002",
+            format!(
+                "The peak Hertz pressure of {:.0} MPa exceeds the limit of {:.0} MPa: permanent dents must be \
+                 expected, and the elastic contact law is outside its range.",
+                pressure * 1e-6,
+                limit * 1e-6
+            ),
+        )),
+        None => Some(warning(
+            "AB1003",
+            "No limit of the Hertz pressure is given; for silicon nitride balls it is yours to set \
+             (bearing.hertz_pressure_limit)."
+                .to_string(),
+        )),
+        Some(_) => None,
+    }
+}
+
+/// An energy ledger that does not close, where the run came to its end.
+pub(super) fn residual(quantities: &[Quantity]) -> Option<Warning> {
+    let residual = quantities
+        .iter()
+        .find(|quantity| quantity.name == "energy_residual")?;
+    match residual.value {
+        Value::Number(residual) if residual.abs() > LARGEST_RESIDUAL => Some(warning(
+            "AB1006",
+            format!(
+                "The energy ledger misses {residual:.1e} of what was turned over: a smaller run.tolerance closes it."
+            ),
+        )),
+        _ => None,
+    }
+}
+
+/// Balls that traction cannot turn against the friction moment.
+pub(super) fn skids(steady: Option<&SteadyFinding>) -> Option<Warning> {
+    let steady = steady.filter(|steady| steady.skids())?;
+    Some(warning(
+        "AB1017",
+        format!(
+            "The balls must skid: at {:.0} rad/s under {:.0} N traction can carry {:.2} times the friction moment of \
+             {:.1} N mm, and 1.2 times is needed. The moment on the outer race is then less than that of the law.",
+            steady.speed,
+            steady.load,
+            steady.capacity,
+            steady.moment.abs() * 1e3
+        ),
+    ))
+}
+
+/// A friction law outside its range.
+pub(super) fn law_range(bearing: &Bearing, speed: f64, load: f64) -> Vec<Warning> {
+    let at = OperatingPoint {
+        speed,
+        radial_load: load,
+        axial_load: bearing.moment.axial_load(),
+    };
+    let law = bearing.moment.law(&bearing.rated());
+    let departures = law.map(|law| law.departures(&at)).unwrap_or_default();
+    let texts = departures.iter().map(|departure| {
+        warning(
+            "AB1018",
+            format!("The law of the friction moment has left its range: {departure}."),
+        )
+    });
+    texts.collect()
+}
+
+/// A moment law that stays away although the bearing turns for long.
+pub(super) fn no_moment(bearing: &Bearing) -> Option<Warning> {
+    let (code, text) = match bearing.fidelity {
+        Fidelity::Planar => (
+            "AB1008",
+            "The bearing has no steady friction moment (bearing.moment.law is none): spin-up by the rotor is described; \
+             long coasting is too free, and a swing of the rotor in the bore after spin-up decays too slowly.",
+        ),
+        Fidelity::Rolling => (
+            "AB1016",
+            "The rolling bearing runs without a friction moment (bearing.moment.law is none).",
+        ),
+    };
+    (bearing.moment == Moment::None).then(|| warning(code, text.to_string()))
+}
+
+/// What the rolling fidelity takes for granted.
+pub(super) fn rolling(bearing: &Bearing) -> Option<Warning> {
+    (bearing.fidelity == Fidelity::Rolling).then(|| {
+        warning(
+            "AB1009",
+            "The rolling bearing assumes that no ball skids: where the planar fidelity shows slip, its spin-up times \
+             and losses are not true."
+                .to_string(),
+        )
+    })
+}
+
+/// Bearings that are computed as something else.
+pub(super) fn kind(bearing: &Bearing) -> Vec<Warning> {
+    let mut list = Vec::new();
+    if bearing.ball_material == BallMaterial::SiliconNitride {
+        list.push(warning(
+            "AB1012",
+            "Silicon nitride balls on steel races: contact stiffness and ball mass follow the material; traction and \
+             damping are those given."
+                .to_string(),
+        ));
+    }
+    if bearing.kind != BearingType::DeepGroove {
+        list.push(warning(
+            "AB1019",
+            "The bearing is computed in the plane, as a deep groove bearing: its contact angle and axial load reach \
+             nothing but the friction law."
+                .to_string(),
+        ));
+    }
+    list
+}
+
+/// Everything that is assumed, in one line.
+pub(super) fn assumed(scenario: &Scenario, bearing: &Bearing) -> Option<Warning> {
+    // what only skidding balls have
+    let planar = ["bearing.cage.", "bearing.traction.", "bearing.drag."];
+    let counts = |path: &str| {
+        bearing.fidelity == Fidelity::Planar || !planar.iter().any(|p| path.starts_with(p))
+    };
+    let values = scenario.resolved.values.iter();
+    let paths: Vec<&str> = values
+        .filter(|value| value.provenance.mark() == "assumed" && counts(value.path))
+        .map(|value| value.path)
+        .collect();
+    (!paths.is_empty()).then(|| {
+        warning(
+            "AB1013",
+            format!(
+                "Assumed, not measured ({}): {}.",
+                paths.len(),
+                paths.join(", ")
+            ),
+        )
+    })
+}

@@ -1,0 +1,59 @@
+//! What the user should know before trusting the numbers of a spin-up.
+
+use super::outcome::{Quantity, Value, Warning};
+use super::spin_up::Context;
+use super::warnings_shared::{self as shared, warning};
+use crate::scenario::Scenario;
+use model::system::spin_up::layout::{APPLIED_LOAD, INNER};
+
+/// All warnings of a run, the gravest first.
+pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]) -> Vec<Warning> {
+    let bearing = &context.spin_up.bearing;
+    let mut list = Vec::new();
+    let largest = |value: &dyn Fn(&model::system::spin_up::record::Row) -> f64| {
+        let rows = context.record.rows();
+        rows.map(|row| value(&row).abs()).fold(0.0, f64::max)
+    };
+    let speed = largest(&|row| row.state[INNER + 5]);
+    let load = largest(&|row| row.probe[APPLIED_LOAD]);
+    list.extend(shared::skids(context.built.steady.as_ref()));
+    list.extend(shared::speed_rating(bearing, speed));
+    if let Some(Value::Number(pressure)) = number(quantities, "peak_hertz_pressure") {
+        list.extend(shared::pressure(bearing, *pressure));
+    }
+    list.extend(shared::law_range(bearing, speed, load));
+    if context.ending.stop == solve::Stop::Finished {
+        list.extend(shared::residual(quantities));
+    }
+    if bearing.inner_race_centre_held && load > 0.0 {
+        list.push(warning(
+            "AB1020",
+            "The centre of the inner race is held (the concentric rig): the radial load reaches the rotor's friction and \
+             the friction law, not the balls, which carry their preload alone."
+                .to_string(),
+        ));
+    }
+    if let Some(steady) = &context.built.steady
+        && steady.origin.starts_with("none")
+        && !steady.skids()
+    {
+        list.push(warning(
+            "AB1021",
+            format!(
+                "The friction moment is not scaled for what the balls lose by slip and in their pockets ({}): that may \
+                 count twice.",
+                steady.origin
+            ),
+        ));
+    }
+    list.extend(shared::rolling(bearing));
+    list.extend(shared::no_moment(bearing));
+    list.extend(shared::kind(bearing));
+    list.extend(shared::assumed(scenario, bearing));
+    list
+}
+
+fn number<'a>(quantities: &'a [Quantity], name: &str) -> Option<&'a Value> {
+    let quantity = quantities.iter().find(|quantity| quantity.name == name);
+    quantity.map(|quantity| &quantity.value)
+}

@@ -1,0 +1,383 @@
+//! Friction of the bearing as a whole: laws, tables by lubrication, viscosity by temperature, acceleration loss, and a
+//! user's own catalogue.
+
+use auxbear::scenario::{AccelerationLoss, BuiltIn, Moment, Scenario, SpinUp, System};
+use std::fs;
+
+const GOOD: &str = r#"format = "auxbear.scenario/1"
+system = "spin_up"
+
+[drive]
+kind = "sliding rotor"
+radial_load = "80 N"
+rotor_speed = "1000 rad/s"
+
+[bearing]
+name = "6005"
+cage_mass = "8 g"
+"#;
+
+/// Ball by ball: a name that the catalogue has, and a friction law with everything it needs.
+const PALMGREN: [&str; 3] = [
+    "bearing.moment.law=palmgren",
+    "bearing.moment.lubrication=grease",
+    "bearing.moment.viscosity=100 mm^2/s",
+];
+const SKF: [&str; 3] = [
+    "bearing.moment.law=skf",
+    "bearing.moment.lubrication=grease",
+    "bearing.moment.viscosity=100 mm^2/s",
+];
+const POINTS: &str = "bearing.moment.viscosity_points=[[\"40 degC\", \"100 mm^2/s\"], [\"100 degC\", \"11 mm^2/s\"]]";
+
+fn scenario(sets: &[&str]) -> Result<Scenario, String> {
+    let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
+    Scenario::parse(GOOD, "a.toml", &sets, &BuiltIn).map_err(|problem| problem.to_string())
+}
+
+fn spin_up(sets: &[&str]) -> SpinUp {
+    match scenario(sets)
+        .unwrap_or_else(|problem| panic!("{problem}"))
+        .system
+    {
+        System::SpinUp(spin_up) => spin_up,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn message(sets: &[&str]) -> String {
+    scenario(sets).expect_err("it was accepted")
+}
+
+fn with<'a>(sets: &[&'a str], more: &[&'a str]) -> Vec<&'a str> {
+    [sets, more].concat()
+}
+
+#[test]
+fn factors_come_from_the_tables() {
+    let bearing = spin_up(&PALMGREN).bearing;
+    // Schaeffler HR 1, series 60 with grease: f0 1.1, f1 0.0007 (P0/C0)^0.5
+    assert_eq!(
+        bearing.moment,
+        Moment::Palmgren {
+            printed: false,
+            f0: 1.1,
+            viscosity: 1e-4,
+            f1_factor: 0.0007,
+            f1_exponent: 0.5
+        }
+    );
+    let resolved = scenario(&PALMGREN).unwrap().resolved;
+    let f0 = resolved.get("bearing.moment.f0").unwrap();
+    assert_eq!(f0.provenance.mark(), "derived");
+    assert!(f0.provenance.note().contains("Schaeffler"), "{f0:?}");
+    assert_eq!(
+        resolved
+            .get("bearing.moment.series")
+            .unwrap()
+            .text
+            .as_deref(),
+        Some("60")
+    );
+    // what is given counts, what is not comes from the table
+    let given = spin_up(&with(&PALMGREN, &["bearing.moment.f0=2"]))
+        .bearing
+        .moment;
+    assert!(
+        matches!(
+            given,
+            Moment::Palmgren {
+                f0: 2.0,
+                f1_factor: 0.0007,
+                ..
+            }
+        ),
+        "{given:?}"
+    );
+    let oil = with(&PALMGREN, &["bearing.moment.lubrication=low oil bath"]);
+    assert!(matches!(
+        spin_up(&oil).bearing.moment,
+        Moment::Palmgren { f0: 1.7, .. }
+    ));
+}
+
+#[test]
+fn factors_that_no_table_has_are_refused() {
+    assert_eq!(
+        message(&[
+            "bearing.moment.law=palmgren",
+            "bearing.moment.viscosity=100 mm^2/s"
+        ]),
+        "error[AB0107]: a.toml: bearing.moment.f0: found no value; a bare number not below 0 is needed, e.g. 2. With bearing.moment.lubrication it is taken from the tables"
+    );
+    assert_eq!(
+        message(&with(
+            &PALMGREN,
+            &["bearing.moment.lubrication=oil and air"]
+        )),
+        "error[AB0208]: a.toml, --set: bearing.moment.lubrication: found \"oil and air\", which Palmgren's tables do not have; one of \"grease\", \"oil mist\", \"low oil bath\", \"oil jet\" is needed, or f0 and f1 by hand"
+    );
+    let told = message(&with(&PALMGREN, &["bearing.moment.series=99"]));
+    assert!(told.starts_with("error[AB0208]: a.toml, --set: bearing.moment.series: found no Palmgren factors for series \"99\""), "{told}");
+    let given = [
+        "bearing.moment.f0=2",
+        "bearing.moment.f1_factor=9e-4",
+        "bearing.moment.f1_exponent=0.5",
+    ];
+    assert_eq!(
+        message(&with(&PALMGREN, &given)),
+        "error[AB0110]: a.toml, --set: bearing.moment.lubrication: found \"grease\", which has no effect; lubrication chooses f0 and f1 from the tables, and all of these are given here"
+    );
+    assert_eq!(
+        message(&with(&PALMGREN, &["bearing.type=angular contact"])),
+        "error[AB0107]: a.toml: bearing.moment.f0: found no value; a bare number not below 0 is needed, e.g. 2. With bearing.moment.series it is taken from the tables"
+    );
+}
+
+#[test]
+fn viscosity_follows_the_temperature() {
+    let sets = [
+        "bearing.moment.law=palmgren",
+        "bearing.moment.lubrication=grease",
+        POINTS,
+        "bearing.moment.temperature=40 degC",
+    ];
+    let Moment::Palmgren { viscosity, .. } = spin_up(&sets).bearing.moment else {
+        panic!();
+    };
+    // at one of its points the line gives the point
+    assert!((viscosity / 1e-4 - 1.0).abs() < 1e-9, "{viscosity}");
+    let again = scenario(&sets).unwrap().resolved.toml();
+    let again = Scenario::parse(&again, "b.toml", &[], &BuiltIn).unwrap();
+    assert_eq!(again.system, scenario(&sets).unwrap().system);
+}
+
+#[test]
+fn temperatures_and_points_that_tell_nothing_are_refused() {
+    let law = [
+        "bearing.moment.law=palmgren",
+        "bearing.moment.lubrication=grease",
+    ];
+    let told = |more: &[&str]| message(&with(&law, more));
+    assert_eq!(
+        told(&[POINTS, "bearing.moment.temperature=200 degC"]),
+        "error[AB0208]: a.toml, --set: bearing.moment.temperature: found 200.0 °C is outside the viscosity data, which serve from 10.0 to 130.0 °C; a temperature near those of bearing.moment.viscosity_points is needed, or the viscosity itself"
+    );
+    assert_eq!(
+        told(&[POINTS]),
+        "error[AB0107]: a.toml: bearing.moment.temperature: found no value; a temperature above 0 is needed with viscosity_points, e.g. \"60 degC\""
+    );
+    assert_eq!(
+        told(&[
+            "bearing.moment.viscosity=1e-4 m^2/s",
+            "bearing.moment.temperature=60 degC"
+        ]),
+        "error[AB0110]: a.toml, --set: bearing.moment.temperature: found \"60 degC\", which has no effect; it is used only with bearing.moment.viscosity_points; a given viscosity holds as it is"
+    );
+    let rising = "bearing.moment.viscosity_points=[[\"40 degC\", \"10 mm^2/s\"], [\"100 degC\", \"11 mm^2/s\"]]";
+    assert_eq!(
+        told(&[rising, "bearing.moment.temperature=60 degC"]),
+        "error[AB0208]: a.toml, --set: bearing.moment.viscosity_points: found the viscosity of an oil falls with temperature; two points of one oil are needed"
+    );
+    let three = "bearing.moment.viscosity_points=[[\"20 degC\", \"400 mm^2/s\"], [\"40 degC\", \"100 mm^2/s\"], [\"100 degC\", \"11 mm^2/s\"]]";
+    assert_eq!(
+        told(&[three, "bearing.moment.temperature=60 degC"]),
+        "error[AB0102]: a.toml, --set: bearing.moment.viscosity_points: found 3 rows; two rows are needed, e.g. at 40 degC and 100 degC"
+    );
+    let told = told(&[POINTS, "bearing.moment.viscosity=1e-4 m^2/s"]);
+    assert!(told.starts_with("error[AB0109]"), "{told}");
+}
+
+#[test]
+fn the_skf_model_takes_what_its_catalogue_has() {
+    let Moment::Skf {
+        series,
+        outer_diameter,
+        ..
+    } = spin_up(&SKF).bearing.moment
+    else {
+        panic!();
+    };
+    assert_eq!((series.as_str(), outer_diameter), ("60", 0.047));
+    assert_eq!(
+        message(&[
+            "bearing.moment.law=skf",
+            "bearing.moment.viscosity=1e-4 m^2/s"
+        ]),
+        "error[AB0107]: a.toml: bearing.moment.lubrication: found no value; one of \"grease\", \"oil and air\", \"oil bath\", \"low oil bath\", \"oil jet\" is needed for the SKF model"
+    );
+    let told = message(&with(&SKF, &["bearing.moment.lubrication=oil mist"]));
+    assert!(
+        told.starts_with(
+            "error[AB0208]: a.toml, --set: bearing.moment.lubrication: found \"oil mist\""
+        ),
+        "{told}"
+    );
+    let told = message(&with(&SKF, &["bearing.moment.series=99"]));
+    assert!(
+        told.starts_with("error[AB0208]") && told.contains("99"),
+        "{told}"
+    );
+    assert_eq!(
+        message(&with(&SKF, &["bearing.moment.outer_diameter=20 mm"])),
+        "error[AB0203]: a.toml, --set: bearing.moment.outer_diameter: found 20 mm; more than bearing.moment.bore_diameter = 25 mm is needed"
+    );
+}
+
+#[test]
+fn load_friction_without_a_load_rating_is_refused() {
+    let text = template_without_rating();
+    let sets: Vec<String> = [
+        "bearing.moment.law=palmgren",
+        "bearing.moment.f0=2",
+        "bearing.moment.f1_factor=9e-4",
+        "bearing.moment.f1_exponent=0.5",
+        "bearing.moment.viscosity=100 mm^2/s",
+    ]
+    .map(String::from)
+    .to_vec();
+    let problem = Scenario::parse(&text, "a.toml", &sets, &BuiltIn).unwrap_err();
+    assert_eq!(
+        problem.to_string(),
+        "error[AB0107]: a.toml: bearing.static_load_rating: found no value; bearing.moment.law = \"palmgren\" needs it, e.g. \"6.55 kN\""
+    );
+}
+
+/// The starting file gives dimensions instead of a name, and no load rating.
+fn template_without_rating() -> String {
+    auxbear::scenario::template("spin_up").unwrap()
+}
+
+#[test]
+fn measured_curves_are_checked() {
+    let curve = |rows: &str| {
+        scenario(&[
+            "bearing.moment.law=measured",
+            &format!("bearing.moment.curve={rows}"),
+        ])
+    };
+    let good = curve("[[\"10 rad/s\", \"14 N mm\"], [\"150 rad/s\", \"25 N mm\"]]").unwrap();
+    let System::SpinUp(good) = good.system else {
+        panic!();
+    };
+    assert_eq!(
+        good.bearing.moment,
+        Moment::Measured {
+            curve: vec![[10.0, 0.014], [150.0, 0.025]]
+        }
+    );
+    let told = curve("[[\"10 rad/s\", \"14 N mm\"], [\"5 rad/s\", \"25 N mm\"]]").unwrap_err();
+    assert!(told.starts_with("error[AB0114]: a.toml, --set: bearing.moment.curve: found \"5 rad/s\" in row 2, which is not above \"10 rad/s\" in row 1"), "{told}");
+    let told = curve("[[\"10 rad/s\", \"14 N mm\"], [\"50 rad/s\", \"-1 N mm\"]]").unwrap_err();
+    assert_eq!(
+        told,
+        "error[AB0209]: a.toml, --set: bearing.moment.curve: found a moment below 0 in row 2, which would create energy; moments not below 0 are needed: the curve holds for both directions"
+    );
+}
+
+#[test]
+fn a_loss_that_would_create_energy_is_refused() {
+    let rolling = "bearing.fidelity=rolling";
+    let tail = "; a value not below 0 is needed: F has the sign of the rotation, and resists it while the race speeds up and while it slows down";
+    for (kind, key, value, found) in [
+        (
+            "constant",
+            "force",
+            "-1 N",
+            "-1 N, which would create energy",
+        ),
+        (
+            "proportional",
+            "per_acceleration",
+            "-1e-5 N s^2/rad",
+            "-1e-5 N s^2/rad, which would create energy",
+        ),
+        (
+            "over speed",
+            "force_over_speed",
+            "[[\"0 rad/s\", \"1 N\"], [\"9 rad/s\", \"-1 N\"]]",
+            "a value below 0 in row 2, which would create energy",
+        ),
+    ] {
+        assert_eq!(
+            message(&[
+                rolling,
+                &format!("bearing.acceleration_loss.kind={kind}"),
+                &format!("bearing.acceleration_loss.{key}={value}"),
+            ]),
+            format!(
+                "error[AB0209]: a.toml, --set: bearing.acceleration_loss.{key}: found {found}{tail}"
+            )
+        );
+    }
+    assert_eq!(
+        spin_up(&[
+            rolling,
+            "bearing.acceleration_loss.kind=constant",
+            "bearing.acceleration_loss.force=0.5 N"
+        ])
+        .bearing
+        .acceleration_loss,
+        AccelerationLoss::Constant { force: 0.5 }
+    );
+    assert_eq!(
+        message(&["bearing.acceleration_loss.kind=constant"]),
+        "error[AB0110]: a.toml, --set: bearing.acceleration_loss.kind: found a key that has no effect; it is used only with bearing.fidelity = \"rolling\" (in the planar fidelity the pockets are computed, not given); here it is \"planar\""
+    );
+}
+
+#[test]
+fn drag_to_the_ground_and_a_moment_exclude_each_other() {
+    let text = auxbear::scenario::template("drop").unwrap();
+    let sets: Vec<String> = [
+        "bearing.moment.law=measured",
+        "bearing.moment.curve=[[\"10 rad/s\", \"14 N mm\"], [\"150 rad/s\", \"25 N mm\"]]",
+        "bearing.drag.orbit=2e-4 N s/m",
+    ]
+    .map(String::from)
+    .to_vec();
+    let problem = Scenario::parse(&text, "a.toml", &sets, &BuiltIn).unwrap_err();
+    assert_eq!(
+        problem.to_string(),
+        "error[AB0109]: a.toml, --set: bearing.drag.orbit: found 2e-4 N s/m; no drag to the ground is possible together with bearing.moment.law = \"measured\", which holds it already"
+    );
+}
+
+#[test]
+fn a_catalogue_beside_the_file_is_used_and_its_problems_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("spin_up.toml");
+    let text = GOOD
+        .replace("name = \"6005\"", "name = \"mine\"")
+        .replace("[drive]", "catalogue = \"my_bearings.toml\"\n\n[drive]");
+    fs::write(&file, text).unwrap();
+    let read = || Scenario::read(&file, &[], &BuiltIn).map_err(|problem| problem.to_string());
+    let told = read().unwrap_err();
+    assert!(
+        told.starts_with("error[AB0001]") && told.contains("my_bearings.toml"),
+        "{told}"
+    );
+    assert!(told.contains("It is named by catalogue in"), "{told}");
+
+    let own = folder.path().join("my_bearings.toml");
+    let bearing = "format = \"auxbear.bearings/1\"\n\n[[bearing]]\nname = \"mine\"\ndescription = \"my bearing\"\ntype = \"deep groove\"\nbore_diameter = \"25 mm\"\nouter_diameter = \"47 mm\"\nwidth = \"12 mm\"\nball_count = 10\nball_diameter = \"6.35 mm\"\npitch_diameter = \"36 mm\"\ninner_race_mass = \"20 g\"\ninner_race_inertia = \"3.9e-6 kg m^2\"\n";
+    fs::write(&own, bearing.replace("\"6.35 mm\"", "\"6.35 kg\"")).unwrap();
+    let told = read().unwrap_err();
+    assert!(
+        told.contains("my_bearings.toml") && told.contains("6.35 kg"),
+        "{told}"
+    );
+
+    fs::write(&own, bearing).unwrap();
+    let scenario = read().unwrap();
+    let System::SpinUp(spin_up) = &scenario.system else {
+        panic!();
+    };
+    assert_eq!(spin_up.bearing.ball_diameter, 0.00635);
+    // the resolved file finds it from another folder
+    let elsewhere = tempfile::tempdir().unwrap();
+    let resolved = elsewhere.path().join("scenario.toml");
+    fs::write(&resolved, scenario.resolved.toml()).unwrap();
+    let again = Scenario::read(&resolved, &[], &BuiltIn).unwrap();
+    assert_eq!(again.system, scenario.system);
+}
