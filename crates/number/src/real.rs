@@ -138,22 +138,6 @@ pub trait Real:
     fn recip(self) -> Self {
         Self::one() / self
     }
-    /// 1/√x by two corrections of a guess of it: products instead of a root and a division. Within two units of the
-    /// last place, for every guess: where x·guess² is farther from 1 than 0.06 the root and the division are made.
-    #[inline(always)]
-    fn inverse_sqrt_near(self, guess: Self) -> Self {
-        // (1 - e)^-½ = 1 + e/2 + 3e²/8 + 5e³/16 + …: what is left of e = 0.06 is 4e-6, then its cube
-        let e = Self::one() - self * guess.square();
-        let near = guess
-            + guess * (e * (Self::splat(0.5) + e * (Self::splat(0.375) + e * Self::splat(0.3125))));
-        let rest = Self::one() - self * near.square();
-        let nearest = near + near * (rest * (Self::splat(0.5) + rest * Self::splat(0.375)));
-        let far = e.abs().greater(Self::splat(0.06));
-        if far.any() {
-            return Self::select(far, self.sqrt().recip(), nearest);
-        }
-        nearest
-    }
     /// x^y for x > 0: e^(y ln x).
     #[inline(always)]
     fn powf(self, exponent: Self) -> Self {

@@ -171,6 +171,15 @@ pub struct BallReaction<R> {
     pub pocket_penetration: R,
 }
 
+/// Three reciprocals for one division.
+#[inline(always)]
+fn reciprocals<R: Real>(a: R, b: R, c: R) -> (R, R, R) {
+    let ab = a * b;
+    let inverse = (ab * c).recip();
+    let inverse_ab = inverse * c;
+    (inverse_ab * b, inverse_ab * a, inverse * ab)
+}
+
 /// A ball at one race.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AtRace<R> {
@@ -220,14 +229,10 @@ impl<R: Real> BallConstants<R> {
 
         let from_inner = position - inner.position;
         let from_outer = position - outer.position;
-        // both races lie near the origin: so do their inverse distances near that of the ball
-        let inverse_radius = ball.radius.recip();
-        let (inner_square, outer_square) =
-            (from_inner.length_squared(), from_outer.length_squared());
-        let inverse_inner = inner_square.inverse_sqrt_near(inverse_radius);
-        let inverse_outer = outer_square.inverse_sqrt_near(inverse_radius);
-        let inner_distance = inner_square * inverse_inner;
-        let outer_distance = outer_square * inverse_outer;
+        let inner_distance = from_inner.length_squared().sqrt();
+        let outer_distance = from_outer.length_squared().sqrt();
+        let (inverse_inner, inverse_outer, inverse_radius) =
+            reciprocals(inner_distance, outer_distance, ball.radius);
 
         let n_i = from_inner * inverse_inner;
         let past_inner = velocity - inner.velocity;
