@@ -151,6 +151,19 @@ pub struct BearingEnergy {
     pub angular_momentum: f64,
 }
 
+/// Name of a state of a bearing with that many balls, after `bearing.`.
+pub fn state_name(state: usize, balls: usize) -> String {
+    const BALL: [&str; 5] = ["radius", "radial_speed", "azimuth", "orbit_speed", "spin"];
+    match state {
+        0 => "cage.angle".to_string(),
+        1 => "cage.speed".to_string(),
+        _ => {
+            let (list, ball) = ((state - 2) / balls, (state - 2) % balls);
+            format!("ball_{:02}.{}", ball + 1, BALL[list])
+        }
+    }
+}
+
 /// Constants of a bearing of one machine.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BearingConstants {
@@ -222,22 +235,10 @@ impl BearingConstants {
     pub fn rolling_cage_ratio(&self) -> f64 {
         self.set().cage_speed(1.0)
     }
-    /// Name of a state, after `bearing.`.
-    pub fn state_name(&self, state: usize) -> String {
-        const BALL: [&str; 5] = ["radius", "radial_speed", "azimuth", "orbit_speed", "spin"];
-        match state {
-            0 => "cage.angle".to_string(),
-            1 => "cage.speed".to_string(),
-            _ => {
-                let (list, ball) = ((state - 2) / self.balls(), (state - 2) % self.balls());
-                format!("ball_{:02}.{}", ball + 1, BALL[list])
-            }
-        }
-    }
     /// The magnitude that matters in each state; `spin` is a speed of the inner race, `speed` one of centres.
     ///
     /// Ball radii by a ten-thousandth of the ball. Speeds of cage and balls along the orbit count a hundred times more
-    /// than the spin: pocket impacts live on their small differences.
+    /// than the spin: pocket impacts live on their small differences, and nearly all of the energy residual arises there.
     pub fn error_scale(&self, scale: &mut [f64], spin: f64, speed: f64) {
         scale[0] = 1.0;
         if let BearingConstants::Planar(bearing) = self {

@@ -9,7 +9,7 @@
 //! ```
 
 use super::DropConstants;
-use crate::bearing::{BearingConstants, DETAIL_PER_BALL, planar};
+use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
 
 /// First channel of the rotor.
 pub const ROTOR: usize = 0;
@@ -20,20 +20,21 @@ pub const OUTER: usize = 12;
 /// First channel of the bearing.
 pub const BEARING: usize = 16;
 
-/// Kinds of heat, in the order of their channels: names as in results.
-pub const HEATS: [&str; 11] = [
-    "inner_contact_damping",
-    "outer_contact_damping",
-    "inner_ball_slip",
-    "outer_ball_slip",
-    "drag",
-    "pocket_damping",
-    "pocket_friction",
-    "steady_moment",
-    "mount_damping",
-    "rotor_race_damping",
-    "rotor_race_friction",
-];
+/// Kinds of heat, in the order of their channels: those of the bearing, then the machine's own.
+pub const HEATS: [&str; bearing::HEATS.len() + 3] = {
+    const OWN: [&str; 3] = ["mount_damping", "rotor_race_damping", "rotor_race_friction"];
+    let mut all = [""; bearing::HEATS.len() + 3];
+    let mut i = 0;
+    while i < all.len() {
+        all[i] = if i < bearing::HEATS.len() {
+            bearing::HEATS[i]
+        } else {
+            OWN[i - bearing::HEATS.len()]
+        };
+        i += 1;
+    }
+    all
+};
 /// Kinds of source, in the order of their channels.
 pub const SOURCES: [&str; 3] = ["levitation", "rotor_torque", "inner_race_torque"];
 /// Channels of the ledger: heats, sources, external angular impulse.
@@ -114,18 +115,7 @@ impl Layout {
             c if c < INNER => format!("rotor.{}", BODY[c]),
             c if c < OUTER => format!("bearing.inner_race.{}", BODY[c - INNER]),
             c if c < BEARING => format!("bearing.outer_race.{}", BODY[c - OUTER]),
-            c if c == BEARING => "bearing.cage.angle".to_string(),
-            c if c < ledger && c == BEARING + 1 => "bearing.cage.speed".to_string(),
-            c if c < ledger => {
-                const BALL: [&str; 5] =
-                    ["radius", "radial_speed", "azimuth", "orbit_speed", "spin"];
-                let index = c - BEARING - 2;
-                format!(
-                    "bearing.ball_{:02}.{}",
-                    index % self.balls + 1,
-                    BALL[index / self.balls]
-                )
-            }
+            c if c < ledger => format!("bearing.{}", bearing::state_name(c - BEARING, self.balls)),
             c if c < ledger + HEATS.len() => format!("energy.heat.{}", HEATS[c - ledger]),
             c if c < ledger + HEATS.len() + SOURCES.len() => {
                 format!("energy.source.{}", SOURCES[c - ledger - HEATS.len()])
@@ -136,10 +126,8 @@ impl Layout {
 
     /// The magnitude that matters in each channel: a tolerance of 1e-6 allows errors of one millionth of it a step.
     ///
-    /// Lengths by the radial air clearance, ball radii by a ten-thousandth of the ball, speeds by the fall through the
-    /// clearance, spins by the release speed, energies by the spin energy of the inner race brought to speed.
-    /// Speeds of cage and balls along the orbit count a hundred times more: pocket impacts live on their small
-    /// differences, and nearly all of the energy residual arises there.
+    /// Lengths by the radial air clearance, speeds by the fall through the clearance, spins by the release speed,
+    /// energies by the spin energy of the inner race brought to speed; the bearing's by [`BearingConstants::error_scale`].
     pub fn error_scale(&self, constants: &DropConstants) -> Vec<f64> {
         let machine = &constants.machine;
         let clearance = machine.contact.radial_clearance;
@@ -157,18 +145,7 @@ impl Layout {
                 scale[body + 5] = spin;
             }
         }
-        scale[BEARING] = 1.0;
-        if let BearingConstants::Planar(bearing) = &constants.bearing {
-            let radius = bearing.ball.radius;
-            let n = self.balls;
-            scale[BEARING + 1] = 0.01 * spin;
-            let ball = planar::BALLS + BEARING;
-            scale[ball..ball + n].fill(1e-4 * radius);
-            scale[ball + n..ball + 2 * n].fill(fall_speed);
-            scale[ball + 2 * n..ball + 3 * n].fill(1.0);
-            scale[ball + 3 * n..ball + 4 * n].fill(0.01 * spin);
-            scale[ball + 4 * n..ball + 5 * n].fill(spin * bearing.ball.inner_track / radius);
-        }
+        (constants.bearing).error_scale(&mut scale[BEARING..self.ledger()], spin, fall_speed);
         scale[self.ledger()..self.angular_impulse()].fill(energy);
         scale[self.angular_impulse()] = machine.inner_race_inertia * spin;
         scale

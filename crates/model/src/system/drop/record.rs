@@ -11,9 +11,10 @@ use super::layout::{
 use super::ledger::Content;
 use super::rate::{race_motion, rotor_motion};
 use crate::contact::ContactReaction;
+use crate::system::sampling::{Peak, Rise, Rows};
 use number::Vec2;
 use solve::watch::{maximum, root};
-use solve::{Flow, Machine, Observer, Step};
+use solve::{Flow, Observer, Step};
 
 /// One contact of rotor and inner race.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,37 +27,6 @@ pub struct Contact {
     pub peak_force: f64,
     /// Its instant, s.
     pub peak_time: f64,
-}
-
-/// The largest value of something, and when.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Peak {
-    /// Value.
-    pub value: f64,
-    /// Instant, s.
-    pub time: f64,
-}
-
-impl Peak {
-    const NONE: Peak = Peak {
-        value: 0.0,
-        time: 0.0,
-    };
-    fn raise(&mut self, value: f64, time: f64) {
-        if value > self.value {
-            *self = Peak { value, time };
-        }
-    }
-}
-
-/// A value that rises through a level for the first time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Rise {
-    channel: usize,
-    /// +1 or -1: direction of the machine's spin.
-    sign: f64,
-    level: f64,
-    time: Option<f64>,
 }
 
 /// One sampled row.
@@ -94,12 +64,7 @@ pub struct Record {
     rises: Vec<Rise>,
     /// Mean slopes of the largest ball loads over the last step, N/s.
     load_slopes: [f64; 2],
-    interval: f64,
-    next_row: u64,
-    rows: Vec<f64>,
-    keep_rows: bool,
-    dimension: usize,
-    probes: usize,
+    rows: Rows<4>,
     clearance: f64,
     whirl_angle: Option<f64>,
     next_look: f64,
@@ -121,33 +86,21 @@ const NEAR_RECORD: f64 = 0.9;
 const STEADY: f64 = 1e-4;
 /// Points a turn of the rotor at which its whirl is followed.
 const WHIRL_POINTS: f64 = 64.0;
-/// Values after a row's state and probes: time and [`Content`].
-const EXTRA: usize = 5;
 /// Contacts for which room is made before the run.
 const CONTACTS: usize = 4096;
 
 impl Record {
     /// A record for a run until `end`, with a row every `interval`, or without rows.
     pub fn new(machine: &DropMachine, end: f64, interval: f64, keep_rows: bool) -> Self {
-        let (dimension, probes) = (machine.dimension(), machine.probes());
-        let rows = if keep_rows {
-            (end / interval) as usize + 3
-        } else {
-            0
-        };
         let constants = &machine.constants;
-        let sign = if constants.speed < 0.0 { -1.0 } else { 1.0 };
-        let speed = constants.speed.abs();
-        let rise = |channel, level| Rise {
-            channel,
-            sign,
-            level,
-            time: None,
-        };
-        let mut rises = vec![rise(INNER + 5, 0.5 * speed), rise(INNER + 5, 0.95 * speed)];
+        let speed = constants.speed;
+        let mut rises = vec![
+            Rise::through(INNER + 5, 0.5 * speed),
+            Rise::through(INNER + 5, 0.95 * speed),
+        ];
         if machine.layout().ball_states {
             let ratio = machine.rolling_cage_ratio();
-            rises.push(rise(BEARING + 1, 0.95 * speed * ratio));
+            rises.push(Rise::through(BEARING + 1, 0.95 * speed * ratio));
         }
         Record {
             contacts: Vec::with_capacity(CONTACTS),
@@ -160,16 +113,11 @@ impl Record {
             whirl_turns: 0.0,
             rises,
             load_slopes: [0.0; 2],
-            interval,
-            next_row: 0,
-            rows: Vec::with_capacity(rows * (dimension + probes + EXTRA)),
-            keep_rows,
-            dimension,
-            probes,
+            rows: Rows::new(machine, end, interval, keep_rows),
             clearance: constants.machine.contact.radial_clearance,
             whirl_angle: None,
             next_look: 0.0,
-            look_interval: 2.0 * std::f64::consts::PI / (WHIRL_POINTS * speed.max(1.0)),
+            look_interval: 2.0 * std::f64::consts::PI / (WHIRL_POINTS * speed.abs().max(1.0)),
             limits: Limits {
                 mount_displacement: 0.1 * machine.pitch_radius(),
                 penetration: 0.1 * constants.machine.contact.bore_radius,
@@ -201,70 +149,31 @@ impl Record {
     }
     /// Number of rows.
     pub fn row_count(&self) -> usize {
-        self.rows.len() / self.width()
+        self.rows.count()
     }
     /// The sampled rows.
     pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        self.rows.chunks_exact(self.width()).map(|row| {
-            let (state, rest) = row.split_at(self.dimension);
-            let (probe, extra) = rest.split_at(self.probes);
+        self.rows.iter().map(|(time, state, probe, content)| {
+            let [translation, spin, potential, angular_momentum] = content;
             Row {
-                time: extra[0],
+                time,
                 state,
                 probe,
                 content: Content {
-                    translation: extra[1],
-                    spin: extra[2],
-                    potential: extra[3],
-                    angular_momentum: extra[4],
+                    translation,
+                    spin,
+                    potential,
+                    angular_momentum,
                 },
             }
         })
     }
 
-    fn width(&self) -> usize {
-        self.dimension + self.probes + EXTRA
-    }
-
-    fn push_row(&mut self, machine: &DropMachine, time: f64, state: &[f64], probe: &[f64]) {
-        let content = machine.content(state);
-        self.rows.extend_from_slice(state);
-        self.rows.extend_from_slice(probe);
-        self.rows.extend([
-            time,
-            content.translation,
-            content.spin,
-            content.potential,
-            content.angular_momentum,
-        ]);
-    }
-
     /// Adds the last state of a run as a row, where it is not one already.
     pub fn finish(&mut self, machine: &DropMachine, time: f64, state: &[f64]) {
-        let last = self.rows().last().map(|row| row.time);
-        if self.keep_rows && last.is_none_or(|last| last < time) {
-            let (_, probe) = machine.inspect(state);
-            self.push_row(machine, time, state, &probe);
-        }
-    }
-
-    fn rows_of(&mut self, step: &mut Step<DropMachine>) {
-        if !self.keep_rows {
-            return;
-        }
-        let length = step.end - step.start;
-        loop {
-            let time = self.next_row as f64 * self.interval;
-            if time > step.end {
-                break;
-            }
-            // a row on the very end of the step is the end itself
-            let theta = ((time - step.start) / length).clamp(0.0, 1.0);
-            let (machine, time) = (step.machine, step.time(theta));
-            let (state, probe) = step.evaluate(theta);
-            self.push_row(machine, time, state, probe);
-            self.next_row += 1;
-        }
+        let (_, probe) = machine.inspect(state);
+        let content = content_of(machine, state);
+        self.rows.finish(time, state, &probe, content);
     }
 
     fn contacts_of(&mut self, step: &mut Step<DropMachine>) {
@@ -409,28 +318,6 @@ impl Record {
         }
     }
 
-    fn rises_of(&mut self, step: &mut Step<DropMachine>) {
-        for rise in &mut self.rises {
-            let excess = |value: f64| rise.sign * value - rise.level;
-            if rise.time.is_none()
-                && rise.level > 0.0
-                && excess(step.end_state(rise.channel)) >= 0.0
-            {
-                let (mut low, mut high) = (0.0, 1.0);
-                // 40 halvings: 1e-12 of a step
-                for _ in 0..40 {
-                    let middle = 0.5 * (low + high);
-                    if excess(step.leading_state(middle, rise.channel + 1)[rise.channel]) >= 0.0 {
-                        high = middle;
-                    } else {
-                        low = middle;
-                    }
-                }
-                rise.time = Some(step.time(high));
-            }
-        }
-    }
-
     fn mount_of(&mut self, step: &mut Step<DropMachine>) {
         let end = |k: usize| step.end_state(OUTER + k);
         let square = end(0) * end(0) + end(1) * end(1);
@@ -490,6 +377,17 @@ fn may_peak(last_slope: f64, slope: f64, length: f64, least: f64) -> bool {
     at_start > 0.0 && at_end < 0.0 && -0.125 * curving * length > least
 }
 
+/// The contents of a state as further values of a row.
+fn content_of(machine: &DropMachine, state: &[f64]) -> [f64; 4] {
+    let content = machine.content(state);
+    [
+        content.translation,
+        content.spin,
+        content.potential,
+        content.angular_momentum,
+    ]
+}
+
 /// The rotor's own channels at the end of a step.
 fn end_of_rotor(step: &Step<DropMachine>) -> [f64; INNER - ROTOR] {
     let mut rotor = [0.0; INNER - ROTOR];
@@ -514,10 +412,12 @@ impl Observer<DropMachine> for Record {
     fn step(&mut self, step: &mut Step<DropMachine>) -> Flow {
         self.contacts_of(step);
         self.ball_loads_of(step);
-        self.rises_of(step);
+        for rise in &mut self.rises {
+            rise.watch(step);
+        }
         self.mount_of(step);
         self.rotor_of(step);
-        self.rows_of(step);
+        self.rows.sample(step, content_of);
         let too_far = self.mount_displacement.value > self.limits.mount_displacement
             || step.end_probe(PENETRATION) > self.limits.penetration;
         if too_far && !self.limit_passed {

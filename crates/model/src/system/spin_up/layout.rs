@@ -155,7 +155,10 @@ impl Layout {
         match channel {
             c if c < ROTOR => format!("bearing.inner_race.{}", BODY[c]),
             c if c < BEARING => format!("rotor.{}", BODY[c - ROTOR + 4]),
-            c if c < self.ledger() => format!("bearing.{}", bearing.state_name(c - BEARING)),
+            c if c < self.ledger() => format!(
+                "bearing.{}",
+                bearing::state_name(c - BEARING, bearing.balls())
+            ),
             c if c < self.source(0) => format!("energy.heat.{}", HEATS[c - self.ledger()]),
             c if c < self.angular_impulse() => {
                 format!("energy.source.{}", SOURCES[c - self.source(0)])
