@@ -36,6 +36,11 @@ pub enum Command {
         /// File to write; printed if none is given
         path: Option<PathBuf>,
     },
+    /// Print the JSON Schema of a kind of file, by which editors complete and check it
+    Schema {
+        /// Kind of file: drop, spin_up or torque
+        kind: String,
+    },
     /// Draw the HTML report of one run again, or of several side by side
     Report {
         /// Run directories

@@ -5,6 +5,7 @@ mod bearings;
 mod console;
 mod progress;
 mod run;
+mod schema;
 mod start;
 mod summary;
 
@@ -64,6 +65,7 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
             console::print(&scenario.resolved.toml());
         }
         Command::New { kind, path } => start::perform(kind, path.as_deref())?,
+        Command::Schema { kind } => schema::perform(kind)?,
         Command::Report { directories, out } => report(directories, out.as_deref())?,
         Command::Validate { cases, json } => {
             let report = validate::run(cases.as_deref(), &Simulation)?;

@@ -12,7 +12,7 @@ const PLANNED: [&str; 4] = ["rig", "identify", "rotor", "study"];
 
 /// Prints or writes the starting file of a kind.
 pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
-    let text = template(kind).ok_or_else(|| unknown(kind))?;
+    let text = template(kind).ok_or_else(|| unknown("auxbear new", kind))?;
     let Some(path) = path else {
         console::print(&text);
         return Ok(());
@@ -32,7 +32,8 @@ pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
     })
 }
 
-fn unknown(kind: &str) -> Box<Problem> {
+/// What is wrong with a kind of file that a command does not have.
+pub fn unknown(command: &str, kind: &str) -> Box<Problem> {
     let built = || SystemName::ALL.iter().map(|system| system.word());
     let needed = format!(
         "a kind is needed: {}",
@@ -40,15 +41,10 @@ fn unknown(kind: &str) -> Box<Problem> {
     );
     Box::new(if PLANNED.contains(&kind) {
         let found = format!("\"{kind}\", which is planned but not built yet");
-        Problem::new(Code::NotBuilt, "auxbear new", found, needed)
+        Problem::new(Code::NotBuilt, command, found, needed)
     } else {
-        Problem::new(
-            Code::UnknownWord,
-            "auxbear new",
-            format!("\"{kind}\""),
-            needed,
-        )
-        .with_hint(did_you_mean(kind, built()))
+        Problem::new(Code::UnknownWord, command, format!("\"{kind}\""), needed)
+            .with_hint(did_you_mean(kind, built()))
     })
 }
 

@@ -145,6 +145,10 @@ fn keys_and_sections_of_another_system_are_refused() {
         "error[AB0110]: spin_up.toml, --set: contact.friction_coefficient: found a key that has no effect; it is used only with system = \"drop\"; here it is \"spin_up\". Did you mean \"drive.friction_coefficient\"?"
     );
     assert_eq!(
+        set_message("rotor.speed=800 rad/s"),
+        "error[AB0110]: spin_up.toml, --set: rotor.speed: found a key that has no effect; it is used only with system = \"drop\"; here it is \"spin_up\". Did you mean \"drive.rotor_speed\"?"
+    );
+    assert_eq!(
         set_message("repeat.count=8"),
         "error[AB0110]: spin_up.toml, --set: repeat.count: found a key that has no effect; it is used only with system = \"drop\"; here it is \"spin_up\""
     );

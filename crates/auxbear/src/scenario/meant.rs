@@ -6,7 +6,7 @@ use super::table;
 use crate::problem::question;
 use units::nearest_names;
 
-/// Most names that a message lists.
+/// Most names of a section that a message lists.
 const MOST_NAMES: usize = 12;
 
 /// What may stand where the unknown key stands.
@@ -34,7 +34,7 @@ pub(super) fn allowed_near(path: &[String], system: SystemName) -> String {
             .collect();
         return format!("the sections are {}", sections.join(", "));
     }
-    if names.len() > MOST_NAMES {
+    if names.len() > MOST_NAMES && !section.is_empty() {
         return format!(
             "a key of [{section}] is needed; auxbear new {} lists them",
             system.word()
@@ -86,9 +86,23 @@ pub(super) fn meant(path: &[String], system: SystemName) -> Option<String> {
     question(&names)
 }
 
-/// The keys of a system that bear the name of a key of another one.
+/// Keys of one system and what stands for them in another.
+const COUNTERPARTS: [(&str, &str); 4] = [
+    ("rotor.speed", "drive.rotor_speed"),
+    ("rotor.spin", "drive.rotor_spin"),
+    ("rotor.polar_inertia", "drive.rotor_polar_inertia"),
+    ("bearing.inner_race_torque", "drive.torque"),
+];
+
+/// The keys of a system that stand for a key of another one, or bear its name.
 pub(super) fn namesake(path: &[String], system: SystemName) -> Option<String> {
-    let name = path.last()?;
+    let (name, dotted) = (path.last()?, path.join("."));
+    let counterpart = COUNTERPARTS.iter().find(|pair| pair.0 == dotted);
+    if let Some((_, other)) = counterpart
+        && table::keys_of(system).any(|key| key.path == *other)
+    {
+        return question(&[other]);
+    }
     let names: Vec<&str> = table::keys_of(system)
         .filter(|key| key.name() == name)
         .map(|key| key.path)

@@ -76,14 +76,14 @@ const HEAD: &[Key] = &[
     Key::new(
         "title",
         Kind::Text,
-        "Drop of the test rotor",
+        "Test rotor at full speed",
         "Title of the report.",
     )
     .optional("the report is titled by the file name"),
     Key::new(
         "description",
         Kind::Text,
-        "Rotor of the test rig at full speed",
+        "What was changed, and why",
         "Text for the report.",
     )
     .optional("the report has no introduction"),

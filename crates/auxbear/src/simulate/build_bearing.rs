@@ -211,8 +211,23 @@ pub struct SteadyFinding {
     pub capacity: f64,
     /// Scale of the law that the run uses; 1 in the rolling fidelity.
     pub scale: f64,
-    /// Where the scale comes from, in words.
-    pub origin: String,
+    /// Where the scale comes from, or why there is none.
+    pub origin: ScaleOrigin,
+}
+
+/// Where the scale of a friction moment comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ScaleOrigin {
+    /// The balls roll: the law counts as it is.
+    NotNeeded,
+    /// The user.
+    Given,
+    /// A steady run at this speed and load.
+    SteadyRun,
+    /// The balls would skid, so that no steady run tells it: 1 is used.
+    Skidding,
+    /// There is none for this reason: 1 is used.
+    Unknown(String),
 }
 
 impl SteadyFinding {
@@ -236,22 +251,22 @@ pub(super) fn steady(
     }
     let mut finding = at_rest(constants, &bearing.traction, race, speed, load)?;
     let BearingConstants::Planar(planar) = constants else {
-        finding.origin = "the balls roll: no scale is needed".to_string();
+        finding.origin = ScaleOrigin::NotNeeded;
         return Ok(Some(finding));
     };
     if let Some(scale) = bearing.moment_share.scale {
         finding.scale = scale;
-        finding.origin = "given".to_string();
+        finding.origin = ScaleOrigin::Given;
     } else if finding.skids() {
-        finding.origin = "none: the balls would skid in a steady run".to_string();
+        finding.origin = ScaleOrigin::Skidding;
     } else if race.centre_held {
-        finding.origin = "none: the centre of the inner race is held".to_string();
+        finding.origin = ScaleOrigin::Unknown("the centre of the inner race is held".to_string());
     } else {
         match moment_scale(planar, race, speed, load) {
             Ok(run) => {
                 finding.scale = run.scale;
                 finding.capacity = run.capacity;
-                finding.origin = "a steady run at this speed and load".to_string();
+                finding.origin = ScaleOrigin::SteadyRun;
             }
             Err(error @ SteadyError::ExplicitExceedsLaw { .. }) => {
                 return Err(Box::new(
@@ -264,7 +279,7 @@ pub(super) fn steady(
                     .on_key("bearing.moment"),
                 ));
             }
-            Err(error) => finding.origin = format!("none: {error}"),
+            Err(error) => finding.origin = ScaleOrigin::Unknown(error.to_string()),
         }
     }
     if let Some(moment) = planar.moment.as_mut() {
@@ -307,7 +322,7 @@ fn at_rest(
         moment,
         capacity: traction / moment.abs(),
         scale: 1.0,
-        origin: String::new(),
+        origin: ScaleOrigin::NotNeeded,
     })
 }
 

@@ -1,6 +1,6 @@
 //! Warnings that several systems give.
 
-use super::build_bearing::SteadyFinding;
+use super::build_bearing::{ScaleOrigin, SteadyFinding};
 use super::outcome::{Quantity, Value, Warning};
 use crate::scenario::{BallMaterial, Bearing, BearingType, Fidelity, Moment, Scenario};
 use physics::friction_range::OperatingPoint;
@@ -80,6 +80,20 @@ pub(super) fn skids(steady: Option<&SteadyFinding>) -> Option<Warning> {
             steady.moment.abs() * 1e3
         ),
     ))
+}
+
+/// A friction moment that counts in full although the balls lose energy besides.
+pub(super) fn unscaled(steady: Option<&SteadyFinding>) -> Option<Warning> {
+    match &steady?.origin {
+        ScaleOrigin::Unknown(why) => Some(warning(
+            "AB1021",
+            format!(
+                "The friction moment is not scaled for what the balls lose by slip and in their pockets ({why}): that \
+                 may count twice."
+            ),
+        )),
+        _ => None,
+    }
 }
 
 /// A friction law outside its range.

@@ -33,19 +33,7 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
                 .to_string(),
         ));
     }
-    if let Some(steady) = &context.built.steady
-        && steady.origin.starts_with("none")
-        && !steady.skids()
-    {
-        list.push(warning(
-            "AB1021",
-            format!(
-                "The friction moment is not scaled for what the balls lose by slip and in their pockets ({}): that may \
-                 count twice.",
-                steady.origin
-            ),
-        ));
-    }
+    list.extend(shared::unscaled(context.built.steady.as_ref()));
     list.extend(shared::rolling(bearing));
     list.extend(shared::no_moment(bearing));
     list.extend(shared::kind(bearing));

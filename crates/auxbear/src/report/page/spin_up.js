@@ -11,7 +11,7 @@ const SLIP_SPEED_SHARE = 0.01;
 function slipLine(run, runs) {
   const slip = columnOf(run, "bearing.cage.slip");
   const speed = columnOf(run, "bearing.inner_race.speed");
-  if (!slip || !speed) return [];
+  if (!slip || !speed || !largestOverBalls(run, "inner_slip")) return [];
   const most = speed.reduce((largest, value) => Math.max(largest, Math.abs(value || 0)), 0);
   const values = slip.map((value, row) => (isNumber(value) && Math.abs(speed[row] || 0) > SLIP_SPEED_SHARE * most ? 100 * value : null));
   return [{ label: run.prefix + "cage slip [%]", time: run.time, values, colour: runs.length > 1 ? run.colour : SERIES_COLOURS.cage, width: 1.5 }];
@@ -63,7 +63,7 @@ function slipSection(runs) {
     ...largestLine(runs, "inner_slip", "inner race [m/s]", { colour: SERIES_COLOURS.race }),
     ...largestLine(runs, "outer_slip", "outer race [m/s]", { colour: SERIES_COLOURS.rotor, dash: runs.length > 1 ? [4, 3] : undefined }),
   ];
-  const still = runs.filter((run) => !largestOverBalls(run, "inner_slip")).map((run) => notInThisRun("sliding balls: the rolling fidelity takes them to roll", run));
+  const still = runs.filter((run) => !largestOverBalls(run, "inner_slip")).map((run) => notInThisRun("slip: the rolling fidelity takes the balls to roll", run));
   const loads = [
     ...lines(runs, "bearing.inner_race.largest_ball_load", 1, { label: "inner race [N]", colour: SERIES_COLOURS.race }),
     ...lines(runs, "bearing.outer_race.largest_ball_load", 1, { label: "outer race [N]", colour: SERIES_COLOURS.rotor, dash: runs.length > 1 ? [4, 3] : undefined }),
@@ -72,13 +72,11 @@ function slipSection(runs) {
   return section(
     "slip",
     "Skidding",
-    history(
+    figure(
       "Slip of the cage",
-      ["1 less the cage speed over the speed at which the balls would roll: 100 % at rest, 0 % where they roll.", ...words].join(" "),
-      runs,
-      ["bearing.cage.slip"],
-      slip,
-      { label: "slip [%]", include: () => [0], height: 200 },
+      slip.length ? ["1 less the cage speed over the speed at which the balls would roll: 100 % at rest, 0 % where they roll.", ...words].join(" ") : null,
+      slip.length ? timePlot({ series: slip, label: "slip [%]", include: () => [0], height: 200 }) : null,
+      still,
     ),
     figure("Fastest sliding of any ball", sliding.length ? "Loaded and unloaded balls alike; the maps below tell them apart." : null, sliding.length ? timePlot({ series: sliding, label: "slip speed [m/s]", height: 190 }) : null, still),
     history("Largest ball load", "The outer race also carries the centrifugal force of the balls.", runs, ["bearing.inner_race.largest_ball_load"], loads, { label: "load [N]", height: 200 }),
@@ -105,7 +103,9 @@ function signedBars(run, forms, reference) {
   return known.map(({ words, amount, colour }) => {
     const share = reference ? (amount - reference) / Math.abs(reference) : null;
     const beside = reference === null ? "" : share === 0 ? "" : (share > 0 ? "+" : "") + percentText(share, 3);
-    const bar = amount === null ? null : element("div", { style: `width:${(100 * Math.abs(amount)) / largest}%;background:${colour}` });
+    // A negative energy is hatched: a loss that would make energy must not look like one.
+    const fill = amount < 0 ? `repeating-linear-gradient(45deg, ${colour} 0 3px, #fff 3px 7px)` : colour;
+    const bar = amount === null ? null : element("div", { style: `width:${(100 * Math.abs(amount)) / largest}%;background:${fill}` });
     return element(
       "tr",
       {},
@@ -121,11 +121,14 @@ function outerRaceFigure(run, runs) {
   const title = (runs.length > 1 ? run.label + ": " : "") + "What the bearing dissipated, as the moment on the outer race tells it";
   const truth = numberOf(run, "bearing_dissipated_energy");
   if (truth === null) return figure(title, null, notInThisRun("the summary holds no energy of the outer race"));
+  const still = quantityOf(run, "balls_skid").value === "still at the end";
   const head = (words, last) => element("tr", { class: "head" }, element("th", { colspan: 3 }, words), element("td", {}, last));
   return figure(
     title,
     "t_O moment on the outer race, Ω speed of the inner race, Ω₀ at the end, L angular momentum of balls and cage, KE + U their energy, s ball over track radius. The corrected form knows nothing of skidding: then the path term is needed, which takes the speed of the cage.",
     element("table", { class: "bars" }, element("tbody", {}, head("Energy dissipated in the bearing", "off the truth"), signedBars(run, ENERGY_FORMS, truth)), element("tbody", {}, head("Path term", ""), signedBars(run, PATH_TERMS, null))),
+    ENERGY_FORMS.some(([name]) => numberOf(run, name) < 0) ? element("p", {}, "Hatched: negative. A bearing cannot dissipate less than nothing; the formula has left its range.") : null,
+    still ? element("p", {}, "Here the balls still skid at the end: the corrected and the printed form and both bounds of the path term take them to roll by then.") : null,
   );
 }
 
@@ -179,7 +182,7 @@ function spinUpVerdict(run) {
 function spinUpLine(run) {
   const given = (path) => {
     const input = inputOf(run, path);
-    return input && String(input.value) !== "not given" ? inputText(input.value) : null;
+    return input && String(input.value) !== "not given" ? inputText(input.value).replace("^2", "²") : null;
   };
   const kind = given("drive.kind");
   const drive = {
