@@ -106,14 +106,3 @@ fn what_a_spin_up_does_not_have_is_refused() {
     let page = fs::read_to_string(place.path("a.html")).unwrap();
     assert!(page.contains("spin_up"));
 }
-
-#[test]
-fn a_torque_file_is_checked_but_not_run_yet() {
-    let place = Place::new();
-    place.call(&["new", "torque", "torque.toml"]).done();
-    place.call(&["check", "torque.toml"]).done();
-    place
-        .call(&["run", "torque.toml"])
-        .refused(&["AB0112", "torque"]);
-    assert_eq!(place.names(), ["torque.toml"]);
-}

@@ -220,7 +220,7 @@ fn the_skf_model_takes_what_its_catalogue_has() {
     );
     assert_eq!(
         message(&with(&SKF, &["bearing.moment.outer_diameter=20 mm"])),
-        "error[AB0203]: a.toml, --set: bearing.moment.outer_diameter: found 20 mm; more than bearing.moment.bore_diameter = 25 mm is needed"
+        "error[AB0203]: a.toml, --set: bearing.moment.outer_diameter: found 20 mm; more than bearing.moment.bore_diameter = 0.025 m is needed"
     );
 }
 

@@ -172,6 +172,11 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.moment.f1_exponent=0.55",
         ],
         "bearing.moment.law" => &[],
+        "bearing.moment.drag_variable" => &[
+            "bearing.moment.law=skf",
+            "bearing.moment.lubrication=oil bath",
+            "bearing.moment.viscosity=100 mm^2/s",
+        ],
         _ if path.starts_with("bearing.moment.") => &[
             "bearing.moment.law=skf",
             "bearing.moment.lubrication=grease",

@@ -183,7 +183,7 @@ pub(super) const KEYS: &[Key] = &[
         "bearing.moment.drag_variable",
         Kind::Coefficient,
         "1e-5",
-        "Variable V_M of the drag in an oil bath, read from the diagram of the SKF catalogue.",
+        "Variable V_M of the drag in an oil bath or jet, read from the diagram of the SKF catalogue.",
     )
     .not_negative()
     .default("0", "no drag of an oil bath is computed")
