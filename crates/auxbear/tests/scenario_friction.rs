@@ -327,6 +327,21 @@ fn a_loss_that_would_create_energy_is_refused() {
 }
 
 #[test]
+fn a_loss_beyond_the_inertia_leaves_braking_without_an_answer() {
+    let told = message(&[
+        "bearing.fidelity=rolling",
+        "bearing.acceleration_loss.kind=proportional",
+        "bearing.acceleration_loss.per_acceleration=1 N s^2/rad",
+    ]);
+    assert!(
+        told.starts_with(
+            "error[AB0211]: a.toml, --set: bearing.acceleration_loss.per_acceleration: found 1 N s^2/rad; less than"
+        ),
+        "{told}"
+    );
+}
+
+#[test]
 fn drag_to_the_ground_and_a_moment_exclude_each_other() {
     let text = auxbear::scenario::template("drop").unwrap();
     let sets: Vec<String> = [

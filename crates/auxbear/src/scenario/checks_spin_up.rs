@@ -1,9 +1,12 @@
 //! Checks of a spin-up.
 
-use super::bearing::Fidelity;
+use super::bearing::{BallMaterial, Bearing, Fidelity};
 use super::checks::{Check, Context};
+use super::moment::AccelerationLoss;
 use super::spin_up::{Drive, SpeedCourse, SpinUp};
 use crate::problem::{Code, Place, Problem};
+use physics::materials::{BEARING_STEEL, SILICON_NITRIDE, ball_mass};
+use physics::rolling::RollingSet;
 
 impl Context<'_> {
     pub(super) fn spin_up(&self, spin_up: &SpinUp) -> Check {
@@ -16,6 +19,7 @@ impl Context<'_> {
         self.bearing(&spin_up.bearing, bore)?;
         self.some_speed(spin_up)?;
         self.step(spin_up)?;
+        self.braking(spin_up)?;
         self.output(&spin_up.run, spin_up.bearing.ball_count)
     }
 
@@ -67,5 +71,56 @@ impl Context<'_> {
             ),
         };
         Err(Box::new(problem))
+    }
+
+    /// A loss per acceleration that outweighs the inertia would leave a race that slows down without an answer.
+    fn braking(&self, spin_up: &SpinUp) -> Check {
+        let (path, largest) = match &spin_up.bearing.acceleration_loss {
+            AccelerationLoss::Proportional { per_acceleration } => (
+                "bearing.acceleration_loss.per_acceleration",
+                *per_acceleration,
+            ),
+            AccelerationLoss::Affine {
+                per_acceleration_over_speed,
+                ..
+            } => (
+                "bearing.acceleration_loss.per_acceleration_over_speed",
+                (per_acceleration_over_speed.iter()).fold(0.0, |most: f64, row| most.max(row[1])),
+            ),
+            _ => return Ok(()),
+        };
+        if matches!(spin_up.drive, Drive::Speed(_)) {
+            return Ok(());
+        }
+        let set = rolling_set(&spin_up.bearing);
+        let most =
+            (spin_up.bearing.inner_race_inertia + set.inner_inertia()) / set.pocket_friction_arm();
+        if largest < most {
+            return Ok(());
+        }
+        Err(Box::new(self.problem(
+            Code::Impossible,
+            path,
+            format!("{} N s^2/rad", units::number_text(largest)),
+            format!(
+                "less than {most:.3e} N s^2/rad is needed, the inertia of race, balls and cage over the arm of F: beyond, a race that slows down would be pushed on by its own loss"
+            ),
+        )))
+    }
+}
+
+/// Masses and radii of balls and cage.
+fn rolling_set(bearing: &Bearing) -> RollingSet<f64> {
+    let density = match bearing.ball_material {
+        BallMaterial::Steel => BEARING_STEEL.density,
+        BallMaterial::SiliconNitride => SILICON_NITRIDE.density,
+    };
+    let ball = (bearing.ball_mass).unwrap_or_else(|| ball_mass(bearing.ball_diameter, density));
+    let track = bearing.pitch_diameter - bearing.ball_diameter;
+    RollingSet {
+        inner_track_radius: 0.5 * track,
+        ball_ratio: bearing.ball_diameter / track,
+        balls_mass: bearing.ball_count as f64 * ball,
+        cage_mass: bearing.cage_mass,
     }
 }

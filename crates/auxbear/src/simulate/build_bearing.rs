@@ -308,7 +308,7 @@ fn at_rest(
         load: Table::constant(load),
         target_speed: speed,
     })
-    .map_err(|refusal| refused(refusal))?;
+    .map_err(refused)?;
     let mut state = machine.start();
     state[INNER + 5] = speed;
     let (_, probe) = machine.inspect(0.0, &state);
