@@ -98,7 +98,7 @@ fn measure(program: Option<&str>) -> Result<(), String> {
 }
 
 /// The release build of the command; it lies beside the build of this tool.
-fn build(repository: &Repository) -> Result<PathBuf, String> {
+pub fn build(repository: &Repository) -> Result<PathBuf, String> {
     let outcome = quiet(cargo(repository).args(["build", "--quiet", "--release", "--locked"]));
     let own = std::env::current_exe().map_err(|error| error.to_string())?;
     let name = format!("auxbear{}", std::env::consts::EXE_SUFFIX);

@@ -2,8 +2,8 @@
 
 use crate::repository::{Outcome, Repository};
 use crate::{
-    architecture, crate_directions, documentation, licences, module_order, scenarios, source_text,
-    toolchain,
+    architecture, book, crate_directions, documentation, licences, module_order, scenarios,
+    source_text, toolchain,
 };
 use std::process::ExitCode;
 use std::time::Instant;
@@ -19,10 +19,11 @@ pub enum Extent {
 
 type Guard = (&'static str, fn(&Repository) -> Outcome);
 
-const FAST: [Guard; 7] = [
+const FAST: [Guard; 8] = [
     ("crate directions", crate_directions::check),
     ("module order", module_order::check),
     ("architecture page", architecture::check),
+    ("book", book::check),
     ("documentation rules", documentation::check),
     ("source text", source_text::check),
     ("licences", licences::check),

@@ -2,8 +2,10 @@
 
 mod architecture;
 mod bench;
+mod book;
 mod check;
 mod crate_directions;
+mod docs;
 mod documentation;
 mod licences;
 mod module_order;
@@ -20,6 +22,8 @@ cargo xtask check           all guards, then all tests; exit status 1 on any fin
 cargo xtask check --fast    the guards that build nothing of the product
 cargo xtask bench           the reference drop beside SciPy, in CPU time (benchmarks/README.md); minutes
 cargo xtask bench PROGRAM   the same with a command that is built already
+cargo xtask docs            writes the book's page of validation from auxbear validate
+cargo xtask docs PROGRAM    the same with a command that is built already
 cargo xtask help            this text
 ";
 
@@ -31,6 +35,8 @@ fn main() -> ExitCode {
         ["check", "--fast"] => check::run(check::Extent::Fast),
         ["bench"] => bench::run(None),
         ["bench", program] => bench::run(Some(program)),
+        ["docs"] => docs::run(None),
+        ["docs", program] => docs::run(Some(program)),
         ["help" | "--help" | "-h"] => {
             print!("{HELP}");
             ExitCode::SUCCESS

@@ -5,5 +5,6 @@ mod bearings;
 mod lists;
 mod place;
 mod run_directory;
+mod schema;
 mod spin_up;
 mod stopped;
