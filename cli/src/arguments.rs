@@ -21,6 +21,8 @@ pub struct Arguments {
 pub enum Command {
     /// Simulate what a file describes and write a run directory
     Run(Run),
+    /// Show the moments of one bearing over speed, load and acceleration, and write a run directory
+    Torque(Torque),
     /// Read and check a file, print it with every default and its unit; run nothing
     Check {
         /// Scenario file
@@ -82,6 +84,42 @@ pub struct Run {
     /// Number of threads [all cores]; the numbers do not depend on it
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
+    /// Print nothing but problems
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Torque {
+    /// Name of the bearing, e.g. 6005
+    pub bearing: String,
+    /// Law of the friction moment: palmgren, "palmgren printed", skf or measured; repeated, they are compared
+    #[arg(long)]
+    pub law: Vec<String>,
+    /// Largest speed of the inner race, e.g. "200 rad/s"
+    #[arg(long, value_name = "SPEED")]
+    pub speed_to: Option<String>,
+    /// Radial load, e.g. "80 N"; may be repeated
+    #[arg(long, value_name = "FORCE")]
+    pub load: Vec<String>,
+    /// Acceleration of the inner race, e.g. "7200 rad/s^2"; may be repeated
+    #[arg(long, allow_hyphen_values = true)]
+    pub acceleration: Vec<String>,
+    /// Temperature of the lubricant, e.g. "60 degC"; repeated, the first is the running temperature
+    #[arg(long)]
+    pub temperature: Vec<String>,
+    /// Lubricant, e.g. "ISO VG 68, 8.7 mm^2/s at 100 degC"; repeated, they are compared
+    #[arg(long)]
+    pub lubricant: Vec<String>,
+    /// File with more bearings, or with others of the same names
+    #[arg(long, value_name = "FILE")]
+    pub catalogue: Option<PathBuf>,
+    /// Set any value of the scenario, e.g. bearing.moment.f0=2; may be repeated
+    #[arg(long, value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Run directory to write [runs/torque-BEARING, with a number where that is taken]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
     /// Print nothing but problems
     #[arg(long)]
     pub quiet: bool,

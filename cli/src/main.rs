@@ -8,6 +8,7 @@ mod run;
 mod schema;
 mod start;
 mod summary;
+mod torque;
 
 use arguments::{Arguments, Command};
 use auxbear::problem::{Code, Problem};
@@ -60,6 +61,7 @@ fn main() -> ExitCode {
 fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
     match command {
         Command::Run(wish) => return run::perform(wish),
+        Command::Torque(wish) => return torque::perform(wish),
         Command::Check { file, set } => {
             let scenario = Scenario::read(file, set, &BuiltIn)?;
             console::print(&scenario.resolved.toml());

@@ -8,7 +8,8 @@ use auxbear::report::directory::{NewDirectory, free_path};
 use auxbear::scenario::{BuiltIn, Scenario};
 use auxbear::simulate::outcome::Stop;
 use auxbear::simulate::{self, Options};
-use std::path::PathBuf;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use std::{fs, process};
@@ -29,23 +30,33 @@ pub fn perform(wish: &Run) -> Result<Exit, Box<Problem>> {
         let stem = wish.file.file_stem().unwrap_or_default();
         free_path(&stem.to_string_lossy())
     });
-    let directory = NewDirectory::reserve(&path)?;
+    execute(&scenario, &path, wish.threads, wish.quiet)
+}
+
+/// Runs a scenario, writes its run directory and tells what came out.
+pub fn execute(
+    scenario: &Scenario,
+    path: &Path,
+    threads: Option<NonZeroUsize>,
+    quiet: bool,
+) -> Result<Exit, Box<Problem>> {
+    let directory = NewDirectory::reserve(path)?;
     listen(directory.partial().to_path_buf());
 
-    let progress = Progress::new(wish.quiet);
+    let progress = Progress::new(quiet);
     let outcome = simulate::run(
-        &scenario,
+        scenario,
         &Options {
-            threads: wish.threads.map(usize::from),
+            threads: threads.map(usize::from),
             interrupt: &INTERRUPT,
             progress: &|fraction| progress.show(fraction),
         },
     );
     progress.end();
     let outcome = outcome?;
-    directory.finish(&scenario, &outcome)?;
-    if !wish.quiet {
-        console::print(&summary::text(&path, &outcome));
+    directory.finish(scenario, &outcome)?;
+    if !quiet {
+        console::print(&summary::text(path, &outcome));
     }
     let exit = exit_of(&outcome.stop);
     let word = match exit {

@@ -1,6 +1,6 @@
 //! What is printed after a run: where it is, the quantities most looked for, warnings, cost.
 
-use crate::console;
+use crate::{console, torque};
 use auxbear::simulate::outcome::{Outcome, Quantity, Value};
 use auxbear::units::number_text;
 use std::path::Path;
@@ -50,6 +50,7 @@ const UNITS: &[(&str, &[(&str, f64)])] = &[
 pub fn text(path: &Path, outcome: &Outcome) -> String {
     let mut rows = Vec::new();
     let names = match outcome.system {
+        "torque" => return torque::text(path, outcome),
         "spin_up" => OF_SPIN_UP,
         _ => OF_DROP,
     };
@@ -115,7 +116,8 @@ fn readable(si: f64, unit: &str) -> String {
     }
 }
 
-fn four_digits(value: f64) -> String {
+/// A number to four digits.
+pub fn four_digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
     // A count is a whole number and keeps all its digits.
     if value == value.trunc() && value.abs() < 1e9 {

@@ -9,12 +9,12 @@ fn help_names_what_is_there_and_nothing_else() {
     let place = Place::new();
     let called = place.call(&["--help"]).done();
     for command in [
-        "run", "check", "new", "schema", "report", "validate", "bearings",
+        "run", "torque", "check", "new", "schema", "report", "validate", "bearings",
     ] {
         assert!(called.out.contains(&format!("\n  {command} ")), "{command}");
         place.call(&[command, "--help"]).done();
     }
-    for later in ["rotor", "identify", "study", "torque", "studio"] {
+    for later in ["rotor", "identify", "study", "studio"] {
         assert!(!called.out.contains(&format!("\n  {later} ")), "{later}");
     }
 }

@@ -8,3 +8,4 @@ mod run_directory;
 mod schema;
 mod spin_up;
 mod stopped;
+mod torque;

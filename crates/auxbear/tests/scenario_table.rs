@@ -132,6 +132,13 @@ fn choices(path: &str) -> Vec<String> {
         "rotor.brake_torque" => &["rotor.spin=braked"],
         "rotor.brake_start" => &["rotor.spin=braked", "rotor.brake_torque=1 N m"],
         "drive.rotor_polar_inertia" => &["drive.rotor_spin=free"],
+        // it would be the largest speed of the torque as well
+        "bearing.limiting_speed" => &["torque.speed_to=200 rad/s"],
+        "torque.temperatures" => &[
+            "bearing.moment.temperature=60 degC",
+            "bearing.moment.viscosity_points=[[\"40 degC\", \"100 mm^2/s\"], [\"100 degC\", \"11 mm^2/s\"]]",
+        ],
+        "torque.lubricants" => &["bearing.moment.temperature=60 degC"],
         "bearing.traction.a" | "bearing.traction.b" | "bearing.traction.c"
         | "bearing.traction.d" => &[
             "bearing.traction.law=four parameter",
@@ -195,7 +202,7 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.fidelity=rolling",
             "bearing.acceleration_loss.kind=affine",
             "bearing.acceleration_loss.force_over_speed=[[\"0 rad/s\", \"1 N\"], [\"1 rad/s\", \"1 N\"]]",
-            "bearing.acceleration_loss.per_acceleration_over_speed=[[\"0 rad/s\", \"1 N s^2/rad\"], [\"1 rad/s\", \"1 N s^2/rad\"]]",
+            "bearing.acceleration_loss.per_acceleration_over_speed=[[\"0 rad/s\", \"1e-5 N s^2/rad\"], [\"1 rad/s\", \"1e-5 N s^2/rad\"]]",
         ],
         _ => &[],
     };
@@ -221,6 +228,7 @@ fn unlike_any_other(path: &str, kind: Kind, range: Range, example: &str) -> Opti
                 "bearing.moment.bore_diameter" => 0.0234567,
                 "bearing.moment.outer_diameter" => 0.0512345,
                 "levitation.stiffness" => 1_234_567.0,
+                "torque.speed_to" => 1234.567,
                 "run.output_interval" => 0.000345678,
                 _ if path.starts_with("run.") => {
                     units::parse_quantity(example).unwrap().value_si * 0.9876543
@@ -232,7 +240,7 @@ fn unlike_any_other(path: &str, kind: Kind, range: Range, example: &str) -> Opti
         Kind::Table(first, second) => {
             let si = 1.234567e-5;
             let text =
-                format!("[[\"0 {first}\", \"1 {second}\"], [\"1 {first}\", \"{si} {second}\"]]");
+                format!("[[\"0 {first}\", \"1e-6 {second}\"], [\"1 {first}\", \"{si} {second}\"]]");
             Some((text, si))
         }
         Kind::Coefficient => {

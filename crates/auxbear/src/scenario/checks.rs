@@ -36,6 +36,16 @@ pub(super) fn check(system: &System, values: &Values, file: &str) -> Check {
     }
 }
 
+/// Refuses a law that there is no data for; the rating is that of the bearing.
+pub(super) fn check_law(
+    moment: &Moment,
+    rated: &RatedBearing,
+    values: &Values,
+    file: &str,
+) -> Check {
+    Context { values, file }.moment(moment, rated)
+}
+
 /// What every check needs to tell a problem.
 pub(super) struct Context<'a> {
     values: &'a Values,
@@ -65,7 +75,8 @@ impl Context<'_> {
         self.bearing_diameters(ball, pitch, None)?;
         self.balls_fit(torque.ball_count, ball, pitch)?;
         self.moment(&torque.moment, &torque.rated())?;
-        self.acceleration_loss(&torque.acceleration_loss)
+        self.acceleration_loss(&torque.acceleration_loss)?;
+        self.torque_points(torque)
     }
 
     /// Everything about a bearing that moves; the bore is that of the key named.

@@ -2,8 +2,10 @@
 
 use super::bearing::BearingType;
 use super::key::Key;
+use super::lubricant::Lubricant;
 use super::provenance::Provenance;
-use super::resolve::{Known, Value, Values, quantity_text};
+use super::resolve::{COMPARED_LAWS, Known, Value, Values, quantity_text};
+use super::system::SystemName;
 use super::table;
 use crate::problem::{Code, Place, Problem};
 use physics::palmgren_factors::{FactorType, Lubrication, palmgren_factors};
@@ -16,6 +18,12 @@ const SERIES: &str = "bearing.moment.series";
 const LUBRICATION: &str = "bearing.moment.lubrication";
 const TEMPERATURE: &str = "bearing.moment.temperature";
 const VISCOSITY_POINTS: &str = "bearing.moment.viscosity_points";
+const LUBRICANTS: &str = "torque.lubricants";
+
+/// Largest speed of a torque table for a bearing whose limiting speed is not known, rad/s.
+const SPEED_WITHOUT_LIMIT: f64 = 1000.0;
+/// Radial load over static load rating where no load is given.
+const LOAD_SHARE: f64 = 0.01;
 
 type Done = Result<(), Box<Problem>>;
 
@@ -44,6 +52,9 @@ impl Values {
                 Value::Number(mass * radius * radius),
                 "cage_mass (pitch_diameter/2)^2: a thin ring at the pitch circle",
             )?;
+        }
+        if self.system() == SystemName::Torque {
+            self.torque()?;
         }
         match self.word("bearing.moment.law") {
             "palmgren" | "palmgren printed" => {
@@ -86,15 +97,19 @@ impl Values {
             .into_iter()
             .find(|path| self.lacks(path))
         else {
+            let wanted = !self.words(COMPARED_LAWS).is_empty();
+            if !self.is_given(LUBRICATION) {
+                self.take_away(LUBRICATION);
+            }
             return match self.text(LUBRICATION) {
-                Some(text) => Err(Box::new(self.problem(
+                Some(text) if !wanted => Err(Box::new(self.problem(
                     Code::UnusedKey,
                     LUBRICATION,
                     self.place(LUBRICATION),
                     format!("\"{text}\", which has no effect"),
                     "lubrication chooses f0 and f1 from the tables, and all of these are given here",
                 ))),
-                None => Ok(()),
+                _ => Ok(()),
             };
         };
         let lubrication = match self.word(LUBRICATION) {
@@ -183,9 +198,70 @@ impl Values {
         }
     }
 
+    /// Where the torque is computed, as far as it is not given.
+    fn torque(&mut self) -> Done {
+        if self.lacks("torque.speed_to") {
+            let limit = self.number("bearing.limiting_speed");
+            let how = match limit {
+                Some(_) => "the limiting speed of the bearing",
+                None => "no limiting speed is known",
+            };
+            let speed = limit.unwrap_or(SPEED_WITHOUT_LIMIT);
+            self.put_derived("torque.speed_to", Value::Number(speed), how)?;
+        }
+        if self.lacks("torque.speed")
+            && let Some(speed) = self.number("torque.speed_to")
+        {
+            self.put_derived("torque.speed", Value::Number(speed), "torque.speed_to")?;
+        }
+        if self.lacks("torque.loads") {
+            let (load, why) = match self.number("bearing.static_load_rating") {
+                Some(rating) => (
+                    LOAD_SHARE * rating,
+                    "1 % of the static load rating: the order of a rotor's weight",
+                ),
+                None => (0.0, "without a static load rating no load has an effect"),
+            };
+            let text = format!("[\"{} N\"]", units::number_text(load));
+            self.put(
+                "torque.loads",
+                Known {
+                    value: Value::Numbers(vec![load]),
+                    text,
+                    provenance: Provenance::DefaultAssumed(why.to_string()),
+                    place: Place::Whole,
+                },
+            );
+        }
+        Ok(())
+    }
+
+    /// The viscosity at the running temperature, of the first lubricant of a comparison.
+    fn viscosity_of_lubricant(&mut self, text: &str) -> Done {
+        let unknown = |path: &'static str, why: String| {
+            let allowed = "a lubricant whose viscosity is known at the running temperature is needed, e.g. \"100 mm^2/s at 40 degC, 11 mm^2/s at 100 degC\"";
+            Box::new(self.problem(Code::NoLawData, path, self.place(path), why, allowed))
+        };
+        let lubricant = Lubricant::parse(text).map_err(|why| unknown(LUBRICANTS, why))?;
+        let temperature = self.number(TEMPERATURE);
+        let path = temperature.map_or(LUBRICANTS, |_| TEMPERATURE);
+        let viscosity = lubricant
+            .at(temperature)
+            .map_err(|why| unknown(path, format!("{}: {why}", lubricant.name)))?;
+        let how = format!(
+            "{} at the running temperature, by ASTM D341",
+            lubricant.name
+        );
+        self.put_derived("bearing.moment.viscosity", Value::Number(viscosity), &how)
+    }
+
     /// The viscosity at the running temperature, by two points.
     fn viscosity(&mut self) -> Done {
         let Some(points) = self.rows(VISCOSITY_POINTS) else {
+            if let Some(first) = self.texts(LUBRICANTS).first() {
+                let first = first.clone();
+                return self.viscosity_of_lubricant(&first);
+            }
             return match self.text(TEMPERATURE) {
                 Some(text) => Err(Box::new(self.problem(
                     Code::UnusedKey,

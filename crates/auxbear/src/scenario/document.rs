@@ -362,8 +362,8 @@ fn raw(value: &DeValue<'_>) -> Raw {
     }
 }
 
-/// The value of an override when it is TOML by itself.
-fn as_toml(typed: &str) -> Option<Raw> {
+/// The value of a text when it is TOML by itself.
+pub(super) fn as_toml(typed: &str) -> Option<Raw> {
     let value = DeValue::parse(typed).ok()?;
     Some(raw(value.get_ref()))
 }

@@ -30,6 +30,12 @@ pub enum Kind {
     Text,
     /// A list of rows of two quantities, of the dimensions of these SI units; the first rises from row to row.
     Table(&'static str, &'static str),
+    /// A list of quantities of the dimension of this SI unit; a single one needs no brackets.
+    Quantities(&'static str),
+    /// A list of these words; likewise.
+    Words(&'static [&'static str]),
+    /// A list of any texts; likewise.
+    Texts,
 }
 
 /// Which values of the right kind are allowed, in SI.
@@ -257,9 +263,14 @@ impl Key {
                 quoted(text)
             }
             Kind::Exponent if text.contains('/') => quoted(text),
-            Kind::Exponent | Kind::Coefficient | Kind::Count | Kind::Switch | Kind::Table(..) => {
-                text.to_string()
-            }
+            Kind::Exponent
+            | Kind::Coefficient
+            | Kind::Count
+            | Kind::Switch
+            | Kind::Table(..)
+            | Kind::Quantities(_)
+            | Kind::Words(_)
+            | Kind::Texts => text.to_string(),
         }
     }
 
@@ -294,6 +305,20 @@ impl Key {
                     [only] => format!("{only} is needed"),
                     _ => format!("one of {} is needed", words.join(", ")),
                 }
+            }
+            Kind::Quantities(unit) => {
+                let noun = noun(unit);
+                format!("a list is needed, each entry another {noun}{range}, e.g. {example}")
+            }
+            Kind::Words(words) => {
+                let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
+                format!(
+                    "a list is needed, each entry another one of {}",
+                    words.join(", ")
+                )
+            }
+            Kind::Texts => {
+                format!("a list of texts in quotes, all different, is needed, e.g. {example}")
             }
             Kind::Switch => "true or false is needed".to_string(),
             Kind::Text => format!("a text in quotes is needed, e.g. {example}"),

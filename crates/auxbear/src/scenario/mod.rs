@@ -14,15 +14,18 @@ mod bearing_source;
 mod checks;
 mod checks_drop;
 mod checks_spin_up;
+mod checks_torque;
 mod derive;
 mod document;
 mod drop;
 mod from_catalogue;
 mod key;
+mod lubricant;
 mod meant;
 mod moment;
 mod provenance;
 mod read;
+mod read_lists;
 mod read_rows;
 mod resolve;
 mod resolved;
@@ -36,6 +39,7 @@ mod table_bearing;
 mod table_drive;
 mod table_drop;
 mod table_moment;
+mod table_torque;
 mod template;
 mod torque;
 
@@ -43,6 +47,7 @@ pub use bearing::{BallMaterial, Bearing, BearingType, Cage, Drag, Fidelity, Trac
 pub use bearing_source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
 pub use drop::{Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor, Spin};
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
+pub use lubricant::{Lubricant, LubricantViscosity};
 pub use moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 pub use provenance::Provenance;
 pub use resolved::{Resolved, ResolvedValue};
@@ -50,9 +55,9 @@ pub use run::Run;
 pub use schema::schema;
 pub use spin_up::{Course, Drive, SpeedCourse, SpinUp};
 pub use system::{System, SystemName};
-pub use table::{FORMAT, keys, keys_of, sections, sections_of, systems};
+pub use table::{FORMAT, keys, keys_of, presence, sections, sections_of, systems};
 pub use template::template;
-pub use torque::Torque;
+pub use torque::{ComparedLaw, Torque};
 
 use crate::problem::{Code, Problem};
 use std::fs::File;
@@ -109,7 +114,10 @@ impl Scenario {
         let system = match document.system {
             SystemName::Drop => System::Drop(Drop::from_values(&values)),
             SystemName::SpinUp => System::SpinUp(SpinUp::from_values(&values)),
-            SystemName::Torque => System::Torque(Torque::from_values(&values)),
+            SystemName::Torque => {
+                let laws = torque::compared_laws(&document, &values, bearings);
+                System::Torque(Torque::from_values(&values, laws)?)
+            }
         };
         checks::check(&system, &values, name)?;
         Ok(Scenario {

@@ -217,6 +217,23 @@ impl Moment {
         }
     }
 
+    /// Viscosity that the law sees, m²/s.
+    pub fn viscosity(&self) -> Option<f64> {
+        match self {
+            Moment::Palmgren { viscosity, .. } | Moment::Skf { viscosity, .. } => Some(*viscosity),
+            Moment::None | Moment::Measured { .. } => None,
+        }
+    }
+
+    /// The same law with another lubricant, where it sees one.
+    pub fn with_viscosity(&self, other: f64) -> Moment {
+        let mut moment = self.clone();
+        if let Moment::Palmgren { viscosity, .. } | Moment::Skf { viscosity, .. } = &mut moment {
+            *viscosity = other;
+        }
+        moment
+    }
+
     /// Axial load that the law sees, N.
     pub fn axial_load(&self) -> f64 {
         match self {

@@ -154,6 +154,9 @@ impl Values {
             (Kind::Table(first, second), Raw::List(rows)) => {
                 self.read_rows(key, [first, second], rows, place)
             }
+            (Kind::Quantities(_) | Kind::Words(_) | Kind::Texts, raw) => {
+                self.read_list(key, raw, place)
+            }
             (Kind::Count, Raw::Integer(text, value)) => match value {
                 Some(value) if *value >= 0 => {
                     Ok((Value::Count(value.unsigned_abs()), value.to_string()))

@@ -91,7 +91,10 @@ impl Values {
 }
 
 /// One quantity of a row, in SI and as written; else code, what was found and a hint.
-fn cell<'a>(raw: &'a Raw, unit: &str) -> Result<(f64, &'a str), (Code, String, Option<String>)> {
+pub(super) fn cell<'a>(
+    raw: &'a Raw,
+    unit: &str,
+) -> Result<(f64, &'a str), (Code, String, Option<String>)> {
     let Raw::Text(text) = raw else {
         let code = match raw {
             Raw::Integer(..) | Raw::Float(_) => Code::BareNumber,

@@ -1,7 +1,7 @@
 //! From the table of keys and the given values to one value for every key.
 
 use super::bearing_source::{BearingRecord, BearingSource};
-use super::document::{Document, Given, Raw};
+use super::document::{Document, Given, Raw, as_toml};
 use super::key::{Condition, Fallback, Key, Kind, Otherwise, Presence, quoted};
 use super::provenance::Provenance;
 use super::read::POWER_TOLERANCE;
@@ -11,6 +11,11 @@ use super::table;
 use crate::problem::{Code, Place, Problem};
 use std::collections::BTreeMap;
 use units::{Quantity, Rational, parse_quantity};
+
+/// Key of the law of the friction moment, on which its constants depend.
+pub(super) const LAW: &str = "bearing.moment.law";
+/// Key of the laws that are compared with it.
+pub(super) const COMPARED_LAWS: &str = "torque.laws";
 
 /// A value that was read.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +32,12 @@ pub(super) enum Value {
     Text(String),
     /// Rows of two quantities in SI.
     Rows(Vec<[f64; 2]>),
+    /// Quantities in SI.
+    Numbers(Vec<f64>),
+    /// Words of the key.
+    Words(Vec<&'static str>),
+    /// Any texts.
+    Texts(Vec<String>),
 }
 
 impl Value {
@@ -34,7 +45,13 @@ impl Value {
         match self {
             Value::Number(value) => Some(*value),
             Value::Count(count) => Some(*count as f64),
-            Value::Word(_) | Value::Switch(_) | Value::Text(_) | Value::Rows(_) => None,
+            Value::Word(_)
+            | Value::Switch(_)
+            | Value::Text(_)
+            | Value::Rows(_)
+            | Value::Numbers(_)
+            | Value::Words(_)
+            | Value::Texts(_) => None,
         }
     }
 }
@@ -75,8 +92,13 @@ impl Values {
         for key in table::keys_of(document.system) {
             let given = document.values.get(key.path);
             if let Some(unmet) = values.unmet(key) {
-                if let Some(given) = given {
-                    return Err(Box::new(values.unused(key, given, &unmet)));
+                match given {
+                    Some(given) if values.of_compared_law(&unmet) => {
+                        let known = values.read(key, given)?;
+                        values.known.insert(key.path, known);
+                    }
+                    Some(given) => return Err(Box::new(values.unused(key, given, &unmet))),
+                    None => {}
                 }
                 continue;
             }
@@ -138,8 +160,17 @@ impl Values {
             Value::Number(value) => Rational::parse(wanted)
                 .is_some_and(|wanted| (wanted.value() - value).abs() <= POWER_TOLERANCE),
             Value::Count(count) => count.to_string() == *wanted,
-            Value::Rows(_) => false,
+            Value::Rows(_) | Value::Numbers(_) | Value::Words(_) | Value::Texts(_) => false,
         })
+    }
+
+    /// Whether a law that is compared has the key that the law of the bearing has not.
+    fn of_compared_law(&self, unmet: &Condition) -> bool {
+        unmet.path == LAW
+            && self
+                .words(COMPARED_LAWS)
+                .iter()
+                .any(|law| unmet.values.contains(law))
     }
 
     fn unused(&self, key: &Key, given: &Given, unmet: &Condition) -> Problem {
@@ -198,7 +229,7 @@ impl Values {
         if replaced {
             return Ok(None);
         }
-        match key.presence {
+        match table::presence(key, self.system) {
             Presence::Optional(_) | Presence::Derived(_) => Ok(None),
             Presence::Default(fallback) => self.fall_back(key, &fallback).map(Some),
             Presence::DefaultWhen(condition, fallback, _) if self.holds(&condition) => {
@@ -237,6 +268,9 @@ impl Values {
             Kind::Count => Raw::Integer(fallback.text.to_string(), fallback.text.parse().ok()),
             Kind::Switch => Raw::Switch(fallback.text == "true"),
             Kind::Coefficient => Raw::Float(fallback.text.parse().unwrap_or(f64::NAN)),
+            Kind::Quantities(_) | Kind::Words(_) | Kind::Texts => {
+                as_toml(fallback.text).unwrap_or(Raw::Text(fallback.text.to_string()))
+            }
             _ => Raw::Text(fallback.text.to_string()),
         };
         let given = Given {
@@ -266,6 +300,21 @@ impl Values {
 
     pub(super) fn put(&mut self, path: &'static str, known: Known) {
         self.known.insert(path, known);
+    }
+
+    /// Takes a value away that has no effect after all.
+    pub(super) fn take_away(&mut self, path: &str) {
+        self.known.remove(path);
+    }
+
+    /// Whether a value was given, rather than filled in.
+    pub(super) fn is_given(&self, path: &str) -> bool {
+        self.known.get(path).is_some_and(|known| {
+            !matches!(
+                known.provenance,
+                Provenance::Default(_) | Provenance::DefaultAssumed(_)
+            )
+        })
     }
 
     /// Where a value was given.
@@ -309,6 +358,30 @@ impl Values {
         }
     }
 
+    /// A list of quantities in SI; empty where there is none.
+    pub(super) fn numbers(&self, path: &str) -> Vec<f64> {
+        match self.known.get(path).map(|known| &known.value) {
+            Some(Value::Numbers(list)) => list.clone(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// A list of words; empty where there is none.
+    pub(super) fn words(&self, path: &str) -> &[&'static str] {
+        match self.known.get(path).map(|known| &known.value) {
+            Some(Value::Words(list)) => list,
+            _ => &[],
+        }
+    }
+
+    /// A list of texts; empty where there is none.
+    pub(super) fn texts(&self, path: &str) -> &[String] {
+        match self.known.get(path).map(|known| &known.value) {
+            Some(Value::Texts(list)) => list,
+            _ => &[],
+        }
+    }
+
     /// A whole number; 0 where there is none.
     pub(super) fn count(&self, path: &str) -> u64 {
         match self.known.get(path).map(|known| &known.value) {
@@ -320,9 +393,12 @@ impl Values {
     /// The list of all values for people and for the resolved file.
     pub(super) fn resolved(&self) -> Resolved {
         let mut list = Vec::new();
-        for key in table::keys_of(self.system).filter(|key| self.unmet(key).is_none()) {
+        for key in table::keys_of(self.system) {
             let known = self.known.get(key.path);
-            let absent = match key.presence {
+            if known.is_none() && self.unmet(key).is_some() {
+                continue;
+            }
+            let absent = match table::presence(key, self.system) {
                 Presence::Derived(how) => Some(Provenance::Derived(how.to_string())),
                 Presence::Optional(meaning)
                 | Presence::DefaultWhen(_, _, Otherwise::Optional(meaning)) => {

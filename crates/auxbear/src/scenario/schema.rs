@@ -14,6 +14,7 @@
 //! knows of a bearing, and every check between values. Nothing that the program accepts is refused by the schema.
 
 use super::key::{Condition, Key, Kind, Otherwise, Presence, Range};
+use super::resolve::{COMPARED_LAWS, LAW};
 use super::system::SystemName;
 use super::table;
 use serde_json::{Map, Value, json};
@@ -49,7 +50,8 @@ fn root(system: SystemName) -> Value {
     rules.extend(from_bearing(system));
     rules.extend(conditional(system));
     for key in table::keys_of(system) {
-        if key.presence != Presence::Required || !conditions(key, system).is_empty() {
+        let required = table::presence(key, system) == Presence::Required;
+        if !required || !conditions(key, system).is_empty() {
             continue;
         }
         match stand_ins(key, system).as_slice() {
@@ -161,7 +163,8 @@ fn exclusions(system: SystemName) -> Vec<Value> {
 fn from_bearing(system: SystemName) -> Option<Value> {
     let mut needed = json!({});
     for key in table::keys_of(system) {
-        if key.presence == Presence::FromBearing && conditions(key, system).is_empty() {
+        let catalogued = table::presence(key, system) == Presence::FromBearing;
+        if catalogued && conditions(key, system).is_empty() {
             require(&mut needed, key.path);
         }
     }
@@ -199,7 +202,10 @@ fn conditional(system: SystemName) -> Vec<Value> {
         let mut without = json!({});
         for key in keys {
             say(&mut without, key.path, json!(false));
-            match (key.presence, stand_ins(key, system).as_slice()) {
+            match (
+                table::presence(key, system),
+                stand_ins(key, system).as_slice(),
+            ) {
                 (Presence::Required, []) => require(&mut then, key.path),
                 (Presence::Required, stand_ins) => others.push(one_of_them(key, stand_ins)),
                 (Presence::FromBearing, _) => {
@@ -211,16 +217,38 @@ fn conditional(system: SystemName) -> Vec<Value> {
         if !others.is_empty() {
             then["allOf"] = json!(others);
         }
-        json!({ "if": { "allOf": all }, "then": then, "else": without })
+        let compared = conditions.iter().find_map(|c| compared(c, system));
+        match compared {
+            None => vec![json!({ "if": { "allOf": all }, "then": then, "else": without })],
+            // a law that is compared may have its keys, and says why where it lacks one
+            Some(compared) => vec![
+                json!({ "if": { "allOf": all }, "then": then }),
+                json!({ "anyOf": [{ "allOf": all }, compared, without] }),
+            ],
+        }
     };
-    groups.iter().map(rule).collect()
+    groups.iter().flat_map(rule).collect()
+}
+
+/// That a condition on the law holds for a law that is compared.
+fn compared(condition: &Condition, system: SystemName) -> Option<Value> {
+    let known = table::keys_of(system).any(|key| key.path == COMPARED_LAWS);
+    (known && condition.path == LAW).then(|| {
+        let word = json!({ "enum": condition.values });
+        let none = json!({ "items": { "not": word } });
+        let list = json!({ "type": "array", "not": none });
+        let mut schema = given(COMPARED_LAWS);
+        let some = with_origin(&json!({ "anyOf": [word, list] }));
+        say(&mut schema, COMPARED_LAWS, some);
+        schema
+    })
 }
 
 /// That a condition holds, also by the default of its key.
 fn holds(condition: &Condition, system: SystemName) -> Value {
     let key = table::keys_of(system).find(|key| key.path == condition.path);
     let by_default = matches!(
-        key.map(|key| key.presence),
+        key.map(|key| table::presence(key, system)),
         Some(Presence::Default(fallback)) if condition.values.contains(&fallback.text)
     );
     let mut schema = if by_default {
@@ -245,7 +273,7 @@ fn value(key: &Key, system: SystemName) -> Value {
         _ => with_origin(&plain),
     };
     schema["description"] = json!(description(key, system));
-    let fallback = match key.presence {
+    let fallback = match table::presence(key, system) {
         Presence::Default(fallback) => typed(key, fallback.text),
         _ => Value::Null,
     };
@@ -292,12 +320,20 @@ fn plain(key: &Key, system: SystemName) -> Value {
         Kind::Word(words) => json!({ "enum": words }),
         Kind::Switch => json!({ "type": "boolean" }),
         Kind::Text => json!({ "type": "string" }),
+        Kind::Quantities(_) => one_or_several(&quantity),
+        Kind::Words(words) => one_or_several(&json!({ "enum": words })),
+        Kind::Texts => one_or_several(&json!({ "type": "string" })),
         Kind::Table(..) => json!({
             "type": "array",
             "minItems": 2,
             "items": { "type": "array", "minItems": 2, "maxItems": 2, "items": quantity },
         }),
     }
+}
+
+/// One value, or a list of them.
+fn one_or_several(entry: &Value) -> Value {
+    json!({ "anyOf": [entry, { "type": "array", "minItems": 1, "items": entry }] })
 }
 
 /// A bare number in its range; whole numbers are never negative.
@@ -327,8 +363,10 @@ fn typed(key: &Key, text: &str) -> Value {
             .parse::<u64>()
             .map_or(Value::Null, |value| json!(value)),
         Kind::Switch => json!(text == "true"),
-        // the example of a table is a list of lists of texts, which TOML and JSON write alike
-        Kind::Table(..) => serde_json::from_str(text).unwrap_or(Value::Null),
+        // a list of texts, or of lists of texts, which TOML and JSON write alike
+        Kind::Table(..) | Kind::Quantities(_) | Kind::Words(_) | Kind::Texts => {
+            serde_json::from_str(text).unwrap_or(Value::Null)
+        }
         _ => json!(text),
     }
 }
@@ -361,7 +399,7 @@ fn description(key: &Key, system: SystemName) -> String {
         };
         format!("{mark} {}: {}", fallback.text, fallback.reason)
     };
-    match key.presence {
+    match table::presence(key, system) {
         Presence::Required => words.push_str(" Required."),
         Presence::FromBearing => {
             words.push_str(" Not needed with a bearing.name that the catalogue knows.");

@@ -3,9 +3,9 @@
 //! The order is the order of the resolved file and of the starting file. A key that another one depends on stands before it.
 //! Each system has some of the sections, and of a section all keys that name no other system.
 
-use super::key::{Key, Kind, Range, Section};
+use super::key::{Key, Kind, Presence, Range, Section};
 use super::system::SystemName;
-use super::{table_bearing, table_drive, table_drop, table_moment};
+use super::{table_bearing, table_drive, table_drop, table_moment, table_torque};
 
 /// Format name of the scenario files that this version writes.
 pub const FORMAT: &str = "auxbear.scenario/1";
@@ -15,6 +15,7 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
     table_drop::SECTIONS
         .iter()
         .chain(table_drive::SECTIONS)
+        .chain(table_torque::SECTIONS)
         .chain(table_bearing::SECTIONS)
         .chain(table_moment::SECTIONS)
         .chain(RUN_SECTIONS)
@@ -26,6 +27,7 @@ pub fn keys() -> impl Iterator<Item = &'static Key> {
     HEAD.iter()
         .chain(table_drop::KEYS)
         .chain(table_drive::KEYS)
+        .chain(table_torque::KEYS)
         .chain(table_bearing::KEYS)
         .chain(table_moment::KEYS)
         .chain(RUN)
@@ -49,6 +51,21 @@ pub fn systems(key: &Key) -> &'static [SystemName] {
         section.map_or(SystemName::ALL, |section| section.systems)
     };
     key.systems.unwrap_or_else(of_section)
+}
+
+/// What a system does without a key: mostly what all systems do.
+pub fn presence(key: &Key, system: SystemName) -> Presence {
+    let own = match system {
+        SystemName::Torque => table_torque::PRESENCES,
+        SystemName::Drop | SystemName::SpinUp => &[],
+    };
+    let own = own.iter().find(|(path, _)| *path == key.path);
+    own.map_or(key.presence, |(_, presence)| *presence)
+}
+
+/// Whether the starting file of a system gives a key that could stay away in a file of another bearing.
+pub(super) fn starts_with(key: &Key, system: SystemName) -> bool {
+    system == SystemName::Torque && table_torque::GIVEN.contains(&key.path)
 }
 
 /// Systems in which something moves.

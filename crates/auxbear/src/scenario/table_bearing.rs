@@ -145,8 +145,7 @@ pub(super) const KEYS: &[Key] = &[
         "Limiting speed in continuous running. A run that exceeds it warns.",
     )
     .positive()
-    .optional("no warning about the speed can be given")
-    .only(MOVING),
+    .optional("no warning about the speed can be given"),
     Key::new(
         "bearing.inner_race_mass",
         Kind::Quantity("kg"),

@@ -60,7 +60,7 @@ fn describe(out: &mut String, key: &Key, system: SystemName) {
     };
     let holds = key.when.iter().all(|condition| holds(condition, system));
     let line = |text: &str| format!("{} = {}", key.name(), key.literal(text));
-    let (active, text) = match key.presence {
+    let (active, text) = match table::presence(key, system) {
         Presence::Required => (holds, line(example)),
         Presence::FromBearing => {
             doc.push_str(" Not needed with a bearing.name that the catalogue knows.");
@@ -68,11 +68,11 @@ fn describe(out: &mut String, key: &Key, system: SystemName) {
         }
         Presence::Optional(meaning) => {
             doc.push_str(&format!(" Without it {meaning}."));
-            (false, line(key.example))
+            (holds && table::starts_with(key, system), line(key.example))
         }
         Presence::Derived(how) => {
             doc.push_str(&format!(" Without it: {how}."));
-            (false, line(key.example))
+            (holds && table::starts_with(key, system), line(key.example))
         }
         Presence::Default(fallback) => {
             let mark = if fallback.assumed {
@@ -118,7 +118,7 @@ fn holds(condition: &Condition, system: SystemName) -> bool {
     let Some(key) = table::keys_of(system).find(|key| key.path == condition.path) else {
         return true;
     };
-    let value = match key.presence {
+    let value = match table::presence(key, system) {
         Presence::Required | Presence::FromBearing => key.example,
         Presence::Default(fallback) => fallback.text,
         Presence::Optional(_) | Presence::Derived(_) | Presence::DefaultWhen(..) => return false,

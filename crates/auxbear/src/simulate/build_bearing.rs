@@ -36,7 +36,7 @@ pub(super) struct BallContacts {
 }
 
 /// Materials of the balls.
-fn material(choice: BallMaterial) -> Material {
+pub(super) fn material(choice: BallMaterial) -> Material {
     match choice {
         BallMaterial::Steel => BEARING_STEEL,
         BallMaterial::SiliconNitride => SILICON_NITRIDE,
@@ -170,7 +170,7 @@ pub(super) fn bearing(
     })
 }
 
-fn acceleration_loss(choice: &LossChoice) -> AccelerationLoss {
+pub(super) fn acceleration_loss(choice: &LossChoice) -> AccelerationLoss {
     match choice {
         LossChoice::None => AccelerationLoss::None,
         LossChoice::Constant { force } => AccelerationLoss::Constant { force: *force },

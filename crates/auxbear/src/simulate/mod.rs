@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`build`], [`build_bearing`], [`build_spin_up`] | scenario → constants of the model |
 //! | [`ensemble`] | one machine or many, in lanes and threads |
-//! | `drop`, `spin_up` | runs a system and names what came out |
+//! | `drop`, `spin_up`, `torque` | runs a system and names what came out |
 //! | `quantities`, `list` | each named result with its law, source and valid range |
 //! | `columns` | the history |
 //! | `warnings`, `warnings_shared` | what to know before trusting the numbers |
@@ -23,12 +23,15 @@ mod list;
 pub mod outcome;
 mod quantities;
 mod quantities_spin_up;
+mod quantities_torque;
 mod spin_up;
+mod torque;
 mod warnings;
 mod warnings_shared;
 mod warnings_spin_up;
+mod warnings_torque;
 
-use crate::problem::{Code, Problem};
+use crate::problem::Problem;
 use crate::scenario::{Scenario, System};
 pub use outcome::Outcome;
 use std::sync::atomic::AtomicBool;
@@ -48,17 +51,6 @@ pub fn run(scenario: &Scenario, options: &Options) -> Result<Outcome, Box<Proble
     match &scenario.system {
         System::Drop(drop) => drop::run(scenario, drop, options),
         System::SpinUp(spin_up) => spin_up::run(scenario, spin_up, options),
-        System::Torque(_) => Err(Box::new(
-            Problem::new(
-                Code::NotBuilt,
-                "the scenario",
-                format!(
-                    "\"{}\", which can be read and checked but not run yet",
-                    scenario.system.name().word()
-                ),
-                "system = \"drop\" or \"spin_up\" is what this version runs",
-            )
-            .on_key("system"),
-        )),
+        System::Torque(torque) => torque::run(scenario, torque),
     }
 }

@@ -176,6 +176,11 @@ pub(super) fn assumed(scenario: &Scenario, bearing: &Bearing) -> Option<Warning>
         .filter(|value| value.provenance.mark() == "assumed" && counts(value.path))
         .map(|value| value.path)
         .collect();
+    assumptions(&paths)
+}
+
+/// Names what is assumed.
+pub(super) fn assumptions(paths: &[&str]) -> Option<Warning> {
     (!paths.is_empty()).then(|| {
         warning(
             "AB1013",

@@ -35,7 +35,7 @@ function quantityTile(run, title, name, note, state) {
 function stateTile(run) {
   const stop = run.summary.stop || {};
   const complete = run.summary.complete === true;
-  const time = isNumber(stop.time_s) ? engineeringText(stop.time_s, "s", 4) : "";
+  const time = isNumber(stop.time_s) && !isTorque(run) ? engineeringText(stop.time_s, "s", 4) : "";
   const reason = stop.text || stop.reason || run.summaryProblem || "the summary does not say";
   return tile("Run", complete ? "complete" : "not complete", [[time, reason].filter(Boolean).join(": ")], verdictState(run, !complete));
 }
@@ -167,8 +167,8 @@ function header(runs) {
     const key = single ? null : element("span", { class: "swatch", style: "background:" + run.colour });
     const origin = spreadOrigin(run);
     const about = element("p", { class: "subtitle" }, key, single ? null : element("strong", {}, run.label + "  "), facts.filter(Boolean).join(" · "));
-    const line = isSpinUp(run) ? spinUpLine(run) : machineLine(run);
-    parts.push(single ? [line, about] : [about, line], isSpinUp(run) ? spinUpVerdict(run) : verdict(run), origin ? element("p", { class: "small" }, "Large numbers: the unperturbed run. Below them: " + origin + ".") : null);
+    const line = isTorque(run) ? torqueLine(run) : isSpinUp(run) ? spinUpLine(run) : machineLine(run);
+    parts.push(single ? [line, about] : [about, line], isTorque(run) ? torqueVerdict(run) : isSpinUp(run) ? spinUpVerdict(run) : verdict(run), origin ? element("p", { class: "small" }, "Large numbers: the unperturbed run. Below them: " + origin + ".") : null);
   }
   parts.push(warningBox(runs));
   return element("header", {}, parts);

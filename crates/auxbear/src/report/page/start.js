@@ -1,7 +1,8 @@
 // Puts the page together.
 
-function navigation(sections) {
+function navigation(sections, zooms) {
   const links = sections.map((part) => element("a", { href: "#" + part.id }, part.querySelector("h2").textContent));
+  if (!zooms) return element("nav", {}, element("div", { class: "links" }, links));
   const state = element("span", { class: "window" });
   const reset = element("button", { type: "button", onclick: () => timeline.all() }, "all time");
   const update = () => {
@@ -32,20 +33,24 @@ function start() {
   }
   timeline.span(runs);
   // Each system has its own pictures; a page of both kinds of run shows both, each with its own runs.
-  const drops = runs.filter((run) => !isSpinUp(run));
+  const torques = runs.filter(isTorque);
+  const moving = runs.filter((run) => !isTorque(run));
+  const drops = moving.filter((run) => !isSpinUp(run));
   const spinUps = runs.filter(isSpinUp);
   const builders = [
     ...(runs.length > 1 ? [[differenceSection, runs]] : []),
     ...(drops.length ? [[orbitSection, drops], [contactSection, drops]] : []),
-    [speedSection, runs],
+    ...torqueSections(torques),
+    ...(moving.length ? [[speedSection, moving]] : []),
     ...(spinUps.length ? [[momentSection, spinUps], [slipSection, spinUps]] : []),
-    [mapSection, runs],
-    [pressureSection, runs],
+    ...(moving.length ? [[mapSection, moving], [pressureSection, moving]] : []),
     ...(spinUps.length ? [[outerRaceSection, spinUps]] : []),
-    ...[energySection, quantitySection, inputSection, factSection].map((build) => [build, runs]),
+    ...(moving.length ? [[energySection, moving]] : []),
+    ...[quantitySection, inputSection].map((build) => [build, runs]),
+    ...(moving.length ? [[factSection, moving]] : []),
   ];
   const sections = builders.map(([build, some]) => guarded(build, some));
-  main.append(guarded(header, runs), navigation(sections), ...sections);
+  main.append(guarded(header, runs), navigation(sections, moving.length > 0), ...sections);
   redrawAll();
   let waiting = false;
   window.addEventListener("resize", () => {

@@ -1,0 +1,263 @@
+// The pictures of a torque computation: moments over speed, acceleration and load, laws and lubricants side by side.
+// Nothing depends on time here, so these pictures have axes of their own and are drawn as SVG.
+
+function isTorque(run) {
+  return run.summary.system === "torque";
+}
+
+const LINE_COLOURS = ["#1f5fa8", "#c2571a", "#2f8f5b", "#8a4fae", "#8a7410", "#b0306a"];
+const ZERO_CELSIUS = 273.15;
+
+// A column over speed; columnOf asks for a time that there is not.
+function overSpeed(run, name, scale = 1) {
+  const column = run.columns.get(name);
+  return column && column.values.some(isNumber) ? column.values.map((value) => (value === null ? null : value * scale)) : null;
+}
+
+function listOf(run, name) {
+  return list(quantityOf(run, name).value).filter(isNumber);
+}
+
+// Round numbers that divide an axis into some five parts.
+function axisSteps(low, high) {
+  const rough = (high - low) / 5;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 2.5, 5, 10].map((factor) => factor * power).find((size) => size >= rough * 0.999);
+  const first = Math.ceil(low / step - 1e-9);
+  const last = Math.floor(high / step + 1e-9);
+  return Array.from({ length: Math.max(0, last - first + 1) }, (_, index) => Number(((first + index) * step).toPrecision(12)));
+}
+
+// series: [{label, x, y, colour, dash?, width?, dots?}]; words of both axes; logarithmic: decades on the upright axis.
+function curves({ series, across, upright, height = 300, logarithmic = false }) {
+  const width = 900;
+  const box = { left: 66, right: 18, top: 10, bottom: 42 };
+  const points = series.flatMap((line) => line.x.map((x, row) => [x, line.y[row]])).filter(([x, y]) => isNumber(x) && isNumber(y) && (!logarithmic || y > 0));
+  if (!points.length) return null;
+  const scaled = (y) => (logarithmic ? Math.log10(y) : y);
+  const xs = points.map(([x]) => x);
+  const ys = points.map(([, y]) => scaled(y));
+  let [left, right] = [Math.min(...xs), Math.max(...xs)];
+  if (left > 0 && left < 0.05 * right) left = 0;
+  if (!(right > left)) right = left + 1;
+  let [low, high] = logarithmic ? [Math.min(...ys), Math.max(...ys)] : paddedRange(Math.min(...ys), Math.max(...ys), []);
+  if (!(high > low)) [low, high] = [low - 0.5, high + 0.5];
+  const toX = (x) => box.left + ((x - left) / (right - left)) * (width - box.left - box.right);
+  const toY = (y) => height - box.bottom - ((y - low) / (high - low)) * (height - box.top - box.bottom);
+  const text = (x, y, anchor, words, more) => drawing("text", { x, y, "text-anchor": anchor, fill: PALE_INK, "font-size": 12, ...more }, words);
+  const decades = (from, to) => Array.from({ length: Math.ceil(to) - Math.floor(from) + 1 }, (_, index) => Math.floor(from) + index).flatMap((power) => [1, 2, 5].map((digit) => [digit * 10 ** power, power + Math.log10(digit)]));
+  const rungs = logarithmic ? decades(low, high).filter(([, y]) => y >= low && y <= high) : axisSteps(low, high).map((y) => [y, y]);
+  const grid = [
+    ...axisSteps(left, right).map((x) => [drawing("line", { x1: toX(x), x2: toX(x), y1: box.top, y2: height - box.bottom, stroke: RULE }), text(toX(x), height - box.bottom + 16, "middle", numberText(x, 6))]),
+    ...rungs.map(([value, y]) => [
+      drawing("line", { x1: box.left, x2: width - box.right, y1: toY(y), y2: toY(y), stroke: !logarithmic && value === 0 ? "#8995a0" : RULE }),
+      text(box.left - 8, toY(y) + 4, "end", numberText(value, 6)),
+    ]),
+    text((box.left + width - box.right) / 2, height - 6, "middle", across),
+    text(14, (box.top + height - box.bottom) / 2, "middle", upright, { transform: `rotate(-90 14 ${(box.top + height - box.bottom) / 2})` }),
+  ];
+  const drawn = series.map((line) => {
+    const known = line.x.map((x, row) => [x, line.y[row]]).filter(([x, y]) => isNumber(x) && isNumber(y) && (!logarithmic || y > 0));
+    const path = known.map(([x, y], index) => `${index ? "L" : "M"}${toX(x).toFixed(2)} ${toY(scaled(y)).toFixed(2)}`).join("");
+    const dots = line.dots || known.length === 1 ? known.map(([x, y]) => drawing("circle", { cx: toX(x), cy: toY(scaled(y)), r: 2.6, fill: line.colour })) : [];
+    return [drawing("path", { d: path, fill: "none", stroke: line.colour, "stroke-width": line.width || 1.75, "stroke-dasharray": line.dash || null, "stroke-linejoin": "round" }), dots];
+  });
+  const legend = series.map((line) =>
+    element("span", { class: "curve-key" }, drawing("svg", { width: 30, height: 10, viewBox: "0 0 30 10" }, drawing("line", { x1: 0, x2: 30, y1: 5, y2: 5, stroke: line.colour, "stroke-width": line.width || 1.75, "stroke-dasharray": line.dash || null })), line.label),
+  );
+  return [drawing("svg", { class: "curves", viewBox: `0 0 ${width} ${height}`, role: "img" }, grid, drawn), element("p", { class: "curve-keys" }, legend)];
+}
+
+// A plain table: heads, then rows of texts; the first column is a name.
+function plainTable(heads, rows) {
+  return element(
+    "div",
+    { class: "wide" },
+    element("table", { class: "numbers torque" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), element("tbody", {}, rows.map((cells) => element("tr", {}, cells.map((cell) => element("td", {}, cell)))))),
+  );
+}
+
+function millimetres(value) {
+  return isNumber(value) ? numberText(1e3 * value, 4) : "–";
+}
+
+function accelerationText(value) {
+  return `${numberText(value, 6)} rad/s²`;
+}
+
+function shareOfRun(run, runs, title) {
+  return runs.length > 1 ? `${run.label}: ${title}` : title;
+}
+
+// Where the tables hold that vary one thing.
+function torquePlace(run) {
+  const temperature = numberOf(run, "temperature");
+  const viscosity = numberOf(run, "viscosity");
+  return [
+    `${numberText(numberOf(run, "speed"), 5)} rad/s (${engineeringText(numberOf(run, "speed"), "rad/s", 4)})`,
+    engineeringText(numberOf(run, "radial_load"), "N", 4),
+    temperature === null ? null : `${numberText(temperature - ZERO_CELSIUS, 4)} °C`,
+    viscosity === null ? null : `${numberText(1e6 * viscosity, 4)} mm²/s`,
+  ].filter(Boolean).join(", ");
+}
+
+function accelerationFigures(run, runs) {
+  const speed = overSpeed(run, "speed");
+  const accelerations = listOf(run, "accelerations");
+  const part = (number, name) => overSpeed(run, `acceleration_${number}.${name}`, 1e3);
+  const each = (name, label, dash) =>
+    accelerations.map((acceleration, index) => ({ label: `${label} at ${accelerationText(acceleration)}`, x: speed, y: part(index + 1, name) || [], colour: LINE_COLOURS[index % LINE_COLOURS.length], dash }));
+  const friction = { label: "steady friction M", x: speed, y: overSpeed(run, "friction.moment", 1e3) || [], colour: "#8995a0", dash: "2 3", width: 2.5 };
+  const axes = { across: "speed of the inner race [rad/s]", upright: "moment [N mm]" };
+  const middle = accelerations.length - 1;
+  const parts = [
+    { label: "M0, made by the flow of the lubricant", x: speed, y: overSpeed(run, "friction.speed_dependent", 1e3) || [], colour: LINE_COLOURS[0] },
+    { label: "M1, made by the load", x: speed, y: overSpeed(run, "friction.load_dependent", 1e3) || [], colour: LINE_COLOURS[1] },
+    { label: `inertia at the inner race at ${accelerationText(accelerations[middle])}`, x: speed, y: part(middle + 1, "inner_race.inertia") || [], colour: LINE_COLOURS[2] },
+    { label: "inertia at the outer race", x: speed, y: part(middle + 1, "outer_race.inertia") || [], colour: LINE_COLOURS[3] },
+    { label: "pocket friction F at both races", x: speed, y: part(middle + 1, "loss") || [], colour: LINE_COLOURS[4], dash: "7 4" },
+  ];
+  const columns = ["inner_race_inertia_moments", "outer_race_inertia_moments", "acceleration_loss_moments", "inner_race_moments", "outer_race_moments"].map((name) => listOf(run, name));
+  const [m0, m1] = ["speed_dependent_moment", "load_dependent_moment"].map((name) => millimetres(numberOf(run, name)));
+  const heads = ["acceleration", "M0 [N mm]", "M1 [N mm]", "inertia, inner race [N mm]", "inertia, outer race [N mm]", "pocket friction F [N mm]", "t_I [N mm]", "t_O [N mm]"];
+  const rows = accelerations.map((acceleration, row) => [accelerationText(acceleration), m0, m1, ...columns.map((column) => millimetres(column[row]))]);
+  return [
+    figure(
+      shareOfRun(run, runs, "Moments on both races while the race is brought to speed"),
+      "Full lines: t_I, which resists the inner race. Dashed: t_O, which a torque arm on the outer race measures. In a steady run both equal the friction M; while the race speeds up the inertia of balls and cage adds to t_I and takes from t_O.",
+      curves({ series: [...each("inner_race.moment", "t_I"), ...each("outer_race.moment", "t_O", "7 4"), friction], ...axes, height: 380 }),
+    ),
+    figure(shareOfRun(run, runs, "The parts of these moments"), "t_I = M0 + M1 + inertia at the inner race + pocket friction; t_O likewise with the inertia at the outer race.", curves({ series: parts, ...axes, height: 280 })),
+    figure(shareOfRun(run, runs, `At ${torquePlace(run)}`), null, plainTable(heads, rows)),
+  ];
+}
+
+function torqueMomentSection(runs) {
+  return section("torque", "Moments over speed and acceleration", runs.map((run) => accelerationFigures(run, runs)));
+}
+
+function loadFigures(run, runs) {
+  const speed = overSpeed(run, "speed");
+  const loads = listOf(run, "loads");
+  const series = loads.map((load, index) => ({ label: engineeringText(load, "N", 4), x: speed, y: overSpeed(run, `load_${index + 1}.friction.moment`, 1e3) || [], colour: LINE_COLOURS[index % LINE_COLOURS.length] }));
+  const [m1, sums] = ["load_dependent_moments_over_load", "friction_moments_over_load"].map((name) => listOf(run, name));
+  const rows = loads.map((load, row) => [engineeringText(load, "N", 4), millimetres(m1[row]), millimetres(sums[row])]);
+  return [
+    figure(shareOfRun(run, runs, "Steady friction M under each radial load"), null, curves({ series, across: "speed of the inner race [rad/s]", upright: "moment [N mm]" })),
+    figure(shareOfRun(run, runs, `At ${numberText(numberOf(run, "speed"), 5)} rad/s`), null, plainTable(["radial load", "M1 [N mm]", "M [N mm]"], rows)),
+  ];
+}
+
+function torqueLoadSection(runs) {
+  return section("loads", "Radial load", runs.map((run) => loadFigures(run, runs)));
+}
+
+// The laws of a comparison, in its order: name of its quantities and words.
+function comparedLaws(run) {
+  const names = Object.keys(run.quantities).map((name) => /^(law_(.+))_friction_moment$/.exec(name)).filter(Boolean);
+  return names.map(([, name, words]) => ({ name, words: words.replace(/_/g, " ") }));
+}
+
+function lawFigures(run, runs) {
+  const speed = overSpeed(run, "speed");
+  const laws = comparedLaws(run);
+  const known = laws.filter(({ name }) => overSpeed(run, `${name}.friction.moment`));
+  // Palmgren's two forms differ by less than a line: dashes let both be seen.
+  const dashes = [null, "7 4", null, "2 3"];
+  const series = known.map(({ name, words }, index) => ({ label: words, x: speed, y: overSpeed(run, `${name}.friction.moment`, 1e3), colour: LINE_COLOURS[index % LINE_COLOURS.length], dash: dashes[index % dashes.length], width: index % 2 ? 2.5 : 1.75 }));
+  const rows = laws.map(({ name, words }) => {
+    const part = (end) => numberOf(run, `${name}_${end}`);
+    const why = quantityOf(run, `${name}_friction_moment`).why;
+    return [words, millimetres(part("speed_dependent_moment")), millimetres(part("load_dependent_moment")), millimetres(part("friction_moment")), why ? element("span", { class: "absent" }, why) : ""];
+  });
+  return [
+    figure(shareOfRun(run, runs, "Steady friction M by several laws"), "The same bearing, load and lubricant. The SKF model has its sliding friction in M1.", series.length ? curves({ series, across: "speed of the inner race [rad/s]", upright: "moment [N mm]" }) : notInThisRun("a law that has constants for this bearing", run)),
+    figure(shareOfRun(run, runs, `At ${torquePlace(run)}`), null, plainTable(["law", "M0 [N mm]", "M1 [N mm]", "M [N mm]", ""], rows)),
+  ];
+}
+
+function torqueLawSection(runs) {
+  return section("laws", "Laws of the friction moment", runs.map((run) => lawFigures(run, runs)));
+}
+
+function lubricantsOf(run) {
+  const numbers = Object.keys(run.quantities).map((name) => /^lubricant_(\d+)$/.exec(name)).filter(Boolean);
+  return numbers.map(([name], index) => ({ name, words: String(quantityOf(run, name).value), colour: LINE_COLOURS[index % LINE_COLOURS.length] }));
+}
+
+function lubricantFigures(run, runs) {
+  const lubricants = lubricantsOf(run);
+  const over = (end, scale) => lubricants.filter(({ name }) => listOf(run, `${name}_temperatures`).length).map(({ name, words, colour }) => ({ label: words, colour, dots: true, x: listOf(run, `${name}_temperatures`).map((kelvin) => kelvin - ZERO_CELSIUS), y: listOf(run, `${name}_${end}`).map((value) => scale * value) }));
+  const across = "temperature of the lubricant [°C]";
+  const moments = over("friction_moments", 1e3);
+  const speed = overSpeed(run, "speed");
+  const running = lubricants.filter(({ name }) => overSpeed(run, `${name}.friction.moment`)).map(({ name, words, colour }) => ({ label: words, colour, x: speed, y: overSpeed(run, `${name}.friction.moment`, 1e3) }));
+  const temperatures = [...new Set(lubricants.flatMap(({ name }) => listOf(run, `${name}_temperatures`)))].sort((one, other) => one - other);
+  const cell = (name, temperature) => {
+    const row = listOf(run, `${name}_temperatures`).indexOf(temperature);
+    return row < 0 ? "–" : millimetres(listOf(run, `${name}_friction_moments`)[row]);
+  };
+  const rows = lubricants.map(({ name, words }) => {
+    const viscosity = numberOf(run, `${name}_viscosity`);
+    const why = quantityOf(run, `${name}_friction_moment`).why;
+    return [words, viscosity === null ? element("span", { class: "absent" }, why || "–") : numberText(1e6 * viscosity, 4), millimetres(numberOf(run, `${name}_friction_moment`)), ...temperatures.map((temperature) => cell(name, temperature))];
+  });
+  const heads = ["lubricant", "ν, running [mm²/s]", "M, running [N mm]", ...temperatures.map((temperature) => `${numberText(temperature - ZERO_CELSIUS, 4)} °C`)];
+  const at = `at ${numberText(numberOf(run, "speed"), 5)} rad/s under ${engineeringText(numberOf(run, "radial_load"), "N", 4)}`;
+  return [
+    moments.length ? figure(shareOfRun(run, runs, "Steady friction M over temperature, " + at), "Each lubricant where its viscosity is known.", curves({ series: moments, across, upright: "moment [N mm]" })) : null,
+    moments.length ? figure(shareOfRun(run, runs, "Viscosity over temperature"), "A straight line in the axes of ASTM D341 through two points.", curves({ series: over("viscosities", 1e6), across, upright: "viscosity [mm²/s]", logarithmic: true, height: 240 })) : null,
+    running.length ? figure(shareOfRun(run, runs, "Steady friction M over speed, at the running temperature"), null, curves({ series: running, across: "speed of the inner race [rad/s]", upright: "moment [N mm]" })) : null,
+    figure(shareOfRun(run, runs, "M [N mm] by lubricant and temperature, " + at), null, plainTable(heads, rows)),
+  ];
+}
+
+function torqueLubricantSection(runs) {
+  return section("lubricants", "Lubricants", runs.map((run) => lubricantFigures(run, runs)));
+}
+
+// The sections of torque runs; what a run does not compare has no section.
+function torqueSections(runs) {
+  const some = (known) => runs.filter((run) => known(run).length);
+  return [
+    [torqueMomentSection, runs],
+    [torqueLoadSection, runs],
+    [torqueLawSection, some(comparedLaws)],
+    [torqueLubricantSection, some(lubricantsOf)],
+  ].filter(([, part]) => part.length);
+}
+
+// The verdict of a torque computation.
+function torqueVerdict(run) {
+  const accelerations = listOf(run, "accelerations");
+  const fastest = accelerations.reduce((best, value, row) => (Math.abs(value) > Math.abs(accelerations[best]) ? row : best), 0);
+  const at = (name) => engineeringText(listOf(run, name)[fastest], "N m", 4);
+  const part = (name) => engineeringText(numberOf(run, name), "N m", 4);
+  return element(
+    "div",
+    { class: "tiles" },
+    stateTile(run),
+    tile("Friction M", part("friction_moment"), [`at ${torquePlace(run)}`]),
+    tile("Made by the flow, M0", part("speed_dependent_moment"), ["speed-dependent part"]),
+    tile("Made by the load, M1", part("load_dependent_moment"), ["load-dependent part"]),
+    tile("Inner race t_I", at("inner_race_moments"), [`at ${accelerationText(accelerations[fastest])}; ${at("inner_race_inertia_moments")} of it inertia`]),
+    tile("Outer race t_O", at("outer_race_moments"), [`at ${accelerationText(accelerations[fastest])}; ${at("outer_race_inertia_moments")} of it inertia`]),
+  );
+}
+
+// Which bearing, under which law, in one line.
+function torqueLine(run) {
+  const given = (path) => {
+    const input = inputOf(run, path);
+    return input && String(input.value) !== "not given" ? inputText(input.value) : null;
+  };
+  const law = given("bearing.moment.law");
+  const loss = given("bearing.acceleration_loss.kind");
+  const facts = [
+    given("bearing.name") || "bearing without a name",
+    law && (law === "none" ? "no friction moment" : `friction moment: ${law}`),
+    given("bearing.moment.lubrication"),
+    loss && (loss === "none" ? "no pocket friction F" : `pocket friction F: ${loss}`),
+  ].filter(Boolean);
+  return element("p", { class: "machine" }, facts.join(" · "));
+}

@@ -1,0 +1,81 @@
+//! Lists: several values of one kind; a single one needs no brackets.
+
+use super::document::Raw;
+use super::key::{Key, Kind, quoted};
+use super::read_rows::cell;
+use super::resolve::{Value, Values};
+use crate::problem::{Code, Place, Problem, did_you_mean};
+
+impl Values {
+    /// Reads a list; a problem names the entry, counted from 1.
+    pub(super) fn read_list(
+        &self,
+        key: &Key,
+        raw: &Raw,
+        place: Place,
+    ) -> Result<(Value, String), Box<Problem>> {
+        let wrong = |code, found: String, hint| {
+            Box::new(
+                self.problem(code, key.path, place, found, key.needed())
+                    .with_hint(hint),
+            )
+        };
+        let single = std::slice::from_ref(raw);
+        let (entries, alone): (&[Raw], bool) = match raw {
+            Raw::List(entries) => (entries, false),
+            _ => (single, true),
+        };
+        if entries.is_empty() {
+            return Err(wrong(Code::WrongType, "an empty list".to_string(), None));
+        }
+        let where_in = |number: usize| match alone {
+            true => String::new(),
+            false => format!(" as entry {number}"),
+        };
+        let mut numbers = Vec::new();
+        let mut words = Vec::new();
+        let mut texts: Vec<String> = Vec::new();
+        for (number, entry) in entries.iter().enumerate().map(|(i, entry)| (i + 1, entry)) {
+            let text = match (key.kind, entry) {
+                (Kind::Quantities(unit), entry) => {
+                    let (si, text) = cell(entry, unit).map_err(|(code, found, hint)| {
+                        let found = found.trim_end_matches(',');
+                        wrong(code, format!("{found}{}", where_in(number)), hint)
+                    })?;
+                    if !key.range.holds(si) {
+                        let found = format!("{}{}", quoted(text), where_in(number));
+                        return Err(wrong(Code::OutOfRange, found, None));
+                    }
+                    numbers.push(si);
+                    text
+                }
+                (Kind::Words(known), Raw::Text(text)) => {
+                    let Some(word) = known.iter().find(|word| *word == text) else {
+                        let found = format!("{}{}", quoted(text), where_in(number));
+                        let hint = did_you_mean(text, known.iter().copied());
+                        return Err(wrong(Code::UnknownWord, found, hint));
+                    };
+                    words.push(*word);
+                    text
+                }
+                (Kind::Texts, Raw::Text(text)) => text,
+                (_, other) => {
+                    let found = format!("{}{}", other.text(), where_in(number));
+                    return Err(wrong(Code::WrongType, found, None));
+                }
+            };
+            if let Some(first) = texts.iter().position(|known| known == text) {
+                let found = format!("{} as entries {} and {number}", quoted(text), first + 1);
+                return Err(wrong(Code::Conflict, found, None));
+            }
+            texts.push(text.to_string());
+        }
+        let listed: Vec<String> = texts.iter().map(|text| quoted(text)).collect();
+        let value = match key.kind {
+            Kind::Quantities(_) => Value::Numbers(numbers),
+            Kind::Words(_) => Value::Words(words),
+            _ => Value::Texts(texts),
+        };
+        Ok((value, format!("[{}]", listed.join(", "))))
+    }
+}
