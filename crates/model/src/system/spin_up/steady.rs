@@ -77,7 +77,10 @@ impl fmt::Display for SteadyError {
                 "slip, pockets and damping alone dissipate {explicit:.3e} W, more than the {law:.3e} W of the steady moment's law"
             ),
             SteadyError::NotSteady => {
-                write!(f, "no steady run within {MOST_TURNS} turns of the cage")
+                write!(
+                    f,
+                    "no steady run within {MOST_TURNS} turns of the cage or {MOST_STEPS} steps"
+                )
             }
             SteadyError::Refused(why) => write!(f, "{why}"),
             SteadyError::DidNotFinish => write!(f, "the integration of a steady run failed"),
@@ -93,6 +96,8 @@ const MOST_TURNS: u32 = 60;
 const STEADY: f64 = 1e-3;
 /// Passes of λ.
 const PASSES: u32 = 2;
+/// Steps that all turns of a run may take together: seconds of computing. A usual run takes a tenth.
+const MOST_STEPS: u64 = 600_000;
 
 /// Computes a steady run at a speed (rad/s, not 0) under a radial load (N), with the bearing's own λ.
 ///
@@ -178,9 +183,10 @@ fn settle(
     let turn = 2.0 * std::f64::consts::PI / cage.abs();
     let layout = *machine.layout();
     let mut last_slip = f64::INFINITY;
+    let mut steps_left = MOST_STEPS;
     for _ in 0..MOST_TURNS {
         let from = std::mem::take(state);
-        *state = advance(machine, &from, turn)?;
+        *state = advance(machine, &from, turn, &mut steps_left)?;
         let mean = |channel: usize| (state[channel] - from[channel]) / turn;
         let law = mean_moment(machine, &from, state);
         let inner_moment = mean(layout.work(0)) / speed;
@@ -228,22 +234,32 @@ impl Observer<SpinUpMachine> for Blind {
     }
 }
 
-fn advance(machine: &SpinUpMachine, state: &[f64], length: f64) -> Result<Vec<f64>, SteadyError> {
+fn advance(
+    machine: &SpinUpMachine,
+    state: &[f64],
+    length: f64,
+    steps_left: &mut u64,
+) -> Result<Vec<f64>, SteadyError> {
     let settings = Settings {
         start: 0.0,
         end: length,
         tolerance: TOLERANCE,
         first_step: 1e-7,
         largest_step: 1e-3,
-        step_limit: 50_000_000,
+        step_limit: *steps_left,
     };
     let never = AtomicBool::new(false);
     let machines = [machine];
     let starts = [state.to_vec()];
     let mut endings =
         solve::run::<f64, SpinUp<f64>, _>(&machines, &starts, &mut [Blind], &settings, &never);
-    match endings.pop() {
-        Some(ending) if ending.stop == Stop::Finished => Ok(ending.state),
+    let Some(ending) = endings.pop() else {
+        return Err(SteadyError::DidNotFinish);
+    };
+    *steps_left = steps_left.saturating_sub(ending.work.accepted + ending.work.rejected);
+    match ending.stop {
+        Stop::Finished => Ok(ending.state),
+        Stop::StepLimit => Err(SteadyError::NotSteady),
         _ => Err(SteadyError::DidNotFinish),
     }
 }
