@@ -1,7 +1,7 @@
 //! What a bearing dissipates while it is spun up, read from the moment on its outer race.
 //!
 //! Races concentric and fixed, from rest to the speed Ω0. The work of the inner race is ∫t_I Ω dt; with
-//! t_I = t_O + t_g + dL/dt, L the angular momentum of balls and cage and t_g what they receive from neither ring,
+//! t_I = t_O + t_g + dL/dt, L the angular momentum of balls and cage and t_g what they lose to neither ring,
 //!
 //! ```text
 //!   D = ∫t_I Ω dt - Δ(KE + U) = ∫(t_O + t_g) Ω dt + ∫Ω dL - Δ(KE + U)         exact, with any slip
@@ -39,7 +39,7 @@ pub struct SpinUpEnergy {
 /// Formula: D = ∫(t_O + t_g) Ω dt + ∫Ω dL - Δ(KE + U)
 ///
 /// - `outer_moment_work`: ∫t_O Ω dt, J; t_O everything that the outer ring receives
-/// - `ground_moment_work`: ∫t_g Ω dt, J; t_g what balls and cage receive from neither ring, 0 unless something drags
+/// - `ground_moment_work`: ∫t_g Ω dt, J; t_g what balls and cage lose to neither ring, 0 unless something drags
 /// - `path_term`: ∫Ω dL, J; L the angular momentum of balls and cage about the centre
 /// - `energy_change`: Δ(KE + U) of balls and cage and of the contacts, J
 ///

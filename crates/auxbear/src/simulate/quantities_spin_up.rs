@@ -137,22 +137,29 @@ fn moments(list: &mut List, context: &Context) {
 fn slip(list: &mut List, context: &Context) {
     let rolling = || "the rolling fidelity takes the balls to roll".to_string();
     let planar = context.spin_up.bearing.fidelity == Fidelity::Planar;
+    let full = context.spin_up.target_speed().abs();
+    let fast = |speed: f64| speed.abs() > LEAST_SPEED * full;
+    // slip is relative to a speed: a race at rest has none
+    let turns = fast(context.ending.state[INNER + 5]);
     let end = probes(context)[CAGE_SLIP];
     list.number(
         "cage_slip_at_end",
         "1",
-        if planar { Ok(end) } else { Err(rolling()) },
+        match (planar, turns) {
+            (true, true) => Ok(end),
+            (true, false) => Err("the inner race hardly turns at the end".to_string()),
+            (false, _) => Err(rolling()),
+        },
         &SLIP,
     );
-    let full = context.spin_up.target_speed().abs();
-    let fast = |speed: f64| speed.abs() > LEAST_SPEED * full;
     let largest = context
         .record
         .rows()
         .filter(|row| fast(row.state[INNER + 5]))
-        .map(|row| row.probe[CAGE_SLIP])
+        // a cage that runs ahead of rolling skids as well
+        .map(|row| row.probe[CAGE_SLIP].abs())
         .fold(0.0, f64::max);
-    let word = if end > SKIDDING {
+    let word = if turns && end.abs() > SKIDDING {
         "still at the end"
     } else if largest > SKIDDING {
         "while the race speeds up"

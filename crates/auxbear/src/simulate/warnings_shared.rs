@@ -73,7 +73,8 @@ pub(super) fn skids(steady: Option<&SteadyFinding>) -> Option<Warning> {
         "AB1017",
         format!(
             "The balls must skid: at {:.0} rad/s under {:.0} N traction can carry {:.2} times the friction moment of \
-             {:.1} N mm, and 1.2 times is needed. The moment on the outer race is then less than that of the law.",
+             {:.1} N mm, and 1.2 times is needed. In a steady run the mean moment on the outer race is then less than \
+             that of the law.",
             steady.speed,
             steady.load,
             steady.capacity,

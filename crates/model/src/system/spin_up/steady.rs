@@ -96,8 +96,8 @@ const MOST_TURNS: u32 = 60;
 const STEADY: f64 = 1e-3;
 /// Passes of λ.
 const PASSES: u32 = 2;
-/// Steps that all turns of a run may take together: seconds of computing. A usual run takes a tenth.
-const MOST_STEPS: u64 = 600_000;
+/// Steps that all turns of a run may take together: two seconds of computing.
+const MOST_STEPS: u64 = 300_000;
 
 /// Computes a steady run at a speed (rad/s, not 0) under a radial load (N), with the bearing's own λ.
 ///
