@@ -60,10 +60,23 @@ impl fmt::Display for Departure {
             unit,
             consequence,
         } = self;
+        let [value, least, largest] = [*value, *least, *largest].map(four_digits);
         write!(
             out,
-            "{quantity} {value:.4} {unit} is outside {least:.4} to {largest:.4} {unit}: {consequence}"
+            "{quantity} {value} {unit} is outside {least} to {largest} {unit}: {consequence}"
         )
+    }
+}
+
+/// A number for people: four significant digits.
+fn four_digits(value: f64) -> String {
+    if value == 0.0 {
+        "0".to_string()
+    } else if (1e-3..1e5).contains(&value.abs()) {
+        let digits = 3 - value.abs().log10().floor() as i32;
+        format!("{value:.*}", digits.clamp(0, 6) as usize)
+    } else {
+        format!("{value:.3e}")
     }
 }
 

@@ -57,7 +57,8 @@ pub fn systems(key: &Key) -> &'static [SystemName] {
 pub fn presence(key: &Key, system: SystemName) -> Presence {
     let own = match system {
         SystemName::Torque => table_torque::PRESENCES,
-        SystemName::Drop | SystemName::SpinUp => &[],
+        SystemName::SpinUp => table_drive::PRESENCES,
+        SystemName::Drop => &[],
     };
     let own = own.iter().find(|(path, _)| *path == key.path);
     own.map_or(key.presence, |(_, presence)| *presence)

@@ -1,10 +1,38 @@
 //! The part of the table of keys that describes what brings an inner race to speed.
 
-use super::key::{Condition, Key, Kind, Section};
+use super::key::{Condition, Fallback, Key, Kind, Presence, Section};
 use super::system::SystemName;
 
 /// The systems of this page.
 const SPIN_UP: &[SystemName] = &[SystemName::SpinUp];
+
+/// What a spin-up does without keys that it shares with a drop.
+pub(super) const PRESENCES: &[(&str, Presence)] = &[
+    (
+        "run.duration",
+        Presence::Default(Fallback {
+            text: "0.1 s",
+            reason: "several times the spin-up of a small inner race by a sliding rotor",
+            assumed: false,
+        }),
+    ),
+    (
+        "run.tolerance",
+        Presence::Default(Fallback {
+            text: "5e-5",
+            reason: "there the energies of the shipped spin-ups close to a millionth of what is turned over",
+            assumed: false,
+        }),
+    ),
+    (
+        "run.output_interval",
+        Presence::Default(Fallback {
+            text: "0.02 ms",
+            reason: "5000 rows for the default duration",
+            assumed: false,
+        }),
+    ),
+];
 
 pub(super) const SECTIONS: &[Section] = &[Section {
     path: "drive",

@@ -33,20 +33,20 @@ pub(super) fn name(context: &Context) -> Vec<Quantity> {
 fn times(list: &mut List, context: &Context) {
     let (record, state) = (context.record, &context.ending.state);
     let target = context.spin_up.target_speed();
-    let never = |what: &str| {
+    let never = |what: &str, speed: f64| {
         let text = format!(
-            "{what} ({} rad/s) was not reached by {:.4e} s",
-            units::number_text(target),
-            context.ending.time
+            "{what} ({speed:.1} rad/s) was not reached by {:.4} ms",
+            1e3 * context.ending.time
         );
         move || text
     };
+    let rolling = target * context.machine().constants.bearing.rolling_cage_ratio();
     list.number(
         "inner_race_time_to_50_percent",
         "s",
         record
             .inner_race_time_to_50_percent()
-            .ok_or_else(never("half of the full speed")),
+            .ok_or_else(never("half of the full speed", 0.5 * target)),
         &RISE,
     );
     list.number(
@@ -54,7 +54,7 @@ fn times(list: &mut List, context: &Context) {
         "s",
         record
             .inner_race_time_to_95_percent()
-            .ok_or_else(never("95 % of the full speed")),
+            .ok_or_else(never("95 % of the full speed", 0.95 * target)),
         &RISE,
     );
     list.number(
@@ -62,7 +62,7 @@ fn times(list: &mut List, context: &Context) {
         "s",
         record
             .cage_time_to_95_percent()
-            .ok_or_else(never("95 % of the rolling cage speed")),
+            .ok_or_else(never("95 % of the rolling cage speed", 0.95 * rolling)),
         &RISE,
     );
     list.number(
