@@ -60,7 +60,7 @@ impl fmt::Display for Departure {
             unit,
             consequence,
         } = self;
-        let [value, least, largest] = [*value, *least, *largest].map(four_digits);
+        let [value, least, largest] = [*value, *least, *largest].map(in_digits);
         write!(
             out,
             "{quantity} {value} {unit} is outside {least} to {largest} {unit}: {consequence}"
@@ -68,12 +68,12 @@ impl fmt::Display for Departure {
     }
 }
 
-/// A number for people: four significant digits.
-fn four_digits(value: f64) -> String {
+/// A number for people: five significant digits, four with an exponent.
+fn in_digits(value: f64) -> String {
     if value == 0.0 {
         "0".to_string()
     } else if (1e-3..1e5).contains(&value.abs()) {
-        let digits = 3 - value.abs().log10().floor() as i32;
+        let digits = 4 - value.abs().log10().floor() as i32;
         format!("{value:.*}", digits.clamp(0, 6) as usize)
     } else {
         format!("{value:.3e}")
@@ -282,7 +282,7 @@ mod tests {
         let cold = temperature_departure(&oil, ICE_POINT - 20.0).unwrap();
         assert_eq!(
             cold.to_string(),
-            "lubricant temperature 253.1500 K is outside 283.1500 to 403.1500 K: the viscosity is not known there"
+            "lubricant temperature 253.15 K is outside 283.15 to 403.15 K: the viscosity is not known there"
         );
     }
 }
