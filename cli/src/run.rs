@@ -49,7 +49,7 @@ pub fn execute(
         &Options {
             threads: threads.map(usize::from),
             interrupt: &INTERRUPT,
-            progress: &|fraction| progress.show(fraction),
+            progress: &|phase, fraction| progress.show(phase, fraction),
         },
     );
     progress.end();

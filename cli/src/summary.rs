@@ -23,7 +23,7 @@ const OF_SPIN_UP: &[&str] = &[
     "cage_time_to_95_percent_of_rolling",
     "peak_inner_race_moment",
     "peak_outer_race_moment",
-    "friction_moment_at_end",
+    "law_moment_at_end",
     "traction_capacity",
     "balls_skid",
     "bearing_dissipated_energy",

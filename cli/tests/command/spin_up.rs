@@ -9,7 +9,7 @@ const ALWAYS: [&str; 14] = [
     "cage_time_to_95_percent_of_rolling",
     "peak_inner_race_moment",
     "peak_outer_race_moment",
-    "friction_moment_at_end",
+    "law_moment_at_end",
     "traction_capacity",
     "cage_slip_at_end",
     "balls_skid",

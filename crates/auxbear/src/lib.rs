@@ -11,8 +11,7 @@
 //! let text = template("drop").unwrap();
 //! let short = [String::from("run.duration=12 ms")];
 //! let scenario = Scenario::parse(&text, "template", &short, &BuiltIn).unwrap();
-//! let options = Options { threads: None, interrupt: &AtomicBool::new(false), progress: &|_| {} };
-//! let outcome = run(&scenario, &options).unwrap();
+//! let outcome = run(&scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap();
 //! assert!(outcome.stop.complete());
 //! ```
 //!

@@ -9,11 +9,8 @@ use std::sync::atomic::AtomicBool;
 fn outcome(name: &str) -> Outcome {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
     let scenario = Scenario::read(&path.join(name), &[], &BuiltIn).expect("it is shipped");
-    let options = Options {
-        threads: None,
-        interrupt: &AtomicBool::new(false),
-        progress: &|_| {},
-    };
+    let interrupt = AtomicBool::new(false);
+    let options = Options::unwatched(&interrupt);
     let outcome = run(&scenario, &options).expect("it builds");
     assert!(outcome.stop.complete(), "{:?}", outcome.stop);
     // the bound of every shipped scenario
@@ -62,7 +59,7 @@ fn a_step_shows_the_printed_formula_making_a_negative_loss() {
         &Value::Text("while the race speeds up".to_string())
     );
     // once they roll both races feel the moment of the law, ripple of a single instant included
-    let law = number(&outcome, "friction_moment_at_end");
+    let law = number(&outcome, "law_moment_at_end");
     near(
         "t_I",
         number(&outcome, "inner_race_moment_at_end"),

@@ -18,11 +18,8 @@ fn parse(text: &str, sets: &[&str]) -> Result<Scenario, String> {
 }
 
 fn computed(scenario: &Scenario) -> Outcome {
-    let options = Options {
-        threads: None,
-        interrupt: &AtomicBool::new(false),
-        progress: &|_| {},
-    };
+    let interrupt = AtomicBool::new(false);
+    let options = Options::unwatched(&interrupt);
     run(scenario, &options).unwrap()
 }
 

@@ -1,6 +1,7 @@
 //! From a drop to the constants of the model.
 
-use super::build_bearing::{self, SteadyFinding};
+use super::Options;
+use super::build_bearing::{self, SteadyFinding, SteadyPoint};
 use crate::problem::Problem;
 use crate::scenario::{Drop, Spin};
 use model::contact::RotorContact;
@@ -25,7 +26,7 @@ pub struct Built {
 }
 
 /// Builds the constants of one plane of a drop: identical planes share the rotor equally.
-pub fn drop(drop: &Drop) -> Result<Built, Box<Problem>> {
+pub fn drop(drop: &Drop, options: &Options) -> Result<Built, Box<Problem>> {
     let share = 1.0 / f64::from(drop.rotor.planes);
     let (sine, cosine) = drop.gravity.direction.sin_cos();
     let gravity = Vec2::new(cosine, sine) * drop.gravity.acceleration;
@@ -46,8 +47,11 @@ pub fn drop(drop: &Drop) -> Result<Built, Box<Problem>> {
             load_direction: Vec2::new(cosine, sine),
             gravity,
         },
-        drop.rotor.speed,
-        mass * drop.gravity.acceleration,
+        SteadyPoint {
+            speed: drop.rotor.speed,
+            load: mass * drop.gravity.acceleration,
+        },
+        options,
     )?;
     let mut constants = DropConstants {
         machine: MachineConstants {

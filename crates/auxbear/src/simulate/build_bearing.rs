@@ -1,5 +1,6 @@
 //! From a bearing of a scenario to the constants of the model.
 
+use super::{Options, Phase};
 use crate::problem::{Code, Problem};
 use crate::scenario::{
     AccelerationLoss as LossChoice, BallMaterial, Bearing, Fidelity, Moment,
@@ -14,7 +15,7 @@ use model::bearing::{
 use model::system::spin_up::layout::{INNER, INNER_LOAD_SUM, STEADY_MOMENT};
 use model::system::spin_up::steady::{LEAST_CAPACITY, largest_coefficient};
 use model::system::spin_up::{
-    Drive, InnerRace, Refusal, SpinUpConstants, SpinUpMachine, SteadyError, moment_scale,
+    Drive, InnerRace, Refusal, SpinUpConstants, SpinUpMachine, SteadyError, Watch, moment_scale,
 };
 use model::table::Table;
 use number::Vec2;
@@ -211,6 +212,8 @@ pub struct SteadyFinding {
     pub capacity: f64,
     /// Scale of the law that the run uses; 1 in the rolling fidelity.
     pub scale: f64,
+    /// Mean moment on the outer race in a steady run with this scale, N m, where one was computed.
+    pub steady_moment: Option<f64>,
     /// Where the scale comes from, or why there is none.
     pub origin: ScaleOrigin,
 }
@@ -237,15 +240,25 @@ impl SteadyFinding {
     }
 }
 
+/// Where a steady run is looked at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SteadyPoint {
+    /// Speed of the inner race, rad/s.
+    pub speed: f64,
+    /// Radial load, N.
+    pub load: f64,
+}
+
 /// Looks at the bearing in a steady run and scales its moment, so that what the balls lose by slip and in their pockets
 /// does not count twice. None where there is no steady moment or no speed.
 pub(super) fn steady(
     constants: &mut BearingConstants,
     bearing: &Bearing,
     race: &InnerRace<f64>,
-    speed: f64,
-    load: f64,
+    at: SteadyPoint,
+    options: &Options,
 ) -> Result<Option<SteadyFinding>, Box<Problem>> {
+    let SteadyPoint { speed, load } = at;
     if bearing.moment == Moment::None || speed == 0.0 {
         return Ok(None);
     }
@@ -262,9 +275,16 @@ pub(super) fn steady(
     } else if race.centre_held {
         finding.origin = ScaleOrigin::Unknown("the centre of the inner race is held".to_string());
     } else {
-        match moment_scale(planar, race, speed, load) {
+        let watch = Watch {
+            interrupt: options.interrupt,
+            progress: &|done, least| {
+                (options.progress)(Phase::SteadyRun, (done as f64 / least as f64).min(1.0));
+            },
+        };
+        match moment_scale(planar, race, speed, load, &watch) {
             Ok(run) => {
                 finding.scale = run.scale;
+                finding.steady_moment = Some(run.outer_moment);
                 finding.capacity = run.capacity;
                 finding.origin = ScaleOrigin::SteadyRun;
             }
@@ -322,6 +342,7 @@ fn at_rest(
         moment,
         capacity: traction / moment.abs(),
         scale: 1.0,
+        steady_moment: None,
         origin: ScaleOrigin::NotNeeded,
     })
 }

@@ -1,6 +1,7 @@
 //! From a spin-up to the constants of the model.
 
-use super::build_bearing::{self, SteadyFinding, refused, table};
+use super::Options;
+use super::build_bearing::{self, SteadyFinding, SteadyPoint, refused, table};
 use crate::problem::Problem;
 use crate::scenario::{Course, Drive as DriveChoice, SpeedCourse, SpinUp};
 use model::system::spin_up::{Drive, InnerRace, SlidingRotor, SpinUpConstants, SpinUpMachine};
@@ -21,7 +22,7 @@ pub struct Built {
 }
 
 /// Builds the machine of a spin-up. The weight of the balls is left out: it is a thousandth of any load.
-pub fn spin_up(spin_up: &SpinUp) -> Result<Built, Box<Problem>> {
+pub fn spin_up(spin_up: &SpinUp, options: &Options) -> Result<Built, Box<Problem>> {
     let (sine, cosine) = spin_up.load_direction.sin_cos();
     let gravity = Vec2::zero();
     let race = InnerRace {
@@ -34,8 +35,11 @@ pub fn spin_up(spin_up: &SpinUp) -> Result<Built, Box<Problem>> {
     let contacts = build_bearing::ball_contacts(&spin_up.bearing)?;
     let mut bearing = build_bearing::bearing(&spin_up.bearing, &contacts, gravity)?;
     let target_speed = spin_up.target_speed();
-    let load = spin_up.radial_load.at(spin_up.run.duration);
-    let steady = build_bearing::steady(&mut bearing, &spin_up.bearing, &race, target_speed, load)?;
+    let at = SteadyPoint {
+        speed: target_speed,
+        load: spin_up.radial_load.at(spin_up.run.duration),
+    };
+    let steady = build_bearing::steady(&mut bearing, &spin_up.bearing, &race, at, options)?;
     let machine = SpinUpMachine::new(SpinUpConstants {
         race,
         bearing,

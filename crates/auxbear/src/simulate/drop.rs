@@ -29,7 +29,7 @@ pub(super) fn run(
     drop: &Drop,
     options: &Options,
 ) -> Result<Outcome, Box<Problem>> {
-    let built = build::drop(drop)?;
+    let built = build::drop(drop, options)?;
     let machine = DropMachine::new(built.constants.clone());
     let count = drop.repeat.count.max(1) as usize;
     let members: Vec<Member> = (0..count).map(|k| member(&machine, drop, k)).collect();

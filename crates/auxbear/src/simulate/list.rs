@@ -24,6 +24,14 @@ impl List {
             spread: None,
         });
     }
+    /// Takes all values back: nothing was computed.
+    pub fn clear(&mut self, why: &str) {
+        for quantity in &mut self.0 {
+            quantity.value = Value::None {
+                why: why.to_string(),
+            };
+        }
+    }
     pub fn number(
         &mut self,
         name: &str,

@@ -42,8 +42,38 @@ pub struct Options<'a> {
     pub threads: Option<usize>,
     /// Set to true, it stops the run at the next opportunity; what was computed is kept.
     pub interrupt: &'a AtomicBool,
-    /// Told the fraction of the work done, from 0 to 1, from any thread.
-    pub progress: &'a (dyn Fn(f64) + Sync),
+    /// Told what is being computed and the fraction of it done, from 0 to 1, from any thread.
+    pub progress: &'a (dyn Fn(Phase, f64) + Sync),
+}
+
+impl<'a> Options<'a> {
+    /// All cores, and nobody who watches.
+    pub fn unwatched(interrupt: &'a AtomicBool) -> Self {
+        Options {
+            threads: None,
+            interrupt,
+            progress: &|_, _| {},
+        }
+    }
+}
+
+/// What a caller waits for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// The steady run that tells the share of the friction moment. It may last longer than foreseen.
+    SteadyRun,
+    /// The run itself.
+    Run,
+}
+
+impl Phase {
+    /// For people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Phase::SteadyRun => "steady run for the friction moment",
+            Phase::Run => "run",
+        }
+    }
 }
 
 /// Simulates what the scenario describes. A run that fails is an [`Outcome`] whose `stop` says where and why.

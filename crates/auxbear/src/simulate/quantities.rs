@@ -190,6 +190,9 @@ pub(super) fn name(context: &Context) -> Vec<Quantity> {
     let (energy, momentum) = residuals(context);
     list.number("energy_residual", "1", energy, &RESIDUAL);
     list.number("angular_momentum_residual", "1", momentum, &RESIDUAL);
+    if ending.time == 0.0 {
+        list.clear("the run ended before its first step");
+    }
     list.0
 }
 

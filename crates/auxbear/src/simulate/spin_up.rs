@@ -3,7 +3,7 @@
 use super::build_spin_up::{self, Built};
 use super::ending::{settings, stop};
 use super::outcome::{Outcome, Picture, Work};
-use super::{Options, columns_spin_up, quantities_spin_up, warnings_spin_up};
+use super::{Options, Phase, columns_spin_up, quantities_spin_up, warnings_spin_up};
 use crate::problem::Problem;
 use crate::scenario::{Scenario, SpinUp};
 use model::system::spin_up::record::Record;
@@ -32,7 +32,7 @@ pub(super) fn run(
     spin_up: &SpinUp,
     options: &Options,
 ) -> Result<Outcome, Box<Problem>> {
-    let built = build_spin_up::spin_up(spin_up)?;
+    let built = build_spin_up::spin_up(spin_up, options)?;
     let start = built.machine.start();
     let clock = Instant::now();
     let (record, ending) = integrate(&built.machine, &start, spin_up, options);
@@ -106,7 +106,7 @@ fn integrate(
 /// A record that also reports progress.
 struct Watched<'a> {
     record: Record,
-    progress: &'a (dyn Fn(f64) + Sync),
+    progress: &'a (dyn Fn(Phase, f64) + Sync),
     told: u64,
     end: f64,
 }
@@ -115,7 +115,7 @@ impl Observer<SpinUpMachine> for Watched<'_> {
     fn step(&mut self, step: &mut Step<SpinUpMachine>) -> Flow {
         let thousandths = (1000.0 * step.end / self.end) as u64;
         if thousandths > self.told {
-            (self.progress)(thousandths as f64 * 1e-3);
+            (self.progress)(Phase::Run, thousandths as f64 * 1e-3);
             self.told = thousandths;
         }
         self.record.step(step)

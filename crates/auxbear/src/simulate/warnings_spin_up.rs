@@ -1,6 +1,7 @@
 //! What the user should know before trusting the numbers of a spin-up.
 
 use super::outcome::{Quantity, Value, Warning};
+use super::quantities_spin_up::rolling_start_to_end;
 use super::spin_up::Context;
 use super::warnings_shared::{self as shared, warning};
 use crate::scenario::Scenario;
@@ -34,6 +35,18 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
         ));
     }
     list.extend(shared::unscaled(context.built.steady.as_ref()));
+    list.extend(shared::scale(context.built.steady.as_ref()));
+    if context.ending.time > 0.0
+        && let Err(why) = rolling_start_to_end(context)
+    {
+        list.push(warning(
+            "AB1026",
+            format!(
+                "The corrected form of (21) does not hold in this run: {why}. The exact form does; the bounds of the path \
+                 term are left out."
+            ),
+        ));
+    }
     list.extend(shared::rolling(bearing));
     list.extend(shared::no_moment(bearing));
     list.extend(shared::kind(bearing));

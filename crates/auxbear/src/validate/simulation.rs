@@ -160,7 +160,7 @@ fn simulate(
             interval: duration,
             threads: None,
             interrupt: &AtomicBool::new(false),
-            progress: &|_| {},
+            progress: &|_, _| {},
         },
     );
     match finished.pop() {

@@ -25,6 +25,39 @@ impl Peak {
     }
 }
 
+/// The mean of a probe over the last part of a run, by trapezoids over the steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LateMean {
+    probe: usize,
+    from: f64,
+    sum: f64,
+    length: f64,
+}
+
+impl LateMean {
+    /// The mean of a probe from an instant on, s.
+    pub fn since(from: f64, probe: usize) -> Self {
+        LateMean {
+            probe,
+            from,
+            sum: 0.0,
+            length: 0.0,
+        }
+    }
+    /// Takes a step; one that begins before the instant counts with what lies behind it.
+    pub fn watch<M: Machine>(&mut self, step: &Step<M>) {
+        let length = step.end - step.start.max(self.from);
+        if length > 0.0 {
+            self.sum += 0.5 * length * (step.start_probe(self.probe) + step.end_probe(self.probe));
+            self.length += length;
+        }
+    }
+    /// The mean; none where the run ended before the instant.
+    pub fn value(&self) -> Option<f64> {
+        (self.length > 0.0).then(|| self.sum / self.length)
+    }
+}
+
 /// A channel that rises through a level for the first time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rise {

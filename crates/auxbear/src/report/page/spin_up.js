@@ -22,13 +22,13 @@ function momentSection(runs) {
   const milli = 1e3;
   const names = ["bearing.inner_race.resisting_moment", "bearing.outer_race.moment"];
   const moment = (name, label, look) => lines(runs, name, milli, { label: label + " [N mm]", ...look });
-  const law = runs.some((run) => numberOf(run, "friction_moment_at_end") !== null)
+  const law = runs.some((run) => numberOf(run, "law_moment_at_end") !== null)
     ? moment("bearing.steady_moment", "friction moment M of the law", { colour: SERIES_COLOURS.limit, width: 1.5, dash: [7, 4] })
     : [];
   const drive = moment("drive.moment", "drive", { colour: SERIES_COLOURS.quiet, width: 1, dash: several ? [2, 3] : undefined });
   const noLaw = runs
-    .filter((run) => numberOf(run, "friction_moment_at_end") === null)
-    .map((run) => notInThisRun("a friction moment, because " + (quantityOf(run, "friction_moment_at_end").why || "none is given"), run));
+    .filter((run) => numberOf(run, "law_moment_at_end") === null)
+    .map((run) => notInThisRun("a friction moment, because " + (quantityOf(run, "law_moment_at_end").why || "none is given"), run));
   return section(
     "moments",
     "Moments on the races",
@@ -154,12 +154,12 @@ function spinUpVerdict(run) {
     quantityTile(run, "Inner race at 95 % speed", "inner_race_time_to_95_percent", rolls),
     tile("Balls skid", skidText, [skid.value ? null : skid.why, carried], skid.value === "still at the end" ? verdictState(run, true) : null),
     quantityTile(run, "Largest moment t_I", "peak_inner_race_moment", () => {
-      const end = numberOf(run, "inner_race_moment_at_end");
-      return end === null ? null : `${engineeringText(end, "N m", 4)} at the end`;
+      const mean = numberOf(run, "inner_race_mean_moment");
+      return mean === null ? null : `${engineeringText(mean, "N m", 4)} in the mean of the last cage turn`;
     }),
     quantityTile(run, "Largest moment t_O", "peak_outer_race_moment", () => {
-      const end = numberOf(run, "outer_race_moment_at_end");
-      return end === null ? null : `${engineeringText(end, "N m", 4)} at the end`;
+      const mean = numberOf(run, "outer_race_mean_moment");
+      return mean === null ? null : `${engineeringText(mean, "N m", 4)} in the mean of the last cage turn`;
     }),
     quantityTile(
       run,

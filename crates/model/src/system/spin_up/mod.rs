@@ -35,7 +35,7 @@ use layout::Layout;
 use number::{Gather, Real, Vec2, constants};
 use solve::{Batch, Machine};
 use std::fmt;
-pub use steady::{SteadyError, SteadyRun, moment_scale, steady_run};
+pub use steady::{SteadyError, SteadyRun, Watch, moment_scale, steady_run};
 
 /// Constants of one machine.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,16 +1,17 @@
 //! What is watched and kept of a spin-up.
 //!
-//! Rises through a level are found on dense output; largest values are those at the ends of the steps. Rows are sampled
-//! at equal intervals and at the end. Everything is allocated before the run.
+//! Rises through a level are found on dense output; largest values are those at the ends of the steps. Means are taken
+//! over the time of a cage turn at the target speed, at the end. Rows are sampled at equal intervals and at the end.
+//! Everything is allocated before the run.
 
 use super::SpinUpMachine;
 use super::layout::{
-    BEARING, DRIVE_MOMENT, INNER, INNER_MOMENT, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD,
-    OUTER_MOMENT,
+    BEARING, CAGE_SLIP, DRIVE_MOMENT, INNER, INNER_MOMENT, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD,
+    OUTER_MOMENT, STEADY_MOMENT,
 };
 use super::ledger::Content;
 use crate::bearing::BearingConstants;
-use crate::system::sampling::{Peak, Rise, Rows};
+use crate::system::sampling::{LateMean, Peak, Rise, Rows};
 use solve::{Flow, Observer, Step};
 
 /// One sampled row.
@@ -41,6 +42,8 @@ pub struct Record {
     pub largest_outer_load: Peak,
     /// Of the inner race through 50 % and 95 % of the target speed, of the cage through 95 % of its rolling speed then.
     rises: [Rise; 3],
+    /// Of t_I, t_O, M and the cage slip over the last cage turn.
+    means: [LateMean; 4],
     rows: Rows<EXTRA>,
 }
 
@@ -60,6 +63,7 @@ impl Record {
                 Rise::through(BEARING + 1, 0.95 * rolling)
             }
         };
+        let turn = 2.0 * std::f64::consts::PI / (c.bearing.rolling_cage_ratio() * speed).abs();
         Record {
             inner_moment: Peak::NONE,
             outer_moment: Peak::NONE,
@@ -71,8 +75,26 @@ impl Record {
                 Rise::through(INNER + 5, 0.95 * speed),
                 cage,
             ],
+            means: [INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT, CAGE_SLIP]
+                .map(|probe| LateMean::since(end - turn, probe)),
             rows: Rows::new(machine, end, interval, keep_rows),
         }
+    }
+    /// Mean moment t_I over the time of the last cage turn, N m, as far as the run came into it.
+    pub fn mean_inner_moment(&self) -> Option<f64> {
+        self.means[0].value()
+    }
+    /// Mean moment t_O over the time of the last cage turn, N m, as far as the run came into it.
+    pub fn mean_outer_moment(&self) -> Option<f64> {
+        self.means[1].value()
+    }
+    /// Mean steady moment M of the law over the time of the last cage turn, N m, as far as the run came into it.
+    pub fn mean_steady_moment(&self) -> Option<f64> {
+        self.means[2].value()
+    }
+    /// Mean cage slip over the time of the last cage turn, as far as the run came into it.
+    pub fn mean_cage_slip(&self) -> Option<f64> {
+        self.means[3].value()
     }
     /// First instant the inner race reaches half the target speed, s.
     pub fn inner_race_time_to_50_percent(&self) -> Option<f64> {
@@ -139,6 +161,9 @@ impl Observer<SpinUpMachine> for Record {
         }
         for rise in &mut self.rises {
             rise.watch(step);
+        }
+        for mean in &mut self.means {
+            mean.watch(step);
         }
         self.rows.sample(step, extra);
         Flow::Continue

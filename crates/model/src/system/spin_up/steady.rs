@@ -1,14 +1,17 @@
 //! A steady run at one speed and load: its moments, whether the balls can roll, and the scale λ of the steady moment.
 //!
 //! ```text
-//!   t_I, t_O   mean moments on the races over a turn of the cage, once they are equal
+//!   t_I, t_O   mean moments on the races, once balls and cage gain nothing any more: then they are equal
 //!   capacity   μ_max R ΣQ_i/M: the balls roll where it is above 1.2, and must skid where it is below
-//!   λ = 1 - P/(M Ω)     P = t_I Ω - λ M Ω: what the run dissipates beyond the share that its pairs were given
+//!   λ = (M Ω - P)/(P_m/λ')     P: heat of slip, pockets and damping; P_m: heat of the moment's pairs when scaled by λ'
 //! ```
-//! λ is found in two passes from λ = 1; with it t_I = M. P is less than the heat of creep and of balls that are sped up
-//! again in the loaded zone: that heat is not added to the pairs', it is taken from it, as such balls turn more slowly
-//! than rolling ones. So where only creep occurs λ stays near 1 although its heat is not zero, and where unloaded balls
-//! lose their spin λ exceeds 1. Friction that has its own moment, as in the pockets, brings λ below 1.
+//! With this λ slip and pockets and the pairs together dissipate M Ω, so t_I = M. Where all balls roll the pairs take
+//! P_m = λ' M Ω, and λ = 1 - P/(M Ω). Where unloaded balls lose their spin the pairs take less: then λ may exceed 1, and
+//! the balls that carry load turn against more than their equal share.
+//!
+//! Time is cut into ball passes, of a cage turn over the number of balls. A run is steady when the last half of them,
+//! of which the first of all are a cage turn at least, agrees with itself. Unloaded balls repeat nothing exactly, so that
+//! a single turn can be off by half a percent: then the run goes on until the mean is good enough.
 
 use super::layout::{BEARING, HEATS, INNER_LOAD_SUM, STEADY_MOMENT};
 use super::{Drive, InnerRace, Refusal, SpinUp, SpinUpConstants, SpinUpMachine};
@@ -32,7 +35,9 @@ pub struct SteadyRun {
     pub capacity: f64,
     /// Mean cage slip 1 - 2(1+s)ω_c/Ω.
     pub cage_slip: f64,
-    /// Mean heat of everything but the steady moment: creep, skidding, pockets, damping, W.
+    /// Mean heat of the pairs of the steady moment, W.
+    pub moment_heat: f64,
+    /// Mean heat of everything else: creep, skidding, pockets, damping, W.
     pub explicit_heat: f64,
     /// Scale λ with which this run was computed.
     pub scale: f64,
@@ -66,6 +71,8 @@ pub enum SteadyError {
     NotSteady,
     /// The integration failed.
     DidNotFinish,
+    /// The caller interrupted it.
+    Interrupted,
 }
 
 impl fmt::Display for SteadyError {
@@ -84,6 +91,7 @@ impl fmt::Display for SteadyError {
             }
             SteadyError::Refused(why) => write!(f, "{why}"),
             SteadyError::DidNotFinish => write!(f, "the integration of a steady run failed"),
+            SteadyError::Interrupted => write!(f, "interrupted before a steady run was found"),
         }
     }
 }
@@ -91,13 +99,25 @@ impl fmt::Display for SteadyError {
 impl std::error::Error for SteadyError {}
 
 /// Turns of the cage that a run may take until it is steady.
-const MOST_TURNS: u32 = 60;
-/// Difference of the mean moments of a turn, relative to M or t_I, below which a run is steady: then L no longer changes.
-const STEADY: f64 = 1e-3;
-/// Passes of λ.
-const PASSES: u32 = 2;
-/// Steps that all turns of a run may take together: two seconds of computing.
-const MOST_STEPS: u64 = 300_000;
+const MOST_TURNS: usize = 60;
+/// What a steady mean may still change by: powers and moments relative to those of the law, the slip absolutely. Half a
+/// percent is promised of the moment in all.
+const STEADY: f64 = 2e-3;
+/// Deviation of all heat from M Ω that ends the search of λ.
+const FOUND: f64 = 3e-3;
+/// Passes of λ; two suffice unless the balls are near skidding.
+const PASSES: usize = 5;
+/// Steps that a search may take in all: some twenty seconds of computing, for speeds of a few rad/s.
+const MOST_STEPS: u64 = 3_000_000;
+
+/// How a caller follows a search, and ends it.
+#[derive(Clone, Copy)]
+pub struct Watch<'a> {
+    /// Set to true, it ends the search.
+    pub interrupt: &'a AtomicBool,
+    /// Told the number of ball passes so far, and of those that will be needed at least.
+    pub progress: &'a dyn Fn(usize, usize),
+}
 
 /// Computes a steady run at a speed (rad/s, not 0) under a radial load (N), with the bearing's own λ.
 ///
@@ -107,10 +127,11 @@ pub fn steady_run(
     race: &InnerRace<f64>,
     speed: f64,
     load: f64,
+    watch: &Watch,
 ) -> Result<SteadyRun, SteadyError> {
     let machine = machine(bearing, race, speed, load)?;
-    let mut state = rolling_start(&machine, bearing, speed);
-    settle(&machine, bearing, &mut state, speed)
+    let mut search = Search::new(&machine, speed, *watch)?;
+    search.settle(&machine, 2 * bearing.balls)
 }
 
 /// The scale λ at a speed and load, as the steady run that was computed with it. Where the balls skid there is none:
@@ -120,28 +141,38 @@ pub fn moment_scale(
     race: &InnerRace<f64>,
     speed: f64,
     load: f64,
+    watch: &Watch,
 ) -> Result<SteadyRun, SteadyError> {
     let mut bearing = bearing.clone();
-    let mut state = Vec::new();
-    let mut scale = 1.0;
-    for pass in 0.. {
+    let mut scaled = |scale: f64| {
         bearing.moment.as_mut().ok_or(SteadyError::NoMoment)?.scale = scale;
-        let machine = machine(&bearing, race, speed, load)?;
-        if pass == 0 {
-            state = rolling_start(&machine, &bearing, speed);
-        }
-        let run = settle(&machine, &bearing, &mut state, speed)?;
-        if pass == PASSES || run.skids() {
-            return Ok(run);
+        machine(&bearing, race, speed, load)
+    };
+    let plain = scaled(1.0)?;
+    let mut search = Search::new(&plain, speed, *watch)?;
+    let balls = plain.layout().balls;
+    // two turns of the cage to forget the start; one is enough for a change of λ
+    let first = search.settle(&plain, 2 * balls)?;
+    let mut run = first;
+    for _ in 0..PASSES {
+        if run.skids() {
+            return Ok(first);
         }
         let law = run.moment * speed;
-        let explicit = run.inner_moment * speed - scale * law;
-        if explicit >= law {
-            return Err(SteadyError::ExplicitExceedsLaw { explicit, law });
+        if run.explicit_heat >= law {
+            return Err(SteadyError::ExplicitExceedsLaw {
+                explicit: run.explicit_heat,
+                law,
+            });
         }
-        scale = 1.0 - explicit / law;
+        let off = (run.explicit_heat + run.moment_heat) / law - 1.0;
+        if off.abs() < FOUND {
+            break;
+        }
+        let scale = run.scale * (law - run.explicit_heat) / run.moment_heat;
+        run = search.settle(&scaled(scale)?, balls)?;
     }
-    unreachable!("the loop ends by its passes")
+    Ok(run)
 }
 
 /// The bearing at a given speed under its load.
@@ -164,66 +195,163 @@ fn machine(
     .map_err(SteadyError::Refused)
 }
 
-fn rolling_start(machine: &SpinUpMachine, bearing: &PlanarConstants, speed: f64) -> Vec<f64> {
-    let mut state = machine.start();
-    bearing.roll(&mut state[machine.layout().bearing()], speed);
-    state
+/// What a ball pass summed up.
+#[derive(Clone, Copy)]
+struct Pass {
+    /// Mean law moment M, N m.
+    law: f64,
+    /// Mean t_I, N m.
+    inner_moment: f64,
+    /// Mean t_O, N m.
+    outer_moment: f64,
+    /// Mean heat of the moment's pairs, W.
+    moment_heat: f64,
+    /// Mean heat of everything else, W.
+    explicit_heat: f64,
+    /// Mean cage slip.
+    cage_slip: f64,
 }
 
-/// Runs turn by turn until nothing changes any more; `state` is then the last one.
-fn settle(
-    machine: &SpinUpMachine,
-    bearing: &PlanarConstants,
-    state: &mut Vec<f64>,
+fn mean(passes: &[Pass], of: impl Fn(&Pass) -> f64) -> f64 {
+    passes.iter().map(of).sum::<f64>() / passes.len() as f64
+}
+
+/// True where the passes' two halves agree, and balls and cage gain no angular momentum.
+fn is_steady(passes: &[Pass]) -> bool {
+    let (early, late) = passes.split_at(passes.len() / 2);
+    let changes = |of: &dyn Fn(&Pass) -> f64| (mean(late, of) - mean(early, of)).abs();
+    let moment = mean(passes, |pass| pass.law.abs().max(pass.inner_moment.abs()));
+    let heat = mean(passes, |pass| pass.moment_heat + pass.explicit_heat);
+    let gain = mean(passes, |pass| pass.inner_moment - pass.outer_moment);
+    gain.abs() < STEADY * moment
+        && changes(&|pass| pass.moment_heat + pass.explicit_heat) < STEADY * heat
+        && changes(&|pass| pass.cage_slip) < STEADY
+}
+
+/// A bearing on its way to a steady run.
+struct Search<'a> {
+    watch: Watch<'a>,
     speed: f64,
-) -> Result<SteadyRun, SteadyError> {
-    let moment = bearing.moment.as_ref().ok_or(SteadyError::NoMoment)?;
-    let set = machine.constants.bearing.set();
-    let cage = set.cage_speed(speed);
-    let turn = 2.0 * std::f64::consts::PI / cage.abs();
-    let layout = *machine.layout();
-    let mut last_slip = f64::INFINITY;
-    let mut steps_left = MOST_STEPS;
-    for _ in 0..MOST_TURNS {
-        let from = std::mem::take(state);
-        *state = advance(machine, &from, turn, &mut steps_left)?;
-        let mean = |channel: usize| (state[channel] - from[channel]) / turn;
-        let law = mean_moment(machine, &from, state);
-        let inner_moment = mean(layout.work(0)) / speed;
-        let outer_moment = mean(layout.work(1)) / speed;
-        let cage_slip = 1.0 - (state[BEARING] - from[BEARING]) / (turn * cage);
-        let steady = (inner_moment - outer_moment).abs()
-            < STEADY * law.abs().max(inner_moment.abs())
-            && (cage_slip - last_slip).abs() < STEADY;
-        last_slip = cage_slip;
-        if steady {
-            let (_, probe) = machine.inspect(0.0, state);
-            let traction = largest_coefficient(&bearing.traction)
-                * set.inner_track_radius
-                * probe[INNER_LOAD_SUM];
-            let heats: f64 = (0..HEATS.len()).map(|kind| mean(layout.heat(kind))).sum();
-            return Ok(SteadyRun {
-                moment: law,
-                inner_moment,
-                outer_moment,
-                capacity: traction / law.abs(),
-                cage_slip,
-                explicit_heat: heats - mean(layout.heat(STEADY_HEAT)),
-                scale: moment.scale,
-            });
+    state: Vec<f64>,
+    steps_left: u64,
+}
+
+impl<'a> Search<'a> {
+    /// Starts with balls that roll.
+    fn new(machine: &SpinUpMachine, speed: f64, watch: Watch<'a>) -> Result<Self, SteadyError> {
+        let bearing = planar(machine)?;
+        let mut state = machine.start();
+        bearing.roll(&mut state[machine.layout().bearing()], speed);
+        Ok(Search {
+            watch,
+            speed,
+            state,
+            steps_left: MOST_STEPS,
+        })
+    }
+
+    /// Runs for a number of ball passes, and then until nothing changes any more.
+    fn settle(&mut self, machine: &SpinUpMachine, least: usize) -> Result<SteadyRun, SteadyError> {
+        let balls = machine.layout().balls;
+        let mut passes: Vec<Pass> = Vec::new();
+        while passes.len() < MOST_TURNS * balls {
+            passes.push(self.pass(machine)?);
+            (self.watch.progress)(passes.len(), least);
+            let last = &passes[passes.len() / 2..];
+            if passes.len() >= least && is_steady(last) {
+                return self.outcome(machine, last);
+            }
+        }
+        Err(SteadyError::NotSteady)
+    }
+
+    /// What a steady run came to.
+    fn outcome(&self, machine: &SpinUpMachine, passes: &[Pass]) -> Result<SteadyRun, SteadyError> {
+        let bearing = planar(machine)?;
+        let (_, probe) = machine.inspect(0.0, &self.state);
+        let traction = largest_coefficient(&bearing.traction)
+            * machine.constants.bearing.set().inner_track_radius
+            * probe[INNER_LOAD_SUM];
+        let moment = mean(passes, |pass| pass.law);
+        Ok(SteadyRun {
+            moment,
+            inner_moment: mean(passes, |pass| pass.inner_moment),
+            outer_moment: mean(passes, |pass| pass.outer_moment),
+            capacity: traction / moment.abs(),
+            cage_slip: mean(passes, |pass| pass.cage_slip),
+            moment_heat: mean(passes, |pass| pass.moment_heat),
+            explicit_heat: mean(passes, |pass| pass.explicit_heat),
+            scale: bearing.moment.as_ref().ok_or(SteadyError::NoMoment)?.scale,
+        })
+    }
+
+    /// Goes on for a ball pass.
+    fn pass(&mut self, machine: &SpinUpMachine) -> Result<Pass, SteadyError> {
+        let layout = *machine.layout();
+        let cage = machine.constants.bearing.set().cage_speed(self.speed);
+        let length = 2.0 * std::f64::consts::PI / (cage.abs() * layout.balls as f64);
+        let from = std::mem::take(&mut self.state);
+        self.state = self.advance(machine, &from, length)?;
+        let to = &self.state;
+        let mean = |channel: usize| (to[channel] - from[channel]) / length;
+        let law = |state: &[f64]| machine.inspect(0.0, state).1[STEADY_MOMENT];
+        let heats: f64 = (0..HEATS.len()).map(|kind| mean(layout.heat(kind))).sum();
+        let moment_heat = mean(layout.heat(STEADY_HEAT));
+        Ok(Pass {
+            law: 0.5 * (law(&from) + law(to)),
+            inner_moment: mean(layout.work(0)) / self.speed,
+            outer_moment: mean(layout.work(1)) / self.speed,
+            moment_heat,
+            explicit_heat: heats - moment_heat,
+            cage_slip: 1.0 - mean(BEARING) / cage,
+        })
+    }
+
+    fn advance(
+        &mut self,
+        machine: &SpinUpMachine,
+        state: &[f64],
+        length: f64,
+    ) -> Result<Vec<f64>, SteadyError> {
+        let settings = Settings {
+            start: 0.0,
+            end: length,
+            tolerance: TOLERANCE,
+            first_step: 1e-7,
+            largest_step: 1e-3,
+            step_limit: self.steps_left,
+        };
+        let mut endings = solve::run::<f64, SpinUp<f64>, _>(
+            &[machine],
+            &[state.to_vec()],
+            &mut [Blind],
+            &settings,
+            self.watch.interrupt,
+        );
+        let Some(ending) = endings.pop() else {
+            return Err(SteadyError::DidNotFinish);
+        };
+        let steps = ending.work.accepted + ending.work.rejected;
+        self.steps_left = self.steps_left.saturating_sub(steps);
+        match ending.stop {
+            Stop::Finished => Ok(ending.state),
+            Stop::StepLimit => Err(SteadyError::NotSteady),
+            Stop::Interrupted => Err(SteadyError::Interrupted),
+            Stop::Halted(_) | Stop::Diverged { .. } => Err(SteadyError::DidNotFinish),
         }
     }
-    Err(SteadyError::NotSteady)
+}
+
+/// The bearing of a machine, with a steady moment.
+fn planar(machine: &SpinUpMachine) -> Result<&PlanarConstants, SteadyError> {
+    match &machine.constants.bearing {
+        BearingConstants::Planar(bearing) if bearing.moment.is_some() => Ok(bearing),
+        _ => Err(SteadyError::NoMoment),
+    }
 }
 
 /// Index of the steady moment among the heats.
 const STEADY_HEAT: usize = 7;
-
-/// The law's moment, mean of both ends of a window.
-fn mean_moment(machine: &SpinUpMachine, from: &[f64], to: &[f64]) -> f64 {
-    let at = |state: &[f64]| machine.inspect(0.0, state).1[STEADY_MOMENT];
-    0.5 * (at(from) + at(to))
-}
 
 /// Watches nothing.
 struct Blind;
@@ -231,36 +359,6 @@ struct Blind;
 impl Observer<SpinUpMachine> for Blind {
     fn step(&mut self, _step: &mut Step<SpinUpMachine>) -> Flow {
         Flow::Continue
-    }
-}
-
-fn advance(
-    machine: &SpinUpMachine,
-    state: &[f64],
-    length: f64,
-    steps_left: &mut u64,
-) -> Result<Vec<f64>, SteadyError> {
-    let settings = Settings {
-        start: 0.0,
-        end: length,
-        tolerance: TOLERANCE,
-        first_step: 1e-7,
-        largest_step: 1e-3,
-        step_limit: *steps_left,
-    };
-    let never = AtomicBool::new(false);
-    let machines = [machine];
-    let starts = [state.to_vec()];
-    let mut endings =
-        solve::run::<f64, SpinUp<f64>, _>(&machines, &starts, &mut [Blind], &settings, &never);
-    let Some(ending) = endings.pop() else {
-        return Err(SteadyError::DidNotFinish);
-    };
-    *steps_left = steps_left.saturating_sub(ending.work.accepted + ending.work.rejected);
-    match ending.stop {
-        Stop::Finished => Ok(ending.state),
-        Stop::StepLimit => Err(SteadyError::NotSteady),
-        _ => Err(SteadyError::DidNotFinish),
     }
 }
 
