@@ -40,20 +40,17 @@ pub fn execute(
     threads: Option<NonZeroUsize>,
     quiet: bool,
 ) -> Result<Exit, Box<Problem>> {
+    let machine = simulate::build(scenario)?;
     let directory = NewDirectory::reserve(path)?;
     listen(directory.partial().to_path_buf());
 
     let progress = Progress::new(quiet);
-    let outcome = simulate::run(
-        scenario,
-        &Options {
-            threads: threads.map(usize::from),
-            interrupt: &INTERRUPT,
-            progress: &|fraction| progress.show(fraction),
-        },
-    );
+    let outcome = machine.run(&Options {
+        threads: threads.map(usize::from),
+        interrupt: &INTERRUPT,
+        progress: &|fraction| progress.show(fraction),
+    });
     progress.end();
-    let outcome = outcome?;
     directory.finish(scenario, &outcome)?;
     if !quiet {
         console::print(&summary::text(path, &outcome));

@@ -32,7 +32,7 @@ mod warnings_spin_up;
 mod warnings_torque;
 
 use crate::problem::Problem;
-use crate::scenario::{Scenario, System};
+use crate::scenario::{Drop, Scenario, SpinUp, System};
 pub use outcome::Outcome;
 use std::sync::atomic::AtomicBool;
 
@@ -46,11 +46,49 @@ pub struct Options<'a> {
     pub progress: &'a (dyn Fn(f64) + Sync),
 }
 
-/// Simulates what the scenario describes. A run that fails is an [`Outcome`] whose `stop` says where and why.
-pub fn run(scenario: &Scenario, options: &Options) -> Result<Outcome, Box<Problem>> {
-    match &scenario.system {
-        System::Drop(drop) => drop::run(scenario, drop, options),
-        System::SpinUp(spin_up) => spin_up::run(scenario, spin_up, options),
-        System::Torque(torque) => torque::run(scenario, torque),
+/// A scenario with its machine: what could be wrong with the input has been told.
+pub struct Machine<'a> {
+    scenario: &'a Scenario,
+    system: Built<'a>,
+}
+
+/// The machine of each system.
+enum Built<'a> {
+    Drop(&'a Drop, Box<build::Built>),
+    SpinUp(&'a SpinUp, Box<build_spin_up::Built>),
+    Torque(Box<torque::Asked<'a>>),
+}
+
+/// Builds the machine that the scenario describes; runs nothing but the steady run that scales a friction moment.
+pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
+    let system = match &scenario.system {
+        System::Drop(drop) => {
+            build::drop(drop).map(|built| Built::Drop(drop, Box::new(built)))
+        }
+        System::SpinUp(spin_up) => build_spin_up::spin_up(spin_up)
+            .map(|built| Built::SpinUp(spin_up, Box::new(built))),
+        System::Torque(torque) => {
+            torque::Asked::of(torque).map(|asked| Built::Torque(Box::new(asked)))
+        }
+    };
+    let system = system.map_err(|problem| scenario.locate(problem))?;
+    Ok(Machine { scenario, system })
+}
+
+impl Machine<'_> {
+    /// Simulates it. A run that fails is an [`Outcome`] whose `stop` says where and why.
+    pub fn run(&self, options: &Options) -> Outcome {
+        match &self.system {
+            Built::Drop(drop, built) => drop::run(self.scenario, drop, built, options),
+            Built::SpinUp(spin_up, built) => {
+                spin_up::run(self.scenario, spin_up, built, options)
+            }
+            Built::Torque(asked) => torque::run(self.scenario, asked),
+        }
     }
+}
+
+/// Builds and simulates what the scenario describes.
+pub fn run(scenario: &Scenario, options: &Options) -> Result<Outcome, Box<Problem>> {
+    Ok(build(scenario)?.run(options))
 }
