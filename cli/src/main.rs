@@ -14,6 +14,7 @@ use arguments::{Arguments, Command};
 use auxbear::problem::{Code, Problem};
 use auxbear::report::directory;
 use auxbear::scenario::{BuiltIn, Scenario};
+use auxbear::simulate;
 use auxbear::validate::{self, Simulation};
 use clap::Parser;
 use std::path::{Path, PathBuf};
@@ -64,7 +65,11 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
         Command::Torque(wish) => return torque::perform(wish),
         Command::Check { file, set } => {
             let scenario = Scenario::read(file, set, &BuiltIn)?;
-            console::print(&scenario.resolved.toml());
+            let machine = simulate::build(&scenario)?;
+            console::print(&machine.resolved().toml());
+            for warning in machine.warnings() {
+                console::tell(&format!("warning[{}]: {}", warning.code, warning.text));
+            }
         }
         Command::New { kind, path } => start::perform(kind, path.as_deref())?,
         Command::Schema { kind } => schema::perform(kind)?,

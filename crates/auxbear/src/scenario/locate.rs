@@ -27,7 +27,12 @@ impl Scenario {
 
     fn place_of(&self, key: &str) -> Place {
         let given = |place: &Place| *place != Place::Whole;
-        if let Some(place) = self.resolved.get(key).map(|value| value.place).filter(given) {
+        if let Some(place) = self
+            .resolved
+            .get(key)
+            .map(|value| value.place)
+            .filter(given)
+        {
             return place;
         }
         // of a section, what an override changed is the nearest cause

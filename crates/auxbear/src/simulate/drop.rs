@@ -23,12 +23,7 @@ pub(super) struct Context<'a> {
 }
 
 /// Runs a drop.
-pub(super) fn run(
-    scenario: &Scenario,
-    drop: &Drop,
-    built: &Built,
-    options: &Options,
-) -> Outcome {
+pub(super) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Options) -> Outcome {
     let machine = DropMachine::new(built.constants.clone());
     let count = drop.repeat.count.max(1) as usize;
     let members: Vec<Member> = (0..count).map(|k| member(&machine, drop, k)).collect();

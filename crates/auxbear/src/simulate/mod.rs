@@ -3,6 +3,7 @@
 //! | page | subject |
 //! |---|---|
 //! | [`build`], [`build_bearing`], [`build_spin_up`] | scenario → constants of the model |
+//! | `before` | what is known before a run |
 //! | [`ensemble`] | one machine or many, in lanes and threads |
 //! | `drop`, `spin_up`, `torque` | runs a system and names what came out |
 //! | `quantities`, `list` | each named result with its law, source and valid range |
@@ -11,6 +12,7 @@
 //! | `ending` | settings of the integration, and how a run ended |
 //! | [`outcome`] | the data handed over |
 
+mod before;
 pub mod build;
 pub mod build_bearing;
 pub mod build_spin_up;
@@ -62,11 +64,10 @@ enum Built<'a> {
 /// Builds the machine that the scenario describes; runs nothing but the steady run that scales a friction moment.
 pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
     let system = match &scenario.system {
-        System::Drop(drop) => {
-            build::drop(drop).map(|built| Built::Drop(drop, Box::new(built)))
+        System::Drop(drop) => build::drop(drop).map(|built| Built::Drop(drop, Box::new(built))),
+        System::SpinUp(spin_up) => {
+            build_spin_up::spin_up(spin_up).map(|built| Built::SpinUp(spin_up, Box::new(built)))
         }
-        System::SpinUp(spin_up) => build_spin_up::spin_up(spin_up)
-            .map(|built| Built::SpinUp(spin_up, Box::new(built))),
         System::Torque(torque) => {
             torque::Asked::of(torque).map(|asked| Built::Torque(Box::new(asked)))
         }
@@ -80,9 +81,7 @@ impl Machine<'_> {
     pub fn run(&self, options: &Options) -> Outcome {
         match &self.system {
             Built::Drop(drop, built) => drop::run(self.scenario, drop, built, options),
-            Built::SpinUp(spin_up, built) => {
-                spin_up::run(self.scenario, spin_up, built, options)
-            }
+            Built::SpinUp(spin_up, built) => spin_up::run(self.scenario, spin_up, built, options),
             Built::Torque(asked) => torque::run(self.scenario, asked),
         }
     }
