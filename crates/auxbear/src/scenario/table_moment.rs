@@ -149,7 +149,7 @@ pub(super) const KEYS: &[Key] = &[
     Key::new(
         "bearing.moment.axial_load",
         Kind::Quantity("N"),
-        "0 N",
+        "400 N",
         "Axial load that the law sees, constant; its sign has no effect. It reaches the friction moment alone: motion is computed in the plane.",
     )
     .default("0 N", "a purely radial load")
@@ -161,7 +161,7 @@ pub(super) const KEYS: &[Key] = &[
         "Contact angle under load, by which an axial load makes friction: P1 = 0.9 cot(angle) F_a - 0.1 F_r.",
     )
     .positive()
-    .derived("16.7 deg for a deep groove bearing under axial load, assumed; else it has no effect")
+    .optional("a deep groove bearing under axial load is taken to have 16.7 deg; without axial load it has no effect")
     .when(&[law(&["palmgren"])]),
     Key::new(
         "bearing.moment.bore_diameter",
