@@ -323,6 +323,33 @@ fn an_axial_load_reaches_palmgrens_law() {
 }
 
 #[test]
+fn an_axial_load_reaches_the_torque_of_a_bearing() {
+    let text = "format = \"auxbear.scenario/1\"\nsystem = \"torque\"\n[bearing]\nname = \"6005\"\n[torque]\nloads = \"80 N\"\nspeed_to = \"150 rad/s\"\n";
+    let moment = |sets: &[&str]| {
+        let scenario = read(text, sets).unwrap();
+        let interrupt = std::sync::atomic::AtomicBool::new(false);
+        let options = simulate::Options {
+            threads: None,
+            interrupt: &interrupt,
+            progress: &|_| {},
+        };
+        let outcome = simulate::build(&scenario).unwrap().run(&options);
+        let column = outcome
+            .history
+            .iter()
+            .find(|column| column.name == "friction.load_dependent");
+        *column.unwrap().values.last().unwrap()
+    };
+    let radial = moment(&[]);
+    // as in the test before, 5.845 N mm against 0.0007·√(80/6550)·80·0.036 = 0.2228 N mm
+    let combined = moment(&["bearing.moment.axial_load=400 N"]);
+    assert!(
+        (combined / radial / (5.845 / 0.2228) - 1.0).abs() < 1e-3,
+        "{combined} {radial}"
+    );
+}
+
+#[test]
 fn a_resolved_file_keeps_the_origin_of_every_value_as_long_as_it_is_that_value() {
     for text in [SPIN_UP, DROP] {
         let first = read(text, &["bearing.cage_mass=4 g"]).unwrap();
