@@ -2,7 +2,7 @@
 //!
 //! | page | subject |
 //! |---|---|
-//! | [`build`], [`build_bearing`], [`build_spin_up`] | scenario → constants of the model |
+//! | [`mod@build`], [`build_bearing`], [`build_spin_up`] | scenario → constants of the model |
 //! | `before` | what is known before a run |
 //! | [`ensemble`] | one machine or many, in lanes and threads |
 //! | `drop`, `spin_up`, `torque` | runs a system and names what came out |
