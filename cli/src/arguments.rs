@@ -4,12 +4,13 @@ use clap::{Args, Parser, Subcommand};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-/// What happens when a magnetically levitated rotor falls onto its auxiliary rolling bearings.
+/// What happens when a magnetically levitated rotor falls onto its auxiliary rolling bearings, how these bearings are brought
+/// to speed, and which torque they make.
 #[derive(Debug, Parser)]
 #[command(
     name = "auxbear",
     version,
-    after_help = "Start with `auxbear new drop my_drop.toml`, then `auxbear run my_drop.toml`.\n\
+    after_help = "Start with `auxbear new drop my_drop.toml` (or spin_up, torque), then `auxbear run my_drop.toml`.\n\
                   Exit status: 0 done, 1 the run failed, 2 the input is wrong, 130 interrupted."
 )]
 pub struct Arguments {
@@ -27,7 +28,7 @@ pub enum Command {
     Check {
         /// Scenario file
         file: PathBuf,
-        /// Override a value of the file, e.g. rotor.mass="8 kg"; may be repeated
+        /// Override a value of the file, e.g. bearing.name=6005; may be repeated
         #[arg(long, value_name = "PATH=VALUE")]
         set: Vec<String>,
     },
@@ -75,10 +76,10 @@ pub struct Run {
     /// Run directory to write [runs/NAME of the file, with a number where that is taken]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Override a value of the file, e.g. rotor.mass="8 kg"; may be repeated
+    /// Override a value of the file, e.g. bearing.name=6005; may be repeated
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// Number of runs from perturbed starts; the same as --set repeat.count=N
+    /// Number of runs of a drop from perturbed starts; the same as --set repeat.count=N
     #[arg(long, value_name = "N")]
     pub repeat: Option<String>,
     /// Number of threads [all cores]; the numbers do not depend on it

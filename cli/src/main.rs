@@ -14,10 +14,12 @@ use arguments::{Arguments, Command};
 use auxbear::problem::{Code, Problem};
 use auxbear::report::directory;
 use auxbear::scenario::{BuiltIn, Scenario};
+use auxbear::simulate::{self, Options};
 use auxbear::validate::{self, Simulation};
 use clap::Parser;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::atomic::AtomicBool;
 
 /// How the command ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,7 +66,12 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
         Command::Torque(wish) => return torque::perform(wish),
         Command::Check { file, set } => {
             let scenario = Scenario::read(file, set, &BuiltIn)?;
-            console::print(&scenario.resolved.toml());
+            let never = AtomicBool::new(false);
+            let machine = simulate::build(&scenario, &Options::unwatched(&never))?;
+            console::print(&machine.resolved().toml());
+            for warning in machine.warnings() {
+                console::tell(&format!("warning[{}]: {}", warning.code, warning.text));
+            }
         }
         Command::New { kind, path } => start::perform(kind, path.as_deref())?,
         Command::Schema { kind } => schema::perform(kind)?,

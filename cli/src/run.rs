@@ -10,12 +10,15 @@ use auxbear::simulate::outcome::Stop;
 use auxbear::simulate::{self, Options};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use std::{fs, process};
 
 /// Set by the first Ctrl-C.
 static INTERRUPT: AtomicBool = AtomicBool::new(false);
+/// The unfinished run directory, once there is one.
+static PARTIAL: Mutex<Option<PathBuf>> = Mutex::new(None);
 
 /// Signals within this time are one: job systems send theirs to a process and again to its group.
 const ECHO: Duration = Duration::from_millis(500);
@@ -40,20 +43,20 @@ pub fn execute(
     threads: Option<NonZeroUsize>,
     quiet: bool,
 ) -> Result<Exit, Box<Problem>> {
-    let directory = NewDirectory::reserve(path)?;
-    listen(directory.partial().to_path_buf());
-
+    listen();
     let progress = Progress::new(quiet);
-    let outcome = simulate::run(
-        scenario,
-        &Options {
-            threads: threads.map(usize::from),
-            interrupt: &INTERRUPT,
-            progress: &|phase, fraction| progress.show(phase, fraction),
-        },
-    );
+    let options = Options {
+        threads: threads.map(usize::from),
+        interrupt: &INTERRUPT,
+        progress: &|phase, fraction| progress.show(phase, fraction),
+    };
+    let machine = simulate::build(scenario, &options).inspect_err(|_| progress.end())?;
+    let directory = NewDirectory::reserve(path).inspect_err(|_| progress.end())?;
+    if let Ok(mut partial) = PARTIAL.lock() {
+        *partial = Some(directory.partial().to_path_buf());
+    }
+    let outcome = machine.run(&options);
     progress.end();
-    let outcome = outcome?;
     directory.finish(scenario, &outcome)?;
     if !quiet {
         console::print(&summary::text(path, &outcome));
@@ -82,12 +85,16 @@ fn exit_of(stop: &Stop) -> Exit {
 
 /// The first Ctrl-C (or termination) ends the run and keeps what was computed; one that follows later ends the program
 /// and takes the unfinished directory away.
-fn listen(partial: PathBuf) {
+fn listen() {
     let mut first = None;
     let handler = move || {
         let first = first.get_or_insert_with(Instant::now);
         if INTERRUPT.swap(true, Ordering::Relaxed) && first.elapsed() > ECHO {
-            let _ = fs::remove_dir_all(&partial);
+            if let Ok(partial) = PARTIAL.lock()
+                && let Some(partial) = partial.as_ref()
+            {
+                let _ = fs::remove_dir_all(partial);
+            }
             process::exit(130);
         }
     };

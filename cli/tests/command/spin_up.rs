@@ -97,7 +97,13 @@ fn what_a_spin_up_does_not_have_is_refused() {
     let place = place();
     place
         .call(&["run", "spin_up.toml", "--repeat", "4"])
-        .refused(&["AB0110", "repeat.count", "system = \"drop\""]);
+        .refused(&[
+            "AB0110",
+            "repeat.count",
+            "system = \"drop\"",
+            "Only drops are repeated so far",
+            "--set PATH=VALUE",
+        ]);
     short_run(&place, "a");
     place
         .call(&["report", "a", "--out", "a.svg"])
@@ -105,4 +111,68 @@ fn what_a_spin_up_does_not_have_is_refused() {
     place.call(&["report", "a", "--out", "a.html"]).done();
     let page = fs::read_to_string(place.path("a.html")).unwrap();
     assert!(page.contains("spin_up"));
+}
+
+/// Words that give a bearing whose pockets lose more than its friction law says in all.
+const LOSSY: [&str; 8] = [
+    "--set",
+    "bearing.moment.f0=0.002",
+    "--set",
+    "bearing.cage.pocket_friction_coefficient=0.5",
+    "--set",
+    "bearing.cage.pocket_gap=0 m",
+    "--set",
+    "bearing.moment.f1_factor=0",
+];
+
+#[test]
+fn a_machine_that_cannot_be_built_leaves_nothing_behind() {
+    let place = Place::new();
+    let text = r#"format = "auxbear.scenario/1"
+system = "spin_up"
+
+[drive]
+kind = "speed"
+radial_load = "100 N"
+final_speed = "1000 rad/s"
+
+[bearing]
+name = "6005"
+operating_diametral_clearance = "-4 um"
+
+[bearing.moment]
+law = "palmgren"
+f1_exponent = 0.5
+viscosity = "40 mm^2/s"
+"#;
+    fs::write(place.path("lossy.toml"), text).unwrap();
+    for command in ["run", "check"] {
+        let mut words = vec![command, "lossy.toml"];
+        words.extend(LOSSY);
+        let told = "error[AB0210]: lossy.toml, --set: bearing.moment: found slip";
+        place.call(&words).refused(&[told]);
+        assert_eq!(place.names(), ["lossy.toml"]);
+    }
+}
+
+#[test]
+fn check_tells_a_load_above_the_static_rating() {
+    let place = place();
+    let words = [
+        "check",
+        "spin_up.toml",
+        "--set",
+        "bearing.static_load_rating=1 kN",
+    ];
+    let told = |load: &str| {
+        let mut words = words.to_vec();
+        words.extend(["--set", load]);
+        place.call(&words).done().err
+    };
+    assert_eq!(told("drive.radial_load=0.9 kN"), "");
+    let told = told("drive.radial_load=100 kN");
+    assert!(
+        told.starts_with("warning[AB1029]: The static radial load of 100000 N is 100.0 times"),
+        "{told}"
+    );
 }

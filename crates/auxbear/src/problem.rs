@@ -249,7 +249,7 @@ impl Code {
             Code::TooManyRows,
             "AB0207",
             "Too many rows of output",
-            "The run would write more than five million rows.",
+            "The history of the run would not fit into memory; how many rows do depends on the number of balls.",
         ),
         (
             Code::NoLawData,

@@ -312,7 +312,7 @@ fn geometry_that_contradicts_itself_is_refused() {
             "width = \"15 mm\"",
             "width = \"7 mm\"",
             Code::BearingGeometry,
-            ["7.938 mm", "the width"],
+            ["7.938 mm", "at most width = 7 mm"],
         ),
         (
             "width = \"15 mm\"",
@@ -330,7 +330,7 @@ fn geometry_that_contradicts_itself_is_refused() {
             ball,
             "value = \"14 mm\"",
             Code::BearingGeometry,
-            ["a ball of 14 mm", "13.5 mm"],
+            ["14 mm", "less than 13.5 mm"],
         ),
         (
             "ball_count = 9\n",

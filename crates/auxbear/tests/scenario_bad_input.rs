@@ -280,16 +280,12 @@ fn geometry_that_cannot_be_is_refused() {
         message("ball_count = 10", "ball_count = 18"),
         "error[AB0202]: drop.toml:24: bearing.ball_count: found 18 balls of 6.35 mm on a pitch circle of 36 mm, whose centres are only 6.251 mm apart; at most 17 balls fit"
     );
-    for fits in [
-        "bearing.ball_count=17",
-        "bearing.ball_count=1",
-        "bearing.ball_count=2",
-    ] {
+    for fits in ["bearing.ball_count=17", "bearing.ball_count=3"] {
         assert!(parse(GOOD, &[fits]).is_ok(), "{fits}");
     }
     assert_eq!(
         message("\"36 mm\"", "\"6 mm\""),
-        "error[AB0203]: drop.toml:26: bearing.pitch_diameter: found 6 mm; more than bearing.ball_diameter = 6.35 mm is needed"
+        "error[AB0203]: drop.toml:26: bearing.pitch_diameter: found 6 mm; more than ball_diameter = 6.35 mm is needed"
     );
     assert_eq!(
         message("\"25 mm\"", "\"29.65 mm\""),

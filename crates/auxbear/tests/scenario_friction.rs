@@ -64,7 +64,9 @@ fn factors_come_from_the_tables() {
             f0: 1.1,
             viscosity: 1e-4,
             f1_factor: 0.0007,
-            f1_exponent: 0.5
+            f1_exponent: 0.5,
+            axial_load: 0.0,
+            contact_angle: None,
         }
     );
     let resolved = scenario(&PALMGREN).unwrap().resolved;
@@ -220,7 +222,7 @@ fn the_skf_model_takes_what_its_catalogue_has() {
     );
     assert_eq!(
         message(&with(&SKF, &["bearing.moment.outer_diameter=20 mm"])),
-        "error[AB0203]: a.toml, --set: bearing.moment.outer_diameter: found 20 mm; more than bearing.moment.bore_diameter = 0.025 m is needed"
+        "error[AB0203]: a.toml, --set: bearing.moment.outer_diameter: found 20 mm; more than bore_diameter = 0.025 m is needed. The dimensions that are not given are those of bearing.name = \"6005\""
     );
 }
 

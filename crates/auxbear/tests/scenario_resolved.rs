@@ -126,7 +126,8 @@ fn a_short_file_is_filled_and_reads_back_bit_for_bit() {
     // 6 g on a radius of 18 mm: 1.944e-6 kg m², two roundings.
     assert!((drop.bearing.cage_inertia / 1.944e-6 - 1.0).abs() < 1e-15);
     assert_eq!(drop.bearing.hertz_pressure_limit, Some(4.2e9));
-    assert_eq!(drop.bearing.ball_mass, None);
+    // π/6 (6.35 mm)³ of 7850 kg/m³
+    assert!((drop.bearing.ball_mass.unwrap() / 1.0524e-3 - 1.0).abs() < 0.01);
     assert_eq!(drop.rotor.spin, Spin::Free);
     assert_eq!(drop.bearing.moment, Moment::None);
 
@@ -174,10 +175,10 @@ fn every_value_tells_its_origin() {
         "speed = \"-12000 rpm\"",
         "planes = 2",
         "# unbalance_eccentricity = \"5e-6 m\" # derived: unbalance / mass",
-        "acceleration = \"9.81 m/s^2\" # default: usual rounded value near sea level",
-        "damping = { value = \"0.5 s/m\", assumed = \"not measured; small impact loss of hard steel\" } # default",
-        "ball_diameter = { value = \"0.00635 m\", source = \"a \\\"catalogue\\\", p. 3\" } # catalogue: 6005, read",
-        "inner_race_mass = { value = \"0.0204 kg\", assumed = \"a \\\"catalogue\\\", p. 3\" } # catalogue: 6005, assumed",
+        "acceleration = { value = \"9.81 m/s^2\", from = \"default\" } # usual rounded value near sea level",
+        "damping = { value = \"0.5 s/m\", assumed = \"not measured; small impact loss of hard steel\", from = \"default\" }",
+        "ball_diameter = { value = \"0.00635 m\", source = \"a \\\"catalogue\\\", p. 3\", from = \"catalogue\" } # 6005, read",
+        "inner_race_mass = { value = \"0.0204 kg\", assumed = \"a \\\"catalogue\\\", p. 3\", from = \"catalogue\" } # 6005, assumed",
     ] {
         assert!(text.lines().any(|found| found == line), "{line}\n{text}");
     }
@@ -268,7 +269,9 @@ fn choices_become_typed_values() {
             f0: 2.0,
             viscosity: 1e-4,
             f1_factor: 9e-4,
-            f1_exponent: 0.55
+            f1_exponent: 0.55,
+            axial_load: 0.0,
+            contact_angle: None,
         }
     );
     for hybrid in [

@@ -58,6 +58,19 @@ fn a_step_shows_the_printed_formula_making_a_negative_loss() {
         value(&outcome, "balls_skid"),
         &Value::Text("while the race speeds up".to_string())
     );
+    // while the balls skid the outer race is pushed against the rotation
+    let column = |name: &str| {
+        let column = outcome.history.iter().find(|column| column.name == name);
+        column.map(|column| column.values.clone()).unwrap()
+    };
+    let moments = column("bearing.outer_race.moment");
+    let skidding = column("time")
+        .iter()
+        .zip(&moments)
+        .filter(|row| *row.0 > 0.2e-3 && *row.0 < 3e-3)
+        .map(|row| *row.1)
+        .collect::<Vec<f64>>();
+    assert!(skidding.iter().all(|moment| *moment < 0.0), "{skidding:?}");
     // once they roll both races feel the moment of the law, ripple of a single instant included
     let law = number(&outcome, "law_moment_at_end");
     near(

@@ -166,7 +166,8 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.moment.lubrication=grease",
             "bearing.moment.viscosity_points=[[\"40 degC\", \"100 mm^2/s\"], [\"100 degC\", \"11 mm^2/s\"]]",
         ],
-        "bearing.moment.f0"
+        "bearing.moment.contact_angle"
+        | "bearing.moment.f0"
         | "bearing.moment.f1_factor"
         | "bearing.moment.f1_exponent"
         | "bearing.moment.orbit_share"

@@ -1,9 +1,9 @@
 //! Refuses a bearing whose numbers contradict each other.
 
 use super::complete::mass_of_ball;
+use super::geometry::{Geometry, digits, millimetres};
 use super::read::{Draft, Read, Reader};
 use crate::problem::{Code, Problem};
-use std::f64::consts::PI;
 
 /// Static load rating over Z D² cos α, N/m²: makers' values lie between 6e6 (spindle bearings with open grooves) and
 /// 22e6; beyond these limits a digit or a unit is wrong.
@@ -12,9 +12,7 @@ const RATING: (f64, f64) = (2e6, 60e6);
 /// Refuses contradictions.
 pub(super) fn check(draft: &Draft, reader: &Reader<'_>) -> Read<()> {
     let context = Context { draft, reader };
-    context.outline()?;
-    context.section()?;
-    context.balls_fit()?;
+    context.geometry()?;
     context.shoulder()?;
     context.static_rating()?;
     context.mass()
@@ -46,87 +44,24 @@ impl Context<'_, '_> {
         self.reader.problem(code, start, key, found, allowed)
     }
 
-    /// Bore, pitch circle and outside in this order.
-    fn outline(&self) -> Read<()> {
-        for (small, large) in [
-            ("bore_diameter", "outer_diameter"),
-            ("bore_diameter", "pitch_diameter"),
-            ("pitch_diameter", "outer_diameter"),
-        ] {
-            if let (Some(a), Some(b)) = (self.number(small), self.number(large))
-                && a >= b
-            {
-                return Err(self.refuse(
-                    Code::BearingGeometry,
-                    &[small, large],
-                    self.text(small).to_string(),
-                    format!("less than {large} = {} is needed", self.text(large)),
-                ));
-            }
-        }
-        Ok(())
-    }
-
-    /// The balls lie between bore and outside, and within the width.
-    fn section(&self) -> Read<()> {
-        let Some(ball) = self.number("ball_diameter") else {
+    /// Diameters, width and balls go together.
+    fn geometry(&self) -> Read<()> {
+        let geometry = Geometry {
+            bore: self.number("bore_diameter"),
+            outside: self.number("outer_diameter"),
+            width: self.number("width"),
+            pitch: self.number("pitch_diameter"),
+            ball: self.number("ball_diameter"),
+            count: self.number("ball_count"),
+        };
+        let Some(found) = geometry.contradiction(&|key| self.text(key).to_string()) else {
             return Ok(());
         };
-        let too_large = |most: f64, why: String| {
-            self.refuse(
-                Code::BearingGeometry,
-                &["ball_diameter", "pitch_diameter"],
-                format!("a ball of {}", self.text("ball_diameter")),
-                format!("less than {} is needed, {why}", millimetres(most)),
-            )
-        };
-        if let Some(width) = self.number("width")
-            && ball > width
-        {
-            return Err(too_large(width, "the width".to_string()));
-        }
-        let Some(pitch) = self.number("pitch_diameter") else {
-            return Ok(());
-        };
-        let bore = self.number("bore_diameter").unwrap_or(0.0);
-        let inside = pitch - bore;
-        if ball >= inside {
-            let why = "pitch_diameter less bore_diameter, or no ring is left inside the balls";
-            return Err(too_large(inside, why.to_string()));
-        }
-        if let Some(outside) = self.number("outer_diameter")
-            && ball >= outside - pitch
-        {
-            let why = "outer_diameter less pitch_diameter, or no ring is left outside the balls";
-            return Err(too_large(outside - pitch, why.to_string()));
-        }
-        Ok(())
-    }
-
-    fn balls_fit(&self) -> Read<()> {
-        let (Some(count), Some(ball), Some(pitch)) = (
-            self.number("ball_count"),
-            self.number("ball_diameter"),
-            self.number("pitch_diameter"),
-        ) else {
-            return Ok(());
-        };
-        let spacing = pitch * (PI / count).sin();
-        if count < 2.0 || spacing >= ball {
-            return Ok(());
-        }
-        let most = (PI / (ball / pitch).asin()).floor();
-        Err(self.refuse(
-            Code::BallsDoNotFit,
-            &["ball_count", "ball_diameter", "pitch_diameter"],
-            format!(
-                "{count} balls of {} on a pitch circle of {}, whose centres are only {} apart,",
-                self.text("ball_diameter"),
-                self.text("pitch_diameter"),
-                millimetres(spacing)
-            ),
-            format!("at most {most} balls fit"),
-        ))
+        let given = |key: &str| self.draft.starts.iter().any(|start| start.0 == key);
+        let mut blames = found.blames;
+        let first = blames.iter().position(|blame| given(blame.key));
+        let blame = blames.swap_remove(first.unwrap_or(0));
+        Err(self.refuse(found.code, &[blame.key], blame.found, blame.allowed))
     }
 
     /// The shoulder lies between the bottom of the groove and the ball centres, and above the bore.
@@ -211,14 +146,4 @@ impl Context<'_, '_> {
             ),
         ))
     }
-}
-
-/// A number for a message, to four digits.
-fn digits(value: f64) -> String {
-    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
-    units::number_text(rounded)
-}
-
-fn millimetres(length: f64) -> String {
-    format!("{} mm", digits(length * 1e3))
 }

@@ -37,6 +37,7 @@ mod check;
 mod complete;
 mod family;
 mod filter;
+pub(crate) mod geometry;
 mod json;
 mod key;
 mod read;

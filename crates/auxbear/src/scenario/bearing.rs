@@ -47,7 +47,8 @@ pub enum BallMaterial {
     SiliconNitride,
 }
 
-/// The auxiliary bearing at one plane. What is `None` is derived from the other values when the run starts.
+/// The auxiliary bearing at one plane. What is `None` is not known, or is found when the
+/// machine is built.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bearing {
     /// Name in the catalogue.

@@ -6,7 +6,8 @@ use super::resolve::Values;
 use super::run::Run;
 use super::system::System;
 use super::torque::Torque;
-use crate::problem::{Code, Problem};
+use crate::catalogue::geometry::{Geometry, millimetres};
+use crate::problem::{Code, Place, Problem};
 use physics::traction::FourParameterTraction;
 
 /// Most values of a history, in memory at the end of a run: 1.6 GB.
@@ -23,6 +24,9 @@ const NO_TRACTION_AT_REST: f64 = 1e-9;
 const MOST_PRELOAD: f64 = -0.01;
 /// Widest internal clearance, as a share of the ball diameter.
 const MOST_CLEARANCE: f64 = 0.1;
+
+/// Balls that hold a race from all sides.
+const FEWEST_BALLS: usize = 3;
 
 pub(super) type Check = Result<(), Box<Problem>>;
 
@@ -72,18 +76,23 @@ impl Context<'_> {
 
     fn torque(&self, torque: &Torque) -> Check {
         let (ball, pitch) = (torque.ball_diameter, torque.pitch_diameter);
-        self.bearing_diameters(ball, pitch, None)?;
-        self.balls_fit(torque.ball_count, ball, pitch)?;
+        self.geometry(torque.ball_count, ball, pitch)?;
         self.moment(&torque.moment, &torque.rated())?;
         self.acceleration_loss(&torque.acceleration_loss)?;
         self.torque_points(torque)
     }
 
-    /// Everything about a bearing that moves; the bore is that of the key named.
-    pub(super) fn bearing(&self, bearing: &Bearing, bore: Option<(&str, f64)>) -> Check {
+    /// Everything about a bearing that moves; the bore is that of the key named, the load whether any presses on it.
+    pub(super) fn bearing(
+        &self,
+        bearing: &Bearing,
+        bore: Option<(&str, f64)>,
+        loaded: bool,
+    ) -> Check {
         let (ball, pitch) = (bearing.ball_diameter, bearing.pitch_diameter);
-        self.bearing_diameters(ball, pitch, bore)?;
-        self.balls_fit(bearing.ball_count, ball, pitch)?;
+        self.geometry(bearing.ball_count, ball, pitch)?;
+        self.bore(bore, pitch - ball)?;
+        self.enough_balls(bearing, loaded)?;
         self.internal_clearance(bearing)?;
         self.traction(bearing.traction)?;
         self.moment(&bearing.moment, &bearing.rated())?;
@@ -91,55 +100,87 @@ impl Context<'_> {
         self.acceleration_loss(&bearing.acceleration_loss)
     }
 
-    fn bearing_diameters(&self, ball: f64, pitch: f64, bore: Option<(&str, f64)>) -> Check {
-        if pitch <= ball {
-            return Err(Box::new(self.problem(
-                Code::BearingGeometry,
-                "bearing.pitch_diameter",
-                self.text("bearing.pitch_diameter"),
-                format!(
-                    "more than bearing.ball_diameter = {} is needed",
-                    self.text("bearing.ball_diameter")
-                ),
-            )));
-        }
-        if let Some((path, bore)) = bore
-            && bore >= pitch - ball
-        {
-            return Err(Box::new(self.problem(
+    /// The key that is most probably wrong: the first of an override, else the first of the file, else the first.
+    pub(super) fn blamed<'p>(&self, paths: &[&'p str]) -> &'p str {
+        let places = |wanted: fn(Place) -> bool| {
+            let mut paths = paths.iter().copied();
+            paths.find(|path| wanted(self.values.place(path)))
+        };
+        places(|place| place == Place::Set)
+            .or_else(|| places(|place| place != Place::Whole))
+            .unwrap_or(paths[0])
+    }
+
+    /// Diameters, width and balls go together, also with what the catalogue knows of the bearing named.
+    fn geometry(&self, count: usize, ball: f64, pitch: f64) -> Check {
+        let path = |key: &str| match key {
+            "bore_diameter" => "bearing.moment.bore_diameter",
+            "outer_diameter" => "bearing.moment.outer_diameter",
+            "pitch_diameter" => "bearing.pitch_diameter",
+            "ball_diameter" => "bearing.ball_diameter",
+            "ball_count" => "bearing.ball_count",
+            _ => "bearing.name",
+        };
+        let ring = |key: &str| {
+            let given = self.values.number(path(key));
+            given.or_else(|| self.values.dimension(key))
+        };
+        let geometry = Geometry {
+            bore: ring("bore_diameter"),
+            outside: ring("outer_diameter"),
+            width: self.values.dimension("width"),
+            pitch: Some(pitch),
+            ball: Some(ball),
+            count: Some(count as f64),
+        };
+        let text = |key: &str| {
+            let written = self.values.text(path(key)).filter(|_| key != "width");
+            let known = || self.values.dimension(key).map(millimetres);
+            written.or_else(known).unwrap_or_default()
+        };
+        let Some(mut found) = geometry.contradiction(&text) else {
+            return Ok(());
+        };
+        let paths: Vec<&str> = (found.blames.iter()).map(|blame| path(blame.key)).collect();
+        let blamed = self.blamed(&paths);
+        let position = paths.iter().position(|path| *path == blamed);
+        let blame = found.blames.swap_remove(position.unwrap_or(0));
+        let problem = self.problem(found.code, blamed, blame.found, blame.allowed);
+        let named = self.values.text("bearing.name");
+        Err(Box::new(problem.with_hint(named.map(|name| {
+            format!("The dimensions that are not given are those of bearing.name = \"{name}\"")
+        }))))
+    }
+
+    /// The rotor's side of the inner race, which a sleeve may narrow.
+    fn bore(&self, bore: Option<(&str, f64)>, track: f64) -> Check {
+        match bore {
+            Some((path, bore)) if bore >= track => Err(Box::new(self.problem(
                 Code::BearingGeometry,
                 path,
                 self.text(path),
                 format!(
                     "less than the track of the inner race is needed: pitch_diameter - ball_diameter = {}",
-                    millimetres(pitch - ball)
+                    millimetres(track)
                 ),
-            )));
+            ))),
+            _ => Ok(()),
         }
-        Ok(())
     }
 
-    fn balls_fit(&self, count: usize, ball: f64, pitch: f64) -> Check {
-        if count < 2 {
+    /// Between two balls there is half a turn without a ball, through which a loaded inner race falls.
+    fn enough_balls(&self, bearing: &Bearing, loaded: bool) -> Check {
+        if bearing.ball_count >= FEWEST_BALLS || bearing.inner_race_centre_held || !loaded {
             return Ok(());
         }
-        let half_angle = std::f64::consts::PI / count as f64;
-        let spacing = pitch * half_angle.sin();
-        if spacing >= ball {
-            return Ok(());
-        }
-        let most = std::f64::consts::PI / (ball / pitch).asin();
+        let path = "bearing.ball_count";
         Err(Box::new(self.problem(
-            Code::BallsDoNotFit,
-            "bearing.ball_count",
+            Code::Impossible,
+            path,
+            self.text(path),
             format!(
-                "{} balls of {} on a pitch circle of {}, whose centres are only {} apart",
-                count,
-                self.text("bearing.ball_diameter"),
-                self.text("bearing.pitch_diameter"),
-                millimetres(spacing)
+                "at least {FEWEST_BALLS} balls are needed under a radial load: beside fewer the inner race falls out of the bearing. bearing.inner_race_centre_held = true would hold it"
             ),
-            format!("at most {most:.0} balls fit", most = most.floor()),
         )))
     }
 
@@ -214,23 +255,6 @@ impl Context<'_> {
                 ),
             )));
         }
-        if let Moment::Skf {
-            bore_diameter,
-            outer_diameter,
-            ..
-        } = moment
-            && outer_diameter <= bore_diameter
-        {
-            return Err(Box::new(self.problem(
-                Code::BearingGeometry,
-                "bearing.moment.outer_diameter",
-                self.text("bearing.moment.outer_diameter"),
-                format!(
-                    "more than bearing.moment.bore_diameter = {} is needed",
-                    self.text("bearing.moment.bore_diameter")
-                ),
-            )));
-        }
         if let Moment::Measured { curve } = moment
             && let Some(row) = curve.iter().position(|row| row[1] < 0.0)
         {
@@ -247,9 +271,15 @@ impl Context<'_> {
         let Err(why) = moment.law(bearing) else {
             return Ok(());
         };
+        let path = match moment {
+            Moment::Palmgren { axial_load, .. } if *axial_load != 0.0 => {
+                self.blamed(&["bearing.moment.contact_angle", "bearing.moment.axial_load"])
+            }
+            _ => "bearing.moment.law",
+        };
         Err(Box::new(self.problem(
             Code::NoLawData,
-            "bearing.moment.law",
+            path,
             why,
             "another law is needed, or a bearing that this one has constants for".to_string(),
         )))
@@ -322,39 +352,39 @@ impl Context<'_> {
     }
 
     pub(super) fn output(&self, run: &Run, balls: usize) -> Check {
+        const INTERVAL: &str = "run.output_interval";
+        const DURATION: &str = "run.duration";
+        let path = self.blamed(&[INTERVAL, DURATION]);
+        let (interval, duration) = (self.text(INTERVAL), self.text(DURATION));
         if run.output_interval > run.duration {
+            let allowed = match path {
+                DURATION => format!("at least {INTERVAL} = {interval} is needed"),
+                _ => format!("at most {DURATION} = {duration} is needed"),
+            };
+            let found = self.text(path);
             return Err(Box::new(self.problem(
                 Code::OutputInterval,
-                "run.output_interval",
-                self.text("run.output_interval"),
-                format!(
-                    "at most run.duration = {} is needed",
-                    self.text("run.duration")
-                ),
+                path,
+                found,
+                allowed,
             )));
         }
         let rows = run.duration / run.output_interval;
         let most = MOST_VALUES / (VALUES_PER_ROW + VALUES_PER_BALL * balls as f64);
-        if rows > most {
-            return Err(Box::new(self.problem(
-                Code::TooManyRows,
-                "run.output_interval",
-                format!(
-                    "{}, which gives {rows:.3e} rows in {}",
-                    self.text("run.output_interval"),
-                    self.text("run.duration")
-                ),
-                format!("at most {most:.2e} rows are kept with {} balls", balls),
-            )));
+        if rows <= most {
+            return Ok(());
         }
-        Ok(())
+        let found = match path {
+            DURATION => {
+                format!("{duration}, which gives {rows:.3e} rows at {INTERVAL} = {interval}")
+            }
+            _ => format!("{interval}, which gives {rows:.3e} rows in {duration}"),
+        };
+        Err(Box::new(self.problem(
+            Code::TooManyRows,
+            path,
+            found,
+            format!("at most {most:.2e} rows are kept with {balls} balls"),
+        )))
     }
-}
-
-/// A length for a message, to four digits.
-pub(super) fn millimetres(length: f64) -> String {
-    let rounded: f64 = format!("{:.3e}", length * 1e3)
-        .parse()
-        .unwrap_or(length * 1e3);
-    format!("{} mm", units::number_text(rounded))
 }

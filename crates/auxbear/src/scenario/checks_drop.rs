@@ -1,7 +1,8 @@
 //! Checks of a drop.
 
-use super::checks::{Check, Context, millimetres};
+use super::checks::{Check, Context};
 use super::drop::Drop;
+use crate::catalogue::geometry::millimetres;
 use crate::problem::Code;
 use physics::unbalance::whirl;
 
@@ -11,7 +12,7 @@ const SPREAD: f64 = 6.0;
 impl Context<'_> {
     pub(super) fn drop(&self, drop: &Drop) -> Check {
         let bore = drop.contact.bore_diameter;
-        self.bearing(&drop.bearing, Some(("contact.bore_diameter", bore)))?;
+        self.bearing(&drop.bearing, Some(("contact.bore_diameter", bore)), true)?;
         self.air_clearance(drop)?;
         self.output(&drop.run, drop.bearing.ball_count)?;
         self.perturbed_balls(drop)?;

@@ -3,7 +3,7 @@
 use super::bearing::{BallMaterial, Bearing, Fidelity};
 use super::checks::{Check, Context};
 use super::moment::AccelerationLoss;
-use super::spin_up::{Drive, SpeedCourse, SpinUp};
+use super::spin_up::{Course, Drive, SpeedCourse, SpinUp};
 use crate::problem::{Code, Place, Problem};
 use physics::materials::{BEARING_STEEL, SILICON_NITRIDE, ball_mass};
 use physics::rolling::RollingSet;
@@ -16,8 +16,10 @@ impl Context<'_> {
             }
             Drive::Torque { .. } | Drive::Speed(_) => None,
         };
-        self.bearing(&spin_up.bearing, bore)?;
+        let loaded = spin_up.radial_load.largest() > 0.0;
+        self.bearing(&spin_up.bearing, bore, loaded)?;
         self.some_speed(spin_up)?;
+        self.some_drive(spin_up)?;
         self.step(spin_up)?;
         self.braking(spin_up)?;
         self.output(&spin_up.run, spin_up.bearing.ball_count)
@@ -39,6 +41,55 @@ impl Context<'_> {
             path,
             self.text(path),
             "an angular speed other than 0 is needed".to_string(),
+        )))
+    }
+
+    /// Without a force the rotor turns nothing, and no energy is there to compare anything with.
+    fn some_drive(&self, spin_up: &SpinUp) -> Check {
+        let end = spin_up.run.duration;
+        let (course, value, history, needed) = match &spin_up.drive {
+            Drive::SlidingRotor {
+                friction_coefficient,
+                ..
+            } if *friction_coefficient == 0.0 => {
+                let path = "drive.friction_coefficient";
+                return Err(Box::new(
+                    self.problem(
+                        Code::Impossible,
+                        path,
+                        self.text(path),
+                        "a coefficient above 0 is needed: without friction the rotor turns nothing"
+                            .to_string(),
+                    ),
+                ));
+            }
+            Drive::SlidingRotor { .. } => (
+                &spin_up.radial_load,
+                "drive.radial_load",
+                "drive.load_history",
+                "a force above 0 is needed at some time of the run: the rotor turns the race by its friction, so without load nothing moves",
+            ),
+            Drive::Torque { torque, .. } => (
+                torque,
+                "drive.torque",
+                "drive.torque_history",
+                "a torque other than 0 is needed at some time of the run: without it nothing moves",
+            ),
+            Drive::Speed(_) => return Ok(()),
+        };
+        let (path, found) = match course {
+            _ if course.largest_until(end) > 0.0 => return Ok(()),
+            Course::Constant(_) => (value, self.text(value)),
+            Course::Table(_) => {
+                let end = self.text("run.duration");
+                (history, format!("nothing but 0 until run.duration = {end}"))
+            }
+        };
+        Err(Box::new(self.problem(
+            Code::Impossible,
+            path,
+            found,
+            needed.to_string(),
         )))
     }
 

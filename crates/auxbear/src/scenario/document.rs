@@ -59,6 +59,8 @@ pub(super) struct Document {
     pub(super) file: String,
     pub(super) system: SystemName,
     pub(super) values: BTreeMap<&'static str, Given>,
+    /// Where each section of the text starts.
+    pub(super) sections: BTreeMap<&'static str, Place>,
 }
 
 /// One key or section of the text, before it is known whether it exists.
@@ -91,6 +93,7 @@ impl Document {
             file: file.to_string(),
             system: find_system(text, root.get_ref(), file, sets)?,
             values: BTreeMap::new(),
+            sections: BTreeMap::new(),
         };
         let mut entries = Vec::new();
         flatten(root.get_ref(), &[], &mut entries);
@@ -162,7 +165,10 @@ impl Document {
                 return Err(Box::new(elsewhere("section", section.systems)));
             }
             return match raw {
-                None => Ok(()),
+                None => {
+                    self.sections.insert(section.path, place);
+                    Ok(())
+                }
                 Some(raw) => Err(Box::new(problem(
                     Code::WrongType,
                     raw.text(),

@@ -9,12 +9,13 @@ use crate::catalogue::Catalogue;
 use crate::problem::{Code, Place, Problem, did_you_mean};
 use std::path::{Path, PathBuf};
 
-/// Keys outside `[bearing]` that take a diameter of the rings.
-const RING_DIAMETERS: [&str; 4] = [
+/// Keys outside `[bearing]` that take a value of the rings.
+const OF_RINGS: [&str; 5] = [
     "contact.bore_diameter",
     "drive.bore_diameter",
     "bearing.moment.bore_diameter",
     "bearing.moment.outer_diameter",
+    "bearing.moment.contact_angle",
 ];
 
 /// Key of the user's own catalogue.
@@ -112,7 +113,7 @@ impl Values {
         };
         let name = match key.section() {
             "bearing" => key.name(),
-            _ if RING_DIAMETERS.contains(&key.path) => key.name(),
+            _ if OF_RINGS.contains(&key.path) => key.name(),
             _ => return Ok(None),
         };
         if let Kind::Word(_) = key.kind {
@@ -142,6 +143,7 @@ impl Values {
             text,
             provenance: provenance.clone(),
             place: Place::Whole,
+            filled_in: false,
         }))
     }
 

@@ -96,6 +96,9 @@ const COUNTERPARTS: [(&str, &str); 4] = [
 
 /// The keys of a system that stand for a key of another one, or bear its name.
 pub(super) fn namesake(path: &[String], system: SystemName) -> Option<String> {
+    if path.first().is_some_and(|section| section == "repeat") {
+        return Some(REPEATED.to_string());
+    }
     let (name, dotted) = (path.last()?, path.join("."));
     let counterpart = COUNTERPARTS.iter().find(|pair| pair.0 == dotted);
     if let Some((_, other)) = counterpart
@@ -110,6 +113,7 @@ pub(super) fn namesake(path: &[String], system: SystemName) -> Option<String> {
     question(&names)
 }
 
+const REPEATED: &str = "Only drops are repeated so far (--repeat and [repeat]): their late impacts are chaotic, while the same file gives the same numbers here. To see what a value does, run once for each with --set PATH=VALUE --out DIR, and put the runs side by side with auxbear report DIR…";
 const CLEARANCES: &str = "contact.radial_air_clearance is the radial gap between rotor and inner race, half the difference of their diameters; bearing.operating_diametral_clearance is the diametral internal clearance of the bearing";
 const DIAMETERS: &str = "The file takes diameters: bearing.ball_diameter, bearing.pitch_diameter, contact.bore_diameter";
 

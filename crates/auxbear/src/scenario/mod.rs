@@ -20,6 +20,7 @@ mod document;
 mod drop;
 mod from_catalogue;
 mod key;
+mod locate;
 mod lubricant;
 mod meant;
 mod moment;
@@ -80,6 +81,8 @@ pub struct Scenario {
     pub system: System,
     /// Every value with its origin.
     pub resolved: Resolved,
+    /// Where it was read.
+    text: locate::Text,
 }
 
 impl Scenario {
@@ -126,6 +129,10 @@ impl Scenario {
             description: values.text("description"),
             system,
             resolved: values.resolved(),
+            text: locate::Text {
+                name: name.to_string(),
+                sections: document.sections,
+            },
         })
     }
 }

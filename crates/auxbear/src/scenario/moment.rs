@@ -5,7 +5,7 @@ use super::resolve::Values;
 use super::section::Section;
 use physics::friction::Friction;
 use physics::moment_curve::MomentCurve;
-use physics::palmgren::Palmgren;
+use physics::palmgren::{Palmgren, PalmgrenCombined};
 use physics::skf_constants::{SkfBearing, SkfLubricant, SkfOil, SkfSupply, SkfType};
 
 /// Steady friction moment.
@@ -25,6 +25,10 @@ pub enum Moment {
         f1_factor: f64,
         /// Exponent y of f1 = z (P0/C0)^y.
         f1_exponent: f64,
+        /// Axial load, N; the printed form has none.
+        axial_load: f64,
+        /// Contact angle under load, rad; none without axial load.
+        contact_angle: Option<f64>,
     },
     /// The SKF model.
     Skf {
@@ -120,6 +124,11 @@ impl Moment {
                 viscosity: moment.number("viscosity"),
                 f1_factor: moment.number("f1_factor"),
                 f1_exponent: moment.number("f1_exponent"),
+                axial_load: match law {
+                    "palmgren" => moment.number("axial_load"),
+                    _ => 0.0,
+                },
+                contact_angle: moment.maybe("contact_angle").filter(|_| law == "palmgren"),
             },
             "skf" => Moment::Skf {
                 series: values.text("bearing.moment.series").unwrap_or_default(),
@@ -157,6 +166,8 @@ impl Moment {
                 viscosity,
                 f1_factor,
                 f1_exponent,
+                axial_load,
+                contact_angle,
             } => {
                 let law = Palmgren {
                     viscous_factor: *f0,
@@ -168,11 +179,20 @@ impl Moment {
                         .static_load_rating
                         .ok_or("no static load rating C0 is given")?,
                 };
-                Ok(if *printed {
-                    Friction::PalmgrenPrinted(law)
-                } else {
-                    Friction::Palmgren(law)
-                })
+                if *printed {
+                    return Ok(Friction::PalmgrenPrinted(law));
+                }
+                if *axial_load == 0.0 {
+                    return Ok(Friction::Palmgren(law));
+                }
+                let angle = contact_angle.ok_or("no contact angle under axial load is given")?;
+                let (radial, axial) = static_factors(bearing.kind, angle)?;
+                Ok(Friction::PalmgrenCombined(PalmgrenCombined {
+                    law,
+                    axial_factor: 0.9 / angle.tan(),
+                    static_radial_factor: radial,
+                    static_axial_factor: axial,
+                }))
             }
             Moment::Skf {
                 series,
@@ -237,9 +257,48 @@ impl Moment {
     /// Axial load that the law sees, N.
     pub fn axial_load(&self) -> f64 {
         match self {
-            Moment::Skf { axial_load, .. } => *axial_load,
-            Moment::None | Moment::Palmgren { .. } | Moment::Measured { .. } => 0.0,
+            Moment::Palmgren { axial_load, .. } | Moment::Skf { axial_load, .. } => *axial_load,
+            Moment::None | Moment::Measured { .. } => 0.0,
         }
+    }
+}
+
+/// Y0 of single row angular contact bearings over the contact angle in degrees, with X0 = 0.5: ISO 76 (from memory).
+const STATIC_AXIAL: [(f64, f64); 7] = [
+    (15.0, 0.46),
+    (20.0, 0.42),
+    (25.0, 0.38),
+    (30.0, 0.33),
+    (35.0, 0.29),
+    (40.0, 0.26),
+    (45.0, 0.22),
+];
+
+/// X0 and Y0 of the static equivalent load P0 = X0 F_r + Y0 F_a, or why they are not known.
+fn static_factors(kind: BearingType, angle: f64) -> Result<(f64, f64), String> {
+    // without the rounding of radians, so that 15 degrees are in the table
+    let degrees = (angle.to_degrees() * 1e9).round() * 1e-9;
+    match kind {
+        // ISO 76, as makers print it; steeper or flatter contacts are those of other bearings
+        BearingType::DeepGroove if (5.0..=45.0).contains(&degrees) => Ok((0.6, 0.5)),
+        BearingType::DeepGroove => Err(format!(
+            "a deep groove bearing has no contact angle of {degrees} degrees: 5 to 45 are possible"
+        )),
+        BearingType::AngularContact => {
+            let mut rows = STATIC_AXIAL.windows(2);
+            let row = rows.find(|row| (row[0].0..=row[1].0).contains(&degrees));
+            let [low, high] = row.and_then(|row| row.first_chunk()).ok_or_else(|| {
+                format!(
+                    "ISO 76 has factors for contact angles of 15 to 45 degrees, not for {degrees}"
+                )
+            })?;
+            let share = (degrees - low.0) / (high.0 - low.0);
+            Ok((0.5, low.1 + (high.1 - low.1) * share))
+        }
+        BearingType::AngularContactDoubleRow | BearingType::FourPointContact => Err(
+            "Palmgren's law has no static equivalent load of this bearing type under axial load"
+                .to_string(),
+        ),
     }
 }
 

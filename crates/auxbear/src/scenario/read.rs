@@ -10,10 +10,24 @@ use units::{Dimension, ParseError, Rational, parse_quantity};
 /// How far the power in the unit of a contact stiffness may be from its exponent: decimals of 10/9 are accepted.
 pub(super) const POWER_TOLERANCE: f64 = 1e-6;
 
+/// What a resolved file says of values that were not given.
+pub(super) const FILLED_IN: [&str; 2] = ["default", "catalogue"];
+
+/// A value without the table around it.
+struct Unwrapped<'a> {
+    raw: &'a Raw,
+    provenance: Provenance,
+    filled_in: bool,
+}
+
 impl Values {
     /// Reads one given value.
     pub(super) fn read(&self, key: &Key, given: &Given) -> Result<Known, Box<Problem>> {
-        let (raw, provenance) = self.unwrap_table(key, given)?;
+        let Unwrapped {
+            raw,
+            provenance,
+            filled_in,
+        } = self.unwrap_table(key, given)?;
         // The name 6005 typed as an override is a text, though it reads as a number too.
         let text = match (key.kind, &given.typed, raw) {
             (Kind::Text, Some(typed), Raw::Integer(..) | Raw::Float(_) | Raw::Switch(_)) => {
@@ -38,17 +52,18 @@ impl Values {
             text,
             provenance,
             place: given.place,
+            filled_in,
         })
     }
 
     /// The value of `{ value = …, source = … }`, or the value itself.
-    fn unwrap_table<'a>(
-        &self,
-        key: &Key,
-        given: &'a Given,
-    ) -> Result<(&'a Raw, Provenance), Box<Problem>> {
+    fn unwrap_table<'a>(&self, key: &Key, given: &'a Given) -> Result<Unwrapped<'a>, Box<Problem>> {
         let Raw::Table(parts) = &given.raw else {
-            return Ok((&given.raw, Provenance::Given));
+            return Ok(Unwrapped {
+                raw: &given.raw,
+                provenance: Provenance::Given,
+                filled_in: false,
+            });
         };
         let example = key.literal(key.example);
         let form = format!(
@@ -56,6 +71,7 @@ impl Values {
         );
         let mut value = None;
         let mut provenance = None;
+        let mut filled_in = false;
         for (name, raw) in parts {
             match (name.as_str(), raw) {
                 ("value", raw) => value = Some(raw),
@@ -73,6 +89,20 @@ impl Values {
                 }
                 ("assumed", Raw::Text(text)) => {
                     provenance = Some(Provenance::Assumed(text.clone()));
+                }
+                ("from", Raw::Text(word)) if FILLED_IN.contains(&word.as_str()) => filled_in = true,
+                ("from", raw) => {
+                    let words: Vec<String> = FILLED_IN.iter().map(|word| quoted(word)).collect();
+                    return Err(Box::new(self.problem(
+                        Code::UnknownWord,
+                        &format!("{}.from", key.path),
+                        given.place,
+                        raw.text(),
+                        format!(
+                            "{} is needed, as the program writes it into a resolved file",
+                            words.join(" or ")
+                        ),
+                    )));
                 }
                 ("source" | "assumed", raw) => {
                     return Err(Box::new(self.problem(
@@ -99,7 +129,11 @@ impl Values {
             }
         }
         match value {
-            Some(value) => Ok((value, provenance.unwrap_or(Provenance::Given))),
+            Some(raw) => Ok(Unwrapped {
+                raw,
+                provenance: provenance.unwrap_or(Provenance::Given),
+                filled_in,
+            }),
             None => Err(Box::new(self.problem(
                 Code::MissingKey,
                 key.path,

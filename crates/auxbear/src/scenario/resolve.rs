@@ -63,6 +63,8 @@ pub(super) struct Known {
     pub(super) text: String,
     pub(super) provenance: Provenance,
     pub(super) place: Place,
+    /// Whether the file says that the program filled it in.
+    pub(super) filled_in: bool,
 }
 
 /// One value for every key that has one.
@@ -71,6 +73,8 @@ pub(super) struct Values {
     file: String,
     system: SystemName,
     known: BTreeMap<&'static str, Known>,
+    /// What the catalogue knows of the bearing named.
+    record: Option<BearingRecord>,
 }
 
 impl Values {
@@ -83,6 +87,7 @@ impl Values {
             file: document.file.clone(),
             system: document.system,
             known: BTreeMap::new(),
+            record: None,
         };
         let own = values.own_catalogue(document)?;
         let bearings = own
@@ -97,7 +102,9 @@ impl Values {
                         let known = values.read(key, given)?;
                         values.known.insert(key.path, known);
                     }
-                    Some(given) => return Err(Box::new(values.unused(key, given, &unmet))),
+                    Some(given) => {
+                        return Err(Box::new(values.unused(key, given, &unmet, document)));
+                    }
                     None => {}
                 }
                 continue;
@@ -105,7 +112,8 @@ impl Values {
             let known = match given {
                 Some(given) => {
                     values.refuse_conflict(key, given, document)?;
-                    Some(values.lasting_path(key, values.read(key, given)?))
+                    let known = values.lasting_path(key, values.read(key, given)?);
+                    Some(values.as_filled_in(key, known, record.as_ref(), document))
                 }
                 None => match values.catalogued(key, record.as_ref())? {
                     Some(known) => Some(known),
@@ -117,6 +125,7 @@ impl Values {
             }
         }
         values.derive()?;
+        values.record = record;
         Ok(values)
     }
 
@@ -173,7 +182,7 @@ impl Values {
                 .any(|law| unmet.values.contains(law))
     }
 
-    fn unused(&self, key: &Key, given: &Given, unmet: &Condition) -> Problem {
+    fn unused(&self, key: &Key, given: &Given, unmet: &Condition, document: &Document) -> Problem {
         let here = self.known.get(unmet.path).map_or(String::new(), |known| {
             format!("; here it is {}", quoted(&known.text))
         });
@@ -189,6 +198,29 @@ impl Values {
             "a key that has no effect",
             format!("it is used only with {}{reason}{here}", unmet.text()),
         )
+        .with_hint(self.remedy(given, unmet, document))
+    }
+
+    /// Which lines have no effect by the same choice, and what would give them one.
+    fn remedy(&self, given: &Given, unmet: &Condition, document: &Document) -> Option<String> {
+        given.place.line()?;
+        let lines: Vec<String> = table::keys_of(self.system)
+            .filter(|key| {
+                let other = self.unmet(key);
+                other.is_some_and(|other| other.path == unmet.path && !self.of_compared_law(&other))
+            })
+            .filter_map(|key| {
+                let line = document.values.get(key.path)?.place.line()?;
+                Some(format!("{line} ({})", key.name()))
+            })
+            .collect();
+        let back = match self.place(unmet.path) {
+            Place::Set => format!("leave --set {} away", unmet.path),
+            Place::Line { line, .. } => format!("change {} in line {line}", unmet.path),
+            Place::Whole => format!("give {}", unmet.path),
+        };
+        let word = if lines.len() == 1 { "line" } else { "lines" };
+        Some(format!("Remove {word} {}, or {back}", lines.join(", ")))
     }
 
     fn refuse_conflict(
@@ -250,6 +282,28 @@ impl Values {
                 };
                 Err(Box::new(self.missing(key).with_hint(hint)))
             }
+        }
+    }
+
+    /// A value of a resolved file keeps the origin of a default or of the catalogue as long as it is that value.
+    fn as_filled_in(
+        &self,
+        key: &Key,
+        known: Known,
+        record: Option<&BearingRecord>,
+        document: &Document,
+    ) -> Known {
+        if !known.filled_in {
+            return known;
+        }
+        let catalogued = self.catalogued(key, record).ok().flatten();
+        let filled = catalogued.or_else(|| self.without(key, record, document).ok().flatten());
+        match filled {
+            Some(filled) if filled.value == known.value => Known {
+                provenance: filled.provenance,
+                ..known
+            },
+            _ => known,
         }
     }
 
@@ -315,6 +369,12 @@ impl Values {
                 Provenance::Default(_) | Provenance::DefaultAssumed(_)
             )
         })
+    }
+
+    /// A dimension of the bearing named, as the catalogue knows it.
+    pub(super) fn dimension(&self, name: &str) -> Option<f64> {
+        let mut values = self.record.as_ref()?.values.iter();
+        values.find(|value| value.0 == name).map(|value| value.1)
     }
 
     /// Where a value was given.

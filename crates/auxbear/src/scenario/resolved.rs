@@ -37,7 +37,8 @@ impl Resolved {
 
     /// The scenario file with every value written out. Reading it gives the same numbers bit for bit.
     ///
-    /// Derived values stand as comments, so that they follow the values they come from when those are changed.
+    /// Derived values stand as comments, so that they follow the values they come from when those are changed. Defaults and
+    /// values of the catalogue say so (`from = …`), and are read as such as long as they are not changed.
     pub fn toml(&self) -> String {
         let mut out =
             String::from("# Resolved scenario: every value of the run and where it comes from.\n");
@@ -71,14 +72,18 @@ fn line(key: &Key, value: &ResolvedValue) -> String {
     let table = |word: &str, why: &str| {
         format!("{name} = {{ value = {literal}, {word} = {} }}", quoted(why))
     };
+    let filled = |word: &str, why: &str, from: &str| {
+        let why = quoted(why);
+        format!("{name} = {{ value = {literal}, {word} = {why}, from = \"{from}\" }}")
+    };
     match &value.provenance {
         Provenance::Given => format!("{name} = {literal}"),
         Provenance::GivenWithSource(source) => table("source", source),
         Provenance::Assumed(why) => table("assumed", why),
-        Provenance::Default(reason) => format!("{name} = {literal} # default: {}", comment(reason)),
-        Provenance::DefaultAssumed(reason) => {
-            format!("{} # default", table("assumed", reason))
+        Provenance::Default(reason) => {
+            format!("{} # {}", table("from", "default"), comment(reason))
         }
+        Provenance::DefaultAssumed(reason) => filled("assumed", reason, "default"),
         Provenance::Catalogue {
             bearing,
             mark,
@@ -90,8 +95,8 @@ fn line(key: &Key, value: &ResolvedValue) -> String {
                 "source"
             };
             format!(
-                "{} # catalogue: {}, {}",
-                table(word, source),
+                "{} # {}, {}",
+                filled(word, source, "catalogue"),
                 comment(bearing),
                 comment(mark)
             )

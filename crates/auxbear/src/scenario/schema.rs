@@ -14,6 +14,7 @@
 //! knows of a bearing, and every check between values. Nothing that the program accepts is refused by the schema.
 
 use super::key::{Condition, Key, Kind, Otherwise, Presence, Range};
+use super::read::FILLED_IN;
 use super::resolve::{COMPARED_LAWS, LAW};
 use super::system::SystemName;
 use super::table;
@@ -299,6 +300,10 @@ fn with_origin(plain: &Value) -> Value {
             "value": plain,
             "source": text("Where the value was read."),
             "assumed": text("Why it is assumed; reports mark it."),
+            "from": {
+                "enum": FILLED_IN,
+                "description": "Written into a resolved file: who filled the value in.",
+            },
         },
         "required": ["value"],
         "not": { "required": ["source", "assumed"] },

@@ -123,6 +123,16 @@ impl Course {
         }
     }
 
+    /// The largest size of the value from time 0 to an end.
+    pub fn largest_until(&self, end: f64) -> f64 {
+        let rows = match self {
+            Course::Constant(_) => &[][..],
+            Course::Table(rows) => rows,
+        };
+        let inside = rows.iter().filter(|row| row[0] <= end);
+        inside.fold(self.at(end).abs(), |most, row| row[1].abs().max(most))
+    }
+
     /// The value at a time.
     pub fn at(&self, time: f64) -> f64 {
         match self {
@@ -196,5 +206,9 @@ mod tests {
             assert_eq!(course.at(time), value, "{time}");
         }
         assert_eq!(course.largest(), 20.0);
+        for (end, largest) in [(0.5, 10.0), (2.0, 10.0), (2.8, 17.0), (9.0, 20.0)] {
+            // one rounding of a row's slope
+            assert!((course.largest_until(end) - largest).abs() < 1e-12, "{end}");
+        }
     }
 }

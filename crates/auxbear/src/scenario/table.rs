@@ -119,7 +119,7 @@ const RUN: &[Key] = &[
         "run.duration",
         Kind::Quantity("s"),
         "0.5 s",
-        "Simulated time from the release of the rotor, or from the start of the drive.",
+        "Simulated time. Time 0 is the release of a rotor that drops, or the start of a drive.",
     )
     .positive()
     .default(
@@ -130,7 +130,7 @@ const RUN: &[Key] = &[
         "run.tolerance",
         Kind::Coefficient,
         "1e-4",
-        "Allowed error of a step, relative to each channel's own scale, such as the air clearance, the rotor's speed and the energy turned over.",
+        "Allowed error of a step, relative to each channel's own scale, such as a clearance, the full speed and the energy turned over.",
     )
     .within(Range::FromTo(1e-12, 1e-2))
     .default(
@@ -154,6 +154,6 @@ const RUN: &[Key] = &[
     .positive()
     .default(
         "1 ms",
-        "short against the free fall through a usual air clearance",
+        "short against a fall through a usual air clearance and against a spin-up",
     ),
 ];

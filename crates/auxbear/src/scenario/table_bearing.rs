@@ -76,7 +76,7 @@ pub(super) const KEYS: &[Key] = &[
         "planar",
         "How the bearing is modelled: planar moves each ball and the cage with slip; rolling assumes pure rolling and is far faster.",
     )
-    .default("planar", "slip of the balls matters in a drop")
+    .default("planar", "slip of the balls matters while a race is brought to speed")
     .only(MOVING),
     Key::new("bearing.ball_count", Kind::Count, "10", "Number of balls.")
         .within(Range::FromTo(1.0, 60.0))
@@ -236,9 +236,9 @@ pub(super) const KEYS: &[Key] = &[
         "bearing.first_ball_angle",
         Kind::Quantity("rad"),
         "0 deg",
-        "Angle of the first ball at the release, from x.",
+        "Angle of the first ball at time 0, from x.",
     )
-    .default("0 rad", "the first ball lies on the x axis at the release")
+    .default("0 rad", "the first ball lies on the x axis at time 0")
     .only(MOVING),
     Key::new(
         "bearing.hertz_pressure_limit",

@@ -27,6 +27,7 @@ const fn law(values: &'static [&'static str]) -> Condition {
 const ANY: &[&str] = &["palmgren", "palmgren printed", "skf", "measured"];
 const PALMGREN: &[Condition] = &[law(&["palmgren", "palmgren printed"])];
 const SKF: &[Condition] = &[law(&["skf"])];
+const AXIAL: &[Condition] = &[law(&["palmgren", "skf"])];
 const MEASURED: &[Condition] = &[law(&["measured"])];
 const LUBRICATED: &[Condition] = &[law(&["palmgren", "palmgren printed", "skf"])];
 /// Balls that share the moment.
@@ -148,11 +149,20 @@ pub(super) const KEYS: &[Key] = &[
     Key::new(
         "bearing.moment.axial_load",
         Kind::Quantity("N"),
-        "0 N",
-        "Axial load that the law sees; its sign has no effect.",
+        "400 N",
+        "Axial load that the law sees, constant; its sign has no effect. It reaches the friction moment alone: motion is computed in the plane.",
     )
     .default("0 N", "a purely radial load")
-    .when(SKF),
+    .when(AXIAL),
+    Key::new(
+        "bearing.moment.contact_angle",
+        Kind::Quantity("rad"),
+        "25 deg",
+        "Contact angle under load, by which an axial load makes friction: P1 = 0.9 cot(angle) F_a - 0.1 F_r.",
+    )
+    .positive()
+    .optional("a deep groove bearing under axial load is taken to have 16.7 deg; without axial load it has no effect")
+    .when(&[law(&["palmgren"])]),
     Key::new(
         "bearing.moment.bore_diameter",
         Kind::Quantity("m"),

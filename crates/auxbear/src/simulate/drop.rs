@@ -1,11 +1,10 @@
 //! Runs a drop and names what came out.
 
-use super::build::{self, Built};
+use super::build::Built;
 use super::ending::{settings, stop};
 use super::ensemble::{self, Finished, Member, Plan};
 use super::outcome::{Contact, Outcome, Picture, Spread, Stop, Value, Work};
 use super::{Options, columns, quantities, warnings};
-use crate::problem::Problem;
 use crate::scenario::{Drop, Scenario};
 use model::system::drop::DropMachine;
 use number::Vec2;
@@ -24,12 +23,7 @@ pub(super) struct Context<'a> {
 }
 
 /// Runs a drop.
-pub(super) fn run(
-    scenario: &Scenario,
-    drop: &Drop,
-    options: &Options,
-) -> Result<Outcome, Box<Problem>> {
-    let built = build::drop(drop, options)?;
+pub(super) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Options) -> Outcome {
     let machine = DropMachine::new(built.constants.clone());
     let count = drop.repeat.count.max(1) as usize;
     let members: Vec<Member> = (0..count).map(|k| member(&machine, drop, k)).collect();
@@ -48,7 +42,7 @@ pub(super) fn run(
 
     let context = |k: usize| Context {
         drop,
-        built: &built,
+        built,
         machine: &machine,
         finished: &finished[k],
         members: count,
@@ -75,7 +69,7 @@ pub(super) fn run(
             quantity.spread = spread(&table, &quantity.name);
         }
     }
-    Ok(Outcome {
+    Outcome {
         system: "drop",
         title: scenario
             .title
@@ -94,7 +88,7 @@ pub(super) fn run(
             rolling_cage_ratio: machine.rolling_cage_ratio(),
             balls: drop.bearing.ball_count,
         },
-    })
+    }
 }
 
 /// Member `k`: the unperturbed start for 0, else one perturbed by numbers that depend on (seed, k) alone.

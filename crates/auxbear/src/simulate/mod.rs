@@ -2,7 +2,8 @@
 //!
 //! | page | subject |
 //! |---|---|
-//! | [`build`], [`build_bearing`], [`build_spin_up`] | scenario → constants of the model |
+//! | [`mod@build`], [`build_bearing`], [`build_spin_up`] | scenario → constants of the model |
+//! | `before` | what is known before a run |
 //! | [`ensemble`] | one machine or many, in lanes and threads |
 //! | `drop`, `spin_up`, `torque` | runs a system and names what came out |
 //! | `quantities`, `list` | each named result with its law, source and valid range |
@@ -11,6 +12,7 @@
 //! | `ending` | settings of the integration, and how a run ended |
 //! | [`outcome`] | the data handed over |
 
+mod before;
 pub mod build;
 pub mod build_bearing;
 pub mod build_spin_up;
@@ -32,7 +34,7 @@ mod warnings_spin_up;
 mod warnings_torque;
 
 use crate::problem::Problem;
-use crate::scenario::{Scenario, System};
+use crate::scenario::{Drop, Scenario, SpinUp, System};
 pub use outcome::Outcome;
 use std::sync::atomic::AtomicBool;
 
@@ -76,11 +78,50 @@ impl Phase {
     }
 }
 
-/// Simulates what the scenario describes. A run that fails is an [`Outcome`] whose `stop` says where and why.
-pub fn run(scenario: &Scenario, options: &Options) -> Result<Outcome, Box<Problem>> {
-    match &scenario.system {
-        System::Drop(drop) => drop::run(scenario, drop, options),
-        System::SpinUp(spin_up) => spin_up::run(scenario, spin_up, options),
-        System::Torque(torque) => torque::run(scenario, torque),
+/// A scenario with its machine: what could be wrong with the input has been told.
+pub struct Machine<'a> {
+    scenario: &'a Scenario,
+    system: Built<'a>,
+}
+
+/// The machine of each system.
+enum Built<'a> {
+    Drop(&'a Drop, Box<build::Built>),
+    SpinUp(&'a SpinUp, Box<build_spin_up::Built>),
+    Torque(Box<torque::Asked<'a>>),
+}
+
+/// Builds the machine that the scenario describes; runs nothing but the steady run that scales a friction moment, which
+/// the options can follow and end.
+pub fn build<'a>(scenario: &'a Scenario, options: &Options) -> Result<Machine<'a>, Box<Problem>> {
+    let system = match &scenario.system {
+        System::Drop(drop) => {
+            build::drop(drop, options).map(|built| Built::Drop(drop, Box::new(built)))
+        }
+        System::SpinUp(spin_up) => build_spin_up::spin_up(spin_up, options)
+            .map(|built| Built::SpinUp(spin_up, Box::new(built))),
+        System::Torque(torque) => {
+            torque::Asked::of(torque).map(|asked| Built::Torque(Box::new(asked)))
+        }
+    };
+    let system = system.map_err(|problem| scenario.locate(problem))?;
+    Ok(Machine { scenario, system })
+}
+
+impl Machine<'_> {
+    /// Simulates it. A run that fails is an [`Outcome`] whose `stop` says where and why.
+    pub fn run(&self, options: &Options) -> Outcome {
+        let mut outcome = match &self.system {
+            Built::Drop(drop, built) => drop::run(self.scenario, drop, built, options),
+            Built::SpinUp(spin_up, built) => spin_up::run(self.scenario, spin_up, built, options),
+            Built::Torque(asked) => torque::run(self.scenario, asked),
+        };
+        outcome.warnings.splice(0..0, self.warnings());
+        outcome
     }
+}
+
+/// Builds and simulates what the scenario describes.
+pub fn run(scenario: &Scenario, options: &Options) -> Result<Outcome, Box<Problem>> {
+    Ok(build(scenario, options)?.run(options))
 }

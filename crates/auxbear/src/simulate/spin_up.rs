@@ -1,10 +1,9 @@
 //! Runs a spin-up and names what came out.
 
-use super::build_spin_up::{self, Built};
+use super::build_spin_up::Built;
 use super::ending::{settings, stop};
 use super::outcome::{Outcome, Picture, Work};
 use super::{Options, Phase, columns_spin_up, quantities_spin_up, warnings_spin_up};
-use crate::problem::Problem;
 use crate::scenario::{Scenario, SpinUp};
 use model::system::spin_up::record::Record;
 use model::system::spin_up::{SpinUp as System, SpinUpMachine};
@@ -30,22 +29,22 @@ impl Context<'_> {
 pub(super) fn run(
     scenario: &Scenario,
     spin_up: &SpinUp,
+    built: &Built,
     options: &Options,
-) -> Result<Outcome, Box<Problem>> {
-    let built = build_spin_up::spin_up(spin_up, options)?;
+) -> Outcome {
     let start = built.machine.start();
     let clock = Instant::now();
     let (record, ending) = integrate(&built.machine, &start, spin_up, options);
     let seconds = clock.elapsed().as_secs_f64();
     let context = Context {
         spin_up,
-        built: &built,
+        built,
         start: &start,
         record: &record,
         ending: &ending,
     };
     let quantities = quantities_spin_up::name(&context);
-    Ok(Outcome {
+    Outcome {
         system: "spin_up",
         title: scenario
             .title
@@ -70,7 +69,7 @@ pub(super) fn run(
             rolling_cage_ratio: built.machine.constants.bearing.rolling_cage_ratio(),
             balls: spin_up.bearing.ball_count,
         },
-    })
+    }
 }
 
 /// Runs one machine alone, in plain numbers: the vector unit would save a second here and cost minutes of building.

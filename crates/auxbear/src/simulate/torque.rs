@@ -125,13 +125,13 @@ pub(super) fn name_of(law: &str) -> String {
 }
 
 /// Computes the moments and names them.
-pub(super) fn run(scenario: &Scenario, torque: &Torque) -> Result<Outcome, Box<Problem>> {
+pub(super) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
     let clock = Instant::now();
-    let asked = Asked::of(torque)?;
-    let history = history(&asked);
-    let quantities = quantities_torque::name(&asked);
+    let torque = asked.torque;
+    let history = history(asked);
+    let quantities = quantities_torque::name(asked);
     let named = torque.name.as_deref().unwrap_or("bearing");
-    Ok(Outcome {
+    Outcome {
         system: "torque",
         title: scenario
             .title
@@ -140,7 +140,7 @@ pub(super) fn run(scenario: &Scenario, torque: &Torque) -> Result<Outcome, Box<P
         quantities,
         history,
         contacts: Vec::new(),
-        warnings: warnings_torque::of(scenario, &asked),
+        warnings: warnings_torque::of(scenario, asked),
         stop: Stop {
             reason: "finished",
             time: 0.0,
@@ -158,7 +158,7 @@ pub(super) fn run(scenario: &Scenario, torque: &Torque) -> Result<Outcome, Box<P
             rolling_cage_ratio: asked.set.cage_speed(1.0),
             balls: torque.ball_count,
         },
-    })
+    }
 }
 
 /// The curves over speed, which is the first column.

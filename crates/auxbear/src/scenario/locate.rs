@@ -1,0 +1,50 @@
+//! Where in the file a problem stands that is found after reading, when the machine is built.
+
+use super::Scenario;
+use crate::problem::{Place, Problem};
+use std::collections::BTreeMap;
+
+/// The text of a scenario, as far as messages name it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Text {
+    /// The file, as the user named it.
+    pub(super) name: String,
+    /// Where its sections start.
+    pub(super) sections: BTreeMap<&'static str, Place>,
+}
+
+impl Scenario {
+    /// The problem with the file and the line of its key: where the key stands, else where the section begins.
+    pub fn locate(&self, mut problem: Box<Problem>) -> Box<Problem> {
+        problem.file.clone_from(&self.text.name);
+        if let Some(key) = &problem.key
+            && problem.place == Place::Whole
+        {
+            problem.place = self.place_of(key);
+        }
+        problem
+    }
+
+    fn place_of(&self, key: &str) -> Place {
+        let given = |place: &Place| *place != Place::Whole;
+        if let Some(place) = self
+            .resolved
+            .get(key)
+            .map(|value| value.place)
+            .filter(given)
+        {
+            return place;
+        }
+        // of a section, what an override changed is the nearest cause
+        let inside = format!("{key}.");
+        let mut values = self.resolved.values.iter();
+        if values.any(|value| value.path.starts_with(&inside) && value.place == Place::Set) {
+            return Place::Set;
+        }
+        let sections = std::iter::successors(Some(key), |path| {
+            path.rsplit_once('.').map(|(section, _)| section)
+        });
+        let mut places = sections.filter_map(|section| self.text.sections.get(section));
+        places.next().copied().unwrap_or_default()
+    }
+}

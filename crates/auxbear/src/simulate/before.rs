@@ -1,0 +1,66 @@
+//! What is known before a run: what `auxbear check` tells besides the values of the file.
+
+use super::build_bearing::{ScaleOrigin, SteadyFinding};
+use super::outcome::Warning;
+use super::{Built, Machine};
+use crate::scenario::{Provenance, Resolved};
+
+/// Key of the scale of the friction moment, which a steady run finds.
+const SCALE: &str = "bearing.moment.scale";
+
+impl Machine<'_> {
+    /// Every value of the scenario, with what the machine adds to it.
+    pub fn resolved(&self) -> Resolved {
+        let mut resolved = self.scenario.resolved.clone();
+        let mut values = resolved.values.iter_mut();
+        let scale = values.find(|value| value.path == SCALE && value.text.is_none());
+        if let (Some(value), Some(steady)) = (scale, self.steady()) {
+            let how = match &steady.origin {
+                ScaleOrigin::NotNeeded | ScaleOrigin::Given => return resolved,
+                ScaleOrigin::SteadyRun => "from a steady run at full speed and load".to_string(),
+                ScaleOrigin::Skidding => "the balls would skid in a steady run".to_string(),
+                ScaleOrigin::Unknown(why) => why.clone(),
+            };
+            value.text = Some(crate::units::number_text(steady.scale));
+            value.value_si = Some(steady.scale);
+            value.provenance = Provenance::Derived(how);
+        }
+        resolved
+    }
+
+    /// What the user should know before the run.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let (rating, load) = match &self.system {
+            Built::Drop(drop, _) => (
+                drop.bearing.static_load_rating,
+                drop.rotor.mass * drop.gravity.acceleration / f64::from(drop.rotor.planes),
+            ),
+            Built::SpinUp(spin_up, _) => (
+                spin_up.bearing.static_load_rating,
+                spin_up.radial_load.largest_until(spin_up.run.duration),
+            ),
+            Built::Torque(asked) => (
+                asked.torque.static_load_rating,
+                asked.torque.loads.iter().copied().fold(0.0, f64::max),
+            ),
+        };
+        let above = rating.filter(|rating| load > *rating);
+        let warning = above.map(|rating| Warning {
+            code: "AB1029",
+            text: format!(
+                "The static radial load of {load:.0} N is {:.1} times the static load rating of {rating:.0} N: permanent \
+                 dents must be expected, and the laws of contact and friction are outside their range.",
+                load / rating
+            ),
+        });
+        warning.into_iter().collect()
+    }
+
+    fn steady(&self) -> Option<&SteadyFinding> {
+        match &self.system {
+            Built::Drop(_, built) => built.steady.as_ref(),
+            Built::SpinUp(_, built) => built.steady.as_ref(),
+            Built::Torque(_) => None,
+        }
+    }
+}
