@@ -1,7 +1,7 @@
 //! The laws: numbers in, numbers out.
 //!
-//! No state, no input or output, no allocation but where a measured curve or a list for a report is built. Every public law names its formula, its arguments with units,
-//! its source and its valid range. Laws used inside the time loop are generic over [`number::Real`];
+//! No state, no input or output, no allocation but where a measured curve or a list for a report is built. Every public
+//! law names its formula, its arguments with units, its source and its valid range. Laws used inside the time loop are generic over [`number::Real`];
 //! laws used once, when constants are built, are plain `f64`.
 //!
 //! | module | law |
@@ -14,6 +14,7 @@
 //! | [`friction_range`] | where a friction law has been left |
 //! | [`palmgren`] | Palmgren's moment |
 //! | [`palmgren_factors`] | his factors by bearing type, series and lubrication, as makers print them |
+//! | [`static_load`] | static equivalent load under combined load |
 //! | [`skf`] | the SKF model: rolling, sliding, drag, seals |
 //! | [`skf_constants`] | its constants by bearing type and series, and what is refused |
 //! | [`moment_curve`] | a measured moment over speed |
@@ -37,6 +38,7 @@ pub mod rolling;
 pub mod skf;
 pub mod skf_constants;
 pub mod spin_up_energy;
+pub mod static_load;
 pub mod traction;
 pub mod unbalance;
 pub mod viscosity;

@@ -3,6 +3,7 @@
 use super::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 use super::resolve::Values;
 use super::section::Section;
+use physics::palmgren_factors::FactorType;
 
 /// How the bearing is modelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,6 +35,15 @@ impl BearingType {
             "angular contact double row" => BearingType::AngularContactDoubleRow,
             "four-point contact" => BearingType::FourPointContact,
             _ => BearingType::DeepGroove,
+        }
+    }
+    /// The type as the laws' tables know it.
+    pub(super) fn factor_type(self) -> FactorType {
+        match self {
+            BearingType::DeepGroove => FactorType::DeepGroove,
+            BearingType::AngularContact => FactorType::AngularContact,
+            BearingType::AngularContactDoubleRow => FactorType::AngularContactDoubleRow,
+            BearingType::FourPointContact => FactorType::FourPointContact,
         }
     }
 }

@@ -10,7 +10,7 @@ use super::table;
 use crate::problem::{Code, Place, Problem};
 use physics::hertz::{BallRace, PointContact, Race};
 use physics::materials::{BEARING_STEEL, SILICON_NITRIDE, ball_mass, contact_modulus};
-use physics::palmgren_factors::{FactorType, Lubrication, palmgren_factors};
+use physics::palmgren_factors::{Lubrication, palmgren_factors};
 use physics::viscosity::Viscosity;
 
 const F0: &str = "bearing.moment.f0";
@@ -211,12 +211,7 @@ impl Values {
         let Some(series) = self.text(SERIES) else {
             return Err(Box::new(self.no_factor(missing, "bearing.moment.series")));
         };
-        let kind = match BearingType::of(self.word("bearing.type")) {
-            BearingType::DeepGroove => FactorType::DeepGroove,
-            BearingType::AngularContact => FactorType::AngularContact,
-            BearingType::AngularContactDoubleRow => FactorType::AngularContactDoubleRow,
-            BearingType::FourPointContact => FactorType::FourPointContact,
-        };
+        let kind = BearingType::of(self.word("bearing.type")).factor_type();
         let factors = palmgren_factors(kind, &series, lubrication).map_err(|refusal| {
             Box::new(self.problem(
                 Code::NoLawData,

@@ -7,6 +7,7 @@ use physics::friction::Friction;
 use physics::moment_curve::MomentCurve;
 use physics::palmgren::{Palmgren, PalmgrenCombined};
 use physics::skf_constants::{SkfBearing, SkfLubricant, SkfOil, SkfSupply, SkfType};
+use physics::static_load::static_load_factors;
 
 /// Steady friction moment.
 #[derive(Clone, Debug, PartialEq)]
@@ -186,7 +187,8 @@ impl Moment {
                     return Ok(Friction::Palmgren(law));
                 }
                 let angle = contact_angle.ok_or("no contact angle under axial load is given")?;
-                let (radial, axial) = static_factors(bearing.kind, angle)?;
+                let (radial, axial) = static_load_factors(bearing.kind.factor_type(), angle)
+                    .map_err(|why| why.to_string())?;
                 Ok(Friction::PalmgrenCombined(PalmgrenCombined {
                     law,
                     axial_factor: 0.9 / angle.tan(),
@@ -260,45 +262,6 @@ impl Moment {
             Moment::Palmgren { axial_load, .. } | Moment::Skf { axial_load, .. } => *axial_load,
             Moment::None | Moment::Measured { .. } => 0.0,
         }
-    }
-}
-
-/// Y0 of single row angular contact bearings over the contact angle in degrees, with X0 = 0.5: ISO 76 (from memory).
-const STATIC_AXIAL: [(f64, f64); 7] = [
-    (15.0, 0.46),
-    (20.0, 0.42),
-    (25.0, 0.38),
-    (30.0, 0.33),
-    (35.0, 0.29),
-    (40.0, 0.26),
-    (45.0, 0.22),
-];
-
-/// X0 and Y0 of the static equivalent load P0 = X0 F_r + Y0 F_a, or why they are not known.
-fn static_factors(kind: BearingType, angle: f64) -> Result<(f64, f64), String> {
-    // without the rounding of radians, so that 15 degrees are in the table
-    let degrees = (angle.to_degrees() * 1e9).round() * 1e-9;
-    match kind {
-        // ISO 76, as makers print it; steeper or flatter contacts are those of other bearings
-        BearingType::DeepGroove if (5.0..=45.0).contains(&degrees) => Ok((0.6, 0.5)),
-        BearingType::DeepGroove => Err(format!(
-            "a deep groove bearing has no contact angle of {degrees} degrees: 5 to 45 are possible"
-        )),
-        BearingType::AngularContact => {
-            let mut rows = STATIC_AXIAL.windows(2);
-            let row = rows.find(|row| (row[0].0..=row[1].0).contains(&degrees));
-            let [low, high] = row.and_then(|row| row.first_chunk()).ok_or_else(|| {
-                format!(
-                    "ISO 76 has factors for contact angles of 15 to 45 degrees, not for {degrees}"
-                )
-            })?;
-            let share = (degrees - low.0) / (high.0 - low.0);
-            Ok((0.5, low.1 + (high.1 - low.1) * share))
-        }
-        BearingType::AngularContactDoubleRow | BearingType::FourPointContact => Err(
-            "Palmgren's law has no static equivalent load of this bearing type under axial load"
-                .to_string(),
-        ),
     }
 }
 

@@ -7,7 +7,7 @@
 //! | [`ensemble`] | one machine or many, in lanes and threads |
 //! | `drop`, `spin_up`, `torque` | runs a system and names what came out |
 //! | `quantities`, `list` | each named result with its law, source and valid range |
-//! | `columns` | the history |
+//! | `columns`, `columns_shared` | the history |
 //! | `warnings`, `warnings_shared` | what to know before trusting the numbers |
 //! | `ending` | settings of the integration, and how a run ended |
 //! | [`outcome`] | the data handed over |
@@ -17,6 +17,7 @@ pub mod build;
 pub mod build_bearing;
 pub mod build_spin_up;
 mod columns;
+mod columns_shared;
 mod columns_spin_up;
 mod drop;
 mod ending;

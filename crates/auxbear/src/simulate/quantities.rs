@@ -1,10 +1,9 @@
 //! Every named result of a drop with its law, source and valid range.
 
 use super::drop::Context;
-use super::list::{List, Origin, relative, share_of_limit};
+use super::list::{List, Origin, relative};
 use super::outcome::{Quantity, Value};
 use model::system::drop::layout::{HEATS, INNER, ROTOR};
-use physics::hertz::maximum_pressure;
 
 const EQUATIONS: &str =
     "equations of motion, crates/model/src/system/drop/rate.rs and crates/model/src/bearing/";
@@ -102,26 +101,16 @@ pub(super) fn name(context: &Context) -> Vec<Quantity> {
     );
     list.number("rotor_final_speed", "rad/s", Ok(state[ROTOR + 5]), &SPEED);
 
-    // loads
-    let pressure = maximum_pressure(
-        context.built.inner_pressure_factor,
-        record.largest_inner_load.value,
-    )
-    .max(maximum_pressure(
-        context.built.outer_pressure_factor,
-        record.largest_outer_load.value,
-    ));
-    let load = record
-        .largest_inner_load
-        .value
-        .max(record.largest_outer_load.value);
-    list.number("peak_ball_load", "N", Ok(load), &BALL_LOAD);
-    list.number("peak_hertz_pressure", "Pa", Ok(pressure), &PRESSURE);
-    list.number(
-        "hertz_pressure_share_of_limit",
-        "1",
-        share_of_limit(pressure, context.drop.bearing.hertz_pressure_limit),
-        &PRESSURE,
+    list.ball_loads(
+        [
+            record.largest_inner_load.value,
+            record.largest_outer_load.value,
+        ],
+        [
+            context.built.inner_pressure_factor,
+            context.built.outer_pressure_factor,
+        ],
+        context.drop.bearing.hertz_pressure_limit,
     );
 
     // displacements and whirl
@@ -202,17 +191,16 @@ fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, String>) {
     let record = &context.finished.record;
     let ending = &context.finished.ending;
     let start = &context.finished.start;
-    let (content, now) = (machine.content(start), machine.content(&ending.state));
-    let (before, flows) = (machine.flows(start), machine.flows(&ending.state));
-    let heat = flows.heat - before.heat;
-    let energy = now.energy() - content.energy() + heat - (flows.work - before.work);
-    let scale = heat.max(flows.work_size).max(record.largest_translation);
-    let momentum = now.angular_momentum
-        - content.angular_momentum
-        - (flows.angular_impulse - before.angular_impulse);
+    let balance = machine.balance(start, &ending.state);
+    let scale = (balance.heat())
+        .max(balance.end.1.work_size)
+        .max(record.largest_translation);
     let constants = &machine.constants;
     let momentum_scale = constants.machine.inner_race_inertia * constants.speed.abs();
-    (relative(energy, scale), relative(momentum, momentum_scale))
+    (
+        relative(balance.energy_residual(), scale),
+        relative(balance.angular_momentum_residual(), momentum_scale),
+    )
 }
 
 const FIRST_CONTACT: Origin = Origin {
@@ -239,17 +227,6 @@ const SPEED: Origin = Origin {
     law: "angular momentum of each body about its axis",
     source: EQUATIONS,
     valid: "coasting is as true as the friction moment: none in the planar fidelity, bearing.moment in the rolling one",
-};
-pub(super) const BALL_LOAD: Origin = Origin {
-    law: "Q = max(0, K(δ^1.5 + 1.5 β δ^½ δ̇)), the rolling fidelity adds the centrifugal force at the outer race; largest \
-          over balls and races, at the steps and, near the record, on dense output between them",
-    source: "Hertz 1881 with viscoelastic damping, crates/physics/src/contact.rs",
-    valid: "elastic contact; pure radial load",
-};
-pub(super) const PRESSURE: Origin = Origin {
-    law: "p_max = 3Q/(2πab) of the largest ball load, exact elliptic integrals",
-    source: "Hertz 1881, crates/physics/src/hertz.rs; static limit 4200 MPa for steel balls: ISO 76",
-    valid: "elastic contact, groove curvatures as given",
 };
 const DISPLACEMENT: Origin = Origin {
     law: "largest |C - c_i|, where its rate changes sign",

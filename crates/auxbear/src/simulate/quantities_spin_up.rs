@@ -1,14 +1,12 @@
 //! Every named result of a spin-up with its law, source and valid range.
 
-use super::list::{List, Origin, relative, share_of_limit};
+use super::list::{List, Origin, relative};
 use super::outcome::{Quantity, Value};
-use super::quantities::{BALL_LOAD, PRESSURE};
 use super::spin_up::Context;
 use crate::scenario::{Drive, Fidelity};
 use model::system::spin_up::layout::{
     CAGE_SLIP, CAGE_SPEED, HEATS, INNER, INNER_MOMENT, OUTER_MOMENT, ROTOR, STEADY_MOMENT,
 };
-use physics::hertz::maximum_pressure;
 
 const EQUATIONS: &str =
     "equations of motion, crates/model/src/system/spin_up/rate.rs and crates/model/src/bearing/";
@@ -229,20 +227,16 @@ fn slip(list: &mut List, context: &Context) {
 }
 
 fn loads(list: &mut List, context: &Context) {
-    let record = context.record;
-    let (inner, outer) = (
-        record.largest_inner_load.value,
-        record.largest_outer_load.value,
-    );
-    let pressure = maximum_pressure(context.built.inner_pressure_factor, inner)
-        .max(maximum_pressure(context.built.outer_pressure_factor, outer));
-    list.number("peak_ball_load", "N", Ok(inner.max(outer)), &BALL_LOAD);
-    list.number("peak_hertz_pressure", "Pa", Ok(pressure), &PRESSURE);
-    list.number(
-        "hertz_pressure_share_of_limit",
-        "1",
-        share_of_limit(pressure, context.spin_up.bearing.hertz_pressure_limit),
-        &PRESSURE,
+    list.ball_loads(
+        [
+            context.record.largest_inner_load.value,
+            context.record.largest_outer_load.value,
+        ],
+        [
+            context.built.inner_pressure_factor,
+            context.built.outer_pressure_factor,
+        ],
+        context.spin_up.bearing.hertz_pressure_limit,
     );
 }
 
@@ -269,8 +263,8 @@ fn energies(list: &mut List, context: &Context) {
         },
         &ENERGY,
     );
-    let (before, flows) = (machine.flows(start), machine.flows(state));
-    let heat = flows.heat - before.heat;
+    let balance = machine.balance(start, state);
+    let heat = balance.heat();
     list.number("dissipated_energy", "J", Ok(heat), &ENERGY);
     let forms = machine.outer_race_energy(start, state);
     for (name, value, origin) in [
@@ -295,16 +289,13 @@ fn energies(list: &mut List, context: &Context) {
     list.number(
         "energy_residual",
         "1",
-        relative(
-            machine.energy_residual(start, state),
-            heat.max(flows.work_size - before.work_size),
-        ),
+        relative(balance.energy_residual(), heat.max(balance.work_size())),
         &RESIDUAL,
     );
     list.number(
         "angular_momentum_residual",
         "1",
-        relative(machine.angular_momentum_residual(start, state), full),
+        relative(balance.angular_momentum_residual(), full),
         &RESIDUAL,
     );
 }

@@ -11,7 +11,7 @@ use model::system::spin_up::layout::{APPLIED_LOAD, INNER};
 pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]) -> Vec<Warning> {
     let bearing = &context.spin_up.bearing;
     let mut list = Vec::new();
-    let largest = |value: &dyn Fn(&model::system::spin_up::record::Row) -> f64| {
+    let largest = |value: &dyn Fn(&model::system::sampling::Row) -> f64| {
         let rows = context.record.rows();
         rows.map(|row| value(&row).abs()).fold(0.0, f64::max)
     };

@@ -151,6 +151,13 @@ pub struct BearingEnergy {
     pub angular_momentum: f64,
 }
 
+impl BearingEnergy {
+    /// Kinetic and potential energy, J.
+    pub fn sum(&self) -> f64 {
+        self.translation + self.spin + self.elastic + self.weight
+    }
+}
+
 /// Name of a state of a bearing with that many balls, after `bearing.`.
 pub fn state_name(state: usize, balls: usize) -> String {
     const BALL: [&str; 5] = ["radius", "radial_speed", "azimuth", "orbit_speed", "spin"];

@@ -1,5 +1,6 @@
 //! What every system's record does alike: rows at equal intervals, largest values, first rises through a level.
 
+use super::energy::Content;
 use solve::{Machine, Step};
 
 /// The largest value of something, and when.
@@ -103,9 +104,25 @@ impl Rise {
     }
 }
 
-/// Rows of state, probes and `EXTRA` further values at equal intervals. Room is made before the run.
+/// One sampled row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row<'a> {
+    /// Time, s.
+    pub time: f64,
+    /// State.
+    pub state: &'a [f64],
+    /// Probes.
+    pub probe: &'a [f64],
+    /// Energies and momentum.
+    pub content: Content,
+}
+
+/// Time and content of a row.
+const EXTRA: usize = 5;
+
+/// Rows at equal intervals. Room is made before the run.
 #[derive(Clone, Debug)]
-pub struct Rows<const EXTRA: usize> {
+pub struct Rows {
     interval: f64,
     next: u64,
     values: Vec<f64>,
@@ -114,10 +131,7 @@ pub struct Rows<const EXTRA: usize> {
     probes: usize,
 }
 
-/// One row: time, state, probes, further values.
-pub type RowParts<'a, const EXTRA: usize> = (f64, &'a [f64], &'a [f64], [f64; EXTRA]);
-
-impl<const EXTRA: usize> Rows<EXTRA> {
+impl Rows {
     /// Rows of a run until `end`, one every `interval`, or none.
     pub fn new<M: Machine>(machine: &M, end: f64, interval: f64, keep: bool) -> Self {
         let (dimension, probes) = (machine.dimension(), machine.probes());
@@ -129,39 +143,55 @@ impl<const EXTRA: usize> Rows<EXTRA> {
         Rows {
             interval,
             next: 0,
-            values: Vec::with_capacity(count * (dimension + probes + EXTRA + 1)),
+            values: Vec::with_capacity(count * (dimension + probes + EXTRA)),
             keep,
             dimension,
             probes,
         }
     }
     fn width(&self) -> usize {
-        self.dimension + self.probes + EXTRA + 1
+        self.dimension + self.probes + EXTRA
     }
     /// Number of rows.
     pub fn count(&self) -> usize {
         self.values.len() / self.width()
     }
     /// The rows.
-    pub fn iter(&self) -> impl DoubleEndedIterator<Item = RowParts<'_, EXTRA>> {
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = Row<'_>> {
         self.values.chunks_exact(self.width()).map(|row| {
             let (state, rest) = row.split_at(self.dimension);
             let (probe, rest) = rest.split_at(self.probes);
-            let extra = std::array::from_fn(|i| rest[1 + i]);
-            (rest[0], state, probe, extra)
+            Row {
+                time: rest[0],
+                state,
+                probe,
+                content: Content {
+                    translation: rest[1],
+                    spin: rest[2],
+                    potential: rest[3],
+                    angular_momentum: rest[4],
+                },
+            }
         })
     }
-    fn push(&mut self, time: f64, state: &[f64], probe: &[f64], extra: [f64; EXTRA]) {
-        self.values.extend_from_slice(state);
-        self.values.extend_from_slice(probe);
-        self.values.push(time);
+    fn push(&mut self, row: &Row) {
+        let content = row.content;
+        self.values.extend_from_slice(row.state);
+        self.values.extend_from_slice(row.probe);
+        let extra: [f64; EXTRA] = [
+            row.time,
+            content.translation,
+            content.spin,
+            content.potential,
+            content.angular_momentum,
+        ];
         self.values.extend_from_slice(&extra);
     }
-    /// Takes the rows that fall into a step; `extra` gives the further values of a state.
+    /// Takes the rows that fall into a step; `content` gives energies and momentum of a state.
     pub fn sample<M: Machine>(
         &mut self,
         step: &mut Step<M>,
-        extra: impl Fn(&M, &[f64]) -> [f64; EXTRA],
+        content: impl Fn(&M, &[f64]) -> Content,
     ) {
         if !self.keep {
             return;
@@ -176,15 +206,21 @@ impl<const EXTRA: usize> Rows<EXTRA> {
             let theta = ((time - step.start) / length).clamp(0.0, 1.0);
             let (machine, time) = (step.machine, step.time(theta));
             let (state, probe) = step.evaluate(theta);
-            self.push(time, state, probe, extra(machine, state));
+            let content = content(machine, state);
+            self.push(&Row {
+                time,
+                state,
+                probe,
+                content,
+            });
             self.next += 1;
         }
     }
-    /// Adds the last state of a run, where it is not a row already; `probe` and `extra` belong to it.
-    pub fn finish(&mut self, time: f64, state: &[f64], probe: &[f64], extra: [f64; EXTRA]) {
-        let last = self.iter().next_back().map(|row| row.0);
-        if self.keep && last.is_none_or(|last| last < time) {
-            self.push(time, state, probe, extra);
+    /// Adds the last state of a run, where it is not a row already.
+    pub fn finish(&mut self, row: &Row) {
+        let last = self.iter().next_back().map(|row| row.time);
+        if self.keep && last.is_none_or(|last| last < row.time) {
+            self.push(row);
         }
     }
 }

@@ -56,14 +56,16 @@ fn after_a_step_the_exact_energy_form_is_the_true_loss_and_the_printed_one_is_no
         (energy.path / energy.largest_path - 1.0).abs() < 0.02,
         "{energy:?}"
     );
-    let residual = run.machine.energy_residual(&run.start, &run.end);
+    let residual = run.machine.balance(&run.start, &run.end).energy_residual();
     assert!(residual.abs() < 1e-4 * energy.dissipated, "{residual}");
 }
 
 #[test]
 fn on_the_concentric_rig_the_moments_differ_by_what_balls_and_cage_gain() {
     let run = run(skidding(), 0.02, 1e-6);
-    let momentum = |row: &model::system::spin_up::record::Row| row.content.bearing_angular_momentum;
+    let momentum = |row: &model::system::sampling::Row| {
+        run.machine.bearing_content(row.state).angular_momentum
+    };
     // t_I - t_O = dL/dt at instants, dL/dt by the rates of the states
     for row in run.record.rows().step_by(7) {
         let (rate, probe) = run.machine.inspect(row.time, row.state);
@@ -91,7 +93,10 @@ fn on_the_concentric_rig_the_moments_differ_by_what_balls_and_cage_gain() {
         (works / (1000.0 * gained) - 1.0).abs() < 1e-4,
         "{works} {gained}"
     );
-    let lost = run.machine.angular_momentum_residual(&run.start, &run.end);
+    let lost = run
+        .machine
+        .balance(&run.start, &run.end)
+        .angular_momentum_residual();
     assert!(lost.abs() < 1e-4 * gained, "{lost}");
 }
 
@@ -215,9 +220,12 @@ fn a_loaded_race_free_to_move_closes_its_ledger() {
     let run = run(c, 0.02, 1e-6);
     assert!(run.end[INNER + 5] > 900.0, "{}", run.end[INNER + 5]);
     let energy = run.machine.outer_race_energy(&run.start, &run.end);
-    let residual = run.machine.energy_residual(&run.start, &run.end);
+    let residual = run.machine.balance(&run.start, &run.end).energy_residual();
     assert!(residual.abs() < 1e-4 * energy.dissipated, "{residual}");
-    let momentum = run.machine.angular_momentum_residual(&run.start, &run.end);
+    let momentum = run
+        .machine
+        .balance(&run.start, &run.end)
+        .angular_momentum_residual();
     let content = run.machine.content(&run.end).angular_momentum;
     assert!(momentum.abs() < 1e-4 * content, "{momentum} {content}");
     // the exact form, with the part of the race's motion

@@ -32,9 +32,10 @@ fn residuals(run: &Run) -> (f64, f64) {
     let heat = run.machine.flows(&run.end).heat;
     let impulse = run.machine.content(&run.end).angular_momentum;
     (
-        run.machine.energy_residual(&run.start, &run.end) / heat.max(1e-3),
+        run.machine.balance(&run.start, &run.end).energy_residual() / heat.max(1e-3),
         run.machine
-            .angular_momentum_residual(&run.start, &run.end)
+            .balance(&run.start, &run.end)
+            .angular_momentum_residual()
             .abs()
             / impulse.abs().max(1e-6),
     )

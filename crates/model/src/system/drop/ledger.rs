@@ -6,40 +6,8 @@
 use super::DropMachine;
 use super::layout::{BEARING, HEATS, SOURCES};
 use super::rate::{race_motion, rotor_motion};
+use crate::system::energy::{Balance, Content, Flows};
 use solve::Machine;
-
-/// Energies and angular momentum at one state.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Content {
-    /// Kinetic energy of all centres, J.
-    pub translation: f64,
-    /// Kinetic energy of all spins, J.
-    pub spin: f64,
-    /// Potential: springs, contacts, weight, J.
-    pub potential: f64,
-    /// Angular momentum about the origin, N m s.
-    pub angular_momentum: f64,
-}
-
-impl Content {
-    /// Kinetic and potential energy, J.
-    pub fn energy(&self) -> f64 {
-        self.translation + self.spin + self.potential
-    }
-}
-
-/// What flowed since the start.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flows {
-    /// Sum of the heats, J.
-    pub heat: f64,
-    /// Sum of the works of the sources, J.
-    pub work: f64,
-    /// Sum of the sizes of these works, J.
-    pub work_size: f64,
-    /// External angular impulse, N m s.
-    pub angular_impulse: f64,
-}
 
 impl DropMachine {
     /// Energies and angular momentum at a state. The levitation is a source: it stores nothing.
@@ -90,12 +58,19 @@ impl DropMachine {
     /// What the ledger channels of a state have summed up.
     pub fn flows(&self, state: &[f64]) -> Flows {
         let layout = self.layout();
-        let works = (0..SOURCES.len()).map(|i| state[layout.source(i)]);
-        Flows {
-            heat: (0..HEATS.len()).map(|i| state[layout.heat(i)]).sum(),
-            work: works.clone().sum(),
-            work_size: works.map(f64::abs).sum(),
-            angular_impulse: state[layout.angular_impulse()],
+        Flows::of(
+            (0..HEATS.len()).map(|i| state[layout.heat(i)]),
+            (0..SOURCES.len()).map(|i| state[layout.source(i)]),
+            state[layout.angular_impulse()],
+        )
+    }
+
+    /// What must close between two states.
+    pub fn balance(&self, start: &[f64], end: &[f64]) -> Balance {
+        let at = |state| (self.content(state), self.flows(state));
+        Balance {
+            start: at(start),
+            end: at(end),
         }
     }
 

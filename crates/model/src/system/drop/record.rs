@@ -8,10 +8,9 @@ use super::layout::{
     BEARING, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, NORMAL_FORCE, NORMAL_FORCE_RATE, OUTER,
     PENETRATION, PENETRATION_SPEED, ROTOR,
 };
-use super::ledger::Content;
 use super::rate::{race_motion, rotor_motion};
 use crate::contact::ContactReaction;
-use crate::system::sampling::{Peak, Rise, Rows};
+use crate::system::sampling::{Peak, Rise, Row, Rows};
 use number::Vec2;
 use solve::watch::{maximum, root};
 use solve::{Flow, Observer, Step};
@@ -27,19 +26,6 @@ pub struct Contact {
     pub peak_force: f64,
     /// Its instant, s.
     pub peak_time: f64,
-}
-
-/// One sampled row.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row<'a> {
-    /// Time, s.
-    pub time: f64,
-    /// State.
-    pub state: &'a [f64],
-    /// Probes.
-    pub probe: &'a [f64],
-    /// Energies and momentum.
-    pub content: Content,
 }
 
 /// Everything kept of one machine.
@@ -64,7 +50,7 @@ pub struct Record {
     rises: Vec<Rise>,
     /// Mean slopes of the largest ball loads over the last step, N/s.
     load_slopes: [f64; 2],
-    rows: Rows<4>,
+    rows: Rows,
     clearance: f64,
     whirl_angle: Option<f64>,
     next_look: f64,
@@ -153,27 +139,17 @@ impl Record {
     }
     /// The sampled rows.
     pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        self.rows.iter().map(|(time, state, probe, content)| {
-            let [translation, spin, potential, angular_momentum] = content;
-            Row {
-                time,
-                state,
-                probe,
-                content: Content {
-                    translation,
-                    spin,
-                    potential,
-                    angular_momentum,
-                },
-            }
-        })
+        self.rows.iter()
     }
-
     /// Adds the last state of a run as a row, where it is not one already.
     pub fn finish(&mut self, machine: &DropMachine, time: f64, state: &[f64]) {
         let (_, probe) = machine.inspect(state);
-        let content = content_of(machine, state);
-        self.rows.finish(time, state, &probe, content);
+        self.rows.finish(&Row {
+            time,
+            state,
+            probe: &probe,
+            content: machine.content(state),
+        });
     }
 
     fn contacts_of(&mut self, step: &mut Step<DropMachine>) {
@@ -377,17 +353,6 @@ fn may_peak(last_slope: f64, slope: f64, length: f64, least: f64) -> bool {
     at_start > 0.0 && at_end < 0.0 && -0.125 * curving * length > least
 }
 
-/// The contents of a state as further values of a row.
-fn content_of(machine: &DropMachine, state: &[f64]) -> [f64; 4] {
-    let content = machine.content(state);
-    [
-        content.translation,
-        content.spin,
-        content.potential,
-        content.angular_momentum,
-    ]
-}
-
 /// The rotor's own channels at the end of a step.
 fn end_of_rotor(step: &Step<DropMachine>) -> [f64; INNER - ROTOR] {
     let mut rotor = [0.0; INNER - ROTOR];
@@ -417,7 +382,7 @@ impl Observer<DropMachine> for Record {
         }
         self.mount_of(step);
         self.rotor_of(step);
-        self.rows.sample(step, content_of);
+        self.rows.sample(step, DropMachine::content);
         let too_far = self.mount_displacement.value > self.limits.mount_displacement
             || step.end_probe(PENETRATION) > self.limits.penetration;
         if too_far && !self.limit_passed {

@@ -20,45 +20,9 @@ use super::SpinUpMachine;
 use super::layout::{HEATS, INNER, ROTOR, SOURCES};
 use super::rate::race_motion;
 use crate::bearing::{self, BearingEnergy};
+use crate::system::energy::{Balance, Content, Flows};
 use physics::spin_up_energy::{SpinUpEnergy, spin_up_loss};
 use solve::Machine;
-
-/// Energies and angular momentum at one state.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Content {
-    /// Kinetic energy of all centres, J.
-    pub translation: f64,
-    /// Kinetic energy of all spins, J.
-    pub spin: f64,
-    /// Potential: contacts, weight, J.
-    pub potential: f64,
-    /// Angular momentum about the origin, N m s.
-    pub angular_momentum: f64,
-    /// Kinetic and potential energy of balls and cage alone, J.
-    pub bearing_energy: f64,
-    /// Angular momentum L of balls and cage alone, N m s.
-    pub bearing_angular_momentum: f64,
-}
-
-impl Content {
-    /// Kinetic and potential energy, J.
-    pub fn energy(&self) -> f64 {
-        self.translation + self.spin + self.potential
-    }
-}
-
-/// What flowed since the start.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flows {
-    /// Sum of the heats, J.
-    pub heat: f64,
-    /// Sum of the works of the sources, J.
-    pub work: f64,
-    /// Sum of the sizes of these works, J.
-    pub work_size: f64,
-    /// External angular impulse, N m s.
-    pub angular_impulse: f64,
-}
 
 /// What the bearing dissipated in a spin-up from rest, J: true, and as the outer race tells it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,10 +55,7 @@ impl SpinUpMachine {
             elastic,
             weight,
             angular_momentum,
-        } = self
-            .constants
-            .bearing
-            .energy(&motion, &state[self.layout.bearing()]);
+        } = self.bearing_content(state);
         let rotor_inertia = match &self.constants.drive {
             Drive::SlidingRotor(rotor) if !rotor.spin_held => rotor.polar_inertia,
             _ => 0.0,
@@ -110,36 +71,32 @@ impl SpinUpMachine {
                 + race.inertia * inner.spin
                 + rotor_inertia * rotor_spin
                 + angular_momentum,
-            bearing_energy: translation + spin + elastic + weight,
-            bearing_angular_momentum: angular_momentum,
         }
+    }
+
+    /// Energies and angular momentum of balls and cage alone.
+    pub fn bearing_content(&self, state: &[f64]) -> BearingEnergy {
+        let own = &state[self.layout.bearing()];
+        self.constants.bearing.energy(&race_motion(state), own)
     }
 
     /// What the ledger channels of a state have summed up.
     pub fn flows(&self, state: &[f64]) -> Flows {
         let layout = &self.layout;
-        let works = (0..SOURCES.len()).map(|i| state[layout.source(i)]);
-        Flows {
-            heat: (0..HEATS.len()).map(|i| state[layout.heat(i)]).sum(),
-            work: works.clone().sum(),
-            work_size: works.map(f64::abs).sum(),
-            angular_impulse: state[layout.angular_impulse()],
+        Flows::of(
+            (0..HEATS.len()).map(|i| state[layout.heat(i)]),
+            (0..SOURCES.len()).map(|i| state[layout.source(i)]),
+            state[layout.angular_impulse()],
+        )
+    }
+
+    /// What must close between two states.
+    pub fn balance(&self, start: &[f64], end: &[f64]) -> Balance {
+        let at = |state| (self.content(state), self.flows(state));
+        Balance {
+            start: at(start),
+            end: at(end),
         }
-    }
-
-    /// Energy balance between two states, J: works less heats less what is stored; zero but for errors.
-    pub fn energy_residual(&self, start: &[f64], end: &[f64]) -> f64 {
-        let (from, to) = (self.flows(start), self.flows(end));
-        (to.work - from.work)
-            - (to.heat - from.heat)
-            - (self.content(end).energy() - self.content(start).energy())
-    }
-
-    /// Balance of angular momentum between two states, N m s; zero but for errors.
-    pub fn angular_momentum_residual(&self, start: &[f64], end: &[f64]) -> f64 {
-        let impulse = self.flows(end).angular_impulse - self.flows(start).angular_impulse;
-        let change = self.content(end).angular_momentum - self.content(start).angular_momentum;
-        impulse - change
     }
 
     /// The energy that the bearing dissipated between two states, told in four ways.
@@ -155,7 +112,7 @@ impl SpinUpMachine {
             final_speed: end[INNER + 5],
             outer_moment_work: outer_work,
         };
-        let stored = self.content(end).bearing_energy - self.content(start).bearing_energy;
+        let stored = self.bearing_content(end).sum() - self.bearing_content(start).sum();
         let (least_path, largest_path) = by_outer_race.path_term_bounds();
         OuterRaceEnergy {
             dissipated: (0..bearing::HEATS.len())

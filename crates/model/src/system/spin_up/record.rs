@@ -9,23 +9,9 @@ use super::layout::{
     BEARING, CAGE_SLIP, DRIVE_MOMENT, INNER, INNER_MOMENT, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD,
     OUTER_MOMENT, STEADY_MOMENT,
 };
-use super::ledger::Content;
 use crate::bearing::BearingConstants;
-use crate::system::sampling::{LateMean, Peak, Rise, Rows};
+use crate::system::sampling::{LateMean, Peak, Rise, Row, Rows};
 use solve::{Flow, Observer, Step};
-
-/// One sampled row.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row<'a> {
-    /// Time, s.
-    pub time: f64,
-    /// State.
-    pub state: &'a [f64],
-    /// Probes.
-    pub probe: &'a [f64],
-    /// Energies and momentum.
-    pub content: Content,
-}
 
 /// Everything kept of one machine.
 #[derive(Clone, Debug)]
@@ -44,11 +30,8 @@ pub struct Record {
     rises: [Rise; 3],
     /// Of t_I, t_O, M and the cage slip over the last cage turn.
     means: [LateMean; 4],
-    rows: Rows<EXTRA>,
+    rows: Rows,
 }
-
-/// Values of a [`Content`].
-const EXTRA: usize = 6;
 
 impl Record {
     /// A record for a run until `end`, with a row every `interval`, or without rows.
@@ -114,37 +97,18 @@ impl Record {
     }
     /// The sampled rows.
     pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        self.rows.iter().map(|(time, state, probe, extra)| Row {
-            time,
-            state,
-            probe,
-            content: Content {
-                translation: extra[0],
-                spin: extra[1],
-                potential: extra[2],
-                angular_momentum: extra[3],
-                bearing_energy: extra[4],
-                bearing_angular_momentum: extra[5],
-            },
-        })
+        self.rows.iter()
     }
     /// Adds the last state of a run as a row, where it is not one already.
     pub fn finish(&mut self, machine: &SpinUpMachine, time: f64, state: &[f64]) {
         let (_, probe) = machine.inspect(time, state);
-        self.rows.finish(time, state, &probe, extra(machine, state));
+        self.rows.finish(&Row {
+            time,
+            state,
+            probe: &probe,
+            content: machine.content(state),
+        });
     }
-}
-
-fn extra(machine: &SpinUpMachine, state: &[f64]) -> [f64; EXTRA] {
-    let content = machine.content(state);
-    [
-        content.translation,
-        content.spin,
-        content.potential,
-        content.angular_momentum,
-        content.bearing_energy,
-        content.bearing_angular_momentum,
-    ]
 }
 
 impl Observer<SpinUpMachine> for Record {
@@ -165,7 +129,7 @@ impl Observer<SpinUpMachine> for Record {
         for mean in &mut self.means {
             mean.watch(step);
         }
-        self.rows.sample(step, extra);
+        self.rows.sample(step, SpinUpMachine::content);
         Flow::Continue
     }
 }

@@ -1,0 +1,174 @@
+//! Columns that every moving system has: races, balls, pressures, energies.
+
+use super::outcome::Column;
+use model::bearing::BearingConstants;
+use model::system::energy::Balance;
+use model::system::sampling::Row;
+use physics::hertz::maximum_pressure;
+
+/// A history that is being named.
+pub(super) struct Table<'a> {
+    pub columns: Vec<Column>,
+    rows: Vec<Row<'a>>,
+}
+
+/// Where a bearing stands in states and probes.
+pub(super) struct BearingPlace<'a> {
+    pub bearing: &'a BearingConstants,
+    /// First channel of the inner race: x y, velocities, angle, speed.
+    pub inner: usize,
+    /// The bearing's own channels.
+    pub states: std::ops::Range<usize>,
+    /// First probe of the detail of the balls.
+    pub detail: usize,
+    /// Probes of the largest ball loads at the inner and the outer race.
+    pub largest_loads: [usize; 2],
+    /// Pressure of a ball contact per cube root of its load at the inner and the outer race, Pa/N^(1/3).
+    pub pressure_factors: [f64; 2],
+}
+
+/// Detail of a ball: name, unit, meaning; the loads are known in every fidelity.
+const DETAILS: [(&str, &str, &str); 5] = [
+    ("inner_load", "N", "load of the ball on the inner race"),
+    ("outer_load", "N", "load of the ball on the outer race"),
+    (
+        "inner_slip",
+        "m/s",
+        "sliding speed at the inner race, race less ball surface",
+    ),
+    (
+        "outer_slip",
+        "m/s",
+        "sliding speed at the outer race, race less ball surface",
+    ),
+    ("pocket_force", "N", "force of the cage pocket"),
+];
+/// How many of [`DETAILS`] are loads.
+const LOADS: usize = 2;
+
+impl<'a> Table<'a> {
+    /// No columns yet.
+    pub fn over(rows: impl Iterator<Item = Row<'a>>) -> Self {
+        Table {
+            columns: Vec::new(),
+            rows: rows.collect(),
+        }
+    }
+    pub fn add(
+        &mut self,
+        name: &str,
+        unit: &'static str,
+        meaning: &str,
+        value: impl Fn(&Row) -> f64,
+    ) {
+        self.columns.push(Column {
+            name: name.to_string(),
+            unit,
+            meaning: meaning.to_string(),
+            values: self.rows.iter().map(value).collect(),
+        });
+    }
+    pub fn channel(&mut self, name: &str, unit: &'static str, meaning: &str, channel: usize) {
+        self.add(name, unit, meaning, |row| row.state[channel]);
+    }
+    pub fn probe(&mut self, name: &str, unit: &'static str, meaning: &str, probe: usize) {
+        self.add(name, unit, meaning, |row| row.probe[probe]);
+    }
+
+    /// Place and speed of the inner race.
+    pub fn inner_race(&mut self, place: &BearingPlace) {
+        let first = place.inner;
+        for (name, unit, meaning, channel) in [
+            ("x", "m", "inner race centre, to the right", first),
+            ("y", "m", "inner race centre, upwards", first + 1),
+            ("speed", "rad/s", "spin of the inner race", first + 5),
+        ] {
+            self.channel(
+                &format!("bearing.inner_race.{name}"),
+                unit,
+                meaning,
+                channel,
+            );
+        }
+    }
+
+    /// Azimuth, loads, slips and pocket force of every ball, and the largest pressures.
+    pub fn balls(&mut self, place: &BearingPlace) {
+        let n = place.bearing.balls();
+        let known = match place.bearing {
+            BearingConstants::Planar(_) => DETAILS.len(),
+            BearingConstants::Rolling(_) => LOADS,
+        };
+        for ball in 0..n {
+            let name = |what: &str| format!("bearing.ball_{:02}.{what}", ball + 1);
+            self.add(
+                &name("azimuth"),
+                "rad",
+                "azimuth of the ball from x",
+                |row| {
+                    let own = &row.state[place.states.clone()];
+                    place.bearing.azimuth(own, ball)
+                },
+            );
+            for (k, (what, unit, meaning)) in DETAILS.into_iter().take(known).enumerate() {
+                self.probe(&name(what), unit, meaning, place.detail + k * n + ball);
+            }
+        }
+        for (race, (probe, factor)) in ["inner", "outer"]
+            .into_iter()
+            .zip(place.largest_loads.into_iter().zip(place.pressure_factors))
+        {
+            self.add(
+                &format!("bearing.{race}_pressure"),
+                "Pa",
+                &format!("largest Hertz pressure of all balls at the {race} race"),
+                |row| maximum_pressure(factor, row.probe[probe]),
+            );
+        }
+    }
+
+    /// Heats and works since an event ("release"): their names and the channel of the first.
+    pub fn flows(&mut self, since: &str, heats: (&[&str], usize), sources: (&[&str], usize)) {
+        for (i, heat) in heats.0.iter().enumerate() {
+            let meaning = format!("heat made since {since}: {}", heat.replace('_', " "));
+            self.channel(&format!("energy.heat.{heat}"), "J", &meaning, heats.1 + i);
+        }
+        for (i, source) in sources.0.iter().enumerate() {
+            let meaning = format!("work put in since {since}: {}", source.replace('_', " "));
+            self.channel(
+                &format!("energy.source.{source}"),
+                "J",
+                &meaning,
+                sources.1 + i,
+            );
+        }
+    }
+
+    /// What is stored, and what the ledger misses.
+    pub fn energies(&mut self, balance: impl Fn(&[f64]) -> Balance) {
+        self.add(
+            "energy.kinetic",
+            "J",
+            "kinetic energy of all bodies",
+            |row| row.content.translation + row.content.spin,
+        );
+        self.add(
+            "energy.potential",
+            "J",
+            "energy in springs, contacts and height; zero at the origin where nothing touches",
+            |row| row.content.potential,
+        );
+        self.add(
+            "energy.residual",
+            "J",
+            "what the energy ledger misses: works less heats less change of energy",
+            |row| balance(row.state).energy_residual(),
+        );
+        self.add(
+            "angular_momentum.residual",
+            "N m s",
+            "external impulse less the change of angular momentum about the origin",
+            |row| balance(row.state).angular_momentum_residual(),
+        );
+    }
+}
