@@ -171,13 +171,33 @@ pub struct BallReaction<R> {
     pub pocket_penetration: R,
 }
 
-/// Three reciprocals for one division.
-#[inline(always)]
-fn reciprocals<R: Real>(a: R, b: R, c: R) -> (R, R, R) {
-    let ab = a * b;
-    let inverse = (ab * c).recip();
-    let inverse_ab = inverse * c;
-    (inverse_ab * b, inverse_ab * a, inverse * ab)
+/// How far a ball is from the three centres: what its chain of forces starts with, and waits for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BallDistances<R> {
+    /// Unit vector from the origin to the ball.
+    pub e_r: Vec2<R>,
+    /// Distance from the inner race's centre, m.
+    pub inner: R,
+    /// Distance from the outer race's centre, m.
+    pub outer: R,
+    /// 1/(product of both distances and ρ), 1/m³: one division serves three reciprocals.
+    pub inverse_product: R,
+}
+
+impl<R: Real> BallDistances<R> {
+    /// The place of a ball at a distance from the origin, in the direction of a unit vector.
+    #[inline(always)]
+    pub fn of(inner: &RaceMotion<R>, outer: &RaceMotion<R>, radius: R, e_r: Vec2<R>) -> Self {
+        let position = e_r * radius;
+        let inner = (position - inner.position).length_squared().sqrt();
+        let outer = (position - outer.position).length_squared().sqrt();
+        BallDistances {
+            e_r,
+            inner,
+            outer,
+            inverse_product: (inner * outer * radius).recip(),
+        }
+    }
 }
 
 /// A ball at one race.
@@ -222,17 +242,19 @@ impl<R: Real> BallConstants<R> {
         inner: &RaceMotion<R>,
         outer: &RaceMotion<R>,
         ball: &BallMotion<R>,
-        e_r: Vec2<R>,
+        distances: &BallDistances<R>,
     ) -> Between<R> {
+        let e_r = distances.e_r;
         let position = e_r * ball.radius;
         let velocity = e_r * ball.radial_speed + e_r.turned() * (ball.radius * ball.orbit_speed);
 
         let from_inner = position - inner.position;
         let from_outer = position - outer.position;
-        let inner_distance = from_inner.length_squared().sqrt();
-        let outer_distance = from_outer.length_squared().sqrt();
-        let (inverse_inner, inverse_outer, inverse_radius) =
-            reciprocals(inner_distance, outer_distance, ball.radius);
+        let (inner_distance, outer_distance) = (distances.inner, distances.outer);
+        let inverse_distances = distances.inverse_product * ball.radius;
+        let inverse_inner = inverse_distances * outer_distance;
+        let inverse_outer = inverse_distances * inner_distance;
+        let inverse_radius = distances.inverse_product * (inner_distance * outer_distance);
 
         let n_i = from_inner * inverse_inner;
         let past_inner = velocity - inner.velocity;
@@ -290,7 +312,7 @@ impl<R: Real> BallConstants<R> {
         outer: &RaceMotion<R>,
         pocket: &PocketMotion<R>,
         ball: &BallMotion<R>,
-        direction: Vec2<R>,
+        distances: &BallDistances<R>,
     ) -> BallReaction<R> {
         let zero = R::zero();
         let half = R::splat(0.5);
@@ -302,7 +324,7 @@ impl<R: Real> BallConstants<R> {
             inverse_radius,
             inner: at_inner,
             outer: at_outer,
-        } = self.between(inner, outer, ball, direction);
+        } = self.between(inner, outer, ball, distances);
         let e_t = e_r.turned();
 
         // inner race

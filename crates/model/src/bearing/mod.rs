@@ -11,7 +11,8 @@
 //!
 //! A bearing owns the states of its cage and balls; the system owns the races.
 //! Besides its reaction it fills, where asked, a *detail* list with five values a ball:
-//! inner load, outer load (N), inner slip, outer slip (m/s), pocket force (N), each value for all balls in turn.
+//! inner load, outer load (N), inner slip, outer slip (m/s), pocket force (N), each value for all balls in turn; a
+//! shorter list takes the first of them.
 
 pub mod acceleration_loss;
 pub mod ball;
