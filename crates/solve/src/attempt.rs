@@ -87,7 +87,7 @@ impl Seen {
     fn take<R: Real>(&mut self, state: &[R], probe: &[R]) {
         let width = self.channels + self.probes;
         assert!(probe.len() == self.probes && self.values.len() == R::LANES * width);
-        for (lane, values) in self.values.chunks_exact_mut(width).enumerate() {
+        for (lane, values) in self.values.chunks_exact_mut(width.max(1)).enumerate() {
             let (channels, probes) = values.split_at_mut(self.channels);
             for (value, lanes) in channels.iter_mut().zip(state) {
                 *value = lanes.lane(lane);

@@ -165,10 +165,8 @@ pub struct BallReaction<R> {
     pub pocket_force: R,
     /// Pocket friction on the ball along n of the outer race, N.
     pub pocket_friction: R,
-    /// Side of the pocket: +1 where the ball leads its pocket.
+    /// Side of the pocket where the ball is pressed: +1 where it leads its pocket.
     pub pocket_side: R,
-    /// Pocket penetration, m; negative when free.
-    pub pocket_penetration: R,
 }
 
 /// How far a ball is from the three centres: what its chain of forces starts with, and waits for.
@@ -350,19 +348,18 @@ impl<R: Real> BallConstants<R> {
         let inner_traction = mu_i * q_i.force;
         let outer_traction = mu_o * q_o.force;
 
-        // pocket
-        let offset = pocket_offset(
-            ball.azimuth,
-            e_r.cross(from_outer) * inverse_outer,
-            pocket.angle,
-        );
-        let penetration = self.pocket_penetration(offset);
+        // pocket: where it stands is computed only where any ball of the group may be pressed; the answer is the same
+        let sine = e_r.cross(from_outer) * inverse_outer;
+        let angle = pocket_angle(ball.azimuth, pocket.angle);
+        let most = (angle.abs() + sine.abs() * R::splat(MOST_ARC)) * self.pocket_radius;
         let (mut pocket_force, mut pocket_push, mut pocket_friction) = (zero, zero, zero);
         let (mut pocket_moment, mut damping_heat, mut sliding_heat) = (zero, zero, zero);
-        let side = offset.sign_or_plus();
-        // computed only where any ball of the group is pressed; the answer is the same
-        let pressed = penetration.greater(zero);
-        if pressed.any() {
+        let mut side = zero;
+        if most.greater(self.pocket_gap).any() {
+            let offset = angle + sine.asin_small();
+            let penetration = self.pocket_penetration(offset);
+            side = offset.sign_or_plus();
+            let pressed = penetration.greater(zero);
             let lever = side * self.pocket_radius;
             let penetration_speed = lever * (past_outer_t * inverse_outer - pocket.spin);
             let p = linear_contact(
@@ -429,7 +426,6 @@ impl<R: Real> BallConstants<R> {
             pocket_force,
             pocket_friction,
             pocket_side: side,
-            pocket_penetration: penetration,
         }
     }
 
@@ -454,8 +450,8 @@ impl<R: Real> BallConstants<R> {
         let from_outer = position - outer.position;
         let inner_distance = (position - inner.position).length_squared().sqrt();
         let outer_distance = from_outer.length_squared().sqrt();
-        let side = e_r.cross(from_outer) / outer_distance;
-        let offset = pocket_offset(ball.azimuth, side, pocket.angle);
+        let sine = e_r.cross(from_outer) / outer_distance;
+        let offset = pocket_angle(ball.azimuth, pocket.angle) + sine.asin_small();
         let pressed = self.pocket_penetration(offset).max(R::zero());
         (
             ball_race_energy(
@@ -487,15 +483,18 @@ impl<R: Real> BallConstants<R> {
     }
 }
 
-/// Angle of a ball from the middle of its pocket, between -π and π.
+/// Angle of a ball from the middle of its pocket about the origin, between -π and π.
 ///
-/// The azimuth counts about the outer race's centre: a small correction of θ, whose sine is given.
+/// The azimuth counts about the outer race's centre, which adds the small arc sine of e_r × (b - c_o)/|b - c_o|.
 #[inline(always)]
-fn pocket_offset<R: Real>(azimuth: R, sine_of_correction: R, pocket: R) -> R {
-    let angle = azimuth + sine_of_correction.asin_small() - pocket;
+fn pocket_angle<R: Real>(azimuth: R, pocket: R) -> R {
+    let angle = azimuth - pocket;
     let turns = angle * R::splat(0.5 / std::f64::consts::PI);
     angle - turns.round() * R::splat(2.0 * std::f64::consts::PI)
 }
+
+/// More than an arc sine over its sine, up to 0.125: 0.1253/0.125.
+const MOST_ARC: f64 = 1.01;
 
 /// The constants of one machine for every part of a group, or of one machine per lane.
 pub(crate) fn gather_group<'a, R: Real, T>(machine: &dyn Fn(usize) -> &'a T) -> T::Out
