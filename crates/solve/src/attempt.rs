@@ -79,6 +79,7 @@ impl Seen {
         }
     }
     /// Channels and probes of a lane.
+    #[inline]
     pub(crate) fn lane(&self, lane: usize) -> (&[f64], &[f64]) {
         let width = self.channels + self.probes;
         self.values[lane * width..(lane + 1) * width].split_at(self.channels)
@@ -167,7 +168,7 @@ pub(crate) struct Judgement<R> {
     pub logarithm: R,
     /// Next length over this one when the step is accepted, before limits.
     pub next: R,
-    /// Length of the repetition over this one when the step is rejected, before limits.
+    /// Length of the repetition over this one where the step is rejected, before limits.
     pub again: R,
 }
 
@@ -180,11 +181,15 @@ impl<R: Real> Judgement<R> {
         let logarithm = error.max(R::splat(LEAST_ERROR)).min(R::splat(1e300)).ln();
         let exponent = R::splat(INTEGRAL) * last_logarithm - R::splat(PROPORTIONAL) * logarithm;
         let safety = R::splat(SAFETY);
+        let mut again = safety;
+        if error.greater(R::one()).any() {
+            again = safety * (logarithm * R::splat(-1.0 / ORDER as f64)).exp();
+        }
         Judgement {
             error,
             logarithm,
             next: safety * exponent.exp(),
-            again: safety * (logarithm * R::splat(-1.0 / ORDER as f64)).exp(),
+            again,
         }
     }
 }

@@ -406,7 +406,8 @@ fn end_of_rotor(step: &Step<DropMachine>) -> [f64; INNER - ROTOR] {
     rotor
 }
 
-/// The contact of rotor and race at a fraction of a step.
+/// The contact of rotor and race at a fraction of a step; inlined, so that nothing is computed but what is asked for.
+#[inline(always)]
 fn contact_at(step: &mut Step<DropMachine>, theta: f64) -> ContactReaction<f64> {
     let machine = &step.machine.constants.machine;
     let state = step.leading_state(theta, BEARING);
