@@ -165,8 +165,10 @@ pub struct BallReaction<R> {
     pub pocket_force: R,
     /// Pocket friction on the ball along n of the outer race, N.
     pub pocket_friction: R,
-    /// Side of the pocket where the ball is pressed: +1 where it leads its pocket.
+    /// Side of the pocket: +1 where the ball leads its pocket.
     pub pocket_side: R,
+    /// Pocket penetration, m; negative when free.
+    pub pocket_penetration: R,
 }
 
 /// How far a ball is from the three centres: what its chain of forces starts with, and waits for.
@@ -348,17 +350,17 @@ impl<R: Real> BallConstants<R> {
         let inner_traction = mu_i * q_i.force;
         let outer_traction = mu_o * q_o.force;
 
-        // pocket: where it stands is computed only where any ball of the group may be pressed; the answer is the same
+        // pocket: computed only where any ball of the group may be pressed, which costs less to tell than where each
+        // stands exactly; the answer is the same, and the compiler moves what only the branch needs into it
         let sine = e_r.cross(from_outer) * inverse_outer;
         let angle = pocket_angle(ball.azimuth, pocket.angle);
         let most = (angle.abs() + sine.abs() * R::splat(MOST_ARC)) * self.pocket_radius;
+        let offset = angle + sine.asin_small();
+        let side = offset.sign_or_plus();
+        let penetration = self.pocket_penetration(offset);
         let (mut pocket_force, mut pocket_push, mut pocket_friction) = (zero, zero, zero);
         let (mut pocket_moment, mut damping_heat, mut sliding_heat) = (zero, zero, zero);
-        let mut side = zero;
         if most.greater(self.pocket_gap).any() {
-            let offset = angle + sine.asin_small();
-            let penetration = self.pocket_penetration(offset);
-            side = offset.sign_or_plus();
             let pressed = penetration.greater(zero);
             let lever = side * self.pocket_radius;
             let penetration_speed = lever * (past_outer_t * inverse_outer - pocket.spin);
@@ -426,6 +428,7 @@ impl<R: Real> BallConstants<R> {
             pocket_force,
             pocket_friction,
             pocket_side: side,
+            pocket_penetration: penetration,
         }
     }
 
