@@ -395,3 +395,18 @@ pub(crate) fn largest<R: Real>(detail: &[R], balls: usize, list: usize) -> R {
     }
     largest
 }
+
+/// The largest of the parts of a group.
+#[inline(always)]
+pub(crate) fn largest_part<R: Real>(group: R::Group) -> R {
+    let mut parts = [R::zero(); MOST_PARTS];
+    R::store_group(group, &mut parts[..R::GROUP], 0);
+    let mut largest = parts[0];
+    for part in &parts[1..R::GROUP] {
+        largest = largest.max(*part);
+    }
+    largest
+}
+
+/// Parts of the largest group.
+const MOST_PARTS: usize = 16;

@@ -15,7 +15,7 @@ use super::ball::{
     BallConstants, BallDistances, BallMotion, BallReaction, PocketMotion, RaceMotion, gather_group,
 };
 use super::steady_moment::{BallPlace, Geometry, MomentPairs, SharedMoment};
-use super::{BallSums, BearingEnergy, BearingHeat, BearingReaction};
+use super::{BallSums, BearingEnergy, BearingHeat, BearingReaction, largest_part};
 use crate::motion::{Body, Motion, Wrench};
 use number::{Gather, Real, Vec2, Vectorized};
 use physics::traction::{Traction, TractionLaw};
@@ -453,21 +453,6 @@ fn race<R: Real>(body: &Body<R>) -> RaceMotion<R::Group> {
         spin: body.spin.grouped(),
     }
 }
-
-/// The largest of the parts of a group.
-#[inline(always)]
-fn largest_part<R: Real>(group: R::Group) -> R {
-    let mut parts = [R::zero(); MOST_PARTS];
-    R::store_group(group, &mut parts[..R::GROUP], 0);
-    let mut largest = parts[0];
-    for part in &parts[1..R::GROUP] {
-        largest = largest.max(*part);
-    }
-    largest
-}
-
-/// Parts of the largest group.
-const MOST_PARTS: usize = 16;
 
 /// Takes a change off the values of the balls from an index on.
 #[inline(always)]
