@@ -49,6 +49,8 @@ pub struct ContactReaction<R> {
     pub penetration_speed: R,
     /// Normal force N, N.
     pub normal_force: R,
+    /// Its elastic part k dⁿ, N.
+    pub elastic_force: R,
     /// Friction force on the rotor along t, N.
     pub friction_force: R,
     /// Sliding speed, race less rotor, m/s.
@@ -83,10 +85,12 @@ impl<R: Real> RotorContact<R> {
 
         let zero = R::zero();
         let touching = d.greater(zero);
-        let (mut normal, mut damping_heat, mut friction) = (zero, zero, zero);
+        let (mut normal, mut elastic) = (zero, zero);
+        let (mut damping_heat, mut friction) = (zero, zero);
         if touching.any() {
             let force = hunt_crossley(self.stiffness, self.exponent, self.damping, d, d_rate);
             normal = force.force;
+            elastic = force.elastic;
             damping_heat = (force.force - force.elastic) * d_rate;
             let coefficient = self.friction * (slip * self.inverse_reference_speed).tanh();
             friction = R::select(touching, coefficient * normal, zero);
@@ -99,6 +103,7 @@ impl<R: Real> RotorContact<R> {
             penetration: d,
             penetration_speed: d_rate,
             normal_force: normal,
+            elastic_force: elastic,
             friction_force: friction,
             slip_speed: slip,
             damping_heat,
@@ -129,8 +134,7 @@ impl<R: Real> RotorContact<R> {
         let tangential = relative.cross(n);
         let d_acceleration = relative_acceleration.dot(n) + tangential.square() * distance.recip();
         let safe = d.max(R::splat(1e-18));
-        let spring = self.stiffness * safe.powf(self.exponent);
-        let rate = spring
+        let rate = reaction.elastic_force
             * (self.exponent * d_rate / safe * (R::one() + self.damping * d_rate)
                 + self.damping * d_acceleration);
         R::select(reaction.normal_force.greater(zero), rate, zero)

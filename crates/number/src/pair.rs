@@ -172,34 +172,3 @@ impl<V: Bits> Bits for Pair<V> {
         Pair(self.0.odd_shifted(), self.1.odd_shifted())
     }
 }
-
-/// A group of two parts of every machine.
-macro_rules! group_of_two {
-    () => {
-        type Group = Pair<Self>;
-        const GROUP: usize = 2;
-        #[inline(always)]
-        fn grouped(self) -> Pair<Self> {
-            Pair(self, self)
-        }
-        #[inline(always)]
-        fn load_group(parts: &[Self], from: usize) -> Pair<Self> {
-            Pair(parts[from], parts[(from + 1).min(parts.len() - 1)])
-        }
-        #[inline(always)]
-        fn store_group(group: Pair<Self>, parts: &mut [Self], from: usize) {
-            parts[from] = group.0;
-            if let Some(second) = parts.get_mut(from + 1) {
-                *second = group.1;
-            }
-        }
-        #[inline(always)]
-        fn add_group(group: Pair<Self>, sums: &mut [Self; 4], from: usize, count: usize) {
-            sums[from % 4] += group.0;
-            if count > 1 {
-                sums[(from + 1) % 4] += group.1;
-            }
-        }
-    };
-}
-pub(crate) use group_of_two;

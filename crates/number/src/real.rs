@@ -49,7 +49,7 @@ pub trait Real:
     /// Number of machines side by side.
     const LANES: usize;
     /// Several equal parts of a machine (the balls of a bearing) side by side: so a single machine uses the vector
-    /// unit too, and several machines keep it busier. Part `i` of machine `m` is lane `i · LANES + m`.
+    /// unit too; several machines fill it with one part each. Part `i` of machine `m` is lane `i · LANES + m`.
     type Group: Real;
     /// Number of parts in a group.
     const GROUP: usize;

@@ -5,8 +5,8 @@
 //! intrinsics below sound. Their methods are inlined into functions compiled for the unit ([`Real::vectorized`]).
 
 use crate::elementary::{self, Bits, LOW_EXPONENT, ONE_BITS, ROUNDING, SIGN_BIT};
-use crate::pair::{Pair, group_of_two};
 use crate::real::Vectorized;
+use crate::scalar::group_of_one;
 use crate::single::Parts;
 use crate::{Mask, Real};
 use std::arch::x86_64::*;
@@ -165,7 +165,7 @@ macro_rules! shared_methods {
 impl Real for Four {
     type Mask = FourMask;
     const LANES: usize = 4;
-    group_of_two!();
+    group_of_one!();
     shared_methods!(
         Four,
         __m256d,
@@ -288,7 +288,7 @@ impl Mask for FourMask {
 impl Real for Eight {
     type Mask = EightMask;
     const LANES: usize = 8;
-    group_of_two!();
+    group_of_one!();
     shared_methods!(
         Eight,
         __m512d,

@@ -1,7 +1,7 @@
 //! One attempted step of all lanes, compiled for the vector unit of the machine.
 
 use crate::bogacki_shampine::{A, C, E, ORDER, STAGES};
-use crate::system::Batch;
+use crate::system::{Batch, Machine};
 use number::{Mask, Real, Vectorized};
 
 /// Everything a step works on: allocated once, reused for every step.
@@ -13,16 +13,22 @@ pub struct Workspace<R> {
     pub length: R,
     /// State at the start.
     pub state: Vec<R>,
-    /// State at the end.
+    /// State of a stage, then at the end.
     pub next: Vec<R>,
-    /// Rates of the stages, one after the other; the first belongs to `state`, the last to `next`.
-    pub rates: Vec<R>,
-    /// Probes at the start.
+    /// Rates at the start.
+    pub first: Vec<R>,
+    /// Rates of the second stage; then the part of the error that the last rates are not needed for, over the length.
+    second: Vec<R>,
+    /// Rates of the third stage, then those at the end.
+    pub last: Vec<R>,
+    /// Watched probes at the start.
     pub probe: Vec<R>,
-    /// Probes at the end.
+    /// Watched probes at the end.
     pub next_probe: Vec<R>,
-    /// State of a stage.
-    stage: Vec<R>,
+    /// Watched channels and probes of each lane at the start of the step, as observers read them.
+    pub seen: Seen,
+    /// The same at its end.
+    pub next_seen: Seen,
     /// 1/(tolerance · error scale) of each channel.
     pub inverse_error: Vec<R>,
     /// Natural logarithm of the error of the last accepted step.
@@ -32,21 +38,64 @@ pub struct Workspace<R> {
 }
 
 impl<R: Real> Workspace<R> {
-    /// A workspace for problems of this size, the last channels of which may be quadratures.
-    pub fn new(dimension: usize, quadratures: usize, probes: usize) -> Self {
+    /// A workspace for problems like this one.
+    pub fn of(machine: &impl Machine) -> Self {
+        let (dimension, probes) = (machine.dimension(), machine.watched_probes());
+        let channels = machine.watched_channels();
         let zeros = |n| vec![R::zero(); n];
         Workspace {
             time: R::zero(),
             length: R::zero(),
             state: zeros(dimension),
             next: zeros(dimension),
-            rates: zeros(STAGES * dimension),
+            first: zeros(dimension),
+            second: zeros(dimension),
+            last: zeros(dimension),
             probe: zeros(probes),
             next_probe: zeros(probes),
-            stage: zeros(dimension),
+            seen: Seen::new(R::LANES, channels, probes),
+            next_seen: Seen::new(R::LANES, channels, probes),
             inverse_error: zeros(dimension),
             last_logarithm: R::zero(),
-            active: dimension - quadratures,
+            active: dimension - machine.quadratures(),
+        }
+    }
+}
+
+/// Leading channels and probes at one end of a step, lane by lane.
+#[derive(Debug)]
+pub struct Seen {
+    channels: usize,
+    probes: usize,
+    values: Vec<f64>,
+}
+
+impl Seen {
+    fn new(lanes: usize, channels: usize, probes: usize) -> Self {
+        Seen {
+            channels,
+            probes,
+            values: vec![0.0; lanes * (channels + probes)],
+        }
+    }
+    /// Channels and probes of a lane.
+    #[inline]
+    pub(crate) fn lane(&self, lane: usize) -> (&[f64], &[f64]) {
+        let width = self.channels + self.probes;
+        self.values[lane * width..(lane + 1) * width].split_at(self.channels)
+    }
+    #[inline(always)]
+    fn take<R: Real>(&mut self, state: &[R], probe: &[R]) {
+        let width = self.channels + self.probes;
+        assert!(probe.len() == self.probes && self.values.len() == R::LANES * width);
+        for (lane, values) in self.values.chunks_exact_mut(width.max(1)).enumerate() {
+            let (channels, probes) = values.split_at_mut(self.channels);
+            for (value, lanes) in channels.iter_mut().zip(state) {
+                *value = lanes.lane(lane);
+            }
+            for (value, lanes) in probes.iter_mut().zip(probe) {
+                *value = lanes.lane(lane);
+            }
         }
     }
 }
@@ -72,34 +121,35 @@ impl<R: Real, B: Batch<R>> Vectorized for Attempt<'_, R, B> {
             work: w,
             begin,
         } = self;
-        let n = w.state.len();
         let (time, h) = (w.time, w.length);
         let stages = if begin { 0..1 } else { 1..STAGES };
         for s in stages {
-            let (earlier, rate) = w.rates.split_at_mut(s * n);
             // what the rate does not depend on is summed only at the end of the step
-            let (stage, channels) = match s {
-                LAST => (&mut w.next, n),
-                _ => (&mut w.stage, w.active),
-            };
-            match s {
-                1 => combine::<R, 1>(h, &w.state, earlier, &mut stage[..channels]),
-                2 => combine::<R, 2>(h, &w.state, earlier, &mut stage[..channels]),
-                3 => combine::<R, 3>(h, &w.state, earlier, &mut stage[..channels]),
-                _ => stage.copy_from_slice(&w.state),
-            }
-            let probe: &mut [R] = match s {
-                0 => &mut w.probe,
-                LAST => &mut w.next_probe,
-                _ => &mut [],
+            let stage = &mut w.next[..w.active];
+            let (state, rate, probe): (&[R], &mut [R], &mut [R]) = match s {
+                0 => (&w.state, &mut w.first, &mut w.probe),
+                1 => {
+                    reach(h * R::splat(A[1][0]), &w.state, &w.first, stage);
+                    (&w.next, &mut w.second, &mut [])
+                }
+                2 => {
+                    reach(h * R::splat(A[2][1]), &w.state, &w.second, stage);
+                    (&w.next, &mut w.last, &mut [])
+                }
+                _ => {
+                    finish(h, w);
+                    (&w.next, &mut w.last, &mut w.next_probe)
+                }
             };
             let time = time + h * R::splat(C[s]);
-            batch.rate(mode, time, stage, &mut rate[..n], probe);
+            batch.rate(mode, time, state, rate, probe);
         }
         let error = if begin {
+            w.seen.take(&w.state, &w.probe);
             R::zero()
         } else {
-            error(h, &w.rates, &w.inverse_error, &mut w.stage)
+            w.next_seen.take(&w.next, &w.next_probe);
+            error(h, &w.second, &w.last, &w.inverse_error)
         };
         Judgement::of(error, w.last_logarithm)
     }
@@ -118,7 +168,7 @@ pub(crate) struct Judgement<R> {
     pub logarithm: R,
     /// Next length over this one when the step is accepted, before limits.
     pub next: R,
-    /// Length of the repetition over this one when the step is rejected, before limits.
+    /// Length of the repetition over this one where the step is rejected, before limits.
     pub again: R,
 }
 
@@ -131,20 +181,21 @@ impl<R: Real> Judgement<R> {
         let logarithm = error.max(R::splat(LEAST_ERROR)).min(R::splat(1e300)).ln();
         let exponent = R::splat(INTEGRAL) * last_logarithm - R::splat(PROPORTIONAL) * logarithm;
         let safety = R::splat(SAFETY);
+        let mut again = safety;
+        if error.greater(R::one()).any() {
+            again = safety * (logarithm * R::splat(-1.0 / ORDER as f64)).exp();
+        }
         Judgement {
             error,
             logarithm,
             next: safety * exponent.exp(),
-            again: safety * (logarithm * R::splat(-1.0 / ORDER as f64)).exp(),
+            again,
         }
     }
 }
 
 /// A step of next to no error does not say much about the following one.
 const LEAST_ERROR: f64 = 1e-4;
-
-/// The stage at the end of the step.
-const LAST: usize = STAGES - 1;
 
 /// The end of an accepted step becomes the start of the next.
 pub(crate) struct Advance<'a, R: Real> {
@@ -163,19 +214,18 @@ impl<R: Real> Vectorized for Advance<'_, R> {
             accepted,
             logarithm,
         } = self;
-        let n = w.state.len();
-        let (rates, last) = w.rates.split_at_mut((STAGES - 1) * n);
-        let rates = &mut rates[..n];
         w.last_logarithm = R::select(accepted, logarithm, w.last_logarithm);
         if !(!accepted).any() {
             std::mem::swap(&mut w.state, &mut w.next);
             std::mem::swap(&mut w.probe, &mut w.next_probe);
-            rates.copy_from_slice(last);
+            std::mem::swap(&mut w.seen, &mut w.next_seen);
+            std::mem::swap(&mut w.first, &mut w.last);
             return;
         }
         keep(accepted, &w.next, &mut w.state);
-        keep(accepted, last, rates);
+        keep(accepted, &w.last, &mut w.first);
         keep(accepted, &w.next_probe, &mut w.probe);
+        w.seen.take(&w.state, &w.probe);
     }
 }
 
@@ -187,56 +237,49 @@ fn keep<R: Real>(accepted: R::Mask, from: &[R], to: &mut [R]) {
     }
 }
 
-/// out = state + h Σ a_j k_j over the rates of the `S` earlier stages.
+/// The second and the third stage: out = state + h a k, k the rates of the stage before.
 #[inline(always)]
-fn combine<R: Real, const S: usize>(h: R, state: &[R], rates: &[R], out: &mut [R]) {
-    let n = state.len();
-    assert!(rates.len() == S * n && out.len() <= n);
-    // a loop, not `from_fn`: its closure would not be compiled for the vector unit
-    let mut weight = [R::zero(); S];
-    for (weight, a) in weight.iter_mut().zip(A[S]) {
-        *weight = h * R::splat(a);
+fn reach<R: Real>(weight: R, state: &[R], rate: &[R], out: &mut [R]) {
+    for ((out, state), rate) in out.iter_mut().zip(state).zip(rate) {
+        *out = *state + weight * *rate;
     }
-    for i in 0..out.len() {
-        let mut value = state[i];
-        let mut j = 0;
-        while j < S {
-            if A[S][j] != 0.0 {
-                value += weight[j] * rates[j * n + i];
-            }
-            j += 1;
-        }
-        out[i] = value;
+}
+
+/// The end of the step, and what the first three rates say of its error.
+#[inline(always)]
+fn finish<R: Real>(h: R, w: &mut Workspace<R>) {
+    let weight = [
+        h * R::splat(A[3][0]),
+        h * R::splat(A[3][1]),
+        h * R::splat(A[3][2]),
+    ];
+    let rates = w.first.iter().zip(&mut w.second).zip(&w.last);
+    for ((next, state), ((k1, k2), k3)) in w.next.iter_mut().zip(&w.state).zip(rates) {
+        *next = *state + weight[0] * *k1 + weight[1] * *k2 + weight[2] * *k3;
+        *k2 = R::splat(E[0]) * *k1 + R::splat(E[1]) * *k2 + R::splat(E[2]) * *k3;
     }
 }
 
 /// Largest error over the channels, each relative to what is allowed there; infinite where any is not a number.
 #[inline(always)]
-fn error<R: Real>(h: R, rates: &[R], inverse_error: &[R], relative: &mut [R]) -> R {
-    let n = inverse_error.len();
-    assert!(rates.len() == STAGES * n && relative.len() == n);
-    for i in 0..n {
-        let mut difference = R::splat(E[0]) * rates[i];
-        let mut j = 1;
-        while j < STAGES {
-            difference += R::splat(E[j]) * rates[j * n + i];
-            j += 1;
-        }
-        relative[i] = (h * difference).abs() * inverse_error[i];
-    }
+fn error<R: Real>(h: R, part: &[R], last: &[R], inverse_error: &[R]) -> R {
+    let (parts, rest) = part.as_chunks::<WAYS>();
+    let (lasts, rest_last) = last.as_chunks::<WAYS>();
+    let (inverses, rest_inverse) = inverse_error.as_chunks::<WAYS>();
     // side by side, because one maximum after the other is a long wait
     let mut largest = [R::zero(); WAYS];
     let mut sum = [R::zero(); WAYS];
-    let (ways, rest) = relative.as_chunks::<WAYS>();
-    for values in ways {
-        for k in 0..WAYS {
-            largest[k] = values[k].max(largest[k]);
-            sum[k] += values[k];
+    for ((part, last), inverse) in parts.iter().zip(lasts).zip(inverses) {
+        for i in 0..WAYS {
+            let value = relative(h, part[i], last[i], inverse[i]);
+            largest[i] = value.max(largest[i]);
+            sum[i] += value;
         }
     }
-    for value in rest {
+    for ((part, last), inverse) in rest.iter().zip(rest_last).zip(rest_inverse) {
+        let value = relative(h, *part, *last, *inverse);
         largest[0] = value.max(largest[0]);
-        sum[0] += *value;
+        sum[0] += value;
     }
     for k in 1..WAYS {
         largest[0] = largest[0].max(largest[k]);
@@ -245,6 +288,12 @@ fn error<R: Real>(h: R, rates: &[R], inverse_error: &[R], relative: &mut [R]) ->
     // `max` forgets what is not a number, the sum does not
     let infinite = R::splat(f64::INFINITY);
     R::select(sum[0].less(infinite), largest[0], infinite)
+}
+
+/// Error of one channel relative to what is allowed there.
+#[inline(always)]
+fn relative<R: Real>(h: R, part: R, last: R, inverse: R) -> R {
+    (h * (part + R::splat(E[3]) * last)).abs() * inverse
 }
 
 /// Maxima that run side by side.

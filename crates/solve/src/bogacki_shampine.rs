@@ -30,21 +30,44 @@ pub const A: [[f64; STAGES - 1]; STAGES] = [
 /// Weights of the error estimate: the step of order three less the embedded one of order two.
 pub const E: [f64; STAGES] = [-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0];
 
-/// Weights of the rates in the state at the fraction `theta` of a step.
+/// Weights of dense output at a fraction θ of a step:
+/// y(θ) = y + change·(y⁺ - y) + h (first·k1 + last·k4).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DenseWeights {
+    /// Of the change of the state over the step.
+    pub change: f64,
+    /// Of the rate at the start.
+    pub first: f64,
+    /// Of the rate at the end.
+    pub last: f64,
+}
+
+/// The weights at the fraction `theta` of a step: the Hermite cubic.
 #[inline(always)]
-pub fn dense_weights(theta: f64) -> [f64; STAGES] {
+pub fn dense_weights(theta: f64) -> DenseWeights {
     let square = theta * theta;
-    // Hermite: θ³ of the step, then what makes the rates at both ends those of the first and the last stage
-    let step = square * (3.0 - 2.0 * theta);
-    let first = theta * (1.0 - theta) * (1.0 - theta);
-    let last = square * (theta - 1.0);
-    [step * A[3][0] + first, step * A[3][1], step * A[3][2], last]
+    DenseWeights {
+        change: square * (3.0 - 2.0 * theta),
+        first: theta * (1.0 - theta) * (1.0 - theta),
+        last: square * (theta - 1.0),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// Weights of the four rates in the state at a fraction of a step.
+    fn rate_weights(theta: f64) -> [f64; STAGES] {
+        let w = dense_weights(theta);
+        let [b1, b2, b3] = A[3];
+        [
+            w.change * b1 + w.first,
+            w.change * b2,
+            w.change * b3,
+            w.last,
+        ]
+    }
     fn sum(weights: &[f64], value: impl Fn(usize) -> f64) -> f64 {
         weights.iter().enumerate().map(|(i, w)| w * value(i)).sum()
     }
@@ -55,6 +78,11 @@ mod tests {
             assert!((sum(&A[i], |_| 1.0) - C[i]).abs() < 1e-15);
         }
         assert!(sum(&E, |_| 1.0).abs() < 1e-16);
+    }
+    #[test]
+    fn the_inner_stages_start_from_the_rates_before_them_alone() {
+        assert_eq!((A[1][1], A[1][2]), (0.0, 0.0));
+        assert_eq!((A[2][0], A[2][2]), (0.0, 0.0));
     }
     #[test]
     fn order_conditions_hold_to_three() {
@@ -79,8 +107,8 @@ mod tests {
     }
     #[test]
     fn dense_output_meets_both_ends_with_their_rates() {
-        assert_eq!(dense_weights(0.0), [0.0; STAGES]);
-        let end = dense_weights(1.0);
+        assert_eq!(rate_weights(0.0), [0.0; STAGES]);
+        let end = rate_weights(1.0);
         for i in 0..3 {
             assert!((end[i] - A[3][i]).abs() < 1e-15);
         }
@@ -89,8 +117,8 @@ mod tests {
         let h = 1e-6;
         let slope = |a: [f64; STAGES], b: [f64; STAGES], i: usize| (b[i] - a[i]) / h;
         for i in 0..STAGES {
-            let at_start = slope(dense_weights(0.0), dense_weights(h), i);
-            let at_end = slope(dense_weights(1.0 - h), end, i);
+            let at_start = slope(rate_weights(0.0), rate_weights(h), i);
+            let at_end = slope(rate_weights(1.0 - h), end, i);
             // differences over 1e-6: a few times that
             assert!((at_start - f64::from(u8::from(i == 0))).abs() < 1e-5);
             assert!((at_end - f64::from(u8::from(i == 3))).abs() < 1e-5);
@@ -99,7 +127,7 @@ mod tests {
     #[test]
     fn dense_output_has_order_three_along_the_solution() {
         for theta in [0.2_f64, 0.5, 0.8] {
-            let w = dense_weights(theta);
+            let w = rate_weights(theta);
             for power in 0..3 {
                 let exact = theta.powi(power + 1) / f64::from(power + 1);
                 let ours = (0..STAGES).map(|i| w[i] * C[i].powi(power)).sum::<f64>();

@@ -151,7 +151,7 @@ where
         })
         .collect();
     let mut scratch = Scratch::new(dimension, probes);
-    let mut work = Workspace::<R>::new(dimension, machines[0].quadratures(), probes);
+    let mut work = Workspace::<R>::of(machines[0]);
     for (channel, value) in work.state.iter_mut().enumerate() {
         *value = R::from_lanes(|lane| starts[owner(lane)][channel]);
     }
@@ -203,6 +203,8 @@ where
                 mode: &lane.mode,
                 start: lane.time,
                 end: lane.step_end,
+                at_start: work.seen.lane(index),
+                at_end: work.next_seen.lane(index),
                 data: &LaneOf {
                     work: &work,
                     lane: index,
@@ -292,10 +294,11 @@ fn aim<R: Real, M: Machine>(
         return;
     }
     let steps = lane.work.accepted + lane.work.rejected;
-    let share = (lane.time - settings.start) / (settings.end - settings.start);
     // far from the end after many steps: at this pace the limit would be passed many times over
-    let hopeless = steps >= (settings.step_limit / HOPELESS_PART).max(HOPELESS_LEAST)
-        && (HOPELESS_FACTOR * HOPELESS_PART) as f64 * share < 1.0;
+    let hopeless = steps >= (settings.step_limit / HOPELESS_PART).max(HOPELESS_LEAST) && {
+        let share = (lane.time - settings.start) / (settings.end - settings.start);
+        (HOPELESS_FACTOR * HOPELESS_PART) as f64 * share < 1.0
+    };
     if steps >= settings.step_limit || hopeless {
         lane.stop = Some(Stop::StepLimit);
         return;
@@ -322,9 +325,8 @@ fn aim<R: Real, M: Machine>(
 
 /// The channel whose rate is largest in units of its error scale, or not a number.
 fn worst_channel<R: Real>(work: &Workspace<R>, lane: usize) -> usize {
-    let n = work.state.len();
     let urgency = |channel: usize| {
-        let rate = work.rates[(STAGES - 1) * n + channel].lane(lane);
+        let rate = work.last[channel].lane(lane);
         let urgency = (rate * work.inverse_error[channel].lane(lane)).abs();
         if urgency.is_nan() {
             f64::INFINITY
@@ -332,7 +334,7 @@ fn worst_channel<R: Real>(work: &Workspace<R>, lane: usize) -> usize {
             urgency
         }
     };
-    (0..n)
+    (0..work.state.len())
         .max_by(|a, b| urgency(*a).total_cmp(&urgency(*b)))
         .unwrap_or(0)
 }

@@ -1,7 +1,7 @@
 //! One accepted step of one lane, as an observer sees it.
 
 use crate::attempt::Workspace;
-use crate::bogacki_shampine::{STAGES, dense_weights};
+use crate::bogacki_shampine::dense_weights;
 use crate::system::Machine;
 use number::Real;
 
@@ -15,6 +15,9 @@ pub struct Step<'a, M: Machine> {
     pub start: f64,
     /// Time at the end.
     pub end: f64,
+    /// Watched channels and probes at the start and at the end.
+    pub(crate) at_start: (&'a [f64], &'a [f64]),
+    pub(crate) at_end: (&'a [f64], &'a [f64]),
     pub(crate) data: &'a dyn StepData,
     pub(crate) scratch: &'a mut Scratch,
 }
@@ -25,9 +28,8 @@ pub(crate) struct Scratch {
     pub state: Vec<f64>,
     pub rate: Vec<f64>,
     pub probe: Vec<f64>,
-    /// State at the start of the step and rates of its stages, copied when dense output is first asked for.
-    pub start: Vec<f64>,
-    pub stages: Vec<f64>,
+    /// State and rates at the start of the step and at its end, copied when dense output is first asked for.
+    pub ends: [Vec<f64>; 4],
     /// How many leading channels of them are copied.
     pub copied: usize,
 }
@@ -38,8 +40,7 @@ impl Scratch {
             state: vec![0.0; dimension],
             rate: vec![0.0; dimension],
             probe: vec![0.0; probes],
-            start: vec![0.0; dimension],
-            stages: vec![0.0; STAGES * dimension],
+            ends: std::array::from_fn(|_| vec![0.0; dimension]),
             copied: 0,
         }
     }
@@ -47,12 +48,10 @@ impl Scratch {
 
 /// A lane's view of the workspace, whatever its number type.
 pub(crate) trait StepData {
-    fn start_probe(&self, index: usize) -> f64;
-    fn end_probe(&self, index: usize) -> f64;
     fn start_state(&self, channel: usize) -> f64;
     fn end_state(&self, channel: usize) -> f64;
-    /// Copies the leading channels of the start and of every stage.
-    fn copy(&self, channels: usize, start: &mut [f64], stages: &mut [f64]);
+    /// Copies the leading channels of state and rates at the start and at the end.
+    fn copy(&self, channels: usize, ends: &mut [Vec<f64>; 4]);
 }
 
 /// One lane of a workspace.
@@ -62,28 +61,16 @@ pub(crate) struct LaneOf<'a, R> {
 }
 
 impl<R: Real> StepData for LaneOf<'_, R> {
-    fn start_probe(&self, index: usize) -> f64 {
-        self.work.probe[index].lane(self.lane)
-    }
-    fn end_probe(&self, index: usize) -> f64 {
-        self.work.next_probe[index].lane(self.lane)
-    }
     fn start_state(&self, channel: usize) -> f64 {
         self.work.state[channel].lane(self.lane)
     }
     fn end_state(&self, channel: usize) -> f64 {
         self.work.next[channel].lane(self.lane)
     }
-    fn copy(&self, channels: usize, start: &mut [f64], stages: &mut [f64]) {
-        let n = self.work.state.len();
-        for (value, lanes) in start.iter_mut().zip(&self.work.state[..channels]) {
-            *value = lanes.lane(self.lane);
-        }
-        for (values, rates) in stages
-            .chunks_exact_mut(n)
-            .zip(self.work.rates.chunks_exact(n))
-        {
-            for (value, lanes) in values.iter_mut().zip(&rates[..channels]) {
+    fn copy(&self, channels: usize, ends: &mut [Vec<f64>; 4]) {
+        let w = self.work;
+        for (values, from) in ends.iter_mut().zip([&w.state, &w.first, &w.next, &w.last]) {
+            for (value, lanes) in values.iter_mut().zip(&from[..channels]) {
                 *value = lanes.lane(self.lane);
             }
         }
@@ -91,21 +78,27 @@ impl<R: Real> StepData for LaneOf<'_, R> {
 }
 
 impl<M: Machine> Step<'_, M> {
-    /// A probe at the start of the step.
+    /// A watched probe at the start of the step.
     pub fn start_probe(&self, index: usize) -> f64 {
-        self.data.start_probe(index)
+        self.at_start.1[index]
     }
-    /// A probe at the end of the step.
+    /// A watched probe at the end of the step.
     pub fn end_probe(&self, index: usize) -> f64 {
-        self.data.end_probe(index)
+        self.at_end.1[index]
     }
     /// A channel at the start of the step.
     pub fn start_state(&self, channel: usize) -> f64 {
-        self.data.start_state(channel)
+        match self.at_start.0.get(channel) {
+            Some(value) => *value,
+            None => self.data.start_state(channel),
+        }
     }
     /// A channel at the end of the step.
     pub fn end_state(&self, channel: usize) -> f64 {
-        self.data.end_state(channel)
+        match self.at_end.0.get(channel) {
+            Some(value) => *value,
+            None => self.data.end_state(channel),
+        }
     }
     /// The time at a fraction of the step.
     pub fn time(&self, theta: f64) -> f64 {
@@ -144,7 +137,6 @@ impl<M: Machine> Step<'_, M> {
     }
     fn fill(&mut self, theta: f64, channels: usize) {
         let scratch = &mut *self.scratch;
-        let n = scratch.state.len();
         let state = &mut scratch.state[..channels];
         if theta == 1.0 {
             for (channel, value) in state.iter_mut().enumerate() {
@@ -152,16 +144,17 @@ impl<M: Machine> Step<'_, M> {
             }
         } else {
             if scratch.copied < channels {
-                (self.data).copy(channels, &mut scratch.start, &mut scratch.stages);
+                self.data.copy(channels, &mut scratch.ends);
                 scratch.copied = channels;
             }
+            let weight = dense_weights(theta);
             let length = self.end - self.start;
-            let weights = dense_weights(theta).map(|weight| length * weight);
-            state.copy_from_slice(&scratch.start[..channels]);
-            for (weight, rates) in weights.into_iter().zip(scratch.stages.chunks_exact(n)) {
-                for (value, rate) in state.iter_mut().zip(rates) {
-                    *value += weight * rate;
-                }
+            let (first, last) = (length * weight.first, length * weight.last);
+            let [start, start_rate, end, end_rate] = &scratch.ends;
+            let states = start.iter().zip(end);
+            let rates = start_rate.iter().zip(end_rate);
+            for (value, ((start, end), (k1, k4))) in state.iter_mut().zip(states.zip(rates)) {
+                *value = start + weight.change * (end - start) + (first * k1 + last * k4);
             }
         }
     }

@@ -20,6 +20,14 @@ pub trait Machine: Sync {
     }
     /// Number of probes.
     fn probes(&self) -> usize;
+    /// Number of first probes that an observer sees at the ends of a step; the others it must evaluate.
+    fn watched_probes(&self) -> usize {
+        self.probes()
+    }
+    /// Number of first channels that an observer looks at in every step: they lie ready, the others cost a call each.
+    fn watched_channels(&self) -> usize {
+        0
+    }
     /// The error a tolerance of 1 allows in each channel: the magnitude that matters there.
     fn error_scale(&self, channel: usize) -> f64;
     /// Name of a channel, for messages.
@@ -54,7 +62,8 @@ pub trait Batch<R: Real>: Sync + Sized {
         Self::Machine: 'a;
     /// Puts the modes side by side.
     fn gather_mode(modes: &dyn Fn(usize) -> <Self::Machine as Machine>::Mode) -> Self::Mode;
-    /// The right-hand side of all lanes. Probes are computed only where `probe` is not empty.
+    /// The right-hand side of all lanes. Probes are computed only where `probe` is not empty, and then only the first
+    /// ones, as many as it has room for: all or the watched ones.
     /// Must be `#[inline(always)]` down to the last law it calls.
     fn rate(&self, mode: &Self::Mode, time: R, state: &[R], rate: &mut [R], probe: &mut [R]);
 }

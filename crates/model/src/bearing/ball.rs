@@ -171,13 +171,33 @@ pub struct BallReaction<R> {
     pub pocket_penetration: R,
 }
 
-/// Three reciprocals for one division.
-#[inline(always)]
-fn reciprocals<R: Real>(a: R, b: R, c: R) -> (R, R, R) {
-    let ab = a * b;
-    let inverse = (ab * c).recip();
-    let inverse_ab = inverse * c;
-    (inverse_ab * b, inverse_ab * a, inverse * ab)
+/// How far a ball is from the three centres: what its chain of forces starts with, and waits for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BallDistances<R> {
+    /// Unit vector from the origin to the ball.
+    pub e_r: Vec2<R>,
+    /// Distance from the inner race's centre, m.
+    pub inner: R,
+    /// Distance from the outer race's centre, m.
+    pub outer: R,
+    /// 1/(product of both distances and ρ), 1/m³: one division serves three reciprocals.
+    pub inverse_product: R,
+}
+
+impl<R: Real> BallDistances<R> {
+    /// The place of a ball at a distance from the origin, in the direction of a unit vector.
+    #[inline(always)]
+    pub fn of(inner: &RaceMotion<R>, outer: &RaceMotion<R>, radius: R, e_r: Vec2<R>) -> Self {
+        let position = e_r * radius;
+        let inner = (position - inner.position).length_squared().sqrt();
+        let outer = (position - outer.position).length_squared().sqrt();
+        BallDistances {
+            e_r,
+            inner,
+            outer,
+            inverse_product: (inner * outer * radius).recip(),
+        }
+    }
 }
 
 /// A ball at one race.
@@ -222,17 +242,19 @@ impl<R: Real> BallConstants<R> {
         inner: &RaceMotion<R>,
         outer: &RaceMotion<R>,
         ball: &BallMotion<R>,
-        e_r: Vec2<R>,
+        distances: &BallDistances<R>,
     ) -> Between<R> {
+        let e_r = distances.e_r;
         let position = e_r * ball.radius;
         let velocity = e_r * ball.radial_speed + e_r.turned() * (ball.radius * ball.orbit_speed);
 
         let from_inner = position - inner.position;
         let from_outer = position - outer.position;
-        let inner_distance = from_inner.length_squared().sqrt();
-        let outer_distance = from_outer.length_squared().sqrt();
-        let (inverse_inner, inverse_outer, inverse_radius) =
-            reciprocals(inner_distance, outer_distance, ball.radius);
+        let (inner_distance, outer_distance) = (distances.inner, distances.outer);
+        let inverse_distances = distances.inverse_product * ball.radius;
+        let inverse_inner = inverse_distances * outer_distance;
+        let inverse_outer = inverse_distances * inner_distance;
+        let inverse_radius = distances.inverse_product * (inner_distance * outer_distance);
 
         let n_i = from_inner * inverse_inner;
         let past_inner = velocity - inner.velocity;
@@ -290,7 +312,7 @@ impl<R: Real> BallConstants<R> {
         outer: &RaceMotion<R>,
         pocket: &PocketMotion<R>,
         ball: &BallMotion<R>,
-        direction: Vec2<R>,
+        distances: &BallDistances<R>,
     ) -> BallReaction<R> {
         let zero = R::zero();
         let half = R::splat(0.5);
@@ -302,7 +324,7 @@ impl<R: Real> BallConstants<R> {
             inverse_radius,
             inner: at_inner,
             outer: at_outer,
-        } = self.between(inner, outer, ball, direction);
+        } = self.between(inner, outer, ball, distances);
         let e_t = e_r.turned();
 
         // inner race
@@ -328,19 +350,18 @@ impl<R: Real> BallConstants<R> {
         let inner_traction = mu_i * q_i.force;
         let outer_traction = mu_o * q_o.force;
 
-        // pocket
-        let offset = pocket_offset(
-            ball.azimuth,
-            e_r.cross(from_outer) * inverse_outer,
-            pocket.angle,
-        );
+        // pocket: computed only where any ball of the group may be pressed, which costs less to tell than where each
+        // stands exactly; the answer is the same, and the compiler moves what only the branch needs into it
+        let sine = e_r.cross(from_outer) * inverse_outer;
+        let angle = pocket_angle(ball.azimuth, pocket.angle);
+        let most = (angle.abs() + sine.abs() * R::splat(MOST_ARC)) * self.pocket_radius;
+        let offset = angle + sine.asin_small();
+        let side = offset.sign_or_plus();
         let penetration = self.pocket_penetration(offset);
         let (mut pocket_force, mut pocket_push, mut pocket_friction) = (zero, zero, zero);
         let (mut pocket_moment, mut damping_heat, mut sliding_heat) = (zero, zero, zero);
-        let side = offset.sign_or_plus();
-        // computed only where any ball of the group is pressed; the answer is the same
-        let pressed = penetration.greater(zero);
-        if pressed.any() {
+        if most.greater(self.pocket_gap).any() {
+            let pressed = penetration.greater(zero);
             let lever = side * self.pocket_radius;
             let penetration_speed = lever * (past_outer_t * inverse_outer - pocket.spin);
             let p = linear_contact(
@@ -432,8 +453,8 @@ impl<R: Real> BallConstants<R> {
         let from_outer = position - outer.position;
         let inner_distance = (position - inner.position).length_squared().sqrt();
         let outer_distance = from_outer.length_squared().sqrt();
-        let side = e_r.cross(from_outer) / outer_distance;
-        let offset = pocket_offset(ball.azimuth, side, pocket.angle);
+        let sine = e_r.cross(from_outer) / outer_distance;
+        let offset = pocket_angle(ball.azimuth, pocket.angle) + sine.asin_small();
         let pressed = self.pocket_penetration(offset).max(R::zero());
         (
             ball_race_energy(
@@ -465,15 +486,18 @@ impl<R: Real> BallConstants<R> {
     }
 }
 
-/// Angle of a ball from the middle of its pocket, between -π and π.
+/// Angle of a ball from the middle of its pocket about the origin, between -π and π.
 ///
-/// The azimuth counts about the outer race's centre: a small correction of θ, whose sine is given.
+/// The azimuth counts about the outer race's centre, which adds the small arc sine of e_r × (b - c_o)/|b - c_o|.
 #[inline(always)]
-fn pocket_offset<R: Real>(azimuth: R, sine_of_correction: R, pocket: R) -> R {
-    let angle = azimuth + sine_of_correction.asin_small() - pocket;
+fn pocket_angle<R: Real>(azimuth: R, pocket: R) -> R {
+    let angle = azimuth - pocket;
     let turns = angle * R::splat(0.5 / std::f64::consts::PI);
     angle - turns.round() * R::splat(2.0 * std::f64::consts::PI)
 }
+
+/// More than an arc sine over its sine, up to 0.125: 0.1253/0.125.
+const MOST_ARC: f64 = 1.01;
 
 /// The constants of one machine for every part of a group, or of one machine per lane.
 pub(crate) fn gather_group<'a, R: Real, T>(machine: &dyn Fn(usize) -> &'a T) -> T::Out

@@ -11,7 +11,8 @@
 //!
 //! A bearing owns the states of its cage and balls; the system owns the races.
 //! Besides its reaction it fills, where asked, a *detail* list with five values a ball:
-//! inner load, outer load (N), inner slip, outer slip (m/s), pocket force (N), each value for all balls in turn.
+//! inner load, outer load (N), inner slip, outer slip (m/s), pocket force (N), each value for all balls in turn; a
+//! shorter list takes the first of them.
 
 pub mod acceleration_loss;
 pub mod ball;
@@ -401,3 +402,18 @@ pub(crate) fn largest<R: Real>(detail: &[R], balls: usize, list: usize) -> R {
     }
     largest
 }
+
+/// The largest of the parts of a group.
+#[inline(always)]
+pub(crate) fn largest_part<R: Real>(group: R::Group) -> R {
+    let mut parts = [R::zero(); MOST_PARTS];
+    R::store_group(group, &mut parts[..R::GROUP], 0);
+    let mut largest = parts[0];
+    for part in &parts[1..R::GROUP] {
+        largest = largest.max(*part);
+    }
+    largest
+}
+
+/// Parts of the largest group.
+const MOST_PARTS: usize = 16;

@@ -12,10 +12,10 @@
 //! Does not model: cage translation and land friction, full complement, film, heat.
 
 use super::ball::{
-    BallConstants, BallMotion, BallReaction, PocketMotion, RaceMotion, gather_group,
+    BallConstants, BallDistances, BallMotion, BallReaction, PocketMotion, RaceMotion, gather_group,
 };
 use super::steady_moment::{BallPlace, Geometry, MomentPairs, SharedMoment};
-use super::{BallSums, BearingEnergy, BearingHeat, BearingReaction, largest};
+use super::{BallSums, BearingEnergy, BearingHeat, BearingReaction, largest_part};
 use crate::motion::{Body, Motion, Wrench};
 use number::{Gather, Real, Vec2, Vectorized};
 use physics::traction::{Traction, TractionLaw};
@@ -185,7 +185,7 @@ impl<R: Real> Planar<R> {
             let ball = load_ball(&lists, from);
             let place = self
                 .ball
-                .between(&inner, &outer, &ball, direction(ball.azimuth));
+                .between(&inner, &outer, &ball, &distances(&inner, &outer, &ball));
             let t = place.outer.n.turned();
             let distance = place.outer.distance;
             let p = shared.pairs(&BallPlace {
@@ -232,9 +232,9 @@ impl<R: Real> Planar<R> {
         let mut from = 0;
         while from < n {
             let ball = load_ball(&lists, from);
-            let between = self
-                .ball
-                .between(&inner, &outer, &ball, direction(ball.azimuth));
+            let between =
+                self.ball
+                    .between(&inner, &outer, &ball, &distances(&inner, &outer, &ball));
             let (inner_load, outer_load) = (between.inner.normal.force, between.outer.normal.force);
             let push = between.inner.n * inner_load;
             sums.add(from, &[push.x, push.y, inner_load, outer_load]);
@@ -277,14 +277,20 @@ impl<R: Real> Planar<R> {
         let [d_radius, d_radial_speed, d_azimuth, d_orbit_speed, d_spin] = split_mut(rate, n);
 
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
-        // all directions first: their chains do not wait for each other; they stand where rates are written afterwards
+        // all directions and distances first: the roots and divisions of one ball keep no other ball waiting; they
+        // stand where rates are written afterwards
         let mut from = 0;
         while from < n {
-            let e_r = direction(R::load_group(lists[2], from));
-            R::store_group(e_r.x, d_radial_speed, from);
-            R::store_group(e_r.y, d_orbit_speed, from);
+            let (radius, azimuth) = (R::load_group(lists[0], from), R::load_group(lists[2], from));
+            let d = BallDistances::of(&inner, &outer, radius, direction(azimuth));
+            R::store_group(d.inverse_product, d_radius, from);
+            R::store_group(d.e_r.x, d_radial_speed, from);
+            R::store_group(d.inner, d_azimuth, from);
+            R::store_group(d.e_r.y, d_orbit_speed, from);
+            R::store_group(d.outer, d_spin, from);
             from += R::GROUP;
         }
+        let mut largest = [<R::Group as Real>::zero(); 2];
         let mut sums = BallSums::<R, 15>::new(n);
         let mut from = 0;
         while from < n {
@@ -293,11 +299,16 @@ impl<R: Real> Planar<R> {
                 angle: cage_angle.grouped() + R::load_group(&self.seats, from),
                 spin: cage_speed.grouped(),
             };
-            let direction = Vec2::new(
-                R::load_group(d_radial_speed, from),
-                R::load_group(d_orbit_speed, from),
-            );
-            let r = (self.ball).react(traction, &inner, &outer, &pocket, &ball, direction);
+            let distances = BallDistances {
+                e_r: Vec2::new(
+                    R::load_group(d_radial_speed, from),
+                    R::load_group(d_orbit_speed, from),
+                ),
+                inner: R::load_group(d_azimuth, from),
+                outer: R::load_group(d_spin, from),
+                inverse_product: R::load_group(d_radius, from),
+            };
+            let r = (self.ball).react(traction, &inner, &outer, &pocket, &ball, &distances);
             R::store_group(ball.radial_speed, d_radius, from);
             R::store_group(r.acceleration.radial, d_radial_speed, from);
             R::store_group(ball.orbit_speed, d_azimuth, from);
@@ -323,19 +334,17 @@ impl<R: Real> Planar<R> {
                     r.heat.pocket_sliding,
                 ],
             );
-            if !detail.is_empty() {
-                for (k, value) in [
-                    r.inner_load,
-                    r.outer_load,
-                    r.inner_slip,
-                    r.outer_slip,
-                    r.pocket_force,
-                ]
-                .into_iter()
-                .enumerate()
-                {
-                    R::store_group(value, &mut detail[k * n..(k + 1) * n], from);
-                }
+            // a group repeats the last ball behind the end of the list: no harm to a maximum
+            largest = [largest[0].max(r.inner_load), largest[1].max(r.outer_load)];
+            let details = [
+                r.inner_load,
+                r.outer_load,
+                r.inner_slip,
+                r.outer_slip,
+                r.pocket_force,
+            ];
+            for (list, value) in detail.chunks_exact_mut(n).zip(details) {
+                R::store_group(value, list, from);
             }
             from += R::GROUP;
         }
@@ -361,8 +370,8 @@ impl<R: Real> Planar<R> {
                 pocket_sliding: s[14],
                 steady_moment: R::zero(),
             },
-            largest_inner_load: largest(detail, n, 0),
-            largest_outer_load: largest(detail, n, 1),
+            largest_inner_load: largest_part::<R>(largest[0]),
+            largest_outer_load: largest_part::<R>(largest[1]),
         }
     }
 }
@@ -422,6 +431,16 @@ impl<R: Real> Vectorized for Share<'_, R> {
 fn direction<R: Real>(azimuth: R) -> Vec2<R> {
     let (sine, cosine) = azimuth.sin_cos();
     Vec2::new(cosine, sine)
+}
+
+/// Distances of a ball from the centres of the races.
+#[inline(always)]
+fn distances<R: Real>(
+    inner: &RaceMotion<R>,
+    outer: &RaceMotion<R>,
+    ball: &BallMotion<R>,
+) -> BallDistances<R> {
+    BallDistances::of(inner, outer, ball.radius, direction(ball.azimuth))
 }
 
 /// A race as several balls at a time see it.
@@ -525,7 +544,7 @@ impl PlanarConstants {
             &outer,
             &pocket,
             &ball,
-            direction(ball.azimuth),
+            &distances(&inner, &outer, &ball),
         )
     }
     fn geometry(&self) -> Geometry {

@@ -80,12 +80,20 @@ impl Rise {
         }
     }
     /// Looks for the rise in a step, on dense output.
+    #[inline]
     pub fn watch<M: Machine>(&mut self, step: &mut Step<M>) {
-        let (sign, level) = (self.level.signum(), self.level.abs());
-        let above = |value: f64| sign * value >= level;
-        if self.time.is_some() || level == 0.0 || !above(step.end_state(self.channel)) {
-            return;
+        if self.time.is_none() && self.above(step.end_state(self.channel)) {
+            self.find(step);
         }
+    }
+    /// True from the level on.
+    fn above(&self, value: f64) -> bool {
+        self.level != 0.0 && value * self.level.signum() >= self.level.abs()
+    }
+    /// The instant of the rise in a step that ends above the level.
+    #[cold]
+    fn find<M: Machine>(&mut self, step: &mut Step<M>) {
+        let above = |value: f64| self.above(value);
         if above(step.start_state(self.channel)) {
             self.time = Some(step.start);
             return;

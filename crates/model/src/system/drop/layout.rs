@@ -94,6 +94,18 @@ impl Layout {
     pub fn probes(&self) -> usize {
         DETAIL + DETAIL_PER_BALL * self.balls
     }
+    /// Number of first probes watched in every step: balls that roll find the largest loads in the list of all.
+    pub fn watched_probes(&self) -> usize {
+        if self.ball_states {
+            DETAIL
+        } else {
+            DETAIL + 2 * self.balls
+        }
+    }
+    /// Number of first channels watched in every step: rotor, races, cage.
+    pub fn watched_channels(&self) -> usize {
+        (BEARING + 2).min(self.ledger())
+    }
     /// Channel of a heat of [`HEATS`].
     pub fn heat(&self, index: usize) -> usize {
         self.ledger() + index

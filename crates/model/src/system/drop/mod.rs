@@ -191,6 +191,12 @@ impl Machine for DropMachine {
     fn probes(&self) -> usize {
         self.layout.probes()
     }
+    fn watched_probes(&self) -> usize {
+        self.layout.watched_probes()
+    }
+    fn watched_channels(&self) -> usize {
+        self.layout.watched_channels()
+    }
     fn error_scale(&self, channel: usize) -> f64 {
         self.error_scale[channel]
     }

@@ -48,8 +48,8 @@ pub struct Record {
     /// Turns of the rotor about the inner race while it is out of the middle half of its clearance.
     pub whirl_turns: f64,
     rises: Vec<Rise>,
-    /// Mean slopes of the largest ball loads over the last step, N/s.
-    load_slopes: [f64; 2],
+    /// The largest ball loads at the start of the last step, N, and its length, s.
+    last_loads: ([f64; 2], f64),
     rows: Rows,
     clearance: f64,
     whirl_angle: Option<f64>,
@@ -98,7 +98,7 @@ impl Record {
             largest_translation: 0.0,
             whirl_turns: 0.0,
             rises,
-            load_slopes: [0.0; 2],
+            last_loads: ([0.0; 2], f64::INFINITY),
             rows: Rows::new(machine, end, interval, keep_rows),
             clearance: constants.machine.contact.radial_clearance,
             whirl_angle: None,
@@ -184,9 +184,15 @@ impl Record {
         self.rotor_race_displacement
             .raise(end + self.clearance, step.end);
         if end > 0.0 {
-            let centre = step.machine.rotor_centre(&end_of_rotor(step));
-            self.rotor_displacement
-                .raise(centre.length_squared().sqrt(), step.end);
+            let rotor = Vec2::new(step.end_state(ROTOR), step.end_state(ROTOR + 1));
+            // nearer than this, the eccentric centre cannot be farther than ever before
+            let eccentricity = step.machine.constants.machine.rotor.eccentricity;
+            let least = (self.rotor_displacement.value - eccentricity.abs()).max(0.0);
+            if rotor.length_squared() >= least * least {
+                let centre = step.machine.rotor_centre(&end_of_rotor(step));
+                self.rotor_displacement
+                    .raise(centre.length_squared().sqrt(), step.end);
+            }
         }
 
         if start > 0.0 && self.contacts.is_empty() {
@@ -276,12 +282,15 @@ impl Record {
         let length = step.end - step.start;
         let records = [self.largest_inner_load.value, self.largest_outer_load.value];
         let mut search = false;
+        let (last, last_length) = self.last_loads;
         for k in 0..2 {
-            let slope = (end[k] - start[k]) / length;
-            search |= start[k].max(end[k]) > NEAR_RECORD * records[k]
-                && may_peak(self.load_slopes[k], slope, length, STEADY * records[k]);
-            self.load_slopes[k] = slope;
+            if start[k].max(end[k]) > NEAR_RECORD * records[k] {
+                let last_slope = (start[k] - last[k]) / last_length;
+                let slope = (end[k] - start[k]) / length;
+                search |= may_peak(last_slope, slope, length, STEADY * records[k]);
+            }
         }
+        self.last_loads = (start, length);
         if search {
             for theta in [0.25, 0.5, 0.75] {
                 let time = step.time(theta);
@@ -362,7 +371,8 @@ fn end_of_rotor(step: &Step<DropMachine>) -> [f64; INNER - ROTOR] {
     rotor
 }
 
-/// The contact of rotor and race at a fraction of a step.
+/// The contact of rotor and race at a fraction of a step; inlined, so that nothing is computed but what is asked for.
+#[inline(always)]
 fn contact_at(step: &mut Step<DropMachine>, theta: f64) -> ContactReaction<f64> {
     let machine = &step.machine.constants.machine;
     let state = step.leading_state(theta, BEARING);
