@@ -1,7 +1,9 @@
 //! Forward derivatives.
 
-use crate::Real;
 use crate::scalar::group_of_one;
+#[cfg(target_arch = "x86_64")]
+use crate::{Level, x86};
+use crate::{Real, Vectorized};
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// A number with `K` partial derivatives, over `f64`.
@@ -157,6 +159,18 @@ impl<const K: usize> Real for Dual<K> {
             Real::asin_small(self.value),
             1.0 / (1.0 - self.value * self.value).sqrt(),
         )
+    }
+    /// The partials fill the vector unit, whatever the machine has; the bits are the same.
+    fn vectorized<T: Vectorized>(task: T) -> T::Output {
+        #[cfg(target_arch = "x86_64")]
+        match Level::detect() {
+            // SAFETY: the level was seen on this machine.
+            Level::Avx512 => return unsafe { x86::for_avx512(task) },
+            // SAFETY: the same.
+            Level::Avx2 => return unsafe { x86::for_avx2(task) },
+            Level::Baseline => {}
+        }
+        task.run()
     }
     #[inline(always)]
     fn greater(self, other: Self) -> bool {

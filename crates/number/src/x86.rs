@@ -481,12 +481,12 @@ fn first_lanes(count: usize) -> __mmask8 {
 
 #[inline(never)]
 #[target_feature(enable = "avx2")]
-fn for_avx2<T: Vectorized>(task: T) -> T::Output {
+pub(crate) fn for_avx2<T: Vectorized>(task: T) -> T::Output {
     task.run()
 }
 
 #[inline(never)]
 #[target_feature(enable = "avx2,avx512f,avx512dq,avx512vl")]
-fn for_avx512<T: Vectorized>(task: T) -> T::Output {
+pub(crate) fn for_avx512<T: Vectorized>(task: T) -> T::Output {
     task.run()
 }

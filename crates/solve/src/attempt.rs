@@ -1,6 +1,7 @@
 //! One attempted step of all lanes, compiled for the vector unit of the machine.
 
 use crate::bogacki_shampine::{A, C, E, ORDER, STAGES};
+use crate::drive::{Method, Place};
 use crate::system::{Batch, Machine};
 use number::{Mask, Real, Vectorized};
 
@@ -85,7 +86,7 @@ impl Seen {
         self.values[lane * width..(lane + 1) * width].split_at(self.channels)
     }
     #[inline(always)]
-    fn take<R: Real>(&mut self, state: &[R], probe: &[R]) {
+    pub(crate) fn take<R: Real>(&mut self, state: &[R], probe: &[R]) {
         let width = self.channels + self.probes;
         assert!(probe.len() == self.probes && self.values.len() == R::LANES * width);
         for (lane, values) in self.values.chunks_exact_mut(width.max(1)).enumerate() {
@@ -100,7 +101,7 @@ impl Seen {
     }
 }
 
-/// Stages of a step, or only the rates and probes at its start.
+/// Stages of an explicit step, or only the rates and probes at its start.
 ///
 /// The right-hand side stands once in the compiled code, inside one loop over the stages: it is large.
 pub(crate) struct Attempt<'a, R: Real, B: Batch<R>> {
@@ -155,6 +156,32 @@ impl<R: Real, B: Batch<R>> Vectorized for Attempt<'_, R, B> {
     }
 }
 
+/// The explicit method, on the vector unit.
+pub(crate) struct Explicit;
+
+impl<R: Real, B: Batch<R>> Method<R, B> for Explicit {
+    const EVALUATIONS: u64 = STAGES as u64 - 1;
+    fn begin(&mut self, step: Place<R, B>, work: &mut Workspace<R>) {
+        explicit(step, work, true);
+    }
+    fn attempt(&mut self, step: Place<R, B>, work: &mut Workspace<R>) -> Judgement<R> {
+        explicit(step, work, false)
+    }
+}
+
+fn explicit<R: Real, B: Batch<R>>(
+    step: Place<R, B>,
+    work: &mut Workspace<R>,
+    begin: bool,
+) -> Judgement<R> {
+    R::vectorized(Attempt {
+        batch: step.batch,
+        mode: step.mode,
+        work,
+        begin,
+    })
+}
+
 /// What the error of an attempt says, lane by lane.
 ///
 /// PI control (Gustafsson; exponents of Hairer, Norsett, Wanner, Solving ODEs I, II.4): steadier than I control
@@ -174,7 +201,7 @@ pub(crate) struct Judgement<R> {
 
 impl<R: Real> Judgement<R> {
     #[inline(always)]
-    fn of(error: R, last_logarithm: R) -> Self {
+    pub(crate) fn of(error: R, last_logarithm: R) -> Self {
         const SAFETY: f64 = 0.9;
         const PROPORTIONAL: f64 = 0.7 / ORDER as f64;
         const INTEGRAL: f64 = 0.4 / ORDER as f64;

@@ -1,7 +1,7 @@
 //! The loop: per-lane step control, landed instants, endings.
 
-use crate::attempt::{Advance, Attempt, Judgement, Workspace};
-use crate::bogacki_shampine::STAGES;
+use crate::attempt::{Advance, Explicit, Judgement, Workspace};
+use crate::implicit::{Implicit, Linear};
 use crate::step::{LaneOf, Scratch, Step};
 use crate::system::{Batch, Machine};
 use number::{Mask, Real};
@@ -127,6 +127,75 @@ where
     B: Batch<R>,
     O: Observer<B::Machine>,
 {
+    let method = &mut Explicit;
+    integrate::<R, B, O, _>(method, machines, starts, observers, settings, interrupt)
+}
+
+/// Integrates one machine by the linearly implicit method, where friction or contacts are so stiff that stability bounds
+/// the explicit one. `linear` tells its Jacobian.
+///
+/// # Panics
+/// When `R` has several lanes.
+pub fn run_implicit<R, B, O, L, const M: usize, const COLUMNS: usize, const ROWS: usize>(
+    machine: &B::Machine,
+    linear: L,
+    start: &[f64],
+    observer: &mut O,
+    settings: &Settings,
+    interrupt: &AtomicBool,
+) -> Ending
+where
+    R: Real,
+    B: Batch<R>,
+    O: Observer<B::Machine>,
+    L: Linear<B::Machine, M, COLUMNS, ROWS>,
+{
+    assert!(R::LANES == 1, "one machine");
+    let method = &mut Implicit::<R, _, M, COLUMNS, ROWS>::new(machine, linear);
+    let mut endings = integrate::<R, B, O, _>(
+        method,
+        &[machine],
+        &[start.to_vec()],
+        std::slice::from_mut(observer),
+        settings,
+        interrupt,
+    );
+    // one machine, one ending
+    endings.remove(0)
+}
+
+/// How steps are taken.
+pub(crate) trait Method<R: Real, B: Batch<R>> {
+    /// Evaluations of the right-hand side in a step.
+    const EVALUATIONS: u64;
+    /// Rates and probes at the start of the first step, or after a jump.
+    fn begin(&mut self, step: Place<R, B>, work: &mut Workspace<R>);
+    /// A step from the start in the workspace: the state, rates and probes at its end, and what its error says.
+    fn attempt(&mut self, step: Place<R, B>, work: &mut Workspace<R>) -> Judgement<R>;
+}
+
+/// What a step is taken of.
+pub(crate) struct Place<'a, R: Real, B: Batch<R>> {
+    pub batch: &'a B,
+    pub mode: &'a B::Mode,
+    /// The modes of the single machines.
+    pub modes: &'a dyn Fn(usize) -> <B::Machine as Machine>::Mode,
+}
+
+fn integrate<R, B, O, M>(
+    method: &mut M,
+    machines: &[&B::Machine],
+    starts: &[Vec<f64>],
+    observers: &mut [O],
+    settings: &Settings,
+    interrupt: &AtomicBool,
+) -> Vec<Ending>
+where
+    R: Real,
+    B: Batch<R>,
+    O: Observer<B::Machine>,
+    M: Method<R, B>,
+{
     let count = machines.len();
     assert!(count >= 1 && count <= R::LANES, "one machine per lane");
     assert!(starts.len() == count && observers.len() == count);
@@ -161,7 +230,12 @@ where
     }
     work.time = R::splat(settings.start);
     let mut mode = B::gather_mode(&|lane| lanes[lane].mode);
-    attempt(&batch, &mode, &mut work, true);
+    let place = Place {
+        batch: &batch,
+        mode: &mode,
+        modes: &|lane| lanes[lane].mode,
+    };
+    method.begin(place, &mut work);
 
     let mut iteration: u64 = 0;
     loop {
@@ -187,13 +261,19 @@ where
             Some(_) => 0.0,
         });
 
-        let judgement = attempt(&batch, &mode, &mut work, false);
+        let place = Place {
+            batch: &batch,
+            mode: &mode,
+            modes: &|lane| lanes[lane].mode,
+        };
+        let judgement = method.attempt(place, &mut work);
 
         let mut jumped = false;
         for (index, lane) in lanes.iter_mut().enumerate().take(count) {
             if lane.stop.is_some() {
                 continue;
             }
+            lane.work.rate_calls += M::EVALUATIONS;
             if !control(lane, &judgement, index) {
                 continue;
             }
@@ -243,7 +323,12 @@ where
         }
         if jumped {
             mode = B::gather_mode(&|lane| lanes[lane].mode);
-            attempt(&batch, &mode, &mut work, true);
+            let place = Place {
+                batch: &batch,
+                mode: &mode,
+                modes: &|lane| lanes[lane].mode,
+            };
+            method.begin(place, &mut work);
         }
     }
 
@@ -258,21 +343,6 @@ where
             work: lane.work,
         })
         .collect()
-}
-
-/// One attempt on the vector unit.
-fn attempt<R: Real, B: Batch<R>>(
-    batch: &B,
-    mode: &B::Mode,
-    work: &mut Workspace<R>,
-    begin: bool,
-) -> Judgement<R> {
-    R::vectorized(Attempt {
-        batch,
-        mode,
-        work,
-        begin,
-    })
 }
 
 /// Chooses where the next step of a lane ends, or why there is none.
@@ -345,7 +415,6 @@ fn control<R: Real, M: Machine>(
     judgement: &Judgement<R>,
     index: usize,
 ) -> bool {
-    lane.work.rate_calls += STAGES as u64 - 1;
     let taken = lane.step_end - lane.time;
     let error = judgement.error.lane(index);
     if error <= 1.0 {

@@ -9,19 +9,27 @@
 //! | what a problem is | [`system`] |
 //! | the method: Bogacki-Shampine 3(2) with dense output | [`bogacki_shampine`] |
 //! | one attempted step of all lanes | [`attempt`] |
+//! | the method for stiff problems: ROS34PW2, linearly implicit | [`rosenbrock`] |
+//! | its Jacobian, and the linear systems of its stages | [`arrowhead`] |
+//! | one linearly implicit step of one machine | [`implicit`] |
 //! | the loop: step control, landed instants, endings | [`drive`] |
 //! | one accepted step of one lane | [`step`] |
 //! | roots and maxima on dense output | [`watch`] |
 //!
 //! Nothing in the loop allocates.
 
+pub mod arrowhead;
 pub mod attempt;
 pub mod bogacki_shampine;
 pub mod drive;
+pub mod implicit;
+pub mod rosenbrock;
 pub mod step;
 pub mod system;
 pub mod watch;
 
-pub use drive::{Ending, Flow, Observer, Settings, Stop, Work, run};
+pub use arrowhead::{Arrowhead, Shape};
+pub use drive::{Ending, Flow, Observer, Settings, Stop, Work, run, run_implicit};
+pub use implicit::Linear;
 pub use step::Step;
 pub use system::{Batch, Machine};

@@ -52,7 +52,7 @@ pub use lubricant::{Lubricant, LubricantViscosity};
 pub use moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 pub use provenance::Provenance;
 pub use resolved::{Resolved, ResolvedValue};
-pub use run::Run;
+pub use run::{Method, Run};
 pub use schema::schema;
 pub use spin_up::{Course, Drive, SpeedCourse, SpinUp};
 pub use system::{System, SystemName};

@@ -14,6 +14,19 @@ pub struct Run {
     pub output_interval: f64,
     /// Largest step, s.
     pub largest_step: f64,
+    /// How steps are taken.
+    pub method: Method,
+}
+
+/// How steps are taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// By the stiffness of friction.
+    Auto,
+    /// Explicit.
+    Explicit,
+    /// Linearly implicit.
+    Implicit,
 }
 
 impl Run {
@@ -27,6 +40,12 @@ impl Run {
             tolerance: run.number("tolerance"),
             output_interval: run.number("output_interval"),
             largest_step: run.number("largest_step"),
+            method: match values.text("run.method").as_deref() {
+                Some("auto") => Method::Auto,
+                Some("implicit") => Method::Implicit,
+                // what has no choice takes explicit steps
+                _ => Method::Explicit,
+            },
         }
     }
 }

@@ -4,7 +4,7 @@ use super::build::Built;
 use super::ending::{settings, stop};
 use super::ensemble::{self, Finished, Member, Plan};
 use super::outcome::{Contact, Outcome, Picture, Spread, Stop, Value, Work};
-use super::{Options, columns, quantities, warnings};
+use super::{Options, columns, method, quantities, warnings};
 use crate::scenario::{Drop, Scenario};
 use model::system::drop::DropMachine;
 use number::Vec2;
@@ -32,6 +32,7 @@ pub(super) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Opt
         &members,
         &Plan {
             settings: settings(&drop.run),
+            implicit: method::is_implicit(drop, built),
             interval: drop.run.output_interval,
             threads: options.threads,
             interrupt: options.interrupt,

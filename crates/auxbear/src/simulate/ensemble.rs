@@ -4,6 +4,7 @@
 //! vector unit or the number of threads.
 
 use super::Phase;
+use model::system::drop::linear::DropLinear;
 use model::system::drop::record::Record;
 use model::system::drop::{Drop, DropMachine};
 use number::{Level, Real, Task};
@@ -37,6 +38,8 @@ pub struct Finished {
 pub struct Plan<'a> {
     /// Of the integration.
     pub settings: Settings,
+    /// True for linearly implicit steps, machine by machine; needs balls with states of their own.
+    pub implicit: bool,
     /// Time between rows, s.
     pub interval: f64,
     /// Number of threads; all cores if none.
@@ -62,20 +65,18 @@ pub fn run(members: &[Member], plan: &Plan) -> Vec<Finished> {
             plan,
             report: &report,
         };
-        if members.len() == 1 {
+        if plan.implicit {
+            level.run_one(Implicit(task))
+        } else if members.len() == 1 {
             level.run_one(task)
         } else {
             level.run_many(task)
         }
     };
-    let all = || -> Vec<Finished> {
-        members
-            .par_chunks(level.lanes())
-            .flat_map_iter(chunk)
-            .collect()
-    };
+    let together = if plan.implicit { 1 } else { level.lanes() };
+    let all = || -> Vec<Finished> { members.par_chunks(together).flat_map_iter(chunk).collect() };
     match plan.threads {
-        _ if members.len() <= level.lanes() => chunk(members),
+        _ if members.len() <= together => chunk(members),
         None => all(),
         Some(threads) => match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
             Ok(pool) => pool.install(all),
@@ -102,15 +103,8 @@ impl Task for Chunk<'_> {
         } = self;
         let machines: Vec<&DropMachine> = members.iter().map(|m| &m.machine).collect();
         let starts: Vec<Vec<f64>> = members.iter().map(|m| m.start.clone()).collect();
-        let end = plan.settings.end;
-        let mut watched: Vec<Watched> = members
-            .iter()
-            .map(|m| Watched {
-                record: Record::new(&m.machine, end, plan.interval, m.keep_rows),
-                report,
-                told: 0,
-                end,
-            })
+        let mut watched: Vec<Watched> = (members.iter())
+            .map(|member| Watched::of(member, plan, report))
             .collect();
         let endings = solve::run::<R, Drop<R>, _>(
             &machines,
@@ -119,23 +113,39 @@ impl Task for Chunk<'_> {
             &plan.settings,
             plan.interrupt,
         );
-        watched
-            .into_iter()
-            .zip(endings)
-            .zip(members)
-            .map(|((watched, ending), member)| {
-                if ending.stop == solve::Stop::Finished {
-                    watched.tell(1000);
-                }
-                let mut record = watched.record;
-                record.finish(&member.machine, ending.time, &ending.state);
-                Finished {
-                    start: member.start.clone(),
-                    record,
-                    ending,
-                }
-            })
+        let parts = watched.into_iter().zip(endings).zip(members);
+        parts
+            .map(|((watched, ending), member)| watched.finish(ending, member))
             .collect()
+    }
+}
+
+/// The same members, one after the other by linearly implicit steps.
+struct Implicit<'a>(Chunk<'a>);
+
+impl Task for Implicit<'_> {
+    type Output = Vec<Finished>;
+    fn run<R: Real>(self) -> Vec<Finished> {
+        let Chunk {
+            members,
+            plan,
+            report,
+        } = self.0;
+        let one = |member: &Member| {
+            let mut watched = Watched::of(member, plan, report);
+            // balls that roll have no friction to be stiff
+            let linear = DropLinear::of(&member.machine)?;
+            let ending = solve::run_implicit::<R, Drop<R>, _, _, _, _, _>(
+                &member.machine,
+                linear,
+                &member.start,
+                &mut watched,
+                &plan.settings,
+                plan.interrupt,
+            );
+            Some(watched.finish(ending, member))
+        };
+        members.iter().filter_map(one).collect()
     }
 }
 
@@ -154,7 +164,28 @@ struct Watched<'a> {
     end: f64,
 }
 
-impl Watched<'_> {
+impl<'a> Watched<'a> {
+    fn of(member: &Member, plan: &Plan, report: &'a Report<'a>) -> Self {
+        let end = plan.settings.end;
+        Watched {
+            record: Record::new(&member.machine, end, plan.interval, member.keep_rows),
+            report,
+            told: 0,
+            end,
+        }
+    }
+    fn finish(self, ending: Ending, member: &Member) -> Finished {
+        if ending.stop == solve::Stop::Finished {
+            self.tell(1000);
+        }
+        let mut record = self.record;
+        record.finish(&member.machine, ending.time, &ending.state);
+        Finished {
+            start: member.start.clone(),
+            record,
+            ending,
+        }
+    }
     /// Tells that this member stands at so many thousandths.
     fn tell(&self, thousandths: u64) {
         let more = thousandths.saturating_sub(self.told);

@@ -9,6 +9,7 @@
 //! | `quantities`, `list` | each named result with its law, source and valid range |
 //! | `columns`, `columns_shared` | the history |
 //! | `warnings`, `warnings_shared` | what to know before trusting the numbers |
+//! | `method` | explicit or linearly implicit steps |
 //! | `ending` | settings of the integration, and how a run ended |
 //! | [`outcome`] | the data handed over |
 
@@ -23,6 +24,7 @@ mod drop;
 mod ending;
 pub mod ensemble;
 mod list;
+mod method;
 pub mod outcome;
 mod quantities;
 mod quantities_spin_up;

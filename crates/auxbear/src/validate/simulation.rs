@@ -157,6 +157,7 @@ fn simulate(
                 largest_step: 1e-3,
                 step_limit: 100_000_000,
             },
+            implicit: false,
             interval: duration,
             threads: None,
             interrupt: &AtomicBool::new(false),

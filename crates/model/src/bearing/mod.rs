@@ -16,6 +16,7 @@
 
 pub mod acceleration_loss;
 pub mod ball;
+pub mod linear;
 pub mod planar;
 pub mod rolling;
 pub mod settle;
@@ -112,6 +113,31 @@ pub struct BearingReaction<R> {
 }
 
 impl<R: Real> BearingReaction<R> {
+    /// No reaction.
+    pub fn zero() -> Self {
+        let zero = R::zero();
+        BearingReaction {
+            on_inner: Wrench::zero(),
+            on_outer: Wrench::zero(),
+            inner_inertia: zero,
+            outer_inertia: zero,
+            loss_inertia: zero,
+            steady_moment: zero,
+            external_moment: zero,
+            heat: BearingHeat {
+                inner_damping: zero,
+                outer_damping: zero,
+                inner_sliding: zero,
+                outer_sliding: zero,
+                drag: zero,
+                pocket_damping: zero,
+                pocket_sliding: zero,
+                steady_moment: zero,
+            },
+            largest_inner_load: zero,
+            largest_outer_load: zero,
+        }
+    }
     /// The reaction with its acceleration loss F1|Ω̇| as an inertia like the others.
     ///
     /// - `speed`: of the inner race against the outer, rad/s

@@ -435,7 +435,7 @@ fn direction<R: Real>(azimuth: R) -> Vec2<R> {
 
 /// Distances of a ball from the centres of the races.
 #[inline(always)]
-fn distances<R: Real>(
+pub(super) fn distances<R: Real>(
     inner: &RaceMotion<R>,
     outer: &RaceMotion<R>,
     ball: &BallMotion<R>,

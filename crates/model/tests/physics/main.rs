@@ -8,6 +8,7 @@ mod machines;
 mod allocation;
 mod balances;
 mod drops;
+mod implicit;
 mod loads;
 mod rest;
 mod spin_up;

@@ -13,12 +13,14 @@
 //! | [`rate`] | the equations of motion |
 //! | [`start`] | the levitated state at release |
 //! | [`ledger`] | energies, momentum, what closes |
+//! | [`linear`] | the Jacobian, for linearly implicit steps |
 //! | [`record`] | what is watched and kept of a run |
 //!
 //! Identical planes are one: the rotor's mass, polar inertia and torques are shared equally among them.
 
 pub mod layout;
 pub mod ledger;
+pub mod linear;
 pub mod rate;
 pub mod record;
 pub mod start;

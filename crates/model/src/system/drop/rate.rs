@@ -5,6 +5,7 @@ use super::layout::{
     NORMAL_FORCE, NORMAL_FORCE_RATE, OUTER, PENETRATION, PENETRATION_SPEED, ROTOR, SLIP_SPEED,
 };
 use super::{Drop, Mode};
+use crate::bearing::BearingReaction;
 use crate::motion::{Body, Motion};
 use crate::rotor::RotorMotion;
 use number::{Mask, Real, Vec2};
@@ -51,6 +52,32 @@ impl<R: Real> Drop<R> {
             &state[..layout.dimension()],
             &mut rate[..layout.dimension()],
         );
+        let own = BEARING..layout.ledger();
+        let detail = if probe.is_empty() {
+            &mut [][..]
+        } else {
+            &mut probe[DETAIL..]
+        };
+        let bearing = (self.bearing).react(
+            &race_motion(state),
+            &state[own.clone()],
+            &mut rate[own],
+            detail,
+        );
+        self.accelerate(mode, state, &bearing, rate, probe);
+    }
+
+    /// The rates of rotor, races and ledger under a reaction of the bearing, and the probes where asked.
+    #[inline(always)]
+    pub(super) fn accelerate(
+        &self,
+        mode: &Mode<R>,
+        state: &[R],
+        bearing: &BearingReaction<R>,
+        rate: &mut [R],
+        probe: &mut [R],
+    ) {
+        let layout = &self.layout;
         let m = &self.machine;
         let zero = R::zero();
 
@@ -62,15 +89,6 @@ impl<R: Real> Drop<R> {
 
         // parts react
         let contact = m.contact.react(&centre, rotor.spin, inner);
-        let own = BEARING..layout.ledger();
-        let detail = if probe.is_empty() {
-            &mut [][..]
-        } else {
-            &mut probe[DETAIL..]
-        };
-        let bearing = self
-            .bearing
-            .react(&races, &state[own.clone()], &mut rate[own], detail);
         let levitation = m.levitation.force(centre.position, centre.velocity) * mode.levitation;
         let mount = m.mount.force(outer.position, outer.velocity);
         let braking = mode.brake.greater(zero);
@@ -105,7 +123,7 @@ impl<R: Real> Drop<R> {
             inner_force * self.inverse.inner_race_mass
         };
         let inner_moment = contact.on_race.moment + bearing.on_inner.moment + m.inner_race_torque;
-        let bearing = bearing.with_loss(inner.spin, inner_moment);
+        let bearing = (*bearing).with_loss(inner.spin, inner_moment);
         let inner_spin_rate = inner_moment / (m.inner_race_inertia + bearing.inner_inertia);
         write_body(rate, INNER, inner.velocity, inner_acceleration);
         rate[INNER + 4] = inner.spin;
