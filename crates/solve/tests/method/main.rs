@@ -3,6 +3,7 @@
 mod allocation;
 mod endings;
 mod events;
+mod implicit;
 mod landings;
 mod lanes;
 mod order;
