@@ -80,6 +80,7 @@ impl<const M: usize, const COLUMNS: usize, const ROWS: usize> Arrowhead<M, COLUM
         &self.shape
     }
     /// Adds to each channel of the tail its row times a vector over the whole state.
+    #[inline(always)]
     pub fn add_tail(&self, vector: &[f64], factor: f64, tail: &mut [f64]) {
         let shape = &self.shape;
         let p = shape.border.len();
@@ -134,6 +135,7 @@ impl<const M: usize, const COLUMNS: usize> Factors<M, COLUMNS> {
     }
 
     /// Factors c I - J. False where it is singular or holds what is not a number.
+    #[inline(always)]
     pub fn factor<const ROWS: usize>(
         &mut self,
         jacobian: &Arrowhead<M, COLUMNS, ROWS>,
@@ -178,6 +180,7 @@ impl<const M: usize, const COLUMNS: usize> Factors<M, COLUMNS> {
     }
 
     /// Solves (c I - J) u = r but for the tail; `side` holds r over the whole state, then u.
+    #[inline(always)]
     pub fn solve<const ROWS: usize>(
         &mut self,
         jacobian: &Arrowhead<M, COLUMNS, ROWS>,
@@ -221,6 +224,7 @@ impl<const M: usize, const COLUMNS: usize> Factors<M, COLUMNS> {
     }
 }
 
+#[inline(always)]
 fn dot<const K: usize>(a: &[f64; K], b: &[f64; K]) -> f64 {
     let mut sum = 0.0;
     for (a, b) in a.iter().zip(b) {
@@ -231,6 +235,7 @@ fn dot<const K: usize>(a: &[f64; K], b: &[f64; K]) -> f64 {
 
 /// Inverse of c I - J of a block, by Gauss and Jordan with row pivoting. None where no pivot is a finite number other
 /// than zero.
+#[inline(always)]
 fn inverse<const M: usize>(own: &[[f64; M]; M], diagonal: f64) -> Option<[[f64; M]; M]> {
     let mut a = *own;
     let mut inverse = [[0.0; M]; M];
@@ -273,6 +278,7 @@ fn inverse<const M: usize>(own: &[[f64; M]; M], diagonal: f64) -> Option<[[f64; 
 }
 
 /// Factors a matrix in place with row pivoting. False where no pivot is a finite number other than zero.
+#[inline(always)]
 fn factor(a: &mut [f64], size: usize, pivots: &mut [usize]) -> bool {
     for k in 0..size {
         let mut pivot = k;
@@ -309,6 +315,7 @@ fn factor(a: &mut [f64], size: usize, pivots: &mut [usize]) -> bool {
 }
 
 /// Solves with a factored matrix, in place.
+#[inline(always)]
 fn solve(a: &[f64], size: usize, pivots: &[usize], side: &mut [f64]) {
     let known = |weights: &[f64], values: &[f64]| {
         let mut sum = 0.0;

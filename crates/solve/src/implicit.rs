@@ -124,7 +124,12 @@ where
         }
         let diagonal = 1.0 / (h * GAMMA);
         if self.factored != diagonal {
-            if !self.factors.factor(&self.jacobian, diagonal) {
+            let factored = R::vectorized(Factor {
+                factors: &mut self.factors,
+                jacobian: &self.jacobian,
+                diagonal,
+            });
+            if !factored {
                 return Judgement::of(R::splat(f64::INFINITY), work.last_logarithm);
             }
             self.factored = diagonal;
@@ -156,9 +161,17 @@ where
                     *value += weight * u;
                 }
             }
-            self.factors.solve(&self.jacobian, side);
+            R::vectorized(Solve {
+                factors: &mut self.factors,
+                jacobian: &self.jacobian,
+                side,
+            });
         }
-        self.sum_up(h, active);
+        R::vectorized(SumUp {
+            method: self,
+            h,
+            active,
+        });
         for ((next, start), change) in (work.next.iter_mut().zip(&self.start)).zip(&self.sums[0]) {
             *next = R::splat(start + change);
         }
@@ -179,6 +192,7 @@ impl<R: Real, L, const M: usize, const COLUMNS: usize, const ROWS: usize>
     Implicit<R, L, M, COLUMNS, ROWS>
 {
     /// Change of the state over the step, and its error.
+    #[inline(always)]
     fn sum_up(&mut self, h: f64, active: usize) {
         let c = &self.coefficients;
         let error: [f64; STAGES] = std::array::from_fn(|i| STEP[i] - EMBEDDED[i]);
@@ -213,7 +227,57 @@ impl<R: Real, L, const M: usize, const COLUMNS: usize, const ROWS: usize>
     }
 }
 
+/// Parts of a step as tasks for the vector unit.
+struct Factor<'a, const M: usize, const COLUMNS: usize, const ROWS: usize> {
+    factors: &'a mut Factors<M, COLUMNS>,
+    jacobian: &'a Arrowhead<M, COLUMNS, ROWS>,
+    diagonal: f64,
+}
+
+impl<const M: usize, const COLUMNS: usize, const ROWS: usize> Vectorized
+    for Factor<'_, M, COLUMNS, ROWS>
+{
+    type Output = bool;
+    #[inline(always)]
+    fn run(self) -> bool {
+        self.factors.factor(self.jacobian, self.diagonal)
+    }
+}
+
+struct Solve<'a, const M: usize, const COLUMNS: usize, const ROWS: usize> {
+    factors: &'a mut Factors<M, COLUMNS>,
+    jacobian: &'a Arrowhead<M, COLUMNS, ROWS>,
+    side: &'a mut [f64],
+}
+
+impl<const M: usize, const COLUMNS: usize, const ROWS: usize> Vectorized
+    for Solve<'_, M, COLUMNS, ROWS>
+{
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        self.factors.solve(self.jacobian, self.side);
+    }
+}
+
+struct SumUp<'a, R, L, const M: usize, const COLUMNS: usize, const ROWS: usize> {
+    method: &'a mut Implicit<R, L, M, COLUMNS, ROWS>,
+    h: f64,
+    active: usize,
+}
+
+impl<R: Real, L, const M: usize, const COLUMNS: usize, const ROWS: usize> Vectorized
+    for SumUp<'_, R, L, M, COLUMNS, ROWS>
+{
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        self.method.sum_up(self.h, self.active);
+    }
+}
+
 /// out = Σ weight · stage, from a channel on.
+#[inline(always)]
 fn weigh(weights: &[f64; STAGES], stages: &[Vec<f64>; STAGES], from: usize, out: &mut [f64]) {
     let [a, b, c, d] = stages;
     let [wa, wb, wc, wd] = weights;

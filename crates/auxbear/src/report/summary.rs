@@ -48,6 +48,7 @@ pub(super) fn json(scenario: &Scenario, outcome: &Outcome) -> Result<String, ser
             rejected: outcome.work.rejected,
             rate_calls: outcome.work.rate_calls,
             wall_s: finite(outcome.work.seconds),
+            method: outcome.work.method,
         },
     };
     let mut text = serde_json::to_string_pretty(&summary)?;
@@ -158,6 +159,7 @@ struct Work {
     rejected: u64,
     rate_calls: u64,
     wall_s: Option<f64>,
+    method: Option<&'static str>,
 }
 
 fn finite(value: f64) -> Option<f64> {

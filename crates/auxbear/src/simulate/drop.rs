@@ -27,12 +27,13 @@ pub(super) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Opt
     let machine = DropMachine::new(built.constants.clone());
     let count = drop.repeat.count.max(1) as usize;
     let members: Vec<Member> = (0..count).map(|k| member(&machine, drop, k)).collect();
+    let implicit = method::is_implicit(drop, built);
     let clock = Instant::now();
     let finished = ensemble::run(
         &members,
         &Plan {
             settings: settings(&drop.run),
-            implicit: method::is_implicit(drop, built),
+            implicit,
             interval: drop.run.output_interval,
             threads: options.threads,
             interrupt: options.interrupt,
@@ -81,7 +82,7 @@ pub(super) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Opt
         contacts: contacts(&finished[0]),
         warnings: warnings::of(scenario, &first, &finished),
         stop: worst_stop(&finished),
-        work: work(&finished, seconds),
+        work: work(&finished, seconds, implicit),
         members: table,
         picture: Picture {
             clearance: Some(drop.contact.radial_air_clearance),
@@ -184,10 +185,15 @@ fn worst_stop(finished: &[Finished]) -> Stop {
     }
 }
 
-fn work(finished: &[Finished], seconds: f64) -> Work {
+fn work(finished: &[Finished], seconds: f64, implicit: bool) -> Work {
     let mut work = Work {
         members: finished.len(),
         seconds,
+        method: Some(if implicit {
+            method::IMPLICIT
+        } else {
+            method::EXPLICIT
+        }),
         ..Work::default()
     };
     for member in finished {

@@ -19,6 +19,10 @@ const STIFF: f64 = 60.0;
 /// Slip at which the slope of the traction law is taken, m/s: far below any reference speed.
 const SMALL_SLIP: f64 = 1e-9;
 
+/// Names of the methods, for people.
+pub(super) const EXPLICIT: &str = "Bogacki-Shampine 3(2), explicit";
+pub(super) const IMPLICIT: &str = "ROS34PW2, linearly implicit";
+
 /// True for linearly implicit steps.
 pub(super) fn is_implicit(drop: &Drop, built: &Built) -> bool {
     let BearingConstants::Planar(bearing) = &built.constants.bearing else {

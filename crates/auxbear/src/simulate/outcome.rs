@@ -141,6 +141,8 @@ pub struct Work {
     pub rate_calls: u64,
     /// Wall-clock time, s.
     pub seconds: f64,
+    /// Method of the time integration; none where nothing moves.
+    pub method: Option<&'static str>,
 }
 
 /// Numbers that only the pictures need.

@@ -8,7 +8,7 @@ use model::system::drop::layout::{HEATS, INNER, ROTOR};
 const EQUATIONS: &str =
     "equations of motion, crates/model/src/system/drop/rate.rs and crates/model/src/bearing/";
 const CONTACT: &str = "Hunt-Crossley contact, crates/model/src/contact.rs";
-const EVENT: &str = "root on dense output of the Bogacki-Shampine 3(2) method";
+const EVENT: &str = "root on dense output of the time integration, crates/solve/src/watch.rs";
 const LEDGER: &str = "energy ledger, crates/model/src/system/drop/ledger.rs";
 
 /// Names the results of one member.

@@ -3,7 +3,7 @@
 use super::build_spin_up::Built;
 use super::ending::{settings, stop};
 use super::outcome::{Outcome, Picture, Work};
-use super::{Options, Phase, columns_spin_up, quantities_spin_up, warnings_spin_up};
+use super::{Options, Phase, columns_spin_up, method, quantities_spin_up, warnings_spin_up};
 use crate::scenario::{Scenario, SpinUp};
 use model::system::spin_up::record::Record;
 use model::system::spin_up::{SpinUp as System, SpinUpMachine};
@@ -61,6 +61,7 @@ pub(super) fn run(
             rejected: ending.work.rejected,
             rate_calls: ending.work.rate_calls,
             seconds,
+            method: Some(method::EXPLICIT),
         },
         members: Vec::new(),
         picture: Picture {

@@ -195,6 +195,7 @@ function factSection(runs) {
     ["Program", (run) => (run.summary.version ? "auxbear " + run.summary.version : number(null))],
     ["Summary format", (run) => run.summary.format || number(null)],
     ["End of the run", (run) => [run.summary.stop && run.summary.stop.reason, run.summary.stop && isNumber(run.summary.stop.time_s) && engineeringText(run.summary.stop.time_s, "s", 5)].filter(Boolean).join(" at ") || number(null)],
+    ["Time integration", (run) => work(run).method || number(null)],
     ["Steps taken", (run) => number(work(run).steps, "1")],
     ["Steps rejected", (run) => number(work(run).rejected, "1")],
     ["Calls of the right-hand side", (run) => number(work(run).rate_calls, "1")],

@@ -226,6 +226,7 @@ fn own_partials(rows: &mut [[f64; STATES]], rates: &[BallDual]) {
 }
 
 /// A ball's number over the border: its derivatives with respect to the neighbours.
+#[inline(always)]
 fn over_border(value: BallDual) -> BorderDual {
     let mut wide = BorderDual::splat(value.value);
     for (column, partial) in COLUMNS.iter().zip(&value.partial[STATES..]) {
