@@ -295,9 +295,9 @@ impl<R: Real> InletHeating<R> {
     /// - `entrainment`: v, their mean, m/s
     /// - `load`: Q, N
     ///
-    /// Source: P. K. Gupta, H. S. Cheng, D. Zhu, N. H. Forster, J. B. Schrand, Tribol. Trans. 35 (1992) 269; printed alike
-    /// by P. Wingertszahn et al., Lubricants 11 (2023) 369, equation 12, and by A. Arana et al., Proc. IMechE J 233 (2019) 303,
-    /// equation 24.
+    /// Source: P. K. Gupta, H. S. Cheng, D. Zhu, N. H. Forster, J. B. Schrand, Tribol. Trans. 35 (1992) 269 (attribution from
+    /// memory); printed alike by P. Wingertszahn et al., Lubricants 11 (2023) 369, equation 12, and by A. Arana et al.,
+    /// Proc. IMechE J 233 (2019) 303, equation 24.
     /// Valid: S up to 2, larger ones count as 2; the numerator counts as at least 0.1, where the fit ends; by the second of
     /// these authors too small a factor at low entrainment.
     #[inline(always)]

@@ -342,8 +342,8 @@ impl<R: Real> LubricantTraction<R> {
     /// Source: film friction, 2Λ/α, film and flash temperature: A. Arana, J. Larrañaga, I. Ulacia, Proc. IMechE J 233 (2019)
     /// 303, equations 7, 13, 26 to 28 after K. L. Johnson, J. L. Tevaarwerk 1977 and S. Bair, W. O. Winer 1979; share of
     /// asperities: [`asperity_share`]; creep: K. L. Johnson, Contact Mechanics, 1985, section 8.3 (from memory).
-    /// Valid: by that source within 0.005 of traction measured on three oils at 1 GPa, 60 °C, 2 to 16 m/s, slip up to 40 %; there
-    /// with min in place of C and iterated to 1 K.
+    /// Valid: the source reports 0.005 (read from a poor print) from traction coefficients measured on three oils at 1 GPa,
+    /// 60 °C, 2 to 16 m/s, slip up to 40 %; there with min in place of C, without creep, and iterated to 1 K.
     #[inline(always)]
     pub fn state(&self, slip: R, load: R, entrainment: R) -> ContactState<R> {
         let at = self.conditions(slip, load, entrainment);
@@ -387,15 +387,18 @@ impl<R: Real> LubricantTraction<R> {
 
     /// A bound of |∂μ/∂u| over all slips, s/m; times Q it bounds the friction rate ∂F/∂u in N s/m.
     ///
-    /// Formula: min(2.2 [s_f + ξ_2 μ_b/u_b], 1.16 s_e), s_f the film's part of [`LubricantTraction::slope_at_rest`] and the share with h_2 for h_c, the film at slide-to-roll 2, where it is thinnest
+    /// Formula: min(2.2 [s_f + ξ_2 μ_b/u_b], 1.16 s_e)
+    ///
+    /// s_f is the film's part of [`LubricantTraction::slope_at_rest`]; it and the share ξ_2 are taken with the film at
+    /// slide-to-roll 2, where it is thinnest.
     ///
     /// - `load`: Q, N
     /// - `entrainment`: v, m/s
     ///
     /// Source: without creep |∂μ_r/∂u| ≤ 2.2 μ_r/u: 1 from shear, 0.83 from the film that thins with |u|^0.83, the rest
     /// from the load share that follows it; with creep the factor is max (2.2 t + t³)/(1 + t²)^(3/2) = 1.15.
-    /// Valid: asperity shares with C_ξ up to 1.2; never exceeded, up to 60 times too high where a film is
-    /// mixed at slide-to-roll 2 only.
+    /// Valid: asperity shares with C_ξ up to 1.2; argued, and held on random states by a test; up to 60 times too high where a
+    /// film is mixed at slide-to-roll 2 only.
     #[inline(always)]
     pub fn steepest_slope(&self, load: R, entrainment: R) -> R {
         let slow = entrainment.abs().max(R::splat(SLOWEST));
