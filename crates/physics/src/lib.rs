@@ -10,6 +10,10 @@
 //! | [`hertz`] | point contact between ball and race: exact elliptic integrals |
 //! | [`contact`] | normal force of a contact in time: Hertz with damping, Hunt-Crossley |
 //! | [`traction`] | sliding friction between ball and race |
+//! | [`film`] | thickness of the lubricant film between ball and race |
+//! | [`lubricant`] | lubricants: viscosity over temperature and pressure, limiting stress |
+//! | [`lubricant_traction`] | sliding friction between ball and race from the lubricant |
+//! | [`inlet_rolling`] | rolling resistance of the oil in the inlet of a contact |
 //! | [`friction`] | steady friction moment of a rolling bearing: one interface to Palmgren's, the SKF model and a measured curve |
 //! | [`friction_range`] | where a friction law has been left |
 //! | [`palmgren`] | Palmgren's moment |
@@ -25,10 +29,14 @@
 //! | [`unbalance`] | whirl of an unbalanced rotor on a linear support |
 
 pub mod contact;
+pub mod film;
 pub mod friction;
 pub mod friction_range;
 pub mod hertz;
+pub mod inlet_rolling;
 pub mod kinematics;
+pub mod lubricant;
+pub mod lubricant_traction;
 pub mod materials;
 pub mod moment_curve;
 pub mod palmgren;
