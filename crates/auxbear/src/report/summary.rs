@@ -127,6 +127,9 @@ struct Range {
     sd: Option<f64>,
     min: Option<f64>,
     max: Option<f64>,
+    q05: Option<f64>,
+    median: Option<f64>,
+    q95: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -194,6 +197,9 @@ fn range(spread: &Spread) -> Range {
         sd: finite(spread.standard_deviation),
         min: finite(spread.smallest),
         max: finite(spread.largest),
+        q05: finite(spread.quantiles[0]),
+        median: finite(spread.quantiles[1]),
+        q95: finite(spread.quantiles[2]),
     }
 }
 
@@ -245,6 +251,7 @@ mod tests {
                 standard_deviation: f64::INFINITY,
                 smallest: 1.0,
                 largest: 2.0,
+                quantiles: [1.0, 1.5, 2.0],
             }),
         };
         serde_json::to_value(result(&quantity)).unwrap()

@@ -156,4 +156,12 @@ const RUN: &[Key] = &[
         "1 ms",
         "short against a fall through a usual air clearance and against a spin-up",
     ),
+    Key::new(
+        "run.method",
+        Kind::Word(&["auto", "explicit", "implicit"]),
+        "auto",
+        "Time integration: explicit steps are bound by stability, implicit ones are not; auto takes implicit steps where sliding friction is too stiff for explicit ones.",
+    )
+    .default("auto", "the quicker one at equal error, judged by the friction rate of a ball in the first impact")
+    .only(&[SystemName::Drop]),
 ];

@@ -306,12 +306,4 @@ pub(super) const REPEAT: &[Key] = &[
         "1e-9 rad",
         "far below any tolerance of manufacture: it shows chaos only",
     ),
-    Key::new(
-        "run.method",
-        Kind::Word(&["auto", "explicit", "implicit"]),
-        "auto",
-        "Time integration: explicit steps are bound by stability, implicit ones are not; auto takes implicit steps where sliding friction is too stiff for explicit ones.",
-    )
-    .default("auto", "the quicker one at equal error, judged by the friction rate of a ball in the first impact")
-    .only(DROP),
 ];

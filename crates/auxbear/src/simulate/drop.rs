@@ -128,19 +128,7 @@ fn spread(members: &[Vec<(String, Option<f64>)>], name: &str) -> Option<Spread> 
         .iter()
         .filter_map(|member| member.iter().find(|(n, _)| n == name)?.1)
         .collect();
-    if values.len() < 2 {
-        return None;
-    }
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    let square = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
-    Some(Spread {
-        members: values.len(),
-        mean,
-        standard_deviation: (square / (count - 1.0)).sqrt(),
-        smallest: values.iter().copied().fold(f64::INFINITY, f64::min),
-        largest: values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-    })
+    Spread::of(values)
 }
 
 fn contacts(finished: &Finished) -> Vec<Contact> {

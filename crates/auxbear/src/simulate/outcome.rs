@@ -73,6 +73,35 @@ pub struct Spread {
     pub smallest: f64,
     /// Largest.
     pub largest: f64,
+    /// Quantiles at 5, 50 and 95 %, between the sorted members on straight lines.
+    pub quantiles: [f64; 3],
+}
+
+impl Spread {
+    /// Of the values of members; none of fewer than two.
+    pub fn of(mut values: Vec<f64>) -> Option<Self> {
+        if values.len() < 2 {
+            return None;
+        }
+        values.sort_by(f64::total_cmp);
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let square = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
+        let quantile = |share: f64| {
+            let place = share * (count - 1.0);
+            let below = place as usize;
+            let above = (below + 1).min(values.len() - 1);
+            values[below] + (place - below as f64) * (values[above] - values[below])
+        };
+        Some(Spread {
+            members: values.len(),
+            mean,
+            standard_deviation: (square / (count - 1.0)).sqrt(),
+            smallest: quantile(0.0),
+            largest: quantile(1.0),
+            quantiles: [0.05, 0.5, 0.95].map(quantile),
+        })
+    }
 }
 
 /// One column of a history.
@@ -156,4 +185,22 @@ pub struct Picture {
     pub rolling_cage_ratio: f64,
     /// Number of balls.
     pub balls: usize,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spread_has_the_quantiles_of_its_members() {
+        let spread = Spread::of((0..=20).rev().map(f64::from).collect()).unwrap();
+        assert_eq!((spread.members, spread.mean), (21, 10.0));
+        assert_eq!((spread.smallest, spread.largest), (0.0, 20.0));
+        assert_eq!(spread.quantiles, [1.0, 10.0, 19.0]);
+        // of 0 to 20: Σ(i - 10)² = 770, over 20
+        assert!((spread.standard_deviation - 38.5_f64.sqrt()).abs() < 1e-12);
+        let two = Spread::of(vec![3.0, 1.0]).unwrap();
+        assert!((two.quantiles[0] - 1.1).abs() < 1e-12 && two.quantiles[1] == 2.0);
+        assert_eq!(Spread::of(vec![1.0]), None);
+    }
 }

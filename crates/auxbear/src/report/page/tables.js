@@ -25,7 +25,7 @@ function siCell(quantity) {
 
 // Mean ± standard deviation and range in one unit: plain decimals, at most six digits of the mean, two of the deviation.
 function spreadText(quantity) {
-  const { mean, sd, min, max } = quantity.spread;
+  const { mean, sd, min, max, q05, median, q95 } = quantity.spread;
   let [unit, scale] = mean === 0 ? [unitText(quantity.unit), 1] : readableUnit(mean, quantity.unit);
   const size = Math.abs(mean) / scale;
   if (size > 0 && (size < 1e-3 || size >= 1e6)) {
@@ -41,16 +41,21 @@ function spreadText(quantity) {
   const deviation = known ? " ± " + decimalText(sd / scale, 1 - leadingPower(sd / scale)) : sd === 0 ? " ± 0" : "";
   const grouped = deviation && tail ? `(${text(mean)}${deviation})` : text(mean) + deviation;
   const range = text(min) === text(max) ? "smallest and largest agree in these digits" : unit.startsWith("×") ? `(${text(min)} to ${text(max)})${tail}` : `${text(min)} to ${text(max)}${tail}`;
-  return { mean: grouped + tail, range };
+  const apart = text(q05) !== text(q95);
+  const quantiles = apart ? `median ${text(median)}, 90 % within ${text(q05)} to ${text(q95)}${tail}` : null;
+  return { mean: grouped + tail, range, quantiles };
 }
 
 function spreadCell(quantity) {
   const spread = quantity.spread;
   if (!spread || !isNumber(spread.mean)) return "";
-  const { mean, range } = spreadText(quantity);
+  const { mean, range, quantiles } = spreadText(quantity);
+  // quantiles of a few members say no more than their range
+  const many = isNumber(spread.members) && spread.members >= 20;
   return [
     element("div", { class: "spread" }, mean),
     element("div", { class: "small" }, range + (isNumber(spread.members) ? `, ${spread.members} members` : "")),
+    many && quantiles ? element("div", { class: "small" }, quantiles) : null,
   ];
 }
 
@@ -98,7 +103,7 @@ function quantitySection(runs) {
   });
   const table = element("table", { class: single ? "quantities single" : "quantities several", style: single ? null : `--columns:${heads.length}` }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), bodies);
   const origin = runs.map(spreadOrigin).find(Boolean);
-  const note = repeated ? element("p", { class: "lead" }, `Value: the unperturbed run. Then mean ± standard deviation, smallest and largest value over all members: ${origin}.`) : null;
+  const note = repeated ? element("p", { class: "lead" }, `Value: the unperturbed run. Then mean ± standard deviation, smallest and largest value, and quantiles over all members: ${origin}.`) : null;
   return section("quantities", "Quantities", note, element("div", { class: "wide" }, table), runs.map(memberDetails));
 }
 
