@@ -29,7 +29,7 @@ const STIFF_TOLERANCE: &str = "1e-3";
 const REFERENCE_TOLERANCE: &str = "1e-7";
 /// Relative tolerances of the peers for equal error (benchmarks/README.md).
 const CVODE_TOLERANCE: &str = "3e-4";
-const CVODE_STIFF_TOLERANCE: &str = "1e-4";
+const CVODE_STIFF_TOLERANCE: &str = "3e-5";
 const SCIPY_TOLERANCE: &str = "5e-4";
 const BALLS: [usize; 4] = [7, 10, 20, 40];
 const LANE_RUNS: usize = 32;
