@@ -1,24 +1,54 @@
 //! `cargo xtask bench`: the reference drop beside what a user would write instead, in CPU time. Nothing is judged.
 
+mod clock;
+mod page;
+mod peer;
+
 use crate::repository::Repository;
 use crate::toolchain::{cargo, quiet};
+use clock::{median, timed};
+use page::{Page, signed, three};
+use peer::{CVODE, Peer, SCIPY};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, ExitCode};
-use std::time::Instant;
 
-const SCENARIO: &str = "scenarios/reference_drop.toml";
-const PEER: &str = "benchmarks/peers/scipy_lsoda.py";
-const MISSING: &str = "SciPy was not run: python3 lacks it. python3 -m pip install -r benchmarks/peers/requirements.txt";
-const QUANTITIES: &str = "time_to_first_contact first_impact_force inner_race_time_to_95_percent rotor_race_friction_energy";
-/// The whole drop, s, and the part of it that is short enough for the peer: it holds seven contacts.
-const DURATIONS: [&str; 2] = ["0.5", "0.05"];
+const RESULTS: &str = "benchmarks/RESULTS.md";
+const DROP: &str = "scenarios/reference_drop.toml";
+/// The reference drop without the catalogue's ring around it.
+const ANY_BALLS: &str = "benchmarks/ball_count.toml";
+/// The whole drop, s, and the part of it that is reproducible: it holds seven contacts and the spin-up.
+const WHOLE: &str = "0.5";
+const PART: &str = "0.05";
+/// Reference speed of ball traction, m/s: that of the scenario, and one that makes the equations stiff.
+const TRACTION: &str = "0.1";
+const STIFF_TRACTION: &str = "0.001";
+/// Tolerance of the program's own runs, that of stiff traction, and that of the reference.
+const TOLERANCE: &str = "1e-4";
+const STIFF_TOLERANCE: &str = "1e-3";
+const REFERENCE_TOLERANCE: &str = "1e-7";
+/// Relative tolerances of the peers for equal error (benchmarks/README.md).
+const CVODE_TOLERANCE: &str = "3e-4";
+const CVODE_STIFF_TOLERANCE: &str = "3e-5";
+const SCIPY_TOLERANCE: &str = "5e-4";
+const BALLS: [usize; 4] = [7, 10, 20, 40];
 const LANE_RUNS: usize = 32;
 /// CPU time of children comes in steps of 10 ms: a block of runs this long, s, makes that one percent.
 const BLOCK: f64 = 1.0;
 const BLOCKS: usize = 5;
+const PEER_RUNS: usize = 3;
 
-/// Measures the command given, or the release build, and prints the table.
+/// The reproducible quantities: heading, where summary and peers have it, factor to the unit of the heading.
+const QUANTITIES: [(&str, &str, f64); 6] = [
+    ("first impact, N", "first_impact_force", 1.0),
+    ("second contact, µs", "contact_start_times/1", 1e6),
+    ("third contact, µs", "contact_start_times/2", 1e6),
+    ("race at 50 %, µs", "inner_race_time_to_50_percent", 1e6),
+    ("race at 95 %, µs", "inner_race_time_to_95_percent", 1e6),
+    ("friction energy, mJ", "rotor_race_friction_energy", 1e3),
+];
+
+/// Measures the command given, or the release build; prints the tables and writes them to `benchmarks/RESULTS.md`.
 pub fn run(program: Option<&str>) -> ExitCode {
     match measure(program) {
         Ok(()) => ExitCode::SUCCESS,
@@ -35,66 +65,37 @@ fn measure(program: Option<&str>) -> Result<(), String> {
         Some(path) => std::path::absolute(path).map_err(|error| format!("{path}: {error}"))?,
         None => build(&repository)?,
     };
-    let out = std::env::temp_dir().join(format!("auxbear-bench-{}", std::process::id()));
-    let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let processor = model_name(&cpuinfo).unwrap_or(std::env::consts::ARCH);
-    let clock = children_seconds().map_or("wall time, as CPU time is not told", |_| "CPU time");
-    println!("{processor}, {}; {clock}", level());
-    println!("{:<32}{:>16}{:>16}", "", "s a drop", "drops/s");
-    let (mut alone, mut in_lanes) = (0.0, 0.0);
-    for duration in DURATIONS {
-        alone = cost(&repository.root, &program, &out, duration, 1)?;
-        row(
-            &format!("auxbear alone, {duration} s"),
-            alone,
-            alone.recip(),
-            4,
-        );
-        in_lanes = cost(&repository.root, &program, &out, duration, LANE_RUNS)?;
-        row(
-            &format!("auxbear in lanes, {duration} s"),
-            in_lanes,
-            in_lanes.recip(),
-            4,
-        );
+    let mut bench = Bench {
+        root: repository.root,
+        program,
+        out: std::env::temp_dir().join(format!("auxbear-bench-{}", std::process::id())),
+        page: Page::default(),
+        peers: Vec::new(),
+    };
+    let told =
+        clock::children_seconds().map_or("Wall time, as CPU time is not told", |_| "CPU time");
+    bench.page.line("# Measured");
+    bench.page.line("");
+    bench.page.line("Written by `cargo xtask bench`; what is compared, and why at these tolerances: [README.md](README.md).");
+    bench.page.line("");
+    let machine = format!("{}. {told}.", clock::machine());
+    bench.page.line(&machine);
+    for peer in [CVODE, SCIPY] {
+        match peer.missing() {
+            None => bench.peers.push(peer),
+            Some(line) => {
+                bench.page.line("");
+                bench.page.line(&line);
+            }
+        }
     }
-    let summary = std::fs::read_to_string(out.join("summary.json"));
-    let summary = summary.map_err(|error| format!("summary.json: {error}"))?;
-    std::fs::remove_dir_all(&out).map_err(|error| error.to_string())?;
-
-    let has_scipy = quiet(Command::new("python3").args(["-c", "import scipy"]))
-        .findings
-        .is_empty();
-    if !has_scipy {
-        println!("{MISSING}");
-        return Ok(());
-    }
-    let mut peer = Command::new("python3");
-    peer.args([PEER, "--duration", DURATIONS[1]])
-        .current_dir(&repository.root);
-    let peer = peer.output().map_err(|error| format!("python3: {error}"))?;
-    if !peer.status.success() {
-        return Err(String::from_utf8_lossy(&peer.stderr).into_owned());
-    }
-    let answer = String::from_utf8_lossy(&peer.stdout);
-    let seconds = number(&answer, "/cpu_seconds")?;
-    row(
-        &format!("SciPy LSODA, {} s", DURATIONS[1]),
-        seconds,
-        seconds.recip(),
-        4,
-    );
-    println!(
-        "SciPy over auxbear: {:.0} alone, {:.0} in lanes",
-        seconds / alone,
-        seconds / in_lanes
-    );
-    println!("{:<32}{:>16}{:>16}", "SI units", "auxbear", "SciPy");
-    for name in QUANTITIES.split(' ') {
-        let ours = number(&summary, &format!("/quantities/{name}/value"))?;
-        row(name, ours, number(&answer, &format!("/{name}"))?, 8);
-    }
-    Ok(())
+    bench.reference_drop()?;
+    bench.stiff_traction()?;
+    bench.number_of_balls()?;
+    bench.instructions()?;
+    let _ = std::fs::remove_dir_all(&bench.out);
+    let path = bench.root.join(RESULTS);
+    std::fs::write(&path, bench.page.text()).map_err(|error| format!("{RESULTS}: {error}"))
 }
 
 /// The release build of the command; it lies beside the build of this tool.
@@ -111,90 +112,320 @@ pub fn build(repository: &Repository) -> Result<PathBuf, String> {
         .ok_or_else(|| format!("no program was built\n{}", outcome.findings.join("\n")))
 }
 
-/// CPU seconds of one drop, the whole process with its files: the median of several blocks of runs.
-fn cost(
-    root: &Path,
-    program: &Path,
-    out: &Path,
-    duration: &str,
-    count: usize,
-) -> Result<f64, String> {
-    let simulate = || {
-        // absent before the first run; the command never writes over a folder
-        let _ = std::fs::remove_dir_all(out);
-        let mut command = Command::new(program);
-        command
-            .args(["run", SCENARIO, "--quiet", "--threads", "1", "--out"])
-            .arg(out);
-        command.args(["--set", &format!("run.duration={duration} s")]);
-        command.args(["--repeat", &count.to_string()]);
-        let outcome = quiet(command.current_dir(root));
+struct Bench {
+    root: PathBuf,
+    program: PathBuf,
+    out: PathBuf,
+    page: Page,
+    peers: Vec<Peer>,
+}
+
+/// A line of the comparison: who, for how long a drop, and the CPU seconds of one.
+struct Line {
+    name: String,
+    seconds: f64,
+}
+
+impl Bench {
+    /// The reference drop as it stands: whole and in part.
+    fn reference_drop(&mut self) -> Result<(), String> {
+        self.page.heading("Reference drop");
+        let cvode = self.peer_named(CVODE.name);
+        let mut versions = Vec::new();
+        for duration in [WHOLE, PART] {
+            let settings = drop_settings(duration, TRACTION, TOLERANCE);
+            let mut others = Vec::new();
+            if let Some(index) = cvode {
+                let answer = self.ask(index, duration, TRACTION, CVODE_TOLERANCE, PEER_RUNS)?;
+                versions.push(answer.clone());
+                others.push((index, answer));
+            }
+            if let Some(index) = self.peer_named(SCIPY.name).filter(|_| duration == PART) {
+                let answer = self.ask(index, duration, TRACTION, SCIPY_TOLERANCE, 1)?;
+                versions.push(answer.clone());
+                others.push((index, answer));
+            }
+            self.compare(duration, &settings, &others)?;
+            if duration == PART {
+                self.deviations(TRACTION, TOLERANCE, &others)?;
+            }
+        }
+        let mut versions: Vec<String> = versions.iter().map(Peer::versions).collect();
+        versions.dedup();
+        for line in versions {
+            self.page.line("");
+            self.page.line(&format!("Versions: {line}."));
+        }
+        Ok(())
+    }
+
+    /// The same with traction that is nearly Coulomb's.
+    fn stiff_traction(&mut self) -> Result<(), String> {
+        self.page.heading(&format!(
+            "Stiff traction: reference speed {STIFF_TRACTION} m/s"
+        ));
+        let settings = drop_settings(PART, STIFF_TRACTION, STIFF_TOLERANCE);
+        let mut others = Vec::new();
+        if let Some(index) = self.peer_named(CVODE.name) {
+            let tolerance = CVODE_STIFF_TOLERANCE;
+            others.push((
+                index,
+                self.ask(index, PART, STIFF_TRACTION, tolerance, PEER_RUNS)?,
+            ));
+        }
+        self.compare(PART, &settings, &others)?;
+        self.deviations(STIFF_TRACTION, STIFF_TOLERANCE, &others)
+    }
+
+    /// How the cost grows with the number of balls.
+    fn number_of_balls(&mut self) -> Result<(), String> {
+        self.page.heading("Number of balls");
+        self.page.line("The whole drop of `benchmarks/ball_count.toml`: the same balls on a larger pitch circle.");
+        self.page.line("");
+        self.page.table([
+            "balls",
+            "pitch diameter, mm",
+            "CPU s a drop",
+            "in lanes",
+            "right-hand sides",
+            "µs each",
+            "µs each in lanes",
+        ]);
+        for balls in BALLS {
+            let pitch = pitch_millimetres(balls);
+            let settings = [
+                format!("run.duration={WHOLE} s"),
+                format!("bearing.ball_count={balls}"),
+                format!("bearing.pitch_diameter={pitch} mm"),
+            ];
+            let alone = self.cost(ANY_BALLS, &settings, 1)?;
+            let calls = self.rate_calls()?;
+            let lanes = self.cost(ANY_BALLS, &settings, LANE_RUNS)?;
+            let lane_calls = self.rate_calls()? / LANE_RUNS as f64;
+            self.page.row(&[
+                balls.to_string(),
+                pitch.to_string(),
+                three(alone),
+                three(lanes),
+                calls.to_string(),
+                three(alone / calls * 1e6),
+                three(lanes / lane_calls * 1e6),
+            ]);
+        }
+        Ok(())
+    }
+
+    /// Instructions of a whole drop over its right-hand sides, where the machine counts them.
+    fn instructions(&mut self) -> Result<(), String> {
+        self.page.heading("Instructions");
+        let settings = drop_settings(WHOLE, TRACTION, TOLERANCE);
+        for count in [1, LANE_RUNS] {
+            let mut counter = Command::new("perf");
+            counter.args(["stat", "-x,", "-e", "instructions:u", "--"]);
+            counter.arg(&self.program);
+            self.arguments(&mut counter, DROP, &settings, count);
+            let counted = counter
+                .output()
+                .ok()
+                .and_then(|output| counted(&String::from_utf8_lossy(&output.stderr)));
+            let Some(instructions) = counted else {
+                self.page.line("Not counted: `perf stat -e instructions:u` is absent or the machine does not count.");
+                return Ok(());
+            };
+            let each = instructions / self.rate_calls()?;
+            self.page.line(&format!(
+                "- {count} drops, whole process over right-hand sides of one lane: {each:.0}"
+            ));
+        }
+        Ok(())
+    }
+
+    /// Table of costs and ratios for drops of one duration.
+    fn compare(
+        &mut self,
+        duration: &str,
+        settings: &[String],
+        others: &[(usize, Value)],
+    ) -> Result<(), String> {
+        let alone = self.cost(DROP, settings, 1)?;
+        let lanes = self.cost(DROP, settings, LANE_RUNS)?;
+        let mut lines = vec![
+            Line {
+                name: "auxbear, alone".to_owned(),
+                seconds: alone,
+            },
+            Line {
+                name: "auxbear, in lanes".to_owned(),
+                seconds: lanes,
+            },
+        ];
+        for (index, answer) in others {
+            lines.push(Line {
+                name: self.peers[*index].name.to_owned(),
+                seconds: number(answer, "/cpu_seconds")?,
+            });
+        }
+        self.page.table([
+            &format!("drop of {duration} s") as &str,
+            "CPU s",
+            "drops per core-second",
+            "over alone",
+            "over lanes",
+        ]);
+        for Line { name, seconds } in lines {
+            self.page.row(&[
+                name,
+                three(seconds),
+                three(seconds.recip()),
+                three(seconds / alone),
+                three(seconds / lanes),
+            ]);
+        }
+        self.page.line("");
+        Ok(())
+    }
+
+    /// Table of deviations from the program's own results at the tolerance of the reference.
+    fn deviations(
+        &mut self,
+        traction: &str,
+        tolerance: &str,
+        others: &[(usize, Value)],
+    ) -> Result<(), String> {
+        let reference = self.summary_of(&drop_settings(PART, traction, REFERENCE_TOLERANCE))?;
+        let own = self.summary_of(&drop_settings(PART, traction, tolerance))?;
+        let title = "deviation in the drop of 0.05 s";
+        self.page.table(
+            [title]
+                .into_iter()
+                .chain(QUANTITIES.map(|(name, _, _)| name)),
+        );
+        let mut sides = vec![(format!("auxbear, {tolerance}"), own)];
+        for (index, answer) in others {
+            let rtol = number(answer, "/rtol")?;
+            let name = format!("{}, {rtol:e}", self.peers[*index].name);
+            sides.push((name, answer.clone()));
+        }
+        for (name, answer) in sides {
+            let mut cells = vec![name];
+            for (_, key, factor) in QUANTITIES {
+                let deviation = quantity(&answer, key)? - quantity(&reference, key)?;
+                cells.push(signed(deviation * factor));
+            }
+            self.page.row(&cells);
+        }
+        Ok(())
+    }
+
+    fn peer_named(&self, name: &str) -> Option<usize> {
+        self.peers.iter().position(|peer| peer.name == name)
+    }
+
+    fn ask(
+        &self,
+        index: usize,
+        duration: &str,
+        traction: &str,
+        tolerance: &str,
+        runs: usize,
+    ) -> Result<Value, String> {
+        let words = [
+            "--duration",
+            duration,
+            "--traction-speed",
+            traction,
+            "--rtol",
+            tolerance,
+        ];
+        self.peers[index].run(&self.root, &words, runs)
+    }
+
+    /// CPU seconds of one drop, the whole process with its files: the median of several blocks of runs.
+    fn cost(&self, scenario: &str, settings: &[String], count: usize) -> Result<f64, String> {
+        let simulate = || self.simulate(scenario, settings, count);
+        let runs = (BLOCK / timed(simulate)?.max(0.01)).ceil() as usize;
+        let blocks: Result<Vec<f64>, String> = (0..BLOCKS)
+            .map(|_| timed(|| (0..runs).try_for_each(|_| simulate())))
+            .collect();
+        Ok(median(blocks?) / (runs * count) as f64)
+    }
+
+    fn simulate(&self, scenario: &str, settings: &[String], count: usize) -> Result<(), String> {
+        let mut command = Command::new(&self.program);
+        self.arguments(&mut command, scenario, settings, count);
+        let outcome = quiet(&mut command);
         if outcome.findings.is_empty() {
             Ok(())
         } else {
             Err(outcome.findings.join("\n"))
         }
+    }
+
+    fn arguments(&self, command: &mut Command, scenario: &str, settings: &[String], count: usize) {
+        // absent before the first run; the command never writes over a folder
+        let _ = std::fs::remove_dir_all(&self.out);
+        command.current_dir(&self.root);
+        command.args(["run", scenario, "--quiet", "--threads", "1", "--out"]);
+        command.arg(&self.out);
+        command.args(["--repeat", &count.to_string()]);
+        for setting in settings {
+            command.args(["--set", setting]);
+        }
+    }
+
+    fn summary_of(&self, settings: &[String]) -> Result<Value, String> {
+        self.simulate(DROP, settings, 1)?;
+        self.summary()
+    }
+
+    /// The summary of the last run.
+    fn summary(&self) -> Result<Value, String> {
+        let text = std::fs::read_to_string(self.out.join("summary.json"));
+        let text = text.map_err(|error| format!("summary.json: {error}"))?;
+        serde_json::from_str(&text).map_err(|error| error.to_string())
+    }
+
+    fn rate_calls(&self) -> Result<f64, String> {
+        let calls = self.summary()?["work"]["rate_calls"].as_f64();
+        calls.ok_or_else(|| "no right-hand sides were counted".to_owned())
+    }
+}
+
+fn drop_settings(duration: &str, traction: &str, tolerance: &str) -> [String; 3] {
+    [
+        format!("run.duration={duration} s"),
+        format!("bearing.traction.reference_speed={traction} m/s"),
+        format!("run.tolerance={tolerance}"),
+    ]
+}
+
+/// The pitch circle of the 6005, and as dense a row of balls where ten are not enough.
+fn pitch_millimetres(balls: usize) -> f64 {
+    3.6 * balls.max(10) as f64
+}
+
+/// A quantity of a summary, where values stand one level deeper, or of a peer's answer.
+fn quantity(answer: &Value, key: &str) -> Result<f64, String> {
+    let (name, entry) = key.split_once('/').unwrap_or((key, ""));
+    let entry = if entry.is_empty() {
+        String::new()
+    } else {
+        format!("/{entry}")
     };
-    let runs = (BLOCK / timed(simulate)?.max(0.01)).ceil() as usize;
-    let blocks: Result<Vec<f64>, String> = (0..BLOCKS)
-        .map(|_| timed(|| (0..runs).try_for_each(|_| simulate())))
-        .collect();
-    Ok(median(blocks?) / (runs * count) as f64)
-}
-
-/// CPU seconds that the children of this process spent during `work`; wall seconds where the system does not say.
-fn timed(work: impl FnOnce() -> Result<(), String>) -> Result<f64, String> {
-    let (cpu, wall) = (children_seconds(), Instant::now());
-    work()?;
-    let spent = cpu.and_then(|before| Some(children_seconds()? - before));
-    Ok(spent.unwrap_or_else(|| wall.elapsed().as_secs_f64()))
-}
-
-fn children_seconds() -> Option<f64> {
-    children_ticks(&std::fs::read_to_string("/proc/self/stat").ok()?).map(|ticks| ticks / 100.0)
-}
-
-/// User and system time of ended children in ticks of 10 ms: fields 16 and 17, counted from behind the program's name,
-/// which stands in brackets and may hold anything.
-fn children_ticks(stat: &str) -> Option<f64> {
-    let mut fields = stat.rsplit_once(')')?.1.split_whitespace().skip(13);
-    let user: f64 = fields.next()?.parse().ok()?;
-    Some(user + fields.next()?.parse::<f64>().ok()?)
+    let deeper = format!("/quantities/{name}/value{entry}");
+    number(answer, &deeper).or_else(|_| number(answer, &format!("/{key}")))
 }
 
 /// The number at a JSON pointer.
-fn number(text: &str, pointer: &str) -> Result<f64, String> {
-    let all: Value = serde_json::from_str(text).map_err(|error| error.to_string())?;
+fn number(all: &Value, pointer: &str) -> Result<f64, String> {
     let value = all.pointer(pointer).and_then(Value::as_f64);
     value.ok_or_else(|| format!("no number at {pointer}"))
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
-}
-
-fn row(name: &str, first: f64, second: f64, digits: usize) {
-    println!("{name:<32}{first:>16.digits$}{second:>16.digits$}");
-}
-
-fn model_name(cpuinfo: &str) -> Option<&str> {
-    let line = cpuinfo
-        .lines()
-        .find(|line| line.starts_with("model name"))?;
-    Some(line.split_once(':')?.1.trim())
-}
-
-/// The vector unit, by the rule of `number::Level`.
-fn level() -> &'static str {
-    #[cfg(target_arch = "x86_64")]
-    if is_x86_feature_detected!("avx2") {
-        let is_wide = is_x86_feature_detected!("avx512f")
-            && is_x86_feature_detected!("avx512dq")
-            && is_x86_feature_detected!("avx512vl");
-        return if is_wide { "AVX-512" } else { "AVX2" };
-    }
-    "baseline"
+/// The count in the answer of `perf stat -x,`: the field before the name of the event.
+fn counted(answer: &str) -> Option<f64> {
+    let line = answer.lines().find(|line| line.contains("instructions"))?;
+    line.split(',').next()?.trim().parse().ok()
 }
 
 #[cfg(test)]
@@ -202,30 +433,40 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ticks_of_children_are_found_behind_any_program_name() {
-        // proc(5): behind the name stand state (3) … stime (15), cutime (16), cstime (17)
-        let stat = "7 (a) b 1) S 4 5 6 7 8 9 10 11 12 13 14 15 130 4 18";
-        assert_eq!(children_ticks(stat), Some(134.0));
-        assert_eq!(children_ticks("7 (a) S 4 5"), None);
-    }
-
-    #[test]
-    fn the_processor_is_the_first_one_named() {
-        let cpuinfo = "processor\t: 0\nmodel name\t: One @ 2.50GHz\nmodel name\t: Two\n";
-        assert_eq!(model_name(cpuinfo), Some("One @ 2.50GHz"));
-        assert_eq!(model_name("Features\t: fp asimd"), None);
-    }
-
-    #[test]
     fn a_number_that_is_missing_is_named() {
-        let text = r#"{"a": {"value": 9.5}, "b": null}"#;
-        assert_eq!(number(text, "/a/value"), Ok(9.5));
-        assert_eq!(number(text, "/b"), Err("no number at /b".to_owned()));
-        assert!(number("Traceback", "/a").is_err());
+        let all: Value = serde_json::from_str(r#"{"a": {"value": 9.5}, "b": null}"#).unwrap();
+        assert_eq!(number(&all, "/a/value"), Ok(9.5));
+        assert_eq!(number(&all, "/b"), Err("no number at /b".to_owned()));
     }
 
     #[test]
-    fn one_slow_block_does_not_move_the_median() {
-        assert_eq!(median(vec![1.0, 90.0, 1.2, 1.1, 0.9]), 1.1);
+    fn quantities_are_found_in_summaries_and_in_answers_of_peers() {
+        let ours = r#"{"quantities": {"t": {"value": [1, 2]}, "f": {"value": 3}}}"#;
+        let ours: Value = serde_json::from_str(ours).unwrap();
+        let theirs: Value = serde_json::from_str(r#"{"t": [4, 5], "f": 6}"#).unwrap();
+        assert_eq!(quantity(&ours, "t/1"), Ok(2.0));
+        assert_eq!(quantity(&ours, "f"), Ok(3.0));
+        assert_eq!(quantity(&theirs, "t/1"), Ok(5.0));
+        assert_eq!(quantity(&theirs, "f"), Ok(6.0));
+        assert!(quantity(&theirs, "g").is_err());
+    }
+
+    #[test]
+    fn instructions_are_read_or_known_to_be_uncounted() {
+        assert_eq!(
+            counted("123456,,instructions:u,998,100.00,,"),
+            Some(123_456.0)
+        );
+        assert_eq!(counted("<not supported>,,instructions:u,0,100.00,,"), None);
+        assert_eq!(counted("perf: not found"), None);
+    }
+
+    #[test]
+    fn balls_keep_the_room_that_they_have_in_a_6005() {
+        // 40 balls of 6.35 mm on 144 mm: 452 mm of circumference for 254 mm of balls, as 10 on 36 mm
+        assert_eq!(
+            [7, 10, 20, 40].map(pitch_millimetres),
+            [36.0, 36.0, 72.0, 144.0]
+        );
     }
 }

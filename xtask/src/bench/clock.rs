@@ -1,0 +1,123 @@
+//! CPU time of commands, and what the machine says about itself.
+
+use std::time::Instant;
+
+/// CPU seconds that the children of this process spent during `work`; wall seconds where the system does not say.
+pub fn timed(work: impl FnOnce() -> Result<(), String>) -> Result<f64, String> {
+    let (cpu, wall) = (children_seconds(), Instant::now());
+    work()?;
+    let spent = cpu.and_then(|before| Some(children_seconds()? - before));
+    Ok(spent.unwrap_or_else(|| wall.elapsed().as_secs_f64()))
+}
+
+/// CPU seconds of all ended children so far, where the system tells.
+pub fn children_seconds() -> Option<f64> {
+    children_ticks(&std::fs::read_to_string("/proc/self/stat").ok()?).map(|ticks| ticks / 100.0)
+}
+
+/// User and system time of ended children in ticks of 10 ms: fields 16 and 17, counted from behind the program's name,
+/// which stands in brackets and may hold anything.
+fn children_ticks(stat: &str) -> Option<f64> {
+    let mut fields = stat.rsplit_once(')')?.1.split_whitespace().skip(13);
+    let user: f64 = fields.next()?.parse().ok()?;
+    Some(user + fields.next()?.parse::<f64>().ok()?)
+}
+
+/// The middle value; the upper one of two.
+pub fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// Processor, vector unit, number of cores, load of the last minute, date: what a table of times is worth nothing without.
+pub fn machine() -> String {
+    let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let processor = model_name(&cpuinfo).unwrap_or(std::env::consts::ARCH);
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let load = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
+    let load = load.split_whitespace().next().unwrap_or("unknown");
+    let today = date(std::time::SystemTime::now());
+    format!(
+        "{processor}, {}, {cores} cores, load {load} before; {today}",
+        level()
+    )
+}
+
+/// The day in the calendar, UTC.
+fn date(now: std::time::SystemTime) -> String {
+    let since = now.duration_since(std::time::UNIX_EPOCH);
+    let mut days = since.map_or(0, |time| time.as_secs() / 86_400);
+    let mut year = 1970;
+    let length = |year: u64| {
+        let leap =
+            year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
+        365 + u64::from(leap)
+    };
+    while days >= length(year) {
+        days -= length(year);
+        year += 1;
+    }
+    let february = length(year) - 337;
+    let months = [31, february, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
+    let mut month = 0;
+    while days >= months[month] {
+        days -= months[month];
+        month += 1;
+    }
+    format!("{year}-{:02}-{:02}", month + 1, days + 1)
+}
+
+fn model_name(cpuinfo: &str) -> Option<&str> {
+    let line = cpuinfo
+        .lines()
+        .find(|line| line.starts_with("model name"))?;
+    Some(line.split_once(':')?.1.trim())
+}
+
+/// The vector unit, by the rule of `number::Level`.
+fn level() -> &'static str {
+    #[cfg(target_arch = "x86_64")]
+    if is_x86_feature_detected!("avx2") {
+        let is_wide = is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512vl");
+        return if is_wide { "AVX-512" } else { "AVX2" };
+    }
+    "baseline"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::{Duration, UNIX_EPOCH};
+
+    #[test]
+    fn ticks_of_children_are_found_behind_any_program_name() {
+        // proc(5): behind the name stand state (3) … stime (15), cutime (16), cstime (17)
+        let stat = "7 (a) b 1) S 4 5 6 7 8 9 10 11 12 13 14 15 130 4 18";
+        assert_eq!(children_ticks(stat), Some(134.0));
+        assert_eq!(children_ticks("7 (a) S 4 5"), None);
+    }
+
+    #[test]
+    fn the_processor_is_the_first_one_named() {
+        let cpuinfo = "processor\t: 0\nmodel name\t: One @ 2.50GHz\nmodel name\t: Two\n";
+        assert_eq!(model_name(cpuinfo), Some("One @ 2.50GHz"));
+        assert_eq!(model_name("Features\t: fp asimd"), None);
+    }
+
+    #[test]
+    fn one_slow_block_does_not_move_the_median() {
+        assert_eq!(median(vec![1.0, 90.0, 1.2, 1.1, 0.9]), 1.1);
+    }
+
+    #[test]
+    fn days_fall_on_their_dates() {
+        // `date -u -d @…` of GNU coreutils
+        let day = |seconds| date(UNIX_EPOCH + Duration::from_secs(seconds));
+        assert_eq!(day(0), "1970-01-01");
+        assert_eq!(day(951_782_400), "2000-02-29");
+        assert_eq!(day(1_735_689_599), "2024-12-31");
+        assert_eq!(day(1_795_219_200), "2026-11-21");
+    }
+}
