@@ -391,10 +391,12 @@ impl Bench {
     }
 }
 
-fn drop_settings(duration: &str, traction: &str, tolerance: &str) -> [String; 3] {
+fn drop_settings(duration: &str, traction: &str, tolerance: &str) -> [String; 4] {
     [
         format!("run.duration={duration} s"),
         format!("bearing.traction.reference_speed={traction} m/s"),
+        // both sides of the table, alone and in lanes, by the same steps
+        String::from("run.method=explicit"),
         format!("run.tolerance={tolerance}"),
     ]
 }

@@ -20,7 +20,7 @@ use std::process::ExitCode;
 const HELP: &str = "\
 cargo xtask check           all guards, then all tests; exit status 1 on any finding
 cargo xtask check --fast    the guards that build nothing of the product
-cargo xtask bench           the reference drop beside SciPy, in CPU time (benchmarks/README.md); minutes
+cargo xtask bench           the reference drop beside CVODE and SciPy, in CPU time (benchmarks/README.md); minutes
 cargo xtask bench PROGRAM   the same with a command that is built already
 cargo xtask docs            writes the book's page of validation from auxbear validate
 cargo xtask docs PROGRAM    the same with a command that is built already

@@ -42,8 +42,8 @@ pub struct Block<const M: usize, const COLUMNS: usize, const ROWS: usize> {
     pub right: [[f64; COLUMNS]; M],
     /// Rates of the rows of the border by its own channels.
     pub left: [[f64; M]; ROWS],
-    /// Rates of the tail by its own channels.
-    pub tail: Vec<[f64; M]>,
+    /// Rates of the tail by its own channels, channel by channel.
+    pub tail: [Vec<f64>; M],
 }
 
 /// A Jacobian.
@@ -54,7 +54,7 @@ pub struct Arrowhead<const M: usize, const COLUMNS: usize, const ROWS: usize> {
     pub corner: Vec<f64>,
     /// The blocks.
     pub blocks: Vec<Block<M, COLUMNS, ROWS>>,
-    /// Rates of the tail by the border, row by row.
+    /// Rates of the tail by the border, column by column.
     pub tail_border: Vec<f64>,
 }
 
@@ -66,7 +66,7 @@ impl<const M: usize, const COLUMNS: usize, const ROWS: usize> Arrowhead<M, COLUM
             own: [[0.0; M]; M],
             right: [[0.0; COLUMNS]; M],
             left: [[0.0; M]; ROWS],
-            tail: vec![[0.0; M]; q],
+            tail: std::array::from_fn(|_| vec![0.0; q]),
         };
         Arrowhead {
             corner: vec![0.0; p * p],
@@ -81,21 +81,21 @@ impl<const M: usize, const COLUMNS: usize, const ROWS: usize> Arrowhead<M, COLUM
     }
     /// Adds to each channel of the tail its row times a vector over the whole state.
     #[inline(always)]
-    pub fn add_tail(&self, vector: &[f64], factor: f64, tail: &mut [f64]) {
+    pub fn add_tail(&self, vector: &[f64], tail: &mut [f64]) {
         let shape = &self.shape;
-        let p = shape.border.len();
-        for (row, value) in tail.iter_mut().enumerate() {
-            let weights = &self.tail_border[row * p..(row + 1) * p];
-            let mut sum = 0.0;
-            for (weight, channel) in weights.iter().zip(&shape.border) {
-                sum += weight * vector[*channel];
+        let mut add = |weights: &[f64], factor: f64| {
+            for (value, weight) in tail.iter_mut().zip(weights) {
+                *value += weight * factor;
             }
-            for (block, channels) in self.blocks.iter().zip(&shape.blocks) {
-                for (weight, channel) in block.tail[row].iter().zip(channels) {
-                    sum += weight * vector[*channel];
-                }
+        };
+        let columns = self.tail_border.chunks_exact(shape.tail.len().max(1));
+        for (column, channel) in columns.zip(&shape.border) {
+            add(column, vector[*channel]);
+        }
+        for (block, channels) in self.blocks.iter().zip(&shape.blocks) {
+            for (column, channel) in block.tail.iter().zip(channels) {
+                add(column, vector[*channel]);
             }
-            *value += factor * sum;
         }
     }
 }
@@ -365,7 +365,7 @@ mod tests {
             fill(block.own.as_flattened_mut());
             fill(block.right.as_flattened_mut());
             fill(block.left.as_flattened_mut());
-            fill(block.tail.as_flattened_mut());
+            block.tail.iter_mut().for_each(|column| fill(column));
         }
         arrow
     }
@@ -391,13 +391,13 @@ mod tests {
                     all[s.border[*target] * 12 + row] = arrow.blocks[j].left[k][i];
                 }
                 for k in 0..2 {
-                    all[(10 + k) * 12 + row] = arrow.blocks[j].tail[k][i];
+                    all[(10 + k) * 12 + row] = arrow.blocks[j].tail[i][k];
                 }
             }
         }
         for k in 0..2 {
             for (i, column) in s.border.iter().enumerate() {
-                all[(10 + k) * 12 + column] = arrow.tail_border[k * 4 + i];
+                all[(10 + k) * 12 + column] = arrow.tail_border[i * 2 + k];
             }
         }
         all
@@ -430,9 +430,9 @@ mod tests {
                 );
             }
             let mut tail = [1.0, 2.0];
-            arrow.add_tail(&u, 0.5, &mut tail);
+            arrow.add_tail(&u, &mut tail);
             for (row, value) in tail.iter().enumerate() {
-                let exact = (row + 1) as f64 + 0.5 * row_times(10 + row, &u);
+                let exact = (row + 1) as f64 + row_times(10 + row, &u);
                 assert!((value - exact).abs() < 1e-12);
             }
         }

@@ -201,7 +201,7 @@ impl<R: Real, L, const M: usize, const COLUMNS: usize, const ROWS: usize>
             let (others, tail) = sum.split_at_mut(active);
             weigh(of_tail, &self.stages, 0, others);
             weigh(of_tail, &self.stages, active, tail);
-            self.jacobian.add_tail(others, 1.0, tail);
+            self.jacobian.add_tail(others, tail);
             tail.iter_mut().for_each(|value| *value *= h);
             weigh(of_others, &self.stages, 0, others);
         }

@@ -33,7 +33,7 @@ fn whole<const M: usize, const COLUMNS: usize, const ROWS: usize>(
     }
     for (k, row) in s.tail.clone().enumerate() {
         for (i, column) in s.border.iter().enumerate() {
-            all[row * dimension + column] = arrow.tail_border[k * p + i];
+            all[row * dimension + column] = arrow.tail_border[i * s.tail.len() + k];
         }
     }
     for (j, block) in s.blocks.iter().enumerate() {
@@ -48,7 +48,7 @@ fn whole<const M: usize, const COLUMNS: usize, const ROWS: usize>(
                 all[s.border[*place] * dimension + row] = arrow.blocks[j].left[k][i];
             }
             for (k, target) in s.tail.clone().enumerate() {
-                all[target * dimension + row] = arrow.blocks[j].tail[k][i];
+                all[target * dimension + row] = arrow.blocks[j].tail[i][k];
             }
         }
     }

@@ -155,8 +155,11 @@ impl DropLinear {
             row.copy_from_slice(&rate.partial);
         }
         let ledger = &self.rate[self.layout.ledger()..];
-        for (row, rate) in into.tail_border.chunks_exact_mut(BORDER).zip(ledger) {
-            row.copy_from_slice(&rate.partial);
+        let columns = into.tail_border.chunks_exact_mut(ledger.len());
+        for (channel, column) in columns.enumerate() {
+            for (value, rate) in column.iter_mut().zip(ledger) {
+                *value = rate.partial[channel];
+            }
         }
     }
 
@@ -194,27 +197,28 @@ impl DropLinear {
                 by(1.0 / self.bearing.cage_inertia) * r.on_cage,
             ],
         );
-        let tail = &mut block.tail;
         let heat = &r.heat;
-        own_partials(
-            tail,
-            &[
-                heat.inner_damping,
-                heat.outer_damping,
-                heat.inner_sliding,
-                heat.outer_sliding,
-                heat.drag,
-                heat.pocket_damping,
-                heat.pocket_sliding,
-            ],
-        );
         let mut impulse = r.external_moment - outer.moment;
         if self.centre_held {
             let centre = races.inner.position;
             impulse -= Vec2::new(by(centre.x), by(centre.y)).cross(inner.force);
         }
-        let row = self.layout.angular_impulse() - self.layout.ledger();
-        own_partials(&mut tail[row..], &[impulse]);
+        let made = [
+            heat.inner_damping,
+            heat.outer_damping,
+            heat.inner_sliding,
+            heat.outer_sliding,
+            heat.drag,
+            heat.pocket_damping,
+            heat.pocket_sliding,
+        ];
+        let last = self.layout.angular_impulse() - self.layout.ledger();
+        for (channel, column) in block.tail.iter_mut().enumerate() {
+            for (value, heat) in column.iter_mut().zip(&made) {
+                *value = heat.partial[channel];
+            }
+            column[last] = impulse.partial[channel];
+        }
     }
 }
 
