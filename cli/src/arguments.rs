@@ -98,10 +98,10 @@ pub struct Torque {
     #[arg(long)]
     pub law: Vec<String>,
     /// Largest speed of the inner race, e.g. "200 rad/s"
-    #[arg(long, value_name = "SPEED")]
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     pub speed_to: Option<String>,
     /// Radial load, e.g. "80 N"; may be repeated
-    #[arg(long, value_name = "FORCE")]
+    #[arg(long, value_name = "FORCE", allow_hyphen_values = true)]
     pub load: Vec<String>,
     /// Acceleration of the inner race, e.g. "7200 rad/s^2"; may be repeated
     #[arg(long, allow_hyphen_values = true)]

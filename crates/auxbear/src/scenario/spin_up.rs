@@ -94,9 +94,11 @@ impl SpinUp {
     pub fn target_speed(&self) -> f64 {
         match &self.drive {
             Drive::SlidingRotor { rotor_speed, .. } => *rotor_speed,
+            // the race turns where the torque pushes it first
             Drive::Torque {
-                reference_speed, ..
-            } => *reference_speed,
+                reference_speed,
+                torque,
+            } => reference_speed.abs() * torque.first_sign(),
             Drive::Speed(
                 SpeedCourse::Step { final_speed } | SpeedCourse::Ramp { final_speed, .. },
             ) => *final_speed,
@@ -115,6 +117,15 @@ impl SpinUp {
 }
 
 impl Course {
+    /// Sign of the first value that is not zero; +1 where there is none.
+    pub fn first_sign(&self) -> f64 {
+        let first = match self {
+            Course::Constant(value) => Some(*value),
+            Course::Table(rows) => rows.iter().map(|row| row[1]).find(|value| *value != 0.0),
+        };
+        first.map_or(1.0, f64::signum)
+    }
+
     /// The largest size of the value.
     pub fn largest(&self) -> f64 {
         match self {

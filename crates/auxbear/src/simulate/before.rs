@@ -2,6 +2,7 @@
 
 use super::build_bearing::{ScaleOrigin, SteadyFinding};
 use super::outcome::Warning;
+use super::warnings_shared::speed_rating;
 use super::{Built, Machine};
 use crate::scenario::{Provenance, Resolved};
 
@@ -53,7 +54,12 @@ impl Machine<'_> {
                 load / rating
             ),
         });
-        warning.into_iter().collect()
+        let rated = match &self.system {
+            Built::Drop(drop, _) => speed_rating(&drop.bearing, drop.rotor.speed),
+            Built::SpinUp(spin_up, _) => speed_rating(&spin_up.bearing, spin_up.target_speed()),
+            Built::Torque(_) => None,
+        };
+        warning.into_iter().chain(rated).collect()
     }
 
     fn steady(&self) -> Option<&SteadyFinding> {

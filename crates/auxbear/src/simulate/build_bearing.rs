@@ -272,6 +272,13 @@ pub(super) fn steady(
         finding.origin = ScaleOrigin::Given;
     } else if finding.skids() {
         finding.origin = ScaleOrigin::Skidding;
+    } else if bearing
+        .static_load_rating
+        .is_some_and(|rating| load > rating)
+    {
+        // nothing rolls there: the search would take minutes
+        let why = "the radial load exceeds the static load rating".to_string();
+        finding.origin = ScaleOrigin::Unknown(why);
     } else if race.centre_held {
         finding.origin = ScaleOrigin::Unknown("the centre of the inner race is held".to_string());
     } else {

@@ -24,6 +24,7 @@ pub(super) fn settings(run: &Run) -> Settings {
 /// An instant for people.
 fn instant(time: f64) -> String {
     match time {
+        0.0 => "0 s, before the first step".to_string(),
         t if t >= 1.0 => format!("{t:.4} s"),
         t if t >= 1e-3 => format!("{:.4} ms", 1e3 * t),
         t => format!("{t:.3e} s"),

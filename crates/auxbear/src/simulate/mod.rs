@@ -119,7 +119,14 @@ impl Machine<'_> {
             Built::SpinUp(spin_up, built) => spin_up::run(self.scenario, spin_up, built, options),
             Built::Torque(asked) => torque::run(self.scenario, asked),
         };
-        outcome.warnings.splice(0..0, self.warnings());
+        let mut before = self.warnings();
+        before.retain(|warning| {
+            outcome
+                .warnings
+                .iter()
+                .all(|told| told.code != warning.code)
+        });
+        outcome.warnings.splice(0..0, before);
         outcome
     }
 }

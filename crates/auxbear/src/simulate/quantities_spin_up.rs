@@ -7,6 +7,7 @@ use crate::scenario::{Drive, Fidelity};
 use model::system::spin_up::layout::{
     CAGE_SLIP, CAGE_SPEED, HEATS, INNER, INNER_MOMENT, OUTER_MOMENT, ROTOR, STEADY_MOMENT,
 };
+use model::system::spin_up::record::LateMeans;
 
 const EQUATIONS: &str =
     "equations of motion, crates/model/src/system/spin_up/rate.rs and crates/model/src/bearing/";
@@ -117,16 +118,17 @@ fn moments(list: &mut List, context: &Context) {
         steady.map(|_| probe[STEADY_MOMENT]).ok_or_else(no_law),
         &LAW,
     );
+    let means = late_means(context);
     list.number(
         "inner_race_mean_moment",
         "N m",
-        mean_of_last_turn(context, record.mean_inner_moment()),
+        means.clone().map(|means| means.inner_moment),
         &MEAN_MOMENT,
     );
     list.number(
         "outer_race_mean_moment",
         "N m",
-        mean_of_last_turn(context, record.mean_outer_moment()),
+        means.clone().map(|means| means.outer_moment),
         &MEAN_MOMENT,
     );
     list.number(
@@ -134,7 +136,7 @@ fn moments(list: &mut List, context: &Context) {
         "N m",
         steady
             .ok_or_else(no_law)
-            .and_then(|_| mean_of_last_turn(context, record.mean_steady_moment())),
+            .and_then(|_| means.map(|means| means.steady_moment)),
         &LAW,
     );
     list.number(
@@ -157,19 +159,25 @@ fn moments(list: &mut List, context: &Context) {
     );
 }
 
-/// A mean over the last turn of the cage, where the run has it whole.
-fn mean_of_last_turn(context: &Context, mean: Option<f64>) -> Result<f64, String> {
-    let ratio = context.machine().constants.bearing.rolling_cage_ratio();
-    let turn = 2.0 * std::f64::consts::PI / (ratio * context.spin_up.target_speed()).abs();
-    if context.spin_up.run.duration < turn {
-        return Err(format!(
-            "the run is shorter than a turn of the cage at full speed ({:.4} ms)",
-            1e3 * turn
-        ));
+/// Means over the last turns of the cage at the final speed, or why there are none.
+fn late_means(context: &Context) -> Result<LateMeans, String> {
+    if context.ending.stop != solve::Stop::Finished {
+        return Err("the run ended early".to_string());
     }
-    let finished = context.ending.stop == solve::Stop::Finished;
-    mean.filter(|_| finished)
-        .ok_or_else(|| "the run ended early".to_string())
+    let speed = context.ending.state[INNER + 5];
+    context.record.late_means(speed).ok_or_else(|| {
+        let ratio = context.machine().constants.bearing.rolling_cage_ratio();
+        let turn = 2.0 * std::f64::consts::PI / (ratio * context.spin_up.target_speed()).abs();
+        format!(
+            "the race was at its final speed for less than a turn of the cage ({:.4} ms at full speed)",
+            1e3 * turn
+        )
+    })
+}
+
+/// Cage slip at the end: of the last turn of the cage, or of the last instant where there was none.
+fn late_slip(context: &Context) -> f64 {
+    (context.record.last_cage_slip()).unwrap_or_else(|| probes(context)[CAGE_SLIP])
 }
 
 fn slip(list: &mut List, context: &Context) {
@@ -194,7 +202,7 @@ fn slip(list: &mut List, context: &Context) {
         "cage_mean_slip",
         "1",
         match (planar, turns) {
-            (true, true) => mean_of_last_turn(context, context.record.mean_cage_slip()),
+            (true, true) => late_means(context).map(|means| means.cage_slip),
             (true, false) => Err("the inner race hardly turns at the end".to_string()),
             (false, _) => Err(rolling()),
         },
@@ -207,7 +215,7 @@ fn slip(list: &mut List, context: &Context) {
         // a cage that runs ahead of rolling skids as well
         .map(|row| row.probe[CAGE_SLIP].abs())
         .fold(0.0, f64::max);
-    let word = if turns && end.abs() > SKIDDING {
+    let word = if turns && late_slip(context).abs() > SKIDDING {
         "still at the end"
     } else if largest > SKIDDING {
         "while the race speeds up"
@@ -312,7 +320,7 @@ pub(super) fn rolling_start_to_end(context: &Context) -> Result<(), String> {
         }
         fastest = fastest.max(speed);
     }
-    let slip = probes(context)[CAGE_SLIP];
+    let slip = late_slip(context);
     if slip.abs() > SKIDDING {
         return Err(format!(
             "the balls do not roll at the end: cage slip {:.1} %",
@@ -361,7 +369,7 @@ const LAW: Origin = Origin {
     valid: "the law's own range; leaving it is a warning of the run",
 };
 const MEAN_MOMENT: Origin = Origin {
-    law: "mean of t_I or t_O over the time of a cage turn at full speed, at the end of the run",
+    law: "mean of t_I or t_O over cage turns: the later half of those at the end in which the speed stayed within 1 %",
     source: EQUATIONS,
     valid: "free of the ripple of passing balls; a steady moment once t_I and t_O agree",
 };
@@ -376,12 +384,12 @@ const SCALE: Origin = Origin {
     valid: "found at full speed under the last load and used at every speed",
 };
 const SLIP: Origin = Origin {
-    law: "S = 1 - 2(1+s)ω_c/Ω, at the last instant or as the mean over the time of the last cage turn at full speed",
+    law: "S = 1 - 2(1+s)ω_c/Ω, at the last instant, or as the mean over the later half of the cage turns at the final speed",
     source: "kinematics of a rolling ball, crates/physics/src/kinematics.rs",
     valid: "pockets let the cage lead and lag a little from instant to instant",
 };
 const SKID: Origin = Origin {
-    law: "cage slip above 2 % at the end, or at any row above 5 % of the full speed",
+    law: "cage slip above 2 % in the mean of the last cage turn, or at any row above 5 % of the full speed",
     source: "definition",
     valid: "rows of the history",
 };

@@ -26,36 +26,76 @@ impl Peak {
     }
 }
 
-/// The mean of a probe over the last part of a run, by trapezoids over the steps.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LateMean {
-    probe: usize,
-    from: f64,
-    sum: f64,
+/// Means of some probes over equal periods that end with the run, by trapezoids over the steps; and the range of a channel
+/// in each. Room is made before the run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Periods<const N: usize> {
+    probes: [usize; N],
+    channel: usize,
+    start: f64,
     length: f64,
+    periods: Vec<Period<N>>,
 }
 
-impl LateMean {
-    /// The mean of a probe from an instant on, s.
-    pub fn since(from: f64, probe: usize) -> Self {
-        LateMean {
-            probe,
-            from,
-            sum: 0.0,
-            length: 0.0,
+/// One period of [`Periods`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Period<const N: usize> {
+    /// Means of the probes.
+    pub means: [f64; N],
+    /// Smallest and largest value of the channel.
+    pub range: (f64, f64),
+    covered: f64,
+}
+
+/// Periods kept at most: the last ones.
+const MOST_PERIODS: f64 = 64.0;
+
+impl<const N: usize> Periods<N> {
+    /// Periods of a length (s) up to the end of a run (s).
+    pub fn until(end: f64, length: f64, probes: [usize; N], channel: usize) -> Self {
+        let count = (end / length).floor().clamp(0.0, MOST_PERIODS);
+        let none = Period {
+            means: [0.0; N],
+            range: (f64::INFINITY, f64::NEG_INFINITY),
+            covered: 0.0,
+        };
+        Periods {
+            probes,
+            channel,
+            start: end - count * length,
+            length,
+            periods: vec![none; count as usize],
         }
     }
-    /// Takes a step; one that begins before the instant counts with what lies behind it.
+    /// Takes a step, each part of it for the period it lies in.
     pub fn watch<M: Machine>(&mut self, step: &Step<M>) {
-        let length = step.end - step.start.max(self.from);
-        if length > 0.0 {
-            self.sum += 0.5 * length * (step.start_probe(self.probe) + step.end_probe(self.probe));
-            self.length += length;
+        let mut from = step.start.max(self.start);
+        while from < step.end {
+            let index = ((from - self.start) / self.length) as usize;
+            let Some(period) = self.periods.get_mut(index) else {
+                return;
+            };
+            let border = self.start + (index + 1) as f64 * self.length;
+            // rounding may leave the border where it is
+            let to = step.end.min(border).max(from + f64::EPSILON * step.end);
+            let weight = 0.5 * (to - from);
+            for (mean, probe) in period.means.iter_mut().zip(self.probes) {
+                *mean += weight * (step.start_probe(probe) + step.end_probe(probe));
+            }
+            period.covered += to - from;
+            for value in [step.start_state(self.channel), step.end_state(self.channel)] {
+                period.range = (period.range.0.min(value), period.range.1.max(value));
+            }
+            from = to;
         }
     }
-    /// The mean; none where the run ended before the instant.
-    pub fn value(&self) -> Option<f64> {
-        (self.length > 0.0).then(|| self.sum / self.length)
+    /// The periods that the run came through whole, in order.
+    pub fn whole(&self) -> impl DoubleEndedIterator<Item = Period<N>> + '_ {
+        let whole = |period: &&Period<N>| period.covered > 0.999 * self.length;
+        self.periods.iter().filter(whole).map(|period| Period {
+            means: period.means.map(|sum| sum / period.covered),
+            ..*period
+        })
     }
 }
 

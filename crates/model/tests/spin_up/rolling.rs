@@ -326,3 +326,26 @@ fn spin_up_times_are_those_of_the_reference() {
     }
     assert_eq!(seen, 12);
 }
+
+#[test]
+fn late_means_begin_when_the_race_is_at_its_speed() {
+    // a ramp of 50 ms; a turn of the cage takes 15.3 ms
+    let of = |end: f64| {
+        let mut bearing = rolling();
+        bearing.moment = SteadyMoment::Palmgren(crate::rig::palmgren());
+        let constants = rolling_machine(bearing, Drive::ramp(20_000.0, 1000.0), 0.0);
+        run(constants, end, 1e-6).record.late_means(1000.0)
+    };
+    assert_eq!(of(0.06), None, "less than a turn at full speed");
+    let late = of(0.1).expect("three turns");
+    assert_eq!(late.turns, 2, "the later half of three");
+    // balls that roll at a constant speed: both moments are those of the law
+    assert!(
+        (late.inner_moment / late.steady_moment - 1.0).abs() < 1e-9,
+        "{late:?}"
+    );
+    assert!(
+        (late.outer_moment / late.steady_moment - 1.0).abs() < 1e-9,
+        "{late:?}"
+    );
+}

@@ -155,11 +155,11 @@ function spinUpVerdict(run) {
     tile("Balls skid", skidText, [skid.value ? null : skid.why, carried], skid.value === "still at the end" ? verdictState(run, true) : null),
     quantityTile(run, "Largest moment t_I", "peak_inner_race_moment", () => {
       const mean = numberOf(run, "inner_race_mean_moment");
-      return mean === null ? null : `${engineeringText(mean, "N m", 4)} in the mean of the last cage turn`;
+      return mean === null ? null : `${engineeringText(mean, "N m", 4)} in the mean of the last cage turns`;
     }),
     quantityTile(run, "Largest moment t_O", "peak_outer_race_moment", () => {
       const mean = numberOf(run, "outer_race_mean_moment");
-      return mean === null ? null : `${engineeringText(mean, "N m", 4)} in the mean of the last cage turn`;
+      return mean === null ? null : `${engineeringText(mean, "N m", 4)} in the mean of the last cage turns`;
     }),
     quantityTile(
       run,

@@ -1,7 +1,7 @@
 //! What is watched and kept of a spin-up.
 //!
 //! Rises through a level are found on dense output; largest values are those at the ends of the steps. Means are taken
-//! over the time of a cage turn at the target speed, at the end. Rows are sampled at equal intervals and at the end.
+//! over cage turns at the target speed. Rows are sampled at equal intervals and at the end.
 //! Everything is allocated before the run.
 
 use super::SpinUpMachine;
@@ -10,7 +10,7 @@ use super::layout::{
     OUTER_MOMENT, STEADY_MOMENT,
 };
 use crate::bearing::BearingConstants;
-use crate::system::sampling::{LateMean, Peak, Rise, Row, Rows};
+use crate::system::sampling::{Peak, Periods, Rise, Row, Rows};
 use solve::{Flow, Observer, Step};
 
 /// Everything kept of one machine.
@@ -28,9 +28,27 @@ pub struct Record {
     pub largest_outer_load: Peak,
     /// Of the inner race through 50 % and 95 % of the target speed, of the cage through 95 % of its rolling speed then.
     rises: [Rise; 3],
-    /// Of t_I, t_O, M and the cage slip over the last cage turn.
-    means: [LateMean; 4],
+    /// Of t_I, t_O, M and the cage slip, over cage turns.
+    turns: Periods<4>,
     rows: Rows,
+}
+
+/// Share of the speed within which the race counts as being at it.
+const AT_SPEED: f64 = 0.01;
+
+/// Means over cage turns at one speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LateMeans {
+    /// Number of turns, of the time a cage needs that rolls at the target speed.
+    pub turns: usize,
+    /// Moment t_I, N m.
+    pub inner_moment: f64,
+    /// Moment t_O, N m.
+    pub outer_moment: f64,
+    /// Moment M of the law, N m.
+    pub steady_moment: f64,
+    /// Cage slip.
+    pub cage_slip: f64,
 }
 
 impl Record {
@@ -58,26 +76,36 @@ impl Record {
                 Rise::through(INNER + 5, 0.95 * speed),
                 cage,
             ],
-            means: [INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT, CAGE_SLIP]
-                .map(|probe| LateMean::since(end - turn, probe)),
+            turns: Periods::until(
+                end,
+                turn,
+                [INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT, CAGE_SLIP],
+                INNER + 5,
+            ),
             rows: Rows::new(machine, end, interval, keep_rows),
         }
     }
-    /// Mean moment t_I over the time of the last cage turn, N m, as far as the run came into it.
-    pub fn mean_inner_moment(&self) -> Option<f64> {
-        self.means[0].value()
+    /// Means over the last cage turns at a speed of the inner race, rad/s: of those in which the speed stayed within 1 %,
+    /// the later half. None where there was no such turn.
+    pub fn late_means(&self, speed: f64) -> Option<LateMeans> {
+        let near = |value: f64| (value - speed).abs() <= AT_SPEED * speed.abs();
+        let at_speed: Vec<_> = (self.turns.whole().rev())
+            .take_while(|turn| near(turn.range.0) && near(turn.range.1))
+            .collect();
+        let late = &at_speed[..at_speed.len().div_ceil(2)];
+        let mean =
+            |k: usize| late.iter().map(|turn| turn.means[k]).sum::<f64>() / late.len() as f64;
+        (!late.is_empty()).then(|| LateMeans {
+            turns: late.len(),
+            inner_moment: mean(0),
+            outer_moment: mean(1),
+            steady_moment: mean(2),
+            cage_slip: mean(3),
+        })
     }
-    /// Mean moment t_O over the time of the last cage turn, N m, as far as the run came into it.
-    pub fn mean_outer_moment(&self) -> Option<f64> {
-        self.means[1].value()
-    }
-    /// Mean steady moment M of the law over the time of the last cage turn, N m, as far as the run came into it.
-    pub fn mean_steady_moment(&self) -> Option<f64> {
-        self.means[2].value()
-    }
-    /// Mean cage slip over the time of the last cage turn, as far as the run came into it.
-    pub fn mean_cage_slip(&self) -> Option<f64> {
-        self.means[3].value()
+    /// Mean cage slip of the last whole cage turn.
+    pub fn last_cage_slip(&self) -> Option<f64> {
+        self.turns.whole().next_back().map(|turn| turn.means[3])
     }
     /// First instant the inner race reaches half the target speed, s.
     pub fn inner_race_time_to_50_percent(&self) -> Option<f64> {
@@ -126,9 +154,7 @@ impl Observer<SpinUpMachine> for Record {
         for rise in &mut self.rises {
             rise.watch(step);
         }
-        for mean in &mut self.means {
-            mean.watch(step);
-        }
+        self.turns.watch(step);
         self.rows.sample(step, SpinUpMachine::content);
         Flow::Continue
     }
