@@ -324,8 +324,8 @@ fn solve(a: &[f64], size: usize, pivots: &[usize], side: &mut [f64]) {
         }
         sum
     };
-    for k in 0..size {
-        side.swap(k, pivots[k]);
+    for (row, pivot) in pivots.iter().enumerate() {
+        side.swap(row, *pivot);
     }
     for row in 1..size {
         let (before, rest) = side.split_at_mut(row);
