@@ -4,7 +4,8 @@
 //! must cancel.
 
 use crate::machines::{
-    Random, balance_mount, ball_of, bearing_part, let_roll, planar, random_state, reference, vec2,
+    Random, balance_mount, ball_of, bearing_part, let_roll, oil, planar, random_state, reference,
+    vec2,
 };
 use model::bearing::{
     AccelerationLoss, BearingConstants, PlanarConstants, SharedMoment, SteadyMoment,
@@ -16,7 +17,9 @@ use model::system::drop::layout::{
 use model::system::drop::rate::race_motion;
 use number::Vec2;
 use physics::palmgren::Palmgren;
-use physics::traction::{DryTraction, FourParameterTraction, TanhTraction, Traction, TractionLaw};
+use physics::traction::{
+    DryTraction, FourParameterTraction, SlipLaw, TanhTraction, Traction, TractionLaw,
+};
 
 /// States tried for each machine.
 const STATES: u32 = 300;
@@ -46,6 +49,8 @@ fn machines() -> Vec<DropMachine> {
         inverse_decay_speed: 2.0,
         inverse_reference_speed: 50.0,
     });
+    let mut oiled = base();
+    planar(&mut oiled).traction = oil();
     let mut seven = base();
     planar(&mut seven).balls = 7;
     balance_mount(&mut seven);
@@ -276,8 +281,8 @@ fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f
             let tractions: f64 = (0..b.balls)
                 .map(|j| {
                     let reaction = b.ball_reaction(&motion, part, j);
-                    let traction =
-                        b.traction.coefficient(reaction.outer_slip) * reaction.outer_load;
+                    let [inner, outer] = reaction.contacts();
+                    let traction = b.traction.at_races(&inner, &outer).1 * reaction.outer_load;
                     let [centre, ..] = ball_centre(machine, state, rate, j);
                     let distance = (centre - pair(state, OUTER)).length_squared().sqrt();
                     let approach = distance + b.ball.radius - b.ball.outer_track;
