@@ -6,7 +6,8 @@
 //! ```
 //! Explicit steps are bound by λ, where it is large against ω; linearly implicit ones are not, and cost several times more.
 //! Q is the largest ball load of a first impact, 5 F/N of the radial force F = v √(k m): the rotor has fallen through its
-//! clearance and is stopped by the mount. Where the slope depends on rolling, it is that of balls that roll at the release speed.
+//! clearance and is stopped by the mount. Where the slope depends on rolling, it is that of balls that do not roll yet:
+//! the largest.
 
 use super::build::Built;
 use crate::scenario::{Drop, Method};
@@ -39,10 +40,7 @@ fn stiffness(drop: &Drop, built: &Built, bearing: &PlanarConstants) -> f64 {
     let force = (fall * machine.mount.stiffness * machine.rotor.mass).sqrt();
     let load = 5.0 * force / bearing.balls as f64;
     let ball = &bearing.ball;
-    let set = built.constants.bearing.set();
-    let speed = built.constants.speed;
-    let entrainment = set.inner_track_radius * (speed - set.cage_speed(speed));
-    let slope = bearing.traction.slope_at_rest(load, entrainment);
+    let slope = bearing.traction.slope_at_rest(load, 0.0);
     let rate = 5.0 * slope * load / ball.mass;
     let stiffness = |hertz: f64| 1.5 * hertz.powf(2.0 / 3.0) * load.cbrt();
     let mode =

@@ -10,6 +10,7 @@ mod balances;
 mod drops;
 mod implicit;
 mod loads;
+mod oil;
 mod rest;
 mod spin_up;
 mod symmetry;

@@ -12,7 +12,7 @@ use physics::traction::{FourParameterTraction, TanhTraction, Traction};
 const SPEED: f64 = 1000.0;
 const LOAD: f64 = 80.0;
 
-/// Cage slip after each of two equal times at constant speed and load, the balls at rest or rolling at the start.
+/// Cage slip after 0.06 s at constant speed and load and 0.02 s later, the balls at rest or rolling at the start.
 fn cage_slips(traction: Traction<f64>, rolling: bool) -> [f64; 2] {
     let mut bearing = greased_bearing();
     bearing.traction = traction;
@@ -26,27 +26,27 @@ fn cage_slips(traction: Traction<f64>, rolling: bool) -> [f64; 2] {
     if rolling {
         start_rolling.roll(&mut state[BEARING..], SPEED);
     }
-    [(); 2].map(|()| {
-        let mut record = Record::new(&machine, 0.02, 0.02, false);
-        state = observe(&machine, &state, &settings(0.02, 1e-5), &mut record).state;
-        let (_, probe) = machine.inspect(0.02, &state);
+    [0.06, 0.02].map(|time| {
+        let mut record = Record::new(&machine, time, time, false);
+        state = observe(&machine, &state, &settings(time, 1e-5), &mut record).state;
+        let (_, probe) = machine.inspect(time, &state);
         probe[CAGE_SLIP]
     })
 }
 
 #[test]
 fn a_traction_peak_makes_the_cage_slip_bistable() {
-    // peak 0.074 at 0.1 m/s, which carries the moment of the law several times; 0.002 beyond 1 m/s, which does not
+    // peak 0.074 at 0.5 m/s, which carries the moment of the law several times; 0.002 beyond 5 m/s, which does not
     let peaked = Traction::FourParameter(FourParameterTraction {
         a: -0.002,
-        b: 2.0,
-        c: 10.0,
+        b: 0.4,
+        c: 2.0,
         d: 0.002,
     });
     let (slow, quick) = (cage_slips(peaked, false), cage_slips(peaked, true));
-    // skids for good: the slip at the end is that of the middle; measured 0.9 and more
-    assert!(slow.iter().all(|slip| *slip > 0.5), "{slow:?}");
-    assert!((slow[1] - slow[0]).abs() < 0.05, "{slow:?}");
+    // skids for good: measured 0.9787, twice; with rolling at the start 0.0081 and 0.0083
+    assert!(slow.iter().all(|slip| *slip > 0.9), "{slow:?}");
+    assert!((slow[1] - slow[0]).abs() < 0.01, "{slow:?}");
     assert!(quick.iter().all(|slip| slip.abs() < 0.02), "{quick:?}");
 }
 
