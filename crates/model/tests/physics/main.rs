@@ -11,6 +11,7 @@ mod drops;
 mod implicit;
 mod loads;
 mod oil;
+mod relatives;
 mod rest;
 mod spin_up;
 mod symmetry;
