@@ -156,10 +156,6 @@ impl<R: Real> TractionLaw<R> for LubricatedRaces<R> {
 
 /// The traction laws a bearing can be built with.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "one stands in each bearing, and is copied only when the bearing is built"
-)]
 pub enum Traction<R> {
     /// Law (a).
     Tanh(TanhTraction<R>),
