@@ -5,7 +5,7 @@
 #[allow(dead_code)] // shared with the other tests
 mod machines;
 
-use machines::{reference, settings};
+use machines::{oil, reference, settings};
 use model::bearing::BearingConstants;
 use model::system::drop::{Drop, DropConstants, DropMachine};
 use number::{Level, Real, Task};
@@ -137,6 +137,7 @@ fn any_number_of_balls_and_any_traction_law_has_the_same_bits() {
             inverse_decay_speed: 2.0,
             inverse_reference_speed: 10.0,
         }),
+        oil(),
     ];
     // fewer than a group, a group, one more, several groups
     for (balls, law) in [3, 8, 9, 19].into_iter().zip(laws.into_iter().cycle()) {

@@ -1,12 +1,43 @@
 //! Sliding friction between ball and race: traction coefficient against slip speed.
 //!
 //! Every law is odd in the slip u, so friction always opposes sliding and only makes heat.
-//! The friction force is μ(u) Q along the slip, Q the ball load.
+//! The friction force is μ(u) Q along the slip, Q the ball load. Assumed curves know the slip alone ([`SlipLaw`]); a
+//! lubricated contact asks for load and entrainment too, and differs between the races.
 
+use crate::lubricant_traction::LubricantTraction;
 use number::{Gather, Real, constants};
 
-/// A traction law: coefficient of friction over slip speed.
+/// A loaded contact of a ball and a race, as its traction sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlidingContact<R> {
+    /// u: slip, race surface less ball surface, m/s.
+    pub slip: R,
+    /// Q: load, N.
+    pub load: R,
+    /// v: entrainment, mean of both surface speeds seen from the contact, m/s; its sign has no effect.
+    pub entrainment: R,
+}
+
+/// A traction law of a ball between two races.
 pub trait TractionLaw<R: Real> {
+    /// Traction coefficients μ at the inner and the outer race. Odd in the slip.
+    fn at_races(&self, inner: &SlidingContact<R>, outer: &SlidingContact<R>) -> (R, R);
+}
+
+macro_rules! curve {
+    ($($Curve:ident),*) => {$(
+        impl<R: Real> TractionLaw<R> for $Curve<R> {
+            #[inline(always)]
+            fn at_races(&self, inner: &SlidingContact<R>, outer: &SlidingContact<R>) -> (R, R) {
+                self.coefficients(inner.slip, outer.slip)
+            }
+        }
+    )*};
+}
+curve!(TanhTraction, FourParameterTraction, DryTraction);
+
+/// A traction law that is a curve: coefficient of friction over slip speed, the same at both races.
+pub trait SlipLaw<R: Real> {
     /// Traction coefficient μ at slip speed u, m/s. Odd in u.
     fn coefficient(&self, slip: R) -> R;
     /// The coefficients at two slips, where a law can share work between them.
@@ -27,7 +58,7 @@ constants! {
         inverse_reference_speed: R,
     }
 }
-impl<R: Real> TractionLaw<R> for TanhTraction<R> {
+impl<R: Real> SlipLaw<R> for TanhTraction<R> {
     #[inline(always)]
     fn coefficient(&self, slip: R) -> R {
         self.maximum * (slip * self.inverse_reference_speed).tanh()
@@ -55,7 +86,7 @@ constants! {
         d: R,
     }
 }
-impl<R: Real> TractionLaw<R> for FourParameterTraction<R> {
+impl<R: Real> SlipLaw<R> for FourParameterTraction<R> {
     #[inline(always)]
     fn coefficient(&self, slip: R) -> R {
         let u = slip.abs();
@@ -95,12 +126,31 @@ constants! {
         inverse_reference_speed: R,
     }
 }
-impl<R: Real> TractionLaw<R> for DryTraction<R> {
+impl<R: Real> SlipLaw<R> for DryTraction<R> {
     #[inline(always)]
     fn coefficient(&self, slip: R) -> R {
         let level =
             self.kinetic + self.static_excess * (-(slip.abs() * self.inverse_decay_speed)).exp();
         level * (slip * self.inverse_reference_speed).tanh()
+    }
+}
+
+constants! {
+    /// Law (e): the lubricant, whose film differs between the races.
+    pub struct LubricatedRaces {
+        /// At the inner race.
+        inner: LubricantTraction<R>,
+        /// At the outer race.
+        outer: LubricantTraction<R>,
+    }
+}
+impl<R: Real> TractionLaw<R> for LubricatedRaces<R> {
+    #[inline(always)]
+    fn at_races(&self, inner: &SlidingContact<R>, outer: &SlidingContact<R>) -> (R, R) {
+        let of = |law: &LubricantTraction<R>, at: &SlidingContact<R>| {
+            law.coefficient(at.slip, at.load, at.entrainment)
+        };
+        (of(&self.inner, inner), of(&self.outer, outer))
     }
 }
 
@@ -113,21 +163,57 @@ pub enum Traction<R> {
     FourParameter(FourParameterTraction<R>),
     /// Law (d).
     Dry(DryTraction<R>),
+    /// Law (e).
+    Lubricated(LubricatedRaces<R>),
 }
 
 impl<R: Real> TractionLaw<R> for Traction<R> {
-    /// Traction coefficient of the chosen law.
+    /// Traction coefficients of the chosen law.
     ///
     /// Source: (a) regularised Coulomb friction; (b) the four-parameter form of
     /// P. K. Gupta, Advanced Dynamics of Rolling Elements, 1984 (from memory);
-    /// (d) the exponential Stribeck form of L. C. Bo, D. Pavelescu, Wear 82 (1982) 277 (from memory).
-    /// Valid: any slip; (b) only with C > 0 and μ ≥ 0 for all |u|.
+    /// (d) the exponential Stribeck form of L. C. Bo, D. Pavelescu, Wear 82 (1982) 277 (from memory);
+    /// (e) that of [`LubricantTraction::state`].
+    /// Valid: any slip; (b) only with C > 0 and μ ≥ 0 for all |u|; (e) as there.
     #[inline(always)]
-    fn coefficient(&self, slip: R) -> R {
+    fn at_races(&self, inner: &SlidingContact<R>, outer: &SlidingContact<R>) -> (R, R) {
         match self {
-            Traction::Tanh(law) => law.coefficient(slip),
-            Traction::FourParameter(law) => law.coefficient(slip),
-            Traction::Dry(law) => law.coefficient(slip),
+            Traction::Tanh(law) => law.at_races(inner, outer),
+            Traction::FourParameter(law) => law.at_races(inner, outer),
+            Traction::Dry(law) => law.at_races(inner, outer),
+            Traction::Lubricated(law) => law.at_races(inner, outer),
+        }
+    }
+}
+
+/// Slip that stands for none, m/s: far below any reference speed.
+const SMALL_SLIP: f64 = 1e-9;
+
+impl Traction<f64> {
+    /// Slope ∂μ/∂u at zero slip, s/m: the larger one of both races.
+    ///
+    /// Formula: μ(1e-9 m/s)/(1e-9 m/s) of a curve; [`LubricantTraction::slope_at_rest`] of a lubricant
+    ///
+    /// - `load`: Q, N
+    /// - `entrainment`: v, m/s
+    ///
+    /// Source: derivative of the law.
+    /// Valid: as the law.
+    pub fn slope_at_rest(&self, load: f64, entrainment: f64) -> f64 {
+        match self {
+            Traction::Lubricated(law) => {
+                let [inner, outer] =
+                    [&law.inner, &law.outer].map(|law| law.slope_at_rest(load, entrainment));
+                inner.max(outer)
+            }
+            curve => {
+                let at = SlidingContact {
+                    slip: SMALL_SLIP,
+                    load,
+                    entrainment,
+                };
+                curve.at_races(&at, &at).0 / SMALL_SLIP
+            }
         }
     }
 }
@@ -150,6 +236,7 @@ impl<R: Real> Gather<R> for Traction<f64> {
             Traction::Tanh(_) => variant!(Tanh),
             Traction::FourParameter(_) => variant!(FourParameter),
             Traction::Dry(_) => variant!(Dry),
+            Traction::Lubricated(_) => variant!(Lubricated),
         }
     }
 }
@@ -206,9 +293,11 @@ mod tests {
         #[test]
         fn friction_is_odd_and_opposes_slip(u in -100.0..100.0_f64) {
             for law in [Traction::Tanh(TANH), Traction::FourParameter(FOUR), Traction::Dry(DRY)] {
-                let mu = law.coefficient(u);
-                prop_assert!(mu * u >= 0.0);
-                prop_assert!((mu + law.coefficient(-u)).abs() < 1e-15);
+                let at = |slip| SlidingContact { slip, load: 100.0, entrainment: 5.0 };
+                let (mu, same) = law.at_races(&at(u), &at(u));
+                let (opposite, _) = law.at_races(&at(-u), &at(u));
+                prop_assert!(mu * u >= 0.0 && mu == same);
+                prop_assert!((mu + opposite).abs() < 1e-15);
             }
         }
     }

@@ -3,6 +3,7 @@
 use super::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 use super::resolve::Values;
 use super::section::Section;
+use physics::lubricant::{LUBRICANTS, Lubricant};
 use physics::palmgren_factors::FactorType;
 
 /// How the bearing is modelled.
@@ -172,6 +173,35 @@ pub enum Traction {
         /// Slip speed that regularises the law, m/s.
         reference_speed: f64,
     },
+    /// From the film of an oil.
+    Lubricant(OilFilm),
+}
+
+/// The film between balls and races.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OilFilm {
+    /// The oil.
+    pub oil: Lubricant,
+    /// Its temperature where it enters the contacts, K.
+    pub temperature: f64,
+    /// Its thermal conductivity, W/(m K), where it is given.
+    pub conductivity: Option<f64>,
+    /// Root of the sum of squares of both rms roughnesses, m.
+    pub composite_roughness: f64,
+    /// Friction coefficient of asperities.
+    pub boundary_friction_coefficient: f64,
+    /// Slip speed that regularises friction, m/s.
+    pub boundary_reference_speed: f64,
+    /// Share of the flooded film that starvation leaves.
+    pub supply: f64,
+}
+
+/// Names of the oils in a scenario, in the order of [`LUBRICANTS`].
+pub(super) const OIL_NAMES: [&str; LUBRICANTS.len()] = ["FVA 3", "N100", "PAO100"];
+
+fn oil(name: &str) -> Lubricant {
+    let place = OIL_NAMES.iter().position(|word| *word == name);
+    LUBRICANTS[place.unwrap_or(0)]
 }
 
 /// Drag of balls and cage to ground, to reproduce reference cases.
@@ -260,6 +290,15 @@ fn traction(traction: &Section<'_>) -> Traction {
             decay_speed: traction.number("decay_speed"),
             reference_speed: traction.number("reference_speed"),
         },
+        "lubricant" => Traction::Lubricant(OilFilm {
+            oil: oil(traction.word("oil")),
+            temperature: traction.number("oil_temperature"),
+            conductivity: traction.maybe("oil_conductivity"),
+            composite_roughness: traction.number("composite_roughness"),
+            boundary_friction_coefficient: traction.number("boundary_friction_coefficient"),
+            boundary_reference_speed: traction.number("boundary_reference_speed"),
+            supply: traction.number("supply"),
+        }),
         _ => Traction::Tanh {
             maximum: traction.number("maximum"),
             reference_speed: traction.number("reference_speed"),

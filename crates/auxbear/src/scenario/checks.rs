@@ -8,6 +8,7 @@ use super::system::System;
 use super::torque::Torque;
 use crate::catalogue::geometry::{Geometry, millimetres};
 use crate::problem::{Code, Place, Problem};
+use physics::lubricant::LubricantError;
 use physics::traction::FourParameterTraction;
 
 /// Most values of a history, in memory at the end of a run: 1.6 GB.
@@ -237,7 +238,22 @@ impl Context<'_> {
                     "a coefficient that is nowhere negative is needed: d >= 0, and b not below c·d".to_string(),
                 )))
             }
-            _ => Ok(()),
+            Traction::Lubricant(film) => match film.oil.at(film.temperature, film.conductivity) {
+                Ok(_) => Ok(()),
+                Err(error @ LubricantError::Temperature { .. }) => Err(Box::new(self.problem(
+                    Code::NoLawData,
+                    "bearing.traction.oil_temperature",
+                    self.text("bearing.traction.oil_temperature"),
+                    error.to_string(),
+                ))),
+                Err(error) => Err(Box::new(self.problem(
+                    Code::MissingKey,
+                    "bearing.traction.oil_conductivity",
+                    "no value".to_string(),
+                    error.to_string(),
+                ))),
+            },
+            Traction::Tanh { .. } | Traction::Dry { .. } => Ok(()),
         }
     }
 

@@ -44,7 +44,7 @@ mod table_torque;
 mod template;
 mod torque;
 
-pub use bearing::{BallMaterial, Bearing, BearingType, Cage, Drag, Fidelity, Traction};
+pub use bearing::{BallMaterial, Bearing, BearingType, Cage, Drag, Fidelity, OilFilm, Traction};
 pub use bearing_source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
 pub use drop::{Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor, Spin};
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};

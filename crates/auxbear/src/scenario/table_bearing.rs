@@ -1,5 +1,6 @@
 //! The part of the table of keys that describes the rolling bearing.
 
+use super::bearing::OIL_NAMES;
 use super::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
 use super::system::SystemName;
 use super::table::MOVING;
@@ -48,6 +49,7 @@ const fn traction(values: &'static [&'static str]) -> Condition {
 const TANH: &[Condition] = &[traction(&["tanh"])];
 const FOUR_PARAMETER: &[Condition] = &[traction(&["four parameter"])];
 const DRY: &[Condition] = &[traction(&["dry"])];
+const LUBRICANT: &[Condition] = &[traction(&["lubricant"])];
 const TANH_OR_DRY: &[Condition] = &[traction(&["tanh", "dry"])];
 
 pub(super) const KEYS: &[Key] = &[
@@ -306,9 +308,9 @@ pub(super) const KEYS: &[Key] = &[
     .default("0.1 m/s", "numerical regularisation: small against the surface speed of a ball"),
     Key::new(
         "bearing.traction.law",
-        Kind::Word(&["tanh", "four parameter", "dry"]),
+        Kind::Word(&["tanh", "four parameter", "dry", "lubricant"]),
         "tanh",
-        "Traction law: tanh is maximum·tanh(u/reference_speed); four parameter is (A + B u)exp(-C u) + D; dry falls from static to kinetic friction.",
+        "Traction law: tanh is maximum·tanh(u/reference_speed); four parameter is (A + B u)exp(-C u) + D; dry falls from static to kinetic friction; lubricant follows from the film of an oil.",
     )
     .default("tanh", "two parameters suffice where no traction curve is measured"),
     Key::new(
@@ -385,6 +387,69 @@ pub(super) const KEYS: &[Key] = &[
         "numerical regularisation; it stands for the slope of a traction curve",
     )
     .when(TANH_OR_DRY),
+    Key::new(
+        "bearing.traction.oil",
+        Kind::Word(&OIL_NAMES),
+        "FVA 3",
+        "Oil between balls and races: one whose viscosity under pressure was measured. FVA 3 is a paraffinic mineral oil, N100 a naphthenic one, PAO100 a polyalphaolefin; all ISO VG 100.",
+    )
+    .when(LUBRICANT),
+    Key::new(
+        "bearing.traction.oil_temperature",
+        Kind::Quantity("K"),
+        "60 degC",
+        "Temperature of the oil where it enters the contacts, constant; data of the oils serve from 25 to 100 degC.",
+    )
+    .positive()
+    .when(LUBRICANT),
+    Key::new(
+        "bearing.traction.oil_conductivity",
+        Kind::Quantity("W/(m K)"),
+        "0.134 W/(m K)",
+        "Thermal conductivity of the oil. None is published with N100 and PAO100, which need it.",
+    )
+    .positive()
+    .optional("the one published with the oil")
+    .when(LUBRICANT),
+    Key::new(
+        "bearing.traction.composite_roughness",
+        Kind::Quantity("m"),
+        "0.1 um",
+        "Root of the sum of squares of the rms roughnesses of ball and race.",
+    )
+    .positive()
+    .assumed("0.1 um", "order of magnitude of ground raceways and balls")
+    .when(LUBRICANT),
+    Key::new(
+        "bearing.traction.boundary_friction_coefficient",
+        Kind::Coefficient,
+        "0.12",
+        "Friction coefficient of the asperities, on the share of the load that they carry.",
+    )
+    .positive()
+    .assumed("0.12", "0.12 to 0.135 were measured (Masjedi and Khonsari, quoted by Arana et al. 2019)")
+    .when(LUBRICANT),
+    Key::new(
+        "bearing.traction.boundary_reference_speed",
+        Kind::Quantity("m/s"),
+        "0.001 m/s",
+        "Slip speed that regularises boundary friction and the film's limiting friction where rolling is slow.",
+    )
+    .positive()
+    .default(
+        "0.001 m/s",
+        "numerical regularisation: rolling at 1 m/s and more hardly feels it",
+    )
+    .when(LUBRICANT),
+    Key::new(
+        "bearing.traction.supply",
+        Kind::Coefficient,
+        "1.0",
+        "Share of the flooded film thickness that starvation leaves.",
+    )
+    .within(Range::FromTo(0.001, 1.0))
+    .assumed("1.0", "fully flooded; little oil or grease leaves less")
+    .when(LUBRICANT),
     Key::new(
         "bearing.drag.orbit",
         Kind::Quantity("N s/m"),

@@ -1,11 +1,9 @@
 //! From a bearing of a scenario to the constants of the model.
 
+use super::build_traction::traction;
 use super::{Options, Phase};
 use crate::problem::{Code, Problem};
-use crate::scenario::{
-    AccelerationLoss as LossChoice, BallMaterial, Bearing, Fidelity, Moment,
-    Traction as TractionChoice,
-};
+use crate::scenario::{AccelerationLoss as LossChoice, BallMaterial, Bearing, Fidelity, Moment};
 use model::bearing::ball::BallConstants;
 use model::bearing::rolling::RollingBall;
 use model::bearing::{
@@ -13,24 +11,27 @@ use model::bearing::{
     SteadyMoment,
 };
 use model::system::spin_up::layout::{INNER, INNER_LOAD_SUM, STEADY_MOMENT};
-use model::system::spin_up::steady::{LEAST_CAPACITY, largest_coefficient};
+use model::system::spin_up::steady::{LEAST_CAPACITY, traction_capacity};
 use model::system::spin_up::{
     Drive, InnerRace, Refusal, SpinUpConstants, SpinUpMachine, SteadyError, Watch, moment_scale,
 };
 use model::table::Table;
 use number::Vec2;
-use physics::hertz::{BallRace, PointContact, Race};
+use physics::hertz::{BallRace, Curvature, PointContact, Race};
 use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE, ball_mass, contact_modulus};
 use physics::rolling::RollingSet;
-use physics::traction::{DryTraction, FourParameterTraction, TanhTraction, Traction};
 
 /// What a problem found after reading names as its place.
-const SCENARIO: &str = "the scenario";
+pub(super) const SCENARIO: &str = "the scenario";
 
 /// The Hertz contacts of a ball, and its mass.
 pub(super) struct BallContacts {
     pub inner: PointContact,
     pub outer: PointContact,
+    /// Sums of curvatures at the inner and the outer race.
+    pub curvatures: [Curvature; 2],
+    /// Contact modulus E*, Pa.
+    pub modulus: f64,
     inner_stiffness: f64,
     outer_stiffness: f64,
     ball_mass: f64,
@@ -48,14 +49,15 @@ pub(super) fn ball_contacts(bearing: &Bearing) -> Result<BallContacts, Box<Probl
     let ball = material(bearing.ball_material);
     let modulus = contact_modulus(ball, BEARING_STEEL);
     let contact = |race: Race, groove_curvature: f64| {
-        let geometry = BallRace {
+        let curvature = BallRace {
             ball_diameter: bearing.ball_diameter,
             pitch_diameter: bearing.pitch_diameter,
             groove_curvature,
             contact_angle: 0.0,
             race,
-        };
-        PointContact::new(geometry.curvature(), modulus).map_err(|_| {
+        }
+        .curvature();
+        let contact = PointContact::new(curvature, modulus).map_err(|_| {
             Box::new(
                 Problem::new(
                     Code::BearingGeometry,
@@ -67,11 +69,14 @@ pub(super) fn ball_contacts(bearing: &Bearing) -> Result<BallContacts, Box<Probl
                 )
                 .on_key("bearing"),
             )
-        })
+        })?;
+        Ok::<_, Box<Problem>>((contact, curvature))
     };
-    let inner = contact(Race::Inner, bearing.inner_groove_curvature)?;
-    let outer = contact(Race::Outer, bearing.outer_groove_curvature)?;
+    let (inner, inner_curvature) = contact(Race::Inner, bearing.inner_groove_curvature)?;
+    let (outer, outer_curvature) = contact(Race::Outer, bearing.outer_groove_curvature)?;
     Ok(BallContacts {
+        curvatures: [inner_curvature, outer_curvature],
+        modulus,
         inner_stiffness: bearing.inner_contact_stiffness.unwrap_or(inner.stiffness),
         outer_stiffness: bearing.outer_contact_stiffness.unwrap_or(outer.stiffness),
         ball_mass: bearing
@@ -131,7 +136,7 @@ pub(super) fn bearing(
                 spin_drag: bearing.drag.spin,
                 gravity,
             },
-            traction: traction(&bearing.traction),
+            traction: traction(bearing, contacts)?,
             cage_mass: bearing.cage_mass,
             cage_inertia: bearing.cage_inertia,
             cage_drag: bearing.drag.cage,
@@ -262,7 +267,7 @@ pub(super) fn steady(
     if bearing.moment == Moment::None || speed == 0.0 {
         return Ok(None);
     }
-    let mut finding = at_rest(constants, &bearing.traction, race, speed, load)?;
+    let mut finding = at_rest(constants, bearing, race, speed, load)?;
     let BearingConstants::Planar(planar) = constants else {
         finding.origin = ScaleOrigin::NotNeeded;
         return Ok(Some(finding));
@@ -318,7 +323,7 @@ pub(super) fn steady(
 /// Moment and traction capacity of a bearing that is pressed together at rest.
 fn at_rest(
     constants: &BearingConstants,
-    traction_choice: &TractionChoice,
+    bearing: &Bearing,
     race: &InnerRace<f64>,
     speed: f64,
     load: f64,
@@ -340,14 +345,13 @@ fn at_rest(
     state[INNER + 5] = speed;
     let (_, probe) = machine.inspect(0.0, &state);
     let moment = probe[STEADY_MOMENT];
-    let traction = largest_coefficient(&traction(traction_choice))
-        * constants.set().inner_track_radius
-        * probe[INNER_LOAD_SUM];
+    let traction = traction(bearing, &ball_contacts(bearing)?)?;
+    let capacity = traction_capacity(&traction, constants, speed, probe[INNER_LOAD_SUM]);
     Ok(SteadyFinding {
         speed,
         load,
         moment,
-        capacity: traction / moment.abs(),
+        capacity: capacity / moment.abs(),
         scale: 1.0,
         steady_moment: None,
         origin: ScaleOrigin::NotNeeded,
@@ -372,30 +376,4 @@ pub(super) fn refused(refusal: Refusal) -> Box<Problem> {
         )
         .on_key(key),
     )
-}
-
-fn traction(choice: &TractionChoice) -> Traction<f64> {
-    match *choice {
-        TractionChoice::Tanh {
-            maximum,
-            reference_speed,
-        } => Traction::Tanh(TanhTraction {
-            maximum,
-            inverse_reference_speed: 1.0 / reference_speed,
-        }),
-        TractionChoice::FourParameter { a, b, c, d } => {
-            Traction::FourParameter(FourParameterTraction { a, b, c, d })
-        }
-        TractionChoice::Dry {
-            kinetic_coefficient,
-            static_coefficient,
-            decay_speed,
-            reference_speed,
-        } => Traction::Dry(DryTraction {
-            kinetic: kinetic_coefficient,
-            static_excess: static_coefficient - kinetic_coefficient,
-            inverse_decay_speed: 1.0 / decay_speed,
-            inverse_reference_speed: 1.0 / reference_speed,
-        }),
-    }
 }

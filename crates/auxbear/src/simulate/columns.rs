@@ -7,6 +7,7 @@ use model::system::drop::layout::{
     BEARING, DETAIL, FRICTION_FORCE, HEATS, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD,
     NORMAL_FORCE, OUTER, PENETRATION, ROTOR, SLIP_SPEED, SOURCES,
 };
+use model::system::drop::rate::race_motion;
 use model::system::sampling::Row;
 
 /// All columns; `time` first.
@@ -24,6 +25,7 @@ pub(super) fn history(context: &Context) -> Vec<Column> {
             context.built.inner_pressure_factor,
             context.built.outer_pressure_factor,
         ],
+        motion: race_motion,
     };
 
     table.add("time", "s", "time since release", |row| row.time);

@@ -1,7 +1,9 @@
 //! Columns that every moving system has: races, balls, pressures, energies.
 
+use super::film::Films;
 use super::outcome::Column;
 use model::bearing::BearingConstants;
+use model::motion::Motion;
 use model::system::energy::Balance;
 use model::system::sampling::Row;
 use physics::hertz::maximum_pressure;
@@ -25,6 +27,8 @@ pub(super) struct BearingPlace<'a> {
     pub largest_loads: [usize; 2],
     /// Pressure of a ball contact per cube root of its load at the inner and the outer race, Pa/N^(1/3).
     pub pressure_factors: [f64; 2],
+    /// Motion of the races in a state of the system.
+    pub motion: fn(&[f64]) -> Motion<f64>,
 }
 
 /// Detail of a ball: name, unit, meaning; the loads are known in every fidelity.
@@ -99,6 +103,7 @@ impl<'a> Table<'a> {
             BearingConstants::Planar(_) => DETAILS.len(),
             BearingConstants::Rolling(_) => LOADS,
         };
+        let films = Films::of(place.bearing, place.states.clone(), place.motion);
         for ball in 0..n {
             let name = |what: &str| format!("bearing.ball_{:02}.{what}", ball + 1);
             self.add(
@@ -112,6 +117,18 @@ impl<'a> Table<'a> {
             );
             for (k, (what, unit, meaning)) in DETAILS.into_iter().take(known).enumerate() {
                 self.probe(&name(what), unit, meaning, place.detail + k * n + ball);
+            }
+            if let Some(films) = &films {
+                for (race, side) in ["inner", "outer"].into_iter().enumerate() {
+                    self.add(
+                        &name(&format!("{side}_film")),
+                        "m",
+                        &format!(
+                            "central thickness of the oil film at the {side} race; 0 where the ball carries no load"
+                        ),
+                        |row| films.at(row, ball)[race].map_or(0.0, |film| film.thickness),
+                    );
+                }
             }
         }
         for (race, (probe, factor)) in ["inner", "outer"]

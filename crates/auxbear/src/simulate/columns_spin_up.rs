@@ -7,6 +7,7 @@ use crate::scenario::Drive;
 use model::system::spin_up::layout::{
     DETAIL, HEATS, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, PROBES, ROTOR, SOURCES,
 };
+use model::system::spin_up::rate::race_motion;
 
 /// What the probes of the model are, in their order.
 const MEANINGS: [&str; PROBES.len()] = [
@@ -41,6 +42,7 @@ pub(super) fn history(context: &Context) -> Vec<Column> {
             context.built.inner_pressure_factor,
             context.built.outer_pressure_factor,
         ],
+        motion: race_motion,
     };
 
     table.add("time", "s", "time since the start", |row| row.time);

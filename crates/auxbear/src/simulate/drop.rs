@@ -3,10 +3,13 @@
 use super::build::Built;
 use super::ending::{settings, stop};
 use super::ensemble::{self, Finished, Member, Plan};
+use super::film::{self, Films};
 use super::outcome::{Contact, Outcome, Picture, Spread, Stop, Value, Work};
 use super::{Options, columns, method, quantities, warnings};
 use crate::scenario::{Drop, Scenario};
 use model::system::drop::DropMachine;
+use model::system::drop::layout::BEARING;
+use model::system::drop::rate::race_motion;
 use number::Vec2;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -20,6 +23,16 @@ pub(super) struct Context<'a> {
     pub machine: &'a DropMachine,
     pub finished: &'a Finished,
     pub members: usize,
+}
+
+impl Context<'_> {
+    /// The films between balls and races, where traction is theirs.
+    pub fn films(&self) -> Option<film::Summary> {
+        let bearing = &self.machine.constants.bearing;
+        let states = BEARING..self.machine.layout().ledger();
+        let films = Films::of(bearing, states, race_motion)?;
+        Some(films.summary(self.finished.record.rows()))
+    }
 }
 
 /// Runs a drop.

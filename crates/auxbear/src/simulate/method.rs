@@ -6,18 +6,16 @@
 //! ```
 //! Explicit steps are bound by λ, where it is large against ω; linearly implicit ones are not, and cost several times more.
 //! Q is the largest ball load of a first impact, 5 F/N of the radial force F = v √(k m): the rotor has fallen through its
-//! clearance and is stopped by the mount.
+//! clearance and is stopped by the mount. Where the slope depends on rolling, it is that of balls that do not roll yet:
+//! the largest.
 
 use super::build::Built;
 use crate::scenario::{Drop, Method};
 use model::bearing::{BearingConstants, PlanarConstants};
-use physics::traction::TractionLaw;
 
 /// λ/ω above which linearly implicit steps are the quicker ones at equal error; measured on the reference drop with
 /// reference speeds of traction from 0.1 to 0.001 m/s.
 const STIFF: f64 = 60.0;
-/// Slip at which the slope of the traction law is taken, m/s: far below any reference speed.
-const SMALL_SLIP: f64 = 1e-9;
 
 /// Names of the methods, for people.
 pub(super) const EXPLICIT: &str = "Bogacki-Shampine 3(2), explicit";
@@ -42,7 +40,7 @@ fn stiffness(drop: &Drop, built: &Built, bearing: &PlanarConstants) -> f64 {
     let force = (fall * machine.mount.stiffness * machine.rotor.mass).sqrt();
     let load = 5.0 * force / bearing.balls as f64;
     let ball = &bearing.ball;
-    let slope = bearing.traction.coefficient(SMALL_SLIP) / SMALL_SLIP;
+    let slope = bearing.traction.slope_at_rest(load, 0.0);
     let rate = 5.0 * slope * load / ball.mass;
     let stiffness = |hertz: f64| 1.5 * hertz.powf(2.0 / 3.0) * load.cbrt();
     let mode =

@@ -112,6 +112,9 @@ pub(super) fn name(context: &Context) -> Vec<Quantity> {
         ],
         context.drop.bearing.hertz_pressure_limit,
     );
+    if let Some(films) = context.films() {
+        films.name(&mut list);
+    }
 
     // displacements and whirl
     list.number(

@@ -246,6 +246,9 @@ fn loads(list: &mut List, context: &Context) {
         ],
         context.spin_up.bearing.hertz_pressure_limit,
     );
+    if let Some(films) = context.films() {
+        films.name(list);
+    }
 }
 
 fn energies(list: &mut List, context: &Context) {

@@ -2,9 +2,11 @@
 
 use super::build_spin_up::Built;
 use super::ending::{settings, stop};
+use super::film::{self, Films};
 use super::outcome::{Outcome, Picture, Work};
 use super::{Options, Phase, columns_spin_up, method, quantities_spin_up, warnings_spin_up};
 use crate::scenario::{Scenario, SpinUp};
+use model::system::spin_up::rate::race_motion;
 use model::system::spin_up::record::Record;
 use model::system::spin_up::{SpinUp as System, SpinUpMachine};
 use solve::{Ending, Flow, Observer, Step};
@@ -22,6 +24,13 @@ pub(super) struct Context<'a> {
 impl Context<'_> {
     pub fn machine(&self) -> &SpinUpMachine {
         &self.built.machine
+    }
+    /// The films between balls and races, where traction is theirs.
+    pub fn films(&self) -> Option<film::Summary> {
+        let machine = self.machine();
+        let states = machine.layout().bearing();
+        let films = Films::of(&machine.constants.bearing, states, race_motion)?;
+        Some(films.summary(self.record.rows()))
     }
 }
 

@@ -108,6 +108,7 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
             ),
         ));
     }
+    list.extend(shared::films(context.films(), bearing));
     list.extend(shared::skids(context.built.steady.as_ref()));
     list.extend(shared::unscaled(context.built.steady.as_ref()));
     list.extend(shared::scale(context.built.steady.as_ref()));

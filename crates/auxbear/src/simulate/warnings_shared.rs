@@ -1,6 +1,7 @@
 //! Warnings that several systems give.
 
 use super::build_bearing::{ScaleOrigin, SteadyFinding};
+use super::film::Summary;
 use super::outcome::{Quantity, Value, Warning};
 use crate::scenario::{BallMaterial, Bearing, BearingType, Fidelity, Moment, Scenario};
 use physics::friction_range::OperatingPoint;
@@ -162,6 +163,11 @@ pub(super) fn law_range(bearing: &Bearing, speed: f64, load: f64) -> Vec<Warning
         )
     });
     texts.collect()
+}
+
+/// Films that are thin or outside their law.
+pub(super) fn films(films: Option<Summary>, bearing: &Bearing) -> Vec<Warning> {
+    films.map_or_else(Vec::new, |films| films.warnings(bearing))
 }
 
 /// A moment law that stays away although the bearing turns for long.

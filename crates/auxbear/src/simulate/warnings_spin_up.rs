@@ -22,6 +22,7 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     if let Some(Value::Number(pressure)) = number(quantities, "peak_hertz_pressure") {
         list.extend(shared::pressure(bearing, *pressure));
     }
+    list.extend(shared::films(context.films(), bearing));
     list.extend(shared::law_range(bearing, speed, load));
     if context.ending.stop == solve::Stop::Finished {
         list.extend(shared::residual(quantities));

@@ -7,7 +7,11 @@
 //!   inner     R_i + r - |b - c_i|             (v_i - v_b)·t + ω_i a_i + σ a         a = r - δ/2, a_i = R_i - δ/2
 //!   outer     |b - c_o| + r - R_o             (v_o - v_b)·t + ω_o a_o - σ a         a = r - δ/2, a_o = R_o + δ/2
 //!
-//!   on the ball: inner  +Q n + μ(u)Q t, moment -a μQ       outer  -Q n + μ(u)Q t, moment +a μQ
+//!   surface speeds seen from the contact, which turns about the race's centre at φ̇ = (v_b - v)·t/|b - c|
+//!     inner   race a_i (ω_i - φ̇)    ball a (φ̇ - σ)     their mean v = a_i (ω_i - φ̇) - u/2, their difference u
+//!     outer   race a_o (ω_o - φ̇)    ball a (σ - φ̇)     v = a_o (ω_o - φ̇) - u/2
+//!
+//!   on the ball: inner  +Q n + μ Q t, moment -a μQ       outer  -Q n + μ Q t, moment +a μQ,  μ(u, Q, v)
 //!
 //!   pocket    ψ = R_p wrap(β - φ_c - seat), β azimuth about c_o;  s = sign ψ;  p = |ψ| - gap
 //!             on the ball  -s P R_p/|b - c_o| t - μ_c tanh(v/v0) P n,   v = (v_b - v_o)·n - s r (σ - ω_c)
@@ -16,12 +20,12 @@
 //! [`steady_moment`](super::steady_moment).
 //!
 //! Assumes: motion in the plane; the cage is centred on the outer race.
-//! Does not model: axial motion, tilt, gyroscopic moments, ball-to-ball contact, cage translation, lubricant film.
+//! Does not model: axial motion, tilt, gyroscopic moments, ball-to-ball contact, cage translation, squeeze of the film.
 
 use crate::motion::Wrench;
 use number::{Gather, Mask, Real, Vec2, constants};
 use physics::contact::{NormalForce, ball_race, ball_race_energy, linear_contact};
-use physics::traction::TractionLaw;
+use physics::traction::{SlidingContact, TractionLaw};
 
 constants! {
     /// What one ball, its two contacts and its pocket are made of.
@@ -161,6 +165,10 @@ pub struct BallReaction<R> {
     pub inner_slip: R,
     /// Slip at the outer race, m/s.
     pub outer_slip: R,
+    /// Entrainment at the inner race, m/s.
+    pub inner_entrainment: R,
+    /// Entrainment at the outer race, m/s.
+    pub outer_entrainment: R,
     /// Pocket force, N.
     pub pocket_force: R,
     /// Pocket friction on the ball along n of the outer race, N.
@@ -169,6 +177,24 @@ pub struct BallReaction<R> {
     pub pocket_side: R,
     /// Pocket penetration, m; negative when free.
     pub pocket_penetration: R,
+}
+
+impl<R: Real> BallReaction<R> {
+    /// Its contacts at the inner and the outer race, as traction sees them.
+    pub fn contacts(&self) -> [SlidingContact<R>; 2] {
+        [
+            SlidingContact {
+                slip: self.inner_slip,
+                load: self.inner_load,
+                entrainment: self.inner_entrainment,
+            },
+            SlidingContact {
+                slip: self.outer_slip,
+                load: self.outer_load,
+                entrainment: self.outer_entrainment,
+            },
+        ]
+    }
 }
 
 /// How far a ball is from the three centres: what its chain of forces starts with, and waits for.
@@ -333,7 +359,10 @@ impl<R: Real> BallConstants<R> {
             (at_inner.approach, at_inner.closing, at_inner.normal);
         let arm_bi = self.radius - half * inner_approach;
         let arm_i = self.inner_track - half * inner_approach;
-        let inner_slip = inner.spin * arm_i + ball.spin * arm_bi - at_inner.past.dot(t_i);
+        let past_inner_t = at_inner.past.dot(t_i);
+        let inner_slip = inner.spin * arm_i + ball.spin * arm_bi - past_inner_t;
+        let inner_entrainment =
+            arm_i * (inner.spin - past_inner_t * at_inner.inverse_distance) - half * inner_slip;
 
         // outer race
         let (n_o, t_o) = (at_outer.n, at_outer.n.turned());
@@ -344,9 +373,22 @@ impl<R: Real> BallConstants<R> {
         let arm_o = self.outer_track + half * outer_approach;
         let past_outer_t = at_outer.past.dot(t_o);
         let outer_slip = outer.spin * arm_o - ball.spin * arm_bo - past_outer_t;
+        let outer_entrainment =
+            arm_o * (outer.spin - past_outer_t * inverse_outer) - half * outer_slip;
 
         // traction: zero by itself where the load is
-        let (mu_i, mu_o) = traction.coefficients(inner_slip, outer_slip);
+        let (mu_i, mu_o) = traction.at_races(
+            &SlidingContact {
+                slip: inner_slip,
+                load: q_i.force,
+                entrainment: inner_entrainment,
+            },
+            &SlidingContact {
+                slip: outer_slip,
+                load: q_o.force,
+                entrainment: outer_entrainment,
+            },
+        );
         let inner_traction = mu_i * q_i.force;
         let outer_traction = mu_o * q_o.force;
 
@@ -425,6 +467,8 @@ impl<R: Real> BallConstants<R> {
             outer_traction,
             inner_slip,
             outer_slip,
+            inner_entrainment,
+            outer_entrainment,
             pocket_force,
             pocket_friction,
             pocket_side: side,

@@ -200,6 +200,10 @@ pub fn state_name(state: usize, balls: usize) -> String {
 
 /// Constants of a bearing of one machine.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a machine has one, and copies it only when it is built"
+)]
 pub enum BearingConstants {
     /// The balls roll.
     Rolling(RollingConstants),

@@ -9,7 +9,7 @@
 //! Drag to ground (c_d on the orbit, c_w on the spin, c_c on the cage) exists to reproduce reference cases; it is no
 //! bearing friction moment. That is [`steady_moment`](super::steady_moment), and excludes it.
 //!
-//! Does not model: cage translation and land friction, full complement, film, heat.
+//! Does not model: cage translation and land friction, full complement, squeeze of the film, heat.
 
 use super::ball::{
     BallConstants, BallDistances, BallMotion, BallReaction, PocketMotion, RaceMotion, gather_group,
@@ -123,6 +123,7 @@ impl<R: Real> Planar<R> {
             Traction::Tanh(law) => self.apart(law, motion, state, rate, detail),
             Traction::FourParameter(law) => self.apart(law, motion, state, rate, detail),
             Traction::Dry(law) => self.apart(law, motion, state, rate, detail),
+            Traction::Lubricated(law) => self.apart(law, motion, state, rate, detail),
         };
         // apart from the sum above: without a steady moment nothing is paid, and the code above stands once a law
         if let Some(pairs) = &self.moment {

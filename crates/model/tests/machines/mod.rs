@@ -16,8 +16,13 @@ use model::rotor::Rotor;
 use model::system::drop::layout::{BEARING, INNER, OUTER, ROTOR};
 use model::system::drop::{Drop, DropConstants, DropMachine, MachineConstants};
 use number::Vec2;
+use physics::film::EntrainedContact;
+use physics::hertz::{BallRace, PointContact, Race};
+use physics::lubricant::FVA_3;
+use physics::lubricant_traction::{Asperities, LubricatedContact, STEEL_SURFACE};
+use physics::materials::{BEARING_STEEL, contact_modulus};
 use physics::rolling::RollingSet;
-use physics::traction::{TanhTraction, Traction};
+use physics::traction::{LubricatedRaces, TanhTraction, Traction};
 use solve::{Ending, Flow, Observer, Settings, Step};
 use std::f64::consts::PI;
 use std::sync::atomic::AtomicBool;
@@ -65,6 +70,35 @@ pub fn planar_bearing() -> PlanarConstants {
         first_ball_angle: 0.0,
         moment: None,
     }
+}
+
+/// Traction of this bearing in a mineral oil at 60 °C.
+pub fn oil() -> Traction<f64> {
+    let law = |race, groove_curvature| {
+        let curvature = BallRace {
+            ball_diameter: 6.35e-3,
+            pitch_diameter: 36e-3,
+            groove_curvature,
+            contact_angle: 0.0,
+            race,
+        }
+        .curvature();
+        let modulus = contact_modulus(BEARING_STEEL, BEARING_STEEL);
+        LubricatedContact {
+            entrained: EntrainedContact::new(curvature, modulus).expect("a groove"),
+            hertz: PointContact::new(curvature, modulus).expect("a groove"),
+            lubricant: FVA_3.at(333.15, None).expect("within its data"),
+            supply: 1.0,
+            surfaces: [STEEL_SURFACE; 2],
+            asperities: Asperities::raceway(0.1e-6, 0.01),
+        }
+        .traction()
+        .expect("positive constants")
+    };
+    Traction::Lubricated(LubricatedRaces {
+        inner: law(Race::Inner, 0.515),
+        outer: law(Race::Outer, 0.525),
+    })
 }
 
 /// The same bearing with balls that roll: contacts in series, the source paper's inertias, no friction moment.

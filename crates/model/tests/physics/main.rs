@@ -10,6 +10,8 @@ mod balances;
 mod drops;
 mod implicit;
 mod loads;
+mod oil;
+mod relatives;
 mod rest;
 mod spin_up;
 mod symmetry;

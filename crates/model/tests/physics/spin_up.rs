@@ -79,8 +79,10 @@ fn measure(machine: &DropMachine, state: &[f64]) -> Measured {
     for j in 0..b.balls {
         let (now, change) = (ball_of(machine, state, j), ball_of(machine, &rate, j));
         let reaction = b.ball_reaction(&motion, bearing_part(machine, state), j);
-        inner += b.traction.coefficient(reaction.inner_slip) * reaction.inner_load;
-        outer -= b.traction.coefficient(reaction.outer_slip) * reaction.outer_load;
+        let [at_inner, at_outer] = reaction.contacts();
+        let (of_inner, of_outer) = b.traction.at_races(&at_inner, &at_outer);
+        inner += of_inner * reaction.inner_load;
+        outer -= of_outer * reaction.outer_load;
         let side = reaction.pocket_side;
         let slide = now.radial_speed - side * r * (now.spin - cage.0);
         let coefficient =

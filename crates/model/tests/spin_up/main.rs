@@ -7,6 +7,7 @@ mod counting;
 mod machines;
 
 mod balls;
+mod bistable;
 mod lanes;
 mod limits;
 mod rig;

@@ -13,11 +13,11 @@
 //! of which the first of all are a cage turn at least, agrees with itself. Unloaded balls repeat nothing exactly, so that
 //! a single turn can be off by half a percent: then the run goes on until the mean is good enough.
 
-use super::layout::{BEARING, HEATS, INNER_LOAD_SUM, STEADY_MOMENT};
+use super::layout::{BEARING, HEATS, INNER, INNER_LOAD_SUM, STEADY_MOMENT};
 use super::{Drive, InnerRace, Refusal, SpinUp, SpinUpConstants, SpinUpMachine};
 use crate::bearing::{BearingConstants, PlanarConstants};
 use crate::table::Table;
-use physics::traction::{Traction, TractionLaw};
+use physics::traction::{SlidingContact, Traction, TractionLaw};
 use solve::{Flow, Observer, Settings, Step, Stop};
 use std::fmt;
 use std::sync::atomic::AtomicBool;
@@ -269,9 +269,12 @@ impl<'a> Search<'a> {
     fn outcome(&self, machine: &SpinUpMachine, passes: &[Pass]) -> Result<SteadyRun, SteadyError> {
         let bearing = planar(machine)?;
         let (_, probe) = machine.inspect(0.0, &self.state);
-        let traction = largest_coefficient(&bearing.traction)
-            * machine.constants.bearing.set().inner_track_radius
-            * probe[INNER_LOAD_SUM];
+        let traction = traction_capacity(
+            &bearing.traction,
+            &machine.constants.bearing,
+            self.state[INNER + 5],
+            probe[INNER_LOAD_SUM],
+        );
         let moment = mean(passes, |pass| pass.law);
         Ok(SteadyRun {
             moment,
@@ -365,9 +368,36 @@ impl Observer<SpinUpMachine> for Blind {
 /// Error control of steady runs: their means are wanted to 1e-3.
 const TOLERANCE: f64 = 1e-4;
 
-/// The largest coefficient of a traction law, searched over slips of 1e-6 to 1e3 m/s.
-pub fn largest_coefficient(traction: &Traction<f64>) -> f64 {
+/// The largest coefficient of a traction law at the inner race, searched over slips of 1e-6 to 1e3 m/s.
+///
+/// - `load`: of a ball, N
+/// - `entrainment`: m/s
+pub fn largest_coefficient(traction: &Traction<f64>, load: f64, entrainment: f64) -> f64 {
     (0..=900)
-        .map(|i| traction.coefficient(10_f64.powf(f64::from(i) / 100.0 - 6.0)))
+        .map(|i| {
+            let at = SlidingContact {
+                slip: 10_f64.powf(f64::from(i) / 100.0 - 6.0),
+                load,
+                entrainment,
+            };
+            traction.at_races(&at, &at).0
+        })
         .fold(0.0, f64::max)
+}
+
+/// Largest traction moment of the balls on the inner race, N m: their mean load and rolling stand for all of them.
+///
+/// - `speed`: of the inner race, rad/s
+/// - `inner_load_sum`: of all balls, N
+pub fn traction_capacity(
+    traction: &Traction<f64>,
+    bearing: &BearingConstants,
+    speed: f64,
+    inner_load_sum: f64,
+) -> f64 {
+    let set = bearing.set();
+    let track = set.inner_track_radius;
+    let load = inner_load_sum / bearing.balls() as f64;
+    let entrainment = track * (speed - set.cage_speed(speed));
+    largest_coefficient(traction, load, entrainment) * track * inner_load_sum
 }

@@ -1,0 +1,182 @@
+//! The films between balls and races, told after a run from its rows.
+
+use super::list::{List, Origin};
+use super::outcome::Warning;
+use super::warnings_shared::warning;
+use crate::scenario::{Bearing, Traction as TractionChoice};
+use model::bearing::{BearingConstants, PlanarConstants};
+use model::motion::Motion;
+use model::system::sampling::Row;
+use physics::lubricant::HIGHEST_PRESSURE;
+use physics::lubricant_traction::ContactState;
+use physics::traction::{LubricatedRaces, Traction};
+use physics::viscosity::ICE_POINT;
+use std::ops::Range;
+
+/// λ below which asperities carry much of the load.
+const MIXED: f64 = 1.0;
+/// Share of loaded contacts in rows above which a mixed film is worth a warning.
+const MOSTLY: f64 = 0.5;
+/// Temperature rise of a film up to which the law's stress is within 1.3 %, K.
+const HOTTEST: f64 = 200.0;
+
+/// The films of a bearing whose traction is that of its oil.
+pub(super) struct Films<'a> {
+    bearing: &'a PlanarConstants,
+    law: &'a LubricatedRaces<f64>,
+    states: Range<usize>,
+    motion: fn(&[f64]) -> Motion<f64>,
+}
+
+impl<'a> Films<'a> {
+    /// None where traction is not that of an oil.
+    pub fn of(
+        bearing: &'a BearingConstants,
+        states: Range<usize>,
+        motion: fn(&[f64]) -> Motion<f64>,
+    ) -> Option<Films<'a>> {
+        let BearingConstants::Planar(bearing) = bearing else {
+            return None;
+        };
+        let Traction::Lubricated(law) = &bearing.traction else {
+            return None;
+        };
+        Some(Films {
+            bearing,
+            law,
+            states,
+            motion,
+        })
+    }
+
+    /// Films of a ball at the inner and the outer race; none where it carries no load.
+    pub fn at(&self, row: &Row, ball: usize) -> [Option<ContactState<f64>>; 2] {
+        let own = &row.state[self.states.clone()];
+        let reaction = (self.bearing).ball_reaction(&(self.motion)(row.state), own, ball);
+        let [inner, outer] = reaction.contacts();
+        [(&self.law.inner, inner), (&self.law.outer, outer)]
+            .map(|(law, at)| (at.load > 0.0).then(|| law.state(at.slip, at.load, at.entrainment)))
+    }
+
+    /// What all loaded contacts of all rows came to.
+    pub fn summary<'r>(&self, rows: impl Iterator<Item = Row<'r>>) -> Summary {
+        let mut summary = Summary::default();
+        for row in rows {
+            for state in (0..self.bearing.balls)
+                .flat_map(|ball| self.at(&row, ball))
+                .flatten()
+            {
+                summary.add(&state);
+            }
+        }
+        summary
+    }
+}
+
+/// The films of a run.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Summary {
+    contacts: usize,
+    mixed: usize,
+    thickness: f64,
+    lambda: f64,
+    temperature_rise: f64,
+    pressure: f64,
+}
+
+impl Default for Summary {
+    fn default() -> Self {
+        Summary {
+            contacts: 0,
+            mixed: 0,
+            thickness: f64::INFINITY,
+            lambda: f64::INFINITY,
+            temperature_rise: 0.0,
+            pressure: 0.0,
+        }
+    }
+}
+
+impl Summary {
+    fn add(&mut self, state: &ContactState<f64>) {
+        self.contacts += 1;
+        self.mixed += usize::from(state.lambda < MIXED);
+        self.thickness = self.thickness.min(state.thickness);
+        self.lambda = self.lambda.min(state.lambda);
+        self.temperature_rise = self.temperature_rise.max(state.temperature_rise);
+        self.pressure = self.pressure.max(1.5 * state.mean_pressure);
+    }
+
+    /// Share of the loaded contacts in rows whose film is mixed.
+    fn mixed_share(&self) -> f64 {
+        self.mixed as f64 / self.contacts as f64
+    }
+
+    /// The films as results.
+    pub fn name(&self, list: &mut List) {
+        let loaded = |value: f64| {
+            let none = || "no ball carried load in any row".to_string();
+            (self.contacts > 0).then_some(value).ok_or_else(none)
+        };
+        for (name, unit, value) in [
+            ("smallest_film_thickness", "m", self.thickness),
+            ("smallest_lambda_ratio", "1", self.lambda),
+            ("mixed_film_share", "1", self.mixed_share()),
+        ] {
+            list.number(name, unit, loaded(value), &FILM);
+        }
+    }
+
+    /// Films that are thin, and laws outside their range.
+    pub fn warnings(&self, bearing: &Bearing) -> Vec<Warning> {
+        let mut list = Vec::new();
+        let TractionChoice::Lubricant(film) = bearing.traction else {
+            return list;
+        };
+        if self.contacts > 0 && self.mixed_share() > MOSTLY {
+            list.push(warning(
+                "AB1030",
+                format!(
+                    "In {:.0} % of the rows' loaded contacts the oil film is thinner than the roughness (lambda below 1): \
+                     traction is mostly boundary friction, whose coefficient is bearing.traction.boundary_friction_coefficient.",
+                    1e2 * self.mixed_share()
+                ),
+            ));
+        }
+        let mut departures = Vec::new();
+        if self.pressure >= 0.999 * HIGHEST_PRESSURE {
+            departures
+                .push("contacts reach 5 GPa, at which the oil's viscosity is held".to_string());
+        }
+        let hottest = film.temperature + self.temperature_rise;
+        if self.temperature_rise > HOTTEST {
+            departures.push(format!(
+                "films run up to {:.0} K above the oil in their inlet, and the law serves up to {HOTTEST:.0} K",
+                self.temperature_rise
+            ));
+        } else if hottest > film.oil.temperatures.1 {
+            departures.push(format!(
+                "films reach {:.0} degC, and the viscosity of the oil is known up to {:.0} degC",
+                hottest - ICE_POINT,
+                film.oil.temperatures.1 - ICE_POINT
+            ));
+        }
+        if !departures.is_empty() {
+            list.push(warning(
+                "AB1031",
+                format!(
+                    "The law of the lubricant's traction has left its range: {}.",
+                    departures.join("; ")
+                ),
+            ));
+        }
+        list
+    }
+}
+
+const FILM: Origin = Origin {
+    law: "central film of Hamrock and Dowson with inlet shear heating, crates/physics/src/film.rs; loaded contacts in the \
+          rows of the history",
+    source: "B. J. Hamrock, D. Dowson, J. Lubr. Technol. 99 (1977) 264",
+    valid: "films that follow load and speed at once: near zero where a ball does not roll",
+};

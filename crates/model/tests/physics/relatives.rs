@@ -1,0 +1,94 @@
+//! Machines that differ from the reference in one thing each.
+
+use crate::machines::{balance_mount, let_roll, oil, planar, reference, vec2};
+use model::bearing::{AccelerationLoss, BearingConstants, SharedMoment, SteadyMoment};
+use model::system::drop::DropMachine;
+use physics::palmgren::Palmgren;
+use physics::traction::{DryTraction, FourParameterTraction, Traction};
+
+/// The reference machine and its relatives: other traction laws, oil, a brake, a drive, levitation, a held race, seven balls,
+/// balls that roll.
+pub fn machines() -> Vec<DropMachine> {
+    let base = || {
+        let mut c = reference();
+        planar(&mut c).cage_drag = 1e-6;
+        c.machine.inner_race_torque = 0.01;
+        c.machine.rotor.brake_torque = 0.3;
+        c.brake_start = 0.0;
+        c
+    };
+    let mut peaked = base();
+    planar(&mut peaked).traction = Traction::FourParameter(FourParameterTraction {
+        a: -0.07,
+        b: 0.35,
+        c: 5.0,
+        d: 0.07,
+    });
+    let mut dry = base();
+    planar(&mut dry).traction = Traction::Dry(DryTraction {
+        kinetic: 0.1,
+        static_excess: 0.05,
+        inverse_decay_speed: 2.0,
+        inverse_reference_speed: 50.0,
+    });
+    let mut oiled = base();
+    planar(&mut oiled).traction = oil();
+    let mut seven = base();
+    planar(&mut seven).balls = 7;
+    balance_mount(&mut seven);
+    let mut held = base();
+    held.machine.inner_race_centre_held = true;
+    balance_mount(&mut held);
+    let mut slanted = base();
+    let gravity = vec2(3.0, -7.0);
+    slanted.machine.gravity = gravity;
+    planar(&mut slanted).ball.gravity = gravity;
+    let mut rolls = base();
+    let_roll(&mut rolls);
+    if let BearingConstants::Rolling(bearing) = &mut rolls.bearing {
+        bearing.moment = SteadyMoment::Palmgren(grease());
+        bearing.loss = AccelerationLoss::Proportional {
+            per_acceleration: 2e-5,
+        };
+    }
+    let mut greased = base();
+    let bearing = planar(&mut greased);
+    bearing.cage_drag = 0.0;
+    bearing.ball.orbit_drag = 0.0;
+    bearing.ball.spin_drag = 0.0;
+    bearing.moment = Some(SharedMoment {
+        law: SteadyMoment::Palmgren(grease()),
+        axial_load: 0.0,
+        orbit_share: 0.3,
+        reference_spin: 2.0,
+        scale: 0.9,
+    });
+    let like_the_reference = base();
+    [
+        peaked,
+        dry,
+        seven,
+        held,
+        slanted,
+        rolls,
+        greased,
+        like_the_reference,
+        oiled,
+    ]
+    .into_iter()
+    .enumerate()
+    .map(|(i, constants)| DropMachine::with_levitation(constants, i % 2 == 0))
+    .collect()
+}
+
+/// Grease of 100 mm²/s in a 6005 of 6.55 kN.
+fn grease() -> Palmgren<f64> {
+    Palmgren {
+        viscous_factor: 2.0,
+        viscosity: 100e-6,
+        pitch_diameter: 36e-3,
+        load_factor: 9e-4,
+        load_exponent: 0.55,
+        static_load_rating: 6550.0,
+    }
+}
