@@ -113,14 +113,16 @@ impl Default for Coefficients {
 /// Γ⁻¹, by substitution from the top.
 fn inverse_gamma() -> [[f64; STAGES]; STAGES] {
     let mut inverse = [[0.0; STAGES]; STAGES];
-    for column in 0..STAGES {
-        for row in column..STAGES {
+    for row in 0..STAGES {
+        let mut values = [0.0; STAGES];
+        for (column, value) in values.iter_mut().enumerate().take(row + 1) {
             let unit = if row == column { 1.0 } else { 0.0 };
             let known: f64 = (column..row)
                 .map(|k| LOWER_GAMMA[row][k] * inverse[k][column])
                 .sum();
-            inverse[row][column] = (unit - known) / GAMMA;
+            *value = (unit - known) / GAMMA;
         }
+        inverse[row] = values;
     }
     inverse
 }

@@ -139,8 +139,14 @@ fn drop(
         )
     } else {
         let records = std::slice::from_mut(&mut record);
-        solve::run::<f64, Drop<f64>, _>(&[&machine], &[start.clone()], records, &settings, &never)
-            .remove(0)
+        solve::run::<f64, Drop<f64>, _>(
+            &[&machine],
+            std::slice::from_ref(&start),
+            records,
+            &settings,
+            &never,
+        )
+        .remove(0)
     };
     assert_eq!(ending.stop, Stop::Finished);
     let balance = machine.balance(&start, &ending.state);
