@@ -13,7 +13,7 @@ pub struct Dimension {
 const BASE: [&str; 5] = ["m", "kg", "s", "K", "rad"];
 
 /// Dimensions with a name and a preferred SI unit; exponents of length, mass, time, temperature, angle.
-const NAMED: [([i64; 5], &str, &str); 31] = [
+const NAMED: [([i64; 5], &str, &str); 32] = [
     ([0, 0, 0, 0, 0], "dimensionless number", "1"),
     ([1, 0, 0, 0, 0], "length", "m"),
     ([0, 1, 0, 0, 0], "mass", "kg"),
