@@ -155,6 +155,17 @@ fn choices(path: &str) -> Vec<String> {
                 "bearing.traction.decay_speed=0.5 m/s",
             ]
         }
+        "bearing.traction.oil"
+        | "bearing.traction.oil_temperature"
+        | "bearing.traction.oil_conductivity"
+        | "bearing.traction.composite_roughness"
+        | "bearing.traction.boundary_friction_coefficient"
+        | "bearing.traction.boundary_reference_speed"
+        | "bearing.traction.supply" => &[
+            "bearing.traction.law=lubricant",
+            "bearing.traction.oil=FVA 3",
+            "bearing.traction.oil_temperature=60 degC",
+        ],
         "bearing.moment.curve" => &["bearing.moment.law=measured"],
         "bearing.moment.viscosity_points" => &[
             "bearing.moment.law=skf",
@@ -274,7 +285,8 @@ fn every_number_reaches_the_typed_scenario() {
             else {
                 continue;
             };
-            if BECOME_OTHERS.contains(&key.path) {
+            // a temperature of the oil's data is read in the tests of lubricants
+            if BECOME_OTHERS.contains(&key.path) || key.path == "bearing.traction.oil_temperature" {
                 continue;
             }
             let mut list = choices_of(*system, key.path);
@@ -291,6 +303,7 @@ fn every_number_reaches_the_typed_scenario() {
                 "brake_start" => "start",
                 "kinetic" => "kinetic_coefficient",
                 "static" => "static_coefficient",
+                "oil_conductivity" => "conductivity",
                 "load_history" => "radial_load",
                 "torque_history" => "torque",
                 name => name,

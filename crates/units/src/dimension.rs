@@ -13,7 +13,7 @@ pub struct Dimension {
 const BASE: [&str; 5] = ["m", "kg", "s", "K", "rad"];
 
 /// Dimensions with a name and a preferred SI unit; exponents of length, mass, time, temperature, angle.
-const NAMED: [([i64; 5], &str, &str); 31] = [
+const NAMED: [([i64; 5], &str, &str); 32] = [
     ([0, 0, 0, 0, 0], "dimensionless number", "1"),
     ([1, 0, 0, 0, 0], "length", "m"),
     ([0, 1, 0, 0, 0], "mass", "kg"),
@@ -43,6 +43,7 @@ const NAMED: [([i64; 5], &str, &str); 31] = [
     ([2, 1, -1, 0, -1], "rotational damping", "N m s/rad"),
     ([2, 0, -1, 0, 0], "kinematic viscosity", "m^2/s"),
     ([-1, 1, -1, 0, 0], "dynamic viscosity", "Pa s"),
+    ([1, 1, -3, -1, 0], "thermal conductivity", "W/(m K)"),
     ([0, 0, 2, 0, 0], "time squared", "s^2"),
     ([0, 0, -2, 0, 0], "inverse time squared", "1/s^2"),
 ];
