@@ -63,7 +63,9 @@ fn powers_and_products_have_the_dimension_they_say() {
     assert_eq!(dimension("1 kg/s"), Dimension::DAMPING);
     assert_eq!(dimension("1 N m"), dimension("1 J"));
     assert_eq!(dimension("1 N m s"), Dimension::ROTATIONAL_DRAG);
-    assert_eq!(dimension("1 W/(m K)").si_unit(), "m kg/(s^3 K)");
+    assert_eq!(dimension("1 W/(m K)").si_unit(), "W/(m K)");
+    // without a name of its own
+    assert_eq!(dimension("1 W/(m^2 K)").si_unit(), "kg/(s^3 K)");
     assert_eq!(dimension("1 1/s"), Dimension::FREQUENCY);
 }
 
