@@ -161,7 +161,7 @@ pub(super) const KEYS: &[Key] = &[
         "drive.reference_speed",
         Kind::Quantity("rad/s"),
         "12000 rpm",
-        "Speed that counts as full: times to 95 % refer to it, and the tolerance of the run.",
+        "Size of the speed that counts as full, in the direction of the torque: times to 95 % refer to it, and the tolerance of the run.",
     )
     .when(TORQUE),
     Key::new(

@@ -5,7 +5,7 @@
 //!   radial mode      ω = √(K_r/m_b)             K_r = 1.5 (K_i^(2/3) + K_o^(2/3)) Q^(1/3): what any step must follow
 //! ```
 //! Explicit steps are bound by λ, where it is large against ω; linearly implicit ones are not, and cost several times more.
-//! Q is the largest ball load of a first impact, 5 F/N of the radial force F = v √(k m): the rotor has fallen through its
+//! Q is the largest ball load of a first impact, 5 F/N (Stribeck) of the radial force F = v √(k m): the rotor has fallen through its
 //! clearance and is stopped by the mount. Where the slope depends on rolling, it is that of balls that do not roll yet:
 //! the largest.
 
