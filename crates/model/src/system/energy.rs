@@ -37,17 +37,18 @@ pub struct Flows {
 }
 
 impl Flows {
-    /// Sums heats and works.
-    pub fn of(
-        heats: impl Iterator<Item = f64>,
-        works: impl Iterator<Item = f64> + Clone,
-        angular_impulse: f64,
-    ) -> Self {
+    /// Sums the channels of a ledger: its heats, then the works of its sources, then the external angular impulse.
+    ///
+    /// # Panics
+    /// When there are not so many heats, and the impulse.
+    pub fn of(channels: &[f64], heats: usize) -> Self {
+        let (heats, rest) = channels.split_at(heats);
+        let (works, impulse) = rest.split_at(rest.len() - 1);
         Flows {
-            heat: heats.sum(),
-            work: works.clone().sum(),
-            work_size: works.map(f64::abs).sum(),
-            angular_impulse,
+            heat: heats.iter().sum(),
+            work: works.iter().sum(),
+            work_size: works.iter().map(|work| work.abs()).sum(),
+            angular_impulse: impulse[0],
         }
     }
 }
@@ -62,6 +63,13 @@ pub struct Balance {
 }
 
 impl Balance {
+    /// Between two states, by what tells contents and flows of one.
+    pub fn between(start: &[f64], end: &[f64], at: impl Fn(&[f64]) -> (Content, Flows)) -> Self {
+        Balance {
+            start: at(start),
+            end: at(end),
+        }
+    }
     /// Works less heats less what is stored, J: zero but for errors.
     pub fn energy_residual(&self) -> f64 {
         let ((stored, flowed), (now, by_now)) = (self.start, self.end);

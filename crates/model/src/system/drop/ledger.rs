@@ -4,7 +4,7 @@
 //! change of angular momentum about the origin = external angular impulse.
 
 use super::DropMachine;
-use super::layout::{BEARING, HEATS, SOURCES};
+use super::layout::{BEARING, HEATS};
 use super::rate::{race_motion, rotor_motion};
 use crate::system::energy::{Balance, Content, Flows};
 use solve::Machine;
@@ -57,21 +57,11 @@ impl DropMachine {
 
     /// What the ledger channels of a state have summed up.
     pub fn flows(&self, state: &[f64]) -> Flows {
-        let layout = self.layout();
-        Flows::of(
-            (0..HEATS.len()).map(|i| state[layout.heat(i)]),
-            (0..SOURCES.len()).map(|i| state[layout.source(i)]),
-            state[layout.angular_impulse()],
-        )
+        Flows::of(&state[self.layout().flows()], HEATS.len())
     }
-
     /// What must close between two states.
     pub fn balance(&self, start: &[f64], end: &[f64]) -> Balance {
-        let at = |state| (self.content(state), self.flows(state));
-        Balance {
-            start: at(start),
-            end: at(end),
-        }
+        Balance::between(start, end, |state| (self.content(state), self.flows(state)))
     }
 
     /// The rate of change of a state, for inspection: (rate, probes).

@@ -138,6 +138,10 @@ impl Layout {
     pub fn source(&self, index: usize) -> usize {
         self.heat(HEATS.len()) + index
     }
+    /// Channels of the heats, of the works of the sources, and of the external angular impulse.
+    pub fn flows(&self) -> std::ops::Range<usize> {
+        self.heat(0)..self.angular_impulse() + 1
+    }
     /// Channel of the external angular impulse.
     #[inline(always)]
     pub fn angular_impulse(&self) -> usize {

@@ -17,7 +17,7 @@
 
 use super::Drive;
 use super::SpinUpMachine;
-use super::layout::{HEATS, INNER, ROTOR, SOURCES};
+use super::layout::{HEATS, INNER, ROTOR};
 use super::rate::race_motion;
 use crate::bearing::{self, BearingEnergy};
 use crate::system::energy::{Balance, Content, Flows};
@@ -82,21 +82,11 @@ impl SpinUpMachine {
 
     /// What the ledger channels of a state have summed up.
     pub fn flows(&self, state: &[f64]) -> Flows {
-        let layout = &self.layout;
-        Flows::of(
-            (0..HEATS.len()).map(|i| state[layout.heat(i)]),
-            (0..SOURCES.len()).map(|i| state[layout.source(i)]),
-            state[layout.angular_impulse()],
-        )
+        Flows::of(&state[self.layout().flows()], HEATS.len())
     }
-
     /// What must close between two states.
     pub fn balance(&self, start: &[f64], end: &[f64]) -> Balance {
-        let at = |state| (self.content(state), self.flows(state));
-        Balance {
-            start: at(start),
-            end: at(end),
-        }
+        Balance::between(start, end, |state| (self.content(state), self.flows(state)))
     }
 
     /// The energy that the bearing dissipated between two states, told in four ways.
