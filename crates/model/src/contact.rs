@@ -1,15 +1,16 @@
-//! Rotor against inner race.
+//! A journal in a bore: rotor in inner race, cage in the land of an outer race, inner race in a cage.
 //!
 //! ```text
-//!   e = C - c_i,  n = e/|e|,  t = n turned +90°          d = |e| - c0        penetration
-//!   N = max(0, k dⁿ (1 + a ḋ))                            u = race less rotor surface speed along t
-//!   on the rotor, at C + arm·n:  -N n + μ tanh(u/u0) N t;  on the race the opposite
-//!   arms (mid-overlap): rotor R0 - c0 - d/2,  race R0 + d/2
+//!   e = C - c,  n = e/|e|,  t = n turned +90°          C centre of the journal, c of the bore
+//!   d = |e| - c0                                        penetration
+//!   N = max(0, k dⁿ (1 + a ḋ))                            u = bore less journal surface speed along t
+//!   on the journal, at C + arm·n:  -N n + μ tanh(u/u0) N t;  on the bore the opposite
+//!   arms (mid-overlap): journal R0 - c0 - d/2,  bore R0 + d/2
 //! ```
-//! The moment on the rotor is taken about G. No states of its own.
+//! The moment on the journal is taken about its mass centre G. No states of its own.
 //!
 //! Assumes: one contact point, power-law normal force, Coulomb friction regularised by tanh.
-//! Does not model: the conformal contact of journal and bore, wear, lubricant on the landing surface, heat fading of μ.
+//! Does not model: the conformal contact of journal and bore, wear, lubricant between the surfaces, heat fading of μ.
 
 use crate::motion::{Body, Wrench};
 use crate::rotor::GeometricCentre;
@@ -17,11 +18,11 @@ use number::{Mask, Real, Vec2, constants};
 use physics::contact::{hunt_crossley, hunt_crossley_energy};
 
 constants! {
-    /// The pair of landing surfaces.
-    pub struct RotorContact {
-        /// Radial air clearance c0, m.
+    /// The pair of surfaces.
+    pub struct JournalContact {
+        /// Radial clearance c0, m.
         radial_clearance: R,
-        /// Radius of the race's bore (or its sleeve's) R0, m.
+        /// Radius of the bore (of a race or its sleeve) R0, m.
         bore_radius: R,
         /// Stiffness k, N/mⁿ.
         stiffness: R,
@@ -39,10 +40,10 @@ constants! {
 /// What the contact does to both bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactReaction<R> {
-    /// On the rotor, the moment about G.
-    pub on_rotor: Wrench<R>,
-    /// On the inner race.
-    pub on_race: Wrench<R>,
+    /// On the journal, the moment about G.
+    pub on_journal: Wrench<R>,
+    /// On the body with the bore, the moment about its centre.
+    pub on_bore: Wrench<R>,
     /// Penetration d, m; negative when open.
     pub penetration: R,
     /// Rate of penetration ḋ, m/s.
@@ -51,9 +52,9 @@ pub struct ContactReaction<R> {
     pub normal_force: R,
     /// Its elastic part k dⁿ, N.
     pub elastic_force: R,
-    /// Friction force on the rotor along t, N.
+    /// Friction force on the journal along t, N.
     pub friction_force: R,
-    /// Sliding speed, race less rotor, m/s.
+    /// Sliding speed, bore less journal, m/s.
     pub slip_speed: R,
     /// Heat of contact damping, W.
     pub damping_heat: R,
@@ -61,27 +62,27 @@ pub struct ContactReaction<R> {
     pub friction_heat: R,
 }
 
-impl<R: Real> RotorContact<R> {
-    /// Reaction of the contact to the motion of rotor and race.
+impl<R: Real> JournalContact<R> {
+    /// Reaction of the contact to the motion of both bodies.
     #[inline(always)]
     pub fn react(
         &self,
-        rotor: &GeometricCentre<R>,
-        rotor_spin: R,
-        race: &Body<R>,
+        journal: &GeometricCentre<R>,
+        journal_spin: R,
+        bore: &Body<R>,
     ) -> ContactReaction<R> {
         let half = R::splat(0.5);
-        let e = rotor.position - race.position;
-        // a centred rotor has no direction; any will do, as nothing acts
+        let e = journal.position - bore.position;
+        // a centred journal has no direction; any will do, as nothing acts
         let distance = e.length_squared().max(R::splat(1e-30)).sqrt();
         let n = e * distance.recip();
         let t = n.turned();
-        let relative = rotor.velocity - race.velocity;
+        let relative = journal.velocity - bore.velocity;
         let d = distance - self.radial_clearance;
         let d_rate = relative.dot(n);
-        let rotor_arm = self.bore_radius - self.radial_clearance - half * d;
-        let race_arm = self.bore_radius + half * d;
-        let slip = race.spin * race_arm - rotor_spin * rotor_arm - relative.dot(t);
+        let journal_arm = self.bore_radius - self.radial_clearance - half * d;
+        let bore_arm = self.bore_radius + half * d;
+        let slip = bore.spin * bore_arm - journal_spin * journal_arm - relative.dot(t);
 
         let zero = R::zero();
         let touching = d.greater(zero);
@@ -96,10 +97,10 @@ impl<R: Real> RotorContact<R> {
             friction = R::select(touching, coefficient * normal, zero);
         }
         let force = t * friction - n * normal;
-        let arm = rotor.arm + n * rotor_arm;
+        let arm = journal.arm + n * journal_arm;
         ContactReaction {
-            on_rotor: Wrench::planar(force, arm.cross(force)),
-            on_race: Wrench::planar(-force, -(race_arm * friction)),
+            on_journal: Wrench::planar(force, arm.cross(force)),
+            on_bore: Wrench::planar(-force, -(bore_arm * friction)),
             penetration: d,
             penetration_speed: d_rate,
             normal_force: normal,
@@ -116,8 +117,8 @@ impl<R: Real> RotorContact<R> {
     pub fn force_rate(
         &self,
         reaction: &ContactReaction<R>,
-        rotor: &GeometricCentre<R>,
-        race: &Body<R>,
+        journal: &GeometricCentre<R>,
+        bore: &Body<R>,
         relative_acceleration: Vec2<R>,
     ) -> R {
         let zero = R::zero();
@@ -126,10 +127,10 @@ impl<R: Real> RotorContact<R> {
         if !touching.any() {
             return zero;
         }
-        let e = rotor.position - race.position;
+        let e = journal.position - bore.position;
         let distance = d + self.radial_clearance;
         let n = e * distance.recip();
-        let relative = rotor.velocity - race.velocity;
+        let relative = journal.velocity - bore.velocity;
         let d_rate = reaction.penetration_speed;
         let tangential = relative.cross(n);
         let d_acceleration = relative_acceleration.dot(n) + tangential.square() * distance.recip();

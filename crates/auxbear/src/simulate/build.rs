@@ -4,7 +4,7 @@ use super::Options;
 use super::build_bearing::{self, SteadyFinding, SteadyPoint};
 use crate::problem::Problem;
 use crate::scenario::{Drop, Spin};
-use model::contact::RotorContact;
+use model::contact::JournalContact;
 use model::levitation::Levitation;
 use model::mount::Mount;
 use model::rotor::Rotor;
@@ -68,7 +68,7 @@ pub fn drop(drop: &Drop, options: &Options) -> Result<Built, Box<Problem>> {
                 centre: Vec2::new(drop.levitation.offset_x, drop.levitation.offset_y),
                 carried: -(gravity * mass),
             },
-            contact: RotorContact {
+            contact: JournalContact {
                 radial_clearance: drop.contact.radial_air_clearance,
                 bore_radius: 0.5 * drop.contact.bore_diameter,
                 stiffness: drop.contact.stiffness,

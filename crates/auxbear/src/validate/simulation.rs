@@ -6,7 +6,7 @@ use super::simulator::{DerivativeAnswer, DropAnswer, ElasticBounce, FreeFall, Si
 use crate::simulate::ensemble::{self, Finished, Member, Plan};
 use model::bearing::ball::{BallConstants, BallMotion, BallReaction};
 use model::bearing::{BearingConstants, PlanarConstants};
-use model::contact::RotorContact;
+use model::contact::JournalContact;
 use model::levitation::Levitation;
 use model::mount::Mount;
 use model::rotor::Rotor;
@@ -225,7 +225,7 @@ fn falling_machine(mass: f64, stiffness: f64, clearance: f64, gravity: f64) -> D
                 centre: Vec2::zero(),
                 carried: Vec2::zero(),
             },
-            contact: RotorContact {
+            contact: JournalContact {
                 radial_clearance: clearance,
                 bore_radius: 12.5e-3 + clearance,
                 stiffness,
@@ -290,7 +290,7 @@ fn constants(machine: &ReferenceMachine, speed: f64) -> Result<DropConstants, St
                 centre: Vec2::zero(),
                 carried: -(gravity * machine.rotor_mass),
             },
-            contact: RotorContact {
+            contact: JournalContact {
                 radial_clearance: machine.radial_air_clearance,
                 bore_radius: machine.bore_radius,
                 stiffness: machine.contact_stiffness,
@@ -441,8 +441,8 @@ fn globals(machine: &DropMachine, state: &[f64], probe: &[f64]) -> Vec<f64> {
         -probe[SLIP_SPEED],
         balls.iter().map(|r| r.on_inner.moment).sum(),
         balls.iter().map(|r| r.on_outer.moment).sum(),
-        contact.on_rotor.force.x,
-        contact.on_rotor.force.y,
+        contact.on_journal.force.x,
+        contact.on_journal.force.y,
         mount.x,
         mount.y,
     ]

@@ -19,8 +19,13 @@
 //! Every force stands once and is added with both signs. The steady moment's pairs are added elsewhere:
 //! [`steady_moment`](super::steady_moment).
 //!
-//! Assumes: motion in the plane; the cage is centred on the outer race.
-//! Does not model: axial motion, tilt, gyroscopic moments, ball-to-ball contact, cage translation, squeeze of the film.
+//! R_i = R_i0 + kΩ²: the inner race grows with its own speed.
+//!
+//! Contacts at an angle α, held by an axial preload, are computed in the plane: r is then the ball radius times cos α, K the
+//! radial stiffness, Q the radial part of the contact load. Traction and results take the contact load, Q/cos α.
+//!
+//! Assumes: motion in the plane; here the cage is centred on the outer race (else see [`pocket`](super::pocket)).
+//! Does not model: axial motion, tilt, gyroscopic moments, spin about the contact normal, squeeze of the film.
 
 use crate::motion::Wrench;
 use number::{Gather, Mask, Real, Vec2, constants};
@@ -30,19 +35,25 @@ use physics::traction::{SlidingContact, TractionLaw};
 constants! {
     /// What one ball, its two contacts and its pocket are made of.
     pub struct BallConstants {
-        /// Ball radius r, m.
+        /// Distance r of the contacts from the ball's centre in the plane, m: ball radius times cos α.
         radius: R,
+        /// Radius of the ball, m.
+        ball_radius: R,
+        /// Contact load over its radial part, 1/cos α.
+        load_per_radial_force: R,
         /// Ball mass, kg.
         mass: R,
         /// 1/mass, 1/kg.
         inverse_mass: R,
         /// 1/(moment of inertia), 1/(kg m²).
         inverse_inertia: R,
-        /// Radius of the inner track R_i, m.
+        /// Radius of the inner track at rest R_i0, m.
         inner_track: R,
+        /// Growth k of the inner track's radius with the square of its speed, m s².
+        inner_track_growth: R,
         /// Radius of the outer track R_o, m.
         outer_track: R,
-        /// Hertz stiffness at the inner race K_i, N/m^1.5.
+        /// Hertz stiffness at the inner race K_i, N/m^1.5; at a contact angle the radial one, K cos^2.5 α.
         inner_stiffness: R,
         /// Hertz stiffness at the outer race K_o, N/m^1.5.
         outer_stiffness: R,
@@ -149,10 +160,12 @@ pub struct BallReaction<R> {
     pub external_moment: R,
     /// Heat by kind.
     pub heat: BallHeat<R>,
-    /// Load at the inner race Q_i, N.
+    /// Load of the contact at the inner race, N.
     pub inner_load: R,
-    /// Load at the outer race Q_o, N.
+    /// Load of the contact at the outer race, N.
     pub outer_load: R,
+    /// Elastic, radial part of the load at the inner race, N.
+    pub inner_elastic: R,
     /// Approach at the inner race, m; negative when open.
     pub inner_approach: R,
     /// Approach at the outer race, m; negative when open.
@@ -235,6 +248,8 @@ pub(super) struct AtRace<R> {
     pub distance: R,
     /// 1/distance, 1/m.
     pub inverse_distance: R,
+    /// Radius of the track, m.
+    track: R,
     /// Speed of the ball past the race's centre, m/s.
     pub past: Vec2<R>,
     /// Approach δ, m.
@@ -284,7 +299,8 @@ impl<R: Real> BallConstants<R> {
 
         let n_i = from_inner * inverse_inner;
         let past_inner = velocity - inner.velocity;
-        let inner_approach = self.inner_track + self.radius - inner_distance;
+        let inner_track = self.inner_track + self.inner_track_growth * inner.spin.square();
+        let inner_approach = inner_track + self.radius - inner_distance;
         let inner_closing = -past_inner.dot(n_i);
         let q_i = ball_race(
             self.inner_stiffness,
@@ -312,6 +328,7 @@ impl<R: Real> BallConstants<R> {
                 n: n_i,
                 distance: inner_distance,
                 inverse_distance: inverse_inner,
+                track: inner_track,
                 past: past_inner,
                 approach: inner_approach,
                 closing: inner_closing,
@@ -321,6 +338,7 @@ impl<R: Real> BallConstants<R> {
                 n: n_o,
                 distance: outer_distance,
                 inverse_distance: inverse_outer,
+                track: self.outer_track,
                 past: past_outer,
                 approach: outer_approach,
                 closing: outer_closing,
@@ -358,7 +376,7 @@ impl<R: Real> BallConstants<R> {
         let (inner_approach, inner_closing, q_i) =
             (at_inner.approach, at_inner.closing, at_inner.normal);
         let arm_bi = self.radius - half * inner_approach;
-        let arm_i = self.inner_track - half * inner_approach;
+        let arm_i = at_inner.track - half * inner_approach;
         let past_inner_t = at_inner.past.dot(t_i);
         let inner_slip = inner.spin * arm_i + ball.spin * arm_bi - past_inner_t;
         let inner_entrainment =
@@ -370,27 +388,29 @@ impl<R: Real> BallConstants<R> {
             (at_outer.approach, at_outer.closing, at_outer.normal);
         let inverse_outer = at_outer.inverse_distance;
         let arm_bo = self.radius - half * outer_approach;
-        let arm_o = self.outer_track + half * outer_approach;
+        let arm_o = at_outer.track + half * outer_approach;
         let past_outer_t = at_outer.past.dot(t_o);
         let outer_slip = outer.spin * arm_o - ball.spin * arm_bo - past_outer_t;
         let outer_entrainment =
             arm_o * (outer.spin - past_outer_t * inverse_outer) - half * outer_slip;
 
         // traction: zero by itself where the load is
+        let inner_load = q_i.force * self.load_per_radial_force;
+        let outer_load = q_o.force * self.load_per_radial_force;
         let (mu_i, mu_o) = traction.at_races(
             &SlidingContact {
                 slip: inner_slip,
-                load: q_i.force,
+                load: inner_load,
                 entrainment: inner_entrainment,
             },
             &SlidingContact {
                 slip: outer_slip,
-                load: q_o.force,
+                load: outer_load,
                 entrainment: outer_entrainment,
             },
         );
-        let inner_traction = mu_i * q_i.force;
-        let outer_traction = mu_o * q_o.force;
+        let inner_traction = mu_i * inner_load;
+        let outer_traction = mu_o * outer_load;
 
         // pocket: computed only where any ball of the group may be pressed, which costs less to tell than where each
         // stands exactly; the answer is the same, and the compiler moves what only the branch needs into it
@@ -412,7 +432,7 @@ impl<R: Real> BallConstants<R> {
                 penetration,
                 penetration_speed,
             );
-            let arm = side * self.radius;
+            let arm = side * self.ball_radius;
             let slide = outer_closing - arm * (ball.spin - pocket.spin);
             let coefficient =
                 self.pocket_friction * (slide * self.pocket_inverse_reference_speed).tanh();
@@ -459,8 +479,9 @@ impl<R: Real> BallConstants<R> {
                 pocket_damping: damping_heat,
                 pocket_sliding: sliding_heat,
             },
-            inner_load: q_i.force,
-            outer_load: q_o.force,
+            inner_load,
+            outer_load,
+            inner_elastic: q_i.elastic,
             inner_approach,
             outer_approach,
             inner_traction,
@@ -503,7 +524,8 @@ impl<R: Real> BallConstants<R> {
         (
             ball_race_energy(
                 self.inner_stiffness,
-                self.inner_track + self.radius - inner_distance,
+                self.inner_track + self.inner_track_growth * inner.spin.square() + self.radius
+                    - inner_distance,
             ) + ball_race_energy(
                 self.outer_stiffness,
                 outer_distance + self.radius - self.outer_track,

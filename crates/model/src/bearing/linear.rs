@@ -3,17 +3,19 @@
 //! A ball acts on the races and the cage, and depends on them, but never on another ball: what a linearly implicit step
 //! needs of it are the partial derivatives of its own rates and of its reactions with respect to its own five states and
 //! to the motion of its neighbours.
-//! The steady moment couples the balls weakly through their sums; that is left out, as the method allows.
+//! Left out, as the method allows, which then takes those parts explicitly: how the steady moment couples the balls through
+//! their sums, how neighbours without a cage press each other, and what follows from the place of a free cage.
 
-use super::PlanarConstants;
 use super::ball::{BallConstants, BallMotion, BallReaction, PocketMotion, RaceMotion};
-use super::planar::{BALLS, distances};
+use super::ball_states::{CAGE_PLACE, OF_BALL, direction};
+use super::planar::distances;
+use super::{PlanarConstants, Separation};
 use crate::motion::Motion;
 use number::{Dual, Gather, Real, Vec2, Vectorized};
 use physics::traction::Traction;
 
 /// States of a ball.
-pub const STATES: usize = 5;
+pub const STATES: usize = OF_BALL;
 /// What a ball depends on besides: x, y, ẋ, ẏ and spin of the inner race, x, y, ẋ, ẏ of the outer race, which does not
 /// turn, angle and speed of the cage.
 pub const NEIGHBOURS: usize = 11;
@@ -23,6 +25,7 @@ pub type BallDual = Dual<{ STATES + NEIGHBOURS }>;
 /// A ball over numbers with derivatives.
 #[derive(Clone, Debug)]
 pub struct LinearBall {
+    between_races: BallConstants<BallDual>,
     ball: BallConstants<BallDual>,
     traction: Traction<BallDual>,
 }
@@ -33,10 +36,12 @@ struct Neighbours {
     inner: RaceMotion<BallDual>,
     outer: RaceMotion<BallDual>,
     cage: PocketMotion<BallDual>,
+    /// A cage that is free to move; its place without derivatives.
+    free_cage: Option<RaceMotion<BallDual>>,
 }
 
 impl Neighbours {
-    fn of(motion: &Motion<f64>, state: &[f64]) -> Self {
+    fn of(bearing: &PlanarConstants, motion: &Motion<f64>, state: &[f64]) -> Self {
         let seeded = |v: Vec2<f64>, first: usize| {
             Vec2::new(
                 BallDual::variable(v.x, STATES + first),
@@ -44,7 +49,22 @@ impl Neighbours {
             )
         };
         let (inner, outer) = (&motion.inner, &motion.outer);
+        let cage_speed = BallDual::variable(state[1], STATES + 10);
+        let place = |first: usize| {
+            Vec2::new(
+                BallDual::splat(state[first]),
+                BallDual::splat(state[first + 1]),
+            )
+        };
         Neighbours {
+            free_cage: match bearing.separation {
+                Separation::FreeCage(_) => Some(RaceMotion {
+                    position: place(CAGE_PLACE),
+                    velocity: place(CAGE_PLACE + 2),
+                    spin: cage_speed,
+                }),
+                Separation::CentredCage | Separation::Neighbours(_) => None,
+            },
             inner: RaceMotion {
                 position: seeded(inner.position, 0),
                 velocity: seeded(inner.velocity, 2),
@@ -57,7 +77,7 @@ impl Neighbours {
             },
             cage: PocketMotion {
                 angle: BallDual::variable(state[0], STATES + 9),
-                spin: BallDual::variable(state[1], STATES + 10),
+                spin: cage_speed,
             },
         }
     }
@@ -67,6 +87,9 @@ impl LinearBall {
     /// The ball of a bearing.
     pub fn of(bearing: &PlanarConstants) -> Self {
         LinearBall {
+            between_races: bearing
+                .separation
+                .beyond_pockets(Gather::<BallDual>::gather(&|_| &bearing.ball)),
             ball: Gather::<BallDual>::gather(&|_| &bearing.ball),
             traction: Gather::<BallDual>::gather(&|_| &bearing.traction),
         }
@@ -81,7 +104,7 @@ impl LinearBall {
         state: &[f64],
         take: &mut impl FnMut(usize, &BallMotion<BallDual>, &BallReaction<BallDual>),
     ) {
-        let neighbours = Neighbours::of(motion, state);
+        let neighbours = Neighbours::of(bearing, motion, state);
         for ball in 0..bearing.balls {
             let own = bearing.motion(state, ball);
             let seeded = BallMotion {
@@ -114,23 +137,55 @@ impl Vectorized for OneBall<'_> {
     type Output = BallReaction<BallDual>;
     #[inline(always)]
     fn run(self) -> BallReaction<BallDual> {
-        let Neighbours { inner, outer, cage } = self.neighbours;
+        let Neighbours {
+            inner,
+            outer,
+            cage,
+            free_cage,
+        } = self.neighbours;
         let pocket = PocketMotion {
             angle: cage.angle + BallDual::splat(self.seat),
             spin: cage.spin,
         };
-        self.bearing.ball.react(
+        let mut reaction = self.bearing.between_races.react(
             &self.bearing.traction,
             inner,
             outer,
             &pocket,
             self.ball,
             &distances(inner, outer, self.ball),
-        )
+        );
+        if let Some(cage) = free_cage {
+            self.add_pocket(&mut reaction, cage, direction(pocket.angle));
+        }
+        reaction
+    }
+}
+
+impl OneBall<'_> {
+    /// Adds the pocket of a cage that is free to move.
+    #[inline(always)]
+    fn add_pocket(
+        &self,
+        reaction: &mut BallReaction<BallDual>,
+        cage: &RaceMotion<BallDual>,
+        axis: Vec2<BallDual>,
+    ) {
+        let ball = &self.bearing.ball;
+        let r = ball.in_pocket(cage, axis, self.ball);
+        let e_r = direction(self.ball.azimuth);
+        let pushed = r.on_ball * ball.inverse_mass;
+        let acceleration = &mut reaction.acceleration;
+        acceleration.radial += pushed.dot(e_r);
+        acceleration.orbit += pushed.dot(e_r.turned()) / self.ball.radius;
+        acceleration.spin += r.ball_moment * ball.inverse_inertia;
+        reaction.on_cage += r.cage_moment;
+        reaction.heat.pocket_damping += r.damping_heat;
+        reaction.heat.pocket_sliding += r.sliding_heat;
     }
 }
 
 /// Channels of a ball among the bearing's own, in the order of its states.
-pub fn channels(balls: usize, ball: usize) -> [usize; STATES] {
-    std::array::from_fn(|state| BALLS + state * balls + ball)
+pub fn channels(bearing: &PlanarConstants, ball: usize) -> [usize; STATES] {
+    std::array::from_fn(|state| bearing.first_ball_state() + state * bearing.balls + ball)
 }

@@ -11,13 +11,17 @@
 //!
 //! A bearing owns the states of its cage and balls; the system owns the races.
 //! Besides its reaction it fills, where asked, a *detail* list with five values a ball:
-//! inner load, outer load (N), inner slip, outer slip (m/s), pocket force (N), each value for all balls in turn; a
-//! shorter list takes the first of them.
+//! inner load, outer load (N), inner slip, outer slip (m/s), pocket force (N; without a cage the force between a ball and
+//! the next), each value for all balls in turn; a shorter list takes the first of them.
 
 pub mod acceleration_loss;
 pub mod ball;
+pub mod ball_states;
+pub mod cage;
+pub mod full_complement;
 pub mod linear;
 pub mod planar;
+pub mod pocket;
 pub mod rolling;
 pub mod settle;
 pub mod steady_moment;
@@ -26,7 +30,7 @@ use crate::motion::{Motion, Wrench};
 pub use acceleration_loss::AccelerationLoss;
 use number::Real;
 use physics::rolling::RollingSet;
-pub use planar::{Planar, PlanarConstants};
+pub use planar::{Planar, PlanarConstants, Separation};
 pub use rolling::{Rolling, RollingConstants};
 pub use steady_moment::{SharedMoment, SteadyMoment};
 
@@ -34,7 +38,7 @@ pub use steady_moment::{SharedMoment, SteadyMoment};
 pub const DETAIL_PER_BALL: usize = 5;
 
 /// Kinds of heat made in a bearing, in the order of [`BearingHeat::kinds`]: names as in results.
-pub const HEATS: [&str; 8] = [
+pub const HEATS: [&str; 12] = [
     "inner_contact_damping",
     "outer_contact_damping",
     "inner_ball_slip",
@@ -43,7 +47,14 @@ pub const HEATS: [&str; 8] = [
     "pocket_damping",
     "pocket_friction",
     "steady_moment",
+    "cage_land_damping",
+    "cage_land_friction",
+    "ball_ball_damping",
+    "ball_ball_friction",
 ];
+
+/// Index of the heat in the pockets among [`HEATS`]: the loss of accelerated balls belongs to it as well.
+pub const POCKET_FRICTION: usize = 6;
 
 /// Heat made in a bearing by kind, W; all are never negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,9 +75,36 @@ pub struct BearingHeat<R> {
     pub pocket_sliding: R,
     /// The steady friction moment.
     pub steady_moment: R,
+    /// Contact damping between cage and land.
+    pub land_damping: R,
+    /// Cage sliding on its land.
+    pub land_sliding: R,
+    /// Contact damping between neighbouring balls.
+    pub neighbour_damping: R,
+    /// Neighbouring balls sliding on each other.
+    pub neighbour_sliding: R,
 }
 
 impl<R: Real> BearingHeat<R> {
+    /// No heat.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        let zero = R::zero();
+        BearingHeat {
+            inner_damping: zero,
+            outer_damping: zero,
+            inner_sliding: zero,
+            outer_sliding: zero,
+            drag: zero,
+            pocket_damping: zero,
+            pocket_sliding: zero,
+            steady_moment: zero,
+            land_damping: zero,
+            land_sliding: zero,
+            neighbour_damping: zero,
+            neighbour_sliding: zero,
+        }
+    }
     /// The heats in the order of [`HEATS`].
     #[inline(always)]
     pub fn kinds(&self) -> [R; HEATS.len()] {
@@ -79,6 +117,10 @@ impl<R: Real> BearingHeat<R> {
             self.pocket_damping,
             self.pocket_sliding,
             self.steady_moment,
+            self.land_damping,
+            self.land_sliding,
+            self.neighbour_damping,
+            self.neighbour_sliding,
         ]
     }
 }
@@ -102,6 +144,9 @@ pub struct BearingReaction<R> {
     pub loss_inertia: R,
     /// The steady moment of the law at this speed and load, N m.
     pub steady_moment: R,
+    /// Power with which a growing inner race presses its balls, over the race's acceleration, N m s: 2kΩ ΣQ_el, from
+    /// Ṙ = 2kΩΩ̇. It comes from outside the model, which knows no elastic race.
+    pub growth_impulse: R,
     /// Moment about the origin that balls and cage receive from outside: weight and drag to ground, N m.
     pub external_moment: R,
     /// Heat by kind.
@@ -110,6 +155,10 @@ pub struct BearingReaction<R> {
     pub largest_inner_load: R,
     /// Largest ball load at the outer race, N.
     pub largest_outer_load: R,
+    /// Largest force between a ball and its pocket, or between two balls without a cage, N.
+    pub largest_pocket_force: R,
+    /// Force between cage and land, N.
+    pub land_force: R,
 }
 
 impl<R: Real> BearingReaction<R> {
@@ -123,19 +172,13 @@ impl<R: Real> BearingReaction<R> {
             outer_inertia: zero,
             loss_inertia: zero,
             steady_moment: zero,
+            growth_impulse: zero,
             external_moment: zero,
-            heat: BearingHeat {
-                inner_damping: zero,
-                outer_damping: zero,
-                inner_sliding: zero,
-                outer_sliding: zero,
-                drag: zero,
-                pocket_damping: zero,
-                pocket_sliding: zero,
-                steady_moment: zero,
-            },
+            heat: BearingHeat::zero(),
             largest_inner_load: zero,
             largest_outer_load: zero,
+            largest_pocket_force: zero,
+            land_force: zero,
         }
     }
     /// The reaction with its acceleration loss F1|Ω̇| as an inertia like the others.
@@ -185,19 +228,6 @@ impl BearingEnergy {
     }
 }
 
-/// Name of a state of a bearing with that many balls, after `bearing.`.
-pub fn state_name(state: usize, balls: usize) -> String {
-    const BALL: [&str; 5] = ["radius", "radial_speed", "azimuth", "orbit_speed", "spin"];
-    match state {
-        0 => "cage.angle".to_string(),
-        1 => "cage.speed".to_string(),
-        _ => {
-            let (list, ball) = ((state - 2) / balls, (state - 2) % balls);
-            format!("ball_{:02}.{}", ball + 1, BALL[list])
-        }
-    }
-}
-
 /// Constants of a bearing of one machine.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(
@@ -228,25 +258,43 @@ impl BearingConstants {
             BearingConstants::Planar(bearing) => bearing.balls,
         }
     }
+    /// Name of a state, after `bearing.`.
+    pub fn state_name(&self, state: usize) -> String {
+        const CAGE: [&str; ball_states::OF_FREE_CAGE] =
+            ["angle", "speed", "x", "y", "x_speed", "y_speed"];
+        const BALL: [&str; ball_states::OF_BALL] =
+            ["radius", "radial_speed", "azimuth", "orbit_speed", "spin"];
+        let (first, balls) = match self {
+            BearingConstants::Rolling(_) => (rolling::STATES, 1),
+            BearingConstants::Planar(bearing) => (bearing.first_ball_state(), bearing.balls),
+        };
+        if state < first {
+            return format!("cage.{}", CAGE[state]);
+        }
+        let (list, ball) = ((state - first) / balls, (state - first) % balls);
+        format!("ball_{:02}.{}", ball + 1, BALL[list])
+    }
     /// Number of states of cage and balls.
     pub fn states(&self) -> usize {
         match self {
             BearingConstants::Rolling(_) => rolling::STATES,
-            BearingConstants::Planar(bearing) => planar::states(bearing.balls),
+            BearingConstants::Planar(bearing) => bearing.states(),
         }
     }
     /// Mass that moves with the outer race, kg: the cage, and the balls where they have no states.
     pub fn mass_with_outer_race(&self) -> f64 {
         match self {
             BearingConstants::Rolling(bearing) => bearing.set.balls_mass + bearing.set.cage_mass,
-            BearingConstants::Planar(bearing) => bearing.cage_mass,
+            BearingConstants::Planar(bearing) => bearing.mass_of_cage() - bearing.free_cage_mass(),
         }
     }
-    /// Mass of balls that move by their own states, kg.
-    pub fn free_ball_mass(&self) -> f64 {
+    /// Mass of balls and cage that move by their own states, kg.
+    pub fn free_mass(&self) -> f64 {
         match self {
             BearingConstants::Rolling(_) => 0.0,
-            BearingConstants::Planar(bearing) => bearing.balls as f64 * bearing.ball.mass,
+            BearingConstants::Planar(bearing) => {
+                bearing.balls as f64 * bearing.ball.mass + bearing.free_cage_mass()
+            }
         }
     }
     /// Masses and radii of balls and cage.
@@ -259,7 +307,7 @@ impl BearingConstants {
                     inner_track_radius: ball.inner_track,
                     ball_ratio: ball.radius / ball.inner_track,
                     balls_mass: bearing.balls as f64 * ball.mass,
-                    cage_mass: bearing.cage_mass,
+                    cage_mass: bearing.mass_of_cage(),
                 }
             }
         }
@@ -282,7 +330,12 @@ impl BearingConstants {
         if let BearingConstants::Planar(bearing) = self {
             let (radius, n) = (bearing.ball.radius, bearing.balls);
             scale[1] = 0.01 * spin;
-            let ball = &mut scale[planar::BALLS..];
+            let (cage, ball) = scale.split_at_mut(bearing.first_ball_state());
+            if let Some(place) = cage.get_mut(ball_states::CAGE_PLACE..) {
+                let (centre, speeds) = place.split_at_mut(place.len() / 2);
+                centre.fill(1e-4 * radius);
+                speeds.fill(speed);
+            }
             ball[..n].fill(1e-4 * radius);
             ball[n..2 * n].fill(speed);
             ball[2 * n..3 * n].fill(1.0);

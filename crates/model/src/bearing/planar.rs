@@ -1,22 +1,28 @@
 //! The bearing ball by ball, in the plane.
 //!
-//! States: cage angle φ_c (rad) and speed ω_c (rad/s); then for all balls ρ (m), ρ̇ (m/s), θ (rad), θ̇ (rad/s), σ (rad/s).
+//! States: those of the cage, then those of the balls: see [`ball_states`](super::ball_states).
 //!
 //! ```text
 //!   I_c ω̇_c = Σ cage moments of the balls - c_c ω_c        ball j: see `ball`
 //! ```
-//! The cage is guided by the outer race: its mass moves with it.
+//! What keeps the balls apart is one of three: a cage centred on the outer race, with which its mass moves; a cage that
+//! is free to move, see [`cage`](super::cage); or nothing but the balls, see [`full_complement`](super::full_complement).
 //! Drag to ground (c_d on the orbit, c_w on the spin, c_c on the cage) exists to reproduce reference cases; it is no
 //! bearing friction moment. That is [`steady_moment`](super::steady_moment), and excludes it.
 //!
-//! Does not model: cage translation and land friction, full complement, squeeze of the film, heat.
+//! Does not model: squeeze of the film, heat.
 
 use super::ball::{
     BallConstants, BallDistances, BallMotion, BallReaction, PocketMotion, RaceMotion, gather_group,
 };
+use super::ball_states::{
+    OF_BALL, OF_CENTRED_CAGE, OF_FREE_CAGE, add, direction, load_ball, race, split, split_mut,
+};
+use super::cage::{self, FreeCage, Land};
+use super::full_complement::{self, BallPair, FullComplement};
 use super::steady_moment::{BallPlace, Geometry, MomentPairs, SharedMoment};
 use super::{BallSums, BearingEnergy, BearingHeat, BearingReaction, largest_part};
-use crate::motion::{Body, Motion, Wrench};
+use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, Vectorized};
 use physics::traction::{Traction, TractionLaw};
 
@@ -29,9 +35,11 @@ pub struct PlanarConstants {
     pub ball: BallConstants<f64>,
     /// Friction between ball and race.
     pub traction: Traction<f64>,
-    /// Cage mass, kg.
+    /// What keeps the balls apart.
+    pub separation: Separation<f64>,
+    /// Cage mass, kg; without meaning where there is no cage.
     pub cage_mass: f64,
-    /// Cage moment of inertia, kg m².
+    /// Cage moment of inertia, kg m²; without meaning where there is no cage.
     pub cage_inertia: f64,
     /// Drag of the cage to ground, N m s.
     pub cage_drag: f64,
@@ -39,6 +47,25 @@ pub struct PlanarConstants {
     pub first_ball_angle: f64,
     /// The steady friction moment; with it the drags to ground are zero.
     pub moment: Option<SharedMoment>,
+}
+
+/// What keeps the balls apart.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Separation<R> {
+    /// A cage whose centre is that of the outer race.
+    CentredCage,
+    /// A cage that is free to move, within its pockets and the clearance of its land if it has one.
+    FreeCage(Option<Land<R>>),
+    /// No cage: a full complement of balls, each against its neighbours.
+    Neighbours(BallPair<R>),
+}
+
+/// What keeps the balls apart, where it is more than a centred cage, over `R`.
+#[derive(Clone, Debug)]
+enum Apart<R: Real> {
+    Centred,
+    Free(FreeCage<R>),
+    Neighbours(FullComplement<R>),
 }
 
 /// The planar bearing over `R`.
@@ -49,43 +76,14 @@ pub struct Planar<R: Real> {
     traction: Traction<R::Group>,
     cage_inverse_inertia: R,
     cage_drag: R,
+    /// 2k: twice the growth of the inner track's radius with the square of its speed, m s².
+    twice_growth: R,
     moment: Option<MomentPairs<R>>,
+    apart: Apart<R>,
+    /// First state of the balls.
+    first: usize,
     /// Angle of each pocket on the cage, rad.
     seats: Vec<R>,
-}
-
-/// First state of the balls.
-pub const BALLS: usize = 2;
-
-/// States of a bearing with that many balls.
-pub fn states(balls: usize) -> usize {
-    BALLS + 5 * balls
-}
-
-/// The lists of ball states, one after the other.
-#[inline(always)]
-fn split<R>(state: &[R], balls: usize) -> [&[R]; 5] {
-    let (radius, rest) = state[BALLS..].split_at(balls);
-    let (radial_speed, rest) = rest.split_at(balls);
-    let (azimuth, rest) = rest.split_at(balls);
-    let (orbit_speed, rest) = rest.split_at(balls);
-    [radius, radial_speed, azimuth, orbit_speed, &rest[..balls]]
-}
-
-/// The same lists, to write.
-#[inline(always)]
-fn split_mut<R>(state: &mut [R], balls: usize) -> [&mut [R]; 5] {
-    let (radius, rest) = state[BALLS..].split_at_mut(balls);
-    let (radial_speed, rest) = rest.split_at_mut(balls);
-    let (azimuth, rest) = rest.split_at_mut(balls);
-    let (orbit_speed, rest) = rest.split_at_mut(balls);
-    [
-        radius,
-        radial_speed,
-        azimuth,
-        orbit_speed,
-        &mut rest[..balls],
-    ]
 }
 
 impl<R: Real> Planar<R> {
@@ -94,14 +92,35 @@ impl<R: Real> Planar<R> {
         let balls = Gather::<R>::gather(&|lane| &machine(lane).balls);
         Planar {
             balls,
-            ball: gather_group::<R, _>(&|lane| &machine(lane).ball),
+            ball: machine(0)
+                .separation
+                .beyond_pockets(gather_group::<R, _>(&|lane| &machine(lane).ball)),
             traction: gather_group::<R, _>(&|lane| &machine(lane).traction),
             cage_inverse_inertia: R::from_lanes(|lane| 1.0 / machine(lane).cage_inertia),
             cage_drag: R::from_lanes(|lane| machine(lane).cage_drag),
+            twice_growth: R::from_lanes(|lane| 2.0 * machine(lane).ball.inner_track_growth),
             moment: MomentPairs::gather(&|lane| {
                 let bearing = machine(lane);
                 (bearing.geometry(), bearing.moment.as_ref())
             }),
+            apart: match &machine(0).separation {
+                Separation::CentredCage => Apart::Centred,
+                Separation::FreeCage(_) => {
+                    Apart::Free(FreeCage::gather(&|lane| match &machine(lane).separation {
+                        Separation::FreeCage(land) => (machine(lane), land.as_ref()),
+                        _ => panic!("lanes share what keeps the balls apart"),
+                    }))
+                }
+                Separation::Neighbours(_) => {
+                    Apart::Neighbours(FullComplement::gather(
+                        &|lane| match &machine(lane).separation {
+                            Separation::Neighbours(pair) => (machine(lane), pair),
+                            _ => panic!("lanes share what keeps the balls apart"),
+                        },
+                    ))
+                }
+            },
+            first: machine(0).first_ball_state(),
             seats: (0..balls)
                 .map(|j| R::from_lanes(|lane| machine(lane).seat(j)))
                 .collect(),
@@ -136,6 +155,24 @@ impl<R: Real> Planar<R> {
                 rate,
                 reaction: &mut reaction,
             });
+        }
+        match &self.apart {
+            Apart::Centred => {}
+            Apart::Free(cage) => R::vectorized(cage::Act {
+                cage,
+                motion,
+                state,
+                rate,
+                detail,
+                reaction: &mut reaction,
+            }),
+            Apart::Neighbours(row) => R::vectorized(full_complement::Act {
+                row,
+                state,
+                rate,
+                detail,
+                reaction: &mut reaction,
+            }),
         }
         reaction
     }
@@ -177,8 +214,8 @@ impl<R: Real> Planar<R> {
         let load = Vec2::new(x, y).length_squared().sqrt() + held_load;
         let shared = pairs.share(speed, load, inner_sum, outer_sum);
 
-        let lists = split(state, n);
-        let [_, d_radial_speed, _, d_orbit_speed, d_spin] = split_mut(rate, n);
+        let lists = split(state, self.first, n);
+        let [_, d_radial_speed, _, d_orbit_speed, d_spin] = split_mut(rate, self.first, n);
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
         let mut sums = BallSums::<R, 5>::new(n);
         let mut from = 0;
@@ -201,9 +238,9 @@ impl<R: Real> Planar<R> {
             let slowing = force * self.ball.inverse_mass;
             let sideways = slowing.dot(place.e_r.turned()) * place.inverse_radius;
             let couple = p.inner_couple + p.outer_couple;
-            subtract(d_radial_speed, from, slowing.dot(place.e_r));
-            subtract(d_orbit_speed, from, sideways);
-            subtract(d_spin, from, couple * self.ball.inverse_inertia);
+            add(d_radial_speed, from, -(slowing.dot(place.e_r)));
+            add(d_orbit_speed, from, -(sideways));
+            add(d_spin, from, -(couple * self.ball.inverse_inertia));
             sums.add(
                 from,
                 &[
@@ -227,7 +264,7 @@ impl<R: Real> Planar<R> {
     #[inline(always)]
     fn loads(&self, motion: &Motion<R>, state: &[R]) -> [R; 4] {
         let n = self.balls;
-        let lists = split(state, n);
+        let lists = split(state, self.first, n);
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
         let mut sums = BallSums::<R, 4>::new(n);
         let mut from = 0;
@@ -248,7 +285,7 @@ impl<R: Real> Planar<R> {
     #[inline(always)]
     pub(crate) fn angular_momentum_rate(&self, state: &[R], rate: &[R]) -> R {
         let n = self.balls;
-        let (lists, rates) = (split(state, n), split(rate, n));
+        let (lists, rates) = (split(state, self.first, n), split(rate, self.first, n));
         let mut sum = BallSums::<R, 1>::new(n);
         let mut from = 0;
         while from < n {
@@ -260,7 +297,13 @@ impl<R: Real> Planar<R> {
             sum.add(from, &[self.ball.mass * orbit + spin]);
             from += R::GROUP;
         }
-        sum.total()[0] + rate[1] / self.cage_inverse_inertia
+        let turning = rate[1] / self.cage_inverse_inertia;
+        sum.total()[0]
+            + match &self.apart {
+                Apart::Centred => turning,
+                Apart::Free(cage) => turning + cage.orbital_momentum_rate(state, rate),
+                Apart::Neighbours(_) => R::zero(),
+            }
     }
 
     #[inline(always)]
@@ -274,8 +317,9 @@ impl<R: Real> Planar<R> {
     ) -> BearingReaction<R> {
         let n = self.balls;
         let (cage_angle, cage_speed) = (state[0], state[1]);
-        let lists = split(state, n);
-        let [d_radius, d_radial_speed, d_azimuth, d_orbit_speed, d_spin] = split_mut(rate, n);
+        let lists = split(state, self.first, n);
+        let [d_radius, d_radial_speed, d_azimuth, d_orbit_speed, d_spin] =
+            split_mut(rate, self.first, n);
 
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
         // all directions and distances first: the roots and divisions of one ball keep no other ball waiting; they
@@ -291,8 +335,8 @@ impl<R: Real> Planar<R> {
             R::store_group(d.outer, d_spin, from);
             from += R::GROUP;
         }
-        let mut largest = [<R::Group as Real>::zero(); 2];
-        let mut sums = BallSums::<R, 15>::new(n);
+        let mut largest = [<R::Group as Real>::zero(); 3];
+        let mut sums = BallSums::<R, 16>::new(n);
         let mut from = 0;
         while from < n {
             let ball = load_ball(&lists, from);
@@ -333,10 +377,15 @@ impl<R: Real> Planar<R> {
                     r.heat.drag,
                     r.heat.pocket_damping,
                     r.heat.pocket_sliding,
+                    r.inner_elastic,
                 ],
             );
             // a group repeats the last ball behind the end of the list: no harm to a maximum
-            largest = [largest[0].max(r.inner_load), largest[1].max(r.outer_load)];
+            largest = [
+                largest[0].max(r.inner_load),
+                largest[1].max(r.outer_load),
+                largest[2].max(r.pocket_force),
+            ];
             let details = [
                 r.inner_load,
                 r.outer_load,
@@ -360,6 +409,7 @@ impl<R: Real> Planar<R> {
             outer_inertia: R::zero(),
             loss_inertia: R::zero(),
             steady_moment: R::zero(),
+            growth_impulse: self.twice_growth * motion.inner.spin * s[15],
             external_moment: s[7] - cage_drag,
             heat: BearingHeat {
                 inner_damping: s[8],
@@ -369,10 +419,12 @@ impl<R: Real> Planar<R> {
                 drag: s[12] + cage_drag * cage_speed,
                 pocket_damping: s[13],
                 pocket_sliding: s[14],
-                steady_moment: R::zero(),
+                ..BearingHeat::zero()
             },
             largest_inner_load: largest_part::<R>(largest[0]),
             largest_outer_load: largest_part::<R>(largest[1]),
+            largest_pocket_force: largest_part::<R>(largest[2]),
+            land_force: R::zero(),
         }
     }
 }
@@ -427,13 +479,6 @@ impl<R: Real> Vectorized for Share<'_, R> {
     }
 }
 
-/// Unit vector at an azimuth.
-#[inline(always)]
-fn direction<R: Real>(azimuth: R) -> Vec2<R> {
-    let (sine, cosine) = azimuth.sin_cos();
-    Vec2::new(cosine, sine)
-}
-
 /// Distances of a ball from the centres of the races.
 #[inline(always)]
 pub(super) fn distances<R: Real>(
@@ -444,36 +489,6 @@ pub(super) fn distances<R: Real>(
     BallDistances::of(inner, outer, ball.radius, direction(ball.azimuth))
 }
 
-/// A race as several balls at a time see it.
-#[inline(always)]
-fn race<R: Real>(body: &Body<R>) -> RaceMotion<R::Group> {
-    let grouped = |v: Vec2<R>| Vec2::new(v.x.grouped(), v.y.grouped());
-    RaceMotion {
-        position: grouped(body.position),
-        velocity: grouped(body.velocity),
-        spin: body.spin.grouped(),
-    }
-}
-
-/// Takes a change off the values of the balls from an index on.
-#[inline(always)]
-fn subtract<R: Real>(list: &mut [R], from: usize, change: R::Group) {
-    R::store_group(R::load_group(list, from) - change, list, from);
-}
-
-/// The balls from an index on.
-#[inline(always)]
-fn load_ball<R: Real>(lists: &[&[R]; 5], from: usize) -> BallMotion<R::Group> {
-    let [radius, radial_speed, azimuth, orbit_speed, spin] = lists;
-    BallMotion {
-        radius: R::load_group(radius, from),
-        radial_speed: R::load_group(radial_speed, from),
-        azimuth: R::load_group(azimuth, from),
-        orbit_speed: R::load_group(orbit_speed, from),
-        spin: R::load_group(spin, from),
-    }
-}
-
 impl PlanarConstants {
     /// Angle of a pocket on the cage, rad.
     pub fn seat(&self, ball: usize) -> f64 {
@@ -482,7 +497,7 @@ impl PlanarConstants {
     /// Motion of one ball.
     pub fn motion(&self, state: &[f64], ball: usize) -> BallMotion<f64> {
         let [radius, radial_speed, azimuth, orbit_speed, spin] =
-            split(state, self.balls).map(|list| list[ball]);
+            split(state, self.first_ball_state(), self.balls).map(|list| list[ball]);
         BallMotion {
             radius,
             radial_speed,
@@ -493,7 +508,8 @@ impl PlanarConstants {
     }
     /// Writes the motion of one ball.
     pub fn set_motion(&self, state: &mut [f64], ball: usize, motion: &BallMotion<f64>) {
-        let [radius, radial_speed, azimuth, orbit_speed, spin] = split_mut(state, self.balls);
+        let [radius, radial_speed, azimuth, orbit_speed, spin] =
+            split_mut(state, self.first_ball_state(), self.balls);
         radius[ball] = motion.radius;
         radial_speed[ball] = motion.radial_speed;
         azimuth[ball] = motion.azimuth;
@@ -502,7 +518,32 @@ impl PlanarConstants {
     }
     /// Index of the azimuth of a ball among the bearing's states.
     pub fn azimuth_channel(&self, ball: usize) -> usize {
-        BALLS + 2 * self.balls + ball
+        self.first_ball_state() + 2 * self.balls + ball
+    }
+    /// First state of the balls.
+    pub fn first_ball_state(&self) -> usize {
+        match self.separation {
+            Separation::CentredCage | Separation::Neighbours(_) => OF_CENTRED_CAGE,
+            Separation::FreeCage(_) => OF_FREE_CAGE,
+        }
+    }
+    /// Number of states.
+    pub fn states(&self) -> usize {
+        self.first_ball_state() + OF_BALL * self.balls
+    }
+    /// Mass of the cage where it moves by its own states, kg.
+    pub(super) fn free_cage_mass(&self) -> f64 {
+        match self.separation {
+            Separation::FreeCage(_) => self.cage_mass,
+            Separation::CentredCage | Separation::Neighbours(_) => 0.0,
+        }
+    }
+    /// Mass of a cage, kg; zero where there is none.
+    pub fn mass_of_cage(&self) -> f64 {
+        match self.separation {
+            Separation::Neighbours(_) => 0.0,
+            Separation::CentredCage | Separation::FreeCage(_) => self.cage_mass,
+        }
     }
     pub(super) fn rest(&self, state: &mut [f64]) {
         state[0] = self.first_ball_angle;
@@ -530,7 +571,8 @@ impl PlanarConstants {
             self.set_motion(state, j, &ball);
         }
     }
-    /// Reaction of one ball, for inspection; without its part of the steady moment.
+    /// Reaction of one ball, for inspection; without its part of the steady moment, and without its pocket where the
+    /// cage is not centred.
     pub fn ball_reaction(
         &self,
         motion: &Motion<f64>,
@@ -539,7 +581,7 @@ impl PlanarConstants {
     ) -> BallReaction<f64> {
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
         let (pocket, ball) = (self.pocket(state, ball), self.motion(state, ball));
-        self.ball.react(
+        self.separation.beyond_pockets(self.ball).react(
             &self.traction,
             &inner,
             &outer,
@@ -567,16 +609,12 @@ impl PlanarConstants {
     }
     pub(super) fn energy(&self, motion: &Motion<f64>, state: &[f64]) -> BearingEnergy {
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
-        let cage_speed = state[1];
-        let mut sum = BearingEnergy {
-            spin: 0.5 * self.cage_inertia * cage_speed * cage_speed,
-            angular_momentum: self.cage_inertia * cage_speed,
-            ..BearingEnergy::default()
-        };
+        let between_races = self.separation.beyond_pockets(self.ball);
+        let mut sum = BearingEnergy::default();
         for j in 0..self.balls {
             let ball = self.motion(state, j);
             let pocket = self.pocket(state, j);
-            let (elastic, weight) = self.ball.energy(&inner, &outer, &pocket, &ball);
+            let (elastic, weight) = between_races.energy(&inner, &outer, &pocket, &ball);
             let (translation, spin) = self.ball.kinetic_energy(&ball);
             sum.translation += translation;
             sum.spin += spin;
@@ -584,6 +622,32 @@ impl PlanarConstants {
             sum.weight += weight;
             sum.angular_momentum += self.ball.angular_momentum(&ball);
         }
+        match &self.separation {
+            Separation::CentredCage => {}
+            Separation::FreeCage(land) => {
+                let cage = cage::energy(self, land.as_ref(), motion, state);
+                sum.translation += cage.translation;
+                sum.weight += cage.weight;
+                sum.elastic += cage.elastic;
+                sum.angular_momentum += cage.angular_momentum;
+            }
+            Separation::Neighbours(pair) => {
+                sum.elastic += full_complement::energy(self, pair, state);
+                return sum;
+            }
+        }
+        sum.spin += 0.5 * self.cage_inertia * state[1] * state[1];
+        sum.angular_momentum += self.cage_inertia * state[1];
         sum
+    }
+}
+
+impl<T> Separation<T> {
+    /// The ball for the sum over the races: where the cage is not centred, pockets are no part of it.
+    pub(super) fn beyond_pockets<R: Real>(&self, mut ball: BallConstants<R>) -> BallConstants<R> {
+        if !matches!(self, Separation::CentredCage) {
+            ball.pocket_gap = R::splat(f64::INFINITY);
+        }
+        ball
     }
 }

@@ -9,6 +9,8 @@
 //! State: cage angle φ_c (rad). Cage and balls move with the outer race where they translate.
 //! Ball loads are quasi-static: the outer load adds the centrifugal force of the ball.
 //!
+//! The inner race grows with its own speed: its track's radius by kΩ².
+//!
 //! Assumes: no skid, no slip. Does not model: pocket contact, losses beyond M and F,
 //! the effect of centrifugal force on stiffness.
 
@@ -31,8 +33,10 @@ constants! {
         series_stiffness: R,
         /// Contact damping time β, s.
         damping_time: R,
-        /// Interference of the ball between concentric races, m; negative for clearance.
+        /// Interference of the ball between concentric races at rest, m; negative for clearance.
         interference: R,
+        /// Growth k of the inner track's radius with the square of its speed, m s².
+        inner_track_growth: R,
         /// Ball mass times radius of its orbit, kg m: centrifugal force per ω_c².
         mass_radius: R,
     }
@@ -118,7 +122,9 @@ impl<R: Real> Rolling<R> {
                 (closing.y - cage_speed * offset.x).grouped(),
             ),
         );
-        let mut sums = BallSums::<R, 3>::new(n);
+        let growth = self.ball.inner_track_growth;
+        let interference = self.ball.interference + growth * motion.inner.spin.grouped().square();
+        let mut sums = BallSums::<R, 4>::new(n);
         let mut from = 0;
         while from < n {
             let azimuth = state[0].grouped() + R::load_group(&self.seats, from);
@@ -128,13 +134,18 @@ impl<R: Real> Rolling<R> {
             let load = ball_race(
                 self.ball.series_stiffness,
                 self.ball.damping_time,
-                self.ball.interference + offset.dot(direction),
+                interference + offset.dot(direction),
                 approach_speed,
             );
             let push = direction * load.force;
             sums.add(
                 from,
-                &[push.x, push.y, (load.force - load.elastic) * approach_speed],
+                &[
+                    push.x,
+                    push.y,
+                    (load.force - load.elastic) * approach_speed,
+                    load.elastic * growth,
+                ],
             );
             if !detail.is_empty() {
                 R::store_group(load.force, &mut detail[..n], from);
@@ -147,7 +158,7 @@ impl<R: Real> Rolling<R> {
                 .iter_mut()
                 .for_each(|value| *value = R::zero());
         }
-        let [x, y, damping] = sums.total();
+        let [x, y, damping, growing] = sums.total();
         let push = Vec2::new(x, y);
         let moment = match &self.moment {
             SteadyMoment::None => R::zero(),
@@ -172,19 +183,18 @@ impl<R: Real> Rolling<R> {
             outer_inertia: self.outer_inertia,
             loss_inertia,
             steady_moment: moment,
+            growth_impulse: R::splat(2.0) * motion.inner.spin * growing,
             external_moment: R::zero(),
             heat: BearingHeat {
                 inner_damping: damping,
-                outer_damping: R::zero(),
-                inner_sliding: R::zero(),
-                outer_sliding: R::zero(),
-                drag: R::zero(),
-                pocket_damping: R::zero(),
                 pocket_sliding: loss_moment * spin,
                 steady_moment: moment * spin,
+                ..BearingHeat::zero()
             },
             largest_inner_load: largest(detail, n, 0),
             largest_outer_load: largest(detail, n, 1),
+            largest_pocket_force: R::zero(),
+            land_force: R::zero(),
         }
     }
 }
@@ -211,7 +221,9 @@ impl RollingConstants {
         let elastic = (0..self.balls)
             .map(|j| {
                 let (sine, cosine) = (state[0] + self.seat(j)).sin_cos();
-                let approach = self.ball.interference + offset.dot(Vec2::new(cosine, sine));
+                let grown = self.ball.inner_track_growth * motion.inner.spin * motion.inner.spin;
+                let interference = self.ball.interference + grown;
+                let approach = interference + offset.dot(Vec2::new(cosine, sine));
                 ball_race_energy(self.ball.series_stiffness, approach)
             })
             .sum();

@@ -5,15 +5,18 @@
 //! reference drop of an independent implementation; 0.15 between rotor and race is arbitrary there and here.
 
 use model::bearing::ball::{BallConstants, BallMotion};
+use model::bearing::ball_states::CAGE_PLACE;
+use model::bearing::cage::{Land, LandRace};
+use model::bearing::full_complement::BallPair;
 use model::bearing::{
-    AccelerationLoss, BearingConstants, PlanarConstants, RollingConstants, SteadyMoment,
-    rolling::RollingBall,
+    AccelerationLoss, BearingConstants, PlanarConstants, RollingConstants, Separation,
+    SteadyMoment, rolling::RollingBall,
 };
-use model::contact::RotorContact;
+use model::contact::JournalContact;
 use model::levitation::Levitation;
 use model::mount::Mount;
 use model::rotor::Rotor;
-use model::system::drop::layout::{BEARING, INNER, OUTER, ROTOR};
+use model::system::drop::layout::{BEARING, HEATS, INNER, OUTER, ROTOR};
 use model::system::drop::{Drop, DropConstants, DropMachine, MachineConstants};
 use number::Vec2;
 use physics::film::EntrainedContact;
@@ -42,10 +45,13 @@ pub fn planar_bearing() -> PlanarConstants {
         balls: 10,
         ball: BallConstants {
             radius,
+            ball_radius: radius,
+            load_per_radial_force: 1.0,
             mass,
             inverse_mass: 1.0 / mass,
             inverse_inertia: 1.0 / (0.4 * mass * radius * radius),
             inner_track: 14.825e-3,
+            inner_track_growth: 0.0,
             outer_track: 21.173e-3,
             inner_stiffness: 25_188_251_676.112_152,
             outer_stiffness: 22_185_150_515.377_434,
@@ -64,12 +70,80 @@ pub fn planar_bearing() -> PlanarConstants {
             maximum: 0.07,
             inverse_reference_speed: 1.0 / 0.1,
         }),
+        separation: Separation::CentredCage,
         cage_mass: 5e-3,
         cage_inertia: 1.62e-6,
         cage_drag: 0.0,
         first_ball_angle: 0.0,
         moment: None,
     }
+}
+
+/// A land of that race with that radial clearance: a cage in the bore of the outer race, or on the inner race.
+pub fn land(race: LandRace, radial_clearance: f64) -> Land<f64> {
+    Land {
+        race,
+        contact: JournalContact {
+            radial_clearance,
+            bore_radius: match race {
+                LandRace::Inner => 16e-3 + radial_clearance,
+                LandRace::Outer => 20e-3,
+            },
+            stiffness: 1e7,
+            exponent: 1.0,
+            damping: 0.5,
+            friction: 0.05,
+            inverse_reference_speed: 1.0 / 0.1,
+        },
+    }
+}
+
+/// The row of balls of this bearing without a cage: steel on steel.
+pub fn ball_pair() -> BallPair<f64> {
+    BallPair {
+        radius: 3.175e-3,
+        stiffness: 6.02e9,
+        damping_time: 2.5e-6,
+        friction: 0.05,
+        inverse_reference_speed: 1.0 / 0.1,
+    }
+}
+
+/// What may keep the balls apart, besides a centred cage.
+pub fn separations() -> [Separation<f64>; 4] {
+    [
+        Separation::FreeCage(Some(land(LandRace::Outer, 0.2e-3))),
+        Separation::FreeCage(Some(land(LandRace::Inner, 0.1e-3))),
+        Separation::FreeCage(None),
+        Separation::Neighbours(ball_pair()),
+    ]
+}
+
+/// Gives a machine what keeps its balls apart; without a cage the circle is filled with balls.
+pub fn separate(constants: &mut DropConstants, separation: Separation<f64>) {
+    let bearing = planar(constants);
+    if let Separation::Neighbours(pair) = &separation {
+        // 17 balls leave 0.26 mm between neighbours
+        bearing.balls = 17;
+        assert!(2.0 * 18e-3 * (PI / 17.0).sin() > 2.0 * pair.radius);
+        bearing.cage_drag = 0.0;
+    }
+    bearing.separation = separation;
+    balance_mount(constants);
+}
+
+/// Contacts at an angle α: what the plane sees of them.
+pub fn tilt_contacts(bearing: &mut PlanarConstants, contact_angle: f64) {
+    let cosine = contact_angle.cos();
+    let b = &mut bearing.ball;
+    let interference = b.inner_track + 2.0 * b.radius - b.outer_track;
+    let pitch = b.inner_track + b.radius;
+    b.radius *= cosine;
+    b.inner_track = pitch - b.radius;
+    b.outer_track = pitch + b.radius - interference;
+    b.inner_stiffness *= cosine.powf(2.5);
+    b.outer_stiffness *= cosine.powf(2.5);
+    b.load_per_radial_force = 1.0 / cosine;
 }
 
 /// Traction of this bearing in a mineral oil at 60 °C.
@@ -118,6 +192,7 @@ pub fn rolling_bearing(planar: &PlanarConstants) -> RollingConstants {
             series_stiffness: (soft(ball.inner_stiffness) + soft(ball.outer_stiffness)).powf(-1.5),
             damping_time: ball.damping_time,
             interference: ball.inner_track + 2.0 * ball.radius - ball.outer_track,
+            inner_track_growth: ball.inner_track_growth,
             mass_radius: ball.mass * (ball.inner_track + ball.radius),
         },
         set,
@@ -147,7 +222,7 @@ pub fn reference() -> DropConstants {
                 centre: vec2(0.0, 0.0),
                 carried: vec2(0.0, rotor_mass * G),
             },
-            contact: RotorContact {
+            contact: JournalContact {
                 radial_clearance: 0.25e-3,
                 bore_radius: 12.5e-3,
                 stiffness: 5e8,
@@ -180,7 +255,7 @@ pub fn reference() -> DropConstants {
 /// Sets the free position of the mount so that the weight of the bearing is balanced at zero.
 pub fn balance_mount(constants: &mut DropConstants) {
     let m = &constants.machine;
-    let mut mass = constants.outer_moving_mass() + constants.bearing.free_ball_mass();
+    let mut mass = constants.outer_moving_mass() + constants.bearing.free_mass();
     if !m.inner_race_centre_held {
         mass += m.inner_race_mass;
     }
@@ -200,6 +275,12 @@ pub fn planar(constants: &mut DropConstants) -> &mut PlanarConstants {
 pub fn let_roll(constants: &mut DropConstants) {
     constants.bearing = BearingConstants::Rolling(rolling_bearing(planar(constants)));
     balance_mount(constants);
+}
+
+/// What a kind of heat has summed up in a state.
+pub fn heat_of(machine: &DropMachine, state: &[f64], kind: &str) -> f64 {
+    let index = HEATS.iter().position(|name| *name == kind);
+    state[machine.layout().heat(index.expect("a kind of heat"))]
 }
 
 /// Removes gravity from a machine, and the weight that the levitation carries.
@@ -334,8 +415,17 @@ pub fn random_state(machine: &DropMachine, random: &mut Random) -> Vec<f64> {
             part[0] = cage_angle;
             part[1] = cage_speed;
             let b = &bearing.ball;
+            for channel in CAGE_PLACE..bearing.first_ball_state() {
+                let speed = channel >= CAGE_PLACE + 2;
+                part[channel] = random.within(if speed { 0.3 } else { 0.2e-3 });
+            }
+            // neighbours without a cage are as often pressed as apart
+            let gap = match bearing.separation {
+                Separation::Neighbours(_) => 0.15e-3,
+                _ => b.pocket_gap,
+            };
             for ball in 0..bearing.balls {
-                let travel = 2.0 * b.pocket_gap / b.pocket_radius;
+                let travel = 2.0 * gap / b.pocket_radius;
                 let motion = BallMotion {
                     radius: bearing.rest_radius() + random.within(8e-6),
                     radial_speed: random.within(0.2),

@@ -7,7 +7,9 @@ use crate::machines::{
     Random, ball_of, bearing_part, let_roll, planar, random_state, reference, vec2,
 };
 use crate::relatives::machines;
-use model::bearing::{BearingConstants, PlanarConstants, SharedMoment, SteadyMoment};
+use model::bearing::ball_states::CAGE_PLACE;
+use model::bearing::cage::LandRace;
+use model::bearing::{BearingConstants, PlanarConstants, Separation, SharedMoment, SteadyMoment};
 use model::system::drop::DropMachine;
 use model::system::drop::layout::{
     BEARING, DETAIL, HEATS, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, OUTER, ROTOR, SOURCES,
@@ -88,8 +90,21 @@ fn centres(machine: &DropMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, [Vec
         for j in 0..bearing.balls {
             list.push((bearing.ball.mass, ball_centre(machine, state, rate, j)));
         }
+        if matches!(bearing.separation, Separation::FreeCage(_)) {
+            list.push((bearing.cage_mass, cage_centre(machine, state, rate)));
+        }
     }
     list
+}
+
+/// Centre of a free cage with its speed and acceleration.
+fn cage_centre(machine: &DropMachine, state: &[f64], rate: &[f64]) -> [Vec2<f64>; 3] {
+    let (now, change) = (bearing_part(machine, state), bearing_part(machine, rate));
+    [
+        pair(now, CAGE_PLACE),
+        pair(now, CAGE_PLACE + 2),
+        pair(change, CAGE_PLACE + 2),
+    ]
 }
 
 /// Bodies that spin: (inertia, spin, spin acceleration).
@@ -105,8 +120,10 @@ fn spins(machine: &DropMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, f64, f
         }
         BearingConstants::Planar(b) => {
             let part = (bearing_part(machine, state), bearing_part(machine, rate));
-            list.push((b.cage_inertia, part.0[1], part.1[1]));
-            let inertia = 0.4 * b.ball.mass * b.ball.radius * b.ball.radius;
+            if !matches!(b.separation, Separation::Neighbours(_)) {
+                list.push((b.cage_inertia, part.0[1], part.1[1]));
+            }
+            let inertia = 0.4 * b.ball.mass * b.ball.ball_radius * b.ball.ball_radius;
             for j in 0..b.balls {
                 let (now, change) = (ball_of(machine, state, j), ball_of(machine, rate, j));
                 list.push((inertia, now.spin, change.spin));
@@ -209,9 +226,30 @@ fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f
                     -(b.ball.outer_track + 0.5 * approach) * traction
                 })
                 .sum();
-            tractions + steady
+            tractions + steady + land_moment_on_outer_race(machine, state, b)
         }
     }
+}
+
+/// Friction of a cage that rides in the outer race, about that race's centre.
+fn land_moment_on_outer_race(machine: &DropMachine, state: &[f64], b: &PlanarConstants) -> f64 {
+    let Separation::FreeCage(Some(land)) = &b.separation else {
+        return 0.0;
+    };
+    let contact = &land.contact;
+    let part = bearing_part(machine, state);
+    let e = pair(part, CAGE_PLACE) - pair(state, OUTER);
+    let n = e * (1.0 / e.length_squared().sqrt());
+    let depth = e.dot(n) - contact.radial_clearance;
+    if land.race == LandRace::Inner || depth <= 0.0 {
+        return 0.0;
+    }
+    let past = pair(part, CAGE_PLACE + 2) - pair(state, OUTER + 2);
+    let force = contact.stiffness * depth * (1.0 + contact.damping * past.dot(n));
+    let surface = part[1] * (contact.bore_radius - contact.radial_clearance - 0.5 * depth);
+    let slide = past.dot(n.turned()) + surface;
+    let friction = contact.friction * (slide * contact.inverse_reference_speed).tanh();
+    (contact.bore_radius + 0.5 * depth) * friction * force.max(0.0)
 }
 
 /// What the pairs of the steady moment do to the outer race about its centre: drag on the orbit at the balls' distance,
@@ -417,7 +455,7 @@ fn pocket_and_cage_answer_each_other() {
         let Traction::Tanh(law) = &b.traction else {
             return;
         };
-        if b.moment.is_some() {
+        if b.moment.is_some() || b.separation != Separation::CentredCage {
             return;
         }
         let motion = race_motion(state);
@@ -457,7 +495,10 @@ fn moment_from_pocket(
     let (now, change) = (ball_of(machine, state, j), ball_of(machine, rate, j));
     let (r, mass) = (b.ball.radius, b.ball.mass);
     let mut force = (acceleration - b.ball.gravity) * mass;
-    let mut moment = 0.4 * mass * r * r * change.spin + b.ball.spin_drag * now.spin;
+    let ball_radius = b.ball.ball_radius;
+    let mut moment =
+        0.4 * mass * ball_radius * ball_radius * change.spin + b.ball.spin_drag * now.spin;
+    let grown = b.ball.inner_track_growth * motion.inner.spin * motion.inner.spin;
     let tangent = vec2(-now.azimuth.sin(), now.azimuth.cos());
     force += tangent * (b.ball.orbit_drag * velocity.dot(tangent));
     for (race, load, slip, out, track) in [
@@ -466,7 +507,7 @@ fn moment_from_pocket(
             reaction.inner_load,
             reaction.inner_slip,
             1.0,
-            b.ball.inner_track,
+            b.ball.inner_track + grown,
         ),
         (
             &motion.outer,
@@ -481,7 +522,8 @@ fn moment_from_pocket(
         let n = from_race * (1.0 / distance);
         let traction = law.coefficient(slip) * load;
         let approach = out * (track - distance) + r;
-        force = force - n * (out * load) - n.turned() * traction;
+        let radial = load / b.ball.load_per_radial_force;
+        force = force - n * (out * radial) - n.turned() * traction;
         moment += out * (r - 0.5 * approach) * traction;
     }
     let arm = centre - motion.outer.position;
@@ -497,6 +539,9 @@ fn detail_and_probes_are_those_of_the_balls() {
         let BearingConstants::Planar(b) = &machine.constants.bearing else {
             return;
         };
+        if b.separation != Separation::CentredCage {
+            return;
+        }
         let motion = race_motion(state);
         let part = &state[BEARING..machine.layout().ledger()];
         let (mut inner, mut outer) = (0.0_f64, 0.0_f64);

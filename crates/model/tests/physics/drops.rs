@@ -1,11 +1,9 @@
 //! Whole drops: what closes, what is known in closed form, what a brake and a drive do.
 
 use crate::machines::{
-    G, balance_mount, let_roll, observe, planar, reference, run, settings, vec2,
+    G, balance_mount, heat_of, let_roll, observe, planar, reference, run, settings, vec2,
 };
-use model::system::drop::layout::{
-    HEATS, INNER, NORMAL_FORCE, PENETRATION, PENETRATION_SPEED, ROTOR,
-};
+use model::system::drop::layout::{INNER, NORMAL_FORCE, PENETRATION, PENETRATION_SPEED, ROTOR};
 use model::system::drop::{DropConstants, DropMachine};
 use solve::{Flow, Observer, Step, watch};
 use std::f64::consts::PI;
@@ -235,8 +233,7 @@ fn a_held_spin_stays_and_its_drive_pays_the_friction() {
     assert_eq!(end[ROTOR + 5], start[ROTOR + 5]);
     // the drive pays what the friction takes from the rotor
     let drive = end[machine.layout().source(1)];
-    let friction = end[machine.layout().heat(10)];
-    assert_eq!(HEATS[10], "rotor_race_friction");
+    let friction = heat_of(&machine, &end, "rotor_race_friction");
     assert!(drive > friction && friction > 0.1, "{drive} {friction}");
 }
 

@@ -1,13 +1,15 @@
 //! Machines that differ from the reference in one thing each.
 
-use crate::machines::{balance_mount, let_roll, oil, planar, reference, vec2};
+use crate::machines::{
+    balance_mount, let_roll, oil, planar, reference, separate, separations, tilt_contacts, vec2,
+};
 use model::bearing::{AccelerationLoss, BearingConstants, SharedMoment, SteadyMoment};
 use model::system::drop::DropMachine;
 use physics::palmgren::Palmgren;
 use physics::traction::{DryTraction, FourParameterTraction, Traction};
 
 /// The reference machine and its relatives: other traction laws, oil, a brake, a drive, levitation, a held race, seven balls,
-/// balls that roll.
+/// balls that roll, cages free to move, no cage, a race that grows, contacts at an angle.
 pub fn machines() -> Vec<DropMachine> {
     let base = || {
         let mut c = reference();
@@ -63,6 +65,21 @@ pub fn machines() -> Vec<DropMachine> {
         reference_spin: 2.0,
         scale: 0.9,
     });
+    let mut grown = base();
+    // 5 µm at 1000 rad/s
+    planar(&mut grown).ball.inner_track_growth = 5e-12;
+    let mut grown_rolling = grown.clone();
+    let_roll(&mut grown_rolling);
+    if let BearingConstants::Rolling(bearing) = &mut grown_rolling.bearing {
+        bearing.moment = SteadyMoment::Palmgren(grease());
+    }
+    let mut tilted = base();
+    tilt_contacts(planar(&mut tilted), 0.4);
+    let separated = separations().map(|separation| {
+        let mut c = base();
+        separate(&mut c, separation);
+        c
+    });
     let like_the_reference = base();
     [
         peaked,
@@ -74,8 +91,12 @@ pub fn machines() -> Vec<DropMachine> {
         greased,
         like_the_reference,
         oiled,
+        grown,
+        grown_rolling,
+        tilted,
     ]
     .into_iter()
+    .chain(separated)
     .enumerate()
     .map(|(i, constants)| DropMachine::with_levitation(constants, i % 2 == 0))
     .collect()

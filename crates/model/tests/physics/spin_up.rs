@@ -2,7 +2,7 @@
 //! grip against the bearing whose balls roll.
 
 use crate::machines::{
-    ball_of, bearing_part, let_roll, planar, reference, run, settings, weightless,
+    ball_of, bearing_part, heat_of, let_roll, planar, reference, run, settings, weightless,
 };
 use model::bearing::{BearingConstants, PlanarConstants};
 use model::system::drop::layout::INNER;
@@ -225,7 +225,7 @@ fn a_drop_on_balls_with_ample_grip_is_a_drop_on_rolling_balls() {
     let end = |constants: &DropConstants| {
         let machine = DropMachine::new(constants.clone());
         let state = run(&machine, &machine.start(), &settings(20e-3, 1e-4));
-        let heat = state[machine.layout().heat(10)];
+        let heat = heat_of(&machine, &state, "rotor_race_friction");
         (state[INNER + 5], heat)
     };
     let (balls, rolling) = (end(&c), end(&rolls));

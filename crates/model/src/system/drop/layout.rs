@@ -36,7 +36,12 @@ pub const HEATS: [&str; bearing::HEATS.len() + 3] = {
     all
 };
 /// Kinds of source, in the order of their channels.
-pub const SOURCES: [&str; 3] = ["levitation", "rotor_torque", "inner_race_torque"];
+pub const SOURCES: [&str; 4] = [
+    "levitation",
+    "rotor_torque",
+    "inner_race_torque",
+    "inner_race_growth",
+];
 /// Channels of the ledger: heats, sources, external angular impulse.
 pub const LEDGER: usize = HEATS.len() + SOURCES.len() + 1;
 
@@ -56,8 +61,12 @@ pub const SLIP_SPEED: usize = 5;
 pub const LARGEST_INNER_LOAD: usize = 6;
 /// Probe: largest ball load at the outer race, N.
 pub const LARGEST_OUTER_LOAD: usize = 7;
+/// Probe: largest force between a ball and its pocket, or between two balls without a cage, N.
+pub const LARGEST_POCKET_FORCE: usize = 8;
+/// Probe: force between cage and land, N.
+pub const LAND_FORCE: usize = 9;
 /// First probe of the bearing's detail.
-pub const DETAIL: usize = 8;
+pub const DETAIL: usize = 10;
 
 /// Gravity that scales speeds where there is less, m/s²: a rotor in a vertical machine still touches.
 const LEAST_GRAVITY: f64 = 1.0;
@@ -124,14 +133,14 @@ impl Layout {
     }
 
     /// Name of a channel.
-    pub fn channel_name(&self, channel: usize) -> String {
+    pub fn channel_name(&self, bearing: &BearingConstants, channel: usize) -> String {
         const BODY: [&str; 6] = ["x", "y", "x_speed", "y_speed", "angle", "speed"];
         let ledger = self.ledger();
         match channel {
             c if c < INNER => format!("rotor.{}", BODY[c]),
             c if c < OUTER => format!("bearing.inner_race.{}", BODY[c - INNER]),
             c if c < BEARING => format!("bearing.outer_race.{}", BODY[c - OUTER]),
-            c if c < ledger => format!("bearing.{}", bearing::state_name(c - BEARING, self.balls)),
+            c if c < ledger => format!("bearing.{}", bearing.state_name(c - BEARING)),
             c if c < ledger + HEATS.len() => format!("energy.heat.{}", HEATS[c - ledger]),
             c if c < ledger + HEATS.len() + SOURCES.len() => {
                 format!("energy.source.{}", SOURCES[c - ledger - HEATS.len()])

@@ -1,11 +1,12 @@
 //! The Jacobian of a drop with a planar bearing, as an arrow.
 //!
 //! ```text
-//!   border   rotor 6, inner race 6, outer race 4, cage 2          blocks   five states a ball          tail   ledger
+//!   border   rotor 6, inner race 6, outer race 4, cage 2 or 6     blocks   five states a ball          tail   ledger
 //! ```
 //! Each ball is evaluated once over numbers with partials by its own five states and by the eleven of its neighbours; the
-//! rest of the machine once over numbers with partials by the 18 of the border.
-//! Left out: how the steady moment couples the balls through the sums of their loads.
+//! rest of the machine once over numbers with partials by the 18 of the border that turn or carry the balls.
+//! Left out: how the steady moment couples the balls through the sums of their loads, what follows from the place of a free
+//! cage, how neighbours without a cage press each other.
 
 use super::layout::{BEARING, INNER, Layout, OUTER, ROTOR};
 use super::rate::race_motion;
@@ -17,7 +18,7 @@ use crate::motion::{Motion, Wrench};
 use number::{Dual, Real, Vec2, Vectorized};
 use solve::{Arrowhead, Linear, Shape};
 
-/// Channels of the border: everything before the balls.
+/// Channels of the border with derivatives: everything before the place of a free cage and the balls.
 const BORDER: usize = BEARING + 2;
 /// Channel of the cage speed.
 const CAGE_SPEED: usize = BEARING + 1;
@@ -100,9 +101,9 @@ impl Linear<DropMachine, STATES, NEIGHBOURS, ACTED_ON> for DropLinear {
     fn shape(&self) -> Shape<STATES, NEIGHBOURS, ACTED_ON> {
         let n = self.layout.balls;
         Shape {
-            border: (ROTOR..BORDER).collect(),
+            border: (ROTOR..self.border()).collect(),
             blocks: (0..n)
-                .map(|ball| channels(n, ball).map(|own| BEARING + own))
+                .map(|ball| channels(&self.bearing, ball).map(|own| BEARING + own))
                 .collect(),
             tail: self.layout.ledger()..self.layout.dimension(),
             rows: ROWS,
@@ -128,6 +129,11 @@ impl Linear<DropMachine, STATES, NEIGHBOURS, ACTED_ON> for DropLinear {
 }
 
 impl DropLinear {
+    /// Number of channels of the border.
+    fn border(&self) -> usize {
+        BEARING + self.bearing.first_ball_state()
+    }
+
     /// Derivatives of the rates of the border and of the ledger with respect to the border, under the balls' reaction.
     fn border_part(&mut self, mode: &Mode<f64>, state: &[f64], sum: &Sum, into: &mut Arrow) {
         for (channel, (seeded, value)) in self.state.iter_mut().zip(state).enumerate() {
@@ -151,12 +157,18 @@ impl DropLinear {
         self.rate[BEARING] = self.state[CAGE_SPEED];
         let inverse_inertia = BorderDual::splat(1.0 / self.bearing.cage_inertia);
         self.rate[CAGE_SPEED] = sum.on_cage * inverse_inertia;
-        for (row, rate) in into.corner.chunks_exact_mut(BORDER).zip(&self.rate) {
-            row.copy_from_slice(&rate.partial);
+        let border = self.border();
+        let rows = into.corner.chunks_exact_mut(border);
+        for (row, rate) in rows.zip(&self.rate[..BORDER]) {
+            row[..BORDER].copy_from_slice(&rate.partial);
+        }
+        // a free cage moves with its speed; forces on its centre are taken explicitly
+        for channel in BORDER..border - (border - BORDER) / 2 {
+            into.corner[channel * border + channel + (border - BORDER) / 2] = 1.0;
         }
         let ledger = &self.rate[self.layout.ledger()..];
         let columns = into.tail_border.chunks_exact_mut(ledger.len());
-        for (channel, column) in columns.enumerate() {
+        for (channel, column) in columns.take(BORDER).enumerate() {
             for (value, rate) in column.iter_mut().zip(ledger) {
                 *value = rate.partial[channel];
             }

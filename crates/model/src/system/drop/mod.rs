@@ -26,7 +26,7 @@ pub mod record;
 pub mod start;
 
 use crate::bearing::{Bearing, BearingConstants};
-use crate::contact::RotorContact;
+use crate::contact::JournalContact;
 use crate::levitation::Levitation;
 use crate::mount::Mount;
 use crate::rotor::Rotor;
@@ -57,7 +57,7 @@ constants! {
         /// Levitation, active before release only.
         levitation: Levitation<R>,
         /// Rotor against inner race.
-        contact: RotorContact<R>,
+        contact: JournalContact<R>,
         /// Mount of the outer race.
         mount: Mount<R>,
         /// Mass of inner race and sleeve, kg.
@@ -175,7 +175,7 @@ impl DropConstants {
         } else {
             self.machine.inner_race_mass
         };
-        let mass = self.outer_moving_mass() + self.bearing.free_ball_mass() + inner;
+        let mass = self.outer_moving_mass() + self.bearing.free_mass() + inner;
         let mount = &mut self.machine.mount;
         mount.free_position = -(self.machine.gravity * (mass / mount.stiffness));
     }
@@ -203,7 +203,7 @@ impl Machine for DropMachine {
         self.error_scale[channel]
     }
     fn channel_name(&self, channel: usize) -> String {
-        self.layout.channel_name(channel)
+        self.layout.channel_name(&self.constants.bearing, channel)
     }
     fn start_mode(&self) -> Mode<f64> {
         Mode {

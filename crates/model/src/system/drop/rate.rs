@@ -1,11 +1,12 @@
 //! The equations of motion of a drop.
 
 use super::layout::{
-    BEARING, DETAIL, FRICTION_FORCE, HEATS, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD,
-    NORMAL_FORCE, NORMAL_FORCE_RATE, OUTER, PENETRATION, PENETRATION_SPEED, ROTOR, SLIP_SPEED,
+    BEARING, DETAIL, FRICTION_FORCE, HEATS, INNER, LAND_FORCE, LARGEST_INNER_LOAD,
+    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, NORMAL_FORCE, NORMAL_FORCE_RATE, OUTER, PENETRATION,
+    PENETRATION_SPEED, ROTOR, SLIP_SPEED,
 };
 use super::{Drop, Mode};
-use crate::bearing::BearingReaction;
+use crate::bearing::{BearingReaction, POCKET_FRICTION};
 use crate::motion::{Body, Motion};
 use crate::rotor::RotorMotion;
 use number::{Mask, Real, Vec2};
@@ -99,8 +100,8 @@ impl<R: Real> Drop<R> {
         };
 
         // rotor
-        let rotor_force = contact.on_rotor.force + levitation;
-        let rotor_moment = contact.on_rotor.moment + centre.arm.cross(levitation);
+        let rotor_force = contact.on_journal.force + levitation;
+        let rotor_moment = contact.on_journal.moment + centre.arm.cross(levitation);
         let (rotor_torque, rotor_spin_rate) = if m.rotor.spin_held {
             (-rotor_moment, zero)
         } else {
@@ -116,13 +117,13 @@ impl<R: Real> Drop<R> {
 
         // inner race
         let inner_force =
-            contact.on_race.force + bearing.on_inner.force + m.gravity * m.inner_race_mass;
+            contact.on_bore.force + bearing.on_inner.force + m.gravity * m.inner_race_mass;
         let inner_acceleration = if m.inner_race_centre_held {
             Vec2::zero()
         } else {
             inner_force * self.inverse.inner_race_mass
         };
-        let inner_moment = contact.on_race.moment + bearing.on_inner.moment + m.inner_race_torque;
+        let inner_moment = contact.on_bore.moment + bearing.on_inner.moment + m.inner_race_torque;
         let bearing = (*bearing).with_loss(inner.spin, inner_moment);
         let inner_spin_rate = inner_moment / (m.inner_race_inertia + bearing.inner_inertia);
         write_body(rate, INNER, inner.velocity, inner_acceleration);
@@ -136,24 +137,21 @@ impl<R: Real> Drop<R> {
         let outer_moment = bearing.on_outer.moment - bearing.outer_inertia * inner_spin_rate;
 
         // ledger
-        let heat = &bearing.heat;
-        let heats: [R; HEATS.len()] = [
-            heat.inner_damping,
-            heat.outer_damping,
-            heat.inner_sliding,
-            heat.outer_sliding,
-            heat.drag,
-            heat.pocket_damping,
-            heat.pocket_sliding + bearing.loss_heat(inner.spin, inner_spin_rate),
-            heat.steady_moment,
+        let of_bearing = bearing.heat.kinds();
+        let mut heats = [zero; HEATS.len()];
+        let (kinds, rest) = heats.split_at_mut(of_bearing.len());
+        kinds.copy_from_slice(&of_bearing);
+        kinds[POCKET_FRICTION] += bearing.loss_heat(inner.spin, inner_spin_rate);
+        rest.copy_from_slice(&[
             m.mount.heat(outer.velocity),
             contact.damping_heat,
             contact.friction_heat,
-        ];
+        ]);
         rate[layout.heat(0)..layout.heat(0) + HEATS.len()].copy_from_slice(&heats);
         rate[layout.source(0)] = levitation.dot(centre.velocity);
         rate[layout.source(1)] = rotor_torque * rotor.spin;
         rate[layout.source(2)] = m.inner_race_torque * inner.spin;
+        rate[layout.source(3)] = bearing.growth_impulse * inner_spin_rate;
         let weight_moment = |position: Vec2<R>, mass: R| position.cross(m.gravity) * mass;
         let inner_hold = if m.inner_race_centre_held {
             // the force that holds the centre is the opposite of everything else on the race
@@ -189,6 +187,8 @@ impl<R: Real> Drop<R> {
             probe[SLIP_SPEED] = contact.slip_speed;
             probe[LARGEST_INNER_LOAD] = bearing.largest_inner_load;
             probe[LARGEST_OUTER_LOAD] = bearing.largest_outer_load;
+            probe[LARGEST_POCKET_FORCE] = bearing.largest_pocket_force;
+            probe[LAND_FORCE] = bearing.land_force;
         }
     }
 }

@@ -30,7 +30,12 @@ pub const HEATS: [&str; bearing::HEATS.len() + 1] = {
     all
 };
 /// Kinds of source, in the order of their channels.
-pub const SOURCES: [&str; 3] = ["radial_load", "rotor_torque", "inner_race_torque"];
+pub const SOURCES: [&str; 4] = [
+    "radial_load",
+    "rotor_torque",
+    "inner_race_torque",
+    "inner_race_growth",
+];
 /// Works by the moments on the races, in the order of their channels.
 ///
 /// | name | integral over time |
@@ -38,7 +43,7 @@ pub const SOURCES: [&str; 3] = ["radial_load", "rotor_torque", "inner_race_torqu
 /// | `inner_moment` | t_I Ω |
 /// | `outer_moment` | t_O Ω: what a torque arm and a speed pick-up give |
 /// | `momentum` | Ω dL/dt, L of balls and cage |
-/// | `other` | t_g Ω - (c_i × F)Ω + F·v_i: drags to the ground, weight, a race that moves; 0 on the concentric rig |
+/// | `other` | t_g Ω - (c_i × F)Ω + F·v_i + growth of the race: drags to the ground, weight, a race that moves or grows; 0 on the concentric rig |
 pub const WORKS: [&str; 4] = ["inner_moment", "outer_moment", "momentum", "other"];
 /// Channels of the ledger: heats, sources, external angular impulse, works.
 pub const LEDGER: usize = HEATS.len() + SOURCES.len() + 1 + WORKS.len();
@@ -71,8 +76,12 @@ pub const INNER_LOAD_SUM: usize = 11;
 pub const LARGEST_INNER_LOAD: usize = 12;
 /// Probe: largest ball load at the outer race, N.
 pub const LARGEST_OUTER_LOAD: usize = 13;
+/// Probe: largest force between a ball and its pocket, or between two balls without a cage, N.
+pub const LARGEST_POCKET_FORCE: usize = 14;
+/// Probe: force between cage and land, N.
+pub const LAND_FORCE: usize = 15;
 /// First probe of the bearing's detail.
-pub const DETAIL: usize = 14;
+pub const DETAIL: usize = 16;
 
 /// Names and units of the probes before the detail.
 pub const PROBES: [(&str, &str); DETAIL] = [
@@ -90,6 +99,8 @@ pub const PROBES: [(&str, &str); DETAIL] = [
     ("bearing.inner_race.ball_load_sum", "N"),
     ("bearing.inner_race.largest_ball_load", "N"),
     ("bearing.outer_race.largest_ball_load", "N"),
+    ("bearing.cage.largest_pocket_force", "N"),
+    ("bearing.cage.land_force", "N"),
 ];
 
 /// Sizes of a spin-up's state.
@@ -159,10 +170,7 @@ impl Layout {
         match channel {
             c if c < ROTOR => format!("bearing.inner_race.{}", BODY[c]),
             c if c < BEARING => format!("rotor.{}", BODY[c - ROTOR + 4]),
-            c if c < self.ledger() => format!(
-                "bearing.{}",
-                bearing::state_name(c - BEARING, bearing.balls())
-            ),
+            c if c < self.ledger() => format!("bearing.{}", bearing.state_name(c - BEARING)),
             c if c < self.source(0) => format!("energy.heat.{}", HEATS[c - self.ledger()]),
             c if c < self.angular_impulse() => {
                 format!("energy.source.{}", SOURCES[c - self.source(0)])

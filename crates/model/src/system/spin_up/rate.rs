@@ -15,10 +15,11 @@
 
 use super::layout::{
     ACCELERATION, APPLIED_LOAD, BEARING_LOAD, CAGE_SLIP, CAGE_SPEED, DETAIL, DRIVE_MOMENT,
-    FRICTION_FORCE, HEATS, INNER, INNER_LOAD_SUM, INNER_MOMENT, LARGEST_INNER_LOAD,
-    LARGEST_OUTER_LOAD, OUTER_MOMENT, ROTOR, ROTOR_SLIP, STEADY_MOMENT,
+    FRICTION_FORCE, HEATS, INNER, INNER_LOAD_SUM, INNER_MOMENT, LAND_FORCE, LARGEST_INNER_LOAD,
+    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, OUTER_MOMENT, ROTOR, ROTOR_SLIP, STEADY_MOMENT,
 };
 use super::{DriveKind, Mode, SpinUp};
+use crate::bearing::POCKET_FRICTION;
 use crate::motion::{Body, Motion};
 use number::{Real, Vec2};
 
@@ -165,6 +166,8 @@ impl<R: Real> SpinUp<R> {
         rate[layout.source(0)] = pressed.dot(inner.velocity);
         rate[layout.source(1)] = rotor_torque * rotor_spin;
         rate[layout.source(2)] = torque * speed;
+        let growth = bearing.growth_impulse * acceleration;
+        rate[layout.source(3)] = growth;
         rate[layout.angular_impulse()] = inner.position.cross(pressed + race.gravity * race.mass)
             + rotor_torque
             + torque
@@ -181,7 +184,8 @@ impl<R: Real> SpinUp<R> {
         rate[layout.work(1)] = outer_moment * speed;
         rate[layout.work(2)] = momentum * speed;
         rate[layout.work(3)] = force.dot(inner.velocity)
-            - (bearing.external_moment + inner.position.cross(force)) * speed;
+            - (bearing.external_moment + inner.position.cross(force)) * speed
+            + growth;
 
         if !probe.is_empty() {
             let cage_speed = rate[own.start];
@@ -206,9 +210,8 @@ impl<R: Real> SpinUp<R> {
             probe[INNER_LOAD_SUM] = sum;
             probe[LARGEST_INNER_LOAD] = bearing.largest_inner_load;
             probe[LARGEST_OUTER_LOAD] = bearing.largest_outer_load;
+            probe[LARGEST_POCKET_FORCE] = bearing.largest_pocket_force;
+            probe[LAND_FORCE] = bearing.land_force;
         }
     }
 }
-
-/// Index of the heat in the pockets among those of a bearing.
-const POCKET_FRICTION: usize = 6;
