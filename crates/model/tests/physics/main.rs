@@ -13,5 +13,6 @@ mod loads;
 mod oil;
 mod relatives;
 mod rest;
+mod separation;
 mod spin_up;
 mod symmetry;

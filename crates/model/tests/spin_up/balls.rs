@@ -1,8 +1,8 @@
 //! Spin-ups with the balls computed one by one.
 
-use crate::machines::vec2;
+use crate::machines::{separations, vec2};
 use crate::rig::{Run, free_bearing, greased_bearing, machine, rolling, run};
-use model::bearing::{BearingConstants, PlanarConstants};
+use model::bearing::{BearingConstants, PlanarConstants, Separation};
 use model::system::spin_up::layout::{
     BEARING, CAGE_SLIP, DETAIL, INNER, INNER_MOMENT, OUTER_MOMENT,
 };
@@ -62,7 +62,22 @@ fn after_a_step_the_exact_energy_form_is_the_true_loss_and_the_printed_one_is_no
 
 #[test]
 fn on_the_concentric_rig_the_moments_differ_by_what_balls_and_cage_gain() {
-    let run = run(skidding(), 0.02, 1e-6);
+    moments_differ_by_what_balls_and_cage_gain(greased_bearing());
+    for separation in separations() {
+        let mut bearing = greased_bearing();
+        if let Separation::Neighbours(_) = separation {
+            bearing.balls = 17;
+        }
+        bearing.separation = separation;
+        moments_differ_by_what_balls_and_cage_gain(bearing);
+    }
+}
+
+fn moments_differ_by_what_balls_and_cage_gain(bearing: PlanarConstants) {
+    let run = run(planar_machine(bearing, Drive::step(1000.0)), 0.02, 1e-6);
+    let energy = run.machine.outer_race_energy(&run.start, &run.end);
+    let off = energy.exact / energy.dissipated - 1.0;
+    assert!(off.abs() < 1e-4, "{energy:?}");
     let momentum = |row: &model::system::sampling::Row| {
         run.machine.bearing_content(row.state).angular_momentum
     };
