@@ -104,7 +104,7 @@ fn an_unknown_key_names_the_near_one() {
     );
     assert_eq!(
         set_message("bearing.bore_diameter=25 mm"),
-        "error[AB0101]: drop.toml, --set: bearing.bore_diameter: found an unknown key; a key of [bearing] is needed; auxbear new drop lists them. Did you mean \"contact.bore_diameter\" or \"bearing.moment.bore_diameter\"?"
+        "error[AB0101]: drop.toml, --set: bearing.bore_diameter: found an unknown key; a key of [bearing] is needed; auxbear new drop lists them. Did you mean \"contact.bore_diameter\" or \"bearing.fits.bore_diameter\" or \"bearing.moment.bore_diameter\"?"
     );
 }
 

@@ -131,7 +131,13 @@ fn factors_that_no_table_has_are_refused() {
         "error[AB0110]: a.toml, --set: bearing.moment.lubrication: found \"grease\", which has no effect; lubrication chooses f0 and f1 from the tables, and all of these are given here"
     );
     assert_eq!(
-        message(&with(&PALMGREN, &["bearing.type=angular contact"])),
+        message(&with(
+            &PALMGREN,
+            &[
+                "bearing.type=angular contact",
+                "bearing.contact_angle=15 deg"
+            ]
+        )),
         "error[AB0107]: a.toml: bearing.moment.f0: found no value; a bare number not below 0 is needed, e.g. 2. With bearing.moment.series it is taken from the tables"
     );
 }

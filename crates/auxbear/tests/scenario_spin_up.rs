@@ -142,7 +142,7 @@ fn keys_and_sections_of_another_system_are_refused() {
     );
     assert_eq!(
         set_message("contact.friction_coefficient=0.2"),
-        "error[AB0110]: spin_up.toml, --set: contact.friction_coefficient: found a key that has no effect; it is used only with system = \"drop\"; here it is \"spin_up\". Did you mean \"drive.friction_coefficient\"?"
+        "error[AB0110]: spin_up.toml, --set: contact.friction_coefficient: found a key that has no effect; it is used only with system = \"drop\"; here it is \"spin_up\". Did you mean \"drive.friction_coefficient\" or \"bearing.full_complement.friction_coefficient\"?"
     );
     assert_eq!(
         set_message("rotor.speed=800 rad/s"),

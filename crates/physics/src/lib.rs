@@ -8,6 +8,8 @@
 //! |---|---|
 //! | [`materials`] | elastic constants and densities |
 //! | [`hertz`] | point contact between ball and race: exact elliptic integrals |
+//! | [`angular_contact`] | contacts at an angle, seen in the plane |
+//! | [`ring`] | rings pressed on a shaft or into a housing, rings that spin |
 //! | [`contact`] | normal force of a contact in time: Hertz with damping, Hunt-Crossley |
 //! | [`traction`] | sliding friction between ball and race |
 //! | [`film`] | thickness of the lubricant film between ball and race |
@@ -28,6 +30,7 @@
 //! | [`kinematics`] | speeds of cage and balls, passing frequencies |
 //! | [`unbalance`] | whirl of an unbalanced rotor on a linear support |
 
+pub mod angular_contact;
 pub mod contact;
 pub mod film;
 pub mod friction;
@@ -42,6 +45,7 @@ pub mod moment_curve;
 pub mod palmgren;
 pub mod palmgren_factors;
 mod power;
+pub mod ring;
 pub mod rolling;
 pub mod skf;
 pub mod skf_constants;

@@ -107,6 +107,8 @@ struct Found<'a> {
     law: &'static str,
     source: &'static str,
     valid: &'static str,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    chaotic: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     spread: Option<Range>,
 }
@@ -186,6 +188,7 @@ fn result(quantity: &Quantity) -> Found<'_> {
         law: quantity.law,
         source: quantity.source,
         valid: quantity.valid,
+        chaotic: quantity.chaotic,
         spread: quantity.spread.as_ref().map(range),
     }
 }
@@ -245,6 +248,7 @@ mod tests {
             law: "",
             source: "",
             valid: "",
+            chaotic: false,
             spread: Some(Spread {
                 members: 2,
                 mean: f64::NAN,

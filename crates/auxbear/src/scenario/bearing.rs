@@ -1,8 +1,10 @@
 //! A bearing as typed values in SI.
 
+use super::fits::{Fits, Growth};
 use super::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 use super::resolve::Values;
 use super::section::Section;
+use super::separation::Separation;
 use physics::lubricant::{LUBRICANTS, Lubricant};
 use physics::palmgren_factors::FactorType;
 
@@ -74,8 +76,16 @@ pub struct Bearing {
     pub ball_diameter: f64,
     /// Diameter of the circle through the ball centres, m.
     pub pitch_diameter: f64,
-    /// Diametral internal clearance as mounted, m; negative is preload.
+    /// Contact angle, rad; 0 for a radial contact.
+    pub contact_angle: f64,
+    /// Axial preload, N; 0 where there is none.
+    pub axial_preload: f64,
+    /// Diametral internal clearance as mounted, at rest, m; negative is preload.
     pub operating_diametral_clearance: f64,
+    /// The same before mounting, m, where fits reduce it.
+    pub unmounted_diametral_clearance: Option<f64>,
+    /// How the inner race grows with its speed.
+    pub inner_race_growth: Growth,
     /// Groove radius of the inner race over ball diameter.
     pub inner_groove_curvature: f64,
     /// Groove radius of the outer race over ball diameter.
@@ -90,10 +100,6 @@ pub struct Bearing {
     pub inner_race_mass: f64,
     /// Moment of inertia of the inner race with its sleeve, kg m².
     pub inner_race_inertia: f64,
-    /// Mass of the cage, kg.
-    pub cage_mass: f64,
-    /// Moment of inertia of the cage, kg m².
-    pub cage_inertia: f64,
     /// Mass of one ball, kg.
     pub ball_mass: Option<f64>,
     /// Stiffness of ball and inner race, N/m^1.5.
@@ -110,8 +116,10 @@ pub struct Bearing {
     pub first_ball_angle: f64,
     /// Contact pressure that the report compares with, Pa.
     pub hertz_pressure_limit: Option<f64>,
-    /// Pockets of the cage.
-    pub cage: Cage,
+    /// What keeps the balls apart.
+    pub separation: Separation,
+    /// How the rings sit.
+    pub fits: Fits,
     /// Traction between balls and races.
     pub traction: Traction,
     /// Drag to ground.
@@ -122,23 +130,6 @@ pub struct Bearing {
     pub moment_share: MomentShare,
     /// Friction of the balls in their pockets while the race accelerates.
     pub acceleration_loss: AccelerationLoss,
-}
-
-/// Pockets of the cage.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Cage {
-    /// Whether balls and cage touch at all.
-    pub pocket_contact: bool,
-    /// One-sided gap along the pitch circle, m.
-    pub pocket_gap: f64,
-    /// Stiffness, N/m.
-    pub pocket_stiffness: f64,
-    /// Hunt-Crossley damping, s/m.
-    pub pocket_damping: f64,
-    /// Coefficient of friction.
-    pub pocket_friction_coefficient: f64,
-    /// Slip speed that regularises the friction, m/s.
-    pub pocket_friction_reference_speed: f64,
 }
 
 /// Traction coefficient as a function of the slip speed u.
@@ -219,7 +210,6 @@ pub struct Drag {
 pub(super) fn bearing(values: &Values) -> Bearing {
     let section = |path| Section { values, path };
     let bearing = section("bearing");
-    let cage = section("bearing.cage");
     let drag = section("bearing.drag");
     Bearing {
         name: values.text("bearing.name"),
@@ -231,7 +221,11 @@ pub(super) fn bearing(values: &Values) -> Bearing {
         ball_count: bearing.count("ball_count") as usize,
         ball_diameter: bearing.number("ball_diameter"),
         pitch_diameter: bearing.number("pitch_diameter"),
+        contact_angle: bearing.maybe("contact_angle").unwrap_or(0.0),
+        axial_preload: bearing.maybe("axial_preload").unwrap_or(0.0),
         operating_diametral_clearance: bearing.number("operating_diametral_clearance"),
+        unmounted_diametral_clearance: bearing.maybe("unmounted_diametral_clearance"),
+        inner_race_growth: Growth::of(bearing.word("inner_race_growth")),
         inner_groove_curvature: bearing.number("inner_groove_curvature"),
         outer_groove_curvature: bearing.number("outer_groove_curvature"),
         ball_material: ball_material(&bearing),
@@ -239,8 +233,6 @@ pub(super) fn bearing(values: &Values) -> Bearing {
         limiting_speed: bearing.maybe("limiting_speed"),
         inner_race_mass: bearing.number("inner_race_mass"),
         inner_race_inertia: bearing.number("inner_race_inertia"),
-        cage_mass: bearing.number("cage_mass"),
-        cage_inertia: bearing.number("cage_inertia"),
         ball_mass: bearing.maybe("ball_mass"),
         inner_contact_stiffness: bearing.maybe("inner_contact_stiffness"),
         outer_contact_stiffness: bearing.maybe("outer_contact_stiffness"),
@@ -249,14 +241,8 @@ pub(super) fn bearing(values: &Values) -> Bearing {
         inner_race_torque: bearing.maybe("inner_race_torque").unwrap_or(0.0),
         first_ball_angle: bearing.number("first_ball_angle"),
         hertz_pressure_limit: bearing.maybe("hertz_pressure_limit"),
-        cage: Cage {
-            pocket_contact: cage.switch("pocket_contact"),
-            pocket_gap: cage.number("pocket_gap"),
-            pocket_stiffness: cage.number("pocket_stiffness"),
-            pocket_damping: cage.number("pocket_damping"),
-            pocket_friction_coefficient: cage.number("pocket_friction_coefficient"),
-            pocket_friction_reference_speed: cage.number("pocket_friction_reference_speed"),
-        },
+        separation: Separation::from_values(values),
+        fits: Fits::from_values(values),
         traction: traction(&section("bearing.traction")),
         drag: Drag {
             orbit: drag.maybe("orbit").unwrap_or(0.0),
@@ -307,6 +293,14 @@ fn traction(traction: &Section<'_>) -> Traction {
 }
 
 impl Bearing {
+    /// Distance of the contacts from a ball's centre in the plane, m.
+    pub fn contact_radius(&self) -> f64 {
+        0.5 * self.ball_diameter * self.contact_angle.cos()
+    }
+    /// Radius of the inner track at rest where the plane meets it, m.
+    pub fn inner_track_radius(&self) -> f64 {
+        0.5 * self.pitch_diameter - self.contact_radius()
+    }
     /// What a friction law needs to know of it.
     pub fn rated(&self) -> RatedBearing {
         RatedBearing {

@@ -53,7 +53,7 @@ pub(super) fn check_law(
 
 /// What every check needs to tell a problem.
 pub(super) struct Context<'a> {
-    values: &'a Values,
+    pub(super) values: &'a Values,
     file: &'a str,
 }
 
@@ -94,7 +94,10 @@ impl Context<'_> {
         self.geometry(bearing.ball_count, ball, pitch)?;
         self.bore(bore, pitch - ball)?;
         self.enough_balls(bearing, loaded)?;
+        self.fits(bearing)?;
         self.internal_clearance(bearing)?;
+        self.separation(bearing)?;
+        self.contact_angle(bearing)?;
         self.traction(bearing.traction)?;
         self.moment(&bearing.moment, &bearing.rated())?;
         self.drag(bearing)?;

@@ -2,9 +2,11 @@
 
 use super::checks::{Check, Context};
 use super::drop::Drop;
+use super::separation::Separation;
 use crate::catalogue::geometry::millimetres;
 use crate::problem::Code;
 use physics::unbalance::whirl;
+use std::f64::consts::PI;
 
 /// Standard deviations within which every perturbed start is taken to lie.
 const SPREAD: f64 = 6.0;
@@ -39,7 +41,14 @@ impl Context<'_> {
     fn perturbed_balls(&self, drop: &Drop) -> Check {
         let (repeat, bearing) = (&drop.repeat, &drop.bearing);
         let shift = SPREAD * repeat.ball_angle_deviation * 0.5 * bearing.pitch_diameter;
-        if repeat.count < 2 || shift <= bearing.cage.pocket_gap {
+        let (free, path) = match &bearing.separation {
+            Separation::Cage(cage) => (cage.pocket_gap, "bearing.cage.pocket_gap"),
+            Separation::FullComplement(_) => {
+                let chord = bearing.pitch_diameter * (PI / bearing.ball_count as f64).sin();
+                (0.5 * (chord - bearing.ball_diameter), "bearing.ball_count")
+            }
+        };
+        if repeat.count < 2 || shift <= free {
             return Ok(());
         }
         Err(Box::new(self.problem(
@@ -47,8 +56,9 @@ impl Context<'_> {
             "repeat.ball_angle_deviation",
             self.text("repeat.ball_angle_deviation"),
             format!(
-                "at most a sixth of bearing.cage.pocket_gap = {} along the pitch circle is needed",
-                self.text("bearing.cage.pocket_gap")
+                "at most a sixth of the {} that {path} = {} leaves a ball along the pitch circle is needed",
+                millimetres(free),
+                self.text(path)
             ),
         )))
     }

@@ -167,11 +167,11 @@ fn rolling_set(bearing: &Bearing) -> RollingSet<f64> {
         BallMaterial::SiliconNitride => SILICON_NITRIDE.density,
     };
     let ball = (bearing.ball_mass).unwrap_or_else(|| ball_mass(bearing.ball_diameter, density));
-    let track = bearing.pitch_diameter - bearing.ball_diameter;
+    let track = bearing.inner_track_radius();
     RollingSet {
-        inner_track_radius: 0.5 * track,
-        ball_ratio: bearing.ball_diameter / track,
+        inner_track_radius: track,
+        ball_ratio: bearing.contact_radius() / track,
         balls_mass: bearing.ball_count as f64 * ball,
-        cage_mass: bearing.cage_mass,
+        cage_mass: bearing.separation.cage_mass(),
     }
 }

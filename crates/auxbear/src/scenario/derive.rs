@@ -62,10 +62,12 @@ impl Values {
             )?;
         }
         self.balls()?;
+        self.clearance_by_fits()?;
+        self.land_diameter()?;
         if self.system() == SystemName::Torque {
             self.torque()?;
         }
-        self.contact_angle();
+        self.contact_angle()?;
         match self.word("bearing.moment.law") {
             "palmgren" | "palmgren printed" => {
                 self.series()?;
@@ -119,7 +121,7 @@ impl Values {
                 ball_diameter: ball,
                 pitch_diameter: pitch,
                 groove_curvature,
-                contact_angle: 0.0,
+                contact_angle: self.number("bearing.contact_angle").unwrap_or(0.0),
                 race,
             };
             let modulus = contact_modulus(material, BEARING_STEEL);
@@ -131,11 +133,18 @@ impl Values {
         Ok(())
     }
 
-    /// A deep groove bearing under axial load has a contact angle, which no catalogue tells.
-    fn contact_angle(&mut self) {
+    /// The contact angle of the law: that of the bearing, or the one that a deep groove bearing takes under axial load, which
+    /// no catalogue tells.
+    fn contact_angle(&mut self) -> Done {
         let loaded = self.number(AXIAL_LOAD).is_some_and(|load| load != 0.0);
-        if !loaded || !self.lacks(CONTACT_ANGLE) || self.word("bearing.type") != "deep groove" {
-            return;
+        if !loaded || !self.lacks(CONTACT_ANGLE) {
+            return Ok(());
+        }
+        if let Some(angle) = self.number("bearing.contact_angle") {
+            return self.put_derived(CONTACT_ANGLE, Value::Number(angle), "bearing.contact_angle");
+        }
+        if self.word("bearing.type") != "deep groove" {
+            return Ok(());
         }
         let known = Known {
             value: Value::Number(DEEP_GROOVE_ANGLE.to_radians()),
@@ -147,10 +156,11 @@ impl Values {
             filled_in: false,
         };
         self.put(CONTACT_ANGLE, known);
+        Ok(())
     }
 
     /// Whether a key of this system has neither a value nor an obstacle.
-    fn lacks(&self, path: &str) -> bool {
+    pub(super) fn lacks(&self, path: &str) -> bool {
         let key = table::keys_of(self.system()).find(|key| key.path == path);
         key.is_some_and(|key| self.unmet(key).is_none()) && self.text(path).is_none()
     }
@@ -390,7 +400,7 @@ impl Values {
         )
     }
 
-    fn put_derived(&mut self, path: &'static str, value: Value, how: &str) -> Done {
+    pub(super) fn put_derived(&mut self, path: &'static str, value: Value, how: &str) -> Done {
         let Some(key) = table::keys().find(|key| key.path == path) else {
             return Ok(());
         };

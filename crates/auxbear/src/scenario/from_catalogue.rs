@@ -10,9 +10,11 @@ use crate::problem::{Code, Place, Problem, did_you_mean};
 use std::path::{Path, PathBuf};
 
 /// Keys outside `[bearing]` that take a value of the rings.
-const OF_RINGS: [&str; 5] = [
+const OF_RINGS: [&str; 7] = [
     "contact.bore_diameter",
     "drive.bore_diameter",
+    "bearing.fits.bore_diameter",
+    "bearing.fits.outer_diameter",
     "bearing.moment.bore_diameter",
     "bearing.moment.outer_diameter",
     "bearing.moment.contact_angle",

@@ -5,7 +5,7 @@
 
 use super::key::{Key, Kind, Presence, Range, Section};
 use super::system::SystemName;
-use super::{table_bearing, table_drive, table_drop, table_moment, table_torque};
+use super::{table_bearing, table_cage, table_drive, table_drop, table_moment, table_torque};
 
 /// Format name of the scenario files that this version writes.
 pub const FORMAT: &str = "auxbear.scenario/1";
@@ -17,6 +17,8 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
         .chain(table_drive::SECTIONS)
         .chain(table_torque::SECTIONS)
         .chain(table_bearing::SECTIONS)
+        .chain(table_cage::SECTIONS)
+        .chain(table_bearing::TRACTION_SECTIONS)
         .chain(table_moment::SECTIONS)
         .chain(RUN_SECTIONS)
         .chain(table_drop::REPEAT_SECTIONS)
@@ -29,6 +31,8 @@ pub fn keys() -> impl Iterator<Item = &'static Key> {
         .chain(table_drive::KEYS)
         .chain(table_torque::KEYS)
         .chain(table_bearing::KEYS)
+        .chain(table_cage::KEYS)
+        .chain(table_bearing::TRACTION)
         .chain(table_moment::KEYS)
         .chain(RUN)
         .chain(table_drop::REPEAT)

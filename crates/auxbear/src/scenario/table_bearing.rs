@@ -7,17 +7,14 @@ use super::table::MOVING;
 
 const DROP: &[SystemName] = &[SystemName::Drop];
 
-pub(super) const SECTIONS: &[Section] = &[
-    Section {
-        path: "bearing",
-        doc: "The auxiliary rolling bearing at one plane. What the catalogue knows of the bearing named need not be given; what is given here counts.",
-        systems: SystemName::ALL,
-    },
-    Section {
-        path: "bearing.cage",
-        doc: "The pockets of the cage.",
-        systems: MOVING,
-    },
+pub(super) const SECTIONS: &[Section] = &[Section {
+    path: "bearing",
+    doc: "The auxiliary rolling bearing at one plane. What the catalogue knows of the bearing named need not be given; what is given here counts.",
+    systems: SystemName::ALL,
+}];
+
+/// Sections of traction and drag, behind that of the cage.
+pub(super) const TRACTION_SECTIONS: &[Section] = &[
     Section {
         path: "bearing.traction",
         doc: "Traction between balls and races: traction force over ball load, as a function of the slip speed.",
@@ -37,6 +34,18 @@ const STEEL_BALLS: Condition = Condition {
     values: &["steel"],
     reason: "",
 };
+
+const ANGULAR: &[Condition] = &[Condition {
+    path: "bearing.type",
+    values: &["angular contact", "angular contact double row"],
+    reason: "",
+}];
+
+pub(super) const CAGE: &[Condition] = &[Condition {
+    path: "bearing.separation",
+    values: &["cage"],
+    reason: "",
+}];
 
 const fn traction(values: &'static [&'static str]) -> Condition {
     Condition {
@@ -69,7 +78,7 @@ pub(super) const KEYS: &[Key] = &[
             "four-point contact",
         ]),
         "deep groove",
-        "Type of the bearing: it chooses factors of the friction moment. Motion is computed in the plane, with the contact angle of a deep groove bearing.",
+        "Type of the bearing: it chooses factors of the friction moment, and whether there is a contact angle.",
     )
     .default("deep groove", "the usual auxiliary bearing"),
     Key::new(
@@ -100,12 +109,49 @@ pub(super) const KEYS: &[Key] = &[
     .positive()
     .catalogued(),
     Key::new(
+        "bearing.contact_angle",
+        Kind::Quantity("rad"),
+        "15 deg",
+        "Contact angle, held by an axial preload. Motion is computed in the plane: contacts stand at the ball radius times its cosine.",
+    )
+    .within(Range::FromTo(0.0, 1.05))
+    .catalogued()
+    .when(ANGULAR)
+    .only(MOVING),
+    Key::new(
+        "bearing.axial_preload",
+        Kind::Quantity("N"),
+        "100 N",
+        "Axial preload of the bearing. It presses all balls and keeps the contact angle.",
+    )
+    .positive()
+    .optional("nothing keeps the contact angle, and only the radial load presses the balls")
+    .when(ANGULAR)
+    .only(MOVING),
+    Key::new(
         "bearing.operating_diametral_clearance",
         Kind::Quantity("m"),
         "5 um",
-        "Diametral internal clearance as mounted, after fits; negative is preload.",
+        "Diametral internal clearance as mounted, after fits, at rest; negative is preload.",
     )
     .default("0 m", "neither clearance nor preload")
+    .only(MOVING),
+    Key::new(
+        "bearing.unmounted_diametral_clearance",
+        Kind::Quantity("m"),
+        "10 um",
+        "Diametral internal clearance before mounting; the fits of [bearing.fits] reduce it.",
+    )
+    .optional("operating_diametral_clearance counts, and fits change nothing")
+    .excludes("bearing.operating_diametral_clearance")
+    .only(MOVING),
+    Key::new(
+        "bearing.inner_race_growth",
+        Kind::Word(&["none", "free ring", "with shaft"]),
+        "none",
+        "How the inner race grows with its speed: as a ring by itself, or together with the shaft or sleeve it is pressed on. Its radii are those of [bearing.fits].",
+    )
+    .default("none", "a few tenths of a micrometre below 20 000 rpm in small bearings")
     .only(MOVING),
     Key::new(
         "bearing.inner_groove_curvature",
@@ -167,13 +213,21 @@ pub(super) const KEYS: &[Key] = &[
     .catalogued()
     .only(MOVING),
     Key::new(
+        "bearing.separation",
+        Kind::Word(&["cage", "full complement"]),
+        "cage",
+        "What keeps the balls apart: a cage, or, in a full complement, the next ball.",
+    )
+    .default("cage", "full complements are the exception; their ball_count is given by the maker"),
+    Key::new(
         "bearing.cage_mass",
         Kind::Quantity("kg"),
         "5 g",
         "Mass of the cage.",
     )
     .positive()
-    .catalogued(),
+    .catalogued()
+    .when(CAGE),
     Key::new(
         "bearing.cage_inertia",
         Kind::Quantity("kg m^2"),
@@ -182,6 +236,7 @@ pub(super) const KEYS: &[Key] = &[
     )
     .positive()
     .derived("cage_mass (pitch_diameter/2)^2: a thin ring at the pitch circle")
+    .when(CAGE)
     .only(MOVING),
     Key::new(
         "bearing.ball_mass",
@@ -259,53 +314,10 @@ pub(super) const KEYS: &[Key] = &[
         Otherwise::Optional(SILICON_NITRIDE_LIMIT),
     )
     .only(MOVING),
-    Key::new(
-        "bearing.cage.pocket_contact",
-        Kind::Switch,
-        "true",
-        "Whether balls and cage touch at all.",
-    )
-    .default("true", "balls drive the cage by its pockets"),
-    Key::new(
-        "bearing.cage.pocket_gap",
-        Kind::Quantity("m"),
-        "0.1 mm",
-        "Gap between ball and pocket on one side, along the pitch circle.",
-    )
-    .not_negative()
-    .assumed("0.1 mm", "order of magnitude of small bearings"),
-    Key::new(
-        "bearing.cage.pocket_stiffness",
-        Kind::Quantity("N/m"),
-        "1e7 N/m",
-        "Stiffness of the contact of a ball with its pocket.",
-    )
-    .positive()
-    .assumed("1e7 N/m", "order of magnitude; cage materials differ widely"),
-    Key::new(
-        "bearing.cage.pocket_damping",
-        Kind::Quantity("s/m"),
-        "0.5 s/m",
-        "Hunt-Crossley damping of the pocket contact.",
-    )
-    .not_negative()
-    .assumed("0.5 s/m", "not measured"),
-    Key::new(
-        "bearing.cage.pocket_friction_coefficient",
-        Kind::Coefficient,
-        "0.05",
-        "Coefficient of friction of a ball in its pocket.",
-    )
-    .not_negative()
-    .assumed("0.05", "lubricated sliding; not measured"),
-    Key::new(
-        "bearing.cage.pocket_friction_reference_speed",
-        Kind::Quantity("m/s"),
-        "0.1 m/s",
-        "Slip speed that regularises the pocket friction.",
-    )
-    .positive()
-    .default("0.1 m/s", "numerical regularisation: small against the surface speed of a ball"),
+];
+
+/// Keys of traction and drag, behind those of the cage.
+pub(super) const TRACTION: &[Key] = &[
     Key::new(
         "bearing.traction.law",
         Kind::Word(&["tanh", "four parameter", "dry", "lubricant"]),

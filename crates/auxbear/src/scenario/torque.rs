@@ -91,7 +91,7 @@ impl Torque {
             ball_material: ball_material(&bearing),
             static_load_rating: bearing.maybe("static_load_rating"),
             limiting_speed: bearing.maybe("limiting_speed"),
-            cage_mass: bearing.number("cage_mass"),
+            cage_mass: bearing.maybe("cage_mass").unwrap_or(0.0),
             ball_mass: bearing.maybe("ball_mass"),
             moment: Moment::from_values(values),
             acceleration_loss: AccelerationLoss::from_values(values),

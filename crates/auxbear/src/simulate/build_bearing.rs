@@ -3,13 +3,19 @@
 use super::build_traction::traction;
 use super::{Options, Phase};
 use crate::problem::{Code, Problem};
-use crate::scenario::{AccelerationLoss as LossChoice, BallMaterial, Bearing, Fidelity, Moment};
+use crate::scenario::{
+    AccelerationLoss as LossChoice, BallMaterial, Bearing, Fidelity, Guidance, Land, Moment,
+    Separation,
+};
 use model::bearing::ball::BallConstants;
+use model::bearing::cage::{Land as CageLand, LandRace};
+use model::bearing::full_complement::BallPair;
 use model::bearing::rolling::RollingBall;
 use model::bearing::{
-    AccelerationLoss, BearingConstants, PlanarConstants, RollingConstants, SharedMoment,
-    SteadyMoment,
+    AccelerationLoss, BearingConstants, PlanarConstants, RollingConstants,
+    Separation as SeparationConstants, SharedMoment, SteadyMoment,
 };
+use model::contact::JournalContact;
 use model::system::spin_up::layout::{INNER, INNER_LOAD_SUM, STEADY_MOMENT};
 use model::system::spin_up::steady::{LEAST_CAPACITY, traction_capacity};
 use model::system::spin_up::{
@@ -17,6 +23,7 @@ use model::system::spin_up::{
 };
 use model::table::Table;
 use number::Vec2;
+use physics::angular_contact::{preload_interference, radial_stiffness};
 use physics::hertz::{BallRace, Curvature, PointContact, Race};
 use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE, ball_mass, contact_modulus};
 use physics::rolling::RollingSet;
@@ -34,6 +41,8 @@ pub(super) struct BallContacts {
     pub modulus: f64,
     inner_stiffness: f64,
     outer_stiffness: f64,
+    /// Stiffness of two neighbouring balls, N/m^1.5.
+    neighbour_stiffness: f64,
     ball_mass: f64,
 }
 
@@ -53,7 +62,7 @@ pub(super) fn ball_contacts(bearing: &Bearing) -> Result<BallContacts, Box<Probl
             ball_diameter: bearing.ball_diameter,
             pitch_diameter: bearing.pitch_diameter,
             groove_curvature,
-            contact_angle: 0.0,
+            contact_angle: bearing.contact_angle,
             race,
         }
         .curvature();
@@ -74,7 +83,17 @@ pub(super) fn ball_contacts(bearing: &Bearing) -> Result<BallContacts, Box<Probl
     };
     let (inner, inner_curvature) = contact(Race::Inner, bearing.inner_groove_curvature)?;
     let (outer, outer_curvature) = contact(Race::Outer, bearing.outer_groove_curvature)?;
+    let sphere = 4.0 / bearing.ball_diameter;
+    let neighbours = PointContact::new(
+        Curvature {
+            axial: sphere,
+            rolling: sphere,
+        },
+        contact_modulus(ball, ball),
+    );
     Ok(BallContacts {
+        // two spheres always make a point
+        neighbour_stiffness: neighbours.map_or(0.0, |contact| contact.stiffness),
         curvatures: [inner_curvature, outer_curvature],
         modulus,
         inner_stiffness: bearing.inner_contact_stiffness.unwrap_or(inner.stiffness),
@@ -104,41 +123,19 @@ pub(super) fn bearing(
             .on_key("bearing.moment.law"),
         )
     })?;
-    let radius = 0.5 * bearing.ball_diameter;
-    let inner_track = 0.5 * bearing.pitch_diameter - radius;
-    // the diametral clearance is what the outer track leaves beyond inner track and two balls, on both sides
-    let outer_track =
-        inner_track + bearing.ball_diameter + 0.5 * bearing.operating_diametral_clearance;
+    let plane = Plane::of(bearing, contacts);
+    let growth = bearing.inner_track_growth();
     Ok(match bearing.fidelity {
         Fidelity::Planar => BearingConstants::Planar(PlanarConstants {
             balls: bearing.ball_count,
-            ball: BallConstants {
-                radius,
-                mass: contacts.ball_mass,
-                inverse_mass: 1.0 / contacts.ball_mass,
-                inverse_inertia: 1.0 / (0.4 * contacts.ball_mass * radius * radius),
-                inner_track,
-                outer_track,
-                inner_stiffness: contacts.inner_stiffness,
-                outer_stiffness: contacts.outer_stiffness,
-                damping_time: bearing.contact_damping_time,
-                pocket_radius: 0.5 * bearing.pitch_diameter,
-                pocket_gap: bearing.cage.pocket_gap,
-                pocket_stiffness: if bearing.cage.pocket_contact {
-                    bearing.cage.pocket_stiffness
-                } else {
-                    0.0
-                },
-                pocket_damping: bearing.cage.pocket_damping,
-                pocket_friction: bearing.cage.pocket_friction_coefficient,
-                pocket_inverse_reference_speed: 1.0 / bearing.cage.pocket_friction_reference_speed,
-                orbit_drag: bearing.drag.orbit,
-                spin_drag: bearing.drag.spin,
-                gravity,
-            },
+            ball: ball_constants(bearing, contacts, &plane, gravity),
             traction: traction(bearing, contacts)?,
-            cage_mass: bearing.cage_mass,
-            cage_inertia: bearing.cage_inertia,
+            separation: separation(bearing, contacts),
+            cage_mass: bearing.separation.cage_mass(),
+            cage_inertia: match &bearing.separation {
+                Separation::Cage(cage) => cage.inertia,
+                Separation::FullComplement(_) => NO_CAGE,
+            },
             cage_drag: bearing.drag.cage,
             first_ball_angle: bearing.first_ball_angle,
             moment: (law != SteadyMoment::None).then(|| SharedMoment {
@@ -151,20 +148,20 @@ pub(super) fn bearing(
         }),
         Fidelity::Rolling => {
             let set = RollingSet {
-                inner_track_radius: inner_track,
-                ball_ratio: radius / inner_track,
+                inner_track_radius: plane.inner_track,
+                ball_ratio: plane.contact_radius / plane.inner_track,
                 balls_mass: bearing.ball_count as f64 * contacts.ball_mass,
-                cage_mass: bearing.cage_mass,
+                cage_mass: bearing.separation.cage_mass(),
             };
-            let softness = contacts.inner_stiffness.powf(-2.0 / 3.0)
-                + contacts.outer_stiffness.powf(-2.0 / 3.0);
             BearingConstants::Rolling(RollingConstants {
                 balls: bearing.ball_count,
                 ball: RollingBall {
-                    series_stiffness: softness.powf(-1.5),
+                    series_stiffness: in_series(plane.inner_stiffness, plane.outer_stiffness),
                     damping_time: bearing.contact_damping_time,
-                    interference: inner_track + bearing.ball_diameter - outer_track,
-                    mass_radius: contacts.ball_mass * (inner_track + radius),
+                    interference: plane.inner_track + 2.0 * plane.contact_radius
+                        - plane.outer_track,
+                    inner_track_growth: growth,
+                    mass_radius: contacts.ball_mass * 0.5 * bearing.pitch_diameter,
                 },
                 set,
                 first_ball_angle: bearing.first_ball_angle,
@@ -174,6 +171,153 @@ pub(super) fn bearing(
             })
         }
     })
+}
+
+/// Inertia that stands where there is no cage, kg m²: nothing acts on it.
+const NO_CAGE: f64 = 1.0;
+
+/// What the plane of the bearing sees of balls and tracks: contacts at an angle stand nearer to the ball's centre.
+struct Plane {
+    contact_radius: f64,
+    inner_track: f64,
+    outer_track: f64,
+    inner_stiffness: f64,
+    outer_stiffness: f64,
+}
+
+impl Plane {
+    fn of(bearing: &Bearing, contacts: &BallContacts) -> Self {
+        let angle = bearing.contact_angle;
+        let contact_radius = bearing.contact_radius();
+        let inner_track = bearing.inner_track_radius();
+        let preload = if bearing.axial_preload > 0.0 {
+            let stiffness = in_series(contacts.inner_stiffness, contacts.outer_stiffness);
+            preload_interference(bearing.axial_preload, bearing.ball_count, stiffness, angle)
+        } else {
+            0.0
+        };
+        // the diametral clearance is what the outer track leaves beyond inner track and two balls, on both sides
+        let clearance = 0.5 * bearing.operating_diametral_clearance - preload;
+        Plane {
+            contact_radius,
+            inner_track,
+            outer_track: inner_track + 2.0 * contact_radius + clearance,
+            inner_stiffness: radial_stiffness(contacts.inner_stiffness, angle),
+            outer_stiffness: radial_stiffness(contacts.outer_stiffness, angle),
+        }
+    }
+}
+
+/// Stiffness of two contacts in series, N/m^1.5.
+fn in_series(first: f64, second: f64) -> f64 {
+    (first.powf(-2.0 / 3.0) + second.powf(-2.0 / 3.0)).powf(-1.5)
+}
+
+fn ball_constants(
+    bearing: &Bearing,
+    contacts: &BallContacts,
+    plane: &Plane,
+    gravity: Vec2<f64>,
+) -> BallConstants<f64> {
+    let radius = 0.5 * bearing.ball_diameter;
+    let pockets = match &bearing.separation {
+        Separation::Cage(cage) => Pockets {
+            gap: cage.pocket_gap,
+            stiffness: if cage.pocket_contact {
+                cage.pocket_stiffness
+            } else {
+                0.0
+            },
+            damping: cage.pocket_damping,
+            friction: cage.pocket_friction_coefficient,
+            reference_speed: cage.pocket_friction_reference_speed,
+        },
+        Separation::FullComplement(_) => Pockets::NONE,
+    };
+    BallConstants {
+        radius: plane.contact_radius,
+        ball_radius: radius,
+        load_per_radial_force: 1.0 / bearing.contact_angle.cos(),
+        mass: contacts.ball_mass,
+        inverse_mass: 1.0 / contacts.ball_mass,
+        inverse_inertia: 1.0 / (0.4 * contacts.ball_mass * radius * radius),
+        inner_track: plane.inner_track,
+        inner_track_growth: bearing.inner_track_growth(),
+        outer_track: plane.outer_track,
+        inner_stiffness: plane.inner_stiffness,
+        outer_stiffness: plane.outer_stiffness,
+        damping_time: bearing.contact_damping_time,
+        pocket_radius: 0.5 * bearing.pitch_diameter,
+        pocket_gap: pockets.gap,
+        pocket_stiffness: pockets.stiffness,
+        pocket_damping: pockets.damping,
+        pocket_friction: pockets.friction,
+        pocket_inverse_reference_speed: 1.0 / pockets.reference_speed,
+        orbit_drag: bearing.drag.orbit,
+        spin_drag: bearing.drag.spin,
+        gravity,
+    }
+}
+
+/// The pockets of a cage.
+struct Pockets {
+    gap: f64,
+    stiffness: f64,
+    damping: f64,
+    friction: f64,
+    reference_speed: f64,
+}
+
+impl Pockets {
+    /// Where there is no cage, nothing touches.
+    const NONE: Pockets = Pockets {
+        gap: f64::INFINITY,
+        stiffness: 0.0,
+        damping: 0.0,
+        friction: 0.0,
+        reference_speed: 1.0,
+    };
+}
+
+/// What keeps the balls apart.
+fn separation(bearing: &Bearing, contacts: &BallContacts) -> SeparationConstants<f64> {
+    let cage = match &bearing.separation {
+        Separation::Cage(cage) => cage,
+        Separation::FullComplement(row) => {
+            return SeparationConstants::Neighbours(BallPair {
+                radius: 0.5 * bearing.ball_diameter,
+                stiffness: contacts.neighbour_stiffness,
+                damping_time: bearing.contact_damping_time,
+                friction: row.friction_coefficient,
+                inverse_reference_speed: 1.0 / row.friction_reference_speed,
+            });
+        }
+    };
+    let on = |race: LandRace, land: &Land| {
+        let bore = match race {
+            // the cage has the bore
+            LandRace::Inner => 0.5 * land.diameter + land.radial_clearance,
+            LandRace::Outer => 0.5 * land.diameter,
+        };
+        SeparationConstants::FreeCage(Some(CageLand {
+            race,
+            contact: JournalContact {
+                radial_clearance: land.radial_clearance,
+                bore_radius: bore,
+                stiffness: land.stiffness,
+                exponent: 1.0,
+                damping: land.damping,
+                friction: land.friction_coefficient,
+                inverse_reference_speed: 1.0 / land.friction_reference_speed,
+            },
+        }))
+    };
+    match &cage.guidance {
+        Guidance::Centred => SeparationConstants::CentredCage,
+        Guidance::Balls => SeparationConstants::FreeCage(None),
+        Guidance::InnerLand(land) => on(LandRace::Inner, land),
+        Guidance::OuterLand(land) => on(LandRace::Outer, land),
+    }
 }
 
 pub(super) fn acceleration_loss(choice: &LossChoice) -> AccelerationLoss {

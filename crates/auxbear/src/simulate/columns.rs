@@ -4,8 +4,9 @@ use super::columns_shared::{BearingPlace, Table};
 use super::drop::Context;
 use super::outcome::Column;
 use model::system::drop::layout::{
-    BEARING, DETAIL, FRICTION_FORCE, HEATS, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD,
-    NORMAL_FORCE, OUTER, PENETRATION, ROTOR, SLIP_SPEED, SOURCES,
+    BEARING, DETAIL, FRICTION_FORCE, HEATS, INNER, LAND_FORCE, LARGEST_INNER_LOAD,
+    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, NORMAL_FORCE, OUTER, PENETRATION, ROTOR, SLIP_SPEED,
+    SOURCES,
 };
 use model::system::drop::rate::race_motion;
 use model::system::sampling::Row;
@@ -21,6 +22,7 @@ pub(super) fn history(context: &Context) -> Vec<Column> {
         states: BEARING..layout.ledger(),
         detail: DETAIL,
         largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
+        cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
         pressure_factors: [
             context.built.inner_pressure_factor,
             context.built.outer_pressure_factor,
@@ -83,9 +85,11 @@ pub(super) fn history(context: &Context) -> Vec<Column> {
         "sliding speed of the surfaces, inner race less rotor",
         SLIP_SPEED,
     );
+    table.cage(&bearing);
     table.balls(&bearing);
     table.flows(
         "release",
+        bearing.bearing,
         (&HEATS, layout.heat(0)),
         (&SOURCES, layout.source(0)),
     );

@@ -2,7 +2,8 @@
 
 use super::film::Films;
 use super::outcome::Column;
-use model::bearing::BearingConstants;
+use model::bearing::ball_states::CAGE_PLACE;
+use model::bearing::{BearingConstants, Separation};
 use model::motion::Motion;
 use model::system::energy::Balance;
 use model::system::sampling::Row;
@@ -25,6 +26,8 @@ pub(super) struct BearingPlace<'a> {
     pub detail: usize,
     /// Probes of the largest ball loads at the inner and the outer race.
     pub largest_loads: [usize; 2],
+    /// Probes of the largest pocket force and of the force at the land.
+    pub cage_forces: [usize; 2],
     /// Pressure of a ball contact per cube root of its load at the inner and the outer race, Pa/N^(1/3).
     pub pressure_factors: [f64; 2],
     /// Motion of the races in a state of the system.
@@ -45,10 +48,22 @@ const DETAILS: [(&str, &str, &str); 5] = [
         "m/s",
         "sliding speed at the outer race, race less ball surface",
     ),
-    ("pocket_force", "N", "force of the cage pocket"),
+    POCKET,
 ];
+/// The force that keeps balls apart: of a pocket, or of the next ball.
+const POCKET: (&str, &str, &str) = ("pocket_force", "N", "force of the cage pocket");
+const NEIGHBOUR: (&str, &str, &str) = (
+    "next_ball_force",
+    "N",
+    "force between the ball and the next one",
+);
 /// How many of [`DETAILS`] are loads.
 const LOADS: usize = 2;
+
+/// Whether balls touch their neighbours.
+fn full_complement(bearing: &BearingConstants) -> bool {
+    matches!(bearing, BearingConstants::Planar(planar) if matches!(planar.separation, Separation::Neighbours(_)))
+}
 
 impl<'a> Table<'a> {
     /// No columns yet.
@@ -96,6 +111,48 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// Place of a cage that is free to move, and the largest forces on it.
+    pub fn cage(&mut self, place: &BearingPlace) {
+        let BearingConstants::Planar(bearing) = place.bearing else {
+            return;
+        };
+        let [pocket, land] = place.cage_forces;
+        match &bearing.separation {
+            Separation::Neighbours(_) => {
+                self.probe(
+                    "bearing.largest_ball_ball_force",
+                    "N",
+                    "largest force between two neighbouring balls",
+                    pocket,
+                );
+                return;
+            }
+            Separation::CentredCage | Separation::FreeCage(_) => self.probe(
+                "bearing.cage.largest_pocket_force",
+                "N",
+                "largest force between a ball and its pocket",
+                pocket,
+            ),
+        }
+        let Separation::FreeCage(guide) = &bearing.separation else {
+            return;
+        };
+        for (k, (name, meaning)) in [
+            ("x", "cage centre, to the right"),
+            ("y", "cage centre, upwards"),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let channel = place.states.start + CAGE_PLACE + k;
+            self.channel(&format!("bearing.cage.{name}"), "m", meaning, channel);
+        }
+        if guide.is_some() {
+            let meaning = "normal force of cage and land";
+            self.probe("bearing.cage.land_force", "N", meaning, land);
+        }
+    }
+
     /// Azimuth, loads, slips and pocket force of every ball, and the largest pressures.
     pub fn balls(&mut self, place: &BearingPlace) {
         let n = place.bearing.balls();
@@ -115,7 +172,11 @@ impl<'a> Table<'a> {
                     place.bearing.azimuth(own, ball)
                 },
             );
-            for (k, (what, unit, meaning)) in DETAILS.into_iter().take(known).enumerate() {
+            for (k, mut detail) in DETAILS.into_iter().take(known).enumerate() {
+                if detail == POCKET && full_complement(place.bearing) {
+                    detail = NEIGHBOUR;
+                }
+                let (what, unit, meaning) = detail;
                 self.probe(&name(what), unit, meaning, place.detail + k * n + ball);
             }
             if let Some(films) = &films {
@@ -144,13 +205,26 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Heats and works since an event ("release"): their names and the channel of the first.
-    pub fn flows(&mut self, since: &str, heats: (&[&str], usize), sources: (&[&str], usize)) {
+    /// Heats and works since an event ("release"): their names and the channel of the first. What this bearing cannot make
+    /// has no column.
+    pub fn flows(
+        &mut self,
+        since: &str,
+        bearing: &BearingConstants,
+        heats: (&[&str], usize),
+        sources: (&[&str], usize),
+    ) {
         for (i, heat) in heats.0.iter().enumerate() {
+            if !bearing.may_make(heat) {
+                continue;
+            }
             let meaning = format!("heat made since {since}: {}", heat.replace('_', " "));
             self.channel(&format!("energy.heat.{heat}"), "J", &meaning, heats.1 + i);
         }
         for (i, source) in sources.0.iter().enumerate() {
+            if *source == "inner_race_growth" && !bearing.grows() {
+                continue;
+            }
             let meaning = format!("work put in since {since}: {}", source.replace('_', " "));
             self.channel(
                 &format!("energy.source.{source}"),

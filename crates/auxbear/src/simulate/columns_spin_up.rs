@@ -5,7 +5,8 @@ use super::outcome::Column;
 use super::spin_up::Context;
 use crate::scenario::Drive;
 use model::system::spin_up::layout::{
-    DETAIL, HEATS, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, PROBES, ROTOR, SOURCES,
+    DETAIL, HEATS, INNER, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
+    PROBES, ROTOR, SOURCES,
 };
 use model::system::spin_up::rate::race_motion;
 
@@ -25,6 +26,8 @@ const MEANINGS: [&str; PROBES.len()] = [
     "sum of the ball loads at the inner race",
     "largest ball load at the inner race",
     "largest ball load at the outer race",
+    "largest force of a cage pocket, or between neighbouring balls without a cage",
+    "normal force of cage and land",
 ];
 
 /// All columns; `time` first.
@@ -38,6 +41,7 @@ pub(super) fn history(context: &Context) -> Vec<Column> {
         states: layout.bearing(),
         detail: DETAIL,
         largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
+        cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
         pressure_factors: [
             context.built.inner_pressure_factor,
             context.built.outer_pressure_factor,
@@ -52,13 +56,16 @@ pub(super) fn history(context: &Context) -> Vec<Column> {
     }
     table.inner_race(&bearing);
     for (probe, ((name, unit), meaning)) in PROBES.iter().zip(MEANINGS).enumerate() {
-        if slides || !name.starts_with("rotor.") {
+        // what holds the cage follows with the balls
+        if probe < LARGEST_POCKET_FORCE && (slides || !name.starts_with("rotor.")) {
             table.probe(name, unit, meaning, probe);
         }
     }
+    table.cage(&bearing);
     table.balls(&bearing);
     table.flows(
         "the start",
+        bearing.bearing,
         (&HEATS, layout.heat(0)),
         (&SOURCES, layout.source(0)),
     );

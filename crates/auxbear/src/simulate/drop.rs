@@ -5,6 +5,7 @@ use super::ending::{settings, stop};
 use super::ensemble::{self, Finished, Member, Plan};
 use super::film::{self, Films};
 use super::outcome::{Contact, Outcome, Picture, Spread, Stop, Value, Work};
+use super::skid::{Skidding, Skids};
 use super::{Options, columns, method, quantities, warnings};
 use crate::scenario::{Drop, Scenario};
 use model::system::drop::DropMachine;
@@ -31,7 +32,14 @@ impl Context<'_> {
         let bearing = &self.machine.constants.bearing;
         let states = BEARING..self.machine.layout().ledger();
         let films = Films::of(bearing, states, race_motion)?;
-        Some(films.summary(self.finished.record.rows()))
+        Some(films.summary(|| self.finished.record.rows()))
+    }
+    /// Where the balls slide, where they may.
+    pub fn skids(&self) -> Option<Skidding> {
+        let bearing = &self.machine.constants.bearing;
+        let states = BEARING..self.machine.layout().ledger();
+        let skids = Skids::of(bearing, states, race_motion)?;
+        Some(skids.summary(|| self.finished.record.rows()))
     }
 }
 

@@ -17,6 +17,8 @@ use std::ops::Range;
 const MIXED: f64 = 1.0;
 /// Share of loaded contacts in rows above which a mixed film is worth a warning.
 const MOSTLY: f64 = 0.5;
+/// Share of the race's fastest speed from which on films are judged: at rest there are none.
+const FAST: f64 = 0.5;
 /// Temperature rise of a film up to which the law's stress is within 1.3 %, K.
 const HOTTEST: f64 = 200.0;
 
@@ -58,10 +60,12 @@ impl<'a> Films<'a> {
             .map(|(law, at)| (at.load > 0.0).then(|| law.state(at.slip, at.load, at.entrainment)))
     }
 
-    /// What all loaded contacts of all rows came to.
-    pub fn summary<'r>(&self, rows: impl Iterator<Item = Row<'r>>) -> Summary {
+    /// What all loaded contacts came to in the rows in which the race turns fast.
+    pub fn summary<'r, I: Iterator<Item = Row<'r>>>(&self, rows: impl Fn() -> I) -> Summary {
+        let speed = |row: &Row| (self.motion)(row.state).inner.spin.abs();
+        let fastest = rows().map(|row| speed(&row)).fold(0.0, f64::max);
         let mut summary = Summary::default();
-        for row in rows {
+        for row in rows().filter(|row| speed(row) >= FAST * fastest) {
             for state in (0..self.bearing.balls)
                 .flat_map(|ball| self.at(&row, ball))
                 .flatten()
@@ -175,8 +179,8 @@ impl Summary {
 }
 
 const FILM: Origin = Origin {
-    law: "central film of Hamrock and Dowson with inlet shear heating, crates/physics/src/film.rs; loaded contacts in the \
-          rows of the history",
+    law: "central film of Hamrock and Dowson with inlet shear heating, crates/physics/src/film.rs; loaded contacts in \
+          those rows of the history in which the race turns at half its fastest speed or more",
     source: "B. J. Hamrock, D. Dowson, J. Lubr. Technol. 99 (1977) 264",
-    valid: "films that follow load and speed at once: near zero where a ball does not roll",
+    valid: "films that follow load and speed at once: near zero where a ball does not roll; a race that starts has none yet",
 };

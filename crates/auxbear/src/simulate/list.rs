@@ -1,6 +1,7 @@
 //! Named results: how they are collected, and what each tells of its origin.
 
 use super::outcome::{Quantity, Value};
+use model::bearing::{BearingConstants, Separation};
 use physics::hertz::maximum_pressure;
 
 /// Law, source and valid range of a kind of result.
@@ -22,8 +23,15 @@ impl List {
             law: origin.law,
             source: origin.source,
             valid: origin.valid,
+            chaotic: false,
             spread: None,
         });
+    }
+    /// Marks what tiny changes of the start change much.
+    pub fn mark_chaotic(&mut self, names: &[&str]) {
+        for quantity in &mut self.0 {
+            quantity.chaotic |= names.contains(&quantity.name.as_str());
+        }
     }
     /// Largest ball load and Hertz pressure: largest loads (N) and pressure factors (Pa/N^(1/3)) at the inner and the
     /// outer race, and the limit of the pressure, Pa.
@@ -43,6 +51,31 @@ impl List {
             share_of_limit(pressure, limit),
             &PRESSURE,
         );
+    }
+    /// Largest forces on the cage, or between the balls, and what their friction took: peaks of pockets and land, N; heats of
+    /// pockets, land and neighbours, J.
+    pub fn cage(&mut self, bearing: &BearingConstants, peaks: [f64; 2], friction: f64) {
+        let BearingConstants::Planar(planar) = bearing else {
+            return;
+        };
+        match &planar.separation {
+            Separation::Neighbours(_) => {
+                self.number("peak_ball_ball_force", "N", Ok(peaks[0]), &CAGE_FORCE);
+                self.number(
+                    "ball_ball_friction_energy",
+                    "J",
+                    Ok(friction),
+                    &CAGE_FRICTION,
+                );
+            }
+            Separation::CentredCage | Separation::FreeCage(_) => {
+                self.number("peak_pocket_force", "N", Ok(peaks[0]), &CAGE_FORCE);
+                if let Separation::FreeCage(Some(_)) = planar.separation {
+                    self.number("peak_cage_land_force", "N", Ok(peaks[1]), &CAGE_FORCE);
+                }
+                self.number("cage_friction_energy", "J", Ok(friction), &CAGE_FRICTION);
+            }
+        }
     }
     /// Takes all values back: nothing was computed.
     pub fn clear(&mut self, why: &str) {
@@ -87,6 +120,17 @@ fn share_of_limit(pressure: f64, limit: Option<f64>) -> Result<f64, String> {
     })
 }
 
+const CAGE_FORCE: Origin = Origin {
+    law: "P = max(0, k p(1 + a ṗ)) of pockets and land, Hertz between balls; largest at the steps; in drops also, near the \
+          record, on dense output",
+    source: "Hunt-Crossley contact, crates/model/src/bearing/pocket.rs, cage.rs, full_complement.rs",
+    valid: "stiffness and damping as given; pocket impacts are chaotic: repeat the run",
+};
+const CAGE_FRICTION: Origin = Origin {
+    law: "time integral of friction force times sliding speed in pockets, at the land, or between balls",
+    source: "energy ledger, crates/model/src/system/drop/ledger.rs and spin_up/ledger.rs",
+    valid: "dry friction with the coefficients given",
+};
 const BALL_LOAD: Origin = Origin {
     law: "Q = max(0, K(δ^1.5 + 1.5 β δ^½ δ̇)), the rolling fidelity adds the centrifugal force at the outer race; largest \
           over balls and races at the steps; in drops also, near the record, on dense output between them",

@@ -31,6 +31,7 @@ pub mod outcome;
 mod quantities;
 mod quantities_spin_up;
 mod quantities_torque;
+mod skid;
 mod spin_up;
 mod torque;
 mod warnings;

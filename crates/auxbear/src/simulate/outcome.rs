@@ -40,6 +40,8 @@ pub struct Quantity {
     pub source: &'static str,
     /// Where it is valid.
     pub valid: &'static str,
+    /// True where tiny changes of the start change it much: a single run tells an example, an ensemble its distribution.
+    pub chaotic: bool,
     /// Spread over the members, when repeated.
     pub spread: Option<Spread>,
 }

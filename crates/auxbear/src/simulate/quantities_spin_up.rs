@@ -249,16 +249,42 @@ fn loads(list: &mut List, context: &Context) {
     if let Some(films) = context.films() {
         films.name(list);
     }
+    let machine = context.machine();
+    let heat = |name: &str| heat_of(context, name);
+    if let Some(skids) = context.skids() {
+        skids.name(list, [heat("inner_ball_slip"), heat("outer_ball_slip")]);
+    }
+    let cage_friction =
+        heat("pocket_friction") + heat("cage_land_friction") + heat("ball_ball_friction");
+    list.cage(
+        &machine.constants.bearing,
+        [
+            context.record.largest_pocket_force.value,
+            context.record.largest_land_force.value,
+        ],
+        cage_friction,
+    );
+    list.mark_chaotic(&CHAOTIC);
+}
+
+/// Forces of pocket impacts: tiny changes of the start change them much.
+const CHAOTIC: [&str; 3] = [
+    "peak_pocket_force",
+    "peak_cage_land_force",
+    "peak_ball_ball_force",
+];
+
+/// What a kind of heat has summed up at the end, J.
+fn heat_of(context: &Context, name: &str) -> f64 {
+    let layout = context.machine().layout();
+    let index = HEATS.iter().position(|heat| *heat == name);
+    index.map_or(0.0, |index| context.ending.state[layout.heat(index)])
 }
 
 fn energies(list: &mut List, context: &Context) {
     let machine = context.machine();
-    let layout = machine.layout();
     let (start, state) = (context.start, &context.ending.state);
-    let heat = |name: &str| -> f64 {
-        let index = HEATS.iter().position(|heat| *heat == name);
-        index.map_or(0.0, |index| state[layout.heat(index)])
-    };
+    let heat = |name: &str| heat_of(context, name);
     list.number(
         "rotor_race_friction_energy",
         "J",

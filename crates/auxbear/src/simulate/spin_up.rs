@@ -4,6 +4,7 @@ use super::build_spin_up::Built;
 use super::ending::{settings, stop};
 use super::film::{self, Films};
 use super::outcome::{Outcome, Picture, Work};
+use super::skid::{Skidding, Skids};
 use super::{Options, Phase, columns_spin_up, method, quantities_spin_up, warnings_spin_up};
 use crate::scenario::{Scenario, SpinUp};
 use model::system::spin_up::rate::race_motion;
@@ -30,7 +31,14 @@ impl Context<'_> {
         let machine = self.machine();
         let states = machine.layout().bearing();
         let films = Films::of(&machine.constants.bearing, states, race_motion)?;
-        Some(films.summary(self.record.rows()))
+        Some(films.summary(|| self.record.rows()))
+    }
+    /// Where the balls slide, where they may.
+    pub fn skids(&self) -> Option<Skidding> {
+        let machine = self.machine();
+        let states = machine.layout().bearing();
+        let skids = Skids::of(&machine.constants.bearing, states, race_motion)?;
+        Some(skids.summary(|| self.record.rows()))
     }
 }
 

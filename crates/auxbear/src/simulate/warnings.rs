@@ -34,6 +34,7 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
         ));
     }
     list.extend(shared::speed_rating(bearing, drop.rotor.speed));
+    list.extend(shared::lift_off(bearing, drop.rotor.speed));
     if let Some(bending) = drop.rotor.first_bending_frequency
         && BENDING_SHARE * bending < drop.rotor.speed.abs()
     {

@@ -4,6 +4,7 @@ use super::build_bearing::{ScaleOrigin, SteadyFinding};
 use super::film::Summary;
 use super::outcome::{Quantity, Value, Warning};
 use crate::scenario::{BallMaterial, Bearing, BearingType, Fidelity, Moment, Scenario};
+use physics::angular_contact::radial_load_that_unloads_a_ball;
 use physics::friction_range::OperatingPoint;
 
 /// Relative energy residual above which the run's tolerance is too loose.
@@ -209,15 +210,47 @@ pub(super) fn kind(bearing: &Bearing) -> Vec<Warning> {
                 .to_string(),
         ));
     }
-    if bearing.kind != BearingType::DeepGroove {
-        list.push(warning(
+    match bearing.kind {
+        BearingType::DeepGroove => {}
+        BearingType::FourPointContact => list.push(warning(
             "AB1019",
             "The bearing is computed in the plane, as a deep groove bearing: its contact angle and axial load reach \
              nothing but the friction law."
                 .to_string(),
-        ));
+        )),
+        BearingType::AngularContact | BearingType::AngularContactDoubleRow => {
+            list.push(warning("AB1019", angular_contact(bearing)));
+        }
     }
     list
+}
+
+/// What a contact angle in the plane takes for granted.
+fn angular_contact(bearing: &Bearing) -> String {
+    let angle = bearing.contact_angle.to_degrees();
+    let held = if bearing.axial_preload > 0.0 {
+        let most = radial_load_that_unloads_a_ball(bearing.axial_preload, bearing.contact_angle);
+        format!("keeps it, at rest up to a radial load of {most:.0} N")
+    } else {
+        "keeps it, and none is given".to_string()
+    };
+    format!(
+        "The contact angle of {angle:.1} deg is computed in the plane and stays as it is: that holds while an axial preload {held}. \
+         Axial motion, tilt and the balls' spin about their contacts are left out."
+    )
+}
+
+/// A ring that is said to grow with its shaft beyond the speed at which it leaves it.
+pub(super) fn lift_off(bearing: &Bearing, speed: f64) -> Option<Warning> {
+    let lift_off = bearing.lifts_off_below(speed.abs())?;
+    Some(warning(
+        "AB1032",
+        format!(
+            "The inner ring lifts off its shaft at {:.0} rpm, below the speed of this run: \
+             bearing.inner_race_growth = \"with shaft\" does not hold there, and the ring may creep.",
+            lift_off * 30.0 / std::f64::consts::PI
+        ),
+    ))
 }
 
 /// Everything that is assumed, in one line.

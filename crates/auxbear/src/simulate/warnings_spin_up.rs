@@ -19,6 +19,7 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     let load = largest(&|row| row.probe[APPLIED_LOAD]);
     list.extend(shared::skids(context.built.steady.as_ref()));
     list.extend(shared::speed_rating(bearing, speed));
+    list.extend(shared::lift_off(bearing, speed));
     if let Some(Value::Number(pressure)) = number(quantities, "peak_hertz_pressure") {
         list.extend(shared::pressure(bearing, *pressure));
     }

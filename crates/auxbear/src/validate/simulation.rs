@@ -5,7 +5,7 @@ use super::reference::{DerivativePoint, DropReference};
 use super::simulator::{DerivativeAnswer, DropAnswer, ElasticBounce, FreeFall, Simulator};
 use crate::simulate::ensemble::{self, Finished, Member, Plan};
 use model::bearing::ball::{BallConstants, BallMotion, BallReaction};
-use model::bearing::{BearingConstants, PlanarConstants};
+use model::bearing::{BearingConstants, PlanarConstants, Separation};
 use model::contact::JournalContact;
 use model::levitation::Levitation;
 use model::mount::Mount;
@@ -182,10 +182,13 @@ fn falling_machine(mass: f64, stiffness: f64, clearance: f64, gravity: f64) -> D
         balls: 8,
         ball: BallConstants {
             radius,
+            ball_radius: radius,
+            load_per_radial_force: 1.0,
             mass: ball_mass,
             inverse_mass: 1.0 / ball_mass,
             inverse_inertia: 1.0 / (0.4 * ball_mass * radius * radius),
             inner_track: 15e-3,
+            inner_track_growth: 0.0,
             outer_track: 21e-3,
             inner_stiffness: 2e10,
             outer_stiffness: 2e10,
@@ -204,6 +207,7 @@ fn falling_machine(mass: f64, stiffness: f64, clearance: f64, gravity: f64) -> D
             maximum: 0.0,
             inverse_reference_speed: 10.0,
         }),
+        separation: Separation::CentredCage,
         cage_mass: 5e-3,
         cage_inertia: 1.6e-6,
         cage_drag: 0.0,
@@ -315,10 +319,13 @@ fn constants(machine: &ReferenceMachine, speed: f64) -> Result<DropConstants, St
             balls: machine.ball_count,
             ball: BallConstants {
                 radius,
+                ball_radius: radius,
+                load_per_radial_force: 1.0,
                 mass: machine.ball_mass,
                 inverse_mass: 1.0 / machine.ball_mass,
                 inverse_inertia: 1.0 / (0.4 * machine.ball_mass * radius * radius),
                 inner_track: machine.inner_track_radius,
+                inner_track_growth: 0.0,
                 outer_track: machine.outer_track_radius,
                 inner_stiffness: machine.inner_contact_stiffness,
                 outer_stiffness: machine.outer_contact_stiffness,
@@ -334,6 +341,7 @@ fn constants(machine: &ReferenceMachine, speed: f64) -> Result<DropConstants, St
                 gravity,
             },
             traction,
+            separation: Separation::CentredCage,
             cage_mass: machine.cage_mass,
             cage_inertia: machine.cage_inertia,
             cage_drag: machine.cage_drag,

@@ -343,6 +343,32 @@ impl BearingConstants {
             ball[4 * n..5 * n].fill(spin * bearing.ball.inner_track / radius);
         }
     }
+    /// Whether a kind of [`HEATS`] may be made in this bearing; other kinds always may.
+    pub fn may_make(&self, heat: &str) -> bool {
+        let separation = match self {
+            BearingConstants::Rolling(_) => &Separation::CentredCage,
+            BearingConstants::Planar(bearing) => &bearing.separation,
+        };
+        match heat {
+            "cage_land_damping" | "cage_land_friction" => {
+                matches!(separation, Separation::FreeCage(Some(_)))
+            }
+            "ball_ball_damping" | "ball_ball_friction" => {
+                matches!(separation, Separation::Neighbours(_))
+            }
+            "pocket_damping" | "pocket_friction" => {
+                !matches!(separation, Separation::Neighbours(_))
+            }
+            _ => true,
+        }
+    }
+    /// Whether its inner race grows with its speed.
+    pub fn grows(&self) -> bool {
+        match self {
+            BearingConstants::Rolling(bearing) => bearing.ball.inner_track_growth != 0.0,
+            BearingConstants::Planar(bearing) => bearing.ball.inner_track_growth != 0.0,
+        }
+    }
     /// Energies and angular momentum at a state.
     pub fn energy(&self, motion: &Motion<f64>, state: &[f64]) -> BearingEnergy {
         match self {

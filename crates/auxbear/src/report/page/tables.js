@@ -46,6 +46,30 @@ function spreadText(quantity) {
   return { mean: grouped + tail, range, quantiles };
 }
 
+// The members as a band: thin from the smallest to the largest, thick over the middle 90 %, a tick at the median, a dot
+// at the unperturbed run.
+function spreadBar(quantity) {
+  const { min, max, q05, median, q95 } = quantity.spread;
+  if (![min, max, q05, median, q95].every(isNumber) || !(max > min)) return null;
+  const [width, height, edge] = [160, 14, 5];
+  const at = (value) => edge + ((width - 2 * edge) * (value - min)) / (max - min);
+  const middle = height / 2;
+  const own = isNumber(quantity.value) && quantity.value >= min && quantity.value <= max;
+  return drawing(
+    "svg",
+    { class: "band", width, height, viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": "spread of the members" },
+    drawing("line", { class: "range", x1: at(min), x2: at(max), y1: middle, y2: middle }),
+    drawing("line", { class: "most", x1: at(q05), x2: at(q95), y1: middle, y2: middle }),
+    drawing("line", { class: "median", x1: at(median), x2: at(median), y1: 1, y2: height - 1 }),
+    own ? drawing("circle", { class: "own", cx: at(quantity.value), cy: middle, r: 3 }) : null,
+  );
+}
+
+// What a single run tells as an example only.
+function chaoticMark(quantity) {
+  return quantity.chaotic ? element("span", { class: "mark mark-chaotic", title: "tiny changes of the start change it much: compare ensembles (auxbear run --repeat)" }, "chaotic") : null;
+}
+
 function spreadCell(quantity) {
   const spread = quantity.spread;
   if (!spread || !isNumber(spread.mean)) return "";
@@ -53,6 +77,7 @@ function spreadCell(quantity) {
   // quantiles of a few members say no more than their range
   const many = isNumber(spread.members) && spread.members >= 20;
   return [
+    spreadBar(quantity),
     element("div", { class: "spread" }, mean),
     element("div", { class: "small" }, range + (isNumber(spread.members) ? `, ${spread.members} members` : "")),
     many && quantiles ? element("div", { class: "small" }, quantiles) : null,
@@ -89,7 +114,7 @@ function quantitySection(runs) {
   const bodies = names.map((name) => {
     const all = runs.map((run) => quantityOf(run, name));
     const told = all.find((quantity) => quantity.law || quantity.source || quantity.valid) || all[0];
-    const cells = [element("td", { class: "name" }, wordsOf(name), element("code", {}, name))];
+    const cells = [element("td", { class: "name" }, wordsOf(name), chaoticMark(told), element("code", {}, name))];
     if (single) cells.push(element("td", {}, quantityText(all[0])), element("td", { class: "small" }, siCell(all[0])));
     else {
       all.forEach((quantity, index) => {
@@ -103,8 +128,10 @@ function quantitySection(runs) {
   });
   const table = element("table", { class: single ? "quantities single" : "quantities several", style: single ? null : `--columns:${heads.length}` }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), bodies);
   const origin = runs.map(spreadOrigin).find(Boolean);
-  const note = repeated ? element("p", { class: "lead" }, `Value: the unperturbed run. Then mean ± standard deviation, smallest and largest value, and quantiles over all members: ${origin}.`) : null;
-  return section("quantities", "Quantities", note, element("div", { class: "wide" }, table), runs.map(memberDetails));
+  const note = repeated ? element("p", { class: "lead" }, `Value: the unperturbed run. Then mean ± standard deviation, smallest and largest value, and quantiles over all members: ${origin}. In the bands: thin, all members; thick, the middle 90 %; tick, median; dot, the unperturbed run.`) : null;
+  const anyChaotic = runs.some((run) => names.some((name) => quantityOf(run, name).chaotic));
+  const chaos = anyChaotic ? element("p", { class: "lead" }, element("span", { class: "mark mark-chaotic" }, "chaotic"), repeated ? " marks what differs from start to start: read its band, not its value." : " marks what tiny changes of the start change much: one run is one example. auxbear run --repeat 64 shows the band.") : null;
+  return section("quantities", "Quantities", note, chaos, element("div", { class: "wide" }, table), runs.map(memberDetails));
 }
 
 function memberDetails(run) {

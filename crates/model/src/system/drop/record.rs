@@ -5,8 +5,8 @@
 
 use super::DropMachine;
 use super::layout::{
-    BEARING, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, NORMAL_FORCE, NORMAL_FORCE_RATE, OUTER,
-    PENETRATION, PENETRATION_SPEED, ROTOR,
+    BEARING, INNER, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
+    NORMAL_FORCE, NORMAL_FORCE_RATE, OUTER, PENETRATION, PENETRATION_SPEED, ROTOR,
 };
 use super::rate::{race_motion, rotor_motion};
 use crate::contact::ContactReaction;
@@ -37,6 +37,10 @@ pub struct Record {
     pub largest_inner_load: Peak,
     /// Largest ball load at the outer race, N.
     pub largest_outer_load: Peak,
+    /// Largest force between a ball and its pocket, or between two balls without a cage, N.
+    pub largest_pocket_force: Peak,
+    /// Largest force between cage and land, N.
+    pub largest_land_force: Peak,
     /// Largest distance of the rotor's geometric centre from the inner race's centre, m.
     pub rotor_race_displacement: Peak,
     /// Largest distance of the rotor's geometric centre from the origin while it touches the race, m.
@@ -48,8 +52,8 @@ pub struct Record {
     /// Turns of the rotor about the inner race while it is out of the middle half of its clearance.
     pub whirl_turns: f64,
     rises: Vec<Rise>,
-    /// The largest ball loads at the start of the last step, N, and its length, s.
-    last_loads: ([f64; 2], f64),
+    /// The watched forces at the start of the last step, N, and its length, s.
+    last_forces: ([f64; WATCHED.len()], f64),
     rows: Rows,
     clearance: f64,
     whirl_angle: Option<f64>,
@@ -65,6 +69,14 @@ struct Limits {
     mount_displacement: f64,
     penetration: f64,
 }
+
+/// Forces whose largest values are kept.
+const WATCHED: [usize; 4] = [
+    LARGEST_INNER_LOAD,
+    LARGEST_OUTER_LOAD,
+    LARGEST_POCKET_FORCE,
+    LAND_FORCE,
+];
 
 /// A peak is searched for inside a step when a value comes this near to the record.
 const NEAR_RECORD: f64 = 0.9;
@@ -92,13 +104,15 @@ impl Record {
             contacts: Vec::with_capacity(CONTACTS),
             largest_inner_load: Peak::NONE,
             largest_outer_load: Peak::NONE,
+            largest_pocket_force: Peak::NONE,
+            largest_land_force: Peak::NONE,
             rotor_race_displacement: Peak::NONE,
             rotor_displacement: Peak::NONE,
             mount_displacement: Peak::NONE,
             largest_translation: 0.0,
             whirl_turns: 0.0,
             rises,
-            last_loads: ([0.0; 2], f64::INFINITY),
+            last_forces: ([0.0; WATCHED.len()], f64::INFINITY),
             rows: Rows::new(machine, end, interval, keep_rows),
             clearance: constants.machine.contact.radial_clearance,
             whirl_angle: None,
@@ -268,37 +282,40 @@ impl Record {
         contact.peak_time = peak.time;
     }
 
-    fn ball_loads_of(&mut self, step: &mut Step<DropMachine>) {
-        let end = [
-            step.end_probe(LARGEST_INNER_LOAD),
-            step.end_probe(LARGEST_OUTER_LOAD),
-        ];
-        let start = [
-            step.start_probe(LARGEST_INNER_LOAD),
-            step.start_probe(LARGEST_OUTER_LOAD),
-        ];
-        self.largest_inner_load.raise(end[0], step.end);
-        self.largest_outer_load.raise(end[1], step.end);
+    /// Records of the watched forces, in their order.
+    fn forces(&mut self) -> [&mut Peak; WATCHED.len()] {
+        [
+            &mut self.largest_inner_load,
+            &mut self.largest_outer_load,
+            &mut self.largest_pocket_force,
+            &mut self.largest_land_force,
+        ]
+    }
+
+    fn forces_of(&mut self, step: &mut Step<DropMachine>) {
+        let start = WATCHED.map(|probe| step.start_probe(probe));
+        let end = WATCHED.map(|probe| step.end_probe(probe));
+        let time = step.end;
         let length = step.end - step.start;
-        let records = [self.largest_inner_load.value, self.largest_outer_load.value];
+        let (last, last_length) = self.last_forces;
         let mut search = false;
-        let (last, last_length) = self.last_loads;
-        for k in 0..2 {
-            if start[k].max(end[k]) > NEAR_RECORD * records[k] {
+        for (k, record) in self.forces().into_iter().enumerate() {
+            record.raise(end[k], time);
+            if start[k].max(end[k]) > NEAR_RECORD * record.value {
                 let last_slope = (start[k] - last[k]) / last_length;
                 let slope = (end[k] - start[k]) / length;
-                search |= may_peak(last_slope, slope, length, STEADY * records[k]);
+                search |= may_peak(last_slope, slope, length, STEADY * record.value);
             }
         }
-        self.last_loads = (start, length);
+        self.last_forces = (start, length);
         if search {
             for theta in [0.25, 0.5, 0.75] {
                 let time = step.time(theta);
                 let (_, probe) = step.evaluate(theta);
-                self.largest_inner_load
-                    .raise(probe[LARGEST_INNER_LOAD], time);
-                self.largest_outer_load
-                    .raise(probe[LARGEST_OUTER_LOAD], time);
+                let values = WATCHED.map(|channel| probe[channel]);
+                for (record, value) in self.forces().into_iter().zip(values) {
+                    record.raise(value, time);
+                }
             }
         }
     }
@@ -386,7 +403,7 @@ fn contact_at(step: &mut Step<DropMachine>, theta: f64) -> ContactReaction<f64> 
 impl Observer<DropMachine> for Record {
     fn step(&mut self, step: &mut Step<DropMachine>) -> Flow {
         self.contacts_of(step);
-        self.ball_loads_of(step);
+        self.forces_of(step);
         for rise in &mut self.rises {
             rise.watch(step);
         }

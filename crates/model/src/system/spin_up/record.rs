@@ -6,8 +6,8 @@
 
 use super::SpinUpMachine;
 use super::layout::{
-    BEARING, CAGE_SLIP, DRIVE_MOMENT, INNER, INNER_MOMENT, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD,
-    OUTER_MOMENT, STEADY_MOMENT,
+    BEARING, CAGE_SLIP, DRIVE_MOMENT, INNER, INNER_MOMENT, LAND_FORCE, LARGEST_INNER_LOAD,
+    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, OUTER_MOMENT, STEADY_MOMENT,
 };
 use crate::bearing::BearingConstants;
 use crate::system::sampling::{Peak, Periods, Rise, Row, Rows};
@@ -26,6 +26,10 @@ pub struct Record {
     pub largest_inner_load: Peak,
     /// Largest ball load at the outer race, N.
     pub largest_outer_load: Peak,
+    /// Largest force between a ball and its pocket, or between two balls without a cage, N.
+    pub largest_pocket_force: Peak,
+    /// Largest force between cage and land, N.
+    pub largest_land_force: Peak,
     /// Of the inner race through 50 % and 95 % of the target speed, of the cage through 95 % of its rolling speed then.
     rises: [Rise; 3],
     /// Of t_I, t_O, M and the cage slip, over cage turns.
@@ -71,6 +75,8 @@ impl Record {
             drive_moment: Peak::NONE,
             largest_inner_load: Peak::NONE,
             largest_outer_load: Peak::NONE,
+            largest_pocket_force: Peak::NONE,
+            largest_land_force: Peak::NONE,
             rises: [
                 Rise::through(INNER + 5, 0.5 * speed),
                 Rise::through(INNER + 5, 0.95 * speed),
@@ -147,6 +153,8 @@ impl Observer<SpinUpMachine> for Record {
             (&mut self.drive_moment, DRIVE_MOMENT),
             (&mut self.largest_inner_load, LARGEST_INNER_LOAD),
             (&mut self.largest_outer_load, LARGEST_OUTER_LOAD),
+            (&mut self.largest_pocket_force, LARGEST_POCKET_FORCE),
+            (&mut self.largest_land_force, LAND_FORCE),
         ] {
             peak.raise(step.start_probe(probe).abs(), step.start);
             peak.raise(step.end_probe(probe).abs(), step.end);
