@@ -92,11 +92,14 @@ impl fmt::Display for Format {
     }
 }
 
+/// Opens a file, which the path names in messages.
+type Open = fn(File, &Path) -> Result<Box<dyn Recording>, FileError>;
+
 /// One format: how its first bytes are told, and how a file of it is opened.
 struct Row {
     format: Format,
     recognise: fn(&[u8]) -> bool,
-    open: fn(File, &Path) -> Result<Box<dyn Recording>, FileError>,
+    open: Open,
 }
 
 /// The formats that can be read, the most certain signature first; text, which has none, is last.

@@ -9,6 +9,9 @@ use crate::recording::FileError;
 /// then the file's own length.
 const PIECE: u64 = 1 << 20;
 
+/// Bytes that [`Source::window`] reads at a time.
+pub const WINDOW: usize = 1 << 16;
+
 /// Bytes of known length that are read at any place.
 #[derive(Debug)]
 pub struct Source<S> {
@@ -17,6 +20,9 @@ pub struct Source<S> {
     length: u64,
     /// Where the inner source stands, as far as known.
     position: Option<u64>,
+    /// Bytes that were read before, and where they begin.
+    window: Vec<u8>,
+    window_at: u64,
 }
 
 impl<S: Read + Seek> Source<S> {
@@ -30,6 +36,8 @@ impl<S: Read + Seek> Source<S> {
             path: path.to_owned(),
             length,
             position: Some(length),
+            window: Vec::new(),
+            window_at: 0,
         })
     }
 
@@ -94,6 +102,38 @@ impl<S: Read + Seek> Source<S> {
             ));
         }
         Ok(())
+    }
+
+    /// The `count` bytes from `offset` on, out of a window over the file that moves as needed: for many small pieces
+    /// near to each other. At most [`WINDOW`] bytes; an error where the file ends before.
+    pub fn window(&mut self, offset: u64, count: usize) -> Result<&[u8], FileError> {
+        let behind = offset
+            .checked_sub(self.window_at)
+            .and_then(|b| usize::try_from(b).ok());
+        let here = behind.filter(|b| {
+            b.checked_add(count)
+                .is_some_and(|end| end <= self.window.len())
+        });
+        let from = match here {
+            Some(from) => from,
+            None => {
+                let mut window = std::mem::take(&mut self.window);
+                window.resize(WINDOW, 0);
+                let there = self.read_at(offset, &mut window)?;
+                window.truncate(there);
+                (self.window, self.window_at) = (window, offset);
+                0
+            }
+        };
+        if from + count > self.window.len() {
+            let there = self.length.saturating_sub(offset);
+            return Err(self.error(
+                offset,
+                format!("{count} bytes are needed, {there} are there"),
+                "the file was cut off",
+            ));
+        }
+        Ok(&self.window[from..from + count])
     }
 
     /// The `count` bytes from `offset` on; an error where the file ends before, found before memory is taken for them.
