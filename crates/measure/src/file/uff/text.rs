@@ -124,6 +124,9 @@ pub fn is_plain(spelling: &[u8]) -> bool {
 
 /// The value of a spelling; none where it is no number.
 pub fn value(spelling: &[u8]) -> Option<f64> {
+    if let Ok(value) = std::str::from_utf8(spelling).ok()?.parse() {
+        return Some(value);
+    }
     let mut text = String::with_capacity(spelling.len() + 1);
     for (i, &byte) in spelling.iter().enumerate() {
         let after_digit = i > 0 && spelling[i - 1].is_ascii_digit();
