@@ -4,7 +4,7 @@
 //! piece that is asked for. What could not be read is told in [`Recording::notes`], never silently left out.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// An instant of the calendar.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +31,39 @@ pub enum Clock {
     Unknown,
 }
 
+/// What the values of a channel are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// Numbers, for [`Recording::read`]; whole numbers too, which are exact up to 2⁵³.
+    Number,
+    /// Instants, for [`Recording::read`] as seconds after the channel's [`Channel::start`].
+    Time,
+    /// Texts, for [`Recording::read_text`].
+    Text,
+}
+
+/// What a file tells beside the values: of itself or of a channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Property {
+    /// Name as in the file.
+    pub name: String,
+    /// What it is set to.
+    pub value: Value,
+}
+
+/// The value of a [`Property`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number, in the file's unit.
+    Number(f64),
+    /// Yes or no.
+    Flag(bool),
+    /// An instant.
+    Time(Instant),
+    /// A text.
+    Text(String),
+}
+
 /// One channel of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
@@ -40,12 +73,32 @@ pub struct Channel {
     pub unit: String,
     /// Remark as in the file; may be empty.
     pub description: String,
+    /// What the values are.
+    pub content: Content,
     /// Number of values that can be read.
     pub count: u64,
-    /// When the first value was taken, where the file tells.
+    /// The instant from which the clock counts, where the file tells.
     pub start: Option<Instant>,
     /// When the values were taken.
     pub clock: Clock,
+    /// Whatever else the file tells of the channel, in the order of the file.
+    pub properties: Vec<Property>,
+}
+
+impl Channel {
+    /// A channel of `count` numbers, of which the file tells no more than the name.
+    pub fn new(name: impl Into<String>, count: u64) -> Channel {
+        Channel {
+            name: name.into(),
+            unit: String::new(),
+            description: String::new(),
+            content: Content::Number,
+            count,
+            start: None,
+            clock: Clock::Unknown,
+            properties: Vec::new(),
+        }
+    }
 }
 
 /// Something a reader found wrong with a file, or repaired, or left out.
@@ -65,10 +118,26 @@ pub trait Recording {
     /// What was wrong with the file as far as it was read.
     fn notes(&self) -> &[Note];
 
+    /// Whatever else the file tells of itself, in the order of the file.
+    fn properties(&self) -> &[Property] {
+        &[]
+    }
+
     /// Fills `values` with values of a channel from the index `first` on; a gap in the file is NaN.
     ///
     /// Returns how many there were: fewer than asked at the end of the channel only.
+    /// A channel that the recording does not have, or one of text, is an error.
     fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError>;
+
+    /// Up to `count` texts of a channel from the index `first` on: fewer at the end of the channel only.
+    ///
+    /// A channel that the recording does not have, or one of numbers, is an error.
+    fn read_text(
+        &mut self,
+        channel: usize,
+        first: u64,
+        count: usize,
+    ) -> Result<Vec<String>, FileError>;
 }
 
 /// Why a file, or a channel of it, cannot be read or written.
@@ -82,6 +151,23 @@ pub struct FileError {
     pub found: String,
     /// What is needed, or what can be done; may be empty.
     pub needed: String,
+}
+
+impl FileError {
+    /// An error that concerns a place in a file.
+    pub fn new(
+        path: &Path,
+        place: impl Into<String>,
+        found: impl Into<String>,
+        needed: impl Into<String>,
+    ) -> FileError {
+        FileError {
+            path: path.to_owned(),
+            place: place.into(),
+            found: found.into(),
+            needed: needed.into(),
+        }
+    }
 }
 
 impl fmt::Display for FileError {

@@ -1,3 +1,200 @@
 //! The formats of measurement files.
 //!
-//! A format is recognised by its content, not by the name of its file.
+//! A format is recognised by its content, not by the name of its file. Each format has its module, and one row in the
+//! table of this file; a reader is given any source of bytes, so that it reads memory as well as files.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`source`] | bytes of a file, read at a place, with errors that name the file |
+//! | [`draft`] | a file that carries its name only once it is whole |
+//! | [`tdms`] | TDMS of National Instruments: reader and writer |
+//! | [`uff`] | the universal file format, sets 58 and 58b: reader |
+//! | [`wav`] | WAV: reader |
+
+pub mod draft;
+pub mod source;
+pub mod tdms;
+pub mod uff;
+pub mod wav;
+
+use std::fmt;
+use std::fs::File;
+use std::path::Path;
+
+use crate::recording::{Channel, FileError, Recording};
+
+/// Number of bytes from the start of a file by which its format is recognised.
+const HEAD: usize = 4096;
+
+/// A format of measurement files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// TDMS of National Instruments, both byte orders.
+    Tdms,
+    /// Universal file format: sets 58 (text) and 58b (binary).
+    Uff,
+    /// Text in columns.
+    Csv,
+    /// MATLAB's format of version 5, up to 7.2.
+    Mat5,
+    /// HDF5, which MATLAB's format of version 7.3 is too.
+    Hdf5,
+    /// Apache Parquet.
+    Parquet,
+    /// WAV: RIFF, RIFX, RF64 or BW64.
+    Wav,
+}
+
+impl Format {
+    /// What people call the format.
+    pub fn name(self) -> &'static str {
+        match self {
+            Format::Tdms => "TDMS",
+            Format::Uff => "UFF 58",
+            Format::Csv => "CSV",
+            Format::Mat5 => "MAT 5",
+            Format::Hdf5 => "HDF5 or MAT 7.3",
+            Format::Parquet => "Parquet",
+            Format::Wav => "WAV",
+        }
+    }
+
+    /// Recognises the format by the first bytes of a file; none where they are of no format that is known.
+    pub fn of(head: &[u8]) -> Option<Format> {
+        FORMATS
+            .iter()
+            .find(|row| (row.recognise)(head))
+            .map(|row| row.format)
+    }
+
+    /// Which formats a file of this name would be of, going by its extension.
+    fn promised_by(path: &Path) -> &'static [Format] {
+        let extension = path
+            .extension()
+            .and_then(|e| e.to_str())
+            .unwrap_or("")
+            .to_ascii_lowercase();
+        match extension.as_str() {
+            "tdms" => &[Format::Tdms],
+            "uff" | "unv" => &[Format::Uff],
+            "mat" => &[Format::Mat5, Format::Hdf5],
+            "h5" | "hdf5" | "hdf" => &[Format::Hdf5],
+            "parquet" => &[Format::Parquet],
+            "wav" | "wave" => &[Format::Wav],
+            _ => &[],
+        }
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Opens a file, which the path names in messages.
+type Open = fn(File, &Path) -> Result<Box<dyn Recording>, FileError>;
+
+/// One format: how its first bytes are told, and how a file of it is opened.
+struct Row {
+    format: Format,
+    recognise: fn(&[u8]) -> bool,
+    open: Open,
+}
+
+/// The formats that can be read, the most certain signature first; text, which has none, is last.
+const FORMATS: &[Row] = &[
+    Row {
+        format: Format::Tdms,
+        recognise: tdms::is_tdms,
+        open: |file, path| Ok(Box::new(tdms::Tdms::from_source(file, path)?)),
+    },
+    Row {
+        format: Format::Wav,
+        recognise: wav::is_wav,
+        open: |file, path| Ok(Box::new(wav::Wav::from_source(file, path)?)),
+    },
+    Row {
+        format: Format::Uff,
+        recognise: uff::is_uff,
+        open: |file, path| Ok(Box::new(uff::Uff::from_source(file, path)?)),
+    },
+];
+
+/// The names of the formats that can be read, for messages.
+fn readable() -> String {
+    let names: Vec<&str> = FORMATS.iter().map(|row| row.format.name()).collect();
+    format!("files of these formats can be read: {}", names.join(", "))
+}
+
+/// Whether the bytes look like text: no zero byte, and few control characters; or UTF-16 with its mark.
+fn is_text(head: &[u8]) -> bool {
+    let controls = head
+        .iter()
+        .filter(|b| b.is_ascii_control() && !b.is_ascii_whitespace())
+        .count();
+    let utf16 = head.starts_with(&[0xff, 0xfe]) || head.starts_with(&[0xfe, 0xff]);
+    !head.is_empty() && (utf16 || (!head.contains(&0) && controls * 50 <= head.len()))
+}
+
+/// Opens a file for reading; its format is recognised by its content.
+///
+/// An error where the file cannot be opened, is of no readable format, or is text under the name of another format.
+pub fn open(path: impl AsRef<Path>) -> Result<Box<dyn Recording>, FileError> {
+    let path = path.as_ref();
+    let file = File::open(path)
+        .map_err(|e| FileError::new(path, "", format!("cannot be opened ({e})"), ""))?;
+    let mut source = source::Source::new(file, path)?;
+    let head = source.bytes(0, source.length().min(HEAD as u64))?;
+    if head.is_empty() {
+        return Err(FileError::new(path, "", "is empty", readable()));
+    }
+    let Some(row) = FORMATS.iter().find(|row| (row.recognise)(&head)) else {
+        let what = match (is_text(&head), head.starts_with(b"TDSh")) {
+            (true, _) => "is text, but of no format that is known",
+            (_, true) => "is the index of a TDMS file, which holds no values",
+            _ => "is of no format that is known",
+        };
+        return Err(FileError::new(path, "", what, readable()));
+    };
+    let promised = Format::promised_by(path);
+    if row.format == Format::Csv && !promised.is_empty() {
+        let found = format!("is text, not {} as its name tells", promised[0]);
+        let needed = format!("rename it if it is a table; {}", readable());
+        return Err(FileError::new(path, "", found, needed));
+    }
+    (row.open)(source.into_inner(), path)
+}
+
+/// A measurement file that is being written, piece by piece.
+///
+/// The file carries its name only after [`Writer::finish`]; until then a name beside it is used, and a writer that is
+/// dropped leaves nothing.
+pub trait Writer {
+    /// Appends values: one slice for each channel, in their order; slices of channels with one clock have one length.
+    fn append(&mut self, values: &[&[f64]]) -> Result<(), FileError>;
+
+    /// Completes the file and gives it its name.
+    fn finish(self: Box<Self>) -> Result<(), FileError>;
+}
+
+/// Starts a file of the channels; the extension of its name tells the format.
+///
+/// The counts of the channels do not matter: the values that are appended count.
+pub fn create(path: impl AsRef<Path>, channels: &[Channel]) -> Result<Box<dyn Writer>, FileError> {
+    let path = path.as_ref();
+    let extension = path
+        .extension()
+        .and_then(|e| e.to_str())
+        .unwrap_or("")
+        .to_ascii_lowercase();
+    match extension.as_str() {
+        "tdms" => Ok(Box::new(tdms::TdmsWriter::create(path, channels)?)),
+        _ => Err(FileError::new(
+            path,
+            "",
+            "cannot be written: its name tells no format that can be",
+            "end the name with: .tdms",
+        )),
+    }
+}
