@@ -11,7 +11,13 @@
 //! | [`uff`] | the universal file format, sets 58 and 58b: reader |
 //! | [`wav`] | WAV: reader |
 
+mod clock;
+mod columns;
+pub mod csv;
 pub mod draft;
+pub mod hdf5;
+pub mod mat5;
+mod request;
 pub mod source;
 pub mod tdms;
 pub mod uff;
