@@ -1,6 +1,7 @@
 //! Datatypes: which numbers the bytes of a value are.
 
 use super::fields::Fields;
+use crate::file::half;
 
 /// Deepest nesting of compound types that is read.
 const DEEPEST: u32 = 8;
@@ -69,7 +70,7 @@ impl Datatype {
         match (&self.kind, self.size) {
             (Kind::Float, 8) => f64::from_bits(bits),
             (Kind::Float, 4) => f64::from(f32::from_bits(bits as u32)),
-            (Kind::Float, 2) => half(bits as u16),
+            (Kind::Float, 2) => half::number(bits as u16),
             (Kind::Whole { signed: true }, size @ 1..=8) => {
                 let unused = 64 - 8 * size as u32;
                 ((bits << unused) as i64 >> unused) as f64
@@ -78,18 +79,6 @@ impl Datatype {
             _ => f64::NAN,
         }
     }
-}
-
-/// A number of half precision, IEEE 754 binary16.
-fn half(bits: u16) -> f64 {
-    let (exponent, fraction) = (i32::from(bits >> 10 & 0x1f), f64::from(bits & 0x3ff));
-    let value = match exponent {
-        0 => fraction * 2f64.powi(-24),
-        31 if fraction == 0.0 => f64::INFINITY,
-        31 => f64::NAN,
-        _ => (1024.0 + fraction) * 2f64.powi(exponent - 25),
-    };
-    if bits >> 15 == 1 { -value } else { value }
 }
 
 fn read(fields: &mut Fields, depth: u32) -> Option<Datatype> {
@@ -236,21 +225,5 @@ mod tests {
         let unsigned = plain(Kind::Whole { signed: false }, 1, false);
         assert_eq!(unsigned.number(&[0xff]), 255.0);
         assert!(unsigned.number(&[]).is_nan());
-    }
-
-    #[test]
-    fn half_precision_as_its_standard_tells() {
-        // Examples of IEEE 754 binary16: one, smallest subnormal, largest, minus two, infinity.
-        let cases = [
-            (0x3c00, 1.0),
-            (0x0001, 5.960_464_477_539_063e-8),
-            (0x7bff, 65504.0),
-            (0xc000, -2.0),
-            (0x7c00, f64::INFINITY),
-        ];
-        for (bits, value) in cases {
-            assert_eq!(half(bits), value);
-        }
-        assert!(half(0x7e00).is_nan());
     }
 }
