@@ -75,6 +75,18 @@ pub(super) fn read(cell: &[u8], comma: bool) -> Cell {
     if let Some(number) = plain_number(cell, comma) {
         return Cell::Number(number);
     }
+    // What starts and ends like a number and has no comma is most often one of many digits.
+    let ends = matches!(
+        (cell.first(), cell.last()),
+        (Some(b'0'..=b'9' | b'-' | b'+' | b'.'), Some(b'0'..=b'9'))
+    );
+    if ends
+        && !comma
+        && let Ok(text) = std::str::from_utf8(cell)
+        && let Ok(number) = text.parse::<f64>()
+    {
+        return Cell::Number(number);
+    }
     if cell.len() > 64 {
         return Cell::Text;
     }

@@ -39,8 +39,8 @@ const HEAD_BYTES: usize = 1 << 20;
 const BLOCK_VALUES: usize = 1 << 18;
 const BLOCK_ROWS: usize = 4096;
 
-/// Blocks that are kept.
-const BLOCKS: usize = 16;
+/// Values that are kept.
+const KEPT_VALUES: usize = 1 << 22;
 
 /// Most columns that are read.
 const MOST_COLUMNS: usize = 1 << 16;
@@ -224,7 +224,7 @@ impl<S: Read + Seek> Csv<S> {
                     });
                 }
                 if let Some(time) = time {
-                    let slack = self.slack(&line, time, &mut rounding);
+                    let slack = self.slack(&line, time, row[time], &mut rounding);
                     spacing.add(row[time], slack);
                     if spacing.back.is_some() && back_line == 0 {
                         back_line = number;
@@ -244,10 +244,15 @@ impl<S: Read + Seek> Csv<S> {
         Ok(())
     }
 
+    /// How many blocks are kept.
+    fn most_kept(&self) -> usize {
+        (KEPT_VALUES / (self.rows_of_block * self.channels.len())).max(4)
+    }
+
     /// Keeps the values of the block that was read last, while there is room.
     fn keep(&mut self, values: &mut Vec<f64>) {
         if let Some(block) = self.blocks.len().checked_sub(1) {
-            if self.kept.len() < BLOCKS {
+            if self.kept.len() < self.most_kept() {
                 self.kept.push((block, std::mem::take(values)));
             }
             values.clear();
@@ -255,7 +260,7 @@ impl<S: Read + Seek> Csv<S> {
     }
 
     /// How far a time may be from what it was before it was written.
-    fn slack(&self, line: &[u8], time: usize, rounding: &mut Rounding) -> f64 {
+    fn slack(&self, line: &[u8], time: usize, value: f64, rounding: &mut Rounding) -> f64 {
         if self.layout.columns[time].kind == Kind::Moment {
             // Loggers write at least milliseconds, or whole seconds.
             let mut slack = 1.0;
@@ -274,7 +279,7 @@ impl<S: Read + Seek> Csv<S> {
         let mut slack = 0.0;
         cells(line, self.layout.between, |column, cell| {
             if column == time {
-                slack = rounding.of(cell, self.layout.comma);
+                slack = rounding.of(cell, self.layout.comma, value);
             }
         });
         slack
@@ -468,7 +473,7 @@ impl<S: Read + Seek> Csv<S> {
             }
             // A file that was changed while it was open.
             values.resize(rows * self.channels.len(), f64::NAN);
-            if self.kept.len() >= BLOCKS {
+            if self.kept.len() >= self.most_kept() {
                 self.kept.remove(0);
             }
             self.kept.push((block, values));
@@ -496,15 +501,12 @@ struct Rounding {
 impl Rounding {
     /// The spacing of numbers around the one of a cell: by the most decimals seen, or by the most significant digits
     /// where those leave fewer decimals.
-    fn of(&mut self, cell: &[u8], comma: bool) -> f64 {
+    fn of(&mut self, cell: &[u8], comma: bool, number: f64) -> f64 {
         let (decimals, significant) = cell::digits(cell, comma);
         self.decimals = self.decimals.max(decimals);
         self.significant = self.significant.max(significant);
-        let Cell::Number(number) = cell::read(cell, comma) else {
-            return 0.0;
-        };
         let by_decimals = 10f64.powi(-self.decimals.clamp(-300, 300));
-        if number == 0.0 {
+        if number == 0.0 || !number.is_finite() {
             return by_decimals;
         }
         let rank = number.abs().log10().floor() as i32;
