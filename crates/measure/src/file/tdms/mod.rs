@@ -24,6 +24,7 @@ mod write;
 
 pub use write::TdmsWriter;
 
+use std::collections::HashMap;
 use std::io::{Read, Seek};
 use std::path::Path;
 use std::sync::Arc;
@@ -31,7 +32,7 @@ use std::sync::Arc;
 use super::source::{Source, WINDOW};
 use crate::recording::{Channel, Clock, Content, FileError, Note, Property, Recording, Value};
 use index::{Block, Index, Object};
-use kind::{Stamp, decode, stamp};
+use kind::{Kind, Stamp, decode, stamp};
 use layout::{Layout, PLAIN, Part};
 use scale::Scaling;
 
@@ -104,7 +105,40 @@ impl<S: Read + Seek> Tdms<S> {
                 _ => self.list_channel(number as u32)?,
             }
         }
+        self.find_clocks();
         Ok(())
+    }
+
+    /// Points channels without a clock of their own to the channel of times in their group, where there is one of as many
+    /// values.
+    fn find_clocks(&mut self) {
+        let mut times = HashMap::new();
+        for (place, (channel, origin)) in self.channels.iter().zip(&self.origins).enumerate() {
+            let names = &self.index.objects[origin.object as usize].names;
+            let called = names.last().is_some_and(|name| {
+                ["time", "t"]
+                    .iter()
+                    .any(|time| name.eq_ignore_ascii_case(time))
+            });
+            let number = channel.content == Content::Number && called && channel.unit == "s";
+            if let Some(group) = names
+                .first()
+                .filter(|_| number || channel.content == Content::Time)
+            {
+                times.entry((group.clone(), channel.count)).or_insert(place);
+            }
+        }
+        for (place, (channel, origin)) in self.channels.iter_mut().zip(&self.origins).enumerate() {
+            let names = &self.index.objects[origin.object as usize].names;
+            let time = names
+                .first()
+                .and_then(|group| times.get(&(group.clone(), channel.count)));
+            if let Some(&time) =
+                time.filter(|&&time| time != place && channel.clock == Clock::Unknown)
+            {
+                channel.clock = Clock::Channel(time);
+            }
+        }
     }
 
     /// Lists the channel of an object; two where its values are complex.
@@ -118,12 +152,21 @@ impl<S: Read + Seek> Tdms<S> {
         let scaling = self.scaling(number).unwrap_or_else(|why| {
             self.index.note(
                 Some(name.clone()),
-                format!(
-                    "its values are as the device gave them: their scaling is not applied ({why})"
-                ),
+                format!("its scaling is not applied: {why}"),
             );
             None
         });
+        let coded = |part: &Part| part.scale != PLAIN && !matches!(part.kind, Kind::Bit(_));
+        if scaling.is_none()
+            && self
+                .index
+                .pieces(number)
+                .any(|piece| piece.parts.iter().any(coded))
+        {
+            let text =
+                "its values are the codes of the device: the file tells no scaling that is applied";
+            self.index.note(Some(name.clone()), text);
+        }
         let complex = self.index.objects[number as usize].complex;
         let mut origin = Origin {
             object: number,

@@ -49,9 +49,9 @@ pub struct Scaling {
 type Lookup<'a> = dyn Fn(&str) -> Option<&'a Value> + 'a;
 
 impl Scaling {
-    /// The scales that the properties tell; none where there are none or the values are scaled already.
+    /// The scales that the properties tell; none where there are none.
     ///
-    /// An error tells why they cannot be applied.
+    /// An error tells why they cannot be applied, or must not as the values are scaled already.
     pub fn of(property: &Lookup) -> Result<Option<Scaling>, String> {
         let Some(count) = number(property, "NI_Number_Of_Scales").filter(|&count| count >= 1.0)
         else {
@@ -59,7 +59,7 @@ impl Scaling {
         };
         if matches!(property("NI_Scaling_Status"), Some(Value::Text(status)) if status != "unscaled")
         {
-            return Ok(None);
+            return Err("the file says that the values are scaled".to_owned());
         }
         if count > f64::from(MOST) {
             return Err(format!("{count} scales"));
@@ -135,11 +135,9 @@ impl Scaling {
                 input: input("Input_Source")?,
             },
             "Table" => {
-                // The device's driver names the inputs of the table by what they are for the scale before it.
-                let mut points: Vec<(f64, f64)> = list("Scaled_Values")?
-                    .into_iter()
-                    .zip(list("Pre_Scaled_Values")?)
-                    .collect();
+                let inputs = list("Pre_Scaled_Values")?;
+                let mut points: Vec<(f64, f64)> =
+                    inputs.into_iter().zip(list("Scaled_Values")?).collect();
                 points.sort_by(|a, b| a.0.total_cmp(&b.0));
                 if points.is_empty() {
                     return Err(format!("scale {scale} (Table) is empty"));
@@ -305,7 +303,7 @@ mod tests {
             ("NI_Scale[0]_Linear_Slope", n(2.0)),
             ("NI_Scale[0]_Linear_Y_Intercept", n(1.0)),
         ];
-        assert_eq!(scaled(&properties, 3.0), Ok(None));
+        assert!(scaled(&properties, 3.0).is_err_and(|why| why.contains("are scaled")));
     }
 
     #[test]

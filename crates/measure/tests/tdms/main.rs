@@ -1,157 +1,15 @@
 //! TDMS: files of the format's own making, real files, what a crash leaves, and what a hand may break.
 
+mod broken;
+mod bytes;
+mod whole;
+
 use std::io::Cursor;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use measure::file::{self, tdms::Tdms};
-use measure::recording::{Channel, Clock, Content, Instant, Property, Recording, Value};
-use proptest::prelude::*;
-
-/// A value of a property as the format writes it.
-enum Set<'a> {
-    Text(&'a str),
-    Double(f64),
-    Whole(u32),
-    Time(i64, u64),
-}
-
-/// Where an object's raw data stand.
-enum Raw {
-    None,
-    Same,
-    /// Type, number of values.
-    Plain(u32, u64),
-    /// Number of texts, bytes of all.
-    Texts(u64, u64),
-    /// Digital, number of values, scalers (type, buffer, offset, scale), widths.
-    Daqmx(bool, u64, Vec<[u32; 4]>, Vec<u32>),
-}
-
-/// Writes numbers in either byte order.
-struct Bytes {
-    out: Vec<u8>,
-    big: bool,
-}
-
-impl Bytes {
-    fn u32(&mut self, number: u32) {
-        self.out.extend(if self.big {
-            number.to_be_bytes()
-        } else {
-            number.to_le_bytes()
-        });
-    }
-    fn u64(&mut self, number: u64) {
-        self.out.extend(if self.big {
-            number.to_be_bytes()
-        } else {
-            number.to_le_bytes()
-        });
-    }
-    fn text(&mut self, text: &str) {
-        self.u32(text.len() as u32);
-        self.out.extend(text.as_bytes());
-    }
-}
-
-const META: u32 = 2;
-const NEW: u32 = 4;
-const RAW: u32 = 8;
-const INTERLEAVED: u32 = 32;
-const BIG: u32 = 64;
-const DAQMX: u32 = 128;
-
-type ObjectOf<'a> = (&'a str, Raw, Vec<(&'a str, Set<'a>)>);
-
-fn meta(big: bool, objects: &[ObjectOf]) -> Vec<u8> {
-    let mut b = Bytes {
-        out: Vec::new(),
-        big,
-    };
-    b.u32(objects.len() as u32);
-    for (path, raw, properties) in objects {
-        b.text(path);
-        match raw {
-            Raw::None => b.u32(u32::MAX),
-            Raw::Same => b.u32(0),
-            Raw::Plain(kind, count) => {
-                b.u32(20);
-                b.u32(*kind);
-                b.u32(1);
-                b.u64(*count);
-            }
-            Raw::Texts(count, bytes) => {
-                b.u32(28);
-                b.u32(0x20);
-                b.u32(1);
-                b.u64(*count);
-                b.u64(*bytes);
-            }
-            Raw::Daqmx(digital, count, scalers, widths) => {
-                b.u32(if *digital { 0x126a } else { 0x1269 });
-                b.u32(u32::MAX);
-                b.u32(1);
-                b.u64(*count);
-                b.u32(scalers.len() as u32);
-                for [kind, buffer, offset, scale] in scalers {
-                    b.u32(*kind);
-                    b.u32(*buffer);
-                    b.u32(*offset);
-                    if *digital {
-                        b.out.push(0);
-                    } else {
-                        b.u32(0);
-                    }
-                    b.u32(*scale);
-                }
-                b.u32(widths.len() as u32);
-                for width in widths {
-                    b.u32(*width);
-                }
-            }
-        }
-        b.u32(properties.len() as u32);
-        for (name, value) in properties {
-            b.text(name);
-            match value {
-                Set::Text(text) => {
-                    b.u32(0x20);
-                    b.text(text);
-                }
-                Set::Double(number) => {
-                    b.u32(10);
-                    b.u64(number.to_bits());
-                }
-                Set::Whole(number) => {
-                    b.u32(7);
-                    b.u32(*number);
-                }
-                Set::Time(seconds, fraction) => {
-                    b.u32(0x44);
-                    let parts = [*fraction, *seconds as u64];
-                    for i in if big { [1, 0] } else { [0, 1] } {
-                        b.u64(parts[i]);
-                    }
-                }
-            }
-        }
-    }
-    b.out
-}
-
-fn segment(flags: u32, meta: &[u8], raw: &[u8]) -> Vec<u8> {
-    let mut b = Bytes {
-        out: b"TDSm".to_vec(),
-        big: flags & BIG != 0,
-    };
-    b.out.extend(flags.to_le_bytes());
-    b.u32(4713);
-    b.u64((meta.len() + raw.len()) as u64);
-    b.u64(meta.len() as u64);
-    b.out.extend(meta);
-    b.out.extend(raw);
-    b.out
-}
+use bytes::{BIG, DAQMX, INTERLEAVED, META, NEW, ObjectOf, RAW, Raw, Set, meta, segment};
+use measure::file::tdms::Tdms;
+use measure::recording::{Clock, Content, Instant, Property, Recording, Value};
 
 /// The file of these bytes, also left where a peer can read it.
 fn open(name: &str, bytes: &[u8]) -> Tdms<Cursor<Vec<u8>>> {
@@ -417,6 +275,36 @@ fn texts_and_time_stamps_are_read() {
 }
 
 #[test]
+fn a_channel_of_times_is_the_clock_of_its_group() {
+    let objects = [
+        ("/'g'/'a'", Raw::Plain(5, 2), vec![]),
+        ("/'g'/'when'", Raw::Plain(0x44, 2), vec![]),
+        ("/'g'/'short'", Raw::Plain(5, 1), vec![]),
+        (
+            "/'h'/'Time'",
+            Raw::Plain(5, 1),
+            vec![("unit_string", Set::Text("s"))],
+        ),
+        ("/'h'/'b'", Raw::Plain(5, 1), vec![]),
+    ];
+    let file = open(
+        "clocks.tdms",
+        &segment(META | NEW | RAW, &meta(false, &objects), &[0; 37]),
+    );
+    let clocks: Vec<Clock> = file.channels().iter().map(|c| c.clock.clone()).collect();
+    assert_eq!(
+        clocks,
+        [
+            Clock::Channel(1),
+            Clock::Unknown,
+            Clock::Unknown,
+            Clock::Unknown,
+            Clock::Channel(3)
+        ]
+    );
+}
+
+#[test]
 fn an_unset_start_is_none_and_a_set_one_is_kept() {
     let start = |seconds| {
         vec![
@@ -505,7 +393,9 @@ fn daqmx() -> Vec<u8> {
 #[test]
 fn raw_data_of_daqmx_are_scaled() {
     let mut file = open("daqmx.tdms", &daqmx());
-    assert_eq!(file.notes(), []);
+    assert_eq!(file.notes().len(), 1);
+    assert_eq!(file.notes()[0].channel.as_deref(), Some("g/c"));
+    assert!(file.notes()[0].text.contains("codes"));
     assert_eq!(all(&mut file, 0), [-2.5, 1.0, -2.5, 1.0]);
     let b = |x: f64| 0.5 + 3.0 * (1.0 + 2.0 * x) * (1.0 + 2.0 * x);
     assert_eq!(
@@ -517,7 +407,7 @@ fn raw_data_of_daqmx_are_scaled() {
 
 #[test]
 fn digital_lines_of_daqmx_are_bits() {
-    let line = |bit| Raw::Daqmx(true, 4, vec![[4, 0, bit, 0]], vec![4]);
+    let line = |bit| Raw::Daqmx(true, 4, vec![[0, 0, bit, 0]], vec![4]);
     let objects = [
         ("/'g'/'0'", line(0), vec![]),
         ("/'g'/'1'", line(1), vec![]),
@@ -552,12 +442,12 @@ fn plain_values_are_scaled_and_unknown_scales_are_told() {
         ("NI_Scaling_Status", Set::Text("unscaled")),
         ("NI_Number_Of_Scales", Set::Whole(1)),
         ("NI_Scale[0]_Scale_Type", Set::Text("Table")),
-        ("NI_Scale[0]_Table_Scaled_Values_Size", Set::Whole(2)),
-        ("NI_Scale[0]_Table_Scaled_Values[0]", Set::Double(0.0)),
-        ("NI_Scale[0]_Table_Scaled_Values[1]", Set::Double(2.0)),
         ("NI_Scale[0]_Table_Pre_Scaled_Values_Size", Set::Whole(2)),
-        ("NI_Scale[0]_Table_Pre_Scaled_Values[0]", Set::Double(10.0)),
-        ("NI_Scale[0]_Table_Pre_Scaled_Values[1]", Set::Double(50.0)),
+        ("NI_Scale[0]_Table_Pre_Scaled_Values[0]", Set::Double(0.0)),
+        ("NI_Scale[0]_Table_Pre_Scaled_Values[1]", Set::Double(2.0)),
+        ("NI_Scale[0]_Table_Scaled_Values_Size", Set::Whole(2)),
+        ("NI_Scale[0]_Table_Scaled_Values[0]", Set::Double(10.0)),
+        ("NI_Scale[0]_Table_Scaled_Values[1]", Set::Double(50.0)),
         ("NI_Scale[0]_Table_Input_Source", Set::Whole(u32::MAX)),
     ];
     let subtract = vec![
@@ -678,202 +568,4 @@ fn many_segments_need_little_and_are_read_at_any_place() {
         assert_eq!(file.read(0, first, &mut value), Ok(1));
         assert_eq!(value[0], expected[first as usize]);
     }
-}
-
-/// Opens bytes and reads all there is; whatever they are, this ends without a panic.
-fn read_whatever(bytes: &[u8]) {
-    let Ok(mut file) = Tdms::from_source(Cursor::new(bytes), Path::new("x.tdms")) else {
-        return;
-    };
-    for channel in 0..file.channels().len() {
-        let count = file.channels()[channel].count;
-        assert!(
-            count <= 8 * bytes.len() as u64,
-            "{count} values out of {} bytes",
-            bytes.len()
-        );
-        let mut values = [0.0; 64];
-        for first in [0, 1, count.saturating_sub(64), count] {
-            let _ = file.read(channel, first, &mut values);
-            let _ = file.read_text(channel, first, 64);
-        }
-    }
-}
-
-/// Small files with all there is in the format.
-fn samples() -> Vec<Vec<u8>> {
-    let texts: Vec<u8> = [3u32, 8]
-        .iter()
-        .flat_map(|end| end.to_le_bytes())
-        .chain(*b"offgrips")
-        .collect();
-    let text = segment(
-        META | NEW | RAW,
-        &meta(false, &[("/'g'/'s'", Raw::Texts(2, 16), vec![])]),
-        &texts,
-    );
-    let line = Raw::Daqmx(true, 4, vec![[0, 0, 1, 0]], vec![1]);
-    let digital = segment(
-        META | NEW | RAW | DAQMX,
-        &meta(false, &[("/'g'/'0'", line, vec![])]),
-        &[1, 2, 3, 4],
-    );
-    let time = [(
-        "/'g'/'t'",
-        Raw::Plain(0x44, 1),
-        vec![("wf_start_time", Set::Time(1, 2))],
-    )];
-    let big = segment(META | NEW | RAW | BIG, &meta(true, &time), &[7; 16]);
-    vec![changing(), daqmx(), text, digital, big]
-}
-
-#[test]
-fn a_file_cut_at_any_byte_neither_panics_nor_hangs() {
-    for bytes in samples() {
-        for end in 0..bytes.len() {
-            read_whatever(&bytes[..end]);
-        }
-    }
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
-
-    #[test]
-    fn broken_bytes_neither_panic_nor_hang(which in 0usize..5, flips in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8)) {
-        let mut bytes = samples().swap_remove(which);
-        for (at, value) in flips {
-            let at = at.index(bytes.len());
-            bytes[at] = value;
-        }
-        read_whatever(&bytes);
-    }
-
-    #[test]
-    fn what_is_written_is_read(
-        names in prop::collection::hash_set("[a-z'é ]{1,6}(/[a-z'/]{1,6})?", 1..4),
-        pieces in prop::collection::vec(prop::collection::vec(any::<f64>(), 0..20), 0..6),
-        interval in 1e-6f64..10.0,
-    ) {
-        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("round.tdms");
-        let names: Vec<String> = names.into_iter().collect();
-        let channels: Vec<Channel> = names.iter().map(|name| Channel {
-            unit: "m/s²".into(),
-            description: "a remark".into(),
-            start: Some(Instant { seconds: 1_700_000_000, fraction: 0.25 }),
-            clock: Clock::Uniform { first: -1.0, interval },
-            properties: vec![Property { name: "bits".into(), value: Value::Number(24.0) }],
-            ..Channel::new(name.clone(), 0)
-        }).collect();
-        let mut writer = file::create(&path, &channels).unwrap();
-        for piece in &pieces {
-            writer.append(&vec![piece.as_slice(); channels.len()]).unwrap();
-        }
-        writer.finish().unwrap();
-        let expected: Vec<u64> = pieces.concat().iter().map(|v| v.to_bits()).collect();
-        let mut back = file::open(&path).unwrap();
-        prop_assert_eq!(back.notes(), []);
-        prop_assert_eq!(back.channels().len(), channels.len());
-        for (i, written) in channels.iter().enumerate() {
-            let read = back.channels()[i].clone();
-            let name = if written.name.contains('/') { written.name.clone() } else { format!("Untitled/{}", written.name) };
-            prop_assert_eq!(&read.name, &name);
-            prop_assert_eq!((&read.unit, &read.description, read.start, &read.clock), (&written.unit, &written.description, written.start, &written.clock));
-            prop_assert!(read.properties.contains(&written.properties[0]));
-            let values: Vec<u64> = all(back.as_mut(), i).iter().map(|v| v.to_bits()).collect();
-            prop_assert_eq!(&values, &expected);
-        }
-    }
-}
-
-#[test]
-fn a_file_has_its_name_only_when_it_is_finished() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("draft");
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    let path = folder.join("a.tdms");
-    let mut writer = file::create(&path, &[Channel::new("a", 0)]).unwrap();
-    writer.append(&[&[1.0; 200_000]]).unwrap();
-    assert!(!path.exists());
-    drop(writer);
-    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 0);
-    assert!(file::create(folder.join("none").join("a.tdms"), &[]).is_err());
-    assert!(
-        file::create(
-            &path,
-            &[Channel::new("a", 0), Channel::new("Untitled/a", 0)]
-        )
-        .is_err_and(|e| e.to_string().contains("twice"))
-    );
-}
-
-#[test]
-fn what_is_no_tdms_is_told() {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
-    let tell = |name: &str, bytes: &[u8]| {
-        std::fs::write(folder.join(name), bytes).unwrap();
-        file::open(folder.join(name))
-            .err()
-            .map(|e| e.to_string())
-            .unwrap_or_default()
-    };
-    let text = tell("text.tdms", b"this is no measurement");
-    assert!(
-        text.contains("text.tdms") && text.contains("is text") && text.contains("TDMS, "),
-        "{text}"
-    );
-    assert!(tell("empty.tdms", b"").contains("empty"));
-    assert!(tell("index.tdms", b"TDSh\x0e\0\0\0").contains("index of a TDMS file"));
-    assert!(tell("noise.tdms", &[0, 1, 2, 3, 250, 0]).contains("no format that is known"));
-    assert!(
-        file::open(folder.join("absent.tdms")).is_err_and(|e| e.found.contains("cannot be opened"))
-    );
-}
-
-/// FNV-1a of the little-endian doubles, as the peer's script computes it.
-fn checksum(values: &[f64]) -> String {
-    let bytes = values.iter().flat_map(|v| v.to_le_bytes());
-    let hash = bytes.fold(0xcbf2_9ce4_8422_2325u64, |h, b| {
-        (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3)
-    });
-    format!("{hash:016x}")
-}
-
-#[test]
-fn real_files_agree_with_nptdms_in_every_sample() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/tdms");
-    if !folder.is_dir() {
-        println!("did not run: {} is absent", folder.display());
-        return;
-    }
-    let mut rows = 0;
-    for row in include_str!("data/tdms.txt")
-        .lines()
-        .filter(|row| !row.starts_with('#'))
-    {
-        let cells: Vec<&str> = row.split('\t').collect();
-        let mut file = file::open(folder.join(cells[0])).unwrap();
-        assert_eq!(file.notes(), []);
-        let channel = file
-            .channels()
-            .iter()
-            .position(|c| c.name == cells[1])
-            .unwrap_or_else(|| panic!("{row}"));
-        let known = file.channels()[channel].clone();
-        assert_eq!(
-            (known.count.to_string().as_str(), known.unit.as_str()),
-            (cells[2], cells[3]),
-            "{row}"
-        );
-        let interval: f64 = cells[4].parse().unwrap();
-        assert!(
-            matches!(known.clock, Clock::Uniform { interval: i, .. } if i == interval),
-            "{row}"
-        );
-        assert_eq!(checksum(&all(file.as_mut(), channel)), cells[5], "{row}");
-        rows += 1;
-    }
-    assert_eq!(rows, 13);
-    let big = file::open(folder.join("big_endian.tdms")).unwrap();
-    assert_eq!(big.channels()[0].start, None);
 }
