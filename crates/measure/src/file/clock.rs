@@ -104,6 +104,10 @@ pub(crate) fn seconds_in(unit: &str) -> Option<f64> {
     (unit.dimension() == second.dimension()).then(|| unit.to_si(1.0))
 }
 
+/// Part of an interval by which equally spaced times may be off: below every use of them, above what is lost when ten
+/// million intervals are added up in double precision.
+const NEGLIGIBLE: f64 = 1e-4;
+
 /// Whether times are equally spaced, found in one pass.
 ///
 /// Every time, known to its rounding, leaves a range for the interval; the times are equally spaced as long as the
@@ -159,9 +163,11 @@ impl Spacing {
         }
         self.last = time;
         if self.equal {
-            // Both ends are rounded, each by half of the spacing; a few units in the last place for the subtraction.
-            let slack = rounding + 4.0 * f64::EPSILON * time.abs().max(self.first.abs());
+            // Both ends are rounded, each by half of the spacing; a few units in the last place for the subtraction; and
+            // what a writer loses who adds the interval from time to time.
             let passed = time - self.first;
+            let last_place = f64::EPSILON * time.abs().max(self.first.abs());
+            let slack = rounding + 4.0 * last_place + NEGLIGIBLE * passed / k as f64;
             self.least = self.least.max((passed - slack) / k as f64);
             self.most = self.most.min((passed + slack) / k as f64);
             self.equal = self.least <= self.most;
@@ -346,6 +352,20 @@ mod tests {
     fn an_interval_of_few_digits_is_found_exactly() {
         let times: Vec<f64> = (0..1000).map(|k| 3.0 + f64::from(k) * 0.001).collect();
         assert_eq!(spacing(&times, 0.0).uniform(), Some((3.0, 0.001)));
+    }
+
+    #[test]
+    fn intervals_that_were_added_up_are_still_equal() {
+        let mut time = 0.0;
+        let times = (0..1_000_000).map(|_| {
+            time += 1.0 / 42000.0;
+            time
+        });
+        let times: Vec<f64> = times.collect();
+        assert_eq!(
+            spacing(&times, 0.0).uniform(),
+            Some((times[0], 1.0 / 42000.0))
+        );
     }
 
     #[test]

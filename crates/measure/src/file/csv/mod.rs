@@ -12,6 +12,7 @@
 //! empty cell and one that is no number are not-a-number, and are noted with column and line.
 
 mod cell;
+mod faults;
 mod layout;
 mod lines;
 mod moment;
@@ -26,6 +27,7 @@ use super::request::{refuse_number, refuse_text};
 use super::source::Source;
 use crate::recording::{Channel, Clock, Content, FileError, Instant, Note, Property, Recording};
 use cell::{Cell, cells};
+use faults::{Faults, Lost, Rounding, count};
 use layout::{Kind, Layout};
 use lines::{Letters, Lines, text};
 use moment::Moment;
@@ -93,31 +95,6 @@ impl<S> fmt::Debug for Csv<S> {
             .field("notes", &self.notes)
             .finish_non_exhaustive()
     }
-}
-
-/// What was found in one column that is no value.
-#[derive(Clone, Default)]
-struct Faults {
-    missing: u64,
-    first_missing: u64,
-    texts: u64,
-    first_text: u64,
-    example: String,
-}
-
-/// What was found in the lines.
-#[derive(Default)]
-struct Lost {
-    short: (u64, u64),
-    long: (u64, u64),
-    left_out: (u64, u64),
-}
-
-fn count(found: &mut (u64, u64), line: u64) {
-    if found.0 == 0 {
-        found.1 = line;
-    }
-    found.0 += 1;
 }
 
 impl<S: Read + Seek> Csv<S> {
@@ -215,7 +192,7 @@ impl<S: Read + Seek> Csv<S> {
             }
             let there = self.take_row(&line, &mut row, Some((&mut faults, &mut lost, number)));
             if there {
-                if self.rows % self.rows_of_block as u64 == 0 {
+                if self.rows.is_multiple_of(self.rows_of_block as u64) {
                     self.keep(&mut values);
                     self.blocks.push(Block {
                         at,
@@ -489,55 +466,6 @@ fn cells_after(line: &[u8], between: cell::Between, width: usize) -> bool {
         filled |= column >= width && !cell.is_empty();
     });
     filled
-}
-
-/// How the times of a column are rounded, learned from line to line.
-#[derive(Default)]
-struct Rounding {
-    decimals: i32,
-    significant: i32,
-}
-
-impl Rounding {
-    /// The spacing of numbers around the one of a cell: by the most decimals seen, or by the most significant digits
-    /// where those leave fewer decimals.
-    fn of(&mut self, cell: &[u8], comma: bool, number: f64) -> f64 {
-        let (decimals, significant) = cell::digits(cell, comma);
-        self.decimals = self.decimals.max(decimals);
-        self.significant = self.significant.max(significant);
-        let by_decimals = 10f64.powi(-self.decimals.clamp(-300, 300));
-        if number == 0.0 || !number.is_finite() {
-            return by_decimals;
-        }
-        let rank = number.abs().log10().floor() as i32;
-        by_decimals.max(10f64.powi((rank - self.significant + 1).clamp(-300, 300)))
-    }
-}
-
-impl Faults {
-    fn add(&mut self, text: Option<&[u8]>, line: u64) {
-        match text {
-            None => {
-                if self.missing == 0 {
-                    self.first_missing = line;
-                }
-                self.missing += 1;
-            }
-            Some(cell) => {
-                if self.texts == 0 {
-                    self.first_text = line;
-                    self.example = text_of(cell);
-                }
-                self.texts += 1;
-            }
-        }
-    }
-}
-
-/// The first letters of a cell.
-fn text_of(cell: &[u8]) -> String {
-    let letters: String = text(cell).chars().take(20).collect();
-    letters
 }
 
 impl<S: Read + Seek> Recording for Csv<S> {
