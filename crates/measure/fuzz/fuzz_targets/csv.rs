@@ -4,6 +4,6 @@ use libfuzzer_sys::fuzz_target;
 use measure::file::csv::Csv;
 use std::io::Cursor;
 
-fuzz_target!(|data: Vec<u8>| {
-    touch::touch(Csv::from_source(Cursor::new(data), "fuzz.csv".as_ref()));
+fuzz_target!(|data: &[u8]| {
+    touch::touch(Csv::from_source(Cursor::new(data.to_vec()), "fuzz.csv".as_ref()));
 });

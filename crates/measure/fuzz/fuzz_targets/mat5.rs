@@ -4,6 +4,6 @@ use libfuzzer_sys::fuzz_target;
 use measure::file::mat5::Mat5;
 use std::io::Cursor;
 
-fuzz_target!(|data: Vec<u8>| {
-    touch::touch(Mat5::from_source(Cursor::new(data), "fuzz.mat".as_ref()));
+fuzz_target!(|data: &[u8]| {
+    touch::touch(Mat5::from_source(Cursor::new(data.to_vec()), "fuzz.mat".as_ref()));
 });

@@ -4,6 +4,6 @@ use libfuzzer_sys::fuzz_target;
 use measure::file::tdms::Tdms;
 use std::io::Cursor;
 
-fuzz_target!(|data: Vec<u8>| {
-    touch::touch(Tdms::from_source(Cursor::new(data), "fuzz.tdms".as_ref()));
+fuzz_target!(|data: &[u8]| {
+    touch::touch(Tdms::from_source(Cursor::new(data.to_vec()), "fuzz.tdms".as_ref()));
 });

@@ -4,6 +4,6 @@ use libfuzzer_sys::fuzz_target;
 use measure::file::uff::Uff;
 use std::io::Cursor;
 
-fuzz_target!(|data: Vec<u8>| {
-    touch::touch(Uff::from_source(Cursor::new(data), "fuzz.uff".as_ref()));
+fuzz_target!(|data: &[u8]| {
+    touch::touch(Uff::from_source(Cursor::new(data.to_vec()), "fuzz.uff".as_ref()));
 });

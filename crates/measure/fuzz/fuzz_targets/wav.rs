@@ -4,6 +4,6 @@ use libfuzzer_sys::fuzz_target;
 use measure::file::wav::Wav;
 use std::io::Cursor;
 
-fuzz_target!(|data: Vec<u8>| {
-    touch::touch(Wav::from_source(Cursor::new(data), "fuzz.wav".as_ref()));
+fuzz_target!(|data: &[u8]| {
+    touch::touch(Wav::from_source(Cursor::new(data.to_vec()), "fuzz.wav".as_ref()));
 });

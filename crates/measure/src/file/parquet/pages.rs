@@ -1,5 +1,5 @@
 //! The headers of the pages of a column, looked at before the pages are: a page that claims more than its bytes can
-//! hold is never unpacked.
+//! hold, or is packed in a way that it cannot be, is never unpacked.
 //!
 //! Source: Apache Parquet, parquet.thrift (PageHeader); Apache Thrift, compact protocol.
 
@@ -23,6 +23,7 @@ const DEEPEST: u32 = 16;
 /// Whether the pages from `start` to `end` of the file have sizes that can be.
 pub(super) fn are_sound<S: Read + Seek>(source: &mut Source<S>, start: u64, end: u64) -> bool {
     let mut at = start;
+    let mut has_dictionary = false;
     while at < end {
         let mut most = HEAD;
         let header = loop {
@@ -40,6 +41,12 @@ pub(super) fn are_sound<S: Read + Seek>(source: &mut Source<S>, start: u64, end:
         if header.whole > LARGEST_PAGE.min(most) || header.values > MOST_VALUES {
             return false;
         }
+        match header.page {
+            Page::Dictionary if has_dictionary => return false,
+            Page::Dictionary => has_dictionary = true,
+            Page::Data { by_dictionary } if by_dictionary && !has_dictionary => return false,
+            Page::Data { .. } | Page::Other => {}
+        }
         at = at
             .saturating_add(header.length)
             .saturating_add(header.packed);
@@ -55,35 +62,68 @@ struct Header {
     whole: u64,
     packed: u64,
     values: u64,
+    page: Page,
 }
+
+enum Page {
+    Dictionary,
+    Data { by_dictionary: bool },
+    Other,
+}
+
+/// Numbers of encodings: by a dictionary in its old and its new form, and of levels.
+const BY_DICTIONARY: [u64; 2] = [2, 8];
+const OF_LEVELS: [u64; 2] = [3, 4];
 
 fn header(bytes: &[u8]) -> Option<Header> {
     let mut compact = Compact { bytes, at: 0 };
     let (mut whole, mut packed, mut values) = (None, None, 0);
+    let (mut page, mut kind_told) = (Page::Other, 0);
     let mut field = 0;
     while let Some(kind) = compact.field(&mut field)? {
         match (field, kind) {
-            (2, 5) => whole = u64::try_from(compact.signed()?).ok(),
-            (3, 5) => packed = u64::try_from(compact.signed()?).ok(),
-            // The header of a page of data or of a dictionary starts with its number of values.
+            (1, 5) => kind_told = compact.number()?,
+            (2, 5) => whole = Some(compact.number()?),
+            (3, 5) => packed = Some(compact.number()?),
             (5 | 7 | 8, 12) => {
+                // The first numbers of a header of data or of a dictionary: values, encoding, encodings of levels;
+                // in the second form of data values, empty cells, rows, encoding.
+                let mut numbers = [0; 5];
                 let mut inner = 0;
                 while let Some(kind) = compact.field(&mut inner)? {
-                    if (inner, kind) == (1, 5) {
-                        values = u64::try_from(compact.signed()?).ok()?;
-                    } else {
-                        compact.pass(kind, 0)?;
+                    match usize::try_from(inner).ok().and_then(|n| numbers.get_mut(n)) {
+                        Some(number) if kind == 5 => *number = compact.number()?,
+                        _ => compact.pass(kind, 0)?,
                     }
                 }
+                values = numbers[1];
+                let levels = OF_LEVELS.contains(&numbers[3]) && OF_LEVELS.contains(&numbers[4]);
+                (field != 5 || levels).then_some(())?;
+                page = match field {
+                    7 => Page::Dictionary,
+                    5 => Page::Data {
+                        by_dictionary: BY_DICTIONARY.contains(&numbers[2]),
+                    },
+                    _ => Page::Data {
+                        by_dictionary: BY_DICTIONARY.contains(&numbers[4]),
+                    },
+                };
             }
             _ => compact.pass(kind, 0)?,
         }
     }
+    let kinds_agree = match page {
+        Page::Data { .. } => matches!(kind_told, 0 | 3),
+        Page::Dictionary => kind_told == 2,
+        Page::Other => kind_told == 1,
+    };
+    kinds_agree.then_some(())?;
     Some(Header {
         length: compact.at as u64,
         whole: whole?,
         packed: packed?,
         values,
+        page,
     })
 }
 
@@ -115,6 +155,11 @@ impl Compact<'_> {
     fn signed(&mut self) -> Option<i64> {
         let value = self.unsigned()?;
         Some((value >> 1) as i64 ^ -((value & 1) as i64))
+    }
+
+    /// A number that is not negative.
+    fn number(&mut self) -> Option<u64> {
+        u64::try_from(self.signed()?).ok()
     }
 
     /// The kind of the next field, whose number is put into `field`; the inner none is the end of the structure.
