@@ -6,6 +6,8 @@ use measure::file::Writer;
 use measure::file::parquet::{Parquet, ParquetWriter};
 use measure::recording::{Channel, Clock, Content, Instant, Property, Recording, Value};
 use std::io::Cursor;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use tables::{all, bytes, channel, ramps, wave, waves};
 
 fn open(name: &str) -> Parquet<Cursor<Vec<u8>>> {
@@ -152,4 +154,32 @@ fn no_damage_makes_the_reader_panic() {
             }
         });
     }
+}
+
+#[test]
+fn a_page_without_its_dictionary_is_damage_and_no_panic() {
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/tests/data/damaged/page_without_its_dictionary.parquet"
+    );
+    let bytes = std::fs::read(path).unwrap();
+    let panicked = Arc::new(AtomicBool::new(false));
+    let told = panicked.clone();
+    let before = std::panic::take_hook();
+    // The hook sees panics that the reader catches too.
+    let here = std::thread::current().id();
+    std::panic::set_hook(Box::new(move |info| {
+        if std::thread::current().id() == here {
+            told.store(true, Ordering::Relaxed);
+        }
+        before(info);
+    }));
+    let mut file = Parquet::from_source(Cursor::new(bytes), path.as_ref()).unwrap();
+    tables::touch(&mut file);
+    assert!(!panicked.load(Ordering::Relaxed));
+    assert!(
+        file.notes()
+            .iter()
+            .any(|note| note.text.contains("damaged"))
+    );
 }

@@ -1,7 +1,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use measure::file::parquet::Parquet;
+use measure::file::parquet::{self, Parquet};
 use std::io::Cursor;
 use std::sync::Once;
 
@@ -12,8 +12,10 @@ static HOOK: Once = Once::new();
 fuzz_target!(|data: &[u8]| {
     HOOK.call_once(|| {
         std::panic::set_hook(Box::new(|info| {
-            let place = info.location().map(ToString::to_string);
-            eprintln!("panicked at {}", place.unwrap_or_default());
+            if !parquet::panic_is_caught() {
+                eprintln!("{info}");
+                std::process::abort();
+            }
         }));
     });
     touch::touch(Parquet::from_source(Cursor::new(data.to_vec()), "fuzz.parquet".as_ref()));

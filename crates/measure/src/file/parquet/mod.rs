@@ -12,6 +12,7 @@ mod columns;
 mod pages;
 mod write;
 
+use std::cell::Cell;
 use std::fmt;
 use std::io::{self, Read, Seek};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -21,7 +22,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use ::parquet::basic::Compression;
 use ::parquet::column::reader::get_column_reader;
 use ::parquet::errors::ParquetError;
-use ::parquet::file::metadata::{KeyValue, ParquetMetaData, ParquetMetaDataReader};
+use ::parquet::file::metadata::{
+    ColumnChunkMetaData, KeyValue, ParquetMetaData, ParquetMetaDataReader,
+};
 use ::parquet::file::reader::{ChunkReader, Length};
 use ::parquet::file::serialized_reader::SerializedPageReader;
 use bytes::Bytes;
@@ -136,13 +139,36 @@ impl<S> fmt::Debug for Parquet<S> {
     }
 }
 
+thread_local! {
+    static GUARDED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Whether a panic on this thread would be caught by the reader.
+///
+/// The library that unpacks Parquet panics on some damaged pages. The reader makes a note of that, but the panic hook of
+/// the program has been called by then: a hook that reports to people asks here first, and says nothing.
+pub fn panic_is_caught() -> bool {
+    GUARDED.with(Cell::get)
+}
+
 /// Runs what a damaged file might make fail in the library that unpacks it.
 fn guarded<T>(act: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, String> {
-    match catch_unwind(AssertUnwindSafe(act)) {
+    let before = GUARDED.with(|guarded| guarded.replace(true));
+    let done = catch_unwind(AssertUnwindSafe(act));
+    GUARDED.with(|guarded| guarded.set(before));
+    match done {
         Ok(Ok(value)) => Ok(value),
         Ok(Err(error)) => Err(error.to_string()),
         Err(_) => Err("is damaged".to_string()),
     }
+}
+
+/// Where the bytes of a column in a row group stand; none where the file tells no such place.
+fn range(chunk: &ColumnChunkMetaData) -> Option<(u64, u64)> {
+    let start = chunk.dictionary_page_offset();
+    let start = u64::try_from(start.unwrap_or(chunk.data_page_offset())).ok()?;
+    let length = u64::try_from(chunk.compressed_size()).ok()?;
+    Some((start, start.checked_add(length)?))
 }
 
 impl<S: Read + Seek + Send + 'static> Parquet<S> {
@@ -315,9 +341,8 @@ impl<S: Read + Seek + Send + 'static> Parquet<S> {
         let shared = self.shared.clone();
         let column = chunk.column_descr_ptr();
         guarded(|| {
-            let (start, length) = chunk.byte_range();
-            let end = start.saturating_add(length);
-            if !shared.with(|source| pages::are_sound(source, start, end)) {
+            let sound = |(start, end)| shared.with(|source| pages::are_sound(source, start, end));
+            if !range(chunk).is_some_and(sound) {
                 return Err(ParquetError::General("a page is damaged".to_string()));
             }
             let pages = SerializedPageReader::new(Arc::new(shared.clone()), chunk, rows, None)?;
