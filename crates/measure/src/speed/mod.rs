@@ -1,0 +1,268 @@
+//! Angle, speed and acceleration of a shaft from the pulses of its wheel.
+//!
+//! ```text
+//! pulses ─▶ quiet parts: noise and liveliness by likelihood ─▶ knots: engagement and end, by likelihood
+//!        ─▶ filter and smoother, averaged over what the likelihood leaves open ─▶ state and covariance at any instant
+//! ```
+//! The motion is a cubic of time whose snap is white noise: a spline of the seventh degree through the pulses, as stiff as
+//! the pulses themselves ask for. A quick change of speed (a clutch that engages) has its own liveliness between two knots,
+//! at which acceleration and jerk may jump. From rest the speed is zero until the engagement, and the angle is anywhere
+//! between two marks.
+//!
+//! **What it does not model**: a speed ripple quicker than two marks can show; noise of the instants with a memory longer
+//! than a few pulses; more than one quick change in a record (give the window of the one that is wanted).
+
+mod fit;
+mod matrix;
+mod plan;
+mod search;
+mod track;
+
+use crate::pulse::{Pitch, Pulses, Refusal};
+use plan::{Data, Plan};
+use matrix::N;
+use track::{Belief, Track, mixed};
+
+/// Where a quick change of speed is looked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Transient {
+    /// The steepest rise of speed of the record, if there is one.
+    Auto,
+    /// Within an interval, s.
+    Within(f64, f64),
+    /// Nowhere: the speed changes slowly throughout.
+    None,
+}
+
+/// What is asked of the pulses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpeedSettings {
+    /// Where a quick change of speed is looked for.
+    pub transient: Transient,
+    /// Largest uncertainty of the acceleration in the quick change, root mean square over it, as a part of the peak;
+    /// pulses that cannot carry it are refused. None: take what there is.
+    pub wanted: Option<f64>,
+    /// Standard uncertainty of a delay that all pulses have in common (pickup, filter), s. Pulses cannot show it.
+    pub latency: f64,
+    /// Standard uncertainty (root mean square) of an acceleration ripple once per revolution while the wheel was calibrated,
+    /// rad/s²: unbalance under gravity, a belt. It cannot be told from an eccentric wheel. Without effect where no
+    /// calibration is used.
+    pub ripple: f64,
+}
+
+impl Default for SpeedSettings {
+    /// One quick change at most, any uncertainty, no delay and no ripple.
+    fn default() -> Self {
+        SpeedSettings { transient: Transient::Auto, wanted: None, latency: 0.0, ripple: 0.0 }
+    }
+}
+
+/// The motion at an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// Instant, s.
+    pub time: f64,
+    /// Angle from the first mark that passed, rad.
+    pub angle: f64,
+    /// Speed, rad/s.
+    pub speed: f64,
+    /// Acceleration, rad/s².
+    pub acceleration: f64,
+    /// Covariance of angle, speed and acceleration, in the units of their products.
+    pub covariance: [[f64; 3]; 3],
+}
+
+impl Motion {
+    /// Standard uncertainty of the speed, rad/s.
+    pub fn speed_uncertainty(&self) -> f64 {
+        self.covariance[1][1].max(0.0).sqrt()
+    }
+
+    /// Standard uncertainty of the acceleration, rad/s².
+    pub fn acceleration_uncertainty(&self) -> f64 {
+        self.covariance[2][2].max(0.0).sqrt()
+    }
+}
+
+/// A quick change of speed that was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Change {
+    /// Instant of the engagement and its standard uncertainty, s.
+    pub engagement: (f64, f64),
+    /// Instant at which the change ends and its standard uncertainty, s; none where the record ends before it.
+    pub end: Option<(f64, f64)>,
+    /// Whether the shaft rested before.
+    pub from_rest: bool,
+    /// Probability that the acceleration jumps at the engagement, rather than its slope only.
+    pub jump: f64,
+    /// Pulses between engagement and end.
+    pub pulses: usize,
+}
+
+/// The motion of a shaft over a record, with covariance.
+#[derive(Clone, Debug)]
+pub struct Speed {
+    base: Track,
+    /// Tracks of the quick change with their weights, and the interval in which they hold, in units.
+    parts: Vec<(f64, Track)>,
+    window: (f64, f64),
+    origin: f64,
+    unit: f64,
+    latency: f64,
+    /// Standard deviation of an order-one error that the calibration may hold, rad.
+    eccentricity: f64,
+    /// The quick change, where there is one.
+    pub change: Option<Change>,
+    /// Factor on the stated uncertainty of the instants that the pulses themselves ask for.
+    pub timing_factor: f64,
+    /// Standard deviation of the angle of a mark that does not depend on speed, rad.
+    pub angle_noise: f64,
+    /// What was found, and what should not be trusted.
+    pub notes: Vec<String>,
+}
+
+/// Fewest pulses that are smoothed at all.
+const FEWEST: usize = 6;
+
+/// Smooths pulses to angle, speed and acceleration.
+///
+/// `pitch` are the errors of the wheel, where they are known.
+pub fn smooth(pulses: &Pulses, pitch: Option<&Pitch>, settings: &SpeedSettings) -> Result<Speed, Refusal> {
+    let n = pulses.times.len();
+    if n < FEWEST || pulses.marks.len() != n || pulses.uncertainties.len() != n {
+        return Err(Refusal::new(format!("{n} pulses"), format!("at least {FEWEST} pulses")));
+    }
+    let data = Data::new(pulses, pitch);
+    let sight = fit::sight(&data, &settings.transient);
+    let mut notes = pulses.notes.clone();
+    let quiet_from = sight.map_or(0, |s| s.after.min(n));
+    let (noise, density) = if n - quiet_from >= 12 {
+        fit::quiet(&data, (quiet_from + (n - quiet_from) / 20).min(n)..n)
+    } else {
+        notes.push("fewer than 12 pulses at steady speed: the noise of the pulses is assumed".into());
+        fit::quiet(&data, n.saturating_sub(12)..n)
+    };
+    let mut base = Plan { noise, quiet: [density; 3], lively: None, settled: 0.0, rests: false };
+    if let Some(sight) = &sight
+        && !sight.rests
+        && sight.first >= 12
+    {
+        base.quiet[0] = fit::quiet(&data, 0..sight.first).1;
+    }
+    if let Some(sight) = &sight {
+        base.settled = sight.lock + 2.0 * (sight.lock - sight.engage);
+        let to = data.passages.partition_point(|p| p.time <= base.settled);
+        if to >= sight.after + 8 {
+            base.quiet[1] = fit::settling(&data, sight.after..to.min(sight.after + 200), noise, density);
+        }
+    }
+    let mut speed = Speed {
+        base: Track::new(Vec::new(), Belief { mean: [0.0; N], covariance: [[0.0; N]; N] }, 0.0, noise.memory),
+        parts: Vec::new(),
+        window: (f64::INFINITY, f64::NEG_INFINITY),
+        origin: data.origin,
+        unit: data.unit,
+        latency: settings.latency.max(0.0),
+        eccentricity: pitch.map_or(0.0, |p| settings.ripple.max(0.0) / (p.speed * p.speed).max(1e-12)),
+        change: None,
+        timing_factor: noise.timing,
+        angle_noise: noise.angle,
+        notes,
+    };
+    if let Some(sight) = &sight {
+        let (plans, range) = fit::lively(&data, sight, &base);
+        if let Some((best, _)) = plans.first() {
+            base = *best;
+        }
+        let track = |plan: &Plan| {
+            let (nodes, start) = plan.nodes(&data, range.clone());
+            Track::new(nodes, start, plan.quiet[2], noise.memory)
+        };
+        speed.parts = plans.iter().map(|(plan, weight)| (*weight, track(plan))).collect();
+        let begin = if sight.rests { f64::NEG_INFINITY } else { data.passages[range.start].time };
+        let margin = if range.end < n { 5 } else { 1 };
+        speed.window = (begin, data.passages[range.end - margin].time);
+        speed.change = Some(summary(&data, sight, &plans));
+    }
+    let (nodes, start) = base.nodes(&data, 0..n);
+    speed.base = Track::new(nodes, start, base.quiet[2], noise.memory);
+    Ok(speed)
+}
+
+/// Instants of the knots from the plans that are left.
+fn summary(data: &Data, sight: &fit::Sight, plans: &[(Plan, f64)]) -> Change {
+    let moments = |value: &dyn Fn(&plan::Lively) -> f64| {
+        let known = || plans.iter().filter_map(|(plan, weight)| plan.lively.as_ref().map(|l| (value(l), *weight)));
+        let mean: f64 = known().map(|(x, w)| w * x).sum();
+        let variance: f64 = known().map(|(x, w)| w * (x - mean).powi(2)).sum();
+        (mean, variance.sqrt())
+    };
+    let (engage, engage_spread) = moments(&|l| l.engage);
+    let (lock, lock_spread) = moments(&|l| l.lock);
+    let jump = moments(&|l| if l.start == plan::Knot::Jump { 1.0 } else { 0.0 }).0;
+    Change {
+        engagement: (data.seconds(engage), engage_spread * data.unit),
+        end: sight.ends.then_some((data.seconds(lock), lock_spread * data.unit)),
+        from_rest: sight.rests,
+        jump,
+        pulses: data.passages.iter().filter(|p| p.time > engage && p.time < lock).count(),
+    }
+}
+
+impl Speed {
+    /// First and last instant for which there is an answer, s.
+    pub fn range(&self) -> (f64, f64) {
+        (self.origin + self.unit * self.base.begin(), self.origin + self.unit * self.base.end())
+    }
+
+    fn belief(&self, time: f64) -> Belief {
+        if time >= self.window.0 && time <= self.window.1 {
+            let parts = self.parts.iter().map(|(weight, track)| (*weight, at(track, time)));
+            return mixed(parts.collect::<Vec<_>>().into_iter());
+        }
+        at(&self.base, time)
+    }
+
+    /// The motion at an instant, s; outside the range of the pulses it is carried on, with growing covariance, and before
+    /// an engagement from rest it is rest.
+    pub fn at(&self, seconds: f64) -> Motion {
+        let belief = self.belief((seconds - self.origin) / self.unit);
+        let scale = [1.0, self.unit.recip(), self.unit.powi(-2), self.unit.powi(-3)];
+        let [angle, speed, acceleration, jerk] = std::array::from_fn(|i| belief.mean[i] * scale[i]);
+        let late = [speed, acceleration, jerk].map(|x| x * self.latency);
+        let wrong = self.wrong_wheel(speed, acceleration);
+        Motion {
+            time: seconds,
+            angle,
+            speed,
+            acceleration,
+            covariance: std::array::from_fn(|i| {
+                std::array::from_fn(|j| {
+                    let wheel: f64 = wrong.iter().map(|w| w[i] * w[j]).sum();
+                    belief.covariance[i][j] * scale[i] * scale[j] + late[i] * late[j] + wheel
+                })
+            }),
+        }
+    }
+
+    /// What the sine and the cosine of an eccentricity taken for wheel errors, each of unit weight, do to angle, speed and
+    /// acceleration where the angle is zero: e sin θ and e cos θ with their derivatives.
+    fn wrong_wheel(&self, speed: f64, acceleration: f64) -> [[f64; 3]; 2] {
+        let e = self.eccentricity;
+        [[0.0, e * speed, e * acceleration], [e, 0.0, -e * speed * speed]]
+    }
+}
+
+/// Belief of a track, at rest before its start where it starts from rest.
+fn at(track: &Track, time: f64) -> Belief {
+    if time < track.begin() {
+        let mut belief = *track.start();
+        let angle = belief.covariance[0][0];
+        belief.mean[2] = 0.0;
+        belief.mean[3] = 0.0;
+        belief.covariance = [[0.0; N]; N];
+        belief.covariance[0][0] = angle;
+        return belief;
+    }
+    track.at(time)
+}

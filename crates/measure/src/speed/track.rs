@@ -1,0 +1,312 @@
+//! Filter and smoother for given times, noises and knots.
+//!
+//! ```text
+//! state  x = [angle, speed, acceleration, jerk, e]   white noise of the density q in the snap
+//! e      error of the instants with a memory: first-order Markov process
+//! pulse  z = angle + speed e + noise of variance r
+//! knot   variance added to any state at an instant: what it was before tells less, or nothing, of what it is after
+//! ```
+//! Forward: a Kalman filter. Backward: the adjoint recursion of Bryson and Frazier, which inverts no matrix, so that a
+//! start from rest with exactly known speed, and intervals of any length, do no harm.
+//!
+//! Source: Bierman, Factorization Methods for Discrete Sequential Estimation, 1977, chapter X (from memory).
+
+use super::matrix::{Matrix, Memory, N, Vector, apply, drift, gathered, minus, plus, predicted, product, root, transposed};
+
+/// A mark that passes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sight {
+    pub angle: f64,
+    /// Variance of the angle.
+    pub variance: f64,
+    /// Rough speed: angle per error of the instant.
+    pub speed: f64,
+}
+
+impl Sight {
+    /// A column of a matrix as the pulse sees it: of the angle, plus the speed times that of the clock.
+    fn seen(&self, matrix: &Matrix) -> Vector {
+        std::array::from_fn(|i| matrix[i][0] + self.speed * matrix[i][4])
+    }
+
+    fn of(&self, x: &Vector) -> f64 {
+        x[0] + self.speed * x[4]
+    }
+}
+
+/// Something that happens at an instant.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    /// Instant, in units of the track.
+    pub time: f64,
+    /// Density of the snap in the interval before it.
+    pub density: f64,
+    /// Where a mark passes.
+    pub pulse: Option<Sight>,
+    /// Variance added to each state, before the pulse.
+    pub added: Option<[f64; 4]>,
+}
+
+/// Mean and covariance of a state.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Belief {
+    pub mean: Vector,
+    pub covariance: Matrix,
+}
+
+/// A filtered and smoothed record.
+#[derive(Clone, Debug)]
+pub(super) struct Track {
+    nodes: Vec<Node>,
+    start: Belief,
+    /// After each node.
+    filtered: Vec<Belief>,
+    /// Adjoint just before each node: gradient and curvature of the misfit of all that follows.
+    gradient: Vec<Vector>,
+    curvature: Vec<Matrix>,
+    /// Density after the last node.
+    density: f64,
+    memory: Memory,
+}
+
+/// One pass forward. Returns the log likelihood, up to a constant; `visit` sees every node's belief after it, the innovation
+/// and its variance.
+pub(super) fn forward(
+    nodes: &[Node],
+    start: &Belief,
+    memory: &Memory,
+    mut visit: impl FnMut(&Belief, f64, f64),
+) -> f64 {
+    let mut belief = *start;
+    let mut time = nodes.first().map_or(0.0, |node| node.time);
+    let mut likelihood = 0.0;
+    for node in nodes {
+        let dt = node.time - time;
+        time = node.time;
+        if dt > 0.0 {
+            belief = Belief {
+                mean: apply(&drift(dt, memory), &belief.mean),
+                covariance: predicted(&belief.covariance, dt, node.density, memory),
+            };
+        }
+        if let Some(added) = node.added {
+            for (i, a) in added.iter().enumerate() {
+                belief.covariance[i][i] += a;
+            }
+        }
+        let (mut innovation, mut spread) = (0.0, 1.0);
+        if let Some(pulse) = &node.pulse {
+            innovation = pulse.angle - pulse.of(&belief.mean);
+            let row = pulse.seen(&belief.covariance);
+            spread = pulse.of(&row) + pulse.variance;
+            for i in 0..N {
+                let gain = row[i] / spread;
+                belief.mean[i] += gain * innovation;
+                for j in 0..N {
+                    belief.covariance[i][j] -= gain * row[j];
+                }
+            }
+            likelihood -= 0.5 * (innovation * innovation / spread + spread.ln());
+        }
+        visit(&belief, innovation, spread);
+    }
+    if likelihood.is_finite() { likelihood } else { f64::NEG_INFINITY }
+}
+
+impl Track {
+    pub fn new(nodes: Vec<Node>, start: Belief, density: f64, memory: Memory) -> Track {
+        let mut filtered = Vec::with_capacity(nodes.len());
+        let mut innovations = Vec::with_capacity(nodes.len());
+        forward(&nodes, &start, &memory, |belief, innovation, spread| {
+            filtered.push(*belief);
+            innovations.push((innovation, spread));
+        });
+        let mut gradient = vec![[0.0; N]; nodes.len()];
+        let mut curvature = vec![[[0.0; N]; N]; nodes.len()];
+        let (mut g, mut c) = ([0.0; N], [[0.0; N]; N]);
+        for k in (0..nodes.len()).rev() {
+            if let Some(pulse) = &nodes[k].pulse {
+                let (innovation, spread) = innovations[k];
+                // The gain from the covariance after the pulse: K = P H'/r.
+                let gain = pulse.seen(&filtered[k].covariance).map(|x| x / pulse.variance);
+                let along = (0..N).map(|i| gain[i] * g[i]).sum::<f64>();
+                let across: Vector = apply(&c, &gain);
+                let twice = (0..N).map(|i| gain[i] * across[i]).sum::<f64>();
+                for (i, lever) in [(0, 1.0), (4, pulse.speed)] {
+                    g[i] -= lever * (innovation / spread + along);
+                    for j in 0..N {
+                        c[i][j] -= lever * across[j];
+                        c[j][i] -= lever * across[j];
+                    }
+                    for (j, other) in [(0, 1.0), (4, pulse.speed)] {
+                        c[i][j] += lever * other * (twice + 1.0 / spread);
+                    }
+                }
+            }
+            gradient[k] = g;
+            curvature[k] = c;
+            if k > 0 {
+                let f = drift(nodes[k].time - nodes[k - 1].time, &memory);
+                let back = transposed(&f);
+                g = apply(&back, &g);
+                c = product(&back, &product(&c, &f));
+            }
+        }
+        Track { nodes, start, filtered, gradient, curvature, density, memory }
+    }
+
+    pub fn begin(&self) -> f64 {
+        self.nodes.first().map_or(0.0, |node| node.time)
+    }
+
+    pub fn end(&self) -> f64 {
+        self.nodes.last().map_or(0.0, |node| node.time)
+    }
+
+    pub fn start(&self) -> &Belief {
+        &self.start
+    }
+
+    /// Filtered belief carried to an instant, and the adjoint there.
+    fn around(&self, time: f64) -> (Belief, Vector, Matrix) {
+        let next = self.nodes.partition_point(|node| node.time <= time);
+        let Some(last) = next.checked_sub(1) else { return (self.start, [0.0; N], [[0.0; N]; N]) };
+        let dt = time - self.nodes[last].time;
+        let density = self.nodes.get(next).map_or(self.density, |node| node.density);
+        let from = &self.filtered[last];
+        let belief =
+            Belief {
+            mean: apply(&drift(dt, &self.memory), &from.mean),
+            covariance: predicted(&from.covariance, dt, density, &self.memory),
+        };
+        match self.nodes.get(next) {
+            None => (belief, [0.0; N], [[0.0; N]; N]),
+            Some(node) => {
+                let f = drift(node.time - time, &self.memory);
+                let back = transposed(&f);
+                (belief, apply(&back, &self.gradient[next]), product(&back, &product(&self.curvature[next], &f)))
+            }
+        }
+    }
+
+    /// Belief at an instant from all pulses.
+    pub fn at(&self, time: f64) -> Belief {
+        let (belief, gradient, curvature) = self.around(time);
+        let p = &belief.covariance;
+        let shift = apply(p, &gradient);
+        let shrink = product(p, &product(&curvature, p));
+        Belief {
+            mean: std::array::from_fn(|i| belief.mean[i] - shift[i]),
+            covariance: minus(p, &shrink),
+        }
+    }
+
+    /// Covariance of the states at two instants, the first one not after the second, from all pulses.
+    pub fn between(&self, first: f64, second: f64) -> Matrix {
+        let (from, _, _) = self.around(first);
+        let (to, _, curvature) = self.around(second);
+        // How an error at the first instant is carried through forecasts and updates to the second.
+        let mut carried = drift(0.0, &self.memory);
+        let mut time = first;
+        let mut k = self.nodes.partition_point(|node| node.time <= first);
+        while k < self.nodes.len() && self.nodes[k].time <= second {
+            carried = product(&drift(self.nodes[k].time - time, &self.memory), &carried);
+            time = self.nodes[k].time;
+            if let Some(pulse) = &self.nodes[k].pulse {
+                let gain = pulse.seen(&self.filtered[k].covariance).map(|x| x / pulse.variance);
+                let row: Vector = std::array::from_fn(|j| carried[0][j] + pulse.speed * carried[4][j]);
+                for i in 0..N {
+                    for j in 0..N {
+                        carried[i][j] -= gain[i] * row[j];
+                    }
+                }
+            }
+            k += 1;
+        }
+        carried = product(&drift(second - time, &self.memory), &carried);
+        let ahead = product(&from.covariance, &transposed(&carried));
+        let seen = product(&curvature, &to.covariance);
+        minus(&ahead, &product(&ahead, &seen))
+    }
+
+    /// A path drawn at random from the belief, at increasing instants not before the first node.
+    ///
+    /// A motion and its pulses are made up from the model and smoothed like the measured ones; their error is added to the
+    /// smoothed measurement. Source: Durbin and Koopman, Biometrika 89, 2002 (from memory).
+    pub fn draw(&self, times: &[f64], normal: &mut dyn FnMut() -> f64) -> Vec<Vector> {
+        let mut shake = |p: &Matrix| -> Vector {
+            let noise: Vector = std::array::from_fn(|_| normal());
+            apply(&root(p), &noise)
+        };
+        let moved = shake(&self.start.covariance);
+        let mut x: Vector = std::array::from_fn(|i| self.start.mean[i] + moved[i]);
+        let mut made = self.nodes.clone();
+        let mut path = Vec::with_capacity(times.len());
+        let mut time = self.begin();
+        let step = |x: &mut Vector, dt: f64, density: f64, shake: &mut dyn FnMut(&Matrix) -> Vector| {
+            if dt > 0.0 {
+                let noise = shake(&gathered(dt, density, &self.memory));
+                let free = apply(&drift(dt, &self.memory), x);
+                *x = std::array::from_fn(|i| free[i] + noise[i]);
+            }
+        };
+        let mut wanted = times.iter().peekable();
+        for node in &mut made {
+            while let Some(&&t) = wanted.peek()
+                && t < node.time
+            {
+                step(&mut x, t - time, node.density, &mut shake);
+                time = time.max(t);
+                path.push(x);
+                wanted.next();
+            }
+            step(&mut x, node.time - time, node.density, &mut shake);
+            time = node.time;
+            if let Some(added) = node.added {
+                let noise = shake(&std::array::from_fn(|i| std::array::from_fn(|j| if i == j && i < 4 { added[i] } else { 0.0 })));
+                x = std::array::from_fn(|i| x[i] + noise[i]);
+            }
+            if let Some(pulse) = &mut node.pulse {
+                let mut only = [[0.0; N]; N];
+                only[0][0] = pulse.variance;
+                pulse.angle = pulse.of(&x) + shake(&only)[0];
+            }
+        }
+        for &t in wanted {
+            step(&mut x, t - time, self.density, &mut shake);
+            time = time.max(t);
+            path.push(x);
+        }
+        let again = Track::new(made, self.start, self.density, self.memory);
+        times
+            .iter()
+            .zip(path)
+            .map(|(&t, made)| {
+                let (measured, estimated) = (self.at(t).mean, again.at(t).mean);
+                std::array::from_fn(|i| measured[i] + made[i] - estimated[i])
+            })
+            .collect()
+    }
+}
+
+/// Mixture of beliefs.
+pub(super) fn mixed(parts: impl Iterator<Item = (f64, Belief)> + Clone) -> Belief {
+    let mut mean = [0.0; N];
+    for (weight, belief) in parts.clone() {
+        for i in 0..N {
+            mean[i] += weight * belief.mean[i];
+        }
+    }
+    let mut covariance = [[0.0; N]; N];
+    for (weight, belief) in parts {
+        let away: Vector = std::array::from_fn(|i| belief.mean[i] - mean[i]);
+        let outer: Matrix = std::array::from_fn(|i| std::array::from_fn(|j| away[i] * away[j]));
+        let both = plus(&belief.covariance, &outer);
+        for i in 0..N {
+            for j in 0..N {
+                covariance[i][j] += weight * both[i][j];
+            }
+        }
+    }
+    Belief { mean, covariance }
+}
