@@ -2,7 +2,7 @@
 
 use super::flank::{Passing, sharpen};
 use super::level::Levels;
-use super::{Edges, Flank, Refusal, median};
+use super::{Edges, Flank, Refusal};
 
 /// How flanks are found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,8 +27,8 @@ impl Default for EdgeSettings {
 const REACH: usize = 24;
 /// Part of the height of a pulse, on each side of the middle, in which a flank is taken as straight.
 const STRAIGHT: f64 = 0.3;
-/// Neighbouring plateaus of one kind whose median is the level there.
-const NEIGHBOURS: usize = 10;
+/// Samples of a plateau, next to the flank, that tell its level, at most.
+const PLATEAU: usize = 64;
 
 struct Flip {
     /// First sample beyond the hysteresis on the new side.
@@ -134,41 +134,38 @@ fn flips(samples: &[f64], levels: &Levels, part: f64) -> Vec<Flip> {
     flips
 }
 
-/// The middle between the levels at every flip: from the plateaus around it, so that it follows a drift.
+/// The middle between the levels at every flip: between the plateaus on its two sides, so that it follows a drift, and the
+/// height of each mark.
 fn middles(samples: &[f64], flips: &[Flip], levels: &Levels, fixed: bool) -> Vec<f64> {
-    let rough = |flip: &Flip| levels.middle(flip.sample);
-    if fixed || flips.len() < 6 {
-        return flips.iter().map(rough).collect();
-    }
-    // Plateau k lies between flip k and flip k + 1.
-    let plateaus: Vec<f64> = flips
-        .windows(2)
-        .map(|pair| {
-            let middle = rough(&pair[0]);
-            let away = samples[pair[0].sample..pair[1].sample].iter().map(|x| (x - middle).abs()).filter(|a| a.is_finite());
-            let largest = away.clone().fold(0.0, f64::max);
-            let (sum, count) = away.filter(|&a| a >= 0.5 * largest).fold((0.0, 0usize), |(s, n), a| (s + a, n + 1));
-            let side = if pair[0].rises { 1.0 } else { -1.0 };
-            middle + side * sum / count.max(1) as f64
-        })
-        .collect();
-    let mut work = Vec::with_capacity(2 * NEIGHBOURS + 2);
-    let mut level = |centre: usize, rises: bool| {
-        work.clear();
-        let from = centre.saturating_sub(NEIGHBOURS);
-        let to = (centre + NEIGHBOURS).min(plateaus.len());
-        work.extend((from..to).filter(|&k| flips[k].rises == rises).map(|k| plateaus[k]));
-        median(&mut work)
-    };
     flips
         .iter()
         .enumerate()
         .map(|(k, flip)| {
-            let middle = 0.5 * (level(k, true) + level(k, false));
+            let rough = levels.middle(flip.sample);
+            if fixed {
+                return rough;
+            }
+            let begin = k.checked_sub(1).map_or(0, |last| flips[last].sample).max(flip.sample.saturating_sub(PLATEAU));
+            let end = flips.get(k + 1).map_or(samples.len(), |next| next.sample).min(flip.sample + PLATEAU);
+            let sign = if flip.rises { 1.0 } else { -1.0 };
+            let before = plateau(&samples[begin..flip.sample], rough, -sign);
+            let after = plateau(&samples[flip.sample..end], rough, sign);
+            match (before, after) {
+                (Some(before), Some(after)) => 0.5 * (before + after),
+                _ => rough,
+            }
             // A plateau that a gap cut short must not carry the middle out of the flank.
-            middle.clamp(rough(flip) - 0.2 * levels.span, rough(flip) + 0.2 * levels.span)
+            .clamp(rough - 0.2 * levels.span, rough + 0.2 * levels.span)
         })
         .collect()
+}
+
+/// Level of a plateau on one side of the middle: mean of the samples that are far from it.
+fn plateau(samples: &[f64], middle: f64, sign: f64) -> Option<f64> {
+    let away = samples.iter().map(|x| sign * (x - middle)).filter(|x| x.is_finite());
+    let largest = away.clone().fold(0.0, f64::max);
+    let (sum, count) = away.filter(|&x| x >= 0.8 * largest).fold((0.0, 0usize), |(s, n), x| (s + x, n + 1));
+    (largest > 0.0).then(|| middle + sign * sum / count.max(1) as f64)
 }
 
 /// Where the signal crosses the middle at a flip, and the standard uncertainty of it, both in samples; and whether the flank

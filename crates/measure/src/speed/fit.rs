@@ -2,11 +2,11 @@
 
 use super::Transient;
 use super::matrix::Memory;
-use super::plan::{Data, Knot, Lively, Noise, Plan};
+use super::plan::{Data, Knot, Lively, Noise, Passage, Plan};
 use super::search::{smallest, spread};
 
 /// Passages in one stretch of a quiet part whose likelihood is taken.
-const STRETCH: usize = 120;
+const STRETCH: usize = 80;
 /// Passages beyond the lively part that take part in its fit.
 const BEYOND: usize = 40;
 
@@ -111,7 +111,7 @@ pub(super) fn quiet(data: &Data, range: std::ops::Range<usize>) -> (Noise, f64) 
     };
     // A density that changes the speed by a thousandth over a hundred intervals, to begin with.
     let (best, _) =
-        smallest([0.0, -0.5, 1.5, (1e-12 * speed * speed).ln()], [0.5, 1.0, 1.0, 4.0], 200, 0.05, cost);
+        smallest([0.0, -0.5, 1.5, (1e-12 * speed * speed).ln()], [0.5, 1.0, 1.0, 4.0], 160, 0.1, cost);
     (noise(&best), best[3].exp())
 }
 
@@ -125,6 +125,18 @@ pub(super) fn settling(data: &Data, range: std::ops::Range<usize>, noise: Noise,
     quiet * smallest(start, [2.0], 16, 0.05, cost).0[0].max(0.0).exp()
 }
 
+/// Passages that tell the knots and the density: all near the knots, some between where there are many.
+fn thinned(data: &Data, sight: &Sight, range: std::ops::Range<usize>) -> Vec<Passage> {
+    const ALL: usize = 24;
+    const BETWEEN: usize = 40;
+    let inner = (sight.first + ALL).min(sight.after)..sight.after.saturating_sub(ALL).max(sight.first);
+    let step = inner.len().div_ceil(BETWEEN).max(1);
+    range
+        .filter(|k| !inner.contains(k) || (k - inner.start) % step == 0)
+        .map(|k| data.passages[k])
+        .collect()
+}
+
 /// Plans for the lively part with their weights, the best one first.
 pub(super) fn lively(data: &Data, sight: &Sight, base: &Plan) -> (Vec<(Plan, f64)>, std::ops::Range<usize>) {
     let from = if sight.rests { 0 } else { sight.first.saturating_sub(BEYOND) };
@@ -133,10 +145,14 @@ pub(super) fn lively(data: &Data, sight: &Sight, base: &Plan) -> (Vec<(Plan, f64
     let length = (sight.lock - sight.engage).max(1.0);
     let first = data.passages[sight.first.min(data.passages.len() - 1)].time;
     let last = data.passages[data.passages.len() - 1].time;
+    let latest = (sight.lock + length).min(data.passages[to - 1].time);
     let plan = |x: &[f64; 3], (start, stop): (Knot, Knot)| -> Option<Plan> {
         let engage = if sight.rests { first - length * x[1].exp() } else { sight.engage + length * x[1] };
         let lock = engage + length * x[2].exp();
-        let inside = engage >= data.watched.0.min(first - 4.0 * length) && (lock > first) && x[0].abs() < 200.0;
+        let inside = engage >= data.watched.0.min(first - 4.0 * length)
+            && lock > first
+            && (lock < latest || !sight.ends)
+            && x[0].abs() < 200.0;
         (inside && x[1].abs() < 20.0 && x[2].abs() < 5.0).then(|| Plan {
             lively: Some(Lively {
                 engage,
@@ -149,15 +165,16 @@ pub(super) fn lively(data: &Data, sight: &Sight, base: &Plan) -> (Vec<(Plan, f64
             ..*base
         })
     };
+    let some = thinned(data, sight, range.clone());
     let mut parts: Vec<(Plan, f64)> = Vec::new();
     let peak = 2.0 * sight.change / length;
     // A bell of this height and length has about this jerk, gathered over its length.
     let density = (3.0 * peak / length).powi(2) / length;
     let cost = |jumps| {
-        let (plan, range) = (&plan, &range);
+        let (plan, some) = (&plan, &some);
         move |x: &[f64; 3]| match plan(x, jumps) {
             // Every instant is as likely as any other: logarithms of lengths carry their derivative.
-            Some(plan) => -plan.likelihood(data, range.clone()) - if sight.rests { x[1] } else { 0.0 } - x[2],
+            Some(plan) => -plan.likelihood_of(data, some) - if sight.rests { x[1] } else { 0.0 } - x[2],
             None => f64::INFINITY,
         }
     };
@@ -168,22 +185,24 @@ pub(super) fn lively(data: &Data, sight: &Sight, base: &Plan) -> (Vec<(Plan, f64
         starts.map(|start| (start, Knot::Soft)).to_vec()
     };
     let mut bests = Vec::new();
+    let mut warm = None;
     for jumps in variants {
         let offset = if sight.rests { ((first - sight.engage) / length).max(0.02).ln() } else { 0.0 };
-        let start = [density.ln(), offset, 0.0];
+        let start = warm.unwrap_or([density.ln(), offset, 0.0]);
         let steps = [2.0, if sight.rests { 0.3 } else { 0.05 }, 0.1];
-        let best = smallest(start, steps, 160, 0.02, cost(jumps));
+        let best = smallest(start, steps, if warm.is_some() { 60 } else { 120 }, 0.1, cost(jumps));
+        warm = Some(best.0);
         bests.push((jumps, best));
     }
     let top = bests.iter().map(|b| -b.1.1).fold(f64::NEG_INFINITY, f64::max);
     for (jumps, (best, value)) in bests {
-        // What is less likely by e^-6 at its best has no weight.
-        if -value < top - 6.0 {
+        // What is less likely by e^-5 at its best has no weight.
+        if -value < top - 5.0 {
             continue;
         }
         let guess = [0.8, if sight.rests { 0.3 } else { 0.05 }, 0.08];
         let cost = cost(jumps);
-        let (points, evidence) = spread(best, guess, 64, cost);
+        let (points, evidence) = spread(best, guess, 40, cost);
         for (x, weight) in points {
             if let Some(plan) = plan(&x, jumps)
                 && weight > 0.0

@@ -57,6 +57,10 @@ pub(super) fn drift(dt: f64, memory: &Memory) -> Matrix {
 ///
 /// Formula: Q_ij = density dt^(7-i-j) / ((7-i-j) (3-i)! (3-j)!), i, j from 0 to 3.
 pub(super) fn gathered(dt: f64, density: f64, memory: &Memory) -> Matrix {
+    gathered_with(dt, density, memory.spread * memory.spread * -(-2.0 * dt * memory.rate).exp_m1())
+}
+
+fn gathered_with(dt: f64, density: f64, clock: f64) -> Matrix {
     let d2 = dt * dt;
     let d3 = d2 * dt;
     let (d4, d5) = (d2 * d2, d2 * d3);
@@ -65,7 +69,6 @@ pub(super) fn gathered(dt: f64, density: f64, memory: &Memory) -> Matrix {
     let (a, b, c, d) = (x(d7 / 252.0), x(d6 / 72.0), x(d5 / 30.0), x(d4 / 24.0));
     let (e, f, g) = (x(d5 / 20.0), x(d4 / 8.0), x(d3 / 6.0));
     let (h, i, j) = (x(d3 / 3.0), x(d2 / 2.0), x(dt));
-    let clock = memory.spread * memory.spread * -(-2.0 * dt * memory.rate).exp_m1();
     [
         [a, b, c, d, 0.0],
         [b, e, f, g, 0.0],
@@ -75,10 +78,18 @@ pub(super) fn gathered(dt: f64, density: f64, memory: &Memory) -> Matrix {
     ]
 }
 
-/// Covariance after a time.
-pub(super) fn predicted(p: &Matrix, dt: f64, density: f64, memory: &Memory) -> Matrix {
+/// Mean and covariance after a time: `f x`, `f p fᵀ + q`, with what is zero left out.
+#[inline]
+pub(super) fn advance(x: &mut Vector, p: &mut Matrix, dt: f64, density: f64, memory: &Memory) {
     let (h, s) = (0.5 * dt * dt, dt * dt * dt / 6.0);
     let kept = (-dt * memory.rate).exp();
+    *x = [
+        x[0] + dt * x[1] + h * x[2] + s * x[3],
+        x[1] + dt * x[2] + h * x[3],
+        x[2] + dt * x[3],
+        x[3],
+        kept * x[4],
+    ];
     let mut a = [[0.0; N]; N];
     for j in 0..N {
         a[0][j] = p[0][j] + dt * p[1][j] + h * p[2][j] + s * p[3][j];
@@ -87,7 +98,7 @@ pub(super) fn predicted(p: &Matrix, dt: f64, density: f64, memory: &Memory) -> M
         a[3][j] = p[3][j];
         a[4][j] = kept * p[4][j];
     }
-    let mut b = gathered(dt, density, memory);
+    let mut b = gathered_with(dt, density, memory.spread * memory.spread * (1.0 - kept * kept));
     for i in 0..N {
         b[i][0] += a[i][0] + dt * a[i][1] + h * a[i][2] + s * a[i][3];
         b[i][1] += a[i][1] + dt * a[i][2] + h * a[i][3];
@@ -102,7 +113,7 @@ pub(super) fn predicted(p: &Matrix, dt: f64, density: f64, memory: &Memory) -> M
             b[j][i] = mean;
         }
     }
-    b
+    *p = b;
 }
 
 /// Lower triangle `l` with `l lᵀ = p` of a matrix that may be singular.

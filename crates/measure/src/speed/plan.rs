@@ -161,14 +161,17 @@ pub(super) struct Plan {
 impl Plan {
     /// Nodes, start and density after the last node, of some passages.
     pub fn nodes(&self, data: &Data, range: std::ops::Range<usize>) -> (Vec<Node>, Belief) {
-        let passages = &data.passages[range.clone()];
+        self.nodes_of(data, &data.passages[range])
+    }
+
+    fn nodes_of(&self, data: &Data, passages: &[Passage]) -> (Vec<Node>, Belief) {
         let mut nodes = Vec::with_capacity(passages.len() + 2);
         let mut knots: Vec<(f64, Option<[f64; 4]>)> = Vec::new();
         let first = passages[0];
         let mut start = moving(&first, data.pitch);
         let clock = self.noise.memory.spread * self.noise.memory.spread;
         if let Some(lively) = &self.lively {
-            if self.rests && range.start == 0 {
+            if self.rests && lively.engage <= first.time {
                 start = resting(data, lively);
                 knots.push((lively.engage, None));
             } else if lively.engage > first.time {
@@ -206,7 +209,12 @@ impl Plan {
 
     /// Log likelihood of some passages.
     pub fn likelihood(&self, data: &Data, range: std::ops::Range<usize>) -> f64 {
-        let (nodes, start) = self.nodes(data, range);
+        self.likelihood_of(data, &data.passages[range])
+    }
+
+    /// Log likelihood of a choice of passages.
+    pub fn likelihood_of(&self, data: &Data, passages: &[Passage]) -> f64 {
+        let (nodes, start) = self.nodes_of(data, passages);
         forward(&nodes, &start, &self.noise.memory, |_, _, _| ())
     }
 }

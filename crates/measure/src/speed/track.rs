@@ -11,7 +11,7 @@
 //!
 //! Source: Bierman, Factorization Methods for Discrete Sequential Estimation, 1977, chapter X (from memory).
 
-use super::matrix::{Matrix, Memory, N, Vector, apply, drift, gathered, minus, plus, predicted, product, root, transposed};
+use super::matrix::{Matrix, Memory, N, Vector, advance, apply, drift, gathered, minus, plus, product, root, transposed};
 
 /// A mark that passes.
 #[derive(Clone, Copy, Debug)]
@@ -84,10 +84,7 @@ pub(super) fn forward(
         let dt = node.time - time;
         time = node.time;
         if dt > 0.0 {
-            belief = Belief {
-                mean: apply(&drift(dt, memory), &belief.mean),
-                covariance: predicted(&belief.covariance, dt, node.density, memory),
-            };
+            advance(&mut belief.mean, &mut belief.covariance, dt, node.density, memory);
         }
         if let Some(added) = node.added {
             for (i, a) in added.iter().enumerate() {
@@ -173,12 +170,8 @@ impl Track {
         let Some(last) = next.checked_sub(1) else { return (self.start, [0.0; N], [[0.0; N]; N]) };
         let dt = time - self.nodes[last].time;
         let density = self.nodes.get(next).map_or(self.density, |node| node.density);
-        let from = &self.filtered[last];
-        let belief =
-            Belief {
-            mean: apply(&drift(dt, &self.memory), &from.mean),
-            covariance: predicted(&from.covariance, dt, density, &self.memory),
-        };
+        let mut belief = self.filtered[last];
+        advance(&mut belief.mean, &mut belief.covariance, dt, density, &self.memory);
         match self.nodes.get(next) {
             None => (belief, [0.0; N], [[0.0; N]; N]),
             Some(node) => {
