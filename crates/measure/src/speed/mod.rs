@@ -12,6 +12,7 @@
 //! **What it does not model**: a speed ripple quicker than two marks can show; noise of the instants with a memory longer
 //! than a few pulses; more than one quick change in a record (give the window of the one that is wanted).
 
+mod design;
 mod fit;
 mod matrix;
 mod plan;
@@ -20,7 +21,8 @@ mod track;
 
 use crate::pulse::{Pitch, Pulses, Refusal};
 use plan::{Data, Plan};
-use matrix::N;
+pub use design::marks_needed;
+use matrix::{Matrix, N};
 use track::{Belief, Track, mixed};
 
 /// Where a quick change of speed is looked for.
@@ -42,6 +44,8 @@ pub struct SpeedSettings {
     /// Largest uncertainty of the acceleration in the quick change, root mean square over it, as a part of the peak;
     /// pulses that cannot carry it are refused. None: take what there is.
     pub wanted: Option<f64>,
+    /// How long the quick change lasts, s, where it is known: tells how many marks are needed when there are too few.
+    pub duration: Option<f64>,
     /// Standard uncertainty of a delay that all pulses have in common (pickup, filter), s. Pulses cannot show it.
     pub latency: f64,
     /// Standard uncertainty (root mean square) of an acceleration ripple once per revolution while the wheel was calibrated,
@@ -53,7 +57,7 @@ pub struct SpeedSettings {
 impl Default for SpeedSettings {
     /// One quick change at most, any uncertainty, no delay and no ripple.
     fn default() -> Self {
-        SpeedSettings { transient: Transient::Auto, wanted: None, latency: 0.0, ripple: 0.0 }
+        SpeedSettings { transient: Transient::Auto, wanted: None, duration: None, latency: 0.0, ripple: 0.0 }
     }
 }
 
@@ -134,6 +138,9 @@ pub fn smooth(pulses: &Pulses, pitch: Option<&Pitch>, settings: &SpeedSettings) 
     }
     let data = Data::new(pulses, pitch);
     let sight = fit::sight(&data, &settings.transient);
+    if let Some(sight) = &sight {
+        enough(&data, sight, settings)?;
+    }
     let mut notes = pulses.notes.clone();
     let quiet_from = sight.map_or(0, |s| s.after.min(n));
     let (noise, density) = if n - quiet_from >= 12 {
@@ -186,7 +193,75 @@ pub fn smooth(pulses: &Pulses, pitch: Option<&Pitch>, settings: &SpeedSettings) 
     }
     let (nodes, start) = base.nodes(&data, 0..n);
     speed.base = Track::new(nodes, start, base.quiet[2], noise.memory);
+    if let (Some(change), Some(wanted)) = (speed.change, settings.wanted) {
+        let (from, to) = (change.engagement.0, change.end.map_or(speed.range().1, |end| end.0));
+        let got = speed.relative_uncertainty(from, to);
+        // Written so that a value that is not a number is refused.
+        if got.is_nan() || got > wanted {
+            let timing = stated(pulses) * noise.timing;
+            let jump = (speed.at(to).speed - speed.at(from).speed).abs();
+            return Err(Refusal::new(
+                format!(
+                    "the {} pulses of the quick change give its acceleration to {:.1} % of its peak, {:.1} % are wanted",
+                    change.pulses,
+                    100.0 * got,
+                    100.0 * wanted
+                ),
+                needed(marks_needed(jump, to - from, timing, wanted), pulses, wanted),
+            ));
+        }
+    }
     Ok(speed)
+}
+
+/// Fewest pulses within a quick change that are looked at.
+const FEWEST_WITHIN: usize = 4;
+
+/// Refuses a quick change with too few pulses to see anything of it.
+fn enough(data: &Data, sight: &fit::Sight, settings: &SpeedSettings) -> Result<(), Refusal> {
+    let within = sight.after.saturating_sub(sight.first);
+    if within >= FEWEST_WITHIN {
+        return Ok(());
+    }
+    let change = sight.change / data.unit;
+    // The change is over before the angle between two marks has passed at the new speed twice.
+    let longest = (2.0 * data.pitch / change).max((sight.lock - sight.engage) * data.unit);
+    let duration = settings.duration.filter(|d| *d > 0.0).unwrap_or(longest);
+    let wanted = settings.wanted.unwrap_or(0.1);
+    let mut spreads: Vec<f64> = data.passages.iter().map(|p| p.spread * data.unit).collect();
+    let timing = crate::pulse::median(&mut spreads);
+    let marks = marks_needed(change, duration, timing, wanted);
+    let least = if settings.duration.is_some() { "" } else { " or less" };
+    Err(Refusal::new(
+        format!("the speed changes by {change:.1} rad/s in {:.1} ms{least}, in which {within} pulses came", 1e3 * duration),
+        match marks {
+            Some(marks) => format!(
+                "{}{marks} marks per revolution for an acceleration within {:.0} % of its peak (there are {:.0})",
+                if settings.duration.is_some() { "" } else { "at least " },
+                100.0 * wanted,
+                std::f64::consts::TAU / data.pitch
+            ),
+            None => "more exact instants: no number of marks is enough with these".into(),
+        },
+    ))
+}
+
+fn needed(marks: Option<usize>, pulses: &Pulses, wanted: f64) -> String {
+    match marks {
+        Some(marks) if marks > pulses.positions => {
+            format!("about {marks} marks per revolution for {:.1} % (there are {})", 100.0 * wanted, pulses.positions)
+        }
+        _ => format!(
+            "more exact instants: {} marks per revolution would do for {:.1} % if their angles were known",
+            pulses.positions,
+            100.0 * wanted
+        ),
+    }
+}
+
+/// Usual stated uncertainty of an instant, s.
+fn stated(pulses: &Pulses) -> f64 {
+    crate::pulse::median(&mut pulses.uncertainties.clone())
 }
 
 /// Instants of the knots from the plans that are left.
@@ -215,22 +290,33 @@ impl Speed {
         (self.origin + self.unit * self.base.begin(), self.origin + self.unit * self.base.end())
     }
 
-    fn belief(&self, time: f64) -> Belief {
-        if time >= self.window.0 && time <= self.window.1 {
-            let parts = self.parts.iter().map(|(weight, track)| (*weight, at(track, time)));
-            return mixed(parts.collect::<Vec<_>>().into_iter());
+    /// The tracks that hold at an instant, in units, with their weights.
+    fn tracks(&self, time: f64) -> Vec<(f64, &Track)> {
+        if time >= self.window.0 && time <= self.window.1 && !self.parts.is_empty() {
+            self.parts.iter().map(|(weight, track)| (*weight, track)).collect()
+        } else {
+            vec![(1.0, &self.base)]
         }
-        at(&self.base, time)
+    }
+
+    fn belief(&self, time: f64) -> Belief {
+        let beliefs: Vec<(f64, Belief)> = self.tracks(time).iter().map(|(w, track)| (*w, at(track, time))).collect();
+        mixed(beliefs.iter().copied())
+    }
+
+    /// Units of angle, speed, acceleration and jerk.
+    fn scale(&self) -> [f64; 4] {
+        [1.0, self.unit.recip(), self.unit.powi(-2), self.unit.powi(-3)]
     }
 
     /// The motion at an instant, s; outside the range of the pulses it is carried on, with growing covariance, and before
     /// an engagement from rest it is rest.
     pub fn at(&self, seconds: f64) -> Motion {
         let belief = self.belief((seconds - self.origin) / self.unit);
-        let scale = [1.0, self.unit.recip(), self.unit.powi(-2), self.unit.powi(-3)];
+        let scale = self.scale();
         let [angle, speed, acceleration, jerk] = std::array::from_fn(|i| belief.mean[i] * scale[i]);
         let late = [speed, acceleration, jerk].map(|x| x * self.latency);
-        let wrong = self.wrong_wheel(speed, acceleration);
+        let wrong = self.wrong_wheel(0.0, speed, acceleration);
         Motion {
             time: seconds,
             angle,
@@ -245,12 +331,110 @@ impl Speed {
         }
     }
 
-    /// What the sine and the cosine of an eccentricity taken for wheel errors, each of unit weight, do to angle, speed and
-    /// acceleration where the angle is zero: e sin θ and e cos θ with their derivatives.
-    fn wrong_wheel(&self, speed: f64, acceleration: f64) -> [[f64; 3]; 2] {
-        let e = self.eccentricity;
-        [[0.0, e * speed, e * acceleration], [e, 0.0, -e * speed * speed]]
+    /// Covariance of angle, speed and acceleration at one instant (rows) with those at another (columns), s.
+    ///
+    /// Within a quick change, and outside it, all that is unknown takes part; between an instant inside and one outside, the
+    /// knots count as known.
+    pub fn covariance(&self, first: f64, second: f64) -> [[f64; 3]; 3] {
+        if second < first {
+            let other = self.covariance(second, first);
+            return std::array::from_fn(|i| std::array::from_fn(|j| other[j][i]));
+        }
+        let times = [first, second].map(|t| (t - self.origin) / self.unit);
+        let inside = times.iter().all(|&t| t >= self.window.0 && t <= self.window.1);
+        let tracks = if inside { self.tracks(times[0]) } else { vec![(1.0, &self.base)] };
+        let parts: Vec<_> = tracks.iter().map(|(w, track)| (*w, times.map(|t| at(track, t)), between(track, times))).collect();
+        let mean: [[f64; 3]; 2] =
+            std::array::from_fn(|k| std::array::from_fn(|i| parts.iter().map(|p| p.0 * p.1[k].mean[i]).sum()));
+        let jerk: [f64; 2] = std::array::from_fn(|k| parts.iter().map(|p| p.0 * p.1[k].mean[3]).sum());
+        let scale = self.scale();
+        let late = [0, 1].map(|k| {
+            [mean[k][1] * scale[1], mean[k][2] * scale[2], jerk[k] * scale[3]].map(|x| x * self.latency)
+        });
+        let wrong = [0, 1]
+            .map(|k| self.wrong_wheel(mean[k][0] - mean[0][0], mean[k][1] * scale[1], mean[k][2] * scale[2]));
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                let own: f64 = parts
+                    .iter()
+                    .map(|p| p.0 * (p.2[i][j] + (p.1[0].mean[i] - mean[0][i]) * (p.1[1].mean[j] - mean[1][j])))
+                    .sum();
+                let wheel: f64 = (0..2).map(|w| wrong[0][w][i] * wrong[1][w][j]).sum();
+                own * scale[i] * scale[j] + late[0][i] * late[1][j] + wheel
+            })
+        })
     }
+
+    /// A motion drawn at random from all that the pulses leave open: angle, speed and acceleration at increasing instants, s.
+    ///
+    /// `uniform` from 0 to 1 picks the knots; `normal` gives independent standard normal numbers. All instants within the
+    /// quick change or all anywhere: then the knots count as known. Instants before the first pulse, or before an
+    /// engagement from rest, are at its state.
+    pub fn draw(&self, times: &[f64], uniform: f64, normal: &mut dyn FnMut() -> f64) -> Vec<[f64; 3]> {
+        let units: Vec<f64> = times.iter().map(|t| (t - self.origin) / self.unit).collect();
+        let inside = units.iter().all(|&t| t >= self.window.0 && t <= self.window.1);
+        let mut left = uniform;
+        let part = self.parts.iter().find(|(weight, _)| {
+            left -= weight;
+            left <= 0.0
+        });
+        let track = match part.or(self.parts.last()) {
+            Some((_, track)) if inside => track,
+            _ => &self.base,
+        };
+        let begin = track.begin();
+        let clamped: Vec<f64> = units.iter().map(|t| t.max(begin)).collect();
+        let path = track.draw(&clamped, normal);
+        let (delay, sine, cosine) = (normal() * self.latency, normal(), normal());
+        let scale = self.scale();
+        let origin = path.first().map_or(0.0, |x| x[0]);
+        units
+            .iter()
+            .zip(&path)
+            .map(|(&t, x)| {
+                let rest = if t < begin { [x[0], 0.0, 0.0, 0.0] } else { [x[0], x[1], x[2], x[3]] };
+                let [angle, speed, acceleration, jerk] = std::array::from_fn(|i| rest[i] * scale[i]);
+                let late = [speed, acceleration, jerk].map(|v| v * delay);
+                let wrong = self.wrong_wheel(angle - origin, speed, acceleration);
+                let now = [angle, speed, acceleration];
+                std::array::from_fn(|i| now[i] + late[i] + sine * wrong[0][i] + cosine * wrong[1][i])
+            })
+            .collect()
+    }
+
+    /// Root mean square uncertainty of the acceleration over an interval, s, as a part of its largest value there.
+    pub fn relative_uncertainty(&self, from: f64, to: f64) -> f64 {
+        const POINTS: usize = 60;
+        let (mut square, mut peak) = (0.0, 0.0f64);
+        for k in 0..POINTS {
+            let motion = self.at(from + (to - from) * (k as f64 + 0.5) / POINTS as f64);
+            square += motion.covariance[2][2] / POINTS as f64;
+            peak = peak.max(motion.acceleration.abs());
+        }
+        square.sqrt() / peak
+    }
+
+    /// What the sine and the cosine of an eccentricity taken for wheel errors, each of unit weight, do to angle, speed and
+    /// acceleration at an angle from where they are counted: e sin θ and e cos θ with their derivatives.
+    fn wrong_wheel(&self, angle: f64, speed: f64, acceleration: f64) -> [[f64; 3]; 2] {
+        let (e, (sine, cosine)) = (self.eccentricity, angle.sin_cos());
+        let of = |value: f64, slope: f64| {
+            [e * value, e * slope * speed, e * (slope * acceleration - value * speed * speed)]
+        };
+        [of(sine, cosine), of(cosine, -sine)]
+    }
+}
+
+/// Covariance of the states of a track at two instants in order, at rest before its start.
+fn between(track: &Track, times: [f64; 2]) -> Matrix {
+    let begin = track.begin();
+    let both = track.between(times[0].max(begin), times[1].max(begin));
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let rests = (i > 0 && times[0] < begin) || (j > 0 && times[1] < begin);
+            if rests { 0.0 } else { both[i][j] }
+        })
+    })
 }
 
 /// Belief of a track, at rest before its start where it starts from rest.
