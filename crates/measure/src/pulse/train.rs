@@ -132,7 +132,7 @@ fn without_doubles(main: &[usize], times: &[f64]) -> (Vec<usize>, Vec<usize>) {
         let (a, b) = (time(k) - time(k - 1), time(k + 1) - time(k));
         let usual = (left * right).sqrt();
         let whole = (a + b) / usual;
-        let small = a.min(b) < 0.45 * left.min(right);
+        let small = a.min(b) < 0.6 * left.min(right);
         (small && whole > 0.55 && whole < 1.6).then(|| whole.ln().abs())
     };
     let (mut kept, mut extra) = (Vec::with_capacity(main.len()), Vec::new());

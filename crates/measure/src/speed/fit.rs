@@ -46,7 +46,14 @@ pub(super) fn sight(data: &Data, wanted: &Transient) -> Option<Sight> {
     let silence = all[0].time - data.watched.0;
     // At rest before: watched for long without a pulse, or intervals that shrink as from rest.
     let rests = from == 0 && (silence > 2.0 * interval(0) || (silence < 1e-9 && interval(0) > 1.6 * interval(1)));
-    let speeds: Vec<f64> = (from..to - 1).map(speed).collect();
+    let rough: Vec<f64> = (from..to - 1).map(speed).collect();
+    // The median of three: one odd interval is no change of speed.
+    let speeds: Vec<f64> = (0..rough.len())
+        .map(|k| {
+            let (a, b) = (rough[k.saturating_sub(1)], rough[(k + 1).min(rough.len() - 1)]);
+            a.min(b).max(rough[k].min(a.max(b)))
+        })
+        .collect();
     let (top, &high) = speeds.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
     let low = if rests { 0.0 } else { speeds[..=top].iter().copied().fold(f64::INFINITY, f64::min) };
     let change = high - low;
@@ -145,11 +152,13 @@ pub(super) fn lively(data: &Data, sight: &Sight, base: &Plan) -> (Vec<(Plan, f64
     let length = (sight.lock - sight.engage).max(1.0);
     let first = data.passages[sight.first.min(data.passages.len() - 1)].time;
     let last = data.passages[data.passages.len() - 1].time;
+    // Where nobody watched before the first pulse, the engagement may be some time before it.
+    let earliest = if first - data.watched.0 > 1e-9 { data.watched.0 } else { first - 4.0 * length };
     let latest = (sight.lock + length).min(data.passages[to - 1].time);
     let plan = |x: &[f64; 3], (start, stop): (Knot, Knot)| -> Option<Plan> {
         let engage = if sight.rests { first - length * x[1].exp() } else { sight.engage + length * x[1] };
         let lock = engage + length * x[2].exp();
-        let inside = engage >= data.watched.0.min(first - 4.0 * length)
+        let inside = engage >= earliest
             && lock > first
             && (lock < latest || !sight.ends)
             && x[0].abs() < 200.0;
@@ -173,8 +182,7 @@ pub(super) fn lively(data: &Data, sight: &Sight, base: &Plan) -> (Vec<(Plan, f64
     let cost = |jumps| {
         let (plan, some) = (&plan, &some);
         move |x: &[f64; 3]| match plan(x, jumps) {
-            // Every instant is as likely as any other: logarithms of lengths carry their derivative.
-            Some(plan) => -plan.likelihood_of(data, some) - if sight.rests { x[1] } else { 0.0 } - x[2],
+            Some(plan) => -plan.likelihood_of(data, some),
             None => f64::INFINITY,
         }
     };
@@ -211,6 +219,7 @@ pub(super) fn lively(data: &Data, sight: &Sight, base: &Plan) -> (Vec<(Plan, f64
             }
         }
     }
+    parts.retain(|p| p.1.is_finite());
     let top = parts.iter().map(|p| p.1).fold(f64::NEG_INFINITY, f64::max);
     parts.iter_mut().for_each(|p| p.1 = (p.1 - top).exp());
     parts.sort_by(|a, b| b.1.total_cmp(&a.1));

@@ -4,14 +4,17 @@ pub(super) const N: usize = 5;
 pub(super) type Vector = [f64; N];
 pub(super) type Matrix = [[f64; N]; N];
 
+#[inline]
 pub(super) fn product(a: &Matrix, b: &Matrix) -> Matrix {
     let mut c = [[0.0; N]; N];
-    for i in 0..N {
-        for k in 0..N {
-            for j in 0..N {
-                c[i][j] += a[i][k] * b[k][j];
+    for (from, to) in a.iter().zip(&mut c) {
+        let mut row = [0.0; N];
+        for (x, other) in from.iter().zip(b) {
+            for (sum, y) in row.iter_mut().zip(other) {
+                *sum += x * y;
             }
         }
+        *to = row;
     }
     c
 }
@@ -114,6 +117,44 @@ pub(super) fn advance(x: &mut Vector, p: &mut Matrix, dt: f64, density: f64, mem
         }
     }
     *p = b;
+}
+
+/// A gradient and a curvature taken back over a time: `fᵀ g`, `fᵀ c f`.
+#[inline]
+pub(super) fn taken_back(g: &mut Vector, c: &mut Matrix, dt: f64, memory: &Memory) {
+    let (h, s) = (0.5 * dt * dt, dt * dt * dt / 6.0);
+    let kept = (-dt * memory.rate).exp();
+    *g = [
+        g[0],
+        dt * g[0] + g[1],
+        h * g[0] + dt * g[1] + g[2],
+        s * g[0] + h * g[1] + dt * g[2] + g[3],
+        kept * g[4],
+    ];
+    let mut a = [[0.0; N]; N];
+    for j in 0..N {
+        a[0][j] = c[0][j];
+        a[1][j] = dt * c[0][j] + c[1][j];
+        a[2][j] = h * c[0][j] + dt * c[1][j] + c[2][j];
+        a[3][j] = s * c[0][j] + h * c[1][j] + dt * c[2][j] + c[3][j];
+        a[4][j] = kept * c[4][j];
+    }
+    for i in 0..N {
+        c[i] = [
+            a[i][0],
+            dt * a[i][0] + a[i][1],
+            h * a[i][0] + dt * a[i][1] + a[i][2],
+            s * a[i][0] + h * a[i][1] + dt * a[i][2] + a[i][3],
+            kept * a[i][4],
+        ];
+    }
+    for i in 0..N {
+        for j in 0..i {
+            let mean = 0.5 * (c[i][j] + c[j][i]);
+            c[i][j] = mean;
+            c[j][i] = mean;
+        }
+    }
 }
 
 /// Lower triangle `l` with `l lᵀ = p` of a matrix that may be singular.

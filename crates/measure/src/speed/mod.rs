@@ -9,7 +9,7 @@
 //! at which acceleration and jerk may jump. From rest the speed is zero until the engagement, and the angle is anywhere
 //! between two marks.
 //!
-//! **What it does not model**: a speed ripple quicker than two marks can show; noise of the instants with a memory longer
+//! **What it does not model**: a shaft that turns back; a speed ripple quicker than two marks can show; noise of the instants with a memory longer
 //! than a few pulses; more than one quick change in a record (give the window of the one that is wanted).
 
 mod design;
@@ -178,9 +178,13 @@ pub fn smooth(pulses: &Pulses, pitch: Option<&Pitch>, settings: &SpeedSettings) 
     };
     if let Some(sight) = &sight {
         let (plans, range) = fit::lively(&data, sight, &base);
-        if let Some((best, _)) = plans.first() {
-            base = *best;
-        }
+        let Some((best, _)) = plans.first() else {
+            return Err(Refusal::new(
+                "the start and the end of the quick change cannot be told".into(),
+                "the window of one change of speed, with even running after it",
+            ));
+        };
+        base = *best;
         let track = |plan: &Plan| {
             let (nodes, start) = plan.nodes(&data, range.clone());
             Track::new(nodes, start, plan.quiet[2], noise.memory)
@@ -193,6 +197,12 @@ pub fn smooth(pulses: &Pulses, pitch: Option<&Pitch>, settings: &SpeedSettings) 
     }
     let (nodes, start) = base.nodes(&data, 0..n);
     speed.base = Track::new(nodes, start, base.quiet[2], noise.memory);
+    if !(speed.base.is_finite() && speed.parts.iter().all(|(_, track)| track.is_finite())) {
+        return Err(Refusal::new(
+            "the intervals of the pulses differ so much that they cannot be smoothed".into(),
+            "pulses of one wheel that turns forward; look at the signal",
+        ));
+    }
     if let (Some(change), Some(wanted)) = (speed.change, settings.wanted) {
         let (from, to) = (change.engagement.0, change.end.map_or(speed.range().1, |end| end.0));
         let got = speed.relative_uncertainty(from, to);

@@ -215,7 +215,7 @@ impl Plan {
     /// Log likelihood of a choice of passages.
     pub fn likelihood_of(&self, data: &Data, passages: &[Passage]) -> f64 {
         let (nodes, start) = self.nodes_of(data, passages);
-        forward(&nodes, &start, &self.noise.memory, |_, _, _| ())
+        forward(&nodes, &start, &self.noise.memory, |_, _| ())
     }
 }
 

@@ -11,7 +11,7 @@
 //!
 //! Source: Bierman, Factorization Methods for Discrete Sequential Estimation, 1977, chapter X (from memory).
 
-use super::matrix::{Matrix, Memory, N, Vector, advance, apply, drift, gathered, minus, plus, product, root, transposed};
+use super::matrix::{Matrix, Memory, N, Vector, advance, apply, drift, gathered, minus, plus, product, root, taken_back, transposed};
 
 /// A mark that passes.
 #[derive(Clone, Copy, Debug)]
@@ -58,24 +58,34 @@ pub(super) struct Belief {
 #[derive(Clone, Debug)]
 pub(super) struct Track {
     nodes: Vec<Node>,
+    times: Vec<f64>,
     start: Belief,
     /// After each node.
     filtered: Vec<Belief>,
     /// Adjoint just before each node: gradient and curvature of the misfit of all that follows.
     gradient: Vec<Vector>,
     curvature: Vec<Matrix>,
+    updates: Vec<Update>,
     /// Density after the last node.
     density: f64,
     memory: Memory,
 }
 
-/// One pass forward. Returns the log likelihood, up to a constant; `visit` sees every node's belief after it, the innovation
-/// and its variance.
+/// What a node does to a belief; nothing where no mark passes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Update {
+    gain: Vector,
+    /// Innovation divided by its variance, and one over its variance.
+    pull: f64,
+    stiffness: f64,
+}
+
+/// One pass forward. Returns the log likelihood, up to a constant; `visit` sees every node's belief after it.
 pub(super) fn forward(
     nodes: &[Node],
     start: &Belief,
     memory: &Memory,
-    mut visit: impl FnMut(&Belief, f64, f64),
+    mut visit: impl FnMut(&Belief, &Update),
 ) -> f64 {
     let mut belief = *start;
     let mut time = nodes.first().map_or(0.0, |node| node.time);
@@ -91,21 +101,21 @@ pub(super) fn forward(
                 belief.covariance[i][i] += a;
             }
         }
-        let (mut innovation, mut spread) = (0.0, 1.0);
+        let mut update = Update::default();
         if let Some(pulse) = &node.pulse {
-            innovation = pulse.angle - pulse.of(&belief.mean);
+            let innovation = pulse.angle - pulse.of(&belief.mean);
             let row = pulse.seen(&belief.covariance);
-            spread = pulse.of(&row) + pulse.variance;
+            let spread = pulse.of(&row) + pulse.variance;
+            update = Update { gain: row.map(|x| x / spread), pull: innovation / spread, stiffness: spread.recip() };
             for i in 0..N {
-                let gain = row[i] / spread;
-                belief.mean[i] += gain * innovation;
+                belief.mean[i] += update.gain[i] * innovation;
                 for j in 0..N {
-                    belief.covariance[i][j] -= gain * row[j];
+                    belief.covariance[i][j] -= update.gain[i] * row[j];
                 }
             }
             likelihood -= 0.5 * (innovation * innovation / spread + spread.ln());
         }
-        visit(&belief, innovation, spread);
+        visit(&belief, &update);
     }
     if likelihood.is_finite() { likelihood } else { f64::NEG_INFINITY }
 }
@@ -113,43 +123,39 @@ pub(super) fn forward(
 impl Track {
     pub fn new(nodes: Vec<Node>, start: Belief, density: f64, memory: Memory) -> Track {
         let mut filtered = Vec::with_capacity(nodes.len());
-        let mut innovations = Vec::with_capacity(nodes.len());
-        forward(&nodes, &start, &memory, |belief, innovation, spread| {
+        let mut updates: Vec<Update> = Vec::with_capacity(nodes.len());
+        forward(&nodes, &start, &memory, |belief, update| {
             filtered.push(*belief);
-            innovations.push((innovation, spread));
+            updates.push(*update);
         });
         let mut gradient = vec![[0.0; N]; nodes.len()];
         let mut curvature = vec![[[0.0; N]; N]; nodes.len()];
         let (mut g, mut c) = ([0.0; N], [[0.0; N]; N]);
         for k in (0..nodes.len()).rev() {
             if let Some(pulse) = &nodes[k].pulse {
-                let (innovation, spread) = innovations[k];
-                // The gain from the covariance after the pulse: K = P H'/r.
-                let gain = pulse.seen(&filtered[k].covariance).map(|x| x / pulse.variance);
+                let Update { gain, pull, stiffness } = updates[k];
                 let along = (0..N).map(|i| gain[i] * g[i]).sum::<f64>();
                 let across: Vector = apply(&c, &gain);
                 let twice = (0..N).map(|i| gain[i] * across[i]).sum::<f64>();
                 for (i, lever) in [(0, 1.0), (4, pulse.speed)] {
-                    g[i] -= lever * (innovation / spread + along);
+                    g[i] -= lever * (pull + along);
                     for j in 0..N {
                         c[i][j] -= lever * across[j];
                         c[j][i] -= lever * across[j];
                     }
                     for (j, other) in [(0, 1.0), (4, pulse.speed)] {
-                        c[i][j] += lever * other * (twice + 1.0 / spread);
+                        c[i][j] += lever * other * (twice + stiffness);
                     }
                 }
             }
             gradient[k] = g;
             curvature[k] = c;
             if k > 0 {
-                let f = drift(nodes[k].time - nodes[k - 1].time, &memory);
-                let back = transposed(&f);
-                g = apply(&back, &g);
-                c = product(&back, &product(&c, &f));
+                taken_back(&mut g, &mut c, nodes[k].time - nodes[k - 1].time, &memory);
             }
         }
-        Track { nodes, start, filtered, gradient, curvature, density, memory }
+        let times = nodes.iter().map(|node| node.time).collect();
+        Track { nodes, times, start, filtered, gradient, curvature, updates, density, memory }
     }
 
     pub fn begin(&self) -> f64 {
@@ -160,13 +166,22 @@ impl Track {
         self.nodes.last().map_or(0.0, |node| node.time)
     }
 
+    /// Whether every number is finite.
+    pub fn is_finite(&self) -> bool {
+        let sound = |m: &Matrix| m.iter().flatten().all(|x| x.is_finite());
+        self.times.iter().all(|t| t.is_finite())
+            && self.filtered.iter().all(|b| b.mean.iter().all(|x| x.is_finite()) && sound(&b.covariance))
+            && self.gradient.iter().flatten().all(|x| x.is_finite())
+            && self.curvature.iter().all(sound)
+    }
+
     pub fn start(&self) -> &Belief {
         &self.start
     }
 
     /// Filtered belief carried to an instant, and the adjoint there.
     fn around(&self, time: f64) -> (Belief, Vector, Matrix) {
-        let next = self.nodes.partition_point(|node| node.time <= time);
+        let next = self.times.partition_point(|&t| t <= time);
         let Some(last) = next.checked_sub(1) else { return (self.start, [0.0; N], [[0.0; N]; N]) };
         let dt = time - self.nodes[last].time;
         let density = self.nodes.get(next).map_or(self.density, |node| node.density);
@@ -175,9 +190,9 @@ impl Track {
         match self.nodes.get(next) {
             None => (belief, [0.0; N], [[0.0; N]; N]),
             Some(node) => {
-                let f = drift(node.time - time, &self.memory);
-                let back = transposed(&f);
-                (belief, apply(&back, &self.gradient[next]), product(&back, &product(&self.curvature[next], &f)))
+                let (mut g, mut c) = (self.gradient[next], self.curvature[next]);
+                taken_back(&mut g, &mut c, node.time - time, &self.memory);
+                (belief, g, c)
             }
         }
     }
@@ -201,12 +216,12 @@ impl Track {
         // How an error at the first instant is carried through forecasts and updates to the second.
         let mut carried = drift(0.0, &self.memory);
         let mut time = first;
-        let mut k = self.nodes.partition_point(|node| node.time <= first);
+        let mut k = self.times.partition_point(|&t| t <= first);
         while k < self.nodes.len() && self.nodes[k].time <= second {
             carried = product(&drift(self.nodes[k].time - time, &self.memory), &carried);
             time = self.nodes[k].time;
             if let Some(pulse) = &self.nodes[k].pulse {
-                let gain = pulse.seen(&self.filtered[k].covariance).map(|x| x / pulse.variance);
+                let gain = self.updates[k].gain;
                 let row: Vector = std::array::from_fn(|j| carried[0][j] + pulse.speed * carried[4][j]);
                 for i in 0..N {
                     for j in 0..N {

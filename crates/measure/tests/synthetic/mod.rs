@@ -98,7 +98,7 @@ pub fn spin_up(seed: u64, speed: f64, peak: f64, after: f64) -> Truth {
             peak * raw(x) / top
         } else {
             let s = t - lock;
-            ring * (-s / ring_time).exp() * (ring_rate * s).sin() - drag + ripple * (angle + ripple_phase).sin()
+            ring * (-s / ring_time).exp() * (ring_rate * s).sin() - drag * spin / speed + ripple * (angle + ripple_phase).sin()
         };
         if let Some(&last) = truth.acceleration.last() {
             let next = spin + 0.5 * step * (last + acceleration);
