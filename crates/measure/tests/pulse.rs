@@ -5,7 +5,9 @@ mod synthetic;
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-use measure::pulse::{EdgeSettings, Edges, Flank, Pulses, Wheel, calibrate, edges, number, period};
+use measure::pulse::{
+    EdgeSettings, Edges, Flank, Pulses, Wheel, calibrate, check_marks, edges, number, period,
+};
 use measure::speed::{SpeedSettings, Transient, smooth};
 use proptest::prelude::*;
 use synthetic::Random;
@@ -25,33 +27,72 @@ fn trapezoids(rate: f64, duty: f64, flank: f64, seconds: f64) -> impl Iterator<I
 #[test]
 fn middle_of_a_flank_is_found_between_samples_at_any_duty_noise_and_drift() {
     let mut random = Random::new(1);
-    for (duty, noise, drift) in [(0.5, 0.0, 0.0), (0.12, 0.02, 0.0), (0.85, 0.02, 0.0), (0.5, 0.05, 3.0), (0.3, 0.01, -2.0)] {
+    for (duty, noise, drift) in [
+        (0.5, 0.0, 0.0),
+        (0.12, 0.02, 0.0),
+        (0.85, 0.02, 0.0),
+        (0.5, 0.05, 3.0),
+        (0.3, 0.01, -2.0),
+    ] {
         // 73 pulses a second: 137 samples a pulse, flanks of 8 samples.
         let samples: Vec<f64> = trapezoids(73.0, duty, 0.06, 2.0)
             .map(|(time, x)| 4.0 * x - 1.0 + drift * time + 4.0 * noise * random.normal())
             .collect();
         for flank in [Flank::Rising, Flank::Falling] {
-            let found = edges(0.0, 1e-4, &samples, &EdgeSettings { flank, ..Default::default() }).unwrap();
-            assert!((found.times.len() as i64 - 146).abs() <= 1, "{} flanks", found.times.len());
+            let found = edges(
+                0.0,
+                1e-4,
+                &samples,
+                &EdgeSettings {
+                    flank,
+                    ..Default::default()
+                },
+            )
+            .unwrap();
+            assert!(
+                (found.times.len() as i64 - 146).abs() <= 1,
+                "{} flanks",
+                found.times.len()
+            );
             let offset = if flank == Flank::Rising { 0.0 } else { duty };
             let mut inside = 0;
             for (time, spread) in found.times.iter().zip(&found.uncertainties) {
                 let place = time * 73.0 - offset;
                 let error = (place - place.round()) / 73.0;
                 // A straight line through 5 samples of a flank of 8: the noise over the slope, twice, and a tenth of a sample.
-                assert!(error.abs() < 1e-4 * (0.12 + 5.0 * noise * 8.0 / 5f64.sqrt()), "{duty} {noise} {drift}: {error}");
+                assert!(
+                    error.abs() < 1e-4 * (0.12 + 5.0 * noise * 8.0 / 5f64.sqrt()),
+                    "{duty} {noise} {drift}: {error}"
+                );
                 inside += (error.abs() < 2.0 * spread + 2e-6) as usize;
             }
             // Stated uncertainties are not smaller than the errors.
-            assert!(inside * 100 >= 85 * found.times.len(), "{duty} {noise} {drift} {flank:?}: {inside} of {}", found.times.len());
+            assert!(
+                inside * 100 >= 85 * found.times.len(),
+                "{duty} {noise} {drift} {flank:?}: {inside} of {}",
+                found.times.len()
+            );
         }
     }
 }
 
 #[test]
 fn both_flanks_and_their_middle() {
-    let samples: Vec<f64> = trapezoids(50.0, 0.3, 0.05, 1.0).map(|(_, x)| 5.0 * x).collect();
-    let take = |flank| edges(0.0, 1e-4, &samples, &EdgeSettings { flank, ..Default::default() }).unwrap();
+    let samples: Vec<f64> = trapezoids(50.0, 0.3, 0.05, 1.0)
+        .map(|(_, x)| 5.0 * x)
+        .collect();
+    let take = |flank| {
+        edges(
+            0.0,
+            1e-4,
+            &samples,
+            &EdgeSettings {
+                flank,
+                ..Default::default()
+            },
+        )
+        .unwrap()
+    };
     let (rising, both, centre) = (take(Flank::Rising), take(Flank::Both), take(Flank::Centre));
     assert!(both.times.len() >= 2 * rising.times.len() - 1);
     for time in &centre.times {
@@ -87,7 +128,9 @@ fn a_gap_in_the_samples_is_told_and_nothing_is_counted_across_it() {
 
 /// Instants of a wheel that speeds up from rest: a constant acceleration of 50 rad/s².
 fn ramp(marks: usize, count: usize) -> Vec<f64> {
-    (0..count).map(|k| (2.0 * (k as f64 + 0.4) * TAU / marks as f64 / 50.0).sqrt()).collect()
+    (0..count)
+        .map(|k| (2.0 * (k as f64 + 0.4) * TAU / marks as f64 / 50.0).sqrt())
+        .collect()
 }
 
 fn stamped(times: Vec<f64>) -> Edges {
@@ -105,11 +148,22 @@ fn an_even_start_from_rest_is_no_fault() {
 fn missing_and_doubled_pulses_are_repaired_with_a_note() {
     let all = ramp(60, 500);
     for lost in [vec![10], vec![57, 58], vec![100, 300, 302, 450]] {
-        let kept: Vec<f64> = all.iter().enumerate().filter(|(k, _)| !lost.contains(k)).map(|(_, t)| *t).collect();
+        let kept: Vec<f64> = all
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| !lost.contains(k))
+            .map(|(_, t)| *t)
+            .collect();
         let numbered = number(&stamped(kept), &FULL(60)).unwrap();
-        let wanted: Vec<i64> = (0..500).filter(|k| !lost.contains(&(*k as usize))).collect();
+        let wanted: Vec<i64> = (0..500)
+            .filter(|k| !lost.contains(&(*k as usize)))
+            .collect();
         assert_eq!(numbered.marks, wanted, "lost {lost:?}");
-        assert!(numbered.notes[0].contains(&format!("{} pulses missing", lost.len())), "{:?}", numbered.notes);
+        assert!(
+            numbered.notes[0].contains(&format!("{} pulses missing", lost.len())),
+            "{:?}",
+            numbered.notes
+        );
     }
     for part in [0.05, 0.3, 0.5, 0.8] {
         let mut more = all.clone();
@@ -119,15 +173,35 @@ fn missing_and_doubled_pulses_are_repaired_with_a_note() {
         more.sort_by(f64::total_cmp);
         let numbered = number(&stamped(more), &FULL(60)).unwrap();
         let lone = numbered.marks.last().unwrap();
-        assert!((lone - 499).abs() <= 1, "{part}: {lone} {:?}", numbered.notes);
-        assert!(numbered.notes[0].contains("too many"), "{:?}", numbered.notes);
+        assert!(
+            (lone - 499).abs() <= 1,
+            "{part}: {lone} {:?}",
+            numbered.notes
+        );
+        assert!(
+            numbered.notes[0].contains("too many"),
+            "{:?}",
+            numbered.notes
+        );
     }
 }
 
 #[test]
 fn left_out_marks_are_the_reference_and_no_fault() {
-    let times: Vec<f64> = ramp(60, 900).into_iter().enumerate().filter(|(k, _)| k % 60 < 58).map(|(_, t)| t).collect();
-    let numbered = number(&stamped(times), &Wheel { marks: 60, missing: 2 }).unwrap();
+    let times: Vec<f64> = ramp(60, 900)
+        .into_iter()
+        .enumerate()
+        .filter(|(k, _)| k % 60 < 58)
+        .map(|(_, t)| t)
+        .collect();
+    let numbered = number(
+        &stamped(times),
+        &Wheel {
+            marks: 60,
+            missing: 2,
+        },
+    )
+    .unwrap();
     assert_eq!(numbered.reference, Some(0));
     assert!(numbered.notes.is_empty(), "{:?}", numbered.notes);
     assert_eq!(*numbered.marks.last().unwrap(), 14 * 60 + 57);
@@ -179,7 +253,10 @@ fn wheel_errors_are_found_within_their_stated_covariance() {
 fn an_odd_mark_is_found() {
     let mut errors = synthetic::wheel(&mut Random::new(5), 24, 3e-4, 0.0);
     errors[17] += 0.02;
-    assert_eq!(calibrate(&coast(&errors, 3, 1e-6, 1.0)).unwrap().odd, Some(17));
+    assert_eq!(
+        calibrate(&coast(&errors, 3, 1e-6, 1.0)).unwrap().odd,
+        Some(17)
+    );
 }
 
 #[test]
@@ -197,15 +274,41 @@ fn the_pattern_of_intervals_tells_the_marks_of_the_wheel() {
         // What the user says does not matter: he may be wrong.
         let wrong = number(&stamped(pulses.times.clone()), &FULL(50)).unwrap();
         assert_eq!(period(&wrong), Some(marks));
+        assert!(check_marks(&pulses).is_ok());
+        let refusal = check_marks(&wrong).unwrap_err();
+        assert!(
+            refusal.found.contains(&format!("after {marks} pulses, 50")),
+            "{refusal}"
+        );
     }
     // A perfect wheel has no pattern.
     assert_eq!(period(&coast(&[0.0; 60], 9, 1e-6, 1.5)), None);
 }
 
 #[test]
+fn sampled_pickups_do_not_mislead_about_the_marks() {
+    for seed in 0..20 {
+        let truth = synthetic::spin_up(seed, 150.0, 7200.0, 0.6);
+        let samples = synthetic::pickup(&truth, seed, 60, 1e4);
+        let found = edges(0.0, 1e-4, &samples, &EdgeSettings::default()).unwrap();
+        let pulses = number(&found, &FULL(60)).unwrap();
+        assert!(pulses.notes.is_empty(), "{seed}: {:?}", pulses.notes);
+        assert_eq!(period(&pulses), Some(60), "seed {seed}");
+    }
+}
+
+#[test]
 fn times_that_do_not_increase_are_refused() {
-    for times in [vec![0.0, 1.0, 1.0], vec![0.0, 2.0, 1.0], vec![0.0, f64::NAN, 1.0]] {
-        assert!(Edges::stamped(times, 1e-6, None).and_then(|e| number(&e, &FULL(60))).is_err());
+    for times in [
+        vec![0.0, 1.0, 1.0],
+        vec![0.0, 2.0, 1.0],
+        vec![0.0, f64::NAN, 1.0],
+    ] {
+        assert!(
+            Edges::stamped(times, 1e-6, None)
+                .and_then(|e| number(&e, &FULL(60)))
+                .is_err()
+        );
     }
     assert!(Edges::stamped(vec![], 1e-6, None).is_err());
     assert!(Edges::stamped(vec![1.0], 0.0, None).is_err());
@@ -231,7 +334,9 @@ proptest! {
 }
 
 fn data(name: &str) -> Option<String> {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(name);
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("../../../shared/data")
+        .join(name);
     match std::fs::read_to_string(&path) {
         Ok(text) => Some(text),
         Err(error) => {
@@ -246,9 +351,10 @@ fn data(name: &str) -> Option<String> {
 /// Source: github.com/rcgsheffield/tachorpm, data/; the sweep is the formula in its test file.
 #[test]
 fn speed_of_the_sweep_as_matlab_finds_it() {
-    let (Some(input), Some(reference)) =
-        (data("tachorpm/test_input.csv"), data("tachorpm/matlab_ref_output.csv"))
-    else {
+    let (Some(input), Some(reference)) = (
+        data("tachorpm/test_input.csv"),
+        data("tachorpm/matlab_ref_output.csv"),
+    ) else {
         return;
     };
     let column = |text: &str| -> Vec<(f64, f64)> {
@@ -259,18 +365,42 @@ fn speed_of_the_sweep_as_matlab_finds_it() {
             .collect()
     };
     let samples: Vec<f64> = column(&input).iter().map(|x| x.1).collect();
-    let found = edges(0.0, 1e-3, &samples, &EdgeSettings { flank: Flank::Centre, ..Default::default() }).unwrap();
+    let found = edges(
+        0.0,
+        1e-3,
+        &samples,
+        &EdgeSettings {
+            flank: Flank::Centre,
+            ..Default::default()
+        },
+    )
+    .unwrap();
     assert_eq!(found.times.len(), 300);
     let pulses = number(&found, &FULL(1)).unwrap();
     assert!(pulses.notes.is_empty(), "{:?}", pulses.notes);
-    let speed = smooth(&pulses, None, &SpeedSettings { transient: Transient::None, ..Default::default() }).unwrap();
-    let (mut against_matlab, mut against_truth, mut matlab, mut inside, mut count) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    let speed = smooth(
+        &pulses,
+        None,
+        &SpeedSettings {
+            transient: Transient::None,
+            ..Default::default()
+        },
+    )
+    .unwrap();
+    let (mut against_matlab, mut against_truth, mut matlab, mut inside, mut count) =
+        (0.0, 0.0, 0.0, 0.0, 0.0);
     for (time, rpm) in column(&reference) {
         let motion = speed.at(time);
-        let (ours, band) = (motion.speed * 30.0 / std::f64::consts::PI, motion.speed_uncertainty() * 30.0 / std::f64::consts::PI);
+        let (ours, band) = (
+            motion.speed * 30.0 / std::f64::consts::PI,
+            motion.speed_uncertainty() * 30.0 / std::f64::consts::PI,
+        );
         let truth = 600.0 + 240.0 * time;
         // The tolerance of the reference's own tests at single instants: 5 %.
-        assert!((ours / rpm - 1.0).abs() < 0.05, "{time} s: {ours} against {rpm} rpm");
+        assert!(
+            (ours / rpm - 1.0).abs() < 0.05,
+            "{time} s: {ours} against {rpm} rpm"
+        );
         against_matlab += (ours - rpm).powi(2);
         against_truth += (ours - truth).powi(2);
         matlab += (rpm - truth).powi(2);
@@ -295,20 +425,51 @@ fn speed_of_the_sweep_as_matlab_finds_it() {
 /// Source: github.com/Bladesight/Bladesight, docs/assets.
 #[test]
 fn passages_of_a_proximity_probe() {
-    let Some(text) = data("bladesight/ch02_proximity_probe_data.json") else { return };
+    let Some(text) = data("bladesight/ch02_proximity_probe_data.json") else {
+        return;
+    };
     let values = |key: &str| -> Vec<f64> {
         text.split(&format!("\"{key}\":"))
             .skip(1)
-            .map(|rest| rest.split([',', '}', '\n']).next().unwrap().trim().parse().unwrap())
+            .map(|rest| {
+                rest.split([',', '}', '\n'])
+                    .next()
+                    .unwrap()
+                    .trim()
+                    .parse()
+                    .unwrap()
+            })
             .collect()
     };
     let (times, samples) = (values("time"), values("data"));
     let interval = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
-    let take = |flank| edges(times[0], interval, &samples, &EdgeSettings { flank, ..Default::default() }).unwrap();
-    let (rising, falling, centre) = (take(Flank::Rising), take(Flank::Falling), take(Flank::Centre));
+    let take = |flank| {
+        edges(
+            times[0],
+            interval,
+            &samples,
+            &EdgeSettings {
+                flank,
+                ..Default::default()
+            },
+        )
+        .unwrap()
+    };
+    let (rising, falling, centre) = (
+        take(Flank::Rising),
+        take(Flank::Falling),
+        take(Flank::Centre),
+    );
     println!("rising {:?} ± {:?}", rising.times, rising.uncertainties);
     println!("falling {:?}", falling.times);
-    println!("revolutions {:?}", centre.times.windows(2).map(|p| p[1] - p[0]).collect::<Vec<_>>());
+    println!(
+        "revolutions {:?}",
+        centre
+            .times
+            .windows(2)
+            .map(|p| p[1] - p[0])
+            .collect::<Vec<_>>()
+    );
     assert_eq!((rising.times.len(), falling.times.len()), (3, 3));
     // Read off the file: the samples on both sides of half the height, 0.37.
     let half: Vec<f64> = samples
@@ -324,7 +485,14 @@ fn passages_of_a_proximity_probe() {
     }
     // The rotor turns evenly: both revolutions last the same, whatever flank is taken.
     for found in [&rising, &falling, &centre] {
-        let turns: Vec<f64> = found.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        assert!((turns[1] - turns[0]).abs() < 0.8e-3 && (turns[0] - 0.3006).abs() < 1.5e-3, "{turns:?}");
+        let turns: Vec<f64> = found
+            .times
+            .windows(2)
+            .map(|pair| pair[1] - pair[0])
+            .collect();
+        assert!(
+            (turns[1] - turns[0]).abs() < 0.8e-3 && (turns[0] - 0.3006).abs() < 1.5e-3,
+            "{turns:?}"
+        );
     }
 }

@@ -22,7 +22,11 @@ fn pulses(marks: usize, seconds: f64, noise: f64, seed: u64, angle: impl Fn(f64)
         let (mut low, mut high) = (from, seconds);
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
-            if angle(middle) < wanted { low = middle } else { high = middle }
+            if angle(middle) < wanted {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         from = low;
         times.push(low + noise * random.normal());
@@ -42,10 +46,15 @@ fn constant_acceleration_is_found_within_the_band() {
         for k in 1..20 {
             let time = 0.2 * k as f64;
             let motion = speed.at(time);
-            assert!((motion.speed - 50.0 - 20.0 * time).abs() < 0.05, "{motion:?}");
+            assert!(
+                (motion.speed - 50.0 - 20.0 * time).abs() < 0.05,
+                "{motion:?}"
+            );
             assert!((motion.acceleration - 20.0).abs() < 2.0, "{motion:?}");
-            inside += ((motion.acceleration - 20.0).abs() < 2.0 * motion.acceleration_uncertainty()) as usize;
-            inside += ((motion.speed - 50.0 - 20.0 * time).abs() < 2.0 * motion.speed_uncertainty()) as usize;
+            inside += ((motion.acceleration - 20.0).abs() < 2.0 * motion.acceleration_uncertainty())
+                as usize;
+            inside += ((motion.speed - 50.0 - 20.0 * time).abs() < 2.0 * motion.speed_uncertainty())
+                as usize;
             count += 2;
         }
     }
@@ -72,16 +81,34 @@ fn a_clutch_that_engages_on_a_turning_shaft() {
     assert!((change.end.unwrap().0 - 1.03).abs() < 5e-4, "{change:?}");
     for (time, wanted) in [(0.9, 0.0), (1.01, 3000.0), (1.02, 3000.0), (1.1, 0.0)] {
         let motion = speed.at(time);
-        assert!((motion.acceleration - wanted).abs() < 0.03 * 3000.0, "{motion:?}");
+        assert!(
+            (motion.acceleration - wanted).abs() < 0.03 * 3000.0,
+            "{motion:?}"
+        );
     }
 }
 
 #[test]
 fn covariances_fit_together_and_drawn_paths_follow_them() {
     let truth = synthetic::spin_up(3, 150.0, 7200.0, 0.2);
-    let found = Edges::stamped(synthetic::stamps(&truth, 3, 60), 5e-7, Some((0.0, truth.end()))).unwrap();
-    let train = number(&found, &Wheel { marks: 60, missing: 0 }).unwrap();
-    let settings = SpeedSettings { latency: 2e-6, ..Default::default() };
+    let found = Edges::stamped(
+        synthetic::stamps(&truth, 3, 60),
+        5e-7,
+        Some((0.0, truth.end())),
+    )
+    .unwrap();
+    let train = number(
+        &found,
+        &Wheel {
+            marks: 60,
+            missing: 0,
+        },
+    )
+    .unwrap();
+    let settings = SpeedSettings {
+        latency: 2e-6,
+        ..Default::default()
+    };
     let speed = smooth(&train, calibrate(&train).ok().as_ref(), &settings).unwrap();
     let middle = 0.5 * (truth.engage + truth.lock);
     let times = [middle, middle + 1e-3, middle + 4e-3];
@@ -91,12 +118,18 @@ fn covariances_fit_together_and_drawn_paths_follow_them() {
         for i in 0..3 {
             for j in 0..3 {
                 let scale = (own[i][i] * own[j][j]).sqrt();
-                assert!((same[i][j] - own[i][j]).abs() < 1e-6 * scale, "{i} {j} {} {}", same[i][j], own[i][j]);
+                assert!(
+                    (same[i][j] - own[i][j]).abs() < 1e-6 * scale,
+                    "{i} {j} {} {}",
+                    same[i][j],
+                    own[i][j]
+                );
             }
         }
         for &b in &times[k + 1..] {
             let (there, back) = (speed.covariance(a, b), speed.covariance(b, a));
-            let correlation = there[2][2] / (speed.at(a).covariance[2][2] * speed.at(b).covariance[2][2]).sqrt();
+            let correlation =
+                there[2][2] / (speed.at(a).covariance[2][2] * speed.at(b).covariance[2][2]).sqrt();
             assert!(correlation.abs() <= 1.0);
             assert_eq!(there[1][2], back[2][1]);
         }
@@ -114,12 +147,24 @@ fn covariances_fit_together_and_drawn_paths_follow_them() {
             let wanted = speed.covariance(first, second);
             for i in 1..3 {
                 for j in 1..3 {
-                    let mean = |k: usize, i: usize| paths.iter().map(|p| p[k][i]).sum::<f64>() / many as f64;
+                    let mean = |k: usize, i: usize| {
+                        paths.iter().map(|p| p[k][i]).sum::<f64>() / many as f64
+                    };
                     let (x, y) = (mean(a, i), mean(b, j));
-                    let got = paths.iter().map(|p| (p[a][i] - x) * (p[b][j] - y)).sum::<f64>() / many as f64;
-                    let scale = (speed.at(first).covariance[i][i] * speed.at(second).covariance[j][j]).sqrt();
+                    let got = paths
+                        .iter()
+                        .map(|p| (p[a][i] - x) * (p[b][j] - y))
+                        .sum::<f64>()
+                        / many as f64;
+                    let scale = (speed.at(first).covariance[i][i]
+                        * speed.at(second).covariance[j][j])
+                        .sqrt();
                     // Sampling: 1/√3000 = 0.018 of the scale, 0.026 for a variance; five times that.
-                    assert!((got - wanted[i][j]).abs() < 0.13 * scale, "{a} {b} {i} {j}: {got} {}", wanted[i][j]);
+                    assert!(
+                        (got - wanted[i][j]).abs() < 0.13 * scale,
+                        "{a} {b} {i} {j}: {got} {}",
+                        wanted[i][j]
+                    );
                 }
             }
         }
@@ -131,23 +176,62 @@ fn the_shaft_rests_before_the_engagement() {
     let truth = synthetic::spin_up(8, 150.0, 1300.0, 0.3);
     let samples = synthetic::pickup(&truth, 8, 60, 1e4);
     let found = edges(0.0, 1e-4, &samples, &EdgeSettings::default()).unwrap();
-    let train = number(&found, &Wheel { marks: 60, missing: 0 }).unwrap();
+    let train = number(
+        &found,
+        &Wheel {
+            marks: 60,
+            missing: 0,
+        },
+    )
+    .unwrap();
     let speed = smooth(&train, None, &SpeedSettings::default()).unwrap();
     let motion = speed.at(0.005);
-    assert_eq!((motion.speed, motion.acceleration, motion.speed_uncertainty()), (0.0, 0.0, 0.0));
+    assert_eq!(
+        (
+            motion.speed,
+            motion.acceleration,
+            motion.speed_uncertainty()
+        ),
+        (0.0, 0.0, 0.0)
+    );
     assert!(motion.covariance[0][0] > 0.0);
 }
 
 #[test]
 fn one_mark_cannot_see_a_short_spin_up_and_the_message_says_how_many_could() {
     let truth = synthetic::spin_up(4, 150.0, 11_500.0, 1.0);
-    let found = Edges::stamped(synthetic::stamps(&truth, 4, 1), 1e-6, Some((0.0, truth.end()))).unwrap();
-    let train = number(&found, &Wheel { marks: 1, missing: 0 }).unwrap();
+    let found = Edges::stamped(
+        synthetic::stamps(&truth, 4, 1),
+        1e-6,
+        Some((0.0, truth.end())),
+    )
+    .unwrap();
+    let train = number(
+        &found,
+        &Wheel {
+            marks: 1,
+            missing: 0,
+        },
+    )
+    .unwrap();
     for (duration, wanted, least) in [(None, None, 4), (Some(0.025), Some(0.03), 20)] {
-        let refusal = smooth(&train, None, &SpeedSettings { duration, wanted, ..Default::default() }).unwrap_err();
+        let refusal = smooth(
+            &train,
+            None,
+            &SpeedSettings {
+                duration,
+                wanted,
+                ..Default::default()
+            },
+        )
+        .unwrap_err();
         println!("{refusal}");
         assert!(refusal.found.contains("the speed changes by"), "{refusal}");
-        let marks: usize = refusal.needed.split_whitespace().find_map(|word| word.parse().ok()).unwrap();
+        let marks: usize = refusal
+            .needed
+            .split_whitespace()
+            .find_map(|word| word.parse().ok())
+            .unwrap();
         assert!((least..=120).contains(&marks), "{refusal}");
     }
 }
@@ -155,11 +239,41 @@ fn one_mark_cannot_see_a_short_spin_up_and_the_message_says_how_many_could() {
 #[test]
 fn more_marks_or_better_instants_are_asked_for_when_the_band_is_too_wide() {
     let truth = synthetic::spin_up(4, 150.0, 11_500.0, 0.4);
-    let found = Edges::stamped(synthetic::stamps(&truth, 4, 24), 1e-6, Some((0.0, truth.end()))).unwrap();
-    let train = number(&found, &Wheel { marks: 24, missing: 0 }).unwrap();
+    let found = Edges::stamped(
+        synthetic::stamps(&truth, 4, 24),
+        1e-6,
+        Some((0.0, truth.end())),
+    )
+    .unwrap();
+    let train = number(
+        &found,
+        &Wheel {
+            marks: 24,
+            missing: 0,
+        },
+    )
+    .unwrap();
     let pitch = calibrate(&train).unwrap();
-    assert!(smooth(&train, Some(&pitch), &SpeedSettings { wanted: Some(0.3), ..Default::default() }).is_ok());
-    let refusal = smooth(&train, Some(&pitch), &SpeedSettings { wanted: Some(0.01), ..Default::default() }).unwrap_err();
+    assert!(
+        smooth(
+            &train,
+            Some(&pitch),
+            &SpeedSettings {
+                wanted: Some(0.3),
+                ..Default::default()
+            }
+        )
+        .is_ok()
+    );
+    let refusal = smooth(
+        &train,
+        Some(&pitch),
+        &SpeedSettings {
+            wanted: Some(0.01),
+            ..Default::default()
+        },
+    )
+    .unwrap_err();
     println!("{refusal}");
     assert!(refusal.needed.contains("marks per revolution"), "{refusal}");
 }
@@ -177,7 +291,16 @@ fn marks_needed_grow_with_haste_and_with_what_is_wanted() {
 
 #[test]
 fn few_pulses_and_odd_numbers_are_refused_or_survived() {
-    let train = |times: Vec<f64>| number(&Edges::stamped(times, 1e-6, None).unwrap(), &Wheel { marks: 60, missing: 0 }).unwrap();
+    let train = |times: Vec<f64>| {
+        number(
+            &Edges::stamped(times, 1e-6, None).unwrap(),
+            &Wheel {
+                marks: 60,
+                missing: 0,
+            },
+        )
+        .unwrap()
+    };
     let refusal = smooth(&train(vec![0.0, 1.0, 2.0]), None, &SpeedSettings::default()).unwrap_err();
     assert!(refusal.needed.contains("6 pulses"), "{refusal}");
     let mut random = Random::new(21);
@@ -191,10 +314,20 @@ fn few_pulses_and_odd_numbers_are_refused_or_survived() {
             .collect();
         if let Ok(speed) = smooth(&train(times), None, &SpeedSettings::default()) {
             let motion = speed.at(0.5 * time);
-            assert!(motion.speed.is_finite() && motion.covariance[2][2].is_finite(), "{motion:?}");
+            assert!(
+                motion.speed.is_finite() && motion.covariance[2][2].is_finite(),
+                "{motion:?}"
+            );
         }
-        let window = SpeedSettings { transient: Transient::Within(time, 0.0), ..Default::default() };
-        let _ = smooth(&train(vec![0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6]), None, &window);
+        let window = SpeedSettings {
+            transient: Transient::Within(time, 0.0),
+            ..Default::default()
+        };
+        let _ = smooth(
+            &train(vec![0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6]),
+            None,
+            &window,
+        );
     }
 }
 
@@ -203,14 +336,35 @@ fn ten_seconds_of_sixty_marks_take_a_moment() {
     let truth = synthetic::spin_up(6, 150.0, 7200.0, 9.85);
     let samples = synthetic::pickup(&truth, 6, 60, 1e4);
     let start = std::time::Instant::now();
-    let found = edges(0.0, 1e-4, &samples, &EdgeSettings { flank: Flank::Rising, ..Default::default() }).unwrap();
-    let train = number(&found, &Wheel { marks: 60, missing: 0 }).unwrap();
+    let found = edges(
+        0.0,
+        1e-4,
+        &samples,
+        &EdgeSettings {
+            flank: Flank::Rising,
+            ..Default::default()
+        },
+    )
+    .unwrap();
+    let train = number(
+        &found,
+        &Wheel {
+            marks: 60,
+            missing: 0,
+        },
+    )
+    .unwrap();
     let pitch = calibrate(&train).unwrap();
     let smoothed = smooth(&train, Some(&pitch), &SpeedSettings::default()).unwrap();
     let fitted = start.elapsed();
-    let sum: f64 = (0..100_000).map(|k| smoothed.at(k as f64 * 1e-4).speed).sum();
+    let sum: f64 = (0..100_000)
+        .map(|k| smoothed.at(k as f64 * 1e-4).speed)
+        .sum();
     let all = start.elapsed();
-    println!("{} pulses: {fitted:?} to smooth, {all:?} with the speed at 10 kHz ({sum:.0})", train.times.len());
+    println!(
+        "{} pulses: {fitted:?} to smooth, {all:?} with the speed at 10 kHz ({sum:.0})",
+        train.times.len()
+    );
     // Half a second is the share of this step in the whole chain; four times that for a machine that does other things too.
     assert!(all.as_secs_f64() < 2.0, "{all:?}");
 }

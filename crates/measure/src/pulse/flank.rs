@@ -24,7 +24,7 @@ const HALF: f64 = 0.2;
 /// Rounds of learning the shape and laying the flanks on it.
 const ROUNDS: usize = 40;
 /// Passages that it is learnt from, at most.
-const PUPILS: usize = 1500;
+const PUPILS: usize = 600;
 /// Cells of the shape.
 const CELLS: usize = 40;
 /// Passages needed to learn from.
@@ -48,13 +48,18 @@ impl Shape {
         }
         let k = place as usize;
         let (a, b) = (self.heights[k], self.heights[k + 1]);
-        Some((a + (b - a) * (place - k as f64), (b - a) * CELLS as f64 / (2.0 * HALF)))
+        Some((
+            a + (b - a) * (place - k as f64),
+            (b - a) * CELLS as f64 / (2.0 * HALF),
+        ))
     }
 }
 
 /// Improves the places of steep flanks of one kind, where the record shows the shape.
 pub(super) fn sharpen(samples: &[f64], found: &mut [Passing], rises: bool, levels: &Levels) {
-    let own: Vec<usize> = (0..found.len()).filter(|&k| found[k].rises == rises).collect();
+    let own: Vec<usize> = (0..found.len())
+        .filter(|&k| found[k].rises == rises)
+        .collect();
     if own.len() < 2 * FEWEST || own.iter().all(|&k| found[k].resolved) {
         return;
     }
@@ -71,11 +76,17 @@ pub(super) fn sharpen(samples: &[f64], found: &mut [Passing], rises: bool, level
     let sign = if rises { 1.0 } else { -1.0 };
     let scale = sign / levels.span;
     let step = own.len().div_ceil(PUPILS);
-    let pupils: Vec<(usize, f64)> =
-        own.iter().zip(&rates).step_by(step).filter_map(|(&k, rate)| Some((k, (*rate)?))).collect();
+    let pupils: Vec<(usize, f64)> = own
+        .iter()
+        .zip(&rates)
+        .step_by(step)
+        .filter_map(|(&k, rate)| Some((k, (*rate)?)))
+        .collect();
     let mut last = None;
     for _ in 0..ROUNDS {
-        let Some(shape) = learn(samples, found, &pupils, scale) else { break };
+        let Some(shape) = learn(samples, found, &pupils, scale) else {
+            break;
+        };
         let mut moved = 0.0f64;
         for &(k, rate) in &pupils {
             if !found[k].resolved {
@@ -104,7 +115,7 @@ fn lay(samples: &[f64], passing: &mut Passing, rate: f64, scale: f64, shape: &Sh
     let end = ((passing.place + reach) as usize + 1).min(samples.len());
     let mut place = passing.place;
     let mut weight = 0.0;
-    for _ in 0..4 {
+    for _ in 0..2 {
         let (mut pull, mut stiffness) = (0.0, 0.0);
         for (m, x) in samples.iter().enumerate().take(end).skip(begin) {
             let height = scale * (x - passing.middle);
@@ -126,7 +137,10 @@ fn lay(samples: &[f64], passing: &mut Passing, rate: f64, scale: f64, shape: &Sh
     if weight > 0.0 && moved.abs() < 0.6 {
         // A flank between two samples lies there with a variance of 1/12; its shape tells more.
         passing.place = place;
-        passing.spread = (12.0 + weight / (shape.scatter * shape.scatter)).sqrt().recip().max(1e-3);
+        passing.spread = (12.0 + weight / (shape.scatter * shape.scatter))
+            .sqrt()
+            .recip()
+            .max(1e-3);
         return moved;
     }
     0.0
@@ -164,7 +178,10 @@ fn learn(samples: &[f64], found: &[Passing], pupils: &[(usize, f64)], scale: f64
     for k in 1..=CELLS {
         heights[k] = heights[k].max(heights[k - 1]);
     }
-    let mut shape = Shape { heights, scatter: 0.0 };
+    let mut shape = Shape {
+        heights,
+        scatter: 0.0,
+    };
     let mut away: Vec<f64> = seen
         .iter()
         .filter_map(|&(place, height)| {

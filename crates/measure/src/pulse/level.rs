@@ -27,7 +27,12 @@ impl Levels {
 
     /// Levels given by the user.
     pub fn fixed(low: f64, high: f64, samples: &[f64]) -> Levels {
-        Levels { block: samples.len().max(1), middle: vec![0.5 * (low + high)], span: high - low, noise: noise(samples) }
+        Levels {
+            block: samples.len().max(1),
+            middle: vec![0.5 * (low + high)],
+            span: high - low,
+            noise: noise(samples),
+        }
     }
 
     /// Finds levels block by block: a block that holds both levels tells its own, the others take their neighbours'.
@@ -41,12 +46,19 @@ impl Levels {
         ranges.sort_by(f64::total_cmp);
         let largest = ranges[ranges.len() - if many { 2 } else { 1 }].max(0.0);
         let both = |&(low, high): &(f64, f64)| high - low > 0.6 * largest;
-        let mut full: Vec<f64> = extremes.iter().filter(|e| both(e)).map(|&(low, high)| high - low).collect();
+        let mut full: Vec<f64> = extremes
+            .iter()
+            .filter(|e| both(e))
+            .map(|&(low, high)| high - low)
+            .collect();
         let span = median(&mut full);
         let noise = noise(samples);
         if !(span > 8.0 * noise && span > 0.0) {
             return Err(Refusal::new(
-                format!("the signal spans {span:.3e}, {:.1} times its noise: no two levels", span / noise.max(1e-300)),
+                format!(
+                    "the signal spans {span:.3e}, {:.1} times its noise: no two levels",
+                    span / noise.max(1e-300)
+                ),
                 "pulses at least 8 times as high as the standard deviation of the noise",
             ));
         }
@@ -56,7 +68,12 @@ impl Levels {
             .filter(|(_, e)| both(e))
             .map(|(at, &(low, high))| (at, 0.5 * (low + high)))
             .collect();
-        Ok(Levels { block, middle: fill(extremes.len(), &known), span, noise })
+        Ok(Levels {
+            block,
+            middle: fill(extremes.len(), &known),
+            span,
+            noise,
+        })
     }
 }
 
@@ -75,10 +92,14 @@ fn second_extremes(samples: &[f64]) -> (f64, f64) {
             high[1] = x;
         }
     }
-    if low[1].is_finite() && high[1].is_finite() { (low[1], high[1]) } else { (0.0, 0.0) }
+    if low[1].is_finite() && high[1].is_finite() {
+        (low[1], high[1])
+    } else {
+        (0.0, 0.0)
+    }
 }
 
-/// Standard deviation of the noise from the lower quartile of differences: the flanks of pulses are in the upper part.
+/// Standard deviation of the noise from the smallest tenth of the differences: the flanks of pulses are in the upper part.
 fn noise(samples: &[f64]) -> f64 {
     let stride = (samples.len() / 20_000).max(1);
     let mut steps: Vec<f64> = samples
@@ -87,8 +108,8 @@ fn noise(samples: &[f64]) -> f64 {
         .map(|pair| (pair[1] - pair[0]).abs())
         .filter(|step| step.is_finite())
         .collect();
-    // The lower quartile of |x| is 0.3186 standard deviations for normal x; a difference has √2 the noise.
-    quantile(&mut steps, 0.25) / (0.3186 * 2f64.sqrt())
+    // A tenth of |x| is below 0.1257 standard deviations for normal x; a difference has √2 the noise.
+    quantile(&mut steps, 0.1) / (0.1257 * 2f64.sqrt())
 }
 
 /// Values at `0..count` by straight lines between the known ones, constant beyond them.
@@ -101,7 +122,9 @@ fn fill(count: usize, known: &[(usize, f64)]) -> Vec<f64> {
             }
             match (next.checked_sub(1).map(|left| known[left]), known.get(next)) {
                 (_, Some(&(right, value))) if right == at => value,
-                (Some((left, a)), Some(&(right, b))) => a + (b - a) * (at - left) as f64 / (right - left) as f64,
+                (Some((left, a)), Some(&(right, b))) => {
+                    a + (b - a) * (at - left) as f64 / (right - left) as f64
+                }
                 (Some((_, value)), None) | (None, Some(&(_, value))) => value,
                 (None, None) => 0.0,
             }

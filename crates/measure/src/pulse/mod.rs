@@ -10,6 +10,7 @@
 //! | [`number`] | counts marks: gaps are filled in the count, doubled pulses are left out, each with a note | times that do not increase |
 //! | [`calibrate`] | angular error of every mark, from revolutions whose speed changes evenly | fewer than two even revolutions |
 //! | [`period`] | number of pulses after which the pattern of intervals repeats | no pattern above the noise |
+//! | [`check_marks`] | compares it with the marks that were stated | they differ |
 //!
 //! **What it does not model**: an error of the wheel that changes with time or speed (loose discs, a lateral vibration of
 //! the shaft seen by one pickup); speed ripple locked to the revolution cannot be told from mark errors and is taken for such.
@@ -23,7 +24,7 @@ mod train;
 use std::fmt;
 
 pub use edge::{EdgeSettings, edges};
-pub use pitch::{Pitch, calibrate, period};
+pub use pitch::{Pitch, calibrate, check_marks, period};
 pub use train::{Pulses, Wheel, number};
 
 /// Which flank of a pulse marks the passage.
@@ -46,8 +47,8 @@ pub struct Edges {
     pub times: Vec<f64>,
     /// Standard uncertainty of each instant, s.
     pub uncertainties: Vec<f64>,
-    /// Whether the first edge is a rising one; tells the two kinds apart where both flanks are used.
-    pub first_rises: bool,
+    /// Whether each is a rising one; tells the two kinds apart where both flanks are used.
+    pub rises: Vec<bool>,
     /// The flank in use.
     pub flank: Flank,
     /// First and last instant that the pickup was watched, s.
@@ -61,7 +62,11 @@ impl Edges {
     ///
     /// `watched` is the interval in which the counter ran, s; the interval from the first to the last stamp where it is
     /// not known. The uncertainty of a stamp that is cut to steps of a clock is the step divided by √12.
-    pub fn stamped(times: Vec<f64>, uncertainty: f64, watched: Option<(f64, f64)>) -> Result<Edges, Refusal> {
+    pub fn stamped(
+        times: Vec<f64>,
+        uncertainty: f64,
+        watched: Option<(f64, f64)>,
+    ) -> Result<Edges, Refusal> {
         if !(uncertainty.is_finite() && uncertainty > 0.0) {
             return Err(Refusal::new(
                 format!("the uncertainty of the time stamps is {uncertainty} s"),
@@ -69,13 +74,16 @@ impl Edges {
             ));
         }
         let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
-            return Err(Refusal::new("there are no time stamps".into(), "one for each mark that passed"));
+            return Err(Refusal::new(
+                "there are no time stamps".into(),
+                "one for each mark that passed",
+            ));
         };
         let watched = watched.unwrap_or((first, last));
         Ok(Edges {
             uncertainties: vec![uncertainty; times.len()],
+            rises: vec![true; times.len()],
             times,
-            first_rises: true,
             flank: Flank::Rising,
             watched: (watched.0.min(first), watched.1.max(last)),
             notes: Vec::new(),
@@ -94,7 +102,10 @@ pub struct Refusal {
 
 impl Refusal {
     pub(crate) fn new(found: String, needed: impl Into<String>) -> Refusal {
-        Refusal { found, needed: needed.into() }
+        Refusal {
+            found,
+            needed: needed.into(),
+        }
     }
 }
 

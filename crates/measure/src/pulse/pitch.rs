@@ -71,7 +71,12 @@ pub fn calibrate(pulses: &Pulses) -> Result<Pitch, Refusal> {
     let origin = pulses.times[0];
     let mut time = vec![f64::NAN; span];
     let mut stated = vec![0.0; span];
-    for ((&mark, &t), &u) in pulses.marks.iter().zip(&pulses.times).zip(&pulses.uncertainties) {
+    for ((&mark, &t), &u) in pulses
+        .marks
+        .iter()
+        .zip(&pulses.times)
+        .zip(&pulses.uncertainties)
+    {
         time[(mark - first) as usize] = t - origin;
         stated[(mark - first) as usize] = u;
     }
@@ -79,10 +84,15 @@ pub fn calibrate(pulses: &Pulses) -> Result<Pitch, Refusal> {
     let mut sums = vec![[0.0; 4]; span + 1];
     for (k, &t) in time.iter().enumerate() {
         let x = k as f64;
-        let here = if t.is_finite() { [1.0, x, x * x, t] } else { [0.0; 4] };
+        let here = if t.is_finite() {
+            [1.0, x, x * x, t]
+        } else {
+            [0.0; 4]
+        };
         sums[k + 1] = std::array::from_fn(|s| sums[k][s] + here[s]);
     }
-    let usual = (pulses.times.len() as f64 / span as f64 * n as f64).round().max(1.0);
+    // A window with a pulse missing or too many does not hold every mark once.
+    let full = pulses.marks.iter().map(|m| m.rem_euclid(n as i64)).collect::<std::collections::BTreeSet<_>>().len();
     let place = |k: usize| (k as i64 + first).rem_euclid(n as i64) as usize;
     let mut sights: Vec<Sight> = Vec::new();
     for i in n..span - n {
@@ -94,7 +104,7 @@ pub fn calibrate(pulses: &Pulses) -> Result<Pitch, Refusal> {
         let from = i - n / 2;
         let sum: [f64; 4] = std::array::from_fn(|s| sums[from + n][s] - sums[from][s]);
         let count = sum[0];
-        if (count - usual).abs() > 0.5 {
+        if (count - full as f64).abs() > 0.5 {
             continue;
         }
         let x = i as f64;
@@ -104,7 +114,12 @@ pub fn calibrate(pulses: &Pulses) -> Result<Pitch, Refusal> {
         let square = sum[2] / count - 2.0 * x * sum[1] / count + x * x;
         let smooth = sum[3] / count - b * offset - c * square;
         let speed = TAU / (n as f64 * b);
-        sights.push(Sight { place: place(i), value: speed * (here - smooth), stated: speed * stated[i], speed });
+        sights.push(Sight {
+            place: place(i),
+            value: speed * (here - smooth),
+            stated: speed * stated[i],
+            speed,
+        });
     }
     if sights.is_empty() {
         return Err(too_short(span as f64 / n as f64));
@@ -112,7 +127,6 @@ pub fn calibrate(pulses: &Pulses) -> Result<Pitch, Refusal> {
     let (errors, seen) = without_outliers(&mut sights, n);
     let mut errors = errors;
     let present = seen.iter().filter(|&&s| s > 0).count();
-    let full = pulses.marks.iter().map(|m| m.rem_euclid(n as i64)).collect::<std::collections::BTreeSet<_>>().len();
     if present < full {
         return Err(too_short(1.0 + sights.len() as f64 / full as f64));
     }
@@ -123,13 +137,23 @@ pub fn calibrate(pulses: &Pulses) -> Result<Pitch, Refusal> {
     let freedom = sights.len().saturating_sub(present);
     let stated = sights.iter().map(|s| s.stated * s.stated).sum::<f64>() / sights.len() as f64;
     let variance = if freedom >= present {
-        sights.iter().map(|s| (s.value - mean - errors[s.place]).powi(2)).sum::<f64>() / freedom as f64
+        sights
+            .iter()
+            .map(|s| (s.value - mean - errors[s.place]).powi(2))
+            .sum::<f64>()
+            / freedom as f64
     } else {
         // Too few revolutions for a scatter: what the edges state.
         stated
     };
     let speed = sights.iter().map(|s| s.speed).sum::<f64>() / sights.len() as f64;
-    Ok(Pitch { odd: odd(&errors, &seen), errors, seen, variance, speed })
+    Ok(Pitch {
+        odd: odd(&errors, &seen),
+        errors,
+        seen,
+        variance,
+        speed,
+    })
 }
 
 /// One mark seen once.
@@ -151,9 +175,16 @@ fn without_outliers(sights: &mut Vec<Sight>, places: usize) -> (Vec<f64>, Vec<us
         values[sight.place].push(sight.value);
     }
     let medians: Vec<f64> = values.iter_mut().map(|v| median(v)).collect();
-    let mut away: Vec<f64> = sights.iter().map(|s| (s.value - medians[s.place]).abs()).collect();
+    let mut away: Vec<f64> = sights
+        .iter()
+        .map(|s| (s.value - medians[s.place]).abs())
+        .collect();
     let usual = median(&mut away) / 0.6745;
-    if values.iter().filter(|v| !v.is_empty()).all(|v| v.len() >= 4) {
+    if values
+        .iter()
+        .filter(|v| !v.is_empty())
+        .all(|v| v.len() >= 4)
+    {
         sights.retain(|s| (s.value - medians[s.place]).abs() <= 4.0 * usual + 2.0 * s.stated);
     }
     let (mut errors, mut seen) = (vec![0.0; places], vec![0usize; places]);
@@ -176,13 +207,21 @@ fn too_short(revolutions: f64) -> Refusal {
 
 /// The position whose error stands out.
 fn odd(errors: &[f64], seen: &[usize]) -> Option<usize> {
-    let mut sizes: Vec<f64> = errors.iter().zip(seen).filter(|(_, s)| **s > 0).map(|(e, _)| e.abs()).collect();
+    let mut sizes: Vec<f64> = errors
+        .iter()
+        .zip(seen)
+        .filter(|(_, s)| **s > 0)
+        .map(|(e, _)| e.abs())
+        .collect();
     if sizes.len() < 8 {
         return None;
     }
     // The median of |x| is 0.6745 standard deviations for normal x.
     let usual = median(&mut sizes) / 0.6745;
-    let (at, error) = errors.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+    let (at, error) = errors
+        .iter()
+        .enumerate()
+        .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
     (error.abs() > 5.0 * usual).then_some(at)
 }
 
@@ -212,7 +251,10 @@ pub fn period(pulses: &Pulses) -> Option<usize> {
     if gaps.len() < 12 {
         return None;
     }
-    let mut pattern: Vec<f64> = gaps.windows(3).map(|g| g[1].ln() - 0.5 * (g[0].ln() + g[2].ln())).collect();
+    let mut pattern: Vec<f64> = gaps
+        .windows(3)
+        .map(|g| g[1].ln() - 0.5 * (g[0].ln() + g[2].ln()))
+        .collect();
     // Slow starts bend the logarithm: such values are cut, or they would outweigh all others.
     let mut sizes: Vec<f64> = pattern.iter().map(|x| x.abs()).collect();
     let cut = 6.0 * median(&mut sizes);
@@ -232,14 +274,38 @@ pub fn period(pulses: &Pulses) -> Option<usize> {
     let largest = LARGEST.min(pattern.len() / 2);
     let correlation: Vec<f64> = (0..=largest)
         .map(|lag| {
-            let product: f64 = pattern.iter().zip(&pattern[lag..]).map(|(a, b)| a * b).sum();
+            let product: f64 = pattern
+                .iter()
+                .zip(&pattern[lag..])
+                .map(|(a, b)| a * b)
+                .sum();
             product / power * pattern.len() as f64 / (pattern.len() - lag) as f64
         })
         .collect();
-    let (_, &top) = correlation.iter().enumerate().skip(1).max_by(|a, b| a.1.total_cmp(b.1))?;
+    let (_, &top) = correlation
+        .iter()
+        .enumerate()
+        .skip(1)
+        .max_by(|a, b| a.1.total_cmp(b.1))?;
     let threshold = 6.0 / (pattern.len() as f64).sqrt();
     if top < 0.3f64.max(threshold) {
         return None;
     }
     (1..correlation.len()).find(|&lag| correlation[lag] >= 0.8 * top)
+}
+
+/// Compares the marks per revolution that were stated with those that the wheel itself shows, where it does.
+///
+/// A wheel whose pattern repeats within the revolution (two equal halves) shows the part.
+pub fn check_marks(pulses: &Pulses) -> Result<(), Refusal> {
+    match period(pulses) {
+        Some(found) if found != pulses.positions => Err(Refusal::new(
+            format!(
+                "the pattern of intervals repeats after {found} pulses, {} per revolution are stated",
+                pulses.positions
+            ),
+            "the number of marks of this wheel; both flanks of a pulse count as two",
+        )),
+        _ => Ok(()),
+    }
 }

@@ -52,30 +52,54 @@ impl Pulses {
 pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
     if wheel.marks == 0 || wheel.marks > 100_000 || wheel.missing >= wheel.marks {
         return Err(Refusal::new(
-            format!("a wheel with {} marks, {} of them left out", wheel.marks, wheel.missing),
+            format!(
+                "a wheel with {} marks, {} of them left out",
+                wheel.marks, wheel.missing
+            ),
             "at least one mark per revolution",
         ));
     }
-    if edges.times.len() != edges.uncertainties.len() {
+    if edges.times.len() != edges.uncertainties.len() || edges.times.len() != edges.rises.len() {
         return Err(Refusal::new(
-            format!("{} times and {} uncertainties", edges.times.len(), edges.uncertainties.len()),
-            "one uncertainty for each time",
+            format!(
+                "{} times and {} uncertainties",
+                edges.times.len(),
+                edges.uncertainties.len()
+            ),
+            "one uncertainty and one direction for each time",
         ));
     }
-    if let Some(at) = edges.times.windows(2).position(|pair| pair[1] <= pair[0] || !(pair[1] - pair[0]).is_finite()) {
+    if let Some(at) = edges
+        .times
+        .windows(2)
+        .position(|pair| pair[1] <= pair[0] || !(pair[1] - pair[0]).is_finite())
+    {
         return Err(Refusal::new(
-            format!("time {} s follows {} s", edges.times[at + 1], edges.times[at]),
+            format!(
+                "time {} s follows {} s",
+                edges.times[at + 1],
+                edges.times[at]
+            ),
             "times that increase",
         ));
     }
-    if let Some(bad) = edges.uncertainties.iter().find(|u| !(u.is_finite() && **u > 0.0)) {
-        return Err(Refusal::new(format!("an uncertainty of {bad} s"), "positive uncertainties"));
+    if let Some(bad) = edges
+        .uncertainties
+        .iter()
+        .find(|u| !(u.is_finite() && **u > 0.0))
+    {
+        return Err(Refusal::new(
+            format!("an uncertainty of {bad} s"),
+            "positive uncertainties",
+        ));
     }
     let mut notes = edges.notes.clone();
     let both = edges.flank == Flank::Both;
     // With both flanks the rising ones are numbered, and the falling ones lie between them.
-    let rises = |k: usize| (k % 2 == 0) == edges.first_rises;
-    let main: Vec<usize> = (0..edges.times.len()).filter(|&k| !both || rises(k)).collect();
+    let rises = |k: usize| edges.rises[k];
+    let main: Vec<usize> = (0..edges.times.len())
+        .filter(|&k| !both || rises(k))
+        .collect();
     let (kept, extra) = without_doubles(&main, &edges.times);
     if let Some(&first) = extra.first() {
         notes.push(format!(
@@ -101,13 +125,22 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
     }
     let reference = reference(&references, wheel, &mut notes);
     if let Some(time) = first_lost {
-        notes.push(format!("{lost} pulses missing, the first after {time:.6} s: counted as if they had come"));
+        notes.push(format!(
+            "{lost} pulses missing, the first after {time:.6} s: counted as if they had come"
+        ));
     }
     let repaired = (lost + extra.len()) as f64 / edges.times.len().max(1) as f64;
     if repaired > 0.05 {
-        notes.push(format!("{:.0} % of the pulses had to be repaired: do not trust this channel", 100.0 * repaired));
+        notes.push(format!(
+            "{:.0} % of the pulses had to be repaired: do not trust this channel",
+            100.0 * repaired
+        ));
     }
-    let (which, marks) = if both { with_falling(&kept, &counts, edges.times.len()) } else { (kept, counts) };
+    let (which, marks) = if both {
+        with_falling(&kept, &counts, &edges.rises)
+    } else {
+        (kept, counts)
+    };
     Ok(Pulses {
         times: which.iter().map(|&k| edges.times[k]).collect(),
         uncertainties: which.iter().map(|&k| edges.uncertainties[k]).collect(),
@@ -154,13 +187,22 @@ fn without_doubles(main: &[usize], times: &[f64]) -> (Vec<usize>, Vec<usize>) {
 
 /// Positions from each pulse to the next.
 fn steps(kept: &[usize], times: &[f64]) -> Vec<i64> {
-    let gaps: Vec<f64> = kept.windows(2).map(|pair| times[pair[1]] - times[pair[0]]).collect();
+    let gaps: Vec<f64> = kept
+        .windows(2)
+        .map(|pair| times[pair[1]] - times[pair[0]])
+        .collect();
     let mut steps = vec![1i64; gaps.len()];
     for k in 0..gaps.len() {
         // The interval per position on both sides; where the next interval is a gap itself, the one after it.
-        let Some(left) = k.checked_sub(1).map(|l| gaps[l] / steps[l] as f64) else { continue };
-        let Some(&next) = gaps.get(k + 1) else { continue };
-        let right = gaps.get(k + 2).map_or(next, |&after| if next > 1.6 * after { after } else { next });
+        let Some(left) = k.checked_sub(1).map(|l| gaps[l] / steps[l] as f64) else {
+            continue;
+        };
+        let Some(&next) = gaps.get(k + 1) else {
+            continue;
+        };
+        let right = gaps
+            .get(k + 2)
+            .map_or(next, |&after| if next > 1.6 * after { after } else { next });
         let ratio = gaps[k] / (left * right).sqrt();
         if ratio > 1.6 && gaps[k] > 1.5 * left.max(right) && ratio < 1e6 {
             steps[k] = ratio.round() as i64;
@@ -192,17 +234,21 @@ fn reference(found: &[i64], wheel: &Wheel, notes: &mut Vec<String>) -> Option<us
             Some(place as usize)
         }
         _ => {
-            notes.push(format!("the gap of {} left-out marks was not found", wheel.missing));
+            notes.push(format!(
+                "the gap of {} left-out marks was not found",
+                wheel.missing
+            ));
             None
         }
     }
 }
 
 /// Adds the falling edges between neighbouring rising ones; positions are doubled.
-fn with_falling(kept: &[usize], counts: &[i64], edges: usize) -> (Vec<usize>, Vec<i64>) {
+fn with_falling(kept: &[usize], counts: &[i64], rises: &[bool]) -> (Vec<usize>, Vec<i64>) {
     let (mut which, mut marks) = (Vec::new(), Vec::new());
     if let (Some(&first), Some(&count)) = (kept.first(), counts.first())
         && first == 1
+        && !rises[0]
     {
         which.push(0);
         marks.push(2 * count - 1);
@@ -211,8 +257,8 @@ fn with_falling(kept: &[usize], counts: &[i64], edges: usize) -> (Vec<usize>, Ve
         which.push(edge);
         marks.push(2 * count);
         let regular = match kept.get(k + 1) {
-            Some(&next) => next == edge + 2 && counts[k + 1] == count + 1,
-            None => edge + 1 < edges,
+            Some(&next) => next == edge + 2 && !rises[edge + 1] && counts[k + 1] == count + 1,
+            None => rises.get(edge + 1) == Some(&false),
         };
         if regular {
             which.push(edge + 1);

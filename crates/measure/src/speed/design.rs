@@ -9,8 +9,8 @@ use crate::pulse::Pulses;
 
 /// Numbers of marks that wheels and encoders have.
 const OFFERED: [usize; 32] = [
-    1, 2, 3, 4, 6, 8, 10, 12, 15, 18, 20, 24, 30, 36, 45, 60, 72, 90, 120, 150, 180, 240, 250, 360, 500, 512, 720, 1000, 1024,
-    1440, 2000, 2048,
+    1, 2, 3, 4, 6, 8, 10, 12, 15, 18, 20, 24, 30, 36, 45, 60, 72, 90, 120, 150, 180, 240, 250, 360,
+    500, 512, 720, 1000, 1024, 1440, 2000, 2048,
 ];
 
 /// Fewest marks per revolution that give the acceleration of a spin-up from rest to the wanted uncertainty, root mean square
@@ -22,11 +22,15 @@ const OFFERED: [usize; 32] = [
 /// The smoother itself is asked, for a bell-shaped acceleration `(1 - cos 2πt/T)/2` and exactly known mark angles; it
 /// promises no more than that.
 pub fn marks_needed(change: f64, duration: f64, timing: f64, wanted: f64) -> Option<usize> {
-    let positive = [change, duration, timing, wanted].iter().all(|x| x.is_finite() && *x > 0.0);
+    let positive = [change, duration, timing, wanted]
+        .iter()
+        .all(|x| x.is_finite() && *x > 0.0);
     if !positive {
         return None;
     }
-    OFFERED.into_iter().find(|&marks| uncertainty(change, duration, timing, marks).is_some_and(|got| got <= wanted))
+    OFFERED.into_iter().find(|&marks| {
+        uncertainty(change, duration, timing, marks).is_some_and(|got| got <= wanted)
+    })
 }
 
 /// Relative uncertainty that a number of marks gives; none where there are too few or far too many to ask.
@@ -35,7 +39,11 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
     let whole = 0.5 * change * duration;
     // Angle of the bell at a part x of its duration.
     let angle = |x: f64| {
-        if x < 1.0 { 2.0 * whole * (0.5 * x * x - (1.0 - (TAU * x).cos()) / (TAU * TAU)) } else { whole + change * duration * (x - 1.0) }
+        if x < 1.0 {
+            2.0 * whole * (0.5 * x * x - (1.0 - (TAU * x).cos()) / (TAU * TAU))
+        } else {
+            whole + change * duration * (x - 1.0)
+        }
     };
     let mut times = Vec::new();
     let beyond = whole + 12.0 * pitch;
@@ -76,18 +84,28 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
     let length = duration / data.unit;
     let peak = 2.0 * change * data.unit / length;
     let engage = data.units(0.0);
-    let memory = Memory { spread: 1e-3 * timing / data.unit, rate: 1.0 };
+    let memory = Memory {
+        spread: 1e-3 * timing / data.unit,
+        rate: 1.0,
+    };
     // Knots that the pulses themselves must find: a grid of them, weighted by likelihood.
     let shifts = [-0.12, -0.06, 0.0, 0.06, 0.12];
     let mut parts = Vec::new();
-    for (early, late) in shifts.iter().flat_map(|a| shifts.iter().map(move |b| (a, b))) {
+    for (early, late) in shifts
+        .iter()
+        .flat_map(|a| shifts.iter().map(move |b| (a, b)))
+    {
         let engage = engage + early * length;
         // The first mark is at the time zero of the units: the engagement comes before it.
         if engage >= 0.0 {
             continue;
         }
         let plan = Plan {
-            noise: Noise { timing: 1.0, angle: 1e-9 * pitch, memory },
+            noise: Noise {
+                timing: 1.0,
+                angle: 1e-9 * pitch,
+                memory,
+            },
             quiet: [1e-9 * change * data.unit; 3],
             lively: Some(Lively {
                 engage,
@@ -109,7 +127,10 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
     let square: f64 = (0..points)
         .map(|k| {
             let time = engage + length * (k as f64 + 0.5) / points as f64;
-            let beliefs: Vec<_> = parts.iter().map(|p| ((p.0 - top).exp() / total, super::at(&p.1, time))).collect();
+            let beliefs: Vec<_> = parts
+                .iter()
+                .map(|p| ((p.0 - top).exp() / total, super::at(&p.1, time)))
+                .collect();
             mixed(beliefs.iter().copied()).covariance[2][2] / points as f64
         })
         .sum();

@@ -60,7 +60,11 @@ pub(super) fn drift(dt: f64, memory: &Memory) -> Matrix {
 ///
 /// Formula: Q_ij = density dt^(7-i-j) / ((7-i-j) (3-i)! (3-j)!), i, j from 0 to 3.
 pub(super) fn gathered(dt: f64, density: f64, memory: &Memory) -> Matrix {
-    gathered_with(dt, density, memory.spread * memory.spread * -(-2.0 * dt * memory.rate).exp_m1())
+    gathered_with(
+        dt,
+        density,
+        memory.spread * memory.spread * -(-2.0 * dt * memory.rate).exp_m1(),
+    )
 }
 
 fn gathered_with(dt: f64, density: f64, clock: f64) -> Matrix {
@@ -101,7 +105,11 @@ pub(super) fn advance(x: &mut Vector, p: &mut Matrix, dt: f64, density: f64, mem
         a[3][j] = p[3][j];
         a[4][j] = kept * p[4][j];
     }
-    let mut b = gathered_with(dt, density, memory.spread * memory.spread * (1.0 - kept * kept));
+    let mut b = gathered_with(
+        dt,
+        density,
+        memory.spread * memory.spread * (1.0 - kept * kept),
+    );
     for i in 0..N {
         b[i][0] += a[i][0] + dt * a[i][1] + h * a[i][2] + s * a[i][3];
         b[i][1] += a[i][1] + dt * a[i][2] + h * a[i][3];

@@ -20,9 +20,9 @@ mod search;
 mod track;
 
 use crate::pulse::{Pitch, Pulses, Refusal};
-use plan::{Data, Plan};
 pub use design::marks_needed;
 use matrix::{Matrix, N};
+use plan::{Data, Plan};
 use track::{Belief, Track, mixed};
 
 /// Where a quick change of speed is looked for.
@@ -57,7 +57,13 @@ pub struct SpeedSettings {
 impl Default for SpeedSettings {
     /// One quick change at most, any uncertainty, no delay and no ripple.
     fn default() -> Self {
-        SpeedSettings { transient: Transient::Auto, wanted: None, duration: None, latency: 0.0, ripple: 0.0 }
+        SpeedSettings {
+            transient: Transient::Auto,
+            wanted: None,
+            duration: None,
+            latency: 0.0,
+            ripple: 0.0,
+        }
     }
 }
 
@@ -131,10 +137,17 @@ const FEWEST: usize = 6;
 /// Smooths pulses to angle, speed and acceleration.
 ///
 /// `pitch` are the errors of the wheel, where they are known.
-pub fn smooth(pulses: &Pulses, pitch: Option<&Pitch>, settings: &SpeedSettings) -> Result<Speed, Refusal> {
+pub fn smooth(
+    pulses: &Pulses,
+    pitch: Option<&Pitch>,
+    settings: &SpeedSettings,
+) -> Result<Speed, Refusal> {
     let n = pulses.times.len();
     if n < FEWEST || pulses.marks.len() != n || pulses.uncertainties.len() != n {
-        return Err(Refusal::new(format!("{n} pulses"), format!("at least {FEWEST} pulses")));
+        return Err(Refusal::new(
+            format!("{n} pulses"),
+            format!("at least {FEWEST} pulses"),
+        ));
     }
     let data = Data::new(pulses, pitch);
     let sight = fit::sight(&data, &settings.transient);
@@ -146,10 +159,18 @@ pub fn smooth(pulses: &Pulses, pitch: Option<&Pitch>, settings: &SpeedSettings) 
     let (noise, density) = if n - quiet_from >= 12 {
         fit::quiet(&data, (quiet_from + (n - quiet_from) / 20).min(n)..n)
     } else {
-        notes.push("fewer than 12 pulses at steady speed: the noise of the pulses is assumed".into());
+        notes.push(
+            "fewer than 12 pulses at steady speed: the noise of the pulses is assumed".into(),
+        );
         fit::quiet(&data, n.saturating_sub(12)..n)
     };
-    let mut base = Plan { noise, quiet: [density; 3], lively: None, settled: 0.0, rests: false };
+    let mut base = Plan {
+        noise,
+        quiet: [density; 3],
+        lively: None,
+        settled: 0.0,
+        rests: false,
+    };
     if let Some(sight) = &sight
         && !sight.rests
         && sight.first >= 12
@@ -160,17 +181,32 @@ pub fn smooth(pulses: &Pulses, pitch: Option<&Pitch>, settings: &SpeedSettings) 
         base.settled = sight.lock + 2.0 * (sight.lock - sight.engage);
         let to = data.passages.partition_point(|p| p.time <= base.settled);
         if to >= sight.after + 8 {
-            base.quiet[1] = fit::settling(&data, sight.after..to.min(sight.after + 200), noise, density);
+            base.quiet[1] = fit::settling(
+                &data,
+                sight.after..to.min(sight.after + 200),
+                noise,
+                density,
+            );
         }
     }
     let mut speed = Speed {
-        base: Track::new(Vec::new(), Belief { mean: [0.0; N], covariance: [[0.0; N]; N] }, 0.0, noise.memory),
+        base: Track::new(
+            Vec::new(),
+            Belief {
+                mean: [0.0; N],
+                covariance: [[0.0; N]; N],
+            },
+            0.0,
+            noise.memory,
+        ),
         parts: Vec::new(),
         window: (f64::INFINITY, f64::NEG_INFINITY),
         origin: data.origin,
         unit: data.unit,
         latency: settings.latency.max(0.0),
-        eccentricity: pitch.map_or(0.0, |p| settings.ripple.max(0.0) / (p.speed * p.speed).max(1e-12)),
+        eccentricity: pitch.map_or(0.0, |p| {
+            settings.ripple.max(0.0) / (p.speed * p.speed).max(1e-12)
+        }),
         change: None,
         timing_factor: noise.timing,
         angle_noise: noise.angle,
@@ -189,8 +225,15 @@ pub fn smooth(pulses: &Pulses, pitch: Option<&Pitch>, settings: &SpeedSettings) 
             let (nodes, start) = plan.nodes(&data, range.clone());
             Track::new(nodes, start, plan.quiet[2], noise.memory)
         };
-        speed.parts = plans.iter().map(|(plan, weight)| (*weight, track(plan))).collect();
-        let begin = if sight.rests { f64::NEG_INFINITY } else { data.passages[range.start].time };
+        speed.parts = plans
+            .iter()
+            .map(|(plan, weight)| (*weight, track(plan)))
+            .collect();
+        let begin = if sight.rests {
+            f64::NEG_INFINITY
+        } else {
+            data.passages[range.start].time
+        };
         let margin = if range.end < n { 5 } else { 1 };
         speed.window = (begin, data.passages[range.end - margin].time);
         speed.change = Some(summary(&data, sight, &plans));
@@ -204,7 +247,10 @@ pub fn smooth(pulses: &Pulses, pitch: Option<&Pitch>, settings: &SpeedSettings) 
         ));
     }
     if let (Some(change), Some(wanted)) = (speed.change, settings.wanted) {
-        let (from, to) = (change.engagement.0, change.end.map_or(speed.range().1, |end| end.0));
+        let (from, to) = (
+            change.engagement.0,
+            change.end.map_or(speed.range().1, |end| end.0),
+        );
         let got = speed.relative_uncertainty(from, to);
         // Written so that a value that is not a number is refused.
         if got.is_nan() || got > wanted {
@@ -217,7 +263,11 @@ pub fn smooth(pulses: &Pulses, pitch: Option<&Pitch>, settings: &SpeedSettings) 
                     100.0 * got,
                     100.0 * wanted
                 ),
-                needed(marks_needed(jump, to - from, timing, wanted), pulses, wanted),
+                needed(
+                    marks_needed(jump, to - from, timing, wanted),
+                    pulses,
+                    wanted,
+                ),
             ));
         }
     }
@@ -241,13 +291,24 @@ fn enough(data: &Data, sight: &fit::Sight, settings: &SpeedSettings) -> Result<(
     let mut spreads: Vec<f64> = data.passages.iter().map(|p| p.spread * data.unit).collect();
     let timing = crate::pulse::median(&mut spreads);
     let marks = marks_needed(change, duration, timing, wanted);
-    let least = if settings.duration.is_some() { "" } else { " or less" };
+    let least = if settings.duration.is_some() {
+        ""
+    } else {
+        " or less"
+    };
     Err(Refusal::new(
-        format!("the speed changes by {change:.1} rad/s in {:.1} ms{least}, in which {within} pulses came", 1e3 * duration),
+        format!(
+            "the speed changes by {change:.1} rad/s in {:.1} ms{least}, in which {within} pulses came",
+            1e3 * duration
+        ),
         match marks {
             Some(marks) => format!(
                 "{}{marks} marks per revolution for an acceleration within {:.0} % of its peak (there are {:.0})",
-                if settings.duration.is_some() { "" } else { "at least " },
+                if settings.duration.is_some() {
+                    ""
+                } else {
+                    "at least "
+                },
                 100.0 * wanted,
                 std::f64::consts::TAU / data.pitch
             ),
@@ -259,7 +320,11 @@ fn enough(data: &Data, sight: &fit::Sight, settings: &SpeedSettings) -> Result<(
 fn needed(marks: Option<usize>, pulses: &Pulses, wanted: f64) -> String {
     match marks {
         Some(marks) if marks > pulses.positions => {
-            format!("about {marks} marks per revolution for {:.1} % (there are {})", 100.0 * wanted, pulses.positions)
+            format!(
+                "about {marks} marks per revolution for {:.1} % (there are {})",
+                100.0 * wanted,
+                pulses.positions
+            )
         }
         _ => format!(
             "more exact instants: {} marks per revolution would do for {:.1} % if their angles were known",
@@ -277,46 +342,78 @@ fn stated(pulses: &Pulses) -> f64 {
 /// Instants of the knots from the plans that are left.
 fn summary(data: &Data, sight: &fit::Sight, plans: &[(Plan, f64)]) -> Change {
     let moments = |value: &dyn Fn(&plan::Lively) -> f64| {
-        let known = || plans.iter().filter_map(|(plan, weight)| plan.lively.as_ref().map(|l| (value(l), *weight)));
+        let known = || {
+            plans
+                .iter()
+                .filter_map(|(plan, weight)| plan.lively.as_ref().map(|l| (value(l), *weight)))
+        };
         let mean: f64 = known().map(|(x, w)| w * x).sum();
         let variance: f64 = known().map(|(x, w)| w * (x - mean).powi(2)).sum();
         (mean, variance.sqrt())
     };
     let (engage, engage_spread) = moments(&|l| l.engage);
     let (lock, lock_spread) = moments(&|l| l.lock);
-    let jump = moments(&|l| if l.start == plan::Knot::Jump { 1.0 } else { 0.0 }).0;
+    let jump = moments(&|l| {
+        if l.start == plan::Knot::Jump {
+            1.0
+        } else {
+            0.0
+        }
+    })
+    .0;
     Change {
         engagement: (data.seconds(engage), engage_spread * data.unit),
-        end: sight.ends.then_some((data.seconds(lock), lock_spread * data.unit)),
+        end: sight
+            .ends
+            .then_some((data.seconds(lock), lock_spread * data.unit)),
         from_rest: sight.rests,
         jump,
-        pulses: data.passages.iter().filter(|p| p.time > engage && p.time < lock).count(),
+        pulses: data
+            .passages
+            .iter()
+            .filter(|p| p.time > engage && p.time < lock)
+            .count(),
     }
 }
 
 impl Speed {
     /// First and last instant for which there is an answer, s.
     pub fn range(&self) -> (f64, f64) {
-        (self.origin + self.unit * self.base.begin(), self.origin + self.unit * self.base.end())
+        (
+            self.origin + self.unit * self.base.begin(),
+            self.origin + self.unit * self.base.end(),
+        )
     }
 
     /// The tracks that hold at an instant, in units, with their weights.
     fn tracks(&self, time: f64) -> Vec<(f64, &Track)> {
         if time >= self.window.0 && time <= self.window.1 && !self.parts.is_empty() {
-            self.parts.iter().map(|(weight, track)| (*weight, track)).collect()
+            self.parts
+                .iter()
+                .map(|(weight, track)| (*weight, track))
+                .collect()
         } else {
             vec![(1.0, &self.base)]
         }
     }
 
     fn belief(&self, time: f64) -> Belief {
-        let beliefs: Vec<(f64, Belief)> = self.tracks(time).iter().map(|(w, track)| (*w, at(track, time))).collect();
+        let beliefs: Vec<(f64, Belief)> = self
+            .tracks(time)
+            .iter()
+            .map(|(w, track)| (*w, at(track, time)))
+            .collect();
         mixed(beliefs.iter().copied())
     }
 
     /// Units of angle, speed, acceleration and jerk.
     fn scale(&self) -> [f64; 4] {
-        [1.0, self.unit.recip(), self.unit.powi(-2), self.unit.powi(-3)]
+        [
+            1.0,
+            self.unit.recip(),
+            self.unit.powi(-2),
+            self.unit.powi(-3),
+        ]
     }
 
     /// The motion at an instant, s; outside the range of the pulses it is carried on, with growing covariance, and before
@@ -351,23 +448,47 @@ impl Speed {
             return std::array::from_fn(|i| std::array::from_fn(|j| other[j][i]));
         }
         let times = [first, second].map(|t| (t - self.origin) / self.unit);
-        let inside = times.iter().all(|&t| t >= self.window.0 && t <= self.window.1);
-        let tracks = if inside { self.tracks(times[0]) } else { vec![(1.0, &self.base)] };
-        let parts: Vec<_> = tracks.iter().map(|(w, track)| (*w, times.map(|t| at(track, t)), between(track, times))).collect();
-        let mean: [[f64; 3]; 2] =
-            std::array::from_fn(|k| std::array::from_fn(|i| parts.iter().map(|p| p.0 * p.1[k].mean[i]).sum()));
-        let jerk: [f64; 2] = std::array::from_fn(|k| parts.iter().map(|p| p.0 * p.1[k].mean[3]).sum());
+        let inside = times
+            .iter()
+            .all(|&t| t >= self.window.0 && t <= self.window.1);
+        let tracks = if inside {
+            self.tracks(times[0])
+        } else {
+            vec![(1.0, &self.base)]
+        };
+        let parts: Vec<_> = tracks
+            .iter()
+            .map(|(w, track)| (*w, times.map(|t| at(track, t)), between(track, times)))
+            .collect();
+        let mean: [[f64; 3]; 2] = std::array::from_fn(|k| {
+            std::array::from_fn(|i| parts.iter().map(|p| p.0 * p.1[k].mean[i]).sum())
+        });
+        let jerk: [f64; 2] =
+            std::array::from_fn(|k| parts.iter().map(|p| p.0 * p.1[k].mean[3]).sum());
         let scale = self.scale();
         let late = [0, 1].map(|k| {
-            [mean[k][1] * scale[1], mean[k][2] * scale[2], jerk[k] * scale[3]].map(|x| x * self.latency)
+            [
+                mean[k][1] * scale[1],
+                mean[k][2] * scale[2],
+                jerk[k] * scale[3],
+            ]
+            .map(|x| x * self.latency)
         });
-        let wrong = [0, 1]
-            .map(|k| self.wrong_wheel(mean[k][0] - mean[0][0], mean[k][1] * scale[1], mean[k][2] * scale[2]));
+        let wrong = [0, 1].map(|k| {
+            self.wrong_wheel(
+                mean[k][0] - mean[0][0],
+                mean[k][1] * scale[1],
+                mean[k][2] * scale[2],
+            )
+        });
         std::array::from_fn(|i| {
             std::array::from_fn(|j| {
                 let own: f64 = parts
                     .iter()
-                    .map(|p| p.0 * (p.2[i][j] + (p.1[0].mean[i] - mean[0][i]) * (p.1[1].mean[j] - mean[1][j])))
+                    .map(|p| {
+                        p.0 * (p.2[i][j]
+                            + (p.1[0].mean[i] - mean[0][i]) * (p.1[1].mean[j] - mean[1][j]))
+                    })
                     .sum();
                 let wheel: f64 = (0..2).map(|w| wrong[0][w][i] * wrong[1][w][j]).sum();
                 own * scale[i] * scale[j] + late[0][i] * late[1][j] + wheel
@@ -380,9 +501,19 @@ impl Speed {
     /// `uniform` from 0 to 1 picks the knots; `normal` gives independent standard normal numbers. All instants within the
     /// quick change or all anywhere: then the knots count as known. Instants before the first pulse, or before an
     /// engagement from rest, are at its state.
-    pub fn draw(&self, times: &[f64], uniform: f64, normal: &mut dyn FnMut() -> f64) -> Vec<[f64; 3]> {
-        let units: Vec<f64> = times.iter().map(|t| (t - self.origin) / self.unit).collect();
-        let inside = units.iter().all(|&t| t >= self.window.0 && t <= self.window.1);
+    pub fn draw(
+        &self,
+        times: &[f64],
+        uniform: f64,
+        normal: &mut dyn FnMut() -> f64,
+    ) -> Vec<[f64; 3]> {
+        let units: Vec<f64> = times
+            .iter()
+            .map(|t| (t - self.origin) / self.unit)
+            .collect();
+        let inside = units
+            .iter()
+            .all(|&t| t >= self.window.0 && t <= self.window.1);
         let mut left = uniform;
         let part = self.parts.iter().find(|(weight, _)| {
             left -= weight;
@@ -402,12 +533,19 @@ impl Speed {
             .iter()
             .zip(&path)
             .map(|(&t, x)| {
-                let rest = if t < begin { [x[0], 0.0, 0.0, 0.0] } else { [x[0], x[1], x[2], x[3]] };
-                let [angle, speed, acceleration, jerk] = std::array::from_fn(|i| rest[i] * scale[i]);
+                let rest = if t < begin {
+                    [x[0], 0.0, 0.0, 0.0]
+                } else {
+                    [x[0], x[1], x[2], x[3]]
+                };
+                let [angle, speed, acceleration, jerk] =
+                    std::array::from_fn(|i| rest[i] * scale[i]);
                 let late = [speed, acceleration, jerk].map(|v| v * delay);
                 let wrong = self.wrong_wheel(angle - origin, speed, acceleration);
                 let now = [angle, speed, acceleration];
-                std::array::from_fn(|i| now[i] + late[i] + sine * wrong[0][i] + cosine * wrong[1][i])
+                std::array::from_fn(|i| {
+                    now[i] + late[i] + sine * wrong[0][i] + cosine * wrong[1][i]
+                })
             })
             .collect()
     }
@@ -429,7 +567,11 @@ impl Speed {
     fn wrong_wheel(&self, angle: f64, speed: f64, acceleration: f64) -> [[f64; 3]; 2] {
         let (e, (sine, cosine)) = (self.eccentricity, angle.sin_cos());
         let of = |value: f64, slope: f64| {
-            [e * value, e * slope * speed, e * (slope * acceleration - value * speed * speed)]
+            [
+                e * value,
+                e * slope * speed,
+                e * (slope * acceleration - value * speed * speed),
+            ]
         };
         [of(sine, cosine), of(cosine, -sine)]
     }

@@ -38,26 +38,42 @@ pub(super) struct Data {
 impl Data {
     pub fn new(pulses: &Pulses, pitch: Option<&Pitch>) -> Data {
         let nominal = pulses.pitch();
-        let error = |position: usize| pitch.and_then(|p| p.errors.get(position).copied()).unwrap_or(0.0);
+        let error = |position: usize| {
+            pitch
+                .and_then(|p| p.errors.get(position).copied())
+                .unwrap_or(0.0)
+        };
         let left = |position: usize| match pitch {
-            Some(p) => Some(p.covariance(position, position)).filter(|v| v.is_finite()).unwrap_or(0.0).max(0.0),
+            Some(p) => Some(p.covariance(position, position))
+                .filter(|v| v.is_finite())
+                .unwrap_or(0.0)
+                .max(0.0),
             None => 0.0,
         };
         let origin = pulses.times[0];
-        let mut gaps: Vec<f64> = pulses.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let mut gaps: Vec<f64> = pulses
+            .times
+            .windows(2)
+            .map(|pair| pair[1] - pair[0])
+            .collect();
         let unit = crate::pulse::median(&mut gaps).max(1e-12);
         let first = error(pulses.position(0));
         let mut passages: Vec<Passage> = (0..pulses.times.len())
             .map(|k| Passage {
                 time: (pulses.times[k] - origin) / unit,
-                angle: (pulses.marks[k] - pulses.marks[0]) as f64 * nominal + error(pulses.position(k)) - first,
+                angle: (pulses.marks[k] - pulses.marks[0]) as f64 * nominal
+                    + error(pulses.position(k))
+                    - first,
                 speed: 0.0,
                 spread: pulses.uncertainties[k] / unit,
                 left: left(pulses.position(k)),
             })
             .collect();
         for k in 0..passages.len() {
-            let (a, b) = (&passages[k.saturating_sub(1)], &passages[(k + 1).min(passages.len() - 1)]);
+            let (a, b) = (
+                &passages[k.saturating_sub(1)],
+                &passages[(k + 1).min(passages.len() - 1)],
+            );
             let speed = (b.angle - a.angle) / (b.time - a.time).max(1e-9);
             passages[k].speed = speed;
         }
@@ -67,7 +83,10 @@ impl Data {
             passages,
             origin,
             unit,
-            watched: ((pulses.watched.0 - origin) / unit, (pulses.watched.1 - origin) / unit),
+            watched: (
+                (pulses.watched.0 - origin) / unit,
+                (pulses.watched.1 - origin) / unit,
+            ),
             before,
             pitch: nominal,
             calibrated: pitch.is_some(),
@@ -98,7 +117,9 @@ pub(super) struct Noise {
 
 impl Noise {
     pub fn variance(&self, passage: &Passage) -> f64 {
-        (self.timing * passage.spread * passage.speed).powi(2) + self.angle * self.angle + passage.left
+        (self.timing * passage.spread * passage.speed).powi(2)
+            + self.angle * self.angle
+            + passage.left
     }
 }
 
@@ -143,7 +164,7 @@ impl Lively {
 }
 
 /// How much livelier.
-const LIVELIER: f64 = 10.0;
+const LIVELIER: f64 = 6.0;
 
 /// Everything that turns passages into nodes.
 #[derive(Clone, Copy, Debug)]
@@ -191,7 +212,12 @@ impl Plan {
         let mut knots = knots.into_iter().peekable();
         for passage in passages {
             while let Some((time, added)) = knots.next_if(|knot| knot.0 <= passage.time) {
-                nodes.push(Node { time, density: density(time), pulse: None, added });
+                nodes.push(Node {
+                    time,
+                    density: density(time),
+                    pulse: None,
+                    added,
+                });
             }
             nodes.push(Node {
                 time: passage.time,
@@ -227,7 +253,10 @@ fn moving(first: &Passage, pitch: f64) -> Belief {
     covariance[1][1] = (0.3 * speed).powi(2);
     covariance[2][2] = (0.1 * speed).powi(2);
     covariance[3][3] = (0.03 * speed).powi(2);
-    Belief { mean: [first.angle, speed, 0.0, 0.0, 0.0], covariance }
+    Belief {
+        mean: [first.angle, speed, 0.0, 0.0, 0.0],
+        covariance,
+    }
 }
 
 /// Belief at the engagement from rest: no speed, an angle anywhere before the first mark.
@@ -237,5 +266,14 @@ fn resting(data: &Data, lively: &Lively) -> Belief {
     covariance[0][0] = data.before * data.before / 12.0;
     covariance[2][2] = added[2];
     covariance[3][3] = added[3];
-    Belief { mean: [data.passages[0].angle - 0.5 * data.before, 0.0, 0.0, 0.0, 0.0], covariance }
+    Belief {
+        mean: [
+            data.passages[0].angle - 0.5 * data.before,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+        ],
+        covariance,
+    }
 }

@@ -26,7 +26,9 @@ pub(super) fn smallest<const D: usize>(
         let centre: [f64; D] =
             std::array::from_fn(|i| corners[..D].iter().map(|c| c.0[i]).sum::<f64>() / D as f64);
         let worst = corners[D];
-        let along = |factor: f64| -> [f64; D] { std::array::from_fn(|i| centre[i] + factor * (worst.0[i] - centre[i])) };
+        let along = |factor: f64| -> [f64; D] {
+            std::array::from_fn(|i| centre[i] + factor * (worst.0[i] - centre[i]))
+        };
         let mut tried = (along(-1.0), 0.0);
         tried.1 = value(&tried.0);
         used += 1;
@@ -38,7 +40,11 @@ pub(super) fn smallest<const D: usize>(
         } else if tried.1 < corners[D - 1].1 {
             corners[D] = tried;
         } else {
-            let near = if tried.1 < worst.1 { along(-0.5) } else { along(0.5) };
+            let near = if tried.1 < worst.1 {
+                along(-0.5)
+            } else {
+                along(0.5)
+            };
             let there = value(&near);
             used += 1;
             if there < worst.1.min(tried.1) {
@@ -82,8 +88,9 @@ pub(super) fn spread<const D: usize>(
         let volume: f64 = (0..D).map(|k| triangle[k][k].ln()).sum();
         for k in 0..points {
             let normal: [f64; D] = std::array::from_fn(|i| quasi_normal(k + 1 + round * points, i));
-            let point: [f64; D] =
-                std::array::from_fn(|i| centre[i] + (0..=i).map(|j| triangle[i][j] * normal[j]).sum::<f64>());
+            let point: [f64; D] = std::array::from_fn(|i| {
+                centre[i] + (0..=i).map(|j| triangle[i][j] * normal[j]).sum::<f64>()
+            });
             let square: f64 = normal.iter().map(|x| x * x).sum();
             logs.push(-value(&point) + 0.5 * square + volume);
             found.push((point, 0.0));
@@ -102,13 +109,16 @@ pub(super) fn spread<const D: usize>(
             let heaviest = found.iter().map(|f| f.1).fold(0.0, f64::max);
             let power = if heaviest > 0.3 { 0.5 } else { 1.0 };
             let sum: f64 = found.iter().map(|f| f.1.powf(power)).sum();
-            centre = std::array::from_fn(|i| found.iter().map(|f| f.1.powf(power) * f.0[i]).sum::<f64>() / sum);
+            centre = std::array::from_fn(|i| {
+                found.iter().map(|f| f.1.powf(power) * f.0[i]).sum::<f64>() / sum
+            });
             let mut covariance = [[0.0; D]; D];
             for (point, weight) in &found {
                 for i in 0..D {
                     for j in 0..D {
-                        covariance[i][j] +=
-                            1.3 * weight.powf(power) / sum * (point[i] - centre[i]) * (point[j] - centre[j]);
+                        covariance[i][j] += 1.3 * weight.powf(power) / sum
+                            * (point[i] - centre[i])
+                            * (point[j] - centre[j]);
                     }
                 }
             }
@@ -152,6 +162,8 @@ fn quasi_normal(index: usize, dimension: usize) -> f64 {
 fn normal_quantile(p: f64) -> f64 {
     let p = p.clamp(1e-12, 1.0 - 1e-12);
     let t = (-2.0 * p.min(1.0 - p).ln()).sqrt();
-    let x = t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1.0 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+    let x = t
+        - (2.515517 + t * (0.802853 + t * 0.010328))
+            / (1.0 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
     if p < 0.5 { -x } else { x }
 }

@@ -11,7 +11,10 @@
 //!
 //! Source: Bierman, Factorization Methods for Discrete Sequential Estimation, 1977, chapter X (from memory).
 
-use super::matrix::{Matrix, Memory, N, Vector, advance, apply, drift, gathered, minus, plus, product, root, taken_back, transposed};
+use super::matrix::{
+    Matrix, Memory, N, Vector, advance, apply, drift, gathered, minus, plus, product, root,
+    taken_back, transposed,
+};
 
 /// A mark that passes.
 #[derive(Clone, Copy, Debug)]
@@ -94,7 +97,13 @@ pub(super) fn forward(
         let dt = node.time - time;
         time = node.time;
         if dt > 0.0 {
-            advance(&mut belief.mean, &mut belief.covariance, dt, node.density, memory);
+            advance(
+                &mut belief.mean,
+                &mut belief.covariance,
+                dt,
+                node.density,
+                memory,
+            );
         }
         if let Some(added) = node.added {
             for (i, a) in added.iter().enumerate() {
@@ -106,7 +115,11 @@ pub(super) fn forward(
             let innovation = pulse.angle - pulse.of(&belief.mean);
             let row = pulse.seen(&belief.covariance);
             let spread = pulse.of(&row) + pulse.variance;
-            update = Update { gain: row.map(|x| x / spread), pull: innovation / spread, stiffness: spread.recip() };
+            update = Update {
+                gain: row.map(|x| x / spread),
+                pull: innovation / spread,
+                stiffness: spread.recip(),
+            };
             for i in 0..N {
                 belief.mean[i] += update.gain[i] * innovation;
                 for j in 0..N {
@@ -117,7 +130,11 @@ pub(super) fn forward(
         }
         visit(&belief, &update);
     }
-    if likelihood.is_finite() { likelihood } else { f64::NEG_INFINITY }
+    if likelihood.is_finite() {
+        likelihood
+    } else {
+        f64::NEG_INFINITY
+    }
 }
 
 impl Track {
@@ -133,7 +150,11 @@ impl Track {
         let (mut g, mut c) = ([0.0; N], [[0.0; N]; N]);
         for k in (0..nodes.len()).rev() {
             if let Some(pulse) = &nodes[k].pulse {
-                let Update { gain, pull, stiffness } = updates[k];
+                let Update {
+                    gain,
+                    pull,
+                    stiffness,
+                } = updates[k];
                 let along = (0..N).map(|i| gain[i] * g[i]).sum::<f64>();
                 let across: Vector = apply(&c, &gain);
                 let twice = (0..N).map(|i| gain[i] * across[i]).sum::<f64>();
@@ -155,7 +176,17 @@ impl Track {
             }
         }
         let times = nodes.iter().map(|node| node.time).collect();
-        Track { nodes, times, start, filtered, gradient, curvature, updates, density, memory }
+        Track {
+            nodes,
+            times,
+            start,
+            filtered,
+            gradient,
+            curvature,
+            updates,
+            density,
+            memory,
+        }
     }
 
     pub fn begin(&self) -> f64 {
@@ -170,7 +201,10 @@ impl Track {
     pub fn is_finite(&self) -> bool {
         let sound = |m: &Matrix| m.iter().flatten().all(|x| x.is_finite());
         self.times.iter().all(|t| t.is_finite())
-            && self.filtered.iter().all(|b| b.mean.iter().all(|x| x.is_finite()) && sound(&b.covariance))
+            && self
+                .filtered
+                .iter()
+                .all(|b| b.mean.iter().all(|x| x.is_finite()) && sound(&b.covariance))
             && self.gradient.iter().flatten().all(|x| x.is_finite())
             && self.curvature.iter().all(sound)
     }
@@ -182,11 +216,22 @@ impl Track {
     /// Filtered belief carried to an instant, and the adjoint there.
     fn around(&self, time: f64) -> (Belief, Vector, Matrix) {
         let next = self.times.partition_point(|&t| t <= time);
-        let Some(last) = next.checked_sub(1) else { return (self.start, [0.0; N], [[0.0; N]; N]) };
+        let Some(last) = next.checked_sub(1) else {
+            return (self.start, [0.0; N], [[0.0; N]; N]);
+        };
         let dt = time - self.nodes[last].time;
-        let density = self.nodes.get(next).map_or(self.density, |node| node.density);
+        let density = self
+            .nodes
+            .get(next)
+            .map_or(self.density, |node| node.density);
         let mut belief = self.filtered[last];
-        advance(&mut belief.mean, &mut belief.covariance, dt, density, &self.memory);
+        advance(
+            &mut belief.mean,
+            &mut belief.covariance,
+            dt,
+            density,
+            &self.memory,
+        );
         match self.nodes.get(next) {
             None => (belief, [0.0; N], [[0.0; N]; N]),
             Some(node) => {
@@ -222,7 +267,8 @@ impl Track {
             time = self.nodes[k].time;
             if let Some(pulse) = &self.nodes[k].pulse {
                 let gain = self.updates[k].gain;
-                let row: Vector = std::array::from_fn(|j| carried[0][j] + pulse.speed * carried[4][j]);
+                let row: Vector =
+                    std::array::from_fn(|j| carried[0][j] + pulse.speed * carried[4][j]);
                 for i in 0..N {
                     for j in 0..N {
                         carried[i][j] -= gain[i] * row[j];
@@ -251,13 +297,14 @@ impl Track {
         let mut made = self.nodes.clone();
         let mut path = Vec::with_capacity(times.len());
         let mut time = self.begin();
-        let step = |x: &mut Vector, dt: f64, density: f64, shake: &mut dyn FnMut(&Matrix) -> Vector| {
-            if dt > 0.0 {
-                let noise = shake(&gathered(dt, density, &self.memory));
-                let free = apply(&drift(dt, &self.memory), x);
-                *x = std::array::from_fn(|i| free[i] + noise[i]);
-            }
-        };
+        let step =
+            |x: &mut Vector, dt: f64, density: f64, shake: &mut dyn FnMut(&Matrix) -> Vector| {
+                if dt > 0.0 {
+                    let noise = shake(&gathered(dt, density, &self.memory));
+                    let free = apply(&drift(dt, &self.memory), x);
+                    *x = std::array::from_fn(|i| free[i] + noise[i]);
+                }
+            };
         let mut wanted = times.iter().peekable();
         for node in &mut made {
             while let Some(&&t) = wanted.peek()
@@ -271,7 +318,9 @@ impl Track {
             step(&mut x, node.time - time, node.density, &mut shake);
             time = node.time;
             if let Some(added) = node.added {
-                let noise = shake(&std::array::from_fn(|i| std::array::from_fn(|j| if i == j && i < 4 { added[i] } else { 0.0 })));
+                let noise = shake(&std::array::from_fn(|i| {
+                    std::array::from_fn(|j| if i == j && i < 4 { added[i] } else { 0.0 })
+                }));
                 x = std::array::from_fn(|i| x[i] + noise[i]);
             }
             if let Some(pulse) = &mut node.pulse {

@@ -75,7 +75,11 @@ pub fn spin_up(seed: u64, speed: f64, peak: f64, after: f64) -> Truth {
     let step = (length / 4000.0).min(2e-5);
     let engage = r.between(0.04, 0.06) + length * r.uniform();
     let drag = r.between(10.0, 40.0);
-    let (ring, ring_rate, ring_time) = (peak * r.between(0.0, 0.012), TAU * r.between(60.0, 140.0), 0.02);
+    let (ring, ring_rate, ring_time) = (
+        peak * r.between(0.0, 0.012),
+        TAU * r.between(60.0, 140.0),
+        0.02,
+    );
     let (ripple, ripple_phase) = (r.between(0.0, 3.0), r.between(0.0, TAU));
     let lock = engage + length;
     let count = ((lock + after) / step) as usize + 2;
@@ -98,7 +102,8 @@ pub fn spin_up(seed: u64, speed: f64, peak: f64, after: f64) -> Truth {
             peak * raw(x) / top
         } else {
             let s = t - lock;
-            ring * (-s / ring_time).exp() * (ring_rate * s).sin() - drag * spin / speed + ripple * (angle + ripple_phase).sin()
+            ring * (-s / ring_time).exp() * (ring_rate * s).sin() - drag * spin / speed
+                + ripple * (angle + ripple_phase).sin()
         };
         if let Some(&last) = truth.acceleration.last() {
             let next = spin + 0.5 * step * (last + acceleration);
@@ -195,11 +200,15 @@ pub fn pickup(truth: &Truth, seed: u64, marks: usize, rate: f64) -> Vec<f64> {
                     let at = mark.rem_euclid(marks as i64) as usize;
                     let rise = mark as f64 * pitch + errors[at];
                     let fall = rise + duty * pitch;
-                    0.5 * brightness[at] * (((angle - rise) / width).tanh() - ((angle - fall) / width).tanh())
+                    0.5 * brightness[at]
+                        * (((angle - rise) / width).tanh() - ((angle - fall) / width).tanh())
                 })
                 .sum();
             noise = memory * noise + (1.0 - memory * memory).sqrt() * spread * r.normal();
-            let volts = 5.0 * (light + curve * light * light) + 0.4 + drift * (drift_rate * time).sin() + noise;
+            let volts = 5.0 * (light + curve * light * light)
+                + 0.4
+                + drift * (drift_rate * time).sin()
+                + noise;
             let bit = 20.0 / 16384.0;
             (volts / bit).round() * bit
         })
