@@ -65,6 +65,70 @@ fn constant_acceleration_is_found_within_the_band() {
 }
 
 #[test]
+fn a_slow_ramp_from_rest_and_a_coast_down() {
+    // 30 rad/s² from 0.5 s on for 5 s, then 150 rad/s.
+    let ramp = pulses(60, 7.0, 2e-6, 3, |t| {
+        let (a, b) = ((t - 0.5).clamp(0.0, 5.0), (t - 5.5).max(0.0));
+        15.0 * a * a + 150.0 * b
+    });
+    let speed = smooth(&ramp, None, &SpeedSettings::default()).unwrap();
+    let change = speed.change.unwrap();
+    assert!(change.from_rest, "{change:?}");
+    for (time, wanted) in [(1.0, 30.0), (3.0, 30.0), (5.0, 30.0), (6.5, 0.0)] {
+        let motion = speed.at(time);
+        assert!((motion.acceleration - wanted).abs() < 1.0, "{motion:?}");
+        assert!(
+            (motion.speed - 30.0 * (time - 0.5).min(5.0)).abs() < 0.05,
+            "{motion:?}"
+        );
+    }
+    // 150 rad/s, falling by a third every second.
+    let coast = pulses(60, 8.0, 2e-6, 4, |t| 450.0 * (1.0 - (-t / 3.0).exp()));
+    let speed = smooth(&coast, None, &SpeedSettings::default()).unwrap();
+    assert!(speed.change.is_none());
+    for time in [0.5, 2.0, 4.0, 7.0] {
+        let (motion, wanted) = (speed.at(time), -50.0 * (-time / 3.0f64).exp());
+        assert!(
+            (motion.acceleration - wanted).abs() < 0.5,
+            "{motion:?} {wanted}"
+        );
+    }
+}
+
+#[test]
+fn a_record_that_ends_in_the_spin_up() {
+    let mut inside = 0;
+    for seed in 0..20 {
+        let truth = synthetic::spin_up(seed, 150.0, 1300.0, 0.1);
+        let cut = truth.engage + 0.6 * (truth.lock - truth.engage);
+        let times: Vec<f64> = synthetic::stamps(&truth, seed, 60)
+            .into_iter()
+            .filter(|t| *t < cut)
+            .collect();
+        let found = Edges::stamped(times, 5e-7, Some((0.0, cut))).unwrap();
+        let train = number(
+            &found,
+            &Wheel {
+                marks: 60,
+                missing: 0,
+            },
+        )
+        .unwrap();
+        let speed = smooth(&train, None, &SpeedSettings::default()).unwrap();
+        let time = truth.engage + 0.4 * (truth.lock - truth.engage);
+        let (motion, wanted) = (speed.at(time), truth.acceleration(time));
+        assert!(
+            (motion.acceleration / wanted - 1.0).abs() < 0.1,
+            "{seed}: {motion:?} {wanted}"
+        );
+        inside += ((motion.acceleration - wanted).abs() < 2.0 * motion.acceleration_uncertainty())
+            as usize;
+    }
+    // 95 % of 20 are 19; fewer than 15 are one case in 10 000.
+    assert!(inside >= 15, "{inside}");
+}
+
+#[test]
 fn a_clutch_that_engages_on_a_turning_shaft() {
     // 40 rad/s, then from 1 s on 3000 rad/s² for 30 ms, then 130 rad/s: the acceleration jumps twice.
     let angle = |t: f64| {
@@ -367,4 +431,30 @@ fn ten_seconds_of_sixty_marks_take_a_moment() {
     );
     // Half a second is the share of this step in the whole chain; four times that for a machine that does other things too.
     assert!(all.as_secs_f64() < 2.0, "{all:?}");
+}
+
+#[test]
+fn ten_seconds_of_an_encoder_take_a_moment() {
+    // 360 marks at 150 rad/s: 86 000 pulses.
+    let train = pulses(360, 10.0, 2e-7, 5, |t| 150.0 * t - 0.5 * t * t);
+    let start = std::time::Instant::now();
+    let again = Edges::stamped(train.times.clone(), 2e-7, None).unwrap();
+    let train = number(
+        &again,
+        &Wheel {
+            marks: 360,
+            missing: 0,
+        },
+    )
+    .unwrap();
+    let pitch = calibrate(&train).unwrap();
+    let speed = smooth(&train, Some(&pitch), &SpeedSettings::default()).unwrap();
+    let took = start.elapsed();
+    println!("{} pulses: {took:?}", train.times.len());
+    assert!(
+        (speed.at(5.0).acceleration + 1.0).abs() < 0.5,
+        "{:?}",
+        speed.at(5.0)
+    );
+    assert!(took.as_secs_f64() < 2.0, "{took:?}");
 }

@@ -24,10 +24,13 @@ impl Pitch {
     ///
     /// Infinite for a position that was never seen.
     pub fn covariance(&self, a: usize, b: usize) -> f64 {
-        let own = |k: usize| match self.seen.get(k) {
-            Some(&n) if n > 0 => self.variance / n as f64,
-            _ => f64::INFINITY,
-        };
+        if [a, b]
+            .iter()
+            .any(|&k| self.seen.get(k).is_none_or(|&n| n == 0))
+        {
+            return f64::INFINITY;
+        }
+        let own = |k: usize| self.variance / self.seen[k] as f64;
         let (mut count, mut total) = (0.0, 0.0);
         for &n in self.seen.iter().filter(|&&n| n > 0) {
             count += 1.0;
@@ -92,7 +95,12 @@ pub fn calibrate(pulses: &Pulses) -> Result<Pitch, Refusal> {
         sums[k + 1] = std::array::from_fn(|s| sums[k][s] + here[s]);
     }
     // A window with a pulse missing or too many does not hold every mark once.
-    let full = pulses.marks.iter().map(|m| m.rem_euclid(n as i64)).collect::<std::collections::BTreeSet<_>>().len();
+    let full = pulses
+        .marks
+        .iter()
+        .map(|m| m.rem_euclid(n as i64))
+        .collect::<std::collections::BTreeSet<_>>()
+        .len();
     let place = |k: usize| (k as i64 + first).rem_euclid(n as i64) as usize;
     let mut sights: Vec<Sight> = Vec::new();
     for i in n..span - n {
@@ -268,7 +276,7 @@ pub fn period(pulses: &Pulses) -> Option<usize> {
         .take(pattern.len())
         .map(|(gap, u)| 5.0 * (u / gap).powi(2))
         .sum();
-    if !(power > 2.0 * noise) {
+    if power.is_nan() || power <= 2.0 * noise {
         return None;
     }
     let largest = LARGEST.min(pattern.len() / 2);

@@ -1,6 +1,6 @@
 //! Which mark passed at which edge.
 
-use super::{Edges, Flank, Refusal};
+use super::{Edges, Flank, Refusal, median};
 
 /// The wheel that the pickup looks at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +47,8 @@ impl Pulses {
 /// Numbers the marks.
 ///
 /// An interval much longer than both its neighbours holds marks that gave no pulse: the count goes on as if they had. A
-/// pulse that splits an interval in two much shorter than the neighbours is left out. Both leave a note. From rest on,
+/// pulse that splits an interval in two much shorter than the neighbours is left out, and so is one that comes much too
+/// early or too late. Each leaves a note. From rest on,
 /// intervals shrink steadily; this alone is never taken for a fault.
 pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
     if wheel.marks == 0 || wheel.marks > 100_000 || wheel.missing >= wheel.marks {
@@ -141,6 +142,7 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
     } else {
         (kept, counts)
     };
+    let (which, marks) = without_strays(which, marks, &edges.times, &mut notes);
     Ok(Pulses {
         times: which.iter().map(|&k| edges.times[k]).collect(),
         uncertainties: which.iter().map(|&k| edges.uncertainties[k]).collect(),
@@ -183,6 +185,59 @@ fn without_doubles(main: &[usize], times: &[f64]) -> (Vec<usize>, Vec<usize>) {
         k += 1;
     }
     (kept, extra)
+}
+
+/// Pulses without those that lie far from where their neighbours say the mark was.
+///
+/// The neighbours' answer is a cubic through two on each side; far is a tenth of a pitch and eight standard deviations of
+/// all pulses, so that neither a start from rest nor an uneven wheel is taken for a fault.
+fn without_strays(
+    which: Vec<usize>,
+    marks: Vec<i64>,
+    times: &[f64],
+    notes: &mut Vec<String>,
+) -> (Vec<usize>, Vec<i64>) {
+    let away: Vec<f64> = (0..which.len())
+        .map(|k| {
+            if k < 2 || k + 2 >= which.len() {
+                return 0.0;
+            }
+            let others = [k - 2, k - 1, k + 1, k + 2];
+            let time = |j: usize| times[which[j]];
+            let expected: f64 = others
+                .iter()
+                .map(|&j| {
+                    let rest = others.iter().filter(|&&i| i != j);
+                    let weight: f64 = rest
+                        .map(|&i| (time(k) - time(i)) / (time(j) - time(i)))
+                        .product();
+                    weight * (marks[j] - marks[k]) as f64
+                })
+                .sum();
+            expected.abs()
+        })
+        .collect();
+    // The median of |x| is 0.6745 standard deviations for normal x.
+    let usual = median(&mut away.clone()) / 0.6745;
+    let stray = |k: usize| {
+        let near = &away[k.saturating_sub(2)..(k + 3).min(away.len())];
+        away[k] > 0.1f64.max(8.0 * usual) && near.iter().all(|&other| other <= away[k])
+    };
+    let strays: Vec<usize> = (0..which.len()).filter(|&k| stray(k)).collect();
+    let Some(&first) = strays.first() else {
+        return (which, marks);
+    };
+    notes.push(format!(
+        "{} pulses far from where their neighbours put the mark, the first at {:.6} s: left out",
+        strays.len(),
+        times[which[first]]
+    ));
+    let kept = |k: &usize| strays.binary_search(k).is_err();
+    let indices: Vec<usize> = (0..which.len()).filter(kept).collect();
+    (
+        indices.iter().map(|&k| which[k]).collect(),
+        indices.iter().map(|&k| marks[k]).collect(),
+    )
 }
 
 /// Positions from each pulse to the next.

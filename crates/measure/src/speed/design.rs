@@ -129,7 +129,7 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
             let time = engage + length * (k as f64 + 0.5) / points as f64;
             let beliefs: Vec<_> = parts
                 .iter()
-                .map(|p| ((p.0 - top).exp() / total, super::at(&p.1, time)))
+                .map(|p| ((p.0 - top).exp() / total, super::answer::at(&p.1, time)))
                 .collect();
             mixed(beliefs.iter().copied()).covariance[2][2] / points as f64
         })

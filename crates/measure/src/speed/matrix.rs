@@ -1,4 +1,5 @@
 //! Vectors and matrices of angle, speed, acceleration, jerk, and the error of the clock.
+#![allow(clippy::needless_range_loop)] // rows and columns by number read like the formula
 
 pub(super) const N: usize = 5;
 pub(super) type Vector = [f64; N];

@@ -167,3 +167,52 @@ fn normal_quantile(p: f64) -> f64 {
             / (1.0 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
     if p < 0.5 { -x } else { x }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bottom_of_a_bent_valley_is_found() {
+        let valley = |x: &[f64; 2]| (1.0 - x[0]).powi(2) + 100.0 * (x[1] - x[0] * x[0]).powi(2);
+        let (best, value) = smallest([-1.2, 1.0], [0.5, 0.5], 400, 1e-12, valley);
+        assert!(
+            (best[0] - 1.0).abs() < 1e-4 && value < 1e-8,
+            "{best:?} {value}"
+        );
+    }
+
+    #[test]
+    fn points_have_the_moments_and_the_integral_of_their_density() {
+        // A normal density with correlation, three times too narrow a guess, and half a deviation beside its top.
+        let (sx, sy, r) = (2.0, 0.3, 0.8);
+        let value = |p: &[f64; 2]| {
+            let (x, y) = ((p[0] - 5.0) / sx, (p[1] + 1.0) / sy);
+            0.5 * (x * x - 2.0 * r * x * y + y * y) / (1.0 - r * r)
+        };
+        let (points, evidence) = spread([6.0, -0.9], [0.7, 0.1], 200, value);
+        let mean =
+            |of: &dyn Fn(&[f64; 2]) -> f64| points.iter().map(|(p, w)| w * of(p)).sum::<f64>();
+        // 200 points: 0.07 of a standard deviation; three times that.
+        assert!((mean(&|p| p[0]) - 5.0).abs() < 0.2 * sx);
+        assert!((mean(&|p| ((p[1] + 1.0) / sy).powi(2)) - 1.0).abs() < 0.3);
+        assert!((mean(&|p| (p[0] - 5.0) / sx * (p[1] + 1.0) / sy) - r).abs() < 0.3);
+        // The integral over the normal density of the same dimension: sx sy √(1 - r²).
+        assert!(
+            (evidence - (sx * sy * (1.0 - r * r).sqrt()).ln()).abs() < 0.2,
+            "{evidence}"
+        );
+    }
+
+    #[test]
+    fn normal_quantiles() {
+        for (p, x) in [
+            (0.5, 0.0),
+            (0.975, 1.959964),
+            (0.001, -3.090232),
+            (0.8413447, 1.0),
+        ] {
+            assert!((normal_quantile(p) - x).abs() < 4.5e-4, "{p}");
+        }
+    }
+}

@@ -10,6 +10,7 @@
 //! start from rest with exactly known speed, and intervals of any length, do no harm.
 //!
 //! Source: Bierman, Factorization Methods for Discrete Sequential Estimation, 1977, chapter X (from memory).
+#![allow(clippy::needless_range_loop)] // rows and columns by number read like the formula
 
 use super::matrix::{
     Matrix, Memory, N, Vector, advance, apply, drift, gathered, minus, plus, product, root,
