@@ -9,3 +9,7 @@
 
 pub mod file;
 pub mod recording;
+mod simplex;
+mod state_space;
+pub mod torque_sensor;
+pub mod uncertain;
