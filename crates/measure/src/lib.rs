@@ -7,8 +7,10 @@
 //!
 //! Nothing here knows a bearing or a rotor. SI inside where a quantity is computed; values of a file stay in the file's unit.
 
+pub mod cage_speed;
 pub mod file;
 pub mod recording;
+pub mod shaft;
 mod simplex;
 mod state_space;
 pub mod torque_sensor;

@@ -150,6 +150,23 @@ pub(crate) const GAUSS: [(f64, f64); 3] = [
     (0.887_298_334_620_741_7, 5.0 / 18.0),
 ];
 
+/// Correlation of innovations that are `lag` apart.
+pub(crate) fn correlation(innovations: &[f64], lag: usize) -> f64 {
+    let pairs = innovations.iter().zip(innovations.iter().skip(lag));
+    let power: f64 = innovations.iter().map(|e| e * e).sum();
+    pairs.map(|(a, b)| a * b).sum::<f64>() / power.max(f64::MIN_POSITIVE)
+}
+
+/// How much more slow noise there is than the model's white one: the innovations' spectrum at nothing, at least 1.
+pub(crate) fn colour(innovations: &[f64]) -> f64 {
+    let lags = 12;
+    let taper = |lag: usize| 1.0 - lag as f64 / (lags + 1) as f64;
+    let sum: f64 = (1..=lags)
+        .map(|lag| 2.0 * taper(lag) * correlation(innovations, lag))
+        .sum();
+    (1.0 + sum).max(1.0)
+}
+
 /// What was seen at an instant: `value = row · state + noise`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Observation<const N: usize> {
@@ -253,7 +270,6 @@ impl<const N: usize> Filter<N> {
     }
 
     /// State as it is now, before later observations.
-    #[allow(dead_code)]
     pub(crate) fn now(&self) -> Smoothed<N> {
         Smoothed {
             mean: self.mean,

@@ -21,14 +21,18 @@ struct Test {
     engagement: Uncertain,
 }
 
-/// Sensor with a stiffness that grows by 2 % at 40 N mm, noise of two colours, jitter of the converter, a disturbance that grows
+/// Sensor with a stiffness that grows or falls by up to 2 % at 40 N mm, noise of two colours, jitter of the converter, a disturbance that grows
 /// with Ω^1.5 and has a second order; frequency, damping and engagement known with errors.
 fn measured(arm: f64, seed: u64, before: f64, after: f64, mismatch: bool) -> Test {
     let mut random = Random::new(seed);
     let spin = SpinUp::to_150(before + INTERVAL * random.uniform(), 0.025, 11_500.0);
     let (omega, decay) = (TAU * arm, 39.1);
     let phase = TAU * random.uniform();
-    let hard = if mismatch { 0.02 / 1600.0 } else { 0.0 };
+    let hard = if mismatch {
+        0.02 * (2.0 * random.uniform() - 1.0) / 1600.0
+    } else {
+        0.0
+    };
     let count = ((before + after) / INTERVAL) as usize;
     let fine = 40;
     let h = INTERVAL / fine as f64;

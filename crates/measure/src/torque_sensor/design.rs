@@ -1,7 +1,7 @@
 //! What a torque sensor of another frequency would give: the picture before the arm is made.
 
 use super::inversion::{Inversion, invert};
-use super::{Sensor, Swing, inversion};
+use super::{Sensor, Swing, chain};
 use crate::uncertain::Uncertain;
 use std::f64::consts::TAU;
 
@@ -87,7 +87,7 @@ pub fn design_error(design: &Design, frequencies: &[f64]) -> Result<Vec<DesignEr
         }
         let zeta = design.decay / omega;
         let swing = Swing { omega, zeta };
-        let exact = inversion::reading_of(swing, design.interval, design.torque, |place| {
+        let exact = chain::reading_of(swing, design.interval, design.torque, |place| {
             let k = (place as usize).min(count.saturating_sub(2));
             let part = place - k as f64;
             let between = |list: &[f64]| list[k] + part * (list[k + 1] - list[k]);
