@@ -13,5 +13,6 @@ pub mod recording;
 pub mod shaft;
 mod simplex;
 mod state_space;
+pub mod steady_curve;
 pub mod torque_sensor;
 pub mod uncertain;

@@ -40,6 +40,12 @@ pub fn from_vibration(
         first.max(shaft.first),
         (first + signal.len() as f64 * interval).min(shaft.last()),
     );
+    if !(to > from) {
+        return Err(
+            "the signal is too short to follow a line: it and the shaft have no time in common"
+                .into(),
+        );
+    }
     let fastest = line.ratio * line.order * shaft.fastest() / TAU;
     if !(fastest > 0.0) {
         return Err("the shaft does not turn".into());
@@ -60,7 +66,7 @@ pub fn from_vibration(
     let hop_time = hop as f64 * interval;
     let begin = ((from - first) / interval).ceil().max(0.0) as usize;
     let end = (((to - first) / interval) as usize).min(signal.len());
-    if end < begin + 32 * hop {
+    if end < begin.saturating_add(32 * hop) {
         return Err(format!(
             "the signal is too short to follow a line: {:.3} s are common to it and the shaft, {:.3} s are needed",
             to - from,
