@@ -8,10 +8,14 @@
 //! Nothing here knows a bearing or a rotor. SI inside where a quantity is computed; values of a file stay in the file's unit.
 
 pub mod cage_speed;
+pub mod converter;
 pub mod file;
+mod kernel;
+pub mod order;
 pub mod recording;
 pub mod shaft;
 mod simplex;
+pub mod spectrum;
 mod state_space;
 pub mod steady_curve;
 pub mod torque_sensor;
