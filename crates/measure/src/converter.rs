@@ -209,14 +209,9 @@ pub fn faults(values: &[f64], converter: Option<&Converter>) -> Vec<Interval> {
     for &(first, count, value) in &runs {
         let fault = if !value.is_finite() {
             Some(Fault::Missing)
-        } else if converter.is_some() && limit(value) {
-            Some(Fault::Clipped)
-        } else if converter.is_none()
-            && low < high
-            && limit(value)
-            && count >= 3
-            && held_often(value)
-            && usual < 0.2
+        } else if limit(value)
+            && (converter.is_some()
+                || (low < high && count >= 3 && held_often(value) && usual < 0.2))
         {
             Some(Fault::Clipped)
         } else if count as f64 > bound {

@@ -73,6 +73,7 @@ fn propagated<const N: usize>(f: &Matrix<N>, p: &Matrix<N>, q: &Matrix<N>) -> Ma
     next
 }
 
+#[allow(clippy::needless_range_loop)] // two entries at a time
 fn symmetric<const N: usize>(p: &mut Matrix<N>) {
     for i in 0..N {
         for j in 0..i {

@@ -163,14 +163,14 @@ fn what_has_no_curve_is_refused() {
 fn a_ring_has_the_inertia_of_a_ring() {
     let (m, r, g, l) = (2.0, 0.1, 9.81, 1.0);
     let exact = Uncertain::exact;
-    let period = std::f64::consts::TAU * (2.0 * r / g as f64).sqrt();
+    let period = std::f64::consts::TAU * f64::sqrt(2.0 * r / g);
     let swung = inertia_from_pendulum(exact(m), exact(r), exact(period), 0.0, g);
     assert!((swung.value - m * r * r).abs() < 1e-12);
     let turned = inertia_from_bifilar(
         exact(m),
         exact(2.0 * r),
         exact(l),
-        exact(std::f64::consts::TAU * (l / g as f64).sqrt()),
+        exact(std::f64::consts::TAU * f64::sqrt(l / g)),
         g,
     );
     assert!((turned.value - m * r * r).abs() < 1e-12);

@@ -2,6 +2,7 @@
 
 mod synthetic;
 
+use measure::shaft::Shaft;
 use measure::torque_sensor::{
     Design, Inversion, Sensor, design_error, identify_free_response, invert,
 };
@@ -10,6 +11,11 @@ use std::f64::consts::TAU;
 use synthetic::{Random, SpinUp, median};
 
 const INTERVAL: f64 = 0.002;
+
+/// Duration and peak acceleration of the three spin-ups to 150 rad/s, s and rad/s².
+const FAST: (f64, f64) = (0.025, 11_500.0);
+const MIDDLE: (f64, f64) = (0.04, 7_200.0);
+const SLOW: (f64, f64) = (0.223, 1_300.0);
 
 /// What the sensor reads, and the truth at the same times.
 struct Test {
@@ -22,10 +28,12 @@ struct Test {
 }
 
 /// Sensor with a stiffness that grows or falls by up to 2 % at 40 N mm, noise of two colours, jitter of the converter, a disturbance that grows
-/// with Ω^1.5 and has a second order; frequency, damping and engagement known with errors.
-fn measured(arm: f64, seed: u64, before: f64, after: f64, mismatch: bool) -> Test {
+/// with Ω^1.5 and has a second order; frequency, damping, engagement and angle known with errors.
+fn measured(arm: f64, seed: u64, spin: (f64, f64), mismatch: bool) -> Test {
+    let (before, after) = (0.3, 0.6);
     let mut random = Random::new(seed);
-    let spin = SpinUp::to_150(before + INTERVAL * random.uniform(), 0.025, 11_500.0);
+    let (duration, peak) = spin;
+    let spin = SpinUp::to_150(before + INTERVAL * random.uniform(), duration, peak);
     let (omega, decay) = (TAU * arm, 39.1);
     let phase = TAU * random.uniform();
     let hard = if mismatch {
@@ -87,6 +95,7 @@ fn measured(arm: f64, seed: u64, before: f64, after: f64, mismatch: bool) -> Tes
         }
     }
     let times: Vec<f64> = (0..count).map(|k| k as f64 * INTERVAL).collect();
+    let known_angle = if mismatch { 0.01 } else { 0.0 };
     let (known_f, known_zeta, known_time) = if mismatch {
         (0.005, 0.01, 0.0002)
     } else {
@@ -96,7 +105,10 @@ fn measured(arm: f64, seed: u64, before: f64, after: f64, mismatch: bool) -> Tes
     Test {
         reading,
         truth: times.iter().map(|&t| spin.torque(t)).collect(),
-        angle: times.iter().map(|&t| spin.angle(t)).collect(),
+        angle: times
+            .iter()
+            .map(|&t| spin.angle(t) + known_angle * random.normal())
+            .collect(),
         speed: times.iter().map(|&t| spin.speed(t)).collect(),
         sensor: Sensor {
             frequency: Uncertain::new(arm * (1.0 + known_f * random.normal()), arm * known_f),
@@ -116,8 +128,13 @@ impl Test {
             first: 0.0,
             interval: INTERVAL,
             reading: &self.reading,
-            angle: &self.angle,
-            speed: &self.speed,
+            shaft: Some(Shaft {
+                first: 0.0,
+                interval: INTERVAL,
+                angle: &self.angle,
+                speed: &self.speed,
+                speed_deviation: &[],
+            }),
             engagement: Some(self.engagement),
             zero: Uncertain::new(0.0, 100.0),
             zero_wander: 0.0,
@@ -136,8 +153,8 @@ struct Score {
     count: usize,
 }
 
-fn scored(arm: f64, seed: u64, mismatch: bool) -> Score {
-    let test = measured(arm, seed, 0.3, 0.6, mismatch);
+fn scored(arm: f64, seed: u64, spin: (f64, f64), mismatch: bool) -> Score {
+    let test = measured(arm, seed, spin, mismatch);
     let torque = invert(&test.input()).expect("a sound test inverts");
     let mut score = Score {
         raw: 0.0,
@@ -163,13 +180,15 @@ fn scored(arm: f64, seed: u64, mismatch: bool) -> Score {
 /// Scores of many seeds, on two threads.
 fn scores(
     seeds: std::ops::Range<u64>,
-    arm: impl Fn(u64) -> f64 + Sync,
-    mismatch: bool,
+    test: impl Fn(u64) -> (f64, (f64, f64)) + Sync,
 ) -> Vec<Score> {
     let middle = (seeds.start + seeds.end) / 2;
     let part = |range: std::ops::Range<u64>| {
         range
-            .map(|seed| scored(arm(seed), seed, mismatch))
+            .map(|seed| {
+                let (arm, spin) = test(seed);
+                scored(arm, seed, spin, true)
+            })
             .collect::<Vec<_>>()
     };
     std::thread::scope(|scope| {
@@ -185,7 +204,7 @@ fn scores(
 #[test]
 fn the_torque_is_found_to_better_than_the_stated_error() {
     for (arm, raw, limit) in [(10.0, 4.0, 1.6), (30.0, 5.6, 1.05), (60.0, 3.6, 0.95)] {
-        let scores = scores(1000..1024, |_| arm, true);
+        let scores = scores(1000..1024, |_| (arm, FAST));
         let found = median(scores.iter().map(|s| s.error).collect());
         let found_raw = median(scores.iter().map(|s| s.raw).collect());
         println!("{arm} Hz: raw {found_raw:.2}, inverted {found:.2} N mm");
@@ -208,22 +227,26 @@ fn two_deviations_cover_the_torque() {
         );
         assert!((0.90..=0.98).contains(&share), "{name}: {share}");
     };
+    let spins = [FAST, MIDDLE, SLOW];
     if each {
         for arm in arms {
-            report(&format!("{arm} Hz"), &scores(0..400, |_| arm, true));
+            for spin in spins {
+                report(
+                    &format!("{arm} Hz, {} s", spin.0),
+                    &scores(0..400, |_| (arm, spin)),
+                );
+            }
         }
     } else {
-        report(
-            "all arms",
-            &scores(0..400, |seed| arms[(seed % 3) as usize], true),
-        );
+        let pick = |seed: u64| (arms[(seed % 3) as usize], spins[(seed / 3 % 3) as usize]);
+        report("all arms and spin-ups", &scores(0..400, pick));
     }
 }
 
 /// Without the knot the jump is smeared: the error in the first 20 ms must be much larger.
 #[test]
 fn the_jump_at_the_engagement_must_be_modelled() {
-    let test = measured(60.0, 5, 0.3, 0.6, true);
+    let test = measured(60.0, 5, FAST, true);
     let early = |torque: &[f64]| {
         let mut sum = 0.0;
         for k in 0..10 {
@@ -250,7 +273,7 @@ fn the_jump_at_the_engagement_must_be_modelled() {
 
 #[test]
 fn the_disturbance_is_found_beside_the_torque() {
-    let test = measured(30.0, 7, 0.3, 0.6, true);
+    let test = measured(30.0, 7, FAST, true);
     let torque = invert(&test.input()).expect("inverts");
     let last = torque.disturbance.len() - 50;
     let miss = torque.disturbance[last] - 4.0;
@@ -263,7 +286,7 @@ fn the_disturbance_is_found_beside_the_torque() {
 
 #[test]
 fn missing_values_are_bridged_and_told() {
-    let mut test = measured(30.0, 9, 0.3, 0.6, true);
+    let mut test = measured(30.0, 9, FAST, true);
     for k in 200..210 {
         test.reading[k] = f64::NAN;
     }
@@ -280,27 +303,29 @@ fn missing_values_are_bridged_and_told() {
 
 #[test]
 fn what_cannot_be_inverted_is_refused() {
-    let test = measured(30.0, 11, 0.3, 0.6, true);
+    let test = measured(30.0, 11, FAST, true);
     let constant = vec![1.0; 100];
     let empty = Inversion {
         reading: &[],
-        angle: &[],
-        speed: &[],
+        shaft: None,
         ..test.input()
     };
     assert!(invert(&empty).expect_err("empty").contains("16"));
     let flat = Inversion {
         reading: &constant,
-        angle: &[],
-        speed: &[],
+        shaft: None,
         ..test.input()
     };
     assert!(invert(&flat).expect_err("flat").contains("does not change"));
-    let short = Inversion {
-        speed: &test.speed[..5],
+    let late = Inversion {
+        first: 0.5,
         ..test.input()
     };
-    assert!(invert(&short).expect_err("short").contains("same times"));
+    assert!(
+        invert(&late)
+            .expect_err("late")
+            .contains("must cover the reading")
+    );
     let coarse = Inversion {
         interval: 0.1,
         ..test.input()

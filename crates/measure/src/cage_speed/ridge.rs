@@ -40,14 +40,14 @@ pub fn from_vibration(
         first.max(shaft.first),
         (first + signal.len() as f64 * interval).min(shaft.last()),
     );
-    if !(to > from) {
+    if to <= from || to.is_nan() || from.is_nan() {
         return Err(
             "the signal is too short to follow a line: it and the shaft have no time in common"
                 .into(),
         );
     }
     let fastest = line.ratio * line.order * shaft.fastest() / TAU;
-    if !(fastest > 0.0) {
+    if fastest <= 0.0 {
         return Err("the shaft does not turn".into());
     }
     let (low, high) = (-line.highest_slip * fastest, -line.lowest_slip * fastest);

@@ -74,7 +74,7 @@ impl Banded {
                 diagonal -= scaled * unit;
                 self.rows[i * width + back] = unit;
             }
-            if !(diagonal > 0.0) || !diagonal.is_finite() {
+            if diagonal <= 0.0 || !diagonal.is_finite() {
                 return None;
             }
             self.rows[i * width] = diagonal;
@@ -164,9 +164,9 @@ mod tests {
             let mut unit = vec![0.0; n];
             unit[k] = 1.0;
             let column = factor.solved(&unit);
-            for i in 0..n {
+            for (i, wanted) in unit.iter().enumerate() {
                 let product: f64 = (0..n).map(|j| entry(i, j) * column[j]).sum();
-                assert!((product - unit[i]).abs() < 1e-13);
+                assert!((product - wanted).abs() < 1e-13);
             }
             assert!((column[k] - diagonal[k]).abs() < 1e-14);
         }

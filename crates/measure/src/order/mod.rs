@@ -104,9 +104,9 @@ pub fn orders(
     let width = ((1.0 / (NODES * bandwidth * interval)).round() as usize).max(2);
     let count = (to - from).div_ceil(width) + 1;
     let size = 2 * orders.len() + 1;
-    if count * size > 4_000_000 {
+    if count.saturating_mul(size) > 400_000 {
         return Err(
-            "the bandwidth is too wide for so long a signal: more than 4 million amplitudes".into(),
+            "the bandwidth is too wide for so long a signal: more than 400 000 amplitudes".into(),
         );
     }
     let waves = Waves {

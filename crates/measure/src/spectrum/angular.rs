@@ -71,6 +71,14 @@ pub fn order_spectrogram(
         )
     })?;
     let mut notes = Vec::new();
+    let wanted = (shaft.angle_at(to) - shaft.angle_at(from)).abs() / TAU * per_turn as f64;
+    if wanted > 8.0 * signal.len() as f64 {
+        return Err(format!(
+            "order {} needs {wanted:.0} values where the signal has {}",
+            settings.highest_order,
+            signal.len()
+        ));
+    }
     let times = equal_angles(shaft, from, to, per_turn);
     if times.len() < segments.length {
         return Err(format!(
@@ -173,15 +181,15 @@ fn stretch(shaft: &Shaft, slowest: f64, first: f64, last: f64) -> Option<(f64, f
             .get(k)
             .filter(|s| s.abs() >= slowest)
             .map(|s| *s > 0.0);
-        if let Some((start, forward)) = begin {
-            if way != Some(forward) {
-                let time = |index: usize| shaft.first + index as f64 * shaft.interval;
-                let (from, to) = (time(start).max(first), time(k - 1).min(last));
-                if to > from && best.is_none_or(|(a, b)| to - from > b - a) {
-                    best = Some((from, to));
-                }
-                begin = None;
+        if let Some((start, forward)) = begin
+            && way != Some(forward)
+        {
+            let time = |index: usize| shaft.first + index as f64 * shaft.interval;
+            let (from, to) = (time(start).max(first), time(k - 1).min(last));
+            if to > from && best.is_none_or(|(a, b)| to - from > b - a) {
+                best = Some((from, to));
             }
+            begin = None;
         }
         if begin.is_none() {
             begin = way.map(|forward| (k, forward));

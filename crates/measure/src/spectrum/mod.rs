@@ -277,7 +277,7 @@ pub fn spectrum(signal: &[f64], interval: f64, segments: &Segments) -> Result<Sp
         .enumerate()
         .map(|(k, d)| {
             // A line at the ends of the spectrum has no partner.
-            let sides = if k == 0 || (k == last && segments.length % 2 == 0) {
+            let sides = if k == 0 || (k == last && segments.length.is_multiple_of(2)) {
                 1.0
             } else {
                 2.0
@@ -320,8 +320,8 @@ pub fn spectrogram(
 ) -> Result<Spectrogram, String> {
     check(signal, interval, segments)?;
     let count = (signal.len() - segments.length) / segments.hop() + 1;
-    if count.saturating_mul(segments.length / 2 + 1) > 200_000_000 {
-        return Err("the spectrogram would hold more than 200 million values; take longer segments or less overlap".into());
+    if count.saturating_mul(segments.length / 2 + 1) > 50_000_000 {
+        return Err("the spectrogram would hold more than 50 million values; take longer segments or less overlap".into());
     }
     let (mut time, mut density) = (Vec::with_capacity(count), Vec::with_capacity(count));
     let mut lost = 0;

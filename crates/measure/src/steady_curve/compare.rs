@@ -65,6 +65,7 @@ pub fn compare(first: &SteadyCurve, second: &SteadyCurve) -> Result<Difference, 
     })
 }
 
+#[allow(clippy::needless_range_loop)] // two rows at a time
 /// Sum of squares of the difference in units of its deviation along the main directions, and their number. By Jacobi rotations.
 fn squares(mut a: Vec<Vec<f64>>, difference: &[f64]) -> (f64, usize) {
     let n = a.len();

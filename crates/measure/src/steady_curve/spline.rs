@@ -88,13 +88,13 @@ impl Spline {
         let (start, end) = data
             .iter()
             .fold((f64::MAX, f64::MIN), |(a, b), p| (a.min(p.0), b.max(p.0)));
-        if !(end > start) || !(end - start).is_finite() {
+        if end <= start || !(end - start).is_finite() {
             return Err("the values all lie at one place".into());
         }
         let middle = data.iter().map(|p| p.1).sum::<f64>() / data.len() as f64;
         let spread =
             (data.iter().map(|p| (p.1 - middle).powi(2)).sum::<f64>() / data.len() as f64).sqrt();
-        if !(spread > 0.0) || !spread.is_finite() {
+        if spread <= 0.0 || !spread.is_finite() {
             return Err("the values do not change".into());
         }
         let bases: Vec<(usize, [f64; 4])> =
@@ -359,7 +359,7 @@ fn cholesky(mut a: Square) -> Option<Square> {
             let sum: f64 = (0..j).map(|k| a[i][k] * a[j][k]).sum();
             let rest = a[i][j] - sum;
             if i == j {
-                if !(rest > 0.0) {
+                if rest <= 0.0 || rest.is_nan() {
                     return None;
                 }
                 a[i][i] = rest.sqrt();

@@ -1,10 +1,11 @@
 //! The chain of states that is filtered and smoothed, for one sensor, one engagement and one growth of the disturbance.
 
-use super::{Inversion, Swing};
+use super::Swing;
 use crate::simplex;
 use crate::state_space::{
     Filter, GAUSS, Matrix, Observation, Vector, applied, exponential, gathered_noise, identity,
 };
+use crate::uncertain::Uncertain;
 
 pub(super) const STATES: usize = 7;
 pub(super) const TORQUE: usize = 2;
@@ -16,12 +17,39 @@ pub(super) const ZERO: usize = 6;
 /// Logarithms of noise, slow intensity, fast intensity, calming time.
 pub(super) type Hyper = [f64; 4];
 
+/// What the chain needs of a measurement, at equal times; angle and speed are empty where they do not count.
+#[derive(Clone, Copy)]
+pub(super) struct Samples<'a> {
+    pub(super) first: f64,
+    pub(super) interval: f64,
+    pub(super) reading: &'a [f64],
+    pub(super) angle: &'a [f64],
+    pub(super) speed: &'a [f64],
+    /// Highest speed of the whole record.
+    pub(super) fastest: f64,
+    pub(super) zero: Uncertain,
+    pub(super) zero_wander: f64,
+}
+
+impl<'a> Samples<'a> {
+    /// A part of the record.
+    pub(super) fn part(&self, from: usize, to: usize) -> Self {
+        let cut = |list: &'a [f64]| list.get(from..to).unwrap_or(&[]);
+        Self {
+            first: self.first + from as f64 * self.interval,
+            reading: cut(self.reading),
+            angle: cut(self.angle),
+            speed: cut(self.speed),
+            ..*self
+        }
+    }
+}
+
 /// Everything that does not depend on the hyper-parameters.
 pub(super) struct Chain<'a> {
-    input: &'a Inversion<'a>,
+    input: Samples<'a>,
     pub(super) knot: Option<f64>,
     scale: f64,
-    fastest: f64,
     /// One step of the interval without disturbance, and the noise that unit intensity gathers.
     whole: (Matrix<STATES>, Matrix<STATES>),
     /// Response of reading and rate to cos θ and sin θ over the step that ends at sample k.
@@ -39,19 +67,17 @@ pub(super) struct Pass {
 
 impl<'a> Chain<'a> {
     pub(super) fn new(
-        input: &'a Inversion,
+        input: Samples<'a>,
         swing: Swing,
         knot: Option<f64>,
         power: f64,
         scale: f64,
     ) -> Self {
         let h = input.interval;
-        let fastest = input.speed.iter().fold(0.0_f64, |top, v| top.max(v.abs()));
         let mut chain = Self {
             input,
             knot,
             scale,
-            fastest,
             whole: stepped(swing, h),
             forcing: Vec::with_capacity(input.reading.len()),
             split: None,
@@ -78,8 +104,8 @@ impl<'a> Chain<'a> {
 
     pub(super) fn growth(&self, k: usize, power: f64) -> f64 {
         match self.input.speed.get(k) {
-            Some(speed) if self.fastest > 0.0 && power != 0.0 => {
-                (speed.abs() / self.fastest).powf(power)
+            Some(speed) if self.input.fastest > 0.0 && power != 0.0 => {
+                (speed.abs() / self.input.fastest).powf(power)
             }
             Some(_) => 1.0,
             None => 0.0,
@@ -96,10 +122,12 @@ impl<'a> Chain<'a> {
             let theta =
                 a0 * v * v * (1.0 + 2.0 * u) + a1 * u * u * (3.0 - 2.0 * u) + s0 * u * v * v
                     - s1 * u * u * v;
-            let growth = if power == 0.0 || self.fastest <= 0.0 {
+            let growth = if power == 0.0 || self.input.fastest <= 0.0 {
                 1.0
             } else {
-                ((s0 * v + s1 * u) / (h * self.fastest)).abs().powf(power)
+                ((s0 * v + s1 * u) / (h * self.input.fastest))
+                    .abs()
+                    .powf(power)
             };
             let (sine, cosine) = theta.sin_cos();
             sum[0] += weight * growth * cosine * to_reading;
@@ -148,7 +176,7 @@ impl<'a> Chain<'a> {
     }
 
     fn filtered(&self, hyper: &Hyper, keep: bool) -> Filter<STATES> {
-        let input = self.input;
+        let input = &self.input;
         let [noise, slow, fast, calming] = hyper.map(|v| v.clamp(-40.0, 40.0).exp());
         let rests = self.split.is_some();
         let zero = input.zero.deviation / self.scale;

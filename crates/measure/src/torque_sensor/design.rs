@@ -2,6 +2,7 @@
 
 use super::inversion::{Inversion, invert};
 use super::{Sensor, Swing, chain};
+use crate::shaft::Shaft;
 use crate::uncertain::Uncertain;
 use std::f64::consts::TAU;
 
@@ -49,6 +50,11 @@ pub struct DesignError {
 /// An overdamped frequency (decay above ω) is simulated as it is. The error names what is wrong with the design.
 pub fn design_error(design: &Design, frequencies: &[f64]) -> Result<Vec<DesignError>, String> {
     let count = design.torque.len();
+    if count < 16 {
+        return Err(format!(
+            "the expected test has {count} torques; at least 16 are needed"
+        ));
+    }
     if design.angle.len() != count || design.speed.len() != count {
         return Err(
             "torque, angle and speed of the expected test must be at the same times".into(),
@@ -79,6 +85,13 @@ pub fn design_error(design: &Design, frequencies: &[f64]) -> Result<Vec<DesignEr
     let knot = rest as f64 * design.interval;
     let fastest = design.speed.iter().fold(0.0_f64, |top, v| top.max(v.abs()));
     let judged = ((design.until / design.interval) as usize + 1).min(count);
+    let shaft = Shaft {
+        first: 0.0,
+        interval: design.interval,
+        angle: &angle,
+        speed: &speed,
+        speed_deviation: &[],
+    };
     let mut errors = Vec::with_capacity(frequencies.len());
     for &frequency in frequencies {
         let omega = TAU * frequency;
@@ -98,7 +111,8 @@ pub fn design_error(design: &Design, frequencies: &[f64]) -> Result<Vec<DesignEr
             };
             design.disturbance * growth * between(design.angle).cos()
         });
-        let (mut raw, mut inverted, mut stated, mut judgements) = (0.0, 0.0, 0.0, 0.0);
+        let (mut raw, mut readings) = (0.0, 0.0);
+        let (mut inverted, mut stated, mut judgements) = (0.0, 0.0, 0.0);
         for repetition in 0..design.repetitions.max(1) {
             let mut noise = Noise(repetition as u64 + 1);
             let mut reading: Vec<f64> = (0..rest).map(|_| design.noise * noise.next()).collect();
@@ -111,16 +125,7 @@ pub fn design_error(design: &Design, frequencies: &[f64]) -> Result<Vec<DesignEr
                 first: 0.0,
                 interval: design.interval,
                 reading: &reading,
-                angle: if design.disturbance != 0.0 {
-                    &angle
-                } else {
-                    &[]
-                },
-                speed: if design.disturbance != 0.0 {
-                    &speed
-                } else {
-                    &[]
-                },
+                shaft: (design.disturbance != 0.0).then_some(shaft),
                 engagement: (rest > 0).then_some(Uncertain::exact(knot)),
                 zero: Uncertain::new(0.0, if rest > 0 { 10.0 * design.noise } else { 0.0 }),
                 zero_wander: 0.0,
@@ -129,17 +134,27 @@ pub fn design_error(design: &Design, frequencies: &[f64]) -> Result<Vec<DesignEr
             })?;
             for k in 1..judged {
                 raw += (reading[rest + k] - design.torque[k]).powi(2);
-                inverted += (found.torque[rest + k] - design.torque[k]).powi(2);
-                stated += found.deviation[rest + k].powi(2);
-                judgements += 1.0;
+                readings += 1.0;
+            }
+            for ((&time, &torque), &deviation) in
+                found.time.iter().zip(&found.torque).zip(&found.deviation)
+            {
+                let place = (time - knot) / design.interval;
+                if place > 0.0 && place < (judged - 1) as f64 {
+                    let (k, part) = (place as usize, place.fract());
+                    let truth = design.torque[k] + part * (design.torque[k + 1] - design.torque[k]);
+                    inverted += (torque - truth).powi(2);
+                    stated += deviation.powi(2);
+                    judgements += 1.0;
+                }
             }
         }
-        let rms = |sum: f64| (sum / f64::max(judgements, 1.0)).sqrt();
+        let rms = |sum: f64, count: f64| (sum / count.max(1.0)).sqrt();
         errors.push(DesignError {
             frequency,
-            raw: rms(raw),
-            inverted: rms(inverted),
-            stated: rms(stated),
+            raw: rms(raw, readings),
+            inverted: rms(inverted, judgements),
+            stated: rms(stated, judgements),
         });
     }
     Ok(errors)

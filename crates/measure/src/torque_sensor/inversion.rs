@@ -8,8 +8,9 @@
 //! Source: physics of the sensor as in the module; unknown-input smoothing as by Lourens et al., Mech. Syst. Signal Process. 29
 //! (2012) 446 (from memory).
 
-use super::chain::{COSINE, Chain, Pass, RATE, SINE, TORQUE, ZERO};
+use super::chain::{COSINE, Chain, Pass, RATE, SINE, Samples, TORQUE, ZERO};
 use super::{Sensor, Swing};
+use crate::shaft::Shaft;
 use crate::state_space::{colour, correlation};
 use crate::uncertain::Uncertain;
 
@@ -24,10 +25,8 @@ pub struct Inversion<'a> {
     pub interval: f64,
     /// Reading in any unit of torque; NaN where there is none.
     pub reading: &'a [f64],
-    /// Shaft angle at the times of the reading, rad; empty where there is no synchronous disturbance to remove.
-    pub angle: &'a [f64],
-    /// Shaft speed at the times of the reading, rad/s; as long as `angle`.
-    pub speed: &'a [f64],
+    /// The shaft over all the time of the reading; none where there is no synchronous disturbance to remove.
+    pub shaft: Option<Shaft<'a>>,
     /// Time at which the clutch engages, with its standard deviation, s; before it the shaft rests. None: it turns throughout.
     pub engagement: Option<Uncertain>,
     /// Zero of the reading, known to this standard deviation, in the unit of the reading; it is estimated where the shaft rests.
@@ -40,10 +39,12 @@ pub struct Inversion<'a> {
     pub disturbance_power: Option<f64>,
 }
 
-/// Torque as the data tell it. Every list has the length of the reading.
+/// Torque as the data tell it. All lists have the same length.
 #[derive(Clone, Debug)]
 pub struct Torque {
-    /// Torque at the times of the reading, in its unit.
+    /// Times, s: those of the reading, or of the middle of blocks of it where it is finer than the sensor needs.
+    pub time: Vec<f64>,
+    /// Torque, in the unit of the reading.
     pub torque: Vec<f64>,
     /// Standard deviation of the torque.
     pub deviation: Vec<f64>,
@@ -59,7 +60,7 @@ pub struct Torque {
     pub disturbance_power: f64,
     /// Zero of the reading.
     pub zero: Uncertain,
-    /// Noise of one reading, rms.
+    /// Noise of one reading, or of the mean of a block, rms.
     pub noise: f64,
     /// Time constant with which the torque calms down after the engagement, s.
     pub calming: f64,
@@ -75,16 +76,39 @@ pub struct Torque {
 /// (first order) beside that of noise and unknown torque, but not that of a wrong model of the sensor.
 pub fn invert(input: &Inversion) -> Result<Torque, String> {
     refuse(input)?;
-    let spread = scale_of(input.reading);
     let mut notes = Vec::new();
+    let thin = Thin::new(input)?;
+    let samples = thin.samples(input);
+    let spread = scale_of(&thin.reading);
+    if !(spread > 0.0 && spread.is_finite()) {
+        return Err("the torque reading does not change, or is too large to square".into());
+    }
     let swing = input.sensor.swing();
-    let knot = input.engagement.map(|e| e.value);
-    let built = |power| Chain::new(input, swing, knot, power, spread);
-    let free =
-        input.disturbance_power.is_none() && !input.angle.is_empty() && input.engagement.is_some();
+    let end = samples.first + (samples.reading.len() - 1) as f64 * samples.interval;
+    let engagement = input
+        .engagement
+        .filter(|e| e.value > samples.first && e.value < end);
+    if engagement.is_none() && input.engagement.is_some() {
+        notes.push("the engagement lies outside the record and is not used".into());
+    }
+    let knot = engagement.map(|e| e.value);
+    // Hyper-parameters from the part of the record that tells most of them.
+    let (from, to) = match knot {
+        Some(knot) => {
+            let place = |time: f64| ((time - samples.first) / samples.interval).max(0.0) as usize;
+            (
+                place(knot - 0.5),
+                place(knot + 1.5).min(samples.reading.len()),
+            )
+        }
+        None => (0, samples.reading.len().min(2000)),
+    };
+    let near = samples.part(from, to);
+    let free = input.disturbance_power.is_none() && input.shaft.is_some() && engagement.is_some();
     let mut power = input.disturbance_power.unwrap_or(2.0);
-    let mut chain = built(power);
-    let mut hyper = chain.most_likely(chain.guess(), 200);
+    let built = |power| Chain::new(near, swing, knot, power, spread);
+    let mut part = built(power);
+    let mut hyper = part.most_likely(part.guess(), 200);
     let mut rivals = Vec::new();
     if free {
         rivals = [2.0, 1.0, 0.0]
@@ -95,12 +119,13 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         rivals.sort_by(|a, b| a.1.total_cmp(&b.1));
         let (best, _, likely) = rivals.remove(0);
         if best != power {
-            (power, chain) = (best, likely);
-            hyper = chain.most_likely(hyper, 80);
+            (power, part) = (best, likely);
+            hyper = part.most_likely(hyper, 80);
         }
     }
+    let lowest = part.cost(&hyper);
+    let chain = Chain::new(samples, swing, knot, power, spread);
     let base = chain.smoothed(&hyper);
-    let lowest = chain.cost(&hyper);
     let mut variance: Vec<f64> = base.states.iter().map(|s| s.1[TORQUE]).collect();
     let colour = colour(&base.innovations);
     for v in &mut variance {
@@ -119,18 +144,21 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
             other[axis] += by;
             other
         };
-        let curvature = (chain.cost(&moved(probe)) + chain.cost(&moved(-probe)) - 2.0 * lowest)
-            / (probe * probe);
+        let curvature =
+            (part.cost(&moved(probe)) + part.cost(&moved(-probe)) - 2.0 * lowest) / (probe * probe);
         let deviation = (1.0 / curvature.max(0.25)).sqrt();
         for by in [deviation, -deviation] {
             widen(&chain.smoothed(&moved(by)), 0.5);
         }
     }
     // Other growths of the disturbance, by their likelihood.
-    for (_, cost, rival) in &rivals {
+    for (other, cost, _) in &rivals {
         let weight = 1.0 / (1.0 + (cost - lowest).clamp(-20.0, 20.0).exp());
         if weight > 0.01 {
-            widen(&rival.smoothed(&hyper), weight);
+            widen(
+                &Chain::new(samples, swing, knot, *other, spread).smoothed(&hyper),
+                weight,
+            );
         }
     }
     // What is known of sensor and engagement only to a deviation: the torque with it changed by one deviation.
@@ -151,14 +179,14 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         let zeta = swing.zeta + input.sensor.damping_ratio.deviation;
         shifted.push((Swing { zeta, ..swing }, knot, 1.0));
     }
-    if let Some(engagement) = input.engagement.filter(|e| wider(*e)) {
+    if let Some(engagement) = engagement.filter(|e| wider(*e)) {
         for by in [engagement.deviation, -engagement.deviation] {
             shifted.push((swing, Some(engagement.value + by), 0.5));
         }
     }
     for (swing, knot, weight) in shifted {
         widen(
-            &Chain::new(input, swing, knot, power, spread).smoothed(&hyper),
+            &Chain::new(samples, swing, knot, power, spread).smoothed(&hyper),
             weight,
         );
     }
@@ -180,6 +208,9 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
             .collect::<Vec<_>>()
     };
     Ok(Torque {
+        time: (0..base.states.len())
+            .map(|k| samples.first + k as f64 * samples.interval)
+            .collect(),
         torque: pick(TORQUE),
         deviation: variance.iter().map(|v| v.max(0.0).sqrt()).collect(),
         rate: pick(RATE),
@@ -233,23 +264,20 @@ fn refuse(input: &Inversion) -> Result<(), String> {
             "the torque reading has {seen} values; at least 16 are needed"
         ));
     }
-    if !input.angle.is_empty()
-        && (input.angle.len() != input.reading.len() || input.speed.len() != input.reading.len())
-    {
-        return Err(format!(
-            "the torque reading has {} values, angle {} and speed {}; they must be at the same times",
-            input.reading.len(),
-            input.angle.len(),
-            input.speed.len()
-        ));
-    }
-    if input
-        .angle
-        .iter()
-        .chain(input.speed)
-        .any(|v| !v.is_finite())
-    {
-        return Err("angle and speed must be known at every time of the torque reading".into());
+    if let Some(shaft) = &input.shaft {
+        shaft.check()?;
+        let end = input.first + (input.reading.len() - 1) as f64 * input.interval;
+        // Half an interval more does no harm.
+        if input.first < shaft.first - 0.5 * shaft.interval
+            || end > shaft.last() + 0.5 * shaft.interval
+        {
+            return Err(format!(
+                "the torque reading runs from {} to {end} s, the shaft from {} to {} s: the shaft must cover the reading",
+                input.first,
+                shaft.first,
+                shaft.last()
+            ));
+        }
     }
     let not_negative = |v: f64| v >= 0.0 && v.is_finite();
     if !(not_negative(input.zero_wander) && not_negative(input.scale_deviation)) {
@@ -260,10 +288,80 @@ fn refuse(input: &Inversion) -> Result<(), String> {
     }
     let steady = input.reading.iter().filter(|v| v.is_finite());
     let (low, high) = steady.fold((f64::MAX, f64::MIN), |(l, h), &v| (l.min(v), h.max(v)));
-    if !(high > low) || !(high - low).is_finite() {
+    if high <= low || !(high - low).is_finite() {
         return Err("the torque reading does not change".into());
     }
     Ok(())
+}
+
+/// The reading in blocks that are short for the sensor and for a spin-up, and the shaft at their middles.
+struct Thin {
+    first: f64,
+    interval: f64,
+    reading: Vec<f64>,
+    angle: Vec<f64>,
+    speed: Vec<f64>,
+}
+
+/// Longest block, s: a twelfth of a spin-up of 25 ms.
+const BLOCK: f64 = 0.002;
+
+/// Blocks in a period of the sensor: means of blocks this short lose 0.3 % of a swing at its frequency.
+const IN_A_PERIOD: f64 = 25.0;
+
+/// Most blocks that are inverted at once.
+const MOST: usize = 100_000;
+
+impl Thin {
+    fn new(input: &Inversion) -> Result<Self, String> {
+        let longest = BLOCK.min(1.0 / (IN_A_PERIOD * input.sensor.frequency.value));
+        let block = ((longest / input.interval + 1e-6) as usize).max(1);
+        let count = input.reading.len() / block;
+        if count > MOST {
+            return Err(format!(
+                "the torque reading is too long to be inverted at once: {count} blocks, at most {MOST}"
+            ));
+        }
+        if count < 16 {
+            return Err(format!(
+                "the torque reading lasts for {count} blocks; at least 16 are needed"
+            ));
+        }
+        let interval = block as f64 * input.interval;
+        let first = input.first + 0.5 * (block - 1) as f64 * input.interval;
+        let reading = input
+            .reading
+            .chunks_exact(block)
+            .map(|part| part.iter().sum::<f64>() / block as f64)
+            .collect();
+        let times = (0..count).map(|k| first + k as f64 * interval);
+        let (angle, speed) = match &input.shaft {
+            Some(shaft) => times
+                .map(|t| (shaft.angle_at(t), shaft.speed_at(t)))
+                .unzip(),
+            None => (Vec::new(), Vec::new()),
+        };
+        Ok(Self {
+            first,
+            interval,
+            reading,
+            angle,
+            speed,
+        })
+    }
+
+    fn samples<'a>(&'a self, input: &Inversion) -> Samples<'a> {
+        Samples {
+            first: self.first,
+            interval: self.interval,
+            reading: &self.reading,
+            angle: &self.angle,
+            speed: &self.speed,
+            fastest: self.speed.iter().fold(0.0, |top, v| top.max(v.abs())),
+            zero: input.zero,
+            zero_wander: input.zero_wander,
+        }
+    }
 }
 
 /// Standard deviation of the reading; the unit in which the filter works.
@@ -296,7 +394,7 @@ fn tell(input: &Inversion, base: &Pass, colour: f64, notes: &mut Vec<String>) {
             "{large} torque readings lie more than 5 deviations from what the model expects"
         ));
     }
-    if input.angle.is_empty() {
+    if input.shaft.is_none() {
         notes.push(
             "no shaft angle was given: the synchronous disturbance is inside the torque".into(),
         );

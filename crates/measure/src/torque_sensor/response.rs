@@ -213,16 +213,16 @@ impl Data<'_> {
         let mut frequency = low;
         while frequency < high {
             for damping in [0.003, 0.01, 0.03, 0.1, 0.2, 0.4, 0.65, 0.85_f64] {
-                if let Some(fit) = thin
+                let fit = thin
                     .fit(frequency, damping)
-                    .filter(|f| f.squares.is_finite())
+                    .filter(|f| f.squares.is_finite());
+                if let Some(fit) = fit
+                    && best.is_none_or(|(squares, _)| fit.squares < squares)
                 {
-                    if best.is_none_or(|(squares, _)| fit.squares < squares) {
-                        best = Some((
-                            fit.squares,
-                            [frequency.ln(), (damping / (1.0 - damping)).ln()],
-                        ));
-                    }
+                    best = Some((
+                        fit.squares,
+                        [frequency.ln(), (damping / (1.0 - damping)).ln()],
+                    ));
                 }
             }
             frequency *= 1.04;
@@ -373,7 +373,8 @@ fn solved<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Option<[f64; N]> {
     for column in 0..N {
         let pivot =
             (column..N).max_by(|&i, &j| a[i][column].abs().total_cmp(&a[j][column].abs()))?;
-        if !(a[pivot][column].abs() > 1e-13 * size) {
+        let found = a[pivot][column].abs();
+        if found <= 1e-13 * size || found.is_nan() {
             return None;
         }
         a.swap(column, pivot);
