@@ -91,17 +91,28 @@ pub fn aligned(values: &[f64], interval: f64, delay: f64) -> Result<Aligned, Str
         return Err("interval and delay of a channel must be finite, the interval positive".into());
     }
     let shift = delay / interval;
-    let kernel = Kernel::new(1.0);
+    // The value at time k of the undelayed clock lies before the k-th of this channel, always by the same part of an interval.
+    let (back, part) = ((-shift).floor(), -shift - (-shift).floor());
+    let weights = Kernel::new(1.0).weights(part);
+    let half = (weights.len() / 2) as f64;
     let mut straight = 0;
     let mut notes = Vec::new();
     let moved: Vec<f64> = (0..values.len())
         .map(|k| {
-            // The value at time k of the undelayed clock lies before the k-th of this channel.
-            let place = k as f64 - shift;
-            kernel.at(values, place).unwrap_or_else(|| {
-                straight += 1;
-                between(values, place)
-            })
+            let first = k as f64 + back - half;
+            let near = if first >= 0.0 && first < values.len() as f64 {
+                values.get(first as usize..first as usize + weights.len())
+            } else {
+                None
+            };
+            let sum = near.map_or(f64::NAN, |near| {
+                near.iter().zip(&weights).map(|(v, w)| v * w).sum()
+            });
+            if sum.is_finite() {
+                return sum;
+            }
+            straight += 1;
+            between(values, k as f64 - shift)
         })
         .collect();
     if straight > 0 {

@@ -197,11 +197,11 @@ pub(crate) struct Filter<const N: usize> {
     pending: Matrix<N>,
 }
 
-/// State after all observations are known.
+/// State after all observations are known: mean and variances.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Smoothed<const N: usize> {
     pub(crate) mean: Vector<N>,
-    pub(crate) covariance: Matrix<N>,
+    pub(crate) variance: Vector<N>,
 }
 
 impl<const N: usize> Filter<N> {
@@ -270,12 +270,9 @@ impl<const N: usize> Filter<N> {
         self.log_likelihood
     }
 
-    /// State as it is now, before later observations.
-    pub(crate) fn now(&self) -> Smoothed<N> {
-        Smoothed {
-            mean: self.mean,
-            covariance: self.covariance,
-        }
+    /// Expected state as it is now, before later observations.
+    pub(crate) fn now(&self) -> &Vector<N> {
+        &self.mean
     }
 
     /// Innovations in units of their standard deviation, in order; white if the model holds.
@@ -311,13 +308,12 @@ impl<const N: usize> Filter<N> {
             for (m, s) in mean.iter_mut().zip(&shift) {
                 *m -= s;
             }
-            let shrink = product(&product(&node.covariance, &matrix), &node.covariance);
-            let mut covariance = node.covariance;
-            for (c, s) in covariance.iter_mut().flatten().zip(shrink.iter().flatten()) {
-                *c -= s;
+            let shrink = product(&node.covariance, &matrix);
+            let mut variance = [0.0; N];
+            for (i, v) in variance.iter_mut().enumerate() {
+                *v = node.covariance[i][i] - dot(&shrink[i], &node.covariance[i]);
             }
-            symmetric(&mut covariance);
-            states.push(Smoothed { mean, covariance });
+            states.push(Smoothed { mean, variance });
             let back = transposed(&node.transition);
             vector = applied(&back, &vector);
             matrix = product(&back, &transposed(&product(&back, &matrix)));
@@ -416,7 +412,7 @@ mod tests {
             let mut unit = [0.0; 4];
             unit[k] = 1.0;
             assert!((state.mean[0] - mean[k]).abs() < 1e-12);
-            assert!((state.covariance[0][0] - solve(unit)[k]).abs() < 1e-12);
+            assert!((state.variance[0] - solve(unit)[k]).abs() < 1e-12);
         }
     }
 }

@@ -66,7 +66,7 @@ impl Deviations<'_> {
         let filter = self.filtered(&hyper, true);
         let states = filter.smoothed();
         let wide = colour(filter.innovations());
-        let mut variance: Vec<f64> = states.iter().map(|s| s.covariance[1][1] * wide).collect();
+        let mut variance: Vec<f64> = states.iter().map(|s| s.variance[1] * wide).collect();
         for axis in 0..if self.engagement.is_some() { 5 } else { 3 } {
             let moved = |by: f64| {
                 let mut other = hyper;
@@ -78,9 +78,7 @@ impl Deviations<'_> {
             for by in [deviation, -deviation] {
                 let other = self.filtered(&moved(by), true).smoothed();
                 for ((v, a), b) in variance.iter_mut().zip(&states).zip(&other) {
-                    *v += 0.5
-                        * ((b.mean[1] - a.mean[1]).powi(2) + b.covariance[1][1]
-                            - a.covariance[1][1]);
+                    *v += 0.5 * ((b.mean[1] - a.mean[1]).powi(2) + b.variance[1] - a.variance[1]);
                 }
             }
         }
@@ -121,7 +119,7 @@ impl Deviations<'_> {
             let rolling = ratio * shaft.speed_at(time);
             let shaft_part = ratio * shaft.speed_deviation_at(time);
             let excess = state.mean[1] + self.removed.get(k).copied().unwrap_or(0.0);
-            let own = variance.max(state.covariance[1][1]).max(0.0).sqrt();
+            let own = variance.max(state.variance[1]).max(0.0).sqrt();
             // The deviation is relative to the shaft's angle, which is known better than its speed: what the shaft's speed has
             // wrong for longer than a passing is not in the deviation's rate.
             let deviation = own.hypot(shaft_part);
@@ -237,7 +235,7 @@ impl Deviations<'_> {
                     &gathered,
                 );
             }
-            let expected = filter.now().mean[0];
+            let expected = filter.now()[0];
             let seen = Observation {
                 row: [1.0, 0.0, 0.0],
                 value: expected + self.wrapped(deviation - expected),

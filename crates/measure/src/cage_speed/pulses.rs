@@ -5,10 +5,14 @@ use super::phase::Deviations;
 use crate::shaft::Shaft;
 use std::f64::consts::TAU;
 
+/// Time after an engagement in which no passing is taken to be missing, s.
+const LAG: f64 = 0.15;
+
 /// Speed of a cage from the times at which its balls pass a sensor at rest.
 ///
 /// `passings` in s, in order; `balls` the number of balls; `ratio` the speed of a rolling cage over that of the shaft, 1;
-/// `engagement` the time after which slip may change fast, s. Missing and double passings are found and told; errors of the ball
+/// `engagement` the time after which slip may change fast, s. Missing and double passings are found and told (missing ones not
+/// within 0.15 s after the engagement, where the cage may lag); errors of the ball
 /// spacing that repeat with the cage are taken out where the record is long enough. The list holds one value a passing.
 pub fn from_pulses(
     passings: &[f64],
@@ -47,7 +51,7 @@ pub fn from_pulses(
     }
     let pitch = TAU / balls as f64;
     let rolled: Vec<f64> = inside.iter().map(|&t| ratio * shaft.angle_at(t)).collect();
-    let (time, index, expected) = counted(&inside, &rolled, pitch, &mut notes);
+    let (time, index, expected) = counted(&inside, &rolled, pitch, engagement, &mut notes);
     let cage: Vec<f64> = index.iter().map(|&n| n as f64 * pitch).collect();
     let mut deviation: Vec<f64> = cage.iter().zip(&expected).map(|(c, r)| c - r).collect();
     let weight = vec![1.0; time.len()];
@@ -81,6 +85,7 @@ fn counted(
     time: &[f64],
     rolled: &[f64],
     pitch: f64,
+    engagement: Option<f64>,
     notes: &mut Vec<String>,
 ) -> (Vec<f64>, Vec<i64>, Vec<f64>) {
     // Pitches that a rolling cage would have gone between passings; 1/(1 - slip) where none is missing.
@@ -98,6 +103,9 @@ fn counted(
         sorted.sort_by(f64::total_cmp);
         let usual = sorted[sorted.len() / 2].max(1e-9);
         let passed = (since / usual).round().min(1e6) as i64;
+        // After an engagement the cage may lag by several pitches: every passing is taken as the next.
+        let lagging = engagement.is_some_and(|e| time[k + 1] > e && time[k + 1] < e + LAG);
+        let passed = if lagging { passed.min(1) } else { passed };
         if passed == 0 {
             doubles += 1;
             continue;

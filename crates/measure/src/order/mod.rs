@@ -155,18 +155,33 @@ pub fn orders(
     let found = factor.solved(&right);
     let variances = factor.inverse_diagonal();
     let mut rest = vec![f64::NAN; signal.len()];
+    // Sums of the rest without its mean, turned back by each order, between two nodes; and the number of values.
+    let mut sums = vec![0.0; (count - 1) * size];
     for (k, slot) in rest.iter_mut().enumerate().take(to).skip(from) {
+        let value = signal[k];
+        if !value.is_finite() {
+            continue;
+        }
         waves.at(k, &mut row);
         let (node, part) = (
             (k - from) / width,
             ((k - from) % width) as f64 / width as f64,
         );
-        let along = |node: usize| {
-            (1..size)
-                .map(|i| row[i] * found[node * size + i])
-                .sum::<f64>()
-        };
-        *slot = signal[k] - (1.0 - part) * along(node) - part * along(node + 1);
+        let (here, next) = (
+            &found[node * size..(node + 1) * size],
+            &found[(node + 1) * size..(node + 2) * size],
+        );
+        let mut left = value;
+        for i in 1..size {
+            left -= row[i] * (here[i] + part * (next[i] - here[i]));
+        }
+        *slot = left;
+        let moving = left - here[0] - part * (next[0] - here[0]);
+        let sum = &mut sums[node * size..(node + 1) * size];
+        sum[0] += 1.0;
+        for i in 1..size {
+            sum[i] += row[i] * moving;
+        }
     }
     let time: Vec<f64> = (0..count)
         .map(|n| first + (from + n * width) as f64 * interval)
@@ -174,7 +189,7 @@ pub fn orders(
     let mut notes = Vec::new();
     let mut tracks = Vec::with_capacity(orders.len());
     for (index, &order) in orders.iter().enumerate() {
-        let noise = near(&rest, from, to, width, &waves, index, &found, size);
+        let noise = near(&sums, size, index);
         let pick = |i: usize| {
             (0..count)
                 .map(|n| found[n * size + i])
@@ -241,47 +256,17 @@ impl Waves<'_> {
     }
 }
 
-/// Variance that a value of the rest would need as white noise to have the power that is seen near an order, at each node.
-#[allow(clippy::too_many_arguments)]
-fn near(
-    rest: &[f64],
-    from: usize,
-    to: usize,
-    width: usize,
-    waves: &Waves,
-    index: usize,
-    found: &[f64],
-    size: usize,
-) -> Vec<f64> {
-    let mut row = vec![0.0; size];
-    let mut powers = Vec::new();
-    let mut start = from;
-    while start + width <= to {
-        let (mut c, mut s, mut n) = (0.0, 0.0, 0.0);
-        let node = (start - from) / width;
-        for (k, value) in rest.iter().enumerate().skip(start).take(width) {
-            if value.is_finite() {
-                waves.at(k, &mut row);
-                let part = ((k - from) % width) as f64 / width as f64;
-                let mean = (1.0 - part) * found[node * size] + part * found[(node + 1) * size];
-                c += row[2 * index + 1] * (value - mean);
-                s += row[2 * index + 2] * (value - mean);
-                n += 1.0;
-            }
-        }
-        // Sums over n values of cosine times white noise have variance n/2 each.
-        powers.push(if n > 0.0 {
-            (c * c + s * s) / n
-        } else {
-            f64::NAN
-        });
-        start += width;
-    }
+/// Variance that a value of the rest would need as white noise to have the power that is seen near an order, between nodes.
+fn near(sums: &[f64], size: usize, index: usize) -> Vec<f64> {
+    // Sums over n values of cosine times white noise have variance n/2 each.
+    let powers: Vec<f64> = sums
+        .chunks_exact(size)
+        .map(|part| (part[2 * index + 1].powi(2) + part[2 * index + 2].powi(2)) / part[0])
+        .collect();
     let reach = 15;
-    (0..powers.len().max(1))
+    (0..powers.len())
         .map(|k| {
-            let part = &powers
-                [k.saturating_sub(reach).min(powers.len())..(k + reach + 1).min(powers.len())];
+            let part = &powers[k.saturating_sub(reach)..(k + reach + 1).min(powers.len())];
             let seen = part.iter().filter(|p| p.is_finite());
             seen.clone().sum::<f64>() / seen.count().max(1) as f64
         })

@@ -274,11 +274,10 @@ impl<'a> Chain<'a> {
             .smoothed()
             .iter()
             .map(|s| {
-                let mut variances = [0.0; STATES];
-                for (i, v) in variances.iter_mut().enumerate() {
-                    *v = s.covariance[i][i] * scale * scale;
-                }
-                (s.mean.map(|m| m * scale), variances)
+                (
+                    s.mean.map(|m| m * scale),
+                    s.variance.map(|v| v * scale * scale),
+                )
             })
             .collect();
         Pass {

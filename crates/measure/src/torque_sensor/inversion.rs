@@ -96,10 +96,9 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
     let (from, to) = match knot {
         Some(knot) => {
             let place = |time: f64| ((time - samples.first) / samples.interval).max(0.0) as usize;
-            (
-                place(knot - 0.5),
-                place(knot + 1.5).min(samples.reading.len()),
-            )
+            let count = samples.reading.len();
+            let from = place(knot - 0.5).min(count - 16);
+            (from, place(knot + 1.0).clamp(from + 16, count))
         }
         None => (0, samples.reading.len().min(2000)),
     };
@@ -146,7 +145,7 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         };
         let curvature =
             (part.cost(&moved(probe)) + part.cost(&moved(-probe)) - 2.0 * lowest) / (probe * probe);
-        let deviation = (1.0 / curvature.max(0.25)).sqrt();
+        let deviation = (1.0 / curvature.max(1.0)).sqrt();
         for by in [deviation, -deviation] {
             widen(&chain.smoothed(&moved(by)), 0.5);
         }
@@ -306,8 +305,8 @@ struct Thin {
 /// Longest block, s: a twelfth of a spin-up of 25 ms.
 const BLOCK: f64 = 0.002;
 
-/// Blocks in a period of the sensor: means of blocks this short lose 0.3 % of a swing at its frequency.
-const IN_A_PERIOD: f64 = 25.0;
+/// Blocks in a period of the sensor: means of blocks this short lose 0.4 % of a swing at its frequency.
+const IN_A_PERIOD: f64 = 20.0;
 
 /// Most blocks that are inverted at once.
 const MOST: usize = 100_000;
