@@ -225,24 +225,33 @@ fn two_deviations_cover_a_cage_that_lags() {
         speed: &speed,
         speed_deviation: &[],
     };
-    // Cage speed and angle on a fine grid: ω' = (ratio Ω (1 - 0.01) - ω)/40 ms.
     let h = 1e-5;
-    let (mut cage, mut turned, mut path) = (0.0, 0.0, Vec::new());
-    for k in 0..100_000 {
-        path.push((turned, cage));
-        let target = 0.99 * RATIO * spin.speed(k as f64 * h);
-        cage += h * (target - cage) / 0.04;
-        turned += h * cage;
-    }
+    // Cage speed and angle on a fine grid: ω' = (ratio Ω (1 - 0.01 - rough) - ω)/40 ms, rough slip of 0.2 % over 30 ms.
+    let turning = |random: &mut Random| {
+        let (mut cage, mut turned, mut rough, mut path) = (0.0, 0.0, 0.0, Vec::new());
+        let keep = (-h / 0.03_f64).exp();
+        for k in 0..100_000 {
+            path.push((turned, cage));
+            rough = keep * rough + 2e-3 * (1.0 - keep * keep).sqrt() * random.normal();
+            let target = (0.99 - rough) * RATIO * spin.speed(k as f64 * h);
+            cage += h * (target - cage) / 0.04;
+            turned += h * cage;
+        }
+        path
+    };
     over_seeds("lagging cage", 400, |seed| {
         let mut random = Random::new(seed);
         let pitch = TAU / BALLS as f64;
-        let mut next = pitch * random.uniform();
+        let path = turning(&mut random);
+        let spacing: Vec<f64> = (0..BALLS)
+            .map(|_| 0.005 * pitch * random.normal())
+            .collect();
+        let start = pitch * random.uniform();
         let mut passings = Vec::new();
         for (k, (angle, _)) in path.iter().enumerate() {
-            if *angle >= next {
+            let n = passings.len();
+            if *angle >= start + n as f64 * pitch + spacing[n % BALLS] {
                 passings.push(k as f64 * h + 30e-6 * random.normal());
-                next += pitch * (1.0 + 0.005 * random.normal());
             }
         }
         let found = from_pulses(&passings, &shaft, BALLS, RATIO, Some(0.1)).expect("found");
