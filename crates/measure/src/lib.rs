@@ -3,7 +3,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`recording`] | channels of a file: names, units, clocks, and values read in pieces |
-//! | [`file`] | the formats: from a file to a recording, and back |
+//! | [`mod@file`] | the formats: from a file to a recording, and back |
 //! | [`converter`] | skew between channels, steps, clipping, drop-outs |
 //! | [`shaft`] | angle and speed of the shaft as the estimators below take them |
 //! | [`spectrum`] | spectra and spectrograms over time and over order |

@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 ///
 /// Formula: I = m g a T₀²/(4π²) − m a², T₀ = T/(1 + φ²/16)
 ///
-/// Arguments: mass m [kg], distance a from the knife edge to the mass centre [m], period T [s], amplitude φ of the swing [rad],
-/// gravity g [m/s²].
+/// Arguments: mass m in kg, distance a from the knife edge to the mass centre in m, period T in s, amplitude φ of the swing in rad,
+/// gravity g in m/s².
 ///
 /// Source: textbook of mechanics (compound pendulum; first term of its amplitude series).
 ///
@@ -34,7 +34,7 @@ pub fn inertia_from_pendulum(
 ///
 /// Formula: I = m g d² T²/(16π² l)
 ///
-/// Arguments: mass m [kg], distance d of the strings [m], their length l [m], period T [s], gravity g [m/s²].
+/// Arguments: mass m in kg, distance d of the strings in m, their length l in m, period T in s, gravity g in m/s².
 ///
 /// Source: textbook of mechanics (bifilar pendulum).
 ///
@@ -60,7 +60,7 @@ pub fn inertia_from_bifilar(
 ///
 /// Formula: I = ΔM/(α₁ − α₀)
 ///
-/// Arguments: additional torque ΔM [N m], acceleration α₁ with it and α₀ without it, at the same speed [rad/s²].
+/// Arguments: additional torque ΔM in N m, acceleration α₁ with it and α₀ without it, at the same speed in rad/s².
 ///
 /// Source: definition of inertia.
 ///
