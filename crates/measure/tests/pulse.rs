@@ -1,5 +1,6 @@
 //! Edges, numbering and calibration, on made-up signals with known answers and on signals of others.
 
+#[path = "synthetic/wheel.rs"]
 mod synthetic;
 
 use std::f64::consts::TAU;

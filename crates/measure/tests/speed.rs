@@ -1,5 +1,6 @@
 //! The smoother: covariances that fit together, other motions than a spin-up from rest, refusals, cost.
 
+#[path = "synthetic/wheel.rs"]
 mod synthetic;
 
 use std::f64::consts::TAU;

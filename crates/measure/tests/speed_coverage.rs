@@ -1,5 +1,6 @@
 //! Do the stated bands hold the truth? Four hundred made-up spin-ups a case, with models that differ from the estimator's.
 
+#[path = "synthetic/wheel.rs"]
 mod synthetic;
 
 use measure::pulse::{EdgeSettings, Edges, Flank, Wheel, calibrate, edges, number};
