@@ -178,17 +178,18 @@ pub fn smooth(
     {
         base.quiet[0] = fit::quiet(&data, 0..sight.first).1;
     }
+    // From here on nothing of a quick change is left.
+    let mut calm_from = 0;
     if let Some(sight) = &sight {
         base.settled = sight.lock + 2.0 * (sight.lock - sight.engage);
-        let to = data.passages.partition_point(|p| p.time <= base.settled);
-        if to >= sight.after + 8 {
-            base.quiet[1] = fit::settling(
-                &data,
-                sight.after..to.min(sight.after + 200),
-                noise,
-                density,
-            );
+        calm_from = data.passages.partition_point(|p| p.time <= base.settled);
+        if calm_from >= sight.after + 8 {
+            let range = sight.after..calm_from.min(sight.after + 200);
+            base.quiet[1] = fit::settling(&data, range, noise, density);
         }
+    }
+    if n - calm_from >= 3 * fit::STRETCH {
+        base.quiet[2] = fit::calm(&data, calm_from..n, noise, density);
     }
     let mut speed = Speed {
         base: Track::new(
