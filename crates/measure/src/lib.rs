@@ -3,7 +3,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`recording`] | channels of a file: names, units, clocks, and values read in pieces |
-//! | [`file`] | the formats: from a file to a recording, and back |
+//! | [`mod@file`] | the formats: from a file to a recording, and back |
 //! | [`pulse`] | pulse trains: edge times, numbering of the marks, calibration of the wheel |
 //! | [`speed`] | from numbered pulses to angle, speed and acceleration with covariance |
 //!

@@ -137,7 +137,21 @@ const FEWEST: usize = 6;
 
 /// Smooths pulses to angle, speed and acceleration.
 ///
-/// `pitch` are the errors of the wheel, where they are known.
+/// `pitch` are the errors of the wheel, where they are known. Refused: fewer than six pulses, a quick change with fewer than
+/// four, one whose acceleration is less certain than [`SpeedSettings::wanted`].
+///
+/// Four hundred made-up spin-ups a case, from models other than this one (`tests/speed_coverage.rs`), to 150 rad/s: bands of
+/// two standard deviations hold the truth in 90 to 98 % of all instants; medians of the error of the peak acceleration and
+/// of the root mean square error, as parts of the peak:
+///
+/// | spin-up | marks | peak | rms |
+/// |---|---|---|---|
+/// | 25 ms, 11 500 rad/s² | 60, sampled at 10 kHz, rising flanks | 0.6 % | 1.7 % |
+/// | | 60, both flanks | 0.4 % | 1.3 % |
+/// | | 360, stamped | 0.2 % | 0.6 % |
+/// | 40 ms, 7200 rad/s² | 60, sampled | 0.4 % | 1.1 % |
+/// | 223 ms, 1300 rad/s² | 12, sampled | 0.2 % | 0.8 % |
+/// | | 60, sampled | 0.1 % | 0.5 % |
 pub fn smooth(
     pulses: &Pulses,
     pitch: Option<&Pitch>,
