@@ -164,6 +164,16 @@ pub fn smooth(
             format!("at least {FEWEST} pulses"),
         ));
     }
+    let forward = pulses
+        .times
+        .windows(2)
+        .all(|pair| pair[1] > pair[0] && pair[1].is_finite());
+    if pulses.positions == 0 || !forward || !pulses.times[0].is_finite() {
+        return Err(Refusal::new(
+            "pulses that were not numbered".into(),
+            "pulses as `number` gives them",
+        ));
+    }
     let data = Data::new(pulses, pitch);
     let sight = fit::sight(&data, &settings.transient);
     if let Some(sight) = &sight {
