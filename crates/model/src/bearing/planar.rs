@@ -41,8 +41,8 @@ pub struct Planar<R: Real> {
     traction: Traction<R::Group>,
     cage_inverse_inertia: R,
     cage_drag: R,
-    /// 2k: twice the growth of the inner track's radius with the square of its speed, m s².
-    twice_growth: R,
+    /// 2k: twice the growth of the inner track's radius with the square of its speed, m s²; none where it does not grow.
+    twice_growth: Option<R>,
     moment: Option<MomentPairs<R>>,
     apart: Apart<R>,
     /// First state of the balls.
@@ -63,7 +63,9 @@ impl<R: Real> Planar<R> {
             traction: gather_group::<R, _>(&|lane| &machine(lane).traction),
             cage_inverse_inertia: R::from_lanes(|lane| 1.0 / machine(lane).cage_inertia),
             cage_drag: R::from_lanes(|lane| machine(lane).cage_drag),
-            twice_growth: R::from_lanes(|lane| 2.0 * machine(lane).ball.inner_track_growth),
+            twice_growth: (0..R::LANES)
+                .any(|lane| machine(lane).ball.inner_track_growth != 0.0)
+                .then(|| R::from_lanes(|lane| 2.0 * machine(lane).ball.inner_track_growth)),
             moment: MomentPairs::gather(&|lane| {
                 let bearing = machine(lane);
                 (bearing.geometry(), bearing.moment.as_ref())
@@ -120,6 +122,14 @@ impl<R: Real> Planar<R> {
                 rate,
                 reaction: &mut reaction,
             });
+        }
+        if let Some(twice_growth) = self.twice_growth {
+            let pressed = R::vectorized(InnerElastic {
+                bearing: self,
+                motion,
+                state,
+            });
+            reaction.growth_impulse = twice_growth * motion.inner.spin * pressed;
         }
         match &self.apart {
             Apart::Centred => {}
@@ -246,6 +256,24 @@ impl<R: Real> Planar<R> {
         sums.total()
     }
 
+    /// Sum of the elastic loads of all balls at the inner race, N.
+    #[inline(always)]
+    fn inner_elastic(&self, motion: &Motion<R>, state: &[R]) -> R {
+        let n = self.balls;
+        let lists = split(state, self.first, n);
+        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
+        let mut sum = BallSums::<R, 1>::new(n);
+        let mut from = 0;
+        while from < n {
+            let ball = load_ball(&lists, from);
+            let places = distances(&inner, &outer, &ball);
+            let between = self.ball.between(&inner, &outer, &ball, &places);
+            sum.add(from, &[between.inner.normal.elastic]);
+            from += R::GROUP;
+        }
+        sum.total()[0]
+    }
+
     /// Rate of the angular momentum of balls and cage about the origin, N m, from the rates of their states.
     #[inline(always)]
     pub(crate) fn angular_momentum_rate(&self, state: &[R], rate: &[R]) -> R {
@@ -301,7 +329,7 @@ impl<R: Real> Planar<R> {
             from += R::GROUP;
         }
         let mut largest = [<R::Group as Real>::zero(); 3];
-        let mut sums = BallSums::<R, 16>::new(n);
+        let mut sums = BallSums::<R, 15>::new(n);
         let mut from = 0;
         while from < n {
             let ball = load_ball(&lists, from);
@@ -342,7 +370,6 @@ impl<R: Real> Planar<R> {
                     r.heat.drag,
                     r.heat.pocket_damping,
                     r.heat.pocket_sliding,
-                    r.inner_elastic,
                 ],
             );
             // a group repeats the last ball behind the end of the list: no harm to a maximum
@@ -374,7 +401,7 @@ impl<R: Real> Planar<R> {
             outer_inertia: R::zero(),
             loss_inertia: R::zero(),
             steady_moment: R::zero(),
-            growth_impulse: self.twice_growth * motion.inner.spin * s[15],
+            growth_impulse: R::zero(),
             external_moment: s[7] - cage_drag,
             heat: BearingHeat {
                 inner_damping: s[8],
@@ -415,6 +442,21 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
             self.rate,
             self.detail,
         )
+    }
+}
+
+/// [`Planar::inner_elastic`] as a task.
+struct InnerElastic<'a, R: Real> {
+    bearing: &'a Planar<R>,
+    motion: &'a Motion<R>,
+    state: &'a [R],
+}
+
+impl<R: Real> Vectorized for InnerElastic<'_, R> {
+    type Output = R;
+    #[inline(always)]
+    fn run(self) -> R {
+        self.bearing.inner_elastic(self.motion, self.state)
     }
 }
 
