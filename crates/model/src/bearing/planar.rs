@@ -8,18 +8,20 @@
 //! What keeps the balls apart is one of three: a cage centred on the outer race, with which its mass moves; a cage that
 //! is free to move, see [`cage`](super::cage); or nothing but the balls, see [`full_complement`](super::full_complement).
 //! Drag to ground (c_d on the orbit, c_w on the spin, c_c on the cage) exists to reproduce reference cases; it is no
-//! bearing friction moment. That is [`steady_moment`](super::steady_moment), and excludes it.
+//! bearing friction moment. That is [`steady_moment`](super::steady_moment), and excludes it; without it the oil of lubricated
+//! contacts resists rolling by [`inlet_couples`](super::inlet_couples).
 //!
 //! Does not model: squeeze of the film, heat.
 
 use super::ball::{
     BallConstants, BallDistances, BallMotion, PocketMotion, RaceMotion, gather_group,
 };
-use super::ball_states::{add, direction, load_ball, race, split, split_mut};
+use super::ball_states::{direction, load_ball, race, split, split_mut};
 use super::cage::{self, FreeCage};
 use super::full_complement::{self, FullComplement};
+use super::inlet_couples::{self, InletCouples};
 use super::planar_constants::{PlanarConstants, Separation};
-use super::steady_moment::{BallPlace, MomentPairs};
+use super::steady_moment::{self, MomentPairs};
 use super::{BallSums, BearingHeat, BearingReaction, largest_part};
 use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, Vectorized};
@@ -36,17 +38,18 @@ enum Apart<R: Real> {
 /// The planar bearing over `R`.
 #[derive(Clone, Debug)]
 pub struct Planar<R: Real> {
-    balls: usize,
-    ball: BallConstants<R::Group>,
+    pub(super) balls: usize,
+    pub(super) ball: BallConstants<R::Group>,
     traction: Traction<R::Group>,
     cage_inverse_inertia: R,
     cage_drag: R,
     /// 2k: twice the growth of the inner track's radius with the square of its speed, m s²; none where it does not grow.
     twice_growth: Option<R>,
     moment: Option<MomentPairs<R>>,
+    couples: Option<InletCouples<R>>,
     apart: Apart<R>,
     /// First state of the balls.
-    first: usize,
+    pub(super) first: usize,
     /// Angle of each pocket on the cage, rad.
     seats: Vec<R>,
 }
@@ -70,6 +73,7 @@ impl<R: Real> Planar<R> {
                 let bearing = machine(lane);
                 (bearing.geometry(), bearing.moment.as_ref())
             }),
+            couples: InletCouples::gather(&|lane| machine(lane)),
             apart: match &machine(0).separation {
                 Separation::CentredCage => Apart::Centred,
                 Separation::FreeCage(_) => {
@@ -113,11 +117,21 @@ impl<R: Real> Planar<R> {
         };
         // apart from the sum above: without a steady moment nothing is paid, and the code above stands once a law
         if let Some(pairs) = &self.moment {
-            R::vectorized(Share {
+            R::vectorized(steady_moment::Share {
                 bearing: self,
                 pairs,
                 motion,
                 held_load,
+                state,
+                rate,
+                reaction: &mut reaction,
+            });
+        }
+        if let Some(couples) = &self.couples {
+            R::vectorized(inlet_couples::Act {
+                bearing: self,
+                couples,
+                motion,
                 state,
                 rate,
                 reaction: &mut reaction,
@@ -170,90 +184,6 @@ impl<R: Real> Planar<R> {
             rate,
             detail,
         })
-    }
-
-    /// Adds the pairs of the steady moment to the rates and to the reaction.
-    #[inline(always)]
-    fn share(
-        &self,
-        pairs: &MomentPairs<R>,
-        motion: &Motion<R>,
-        held_load: R,
-        state: &[R],
-        rate: &mut [R],
-        reaction: &mut BearingReaction<R>,
-    ) {
-        let n = self.balls;
-        let speed = motion.inner.spin - motion.outer.spin;
-        let [x, y, inner_sum, outer_sum] = self.loads(motion, state);
-        let load = Vec2::new(x, y).length_squared().sqrt() + held_load;
-        let shared = pairs.share(speed, load, inner_sum, outer_sum);
-
-        let lists = split(state, self.first, n);
-        let [_, d_radial_speed, _, d_orbit_speed, d_spin] = split_mut(rate, self.first, n);
-        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
-        let mut sums = BallSums::<R, 5>::new(n);
-        let mut from = 0;
-        while from < n {
-            let ball = load_ball(&lists, from);
-            let place = self
-                .ball
-                .between(&inner, &outer, &ball, &distances(&inner, &outer, &ball));
-            let t = place.outer.n.turned();
-            let distance = place.outer.distance;
-            let p = shared.pairs(&BallPlace {
-                past: place.outer.past.dot(t) - outer.spin * distance,
-                inverse_distance: place.outer.inverse_distance,
-                on_inner: ball.spin - inner.spin,
-                on_outer: ball.spin - outer.spin,
-                inner_load: place.inner.normal.force,
-                outer_load: place.outer.normal.force,
-            });
-            let force = t * p.orbit_drag;
-            let slowing = force * self.ball.inverse_mass;
-            let sideways = slowing.dot(place.e_r.turned()) * place.inverse_radius;
-            let couple = p.inner_couple + p.outer_couple;
-            add(d_radial_speed, from, -(slowing.dot(place.e_r)));
-            add(d_orbit_speed, from, -(sideways));
-            add(d_spin, from, -(couple * self.ball.inverse_inertia));
-            sums.add(
-                from,
-                &[
-                    p.inner_couple,
-                    force.x,
-                    force.y,
-                    p.orbit_drag * distance + p.outer_couple,
-                    p.heat,
-                ],
-            );
-            from += R::GROUP;
-        }
-        let [on_inner, x, y, on_outer, heat] = sums.total();
-        reaction.on_inner.moment += on_inner;
-        reaction.on_outer += Wrench::planar(Vec2::new(x, y), on_outer);
-        reaction.heat.steady_moment = heat;
-        reaction.steady_moment = shared.moment;
-    }
-
-    /// Loads of all balls: ΣQ_i n (two components), ΣQ_i, ΣQ_o, N.
-    #[inline(always)]
-    fn loads(&self, motion: &Motion<R>, state: &[R]) -> [R; 4] {
-        let n = self.balls;
-        let lists = split(state, self.first, n);
-        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
-        let mut sums = BallSums::<R, 4>::new(n);
-        let mut from = 0;
-        while from < n {
-            let ball = load_ball(&lists, from);
-            let between =
-                self.ball
-                    .between(&inner, &outer, &ball, &distances(&inner, &outer, &ball));
-            let (inner_load, outer_load) = (between.inner.normal.force, between.outer.normal.force);
-            let push = between.inner.n * inner_load;
-            sums.add(from, &[push.x, push.y, inner_load, outer_load]);
-            from += R::GROUP;
-        }
-        sums.total()
     }
 
     /// Sum of the elastic loads of all balls at the inner race, N.
@@ -457,32 +387,6 @@ impl<R: Real> Vectorized for InnerElastic<'_, R> {
     #[inline(always)]
     fn run(self) -> R {
         self.bearing.inner_elastic(self.motion, self.state)
-    }
-}
-
-/// [`Planar::share`] as a task.
-struct Share<'a, R: Real> {
-    bearing: &'a Planar<R>,
-    pairs: &'a MomentPairs<R>,
-    motion: &'a Motion<R>,
-    held_load: R,
-    state: &'a [R],
-    rate: &'a mut [R],
-    reaction: &'a mut BearingReaction<R>,
-}
-
-impl<R: Real> Vectorized for Share<'_, R> {
-    type Output = ();
-    #[inline(always)]
-    fn run(self) {
-        self.bearing.share(
-            self.pairs,
-            self.motion,
-            self.held_load,
-            self.state,
-            self.rate,
-            self.reaction,
-        );
     }
 }
 
