@@ -6,10 +6,10 @@
 //!   I_c ω̇_c = Σ cage moments of the balls - c_c ω_c        ball j: see `ball`
 //! ```
 //! What keeps the balls apart is one of three: a cage centred on the outer race, with which its mass moves; a cage that
-//! is free to move, see [`cage`](super::cage); or nothing but the balls, see [`full_complement`](super::full_complement).
+//! is free to move, see [`cage`]; or nothing but the balls, see [`full_complement`].
 //! Drag to ground (c_d on the orbit, c_w on the spin, c_c on the cage) exists to reproduce reference cases; it is no
-//! bearing friction moment. That is [`steady_moment`](super::steady_moment), and excludes it; without it the oil of lubricated
-//! contacts resists rolling by [`inlet_couples`](super::inlet_couples).
+//! bearing friction moment. That is [`steady_moment`], and excludes it; without it the oil of lubricated
+//! contacts resists rolling by [`inlet_couples`].
 //!
 //! Does not model: squeeze of the film, heat.
 
