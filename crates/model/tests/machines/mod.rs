@@ -430,9 +430,10 @@ pub fn random_state(machine: &DropMachine, random: &mut Random) -> Vec<f64> {
             part[0] = cage_angle;
             part[1] = cage_speed;
             let b = &bearing.ball;
-            for channel in CAGE_PLACE..bearing.first_ball_state() {
+            let cage = part.iter_mut().take(bearing.first_ball_state());
+            for (channel, value) in cage.enumerate().skip(CAGE_PLACE) {
                 let speed = channel >= CAGE_PLACE + 2;
-                part[channel] = random.within(if speed { 0.3 } else { 0.2e-3 });
+                *value = random.within(if speed { 0.3 } else { 0.2e-3 });
             }
             // neighbours without a cage are as often pressed as apart
             let gap = match bearing.separation {
