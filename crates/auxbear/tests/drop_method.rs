@@ -48,3 +48,45 @@ fn implicit_members_are_the_same_on_any_number_of_threads() {
     assert_eq!(one.members, three.members);
     assert_eq!(one.quantities, three.quantities);
 }
+
+/// Machines that differ in their constants, of which some take more steps than others.
+const TOLERANCES: [&str; 4] = [
+    "repeat.unbalance_angle=random",
+    "repeat.friction_coefficient_deviation=0.3",
+    "repeat.mount_stiffness_deviation=0.2",
+    "repeat.radial_air_clearance_deviation=0.05",
+];
+
+fn ensemble(count: usize, threads: usize) -> Outcome {
+    let count = format!("repeat.count={count}");
+    let mut sets = TOLERANCES.to_vec();
+    sets.push(&count);
+    outcome(&sets, threads)
+}
+
+#[test]
+fn machines_of_an_ensemble_depend_on_seed_and_number_alone() {
+    let whole = ensemble(40, 1);
+    assert_eq!(whole.members.len(), 40);
+    // other threads, other lanes, other company
+    assert_eq!(whole.members, ensemble(40, 3).members);
+    assert_eq!(whole.members[..7], ensemble(7, 2).members[..]);
+}
+
+#[test]
+fn tolerances_of_the_machine_spread_what_they_should() {
+    let spread = |outcome: &Outcome, name: &str| {
+        let quantity = outcome.quantities.iter().find(|q| q.name == name);
+        quantity.and_then(|q| q.spread).expect("repeated")
+    };
+    let (varied, chaos) = (ensemble(64, 2), outcome(&["repeat.count=16"], 2));
+    // the fall takes √(2 c/g): half of a clearance's 5 %
+    let fall = spread(&varied, "time_to_first_contact");
+    let share = fall.standard_deviation / fall.mean;
+    // a deviation of 64 members is known within 9 %
+    assert!((share / 0.025 - 1.0).abs() < 0.35, "{share}");
+    let still = spread(&chaos, "time_to_first_contact");
+    assert!(still.standard_deviation < 1e-5 * still.mean, "{still:?}");
+    let [low, median, high] = spread(&varied, "first_impact_force").quantiles;
+    assert!(low < 0.95 * median && high > 1.05 * median);
+}

@@ -37,8 +37,13 @@ fn base(system: SystemName, path: &str) -> String {
         SystemName::SpinUp => drive(path),
         SystemName::Torque => String::new(),
     };
+    let bearing = if path.starts_with("bearing.full_complement.") || path == "bearing.separation" {
+        BEARING.replace("cage_mass = \"6 g\"\n", "")
+    } else {
+        BEARING.to_string()
+    };
     format!(
-        "format = \"auxbear.scenario/1\"\nsystem = \"{}\"\n{own}{BEARING}",
+        "format = \"auxbear.scenario/1\"\nsystem = \"{}\"\n{own}{bearing}",
         system.word()
     )
 }
@@ -172,6 +177,7 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.contact_angle=15 deg",
         ],
         "bearing.inner_race_growth" => &["bearing.fits.bore_diameter=25 mm"],
+        "bearing.unmounted_diametral_clearance" => &["bearing.fits.shaft_interference=5 um"],
         _ if path.starts_with("bearing.fits.housing_") || path == "bearing.fits.outer_diameter" => {
             &[
                 "bearing.unmounted_diametral_clearance=12 um",

@@ -3,9 +3,33 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`recording`] | channels of a file: names, units, clocks, and values read in pieces |
-//! | [`file`] | the formats: from a file to a recording, and back |
+//! | [`mod@file`] | the formats: from a file to a recording, and back |
+//! | [`pulse`] | pulse trains: edge times, numbering of the marks, calibration of the wheel |
+//! | [`speed`] | from numbered pulses to angle, speed and acceleration with covariance |
+//! | [`converter`] | skew between channels, steps, clipping, drop-outs |
+//! | [`shaft`] | angle and speed of the shaft as the estimators below take them |
+//! | [`spectrum`] | spectra and spectrograms over time and over order |
+//! | [`order`] | amplitude and phase of orders at any speed; the signal without them |
+//! | [`torque_sensor`] | a sensor that swings: identified from a tap, its reading inverted, its frequency chosen |
+//! | [`steady_curve`] | torque over speed from slow runs by two ways; inertia |
+//! | [`cage_speed`] | speed and slip of a cage from passing balls or vibration |
+//! | [`uncertain`] | a number with its standard deviation |
 //!
-//! Nothing here knows a bearing or a rotor. SI inside where a quantity is computed; values of a file stay in the file's unit.
+//! Estimators return values with standard deviations and notes about what is not trustworthy; what they refuse they refuse with a
+//! sentence. Nothing here knows a bearing or a rotor. SI inside where a quantity is computed; values of a file stay in the file's unit.
 
+pub mod cage_speed;
+pub mod converter;
 pub mod file;
+mod kernel;
+pub mod order;
+pub mod pulse;
 pub mod recording;
+pub mod shaft;
+mod simplex;
+pub mod spectrum;
+pub mod speed;
+mod state_space;
+pub mod steady_curve;
+pub mod torque_sensor;
+pub mod uncertain;

@@ -96,6 +96,10 @@ const HOPELESS_FACTOR: u64 = 10;
 
 /// What the loop keeps per lane.
 struct Lane<M: Machine> {
+    /// The machine on it, by its place among all.
+    member: usize,
+    /// Whether the machine's ending was taken down, or the lane never had one of its own.
+    empty: bool,
     time: f64,
     /// The length wanted by the error; a landing may cut it short for one step.
     length: f64,
@@ -108,13 +112,14 @@ struct Lane<M: Machine> {
     stop: Option<Stop>,
 }
 
-/// Integrates up to `R::LANES` machines side by side; `starts` are their initial states.
+/// Integrates machines side by side, `R::LANES` at a time: a lane whose machine has ended takes the next one that waits.
+/// `starts` are their initial states.
 ///
-/// Every lane has its own step: a machine gives bitwise the same result alone, in any company and on any lane.
-/// `interrupt` is looked at every few hundred steps.
+/// Every lane has its own step: a machine gives bitwise the same result alone, in any company, on any lane and whenever it
+/// gets there. `interrupt` is looked at every few hundred steps; machines that still wait then end where they start.
 ///
 /// # Panics
-/// When there are no machines, more than lanes, or lists of different length.
+/// When there are no machines, or lists of different length.
 pub fn run<R, B, O>(
     machines: &[&B::Machine],
     starts: &[Vec<f64>],
@@ -197,36 +202,28 @@ where
     M: Method<R, B>,
 {
     let count = machines.len();
-    assert!(count >= 1 && count <= R::LANES, "one machine per lane");
+    assert!(count >= 1, "at least one machine");
     assert!(starts.len() == count && observers.len() == count);
     let dimension = machines[0].dimension();
     let probes = machines[0].probes();
-    // spare lanes copy the last machine and stand still
-    let owner = |lane: usize| lane.min(count - 1);
 
-    let batch = B::gather(&|lane| machines[owner(lane)]);
+    // spare lanes copy the last machine and stand still
     let mut lanes: Vec<Lane<B::Machine>> = (0..R::LANES)
-        .map(|lane| Lane {
-            time: settings.start,
-            length: settings.first_step,
-            step_end: settings.start,
-            mode: machines[owner(lane)].start_mode(),
-            // landings before the start are past
-            next_landing: (machines[owner(lane)].landings())
-                .partition_point(|instant| *instant < settings.start),
-            after_rejection: false,
-            work: Work::default(),
-            stop: (lane >= count).then_some(Stop::Finished),
-        })
+        .map(|lane| Lane::at_start(machines, lane, settings))
         .collect();
+    let mut next = count.min(R::LANES);
+    let mut endings: Vec<Option<Ending>> = vec![None; count];
     let mut scratch = Scratch::new(dimension, probes);
     let mut work = Workspace::<R>::of(machines[0]);
-    for (channel, value) in work.state.iter_mut().enumerate() {
-        *value = R::from_lanes(|lane| starts[owner(lane)][channel]);
-    }
-    for (channel, inverse) in work.inverse_error.iter_mut().enumerate() {
-        let allowed = |lane| settings.tolerance * machines[owner(lane)].error_scale(channel);
-        *inverse = R::from_lanes(|lane| 1.0 / allowed(lane));
+    let mut batch = B::gather(&|lane| machines[lanes[lane].member]);
+    for (lane, own) in lanes.iter().enumerate() {
+        load(
+            &mut work,
+            lane,
+            machines[own.member],
+            &starts[own.member],
+            settings,
+        );
     }
     work.time = R::splat(settings.start);
     let mut mode = B::gather_mode(&|lane| lanes[lane].mode);
@@ -243,15 +240,48 @@ where
             for lane in &mut lanes {
                 lane.stop.get_or_insert(Stop::Interrupted);
             }
+            for member in next..count {
+                endings[member] = Some(Ending {
+                    stop: Stop::Interrupted,
+                    time: settings.start,
+                    state: starts[member].clone(),
+                    work: Work::default(),
+                });
+            }
+            next = count;
         }
         iteration += 1;
         for (index, lane) in lanes.iter_mut().enumerate() {
             if lane.stop.is_none() {
-                aim(lane, machines[index], settings, &work, index);
-                if lane.stop.is_some() {
-                    continue;
-                }
+                aim(lane, machines[lane.member], settings, &work, index);
             }
+        }
+        let mut refilled = false;
+        for (index, lane) in lanes.iter_mut().enumerate() {
+            if lane.empty || lane.stop.is_none() {
+                continue;
+            }
+            endings[lane.member] = Some(lane.ending(&work, index));
+            lane.empty = true;
+            if next < count {
+                *lane = Lane::at_start(machines, next, settings);
+                load(&mut work, index, machines[next], &starts[next], settings);
+                next += 1;
+                refilled = true;
+            }
+        }
+        if refilled {
+            batch = B::gather(&|lane| machines[lanes[lane].member]);
+            mode = B::gather_mode(&|lane| lanes[lane].mode);
+            work.time = R::from_lanes(|i| lanes[i].time);
+            let place = Place {
+                batch: &batch,
+                mode: &mode,
+                modes: &|lane| lanes[lane].mode,
+            };
+            // rates and probes of the others are what they were: the same functions of the same states
+            method.begin(place, &mut work);
+            continue;
         }
         if lanes.iter().all(|lane| lane.stop.is_some()) {
             break;
@@ -269,7 +299,7 @@ where
         let judgement = method.attempt(place, &mut work);
 
         let mut jumped = false;
-        for (index, lane) in lanes.iter_mut().enumerate().take(count) {
+        for (index, lane) in lanes.iter_mut().enumerate() {
             if lane.stop.is_some() {
                 continue;
             }
@@ -278,8 +308,8 @@ where
                 continue;
             }
             scratch.copied = 0;
-            let flow = observers[index].step(&mut Step {
-                machine: machines[index],
+            let flow = observers[lane.member].step(&mut Step {
+                machine: machines[lane.member],
                 mode: &lane.mode,
                 start: lane.time,
                 end: lane.step_end,
@@ -297,7 +327,7 @@ where
             }
         }
         let accepted = R::Mask::from_lanes(|i| {
-            i < count && lanes[i].time == lanes[i].step_end && work.length.lane(i) > 0.0
+            lanes[i].time == lanes[i].step_end && work.length.lane(i) > 0.0
         });
         R::vectorized(Advance {
             work: &mut work,
@@ -305,13 +335,14 @@ where
             logarithm: judgement.logarithm,
         });
         work.time = R::from_lanes(|i| lanes[i].time);
-        for (index, lane) in lanes.iter_mut().enumerate().take(count) {
-            let landings = machines[index].landings();
+        for (index, lane) in lanes.iter_mut().enumerate() {
+            let machine = machines[lane.member];
+            let landings = machine.landings();
             while lane.next_landing < landings.len() && landings[lane.next_landing] <= lane.time {
                 for (channel, value) in scratch.state.iter_mut().enumerate() {
                     *value = work.state[channel].lane(index);
                 }
-                machines[index].transition(lane.next_landing, &mut lane.mode, &mut scratch.state);
+                machine.transition(lane.next_landing, &mut lane.mode, &mut scratch.state);
                 for (channel, value) in scratch.state.iter().enumerate() {
                     let old = work.state[channel];
                     work.state[channel] =
@@ -332,17 +363,63 @@ where
         }
     }
 
-    lanes
-        .into_iter()
-        .take(count)
-        .enumerate()
-        .map(|(index, lane)| Ending {
-            stop: lane.stop.unwrap_or(Stop::Finished),
-            time: lane.time,
-            state: work.state.iter().map(|value| value.lane(index)).collect(),
-            work: lane.work,
-        })
-        .collect()
+    // every machine has been on a lane, or was told that it never will be
+    endings.into_iter().flatten().collect()
+}
+
+impl<M: Machine> Lane<M> {
+    /// A lane with a machine at its start; beyond the last machine it stands still with a copy of that.
+    fn at_start(machines: &[&M], member: usize, settings: &Settings) -> Self {
+        let spare = member >= machines.len();
+        let member = member.min(machines.len() - 1);
+        let machine = machines[member];
+        Lane {
+            member,
+            empty: spare,
+            time: settings.start,
+            length: settings.first_step,
+            step_end: settings.start,
+            mode: machine.start_mode(),
+            // landings before the start are past
+            next_landing: (machine.landings()).partition_point(|instant| *instant < settings.start),
+            after_rejection: false,
+            work: Work::default(),
+            stop: spare.then_some(Stop::Finished),
+        }
+    }
+
+    /// How its machine ended.
+    fn ending<R: Real>(&self, work: &Workspace<R>, lane: usize) -> Ending {
+        Ending {
+            stop: self.stop.clone().unwrap_or(Stop::Finished),
+            time: self.time,
+            state: work.state.iter().map(|value| value.lane(lane)).collect(),
+            work: self.work,
+        }
+    }
+}
+
+/// Puts a machine's start and error scale on a lane.
+fn load<R: Real, M: Machine>(
+    work: &mut Workspace<R>,
+    lane: usize,
+    machine: &M,
+    start: &[f64],
+    settings: &Settings,
+) {
+    let put = |list: &mut [R], value: &dyn Fn(usize) -> f64| {
+        for (channel, lanes) in list.iter_mut().enumerate() {
+            let old = *lanes;
+            let new = value(channel);
+            *lanes = R::from_lanes(|i| if i == lane { new } else { old.lane(i) });
+        }
+    };
+    let last = work.last_logarithm;
+    work.last_logarithm = R::from_lanes(|i| if i == lane { 0.0 } else { last.lane(i) });
+    put(&mut work.state, &|channel| start[channel]);
+    put(&mut work.inverse_error, &|channel| {
+        1.0 / (settings.tolerance * machine.error_scale(channel))
+    });
 }
 
 /// Chooses where the next step of a lane ends, or why there is none.

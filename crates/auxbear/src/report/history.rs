@@ -4,9 +4,9 @@
 //! as JSON under the file's key [`COLUMNS`], for readers that know nothing of Arrow. A value that is not a finite number is
 //! written as an empty cell and read back as not-a-number.
 
-use super::arrow_schema::{self, Field};
 use super::page::PageColumn;
 use crate::simulate::outcome::Column;
+use measure::file::parquet::arrow_schema::{self, Field};
 use parquet::basic::{Compression, Encoding, Repetition, Type as Physical};
 use parquet::column::reader::ColumnReader;
 use parquet::data_type::DoubleType;

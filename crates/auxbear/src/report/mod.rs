@@ -5,11 +5,9 @@
 //! | [`directory`] | a run directory as a whole: written in one piece or not at all, and read back |
 //! | `summary` | `summary.json`: quantities, warnings, contacts, inputs |
 //! | `history` | `history.parquet`: time histories with unit and meaning of every column |
-//! | `arrow_schema` | those units and meanings as readers of Arrow expect them |
 //! | [`page`] | one run or several as an HTML page |
 //! | [`picture`] | one run as a picture |
 
-mod arrow_schema;
 pub mod directory;
 mod history;
 pub mod page;

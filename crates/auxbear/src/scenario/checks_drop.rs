@@ -70,11 +70,28 @@ impl Context<'_> {
         let offset = levitation.offset_x.hypot(levitation.offset_y);
         let whirl = levitated_whirl_radius(drop);
         let repeat = &drop.repeat;
-        let spread = if repeat.count > 1 {
-            SPREAD * repeat.rotor_position_deviation
+        let (spread, narrowest) = if repeat.count > 1 {
+            let narrowing = (-SPREAD * repeat.radial_air_clearance_deviation).exp();
+            (
+                SPREAD * repeat.rotor_position_deviation,
+                narrowing * clearance,
+            )
         } else {
-            0.0
+            (0.0, clearance)
         };
+        if offset + whirl < clearance && offset + whirl >= narrowest {
+            let path = "repeat.radial_air_clearance_deviation";
+            return Err(Box::new(self.problem(
+                Code::ContactAtStart,
+                path,
+                self.text(path),
+                format!(
+                    "less is needed: six deviations leave {}, and the levitated rotor takes {} of it",
+                    millimetres(narrowest),
+                    millimetres(offset + whirl)
+                ),
+            )));
+        }
         if offset + whirl < clearance && offset + whirl + spread >= clearance {
             return Err(Box::new(self.problem(
                 Code::ContactAtStart,

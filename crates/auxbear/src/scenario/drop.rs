@@ -126,6 +126,28 @@ pub struct Repeat {
     pub rotor_position_deviation: f64,
     /// Standard deviation of each ball angle, rad.
     pub ball_angle_deviation: f64,
+    /// Whether the unbalance points anywhere at the release.
+    pub random_unbalance_angle: bool,
+    /// Standard deviation of the logarithm of the friction coefficient of rotor and race.
+    pub friction_coefficient_deviation: f64,
+    /// Standard deviation of the logarithm of the mount's stiffness.
+    pub mount_stiffness_deviation: f64,
+    /// Standard deviation of the logarithm of the radial air clearance.
+    pub radial_air_clearance_deviation: f64,
+}
+
+impl Repeat {
+    /// Whether the machines of the runs differ, and not their starts alone.
+    pub fn varies_the_machine(&self) -> bool {
+        self.random_unbalance_angle
+            || [
+                self.friction_coefficient_deviation,
+                self.mount_stiffness_deviation,
+                self.radial_air_clearance_deviation,
+            ]
+            .iter()
+            .any(|deviation| *deviation > 0.0)
+    }
 }
 
 impl Drop {
@@ -160,6 +182,10 @@ impl Drop {
                 seed: repeat.count("seed"),
                 rotor_position_deviation: repeat.number("rotor_position_deviation"),
                 ball_angle_deviation: repeat.number("ball_angle_deviation"),
+                random_unbalance_angle: repeat.word("unbalance_angle") == "random",
+                friction_coefficient_deviation: repeat.number("friction_coefficient_deviation"),
+                mount_stiffness_deviation: repeat.number("mount_stiffness_deviation"),
+                radial_air_clearance_deviation: repeat.number("radial_air_clearance_deviation"),
             },
         }
     }

@@ -262,8 +262,16 @@ fn holds(condition: &Condition, system: SystemName) -> Value {
         condition.path,
         with_origin(&json!({ "enum": condition.values })),
     );
-    schema
+    if condition.path != BEARING_TYPE {
+        return schema;
+    }
+    // the catalogue may tell the type of a bearing that is named
+    let by_name = json!({ "allOf": [given("bearing.name"), { "not": given(BEARING_TYPE) }] });
+    json!({ "anyOf": [schema, by_name] })
 }
+
+/// The key whose value the catalogue tells where a file does not.
+const BEARING_TYPE: &str = "bearing.type";
 
 /// One key: its value and its words.
 fn value(key: &Key, system: SystemName) -> Value {

@@ -37,7 +37,7 @@ pub(super) const SECTIONS: &[Section] = &[
 /// Repetition stands at the end of a file.
 pub(super) const REPEAT_SECTIONS: &[Section] = &[Section {
     path: "repeat",
-    doc: "Repeated runs from slightly different starts: what differs between them is chaos, not physics.",
+    doc: "Repeated runs from slightly different starts: what differs between them is chaos, not physics. With deviations of the machine they tell what its tolerances do.",
     systems: DROP,
 }];
 
@@ -306,4 +306,35 @@ pub(super) const REPEAT: &[Key] = &[
         "1e-9 rad",
         "far below any tolerance of manufacture: it shows chaos only",
     ),
+    Key::new(
+        "repeat.unbalance_angle",
+        Kind::Word(&["as given", "random"]),
+        "random",
+        "Direction of the unbalance at the release: a delevitation chooses no angle of the rotor.",
+    )
+    .default("as given", "rotor.unbalance_angle counts"),
+    Key::new(
+        "repeat.friction_coefficient_deviation",
+        Kind::Coefficient,
+        "0.2",
+        "Standard deviation of the natural logarithm of contact.friction_coefficient: 0.2 is about 20 %.",
+    )
+    .within(Range::FromTo(0.0, 2.0))
+    .default("0.0", "all runs have the friction given"),
+    Key::new(
+        "repeat.mount_stiffness_deviation",
+        Kind::Coefficient,
+        "0.1",
+        "Standard deviation of the natural logarithm of mount.stiffness.",
+    )
+    .within(Range::FromTo(0.0, 2.0))
+    .default("0.0", "all runs have the mount given"),
+    Key::new(
+        "repeat.radial_air_clearance_deviation",
+        Kind::Coefficient,
+        "0.05",
+        "Standard deviation of the natural logarithm of contact.radial_air_clearance.",
+    )
+    .within(Range::FromTo(0.0, 0.5))
+    .default("0.0", "all runs have the clearance given"),
 ];

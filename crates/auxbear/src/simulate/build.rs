@@ -4,6 +4,7 @@ use super::Options;
 use super::build_bearing::{self, SteadyFinding, SteadyPoint};
 use crate::problem::Problem;
 use crate::scenario::{Drop, Spin};
+use model::bearing::BearingConstants;
 use model::contact::JournalContact;
 use model::levitation::Levitation;
 use model::mount::Mount;
@@ -27,14 +28,8 @@ pub struct Built {
 
 /// Builds the constants of one plane of a drop: identical planes share the rotor equally.
 pub fn drop(drop: &Drop, options: &Options) -> Result<Built, Box<Problem>> {
-    let share = 1.0 / f64::from(drop.rotor.planes);
+    let gravity = gravity(drop);
     let (sine, cosine) = drop.gravity.direction.sin_cos();
-    let gravity = Vec2::new(cosine, sine) * drop.gravity.acceleration;
-    let mass = drop.rotor.mass * share;
-    let (brake_torque, brake_start) = match drop.rotor.spin {
-        Spin::Braked { torque, start } => (torque * share, start),
-        Spin::Free | Spin::Held => (0.0, f64::INFINITY),
-    };
     let contacts = build_bearing::ball_contacts(&drop.bearing)?;
     let mut bearing = build_bearing::bearing(&drop.bearing, &contacts, gravity)?;
     let steady = build_bearing::steady(
@@ -49,10 +44,32 @@ pub fn drop(drop: &Drop, options: &Options) -> Result<Built, Box<Problem>> {
         },
         SteadyPoint {
             speed: drop.rotor.speed,
-            load: mass * drop.gravity.acceleration,
+            load: drop.rotor.mass / f64::from(drop.rotor.planes) * drop.gravity.acceleration,
         },
         options,
     )?;
+    Ok(Built {
+        constants: constants(drop, bearing),
+        inner_pressure_factor: contacts.inner.pressure_factor,
+        outer_pressure_factor: contacts.outer.pressure_factor,
+        steady,
+    })
+}
+
+fn gravity(drop: &Drop) -> Vec2<f64> {
+    let (sine, cosine) = drop.gravity.direction.sin_cos();
+    Vec2::new(cosine, sine) * drop.gravity.acceleration
+}
+
+/// The constants of a drop onto a bearing that is built already.
+pub fn constants(drop: &Drop, bearing: BearingConstants) -> DropConstants {
+    let share = 1.0 / f64::from(drop.rotor.planes);
+    let gravity = gravity(drop);
+    let mass = drop.rotor.mass * share;
+    let (brake_torque, brake_start) = match drop.rotor.spin {
+        Spin::Braked { torque, start } => (torque * share, start),
+        Spin::Free | Spin::Held => (0.0, f64::INFINITY),
+    };
     let mut constants = DropConstants {
         machine: MachineConstants {
             rotor: Rotor {
@@ -95,10 +112,5 @@ pub fn drop(drop: &Drop, options: &Options) -> Result<Built, Box<Problem>> {
         brake_start,
     };
     constants.balance_mount();
-    Ok(Built {
-        constants,
-        inner_pressure_factor: contacts.inner.pressure_factor,
-        outer_pressure_factor: contacts.outer.pressure_factor,
-        steady,
-    })
+    constants
 }

@@ -1,6 +1,6 @@
 //! Runs a drop and names what came out.
 
-use super::build::Built;
+use super::build::{self, Built};
 use super::ending::{settings, stop};
 use super::ensemble::{self, Finished, Member, Plan};
 use super::film::{self, Films};
@@ -47,7 +47,9 @@ impl Context<'_> {
 pub(super) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Options) -> Outcome {
     let machine = DropMachine::new(built.constants.clone());
     let count = drop.repeat.count.max(1) as usize;
-    let members: Vec<Member> = (0..count).map(|k| member(&machine, drop, k)).collect();
+    let members: Vec<Member> = (0..count)
+        .map(|k| member(&machine, drop, built, k))
+        .collect();
     let implicit = method::is_implicit(drop, built);
     let clock = Instant::now();
     let finished = ensemble::run(
@@ -66,7 +68,7 @@ pub(super) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Opt
     let context = |k: usize| Context {
         drop,
         built,
-        machine: &machine,
+        machine: &members[k].machine,
         finished: &finished[k],
         members: count,
     };
@@ -114,23 +116,50 @@ pub(super) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Opt
     }
 }
 
-/// Member `k`: the unperturbed start for 0, else one perturbed by numbers that depend on (seed, k) alone.
-fn member(machine: &DropMachine, drop: &Drop, k: usize) -> Member {
+/// Member `k`: the machine and start given for 0, else changed by numbers that depend on (seed, k) alone.
+fn member(machine: &DropMachine, drop: &Drop, built: &Built, k: usize) -> Member {
+    if k == 0 {
+        return Member {
+            start: machine.start(),
+            machine: machine.clone(),
+            keep_rows: true,
+        };
+    }
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(member_seed(drop.repeat.seed, k));
+    let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
+    let shift = Vec2::new(normal(), normal()) * drop.repeat.rotor_position_deviation;
+    let angles: Vec<f64> = (0..drop.bearing.ball_count)
+        .map(|_| normal() * drop.repeat.ball_angle_deviation)
+        .collect();
+    let machine = if drop.repeat.varies_the_machine() {
+        let varied = varied(drop, &mut normal);
+        DropMachine::new(build::constants(&varied, built.constants.bearing.clone()))
+    } else {
+        machine.clone()
+    };
     let mut start = machine.start();
-    if k > 0 {
-        let mut random = Xoshiro256PlusPlus::seed_from_u64(member_seed(drop.repeat.seed, k));
-        let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
-        let shift = Vec2::new(normal(), normal()) * drop.repeat.rotor_position_deviation;
-        let angles: Vec<f64> = (0..drop.bearing.ball_count)
-            .map(|_| normal() * drop.repeat.ball_angle_deviation)
-            .collect();
-        machine.perturb(&mut start, shift, &|ball| angles[ball]);
-    }
+    machine.perturb(&mut start, shift, &|ball| angles[ball]);
     Member {
-        machine: machine.clone(),
+        machine,
         start,
-        keep_rows: k == 0,
+        keep_rows: false,
     }
+}
+
+/// A machine of the same kind with other tolerances.
+fn varied(drop: &Drop, normal: &mut impl FnMut() -> f64) -> Drop {
+    let mut varied = drop.clone();
+    let repeat = &drop.repeat;
+    let mut factor = |deviation: f64| (deviation * normal()).exp();
+    varied.contact.friction_coefficient *= factor(repeat.friction_coefficient_deviation);
+    varied.mount.stiffness *= factor(repeat.mount_stiffness_deviation);
+    varied.contact.radial_air_clearance *= factor(repeat.radial_air_clearance_deviation);
+    // the direction of two normal numbers is uniform
+    let (x, y) = (normal(), normal());
+    if repeat.random_unbalance_angle {
+        varied.rotor.unbalance_angle = y.atan2(x);
+    }
+    varied
 }
 
 /// The seed of a member: (study seed, k) mixed so that neighbouring pairs share nothing.

@@ -73,7 +73,12 @@ pub fn run(members: &[Member], plan: &Plan) -> Vec<Finished> {
             level.run_many(task)
         }
     };
-    let together = if plan.implicit { 1 } else { level.lanes() };
+    let threads = plan.threads.unwrap_or_else(rayon::current_num_threads);
+    let together = if plan.implicit {
+        1
+    } else {
+        together(members.len(), level.lanes(), threads)
+    };
     let all = || -> Vec<Finished> { members.par_chunks(together).flat_map_iter(chunk).collect() };
     match plan.threads {
         _ if members.len() <= together => chunk(members),
@@ -86,7 +91,17 @@ pub fn run(members: &[Member], plan: &Plan) -> Vec<Finished> {
     }
 }
 
-/// The members that share a vector register.
+/// Most members a lane takes one after the other: their records stand in memory together.
+const MOST_TURNS: usize = 8;
+
+/// Members that a thread takes at a time: so many that lanes which are free early find another one, so few that all threads
+/// have something to do.
+fn together(members: usize, lanes: usize, threads: usize) -> usize {
+    let turns = members / (lanes * threads.max(1));
+    lanes * turns.clamp(1, MOST_TURNS)
+}
+
+/// The members that share the lanes of a vector register: each lane takes the next one when it is free.
 struct Chunk<'a> {
     members: &'a [Member],
     plan: &'a Plan<'a>,

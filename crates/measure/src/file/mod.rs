@@ -8,10 +8,22 @@
 //! | [`source`] | bytes of a file, read at a place, with errors that name the file |
 //! | [`draft`] | a file that carries its name only once it is whole |
 //! | [`tdms`] | TDMS of National Instruments: reader and writer |
+//! | [`csv`] | text in columns: reader and writer |
+//! | [`mat5`] | MATLAB up to 7.2: reader |
+//! | [`hdf5`] | HDF5 and MATLAB 7.3: reader |
+//! | [`parquet`] | Apache Parquet: reader and writer |
 //! | [`uff`] | the universal file format, sets 58 and 58b: reader |
 //! | [`wav`] | WAV: reader |
 
+mod clock;
+mod columns;
+pub mod csv;
 pub mod draft;
+mod half;
+pub mod hdf5;
+pub mod mat5;
+pub mod parquet;
+mod request;
 pub mod source;
 pub mod tdms;
 pub mod uff;
@@ -110,6 +122,21 @@ const FORMATS: &[Row] = &[
         open: |file, path| Ok(Box::new(tdms::Tdms::from_source(file, path)?)),
     },
     Row {
+        format: Format::Hdf5,
+        recognise: hdf5::is_hdf5,
+        open: |file, path| Ok(Box::new(hdf5::Hdf5::from_source(file, path)?)),
+    },
+    Row {
+        format: Format::Parquet,
+        recognise: parquet::is_parquet,
+        open: |file, path| Ok(Box::new(parquet::Parquet::from_source(file, path)?)),
+    },
+    Row {
+        format: Format::Mat5,
+        recognise: mat5::is_mat5,
+        open: |file, path| Ok(Box::new(mat5::Mat5::from_source(file, path)?)),
+    },
+    Row {
         format: Format::Wav,
         recognise: wav::is_wav,
         open: |file, path| Ok(Box::new(wav::Wav::from_source(file, path)?)),
@@ -118,6 +145,11 @@ const FORMATS: &[Row] = &[
         format: Format::Uff,
         recognise: uff::is_uff,
         open: |file, path| Ok(Box::new(uff::Uff::from_source(file, path)?)),
+    },
+    Row {
+        format: Format::Csv,
+        recognise: csv::is_csv,
+        open: |file, path| Ok(Box::new(csv::Csv::from_source(file, path)?)),
     },
 ];
 
@@ -190,11 +222,13 @@ pub fn create(path: impl AsRef<Path>, channels: &[Channel]) -> Result<Box<dyn Wr
         .to_ascii_lowercase();
     match extension.as_str() {
         "tdms" => Ok(Box::new(tdms::TdmsWriter::create(path, channels)?)),
+        "csv" => Ok(Box::new(csv::CsvWriter::create(path, channels)?)),
+        "parquet" => Ok(Box::new(parquet::ParquetWriter::create(path, channels)?)),
         _ => Err(FileError::new(
             path,
             "",
             "cannot be written: its name tells no format that can be",
-            "end the name with: .tdms",
+            "end the name with: .tdms, .csv, .parquet",
         )),
     }
 }

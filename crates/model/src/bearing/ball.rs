@@ -164,8 +164,6 @@ pub struct BallReaction<R> {
     pub inner_load: R,
     /// Load of the contact at the outer race, N.
     pub outer_load: R,
-    /// Elastic, radial part of the load at the inner race, N.
-    pub inner_elastic: R,
     /// Approach at the inner race, m; negative when open.
     pub inner_approach: R,
     /// Approach at the outer race, m; negative when open.
@@ -500,7 +498,6 @@ impl<R: Real> BallConstants<R> {
             },
             inner_load: inner.load,
             outer_load: outer.load,
-            inner_elastic: q_i.elastic,
             inner_approach,
             outer_approach,
             inner_traction,

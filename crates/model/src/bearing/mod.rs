@@ -23,6 +23,7 @@ pub mod full_complement;
 pub mod inlet_couples;
 pub mod linear;
 pub mod planar;
+pub mod planar_constants;
 pub mod pocket;
 pub mod rolling;
 pub mod settle;
@@ -32,7 +33,8 @@ use crate::motion::{Motion, Wrench};
 pub use acceleration_loss::AccelerationLoss;
 use number::Real;
 use physics::rolling::RollingSet;
-pub use planar::{Planar, PlanarConstants, Separation};
+pub use planar::Planar;
+pub use planar_constants::{PlanarConstants, Separation};
 pub use rolling::{Rolling, RollingConstants};
 pub use steady_moment::{SharedMoment, SteadyMoment};
 

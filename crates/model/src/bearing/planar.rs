@@ -6,64 +6,26 @@
 //!   I_c ω̇_c = Σ cage moments of the balls - c_c ω_c        ball j: see `ball`
 //! ```
 //! What keeps the balls apart is one of three: a cage centred on the outer race, with which its mass moves; a cage that
-//! is free to move, see [`cage`](super::cage); or nothing but the balls, see [`full_complement`](super::full_complement).
+//! is free to move, see [`cage`]; or nothing but the balls, see [`full_complement`].
 //! Drag to ground (c_d on the orbit, c_w on the spin, c_c on the cage) exists to reproduce reference cases; it is no
-//! bearing friction moment. That is [`steady_moment`](super::steady_moment), and excludes it; without it the oil of lubricated
-//! contacts resists rolling by [`inlet_couples`](super::inlet_couples).
+//! bearing friction moment. That is [`steady_moment`], and excludes it; without it the oil of lubricated
+//! contacts resists rolling by [`inlet_couples`].
 //!
 //! Does not model: squeeze of the film, heat.
 
 use super::ball::{
-    BallConstants, BallDistances, BallMotion, BallReaction, PocketMotion, RaceMotion, gather_group,
+    BallConstants, BallDistances, BallMotion, PocketMotion, RaceMotion, gather_group,
 };
-use super::ball_states::{
-    OF_BALL, OF_CENTRED_CAGE, OF_FREE_CAGE, direction, load_ball, race, split, split_mut,
-};
-use super::cage::{self, FreeCage, Land};
-use super::full_complement::{self, BallPair, FullComplement};
+use super::ball_states::{direction, load_ball, race, split, split_mut};
+use super::cage::{self, FreeCage};
+use super::full_complement::{self, FullComplement};
 use super::inlet_couples::{self, InletCouples};
-use super::steady_moment::{self, Geometry, MomentPairs, SharedMoment};
-use super::{BallSums, BearingEnergy, BearingHeat, BearingReaction, largest_part};
+use super::planar_constants::{PlanarConstants, Separation};
+use super::steady_moment::{self, MomentPairs};
+use super::{BallSums, BearingHeat, BearingReaction, largest_part};
 use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, Vectorized};
-use physics::inlet_rolling::ResistanceAtRaces;
 use physics::traction::{Traction, TractionLaw};
-
-/// Constants of one planar bearing.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlanarConstants {
-    /// Number of balls.
-    pub balls: usize,
-    /// The ball, its contacts and its pocket.
-    pub ball: BallConstants<f64>,
-    /// Friction between ball and race.
-    pub traction: Traction<f64>,
-    /// What keeps the balls apart.
-    pub separation: Separation<f64>,
-    /// Cage mass, kg; without meaning where there is no cage.
-    pub cage_mass: f64,
-    /// Cage moment of inertia, kg m²; without meaning where there is no cage.
-    pub cage_inertia: f64,
-    /// Drag of the cage to ground, N m s.
-    pub cage_drag: f64,
-    /// Azimuth of ball 1 at the start, rad.
-    pub first_ball_angle: f64,
-    /// The steady friction moment; with it the drags to ground are zero.
-    pub moment: Option<SharedMoment>,
-    /// Rolling resistance of the oil in the inlets; not counted beside a steady moment, which holds it.
-    pub inlet_rolling: Option<ResistanceAtRaces<f64>>,
-}
-
-/// What keeps the balls apart.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Separation<R> {
-    /// A cage whose centre is that of the outer race.
-    CentredCage,
-    /// A cage that is free to move, within its pockets and the clearance of its land if it has one.
-    FreeCage(Option<Land<R>>),
-    /// No cage: a full complement of balls, each against its neighbours.
-    Neighbours(BallPair<R>),
-}
 
 /// What keeps the balls apart, where it is more than a centred cage, over `R`.
 #[derive(Clone, Debug)]
@@ -81,8 +43,8 @@ pub struct Planar<R: Real> {
     traction: Traction<R::Group>,
     cage_inverse_inertia: R,
     cage_drag: R,
-    /// 2k: twice the growth of the inner track's radius with the square of its speed, m s².
-    twice_growth: R,
+    /// 2k: twice the growth of the inner track's radius with the square of its speed, m s²; none where it does not grow.
+    twice_growth: Option<R>,
     moment: Option<MomentPairs<R>>,
     couples: Option<InletCouples<R>>,
     apart: Apart<R>,
@@ -104,7 +66,9 @@ impl<R: Real> Planar<R> {
             traction: gather_group::<R, _>(&|lane| &machine(lane).traction),
             cage_inverse_inertia: R::from_lanes(|lane| 1.0 / machine(lane).cage_inertia),
             cage_drag: R::from_lanes(|lane| machine(lane).cage_drag),
-            twice_growth: R::from_lanes(|lane| 2.0 * machine(lane).ball.inner_track_growth),
+            twice_growth: (0..R::LANES)
+                .any(|lane| machine(lane).ball.inner_track_growth != 0.0)
+                .then(|| R::from_lanes(|lane| 2.0 * machine(lane).ball.inner_track_growth)),
             moment: MomentPairs::gather(&|lane| {
                 let bearing = machine(lane);
                 (bearing.geometry(), bearing.moment.as_ref())
@@ -173,6 +137,14 @@ impl<R: Real> Planar<R> {
                 reaction: &mut reaction,
             });
         }
+        if let Some(twice_growth) = self.twice_growth {
+            let pressed = R::vectorized(InnerElastic {
+                bearing: self,
+                motion,
+                state,
+            });
+            reaction.growth_impulse = twice_growth * motion.inner.spin * pressed;
+        }
         match &self.apart {
             Apart::Centred => {}
             Apart::Free(cage) => R::vectorized(cage::Act {
@@ -212,6 +184,24 @@ impl<R: Real> Planar<R> {
             rate,
             detail,
         })
+    }
+
+    /// Sum of the elastic loads of all balls at the inner race, N.
+    #[inline(always)]
+    fn inner_elastic(&self, motion: &Motion<R>, state: &[R]) -> R {
+        let n = self.balls;
+        let lists = split(state, self.first, n);
+        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
+        let mut sum = BallSums::<R, 1>::new(n);
+        let mut from = 0;
+        while from < n {
+            let ball = load_ball(&lists, from);
+            let places = distances(&inner, &outer, &ball);
+            let between = self.ball.between(&inner, &outer, &ball, &places);
+            sum.add(from, &[between.inner.normal.elastic]);
+            from += R::GROUP;
+        }
+        sum.total()[0]
     }
 
     /// Rate of the angular momentum of balls and cage about the origin, N m, from the rates of their states.
@@ -269,7 +259,7 @@ impl<R: Real> Planar<R> {
             from += R::GROUP;
         }
         let mut largest = [<R::Group as Real>::zero(); 3];
-        let mut sums = BallSums::<R, 16>::new(n);
+        let mut sums = BallSums::<R, 15>::new(n);
         let mut from = 0;
         while from < n {
             let ball = load_ball(&lists, from);
@@ -310,7 +300,6 @@ impl<R: Real> Planar<R> {
                     r.heat.drag,
                     r.heat.pocket_damping,
                     r.heat.pocket_sliding,
-                    r.inner_elastic,
                 ],
             );
             // a group repeats the last ball behind the end of the list: no harm to a maximum
@@ -342,7 +331,7 @@ impl<R: Real> Planar<R> {
             outer_inertia: R::zero(),
             loss_inertia: R::zero(),
             steady_moment: R::zero(),
-            growth_impulse: self.twice_growth * motion.inner.spin * s[15],
+            growth_impulse: R::zero(),
             external_moment: s[7] - cage_drag,
             heat: BearingHeat {
                 inner_damping: s[8],
@@ -386,6 +375,21 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
     }
 }
 
+/// [`Planar::inner_elastic`] as a task.
+struct InnerElastic<'a, R: Real> {
+    bearing: &'a Planar<R>,
+    motion: &'a Motion<R>,
+    state: &'a [R],
+}
+
+impl<R: Real> Vectorized for InnerElastic<'_, R> {
+    type Output = R;
+    #[inline(always)]
+    fn run(self) -> R {
+        self.bearing.inner_elastic(self.motion, self.state)
+    }
+}
+
 /// Distances of a ball from the centres of the races.
 #[inline(always)]
 pub(super) fn distances<R: Real>(
@@ -394,167 +398,4 @@ pub(super) fn distances<R: Real>(
     ball: &BallMotion<R>,
 ) -> BallDistances<R> {
     BallDistances::of(inner, outer, ball.radius, direction(ball.azimuth))
-}
-
-impl PlanarConstants {
-    /// Angle of a pocket on the cage, rad.
-    pub fn seat(&self, ball: usize) -> f64 {
-        2.0 * std::f64::consts::PI * ball as f64 / self.balls as f64
-    }
-    /// Motion of one ball.
-    pub fn motion(&self, state: &[f64], ball: usize) -> BallMotion<f64> {
-        let [radius, radial_speed, azimuth, orbit_speed, spin] =
-            split(state, self.first_ball_state(), self.balls).map(|list| list[ball]);
-        BallMotion {
-            radius,
-            radial_speed,
-            azimuth,
-            orbit_speed,
-            spin,
-        }
-    }
-    /// Writes the motion of one ball.
-    pub fn set_motion(&self, state: &mut [f64], ball: usize, motion: &BallMotion<f64>) {
-        let [radius, radial_speed, azimuth, orbit_speed, spin] =
-            split_mut(state, self.first_ball_state(), self.balls);
-        radius[ball] = motion.radius;
-        radial_speed[ball] = motion.radial_speed;
-        azimuth[ball] = motion.azimuth;
-        orbit_speed[ball] = motion.orbit_speed;
-        spin[ball] = motion.spin;
-    }
-    /// Index of the azimuth of a ball among the bearing's states.
-    pub fn azimuth_channel(&self, ball: usize) -> usize {
-        self.first_ball_state() + 2 * self.balls + ball
-    }
-    /// First state of the balls.
-    pub fn first_ball_state(&self) -> usize {
-        match self.separation {
-            Separation::CentredCage | Separation::Neighbours(_) => OF_CENTRED_CAGE,
-            Separation::FreeCage(_) => OF_FREE_CAGE,
-        }
-    }
-    /// Number of states.
-    pub fn states(&self) -> usize {
-        self.first_ball_state() + OF_BALL * self.balls
-    }
-    /// Mass of the cage where it moves by its own states, kg.
-    pub(super) fn free_cage_mass(&self) -> f64 {
-        match self.separation {
-            Separation::FreeCage(_) => self.cage_mass,
-            Separation::CentredCage | Separation::Neighbours(_) => 0.0,
-        }
-    }
-    /// Mass of a cage, kg; zero where there is none.
-    pub fn mass_of_cage(&self) -> f64 {
-        match self.separation {
-            Separation::Neighbours(_) => 0.0,
-            Separation::CentredCage | Separation::FreeCage(_) => self.cage_mass,
-        }
-    }
-    pub(super) fn rest(&self, state: &mut [f64]) {
-        state[0] = self.first_ball_angle;
-        state[1] = 0.0;
-        for ball in 0..self.balls {
-            let motion = BallMotion {
-                radius: self.rest_radius(),
-                radial_speed: 0.0,
-                azimuth: self.first_ball_angle + self.seat(ball),
-                orbit_speed: 0.0,
-                spin: 0.0,
-            };
-            self.set_motion(state, ball, &motion);
-        }
-    }
-    /// Makes cage and balls roll with an inner race of this speed, rad/s, the outer race at rest.
-    pub fn roll(&self, state: &mut [f64], speed: f64) {
-        let s = self.ball.radius / self.ball.inner_track;
-        let cage_speed = speed / (2.0 * (1.0 + s));
-        state[1] = cage_speed;
-        for j in 0..self.balls {
-            let mut ball = self.motion(state, j);
-            ball.orbit_speed = cage_speed;
-            ball.spin = -speed / (2.0 * s);
-            self.set_motion(state, j, &ball);
-        }
-    }
-    /// Reaction of one ball, for inspection; without its part of the steady moment, and without its pocket where the
-    /// cage is not centred.
-    pub fn ball_reaction(
-        &self,
-        motion: &Motion<f64>,
-        state: &[f64],
-        ball: usize,
-    ) -> BallReaction<f64> {
-        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
-        let (pocket, ball) = (self.pocket(state, ball), self.motion(state, ball));
-        self.separation.beyond_pockets(self.ball).react(
-            &self.traction,
-            &inner,
-            &outer,
-            &pocket,
-            &ball,
-            &distances(&inner, &outer, &ball),
-        )
-    }
-    fn geometry(&self) -> Geometry {
-        Geometry {
-            balls: self.balls,
-            ball_radius: self.ball.radius,
-            inner_track: self.ball.inner_track,
-        }
-    }
-    /// True where anything drags on balls or cage from the ground.
-    pub fn drags_to_ground(&self) -> bool {
-        self.ball.orbit_drag != 0.0 || self.ball.spin_drag != 0.0 || self.cage_drag != 0.0
-    }
-    fn pocket(&self, state: &[f64], ball: usize) -> PocketMotion<f64> {
-        PocketMotion {
-            angle: state[0] + self.seat(ball),
-            spin: state[1],
-        }
-    }
-    pub(super) fn energy(&self, motion: &Motion<f64>, state: &[f64]) -> BearingEnergy {
-        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
-        let between_races = self.separation.beyond_pockets(self.ball);
-        let mut sum = BearingEnergy::default();
-        for j in 0..self.balls {
-            let ball = self.motion(state, j);
-            let pocket = self.pocket(state, j);
-            let (elastic, weight) = between_races.energy(&inner, &outer, &pocket, &ball);
-            let (translation, spin) = self.ball.kinetic_energy(&ball);
-            sum.translation += translation;
-            sum.spin += spin;
-            sum.elastic += elastic;
-            sum.weight += weight;
-            sum.angular_momentum += self.ball.angular_momentum(&ball);
-        }
-        match &self.separation {
-            Separation::CentredCage => {}
-            Separation::FreeCage(land) => {
-                let cage = cage::energy(self, land.as_ref(), motion, state);
-                sum.translation += cage.translation;
-                sum.weight += cage.weight;
-                sum.elastic += cage.elastic;
-                sum.angular_momentum += cage.angular_momentum;
-            }
-            Separation::Neighbours(pair) => {
-                sum.elastic += full_complement::energy(self, pair, state);
-                return sum;
-            }
-        }
-        sum.spin += 0.5 * self.cage_inertia * state[1] * state[1];
-        sum.angular_momentum += self.cage_inertia * state[1];
-        sum
-    }
-}
-
-impl<T> Separation<T> {
-    /// The ball for the sum over the races: where the cage is not centred, pockets are no part of it.
-    pub(super) fn beyond_pockets<R: Real>(&self, mut ball: BallConstants<R>) -> BallConstants<R> {
-        if !matches!(self, Separation::CentredCage) {
-            ball.pocket_gap = R::splat(f64::INFINITY);
-        }
-        ball
-    }
 }

@@ -430,10 +430,9 @@ pub fn random_state(machine: &DropMachine, random: &mut Random) -> Vec<f64> {
             part[0] = cage_angle;
             part[1] = cage_speed;
             let b = &bearing.ball;
-            let cage = part.iter_mut().take(bearing.first_ball_state());
-            for (channel, value) in cage.enumerate().skip(CAGE_PLACE) {
-                let speed = channel >= CAGE_PLACE + 2;
-                *value = random.within(if speed { 0.3 } else { 0.2e-3 });
+            let place = CAGE_PLACE..bearing.first_ball_state().max(CAGE_PLACE);
+            for (channel, value) in part[place].iter_mut().enumerate() {
+                *value = random.within(if channel < 2 { 0.2e-3 } else { 0.3 });
             }
             // neighbours without a cage are as often pressed as apart
             let gap = match bearing.separation {

@@ -115,6 +115,60 @@ fn every_lane_steps_by_its_own_error_and_gives_the_bits_of_the_run_alone() {
     }
 }
 
+fn thrice<T: Clone>(list: &[T]) -> Vec<T> {
+    let all = [list, list, list];
+    all.into_iter().flatten().cloned().collect()
+}
+
+#[test]
+fn a_lane_that_is_free_takes_the_next_machine_and_the_bits_stay() {
+    let (alone, alone_traces) = each_alone();
+    // more machines than lanes, in splits that do not fit
+    for level in Level::available() {
+        for split in [1, 5, 8, 24] {
+            let (machines, starts, traces) = crowd();
+            let (machines, starts) = (thrice(&machines), thrice(&starts));
+            let mut traces = thrice(&traces);
+            let mut endings = Vec::new();
+            for from in (0..24).step_by(split) {
+                let part = from..(from + split).min(24);
+                endings.extend(level.run_many(Company {
+                    machines: &machines[part.clone()],
+                    starts: &starts[part.clone()],
+                    traces: &mut traces[part],
+                }));
+            }
+            assert_eq!(endings, thrice(&alone), "{level:?}, {split} at a time");
+            assert_eq!(bits(&endings), bits(&thrice(&alone)), "{level:?}");
+            assert_eq!(traces, thrice(&alone_traces), "{level:?}");
+        }
+    }
+}
+
+#[test]
+fn machines_that_wait_when_somebody_stops_end_where_they_start() {
+    let (machines, starts, mut traces) = crowd();
+    let settings = Settings {
+        start: 0.0,
+        end: 12.0,
+        tolerance: 1e-4,
+        first_step: 1e-3,
+        largest_step: 0.5,
+        step_limit: 1_000_000,
+    };
+    let endings = solve::run::<f64, VanDerPols<f64>, Trace>(
+        &machines.iter().collect::<Vec<_>>(),
+        &starts,
+        &mut traces,
+        &settings,
+        &AtomicBool::new(true),
+    );
+    for (ending, start) in endings.iter().zip(&starts) {
+        assert_eq!((&ending.stop, ending.time), (&Stop::Interrupted, 0.0));
+        assert_eq!(&ending.state, start);
+    }
+}
+
 #[test]
 fn spare_lanes_do_not_matter() {
     let (alone, _) = each_alone();

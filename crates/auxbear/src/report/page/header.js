@@ -135,6 +135,9 @@ function spreadOrigin(run) {
   if (!repeated) return null;
   const [position, angle] = ["repeat.rotor_position_deviation", "repeat.ball_angle_deviation"].map((path) => inputOf(run, path));
   const by = [position && inputText(position.value), angle && inputText(angle.value)].filter(Boolean).join(" and ");
+  const varied = ["friction_coefficient", "mount_stiffness", "radial_air_clearance"].filter((name) => Number((inputOf(run, `repeat.${name}_deviation`) || {}).value) > 0).map((name) => name.replaceAll("_", " "));
+  if ((inputOf(run, "repeat.unbalance_angle") || {}).value === "random") varied.push("direction of the unbalance");
+  if (varied.length) return `spread of machines that differ in ${varied.join(", ")}, and of starts perturbed by ${by} (see repeat.*)`;
   return `spread of starts perturbed by ${by || "tiny amounts"} (see repeat.*): shows numerical chaos, not tolerances of the machine`;
 }
 

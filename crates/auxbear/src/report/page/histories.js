@@ -152,17 +152,81 @@ function pressureSection(runs) {
   );
 }
 
-function pocketFigure(runs) {
-  const series = runs.flatMap((run) => {
-    const values = largestOverBalls(run, "pocket_force");
-    if (!values) return [];
-    return [{ label: run.prefix + "largest pocket force [N]", time: run.time, values, colour: runs.length > 1 ? run.colour : SERIES_COLOURS.cage }];
-  });
-  const missing = runs
-    .filter((run) => !largestOverBalls(run, "pocket_force"))
-    .map((run) => notInThisRun("this run has no cage pocket forces (only the planar fidelity with pocket contact gives them)", run));
+// Forces that keep the balls apart: pockets and land of a cage, or the next ball.
+const SEPARATION_FORCES = [
+  ["bearing.cage.largest_pocket_force", "largest pocket force [N]", "cage"],
+  ["bearing.cage.land_force", "land force [N]", "race"],
+  ["bearing.largest_ball_ball_force", "largest force between balls [N]", "cage"],
+];
+
+function separationFigures(runs) {
+  const several = runs.length > 1;
+  const of = (run) => SEPARATION_FORCES.filter(([name]) => columnOf(run, name));
+  const series = runs.flatMap((run) =>
+    of(run).map(([name, words, part], index) => ({
+      label: run.prefix + words,
+      time: run.time,
+      values: columnOf(run, name),
+      colour: several ? run.colour : SERIES_COLOURS[part],
+      width: 1,
+      dash: several && index ? [4, 3] : undefined,
+    })),
+  );
+  const missing = runs.filter((run) => !of(run).length).map((run) => notInThisRun("this run has no forces on a cage or between balls (only the planar fidelity gives them)", run));
+  const note = "Forces in the rows of the history; peaks between rows are in the table. " + (runs.every(isSpinUp) ? "They are chaotic." : "Impacts in pockets are what makes late details of a drop irreproducible.");
   const plot = series.length ? timePlot({ series, label: "force [N]", ticks: runs, height: 190 }) : null;
-  return figure("Cage pockets", plot ? runs.every(isSpinUp) ? "Largest force between a ball and its cage pocket." : "Largest force between a ball and its cage pocket; pocket impacts are what makes late details of a drop irreproducible." : null, plot, missing);
+  return [figure("What keeps the balls apart", plot ? note : null, plot, missing), cagePlaceFigure(runs), filmFigure(runs)];
+}
+
+// How far the cage is off the centre of the ring that guides it, with the clearance of its land.
+function cagePlaceFigure(runs) {
+  const word = (run, path) => (inputOf(run, path) || {}).value;
+  const free = runs.filter((run) => columnOf(run, "bearing.cage.x"));
+  if (!free.length) return null;
+  const ring = (run) => (word(run, "bearing.cage.guidance") === "inner land" ? "inner" : "outer");
+  const centre = (run, axis, row) => (columnOf(run, `bearing.${ring(run)}_race.${axis}`) || [])[row] || 0;
+  const series = free.map((run) => {
+    const [x, y] = [columnOf(run, "bearing.cage.x"), columnOf(run, "bearing.cage.y")];
+    const values = x.map((value, row) => (isNumber(value) ? 1e6 * Math.hypot(value - centre(run, "x", row), y[row] - centre(run, "y", row)) : null));
+    return { label: run.prefix + "cage off centre [µm]", time: run.time, values, colour: runs.length > 1 ? run.colour : SERIES_COLOURS.cage, width: 1 };
+  });
+  const clearances = [...new Set(free.map((run) => lengthOf(word(run, "bearing.cage.land_radial_clearance"))).filter(isNumber))];
+  const marks = (pen, plot, ratio) => {
+    for (const clearance of clearances) levelMark(pen, plot, ratio, 1e6 * clearance, "land", SERIES_COLOURS.quiet);
+  };
+  const include = () => clearances.map((clearance) => 1e6 * clearance);
+  return figure("Place of the cage", "Distance of the cage's centre from that of the ring that guides it. Above the line cage and land are pressed together.", timePlot({ series, label: "distance [µm]", marks, include, ticks: runs, height: 190 }));
+}
+
+// A length as inputs write it, in m.
+function lengthOf(text) {
+  const match = /^\s*([-+.\deE]+)\s*(m|mm|um|µm)\s*$/.exec(String(text || ""));
+  return match ? Number(match[1]) * { m: 1, mm: 1e-3, um: 1e-6, "µm": 1e-6 }[match[2]] : null;
+}
+
+// The thinnest film of all loaded balls at each race; nothing where no ball carries load.
+function filmFigure(runs) {
+  const thinnest = (run, part) => {
+    const columns = ballsOf(run).map((ball) => ball[part]).filter(Boolean);
+    if (!columns.length) return null;
+    return run.time.map((_, row) => {
+      const loaded = columns.map((values) => values[row]).filter((value) => isNumber(value) && value > 0);
+      return loaded.length ? 1e6 * Math.min(...loaded) : null;
+    });
+  };
+  const several = runs.length > 1;
+  const series = runs.flatMap((run) =>
+    [["inner_film", "inner race [µm]", "race"], ["outer_film", "outer race [µm]", "rotor"]].flatMap(([part, words, colour], index) => {
+      const values = thinnest(run, part);
+      return values ? [{ label: run.prefix + words, time: run.time, values, colour: several ? run.colour : SERIES_COLOURS[colour], width: 1, dash: several && index ? [4, 3] : undefined }] : [];
+    }),
+  );
+  if (!series.length) return null;
+  const roughness = [...new Set(runs.map((run) => lengthOf((inputOf(run, "bearing.traction.composite_roughness") || {}).value)).filter(isNumber))];
+  const marks = (pen, plot, ratio) => {
+    for (const height of roughness) levelMark(pen, plot, ratio, 1e6 * height, "roughness: λ = 1", SERIES_COLOURS.limit);
+  };
+  return figure("Thinnest oil film", "Central film of the loaded ball that has the thinnest one. Below the line asperities carry load.", timePlot({ series, label: "film [µm]", marks, include: () => [0, ...roughness.map((height) => 1e6 * height)], ticks: runs, height: 210 }));
 }
 
 // The unit in which the largest value of a column over all runs reads best; without prefixed units a power of ten.

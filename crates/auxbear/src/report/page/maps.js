@@ -265,5 +265,5 @@ function mapSection(runs) {
     { class: "lead" },
     "Azimuth is that of the ball seen from the ground, counter-clockwise from the right; where a column of the picture holds several instants, the largest value is shown.",
   );
-  return section("balls", "Ball loads and slip", [drawn.some((run) => ballsOf(run).some((ball) => ball.azimuth)) ? note : null, drawn.length ? mapControls() : null], figures, pocketFigure(runs));
+  return section("balls", "Ball loads and slip", [drawn.some((run) => ballsOf(run).some((ball) => ball.azimuth)) ? note : null, drawn.length ? mapControls() : null], figures, separationFigures(runs));
 }

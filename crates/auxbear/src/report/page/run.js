@@ -143,7 +143,8 @@ function ballsOf(run) {
       outer_load: part("outer_load"),
       inner_slip: part("inner_slip"),
       outer_slip: part("outer_slip"),
-      pocket_force: part("pocket_force"),
+      inner_film: part("inner_film"),
+      outer_film: part("outer_film"),
     };
   });
 }

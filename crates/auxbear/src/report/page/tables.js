@@ -51,6 +51,8 @@ function spreadText(quantity) {
 function spreadBar(quantity) {
   const { min, max, q05, median, q95 } = quantity.spread;
   if (![min, max, q05, median, q95].every(isNumber) || !(max > min)) return null;
+  // what agrees to a thousandth needs no picture
+  if (max - min < 1e-3 * Math.max(Math.abs(min), Math.abs(max))) return null;
   const [width, height, edge] = [160, 14, 5];
   const at = (value) => edge + ((width - 2 * edge) * (value - min)) / (max - min);
   const middle = height / 2;

@@ -1,0 +1,248 @@
+//! Deviation of the cage angle from that of a rolling cage, smoothed.
+
+use super::CageSpeed;
+use crate::shaft::Shaft;
+use crate::simplex;
+use crate::state_space::{Filter, Observation, colour};
+use std::f64::consts::{PI, TAU};
+
+/// Observed deviations of the cage angle.
+pub(super) struct Deviations<'a> {
+    /// Times in order, s.
+    pub(super) time: &'a [f64],
+    /// Deviation, rad of cage angle; NaN where nothing was seen.
+    pub(super) deviation: &'a [f64],
+    /// Relative variance of each, 1 on the average.
+    pub(super) weight: &'a [f64],
+    /// The deviation is known up to multiples of this, rad; infinite where it is continuous.
+    pub(super) wrap: f64,
+    /// Rate of the deviation that was already taken out, rad/s, at the times; empty where none.
+    pub(super) removed: &'a [f64],
+    /// Time of an engagement after which slip may change fast, s.
+    pub(super) engagement: Option<f64>,
+}
+
+/// Change of slip that is usual within [`USUAL_TIME`], 1: the centre of a prior that is wide (a factor of 12 either way in the
+/// intensity) and counts only where noise hides the wander of the slip. Assumed.
+const USUAL_CHANGE: f64 = 0.003;
+
+/// Time of that change, s. Assumed.
+const USUAL_TIME: f64 = 0.5;
+
+/// Logarithms of noise variance, intensity of the speed's wander, of its rate's wander, of the latter after an engagement, and of
+/// the time in which it calms down.
+type Hyper = [f64; 5];
+
+impl Deviations<'_> {
+    /// Speed and slip of the cage.
+    pub(super) fn smoothed(
+        &self,
+        shaft: &Shaft,
+        ratio: f64,
+        mut notes: Vec<String>,
+    ) -> Result<CageSpeed, String> {
+        let seen = self.deviation.iter().filter(|v| v.is_finite()).count();
+        if seen < 8 {
+            return Err(format!(
+                "{seen} passings of balls are usable; at least 8 are needed"
+            ));
+        }
+        let rolling = ratio
+            * self
+                .time
+                .iter()
+                .map(|&t| shaft.speed_at(t).abs())
+                .sum::<f64>()
+            / self.time.len() as f64;
+        let guess = self.guess(rolling);
+        let cost = |hyper: &Hyper| {
+            let widths = [3.0, 2.0, 2.5, 5.0, 0.7];
+            let prior: f64 = (0..5)
+                .map(|i| 0.5 * ((hyper[i] - guess[i]) / widths[i]).powi(2))
+                .sum();
+            prior - self.filtered(hyper, false).log_likelihood()
+        };
+        let (hyper, lowest) = simplex::lowest(guess, [1.0, 1.0, 1.5, 1.5, 0.4], 0.02, 240, cost);
+        let filter = self.filtered(&hyper, true);
+        let states = filter.smoothed();
+        let wide = colour(filter.innovations());
+        let mut variance: Vec<f64> = states.iter().map(|s| s.variance[1] * wide).collect();
+        for axis in 0..if self.engagement.is_some() { 5 } else { 3 } {
+            let moved = |by: f64| {
+                let mut other = hyper;
+                other[axis] += by;
+                other
+            };
+            let curvature = (cost(&moved(0.5)) + cost(&moved(-0.5)) - 2.0 * lowest) / 0.25;
+            let deviation = (1.0 / curvature.max(0.25)).sqrt();
+            for by in [deviation, -deviation] {
+                let other = self.filtered(&moved(by), true).smoothed();
+                for ((v, a), b) in variance.iter_mut().zip(&states).zip(&other) {
+                    *v += 0.5 * ((b.mean[1] - a.mean[1]).powi(2) + b.variance[1] - a.variance[1]);
+                }
+            }
+        }
+        if wide > 1.5 {
+            notes.push(format!(
+                "the noise of the cage angle is correlated; bands are wider by {:.2}",
+                wide.sqrt()
+            ));
+        }
+        let phase_noise = if self.wrap.is_finite() {
+            (0.5 * hyper[0]).exp() * TAU / self.wrap
+        } else {
+            0.0
+        };
+        // At 0.45 rad one value in 7 million passes half a turn by noise alone; the model's own wander comes on top.
+        if phase_noise > 0.45 {
+            notes.push(format!(
+                "the line's phase has a noise of {phase_noise:.2} rad: it may have lost or won whole cycles, which the band does not tell"
+            ));
+        }
+        let outliers = filter
+            .innovations()
+            .iter()
+            .filter(|e| e.abs() > 5.0)
+            .count();
+        if outliers > 0 {
+            notes.push(format!(
+                "{outliers} passings lie more than 5 deviations from where they are expected"
+            ));
+        }
+        let mut result = CageSpeed {
+            noise: (0.5 * hyper[0]).exp(),
+            ..CageSpeed::default()
+        };
+        for (k, ((&time, state), variance)) in
+            self.time.iter().zip(&states).zip(&variance).enumerate()
+        {
+            let rolling = ratio * shaft.speed_at(time);
+            let shaft_part = ratio * shaft.speed_deviation_at(time);
+            let excess = state.mean[1] + self.removed.get(k).copied().unwrap_or(0.0);
+            let own = variance.max(state.variance[1]).max(0.0).sqrt();
+            // The deviation is relative to the shaft's angle, which is known better than its speed: what the shaft's speed has
+            // wrong for longer than a passing is not in the deviation's rate.
+            let deviation = own.hypot(shaft_part);
+            result.time.push(time);
+            result.speed.push(rolling + excess);
+            result.deviation.push(deviation);
+            result.slip.push(if rolling == 0.0 {
+                f64::NAN
+            } else {
+                -excess / rolling
+            });
+            result.slip_deviation.push(if rolling == 0.0 {
+                f64::NAN
+            } else {
+                own / rolling.abs()
+            });
+        }
+        if result.slip.iter().any(|s| s.is_nan()) {
+            notes.push("slip has no value where the shaft rests".into());
+        }
+        result.notes = notes;
+        Ok(result)
+    }
+
+    /// Noise as second differences show it, and the usual changes of slip.
+    fn guess(&self, rolling: f64) -> Hyper {
+        let mut seconds = Vec::new();
+        for d in self.deviation.windows(3) {
+            let second = self.wrapped(d[2] - d[1]) - self.wrapped(d[1] - d[0]);
+            if second.is_finite() {
+                seconds.push(second.abs());
+            }
+        }
+        seconds.sort_by(f64::total_cmp);
+        let middle = seconds.get(seconds.len() / 2).copied().unwrap_or(1.0);
+        let noise = (middle / 0.6745).powi(2) / 6.0;
+        let usual = USUAL_CHANGE * rolling.max(1e-9);
+        // Integrated random walk: ω = √(q t³/3).
+        let slow = 3.0 * usual * usual / USUAL_TIME.powi(3);
+        let fast = 300.0 * usual * usual / 0.05_f64.powi(3);
+        let wander = 0.3 * usual * usual / USUAL_TIME;
+        [
+            noise.max(1e-18).ln(),
+            wander.ln(),
+            slow.ln(),
+            fast.ln(),
+            0.05_f64.ln(),
+        ]
+    }
+
+    fn wrapped(&self, angle: f64) -> f64 {
+        if self.wrap.is_finite() {
+            angle - self.wrap * (angle / self.wrap).round()
+        } else {
+            angle
+        }
+    }
+
+    fn filtered(&self, hyper: &Hyper, keep: bool) -> Filter<3> {
+        let [noise, wander, slow, fast, calming] = hyper.map(|v| v.clamp(-80.0, 60.0).exp());
+        let first = self
+            .deviation
+            .iter()
+            .copied()
+            .find(|v| v.is_finite())
+            .unwrap_or(0.0);
+        let length = (self.time[self.time.len() - 1] - self.time[0]).max(1e-6);
+        let spread = if self.wrap.is_finite() { self.wrap } else { PI };
+        let step = length / self.time.len() as f64;
+        // Wide: any phase, any speed that moves the phase by a fifth of its wrap in a step, any rate that does so in ten.
+        let speed = (0.2 * spread / step).powi(2);
+        let rate = (0.02 * spread / (step * step)).powi(2).min(1e12 * speed);
+        let prior = [
+            [spread * spread, 0.0, 0.0],
+            [0.0, speed, 0.0],
+            [0.0, 0.0, rate],
+        ];
+        let mut filter = Filter::new([first, 0.0, 0.0], prior, keep);
+        for (k, (&time, &deviation)) in self.time.iter().zip(self.deviation).enumerate() {
+            if k > 0 {
+                let dt = (time - self.time[k - 1]).max(0.0);
+                let since = self.engagement.map_or(f64::INFINITY, |e| {
+                    (0.5 * (time + self.time[k - 1]) - e).abs()
+                });
+                let q = slow
+                    + if since.is_finite() {
+                        fast * (-since / calming).exp()
+                    } else {
+                        0.0
+                    };
+                let powers = [
+                    q * dt,
+                    q * dt * dt / 2.0,
+                    q * dt.powi(3) / 3.0,
+                    q * dt.powi(4) / 8.0,
+                    q * dt.powi(5) / 20.0,
+                ];
+                let gathered = [
+                    [
+                        powers[4] + wander * dt.powi(3) / 3.0,
+                        powers[3] + wander * dt * dt / 2.0,
+                        0.5 * powers[2],
+                    ],
+                    [
+                        powers[3] + wander * dt * dt / 2.0,
+                        powers[2] + wander * dt,
+                        powers[1],
+                    ],
+                    [0.5 * powers[2], powers[1], powers[0]],
+                ];
+                filter.predict(
+                    &[[1.0, dt, 0.5 * dt * dt], [0.0, 1.0, dt], [0.0, 0.0, 1.0]],
+                    &gathered,
+                );
+            }
+            let expected = filter.now()[0];
+            let seen = Observation {
+                row: [1.0, 0.0, 0.0],
+                value: expected + self.wrapped(deviation - expected),
+                variance: noise * self.weight.get(k).copied().unwrap_or(1.0),
+            };
+            filter.observe(deviation.is_finite().then_some(&seen));
+        }
+        filter
+    }
+}

@@ -1,0 +1,546 @@
+//! Text in columns: reader and writer.
+//!
+//! Found from the first lines: what stands between cells (comma, semicolon, tab, stroke, blanks), whether a comma or a
+//! point stands before decimals, the lines before the table, the row of names, and units in a row of their own or in
+//! the names (`force [N]`, `force (N)`, `force / N`). Letters are UTF-8, UTF-16 with its mark, or Latin-1.
+//!
+//! A column of times, known by its name (`time`, `t`, `Zeit` …) or by being the first in a unit of time, is the clock;
+//! equal spacing within the rounding of its numbers makes the clock uniform. Without one, a line such as
+//! `Sample rate: 1000` before the table tells it.
+//!
+//! Opening reads the whole file once and keeps where every some thousand lines start; values are read on demand. An
+//! empty cell and one that is no number are not-a-number, and are noted with column and line.
+
+mod cell;
+mod faults;
+mod layout;
+mod lines;
+mod moment;
+mod write;
+
+use std::fmt;
+use std::io::{Read, Seek};
+use std::path::Path;
+
+use super::clock::{self, Spacing};
+use super::request::{refuse_number, refuse_text};
+use super::source::Source;
+use crate::recording::{Channel, Clock, Content, FileError, Instant, Note, Property, Recording};
+use cell::{Cell, cells};
+use faults::{Faults, Lost, Rounding, count};
+use layout::{Kind, Layout};
+use lines::{Letters, Lines, text};
+use moment::Moment;
+pub use write::CsvWriter;
+
+/// Lines and bytes from which the layout is found.
+const HEAD_LINES: usize = 2000;
+const HEAD_BYTES: usize = 1 << 20;
+
+/// Most values of a block, and most lines of it.
+const BLOCK_VALUES: usize = 1 << 18;
+const BLOCK_ROWS: usize = 4096;
+
+/// Values that are kept.
+const KEPT_VALUES: usize = 1 << 22;
+
+/// Most columns that are read.
+const MOST_COLUMNS: usize = 1 << 16;
+
+/// Whether a file that starts with these bytes may be text in columns: it is text. Whether it holds values shows when
+/// it is opened.
+pub fn is_csv(head: &[u8]) -> bool {
+    let (letters, mark) = Letters::of(head);
+    if letters != Letters::Bytes {
+        return true;
+    }
+    let head = &head[(mark as usize).min(head.len())..];
+    let controls = head
+        .iter()
+        .filter(|byte| byte.is_ascii_control() && !byte.is_ascii_whitespace())
+        .count();
+    !head.is_empty() && !head.contains(&0) && controls * 50 <= head.len()
+}
+
+/// Lines of the file that were found together.
+#[derive(Clone, Copy, Debug)]
+struct Block {
+    /// Where its first line starts, and which line of the file that is, counted from 1.
+    at: u64,
+    line: u64,
+    /// Index of its first row of values.
+    row: u64,
+}
+
+/// A table that is open for reading.
+pub struct Csv<S> {
+    source: Source<S>,
+    letters: Letters,
+    layout: Layout,
+    channels: Vec<Channel>,
+    starts: Vec<Option<Instant>>,
+    blocks: Vec<Block>,
+    rows: u64,
+    rows_of_block: usize,
+    properties: Vec<Property>,
+    notes: Vec<Note>,
+    /// Values of blocks, row by row, the one used last at the end.
+    kept: Vec<(usize, Vec<f64>)>,
+}
+
+impl<S> fmt::Debug for Csv<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Csv")
+            .field("channels", &self.channels)
+            .field("notes", &self.notes)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<S: Read + Seek> Csv<S> {
+    /// Reads the table once, without keeping the values of large files; errors name `path`.
+    ///
+    /// An error where no line of the first megabyte holds values.
+    pub fn from_source(source: S, path: &Path) -> Result<Csv<S>, FileError> {
+        let mut source = Source::new(source, path)?;
+        let mut mark = [0; 3];
+        let there = source.read_at(0, &mut mark)?;
+        let (letters, mark) = Letters::of(&mark[..there]);
+        let mut lines = Lines::new(letters, mark);
+        let (mut head, mut places, mut line, mut bytes) = (Vec::new(), Vec::new(), Vec::new(), 0);
+        while head.len() < HEAD_LINES && bytes < HEAD_BYTES {
+            places.push(lines.at());
+            if !lines.next(&mut source, &mut line)? {
+                break;
+            }
+            bytes += line.len() + 1;
+            head.push(line.clone());
+        }
+        let Some(layout) = Layout::of(&head) else {
+            let needed = "rows of numbers with comma, semicolon, tab or blanks between them";
+            return Err(FileError::new(
+                path,
+                "",
+                "is text, but no table of numbers",
+                needed,
+            ));
+        };
+        if layout.columns.len() > MOST_COLUMNS {
+            let found = format!("has {} columns", layout.columns.len());
+            let needed = format!("at most {MOST_COLUMNS} can be read");
+            return Err(FileError::new(path, "", found, needed));
+        }
+        let channels = layout.columns.iter().map(|column| Channel {
+            unit: column.unit.clone(),
+            content: match column.kind {
+                Kind::Number => Content::Number,
+                Kind::Moment => Content::Time,
+                Kind::Text => Content::Text,
+            },
+            ..Channel::new(column.name.clone(), 0)
+        });
+        let width = layout.columns.len();
+        let first = Block {
+            at: places[layout.first],
+            line: layout.first as u64 + 1,
+            row: 0,
+        };
+        let mut file = Csv {
+            source,
+            letters,
+            channels: channels.collect(),
+            starts: vec![None; width],
+            blocks: Vec::new(),
+            rows: 0,
+            rows_of_block: (BLOCK_VALUES / width).clamp(1, BLOCK_ROWS),
+            properties: layout.properties.clone(),
+            notes: Vec::new(),
+            kept: Vec::new(),
+            layout,
+        };
+        file.index(first)?;
+        Ok(file)
+    }
+
+    /// The column of times, if there is one.
+    fn time(&self) -> Option<usize> {
+        let columns = &self.layout.columns;
+        let named = columns
+            .iter()
+            .position(|c| c.kind != Kind::Text && clock::is_time_name(&c.name));
+        let moment = columns.iter().position(|c| c.kind == Kind::Moment);
+        let first = columns.first().filter(|c| c.kind == Kind::Number);
+        let first = first.filter(|c| clock::seconds_in(&c.unit).is_some());
+        named.or(moment).or(first.map(|_| 0))
+    }
+
+    /// Reads the whole table once: where its blocks start, what is wrong with it, and its clock.
+    fn index(&mut self, first: Block) -> Result<(), FileError> {
+        let time = self.time();
+        let (mut lines, mut line) = (Lines::new(self.letters, first.at), Vec::new());
+        let mut number = first.line;
+        let mut faults = vec![Faults::default(); self.channels.len()];
+        let mut lost = Lost::default();
+        let mut spacing = Spacing::new();
+        let mut rounding = Rounding::default();
+        let mut back_line = 0;
+        let (mut values, mut row) = (Vec::new(), Vec::new());
+        loop {
+            let at = lines.at();
+            if !lines.next(&mut self.source, &mut line)? {
+                break;
+            }
+            let there = self.take_row(&line, &mut row, Some((&mut faults, &mut lost, number)));
+            if there {
+                if self.rows.is_multiple_of(self.rows_of_block as u64) {
+                    self.keep(&mut values);
+                    self.blocks.push(Block {
+                        at,
+                        line: number,
+                        row: self.rows,
+                    });
+                }
+                if let Some(time) = time {
+                    let slack = self.slack(&line, time, row[time], &mut rounding);
+                    spacing.add(row[time], slack);
+                    if spacing.back.is_some() && back_line == 0 {
+                        back_line = number;
+                    }
+                }
+                values.extend(&row);
+                self.rows += 1;
+            }
+            number += 1;
+        }
+        self.keep(&mut values);
+        for channel in &mut self.channels {
+            channel.count = self.rows;
+        }
+        self.set_notes(&faults, &lost);
+        self.set_clock(time, &spacing, back_line);
+        Ok(())
+    }
+
+    /// How many blocks are kept.
+    fn most_kept(&self) -> usize {
+        (KEPT_VALUES / (self.rows_of_block * self.channels.len())).max(4)
+    }
+
+    /// Keeps the values of the block that was read last, while there is room.
+    fn keep(&mut self, values: &mut Vec<f64>) {
+        if let Some(block) = self.blocks.len().checked_sub(1) {
+            if self.kept.len() < self.most_kept() {
+                self.kept.push((block, std::mem::take(values)));
+            }
+            values.clear();
+        }
+    }
+
+    /// How far a time may be from what it was before it was written.
+    fn slack(&self, line: &[u8], time: usize, value: f64, rounding: &mut Rounding) -> f64 {
+        if self.layout.columns[time].kind == Kind::Moment {
+            // Loggers write at least milliseconds, or whole seconds.
+            let mut slack = 1.0;
+            cells(line, self.layout.between, |column, cell| {
+                if column == time {
+                    let point = cell.iter().rposition(|&b| b == b'.' || b == b',');
+                    let last = cell.iter().rposition(|&b| b == b':').unwrap_or(0);
+                    let decimals = point
+                        .filter(|&p| p > last)
+                        .map_or(0, |p| cell.len() - p - 1);
+                    slack = 10f64.powi(-(decimals.min(12) as i32));
+                }
+            });
+            return slack;
+        }
+        let mut slack = 0.0;
+        cells(line, self.layout.between, |column, cell| {
+            if column == time {
+                slack = rounding.of(cell, self.layout.comma, value);
+            }
+        });
+        slack
+    }
+
+    /// Reads the cells of a line into a row; tells whether it is one of values.
+    fn take_row(
+        &mut self,
+        line: &[u8],
+        row: &mut Vec<f64>,
+        mut told: Option<(&mut Vec<Faults>, &mut Lost, u64)>,
+    ) -> bool {
+        row.clear();
+        if line.trim_ascii().is_empty() || layout::is_remark(line) {
+            return false;
+        }
+        let width = self.channels.len();
+        row.resize(width, f64::NAN);
+        let (mut values, mut texts) = (0, 0);
+        // Columns of what is no value are noted only when the line turns out to be one of values.
+        let mut wrong: Vec<(usize, Option<&[u8]>)> = Vec::new();
+        let (comma, columns, starts) = (self.layout.comma, &self.layout.columns, &mut self.starts);
+        let found = cells(line, self.layout.between, |column, cell| {
+            if column >= width {
+                return;
+            }
+            match columns[column].kind {
+                Kind::Text => {}
+                Kind::Number => match cell::read(cell, comma) {
+                    Cell::Number(number) => {
+                        row[column] = number;
+                        values += 1;
+                    }
+                    Cell::Missing => wrong.push((column, None)),
+                    Cell::Text => {
+                        texts += 1;
+                        wrong.push((column, Some(cell)));
+                    }
+                },
+                Kind::Moment => match moment::read(cell) {
+                    Some(moment) => {
+                        if let (Moment::Instant(now), None) = (moment, starts[column]) {
+                            starts[column] = Some(now);
+                        }
+                        row[column] = moment.since(starts[column]);
+                        values += 1;
+                    }
+                    None if cell.is_empty() => wrong.push((column, None)),
+                    None => {
+                        texts += 1;
+                        wrong.push((column, Some(cell)));
+                    }
+                },
+            }
+        });
+        // A head that stands in the middle, where the logger started again.
+        if values == 0 && texts > 1 {
+            if let Some((_, lost, number)) = &mut told {
+                count(&mut lost.left_out, *number);
+            }
+            return false;
+        }
+        if let Some((faults, lost, number)) = told {
+            for (column, text) in wrong {
+                faults[column].add(text, number);
+            }
+            if found < width {
+                count(&mut lost.short, number);
+            } else if found > width && cells_after(line, self.layout.between, width) {
+                count(&mut lost.long, number);
+            }
+        }
+        true
+    }
+
+    fn set_notes(&mut self, faults: &[Faults], lost: &Lost) {
+        for (channel, faults) in self.channels.iter().zip(faults) {
+            let mut note = |text: String| {
+                self.notes.push(Note {
+                    channel: Some(channel.name.clone()),
+                    text,
+                });
+            };
+            if faults.missing > 0 {
+                note(format!(
+                    "{} cells are empty, the first in line {}; they are not-a-number",
+                    faults.missing, faults.first_missing
+                ));
+            }
+            if faults.texts > 0 {
+                note(format!(
+                    "{} cells are no numbers, the first in line {}: “{}”; they are not-a-number",
+                    faults.texts, faults.first_text, faults.example
+                ));
+            }
+        }
+        let lines = [
+            (lost.short, "are short; what is missing is not-a-number"),
+            (
+                lost.long,
+                "have more cells than columns; the rest is left out",
+            ),
+            (lost.left_out, "hold no values; they are left out"),
+        ];
+        for ((count, first), text) in lines {
+            if count > 0 {
+                self.notes.push(Note {
+                    channel: None,
+                    text: format!("{count} lines {text}; the first is line {first}"),
+                });
+            }
+        }
+        if !self.layout.named {
+            self.notes.push(Note {
+                channel: None,
+                text: "the columns have no names; they are numbered".to_string(),
+            });
+        }
+    }
+
+    fn set_clock(&mut self, time: Option<usize>, spacing: &Spacing, back_line: u64) {
+        let Some(time) = time else {
+            let (clocks, notes) = clock::clocks(self, &[]);
+            for (channel, clock) in clocks {
+                self.channels[channel].clock = clock;
+            }
+            self.notes.extend(notes);
+            return;
+        };
+        let name = self.channels[time].name.clone();
+        let mut note = |text: String| {
+            self.notes.push(Note {
+                channel: Some(name.clone()),
+                text,
+            });
+        };
+        let is_moment = self.layout.columns[time].kind == Kind::Moment;
+        let unit = if is_moment {
+            "s"
+        } else {
+            &self.channels[time].unit
+        };
+        if let Some((_, times)) = spacing.back {
+            note(format!(
+                "{times} times are not after the one before, the first in line {back_line}"
+            ));
+        }
+        if clock::seconds_in(unit).is_none() {
+            note("is a time by its name, but its unit is not told".to_string());
+        }
+        let clock = spacing.clock(time, unit);
+        let start = self.starts[time];
+        for channel in &mut self.channels {
+            channel.clock = clock.clone();
+            channel.start = start;
+        }
+        for (channel, start) in self.channels.iter_mut().zip(&self.starts) {
+            if channel.content == Content::Time {
+                channel.unit = "s".to_string();
+                channel.start = *start;
+            }
+        }
+        if let Clock::Uniform { .. } = clock {
+            return;
+        }
+        if spacing.missing > 0 {
+            self.notes.push(Note {
+                channel: Some(name),
+                text: format!("{} times are not numbers", spacing.missing),
+            });
+        }
+    }
+
+    /// The values of a block, row by row.
+    fn block(&mut self, block: usize) -> Result<&[f64], FileError> {
+        if let Some(known) = self.kept.iter().position(|(known, _)| *known == block) {
+            let entry = self.kept.remove(known);
+            self.kept.push(entry);
+        } else {
+            let Block { at, row: first, .. } = self.blocks[block];
+            let rows = (self.rows - first).min(self.rows_of_block as u64) as usize;
+            let (mut lines, mut line, mut row) =
+                (Lines::new(self.letters, at), Vec::new(), Vec::new());
+            let mut values = Vec::with_capacity(rows * self.channels.len());
+            let mut taken = 0;
+            while taken < rows && lines.next(&mut self.source, &mut line)? {
+                if self.take_row(&line, &mut row, None) {
+                    values.extend(&row);
+                    taken += 1;
+                }
+            }
+            // A file that was changed while it was open.
+            values.resize(rows * self.channels.len(), f64::NAN);
+            if self.kept.len() >= self.most_kept() {
+                self.kept.remove(0);
+            }
+            self.kept.push((block, values));
+        }
+        Ok(self.kept.last().map_or(&[], |(_, values)| values))
+    }
+}
+
+/// Whether one of the cells past the last column holds anything.
+fn cells_after(line: &[u8], between: cell::Between, width: usize) -> bool {
+    let mut filled = false;
+    cells(line, between, |column, cell| {
+        filled |= column >= width && !cell.is_empty();
+    });
+    filled
+}
+
+impl<S: Read + Seek> Recording for Csv<S> {
+    fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    fn properties(&self) -> &[Property] {
+        &self.properties
+    }
+
+    fn notes(&self) -> &[Note] {
+        &self.notes
+    }
+
+    fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
+        let told = self.channels.get(channel);
+        if told.is_none_or(|told| told.content == Content::Text) {
+            let path = self.source.path();
+            return Err(refuse_number(path, channel, &self.channels));
+        }
+        let there = self.rows.saturating_sub(first).min(values.len() as u64) as usize;
+        let (width, per_block) = (self.channels.len(), self.rows_of_block as u64);
+        let mut done = 0;
+        while done < there {
+            let row = first + done as u64;
+            let (block, inside) = ((row / per_block) as usize, (row % per_block) as usize);
+            let rows = self.block(block)?;
+            let from = rows.iter().skip(inside * width + channel).step_by(width);
+            let before = done;
+            for (to, &from) in values[done..there].iter_mut().zip(from) {
+                *to = from;
+                done += 1;
+            }
+            if done == before {
+                break;
+            }
+        }
+        Ok(done)
+    }
+
+    fn read_text(
+        &mut self,
+        channel: usize,
+        first: u64,
+        count: usize,
+    ) -> Result<Vec<String>, FileError> {
+        let told = self.channels.get(channel);
+        if told.is_none_or(|told| told.content != Content::Text) {
+            return Err(refuse_text(self.source.path(), channel, &self.channels));
+        }
+        let there = self.rows.saturating_sub(first).min(count as u64);
+        let mut found = Vec::new();
+        if there == 0 {
+            return Ok(found);
+        }
+        let block = self.blocks[(first / self.rows_of_block as u64) as usize];
+        let (mut lines, mut line, mut row) =
+            (Lines::new(self.letters, block.at), Vec::new(), Vec::new());
+        let mut at = block.row;
+        while at < first + there && lines.next(&mut self.source, &mut line)? {
+            if !self.take_row(&line, &mut row, None) {
+                continue;
+            }
+            if at >= first {
+                let mut own = String::new();
+                cells(&line, self.layout.between, |column, cell| {
+                    if column == channel {
+                        own = text(cell);
+                    }
+                });
+                found.push(own);
+            }
+            at += 1;
+        }
+        Ok(found)
+    }
+}

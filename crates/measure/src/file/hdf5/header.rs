@@ -1,0 +1,153 @@
+//! Object headers: the messages that say what an object is.
+
+use std::io::{Read, Seek};
+
+use super::storage::Storage;
+use crate::recording::FileError;
+
+/// Most messages of one object that are read; real objects have some tens.
+const MOST_MESSAGES: usize = 1 << 16;
+
+/// Kinds of messages that are read.
+pub(super) mod kind {
+    pub const DATASPACE: u16 = 0x01;
+    pub const LINK_INFO: u16 = 0x02;
+    pub const DATATYPE: u16 = 0x03;
+    pub const FILL_VALUE: u16 = 0x05;
+    pub const LINK: u16 = 0x06;
+    pub const LAYOUT: u16 = 0x08;
+    pub const FILTERS: u16 = 0x0b;
+    pub const ATTRIBUTE: u16 = 0x0c;
+    pub const CONTINUATION: u16 = 0x10;
+    pub const SYMBOL_TABLE: u16 = 0x11;
+    pub const ATTRIBUTE_INFO: u16 = 0x15;
+}
+
+/// One message of an object.
+#[derive(Clone, Debug)]
+pub(super) struct Message {
+    /// What it tells; see [`kind`].
+    pub kind: u16,
+    /// Whether its body stands elsewhere.
+    pub shared: bool,
+    /// The bytes of it.
+    pub body: Vec<u8>,
+}
+
+impl<S: Read + Seek> Storage<S> {
+    /// The messages of the object whose header stands at an address.
+    pub fn messages(&mut self, address: u64) -> Result<Vec<Message>, FileError> {
+        const WHAT: &str = "an object header";
+        let head = self.start_of(address, 48, WHAT)?;
+        let mut messages = Vec::new();
+        // Pieces of the header: address and size of the messages, and how each message is laid out.
+        let mut pieces: Vec<(u64, u64)> = Vec::new();
+        let mut fields = self.fields(&head);
+        let layout = if head.starts_with(b"OHDR") {
+            let parsed = (|| {
+                fields.skip(4)?;
+                (fields.u8()? == 2).then_some(())?;
+                let flags = fields.u8()?;
+                fields.skip(if flags & 0x20 != 0 { 16 } else { 0 })?;
+                fields.skip(if flags & 0x10 != 0 { 4 } else { 0 })?;
+                let size = fields.whole(1 << (flags & 3))?;
+                pieces.push((address.checked_add(fields.at() as u64)?, size));
+                Some(Layout::New {
+                    ordered: flags & 0x04 != 0,
+                })
+            })();
+            parsed.ok_or_else(|| self.damaged(address, WHAT))?
+        } else {
+            let parsed = (|| {
+                (fields.u8()? == 1).then_some(())?;
+                fields.skip(7)?;
+                let size = u64::from(fields.u32()?);
+                pieces.push((address.checked_add(16)?, size));
+                Some(Layout::Old)
+            })();
+            parsed.ok_or_else(|| self.damaged(address, WHAT))?
+        };
+        while let Some((at, size)) = pieces.pop() {
+            let bytes = self.piece(at, size, WHAT)?;
+            let mut fields = self.fields(&bytes);
+            while let Some(message) = layout.next(&mut fields) {
+                if message.kind == kind::CONTINUATION {
+                    let mut place = self.fields(&message.body);
+                    let (Some(Some(at)), Some(size)) = (place.address(), place.length()) else {
+                        return Err(self.damaged(at, WHAT));
+                    };
+                    // Signature before and checksum after the messages.
+                    let (before, around) = match layout {
+                        Layout::Old => (0, 0),
+                        Layout::New { .. } => (4, 8),
+                    };
+                    pieces.push((at.saturating_add(before), size.saturating_sub(around)));
+                } else if message.kind != 0 {
+                    messages.push(message);
+                }
+                if messages.len() > MOST_MESSAGES || pieces.len() > MOST_MESSAGES {
+                    return Err(self.damaged(at, WHAT));
+                }
+            }
+        }
+        Ok(messages)
+    }
+
+    /// The body of a message, from the object where it stands if it is shared.
+    pub fn body(&mut self, message: &Message) -> Result<Vec<u8>, FileError> {
+        if !message.shared {
+            return Ok(message.body.clone());
+        }
+        let mut fields = self.fields(&message.body);
+        let address = (|| {
+            let (version, place) = (fields.u8()?, fields.u8()?);
+            match version {
+                1 => fields.skip(6)?,
+                2 => {}
+                3 if place == 2 => {}
+                _ => return None,
+            }
+            fields.address()?
+        })();
+        let Some(address) = address else {
+            return Err(self.damaged(0, "a shared message"));
+        };
+        let there = self.messages(address)?;
+        there
+            .into_iter()
+            .find(|other| other.kind == message.kind && !other.shared)
+            .map(|other| other.body)
+            .ok_or_else(|| self.damaged(address, "a shared message"))
+    }
+}
+
+/// How the messages of a header are laid out.
+#[derive(Clone, Copy)]
+enum Layout {
+    /// Version 1: eight bytes before each.
+    Old,
+    /// Version 2, with the order of creation where it is kept.
+    New { ordered: bool },
+}
+
+impl Layout {
+    fn next(self, fields: &mut super::fields::Fields) -> Option<Message> {
+        let (kind, size, flags) = match self {
+            Layout::Old => {
+                let (kind, size, flags) = (fields.u16()?, fields.u16()?, fields.u8()?);
+                fields.skip(3)?;
+                (kind, size, flags)
+            }
+            Layout::New { ordered } => {
+                let (kind, size, flags) = (u16::from(fields.u8()?), fields.u16()?, fields.u8()?);
+                fields.skip(if ordered { 2 } else { 0 })?;
+                (kind, size, flags)
+            }
+        };
+        Some(Message {
+            kind,
+            shared: flags & 2 != 0,
+            body: fields.take(usize::from(size))?.to_vec(),
+        })
+    }
+}

@@ -1,0 +1,345 @@
+//! From samples to the instants of flanks.
+
+use super::flank::{Passing, sharpen};
+use super::level::Levels;
+use super::{Edges, Flank, Refusal};
+
+/// How flanks are found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgeSettings {
+    /// Which flank marks the passage.
+    pub flank: Flank,
+    /// Low and high level in the unit of the signal; found from the signal where none are given.
+    pub levels: Option<(f64, f64)>,
+    /// How far beyond the middle the signal must go to count as the other level, as a part of the distance between the
+    /// levels, 0 to 0.45; from the noise where none is given.
+    pub hysteresis: Option<f64>,
+}
+
+impl Default for EdgeSettings {
+    /// Rising flanks, levels and hysteresis from the signal.
+    fn default() -> Self {
+        EdgeSettings {
+            flank: Flank::Rising,
+            levels: None,
+            hysteresis: None,
+        }
+    }
+}
+
+/// Samples on each side of a crossing that a straight line is laid through, at most.
+const REACH: usize = 24;
+/// Part of the height of a pulse, on each side of the middle, in which a flank is taken as straight.
+const STRAIGHT: f64 = 0.3;
+/// Samples of a plateau, next to the flank, that tell its level, at most.
+const PLATEAU: usize = 64;
+
+struct Flip {
+    /// First sample beyond the hysteresis on the new side.
+    sample: usize,
+    rises: bool,
+}
+
+/// Finds the instants at which a sampled signal crosses the middle between its two levels.
+///
+/// `first` is the time of the first sample and `interval` the time between samples, s. A sample that is not finite is a
+/// gap: nothing is counted across it, and a note says so. The crossing is the root of a straight line through the samples
+/// of the flank where it has at least four of them, of a cubic through its neighbours else. The uncertainty is the noise of
+/// the samples divided by the slope, and the error of interpolation: for a flank steeper than the sampling the interval
+/// divided by √12. Where the record holds slow passages, they tell the shape of a flank over the angle, and steep flanks are
+/// laid on that shape.
+pub fn edges(
+    first: f64,
+    interval: f64,
+    samples: &[f64],
+    settings: &EdgeSettings,
+) -> Result<Edges, Refusal> {
+    if !(interval.is_finite() && interval > 0.0 && first.is_finite()) {
+        return Err(Refusal::new(
+            format!("sampling interval {interval} s from {first} s"),
+            "a positive interval",
+        ));
+    }
+    if samples.len() < 4 {
+        return Err(Refusal::new(
+            format!("the signal has {} samples", samples.len()),
+            "a signal with pulses",
+        ));
+    }
+    let levels = match settings.levels {
+        Some((low, high)) if low < high && low.is_finite() && high.is_finite() => {
+            Levels::fixed(low, high, samples)
+        }
+        Some((low, high)) => {
+            return Err(Refusal::new(
+                format!("low level {low}, high level {high}"),
+                "a low level below the high one",
+            ));
+        }
+        None => Levels::find(samples)?,
+    };
+    let part = match settings.hysteresis {
+        Some(part) if (0.0..=0.45).contains(&part) => part,
+        Some(part) => {
+            return Err(Refusal::new(
+                format!("hysteresis {part}"),
+                "a part of the pulse height from 0 to 0.45",
+            ));
+        }
+        None => (4.0 * levels.noise / levels.span).clamp(0.15, 0.4),
+    };
+    let mut notes = Vec::new();
+    let gaps = samples
+        .windows(2)
+        .filter(|pair| pair[0].is_finite() && !pair[1].is_finite())
+        .count();
+    if gaps > 0 {
+        notes.push(format!(
+            "the signal has {gaps} gaps; no flank is counted across a gap"
+        ));
+    }
+    let flips = flips(samples, &levels, part);
+    let middles = middles(samples, &flips, &levels, settings.levels.is_some());
+    let mut found: Vec<Passing> = flips
+        .iter()
+        .zip(&middles)
+        .filter_map(|(flip, &middle)| {
+            let (place, spread, resolved) = crossing(samples, flip, middle, &levels)?;
+            Some(Passing {
+                place,
+                spread,
+                resolved,
+                rises: flip.rises,
+                middle,
+            })
+        })
+        .collect();
+    found.sort_by(|a, b| a.place.total_cmp(&b.place));
+    let kinds: &[bool] = match settings.flank {
+        Flank::Rising => &[true],
+        Flank::Falling => &[false],
+        Flank::Both | Flank::Centre => &[true, false],
+    };
+    for &rises in kinds {
+        sharpen(samples, &mut found, rises, &levels);
+    }
+    found.sort_by(|a, b| a.place.total_cmp(&b.place));
+    let found = found
+        .iter()
+        .map(|f| (first + f.place * interval, f.spread * interval, f.rises));
+    let chosen: Vec<(f64, f64, bool)> = match settings.flank {
+        Flank::Rising => found.filter(|e| e.2).collect(),
+        Flank::Falling => found.filter(|e| !e.2).collect(),
+        Flank::Both => found.collect(),
+        Flank::Centre => found
+            .collect::<Vec<_>>()
+            .windows(2)
+            .filter(|pair| pair[0].2 && !pair[1].2)
+            .map(|pair| {
+                (
+                    0.5 * (pair[0].0 + pair[1].0),
+                    0.5 * pair[0].1.hypot(pair[1].1),
+                    true,
+                )
+            })
+            .collect(),
+    };
+    if chosen.is_empty() {
+        return Err(Refusal::new(
+            "the signal has no complete flank".into(),
+            "at least one mark that passes",
+        ));
+    }
+    Ok(Edges {
+        times: chosen.iter().map(|e| e.0).collect(),
+        uncertainties: chosen.iter().map(|e| e.1).collect(),
+        rises: chosen.iter().map(|e| e.2).collect(),
+        flank: settings.flank,
+        watched: (first, first + interval * (samples.len() - 1) as f64),
+        notes,
+    })
+}
+
+/// Changes between the levels, with hysteresis.
+fn flips(samples: &[f64], levels: &Levels, part: f64) -> Vec<Flip> {
+    let margin = part * levels.span;
+    let mut flips = Vec::new();
+    let mut high: Option<bool> = None;
+    for (sample, &x) in samples.iter().enumerate() {
+        if !x.is_finite() {
+            high = None;
+            continue;
+        }
+        let away = x - levels.middle(sample);
+        let now = if away > margin {
+            true
+        } else if away < -margin {
+            false
+        } else {
+            continue;
+        };
+        if high == Some(!now) {
+            flips.push(Flip { sample, rises: now });
+        }
+        high = Some(now);
+    }
+    flips
+}
+
+/// The middle between the levels at every flip: between the plateaus on its two sides, so that it follows a drift, and the
+/// height of each mark.
+fn middles(samples: &[f64], flips: &[Flip], levels: &Levels, fixed: bool) -> Vec<f64> {
+    flips
+        .iter()
+        .enumerate()
+        .map(|(k, flip)| {
+            let rough = levels.middle(flip.sample);
+            if fixed {
+                return rough;
+            }
+            let begin = k
+                .checked_sub(1)
+                .map_or(0, |last| flips[last].sample)
+                .max(flip.sample.saturating_sub(PLATEAU));
+            let end = flips
+                .get(k + 1)
+                .map_or(samples.len(), |next| next.sample)
+                .min(flip.sample + PLATEAU);
+            let sign = if flip.rises { 1.0 } else { -1.0 };
+            let before = plateau(&samples[begin..flip.sample], rough, -sign);
+            let after = plateau(&samples[flip.sample..end], rough, sign);
+            match (before, after) {
+                (Some(before), Some(after)) => 0.5 * (before + after),
+                _ => rough,
+            }
+            // A plateau that a gap cut short must not carry the middle out of the flank.
+            .clamp(rough - 0.2 * levels.span, rough + 0.2 * levels.span)
+        })
+        .collect()
+}
+
+/// Level of a plateau on one side of the middle: mean of the samples that are far from it.
+fn plateau(samples: &[f64], middle: f64, sign: f64) -> Option<f64> {
+    let away = samples
+        .iter()
+        .map(|x| sign * (x - middle))
+        .filter(|x| x.is_finite());
+    let largest = away.clone().fold(0.0, f64::max);
+    let (sum, count) = away
+        .filter(|&x| x >= 0.8 * largest)
+        .fold((0.0, 0usize), |(s, n), x| (s + x, n + 1));
+    (largest > 0.0).then(|| middle + sign * sum / count.max(1) as f64)
+}
+
+/// Where the signal crosses the middle at a flip, and the standard uncertainty of it, both in samples; and whether the flank
+/// itself was seen, not only its two sides.
+fn crossing(
+    samples: &[f64],
+    flip: &Flip,
+    middle: f64,
+    levels: &Levels,
+) -> Option<(f64, f64, bool)> {
+    let sign = if flip.rises { 1.0 } else { -1.0 };
+    let height = |k: usize| sign * (samples[k] - middle);
+    // The last sample below the middle before the flip.
+    let mut below = flip.sample;
+    while height(below) > 0.0 {
+        below = below.checked_sub(1)?;
+        if !samples[below].is_finite() {
+            return None;
+        }
+    }
+    if below == flip.sample {
+        // The middle was moved beyond the flip: go forward.
+        while samples
+            .get(below + 1)
+            .is_some_and(|&x| sign * (x - middle) <= 0.0)
+        {
+            below += 1;
+        }
+    }
+    if !samples.get(below + 1)?.is_finite() {
+        return None;
+    }
+    let limit = STRAIGHT * levels.span;
+    let mut from = below + 1;
+    while from > 0
+        && below + 1 - from < REACH
+        && samples[from - 1].is_finite()
+        && height(from - 1) > -limit
+    {
+        from -= 1;
+    }
+    let mut to = below + 1;
+    while to < samples.len() && to - below <= REACH && samples[to].is_finite() && height(to) < limit
+    {
+        to += 1;
+    }
+    let count = to - from;
+    if count >= 4 {
+        let n = count as f64;
+        let centre = (from + to - 1) as f64 / 2.0;
+        let mean = (from..to).map(height).sum::<f64>() / n;
+        let (mut up, mut square) = (0.0, 0.0);
+        for k in from..to {
+            let x = k as f64 - centre;
+            up += x * height(k);
+            square += x * x;
+        }
+        let slope = up / square;
+        if slope > 0.0 {
+            let away = -mean / slope;
+            let misfit = (from..to)
+                .map(|k| (height(k) - mean - slope * (k as f64 - centre)).powi(2))
+                .sum::<f64>();
+            let noise = levels.noise.max((misfit / (n - 2.0)).sqrt());
+            let spread = noise / slope * (1.0 / n + away * away / square).sqrt();
+            if away.abs() <= n {
+                return Some((centre + away, spread.max(1e-3), true));
+            }
+        }
+    }
+    let (a, b) = (height(below), height(below + 1));
+    let slope = b - a;
+    if !(slope.is_finite() && slope > 0.0) {
+        return None;
+    }
+    let inside = |k: usize| {
+        if k < samples.len() && samples[k].is_finite() {
+            Some(height(k))
+        } else {
+            None
+        }
+    };
+    let before = below.checked_sub(1).and_then(inside).unwrap_or(2.0 * a - b);
+    let after = inside(below + 2).unwrap_or(2.0 * b - a);
+    let place = cubic_root(before, a, b, after);
+    // A flank that fills the whole sampling interval can lie anywhere in it; one that takes several is interpolated well.
+    let width = levels.span / slope;
+    let interpolation = 0.29 * (-1.2 * (width - 1.0).max(0.0)).exp();
+    Some((
+        below as f64 + place,
+        (levels.noise / slope).hypot(interpolation).max(1e-3),
+        false,
+    ))
+}
+
+/// Root between the second and the third of four equidistant values, of the cubic whose slopes there are central differences.
+fn cubic_root(before: f64, a: f64, b: f64, after: f64) -> f64 {
+    let (left, right) = (0.5 * (b - before), 0.5 * (after - a));
+    let value = |x: f64| {
+        let y = 1.0 - x;
+        a * (1.0 + 2.0 * x) * y * y + b * x * x * (3.0 - 2.0 * x) + left * x * y * y
+            - right * x * x * y
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..40 {
+        let x = 0.5 * (low + high);
+        if value(x) < 0.0 {
+            low = x;
+        } else {
+            high = x;
+        }
+    }
+    0.5 * (low + high)
+}

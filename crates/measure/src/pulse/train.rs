@@ -1,0 +1,324 @@
+//! Which mark passed at which edge.
+
+use super::{Edges, Flank, Refusal, median};
+
+/// The wheel that the pickup looks at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wheel {
+    /// Marks per revolution, the left-out ones included.
+    pub marks: usize,
+    /// Neighbouring marks left out as a reference; zero for a full wheel.
+    pub missing: usize,
+}
+
+/// Passages with the number of the mark that passed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pulses {
+    /// Instants, s, increasing.
+    pub times: Vec<f64>,
+    /// Standard uncertainty of each instant, s.
+    pub uncertainties: Vec<f64>,
+    /// Positions passed since the first pulse; positions per revolution are [`Pulses::positions`].
+    pub marks: Vec<i64>,
+    /// Positions per revolution: the marks of the wheel, or twice as many where both flanks are used.
+    pub positions: usize,
+    /// Position, from 0 to below [`Pulses::positions`], of the first mark after the left-out ones, where the wheel has some.
+    pub reference: Option<usize>,
+    /// First and last instant that the pickup was watched, s.
+    pub watched: (f64, f64),
+    /// Pulses that were left out or had to be assumed, as a part of all.
+    pub repaired: f64,
+    /// What was found wrong, and what was done about it.
+    pub notes: Vec<String>,
+}
+
+impl Pulses {
+    /// Nominal angle between neighbouring positions, rad.
+    pub fn pitch(&self) -> f64 {
+        std::f64::consts::TAU / self.positions as f64
+    }
+
+    /// Position on the wheel of a pulse, 0 to below [`Pulses::positions`].
+    pub fn position(&self, pulse: usize) -> usize {
+        self.marks[pulse].rem_euclid(self.positions as i64) as usize
+    }
+}
+
+/// Numbers the marks.
+///
+/// An interval much longer than both its neighbours holds marks that gave no pulse: the count goes on as if they had. A
+/// pulse that splits an interval in two much shorter than the neighbours is left out, and so is one that comes much too
+/// early or too late. Each leaves a note. From rest on,
+/// intervals shrink steadily; this alone is never taken for a fault.
+pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
+    if wheel.marks == 0 || wheel.marks > 100_000 || wheel.missing >= wheel.marks {
+        return Err(Refusal::new(
+            format!(
+                "a wheel with {} marks, {} of them left out",
+                wheel.marks, wheel.missing
+            ),
+            "at least one mark per revolution",
+        ));
+    }
+    if edges.times.len() != edges.uncertainties.len() || edges.times.len() != edges.rises.len() {
+        return Err(Refusal::new(
+            format!(
+                "{} times and {} uncertainties",
+                edges.times.len(),
+                edges.uncertainties.len()
+            ),
+            "one uncertainty and one direction for each time",
+        ));
+    }
+    if let Some(at) = edges
+        .times
+        .windows(2)
+        .position(|pair| pair[1] <= pair[0] || !(pair[1] - pair[0]).is_finite())
+    {
+        return Err(Refusal::new(
+            format!(
+                "time {} s follows {} s",
+                edges.times[at + 1],
+                edges.times[at]
+            ),
+            "times that increase",
+        ));
+    }
+    if let Some(bad) = edges
+        .uncertainties
+        .iter()
+        .find(|u| !(u.is_finite() && **u > 0.0))
+    {
+        return Err(Refusal::new(
+            format!("an uncertainty of {bad} s"),
+            "positive uncertainties",
+        ));
+    }
+    let mut notes = edges.notes.clone();
+    let both = edges.flank == Flank::Both;
+    // With both flanks the rising ones are numbered, and the falling ones lie between them.
+    let rises = |k: usize| edges.rises[k];
+    let main: Vec<usize> = (0..edges.times.len())
+        .filter(|&k| !both || rises(k))
+        .collect();
+    let (kept, extra) = without_doubles(&main, &edges.times);
+    if let Some(&first) = extra.first() {
+        notes.push(format!(
+            "{} pulses too many, the first at {:.6} s: left out",
+            extra.len(),
+            edges.times[first]
+        ));
+    }
+    let steps = steps(&kept, &edges.times);
+    let mut count = 0i64;
+    let mut counts = vec![0i64];
+    let (mut lost, mut first_lost) = (0usize, None);
+    let mut references = Vec::new();
+    for (k, &step) in steps.iter().enumerate() {
+        count += step;
+        counts.push(count);
+        if wheel.missing > 0 && step == wheel.missing as i64 + 1 {
+            references.push(count);
+        } else if step > 1 {
+            lost += (step - 1) as usize;
+            first_lost.get_or_insert(edges.times[kept[k]]);
+        }
+    }
+    let reference = reference(&references, wheel, &mut notes);
+    if let Some(time) = first_lost {
+        notes.push(format!(
+            "{lost} pulses missing, the first after {time:.6} s: counted as if they had come"
+        ));
+    }
+    let repaired = (lost + extra.len()) as f64 / edges.times.len().max(1) as f64;
+    if repaired > 0.05 {
+        notes.push(format!(
+            "{:.0} % of the pulses had to be repaired: do not trust this channel",
+            100.0 * repaired
+        ));
+    }
+    let (which, marks) = if both {
+        with_falling(&kept, &counts, &edges.rises)
+    } else {
+        (kept, counts)
+    };
+    let (which, marks) = without_strays(which, marks, &edges.times, &mut notes);
+    Ok(Pulses {
+        times: which.iter().map(|&k| edges.times[k]).collect(),
+        uncertainties: which.iter().map(|&k| edges.uncertainties[k]).collect(),
+        positions: wheel.marks * if both { 2 } else { 1 },
+        reference: reference.map(|r| if both { 2 * r } else { r }),
+        marks,
+        watched: edges.watched,
+        repaired,
+        notes,
+    })
+}
+
+/// Edges without those that split an interval; and those left out.
+fn without_doubles(main: &[usize], times: &[f64]) -> (Vec<usize>, Vec<usize>) {
+    let time = |k: usize| times[main[k]];
+    // How far from regular the train would be without pulse k; none where k does not look like one too many.
+    let excess = |k: usize| -> Option<f64> {
+        if k < 2 || k + 2 >= main.len() {
+            return None;
+        }
+        let (left, right) = (time(k - 1) - time(k - 2), time(k + 2) - time(k + 1));
+        let (a, b) = (time(k) - time(k - 1), time(k + 1) - time(k));
+        let usual = (left * right).sqrt();
+        let whole = (a + b) / usual;
+        let small = a.min(b) < 0.6 * left.min(right);
+        (small && whole > 0.55 && whole < 1.6).then(|| whole.ln().abs())
+    };
+    let (mut kept, mut extra) = (Vec::with_capacity(main.len()), Vec::new());
+    let mut k = 0;
+    while k < main.len() {
+        match (excess(k), excess(k + 1)) {
+            (Some(this), next) if next.is_none_or(|next| this <= next) => extra.push(main[k]),
+            (Some(_), Some(_)) => {
+                kept.push(main[k]);
+                extra.push(main[k + 1]);
+                k += 1;
+            }
+            _ => kept.push(main[k]),
+        }
+        k += 1;
+    }
+    (kept, extra)
+}
+
+/// Pulses without those that lie far from where their neighbours say the mark was.
+///
+/// The neighbours' answer is a cubic through two on each side; far is a tenth of a pitch and eight standard deviations of
+/// all pulses, so that neither a start from rest nor an uneven wheel is taken for a fault.
+fn without_strays(
+    which: Vec<usize>,
+    marks: Vec<i64>,
+    times: &[f64],
+    notes: &mut Vec<String>,
+) -> (Vec<usize>, Vec<i64>) {
+    let away: Vec<f64> = (0..which.len())
+        .map(|k| {
+            if k < 2 || k + 2 >= which.len() {
+                return 0.0;
+            }
+            let others = [k - 2, k - 1, k + 1, k + 2];
+            let time = |j: usize| times[which[j]];
+            let expected: f64 = others
+                .iter()
+                .map(|&j| {
+                    let rest = others.iter().filter(|&&i| i != j);
+                    let weight: f64 = rest
+                        .map(|&i| (time(k) - time(i)) / (time(j) - time(i)))
+                        .product();
+                    weight * (marks[j] - marks[k]) as f64
+                })
+                .sum();
+            expected.abs()
+        })
+        .collect();
+    // The median of |x| is 0.6745 standard deviations for normal x.
+    let usual = median(&mut away.clone()) / 0.6745;
+    let stray = |k: usize| {
+        let near = &away[k.saturating_sub(2)..(k + 3).min(away.len())];
+        away[k] > 0.1f64.max(8.0 * usual) && near.iter().all(|&other| other <= away[k])
+    };
+    let strays: Vec<usize> = (0..which.len()).filter(|&k| stray(k)).collect();
+    let Some(&first) = strays.first() else {
+        return (which, marks);
+    };
+    notes.push(format!(
+        "{} pulses far from where their neighbours put the mark, the first at {:.6} s: left out",
+        strays.len(),
+        times[which[first]]
+    ));
+    let kept = |k: &usize| strays.binary_search(k).is_err();
+    let indices: Vec<usize> = (0..which.len()).filter(kept).collect();
+    (
+        indices.iter().map(|&k| which[k]).collect(),
+        indices.iter().map(|&k| marks[k]).collect(),
+    )
+}
+
+/// Positions from each pulse to the next.
+fn steps(kept: &[usize], times: &[f64]) -> Vec<i64> {
+    let gaps: Vec<f64> = kept
+        .windows(2)
+        .map(|pair| times[pair[1]] - times[pair[0]])
+        .collect();
+    let mut steps = vec![1i64; gaps.len()];
+    for k in 0..gaps.len() {
+        // The interval per position on both sides; where the next interval is a gap itself, the one after it.
+        let Some(left) = k.checked_sub(1).map(|l| gaps[l] / steps[l] as f64) else {
+            continue;
+        };
+        let Some(&next) = gaps.get(k + 1) else {
+            continue;
+        };
+        let right = gaps
+            .get(k + 2)
+            .map_or(next, |&after| if next > 1.6 * after { after } else { next });
+        let ratio = gaps[k] / (left * right).sqrt();
+        if ratio > 1.6 && gaps[k] > 1.5 * left.max(right) && ratio < 1e6 {
+            steps[k] = ratio.round() as i64;
+        }
+    }
+    steps
+}
+
+/// Position after the left-out marks, from the long intervals that look like them.
+fn reference(found: &[i64], wheel: &Wheel, notes: &mut Vec<String>) -> Option<usize> {
+    if wheel.missing == 0 {
+        return None;
+    }
+    let n = wheel.marks as i64;
+    let mut tally = std::collections::BTreeMap::new();
+    for count in found {
+        *tally.entry(count.rem_euclid(n)).or_insert(0usize) += 1;
+    }
+    let best = tally.iter().max_by_key(|(_, times)| **times);
+    match best {
+        Some((&place, &times)) if 2 * times > found.len() => {
+            if times < found.len() {
+                notes.push(format!(
+                    "{} of {} gaps of the length of the reference gap are elsewhere: pulses missing there",
+                    found.len() - times,
+                    found.len()
+                ));
+            }
+            Some(place as usize)
+        }
+        _ => {
+            notes.push(format!(
+                "the gap of {} left-out marks was not found",
+                wheel.missing
+            ));
+            None
+        }
+    }
+}
+
+/// Adds the falling edges between neighbouring rising ones; positions are doubled.
+fn with_falling(kept: &[usize], counts: &[i64], rises: &[bool]) -> (Vec<usize>, Vec<i64>) {
+    let (mut which, mut marks) = (Vec::new(), Vec::new());
+    if let (Some(&first), Some(&count)) = (kept.first(), counts.first())
+        && first == 1
+        && !rises[0]
+    {
+        which.push(0);
+        marks.push(2 * count - 1);
+    }
+    for (k, (&edge, &count)) in kept.iter().zip(counts).enumerate() {
+        which.push(edge);
+        marks.push(2 * count);
+        let regular = match kept.get(k + 1) {
+            Some(&next) => next == edge + 2 && !rises[edge + 1] && counts[k + 1] == count + 1,
+            None => rises.get(edge + 1) == Some(&false),
+        };
+        if regular {
+            which.push(edge + 1);
+            marks.push(2 * count + 1);
+        }
+    }
+    (which, marks)
+}

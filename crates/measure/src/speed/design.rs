@@ -1,0 +1,138 @@
+//! How many marks a wheel needs.
+
+use std::f64::consts::TAU;
+
+use super::matrix::Memory;
+use super::plan::{Data, Knot, Lively, Noise, Plan};
+use super::track::{Track, mixed};
+use crate::pulse::Pulses;
+
+/// Numbers of marks that wheels and encoders have.
+const OFFERED: [usize; 32] = [
+    1, 2, 3, 4, 6, 8, 10, 12, 15, 18, 20, 24, 30, 36, 45, 60, 72, 90, 120, 150, 180, 240, 250, 360,
+    500, 512, 720, 1000, 1024, 1440, 2000, 2048,
+];
+
+/// Fewest marks per revolution that give the acceleration of a spin-up from rest to the wanted uncertainty, root mean square
+/// over the spin-up, as a part of its peak.
+///
+/// `change`: speed reached, rad/s; `duration`: time in which it is reached, s; `timing`: standard uncertainty of an instant,
+/// s; `wanted`: relative uncertainty. None where not even 2048 marks are enough, or an argument is not positive.
+///
+/// The smoother itself is asked, for a bell-shaped acceleration `(1 - cos 2πt/T)/2` and exactly known mark angles; it
+/// promises no more than that.
+pub fn marks_needed(change: f64, duration: f64, timing: f64, wanted: f64) -> Option<usize> {
+    let positive = [change, duration, timing, wanted]
+        .iter()
+        .all(|x| x.is_finite() && *x > 0.0);
+    if !positive {
+        return None;
+    }
+    OFFERED.into_iter().find(|&marks| {
+        uncertainty(change, duration, timing, marks).is_some_and(|got| got <= wanted)
+    })
+}
+
+/// Relative uncertainty that a number of marks gives; none where there are too few or far too many to ask.
+fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<f64> {
+    let pitch = TAU / marks as f64;
+    let whole = 0.5 * change * duration;
+    // Angle of the bell at a part x of its duration.
+    let angle = |x: f64| {
+        if x < 1.0 {
+            2.0 * whole * (0.5 * x * x - (1.0 - (TAU * x).cos()) / (TAU * TAU))
+        } else {
+            whole + change * duration * (x - 1.0)
+        }
+    };
+    let mut times = Vec::new();
+    let beyond = whole + 12.0 * pitch;
+    if beyond / pitch > 20_000.0 {
+        return None;
+    }
+    let mut wanted = 0.5 * pitch;
+    let mut from = 0.0;
+    while wanted < beyond {
+        let (mut low, mut high) = (from, 2.0 + beyond / (change * duration));
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            if angle(middle) < wanted {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        from = low;
+        times.push(duration * low);
+        wanted += pitch;
+    }
+    if times.iter().filter(|t| **t < duration).count() < super::FEWEST_WITHIN {
+        return None;
+    }
+    let n = times.len();
+    let pulses = Pulses {
+        uncertainties: vec![timing; n],
+        marks: (0..n as i64).collect(),
+        positions: marks,
+        reference: None,
+        watched: (-duration, times[n - 1]),
+        repaired: 0.0,
+        notes: Vec::new(),
+        times,
+    };
+    let data = Data::new(&pulses, None);
+    let length = duration / data.unit;
+    let peak = 2.0 * change * data.unit / length;
+    let engage = data.units(0.0);
+    let memory = Memory {
+        spread: 1e-3 * timing / data.unit,
+        rate: 1.0,
+    };
+    // Knots that the pulses themselves must find: a grid of them, weighted by likelihood.
+    let shifts = [-0.12, -0.06, 0.0, 0.06, 0.12];
+    let mut parts = Vec::new();
+    for (early, late) in shifts
+        .iter()
+        .flat_map(|a| shifts.iter().map(move |b| (a, b)))
+    {
+        let engage = engage + early * length;
+        // The first mark is at the time zero of the units: the engagement comes before it.
+        if engage >= 0.0 {
+            continue;
+        }
+        let plan = Plan {
+            noise: Noise {
+                timing: 1.0,
+                angle: 1e-9 * pitch,
+                memory,
+            },
+            quiet: [1e-9 * change * data.unit; 3],
+            lively: Some(Lively {
+                engage,
+                lock: data.units(duration) + late * length,
+                density: (3.0 * peak / length).powi(2) / length,
+                start: Knot::Kink,
+                stop: Knot::Soft,
+            }),
+            settled: f64::NEG_INFINITY,
+            rests: true,
+        };
+        let (nodes, start) = plan.nodes(&data, 0..n);
+        let fit = plan.likelihood(&data, 0..n);
+        parts.push((fit, Track::new(nodes, start, plan.quiet[2], memory)));
+    }
+    let top = parts.iter().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
+    let total: f64 = parts.iter().map(|p| (p.0 - top).exp()).sum();
+    let points = 60;
+    let square: f64 = (0..points)
+        .map(|k| {
+            let time = engage + length * (k as f64 + 0.5) / points as f64;
+            let beliefs: Vec<_> = parts
+                .iter()
+                .map(|p| ((p.0 - top).exp() / total, super::answer::at(&p.1, time)))
+                .collect();
+            mixed(beliefs.iter().copied()).covariance[2][2] / points as f64
+        })
+        .sum();
+    Some(square.sqrt() / peak)
+}

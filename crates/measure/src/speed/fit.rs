@@ -1,0 +1,374 @@
+//! Noises, densities and knots from the pulses themselves.
+
+use super::Transient;
+use super::matrix::Memory;
+use super::plan::{Data, Knot, Lively, Noise, Passage, Plan};
+use super::search::{smallest, spread};
+
+/// Passages in one stretch of a quiet part whose likelihood is taken.
+pub(super) const STRETCH: usize = 80;
+/// Passages beyond the lively part that take part in its fit.
+const BEYOND: usize = 40;
+
+/// A lively part as it looks at first sight.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sight {
+    pub engage: f64,
+    pub lock: f64,
+    /// First passage after the engagement.
+    pub first: usize,
+    /// First passage after the end.
+    pub after: usize,
+    pub rests: bool,
+    /// Change of speed, in units.
+    pub change: f64,
+    /// Whether the end lies within the record.
+    pub ends: bool,
+}
+
+/// Looks for the steepest rise of speed.
+pub(super) fn sight(data: &Data, wanted: &Transient) -> Option<Sight> {
+    let all = &data.passages;
+    let n = all.len();
+    let (from, to) = match *wanted {
+        Transient::None => return None,
+        Transient::Auto => (0, n),
+        Transient::Within(a, b) => {
+            let (a, b) = (data.units(a), data.units(b));
+            (
+                all.partition_point(|p| p.time < a),
+                all.partition_point(|p| p.time <= b),
+            )
+        }
+    };
+    if to < from + 4 {
+        return None;
+    }
+    let speed = |k: usize| (all[k + 1].angle - all[k].angle) / (all[k + 1].time - all[k].time);
+    let interval = |k: usize| all[k + 1].time - all[k].time;
+    let silence = all[0].time - data.watched.0;
+    // At rest before: watched for long without a pulse, or intervals that shrink as from rest.
+    let rests = from == 0
+        && (silence > 2.0 * interval(0) || (silence < 1e-9 && interval(0) > 1.6 * interval(1)));
+    let rough: Vec<f64> = (from..to - 1).map(speed).collect();
+    // The median of three: one odd interval is no change of speed.
+    let speeds: Vec<f64> = (0..rough.len())
+        .map(|k| {
+            let (a, b) = (
+                rough[k.saturating_sub(1)],
+                rough[(k + 1).min(rough.len() - 1)],
+            );
+            a.min(b).max(rough[k].min(a.max(b)))
+        })
+        .collect();
+    let (top, &high) = speeds
+        .iter()
+        .enumerate()
+        .max_by(|a, b| a.1.total_cmp(b.1))?;
+    let low = if rests {
+        0.0
+    } else {
+        speeds[..=top].iter().copied().fold(f64::INFINITY, f64::min)
+    };
+    let change = high - low;
+    if change < 0.3 * high {
+        return None;
+    }
+    // The first interval that reaches nearly all of the change, and the last one before it with nearly none.
+    let end = (0..=top).find(|&k| speeds[k] >= low + 0.96 * change)?;
+    let start = if rests {
+        0
+    } else {
+        (0..end).rfind(|&k| speeds[k] <= low + 0.04 * change)?
+    };
+    let lock = 0.5 * (all[from + end].time + all[from + end + 1].time);
+    let engage = if rests {
+        // The first mark comes after about a third of a motion that ends with the lock.
+        (all[0].time - 0.5 * (lock - all[0].time).max(interval(0))).max(data.watched.0 - 1e-9)
+    } else {
+        0.5 * (all[from + start].time + all[from + start + 1].time)
+    };
+    let engage = if rests && silence < 1e-9 {
+        all[0].time - (lock - all[0].time) * 0.5
+    } else {
+        engage
+    };
+    if !rests {
+        // A slow ramp needs no knots: the change must be much quicker than what is around it.
+        let length = lock - engage;
+        let whole = all[n - 1].time - all[0].time;
+        if length > 0.5 * whole {
+            return None;
+        }
+    }
+    let first = all.partition_point(|p| p.time <= engage);
+    let after = all.partition_point(|p| p.time < lock);
+    Some(Sight {
+        engage,
+        lock,
+        first,
+        after,
+        rests,
+        change,
+        ends: after + 3 < n,
+    })
+}
+
+/// Stretches of a part of the passages, at most three, spread over it.
+fn stretches(range: std::ops::Range<usize>) -> Vec<std::ops::Range<usize>> {
+    let n = range.len();
+    if n <= 3 * STRETCH {
+        return vec![range];
+    }
+    let step = (n - STRETCH) / 2;
+    (0..3)
+        .map(|k| range.start + k * step..range.start + k * step + STRETCH)
+        .collect()
+}
+
+/// Noise and density of a quiet part by their likelihood, with a weak belief about the noise.
+pub(super) fn quiet(data: &Data, range: std::ops::Range<usize>) -> (Noise, f64) {
+    let parts = stretches(range);
+    let speed = data.passages[parts[0].start + parts[0].len() / 2]
+        .speed
+        .abs()
+        .max(1e-9);
+    // What is not stated: residual mark errors, and noise of the signal that flanks carry into the angle.
+    let usual = data.pitch * if data.calibrated { 3e-4 } else { 3e-3 };
+    let mut spreads: Vec<f64> = parts
+        .iter()
+        .flat_map(|p| data.passages[p.clone()].iter().map(|p| p.spread))
+        .collect();
+    let stated = crate::pulse::median(&mut spreads).max(1e-12);
+    let noise = |x: &[f64; 4]| Noise {
+        timing: if data.calibrated { x[0].exp() } else { 1.0 },
+        angle: if data.calibrated {
+            usual
+        } else {
+            usual * x[0].exp()
+        },
+        memory: Memory {
+            spread: stated * x[1].exp(),
+            rate: (-x[2]).exp(),
+        },
+    };
+    let cost = |x: &[f64; 4]| {
+        let plan = Plan {
+            noise: noise(x),
+            quiet: [x[3].exp(); 3],
+            lively: None,
+            settled: 0.0,
+            rests: false,
+        };
+        let fit: f64 = parts
+            .iter()
+            .map(|part| plan.likelihood(data, part.clone()))
+            .sum();
+        let belief = (x[0] / if data.calibrated { 1.0 } else { 1.5 }).powi(2)
+            + ((x[1] + 1.0) / 1.5).powi(2)
+            + ((x[2] - 1.5) / 1.0).powi(2)
+            + ((x[3] - (1e-6 * speed).ln()) / 14.0).powi(2);
+        0.5 * belief - fit
+    };
+    // A density that changes the speed by a thousandth over a hundred intervals, to begin with.
+    let (best, _) = smallest(
+        [0.0, -0.5, 1.5, (1e-12 * speed * speed).ln()],
+        [0.5, 1.0, 1.0, 4.0],
+        160,
+        0.1,
+        cost,
+    );
+    (noise(&best), best[3].exp())
+}
+
+/// Density of a long quiet part with noise that is known: neighbouring pulses tell quick changes, far ones slow changes.
+pub(super) fn calm(data: &Data, range: std::ops::Range<usize>, noise: Noise, first: f64) -> f64 {
+    let sparse = |step: usize| -> Vec<Passage> {
+        let count = (range.len() / step).min(STRETCH);
+        let skip = range.len() - count * step;
+        data.passages[range.clone()]
+            .iter()
+            .skip(skip / 2)
+            .step_by(step)
+            .take(count)
+            .copied()
+            .collect()
+    };
+    let whole = range.len().div_ceil(STRETCH);
+    let mut sets: Vec<Vec<Passage>> = stretches(range.clone())
+        .into_iter()
+        .map(|part| data.passages[part].to_vec())
+        .collect();
+    let middle = (whole as f64).sqrt().round() as usize;
+    sets.extend(
+        [middle, whole]
+            .into_iter()
+            .filter(|&step| step > 1)
+            .map(sparse),
+    );
+    let cost = |x: &[f64; 1]| {
+        let plan = Plan {
+            noise,
+            quiet: [x[0].exp(); 3],
+            lively: None,
+            settled: 0.0,
+            rests: false,
+        };
+        -sets
+            .iter()
+            .map(|set| plan.likelihood_of(data, set))
+            .sum::<f64>()
+    };
+    smallest([first.ln()], [-3.0], 25, 0.1, cost).0[0].exp()
+}
+
+/// Density of the stretch in which a lively part settles, with noise that is known.
+pub(super) fn settling(
+    data: &Data,
+    range: std::ops::Range<usize>,
+    noise: Noise,
+    quiet: f64,
+) -> f64 {
+    let cost = |x: &[f64; 1]| {
+        let plan = Plan {
+            noise,
+            quiet: [quiet * x[0].exp(); 3],
+            lively: None,
+            settled: 0.0,
+            rests: false,
+        };
+        -plan.likelihood(data, range.clone())
+    };
+    let start = smallest([0.0], [4.0], 12, 0.05, cost).0;
+    quiet * smallest(start, [2.0], 16, 0.05, cost).0[0].max(0.0).exp()
+}
+
+/// Passages that tell the knots and the density: all near the knots, some between where there are many.
+fn thinned(data: &Data, sight: &Sight, range: std::ops::Range<usize>) -> Vec<Passage> {
+    const ALL: usize = 24;
+    const BETWEEN: usize = 40;
+    let inner =
+        (sight.first + ALL).min(sight.after)..sight.after.saturating_sub(ALL).max(sight.first);
+    let step = inner.len().div_ceil(BETWEEN).max(1);
+    range
+        .filter(|k| !inner.contains(k) || (k - inner.start) % step == 0)
+        .map(|k| data.passages[k])
+        .collect()
+}
+
+/// Plans for the lively part with their weights, the best one first.
+pub(super) fn lively(
+    data: &Data,
+    sight: &Sight,
+    base: &Plan,
+) -> (Vec<(Plan, f64)>, std::ops::Range<usize>) {
+    let from = if sight.rests {
+        0
+    } else {
+        sight.first.saturating_sub(BEYOND)
+    };
+    let to = (sight.after + BEYOND).min(data.passages.len());
+    let range = from..to;
+    let length = (sight.lock - sight.engage).max(1.0);
+    let first = data.passages[sight.first.min(data.passages.len() - 1)].time;
+    let last = data.passages[data.passages.len() - 1].time;
+    // Where nobody watched before the first pulse, the engagement may be some time before it.
+    let earliest = if first - data.watched.0 > 1e-9 {
+        data.watched.0
+    } else {
+        first - 4.0 * length
+    };
+    let latest = (sight.lock + length).min(data.passages[to - 1].time);
+    let plan = |x: &[f64; 3], (start, stop): (Knot, Knot)| -> Option<Plan> {
+        let engage = if sight.rests {
+            first - length * x[1].exp()
+        } else {
+            sight.engage + length * x[1]
+        };
+        let lock = engage + length * x[2].exp();
+        let inside = engage >= earliest
+            && lock > first
+            && (lock < latest || !sight.ends)
+            && x[0].abs() < 200.0;
+        (inside && x[1].abs() < 20.0 && x[2].abs() < 5.0).then(|| Plan {
+            lively: Some(Lively {
+                engage,
+                lock: if sight.ends { lock } else { last + length },
+                density: x[0].exp(),
+                start,
+                stop,
+            }),
+            rests: sight.rests,
+            ..*base
+        })
+    };
+    let some = thinned(data, sight, range.clone());
+    let mut parts: Vec<(Plan, f64)> = Vec::new();
+    let peak = 2.0 * sight.change / length;
+    // A bell of this height and length has about this jerk, gathered over its length.
+    let density = (3.0 * peak / length).powi(2) / length;
+    let cost = |jumps| {
+        let (plan, some) = (&plan, &some);
+        move |x: &[f64; 3]| match plan(x, jumps) {
+            Some(plan) => -plan.likelihood_of(data, some),
+            None => f64::INFINITY,
+        }
+    };
+    let starts = [Knot::Soft, Knot::Kink, Knot::Jump];
+    let variants: Vec<(Knot, Knot)> = if sight.ends {
+        starts
+            .iter()
+            .flat_map(|&start| [(start, Knot::Soft), (start, Knot::Jump)])
+            .collect()
+    } else {
+        starts.map(|start| (start, Knot::Soft)).to_vec()
+    };
+    let mut bests = Vec::new();
+    let mut warm = None;
+    for jumps in variants {
+        let offset = if sight.rests {
+            ((first - sight.engage) / length).max(0.02).ln()
+        } else {
+            0.0
+        };
+        let start = warm.unwrap_or([density.ln(), offset, 0.0]);
+        let steps = [2.0, if sight.rests { 0.3 } else { 0.05 }, 0.1];
+        let best = smallest(
+            start,
+            steps,
+            if warm.is_some() { 45 } else { 100 },
+            0.1,
+            cost(jumps),
+        );
+        warm = Some(best.0);
+        bests.push((jumps, best));
+    }
+    let top = bests
+        .iter()
+        .map(|b| -b.1.1)
+        .fold(f64::NEG_INFINITY, f64::max);
+    for (jumps, (best, value)) in bests {
+        // What is less likely by e^-5 at its best has no weight.
+        if -value < top - 5.0 {
+            continue;
+        }
+        let guess = [0.8, if sight.rests { 0.3 } else { 0.05 }, 0.08];
+        let cost = cost(jumps);
+        let (points, evidence) = spread(best, guess, 28, cost);
+        for (x, weight) in points {
+            if let Some(plan) = plan(&x, jumps)
+                && weight > 0.0
+            {
+                parts.push((plan, weight.ln() + evidence));
+            }
+        }
+    }
+    parts.retain(|p| p.1.is_finite());
+    let top = parts.iter().map(|p| p.1).fold(f64::NEG_INFINITY, f64::max);
+    parts.iter_mut().for_each(|p| p.1 = (p.1 - top).exp());
+    parts.sort_by(|a, b| b.1.total_cmp(&a.1));
+    parts.truncate(20);
+    let sum: f64 = parts.iter().map(|p| p.1).sum();
+    parts.iter_mut().for_each(|p| p.1 /= sum);
+    (parts, range)
+}

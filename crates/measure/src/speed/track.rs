@@ -1,0 +1,370 @@
+//! Filter and smoother for given times, noises and knots.
+//!
+//! ```text
+//! state  x = [angle, speed, acceleration, jerk, e]   white noise of the density q in the snap
+//! e      error of the instants with a memory: first-order Markov process
+//! pulse  z = angle + speed e + noise of variance r
+//! knot   variance added to any state at an instant: what it was before tells less, or nothing, of what it is after
+//! ```
+//! Forward: a Kalman filter. Backward: the adjoint recursion of Bryson and Frazier, which inverts no matrix, so that a
+//! start from rest with exactly known speed, and intervals of any length, do no harm.
+//!
+//! Source: Bierman, Factorization Methods for Discrete Sequential Estimation, 1977, chapter X (from memory).
+#![allow(clippy::needless_range_loop)] // rows and columns by number read like the formula
+
+use super::matrix::{
+    Matrix, Memory, N, Vector, advance, apply, drift, gathered, minus, plus, product, root,
+    taken_back, transposed,
+};
+
+/// A mark that passes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sight {
+    pub angle: f64,
+    /// Variance of the angle.
+    pub variance: f64,
+    /// Rough speed: angle per error of the instant.
+    pub speed: f64,
+}
+
+impl Sight {
+    /// A column of a matrix as the pulse sees it: of the angle, plus the speed times that of the clock.
+    fn seen(&self, matrix: &Matrix) -> Vector {
+        std::array::from_fn(|i| matrix[i][0] + self.speed * matrix[i][4])
+    }
+
+    fn of(&self, x: &Vector) -> f64 {
+        x[0] + self.speed * x[4]
+    }
+}
+
+/// Something that happens at an instant.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    /// Instant, in units of the track.
+    pub time: f64,
+    /// Density of the snap in the interval before it.
+    pub density: f64,
+    /// Where a mark passes.
+    pub pulse: Option<Sight>,
+    /// Variance added to each state, before the pulse.
+    pub added: Option<[f64; 4]>,
+}
+
+/// Mean and covariance of a state.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Belief {
+    pub mean: Vector,
+    pub covariance: Matrix,
+}
+
+/// A filtered and smoothed record.
+#[derive(Clone, Debug)]
+pub(super) struct Track {
+    nodes: Vec<Node>,
+    times: Vec<f64>,
+    start: Belief,
+    /// After each node.
+    filtered: Vec<Belief>,
+    /// Adjoint just before each node: gradient and curvature of the misfit of all that follows.
+    gradient: Vec<Vector>,
+    curvature: Vec<Matrix>,
+    updates: Vec<Update>,
+    /// Density after the last node.
+    density: f64,
+    memory: Memory,
+}
+
+/// What a node does to a belief; nothing where no mark passes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Update {
+    gain: Vector,
+    /// Innovation divided by its variance, and one over its variance.
+    pull: f64,
+    stiffness: f64,
+}
+
+/// One pass forward. Returns the log likelihood, up to a constant; `visit` sees every node's belief after it.
+pub(super) fn forward(
+    nodes: &[Node],
+    start: &Belief,
+    memory: &Memory,
+    mut visit: impl FnMut(&Belief, &Update),
+) -> f64 {
+    let mut belief = *start;
+    let mut time = nodes.first().map_or(0.0, |node| node.time);
+    let mut likelihood = 0.0;
+    for node in nodes {
+        let dt = node.time - time;
+        time = node.time;
+        if dt > 0.0 {
+            advance(
+                &mut belief.mean,
+                &mut belief.covariance,
+                dt,
+                node.density,
+                memory,
+            );
+        }
+        if let Some(added) = node.added {
+            for (i, a) in added.iter().enumerate() {
+                belief.covariance[i][i] += a;
+            }
+        }
+        let mut update = Update::default();
+        if let Some(pulse) = &node.pulse {
+            let innovation = pulse.angle - pulse.of(&belief.mean);
+            let row = pulse.seen(&belief.covariance);
+            let spread = pulse.of(&row) + pulse.variance;
+            update = Update {
+                gain: row.map(|x| x / spread),
+                pull: innovation / spread,
+                stiffness: spread.recip(),
+            };
+            for i in 0..N {
+                belief.mean[i] += update.gain[i] * innovation;
+                for j in 0..N {
+                    belief.covariance[i][j] -= update.gain[i] * row[j];
+                }
+            }
+            likelihood -= 0.5 * (innovation * innovation / spread + spread.ln());
+        }
+        visit(&belief, &update);
+    }
+    if likelihood.is_finite() {
+        likelihood
+    } else {
+        f64::NEG_INFINITY
+    }
+}
+
+impl Track {
+    pub fn new(nodes: Vec<Node>, start: Belief, density: f64, memory: Memory) -> Track {
+        let mut filtered = Vec::with_capacity(nodes.len());
+        let mut updates: Vec<Update> = Vec::with_capacity(nodes.len());
+        forward(&nodes, &start, &memory, |belief, update| {
+            filtered.push(*belief);
+            updates.push(*update);
+        });
+        let mut gradient = vec![[0.0; N]; nodes.len()];
+        let mut curvature = vec![[[0.0; N]; N]; nodes.len()];
+        let (mut g, mut c) = ([0.0; N], [[0.0; N]; N]);
+        for k in (0..nodes.len()).rev() {
+            if let Some(pulse) = &nodes[k].pulse {
+                let Update {
+                    gain,
+                    pull,
+                    stiffness,
+                } = updates[k];
+                let along = (0..N).map(|i| gain[i] * g[i]).sum::<f64>();
+                let across: Vector = apply(&c, &gain);
+                let twice = (0..N).map(|i| gain[i] * across[i]).sum::<f64>();
+                for (i, lever) in [(0, 1.0), (4, pulse.speed)] {
+                    g[i] -= lever * (pull + along);
+                    for j in 0..N {
+                        c[i][j] -= lever * across[j];
+                        c[j][i] -= lever * across[j];
+                    }
+                    for (j, other) in [(0, 1.0), (4, pulse.speed)] {
+                        c[i][j] += lever * other * (twice + stiffness);
+                    }
+                }
+            }
+            gradient[k] = g;
+            curvature[k] = c;
+            if k > 0 {
+                taken_back(&mut g, &mut c, nodes[k].time - nodes[k - 1].time, &memory);
+            }
+        }
+        let times = nodes.iter().map(|node| node.time).collect();
+        Track {
+            nodes,
+            times,
+            start,
+            filtered,
+            gradient,
+            curvature,
+            updates,
+            density,
+            memory,
+        }
+    }
+
+    pub fn begin(&self) -> f64 {
+        self.nodes.first().map_or(0.0, |node| node.time)
+    }
+
+    pub fn end(&self) -> f64 {
+        self.nodes.last().map_or(0.0, |node| node.time)
+    }
+
+    /// Whether every number is finite.
+    pub fn is_finite(&self) -> bool {
+        let sound = |m: &Matrix| m.iter().flatten().all(|x| x.is_finite());
+        self.times.iter().all(|t| t.is_finite())
+            && self
+                .filtered
+                .iter()
+                .all(|b| b.mean.iter().all(|x| x.is_finite()) && sound(&b.covariance))
+            && self.gradient.iter().flatten().all(|x| x.is_finite())
+            && self.curvature.iter().all(sound)
+    }
+
+    pub fn start(&self) -> &Belief {
+        &self.start
+    }
+
+    /// Filtered belief carried to an instant, and the adjoint there.
+    fn around(&self, time: f64) -> (Belief, Vector, Matrix) {
+        let next = self.times.partition_point(|&t| t <= time);
+        let Some(last) = next.checked_sub(1) else {
+            return (self.start, [0.0; N], [[0.0; N]; N]);
+        };
+        let dt = time - self.nodes[last].time;
+        let density = self
+            .nodes
+            .get(next)
+            .map_or(self.density, |node| node.density);
+        let mut belief = self.filtered[last];
+        advance(
+            &mut belief.mean,
+            &mut belief.covariance,
+            dt,
+            density,
+            &self.memory,
+        );
+        match self.nodes.get(next) {
+            None => (belief, [0.0; N], [[0.0; N]; N]),
+            Some(node) => {
+                let (mut g, mut c) = (self.gradient[next], self.curvature[next]);
+                taken_back(&mut g, &mut c, node.time - time, &self.memory);
+                (belief, g, c)
+            }
+        }
+    }
+
+    /// Belief at an instant from all pulses.
+    pub fn at(&self, time: f64) -> Belief {
+        let (belief, gradient, curvature) = self.around(time);
+        let p = &belief.covariance;
+        let shift = apply(p, &gradient);
+        let shrink = product(p, &product(&curvature, p));
+        Belief {
+            mean: std::array::from_fn(|i| belief.mean[i] - shift[i]),
+            covariance: minus(p, &shrink),
+        }
+    }
+
+    /// Covariance of the states at two instants, the first one not after the second, from all pulses.
+    pub fn between(&self, first: f64, second: f64) -> Matrix {
+        let (from, _, _) = self.around(first);
+        let (to, _, curvature) = self.around(second);
+        // How an error at the first instant is carried through forecasts and updates to the second.
+        let mut carried = drift(0.0, &self.memory);
+        let mut time = first;
+        let mut k = self.times.partition_point(|&t| t <= first);
+        while k < self.nodes.len() && self.nodes[k].time <= second {
+            carried = product(&drift(self.nodes[k].time - time, &self.memory), &carried);
+            time = self.nodes[k].time;
+            if let Some(pulse) = &self.nodes[k].pulse {
+                let gain = self.updates[k].gain;
+                let row: Vector =
+                    std::array::from_fn(|j| carried[0][j] + pulse.speed * carried[4][j]);
+                for i in 0..N {
+                    for j in 0..N {
+                        carried[i][j] -= gain[i] * row[j];
+                    }
+                }
+            }
+            k += 1;
+        }
+        carried = product(&drift(second - time, &self.memory), &carried);
+        let ahead = product(&from.covariance, &transposed(&carried));
+        let seen = product(&curvature, &to.covariance);
+        minus(&ahead, &product(&ahead, &seen))
+    }
+
+    /// A path drawn at random from the belief, at increasing instants not before the first node.
+    ///
+    /// A motion and its pulses are made up from the model and smoothed like the measured ones; their error is added to the
+    /// smoothed measurement. Source: Durbin and Koopman, Biometrika 89, 2002 (from memory).
+    pub fn draw(&self, times: &[f64], normal: &mut dyn FnMut() -> f64) -> Vec<Vector> {
+        let mut shake = |p: &Matrix| -> Vector {
+            let noise: Vector = std::array::from_fn(|_| normal());
+            apply(&root(p), &noise)
+        };
+        let moved = shake(&self.start.covariance);
+        let mut x: Vector = std::array::from_fn(|i| self.start.mean[i] + moved[i]);
+        let mut made = self.nodes.clone();
+        let mut path = Vec::with_capacity(times.len());
+        let mut time = self.begin();
+        let step =
+            |x: &mut Vector, dt: f64, density: f64, shake: &mut dyn FnMut(&Matrix) -> Vector| {
+                if dt > 0.0 {
+                    let noise = shake(&gathered(dt, density, &self.memory));
+                    let free = apply(&drift(dt, &self.memory), x);
+                    *x = std::array::from_fn(|i| free[i] + noise[i]);
+                }
+            };
+        let mut wanted = times.iter().peekable();
+        for node in &mut made {
+            while let Some(&&t) = wanted.peek()
+                && t < node.time
+            {
+                step(&mut x, t - time, node.density, &mut shake);
+                time = time.max(t);
+                path.push(x);
+                wanted.next();
+            }
+            step(&mut x, node.time - time, node.density, &mut shake);
+            time = node.time;
+            if let Some(added) = node.added {
+                let noise = shake(&std::array::from_fn(|i| {
+                    std::array::from_fn(|j| if i == j && i < 4 { added[i] } else { 0.0 })
+                }));
+                x = std::array::from_fn(|i| x[i] + noise[i]);
+            }
+            if let Some(pulse) = &mut node.pulse {
+                let mut only = [[0.0; N]; N];
+                only[0][0] = pulse.variance;
+                pulse.angle = pulse.of(&x) + shake(&only)[0];
+            }
+        }
+        for &t in wanted {
+            step(&mut x, t - time, self.density, &mut shake);
+            time = time.max(t);
+            path.push(x);
+        }
+        let again = Track::new(made, self.start, self.density, self.memory);
+        times
+            .iter()
+            .zip(path)
+            .map(|(&t, made)| {
+                let (measured, estimated) = (self.at(t).mean, again.at(t).mean);
+                std::array::from_fn(|i| measured[i] + made[i] - estimated[i])
+            })
+            .collect()
+    }
+}
+
+/// Mixture of beliefs.
+pub(super) fn mixed(parts: impl Iterator<Item = (f64, Belief)> + Clone) -> Belief {
+    let mut mean = [0.0; N];
+    for (weight, belief) in parts.clone() {
+        for i in 0..N {
+            mean[i] += weight * belief.mean[i];
+        }
+    }
+    let mut covariance = [[0.0; N]; N];
+    for (weight, belief) in parts {
+        let away: Vector = std::array::from_fn(|i| belief.mean[i] - mean[i]);
+        let outer: Matrix = std::array::from_fn(|i| std::array::from_fn(|j| away[i] * away[j]));
+        let both = plus(&belief.covariance, &outer);
+        for i in 0..N {
+            for j in 0..N {
+                covariance[i][j] += weight * both[i][j];
+            }
+        }
+    }
+    Belief { mean, covariance }
+}

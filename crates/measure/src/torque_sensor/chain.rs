@@ -1,0 +1,375 @@
+//! The chain of states that is filtered and smoothed, for one sensor, one engagement and one growth of the disturbance.
+
+use super::Swing;
+use crate::simplex;
+use crate::state_space::{
+    Filter, GAUSS, Matrix, Observation, Vector, applied, exponential, gathered_noise, identity,
+};
+use crate::uncertain::Uncertain;
+
+pub(super) const STATES: usize = 7;
+pub(super) const TORQUE: usize = 2;
+pub(super) const RATE: usize = 3;
+pub(super) const COSINE: usize = 4;
+pub(super) const SINE: usize = 5;
+pub(super) const ZERO: usize = 6;
+
+/// Logarithms of noise, slow intensity, fast intensity, calming time.
+pub(super) type Hyper = [f64; 4];
+
+/// What the chain needs of a measurement, at equal times; angle and speed are empty where they do not count.
+#[derive(Clone, Copy)]
+pub(super) struct Samples<'a> {
+    pub(super) first: f64,
+    pub(super) interval: f64,
+    pub(super) reading: &'a [f64],
+    pub(super) angle: &'a [f64],
+    pub(super) speed: &'a [f64],
+    /// Highest speed of the whole record.
+    pub(super) fastest: f64,
+    pub(super) zero: Uncertain,
+    pub(super) zero_wander: f64,
+}
+
+impl<'a> Samples<'a> {
+    /// A part of the record.
+    pub(super) fn part(&self, from: usize, to: usize) -> Self {
+        let cut = |list: &'a [f64]| list.get(from..to).unwrap_or(&[]);
+        Self {
+            first: self.first + from as f64 * self.interval,
+            reading: cut(self.reading),
+            angle: cut(self.angle),
+            speed: cut(self.speed),
+            ..*self
+        }
+    }
+}
+
+/// Everything that does not depend on the hyper-parameters.
+pub(super) struct Chain<'a> {
+    input: Samples<'a>,
+    pub(super) knot: Option<f64>,
+    scale: f64,
+    /// One step of the interval without disturbance, and the noise that unit intensity gathers.
+    whole: (Matrix<STATES>, Matrix<STATES>),
+    /// Response of reading and rate to cos θ and sin θ over the step that ends at sample k.
+    forcing: Vec<[f64; 4]>,
+    /// The step with the knot inside: until it, from it on, each with gathered noise.
+    split: Option<(usize, Matrix<STATES>, Matrix<STATES>, Matrix<STATES>)>,
+}
+
+/// Means and variances of the smoothed states, in the unit of the reading.
+pub(super) struct Pass {
+    pub(super) states: Vec<(Vector<STATES>, Vector<STATES>)>,
+    pub(super) innovations: Vec<f64>,
+    pub(super) log_likelihood: f64,
+}
+
+impl<'a> Chain<'a> {
+    pub(super) fn new(
+        input: Samples<'a>,
+        swing: Swing,
+        knot: Option<f64>,
+        power: f64,
+        scale: f64,
+    ) -> Self {
+        let h = input.interval;
+        let mut chain = Self {
+            input,
+            knot,
+            scale,
+            whole: stepped(swing, h),
+            forcing: Vec::with_capacity(input.reading.len()),
+            split: None,
+        };
+        let nodes = force_response(swing, h);
+        for k in 0..input.reading.len() {
+            chain.forcing.push(if k == 0 || input.angle.is_empty() {
+                [0.0; 4]
+            } else {
+                chain.forced(k, power, &nodes)
+            });
+        }
+        if let Some(knot) = knot {
+            let place = (knot - input.first) / h;
+            if place > 0.0 && place < (input.reading.len() - 1) as f64 {
+                let before = place.floor();
+                let (until, _) = stepped(swing, (place - before) * h);
+                let (after, noise) = stepped(swing, (before + 1.0 - place) * h);
+                chain.split = Some((before as usize + 1, until, after, noise));
+            }
+        }
+        chain
+    }
+
+    pub(super) fn growth(&self, k: usize, power: f64) -> f64 {
+        match self.input.speed.get(k) {
+            Some(speed) if self.input.fastest > 0.0 && power != 0.0 => {
+                (speed.abs() / self.input.fastest).powf(power)
+            }
+            Some(_) => 1.0,
+            None => 0.0,
+        }
+    }
+
+    /// Integral of the response to cos θ and sin θ over the step that ends at sample k; angle by a cubic through angle and speed.
+    fn forced(&self, k: usize, power: f64, nodes: &[(f64, f64, [f64; 2])]) -> [f64; 4] {
+        let (angle, speed, h) = (self.input.angle, self.input.speed, self.input.interval);
+        let (a0, a1, s0, s1) = (angle[k - 1], angle[k], speed[k - 1] * h, speed[k] * h);
+        let mut sum = [0.0; 4];
+        for &(u, weight, [to_reading, to_rate]) in nodes {
+            let v = 1.0 - u;
+            let theta =
+                a0 * v * v * (1.0 + 2.0 * u) + a1 * u * u * (3.0 - 2.0 * u) + s0 * u * v * v
+                    - s1 * u * u * v;
+            let growth = if power == 0.0 || self.input.fastest <= 0.0 {
+                1.0
+            } else {
+                ((s0 * v + s1 * u) / (h * self.input.fastest))
+                    .abs()
+                    .powf(power)
+            };
+            let (sine, cosine) = theta.sin_cos();
+            sum[0] += weight * growth * cosine * to_reading;
+            sum[1] += weight * growth * cosine * to_rate;
+            sum[2] += weight * growth * sine * to_reading;
+            sum[3] += weight * growth * sine * to_rate;
+        }
+        sum
+    }
+
+    /// A start for the search, and the centre of the wide priors.
+    pub(super) fn guess(&self) -> Hyper {
+        let reading = self.input.reading;
+        // Second differences of white noise have 6 times its variance; the median ignores the fast part.
+        let mut seconds: Vec<f64> = reading
+            .windows(3)
+            .map(|w| (w[2] - 2.0 * w[1] + w[0]).abs() / self.scale)
+            .filter(|v| v.is_finite())
+            .collect();
+        seconds.sort_by(f64::total_cmp);
+        let middle = seconds.get(seconds.len() / 2).copied().unwrap_or(1.0);
+        let noise = (middle / 0.6745 / 6.0_f64.sqrt()).max(1e-6);
+        // A change of one spread in 0.5 s in the slow part, in 20 ms in the fast part: T = √(q t³/3).
+        let slow = 3.0 / 0.5_f64.powi(3);
+        let fast = 3.0 / 0.02_f64.powi(3);
+        [noise.ln(), slow.ln(), fast.ln(), 0.03_f64.ln()]
+    }
+
+    /// Minus the logarithm of likelihood times prior.
+    pub(super) fn cost(&self, hyper: &Hyper) -> f64 {
+        let guess = self.guess();
+        // Deviations of the priors in natural logarithms: a factor of 3 in noise, of 50 in intensities, of 2 in the time.
+        let widths = [1.1, 4.0, 4.0, 0.7];
+        let mut prior = 0.0;
+        for ((value, centre), width) in hyper.iter().zip(&guess).zip(&widths) {
+            prior += 0.5 * ((value - centre) / width).powi(2);
+        }
+        prior - self.filtered(hyper, false).log_likelihood()
+    }
+
+    pub(super) fn most_likely(&self, start: Hyper, calls: usize) -> Hyper {
+        simplex::lowest(start, [0.3, 1.5, 1.5, 0.4], 0.02, calls, |hyper| {
+            self.cost(hyper)
+        })
+        .0
+    }
+
+    fn filtered(&self, hyper: &Hyper, keep: bool) -> Filter<STATES> {
+        let input = &self.input;
+        let [noise, slow, fast, calming] = hyper.map(|v| v.clamp(-40.0, 40.0).exp());
+        let rests = self.split.is_some();
+        let zero = input.zero.deviation / self.scale;
+        // Amplitudes of the disturbance may drift by 3 % of the reading's spread in a second, the zero as told.
+        let drift = if input.angle.is_empty() {
+            0.0
+        } else {
+            0.03 * 0.03 * input.interval
+        };
+        let wander = (input.zero_wander / self.scale).powi(2) * input.interval;
+        let with_drift = |gathered: &Matrix<STATES>, intensity: f64| {
+            let mut noise = scaled(gathered, intensity);
+            noise[COSINE][COSINE] += drift;
+            noise[SINE][SINE] += drift;
+            noise[ZERO][ZERO] += wander;
+            noise
+        };
+        let mut mean = [0.0; STATES];
+        mean[ZERO] = input.zero.value / self.scale;
+        let mut prior = [[0.0; STATES]; STATES];
+        // Wide: four times the spread of the reading, in amplitude.
+        let wide = 16.0;
+        prior[ZERO][ZERO] = zero * zero;
+        if !input.angle.is_empty() {
+            prior[COSINE][COSINE] = wide;
+            prior[SINE][SINE] = wide;
+        }
+        if !rests {
+            // Reading and torque agree up to what a swing of the size of the record does.
+            prior[TORQUE][TORQUE] = wide;
+            prior[RATE][RATE] = wide / 0.05_f64.powi(2);
+            prior[0][0] = 2.0 * wide;
+            prior[0][TORQUE] = wide;
+            prior[TORQUE][0] = wide;
+            prior[1][1] = wide;
+        }
+        let mut filter = Filter::new(mean, prior, keep);
+        let mut turning = !rests;
+        for (k, &value) in input.reading.iter().enumerate() {
+            let time = input.first + k as f64 * input.interval;
+            if k > 0 {
+                match &self.split {
+                    Some((at, until, after, gathered)) if *at == k => {
+                        filter.predict(until, &[[0.0; STATES]; STATES]);
+                        let mut jump = [[0.0; STATES]; STATES];
+                        jump[TORQUE][TORQUE] = wide;
+                        jump[RATE][RATE] = wide / 0.05_f64.powi(2);
+                        filter.predict(&identity(), &jump);
+                        let mut transition = *after;
+                        self.put_forcing(k, &mut transition);
+                        filter.predict(&transition, &with_drift(gathered, slow + fast));
+                        turning = true;
+                    }
+                    _ => {
+                        let mut transition = self.whole.0;
+                        self.put_forcing(k, &mut transition);
+                        let intensity = match self.knot {
+                            Some(knot) if turning => {
+                                slow + fast
+                                    * (-(time - knot - 0.5 * input.interval).max(0.0) / calming)
+                                        .exp()
+                            }
+                            _ if turning => slow,
+                            _ => 0.0,
+                        };
+                        filter.predict(&transition, &with_drift(&self.whole.1, intensity));
+                    }
+                }
+            }
+            let mut row = [0.0; STATES];
+            row[0] = 1.0;
+            row[ZERO] = 1.0;
+            let seen = Observation {
+                row,
+                value: value / self.scale,
+                variance: noise * noise,
+            };
+            filter.observe(value.is_finite().then_some(&seen));
+        }
+        filter
+    }
+
+    fn put_forcing(&self, k: usize, transition: &mut Matrix<STATES>) {
+        let [cosine_reading, cosine_rate, sine_reading, sine_rate] = self.forcing[k];
+        transition[0][COSINE] = cosine_reading;
+        transition[1][COSINE] = cosine_rate;
+        transition[0][SINE] = sine_reading;
+        transition[1][SINE] = sine_rate;
+    }
+
+    pub(super) fn smoothed(&self, hyper: &Hyper) -> Pass {
+        let filter = self.filtered(hyper, true);
+        let scale = self.scale;
+        let states = filter
+            .smoothed()
+            .iter()
+            .map(|s| {
+                (
+                    s.mean.map(|m| m * scale),
+                    s.variance.map(|v| v * scale * scale),
+                )
+            })
+            .collect();
+        Pass {
+            states,
+            innovations: filter.innovations().to_vec(),
+            log_likelihood: filter.log_likelihood()
+                - filter.innovations().len() as f64 * scale.ln(),
+        }
+    }
+}
+
+/// Sensor and torque without disturbance: rates of the states.
+fn rates(swing: Swing) -> Matrix<STATES> {
+    let Swing { omega, zeta } = swing;
+    let mut a = [[0.0; STATES]; STATES];
+    a[0][1] = omega;
+    a[1][0] = -omega;
+    a[1][1] = -2.0 * zeta * omega;
+    a[1][TORQUE] = omega;
+    a[TORQUE][RATE] = 1.0;
+    a
+}
+
+/// Transition over a step, and the covariance gathered by unit intensity of the torque's rate.
+fn stepped(swing: Swing, step: f64) -> (Matrix<STATES>, Matrix<STATES>) {
+    let a = rates(swing);
+    let mut push = [0.0; STATES];
+    push[RATE] = 1.0;
+    let mut reach = a;
+    for value in reach.iter_mut().flatten() {
+        *value *= step;
+    }
+    (exponential(&reach), gathered_noise(&a, &push, step, 2))
+}
+
+/// Places in the step, weights, and what a unit torque there does to reading and rate at the step's end.
+fn force_response(swing: Swing, step: f64) -> Vec<(f64, f64, [f64; 2])> {
+    let a = rates(swing);
+    let mut nodes = Vec::new();
+    for piece in 0..2 {
+        for (node, weight) in GAUSS {
+            let place = 0.5 * (f64::from(piece) + node);
+            let mut left = a;
+            for value in left.iter_mut().flatten() {
+                *value *= (1.0 - place) * step;
+            }
+            let reach = exponential(&left);
+            nodes.push((
+                place,
+                0.5 * weight * step,
+                [reach[0][1] * swing.omega, reach[1][1] * swing.omega],
+            ));
+        }
+    }
+    nodes
+}
+
+fn scaled(matrix: &Matrix<STATES>, factor: f64) -> Matrix<STATES> {
+    let mut result = *matrix;
+    for value in result.iter_mut().flatten() {
+        *value *= factor;
+    }
+    result
+}
+
+/// Reading of a sensor at rest at the first value that then feels a torque, linear between its values, and a disturbance given
+/// over the place in the list; one value each.
+pub(super) fn reading_of(
+    swing: Swing,
+    interval: f64,
+    torque: &[f64],
+    disturbance: impl Fn(f64) -> f64,
+) -> Vec<f64> {
+    let (transition, _) = stepped(swing, interval);
+    let nodes = force_response(swing, interval);
+    let (mut reading, mut rate) = (0.0, 0.0);
+    let mut readings = Vec::with_capacity(torque.len());
+    for (k, &now) in torque.iter().enumerate() {
+        readings.push(reading);
+        let next = torque.get(k + 1).copied().unwrap_or(now);
+        let mut state = [0.0; STATES];
+        state[0] = reading;
+        state[1] = rate;
+        state[TORQUE] = now;
+        state[RATE] = (next - now) / interval;
+        let moved = applied(&transition, &state);
+        (reading, rate) = (moved[0], moved[1]);
+        for &(place, weight, [to_reading, to_rate]) in &nodes {
+            let force = weight * disturbance(k as f64 + place);
+            reading += force * to_reading;
+            rate += force * to_rate;
+        }
+    }
+    readings
+}

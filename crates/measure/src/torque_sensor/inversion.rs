@@ -1,0 +1,404 @@
+//! From the reading of a swinging sensor to the torque: smoothing of an unknown input.
+//!
+//! States: reading y, its rate over ω, torque T, its rate, the two amplitudes c and s of the order-1 disturbance, the zero of
+//! the reading. The torque is an integrated random walk whose intensity is high just after the engagement and decays to a
+//! lower one; at the engagement torque and rate may jump. Before it the shaft rests and the torque is zero by definition.
+//! Intensities, their decay and the noise are those of the highest likelihood with wide priors.
+//!
+//! Source: physics of the sensor as in the module; unknown-input smoothing as by Lourens et al., Mech. Syst. Signal Process. 29
+//! (2012) 446 (from memory).
+
+use super::chain::{COSINE, Chain, Pass, RATE, SINE, Samples, TORQUE, ZERO};
+use super::{Sensor, Swing};
+use crate::shaft::Shaft;
+use crate::state_space::{colour, correlation};
+use crate::uncertain::Uncertain;
+
+/// What is known of a torque measurement.
+#[derive(Clone, Copy, Debug)]
+pub struct Inversion<'a> {
+    /// The sensor.
+    pub sensor: Sensor,
+    /// Time of the first value, s.
+    pub first: f64,
+    /// Interval between values, s.
+    pub interval: f64,
+    /// Reading in any unit of torque; NaN where there is none.
+    pub reading: &'a [f64],
+    /// The shaft over all the time of the reading; none where there is no synchronous disturbance to remove.
+    pub shaft: Option<Shaft<'a>>,
+    /// Time at which the clutch engages, with its standard deviation, s; before it the shaft rests. None: it turns throughout.
+    pub engagement: Option<Uncertain>,
+    /// Zero of the reading, known to this standard deviation, in the unit of the reading; it is estimated where the shaft rests.
+    pub zero: Uncertain,
+    /// Wander of that zero, unit of the reading per √s; 0 where it does not wander.
+    pub zero_wander: f64,
+    /// Relative deviation of the sensor's calibration, linearity included, 1.
+    pub scale_deviation: f64,
+    /// Power of the speed with which the disturbance grows: 2 for unbalance, 0 for a run-out; none to let the data choose.
+    pub disturbance_power: Option<f64>,
+}
+
+/// Torque as the data tell it. All lists have the same length.
+#[derive(Clone, Debug)]
+pub struct Torque {
+    /// Times, s: those of the reading, or of the middle of blocks of it where it is finer than the sensor needs.
+    pub time: Vec<f64>,
+    /// Torque, in the unit of the reading.
+    pub torque: Vec<f64>,
+    /// Standard deviation of the torque.
+    pub deviation: Vec<f64>,
+    /// Rate of the torque, unit of the reading per second.
+    pub rate: Vec<f64>,
+    /// Standard deviation of the rate.
+    pub rate_deviation: Vec<f64>,
+    /// Amplitude of the order-1 disturbance as the sensor feels it, before its own gain.
+    pub disturbance: Vec<f64>,
+    /// Standard deviation of that amplitude.
+    pub disturbance_deviation: Vec<f64>,
+    /// Power of the speed with which the disturbance grows, as given or chosen.
+    pub disturbance_power: f64,
+    /// Zero of the reading.
+    pub zero: Uncertain,
+    /// Noise of one reading, or of the mean of a block, rms.
+    pub noise: f64,
+    /// Time constant with which the torque calms down after the engagement, s.
+    pub calming: f64,
+    /// Logarithm of the likelihood of the reading.
+    pub log_likelihood: f64,
+    /// What is not trustworthy.
+    pub notes: Vec<String>,
+}
+
+/// Finds the torque that a sensor felt, its order-1 disturbance and its zero, with standard deviations.
+///
+/// The error names what is wrong with the input. The band contains the uncertainty of frequency, damping and engagement time
+/// (first order) beside that of noise and unknown torque, but not that of a wrong model of the sensor.
+pub fn invert(input: &Inversion) -> Result<Torque, String> {
+    refuse(input)?;
+    let mut notes = Vec::new();
+    let thin = Thin::new(input)?;
+    let samples = thin.samples(input);
+    let spread = scale_of(&thin.reading);
+    if !(spread > 0.0 && spread.is_finite()) {
+        return Err("the torque reading does not change, or is too large to square".into());
+    }
+    let swing = input.sensor.swing();
+    let end = samples.first + (samples.reading.len() - 1) as f64 * samples.interval;
+    let engagement = input
+        .engagement
+        .filter(|e| e.value > samples.first && e.value < end);
+    if engagement.is_none() && input.engagement.is_some() {
+        notes.push("the engagement lies outside the record and is not used".into());
+    }
+    let knot = engagement.map(|e| e.value);
+    // Hyper-parameters from the part of the record that tells most of them.
+    let (from, to) = match knot {
+        Some(knot) => {
+            let place = |time: f64| ((time - samples.first) / samples.interval).max(0.0) as usize;
+            let count = samples.reading.len();
+            let from = place(knot - 0.5).min(count - 16);
+            (from, place(knot + 1.0).clamp(from + 16, count))
+        }
+        None => (0, samples.reading.len().min(2000)),
+    };
+    let near = samples.part(from, to);
+    let free = input.disturbance_power.is_none() && input.shaft.is_some() && engagement.is_some();
+    let mut power = input.disturbance_power.unwrap_or(2.0);
+    let built = |power| Chain::new(near, swing, knot, power, spread);
+    let mut part = built(power);
+    let mut hyper = part.most_likely(part.guess(), 200);
+    let mut rivals = Vec::new();
+    if free {
+        rivals = [2.0, 1.0, 0.0]
+            .map(|power| (power, built(power)))
+            .into_iter()
+            .map(|(p, c)| (p, c.cost(&hyper), c))
+            .collect();
+        rivals.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let (best, _, likely) = rivals.remove(0);
+        if best != power {
+            (power, part) = (best, likely);
+            hyper = part.most_likely(hyper, 80);
+        }
+    }
+    let lowest = part.cost(&hyper);
+    let chain = Chain::new(samples, swing, knot, power, spread);
+    let base = chain.smoothed(&hyper);
+    let mut variance: Vec<f64> = base.states.iter().map(|s| s.1[TORQUE]).collect();
+    let colour = colour(&base.innovations);
+    for v in &mut variance {
+        *v *= colour;
+    }
+    let mut widen = |other: &Pass, weight: f64| {
+        for ((sum, a), b) in variance.iter_mut().zip(&base.states).zip(&other.states) {
+            *sum += weight * ((b.0[TORQUE] - a.0[TORQUE]).powi(2) + b.1[TORQUE] - a.1[TORQUE]);
+        }
+    };
+    // Hyper-parameters within one deviation of their posterior, each by itself.
+    for axis in 0..hyper.len() {
+        let probe = 0.5;
+        let moved = |by: f64| {
+            let mut other = hyper;
+            other[axis] += by;
+            other
+        };
+        let curvature =
+            (part.cost(&moved(probe)) + part.cost(&moved(-probe)) - 2.0 * lowest) / (probe * probe);
+        let deviation = (1.0 / curvature.max(1.0)).sqrt();
+        for by in [deviation, -deviation] {
+            widen(&chain.smoothed(&moved(by)), 0.5);
+        }
+    }
+    // Other growths of the disturbance, by their likelihood.
+    for (other, cost, _) in &rivals {
+        let weight = 1.0 / (1.0 + (cost - lowest).clamp(-20.0, 20.0).exp());
+        if weight > 0.01 {
+            widen(
+                &Chain::new(samples, swing, knot, *other, spread).smoothed(&hyper),
+                weight,
+            );
+        }
+    }
+    // What is known of sensor and engagement only to a deviation: the torque with it changed by one deviation.
+    let wider = |u: Uncertain| u.deviation > 0.0;
+    let mut shifted = Vec::new();
+    if wider(input.sensor.frequency) {
+        let ratio = 1.0 + input.sensor.frequency.deviation / input.sensor.frequency.value;
+        shifted.push((
+            Swing {
+                omega: swing.omega * ratio,
+                ..swing
+            },
+            knot,
+            1.0,
+        ));
+    }
+    if wider(input.sensor.damping_ratio) {
+        let zeta = swing.zeta + input.sensor.damping_ratio.deviation;
+        shifted.push((Swing { zeta, ..swing }, knot, 1.0));
+    }
+    if let Some(engagement) = engagement.filter(|e| wider(*e)) {
+        for by in [engagement.deviation, -engagement.deviation] {
+            shifted.push((swing, Some(engagement.value + by), 0.5));
+        }
+    }
+    for (swing, knot, weight) in shifted {
+        widen(
+            &Chain::new(samples, swing, knot, power, spread).smoothed(&hyper),
+            weight,
+        );
+    }
+    for (v, state) in variance.iter_mut().zip(&base.states) {
+        *v += (input.scale_deviation * state.0[TORQUE]).powi(2);
+    }
+    let noise = hyper[0].exp() * spread;
+    tell(input, &base, colour, &mut notes);
+    for (v, state) in variance.iter_mut().zip(&base.states) {
+        *v = v.max(state.1[TORQUE]);
+    }
+    let pick = |index: usize| base.states.iter().map(|s| s.0[index]).collect::<Vec<_>>();
+    let growth = |k: usize| chain.growth(k, power);
+    let amplitude = |k: usize| base.states[k].0[COSINE].hypot(base.states[k].0[SINE]);
+    let spread_of = |index: usize| {
+        base.states
+            .iter()
+            .map(|s| (colour * s.1[index]).max(0.0).sqrt())
+            .collect::<Vec<_>>()
+    };
+    Ok(Torque {
+        time: (0..base.states.len())
+            .map(|k| samples.first + k as f64 * samples.interval)
+            .collect(),
+        torque: pick(TORQUE),
+        deviation: variance.iter().map(|v| v.max(0.0).sqrt()).collect(),
+        rate: pick(RATE),
+        rate_deviation: spread_of(RATE),
+        disturbance: (0..base.states.len())
+            .map(|k| growth(k) * amplitude(k))
+            .collect(),
+        disturbance_deviation: (0..base.states.len())
+            .map(|k| {
+                let variances = &base.states[k].1;
+                growth(k)
+                    * (0.5 * colour * (variances[COSINE] + variances[SINE]))
+                        .max(0.0)
+                        .sqrt()
+            })
+            .collect(),
+        disturbance_power: power,
+        zero: base.states.first().map_or(input.zero, |s| {
+            Uncertain::new(s.0[ZERO], (colour * s.1[ZERO]).max(0.0).sqrt())
+        }),
+        noise,
+        calming: hyper[3].exp(),
+        log_likelihood: base.log_likelihood,
+        notes,
+    })
+}
+
+fn refuse(input: &Inversion) -> Result<(), String> {
+    let seen = input.reading.iter().filter(|v| v.is_finite()).count();
+    let sensor = &input.sensor;
+    if !(sensor.frequency.is_sound() && sensor.frequency.value > 0.0) {
+        return Err("the frequency of the torque sensor must be positive and finite".into());
+    }
+    if !(sensor.damping_ratio.is_sound()
+        && sensor.damping_ratio.value >= 0.0
+        && sensor.damping_ratio.value <= 10.0)
+    {
+        return Err("the damping ratio of the torque sensor must be from 0 to 10".into());
+    }
+    if !(input.interval > 0.0 && input.interval.is_finite() && input.first.is_finite()) {
+        return Err("the interval of the torque reading must be positive and finite".into());
+    }
+    if input.interval * sensor.frequency.value > 0.5 {
+        return Err(format!(
+            "the torque reading has {:.3} values in a period of its sensor; at least 2 are needed",
+            1.0 / (input.interval * sensor.frequency.value)
+        ));
+    }
+    if seen < 16 {
+        return Err(format!(
+            "the torque reading has {seen} values; at least 16 are needed"
+        ));
+    }
+    if let Some(shaft) = &input.shaft {
+        shaft.check()?;
+        let end = input.first + (input.reading.len() - 1) as f64 * input.interval;
+        // Half an interval more does no harm.
+        if input.first < shaft.first - 0.5 * shaft.interval
+            || end > shaft.last() + 0.5 * shaft.interval
+        {
+            return Err(format!(
+                "the torque reading runs from {} to {end} s, the shaft from {} to {} s: the shaft must cover the reading",
+                input.first,
+                shaft.first,
+                shaft.last()
+            ));
+        }
+    }
+    let not_negative = |v: f64| v >= 0.0 && v.is_finite();
+    if !(not_negative(input.zero_wander) && not_negative(input.scale_deviation)) {
+        return Err("wander of the zero and deviation of the scale must not be negative".into());
+    }
+    if !input.zero.is_sound() || input.engagement.is_some_and(|e| !e.is_sound()) {
+        return Err("zero and engagement need finite values and deviations".into());
+    }
+    let steady = input.reading.iter().filter(|v| v.is_finite());
+    let (low, high) = steady.fold((f64::MAX, f64::MIN), |(l, h), &v| (l.min(v), h.max(v)));
+    if high <= low || !(high - low).is_finite() {
+        return Err("the torque reading does not change".into());
+    }
+    Ok(())
+}
+
+/// The reading in blocks that are short for the sensor and for a spin-up, and the shaft at their middles.
+struct Thin {
+    first: f64,
+    interval: f64,
+    reading: Vec<f64>,
+    angle: Vec<f64>,
+    speed: Vec<f64>,
+}
+
+/// Longest block, s: a twelfth of a spin-up of 25 ms.
+const BLOCK: f64 = 0.002;
+
+/// Blocks in a period of the sensor: means of blocks this short lose 0.4 % of a swing at its frequency.
+const IN_A_PERIOD: f64 = 20.0;
+
+/// Most blocks that are inverted at once.
+const MOST: usize = 100_000;
+
+impl Thin {
+    fn new(input: &Inversion) -> Result<Self, String> {
+        let longest = BLOCK.min(1.0 / (IN_A_PERIOD * input.sensor.frequency.value));
+        let block = ((longest / input.interval + 1e-6) as usize).max(1);
+        let count = input.reading.len() / block;
+        if count > MOST {
+            return Err(format!(
+                "the torque reading is too long to be inverted at once: {count} blocks, at most {MOST}"
+            ));
+        }
+        if count < 16 {
+            return Err(format!(
+                "the torque reading lasts for {count} blocks; at least 16 are needed"
+            ));
+        }
+        let interval = block as f64 * input.interval;
+        let first = input.first + 0.5 * (block - 1) as f64 * input.interval;
+        let reading = input
+            .reading
+            .chunks_exact(block)
+            .map(|part| part.iter().sum::<f64>() / block as f64)
+            .collect();
+        let times = (0..count).map(|k| first + k as f64 * interval);
+        let (angle, speed) = match &input.shaft {
+            Some(shaft) => times
+                .map(|t| (shaft.angle_at(t), shaft.speed_at(t)))
+                .unzip(),
+            None => (Vec::new(), Vec::new()),
+        };
+        Ok(Self {
+            first,
+            interval,
+            reading,
+            angle,
+            speed,
+        })
+    }
+
+    fn samples<'a>(&'a self, input: &Inversion) -> Samples<'a> {
+        Samples {
+            first: self.first,
+            interval: self.interval,
+            reading: &self.reading,
+            angle: &self.angle,
+            speed: &self.speed,
+            fastest: self.speed.iter().fold(0.0, |top, v| top.max(v.abs())),
+            zero: input.zero,
+            zero_wander: input.zero_wander,
+        }
+    }
+}
+
+/// Standard deviation of the reading; the unit in which the filter works.
+fn scale_of(reading: &[f64]) -> f64 {
+    let seen = || reading.iter().filter(|v| v.is_finite());
+    let count = seen().count() as f64;
+    let mean = seen().sum::<f64>() / count;
+    (seen().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt()
+}
+
+fn tell(input: &Inversion, base: &Pass, colour: f64, notes: &mut Vec<String>) {
+    let missing = input.reading.iter().filter(|v| !v.is_finite()).count();
+    if missing > 0 {
+        notes.push(format!(
+            "{missing} torque readings are missing and were bridged"
+        ));
+    }
+    let count = base.innovations.len() as f64;
+    let correlation = correlation(&base.innovations, 1);
+    // Three standard deviations of a correlation of white noise.
+    if correlation.abs() > 3.0 / count.sqrt() {
+        notes.push(format!(
+            "successive innovations of the torque sensor correlate by {correlation:.2}: noise or sensor differ from their model; bands are wider by {:.2}",
+            colour.sqrt()
+        ));
+    }
+    let large = base.innovations.iter().filter(|e| e.abs() > 5.0).count();
+    if large > 0 {
+        notes.push(format!(
+            "{large} torque readings lie more than 5 deviations from what the model expects"
+        ));
+    }
+    if input.shaft.is_none() {
+        notes.push(
+            "no shaft angle was given: the synchronous disturbance is inside the torque".into(),
+        );
+    }
+    if input.engagement.is_none() {
+        notes.push("no rest before the test: the zero of the reading is as given, and a jump of the torque is smeared".into());
+    }
+}

@@ -1,0 +1,83 @@
+//! A torque sensor that swings: what it is, found from a tap, and what torque it felt, found from its reading.
+//!
+//! ```text
+//!   torque + order-1 disturbance ──▶ arm or load cell: one degree of freedom ──▶ reading + zero + noise
+//!
+//!   ÿ + 2ζω ẏ + ω² y = ω² (T + d)         d = (Ω/Ω_max)^p (c cos θ + s sin θ)
+//! ```
+//!
+//! The reading of a 20 to 30 Hz arm is worst where the shaft turns once in an arm's period. [`identify_free_response`] finds
+//! frequency and damping from a tap or a step, [`invert`] finds torque and disturbance jointly, [`design_error`] tells what an
+//! arm of another frequency would give.
+//!
+//! Not modelled: a second mode, play, a sensor whose damping depends on amplitude. Torque may be in any unit; it comes back in
+//! the unit of the reading.
+
+mod chain;
+mod design;
+mod inversion;
+mod response;
+
+pub use design::{Design, DesignError, design_error};
+pub use inversion::{Inversion, Torque, invert};
+pub use response::{FreeResponse, identify_free_response};
+
+use crate::uncertain::Uncertain;
+
+/// A sensor of one degree of freedom.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sensor {
+    /// Undamped natural frequency, Hz.
+    pub frequency: Uncertain,
+    /// Damping ratio, 1; below 1 the sensor swings.
+    pub damping_ratio: Uncertain,
+}
+
+impl Sensor {
+    /// Amplitude of the reading over the amplitude of a sinusoidal torque.
+    ///
+    /// Formula: 1/√((1 − r²)² + (2ζr)²), r = frequency/f
+    ///
+    /// Arguments: frequency of the torque in Hz.
+    ///
+    /// Source: textbook of linear vibration.
+    ///
+    /// Valid: small swings, steady state.
+    pub fn gain(&self, frequency: f64) -> f64 {
+        let ratio = frequency / self.frequency.value;
+        1.0 / (1.0 - ratio * ratio).hypot(2.0 * self.damping_ratio.value * ratio)
+    }
+}
+
+/// Natural frequency in rad/s and damping ratio as the models need them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Swing {
+    pub(crate) omega: f64,
+    pub(crate) zeta: f64,
+}
+
+impl Sensor {
+    pub(crate) fn swing(&self) -> Swing {
+        Swing {
+            omega: std::f64::consts::TAU * self.frequency.value,
+            zeta: self.damping_ratio.value,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A slow torque is read as it is, one at the natural frequency 1/(2ζ) times, a fast one by (f/frequency)².
+    #[test]
+    fn the_gain_has_its_limits() {
+        let sensor = Sensor {
+            frequency: Uncertain::exact(30.0),
+            damping_ratio: Uncertain::exact(0.2),
+        };
+        assert!((sensor.gain(0.0) - 1.0).abs() < 1e-15);
+        assert!((sensor.gain(30.0) - 2.5).abs() < 1e-12);
+        assert!((sensor.gain(3000.0) * 1e4 - 1.0).abs() < 1e-3);
+    }
+}

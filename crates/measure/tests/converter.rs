@@ -1,0 +1,161 @@
+//! Skew, steps and faults of a converter.
+
+#[path = "synthetic/rig.rs"]
+mod synthetic;
+
+use measure::converter::{Converter, Fault, Interval, aligned, faults};
+use std::f64::consts::TAU;
+use synthetic::Random;
+
+/// 14 bits, 42 000 conversions a second over 6 channels.
+fn converter() -> Converter {
+    Converter {
+        rate: 42_000.0,
+        channels: 6,
+        lowest: -10.0,
+        highest: 10.0,
+        bits: 14,
+    }
+}
+
+/// Channel 5 brought to the clock of channel 0 agrees with it to the stated error.
+#[test]
+fn skew_is_removed() {
+    let c = converter();
+    for part in [0.01, 0.1, 0.25, 0.4] {
+        let frequency = part / c.interval();
+        let wave = |t: f64| (TAU * frequency * t + 0.7).sin();
+        let late: Vec<f64> = (0..500)
+            .map(|k| wave(k as f64 * c.interval() + c.delay(5)))
+            .collect();
+        let found = aligned(&late, c.interval(), c.delay(5)).expect("aligned");
+        for k in 20..480 {
+            let wanted = wave(k as f64 * c.interval());
+            assert!(
+                (found.values[k] - wanted).abs() < 2e-4,
+                "{part}: {} {wanted}",
+                found.values[k]
+            );
+        }
+        assert!(found.values.iter().all(|v| v.is_finite()));
+        assert!(found.straight > 0 && found.straight < 40);
+    }
+}
+
+#[test]
+fn gaps_stay_gaps_and_noise_is_told() {
+    let mut values: Vec<f64> = (0..500).map(|k| (0.1 * k as f64).sin()).collect();
+    values[250] = f64::NAN;
+    let found = aligned(&values, 1.0, 0.5).expect("aligned");
+    assert_eq!(found.values.iter().filter(|v| v.is_nan()).count(), 2);
+    assert_eq!(found.notes.len(), 1, "{:?}", found.notes);
+    let mut random = Random::new(1);
+    let noise: Vec<f64> = (0..500).map(|_| random.normal()).collect();
+    assert!(
+        aligned(&noise, 1.0, 0.5)
+            .expect("aligned")
+            .notes
+            .iter()
+            .any(|n| n.contains("skew"))
+    );
+    assert!(aligned(&[], 1.0, 0.5).expect("nothing").values.is_empty());
+    assert!(aligned(&noise, 0.0, 0.5).is_err());
+    assert!(
+        aligned(&noise, 1.0, 1e300)
+            .expect("far")
+            .values
+            .iter()
+            .all(|v| v.is_nan())
+    );
+}
+
+/// The rounding error of a noisy signal has the stated size.
+#[test]
+fn rounding_noise_is_as_stated() {
+    let c = Converter {
+        bits: 8,
+        ..converter()
+    };
+    let mut random = Random::new(2);
+    let mut squares = 0.0;
+    for _ in 0..20_000 {
+        let value = random.normal();
+        squares += ((value / c.step()).round() * c.step() - value).powi(2);
+    }
+    let found = (squares / 20_000.0_f64).sqrt();
+    // 20 000 values: 0.3 % of a uniform error's rms; three deviations.
+    assert!((found / c.rounding_noise() - 1.0).abs() < 0.01);
+    assert!((c.interval() - 1.0 / 7000.0).abs() < 1e-18);
+    assert!(Converter { bits: 0, ..c }.check().is_err() && c.check().is_ok());
+}
+
+#[test]
+fn clipping_drop_outs_and_gaps_are_found() {
+    let c = converter();
+    let mut random = Random::new(3);
+    let mut values: Vec<f64> = (0..5000)
+        .map(|k| {
+            let value = 11.0 * (TAU * k as f64 / 1000.0).sin() + 0.05 * random.normal();
+            ((value / c.step()).round() * c.step()).clamp(c.lowest, c.highest - c.step())
+        })
+        .collect();
+    let clean = values.clone();
+    for value in &mut values[1400..1425] {
+        *value = 1.234;
+    }
+    values[3100] = f64::NAN;
+    values[3101] = f64::INFINITY;
+    let found = faults(&values, Some(&c));
+    assert!(
+        found.contains(&Interval {
+            first: 1400,
+            count: 25,
+            fault: Fault::Stuck
+        }),
+        "{found:?}"
+    );
+    assert!(found.contains(&Interval {
+        first: 3100,
+        count: 2,
+        fault: Fault::Missing
+    }));
+    let clipped: usize = found
+        .iter()
+        .filter(|i| i.fault == Fault::Clipped)
+        .map(|i| i.count)
+        .sum();
+    let true_count = clean
+        .iter()
+        .filter(|v| **v >= c.highest - c.step() || **v <= c.lowest)
+        .count();
+    assert_eq!(clipped, true_count);
+    // Without a description of the converter most of the clipping is still found, and nothing else.
+    let blind = faults(&clean, None);
+    assert!(blind.iter().all(|i| i.fault == Fault::Clipped));
+    assert!(blind.iter().map(|i| i.count).sum::<usize>() > true_count * 8 / 10);
+}
+
+/// A quiet channel repeats values because its steps are coarse: that is no fault. Nor is any value of plain noise.
+#[test]
+fn a_quiet_or_noisy_channel_has_no_fault() {
+    let mut random = Random::new(4);
+    let quiet: Vec<f64> = (0..5000).map(|_| (0.3 * random.normal()).round()).collect();
+    assert!(
+        faults(&quiet, None).is_empty(),
+        "{:?}",
+        faults(&quiet, None)
+    );
+    let noise: Vec<f64> = (0..5000).map(|_| random.normal()).collect();
+    assert!(faults(&noise, None).is_empty());
+    assert!(faults(&[], None).is_empty());
+    // A channel that says the same throughout is dead.
+    let dead = faults(&[1.0; 50], None);
+    assert_eq!(
+        dead,
+        [Interval {
+            first: 0,
+            count: 50,
+            fault: Fault::Stuck
+        }]
+    );
+}

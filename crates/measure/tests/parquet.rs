@@ -1,0 +1,185 @@
+//! Parquet files that pyarrow wrote (see `peers/make_tables.py`) are read value by value, and written files come back.
+
+mod tables;
+
+use measure::file::Writer;
+use measure::file::parquet::{Parquet, ParquetWriter};
+use measure::recording::{Channel, Clock, Content, Instant, Property, Recording, Value};
+use std::io::Cursor;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use tables::{all, bytes, channel, ramps, wave, waves};
+
+fn open(name: &str) -> Parquet<Cursor<Vec<u8>>> {
+    Parquet::from_source(Cursor::new(bytes(name)), name.as_ref()).unwrap()
+}
+
+#[test]
+fn every_packing_gives_the_same_values() {
+    for name in ["snappy.parquet", "gzip_v2.parquet", "plain.parquet"] {
+        let mut file = open(name);
+        assert_eq!(all(&mut file, "force"), waves(700), "{name}");
+        assert_eq!(all(&mut file, "speed"), waves(700), "{name}");
+        assert_eq!(all(&mut file, "count"), ramps(700), "{name}");
+        let small: Vec<f64> = ramps(700).iter().map(|v| v.rem_euclid(100.0)).collect();
+        assert_eq!(all(&mut file, "small"), small, "{name}");
+        let unsigned: Vec<f64> = (0..700).map(|k| f64::from(k % 256)).collect();
+        assert_eq!(all(&mut file, "unsigned"), unsigned, "{name}");
+        let flags: Vec<f64> = (0..700).map(|k| f64::from((k + 1) % 2)).collect();
+        assert_eq!(all(&mut file, "flag"), flags, "{name}");
+        for (k, value) in all(&mut file, "gaps").into_iter().enumerate() {
+            let empty = k % 10 == 3;
+            assert!(
+                empty && value.is_nan() || value == wave(k as u32),
+                "{name} {k}"
+            );
+        }
+        let texts = file.read_text(channel(&file, "name"), 297, 8).unwrap();
+        let expected: Vec<String> = (297..305).map(|k| format!("row {}", k % 7)).collect();
+        assert_eq!(texts, expected, "{name}");
+    }
+}
+
+#[test]
+fn units_clock_and_instants() {
+    let mut file = open("snappy.parquet");
+    let units = |name: &str| file.channels()[channel(&file, name)].unit.clone();
+    assert_eq!(
+        ["time", "force", "speed", "gaps"].map(units),
+        ["s", "N", "rpm", "mm"]
+    );
+    let clock = &file.channels()[channel(&file, "force")].clock;
+    assert!(
+        matches!(clock, Clock::Uniform { first, interval } if *first == 0.0 && *interval == 0.001)
+    );
+    let stamps = all(&mut file, "stamp");
+    let stamp = &file.channels()[channel(&file, "stamp")];
+    assert_eq!(stamp.content, Content::Time);
+    let start = Instant {
+        seconds: 1_700_000_000,
+        fraction: 0.0,
+    };
+    assert_eq!(stamp.start, Some(start));
+    assert_eq!((stamps[0], stamps[699]), (0.0, 0.699));
+}
+
+#[test]
+fn rows_may_be_read_in_any_order() {
+    let mut file = open("gzip_v2.parquet");
+    let index = channel(&file, "count");
+    for (first, count) in [(650, 100), (299, 2), (0, 5), (100, 400), (700, 5)] {
+        let mut piece = vec![0.0; count];
+        let read = file.read(index, first, &mut piece).unwrap();
+        let end = (first as usize + count).min(700);
+        assert_eq!(
+            piece[..read],
+            ramps(700)[(first as usize).min(end)..end],
+            "{first}"
+        );
+    }
+    assert!(file.read(channel(&file, "name"), 0, &mut [0.0]).is_err());
+    assert!(file.read_text(index, 0, 1).is_err());
+}
+
+#[test]
+fn a_packing_that_is_not_read_is_told() {
+    let file = open("zstd.parquet");
+    assert!(file.channels().is_empty());
+    assert!(file.notes()[0].text.contains("ZSTD") && file.notes()[0].text.contains("snappy"));
+}
+
+#[test]
+fn a_file_without_its_end_says_so() {
+    let whole = bytes("snappy.parquet");
+    let cut = Cursor::new(whole[..whole.len() - 100].to_vec());
+    let error = Parquet::from_source(cut, "cut.parquet".as_ref()).unwrap_err();
+    assert!(error.to_string().contains("cut off"), "{error}");
+}
+
+#[test]
+fn written_columns_come_back_bit_for_bit_over_several_row_groups() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out.parquet");
+    let clock = Clock::Uniform {
+        first: 0.25,
+        interval: 1.0 / 42_000.0,
+    };
+    let channels =
+        [("force", "N", "on the arm"), ("odd", "", "")].map(|(name, unit, text)| Channel {
+            unit: unit.to_string(),
+            description: text.to_string(),
+            clock: clock.clone(),
+            properties: vec![Property {
+                name: "range".to_string(),
+                value: Value::Number(5.0),
+            }],
+            ..Channel::new(name, 0)
+        });
+    let odd = [0.1, -0.0, 5e-324, f64::MAX, f64::NAN, f64::INFINITY];
+    let rows = 150_000;
+    let odd: Vec<f64> = (0..rows).map(|k| odd[k % odd.len()]).collect();
+    let force: Vec<f64> = (0..rows as u32).map(|k| f64::from(k) / 3.0).collect();
+    let mut writer = Box::new(ParquetWriter::create(&path, &channels).unwrap());
+    for from in (0..rows).step_by(40_000) {
+        let to = (from + 40_000).min(rows);
+        writer.append(&[&force[from..to], &odd[from..to]]).unwrap();
+    }
+    assert!(!path.exists(), "the name is given at the end");
+    writer.finish().unwrap();
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    let source = Cursor::new(std::fs::read(&path).unwrap());
+    let mut file = Parquet::from_source(source, &path).unwrap();
+    let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+    assert!(bits(&all(&mut file, "force")) == bits(&force));
+    assert!(bits(&all(&mut file, "odd")) == bits(&odd));
+    let found = &file.channels()[1];
+    assert_eq!((&*found.unit, &*found.description), ("N", "on the arm"));
+    let Clock::Uniform { first, interval } = found.clock else {
+        panic!("{:?}", file.notes());
+    };
+    assert!(
+        first == 0.25 && (interval * 42_000.0 - 1.0).abs() < 1e-12,
+        "{interval}"
+    );
+    assert_eq!(file.properties()[0].name, "force/range");
+}
+
+#[test]
+fn no_damage_makes_the_reader_panic() {
+    for name in ["snappy.parquet", "gzip_v2.parquet"] {
+        tables::damage(&bytes(name), 2000, &mut |bytes| {
+            let file = Parquet::from_source(Cursor::new(bytes), name.as_ref());
+            if let Ok(mut file) = file {
+                tables::touch(&mut file);
+            }
+        });
+    }
+}
+
+#[test]
+fn a_page_without_its_dictionary_is_damage_and_no_panic() {
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/tests/data/damaged/page_without_its_dictionary.parquet"
+    );
+    let bytes = std::fs::read(path).unwrap();
+    let panicked = Arc::new(AtomicBool::new(false));
+    let told = panicked.clone();
+    let before = std::panic::take_hook();
+    // The hook sees panics that the reader catches too.
+    let here = std::thread::current().id();
+    std::panic::set_hook(Box::new(move |info| {
+        if std::thread::current().id() == here {
+            told.store(true, Ordering::Relaxed);
+        }
+        before(info);
+    }));
+    let mut file = Parquet::from_source(Cursor::new(bytes), path.as_ref()).unwrap();
+    tables::touch(&mut file);
+    assert!(!panicked.load(Ordering::Relaxed));
+    assert!(
+        file.notes()
+            .iter()
+            .any(|note| note.text.contains("damaged"))
+    );
+}

@@ -1,0 +1,461 @@
+//! The smoother: covariances that fit together, other motions than a spin-up from rest, refusals, cost.
+
+#[path = "synthetic/wheel.rs"]
+mod synthetic;
+
+use std::f64::consts::TAU;
+
+use measure::pulse::{EdgeSettings, Edges, Flank, Pulses, Wheel, calibrate, edges, number};
+use measure::speed::{SpeedSettings, Transient, marks_needed, smooth};
+use synthetic::Random;
+
+/// Pulses of a wheel without errors whose angle is given, by bisection, with noise of the instants.
+fn pulses(marks: usize, seconds: f64, noise: f64, seed: u64, angle: impl Fn(f64) -> f64) -> Pulses {
+    let mut random = Random::new(seed);
+    let pitch = TAU / marks as f64;
+    let mut times = Vec::new();
+    let mut from = 0.0;
+    for k in 0.. {
+        let wanted = (k as f64 + 0.3) * pitch;
+        if angle(seconds) < wanted {
+            break;
+        }
+        let (mut low, mut high) = (from, seconds);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if angle(middle) < wanted {
+                low = middle
+            } else {
+                high = middle
+            }
+        }
+        from = low;
+        times.push(low + noise * random.normal());
+    }
+    let found = Edges::stamped(times, noise.max(1e-9), Some((0.0, seconds))).unwrap();
+    number(&found, &Wheel { marks, missing: 0 }).unwrap()
+}
+
+#[test]
+fn constant_acceleration_is_found_within_the_band() {
+    let (mut inside, mut count) = (0, 0);
+    for seed in 0..40 {
+        // From 50 rad/s with 20 rad/s² for 4 s, 60 marks, 2 µs.
+        let train = pulses(60, 4.0, 2e-6, seed, |t| 50.0 * t + 10.0 * t * t);
+        let speed = smooth(&train, None, &SpeedSettings::default()).unwrap();
+        assert!(speed.change.is_none(), "a slow ramp needs no knots");
+        for k in 1..20 {
+            let time = 0.2 * k as f64;
+            let motion = speed.at(time);
+            assert!(
+                (motion.speed - 50.0 - 20.0 * time).abs() < 0.05,
+                "{motion:?}"
+            );
+            assert!((motion.acceleration - 20.0).abs() < 2.0, "{motion:?}");
+            inside += ((motion.acceleration - 20.0).abs() < 2.0 * motion.acceleration_uncertainty())
+                as usize;
+            inside += ((motion.speed - 50.0 - 20.0 * time).abs() < 2.0 * motion.speed_uncertainty())
+                as usize;
+            count += 2;
+        }
+    }
+    let part = inside as f64 / count as f64;
+    // The model knows no constant acceleration: it may be too careful, not too bold.
+    println!("constant acceleration: {:.1} % inside", 100.0 * part);
+    assert!(part > 0.9, "{part}");
+}
+
+#[test]
+fn a_slow_ramp_from_rest_and_a_coast_down() {
+    // 30 rad/s² from 0.5 s on for 5 s, then 150 rad/s.
+    let ramp = pulses(60, 7.0, 2e-6, 3, |t| {
+        let (a, b) = ((t - 0.5).clamp(0.0, 5.0), (t - 5.5).max(0.0));
+        15.0 * a * a + 150.0 * b
+    });
+    let speed = smooth(&ramp, None, &SpeedSettings::default()).unwrap();
+    let change = speed.change.unwrap();
+    assert!(change.from_rest, "{change:?}");
+    for (time, wanted) in [(1.0, 30.0), (3.0, 30.0), (5.0, 30.0), (6.5, 0.0)] {
+        let motion = speed.at(time);
+        assert!((motion.acceleration - wanted).abs() < 1.0, "{motion:?}");
+        assert!(
+            (motion.speed - 30.0 * (time - 0.5).min(5.0)).abs() < 0.05,
+            "{motion:?}"
+        );
+    }
+    // 150 rad/s, falling by a third every second.
+    let coast = pulses(60, 8.0, 2e-6, 4, |t| 450.0 * (1.0 - (-t / 3.0).exp()));
+    let speed = smooth(&coast, None, &SpeedSettings::default()).unwrap();
+    assert!(speed.change.is_none());
+    for time in [0.5, 2.0, 4.0, 7.0] {
+        let (motion, wanted) = (speed.at(time), -50.0 * (-time / 3.0f64).exp());
+        assert!(
+            (motion.acceleration - wanted).abs() < 0.5,
+            "{motion:?} {wanted}"
+        );
+    }
+}
+
+#[test]
+fn a_record_that_ends_in_the_spin_up() {
+    let mut inside = 0;
+    for seed in 0..20 {
+        let truth = synthetic::spin_up(seed, 150.0, 1300.0, 0.1);
+        let cut = truth.engage + 0.6 * (truth.lock - truth.engage);
+        let times: Vec<f64> = synthetic::stamps(&truth, seed, 60)
+            .into_iter()
+            .filter(|t| *t < cut)
+            .collect();
+        let found = Edges::stamped(times, 5e-7, Some((0.0, cut))).unwrap();
+        let train = number(
+            &found,
+            &Wheel {
+                marks: 60,
+                missing: 0,
+            },
+        )
+        .unwrap();
+        let speed = smooth(&train, None, &SpeedSettings::default()).unwrap();
+        let time = truth.engage + 0.4 * (truth.lock - truth.engage);
+        let (motion, wanted) = (speed.at(time), truth.acceleration(time));
+        assert!(
+            (motion.acceleration / wanted - 1.0).abs() < 0.1,
+            "{seed}: {motion:?} {wanted}"
+        );
+        inside += ((motion.acceleration - wanted).abs() < 2.0 * motion.acceleration_uncertainty())
+            as usize;
+    }
+    // 95 % of 20 are 19; fewer than 15 are one case in 10 000.
+    assert!(inside >= 15, "{inside}");
+}
+
+#[test]
+fn a_clutch_that_engages_on_a_turning_shaft() {
+    // 40 rad/s, then from 1 s on 3000 rad/s² for 30 ms, then 130 rad/s: the acceleration jumps twice.
+    let angle = |t: f64| {
+        let (a, b) = ((t - 1.0).clamp(0.0, 0.03), (t - 1.03).max(0.0));
+        40.0 * t + 1500.0 * a * a + 90.0 * b
+    };
+    let train = pulses(60, 2.0, 2e-6, 7, angle);
+    let speed = smooth(&train, None, &SpeedSettings::default()).unwrap();
+    let change = speed.change.unwrap();
+    println!("{change:?}");
+    assert!(!change.from_rest);
+    // Between two marks 2.6 ms apart before, 0.8 ms after.
+    assert!((change.engagement.0 - 1.0).abs() < 1e-3, "{change:?}");
+    assert!((change.end.unwrap().0 - 1.03).abs() < 5e-4, "{change:?}");
+    for (time, wanted) in [(0.9, 0.0), (1.01, 3000.0), (1.02, 3000.0), (1.1, 0.0)] {
+        let motion = speed.at(time);
+        assert!(
+            (motion.acceleration - wanted).abs() < 0.03 * 3000.0,
+            "{motion:?}"
+        );
+    }
+}
+
+#[test]
+fn covariances_fit_together_and_drawn_paths_follow_them() {
+    let truth = synthetic::spin_up(3, 150.0, 7200.0, 0.2);
+    let found = Edges::stamped(
+        synthetic::stamps(&truth, 3, 60),
+        5e-7,
+        Some((0.0, truth.end())),
+    )
+    .unwrap();
+    let train = number(
+        &found,
+        &Wheel {
+            marks: 60,
+            missing: 0,
+        },
+    )
+    .unwrap();
+    let settings = SpeedSettings {
+        latency: 2e-6,
+        ..Default::default()
+    };
+    let speed = smooth(&train, calibrate(&train).ok().as_ref(), &settings).unwrap();
+    let middle = 0.5 * (truth.engage + truth.lock);
+    let times = [middle, middle + 1e-3, middle + 4e-3];
+    for (k, &a) in times.iter().enumerate() {
+        // At one instant the covariance over time is that of the instant.
+        let (same, own) = (speed.covariance(a, a), speed.at(a).covariance);
+        for i in 0..3 {
+            for j in 0..3 {
+                let scale = (own[i][i] * own[j][j]).sqrt();
+                assert!(
+                    (same[i][j] - own[i][j]).abs() < 1e-6 * scale,
+                    "{i} {j} {} {}",
+                    same[i][j],
+                    own[i][j]
+                );
+            }
+        }
+        for &b in &times[k + 1..] {
+            let (there, back) = (speed.covariance(a, b), speed.covariance(b, a));
+            let correlation =
+                there[2][2] / (speed.at(a).covariance[2][2] * speed.at(b).covariance[2][2]).sqrt();
+            assert!(correlation.abs() <= 1.0);
+            assert_eq!(there[1][2], back[2][1]);
+        }
+    }
+    let mut random = Random::new(11);
+    let many = 3000;
+    let paths: Vec<Vec<[f64; 3]>> = (0..many)
+        .map(|_| {
+            let uniform = random.uniform();
+            speed.draw(&times, uniform, &mut || random.normal())
+        })
+        .collect();
+    for (a, &first) in times.iter().enumerate() {
+        for (b, &second) in times.iter().enumerate() {
+            let wanted = speed.covariance(first, second);
+            for i in 1..3 {
+                for j in 1..3 {
+                    let mean = |k: usize, i: usize| {
+                        paths.iter().map(|p| p[k][i]).sum::<f64>() / many as f64
+                    };
+                    let (x, y) = (mean(a, i), mean(b, j));
+                    let got = paths
+                        .iter()
+                        .map(|p| (p[a][i] - x) * (p[b][j] - y))
+                        .sum::<f64>()
+                        / many as f64;
+                    let scale = (speed.at(first).covariance[i][i]
+                        * speed.at(second).covariance[j][j])
+                        .sqrt();
+                    // Sampling: 1/√3000 = 0.018 of the scale, 0.026 for a variance; five times that.
+                    assert!(
+                        (got - wanted[i][j]).abs() < 0.13 * scale,
+                        "{a} {b} {i} {j}: {got} {}",
+                        wanted[i][j]
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_shaft_rests_before_the_engagement() {
+    let truth = synthetic::spin_up(8, 150.0, 1300.0, 0.3);
+    let samples = synthetic::pickup(&truth, 8, 60, 1e4);
+    let found = edges(0.0, 1e-4, &samples, &EdgeSettings::default()).unwrap();
+    let train = number(
+        &found,
+        &Wheel {
+            marks: 60,
+            missing: 0,
+        },
+    )
+    .unwrap();
+    let speed = smooth(&train, None, &SpeedSettings::default()).unwrap();
+    let motion = speed.at(0.005);
+    assert_eq!(
+        (
+            motion.speed,
+            motion.acceleration,
+            motion.speed_uncertainty()
+        ),
+        (0.0, 0.0, 0.0)
+    );
+    assert!(motion.covariance[0][0] > 0.0);
+}
+
+#[test]
+fn one_mark_cannot_see_a_short_spin_up_and_the_message_says_how_many_could() {
+    let truth = synthetic::spin_up(4, 150.0, 11_500.0, 1.0);
+    let found = Edges::stamped(
+        synthetic::stamps(&truth, 4, 1),
+        1e-6,
+        Some((0.0, truth.end())),
+    )
+    .unwrap();
+    let train = number(
+        &found,
+        &Wheel {
+            marks: 1,
+            missing: 0,
+        },
+    )
+    .unwrap();
+    for (duration, wanted, least) in [(None, None, 4), (Some(0.025), Some(0.03), 20)] {
+        let refusal = smooth(
+            &train,
+            None,
+            &SpeedSettings {
+                duration,
+                wanted,
+                ..Default::default()
+            },
+        )
+        .unwrap_err();
+        println!("{refusal}");
+        assert!(refusal.found.contains("the speed changes by"), "{refusal}");
+        let marks: usize = refusal
+            .needed
+            .split_whitespace()
+            .find_map(|word| word.parse().ok())
+            .unwrap();
+        assert!((least..=120).contains(&marks), "{refusal}");
+    }
+}
+
+#[test]
+fn more_marks_or_better_instants_are_asked_for_when_the_band_is_too_wide() {
+    let truth = synthetic::spin_up(4, 150.0, 11_500.0, 0.4);
+    let found = Edges::stamped(
+        synthetic::stamps(&truth, 4, 24),
+        1e-6,
+        Some((0.0, truth.end())),
+    )
+    .unwrap();
+    let train = number(
+        &found,
+        &Wheel {
+            marks: 24,
+            missing: 0,
+        },
+    )
+    .unwrap();
+    let pitch = calibrate(&train).unwrap();
+    assert!(
+        smooth(
+            &train,
+            Some(&pitch),
+            &SpeedSettings {
+                wanted: Some(0.3),
+                ..Default::default()
+            }
+        )
+        .is_ok()
+    );
+    let refusal = smooth(
+        &train,
+        Some(&pitch),
+        &SpeedSettings {
+            wanted: Some(0.01),
+            ..Default::default()
+        },
+    )
+    .unwrap_err();
+    println!("{refusal}");
+    assert!(refusal.needed.contains("marks per revolution"), "{refusal}");
+}
+
+#[test]
+fn marks_needed_grow_with_haste_and_with_what_is_wanted() {
+    let of = |duration, wanted| marks_needed(150.0, duration, 2e-6, wanted).unwrap();
+    assert!(of(0.025, 0.03) > of(0.223, 0.03));
+    assert!(of(0.025, 0.01) > of(0.025, 0.03));
+    // One mark per revolution sees nothing of 25 ms, sixty resolve it.
+    assert!((6..=60).contains(&of(0.025, 0.03)), "{}", of(0.025, 0.03));
+    assert_eq!(marks_needed(150.0, 0.0, 1e-6, 0.1), None);
+    assert_eq!(marks_needed(150.0, 0.025, f64::NAN, 0.1), None);
+}
+
+#[test]
+fn few_pulses_and_odd_numbers_are_refused_or_survived() {
+    let train = |times: Vec<f64>| {
+        number(
+            &Edges::stamped(times, 1e-6, None).unwrap(),
+            &Wheel {
+                marks: 60,
+                missing: 0,
+            },
+        )
+        .unwrap()
+    };
+    let refusal = smooth(&train(vec![0.0, 1.0, 2.0]), None, &SpeedSettings::default()).unwrap_err();
+    assert!(refusal.needed.contains("6 pulses"), "{refusal}");
+    let mut random = Random::new(21);
+    for k in 0..60 {
+        let mut time = 0.0;
+        let times: Vec<f64> = (0..6 + k)
+            .map(|_| {
+                time += 10f64.powf(random.between(-9.0, 3.0));
+                time
+            })
+            .collect();
+        if let Ok(speed) = smooth(&train(times), None, &SpeedSettings::default()) {
+            let motion = speed.at(0.5 * time);
+            assert!(
+                motion.speed.is_finite() && motion.covariance[2][2].is_finite(),
+                "{motion:?}"
+            );
+        }
+        let window = SpeedSettings {
+            transient: Transient::Within(time, 0.0),
+            ..Default::default()
+        };
+        let _ = smooth(
+            &train(vec![0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6]),
+            None,
+            &window,
+        );
+    }
+}
+
+#[test]
+fn ten_seconds_of_sixty_marks_take_a_moment() {
+    let truth = synthetic::spin_up(6, 150.0, 7200.0, 9.85);
+    let samples = synthetic::pickup(&truth, 6, 60, 1e4);
+    let start = std::time::Instant::now();
+    let found = edges(
+        0.0,
+        1e-4,
+        &samples,
+        &EdgeSettings {
+            flank: Flank::Rising,
+            ..Default::default()
+        },
+    )
+    .unwrap();
+    let train = number(
+        &found,
+        &Wheel {
+            marks: 60,
+            missing: 0,
+        },
+    )
+    .unwrap();
+    let pitch = calibrate(&train).unwrap();
+    let smoothed = smooth(&train, Some(&pitch), &SpeedSettings::default()).unwrap();
+    let fitted = start.elapsed();
+    let sum: f64 = (0..100_000)
+        .map(|k| smoothed.at(k as f64 * 1e-4).speed)
+        .sum();
+    let all = start.elapsed();
+    println!(
+        "{} pulses: {fitted:?} to smooth, {all:?} with the speed at 10 kHz ({sum:.0})",
+        train.times.len()
+    );
+    // Half a second is the share of this step in the whole chain; four times that for a machine that does other things too.
+    assert!(all.as_secs_f64() < 2.0, "{all:?}");
+}
+
+#[test]
+fn ten_seconds_of_an_encoder_take_a_moment() {
+    // 360 marks at 150 rad/s: 86 000 pulses.
+    let train = pulses(360, 10.0, 2e-7, 5, |t| 150.0 * t - 0.5 * t * t);
+    let start = std::time::Instant::now();
+    let again = Edges::stamped(train.times.clone(), 2e-7, None).unwrap();
+    let train = number(
+        &again,
+        &Wheel {
+            marks: 360,
+            missing: 0,
+        },
+    )
+    .unwrap();
+    let pitch = calibrate(&train).unwrap();
+    let speed = smooth(&train, Some(&pitch), &SpeedSettings::default()).unwrap();
+    let took = start.elapsed();
+    println!("{} pulses: {took:?}", train.times.len());
+    assert!(
+        (speed.at(5.0).acceleration + 1.0).abs() < 0.5,
+        "{:?}",
+        speed.at(5.0)
+    );
+    assert!(took.as_secs_f64() < 2.0, "{took:?}");
+}

@@ -1,0 +1,192 @@
+//! Torque over speed from a coast-down by both ways, against synthetic truth.
+
+#[path = "synthetic/rig.rs"]
+mod synthetic;
+
+use measure::steady_curve::{
+    compare, direct, inertia_from_bifilar, inertia_from_known_torque, inertia_from_pendulum,
+    inertial,
+};
+use measure::uncertain::Uncertain;
+use synthetic::{Random, median};
+
+/// Torque in N mm: constant below 10 rad/s, then with the 2/3 power of the speed, and a share of the load.
+fn torque(speed: f64) -> f64 {
+    3.0 + 22.0 * ((speed * speed + 100.0).sqrt() / 150.0).powf(2.0 / 3.0)
+}
+
+const INERTIA: f64 = 2e-3;
+const INTERVAL: f64 = 0.01;
+
+/// Coast-down from 150 rad/s at 100 values a second: speed with noise of 0.02 rad/s in two colours and a ripple of one turn; torque
+/// with slow noise of 0.5 N mm correlated over 0.2 s and fast noise of 1 N mm.
+fn coasted(seed: u64, offset: f64) -> (Vec<f64>, Vec<f64>) {
+    let mut random = Random::new(seed);
+    let (mut speed, mut angle, mut clean) = (150.0, 0.0, Vec::new());
+    let (fine, h) = (10, INTERVAL / 10.0);
+    while speed > 5.0 && clean.len() < 4000 {
+        clean.push((speed, angle));
+        for _ in 0..fine {
+            let middle = speed - 0.5 * h * 1e-3 * torque(speed) / INERTIA;
+            speed -= h * 1e-3 * torque(middle) / INERTIA;
+            angle += h * speed;
+        }
+    }
+    let noise = random.coloured(clean.len(), 0.5, 0.7);
+    let slow = random.coloured(clean.len(), 1.0, (-INTERVAL / 0.2_f64).exp());
+    let speeds = clean
+        .iter()
+        .zip(&noise)
+        .map(|(c, n)| c.0 + 0.02 * n + 0.01 * f64::cos(c.1))
+        .collect();
+    let torques = clean
+        .iter()
+        .zip(&slow)
+        .map(|(c, s)| torque(c.0) + offset + 0.5 * s + random.normal() + 0.5 * f64::cos(c.1))
+        .collect();
+    (speeds, torques)
+}
+
+fn grid() -> Vec<f64> {
+    (0..29).map(|k| 6.0 + 5.0 * f64::from(k)).collect()
+}
+
+fn share(found: &[f64], deviation: &[f64], factor: f64) -> (usize, usize, f64) {
+    let (mut inside, mut count, mut squares) = (0, 0, 0.0);
+    for ((&m, &s), &at) in found.iter().zip(deviation).zip(&grid()) {
+        if m.is_finite() {
+            let error = factor * m - torque(at);
+            inside += usize::from(error.abs() <= 2.0 * factor * s);
+            squares += error * error;
+            count += 1;
+        }
+    }
+    (inside, count, (squares / f64::from(count as u32)).sqrt())
+}
+
+#[test]
+fn two_deviations_cover_the_curve_by_both_ways() {
+    let (mut totals, mut errors) = ([(0, 0); 2], [vec![], vec![]]);
+    for seed in 0..400 {
+        let (speeds, torques) = coasted(seed, 0.0);
+        let by_torque = direct(&speeds, &torques, &grid()).expect("a curve");
+        let known = Uncertain::new(INERTIA, 0.0);
+        let by_speed = inertial(0.0, INTERVAL, &speeds, known, &grid()).expect("a curve");
+        for (way, (curve, factor)) in [(&by_torque, 1.0), (&by_speed, 1e3)]
+            .into_iter()
+            .enumerate()
+        {
+            let one = share(&curve.torque, &curve.deviation, factor);
+            totals[way].0 += one.0;
+            totals[way].1 += one.1;
+            errors[way].push(one.2);
+        }
+    }
+    for (way, name) in ["direct", "inertial"].into_iter().enumerate() {
+        let part = totals[way].0 as f64 / totals[way].1 as f64;
+        println!(
+            "{name}: {part:.3} inside, median error {:.3} N mm",
+            median(errors[way].clone())
+        );
+        assert!((0.90..=0.98).contains(&part), "{name}: {part}");
+    }
+}
+
+#[test]
+fn the_inertia_shifts_the_whole_curve() {
+    let (speeds, _) = coasted(1, 0.0);
+    let curve = inertial(
+        0.0,
+        INTERVAL,
+        &speeds,
+        Uncertain::new(INERTIA, 0.02 * INERTIA),
+        &grid(),
+    )
+    .expect("a curve");
+    assert!((curve.scale_deviation - 0.02).abs() < 1e-12);
+    let whole = curve.whole_deviation();
+    assert!((0..whole.len()).all(|k| whole[k] >= 0.02 * curve.torque[k]));
+}
+
+/// Two runs of the same torque differ by chance only; with 1 N mm between them they differ.
+#[test]
+fn up_and_down_are_told_apart() {
+    let mut small = 0;
+    for seed in 0..40 {
+        let curve = |seed, offset| {
+            let (speeds, torques) = coasted(seed, offset);
+            direct(&speeds, &torques, &grid()).expect("a curve")
+        };
+        let first = curve(500 + seed, 0.0);
+        let same = compare(&first, &curve(700 + seed, 0.0)).expect("common speeds");
+        small += usize::from(same.chance < 0.05);
+        let other =
+            compare(&curve(500 + seed, 1.0), &curve(700 + seed, 0.0)).expect("common speeds");
+        assert!(other.chance < 0.01, "{}", other.chance);
+        assert!((other.mean.value - 1.0).abs() < 4.0 * other.mean.deviation);
+    }
+    // 2 of 40 are expected at 5 %; 8 or more come once in 2000.
+    assert!(small < 8, "{small}");
+}
+
+#[test]
+fn what_has_no_curve_is_refused() {
+    assert!(
+        direct(&[1.0, 2.0], &[1.0], &grid())
+            .expect_err("lengths")
+            .contains("same times")
+    );
+    assert!(
+        direct(&[1.0; 100], &[f64::NAN; 100], &grid())
+            .expect_err("nothing")
+            .contains("too few")
+    );
+    let still = vec![3.0; 100];
+    let some: Vec<f64> = (0..100).map(f64::from).collect();
+    assert!(
+        direct(&still, &some, &grid())
+            .expect_err("still")
+            .contains("one place")
+    );
+    assert!(
+        inertial(0.0, 0.01, &some, Uncertain::new(0.0, 0.0), &grid())
+            .expect_err("inertia")
+            .contains("inertia")
+    );
+    let (speeds, torques) = coasted(1, 0.0);
+    let outside = direct(&speeds, &torques, &[400.0, 100.0]).expect("a curve");
+    assert!(outside.torque[0].is_nan() && outside.notes.iter().any(|n| n.contains("outside")));
+}
+
+/// A thin ring of radius 0.1 m: I = m r² about its axis; on its rim it swings with T = 2π √(2r/g); on strings 2r apart with
+/// T = 2π √(l/g).
+#[test]
+fn a_ring_has_the_inertia_of_a_ring() {
+    let (m, r, g, l) = (2.0, 0.1, 9.81, 1.0);
+    let exact = Uncertain::exact;
+    let period = std::f64::consts::TAU * f64::sqrt(2.0 * r / g);
+    let swung = inertia_from_pendulum(exact(m), exact(r), exact(period), 0.0, g);
+    assert!((swung.value - m * r * r).abs() < 1e-12);
+    let turned = inertia_from_bifilar(
+        exact(m),
+        exact(2.0 * r),
+        exact(l),
+        exact(std::f64::consts::TAU * f64::sqrt(l / g)),
+        g,
+    );
+    assert!((turned.value - m * r * r).abs() < 1e-12);
+    let known = inertia_from_known_torque(exact(0.1), exact(4.0), exact(-1.0));
+    assert!((known.value - 0.02).abs() < 1e-12);
+    // Deviations against finite differences.
+    let moved = inertia_from_pendulum(exact(m), exact(r), exact(period * 1.001), 0.0, g).value
+        - swung.value;
+    let stated = inertia_from_pendulum(
+        exact(m),
+        exact(r),
+        Uncertain::new(period, 0.001 * period),
+        0.0,
+        g,
+    )
+    .deviation;
+    assert!((moved - stated).abs() < 1e-3 * stated);
+}
