@@ -38,21 +38,23 @@ pub fn preload_interference(
     (load / stiffness).powf(2.0 / 3.0) / contact_angle.cos()
 }
 
-/// Radial load above which an axial preload no longer keeps all balls loaded, N.
+/// Radial load above which a locked axial preload no longer keeps all balls loaded, N.
 ///
-/// Formula: F_r = 3/5 F_a/tan α
+/// Formula: F_r = 8√2/(5π) F_a/tan α
 ///
-/// - `axial_preload` F_a, N; `contact_angle` α, rad
+/// - `axial_preload` F_a of the bearing without radial load, N; `contact_angle` α, rad
 ///
-/// Σ Q sin α = F_a and Σ Q cos α cos ψ = F_r with Q ∝ ((1 + cos ψ)/2)^1.5 over the circumference:
-/// F_r tan α/F_a is the ratio of the means of x^1.5 cos ψ and x^1.5, x = (1 + cos ψ)/2: the least loaded ball just carries
-/// nothing.
+/// Races at a fixed axial distance: Q ∝ (1 + x cos ψ)^1.5 over the circumference, and the least loaded ball carries nothing at
+/// x = 1. F_r tan α/F_a is then the mean of (1 + cos ψ)^1.5 cos ψ. A preload by springs, which keeps F_a, holds less: 3/5.
 ///
-/// Source: H. Sjövall's load distribution at ε = 1 (A. Palmgren, 1959, from memory).
+/// Source: statics; the integral is H. Sjövall's at ε = 1 (A. Palmgren, 1959, from memory).
 /// Valid: rigid rings, many balls, α unchanged.
 pub fn radial_load_that_unloads_a_ball(axial_preload: f64, contact_angle: f64) -> f64 {
-    0.6 * axial_preload / contact_angle.tan()
+    LOCKED * axial_preload / contact_angle.tan()
 }
+
+/// 8√2/(5π).
+const LOCKED: f64 = 1.6 * std::f64::consts::SQRT_2 / std::f64::consts::PI;
 
 #[cfg(test)]
 mod tests {
@@ -72,21 +74,17 @@ mod tests {
     }
 
     #[test]
-    fn the_ratio_of_the_load_integrals_at_half_the_circumference_beyond_is_three_fifths() {
-        // midpoint rule: the integrands are smooth and periodic but for a root's corner at π
+    fn the_radial_load_is_that_of_the_distribution_whose_least_ball_is_free() {
+        // midpoint rule: smooth and periodic but for a root's corner at π
         let n = 20_000;
-        let (mut radial, mut axial) = (0.0, 0.0);
-        for i in 0..n {
-            let psi = PI * (f64::from(i) + 0.5) / f64::from(n);
-            let load = (0.5 * (1.0 + psi.cos())).powf(1.5);
-            radial += load * psi.cos();
-            axial += load;
-        }
+        let mean = (0..n)
+            .map(|i| {
+                let psi = PI * (f64::from(i) + 0.5) / f64::from(n);
+                (1.0 + psi.cos()).powf(1.5) * psi.cos()
+            })
+            .sum::<f64>()
+            / f64::from(n);
         let ratio = radial_load_that_unloads_a_ball(1.0, PI / 4.0);
-        assert!(
-            (radial / axial / ratio - 1.0).abs() < 1e-9,
-            "{}",
-            radial / axial
-        );
+        assert!((mean / ratio - 1.0).abs() < 1e-9, "{mean}");
     }
 }

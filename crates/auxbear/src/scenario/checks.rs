@@ -194,12 +194,25 @@ impl Context<'_> {
         if (MOST_PRELOAD..=MOST_CLEARANCE).contains(&share) {
             return Ok(());
         }
-        let path = "bearing.operating_diametral_clearance";
+        let given = "bearing.operating_diametral_clearance";
+        let fits = [
+            "bearing.fits.shaft_interference",
+            "bearing.fits.housing_interference",
+            "bearing.unmounted_diametral_clearance",
+        ];
+        let (path, found) = match bearing.unmounted_diametral_clearance {
+            None => (given, self.text(given)),
+            Some(_) => {
+                let path = self.blamed(&fits);
+                let left = millimetres(bearing.operating_diametral_clearance);
+                (path, format!("{}: fits leave {left}", self.text(path)))
+            }
+        };
         Err(Box::new(
             self.problem(
                 Code::ClearanceTooLarge,
                 path,
-                self.text(path),
+                found,
                 format!(
                     "between {} and {} is needed, {:.0} % to {:.0} % of the ball diameter",
                     millimetres(MOST_PRELOAD * bearing.ball_diameter),

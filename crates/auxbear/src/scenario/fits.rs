@@ -218,6 +218,17 @@ impl Context<'_> {
                 "more than bearing.fits.outer_diameter is needed",
             )?;
         }
+        if bearing.inner_race_growth == Growth::FreeRing && bearing.fits.shaft_interference > 0.0 {
+            return Err(Box::new(self.problem(
+                Code::Conflict,
+                GROWTH,
+                format!(
+                    "\"free ring\" beside {SHAFT_FIT} = {}",
+                    self.text(SHAFT_FIT)
+                ),
+                "\"with shaft\" is needed while a fit presses the ring".to_string(),
+            )));
+        }
         self.fits_have_an_effect(bearing)
     }
 

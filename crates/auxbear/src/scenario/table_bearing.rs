@@ -114,7 +114,7 @@ pub(super) const KEYS: &[Key] = &[
         "15 deg",
         "Contact angle, held by an axial preload. Motion is computed in the plane: contacts stand at the ball radius times its cosine.",
     )
-    .within(Range::FromTo(0.0, 1.05))
+    .not_negative()
     .catalogued()
     .when(ANGULAR)
     .only(MOVING),
@@ -122,7 +122,7 @@ pub(super) const KEYS: &[Key] = &[
         "bearing.axial_preload",
         Kind::Quantity("N"),
         "100 N",
-        "Axial preload of the bearing. It presses all balls and keeps the contact angle.",
+        "Axial preload of the bearing at rest, locked: the races keep their axial distance. It presses all balls and keeps the contact angle.",
     )
     .positive()
     .optional("nothing keeps the contact angle, and only the radial load presses the balls")

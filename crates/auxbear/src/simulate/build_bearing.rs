@@ -158,6 +158,7 @@ pub(super) fn bearing(
                 balls: bearing.ball_count,
                 ball: RollingBall {
                     series_stiffness: in_series(plane.inner_stiffness, plane.outer_stiffness),
+                    load_per_radial_force: 1.0 / bearing.contact_angle.cos(),
                     damping_time: bearing.contact_damping_time,
                     interference: plane.inner_track + 2.0 * plane.contact_radius
                         - plane.outer_track,

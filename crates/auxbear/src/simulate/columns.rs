@@ -58,9 +58,12 @@ pub(super) fn history(context: &Context) -> Vec<Column> {
         "outer race centre, upwards",
         OUTER + 1,
     );
-    table.add("bearing.cage.speed", "rad/s", "spin of the cage", |row| {
-        machine.cage_speed(row.state)
-    });
+    table.add(
+        "bearing.cage.speed",
+        "rad/s",
+        "spin of the cage; without one the mean orbit speed of the balls",
+        |row| machine.cage_speed(row.state),
+    );
     table.probe(
         "bearing.contact.force",
         "N",

@@ -203,6 +203,9 @@ pub(super) fn name(context: &Context) -> Vec<Quantity> {
     list.0
 }
 
+/// What is turned over must exceed this share of the kinetic energy at the start to be compared with.
+const ROUNDING: f64 = 1e-12;
+
 /// Largest residuals of the run, relative: (energy, angular momentum).
 fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, String>) {
     let machine = context.machine;
@@ -213,6 +216,13 @@ fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, String>) {
     let scale = (balance.heat())
         .max(balance.end.1.work_size)
         .max(record.largest_translation);
+    // rounding of the spins is not compared with nothing
+    let stored = machine.content(start);
+    let scale = if scale > ROUNDING * (stored.translation + stored.spin) {
+        scale
+    } else {
+        0.0
+    };
     let constants = &machine.constants;
     let momentum_scale = constants.machine.inner_race_inertia * constants.speed.abs();
     (

@@ -230,7 +230,7 @@ fn angular_contact(bearing: &Bearing) -> String {
     let angle = bearing.contact_angle.to_degrees();
     let held = if bearing.axial_preload > 0.0 {
         let most = radial_load_that_unloads_a_ball(bearing.axial_preload, bearing.contact_angle);
-        format!("keeps it, at rest up to a radial load of {most:.0} N")
+        format!("keeps it (locked, at rest up to a radial load of {most:.0} N)")
     } else {
         "keeps it, and none is given".to_string()
     };
@@ -243,6 +243,14 @@ fn angular_contact(bearing: &Bearing) -> String {
 /// A ring that is said to grow with its shaft beyond the speed at which it leaves it.
 pub(super) fn lift_off(bearing: &Bearing, speed: f64) -> Option<Warning> {
     let lift_off = bearing.lifts_off_below(speed.abs())?;
+    if lift_off == 0.0 {
+        return Some(warning(
+            "AB1032",
+            "The inner ring is said to grow with its shaft (bearing.inner_race_growth), and no interference holds it there: \
+             bearing.fits.shaft_interference is needed."
+                .to_string(),
+        ));
+    }
     Some(warning(
         "AB1032",
         format!(

@@ -16,6 +16,7 @@ use super::ball::{BallConstants, RaceMotion};
 use super::ball_states::{
     CAGE_PLACE, OF_FREE_CAGE, add, direction, grouped, load_ball, split, split_mut,
 };
+use super::pocket::PocketShape;
 use super::{BallSums, BearingEnergy, BearingReaction, PlanarConstants, largest_part};
 use crate::contact::{ContactReaction, JournalContact};
 use crate::motion::{Body, Motion};
@@ -74,6 +75,14 @@ impl<R: Real> Land<R> {
                 self.contact.react(&centre(cage), cage.spin, outer)
             }
         }
+    }
+}
+
+/// Pockets of a cage: one that has no land rides on its balls, and needs them around it.
+pub(super) fn shape<R>(land: Option<&Land<R>>) -> PocketShape {
+    match land {
+        Some(_) => PocketShape::Flat,
+        None => PocketShape::Spherical,
     }
 }
 
@@ -166,7 +175,7 @@ impl<R: Real> FreeCage<R> {
             );
             let along = grouped(along);
             let axis = along * x + along.turned() * y;
-            let r = self.ball.in_pocket(&of_balls, axis, &ball);
+            let r = (self.ball).in_pocket(shape(self.land.as_ref()), &of_balls, axis, &ball);
             let e_r = direction(ball.azimuth);
             let pushed = r.on_ball * self.ball.inverse_mass;
             add(d_radial_speed, from, pushed.dot(e_r));
@@ -269,7 +278,8 @@ pub(super) fn energy(
     let in_pockets: f64 = (0..bearing.balls)
         .map(|ball| {
             let axis = direction(cage.angle + bearing.seat(ball));
-            let pocket = (bearing.ball).in_pocket(&of_balls, axis, &bearing.motion(state, ball));
+            let own = bearing.motion(state, ball);
+            let pocket = (bearing.ball).in_pocket(shape(land), &of_balls, axis, &own);
             bearing.ball.pocket_energy(pocket.penetration)
         })
         .sum();

@@ -10,7 +10,8 @@
 use super::ball::{BallConstants, BallMotion, BallReaction, PocketMotion, RaceMotion};
 use super::ball_states::{CAGE_PLACE, OF_BALL, direction};
 use super::planar::distances;
-use super::{PlanarConstants, Separation};
+use super::pocket::PocketShape;
+use super::{PlanarConstants, Separation, cage};
 use crate::motion::Motion;
 use number::{Dual, Gather, Real, Vec2, Vectorized};
 use physics::traction::Traction;
@@ -26,6 +27,7 @@ pub type BallDual = Dual<{ STATES + NEIGHBOURS }>;
 /// A ball over numbers with derivatives.
 #[derive(Clone, Debug)]
 pub struct LinearBall {
+    pockets: PocketShape,
     between_races: BallConstants<BallDual>,
     ball: BallConstants<BallDual>,
     traction: Traction<BallDual>,
@@ -88,6 +90,10 @@ impl LinearBall {
     /// The ball of a bearing.
     pub fn of(bearing: &PlanarConstants) -> Self {
         LinearBall {
+            pockets: match &bearing.separation {
+                Separation::FreeCage(land) => cage::shape(land.as_ref()),
+                Separation::CentredCage | Separation::Neighbours(_) => PocketShape::Flat,
+            },
             between_races: bearing
                 .separation
                 .beyond_pockets(Gather::<BallDual>::gather(&|_| &bearing.ball)),
@@ -173,7 +179,7 @@ impl OneBall<'_> {
         axis: Vec2<BallDual>,
     ) {
         let ball = &self.bearing.ball;
-        let r = ball.in_pocket(cage, axis, self.ball);
+        let r = ball.in_pocket(self.bearing.pockets, cage, axis, self.ball);
         let e_r = direction(self.ball.azimuth);
         let pushed = r.on_ball * ball.inverse_mass;
         let acceleration = &mut reaction.acceleration;

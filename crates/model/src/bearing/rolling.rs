@@ -31,6 +31,8 @@ constants! {
     pub struct RollingBall {
         /// Stiffness of both contacts in series, N/m^1.5.
         series_stiffness: R,
+        /// Contact load over its radial part, 1/cos α.
+        load_per_radial_force: R,
         /// Contact damping time β, s.
         damping_time: R,
         /// Interference of the ball between concentric races at rest, m; negative for clearance.
@@ -148,8 +150,10 @@ impl<R: Real> Rolling<R> {
                 ],
             );
             if !detail.is_empty() {
-                R::store_group(load.force, &mut detail[..n], from);
-                R::store_group(load.force + centrifugal, &mut detail[n..2 * n], from);
+                let share = self.ball.load_per_radial_force;
+                R::store_group(load.force * share, &mut detail[..n], from);
+                let outer = (load.force + centrifugal) * share;
+                R::store_group(outer, &mut detail[n..2 * n], from);
             }
             from += R::GROUP;
         }

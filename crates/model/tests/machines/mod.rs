@@ -205,6 +205,7 @@ pub fn rolling_bearing(planar: &PlanarConstants) -> RollingConstants {
         balls: planar.balls,
         ball: RollingBall {
             series_stiffness: (soft(ball.inner_stiffness) + soft(ball.outer_stiffness)).powf(-1.5),
+            load_per_radial_force: ball.load_per_radial_force,
             damping_time: ball.damping_time,
             interference: ball.inner_track + 2.0 * ball.radius - ball.outer_track,
             inner_track_growth: ball.inner_track_growth,

@@ -1,13 +1,15 @@
 //! What keeps the balls apart: cages free to move, lands, full complements.
 
 use crate::machines::{
-    ball_of, ball_pair, bearing_part, heat_of, land, planar, reference, run, separate, separations,
-    settings,
+    ball_of, ball_pair, bearing_part, heat_of, land, let_roll, planar, reference, run, separate,
+    separations, settings, tilt_contacts,
 };
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::cage::LandRace;
 use model::bearing::{BearingConstants, Separation};
-use model::system::drop::layout::{INNER, LAND_FORCE, LARGEST_POCKET_FORCE, OUTER};
+use model::system::drop::layout::{
+    INNER, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_POCKET_FORCE, OUTER,
+};
 use model::system::drop::{DropConstants, DropMachine};
 
 /// The drop through its first impact and what follows: most of the spin-up.
@@ -53,6 +55,46 @@ fn a_cage_stays_within_its_land() {
         assert!(heat_of(&machine, &end, "cage_land_friction") > 0.0);
         assert!(heat_of(&machine, &end, "cage_land_damping") > 0.0);
     }
+}
+
+#[test]
+fn a_cage_that_rides_on_its_balls_stays_within_its_pockets() {
+    let mut c = reference();
+    // with clearance only a few balls are pressed, and the others may not let the cage go
+    let bearing = planar(&mut c);
+    bearing.ball.outer_track += 10e-6;
+    let gap = bearing.ball.pocket_gap;
+    separate(&mut c, Separation::FreeCage(None));
+    let machine = DropMachine::new(c);
+    let start = machine.start();
+    let end = run(&machine, &start, &settings(60e-3, 1e-4));
+    assert!(end[INNER + 5] > 1000.0, "the race was spun up");
+    let cage = bearing_part(&machine, &end);
+    let off = (cage[CAGE_PLACE] - end[OUTER]).hypot(cage[CAGE_PLACE + 1] - end[OUTER + 1]);
+    // its gap, the play of the balls between the races, and what impacts press
+    assert!(off < gap + 30e-6, "{off}");
+    let balance = machine.balance(&start, &end);
+    let residual = balance.energy_residual() / balance.heat();
+    assert!(residual.abs() < 2e-6, "{residual}");
+}
+
+#[test]
+fn balls_that_roll_at_an_angle_carry_what_balls_by_themselves_do() {
+    let mut c = reference();
+    tilt_contacts(planar(&mut c), 0.6);
+    let mut rolls = c.clone();
+    let_roll(&mut rolls);
+    let load = |constants: DropConstants| {
+        let machine = DropMachine::new(constants);
+        let (_, probe) = machine.inspect(&machine.start());
+        probe[LARGEST_INNER_LOAD]
+    };
+    let (planar, rolling) = (load(c), load(rolls));
+    // the interference shared between both contacts is that of one spring: rounding
+    assert!(
+        rolling > 1.0 && (planar / rolling - 1.0).abs() < 1e-9,
+        "{planar} {rolling}"
+    );
 }
 
 #[test]

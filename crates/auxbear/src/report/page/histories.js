@@ -73,12 +73,17 @@ const INSTANTS = [
   ["cage_time_to_95_percent_of_rolling", "cage 95 % of rolling", "cage"],
 ];
 
+// What turns with the balls: their cage, or without one their mean orbit.
+function cageWord(runs) {
+  return runs.every((run) => columnOf(run, "bearing.largest_ball_ball_force")) ? "balls' mean orbit" : "cage";
+}
+
 function speedSection(runs) {
   const several = runs.length > 1;
   const series = [
     ...lines(runs, "rotor.speed", RPM, { label: "rotor [rpm]", colour: SERIES_COLOURS.rotor, width: 1.25, dash: several ? [8, 4] : undefined }),
     ...lines(runs, "bearing.inner_race.speed", RPM, { label: "inner race [rpm]", colour: SERIES_COLOURS.race, width: several ? 1.75 : 1.5 }),
-    ...lines(runs, "bearing.cage.speed", RPM, { label: "cage [rpm]", colour: SERIES_COLOURS.cage, width: 1.5, dash: several ? [9, 3, 2, 3] : undefined }),
+    ...lines(runs, "bearing.cage.speed", RPM, { label: `${cageWord(runs)} [rpm]`, colour: SERIES_COLOURS.cage, width: 1.5, dash: several ? [9, 3, 2, 3] : undefined }),
   ];
   const absent = [];
   for (const run of runs) {
@@ -90,7 +95,7 @@ function speedSection(runs) {
       continue;
     }
     series.push({
-      label: run.prefix + "cage if rolling [rpm]",
+      label: run.prefix + `${cageWord(runs)} if rolling [rpm]`,
       time: run.time,
       values: race.map((speed) => (speed === null ? null : speed * ratio * RPM)),
       colour: several ? run.colour : SERIES_COLOURS.cage,
@@ -173,7 +178,7 @@ function separationFigures(runs) {
     })),
   );
   const missing = runs.filter((run) => !of(run).length).map((run) => notInThisRun("this run has no forces on a cage or between balls (only the planar fidelity gives them)", run));
-  const note = "Forces in the rows of the history; peaks between rows are in the table. " + (runs.every(isSpinUp) ? "They are chaotic." : "Impacts in pockets are what makes late details of a drop irreproducible.");
+  const note = "Forces in the rows of the history; peaks between rows are in the table. " + (runs.every(isSpinUp) ? "They are chaotic." : "Such impacts are what makes late details of a drop irreproducible.");
   const plot = series.length ? timePlot({ series, label: "force [N]", ticks: runs, height: 190 }) : null;
   return [figure("What keeps the balls apart", plot ? note : null, plot, missing), cagePlaceFigure(runs), filmFigure(runs)];
 }
