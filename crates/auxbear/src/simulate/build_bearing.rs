@@ -43,6 +43,8 @@ pub(super) struct BallContacts {
     outer_stiffness: f64,
     /// Stiffness of two neighbouring balls, N/m^1.5.
     neighbour_stiffness: f64,
+    /// Pressure between them per cube root of the force, Pa/N^(1/3); none where a cage keeps them apart.
+    pub neighbour_pressure_factor: Option<f64>,
     ball_mass: f64,
 }
 
@@ -93,7 +95,11 @@ pub(super) fn ball_contacts(bearing: &Bearing) -> Result<BallContacts, Box<Probl
     );
     Ok(BallContacts {
         // two spheres always make a point
-        neighbour_stiffness: neighbours.map_or(0.0, |contact| contact.stiffness),
+        neighbour_stiffness: neighbours.as_ref().map_or(0.0, |contact| contact.stiffness),
+        neighbour_pressure_factor: match &bearing.separation {
+            Separation::Cage(_) => None,
+            Separation::FullComplement(_) => neighbours.ok().map(|contact| contact.pressure_factor),
+        },
         curvatures: [inner_curvature, outer_curvature],
         modulus,
         inner_stiffness: bearing.inner_contact_stiffness.unwrap_or(inner.stiffness),

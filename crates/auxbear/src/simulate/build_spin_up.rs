@@ -17,6 +17,8 @@ pub struct Built {
     pub inner_pressure_factor: f64,
     /// Pressure of a ball/outer race contact per cube root of its load, Pa/N^(1/3).
     pub outer_pressure_factor: f64,
+    /// The same between neighbouring balls, where no cage keeps them apart.
+    pub neighbour_pressure_factor: Option<f64>,
     /// A steady run at the target speed under the last load; none where the bearing has no steady moment.
     pub steady: Option<SteadyFinding>,
 }
@@ -52,6 +54,7 @@ pub fn spin_up(spin_up: &SpinUp, options: &Options) -> Result<Built, Box<Problem
         machine,
         inner_pressure_factor: contacts.inner.pressure_factor,
         outer_pressure_factor: contacts.outer.pressure_factor,
+        neighbour_pressure_factor: contacts.neighbour_pressure_factor,
         steady,
     })
 }

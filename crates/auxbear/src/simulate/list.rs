@@ -53,14 +53,24 @@ impl List {
         );
     }
     /// Largest forces on the cage, or between the balls, and what their friction took: peaks of pockets and land, N; heats of
-    /// pockets, land and neighbours, J.
-    pub fn cage(&mut self, bearing: &BearingConstants, peaks: [f64; 2], friction: f64) {
+    /// pockets, land and neighbours, J. The factor is that of the pressure between neighbours, Pa/N^(1/3).
+    pub fn cage(
+        &mut self,
+        bearing: &BearingConstants,
+        peaks: [f64; 2],
+        pressure_factor: Option<f64>,
+        friction: f64,
+    ) {
         let BearingConstants::Planar(planar) = bearing else {
             return;
         };
         match &planar.separation {
             Separation::Neighbours(_) => {
                 self.number("peak_ball_ball_force", "N", Ok(peaks[0]), &CAGE_FORCE);
+                if let Some(factor) = pressure_factor {
+                    let pressure = maximum_pressure(factor, peaks[0]);
+                    self.number("peak_ball_ball_pressure", "Pa", Ok(pressure), &PRESSURE);
+                }
                 self.number(
                     "ball_ball_friction_energy",
                     "J",

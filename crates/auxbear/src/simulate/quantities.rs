@@ -131,6 +131,7 @@ pub(super) fn name(context: &Context) -> Vec<Quantity> {
             record.largest_pocket_force.value,
             record.largest_land_force.value,
         ],
+        context.built.neighbour_pressure_factor,
         cage_friction,
     );
 
@@ -232,7 +233,7 @@ fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, String>) {
 }
 
 /// Results of late contacts and of pocket impacts: first impacts, spin-up times and energies are reproducible, these are not.
-const CHAOTIC: [&str; 9] = [
+const CHAOTIC: [&str; 10] = [
     "peak_contact_force",
     "contact_count",
     "contact_start_times",
@@ -242,6 +243,7 @@ const CHAOTIC: [&str; 9] = [
     "peak_pocket_force",
     "peak_cage_land_force",
     "peak_ball_ball_force",
+    "peak_ball_ball_pressure",
 ];
 
 const FIRST_CONTACT: Origin = Origin {

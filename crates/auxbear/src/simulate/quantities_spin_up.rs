@@ -262,16 +262,18 @@ fn loads(list: &mut List, context: &Context) {
             context.record.largest_pocket_force.value,
             context.record.largest_land_force.value,
         ],
+        context.built.neighbour_pressure_factor,
         cage_friction,
     );
     list.mark_chaotic(&CHAOTIC);
 }
 
 /// Forces of pocket impacts: tiny changes of the start change them much.
-const CHAOTIC: [&str; 3] = [
+const CHAOTIC: [&str; 4] = [
     "peak_pocket_force",
     "peak_cage_land_force",
     "peak_ball_ball_force",
+    "peak_ball_ball_pressure",
 ];
 
 /// What a kind of heat has summed up at the end, J.

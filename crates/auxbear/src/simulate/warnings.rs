@@ -56,6 +56,7 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
         context.built.inner_pressure_factor,
         context.built.outer_pressure_factor,
     );
+    let neighbours = context.built.neighbour_pressure_factor;
     let pressure = members.iter().fold(0.0, |largest: f64, member| {
         largest
             .max(maximum_pressure(
@@ -66,6 +67,9 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
                 factors.1,
                 member.record.largest_outer_load.value,
             ))
+            .max(neighbours.map_or(0.0, |factor| {
+                maximum_pressure(factor, member.record.largest_pocket_force.value)
+            }))
     });
     list.extend(shared::pressure(bearing, pressure));
     let closing = record

@@ -21,7 +21,11 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     list.extend(shared::speed_rating(bearing, speed));
     list.extend(shared::lift_off(bearing, speed));
     if let Some(Value::Number(pressure)) = number(quantities, "peak_hertz_pressure") {
-        list.extend(shared::pressure(bearing, *pressure));
+        let neighbours = match number(quantities, "peak_ball_ball_pressure") {
+            Some(Value::Number(pressure)) => *pressure,
+            _ => 0.0,
+        };
+        list.extend(shared::pressure(bearing, pressure.max(neighbours)));
     }
     list.extend(shared::films(context.films(), bearing));
     list.extend(shared::law_range(bearing, speed, load));
