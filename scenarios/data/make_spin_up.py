@@ -2,7 +2,8 @@
 
     python3 scenarios/data/make_spin_up.py
 
-A shaft rests for 0.3 s, is brought to 150 rad/s within 40 ms with a peak of 7200 rad/s², and then turns evenly. Channels:
+A shaft rests for 0.3 s, is brought to 150 rad/s within 40 ms with a peak of 7200 rad/s², and then slows down by 3 rad/s².
+Channels:
 
     rig/tacho       V,     10 000 a second, 60 marks whose places are off by 0.3 % of a pitch rms
     rig/ball_pass   V,     10 000 a second, 10 balls; the cage lags while the shaft speeds up, then slips by 0.4 %
@@ -19,6 +20,7 @@ from pathlib import Path
 
 DURATION, RATE, TORQUE_RATE = 1.5, 10_000, 500
 ENGAGED, LENGTH, PEAK, RISE, FULL = 0.3, 0.040, 7200.0, 0.001, 150.0
+SLOWING = 3.0
 FALL = PEAK * (LENGTH - RISE) / (FULL - 0.5 * PEAK * RISE) - 1.0
 MARKS, BALLS, RATIO, SLIP = 60, 10, 0.4, 0.004
 SENSOR, DAMPING, SYNCHRONOUS, NOISE, ZERO = 30.0, 0.2, 4.0, 1.0, 2.0
@@ -26,8 +28,10 @@ SENSOR, DAMPING, SYNCHRONOUS, NOISE, ZERO = 30.0, 0.2, 4.0, 1.0, 2.0
 
 def acceleration(time):
     t = time - ENGAGED
-    if t <= 0.0 or t >= LENGTH:
+    if t <= 0.0:
         return 0.0
+    if t >= LENGTH:
+        return -SLOWING
     if t < RISE:
         return PEAK * t / RISE
     return PEAK * (1.0 - (t - RISE) / (LENGTH - RISE)) ** FALL

@@ -157,6 +157,13 @@ pub(super) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
     if let (Some(signal), Some(wish)) = (&asked.speed, &asked.signals.speed) {
         match shaft::Found::of(signal, wish) {
             Ok(shaft) => {
+                if let Some(doubt) = &shaft.doubt {
+                    found.warn(
+                        "AB1044",
+                        "Marks per revolution",
+                        std::slice::from_ref(doubt),
+                    );
+                }
                 found.warn("AB1043", "Speed", &shaft.notes);
                 found.shaft = Some(shaft);
             }

@@ -25,6 +25,8 @@ pub(super) struct Found {
     /// Where the largest speed is.
     pub fastest: Motion,
     pub notes: Vec<String>,
+    /// Why the marks per revolution may be wrong.
+    pub doubt: Option<String>,
     first: f64,
     interval: f64,
     angle: Vec<f64>,
@@ -41,7 +43,8 @@ impl Found {
             missing: wish.missing_marks,
         };
         let pulses = number(&found, &wheel).map_err(words)?;
-        check_marks(&pulses).map_err(words)?;
+        // A warning, not a refusal: sampling in step with the pulses makes a pattern too.
+        let doubt = check_marks(&pulses).err().map(words);
         let mut notes = Vec::new();
         let pitch = match wish.calibration {
             true => calibrate(&pulses)
@@ -95,6 +98,7 @@ impl Found {
             peak,
             fastest,
             notes,
+            doubt,
             first,
             interval,
             angle,
