@@ -37,6 +37,31 @@ function signalFigure(title, note, series, options, lack) {
   return figure(title, series.length ? note : null, series.length ? timePlot({ series, ...options }) : null, lack);
 }
 
+// The quick change seen closely: speed and acceleration from before the engagement to behind its end.
+function changeFigure(run, runs) {
+  const [begin, end] = [numberOf(run, "engagement_time"), numberOf(run, "change_end_time")];
+  if (begin === null || end === null || !columnOf(run, "shaft.acceleration")) return null;
+  const rows = run.time.map((_, row) => row).filter((row) => run.time[row] >= begin - 0.4 * (end - begin) && run.time[row] <= end + 0.6 * (end - begin));
+  const x = rows.map((row) => 1e3 * run.time[row]);
+  const of = (name, spread, sign) => rows.map((row) => {
+    const [value, deviation] = [columnOf(run, name)[row], spread ? (columnOf(run, spread) || [])[row] : 0];
+    return isNumber(value) && isNumber(deviation) ? value + sign * BAND * deviation : null;
+  });
+  const three = (name, label, colour) => [
+    { label, x, y: of(name, null, 0), colour },
+    { label: "+2σ", x, y: of(name, `${name}_deviation`, 1), colour: colour + "90", width: 0.75 },
+    { label: "−2σ", x, y: of(name, `${name}_deviation`, -1), colour: colour + "90", width: 0.75 },
+  ];
+  const raw = { label: "between two pulses", x, y: rows.map((row) => (columnOf(run, "shaft.pulse_speed") || [])[row]), colour: SERIES_COLOURS.quiet, width: 1 };
+  const across = "time [ms]";
+  return figure(
+    shareOfRun(run, runs, "The quick change, closely"),
+    `${numberText(numberOf(run, "pulses_in_change"), 4)} pulses came in it. ${BAND_WORDS}`,
+    curves({ series: [raw, ...three("shaft.speed", "speed", SERIES_COLOURS.rotor)], across, upright: "speed [rad/s]", height: 260 }),
+    curves({ series: three("shaft.acceleration", "acceleration", SERIES_COLOURS.race), across, upright: "acceleration [rad/s²]", height: 260 }),
+  );
+}
+
 function shaftSection(runs) {
   const raw = lines(runs, "shaft.pulse_speed", 1, { label: "between two pulses [rad/s]", colour: SERIES_COLOURS.quiet, width: 1 });
   const speed = bandLines(runs, "shaft.speed", "shaft.speed_deviation", 1, { label: "speed [rad/s]", colour: SERIES_COLOURS.rotor, width: 1.5 });
@@ -47,6 +72,7 @@ function shaftSection(runs) {
     "Speed and acceleration of the shaft",
     signalFigure("Speed", `Grey: pitch over time between two pulses, as raw as pulses are. ${BAND_WORDS}`, [...(raw.length && speed.length ? raw : []), ...speed], { label: "speed [rad/s]", marks, height: 290 }, lackOf(runs, "shaft.speed", "peak_speed", "speed")),
     signalFigure("Acceleration", `Drag over the change to see it closely. ${BAND_WORDS}`, acceleration, { label: "acceleration [rad/s²]", marks, height: 260 }, []),
+    runs.map((run) => changeFigure(run, runs)),
   );
 }
 

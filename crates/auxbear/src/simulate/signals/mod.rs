@@ -14,6 +14,7 @@ mod shaft;
 mod torque;
 
 use super::outcome::{Outcome, Picture, Stop, Warning, Work};
+use super::warnings_shared::assumptions;
 use crate::problem::Problem;
 use crate::scenario::{CageKind, PickupKind, Scenario, SensorSource, Signals};
 use read::{Listed, Series, Source, Stamps};
@@ -149,6 +150,23 @@ impl Found {
     }
 }
 
+/// Keys that say something of a sensor only where it is given, not where a tap tells it.
+const OF_GIVEN_SENSOR: &[&str] = &[
+    "signals.torque.frequency_deviation",
+    "signals.torque.damping_deviation",
+];
+
+/// What is assumed of the sensor, where it counts.
+fn assumed(scenario: &Scenario, asked: &Asked) -> Option<Warning> {
+    let sensor = asked.signals.torque.as_ref()?.sensor.as_ref()?;
+    let given = matches!(sensor, SensorSource::Given { .. });
+    let values = scenario.resolved.values.iter();
+    let values = values.filter(|value| value.provenance.mark() == "assumed");
+    let paths: Vec<&str> = values.map(|value| value.path).collect();
+    let counts = |path: &&str| given || !OF_GIVEN_SENSOR.contains(path);
+    assumptions(&paths.into_iter().filter(counts).collect::<Vec<_>>())
+}
+
 /// Computes what is asked for and names it.
 pub(super) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
     let clock = Instant::now();
@@ -209,6 +227,7 @@ pub(super) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
         })
         .collect();
     found.warnings.splice(0..0, refused);
+    found.warnings.extend(assumed(scenario, asked));
     let history = answer::history(asked, &found);
     let end = history.first().and_then(|time| time.values.last().copied());
     Outcome {
