@@ -73,7 +73,8 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
         _ => OF_DROP,
     };
     for &name in names {
-        if let Some(quantity) = outcome.quantities.iter().find(|q| q.name == name) {
+        let mut known = outcome.quantities.iter();
+        if let Some(quantity) = known.find(|q| q.name == name && !not_asked_for(q)) {
             rows.push([format!("  {}", name.replace('_', " ")), value(quantity)]);
         }
     }
@@ -101,6 +102,11 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
     ));
     text.push_str(&format!("{}\n", path.join("report.html").display()));
     text
+}
+
+/// Whether a quantity needs a channel that the file does not name.
+fn not_asked_for(quantity: &Quantity) -> bool {
+    matches!(&quantity.value, Value::None { why } if why.ends_with(".channel is not given"))
 }
 
 fn value(quantity: &Quantity) -> String {

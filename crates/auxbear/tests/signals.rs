@@ -181,7 +181,8 @@ fn wrong_marks_are_told() {
     let folder = tempfile::tempdir().unwrap();
     let mut text = String::from("mark,tacho\n");
     for mark in 0..3000_usize {
-        let off = 0.02 * (((mark % 60) * 37 % 60) as f64 / 60.0 - 0.5);
+        let m = mark % 60;
+        let off = 0.02 * ((m * (7 * m * m + 5 * m + 11) % 61) as f64 / 61.0 - 0.5);
         let place = mark as f64 + off;
         // some 150 rad/s, slowly falling
         text.push_str(&format!(

@@ -9,6 +9,7 @@
 
 mod answer;
 mod cage;
+mod history;
 mod read;
 mod shaft;
 mod torque;
@@ -228,7 +229,7 @@ pub(super) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
         .collect();
     found.warnings.splice(0..0, refused);
     found.warnings.extend(assumed(scenario, asked));
-    let history = answer::history(asked, &found);
+    let history = history::columns(asked, &found);
     let end = history.first().and_then(|time| time.values.last().copied());
     Outcome {
         system: "signals",
