@@ -170,7 +170,7 @@ fn times(asked: &Asked, found: &Found) -> Vec<f64> {
         .iter()
         .map(|span| span.1)
         .fold(f64::NEG_INFINITY, f64::max);
-    if !(last > first) {
+    if last.partial_cmp(&first) != Some(std::cmp::Ordering::Greater) {
         return Vec::new();
     }
     let grid = |from: f64, to: f64, rows: usize| {
