@@ -3,9 +3,9 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`recording`] | channels of a file: names, units, clocks, and values read in pieces |
+//! | [`mod@file`] | the formats: from a file to a recording, and back |
 //! | [`pulse`] | pulse trains: edge times, numbering of the marks, calibration of the wheel |
 //! | [`speed`] | from numbered pulses to angle, speed and acceleration with covariance |
-//! | [`mod@file`] | the formats: from a file to a recording, and back |
 //! | [`converter`] | skew between channels, steps, clipping, drop-outs |
 //! | [`shaft`] | angle and speed of the shaft as the estimators below take them |
 //! | [`spectrum`] | spectra and spectrograms over time and over order |

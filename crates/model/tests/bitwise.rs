@@ -5,7 +5,7 @@
 #[allow(dead_code)] // shared with the other tests
 mod machines;
 
-use machines::{oil, reference, separate, separations, settings};
+use machines::{inlets, oil, reference, separate, separations, settings};
 use model::bearing::BearingConstants;
 use model::system::drop::{Drop, DropConstants, DropMachine};
 use number::{Level, Real, Task};
@@ -160,6 +160,7 @@ fn any_number_of_balls_and_any_traction_law_has_the_same_bits() {
         if let BearingConstants::Planar(bearing) = &mut constants.bearing {
             bearing.balls = balls;
             bearing.traction = law;
+            bearing.inlet_rolling = Some(inlets());
         }
         let machine = DropMachine::new(constants);
         assert!(machine.dimension() > 5 * balls);

@@ -37,7 +37,7 @@
 
 use crate::film::{EntrainedContact, FilmThickness, InletHeating, SLOWEST, logarithms};
 use crate::hertz::PointContact;
-use crate::inlet_rolling::InletRolling;
+use crate::inlet_rolling::{InletResistance, InletRolling};
 use crate::lubricant::{HIGHEST_PRESSURE, LubricantError, LubricantState};
 use number::{Real, constants};
 use std::f64::consts::PI;
@@ -257,13 +257,7 @@ impl LubricatedContact {
                 oil.film_coefficient,
                 self.supply,
             ),
-            inlet: InletHeating::new(
-                oil.viscosity,
-                oil.sensitivity,
-                oil.conductivity,
-                hertz.pressure_factor,
-                self.entrained.effective_modulus(),
-            ),
+            inlet: self.heating(),
             viscosity: oil.viscosity,
             temperature_constant: equation.temperature_constant,
             temperature_above: equation.temperature_offset + oil.temperature,
@@ -286,20 +280,36 @@ impl LubricatedContact {
         })
     }
 
-    /// The rolling resistance of the inlet of this contact.
+    /// The rolling resistance of the inlet of this contact, as starved and as heated as its film.
     ///
-    /// Formula: [`InletRolling::new`]
+    /// Formula: that of [`InletResistance`], with [`InletRolling::new`] and the φ_s and φ_T of the film
     ///
-    /// - `reference_speed`: entrainment at which the couple has its sign, m/s
+    /// - `reference_speed`: rolling speed at which the couple has 71 % of its size, m/s
     ///
     /// Source: as there.
-    /// Valid: as there.
-    pub fn rolling(&self, reference_speed: f64) -> InletRolling<f64> {
-        InletRolling::new(
-            &self.entrained,
-            &self.hertz,
-            self.lubricant.viscosity,
-            reference_speed,
+    /// Valid: as there; positive constants.
+    pub fn resistance(&self, reference_speed: f64) -> InletResistance<f64> {
+        InletResistance {
+            rolling: InletRolling::new(
+                &self.entrained,
+                &self.hertz,
+                self.lubricant.viscosity,
+                reference_speed,
+            ),
+            heating: self.heating(),
+            supply: self.supply,
+        }
+    }
+
+    /// Heating in the inlet.
+    fn heating(&self) -> InletHeating<f64> {
+        let oil = &self.lubricant;
+        InletHeating::new(
+            oil.viscosity,
+            oil.sensitivity,
+            oil.conductivity,
+            self.hertz.pressure_factor,
+            self.entrained.effective_modulus(),
         )
     }
 }

@@ -414,8 +414,8 @@ fn load<R: Real, M: Machine>(
             *lanes = R::from_lanes(|i| if i == lane { new } else { old.lane(i) });
         }
     };
-    let fresh = |old: R| R::from_lanes(|i| if i == lane { 0.0 } else { old.lane(i) });
-    work.last_logarithm = fresh(work.last_logarithm);
+    let last = work.last_logarithm;
+    work.last_logarithm = R::from_lanes(|i| if i == lane { 0.0 } else { last.lane(i) });
     put(&mut work.state, &|channel| start[channel]);
     put(&mut work.inverse_error, &|channel| {
         1.0 / (settings.tolerance * machine.error_scale(channel))

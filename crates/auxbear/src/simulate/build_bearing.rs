@@ -1,6 +1,6 @@
 //! From a bearing of a scenario to the constants of the model.
 
-use super::build_traction::traction;
+use super::build_traction::{inlet_rolling, traction};
 use super::{Options, Phase};
 use crate::problem::{Code, Problem};
 use crate::scenario::{
@@ -145,6 +145,7 @@ pub(super) fn bearing(
                 reference_spin: bearing.moment_share.reference_spin,
                 scale: bearing.moment_share.scale.unwrap_or(1.0),
             }),
+            inlet_rolling: inlet_rolling(bearing, contacts)?,
         }),
         Fidelity::Rolling => {
             let set = RollingSet {

@@ -121,8 +121,7 @@ fn share_of_limit(pressure: f64, limit: Option<f64>) -> Result<f64, String> {
 }
 
 const CAGE_FORCE: Origin = Origin {
-    law: "P = max(0, k p(1 + a ṗ)) of pockets and land, Hertz between balls; largest at the steps; in drops also, near the \
-          record, on dense output",
+    law: "P = max(0, k p(1 + a ṗ)) of pockets and land, Hertz between balls; largest at the ends of the steps",
     source: "Hunt-Crossley contact, crates/model/src/bearing/pocket.rs, cage.rs, full_complement.rs",
     valid: "stiffness and damping as given; pocket impacts are chaotic: repeat the run",
 };

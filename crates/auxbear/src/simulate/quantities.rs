@@ -257,7 +257,7 @@ const RISE: Origin = Origin {
 const SPEED: Origin = Origin {
     law: "angular momentum of each body about its axis",
     source: EQUATIONS,
-    valid: "coasting is as true as the friction moment: none in the planar fidelity, bearing.moment in the rolling one",
+    valid: "coasting is as true as the friction of the bearing: bearing.moment, ball by ball also slip and oil in the inlets",
 };
 const DISPLACEMENT: Origin = Origin {
     law: "largest |C - c_i|, where its rate changes sign",

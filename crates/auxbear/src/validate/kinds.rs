@@ -7,12 +7,13 @@
 //! | `rolling_moments` | `inner_track_radius`, `ball_radius`, `ball_count`, `ball_mass`, `cage_mass`, `race_acceleration`, `pocket_friction` (0), `steady_moment` (0) | `inner_traction`, `outer_traction`, `inner_moment`, `outer_moment`, `cage_load` |
 //! | `palmgren_moment` | `form` ("printed", "continuous"), `viscous_factor`, `viscosity`, `speed`, `pitch_diameter`, and for the load part `load`, `static_load_rating`, `load_factor`, `load_exponent` | `viscous_moment`; with a load also `load_friction_factor`, `load_moment` |
 //! | `skf_friction`, `palmgren_factors`, `oil_viscosity` | see `crates/auxbear/src/validate/friction_kinds.rs` | |
+//! | `film_thickness` | see `crates/auxbear/src/validate/film_kinds.rs` | |
 //! | `free_fall` | `clearance`, `gravity` | `time_to_first_contact` (simulated), `closed_form_time` |
 //! | `elastic_bounce` | `mass`, `stiffness`, `clearance`, `gravity` | `peak_contact_force` (simulated), `closed_form_force` |
 
 use super::case::{Computed, Inputs};
-use super::friction_kinds;
 use super::simulator::{ElasticBounce, FreeFall, Simulator};
+use super::{film_kinds, friction_kinds};
 use physics::hertz::{BallRace, Curvature, PointContact, Race, maximum_pressure};
 use physics::kinematics::BallSet;
 use physics::materials::{BEARING_STEEL, Material, contact_modulus};
@@ -23,7 +24,7 @@ use physics::rolling::RollingSet;
 use units::Dimension;
 
 /// Names of all kinds.
-pub const NAMES: [&str; 9] = [
+pub const NAMES: [&str; 10] = [
     "hertz_point_contact",
     "bearing_kinematics",
     "rolling_moments",
@@ -31,6 +32,7 @@ pub const NAMES: [&str; 9] = [
     "skf_friction",
     "palmgren_factors",
     "oil_viscosity",
+    "film_thickness",
     "free_fall",
     "elastic_bounce",
 ];
@@ -49,6 +51,7 @@ pub fn compute(
         "skf_friction" => friction_kinds::skf_friction(inputs),
         "palmgren_factors" => friction_kinds::factors(inputs),
         "oil_viscosity" => friction_kinds::oil_viscosity(inputs),
+        "film_thickness" => film_kinds::film_thickness(inputs),
         "free_fall" => free_fall(inputs, simulator),
         "elastic_bounce" => elastic_bounce(inputs, simulator),
         _ => return Ok(None),
@@ -86,7 +89,25 @@ fn either<T>(first: (&str, Option<T>), second: (&str, Option<T>)) -> Result<(), 
     }
 }
 
-fn hertz_point_contact(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {
+/// A ball on a race, as inputs describe it.
+pub(super) struct BallOnRace {
+    /// Sums of principal curvatures, 1/m.
+    pub curvature: Curvature,
+    /// E*, Pa.
+    pub modulus: f64,
+    /// Poisson ratio of the race.
+    pub poisson_ratio: f64,
+    /// Load, N.
+    pub load: f64,
+    /// Ball diameter, m.
+    pub ball_diameter: f64,
+    /// Pitch diameter, m, where the race is described by it.
+    pub pitch_diameter: Option<f64>,
+    /// Contact angle, rad.
+    pub contact_angle: f64,
+}
+
+pub(super) fn ball_on_race(inputs: &mut Inputs) -> Result<BallOnRace, String> {
     let load = positive("load", inputs.quantity("load", Dimension::FORCE)?)?;
     let ball_diameter = length(inputs, "ball_diameter")?;
     let race = match inputs.word("race", &["inner", "outer"])?.as_str() {
@@ -137,9 +158,23 @@ fn hertz_point_contact(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {
             .unwrap_or(race_material.poisson_ratio),
         ..BEARING_STEEL
     };
-    let modulus = contact_modulus(ball_material, race_material);
-    let contact = PointContact::new(curvature, modulus).map_err(|error| error.to_string())?;
-    let shear = contact.maximum_shear(load, race_material.poisson_ratio);
+    Ok(BallOnRace {
+        curvature,
+        modulus: contact_modulus(ball_material, race_material),
+        poisson_ratio: race_material.poisson_ratio,
+        load,
+        ball_diameter,
+        pitch_diameter: pitch,
+        contact_angle,
+    })
+}
+
+fn hertz_point_contact(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {
+    let given = ball_on_race(inputs)?;
+    let load = given.load;
+    let contact =
+        PointContact::new(given.curvature, given.modulus).map_err(|error| error.to_string())?;
+    let shear = contact.maximum_shear(load, given.poisson_ratio);
     let stiffness_dimension = units::parse_quantity("1 N/m^1.5")
         .map_err(|error| error.to_string())?
         .dimension;

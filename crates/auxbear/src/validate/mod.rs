@@ -12,6 +12,7 @@ pub mod report;
 pub mod simulator;
 
 mod drops;
+mod film_kinds;
 mod friction_kinds;
 mod machine;
 mod points;

@@ -9,6 +9,8 @@ macro_rules! cases {
 /// Name and text of every shipped case.
 pub(super) const CASES: &[(&str, &str)] = cases![
     "elastic_bounce",
+    "film_209_inner",
+    "film_209_outer",
     "free_fall",
     "hertz_amesweb_ball_in_race",
     "hertz_engtools_6206",

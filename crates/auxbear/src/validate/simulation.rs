@@ -213,6 +213,7 @@ fn falling_machine(mass: f64, stiffness: f64, clearance: f64, gravity: f64) -> D
         cage_drag: 0.0,
         first_ball_angle: 0.0,
         moment: None,
+        inlet_rolling: None,
     };
     let mut constants = DropConstants {
         machine: MachineConstants {
@@ -347,6 +348,7 @@ fn constants(machine: &ReferenceMachine, speed: f64) -> Result<DropConstants, St
             cage_drag: machine.cage_drag,
             first_ball_angle: 0.0,
             moment: None,
+            inlet_rolling: None,
         }),
         speed,
         unbalance_angle: 0.0,

@@ -164,8 +164,6 @@ pub struct BallReaction<R> {
     pub inner_load: R,
     /// Load of the contact at the outer race, N.
     pub outer_load: R,
-    /// Elastic, radial part of the load at the inner race, N.
-    pub inner_elastic: R,
     /// Approach at the inner race, m; negative when open.
     pub inner_approach: R,
     /// Approach at the outer race, m; negative when open.
@@ -260,6 +258,17 @@ pub(super) struct AtRace<R> {
     pub normal: NormalForce<R>,
 }
 
+/// The surfaces of ball and race where they touch.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Surfaces<R> {
+    /// Arm from the ball's centre, m.
+    ball_arm: R,
+    /// Arm from the race's centre, m.
+    race_arm: R,
+    /// Slip, load and entrainment.
+    pub contact: SlidingContact<R>,
+}
+
 /// A ball between its races.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Between<R> {
@@ -347,6 +356,39 @@ impl<R: Real> BallConstants<R> {
         }
     }
 
+    /// The surfaces at the inner race.
+    #[inline(always)]
+    pub(super) fn on_inner(&self, at: &AtRace<R>, race_spin: R, spin: R) -> Surfaces<R> {
+        let half = R::splat(0.5) * at.approach;
+        let arm = self.radius - half;
+        self.surfaces(at, race_spin, at.track - half, arm, spin * arm)
+    }
+
+    /// The surfaces at the outer race.
+    #[inline(always)]
+    pub(super) fn on_outer(&self, at: &AtRace<R>, race_spin: R, spin: R) -> Surfaces<R> {
+        let half = R::splat(0.5) * at.approach;
+        let arm = self.radius - half;
+        self.surfaces(at, race_spin, at.track + half, arm, -(spin * arm))
+    }
+
+    /// The surfaces at these arms; `back` is the speed of the ball's surface against its centre along -t.
+    #[inline(always)]
+    fn surfaces(&self, at: &AtRace<R>, spin: R, race_arm: R, ball_arm: R, back: R) -> Surfaces<R> {
+        let past = at.past.dot(at.n.turned());
+        let slip = spin * race_arm + back - past;
+        let turning = spin - past * at.inverse_distance;
+        Surfaces {
+            ball_arm,
+            race_arm,
+            contact: SlidingContact {
+                slip,
+                load: at.normal.force * self.load_per_radial_force,
+                entrainment: race_arm * turning - R::splat(0.5) * slip,
+            },
+        }
+    }
+
     /// Acceleration of a ball and its reactions on its three neighbours.
     #[inline(always)]
     pub fn react<L: TractionLaw<R>>(
@@ -359,7 +401,6 @@ impl<R: Real> BallConstants<R> {
         distances: &BallDistances<R>,
     ) -> BallReaction<R> {
         let zero = R::zero();
-        let half = R::splat(0.5);
         let orbital = ball.radius * ball.orbit_speed;
         let Between {
             e_r,
@@ -371,46 +412,22 @@ impl<R: Real> BallConstants<R> {
         } = self.between(inner, outer, ball, distances);
         let e_t = e_r.turned();
 
-        // inner race
         let (n_i, t_i) = (at_inner.n, at_inner.n.turned());
         let (inner_approach, inner_closing, q_i) =
             (at_inner.approach, at_inner.closing, at_inner.normal);
-        let arm_bi = self.radius - half * inner_approach;
-        let arm_i = at_inner.track - half * inner_approach;
-        let past_inner_t = at_inner.past.dot(t_i);
-        let inner_slip = inner.spin * arm_i + ball.spin * arm_bi - past_inner_t;
-        let inner_entrainment =
-            arm_i * (inner.spin - past_inner_t * at_inner.inverse_distance) - half * inner_slip;
-
-        // outer race
         let (n_o, t_o) = (at_outer.n, at_outer.n.turned());
         let (outer_approach, outer_closing, q_o) =
             (at_outer.approach, at_outer.closing, at_outer.normal);
         let inverse_outer = at_outer.inverse_distance;
-        let arm_bo = self.radius - half * outer_approach;
-        let arm_o = at_outer.track + half * outer_approach;
         let past_outer_t = at_outer.past.dot(t_o);
-        let outer_slip = outer.spin * arm_o - ball.spin * arm_bo - past_outer_t;
-        let outer_entrainment =
-            arm_o * (outer.spin - past_outer_t * inverse_outer) - half * outer_slip;
+        let at_i = self.on_inner(&at_inner, inner.spin, ball.spin);
+        let at_o = self.on_outer(&at_outer, outer.spin, ball.spin);
 
         // traction: zero by itself where the load is
-        let inner_load = q_i.force * self.load_per_radial_force;
-        let outer_load = q_o.force * self.load_per_radial_force;
-        let (mu_i, mu_o) = traction.at_races(
-            &SlidingContact {
-                slip: inner_slip,
-                load: inner_load,
-                entrainment: inner_entrainment,
-            },
-            &SlidingContact {
-                slip: outer_slip,
-                load: outer_load,
-                entrainment: outer_entrainment,
-            },
-        );
-        let inner_traction = mu_i * inner_load;
-        let outer_traction = mu_o * outer_load;
+        let (inner, outer) = (at_i.contact, at_o.contact);
+        let (mu_i, mu_o) = traction.at_races(&inner, &outer);
+        let inner_traction = mu_i * inner.load;
+        let outer_traction = mu_o * outer.load;
 
         // pocket: computed only where any ball of the group may be pressed, which costs less to tell than where each
         // stands exactly; the answer is the same, and the compiler moves what only the branch needs into it
@@ -450,8 +467,8 @@ impl<R: Real> BallConstants<R> {
             + t_o * (outer_traction + pocket_push * inverse_outer);
         let drag = self.orbit_drag * orbital;
         let force = by_inner + by_outer - e_t * drag;
-        let moment = arm_bo * outer_traction
-            - arm_bi * inner_traction
+        let moment = at_o.ball_arm * outer_traction
+            - at_i.ball_arm * inner_traction
             - pocket_moment
             - self.spin_drag * ball.spin;
 
@@ -464,8 +481,8 @@ impl<R: Real> BallConstants<R> {
                     * inverse_radius,
                 spin: moment * self.inverse_inertia,
             },
-            on_inner: Wrench::planar(-by_inner, -(arm_i * inner_traction)),
-            on_outer: Wrench::planar(-by_outer, -(arm_o * outer_traction)),
+            on_inner: Wrench::planar(-by_inner, -(at_i.race_arm * inner_traction)),
+            on_outer: Wrench::planar(-by_outer, -(at_o.race_arm * outer_traction)),
             on_cage: pocket_moment - pocket_push,
             external_moment: position.cross(self.gravity) * self.mass
                 - drag * ball.radius
@@ -473,23 +490,22 @@ impl<R: Real> BallConstants<R> {
             heat: BallHeat {
                 inner_damping: (q_i.force - q_i.elastic) * inner_closing,
                 outer_damping: (q_o.force - q_o.elastic) * outer_closing,
-                inner_sliding: inner_traction * inner_slip,
-                outer_sliding: outer_traction * outer_slip,
+                inner_sliding: inner_traction * inner.slip,
+                outer_sliding: outer_traction * outer.slip,
                 drag: drag * orbital + self.spin_drag * ball.spin.square(),
                 pocket_damping: damping_heat,
                 pocket_sliding: sliding_heat,
             },
-            inner_load,
-            outer_load,
-            inner_elastic: q_i.elastic,
+            inner_load: inner.load,
+            outer_load: outer.load,
             inner_approach,
             outer_approach,
             inner_traction,
             outer_traction,
-            inner_slip,
-            outer_slip,
-            inner_entrainment,
-            outer_entrainment,
+            inner_slip: inner.slip,
+            outer_slip: outer.slip,
+            inner_entrainment: inner.entrainment,
+            outer_entrainment: outer.entrainment,
             pocket_force,
             pocket_friction,
             pocket_side: side,

@@ -4,7 +4,8 @@
 //! needs of it are the partial derivatives of its own rates and of its reactions with respect to its own five states and
 //! to the motion of its neighbours.
 //! Left out, as the method allows, which then takes those parts explicitly: how the steady moment couples the balls through
-//! their sums, how neighbours without a cage press each other, and what follows from the place of a free cage.
+//! their sums, the rolling resistance of oil, how neighbours without a cage press each other, and what follows from the place
+//! of a free cage.
 
 use super::ball::{BallConstants, BallMotion, BallReaction, PocketMotion, RaceMotion};
 use super::ball_states::{CAGE_PLACE, OF_BALL, direction};

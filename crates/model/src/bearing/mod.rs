@@ -5,7 +5,8 @@
 //! | [`Rolling`] | [`rolling`] | roll always; loads are quasi-static |
 //! | [`Planar`] | [`planar`] | each ball moves by its own equations ([`ball`]) |
 //!
-//! Both may have a steady friction moment: as a whole, or shared by the balls ([`steady_moment`]). What the pockets take
+//! Both may have a steady friction moment: as a whole, or shared by the balls ([`steady_moment`]). Without one, oil resists the
+//! rolling of each ball ([`inlet_couples`]). What the pockets take
 //! while the race accelerates follows from the balls in the planar fidelity; in the rolling one it is given
 //! ([`acceleration_loss`]).
 //!
@@ -19,6 +20,7 @@ pub mod ball;
 pub mod ball_states;
 pub mod cage;
 pub mod full_complement;
+pub mod inlet_couples;
 pub mod linear;
 pub mod planar;
 pub mod planar_constants;
@@ -40,7 +42,7 @@ pub use steady_moment::{SharedMoment, SteadyMoment};
 pub const DETAIL_PER_BALL: usize = 5;
 
 /// Kinds of heat made in a bearing, in the order of [`BearingHeat::kinds`]: names as in results.
-pub const HEATS: [&str; 12] = [
+pub const HEATS: [&str; 13] = [
     "inner_contact_damping",
     "outer_contact_damping",
     "inner_ball_slip",
@@ -53,6 +55,7 @@ pub const HEATS: [&str; 12] = [
     "cage_land_friction",
     "ball_ball_damping",
     "ball_ball_friction",
+    "inlet_rolling",
 ];
 
 /// Index of the heat in the pockets among [`HEATS`]: the loss of accelerated balls belongs to it as well.
@@ -85,6 +88,8 @@ pub struct BearingHeat<R> {
     pub neighbour_damping: R,
     /// Neighbouring balls sliding on each other.
     pub neighbour_sliding: R,
+    /// Oil that is squeezed in the inlets of rolling contacts.
+    pub inlet_rolling: R,
 }
 
 impl<R: Real> BearingHeat<R> {
@@ -105,6 +110,7 @@ impl<R: Real> BearingHeat<R> {
             land_sliding: zero,
             neighbour_damping: zero,
             neighbour_sliding: zero,
+            inlet_rolling: zero,
         }
     }
     /// The heats in the order of [`HEATS`].
@@ -123,6 +129,7 @@ impl<R: Real> BearingHeat<R> {
             self.land_sliding,
             self.neighbour_damping,
             self.neighbour_sliding,
+            self.inlet_rolling,
         ]
     }
 }
@@ -361,6 +368,10 @@ impl BearingConstants {
             "pocket_damping" | "pocket_friction" => {
                 !matches!(separation, Separation::Neighbours(_))
             }
+            "inlet_rolling" => match self {
+                BearingConstants::Rolling(_) => false,
+                BearingConstants::Planar(bearing) => bearing.resisting_inlets().is_some(),
+            },
             _ => true,
         }
     }

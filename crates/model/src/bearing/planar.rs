@@ -6,20 +6,22 @@
 //!   I_c ω̇_c = Σ cage moments of the balls - c_c ω_c        ball j: see `ball`
 //! ```
 //! What keeps the balls apart is one of three: a cage centred on the outer race, with which its mass moves; a cage that
-//! is free to move, see [`cage`](super::cage); or nothing but the balls, see [`full_complement`](super::full_complement).
+//! is free to move, see [`cage`]; or nothing but the balls, see [`full_complement`].
 //! Drag to ground (c_d on the orbit, c_w on the spin, c_c on the cage) exists to reproduce reference cases; it is no
-//! bearing friction moment. That is [`steady_moment`](super::steady_moment), and excludes it.
+//! bearing friction moment. That is [`steady_moment`], and excludes it; without it the oil of lubricated
+//! contacts resists rolling by [`inlet_couples`].
 //!
 //! Does not model: squeeze of the film, heat.
 
 use super::ball::{
     BallConstants, BallDistances, BallMotion, PocketMotion, RaceMotion, gather_group,
 };
-use super::ball_states::{add, direction, load_ball, race, split, split_mut};
+use super::ball_states::{direction, load_ball, race, split, split_mut};
 use super::cage::{self, FreeCage};
 use super::full_complement::{self, FullComplement};
+use super::inlet_couples::{self, InletCouples};
 use super::planar_constants::{PlanarConstants, Separation};
-use super::steady_moment::{BallPlace, MomentPairs};
+use super::steady_moment::{self, MomentPairs};
 use super::{BallSums, BearingHeat, BearingReaction, largest_part};
 use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, Vectorized};
@@ -36,17 +38,18 @@ enum Apart<R: Real> {
 /// The planar bearing over `R`.
 #[derive(Clone, Debug)]
 pub struct Planar<R: Real> {
-    balls: usize,
-    ball: BallConstants<R::Group>,
+    pub(super) balls: usize,
+    pub(super) ball: BallConstants<R::Group>,
     traction: Traction<R::Group>,
     cage_inverse_inertia: R,
     cage_drag: R,
-    /// 2k: twice the growth of the inner track's radius with the square of its speed, m s².
-    twice_growth: R,
+    /// 2k: twice the growth of the inner track's radius with the square of its speed, m s²; none where it does not grow.
+    twice_growth: Option<R>,
     moment: Option<MomentPairs<R>>,
+    couples: Option<InletCouples<R>>,
     apart: Apart<R>,
     /// First state of the balls.
-    first: usize,
+    pub(super) first: usize,
     /// Angle of each pocket on the cage, rad.
     seats: Vec<R>,
 }
@@ -63,11 +66,14 @@ impl<R: Real> Planar<R> {
             traction: gather_group::<R, _>(&|lane| &machine(lane).traction),
             cage_inverse_inertia: R::from_lanes(|lane| 1.0 / machine(lane).cage_inertia),
             cage_drag: R::from_lanes(|lane| machine(lane).cage_drag),
-            twice_growth: R::from_lanes(|lane| 2.0 * machine(lane).ball.inner_track_growth),
+            twice_growth: (0..R::LANES)
+                .any(|lane| machine(lane).ball.inner_track_growth != 0.0)
+                .then(|| R::from_lanes(|lane| 2.0 * machine(lane).ball.inner_track_growth)),
             moment: MomentPairs::gather(&|lane| {
                 let bearing = machine(lane);
                 (bearing.geometry(), bearing.moment.as_ref())
             }),
+            couples: InletCouples::gather(&|lane| machine(lane)),
             apart: match &machine(0).separation {
                 Separation::CentredCage => Apart::Centred,
                 Separation::FreeCage(_) => {
@@ -111,7 +117,7 @@ impl<R: Real> Planar<R> {
         };
         // apart from the sum above: without a steady moment nothing is paid, and the code above stands once a law
         if let Some(pairs) = &self.moment {
-            R::vectorized(Share {
+            R::vectorized(steady_moment::Share {
                 bearing: self,
                 pairs,
                 motion,
@@ -120,6 +126,24 @@ impl<R: Real> Planar<R> {
                 rate,
                 reaction: &mut reaction,
             });
+        }
+        if let Some(couples) = &self.couples {
+            R::vectorized(inlet_couples::Act {
+                bearing: self,
+                couples,
+                motion,
+                state,
+                rate,
+                reaction: &mut reaction,
+            });
+        }
+        if let Some(twice_growth) = self.twice_growth {
+            let pressed = R::vectorized(InnerElastic {
+                bearing: self,
+                motion,
+                state,
+            });
+            reaction.growth_impulse = twice_growth * motion.inner.spin * pressed;
         }
         match &self.apart {
             Apart::Centred => {}
@@ -162,88 +186,22 @@ impl<R: Real> Planar<R> {
         })
     }
 
-    /// Adds the pairs of the steady moment to the rates and to the reaction.
+    /// Sum of the elastic loads of all balls at the inner race, N.
     #[inline(always)]
-    fn share(
-        &self,
-        pairs: &MomentPairs<R>,
-        motion: &Motion<R>,
-        held_load: R,
-        state: &[R],
-        rate: &mut [R],
-        reaction: &mut BearingReaction<R>,
-    ) {
-        let n = self.balls;
-        let speed = motion.inner.spin - motion.outer.spin;
-        let [x, y, inner_sum, outer_sum] = self.loads(motion, state);
-        let load = Vec2::new(x, y).length_squared().sqrt() + held_load;
-        let shared = pairs.share(speed, load, inner_sum, outer_sum);
-
-        let lists = split(state, self.first, n);
-        let [_, d_radial_speed, _, d_orbit_speed, d_spin] = split_mut(rate, self.first, n);
-        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
-        let mut sums = BallSums::<R, 5>::new(n);
-        let mut from = 0;
-        while from < n {
-            let ball = load_ball(&lists, from);
-            let place = self
-                .ball
-                .between(&inner, &outer, &ball, &distances(&inner, &outer, &ball));
-            let t = place.outer.n.turned();
-            let distance = place.outer.distance;
-            let p = shared.pairs(&BallPlace {
-                past: place.outer.past.dot(t) - outer.spin * distance,
-                inverse_distance: place.outer.inverse_distance,
-                on_inner: ball.spin - inner.spin,
-                on_outer: ball.spin - outer.spin,
-                inner_load: place.inner.normal.force,
-                outer_load: place.outer.normal.force,
-            });
-            let force = t * p.orbit_drag;
-            let slowing = force * self.ball.inverse_mass;
-            let sideways = slowing.dot(place.e_r.turned()) * place.inverse_radius;
-            let couple = p.inner_couple + p.outer_couple;
-            add(d_radial_speed, from, -(slowing.dot(place.e_r)));
-            add(d_orbit_speed, from, -(sideways));
-            add(d_spin, from, -(couple * self.ball.inverse_inertia));
-            sums.add(
-                from,
-                &[
-                    p.inner_couple,
-                    force.x,
-                    force.y,
-                    p.orbit_drag * distance + p.outer_couple,
-                    p.heat,
-                ],
-            );
-            from += R::GROUP;
-        }
-        let [on_inner, x, y, on_outer, heat] = sums.total();
-        reaction.on_inner.moment += on_inner;
-        reaction.on_outer += Wrench::planar(Vec2::new(x, y), on_outer);
-        reaction.heat.steady_moment = heat;
-        reaction.steady_moment = shared.moment;
-    }
-
-    /// Loads of all balls: ΣQ_i n (two components), ΣQ_i, ΣQ_o, N.
-    #[inline(always)]
-    fn loads(&self, motion: &Motion<R>, state: &[R]) -> [R; 4] {
+    fn inner_elastic(&self, motion: &Motion<R>, state: &[R]) -> R {
         let n = self.balls;
         let lists = split(state, self.first, n);
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
-        let mut sums = BallSums::<R, 4>::new(n);
+        let mut sum = BallSums::<R, 1>::new(n);
         let mut from = 0;
         while from < n {
             let ball = load_ball(&lists, from);
-            let between =
-                self.ball
-                    .between(&inner, &outer, &ball, &distances(&inner, &outer, &ball));
-            let (inner_load, outer_load) = (between.inner.normal.force, between.outer.normal.force);
-            let push = between.inner.n * inner_load;
-            sums.add(from, &[push.x, push.y, inner_load, outer_load]);
+            let places = distances(&inner, &outer, &ball);
+            let between = self.ball.between(&inner, &outer, &ball, &places);
+            sum.add(from, &[between.inner.normal.elastic]);
             from += R::GROUP;
         }
-        sums.total()
+        sum.total()[0]
     }
 
     /// Rate of the angular momentum of balls and cage about the origin, N m, from the rates of their states.
@@ -301,7 +259,7 @@ impl<R: Real> Planar<R> {
             from += R::GROUP;
         }
         let mut largest = [<R::Group as Real>::zero(); 3];
-        let mut sums = BallSums::<R, 16>::new(n);
+        let mut sums = BallSums::<R, 15>::new(n);
         let mut from = 0;
         while from < n {
             let ball = load_ball(&lists, from);
@@ -342,7 +300,6 @@ impl<R: Real> Planar<R> {
                     r.heat.drag,
                     r.heat.pocket_damping,
                     r.heat.pocket_sliding,
-                    r.inner_elastic,
                 ],
             );
             // a group repeats the last ball behind the end of the list: no harm to a maximum
@@ -374,7 +331,7 @@ impl<R: Real> Planar<R> {
             outer_inertia: R::zero(),
             loss_inertia: R::zero(),
             steady_moment: R::zero(),
-            growth_impulse: self.twice_growth * motion.inner.spin * s[15],
+            growth_impulse: R::zero(),
             external_moment: s[7] - cage_drag,
             heat: BearingHeat {
                 inner_damping: s[8],
@@ -418,29 +375,18 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
     }
 }
 
-/// [`Planar::share`] as a task.
-struct Share<'a, R: Real> {
+/// [`Planar::inner_elastic`] as a task.
+struct InnerElastic<'a, R: Real> {
     bearing: &'a Planar<R>,
-    pairs: &'a MomentPairs<R>,
     motion: &'a Motion<R>,
-    held_load: R,
     state: &'a [R],
-    rate: &'a mut [R],
-    reaction: &'a mut BearingReaction<R>,
 }
 
-impl<R: Real> Vectorized for Share<'_, R> {
-    type Output = ();
+impl<R: Real> Vectorized for InnerElastic<'_, R> {
+    type Output = R;
     #[inline(always)]
-    fn run(self) {
-        self.bearing.share(
-            self.pairs,
-            self.motion,
-            self.held_load,
-            self.state,
-            self.rate,
-            self.reaction,
-        );
+    fn run(self) -> R {
+        self.bearing.inner_elastic(self.motion, self.state)
     }
 }
 

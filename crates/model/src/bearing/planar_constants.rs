@@ -9,6 +9,7 @@ use super::planar::distances;
 use super::steady_moment::{Geometry, SharedMoment};
 use crate::motion::Motion;
 use number::Real;
+use physics::inlet_rolling::ResistanceAtRaces;
 use physics::traction::Traction;
 
 /// Constants of one planar bearing.
@@ -32,6 +33,8 @@ pub struct PlanarConstants {
     pub first_ball_angle: f64,
     /// The steady friction moment; with it the drags to ground are zero.
     pub moment: Option<SharedMoment>,
+    /// Rolling resistance of the oil in the inlets; not counted beside a steady moment, which holds it.
+    pub inlet_rolling: Option<ResistanceAtRaces<f64>>,
 }
 
 /// What keeps the balls apart.

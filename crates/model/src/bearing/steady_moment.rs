@@ -22,7 +22,11 @@
 //! Assumes: χ_o (½ where nothing is known), and that all balls share M0 equally whatever their load.
 //! Does not model: drag on the cage and its lands; the flow that carries lubricant around; the moment at standstill.
 
-use number::{Gather, Real};
+use super::ball_states::{add, load_ball, race, split, split_mut};
+use super::planar::distances;
+use super::{BallSums, BearingReaction, Planar};
+use crate::motion::{Motion, Wrench};
+use number::{Gather, Real, Vec2, Vectorized};
 pub use physics::friction::Friction as SteadyMoment;
 
 /// Speed at which the load-dependent part is taken where the race turns more slowly, rad/s: its sign is that of the
@@ -244,5 +248,117 @@ impl<R: Real> PairsOfBall<'_, R> {
                 + inner_couple * ball.on_inner
                 + outer_couple * ball.on_outer,
         }
+    }
+}
+
+impl<R: Real> Planar<R> {
+    /// Adds the pairs of the steady moment to the rates and to the reaction.
+    #[inline(always)]
+    fn share(
+        &self,
+        pairs: &MomentPairs<R>,
+        motion: &Motion<R>,
+        held_load: R,
+        state: &[R],
+        rate: &mut [R],
+        reaction: &mut BearingReaction<R>,
+    ) {
+        let n = self.balls;
+        let speed = motion.inner.spin - motion.outer.spin;
+        let [x, y, inner_sum, outer_sum] = self.loads(motion, state);
+        let load = Vec2::new(x, y).length_squared().sqrt() + held_load;
+        let shared = pairs.share(speed, load, inner_sum, outer_sum);
+
+        let lists = split(state, self.first, n);
+        let [_, d_radial_speed, _, d_orbit_speed, d_spin] = split_mut(rate, self.first, n);
+        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
+        let mut sums = BallSums::<R, 5>::new(n);
+        let mut from = 0;
+        while from < n {
+            let ball = load_ball(&lists, from);
+            let place = self
+                .ball
+                .between(&inner, &outer, &ball, &distances(&inner, &outer, &ball));
+            let t = place.outer.n.turned();
+            let distance = place.outer.distance;
+            let p = shared.pairs(&BallPlace {
+                past: place.outer.past.dot(t) - outer.spin * distance,
+                inverse_distance: place.outer.inverse_distance,
+                on_inner: ball.spin - inner.spin,
+                on_outer: ball.spin - outer.spin,
+                inner_load: place.inner.normal.force,
+                outer_load: place.outer.normal.force,
+            });
+            let force = t * p.orbit_drag;
+            let slowing = force * self.ball.inverse_mass;
+            let sideways = slowing.dot(place.e_r.turned()) * place.inverse_radius;
+            let couple = p.inner_couple + p.outer_couple;
+            add(d_radial_speed, from, -(slowing.dot(place.e_r)));
+            add(d_orbit_speed, from, -(sideways));
+            add(d_spin, from, -(couple * self.ball.inverse_inertia));
+            sums.add(
+                from,
+                &[
+                    p.inner_couple,
+                    force.x,
+                    force.y,
+                    p.orbit_drag * distance + p.outer_couple,
+                    p.heat,
+                ],
+            );
+            from += R::GROUP;
+        }
+        let [on_inner, x, y, on_outer, heat] = sums.total();
+        reaction.on_inner.moment += on_inner;
+        reaction.on_outer += Wrench::planar(Vec2::new(x, y), on_outer);
+        reaction.heat.steady_moment = heat;
+        reaction.steady_moment = shared.moment;
+    }
+
+    /// Loads of all balls: ΣQ_i n (two components), ΣQ_i, ΣQ_o, N.
+    #[inline(always)]
+    fn loads(&self, motion: &Motion<R>, state: &[R]) -> [R; 4] {
+        let n = self.balls;
+        let lists = split(state, self.first, n);
+        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
+        let mut sums = BallSums::<R, 4>::new(n);
+        let mut from = 0;
+        while from < n {
+            let ball = load_ball(&lists, from);
+            let between =
+                self.ball
+                    .between(&inner, &outer, &ball, &distances(&inner, &outer, &ball));
+            let (inner_load, outer_load) = (between.inner.normal.force, between.outer.normal.force);
+            let push = between.inner.n * inner_load;
+            sums.add(from, &[push.x, push.y, inner_load, outer_load]);
+            from += R::GROUP;
+        }
+        sums.total()
+    }
+}
+
+/// What the balls share, as a task: it is compiled once for all systems and traction laws.
+pub(super) struct Share<'a, R: Real> {
+    pub bearing: &'a Planar<R>,
+    pub pairs: &'a MomentPairs<R>,
+    pub motion: &'a Motion<R>,
+    pub held_load: R,
+    pub state: &'a [R],
+    pub rate: &'a mut [R],
+    pub reaction: &'a mut BearingReaction<R>,
+}
+
+impl<R: Real> Vectorized for Share<'_, R> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        self.bearing.share(
+            self.pairs,
+            self.motion,
+            self.held_load,
+            self.state,
+            self.rate,
+            self.reaction,
+        );
     }
 }

@@ -21,6 +21,7 @@ use model::system::drop::{Drop, DropConstants, DropMachine, MachineConstants};
 use number::Vec2;
 use physics::film::EntrainedContact;
 use physics::hertz::{BallRace, PointContact, Race};
+use physics::inlet_rolling::ResistanceAtRaces;
 use physics::lubricant::FVA_3;
 use physics::lubricant_traction::{Asperities, LubricatedContact, STEEL_SURFACE};
 use physics::materials::{BEARING_STEEL, contact_modulus};
@@ -76,6 +77,7 @@ pub fn planar_bearing() -> PlanarConstants {
         cage_drag: 0.0,
         first_ball_angle: 0.0,
         moment: None,
+        inlet_rolling: None,
     }
 }
 
@@ -146,33 +148,46 @@ pub fn tilt_contacts(bearing: &mut PlanarConstants, contact_angle: f64) {
     b.load_per_radial_force = 1.0 / cosine;
 }
 
-/// Traction of this bearing in a mineral oil at 60 °C.
+/// A contact of this bearing in a mineral oil at 60 °C.
+fn oiled_contact(race: Race, groove_curvature: f64) -> LubricatedContact {
+    let curvature = BallRace {
+        ball_diameter: 6.35e-3,
+        pitch_diameter: 36e-3,
+        groove_curvature,
+        contact_angle: 0.0,
+        race,
+    }
+    .curvature();
+    let modulus = contact_modulus(BEARING_STEEL, BEARING_STEEL);
+    LubricatedContact {
+        entrained: EntrainedContact::new(curvature, modulus).expect("a groove"),
+        hertz: PointContact::new(curvature, modulus).expect("a groove"),
+        lubricant: FVA_3.at(333.15, None).expect("within its data"),
+        supply: 1.0,
+        surfaces: [STEEL_SURFACE; 2],
+        asperities: Asperities::raceway(0.1e-6, 0.01),
+    }
+}
+
+/// Its contacts at the inner and the outer race.
+fn oiled_contacts() -> [LubricatedContact; 2] {
+    [
+        oiled_contact(Race::Inner, 0.515),
+        oiled_contact(Race::Outer, 0.525),
+    ]
+}
+
+/// Traction of this bearing in that oil.
 pub fn oil() -> Traction<f64> {
-    let law = |race, groove_curvature| {
-        let curvature = BallRace {
-            ball_diameter: 6.35e-3,
-            pitch_diameter: 36e-3,
-            groove_curvature,
-            contact_angle: 0.0,
-            race,
-        }
-        .curvature();
-        let modulus = contact_modulus(BEARING_STEEL, BEARING_STEEL);
-        LubricatedContact {
-            entrained: EntrainedContact::new(curvature, modulus).expect("a groove"),
-            hertz: PointContact::new(curvature, modulus).expect("a groove"),
-            lubricant: FVA_3.at(333.15, None).expect("within its data"),
-            supply: 1.0,
-            surfaces: [STEEL_SURFACE; 2],
-            asperities: Asperities::raceway(0.1e-6, 0.01),
-        }
-        .traction()
-        .expect("positive constants")
-    };
-    Traction::Lubricated(LubricatedRaces {
-        inner: law(Race::Inner, 0.515),
-        outer: law(Race::Outer, 0.525),
-    })
+    let [inner, outer] =
+        oiled_contacts().map(|contact| contact.traction().expect("positive constants"));
+    Traction::Lubricated(LubricatedRaces { inner, outer })
+}
+
+/// Rolling resistance of that oil in the inlets.
+pub fn inlets() -> ResistanceAtRaces<f64> {
+    let [inner, outer] = oiled_contacts().map(|contact| contact.resistance(0.01));
+    ResistanceAtRaces { inner, outer }
 }
 
 /// The same bearing with balls that roll: contacts in series, the source paper's inertias, no friction moment.
@@ -415,9 +430,9 @@ pub fn random_state(machine: &DropMachine, random: &mut Random) -> Vec<f64> {
             part[0] = cage_angle;
             part[1] = cage_speed;
             let b = &bearing.ball;
-            for channel in CAGE_PLACE..bearing.first_ball_state() {
-                let speed = channel >= CAGE_PLACE + 2;
-                part[channel] = random.within(if speed { 0.3 } else { 0.2e-3 });
+            let place = CAGE_PLACE..bearing.first_ball_state().max(CAGE_PLACE);
+            for (channel, value) in part[place].iter_mut().enumerate() {
+                *value = random.within(if channel < 2 { 0.2e-3 } else { 0.3 });
             }
             // neighbours without a cage are as often pressed as apart
             let gap = match bearing.separation {

@@ -226,9 +226,28 @@ fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f
                     -(b.ball.outer_track + 0.5 * approach) * traction
                 })
                 .sum();
-            tractions + steady + land_moment_on_outer_race(machine, state, b)
+            let land = land_moment_on_outer_race(machine, state, b);
+            tractions + steady + land + inlet_couples_on_outer_race(machine, state, b)
         }
     }
+}
+
+/// What the oil in the inlets does to the outer race: the opposite of the couples that slow the balls. Contacts at an angle
+/// show the plane the cosine of their rolling, and of its couple.
+fn inlet_couples_on_outer_race(machine: &DropMachine, state: &[f64], b: &PlanarConstants) -> f64 {
+    let Some(inlets) = &b.inlet_rolling else {
+        return 0.0;
+    };
+    let motion = race_motion(state);
+    let cosine = 1.0 / b.ball.load_per_radial_force;
+    (0..b.balls)
+        .map(|j| {
+            let reaction = b.ball_reaction(&motion, bearing_part(machine, state), j);
+            let [_, contact] = reaction.contacts();
+            let spin = ball_of(machine, state, j).spin;
+            -cosine * inlets.outer.couple(&contact, cosine * spin)
+        })
+        .sum()
 }
 
 /// Friction of a cage that rides in the outer race, about that race's centre.

@@ -1,15 +1,16 @@
 //! Machines that differ from the reference in one thing each.
 
 use crate::machines::{
-    balance_mount, let_roll, oil, planar, reference, separate, separations, tilt_contacts, vec2,
+    balance_mount, inlets, let_roll, oil, planar, reference, separate, separations, tilt_contacts,
+    vec2,
 };
 use model::bearing::{AccelerationLoss, BearingConstants, SharedMoment, SteadyMoment};
 use model::system::drop::DropMachine;
 use physics::palmgren::Palmgren;
 use physics::traction::{DryTraction, FourParameterTraction, Traction};
 
-/// The reference machine and its relatives: other traction laws, oil, a brake, a drive, levitation, a held race, seven balls,
-/// balls that roll, cages free to move, no cage, a race that grows, contacts at an angle.
+/// The reference machine and its relatives: other traction laws, oil, oil that resists rolling, a brake, a drive, levitation, a
+/// held race, seven balls, balls that roll, cages free to move, no cage, a race that grows, contacts at an angle.
 pub fn machines() -> Vec<DropMachine> {
     let base = || {
         let mut c = reference();
@@ -75,6 +76,10 @@ pub fn machines() -> Vec<DropMachine> {
     }
     let mut tilted = base();
     tilt_contacts(planar(&mut tilted), 0.4);
+    let mut resisted = oiled.clone();
+    planar(&mut resisted).inlet_rolling = Some(inlets());
+    let mut resisted_at_an_angle = resisted.clone();
+    tilt_contacts(planar(&mut resisted_at_an_angle), 0.4);
     let separated = separations().map(|separation| {
         let mut c = base();
         separate(&mut c, separation);
@@ -97,13 +102,14 @@ pub fn machines() -> Vec<DropMachine> {
     ]
     .into_iter()
     .chain(separated)
+    .chain([resisted, resisted_at_an_angle])
     .enumerate()
     .map(|(i, constants)| DropMachine::with_levitation(constants, i % 2 == 0))
     .collect()
 }
 
 /// Grease of 100 mm²/s in a 6005 of 6.55 kN.
-fn grease() -> Palmgren<f64> {
+pub fn grease() -> Palmgren<f64> {
     Palmgren {
         viscous_factor: 2.0,
         viscosity: 100e-6,

@@ -5,8 +5,8 @@
 //! ```
 //! Each ball is evaluated once over numbers with partials by its own five states and by the eleven of its neighbours; the
 //! rest of the machine once over numbers with partials by the 18 of the border that turn or carry the balls.
-//! Left out: how the steady moment couples the balls through the sums of their loads, what follows from the place of a free
-//! cage, how neighbours without a cage press each other, the power of a growing race.
+//! Left out: how the steady moment couples the balls through the sums of their loads, the rolling resistance of oil, what
+//! follows from the place of a free cage, how neighbours without a cage press each other, the power of a growing race.
 
 use super::layout::{BEARING, INNER, Layout, OUTER, ROTOR};
 use super::rate::race_motion;

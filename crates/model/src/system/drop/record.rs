@@ -78,6 +78,9 @@ const WATCHED: [usize; 4] = [
     LAND_FORCE,
 ];
 
+/// So many of the first of them are searched for between the steps as well; the others are chaotic.
+const SEARCHED: usize = 2;
+
 /// A peak is searched for inside a step when a value comes this near to the record.
 const NEAR_RECORD: f64 = 0.9;
 /// A peak that rises above both ends of its step by less than this share of the record is not worth searching.
@@ -301,7 +304,7 @@ impl Record {
         let mut search = false;
         for (k, record) in self.forces().into_iter().enumerate() {
             record.raise(end[k], time);
-            if start[k].max(end[k]) > NEAR_RECORD * record.value {
+            if k < SEARCHED && start[k].max(end[k]) > NEAR_RECORD * record.value {
                 let last_slope = (start[k] - last[k]) / last_length;
                 let slope = (end[k] - start[k]) / length;
                 search |= may_peak(last_slope, slope, length, STEADY * record.value);
