@@ -5,12 +5,12 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// What happens when a magnetically levitated rotor falls onto its auxiliary rolling bearings, how these bearings are brought
-/// to speed, and which torque they make.
+/// to speed, which torque they make, and what measurements of them say.
 #[derive(Debug, Parser)]
 #[command(
     name = "auxbear",
     version,
-    after_help = "Start with `auxbear new drop my_drop.toml` (or spin_up, torque), then `auxbear run my_drop.toml`.\n\
+    after_help = "Start with `auxbear new drop my_drop.toml` (or spin_up, torque, signals), then `auxbear run my_drop.toml`.\n\
                   Exit status: 0 done, 1 the run failed, 2 the input is wrong, 130 interrupted."
 )]
 pub struct Arguments {
@@ -24,6 +24,8 @@ pub enum Command {
     Run(Run),
     /// Show the moments of one bearing over speed, load and acceleration, and write a run directory
     Torque(Torque),
+    /// Compute speed, torque and cage speed from the channels of a measurement file, and write a run directory
+    Signals(Signals),
     /// Read and check a file, print it with every default and its unit; run nothing
     Check {
         /// Scenario file
@@ -34,14 +36,14 @@ pub enum Command {
     },
     /// Write a commented starting file
     New {
-        /// What to describe: drop, spin_up or torque
+        /// What to describe: drop, spin_up, torque or signals
         kind: String,
         /// File to write; printed if none is given
         path: Option<PathBuf>,
     },
     /// Print the JSON Schema of a kind of file, by which editors complete and check it
     Schema {
-        /// Kind of file: drop, spin_up or torque
+        /// Kind of file: drop, spin_up, torque or signals
         kind: String,
     },
     /// Draw the HTML report of one run again, or of several side by side
@@ -85,6 +87,21 @@ pub struct Run {
     /// Number of threads [all cores]; the numbers do not depend on it
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
+    /// Print nothing but problems
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Signals {
+    /// File that says what the channels of the measurement are; `auxbear new signals` writes one to start from
+    pub file: PathBuf,
+    /// Run directory to write [runs/NAME of the file, with a number where that is taken]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Override a value of the file, e.g. signals.file=test_7.tdms; may be repeated
+    #[arg(long, value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
     /// Print nothing but problems
     #[arg(long)]
     pub quiet: bool,

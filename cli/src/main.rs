@@ -6,6 +6,7 @@ mod console;
 mod progress;
 mod run;
 mod schema;
+mod signals;
 mod start;
 mod summary;
 mod torque;
@@ -46,6 +47,7 @@ impl From<Exit> for ExitCode {
 }
 
 fn main() -> ExitCode {
+    measured_quietly();
     let arguments = Arguments::parse();
     let exit = match perform(&arguments.command) {
         Ok(exit) => exit,
@@ -60,10 +62,21 @@ fn main() -> ExitCode {
     exit.into()
 }
 
+/// A damaged measurement file may make the library that unpacks it panic: the reader catches that and tells it as a problem.
+fn measured_quietly() {
+    let usual = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        if !simulate::panic_is_caught() {
+            usual(panic);
+        }
+    }));
+}
+
 fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
     match command {
         Command::Run(wish) => return run::perform(wish),
         Command::Torque(wish) => return torque::perform(wish),
+        Command::Signals(wish) => return signals::perform(wish),
         Command::Check { file, set } => {
             let scenario = Scenario::read(file, set, &BuiltIn)?;
             let never = AtomicBool::new(false);

@@ -33,6 +33,23 @@ const OF_SPIN_UP: &[&str] = &[
     "energy_residual",
 ];
 
+/// The same in a measurement.
+const OF_SIGNALS: &[&str] = &[
+    "channels",
+    "pulse_count",
+    "pulses_repaired_share",
+    "peak_speed",
+    "engagement_time",
+    "peak_acceleration",
+    "peak_acceleration_deviation",
+    "sensor_frequency",
+    "peak_torque",
+    "median_torque_deviation",
+    "largest_synchronous_disturbance",
+    "median_cage_slip",
+    "median_cage_slip_deviation",
+];
+
 /// Units for people: SI unit, then units from large to small with their value in SI.
 const UNITS: &[(&str, &[(&str, f64)])] = &[
     ("s", &[("s", 1.0), ("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)]),
@@ -52,10 +69,12 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
     let names = match outcome.system {
         "torque" => return torque::text(path, outcome),
         "spin_up" => OF_SPIN_UP,
+        "signals" => OF_SIGNALS,
         _ => OF_DROP,
     };
     for &name in names {
-        if let Some(quantity) = outcome.quantities.iter().find(|q| q.name == name) {
+        let mut known = outcome.quantities.iter();
+        if let Some(quantity) = known.find(|q| q.name == name && !not_asked_for(q)) {
             rows.push([format!("  {}", name.replace('_', " ")), value(quantity)]);
         }
     }
@@ -70,16 +89,24 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
     }
     let work = &outcome.work;
     text.push_str(&format!(
-        "{} in {:.2} s, {} steps\n",
+        "{} in {:.2} s{}\n",
         match work.members {
             1 => "1 run".to_string(),
             members => format!("{members} runs"),
         },
         work.seconds,
-        work.steps
+        match outcome.system {
+            "signals" => String::new(),
+            _ => format!(", {} steps", work.steps),
+        }
     ));
     text.push_str(&format!("{}\n", path.join("report.html").display()));
     text
+}
+
+/// Whether a quantity needs a channel that the file does not name.
+fn not_asked_for(quantity: &Quantity) -> bool {
+    matches!(&quantity.value, Value::None { why } if why.ends_with(".channel is not given"))
 }
 
 fn value(quantity: &Quantity) -> String {

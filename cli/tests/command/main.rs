@@ -6,6 +6,7 @@ mod lists;
 mod place;
 mod run_directory;
 mod schema;
+mod signals;
 mod spin_up;
 mod stopped;
 mod torque;

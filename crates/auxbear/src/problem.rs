@@ -74,6 +74,14 @@ pub enum Code {
     OutputExists,
     /// AB0302
     OutputFailed,
+    /// AB0303
+    MeasurementUnreadable,
+    /// AB0304
+    UnknownChannel,
+    /// AB0305
+    ChannelClock,
+    /// AB0306
+    ChannelUnit,
     /// AB0401
     DuplicateBearing,
     /// AB0402
@@ -286,6 +294,30 @@ impl Code {
             "AB0302",
             "Output cannot be written",
             "The operating system refuses to write a result file, for example because the disk is full.",
+        ),
+        (
+            Code::MeasurementUnreadable,
+            "AB0303",
+            "Measurement file cannot be read",
+            "The file is missing, empty, damaged beyond reading, or of a format that is not known.",
+        ),
+        (
+            Code::UnknownChannel,
+            "AB0304",
+            "No such channel",
+            "The measurement file has no channel of this name, or one without numbers.",
+        ),
+        (
+            Code::ChannelClock,
+            "AB0305",
+            "Clock of a channel",
+            "The times of a channel are not known, do not rise, or are not evenly spaced.",
+        ),
+        (
+            Code::ChannelUnit,
+            "AB0306",
+            "Unit of a channel",
+            "A channel has no unit, or one of another dimension than what is computed from it.",
         ),
         (
             Code::DuplicateBearing,

@@ -36,6 +36,7 @@ fn base(system: SystemName, path: &str) -> String {
         SystemName::Drop => DROP.to_string(),
         SystemName::SpinUp => drive(path),
         SystemName::Torque => String::new(),
+        SystemName::Signals => return measurement(path),
     };
     let bearing = if path.starts_with("bearing.full_complement.") || path == "bearing.separation" {
         BEARING.replace("cage_mass = \"6 g\"\n", "")
@@ -45,6 +46,20 @@ fn base(system: SystemName, path: &str) -> String {
     format!(
         "format = \"auxbear.scenario/1\"\nsystem = \"{}\"\n{own}{bearing}",
         system.word()
+    )
+}
+
+/// A measurement in which the key has a meaning.
+fn measurement(path: &str) -> String {
+    let sensor = match path.rsplit_once('.').map_or(path, |(_, name)| name) {
+        "tap_file" | "tap_channel" | "tap_start" => "tap_file = \"tap.tdms\"",
+        _ => "sensor_frequency = \"30 Hz\"\ndamping_ratio = 0.2",
+    };
+    format!(
+        "format = \"auxbear.scenario/1\"\nsystem = \"signals\"\n[signals]\nfile = \"a.tdms\"\n\
+         [signals.speed]\nchannel = \"tacho\"\nmarks_per_revolution = 60\n\
+         [signals.torque]\nchannel = \"torque\"\n{sensor}\n\
+         [signals.cage]\nchannel = \"balls\"\nball_count = 10\nrolling_ratio = 0.4\n"
     )
 }
 
@@ -227,6 +242,8 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.moment.lubrication=grease",
             "bearing.moment.viscosity=100 mm^2/s",
         ],
+        "signals.speed.stamp_deviation" => &["signals.speed.kind=edges"],
+        "signals.cage.highest_slip" => &["signals.cage.kind=vibration"],
         "bearing.acceleration_loss.kind" => &["bearing.fidelity=rolling"],
         "bearing.acceleration_loss.force" => &[
             "bearing.fidelity=rolling",

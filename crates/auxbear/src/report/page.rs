@@ -58,6 +58,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("page/energy.js"),
     include_str!("page/spin_up.js"),
     include_str!("page/torque.js"),
+    include_str!("page/signals.js"),
     include_str!("page/tables.js"),
     include_str!("page/start.js"),
 ];

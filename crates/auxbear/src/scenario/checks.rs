@@ -38,6 +38,7 @@ pub(super) fn check(system: &System, values: &Values, file: &str) -> Check {
         System::Drop(drop) => context.drop(drop),
         System::SpinUp(spin_up) => context.spin_up(spin_up),
         System::Torque(torque) => context.torque(torque),
+        System::Signals(signals) => context.signals(signals),
     }
 }
 

@@ -4,7 +4,7 @@ use super::bearing_source::{BearingRecord, BearingSource};
 use super::document::{Document, Given, Raw};
 use super::key::{Key, Kind};
 use super::resolve::{Known, Value, Values, quantity_text};
-use super::table;
+use super::{table, table_signals};
 use crate::catalogue::Catalogue;
 use crate::problem::{Code, Place, Problem, did_you_mean};
 use std::path::{Path, PathBuf};
@@ -43,9 +43,9 @@ impl Values {
         Ok(Some(catalogue))
     }
 
-    /// The path of the user's own catalogue as it is found from any folder: the resolved file stands in another one.
+    /// The path of the user's own catalogue or measurement as it is found from any folder: the resolved file stands in another one.
     pub(super) fn lasting_path(&self, key: &Key, known: Known) -> Known {
-        if key.path != CATALOGUE {
+        if key.path != CATALOGUE && !table_signals::FILES.contains(&key.path) {
             return known;
         }
         let path = beside(self.file(), &known.text);

@@ -6,7 +6,7 @@
 //! ```text
 //! text + overrides ──document──▶ system; key, raw value, place
 //!                  ──resolve───▶ one value per key: given ▸ catalogue ▸ default ▸ derived
-//!                  ──drop, spin_up, torque──▶ typed SI values  ──checks──▶ Scenario
+//!                  ──drop, spin_up, torque, signals──▶ typed SI values  ──checks──▶ Scenario
 //! ```
 
 mod bearing;
@@ -14,6 +14,7 @@ mod bearing_source;
 mod checks;
 mod checks_drop;
 mod checks_separation;
+mod checks_signals;
 mod checks_spin_up;
 mod checks_torque;
 mod derive;
@@ -36,6 +37,7 @@ mod run;
 mod schema;
 mod section;
 mod separation;
+mod signals;
 mod spin_up;
 mod system;
 mod table;
@@ -44,6 +46,7 @@ mod table_cage;
 mod table_drive;
 mod table_drop;
 mod table_moment;
+mod table_signals;
 mod table_torque;
 mod template;
 mod torque;
@@ -60,6 +63,10 @@ pub use resolved::{Resolved, ResolvedValue};
 pub use run::{Method, Run};
 pub use schema::schema;
 pub use separation::{Cage, FullComplement, Guidance, Land, Separation};
+pub use signals::{
+    CageKind, CageSignal, Disturbance, PickupFlank, PickupKind, SensorSource, Signals, SpeedSignal,
+    TorqueSignal,
+};
 pub use spin_up::{Course, Drive, SpeedCourse, SpinUp};
 pub use system::{System, SystemName};
 pub use table::{FORMAT, keys, keys_of, presence, sections, sections_of, systems};
@@ -123,6 +130,7 @@ impl Scenario {
         let system = match document.system {
             SystemName::Drop => System::Drop(Drop::from_values(&values)),
             SystemName::SpinUp => System::SpinUp(SpinUp::from_values(&values)),
+            SystemName::Signals => System::Signals(Signals::from_values(&values)),
             SystemName::Torque => {
                 let laws = torque::compared_laws(&document, &values, bearings);
                 System::Torque(Torque::from_values(&values, laws)?)

@@ -1,6 +1,7 @@
 //! What a scenario may describe: one of several systems.
 
 use super::drop::Drop;
+use super::signals::Signals;
 use super::spin_up::SpinUp;
 use super::torque::Torque;
 
@@ -13,14 +14,20 @@ pub enum SystemName {
     SpinUp,
     /// The torque of a bearing over speed, load and acceleration.
     Torque,
+    /// A measurement: speed, torque and cage speed from the channels of a file.
+    Signals,
 }
 
 impl SystemName {
     /// All systems.
-    pub const ALL: &'static [SystemName] =
-        &[SystemName::Drop, SystemName::SpinUp, SystemName::Torque];
+    pub const ALL: &'static [SystemName] = &[
+        SystemName::Drop,
+        SystemName::SpinUp,
+        SystemName::Torque,
+        SystemName::Signals,
+    ];
     /// Their words, in the same order.
-    pub(super) const WORDS: &'static [&'static str] = &["drop", "spin_up", "torque"];
+    pub(super) const WORDS: &'static [&'static str] = &["drop", "spin_up", "torque", "signals"];
     /// Words of systems that are planned, so that asking for one is no spelling mistake.
     pub(super) const PLANNED: &'static [&'static str] = &["rig"];
 
@@ -54,6 +61,8 @@ pub enum System {
     SpinUp(SpinUp),
     /// The torque of a bearing over speed, load and acceleration.
     Torque(Torque),
+    /// What a measurement holds.
+    Signals(Signals),
 }
 
 impl System {
@@ -63,6 +72,7 @@ impl System {
             System::Drop(_) => SystemName::Drop,
             System::SpinUp(_) => SystemName::SpinUp,
             System::Torque(_) => SystemName::Torque,
+            System::Signals(_) => SystemName::Signals,
         }
     }
 }

@@ -5,7 +5,9 @@
 
 use super::key::{Key, Kind, Presence, Range, Section};
 use super::system::SystemName;
-use super::{table_bearing, table_cage, table_drive, table_drop, table_moment, table_torque};
+use super::{
+    table_bearing, table_cage, table_drive, table_drop, table_moment, table_signals, table_torque,
+};
 
 /// Format name of the scenario files that this version writes.
 pub const FORMAT: &str = "auxbear.scenario/1";
@@ -16,6 +18,7 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
         .iter()
         .chain(table_drive::SECTIONS)
         .chain(table_torque::SECTIONS)
+        .chain(table_signals::SECTIONS)
         .chain(table_bearing::SECTIONS)
         .chain(table_cage::SECTIONS)
         .chain(table_bearing::TRACTION_SECTIONS)
@@ -30,6 +33,7 @@ pub fn keys() -> impl Iterator<Item = &'static Key> {
         .chain(table_drop::KEYS)
         .chain(table_drive::KEYS)
         .chain(table_torque::KEYS)
+        .chain(table_signals::KEYS)
         .chain(table_bearing::KEYS)
         .chain(table_cage::KEYS)
         .chain(table_bearing::TRACTION)
@@ -62,7 +66,7 @@ pub fn presence(key: &Key, system: SystemName) -> Presence {
     let own = match system {
         SystemName::Torque => table_torque::PRESENCES,
         SystemName::SpinUp => table_drive::PRESENCES,
-        SystemName::Drop => &[],
+        SystemName::Drop | SystemName::Signals => &[],
     };
     let own = own.iter().find(|(path, _)| *path == key.path);
     own.map_or(key.presence, |(_, presence)| *presence)
@@ -70,11 +74,19 @@ pub fn presence(key: &Key, system: SystemName) -> Presence {
 
 /// Whether the starting file of a system gives a key that could stay away in a file of another bearing.
 pub(super) fn starts_with(key: &Key, system: SystemName) -> bool {
-    system == SystemName::Torque && table_torque::GIVEN.contains(&key.path)
+    match system {
+        SystemName::Torque => table_torque::GIVEN.contains(&key.path),
+        SystemName::Signals => table_signals::GIVEN.contains(&key.path),
+        SystemName::Drop | SystemName::SpinUp => false,
+    }
 }
 
 /// Systems in which something moves.
 pub(super) const MOVING: &[SystemName] = &[SystemName::Drop, SystemName::SpinUp];
+
+/// Systems with a bearing.
+pub(super) const WITH_BEARING: &[SystemName] =
+    &[SystemName::Drop, SystemName::SpinUp, SystemName::Torque];
 
 const RUN_SECTIONS: &[Section] = &[Section {
     path: "run",
@@ -93,7 +105,7 @@ const HEAD: &[Key] = &[
         "system",
         Kind::Word(SystemName::WORDS),
         "drop",
-        "What is simulated: drop, a levitated rotor that is released onto its auxiliary bearing; spin_up, an inner race that is brought to speed; torque, the torque of a bearing without motion.",
+        "What is simulated: drop, a levitated rotor that is released onto its auxiliary bearing; spin_up, an inner race that is brought to speed; torque, the torque of a bearing without motion; signals, speed and torque from a measurement.",
     ),
     Key::new(
         "title",
@@ -115,7 +127,8 @@ const HEAD: &[Key] = &[
         "my_bearings.toml",
         "File with your own bearings, relative to this one; they are added to the catalogue, or replace those of the same name.",
     )
-    .optional("the built-in catalogue alone is used"),
+    .optional("the built-in catalogue alone is used")
+    .only(WITH_BEARING),
 ];
 
 const RUN: &[Key] = &[

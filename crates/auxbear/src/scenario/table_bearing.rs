@@ -10,7 +10,7 @@ const DROP: &[SystemName] = &[SystemName::Drop];
 pub(super) const SECTIONS: &[Section] = &[Section {
     path: "bearing",
     doc: "The auxiliary rolling bearing at one plane. What the catalogue knows of the bearing named need not be given; what is given here counts.",
-    systems: SystemName::ALL,
+    systems: super::table::WITH_BEARING,
 }];
 
 /// Sections of traction and drag, behind that of the cage.

@@ -7,7 +7,7 @@ pub(super) const SECTIONS: &[Section] = &[
     Section {
         path: "bearing.moment",
         doc: "Steady friction moment of the bearing: what its inner race feels against a steady rotation.",
-        systems: SystemName::ALL,
+        systems: super::table::WITH_BEARING,
     },
     Section {
         path: "bearing.acceleration_loss",

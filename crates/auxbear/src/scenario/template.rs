@@ -13,6 +13,7 @@ pub fn template(kind: &str) -> Option<String> {
     let about = match system {
         SystemName::Drop => "A levitated rotor drops onto its auxiliary bearing.",
         SystemName::SpinUp => "The inner race of a bearing is brought to speed.",
+        SystemName::Signals => "Speed, torque and cage speed from a measurement.",
         SystemName::Torque => "The torque of a bearing over speed, load and acceleration.",
     };
     let mut out = String::new();

@@ -6,6 +6,7 @@
 //! | `before` | what is known before a run |
 //! | [`ensemble`] | one machine or many, in lanes and threads |
 //! | `drop`, `spin_up`, `torque` | runs a system and names what came out |
+//! | `signals` | reads a measurement and names what it holds |
 //! | `quantities`, `list` | each named result with its law, source and valid range |
 //! | `columns`, `columns_shared` | the history |
 //! | `warnings`, `warnings_shared` | what to know before trusting the numbers |
@@ -31,6 +32,7 @@ pub mod outcome;
 mod quantities;
 mod quantities_spin_up;
 mod quantities_torque;
+mod signals;
 mod skid;
 mod spin_up;
 mod torque;
@@ -41,6 +43,7 @@ mod warnings_torque;
 
 use crate::problem::Problem;
 use crate::scenario::{Drop, Scenario, SpinUp, System};
+pub use measure::file::parquet::panic_is_caught;
 pub use outcome::Outcome;
 use std::sync::atomic::AtomicBool;
 
@@ -95,6 +98,7 @@ enum Built<'a> {
     Drop(&'a Drop, Box<build::Built>),
     SpinUp(&'a SpinUp, Box<build_spin_up::Built>),
     Torque(Box<torque::Asked<'a>>),
+    Signals(Box<signals::Asked<'a>>),
 }
 
 /// Builds the machine that the scenario describes; runs nothing but the steady run that scales a friction moment, which
@@ -109,6 +113,9 @@ pub fn build<'a>(scenario: &'a Scenario, options: &Options) -> Result<Machine<'a
         System::Torque(torque) => {
             torque::Asked::of(torque).map(|asked| Built::Torque(Box::new(asked)))
         }
+        System::Signals(signals) => {
+            signals::Asked::of(signals).map(|asked| Built::Signals(Box::new(asked)))
+        }
     };
     let system = system.map_err(|problem| scenario.locate(problem))?;
     Ok(Machine { scenario, system })
@@ -121,6 +128,7 @@ impl Machine<'_> {
             Built::Drop(drop, built) => drop::run(self.scenario, drop, built, options),
             Built::SpinUp(spin_up, built) => spin_up::run(self.scenario, spin_up, built, options),
             Built::Torque(asked) => torque::run(self.scenario, asked),
+            Built::Signals(asked) => signals::run(self.scenario, asked),
         };
         let mut before = self.warnings();
         before.retain(|warning| {

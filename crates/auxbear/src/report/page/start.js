@@ -34,13 +34,15 @@ function start() {
   timeline.span(runs);
   // Each system has its own pictures; a page of both kinds of run shows both, each with its own runs.
   const torques = runs.filter(isTorque);
-  const moving = runs.filter((run) => !isTorque(run));
+  const measured = runs.filter(isSignals);
+  const moving = runs.filter((run) => !isTorque(run) && !isSignals(run));
   const drops = moving.filter((run) => !isSpinUp(run));
   const spinUps = runs.filter(isSpinUp);
   const builders = [
     ...(runs.length > 1 ? [[differenceSection, runs]] : []),
     ...(drops.length ? [[orbitSection, drops], [contactSection, drops]] : []),
     ...torqueSections(torques),
+    ...signalSections(measured),
     ...(moving.length ? [[speedSection, moving]] : []),
     ...(spinUps.length ? [[momentSection, spinUps], [slipSection, spinUps]] : []),
     ...(moving.length ? [[mapSection, moving], [pressureSection, moving]] : []),
@@ -50,7 +52,7 @@ function start() {
     ...(moving.length ? [[factSection, moving]] : []),
   ];
   const sections = builders.map(([build, some]) => guarded(build, some));
-  main.append(guarded(header, runs), navigation(sections, moving.length > 0), ...sections);
+  main.append(guarded(header, runs), navigation(sections, moving.length + measured.length > 0), ...sections);
   redrawAll();
   let waiting = false;
   window.addEventListener("resize", () => {

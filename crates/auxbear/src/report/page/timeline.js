@@ -14,6 +14,7 @@ const timeline = {
   words: "time since release",
   span(runs) {
     if (runs.every(isSpinUp)) this.words = "time since the start";
+    if (runs.every(isSignals)) this.words = "time on the clock of the file";
     const times = runs.filter((run) => run.time && run.time.length > 1).map((run) => run.time);
     if (!times.length) return;
     this.first = Math.min(...times.map((time) => time[0]));

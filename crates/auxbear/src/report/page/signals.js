@@ -1,0 +1,192 @@
+// The pictures of a measurement: what was read beside what it means, each with the band that holds it in 95 % of cases.
+
+function isSignals(run) {
+  return run.summary.system === "signals";
+}
+
+const BAND = 2;
+const BAND_WORDS = "Pale lines: twice the standard deviation to both sides.";
+
+// A line and its band from a column and that of its deviation.
+function bandLines(runs, name, deviation, scale, look) {
+  return runs.flatMap((run) => {
+    const values = scaledColumn(run, name, scale);
+    if (!values) return [];
+    const colour = runs.length > 1 ? run.colour : look.colour;
+    const spread = scaledColumn(run, deviation, scale * BAND);
+    const moved = (sign) => values.map((value, row) => (isNumber(value) && isNumber(spread[row]) ? value + sign * spread[row] : null));
+    const pale = { colour: colour + "80", width: 0.75, time: run.time };
+    const band = spread ? [{ ...pale, label: run.prefix + "+2σ", values: moved(1) }, { ...pale, label: run.prefix + "−2σ", values: moved(-1) }] : [];
+    return [{ ...look, label: run.prefix + look.label, time: run.time, values, colour }, ...band];
+  });
+}
+
+// What a run has no numbers for, with the reason of one of its quantities.
+function lackOf(runs, column, quantity, words) {
+  return runs.filter((run) => !columnOf(run, column)).map((run) => notInThisRun(`${words}: ${quantityOf(run, quantity).why || "no reason is given"}`, run));
+}
+
+function engagementMarks(runs) {
+  return (pen, plot, ratio) => {
+    const known = runs.flatMap((run) => [["engagement_time", "engaged"], ["change_end_time", "end of the change"]].map(([name, words]) => ({ instant: numberOf(run, name), words: run.prefix + words, colour: runs.length > 1 ? run.colour : SERIES_COLOURS.quiet })));
+    instantMarks(pen, plot, ratio, known.filter((mark) => mark.instant !== null));
+  };
+}
+
+function signalFigure(title, note, series, options, lack) {
+  return figure(title, series.length ? note : null, series.length ? timePlot({ series, ...options }) : null, lack);
+}
+
+// The quick change seen closely: speed and acceleration from before the engagement to behind its end.
+function changeFigure(run, runs) {
+  const [begin, end] = [numberOf(run, "engagement_time"), numberOf(run, "change_end_time")];
+  if (begin === null || end === null || !columnOf(run, "shaft.acceleration")) return null;
+  const rows = run.time.map((_, row) => row).filter((row) => run.time[row] >= begin - 0.4 * (end - begin) && run.time[row] <= end + 0.6 * (end - begin));
+  const x = rows.map((row) => 1e3 * run.time[row]);
+  const of = (name, spread, sign) => rows.map((row) => {
+    const [value, deviation] = [columnOf(run, name)[row], spread ? (columnOf(run, spread) || [])[row] : 0];
+    return isNumber(value) && isNumber(deviation) ? value + sign * BAND * deviation : null;
+  });
+  const three = (name, label, colour) => [
+    { label, x, y: of(name, null, 0), colour },
+    { label: "+2σ", x, y: of(name, `${name}_deviation`, 1), colour: colour + "90", width: 0.75 },
+    { label: "−2σ", x, y: of(name, `${name}_deviation`, -1), colour: colour + "90", width: 0.75 },
+  ];
+  const raw = { label: "between two pulses", x, y: rows.map((row) => (columnOf(run, "shaft.pulse_speed") || [])[row]), colour: SERIES_COLOURS.quiet, width: 1 };
+  const across = "time [ms]";
+  return figure(
+    shareOfRun(run, runs, "The quick change, closely"),
+    `${numberText(numberOf(run, "pulses_in_change"), 4)} pulses came in it. ${BAND_WORDS}`,
+    curves({ series: [raw, ...three("shaft.speed", "speed", SERIES_COLOURS.rotor)], across, upright: "speed [rad/s]", height: 260 }),
+    curves({ series: three("shaft.acceleration", "acceleration", SERIES_COLOURS.race), across, upright: "acceleration [rad/s²]", height: 260 }),
+  );
+}
+
+function shaftSection(runs) {
+  const raw = lines(runs, "shaft.pulse_speed", 1, { label: "between two pulses [rad/s]", colour: SERIES_COLOURS.quiet, width: 1 });
+  const speed = bandLines(runs, "shaft.speed", "shaft.speed_deviation", 1, { label: "speed [rad/s]", colour: SERIES_COLOURS.rotor, width: 1.5 });
+  const acceleration = bandLines(runs, "shaft.acceleration", "shaft.acceleration_deviation", 1, { label: "acceleration [rad/s²]", colour: SERIES_COLOURS.race, width: 1.5 });
+  const marks = engagementMarks(runs);
+  return section(
+    "shaft",
+    "Speed and acceleration of the shaft",
+    signalFigure("Speed", `Grey: pitch over time between two pulses, as raw as pulses are. ${BAND_WORDS}`, [...(raw.length && speed.length ? raw : []), ...speed], { label: "speed [rad/s]", marks, height: 290 }, lackOf(runs, "shaft.speed", "peak_speed", "speed")),
+    signalFigure("Acceleration", `Drag over the change to see it closely. ${BAND_WORDS}`, acceleration, { label: "acceleration [rad/s²]", marks, height: 260 }, []),
+    runs.map((run) => changeFigure(run, runs)),
+  );
+}
+
+function measuredTorqueSection(runs) {
+  const raw = lines(runs, "torque.reading", 1e3, { label: "reading [N mm]", colour: SERIES_COLOURS.quiet, width: 1 });
+  const torque = bandLines(runs, "torque.torque", "torque.deviation", 1e3, { label: "torque [N mm]", colour: SERIES_COLOURS.race, width: 1.5 });
+  const disturbance = bandLines(runs, "torque.disturbance", "torque.disturbance_deviation", 1e3, { label: "amplitude [N mm]", colour: SERIES_COLOURS.rotor, width: 1.25 });
+  return section(
+    "measured-torque",
+    "Torque",
+    signalFigure(
+      "The sensor's reading, and the torque that it felt",
+      `Grey: the reading with the sensor's swing, its zero and the disturbance once a turn. Coloured: the torque without them. ${BAND_WORDS}`,
+      [...raw, ...torque],
+      { label: "torque [N mm]", marks: engagementMarks(runs), height: 310 },
+      lackOf(runs, "torque.torque", "peak_torque", "the torque without the sensor's swing"),
+    ),
+    disturbance.length ? signalFigure("Disturbance once a turn, before the sensor amplifies it", BAND_WORDS, disturbance, { label: "amplitude [N mm]", include: () => [0], height: 190 }, []) : null,
+    runs.map((run) => torqueSpectrum(run, runs)),
+  );
+}
+
+// Amplitudes over frequency; where the sensor swings and where the shaft's orders lie at its largest speed is told.
+function torqueSpectrum(run, runs) {
+  const frequencies = listOf(run, "torque_spectrum_frequencies");
+  const amplitudes = listOf(run, "torque_spectrum_amplitudes").map((value) => 1e3 * value);
+  if (!frequencies.length) return null;
+  const top = Math.max(...amplitudes);
+  const bottom = Math.min(...amplitudes.filter((value) => value > 0));
+  const upright = (at, label, colour, dash) => ({ label, x: [at, at], y: [bottom, top], colour, dash, width: 1.25 });
+  const sensor = numberOf(run, "sensor_frequency");
+  const turn = numberOf(run, "peak_speed");
+  const last = frequencies[frequencies.length - 1];
+  const orders = turn === null ? [] : [1, 2, 3].map((order) => [order, (order * turn) / (2 * Math.PI)]).filter(([, at]) => at < last);
+  const series = [
+    { label: "reading", x: frequencies, y: amplitudes, colour: SERIES_COLOURS.rotor, width: 1.25 },
+    ...(sensor === null ? [] : [upright(sensor, `sensor, ${numberText(sensor, 4)} Hz`, SERIES_COLOURS.race, "7 4")]),
+    ...orders.map(([order, at]) => upright(at, `order ${order} at the largest speed, ${numberText(at, 4)} Hz`, SERIES_COLOURS.cage, "2 3")),
+  ];
+  return figure(shareOfRun(run, runs, "Spectrum of the reading"), "Amplitude of a sine, peak; overlapping Hann segments over the whole record. A speed that changes smears its orders.", curves({ series, across: "frequency [Hz]", upright: "amplitude [N mm]", logarithmic: true, height: 280 }));
+}
+
+function cageSection(runs) {
+  const speed = bandLines(runs, "cage.speed", "cage.speed_deviation", 1, { label: "cage [rad/s]", colour: SERIES_COLOURS.cage, width: 1.5 });
+  const slip = bandLines(runs, "cage.slip", "cage.slip_deviation", 100, { label: "slip [%]", colour: SERIES_COLOURS.cage, width: 1.5 });
+  const least = (begin, end) => [0];
+  return section(
+    "cage",
+    "Cage",
+    signalFigure("Speed of the cage", BAND_WORDS, speed, { label: "speed [rad/s]", marks: engagementMarks(runs), height: 230 }, lackOf(runs, "cage.speed", "cage_speed_at_end", "the cage")),
+    slip.length ? signalFigure("Slip of the cage", `0 % where the balls roll, 100 % where the cage rests. ${BAND_WORDS}`, slip, { label: "slip [%]", include: least, height: 230 }, []) : null,
+  );
+}
+
+// What was read, what was repaired, and what is not to be trusted.
+function trustSection(runs) {
+  return section("trust", "What was read, repaired, and not trusted", runs.map((run) => {
+    const text = (name) => String(quantityOf(run, name).value || "");
+    const channels = text("channels").split("; ").filter(Boolean).map((entry) => {
+      const parts = /^(.*) \((.*), (\d+) values, (.*)\)$/.exec(entry);
+      return parts ? parts.slice(1) : [entry, "", "", ""];
+    });
+    const counts = [
+      ["pulses that were missing or too many, share", "pulses_repaired_share"],
+      ["scatter of the pulses over what their flanks promise", "pulse_timing_factor"],
+      ["largest error of a mark, share of the pitch (taken out)", "largest_mark_error_share_of_pitch"],
+      ["torque: values at the limit of the converter", "torque_clipped_values"],
+      ["torque: values held without noise", "torque_stuck_values"],
+      ["torque: values that are no numbers", "torque_missing_values"],
+    ].map(([words, name]) => {
+      const quantity = quantityOf(run, name);
+      return [words, isNumber(quantity.value) ? numberText(quantity.value, 4) : element("span", { class: "absent" }, quantity.why || "–")];
+    });
+    const notes = list(run.summary.warnings).filter(Boolean).map((warning) => element("li", {}, element("code", {}, warning.code), " ", warning.text));
+    return [
+      figure(shareOfRun(run, runs, "Channels of the file"), null, plainTable(["channel", "unit", "values", "clock"], channels)),
+      figure(shareOfRun(run, runs, "Repairs"), null, plainTable(["what", "how much"], counts)),
+      figure(shareOfRun(run, runs, "What to know before trusting the numbers"), null, notes.length ? element("ul", {}, notes) : element("p", {}, "Nothing was found wrong.")),
+    ];
+  }));
+}
+
+// The sections of measurements; what no run asked for has no section.
+function signalSections(runs) {
+  if (!runs.length) return [];
+  const asked = (section) => runs.filter((run) => String((inputOf(run, `signals.${section}.channel`) || { value: "not given" }).value) !== "not given");
+  return [
+    [shaftSection, asked("speed")],
+    [measuredTorqueSection, asked("torque")],
+    [cageSection, asked("cage")],
+    [trustSection, runs],
+  ].filter(([, part]) => part.length);
+}
+
+function signalsVerdict(run) {
+  const beside = (name, unit, scale = 1, percent = false) => {
+    const deviation = numberOf(run, name);
+    return deviation === null ? null : `± ${percent ? percentText(BAND * deviation, 3) : engineeringText(BAND * deviation * scale, unit, 3)} (2σ)`;
+  };
+  const asked = (section) => String((inputOf(run, `signals.${section}.channel`) || { value: "not given" }).value) !== "not given";
+  const slip = quantityOf(run, "median_cage_slip");
+  return element(
+    "div",
+    { class: "tiles" },
+    stateTile(run),
+    asked("speed") ? quantityTile(run, "Largest speed", "peak_speed", () => beside("peak_speed_deviation", "rad/s")) : null,
+    asked("speed") ? quantityTile(run, "Largest acceleration", "peak_acceleration", () => beside("peak_acceleration_deviation", "rad/s^2")) : null,
+    asked("speed") ? quantityTile(run, "Engagement", "engagement_time", () => beside("engagement_time_deviation", "s")) : null,
+    asked("torque") ? quantityTile(run, "Largest torque", "peak_torque", () => beside("peak_torque_deviation", "N m")) : null,
+    asked("cage") ? tile("Median slip of the cage", isNumber(slip.value) ? percentText(slip.value, 3) : "–", [isNumber(slip.value) ? beside("median_cage_slip_deviation", "1", 1, true) : "not in this run: " + slip.why]) : null,
+  );
+}
+
+function signalsLine(run) {
+  const file = inputOf(run, "signals.file");
+  return file ? element("p", { class: "machine" }, "measurement: " + String(file.value).split(/[\\/]/).pop()) : null;
+}

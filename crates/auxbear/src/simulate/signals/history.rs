@@ -1,0 +1,226 @@
+//! The history of a measurement: what was read beside what it means.
+
+use super::super::outcome::Column;
+use super::{Asked, Found, Signal};
+use measure::speed::Motion;
+
+/// Rows of a history at equal times.
+const ROWS: usize = 4000;
+/// Rows more around a quick change.
+const ROWS_OF_CHANGE: usize = 1500;
+
+/// Channels over time.
+pub(super) fn columns(asked: &Asked, found: &Found) -> Vec<Column> {
+    let times = times(asked, found);
+    let mut columns = vec![Column {
+        name: "time".to_string(),
+        unit: "s",
+        meaning: "time on the clock of the file".to_string(),
+        values: times.clone(),
+    }];
+    let mut add = |name: &str, unit, meaning: &str, value: &dyn Fn(f64) -> f64| {
+        columns.push(Column {
+            name: name.to_string(),
+            unit,
+            meaning: meaning.to_string(),
+            values: times.iter().map(|&time| value(time)).collect(),
+        });
+    };
+    if let Some(shaft) = &found.shaft {
+        let motions: Vec<Motion> = times.iter().map(|&time| shaft.speed.at(time)).collect();
+        let (first, last) = shaft.pulses.watched;
+        let row = |time: f64| {
+            times
+                .partition_point(|t| *t < time)
+                .min(times.len().saturating_sub(1))
+        };
+        let of = |time: f64, value: fn(&Motion) -> f64| match motions.get(row(time)) {
+            Some(motion) if time >= first && time <= last => value(motion),
+            _ => f64::NAN,
+        };
+        add(
+            "shaft.pulse_speed",
+            "rad/s",
+            "pitch over the time between the pulses around, as raw as pulses are",
+            &|t| shaft.pulse_speed(t),
+        );
+        add(
+            "shaft.angle",
+            "rad",
+            "angle of the shaft from the first mark that passed",
+            &|t| of(t, |m| m.angle),
+        );
+        add("shaft.speed", "rad/s", "speed of the shaft", &|t| {
+            of(t, |m| m.speed)
+        });
+        add(
+            "shaft.speed_deviation",
+            "rad/s",
+            "standard deviation of that speed",
+            &|t| of(t, Motion::speed_uncertainty),
+        );
+        add(
+            "shaft.acceleration",
+            "rad/s^2",
+            "acceleration of the shaft",
+            &|t| of(t, |m| m.acceleration),
+        );
+        add(
+            "shaft.acceleration_deviation",
+            "rad/s^2",
+            "standard deviation of that acceleration",
+            &|t| of(t, Motion::acceleration_uncertainty),
+        );
+    }
+    if let Some(series) = &asked.torque {
+        let reading = |time: f64| {
+            let place = (time - series.first) / series.interval;
+            between(place, &series.values)
+        };
+        add(
+            "torque.reading",
+            "N m",
+            "reading of the torque sensor as it is",
+            &reading,
+        );
+    }
+    if let Some(torque) = found
+        .torque
+        .as_ref()
+        .and_then(|found| found.torque.as_ref())
+    {
+        let of = |time: f64, values: &[f64]| at(time, &torque.time, values);
+        add(
+            "torque.torque",
+            "N m",
+            "torque that the sensor felt",
+            &|t| of(t, &torque.torque),
+        );
+        add(
+            "torque.deviation",
+            "N m",
+            "standard deviation of that torque",
+            &|t| of(t, &torque.deviation),
+        );
+        add(
+            "torque.disturbance",
+            "N m",
+            "amplitude of the disturbance once a turn",
+            &|t| of(t, &torque.disturbance),
+        );
+        add(
+            "torque.disturbance_deviation",
+            "N m",
+            "standard deviation of that amplitude",
+            &|t| of(t, &torque.disturbance_deviation),
+        );
+    }
+    if let Some(found) = &found.cage {
+        let cage = &found.cage;
+        let of = |time: f64, values: &[f64]| at(time, &cage.time, values);
+        add("cage.speed", "rad/s", "speed of the cage", &|t| {
+            of(t, &cage.speed)
+        });
+        add(
+            "cage.speed_deviation",
+            "rad/s",
+            "standard deviation of that speed",
+            &|t| of(t, &cage.deviation),
+        );
+        add(
+            "cage.slip",
+            "1",
+            "slip of the cage: 0 where it rolls, 1 where it rests",
+            &|t| of(t, &cage.slip),
+        );
+        add(
+            "cage.slip_deviation",
+            "1",
+            "standard deviation of that slip",
+            &|t| of(t, &cage.slip_deviation),
+        );
+    }
+    columns
+}
+
+/// Rows at equal times over all that was read, and closer ones around a quick change.
+fn times(asked: &Asked, found: &Found) -> Vec<f64> {
+    let mut spans = Vec::new();
+    for signal in [&asked.speed, &asked.cage].into_iter().flatten() {
+        match signal {
+            Signal::Sampled(series) => spans.push((series.first, series.last())),
+            Signal::Stamped(stamps) => {
+                if let (Some(first), Some(last)) = (stamps.times.first(), stamps.times.last()) {
+                    spans.push((*first, *last));
+                }
+            }
+        }
+    }
+    spans.extend(
+        asked
+            .torque
+            .iter()
+            .map(|series| (series.first, series.last())),
+    );
+    let first = spans
+        .iter()
+        .map(|span| span.0)
+        .fold(f64::INFINITY, f64::min);
+    let last = spans
+        .iter()
+        .map(|span| span.1)
+        .fold(f64::NEG_INFINITY, f64::max);
+    if last.partial_cmp(&first) != Some(std::cmp::Ordering::Greater) {
+        return Vec::new();
+    }
+    let grid = |from: f64, to: f64, rows: usize| {
+        (0..=rows).map(move |k| from + (to - from) * k as f64 / rows as f64)
+    };
+    let mut times: Vec<f64> = grid(first, last, ROWS).collect();
+    if let Some(change) = found.shaft.as_ref().and_then(|shaft| shaft.speed.change) {
+        let begin = change.engagement.0;
+        let length = change.end.map_or(0.1, |end| end.0 - begin).max(1e-3);
+        let (from, to) = (
+            (begin - length).max(first),
+            (begin + 4.0 * length).min(last),
+        );
+        if to > from {
+            times.extend(grid(from, to, ROWS_OF_CHANGE));
+        }
+    }
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
+}
+
+/// Value at a place between indices, on a straight line; not-a-number outside.
+fn between(place: f64, values: &[f64]) -> f64 {
+    if !(place >= 0.0 && place <= values.len() as f64 - 1.0) {
+        return f64::NAN;
+    }
+    let low = place as usize;
+    let part = place - low as f64;
+    match (values.get(low), values.get(low + 1)) {
+        (Some(a), Some(b)) if part > 0.0 => a + part * (b - a),
+        (Some(a), _) => *a,
+        _ => f64::NAN,
+    }
+}
+
+/// Value at a time among times that rise.
+fn at(time: f64, times: &[f64], values: &[f64]) -> f64 {
+    let next = times.partition_point(|t| *t <= time);
+    if next == 0 {
+        return f64::NAN;
+    }
+    if next >= times.len() {
+        let last = times.last().is_some_and(|last| *last >= time);
+        return if last {
+            values.last().copied().unwrap_or(f64::NAN)
+        } else {
+            f64::NAN
+        };
+    }
+    let width = times[next] - times[next - 1];
+    between((next - 1) as f64 + (time - times[next - 1]) / width, values)
+}

@@ -1,0 +1,277 @@
+//! A measurement: from the channels of a file to speed, torque and cage speed with their bands.
+//!
+//! ```text
+//! file ─read─▶ channels ─shaft─▶ speed, acceleration ─torque─▶ torque without the sensor's swing
+//!                                                    └─cage──▶ cage speed, slip
+//! ```
+//! The estimators are those of the crate `measure`; here they are fed, and what they find is named. An estimator that refuses
+//! leaves its quantities empty with the reason, and the run says that it is not complete.
+
+mod answer;
+mod cage;
+mod history;
+mod read;
+mod shaft;
+mod torque;
+
+use super::outcome::{Outcome, Picture, Stop, Warning, Work};
+use super::warnings_shared::assumptions;
+use crate::problem::Problem;
+use crate::scenario::{CageKind, PickupKind, Scenario, SensorSource, Signals};
+use read::{Listed, Series, Source, Stamps};
+use std::time::Instant;
+
+/// Channels that were read, and what is asked of them.
+pub(super) struct Asked<'a> {
+    signals: &'a Signals,
+    listed: Vec<Listed>,
+    notes: Vec<String>,
+    speed: Option<Signal>,
+    torque: Option<Series>,
+    tap: Option<Series>,
+    cage: Option<Signal>,
+}
+
+/// What a channel holds.
+enum Signal {
+    Sampled(Series),
+    Stamped(Stamps),
+}
+
+impl Asked<'_> {
+    /// Reads what is asked for; refuses what is not there or not what it should be.
+    pub fn of(signals: &Signals) -> Result<Asked<'_>, Box<Problem>> {
+        let mut source = Source::open(&signals.file, "signals.file", signals)?;
+        let listed = source.listed();
+        let speed = match &signals.speed {
+            Some(speed) => {
+                let key = "signals.speed.channel";
+                Some(match speed.kind {
+                    PickupKind::Analog { .. } => {
+                        Signal::Sampled(source.series(key, &speed.channel, false)?)
+                    }
+                    PickupKind::Edges { .. } => {
+                        Signal::Stamped(source.stamps(key, &speed.channel)?)
+                    }
+                })
+            }
+            None => None,
+        };
+        let mut torque = None;
+        let mut tap = None;
+        let mut notes = Vec::new();
+        if let Some(asked) = &signals.torque {
+            let key = "signals.torque.channel";
+            torque = Some(in_newton_metres(
+                &mut source,
+                key,
+                &asked.channel,
+                asked.scale,
+                false,
+            )?);
+            if let Some(SensorSource::Tap {
+                tap_file,
+                tap_channel,
+                ..
+            }) = &asked.sensor
+            {
+                let mut other = Source::open(tap_file, "signals.torque.tap_file", signals)?;
+                let key = other.key();
+                let series = other.series(key, tap_channel, true)?;
+                notes = other.notes();
+                tap = Some(series);
+            }
+        }
+        let cage = match &signals.cage {
+            Some(cage) => {
+                let key = "signals.cage.channel";
+                Some(match cage.kind {
+                    CageKind::Edges => Signal::Stamped(source.stamps(key, &cage.channel)?),
+                    _ => Signal::Sampled(source.series(key, &cage.channel, false)?),
+                })
+            }
+            None => None,
+        };
+        let mut all = source.notes();
+        all.append(&mut notes);
+        Ok(Asked {
+            signals,
+            listed,
+            notes: all,
+            speed,
+            torque,
+            tap,
+            cage,
+        })
+    }
+}
+
+fn in_newton_metres(
+    source: &mut Source,
+    key: &'static str,
+    name: &str,
+    scale: Option<f64>,
+    whole: bool,
+) -> Result<Series, Box<Problem>> {
+    let mut series = source.series(key, name, whole)?;
+    let factor = source.torque_factor(key, &series.unit, name, scale)?;
+    for value in &mut series.values {
+        *value *= factor;
+    }
+    Ok(series)
+}
+
+/// What was found, and what to know of it.
+#[derive(Default)]
+struct Found {
+    shaft: Option<shaft::Found>,
+    torque: Option<torque::Found>,
+    cage: Option<cage::Found>,
+    /// What an estimator refused: a name of the channel's part, and why.
+    refused: Vec<(&'static str, String)>,
+    warnings: Vec<Warning>,
+}
+
+impl Found {
+    fn warn(&mut self, code: &'static str, part: &str, notes: &[String]) {
+        for note in notes {
+            let text = format!("{part}: {}.", note.trim_end_matches('.'));
+            self.warnings.push(Warning { code, text });
+        }
+    }
+
+    /// Why a part has no numbers.
+    fn why(&self, part: &'static str, asked: bool) -> String {
+        let refused = self.refused.iter().find(|(name, _)| *name == part);
+        match refused {
+            Some((_, why)) => why.clone(),
+            None if asked => "what it needs was not found".to_string(),
+            None => format!("signals.{part}.channel is not given"),
+        }
+    }
+}
+
+/// Keys that say something of a sensor only where it is given, not where a tap tells it.
+const OF_GIVEN_SENSOR: &[&str] = &[
+    "signals.torque.frequency_deviation",
+    "signals.torque.damping_deviation",
+];
+
+/// What is assumed of the sensor, where it counts.
+fn assumed(scenario: &Scenario, asked: &Asked) -> Option<Warning> {
+    let sensor = asked.signals.torque.as_ref()?.sensor.as_ref()?;
+    let given = matches!(sensor, SensorSource::Given { .. });
+    let values = scenario.resolved.values.iter();
+    let values = values.filter(|value| value.provenance.mark() == "assumed");
+    let paths: Vec<&str> = values.map(|value| value.path).collect();
+    let counts = |path: &&str| given || !OF_GIVEN_SENSOR.contains(path);
+    assumptions(&paths.into_iter().filter(counts).collect::<Vec<_>>())
+}
+
+/// Computes what is asked for and names it.
+pub(super) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
+    let clock = Instant::now();
+    let mut found = Found::default();
+    found.warn("AB1040", "The file", &asked.notes);
+    if let (Some(signal), Some(wish)) = (&asked.speed, &asked.signals.speed) {
+        match shaft::Found::of(signal, wish) {
+            Ok(shaft) => {
+                if let Some(doubt) = &shaft.doubt {
+                    found.warn(
+                        "AB1044",
+                        "Marks per revolution",
+                        std::slice::from_ref(doubt),
+                    );
+                }
+                found.warn("AB1043", "Speed", &shaft.notes);
+                found.shaft = Some(shaft);
+            }
+            Err(why) => found.refused.push(("speed", why)),
+        }
+    }
+    if let (Some(series), Some(wish)) = (&asked.torque, &asked.signals.torque) {
+        let faults = torque::faulty(series);
+        found.warn("AB1041", &format!("Channel {}", series.name), &faults.told);
+        match torque::Found::of(
+            series,
+            &faults,
+            wish,
+            asked.tap.as_ref(),
+            found.shaft.as_ref(),
+        ) {
+            Ok(torque) => {
+                found.warn("AB1043", "Torque", &torque.notes);
+                found.torque = Some(torque);
+            }
+            Err(why) => found.refused.push(("torque", why)),
+        }
+    }
+    if let (Some(signal), Some(wish)) = (&asked.cage, &asked.signals.cage) {
+        let cage = match &found.shaft {
+            Some(shaft) => cage::Found::of(signal, wish, shaft),
+            None => Err("it needs the speed of the shaft".to_string()),
+        };
+        match cage {
+            Ok(cage) => {
+                found.warn("AB1043", "Cage", &cage.notes);
+                found.cage = Some(cage);
+            }
+            Err(why) => found.refused.push(("cage", why)),
+        }
+    }
+    let refused: Vec<Warning> = found
+        .refused
+        .iter()
+        .map(|(part, why)| Warning {
+            code: "AB1042",
+            text: format!("No {part}: {}.", why.trim_end_matches('.')),
+        })
+        .collect();
+    found.warnings.splice(0..0, refused);
+    found.warnings.extend(assumed(scenario, asked));
+    let history = history::columns(asked, &found);
+    let end = history.first().and_then(|time| time.values.last().copied());
+    Outcome {
+        system: "signals",
+        title: scenario
+            .title
+            .clone()
+            .unwrap_or_else(|| "Measured signals".to_string()),
+        quantities: answer::quantities(asked, &found),
+        history,
+        contacts: Vec::new(),
+        stop: match found.refused.as_slice() {
+            [] => Stop {
+                reason: "finished",
+                time: end.unwrap_or(0.0),
+                text: "Everything asked for was computed.".to_string(),
+            },
+            [(part, why), ..] => Stop {
+                reason: "not answered",
+                time: end.unwrap_or(0.0),
+                text: format!("the record does not carry the {part} asked for: {why}"),
+            },
+        },
+        warnings: found.warnings,
+        work: Work {
+            members: 1,
+            seconds: clock.elapsed().as_secs_f64(),
+            ..Work::default()
+        },
+        members: Vec::new(),
+        picture: Picture {
+            clearance: None,
+            pressure_limit: None,
+            rolling_cage_ratio: asked
+                .signals
+                .cage
+                .as_ref()
+                .map_or(f64::NAN, |cage| cage.rolling_ratio),
+            balls: asked
+                .signals
+                .cage
+                .as_ref()
+                .map_or(0, |cage| cage.ball_count),
+        },
+    }
+}

@@ -1,0 +1,487 @@
+//! The channels that are asked for, read from a measurement file and brought to one clock in s.
+
+use crate::problem::{Code, Problem, did_you_mean};
+use crate::scenario::Signals;
+use measure::file;
+use measure::recording::{Channel, Clock, Content, FileError, Instant, Recording};
+use std::path::Path;
+use units::Unit;
+
+/// Most values that are taken from a channel: 400 MB.
+const MOST_VALUES: u64 = 50_000_000;
+/// Values read at a time from a channel that is a clock.
+const PIECE: usize = 1 << 16;
+/// How far an instant may be from an even clock, in intervals: beyond, values are not at equal times.
+const UNEVEN: f64 = 0.1;
+
+/// Values of a channel at equal intervals.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Name as in the file.
+    pub name: String,
+    /// Unit as in the file; may be empty.
+    pub unit: String,
+    /// Time of the first value, s.
+    pub first: f64,
+    /// Interval, s.
+    pub interval: f64,
+    /// Values in the unit of the file; not-a-number where there is none.
+    pub values: Vec<f64>,
+}
+
+impl Series {
+    /// Time of the last value, s.
+    pub fn last(&self) -> f64 {
+        self.first + self.values.len().saturating_sub(1) as f64 * self.interval
+    }
+
+    /// Time of a value, s.
+    pub fn time(&self, index: usize) -> f64 {
+        self.first + index as f64 * self.interval
+    }
+}
+
+/// Instants in a channel, s, in order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stamps {
+    /// The instants.
+    pub times: Vec<f64>,
+    /// Values of the channel that were none.
+    pub missing: usize,
+}
+
+/// What the file says of one of its channels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Listed {
+    /// Name.
+    pub name: String,
+    /// Unit.
+    pub unit: String,
+    /// Number of values.
+    pub count: u64,
+    /// Values a second, where the clock is even.
+    pub rate: Option<f64>,
+}
+
+/// A measurement file that is open.
+pub struct Source<'a> {
+    recording: Box<dyn Recording>,
+    signals: &'a Signals,
+    /// The key that names the file.
+    key: &'static str,
+    name: String,
+}
+
+impl<'a> Source<'a> {
+    /// Opens a file; `key` names it in the scenario.
+    pub fn open(
+        path: &Path,
+        key: &'static str,
+        signals: &'a Signals,
+    ) -> Result<Source<'a>, Box<Problem>> {
+        let recording = file::open(path).map_err(|error| of_file(&error, key))?;
+        let name = short(path);
+        Ok(Source {
+            recording,
+            signals,
+            key,
+            name,
+        })
+    }
+
+    /// The channels as the file lists them.
+    pub fn listed(&self) -> Vec<Listed> {
+        let channels = self.recording.channels().iter();
+        channels
+            .map(|channel| Listed {
+                name: channel.name.clone(),
+                unit: channel.unit.clone(),
+                count: channel.count,
+                rate: match channel.clock {
+                    Clock::Uniform { interval, .. } => Some(1.0 / interval),
+                    _ => None,
+                },
+            })
+            .collect()
+    }
+
+    /// What was wrong with the file as far as it was read.
+    pub fn notes(&self) -> Vec<String> {
+        let notes = self.recording.notes().iter();
+        notes
+            .map(|note| match &note.channel {
+                Some(channel) => format!("{}, channel {channel}: {}", self.name, note.text),
+                None => format!("{}: {}", self.name, note.text),
+            })
+            .collect()
+    }
+
+    fn problem(
+        &self,
+        code: Code,
+        key: &str,
+        found: String,
+        needed: impl Into<String>,
+    ) -> Box<Problem> {
+        let found = format!("{}, {found}", self.name);
+        Box::new(Problem::new(code, "the scenario", found, needed).on_key(key))
+    }
+
+    fn channel(&self, key: &str, name: &str) -> Result<(usize, Channel), Box<Problem>> {
+        let channels = self.recording.channels();
+        let exact = channels.iter().position(|channel| channel.name == name);
+        // a name without its group, where only one channel has it
+        let mut ends = channels.iter().enumerate().filter(|(_, channel)| {
+            let end = channel.name.strip_suffix(name);
+            end.is_some_and(|start| start.ends_with('/'))
+        });
+        let only = match (ends.next(), ends.next()) {
+            (Some((index, _)), None) => Some(index),
+            _ => None,
+        };
+        let Some(index) = exact.or(only) else {
+            let names = || channels.iter().map(|channel| channel.name.as_str());
+            let mut known: Vec<String> =
+                names().take(12).map(|name| format!("\"{name}\"")).collect();
+            if channels.len() > known.len() {
+                known.push(format!("{} more", channels.len() - known.len()));
+            }
+            let needed = match known.len() {
+                0 => "a file with channels is needed".to_string(),
+                _ => format!("it has the channels {}", known.join(", ")),
+            };
+            let found = format!("which has no channel \"{name}\"");
+            let problem = self.problem(Code::UnknownChannel, key, found, needed);
+            return Err(Box::new(problem.with_hint(did_you_mean(name, names()))));
+        };
+        let channel = channels[index].clone();
+        let found = match (channel.content, channel.count) {
+            (Content::Text, _) => "whose values are texts",
+            (_, 0) => "which holds no values",
+            _ => return Ok((index, channel)),
+        };
+        let found = format!("channel \"{name}\", {found}");
+        Err(self.problem(
+            Code::UnknownChannel,
+            key,
+            found,
+            "a channel of numbers is needed",
+        ))
+    }
+
+    /// Seconds from the earliest start of the file to that of a channel, and its delay by the converter.
+    fn offset(&self, index: usize, channel: &Channel) -> f64 {
+        let starts = self.recording.channels().iter().filter_map(|c| c.start);
+        let earlier = |a: Instant, b: Instant| {
+            if (a.seconds, a.fraction) <= (b.seconds, b.fraction) {
+                a
+            } else {
+                b
+            }
+        };
+        let start = match (channel.start, starts.reduce(earlier)) {
+            (Some(own), Some(first)) => {
+                own.seconds.saturating_sub(first.seconds) as f64 + own.fraction - first.fraction
+            }
+            _ => 0.0,
+        };
+        start + index as f64 * self.signals.channel_delay
+    }
+
+    /// The values of a channel at equal times, within the part that is looked at; all of it where `whole`.
+    pub fn series(
+        &mut self,
+        key: &'static str,
+        name: &str,
+        whole: bool,
+    ) -> Result<Series, Box<Problem>> {
+        let (index, channel) = self.channel(key, name)?;
+        let (first, interval) = match (&channel.clock, self.signals.sample_interval) {
+            (Clock::Uniform { first, interval }, _) => (*first, *interval),
+            (Clock::Channel(clock), _) => self.even_clock(key, name, *clock)?,
+            (Clock::Unknown, Some(interval)) => (0.0, interval),
+            (Clock::Unknown, None) => {
+                return Err(self.problem(
+                    Code::ChannelClock,
+                    key,
+                    format!("channel \"{name}\", of which the file tells no clock"),
+                    "signals.sample_interval is needed with it, e.g. \"0.1 ms\"",
+                ));
+            }
+        };
+        let first = first + self.offset(index, &channel);
+        let (begin, end) = if whole {
+            (0, channel.count)
+        } else {
+            self.part(first, interval, channel.count)
+        };
+        let count = end.saturating_sub(begin);
+        if count == 0 {
+            let found = format!(
+                "channel \"{name}\", which has no value there: it runs from {first:.6} s to {:.6} s",
+                first + channel.count.saturating_sub(1) as f64 * interval
+            );
+            return Err(self.problem(
+                Code::ChannelClock,
+                key,
+                found,
+                "signals.from and signals.to must leave some of it",
+            ));
+        }
+        if count > MOST_VALUES {
+            let found = format!("channel \"{name}\" with {count} values");
+            let needed = format!(
+                "at most {MOST_VALUES} are taken at once: give signals.from and signals.to"
+            );
+            return Err(self.problem(Code::TooManyRows, key, found, needed));
+        }
+        let values = self.read(key, index, begin, count as usize)?;
+        Ok(Series {
+            name: channel.name,
+            unit: channel.unit,
+            first: first + begin as f64 * interval,
+            interval,
+            values,
+        })
+    }
+
+    /// The instants in a channel, within the part that is looked at.
+    pub fn stamps(&mut self, key: &'static str, name: &str) -> Result<Stamps, Box<Problem>> {
+        let (index, channel) = self.channel(key, name)?;
+        if channel.count > MOST_VALUES {
+            let found = format!("channel \"{name}\" with {} values", channel.count);
+            let needed = format!("at most {MOST_VALUES} instants are taken");
+            return Err(self.problem(Code::TooManyRows, key, found, needed));
+        }
+        let seconds = match channel.content {
+            Content::Time => 1.0,
+            _ => self.seconds(key, &channel)?,
+        };
+        let offset = self.offset(index, &channel);
+        let read = self.read(key, index, 0, channel.count as usize)?;
+        let known: Vec<f64> = read
+            .iter()
+            .filter(|v| v.is_finite())
+            .map(|v| v * seconds + offset)
+            .collect();
+        if let Some(at) = known.windows(2).position(|pair| pair[1] <= pair[0]) {
+            return Err(self.backwards(key, name, at + 1, known[at], known[at + 1]));
+        }
+        let inside = |t: &f64| {
+            self.signals.from.is_none_or(|from| *t >= from)
+                && self.signals.to.is_none_or(|to| *t <= to)
+        };
+        Ok(Stamps {
+            missing: read.len() - known.len(),
+            times: known.iter().copied().filter(inside).collect(),
+        })
+    }
+
+    /// First index and the one behind the last of the values that are looked at.
+    fn part(&self, first: f64, interval: f64, count: u64) -> (u64, u64) {
+        // a cast of a float is cut at the ends of the integer
+        let place = |time: f64| ((time - first) / interval).ceil().max(0.0) as u64;
+        let begin = self.signals.from.map_or(0, place).min(count);
+        let end = self
+            .signals
+            .to
+            .map_or(count, |to| place(to).saturating_add(1))
+            .min(count);
+        (begin, end)
+    }
+
+    fn backwards(&self, key: &str, name: &str, value: usize, from: f64, to: f64) -> Box<Problem> {
+        self.problem(
+            Code::ChannelClock,
+            key,
+            format!("channel \"{name}\", whose time goes from {from} s to {to} s at value {value}"),
+            "times that rise from value to value are needed",
+        )
+    }
+
+    /// Seconds of one unit of a channel of times.
+    fn seconds(&self, key: &str, channel: &Channel) -> Result<f64, Box<Problem>> {
+        if channel.unit.trim().is_empty() {
+            return Ok(1.0);
+        }
+        si_factor(&channel.unit, "s").ok_or_else(|| {
+            self.problem(
+                Code::ChannelUnit,
+                key,
+                format!("channel \"{}\" in \"{}\"", channel.name, channel.unit),
+                "instants in a unit of time are needed, e.g. s",
+            )
+        })
+    }
+
+    /// First time and interval of a clock that is a channel, s.
+    fn even_clock(
+        &mut self,
+        key: &'static str,
+        name: &str,
+        clock: usize,
+    ) -> Result<(f64, f64), Box<Problem>> {
+        let Some(times) = self.recording.channels().get(clock).cloned() else {
+            let found = format!("channel \"{name}\", whose clock the file does not hold");
+            return Err(self.problem(Code::ChannelClock, key, found, "a whole file is needed"));
+        };
+        let seconds = match times.content {
+            Content::Time => 1.0,
+            _ => self.seconds(key, &times)?,
+        };
+        let count = times.count.min(MOST_VALUES) as usize;
+        if count < 2 {
+            let found = format!(
+                "channel \"{name}\", whose clock \"{}\" has {count} values",
+                times.name
+            );
+            return Err(self.problem(Code::ChannelClock, key, found, "two at least are needed"));
+        }
+        let ends = |values: &[f64]| values.first().copied();
+        let first = ends(&self.read(key, clock, 0, 1)?).unwrap_or(f64::NAN) * seconds;
+        let last = ends(&self.read(key, clock, count as u64 - 1, 1)?).unwrap_or(f64::NAN) * seconds;
+        let interval = (last - first) / (count - 1) as f64;
+        let mut before = f64::NEG_INFINITY;
+        let mut worst: Option<(usize, f64)> = None;
+        for begin in (0..count).step_by(PIECE) {
+            let piece = self.read(key, clock, begin as u64, PIECE.min(count - begin))?;
+            for (k, value) in piece.iter().enumerate() {
+                let (at, time) = (begin + k, value * seconds);
+                if !time.is_finite() {
+                    let found = format!(
+                        "channel \"{}\", the clock of \"{name}\": value {at} is no number",
+                        times.name
+                    );
+                    return Err(self.problem(
+                        Code::ChannelClock,
+                        key,
+                        found,
+                        "a time for each value is needed",
+                    ));
+                }
+                if time <= before {
+                    return Err(self.backwards(key, &times.name, at, before, time));
+                }
+                before = time;
+                let away = ((time - first) / interval - at as f64).abs();
+                if away > UNEVEN && worst.is_none_or(|(_, most)| away > most) {
+                    worst = Some((at, away));
+                }
+            }
+        }
+        if let Some((at, away)) = worst {
+            let found = format!(
+                "channel \"{name}\", whose values are not at equal times: value {at} is {away:.2} intervals off"
+            );
+            let needed = "values at equal times are needed; instants of marks are read with kind = \"edges\"";
+            return Err(self.problem(Code::ChannelClock, key, found, needed));
+        }
+        Ok((first, interval))
+    }
+
+    fn read(
+        &mut self,
+        key: &'static str,
+        channel: usize,
+        first: u64,
+        count: usize,
+    ) -> Result<Vec<f64>, Box<Problem>> {
+        let mut values = vec![f64::NAN; count];
+        let got = self
+            .recording
+            .read(channel, first, &mut values)
+            .map_err(|error| of_file(&error, key))?;
+        values.truncate(got);
+        Ok(values)
+    }
+
+    /// The factor from the unit of a torque channel to N m.
+    pub fn torque_factor(
+        &self,
+        key: &'static str,
+        unit: &str,
+        name: &str,
+        scale: Option<f64>,
+    ) -> Result<f64, Box<Problem>> {
+        let own = si_factor(unit, "N m");
+        match (own, scale) {
+            (Some(own), Some(scale)) if (own / scale - 1.0).abs() > 1e-9 => Err(self.problem(
+                Code::ChannelUnit,
+                "signals.torque.scale",
+                format!("channel \"{name}\" in \"{unit}\""),
+                "the unit of the file and this scale contradict each other: leave the scale away, or correct it",
+            )),
+            (_, Some(scale)) => Ok(scale),
+            (Some(own), None) => Ok(own),
+            (None, None) => Err(self.problem(
+                Code::ChannelUnit,
+                key,
+                match unit.trim() {
+                    "" => format!("channel \"{name}\" without a unit"),
+                    unit => format!("channel \"{name}\" in \"{unit}\""),
+                },
+                "a unit of torque is needed: tell what one unit of the channel is, e.g. signals.torque.scale = \"1 N mm\"",
+            )),
+        }
+    }
+
+    /// The key that names the file.
+    pub fn key(&self) -> &'static str {
+        self.key
+    }
+}
+
+/// The size in SI of a unit as files write it, where it has the dimension of that SI unit.
+fn si_factor(text: &str, si: &str) -> Option<f64> {
+    const SPELLINGS: &[(&str, &str)] = &[
+        ("Nm", "N m"),
+        ("Nmm", "N mm"),
+        ("Ncm", "N cm"),
+        ("mNm", "mN m"),
+        ("kNm", "kN m"),
+        ("sec", "s"),
+    ];
+    let plain = text.trim().replace(['·', '*', '.'], " ");
+    let plain = SPELLINGS
+        .iter()
+        .find(|row| row.0 == plain)
+        .map_or(plain.as_str(), |row| row.1);
+    let (unit, wanted) = (Unit::parse(plain).ok()?, Unit::parse(si).ok()?);
+    (unit.dimension() == wanted.dimension()).then(|| unit.to_si(1.0))
+}
+
+/// What a reader refuses, as a problem of the scenario.
+fn of_file(error: &FileError, key: &str) -> Box<Problem> {
+    let place = match error.place.as_str() {
+        "" => String::new(),
+        place => format!(", {place}"),
+    };
+    let found = format!("{}{place}, which {}", short(&error.path), error.found);
+    let needed = match error.needed.as_str() {
+        "" => "a measurement file that can be read is needed",
+        needed => needed,
+    };
+    Box::new(Problem::new(Code::MeasurementUnreadable, "the scenario", found, needed).on_key(key))
+}
+
+/// The name of a file without its folders, for messages.
+fn short(path: &Path) -> String {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    name.to_string_lossy().into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::si_factor;
+
+    #[test]
+    fn units_of_files_are_understood_as_labs_write_them() {
+        for text in ["N m", "Nm", "N·m", "N*m"] {
+            assert_eq!(si_factor(text, "N m"), Some(1.0), "{text}");
+        }
+        assert_eq!(si_factor("Nmm", "N m"), Some(1e-3));
+        assert_eq!(si_factor("N", "N m"), None);
+        assert_eq!(si_factor("", "N m"), None);
+        assert_eq!(si_factor("ms", "s"), Some(1e-3));
+    }
+}

@@ -1,0 +1,200 @@
+//! The torque that a swinging sensor felt, from its reading.
+
+use super::read::Series;
+use super::shaft;
+use crate::scenario::{Disturbance, SensorSource, TorqueSignal};
+use measure::converter::{Fault, faults};
+use measure::spectrum::{Segments, Spectrum, Window, spectrum};
+use measure::torque_sensor::{Inversion, Sensor, Torque, identify_free_response, invert};
+use measure::uncertain::Uncertain;
+
+/// Most values in a segment of the spectrum.
+const LONGEST_SEGMENT: usize = 2048;
+
+/// Torque, and the reading it was found from.
+pub(super) struct Found {
+    /// The torque; none where no sensor is known.
+    pub torque: Option<Torque>,
+    pub sensor: Option<Sensor>,
+    /// Spectrum of the reading; why there is none.
+    pub spectrum: Result<Spectrum, String>,
+    pub notes: Vec<String>,
+}
+
+/// Values that are not to be trusted.
+pub(super) struct Faulty {
+    /// In words.
+    pub told: Vec<String>,
+    pub clipped: usize,
+    pub stuck: usize,
+    pub missing: usize,
+    reading: Vec<f64>,
+}
+
+/// Looks for values at the limits of the converter, held values and gaps, and takes them out.
+pub(super) fn faulty(series: &Series) -> Faulty {
+    let mut reading = series.values.clone();
+    let (mut counts, mut stretches, mut begins) = ([0; 3], [0; 3], [f64::NAN; 3]);
+    for fault in faults(&series.values, None) {
+        let kind = match fault.fault {
+            Fault::Clipped => 0,
+            Fault::Stuck => 1,
+            Fault::Missing => 2,
+        };
+        if stretches[kind] == 0 {
+            begins[kind] = series.time(fault.first);
+        }
+        counts[kind] += fault.count;
+        stretches[kind] += 1;
+        let end = (fault.first + fault.count).min(reading.len());
+        if let Some(part) = reading.get_mut(fault.first..end) {
+            part.fill(f64::NAN);
+        }
+    }
+    let words = [
+        "at the limit of the converter (clipped)",
+        "held without noise (stuck)",
+        "no numbers (missing)",
+    ];
+    let told = (0..3).filter(|&kind| counts[kind] > 0).map(|kind| {
+        format!(
+            "{} of {} values are {}, in {} stretches, the first at {:.6} s; they are not used",
+            counts[kind],
+            series.values.len(),
+            words[kind],
+            stretches[kind],
+            begins[kind]
+        )
+    });
+    Faulty {
+        told: told.collect(),
+        clipped: counts[0],
+        stuck: counts[1],
+        missing: counts[2],
+        reading,
+    }
+}
+
+impl Found {
+    pub fn of(
+        series: &Series,
+        faulty: &Faulty,
+        wish: &TorqueSignal,
+        tap: Option<&Series>,
+        shaft: Option<&shaft::Found>,
+    ) -> Result<Found, String> {
+        let mut notes = Vec::new();
+        let sensor = sensor(wish, tap, &mut notes)?;
+        let torque = match sensor {
+            Some(sensor) => Some(inverted(series, faulty, wish, sensor, shaft, &mut notes)?),
+            None => {
+                notes.push("neither sensor_frequency nor tap_file is given: the reading is shown as it is, the swing of the sensor in it".to_string());
+                None
+            }
+        };
+        let length = (series.values.len() / 4).clamp(8, LONGEST_SEGMENT);
+        let segments = Segments {
+            length,
+            overlap: 0.5,
+            window: Window::Hann,
+        };
+        Ok(Found {
+            torque,
+            sensor,
+            spectrum: spectrum(&faulty.reading, series.interval, &segments),
+            notes,
+        })
+    }
+}
+
+fn sensor(
+    wish: &TorqueSignal,
+    tap: Option<&Series>,
+    notes: &mut Vec<String>,
+) -> Result<Option<Sensor>, String> {
+    match (&wish.sensor, tap) {
+        (
+            Some(SensorSource::Given {
+                sensor_frequency,
+                frequency_deviation,
+                damping_ratio,
+                damping_deviation,
+            }),
+            _,
+        ) => Ok(Some(Sensor {
+            frequency: Uncertain::new(*sensor_frequency, sensor_frequency * frequency_deviation),
+            damping_ratio: Uncertain::new(*damping_ratio, damping_ratio * damping_deviation),
+        })),
+        (Some(SensorSource::Tap { tap_start, .. }), Some(tap)) => {
+            let start = tap_start.map(|start| (start / tap.interval).ceil() as usize);
+            let response = identify_free_response(&tap.values, tap.interval, start)
+                .map_err(|why| format!("the tap does not tell the sensor: {why}"))?;
+            notes.extend(response.notes.iter().map(|note| format!("tap: {note}")));
+            Ok(Some(response.sensor))
+        }
+        _ => Ok(None),
+    }
+}
+
+fn inverted(
+    series: &Series,
+    faulty: &Faulty,
+    wish: &TorqueSignal,
+    sensor: Sensor,
+    shaft: Option<&shaft::Found>,
+    notes: &mut Vec<String>,
+) -> Result<Torque, String> {
+    let turning = shaft
+        .filter(|_| wish.disturbance != Disturbance::None)
+        .map(shaft::Found::shaft);
+    // the part that the shaft covers
+    let (mut from, mut to) = (0, series.values.len());
+    if let Some(shaft) = &turning {
+        let inside = |time: f64| shaft.covers(time);
+        from = (0..to).find(|&k| inside(series.time(k))).unwrap_or(to);
+        to = (from..to)
+            .rev()
+            .find(|&k| inside(series.time(k)))
+            .map_or(from, |k| k + 1);
+        let left = series.values.len() - (to - from);
+        if left > 0 {
+            notes.push(format!(
+                "{left} values outside the record of the pickup are not used"
+            ));
+        }
+    } else if wish.disturbance != Disturbance::None && shaft.is_none() {
+        notes.push(
+            "the speed of the shaft is not known: its disturbance once a turn stays in the torque"
+                .to_string(),
+        );
+    }
+    let reading = faulty.reading.get(from..to).unwrap_or(&[]);
+    let known = || reading.iter().copied().filter(|v| v.is_finite());
+    let (low, high) = known().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
+        (l.min(v), h.max(v))
+    });
+    let change = shaft
+        .and_then(|shaft| shaft.speed.change)
+        .filter(|change| change.from_rest);
+    if change.is_none() && wish.zero_deviation.is_none() {
+        notes.push("the shaft does not rest at first and zero_deviation is not given: the zero of the reading is not known".to_string());
+    }
+    let torque = invert(&Inversion {
+        sensor,
+        first: series.time(from),
+        interval: series.interval,
+        reading,
+        shaft: turning,
+        engagement: change.map(|change| Uncertain::new(change.engagement.0, change.engagement.1)),
+        zero: Uncertain::new(0.0, wish.zero_deviation.unwrap_or(high - low)),
+        zero_wander: 0.0,
+        scale_deviation: wish.scale_deviation,
+        disturbance_power: match wish.disturbance {
+            Disturbance::Auto | Disturbance::None => None,
+            Disturbance::Unbalance => Some(2.0),
+            Disturbance::RunOut => Some(0.0),
+        },
+    })?;
+    notes.extend(torque.notes.iter().cloned());
+    Ok(torque)
+}

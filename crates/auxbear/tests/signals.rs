@@ -1,0 +1,378 @@
+//! A measurement through its front: the made-up spin-up against the motion it was made from, and files that are wrong.
+
+use auxbear::scenario::{BuiltIn, Scenario};
+use auxbear::simulate::outcome::{Outcome, Value};
+use auxbear::simulate::{Options, build, run};
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+fn computed(scenario: &Scenario) -> Outcome {
+    run(scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap()
+}
+
+fn example(sets: &[&str]) -> Outcome {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/signals_spin_up.toml");
+    let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
+    computed(&Scenario::read(&file, &sets, &BuiltIn).unwrap())
+}
+
+fn number(outcome: &Outcome, name: &str) -> f64 {
+    let quantity = outcome.quantities.iter().find(|q| q.name == name);
+    match &quantity.unwrap_or_else(|| panic!("no {name}")).value {
+        Value::Number(value) => *value,
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+fn column<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
+    let column = outcome.history.iter().find(|column| column.name == name);
+    &column.unwrap_or_else(|| panic!("no {name}")).values
+}
+
+/// The motion of scenarios/data/make_spin_up.py.
+const ENGAGED: f64 = 0.3;
+const LENGTH: f64 = 0.040;
+const PEAK: f64 = 7200.0;
+const RISE: f64 = 0.001;
+const SLOWING: f64 = 3.0;
+
+fn acceleration(time: f64) -> f64 {
+    let fall = PEAK * (LENGTH - RISE) / (150.0 - 0.5 * PEAK * RISE) - 1.0;
+    match time - ENGAGED {
+        t if t <= 0.0 => 0.0,
+        t if t >= LENGTH => -SLOWING,
+        t if t < RISE => PEAK * t / RISE,
+        t => PEAK * (1.0 - (t - RISE) / (LENGTH - RISE)).powf(fall),
+    }
+}
+
+fn speed(time: f64) -> f64 {
+    let fall = PEAK * (LENGTH - RISE) / (150.0 - 0.5 * PEAK * RISE);
+    let rest = |t: f64| 1.0 - (1.0 - (t - RISE) / (LENGTH - RISE)).powf(fall);
+    match time - ENGAGED {
+        t if t <= 0.0 => 0.0,
+        t if t < RISE => 0.5 * PEAK * t * t / RISE,
+        t if t < LENGTH => 0.5 * PEAK * RISE + PEAK * (LENGTH - RISE) / fall * rest(t),
+        t => 150.0 - SLOWING * (t - LENGTH),
+    }
+}
+
+/// Share of a history, between two times, whose band of two deviations holds the truth.
+fn covered(
+    outcome: &Outcome,
+    name: &str,
+    deviation: &str,
+    span: (f64, f64),
+    truth: &dyn Fn(f64) -> f64,
+) -> f64 {
+    let rows = column(outcome, "time")
+        .iter()
+        .zip(column(outcome, name))
+        .zip(column(outcome, deviation));
+    let inside: Vec<bool> = rows
+        .filter(|((time, _), _)| **time > span.0 && **time < span.1)
+        .map(|((time, value), deviation)| (value - truth(*time)).abs() <= 2.0 * deviation)
+        .collect();
+    assert!(inside.len() > 100, "{name}: {} rows", inside.len());
+    inside.iter().filter(|inside| **inside).count() as f64 / inside.len() as f64
+}
+
+#[test]
+fn a_made_up_spin_up_is_found_within_its_bands() {
+    let outcome = example(&[]);
+    assert!(outcome.stop.complete(), "{:?}", outcome.stop);
+    assert_eq!(number(&outcome, "pulses_repaired_share"), 0.0);
+    // the promise of this record's kind: the peak within 3 %
+    let peak = number(&outcome, "peak_acceleration");
+    assert!((peak / PEAK - 1.0).abs() < 0.03, "{peak}");
+    assert!((peak - PEAK).abs() < 3.0 * number(&outcome, "peak_acceleration_deviation"));
+    // the acceleration begins with its rise of 1 ms
+    let engaged = number(&outcome, "engagement_time");
+    assert!((engaged - ENGAGED).abs() < RISE, "{engaged}");
+    // One record: rows are correlated, so that the share scatters about 95 % by more than their number would tell.
+    for (name, deviation, span, truth) in [
+        (
+            "shaft.speed",
+            "shaft.speed_deviation",
+            (0.3, 1.45),
+            &speed as &dyn Fn(f64) -> f64,
+        ),
+        (
+            "shaft.acceleration",
+            "shaft.acceleration_deviation",
+            (0.305, 0.335),
+            &acceleration,
+        ),
+    ] {
+        let share = covered(&outcome, name, deviation, span, truth);
+        assert!(share > 0.8, "{name}: {share}");
+    }
+    // friction after the spin-up: 3 + 22 (Ω/150)^(2/3) N mm
+    let torque = |time: f64| 1e-3 * (3.0 + 22.0 * (speed(time) / 150.0).powf(2.0 / 3.0));
+    let share = covered(
+        &outcome,
+        "torque.torque",
+        "torque.deviation",
+        (0.5, 1.4),
+        &torque,
+    );
+    assert!(share > 0.8, "torque: {share}");
+    let disturbance = number(&outcome, "largest_synchronous_disturbance");
+    assert!((disturbance - 4e-3).abs() < 0.4e-3, "{disturbance}");
+    // the cage slips by 0.4 % in the end
+    let slip = number(&outcome, "cage_slip_at_end");
+    let deviation = number(&outcome, "cage_slip_at_end_deviation");
+    assert!(
+        (slip - 0.004).abs() < 4.0 * deviation && deviation < 0.002,
+        "{slip} {deviation}"
+    );
+}
+
+#[test]
+fn what_is_not_asked_for_is_not_computed() {
+    let text = "format = \"auxbear.scenario/1\"\nsystem = \"signals\"\n[signals]\nfile = \"data/spin_up.tdms\"\n";
+    let name = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/a.toml");
+    let scenario = Scenario::parse(text, &name.display().to_string(), &[], &BuiltIn).unwrap();
+    let outcome = computed(&scenario);
+    assert!(outcome.stop.complete());
+    let peak = outcome
+        .quantities
+        .iter()
+        .find(|q| q.name == "peak_speed")
+        .unwrap();
+    let why = "signals.speed.channel is not given".to_string();
+    assert_eq!(peak.value, Value::None { why });
+    let channels = outcome
+        .quantities
+        .iter()
+        .find(|q| q.name == "channels")
+        .unwrap();
+    let Value::Text(channels) = &channels.value else {
+        panic!("{channels:?}")
+    };
+    assert!(
+        channels.contains("rig/torque (in N mm, 750 values, 500 values a second)"),
+        "{channels}"
+    );
+}
+
+#[test]
+fn a_record_that_does_not_carry_the_answer_says_what_would() {
+    // to 1 % of its peak no 60 marks sampled at 10 kHz can tell this acceleration
+    let outcome = example(&["signals.speed.wanted=0.001"]);
+    assert!(!outcome.stop.complete());
+    assert_eq!(outcome.stop.reason, "not answered");
+    let refusal = outcome
+        .warnings
+        .iter()
+        .find(|warning| warning.code == "AB1042")
+        .unwrap();
+    assert!(
+        refusal.text.contains("0.1 % are wanted; needed:"),
+        "{}",
+        refusal.text
+    );
+}
+
+/// Marks that are counted wrongly do not pass in silence: a wheel whose 60 marks are off shows that it has not 12.
+#[test]
+fn wrong_marks_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut text = String::from("mark,tacho\n");
+    for mark in 0..3000_usize {
+        let m = mark % 60;
+        let off = 0.02 * ((m * (7 * m * m + 5 * m + 11) % 61) as f64 / 61.0 - 0.5);
+        let place = mark as f64 + off;
+        // some 150 rad/s, slowly falling
+        text.push_str(&format!(
+            "{mark},{:.9}\n",
+            7e-4 * place * (1.0 + 1e-6 * place)
+        ));
+    }
+    fs::write(folder.path().join("run.csv"), text).unwrap();
+    let file = folder.path().join("a.toml");
+    let asked = "format = \"auxbear.scenario/1\"\nsystem = \"signals\"\n[signals]\nfile = \"run.csv\"\n[signals.speed]\n\
+                 channel = \"tacho\"\nkind = \"edges\"\nstamp_deviation = \"0.1 us\"\nmarks_per_revolution = 12\n";
+    fs::write(&file, asked).unwrap();
+    let codes = |sets: &[String]| {
+        let outcome = computed(&Scenario::read(&file, sets, &BuiltIn).unwrap());
+        let codes: Vec<&str> = outcome
+            .warnings
+            .iter()
+            .map(|warning| warning.code)
+            .collect();
+        codes.contains(&"AB1044")
+    };
+    assert!(codes(&[]));
+    assert!(!codes(&[
+        "signals.speed.marks_per_revolution=60".to_string()
+    ]));
+}
+
+/// A resolved file gives the same numbers from another folder.
+#[test]
+fn the_resolved_file_runs_again() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/signals_spin_up.toml");
+    let scenario = Scenario::read(&file, &[], &BuiltIn).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let copy = folder.path().join("scenario.toml");
+    fs::write(&copy, scenario.resolved.toml()).unwrap();
+    let again = Scenario::read(&copy, &[], &BuiltIn).unwrap();
+    assert_eq!(computed(&scenario).quantities, computed(&again).quantities);
+}
+
+/// The problem that a measurement file of this name and content makes.
+fn problem(name: &str, content: &str, more: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join(name), content).unwrap();
+    let text = format!(
+        "format = \"auxbear.scenario/1\"\nsystem = \"signals\"\n[signals]\nfile = \"{name}\"\n{more}"
+    );
+    let file = folder.path().join("a.toml");
+    fs::write(&file, text).unwrap();
+    let scenario = Scenario::read(&file, &[], &BuiltIn).unwrap();
+    let never = AtomicBool::new(false);
+    let told = match build(&scenario, &Options::unwatched(&never)) {
+        Ok(_) => panic!("nothing is found wrong with {name}"),
+        Err(problem) => problem.to_string(),
+    };
+    told.replace(&format!("{}/", folder.path().display()), "")
+}
+
+const TORQUE: &str = "[signals.torque]\nchannel = \"torque\"\n";
+
+/// A table of 40 rows whose time is changed in one of them.
+fn table(unit: &str, change: &dyn Fn(usize) -> Option<&'static str>) -> String {
+    let mut text = format!("time,torque\ns,{unit}\n");
+    for row in 0..40 {
+        let time = change(row).map_or(format!("{:.3}", row as f64 * 0.001), str::to_string);
+        text.push_str(&format!("{time},{}\n", (row * 7) % 11));
+    }
+    text
+}
+
+#[test]
+fn a_channel_that_is_not_there_is_told_with_those_that_are() {
+    let speed = "[signals.speed]\nchannel = \"torqe\"\nmarks_per_revolution = 60\n";
+    assert_eq!(
+        problem("run.csv", &table("N mm", &|_| None), speed),
+        "error[AB0304]: a.toml:6: signals.speed.channel: found run.csv, which has no channel \"torqe\"; it has the channels \"time\", \"torque\". Did you mean \"torque\"?"
+    );
+}
+
+#[test]
+fn a_unit_that_is_no_torque_is_told() {
+    let told = problem("run.csv", &table("N", &|_| None), TORQUE);
+    assert!(
+        told.starts_with("error[AB0306]: a.toml:6: signals.torque.channel: found run.csv, channel \"torque\" in \"N\";"),
+        "{told}"
+    );
+    let both = format!("{TORQUE}scale = \"1 N m\"\n");
+    let told = problem("run.csv", &table("N mm", &|_| None), &both);
+    assert!(
+        told.contains("signals.torque.scale") && told.contains("contradict"),
+        "{told}"
+    );
+}
+
+#[test]
+fn times_that_fall_or_are_uneven_are_told() {
+    let back = |row| (row == 20).then_some("0.0005");
+    let told = problem("run.csv", &table("N mm", &back), TORQUE);
+    assert!(
+        told.starts_with(
+            "error[AB0305]: a.toml:6: signals.torque.channel: found run.csv, channel \"time\", whose time goes from 0.019 s to 0.0005 s at value 20;"
+        ),
+        "{told}"
+    );
+    let uneven = |row| (row == 20).then_some("0.0205");
+    let told = problem("run.csv", &table("N mm", &uneven), TORQUE);
+    assert!(
+        told.contains("AB0305") && told.contains("not at equal times"),
+        "{told}"
+    );
+}
+
+#[test]
+fn files_that_are_no_measurement_are_told() {
+    let told = problem("run.tdms", "this is a text\n", "");
+    assert!(
+        told.starts_with("error[AB0303]: a.toml:4: signals.file: found run.tdms, which is text"),
+        "{told}"
+    );
+    let told = problem("run.tdms", "", "");
+    assert!(
+        told.starts_with("error[AB0303]: a.toml:4: signals.file: found run.tdms, which is empty"),
+        "{told}"
+    );
+    let missing = problem(
+        "other.csv",
+        "a,b\n1,2\n",
+        "from = \"1 s\"\nto = \"2 s\"\n[signals.torque]\nchannel = \"b\"\ntap_file = \"tap.csv\"\n",
+    );
+    assert!(missing.contains("AB0"), "{missing}");
+}
+
+/// Clipped, missing: values that are left out are told, and the run goes on.
+#[test]
+fn clipped_and_missing_torque_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut text = String::from("time,torque\ns,N mm\n");
+    for row in 0..4000 {
+        let time = row as f64 * 0.001;
+        let noise = ((row * 7919) % 1000) as f64 / 1000.0 - 0.5;
+        let value = (6.0 * (30.0 * time).sin() + noise).clamp(-5.0, 5.0);
+        let cell = if (100..103).contains(&row) {
+            String::new()
+        } else {
+            format!("{value:.4}")
+        };
+        text.push_str(&format!("{time:.3},{cell}\n"));
+    }
+    fs::write(folder.path().join("run.csv"), text).unwrap();
+    let file = folder.path().join("a.toml");
+    let asked = format!(
+        "format = \"auxbear.scenario/1\"\nsystem = \"signals\"\n[signals]\nfile = \"run.csv\"\n{TORQUE}sensor_frequency = \"30 Hz\"\ndamping_ratio = 0.2\n"
+    );
+    fs::write(&file, asked).unwrap();
+    let outcome = computed(&Scenario::read(&file, &[], &BuiltIn).unwrap());
+    assert_eq!(number(&outcome, "torque_missing_values"), 3.0);
+    assert!(number(&outcome, "torque_clipped_values") > 100.0);
+    let told: Vec<&str> = outcome
+        .warnings
+        .iter()
+        .filter(|w| w.code == "AB1041")
+        .map(|w| w.text.as_str())
+        .collect();
+    assert!(
+        told.iter()
+            .any(|text| text.starts_with("Channel torque:") && text.contains("clipped")),
+        "{told:?}"
+    );
+}
+
+#[test]
+fn keys_without_their_channel_are_refused() {
+    let told = |more: &str| {
+        let text = format!(
+            "format = \"auxbear.scenario/1\"\nsystem = \"signals\"\n[signals]\nfile = \"a.tdms\"\n{more}"
+        );
+        Scenario::parse(&text, "a.toml", &[], &BuiltIn)
+            .unwrap_err()
+            .to_string()
+    };
+    assert_eq!(
+        told("[signals.speed]\nmarks_per_revolution = 60\n"),
+        "error[AB0110]: a.toml:6: signals.speed.marks_per_revolution: found a key that has no effect; signals.speed.channel is needed with it"
+    );
+    assert_eq!(
+        told("[signals.speed]\nchannel = \"tacho\"\n"),
+        "error[AB0107]: a.toml: signals.speed.marks_per_revolution: found no value; with signals.speed.channel a whole number from 1 to 100000 is needed, e.g. 60"
+    );
+    let cage = told("[signals.cage]\nchannel = \"balls\"\nball_count = 10\nrolling_ratio = 0.4\n");
+    assert!(
+        cage.contains("signals.speed.channel: found no value"),
+        "{cage}"
+    );
+}
