@@ -67,6 +67,12 @@ function spreadBar(quantity) {
   );
 }
 
+// A mean over the members that came so far says little of those that did not.
+function censored(quantity) {
+  const absent = (quantity.all_members || 0) - quantity.spread.members;
+  return absent > 0 ? `; ${absent} others never came to it, so that mean and range are those of the quick ones` : "";
+}
+
 // What a single run tells as an example only.
 function chaoticMark(quantity) {
   return quantity.chaotic ? element("span", { class: "mark mark-chaotic", title: "tiny changes of the start change it much: compare ensembles (auxbear run --repeat)" }, "chaotic") : null;
@@ -81,7 +87,7 @@ function spreadCell(quantity) {
   return [
     spreadBar(quantity),
     element("div", { class: "spread" }, mean),
-    element("div", { class: "small" }, range + (isNumber(spread.members) ? `, ${spread.members} members` : "")),
+    element("div", { class: "small" }, range + (isNumber(spread.members) ? `, ${spread.members} members${censored(quantity)}` : "")),
     many && quantiles ? element("div", { class: "small" }, quantiles) : null,
   ];
 }
@@ -109,6 +115,7 @@ function quantitySection(runs) {
   if (!names.length) return section("quantities", "Quantities", notInThisRun("the summary holds no quantities"));
   const repeated = runs.some((run) => names.some((name) => quantityOf(run, name).spread));
   const single = runs.length === 1;
+  for (const run of runs) for (const quantity of Object.values(run.quantities)) if (quantity && quantity.spread) quantity.all_members = list(run.summary.members).length;
   const heads = ["Quantity"];
   if (single) heads.push("Value", "In SI units");
   else runs.forEach((run, index) => heads.push(run.label, ...(index ? [`(${run.letter} − A) / A`] : [])));
