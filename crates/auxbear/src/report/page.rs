@@ -4,6 +4,7 @@
 //! `page/` draw it. Long histories are thinned to [`ROW_LIMIT`] rows, the same rows for every column, in a way that keeps
 //! the extremes; peaks that must be exact come from the summary, not from these columns.
 
+use measure::file::parquet::arrow_schema::base64;
 use std::collections::BTreeSet;
 
 /// Largest number of rows of a history that the page carries.
@@ -258,23 +259,6 @@ fn escape_text(text: &str) -> String {
         .replace('"', "&quot;")
 }
 
-pub(super) fn base64(bytes: &[u8]) -> String {
-    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for group in bytes.chunks(3) {
-        let byte = |index: usize| u32::from(group.get(index).copied().unwrap_or(0));
-        let word = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for place in 0..4 {
-            if place <= group.len() {
-                text.push(LETTERS[(word >> (18 - 6 * place) & 63) as usize] as char);
-            } else {
-                text.push('=');
-            }
-        }
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -303,24 +287,6 @@ mod tests {
             column("bearing.contact.friction_force", friction),
             column("bearing.contact.penetration", penetration),
         ]
-    }
-
-    #[test]
-    fn base64_follows_rfc_4648() {
-        // The test vectors of RFC 4648, section 10.
-        let vectors = [
-            ("", ""),
-            ("f", "Zg=="),
-            ("fo", "Zm8="),
-            ("foo", "Zm9v"),
-            ("foob", "Zm9vYg=="),
-            ("fooba", "Zm9vYmE="),
-            ("foobar", "Zm9vYmFy"),
-        ];
-        for (plain, coded) in vectors {
-            assert_eq!(base64(plain.as_bytes()), coded);
-        }
-        assert_eq!(base64(&[0xfb, 0xff, 0xfe]), "+//+");
     }
 
     #[test]

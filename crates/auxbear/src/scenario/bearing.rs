@@ -7,6 +7,7 @@ use super::section::Section;
 use super::separation::Separation;
 use physics::lubricant::{LUBRICANTS, Lubricant};
 use physics::palmgren_factors::FactorType;
+use std::f64::consts::PI;
 
 /// How the bearing is modelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -300,6 +301,11 @@ impl Bearing {
     /// Radius of the inner track at rest where the plane meets it, m.
     pub fn inner_track_radius(&self) -> f64 {
         0.5 * self.pitch_diameter - self.contact_radius()
+    }
+    /// What neighbouring balls leave between each other on the pitch circle, along the chord, m; below zero they do not fit.
+    pub fn gap_between_balls(&self) -> f64 {
+        let chord = self.pitch_diameter * (PI / self.ball_count as f64).sin();
+        chord - self.ball_diameter
     }
     /// What a friction law needs to know of it.
     pub fn rated(&self) -> RatedBearing {

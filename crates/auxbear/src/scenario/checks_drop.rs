@@ -6,7 +6,6 @@ use super::separation::Separation;
 use crate::catalogue::geometry::millimetres;
 use crate::problem::Code;
 use physics::unbalance::whirl;
-use std::f64::consts::PI;
 
 /// Standard deviations within which every perturbed start is taken to lie.
 const SPREAD: f64 = 6.0;
@@ -44,8 +43,7 @@ impl Context<'_> {
         let (free, path) = match &bearing.separation {
             Separation::Cage(cage) => (cage.pocket_gap, "bearing.cage.pocket_gap"),
             Separation::FullComplement(_) => {
-                let chord = bearing.pitch_diameter * (PI / bearing.ball_count as f64).sin();
-                (0.5 * (chord - bearing.ball_diameter), "bearing.ball_count")
+                (0.5 * bearing.gap_between_balls(), "bearing.ball_count")
             }
         };
         if repeat.count < 2 || shift <= free {

@@ -21,8 +21,7 @@ const MOST_INTERFERENCE: f64 = 0.005;
 impl Context<'_> {
     /// Pockets that end before the next ball, and a cage that something holds.
     fn pockets(&self, bearing: &Bearing, cage: &Cage) -> Check {
-        let chord = bearing.pitch_diameter * (PI / bearing.ball_count as f64).sin();
-        let most = 0.5 * (chord - bearing.ball_diameter);
+        let most = 0.5 * bearing.gap_between_balls();
         if bearing.ball_count >= FEWEST_NEIGHBOURS && cage.pocket_gap > most {
             let path = "bearing.cage.pocket_gap";
             return Err(Box::new(self.problem(
@@ -57,14 +56,13 @@ impl Context<'_> {
         let (pitch, ball) = (bearing.pitch_diameter, bearing.ball_diameter);
         match &bearing.separation {
             Separation::FullComplement(_) => {
-                let chord = pitch * (PI / bearing.ball_count as f64).sin();
                 let count = "bearing.ball_count";
                 if bearing.ball_count < FEWEST_NEIGHBOURS {
                     let allowed =
                         format!("at least {FEWEST_NEIGHBOURS} balls are needed without a cage");
                     return refuse(Code::Impossible, count, allowed);
                 }
-                if chord < ball {
+                if bearing.gap_between_balls() < 0.0 {
                     let most = (PI / (ball / pitch).asin()).floor();
                     let allowed = format!(
                         "at most {most} balls of {} fit on a pitch circle of {}",

@@ -141,7 +141,8 @@ fn pad(buffer: &mut Vec<u8>, to: usize, with: u8) {
 /// Letters of base64 (RFC 4648), in the order of their values.
 const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-fn base64(bytes: &[u8]) -> String {
+/// Bytes as a text in base64 (RFC 4648), padded.
+pub fn base64(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for group in bytes.chunks(3) {
         let word = group
@@ -259,11 +260,15 @@ mod tests {
             ("", ""),
             ("f", "Zg=="),
             ("fo", "Zm8="),
+            ("foo", "Zm9v"),
+            ("foob", "Zm9vYg=="),
+            ("fooba", "Zm9vYmE="),
             ("foobar", "Zm9vYmFy"),
         ] {
             assert_eq!(base64(bytes.as_bytes()), text);
             assert_eq!(bytes_of(text).unwrap(), bytes.as_bytes());
         }
+        assert_eq!(base64(&[0xfb, 0xff, 0xfe]), "+//+");
         assert_eq!(bytes_of("a b"), None);
     }
 
