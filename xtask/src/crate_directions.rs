@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use toml::Table;
 
 /// Each folder with a package, and the workspace crates it may name.
-const ALLOWED: [(&str, &[&str]); 10] = [
+const ALLOWED: [(&str, &[&str]); 11] = [
     ("crates/number", &[]),
     ("crates/units", &[]),
     ("crates/physics", &["number"]),
@@ -13,9 +13,12 @@ const ALLOWED: [(&str, &[&str]); 10] = [
     ("crates/model", &["number", "physics", "solve"]),
     ("crates/measure", &["number", "units"]),
     ("crates/measure/fuzz", &["measure"]),
+    ("crates/identify", &["measure", "physics"]),
     (
         "crates/auxbear",
-        &["measure", "model", "number", "physics", "solve", "units"],
+        &[
+            "identify", "measure", "model", "number", "physics", "solve", "units",
+        ],
     ),
     ("cli", &["auxbear"]),
     ("xtask", &[]),
