@@ -11,7 +11,7 @@
 //!
 //! Does not model: hum, a filter before the converter, cross-talk between channels.
 
-use crate::scenario::{Rig, RigArm, RigPickupKind};
+use crate::scenario::{Rig, RigArm, RigPickupKind, RigProgram};
 use model::sensor::Marks;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -68,10 +68,19 @@ pub(super) struct RawChannel {
     pub clipped: usize,
 }
 
-/// Number of channels that the converter takes in turn.
-pub(super) fn channels(rig: &Rig) -> usize {
-    let analog = matches!(rig.pickup.kind, RigPickupKind::Analog { .. });
-    2 + usize::from(analog) + usize::from(rig.ball_pass.is_some())
+/// Whether the pickup has a channel of the converter, or a counter.
+pub(super) fn analog(rig: &Rig) -> bool {
+    matches!(rig.pickup.kind, RigPickupKind::Analog { .. })
+}
+
+/// When the shaft begins to move, s.
+pub(super) fn begin(rig: &Rig) -> f64 {
+    match rig.program {
+        RigProgram::SpinUp { engage_at, .. } | RigProgram::RepeatAfterRest { engage_at, .. } => {
+            engage_at
+        }
+        RigProgram::CoastDown { .. } | RigProgram::RampAndHold { .. } => 0.0,
+    }
 }
 
 /// Everything that the logger writes.

@@ -4,7 +4,6 @@ use super::chain::RawChannel;
 use crate::scenario::{RawFormat, Rig, RigPickupKind};
 use crate::simulate::outcome::{Attached, Attachment};
 use measure::recording::{Channel, Clock};
-use std::f64::consts::PI;
 
 /// Name of the file that tells what the channels are.
 const SIGNALS: &str = "signals.toml";
@@ -97,9 +96,4 @@ fn signals(
         ));
     }
     text
-}
-
-/// The frequency of an arm, rad/s.
-pub(super) fn natural_frequency(rig: &Rig) -> f64 {
-    2.0 * PI * rig.arm.natural_frequency
 }
