@@ -32,7 +32,7 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
         ));
     }
     if let (Some(wanted), Some(reached)) = (
-        scenario.resolved.number("rig.peak_acceleration"),
+        scenario.resolved.get("rig.peak_acceleration").and_then(|value| value.value_si),
         number("peak_acceleration"),
     ) && (reached / wanted - 1.0).abs() > MISSED
     {
