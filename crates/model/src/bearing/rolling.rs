@@ -17,7 +17,10 @@
 use super::acceleration_loss::{AccelerationLoss, Loss};
 use super::ball::gather_group;
 use super::steady_moment::SteadyMoment;
-use super::{BallSums, BearingEnergy, BearingHeat, BearingReaction, largest};
+use super::{
+    BallSums, BearingConstants, BearingEnergy, BearingHeat, BearingReaction, PlanarConstants,
+    largest,
+};
 use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, constants};
 use physics::contact::{ball_race, ball_race_energy};
@@ -212,6 +215,36 @@ impl<R: Real> Rolling<R> {
 }
 
 impl RollingConstants {
+    /// The bearing whose balls roll that corresponds to one computed ball by ball: contacts in series, the law of its
+    /// steady moment as a whole, no loss in the pockets.
+    pub fn of(planar: &PlanarConstants) -> Self {
+        let set = BearingConstants::Planar(planar.clone()).set();
+        let ball = &planar.ball;
+        let soft = |stiffness: f64| stiffness.powf(-2.0 / 3.0);
+        let series = soft(ball.inner_stiffness) + soft(ball.outer_stiffness);
+        RollingConstants {
+            balls: planar.balls,
+            ball: RollingBall {
+                series_stiffness: series.powf(-1.5),
+                load_per_radial_force: ball.load_per_radial_force,
+                damping_time: ball.damping_time,
+                interference: planar.interference(),
+                inner_track_growth: ball.inner_track_growth,
+                mass_radius: ball.mass * (ball.inner_track + ball.radius),
+            },
+            set,
+            first_ball_angle: planar.first_ball_angle,
+            moment: match &planar.moment {
+                Some(shared) => shared.law.clone(),
+                None => SteadyMoment::None,
+            },
+            axial_load: planar
+                .moment
+                .as_ref()
+                .map_or(0.0, |shared| shared.axial_load),
+            loss: AccelerationLoss::None,
+        }
+    }
     /// Angle of a ball on the cage, rad.
     pub fn seat(&self, ball: usize) -> f64 {
         2.0 * std::f64::consts::PI * ball as f64 / self.balls as f64

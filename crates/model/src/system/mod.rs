@@ -1,6 +1,10 @@
 //! Systems: one readable page each.
 
+pub mod cage_turns;
 pub mod drop;
 pub mod energy;
+pub mod outer_race;
+pub mod refusal;
+pub mod rig;
 pub mod sampling;
 pub mod spin_up;

@@ -3,17 +3,8 @@
 //! At all times: works of the sources = change of (kinetic + potential) + heats, and
 //! change of angular momentum about the origin = external angular impulse.
 //!
-//! ```text
-//!   what the bearing dissipates, from the moment on the outer race            Ω0 final speed, start at rest
-//!   printed (21)    (1+2s) ∫ t_O Ω dt + ½ J_O Ω0²                             J_O = (1+2s)(3/20 N m_b + ¼ m_c) R²
-//!   corrected              ∫ t_O Ω dt + ½ J_O Ω0²                             balls that roll all the way
-//!   exact                  ∫ (t_O + t_g) Ω dt + ∫ Ω dL - Δ(KE + U)            any skidding, races concentric and fixed
-//!   path term              ∫ Ω dL, from ½ L0 Ω0 (rolling) to L0 Ω0 (balls spun up after the race)
-//! ```
-//! The laws stand in [`spin_up_energy`](physics::spin_up_energy).
-//! L: angular momentum of balls and cage, L0 when they roll at Ω0. dL/dt is taken from the rates of the states, not from
-//! the moments, so the exact form is a check and not an identity. Where the inner race moves, the work `other` of
-//! [`WORKS`](super::layout::WORKS) carries its part.
+//! The forms and their conditions stand in [`outer_race`](crate::system::outer_race). Where the inner race moves, the work
+//! `other` of [`WORKS`](super::layout::WORKS) carries its part.
 
 use super::Drive;
 use super::SpinUpMachine;
@@ -21,27 +12,8 @@ use super::layout::{HEATS, INNER, ROTOR};
 use super::rate::race_motion;
 use crate::bearing::{self, BearingEnergy};
 use crate::system::energy::{Balance, Content, Flows};
-use physics::spin_up_energy::{SpinUpEnergy, spin_up_loss};
+use crate::system::outer_race::{OuterRaceEnergy, SpinUpFlows};
 use solve::Machine;
-
-/// What the bearing dissipated in a spin-up from rest, J: true, and as the outer race tells it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OuterRaceEnergy {
-    /// Sum of the heats in the bearing.
-    pub dissipated: f64,
-    /// The source paper's (21) as printed.
-    pub printed: f64,
-    /// Its correction: balls that roll all the way.
-    pub corrected: f64,
-    /// The exact form.
-    pub exact: f64,
-    /// The path term ∫Ω dL as it was.
-    pub path: f64,
-    /// The path term of balls that roll all the way, ½ L0 Ω0.
-    pub least_path: f64,
-    /// The path term of balls spun up after the race, L0 Ω0.
-    pub largest_path: f64,
-}
 
 impl SpinUpMachine {
     /// Energies and angular momentum at a state.
@@ -96,25 +68,17 @@ impl SpinUpMachine {
     pub fn outer_race_energy(&self, start: &[f64], end: &[f64]) -> OuterRaceEnergy {
         let layout = &self.layout;
         let flow = |channel: usize| end[channel] - start[channel];
-        let (outer_work, path) = (flow(layout.work(1)), flow(layout.work(2)));
-        let by_outer_race = SpinUpEnergy {
+        OuterRaceEnergy::of(&SpinUpFlows {
             set: self.constants.bearing.set(),
             final_speed: end[INNER + 5],
-            outer_moment_work: outer_work,
-        };
-        let stored = self.bearing_content(end).sum() - self.bearing_content(start).sum();
-        let (least_path, largest_path) = by_outer_race.path_term_bounds();
-        OuterRaceEnergy {
             dissipated: (0..bearing::HEATS.len())
                 .map(|kind| flow(layout.heat(kind)))
                 .sum(),
-            printed: by_outer_race.printed_loss(),
-            corrected: by_outer_race.rolling_loss(),
-            exact: spin_up_loss(outer_work, flow(layout.work(3)), path, stored),
-            path,
-            least_path,
-            largest_path,
-        }
+            outer_work: flow(layout.work(1)),
+            path: flow(layout.work(2)),
+            other: flow(layout.work(3)),
+            stored: self.bearing_content(end).sum() - self.bearing_content(start).sum(),
+        })
     }
 
     /// The rate of change of a state at an instant, for inspection: (rate, probes).

@@ -29,12 +29,13 @@ pub mod rate;
 pub mod record;
 pub mod steady;
 
+use super::refusal;
+pub use super::refusal::Refusal;
 use crate::bearing::{Bearing, BearingConstants};
 use crate::table::{Piece, Table};
 use layout::Layout;
 use number::{Gather, Real, Vec2, constants};
 use solve::{Batch, Machine};
-use std::fmt;
 pub use steady::{SteadyError, SteadyRun, Watch, moment_scale, steady_run};
 
 /// Constants of one machine.
@@ -114,48 +115,6 @@ impl Drive {
     }
 }
 
-/// Why a machine cannot be built.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refusal {
-    /// The steady moment is shared by the balls, and something drags on them from the ground as well.
-    DragToGround,
-    /// An acceleration loss that is negative somewhere would create energy.
-    LossCreatesEnergy,
-    /// An acceleration loss per acceleration so large that braking would have no answer.
-    LossExceedsInertia,
-    /// A radial load below zero.
-    NegativeLoad,
-    /// A step of speed on balls that always roll: they would need an infinite torque.
-    StepOfRollingBalls,
-    /// A share of the steady moment outside 0 to 1, or a scale or reference spin that is not positive.
-    MomentShare,
-}
-
-impl fmt::Display for Refusal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Refusal::DragToGround => {
-                "with the steady moment shared by the balls nothing may drag on balls or cage from the ground"
-            }
-            Refusal::LossCreatesEnergy => {
-                "the acceleration loss is negative somewhere: it would create energy"
-            }
-            Refusal::LossExceedsInertia => {
-                "the acceleration loss per acceleration exceeds the inertia: a braked race would have no answer"
-            }
-            Refusal::NegativeLoad => "the radial load is negative somewhere: turn its direction",
-            Refusal::StepOfRollingBalls => {
-                "balls that always roll cannot follow a step of speed: give a ramp, or compute them ball by ball"
-            }
-            Refusal::MomentShare => {
-                "the orbit's share of the steady moment lies outside 0 to 1, or its scale or reference spin is not positive"
-            }
-        })
-    }
-}
-
-impl std::error::Error for Refusal {}
-
 /// One machine, ready to run.
 #[derive(Clone, Debug)]
 pub struct SpinUpMachine {
@@ -202,31 +161,12 @@ impl SpinUpConstants {
         if self.load.smallest() < 0.0 {
             return Err(Refusal::NegativeLoad);
         }
-        match &self.bearing {
-            BearingConstants::Rolling(bearing) => {
-                if !bearing.loss.is_passive() {
-                    return Err(Refusal::LossCreatesEnergy);
-                }
-                let loss =
-                    bearing.set.pocket_friction_arm() * bearing.loss.largest_per_acceleration();
-                let given_speed = matches!(self.drive, Drive::Speed(_));
-                if !given_speed && loss >= self.race.inertia + bearing.set.inner_inertia() {
-                    return Err(Refusal::LossExceedsInertia);
-                }
-                if given_speed && self.start_speed() != 0.0 {
-                    return Err(Refusal::StepOfRollingBalls);
-                }
-            }
-            BearingConstants::Planar(bearing) => {
-                if let Some(moment) = &bearing.moment {
-                    if bearing.drags_to_ground() {
-                        return Err(Refusal::DragToGround);
-                    }
-                    if !moment.is_valid() {
-                        return Err(Refusal::MomentShare);
-                    }
-                }
-            }
+        let given_speed = matches!(self.drive, Drive::Speed(_));
+        let free_inertia = (!given_speed).then_some(self.race.inertia);
+        refusal::of_bearing(&self.bearing, free_inertia)?;
+        let rolls = matches!(self.bearing, BearingConstants::Rolling(_));
+        if rolls && given_speed && self.start_speed() != 0.0 {
+            return Err(Refusal::StepOfRollingBalls);
         }
         Ok(())
     }

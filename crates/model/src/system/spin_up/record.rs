@@ -10,7 +10,9 @@ use super::layout::{
     LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, OUTER_MOMENT, STEADY_MOMENT,
 };
 use crate::bearing::BearingConstants;
-use crate::system::sampling::{Peak, Periods, Rise, Row, Rows};
+use crate::system::cage_turns::CageTurns;
+pub use crate::system::cage_turns::LateMeans;
+use crate::system::sampling::{Peak, Rise, Row, Rows};
 use solve::{Flow, Observer, Step};
 
 /// Everything kept of one machine.
@@ -33,26 +35,8 @@ pub struct Record {
     /// Of the inner race through 50 % and 95 % of the target speed, of the cage through 95 % of its rolling speed then.
     rises: [Rise; 3],
     /// Of t_I, t_O, M and the cage slip, over cage turns.
-    turns: Periods<4>,
+    turns: CageTurns,
     rows: Rows,
-}
-
-/// Share of the speed within which the race counts as being at it.
-const AT_SPEED: f64 = 0.01;
-
-/// Means over cage turns at one speed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LateMeans {
-    /// Number of turns, of the time a cage needs that rolls at the target speed.
-    pub turns: usize,
-    /// Moment t_I, N m.
-    pub inner_moment: f64,
-    /// Moment t_O, N m.
-    pub outer_moment: f64,
-    /// Moment M of the law, N m.
-    pub steady_moment: f64,
-    /// Cage slip.
-    pub cage_slip: f64,
 }
 
 impl Record {
@@ -68,7 +52,6 @@ impl Record {
                 Rise::through(BEARING + 1, 0.95 * rolling)
             }
         };
-        let turn = 2.0 * std::f64::consts::PI / (c.bearing.rolling_cage_ratio() * speed).abs();
         Record {
             inner_moment: Peak::NONE,
             outer_moment: Peak::NONE,
@@ -82,36 +65,22 @@ impl Record {
                 Rise::through(INNER + 5, 0.95 * speed),
                 cage,
             ],
-            turns: Periods::until(
+            turns: CageTurns::until(
                 end,
-                turn,
+                c.bearing.rolling_cage_ratio() * speed,
                 [INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT, CAGE_SLIP],
                 INNER + 5,
             ),
             rows: Rows::new(machine, end, interval, keep_rows),
         }
     }
-    /// Means over the last cage turns at a speed of the inner race, rad/s: of those in which the speed stayed within 1 %,
-    /// the later half. None where there was no such turn.
+    /// Means over the last cage turns at a speed of the inner race, rad/s; see [`CageTurns::late_means`].
     pub fn late_means(&self, speed: f64) -> Option<LateMeans> {
-        let near = |value: f64| (value - speed).abs() <= AT_SPEED * speed.abs();
-        let at_speed: Vec<_> = (self.turns.whole().rev())
-            .take_while(|turn| near(turn.range.0) && near(turn.range.1))
-            .collect();
-        let late = &at_speed[..at_speed.len().div_ceil(2)];
-        let mean =
-            |k: usize| late.iter().map(|turn| turn.means[k]).sum::<f64>() / late.len() as f64;
-        (!late.is_empty()).then(|| LateMeans {
-            turns: late.len(),
-            inner_moment: mean(0),
-            outer_moment: mean(1),
-            steady_moment: mean(2),
-            cage_slip: mean(3),
-        })
+        self.turns.late_means(speed)
     }
     /// Mean cage slip of the last whole cage turn.
     pub fn last_cage_slip(&self) -> Option<f64> {
-        self.turns.whole().next_back().map(|turn| turn.means[3])
+        self.turns.last_cage_slip()
     }
     /// First instant the inner race reaches half the target speed, s.
     pub fn inner_race_time_to_50_percent(&self) -> Option<f64> {

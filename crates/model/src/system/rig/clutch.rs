@@ -1,0 +1,88 @@
+//! The clutch: open, slipping or locked, and what follows what.
+//!
+//! ```text
+//!   T_c(t) = min(rate (t - t_e), largest)        capacity while engaged
+//!
+//!   open       T = 0
+//!   slipping   T = ± T_c along ω_f - Ω           heat T (ω_f - Ω) ≥ 0
+//!   locked     ω_f = Ω, T whatever keeps it so    |T| ≤ T_c
+//!
+//!   slipping → locked     where ω_f - Ω reaches zero, and T_c suffices for what locking takes
+//!   slipping → slipping   the other way round, where it does not
+//!   locked   → slipping   where |T| exceeds T_c
+//! ```
+//! Friction is not regularised: the instants are found (see [`simulate`](super::simulate)) and the state there goes on.
+//! What is left of ω_f - Ω at a locking (rounding) is evened out at constant angular momentum, and its energy is heat.
+//!
+//! Assumes: one coefficient of friction at rest and in motion. Does not model: warming and fading of the lining.
+
+use super::layout::{CLUTCH_TORQUE, FLYWHEEL, SHAFT};
+use super::{Mode, RigMachine};
+
+/// What the clutch does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Clutch {
+    /// Nothing.
+    Open,
+    /// It slips: the torque on the shaft is the capacity in this direction, 1 or -1.
+    Slipping {
+        /// Direction in which the flywheel is ahead of the shaft.
+        direction: f64,
+    },
+    /// Flywheel and shaft are one body.
+    Locked,
+}
+
+/// A change of the clutch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClutchEvent {
+    /// When, s.
+    pub time: f64,
+    /// What it does from then on.
+    pub clutch: Clutch,
+    /// Speed of the shaft then, rad/s.
+    pub speed: f64,
+}
+
+/// Speed by which the flywheel is ahead of the shaft, rad/s.
+pub fn slip_speed(state: &[f64]) -> f64 {
+    state[FLYWHEEL + 1] - state[SHAFT + 1]
+}
+
+impl RigMachine {
+    /// What an engaged clutch does in a state at an instant.
+    pub(super) fn engaged(&self, mode: &Mode, time: f64, state: &[f64]) -> Clutch {
+        let slip = slip_speed(state);
+        if slip != 0.0 {
+            return Clutch::Slipping {
+                direction: slip.signum(),
+            };
+        }
+        let locked = Mode {
+            clutch: Clutch::Locked,
+            ..*mode
+        };
+        let torque = self.inspect(&locked, time, state).1[CLUTCH_TORQUE];
+        if torque.abs() <= mode.capacity.at(time) {
+            Clutch::Locked
+        } else {
+            Clutch::Slipping {
+                direction: torque.signum(),
+            }
+        }
+    }
+    /// Gives flywheel and shaft one speed; their angular momentum stays, the energy of what they differed by is heat of
+    /// the clutch.
+    pub(super) fn even_out(&self, state: &mut [f64]) {
+        let slip = slip_speed(state);
+        let flywheel = self.constants.flywheel.inertia;
+        // balls that roll turn with the shaft; others keep their own motion
+        let shaft = self.constants.shaft.inertia + self.rolling_inertia();
+        let shared =
+            (flywheel * state[FLYWHEEL + 1] + shaft * state[SHAFT + 1]) / (flywheel + shaft);
+        state[FLYWHEEL + 1] = shared;
+        state[SHAFT + 1] = shared;
+        let reduced = flywheel * shaft / (flywheel + shaft);
+        state[self.layout.heat(super::layout::CLUTCH_HEAT)] += 0.5 * reduced * slip * slip;
+    }
+}

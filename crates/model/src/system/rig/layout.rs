@@ -1,0 +1,270 @@
+//! Where everything stands in the state of a rig.
+//!
+//! ```text
+//!   0..2    shaft        φ, Ω
+//!   2..4    flywheel     φ_f, ω_f
+//!   4..6    arm          reading y, its rate
+//!   6..8    heat         rise of the bearing's temperature T, of the thermocouple's T_m
+//!   8..12   housing      x, y, ẋ, ẏ
+//!   12..    bearing      its own states, the cage angle first
+//!   then    ledger       heats, works of the sources, external angular impulses of the rig and of balls and cage,
+//!                        works by the moments on the races
+//! ```
+//! What a converter samples comes first: it is cheap to read between two steps ([`taps`](super::taps)).
+
+use super::RigConstants;
+use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
+use std::ops::Range;
+
+/// First channel of the shaft: angle, speed.
+pub const SHAFT: usize = 0;
+/// First channel of the flywheel: angle, speed.
+pub const FLYWHEEL: usize = 2;
+/// First channel of the arm: reading, N m, and its rate.
+pub const ARM: usize = 4;
+/// Channel of the rise of the bearing's temperature, K.
+pub const TEMPERATURE: usize = 6;
+/// Channel of what the thermocouple tells of it, K.
+pub const THERMOCOUPLE: usize = 7;
+/// First channel of the housing: x, y, ẋ, ẏ.
+pub const HOUSING: usize = 8;
+/// First channel of the bearing: the angle of its cage.
+pub const BEARING: usize = 12;
+/// Channel of the angle of the cage, rad.
+pub const CAGE_ANGLE: usize = BEARING;
+
+/// Kinds of heat, in the order of their channels: those of the bearing, then the rig's. Names as in results.
+pub const HEATS: [&str; bearing::HEATS.len() + 3] = {
+    let mut all = [""; bearing::HEATS.len() + 3];
+    let mut i = 0;
+    while i < bearing::HEATS.len() {
+        all[i] = bearing::HEATS[i];
+        i += 1;
+    }
+    all[CLUTCH_HEAT] = "clutch";
+    all[BELT_HEAT] = "belt";
+    all[SUPPORT_HEAT] = "support_bearings";
+    all
+};
+/// Index of the heat of the clutch among [`HEATS`].
+pub const CLUTCH_HEAT: usize = bearing::HEATS.len();
+/// Index of the heat of belt and flywheel bearings among [`HEATS`].
+pub const BELT_HEAT: usize = CLUTCH_HEAT + 1;
+/// Index of the heat of the support bearings among [`HEATS`].
+pub const SUPPORT_HEAT: usize = CLUTCH_HEAT + 2;
+/// Kinds of source, in the order of their channels.
+pub const SOURCES: [&str; 3] = ["motor", "weight", "inner_race_growth"];
+/// Works by the moments on the races, in the order of their channels.
+///
+/// | name | integral over time |
+/// |---|---|
+/// | `inner_moment` | t_I Ω |
+/// | `outer_moment` | t_O Ω: what a torque arm and a speed pick-up give |
+/// | `momentum` | Ω dL/dt, L of balls and cage |
+/// | `other` | (t_g - c_o × F_o)Ω + F_o·v_o + growth of the race, F_o of the outer race on the balls; 0 on the concentric rig |
+pub const WORKS: [&str; 4] = ["inner_moment", "outer_moment", "momentum", "other"];
+/// Channels of the ledger: heats, sources, two external angular impulses, works.
+pub const LEDGER: usize = HEATS.len() + SOURCES.len() + 2 + WORKS.len();
+
+/// Probe: moment t_I that resists the shaft in the test bearing, N m.
+pub const INNER_MOMENT: usize = 0;
+/// Probe: moment t_O that the bearing exerts on the outer race, N m.
+pub const OUTER_MOMENT: usize = 1;
+/// Probe: the steady moment M of the law at this speed and load, N m.
+pub const STEADY_MOMENT: usize = 2;
+/// Probe: cage slip S = 1 - 2(1+s)ω_c/Ω; 0 at rest.
+pub const CAGE_SLIP: usize = 3;
+/// Probe: acceleration of the shaft, rad/s².
+pub const ACCELERATION: usize = 4;
+/// Probe: acceleration of the flywheel, rad/s².
+pub const FLYWHEEL_ACCELERATION: usize = 5;
+/// Probe: torque of the clutch on the shaft, N m.
+pub const CLUTCH_TORQUE: usize = 6;
+/// Probe: capacity of the clutch, N m.
+pub const CLUTCH_CAPACITY: usize = 7;
+/// Probe: speed by which the flywheel is ahead of the shaft, rad/s.
+pub const CLUTCH_SLIP: usize = 8;
+/// Probe: torque of the motor on the flywheel, N m.
+pub const MOTOR_TORQUE: usize = 9;
+/// Probe: drag of belt and flywheel bearings, N m.
+pub const BELT_DRAG: usize = 10;
+/// Probe: drag of the support bearings, N m.
+pub const SUPPORT_DRAG: usize = 11;
+/// Probe: what vibration adds to the moment that the arm feels, N m.
+pub const DISTURBANCE: usize = 12;
+/// Probe: cage speed, rad/s.
+pub const CAGE_SPEED: usize = 13;
+/// Probe: size of the force of the balls on the outer race, N.
+pub const BEARING_LOAD: usize = 14;
+/// Probe: sum of the heats of the bearing, W.
+pub const BEARING_HEAT: usize = 15;
+/// Probe: rate of the angular momentum of balls and cage, N m, from the rates of their states.
+pub const MOMENTUM_RATE: usize = 16;
+/// Probe: sum of the ball loads at the inner race, N.
+pub const INNER_LOAD_SUM: usize = 17;
+/// Probe: largest ball load at the inner race, N.
+pub const LARGEST_INNER_LOAD: usize = 18;
+/// Probe: largest ball load at the outer race, N.
+pub const LARGEST_OUTER_LOAD: usize = 19;
+/// Probe: largest force between a ball and its pocket, or between two balls without a cage, N.
+pub const LARGEST_POCKET_FORCE: usize = 20;
+/// Probe: force between cage and land, N.
+pub const LAND_FORCE: usize = 21;
+/// First probe of the bearing's detail.
+pub const DETAIL: usize = 22;
+
+/// Names and units of the probes before the detail.
+pub const PROBES: [(&str, &str); DETAIL] = [
+    ("bearing.inner_race.resisting_moment", "N m"),
+    ("bearing.outer_race.moment", "N m"),
+    ("bearing.steady_moment", "N m"),
+    ("bearing.cage.slip", "1"),
+    ("shaft.acceleration", "rad/s^2"),
+    ("flywheel.acceleration", "rad/s^2"),
+    ("clutch.torque", "N m"),
+    ("clutch.capacity", "N m"),
+    ("clutch.slip_speed", "rad/s"),
+    ("motor.torque", "N m"),
+    ("flywheel.drag_moment", "N m"),
+    ("shaft.drag_moment", "N m"),
+    ("arm.disturbance", "N m"),
+    ("bearing.cage.speed", "rad/s"),
+    ("bearing.radial_load", "N"),
+    ("bearing.heat", "W"),
+    ("bearing.angular_momentum_rate", "N m"),
+    ("bearing.inner_race.ball_load_sum", "N"),
+    ("bearing.inner_race.largest_ball_load", "N"),
+    ("bearing.outer_race.largest_ball_load", "N"),
+    ("bearing.cage.largest_pocket_force", "N"),
+    ("bearing.cage.land_force", "N"),
+];
+
+/// Names and units of the channels before the bearing's.
+pub const CHANNELS: [(&str, &str); BEARING] = [
+    ("shaft.angle", "rad"),
+    ("shaft.speed", "rad/s"),
+    ("flywheel.angle", "rad"),
+    ("flywheel.speed", "rad/s"),
+    ("arm.reading", "N m"),
+    ("arm.reading_rate", "N m/s"),
+    ("bearing.temperature_rise", "K"),
+    ("thermocouple.temperature_rise", "K"),
+    ("housing.x", "m"),
+    ("housing.y", "m"),
+    ("housing.x_speed", "m/s"),
+    ("housing.y_speed", "m/s"),
+];
+
+/// Sizes of a rig's state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// Number of balls.
+    pub balls: usize,
+    /// Number of the bearing's own states.
+    pub bearing_states: usize,
+}
+
+impl Layout {
+    /// The layout of a rig.
+    pub fn of(constants: &RigConstants) -> Self {
+        Layout {
+            balls: constants.bearing.balls(),
+            bearing_states: constants.bearing.states(),
+        }
+    }
+    /// Channels of the bearing.
+    #[inline(always)]
+    pub fn bearing(&self) -> Range<usize> {
+        BEARING..self.ledger()
+    }
+    /// First channel of the ledger.
+    #[inline(always)]
+    pub fn ledger(&self) -> usize {
+        BEARING + self.bearing_states
+    }
+    /// Number of channels.
+    #[inline(always)]
+    pub fn dimension(&self) -> usize {
+        self.ledger() + LEDGER
+    }
+    /// Number of probes.
+    pub fn probes(&self) -> usize {
+        DETAIL + DETAIL_PER_BALL * self.balls
+    }
+    /// Number of probes that are looked at in every step: down to the loads of the balls.
+    pub fn watched_probes(&self) -> usize {
+        DETAIL + 2 * self.balls
+    }
+    /// Channel of a heat of [`HEATS`].
+    #[inline(always)]
+    pub fn heat(&self, index: usize) -> usize {
+        self.ledger() + index
+    }
+    /// Channel of the work of a source of [`SOURCES`].
+    #[inline(always)]
+    pub fn source(&self, index: usize) -> usize {
+        self.heat(HEATS.len()) + index
+    }
+    /// Channels of the heats, of the works of the sources, and of the external angular impulse of the rig.
+    pub fn flows(&self) -> Range<usize> {
+        self.heat(0)..self.angular_impulse() + 1
+    }
+    /// Channel of the external angular impulse of the rig.
+    #[inline(always)]
+    pub fn angular_impulse(&self) -> usize {
+        self.source(SOURCES.len())
+    }
+    /// Channel of the external angular impulse of balls and cage.
+    #[inline(always)]
+    pub fn bearing_impulse(&self) -> usize {
+        self.angular_impulse() + 1
+    }
+    /// Channel of a work of [`WORKS`].
+    #[inline(always)]
+    pub fn work(&self, index: usize) -> usize {
+        self.bearing_impulse() + 1 + index
+    }
+
+    /// Name of a channel.
+    pub fn channel_name(&self, bearing: &BearingConstants, channel: usize) -> String {
+        match channel {
+            c if c < BEARING => CHANNELS[c].0.to_string(),
+            c if c < self.ledger() => format!("bearing.{}", bearing.state_name(c - BEARING)),
+            c if c < self.source(0) => format!("energy.heat.{}", HEATS[c - self.ledger()]),
+            c if c < self.angular_impulse() => {
+                format!("energy.source.{}", SOURCES[c - self.source(0)])
+            }
+            c if c == self.angular_impulse() => "angular_momentum.impulse".to_string(),
+            c if c == self.bearing_impulse() => "angular_momentum.bearing_impulse".to_string(),
+            c => format!("energy.work.{}", WORKS[c - self.work(0)]),
+        }
+    }
+
+    /// The magnitude that matters in each channel: a tolerance of 1e-6 allows errors of one millionth of it a step.
+    ///
+    /// Places of housing and balls by a ten-thousandth of the ball, speeds of centres by a thousandth of the speed of the
+    /// ball centres, spins by the target speed, energies by the spin energy of the shaft at that speed, the arm by a moment
+    /// of 0.1 N m, temperatures by 1 K.
+    pub fn error_scale(&self, constants: &RigConstants) -> Vec<f64> {
+        const MOMENT: f64 = 0.1;
+        let spin = constants.target_speed.abs().max(1.0);
+        let set = constants.bearing.set();
+        let centre_speed = 1e-3 * spin * constants.bearing.pitch_radius();
+        let inertia = constants.shaft.inertia + set.inner_inertia();
+        let mut scale = vec![0.0; self.dimension()];
+        scale[SHAFT] = 1.0;
+        scale[SHAFT + 1] = spin;
+        scale[FLYWHEEL] = 1.0;
+        scale[FLYWHEEL + 1] = spin;
+        scale[ARM] = MOMENT;
+        scale[ARM + 1] = MOMENT * constants.arm.natural_frequency;
+        scale[TEMPERATURE..=THERMOCOUPLE].fill(1.0);
+        scale[HOUSING..HOUSING + 2].fill(1e-4 * set.inner_track_radius * set.ball_ratio);
+        scale[HOUSING + 2..BEARING].fill(centre_speed);
+        let own = self.bearing();
+        (constants.bearing).error_scale(&mut scale[own], spin, centre_speed);
+        scale[self.ledger()..].fill(0.5 * inertia * spin * spin);
+        scale[self.angular_impulse()..self.work(0)].fill(inertia * spin);
+        scale
+    }
+}

@@ -1,0 +1,182 @@
+//! What is watched and kept of a rig's run.
+//!
+//! Rises through a level are found on dense output; largest values are those at the ends of the steps, and the ends of what
+//! the clutch does are such ends. Means are taken over cage turns at the target speed. Rows are sampled at equal intervals
+//! and at the end. Everything is allocated before the run but the changes of the clutch.
+
+use super::clutch::ClutchEvent;
+use super::layout::{
+    ACCELERATION, BEARING, CAGE_SLIP, CLUTCH_TORQUE, INNER_MOMENT, LARGEST_INNER_LOAD,
+    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, OUTER_MOMENT, SHAFT, STEADY_MOMENT, TEMPERATURE,
+};
+use super::taps::{Tap, Taps};
+use super::{Clutch, Mode, RigMachine, Segment};
+use crate::bearing::BearingConstants;
+use crate::system::cage_turns::{CageTurns, LateMeans};
+use crate::system::sampling::{Peak, Rise, Row, Rows};
+use solve::{Flow, Observer, Step};
+
+/// What is kept of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Keep<'a> {
+    /// End of the run, s.
+    pub end: f64,
+    /// Interval of the rows, s; none where no rows are kept.
+    pub interval: Option<f64>,
+    /// What a converter samples.
+    pub taps: &'a [Tap],
+}
+
+/// Everything kept of one rig.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// Largest acceleration of the shaft, rad/s²; its size, of either sign.
+    pub acceleration: Peak,
+    /// Largest size of the moment t_I that resists the shaft in the bearing, N m.
+    pub inner_moment: Peak,
+    /// Largest size of the moment t_O on the outer race, N m.
+    pub outer_moment: Peak,
+    /// Largest size of the torque of the clutch, N m.
+    pub clutch_torque: Peak,
+    /// Largest ball load at the inner race, N.
+    pub largest_inner_load: Peak,
+    /// Largest ball load at the outer race, N.
+    pub largest_outer_load: Peak,
+    /// Largest force between a ball and its pocket, or between two balls without a cage, N.
+    pub largest_pocket_force: Peak,
+    /// Largest rise of the bearing's temperature, K.
+    pub temperature: Peak,
+    /// What the clutch did, in order; the first entry tells how it started.
+    pub clutch: Vec<ClutchEvent>,
+    /// What the converter sampled.
+    pub taps: Taps,
+    /// Of the shaft through 50 % and 95 % of the target speed, of the cage through 95 % of its rolling speed then.
+    rises: [Rise; 3],
+    turns: CageTurns,
+    rows: Rows,
+}
+
+/// Changes of the clutch for which room is made before a run.
+const CHANGES: usize = 64;
+
+impl Record {
+    /// An empty record.
+    pub fn new(machine: &RigMachine, keep: &Keep) -> Self {
+        let c = &machine.constants;
+        let speed = c.target_speed;
+        let rolling = c.bearing.rolling_cage_ratio() * speed;
+        let cage = match &c.bearing {
+            // where balls roll the cage follows the shaft
+            BearingConstants::Rolling(_) => Rise::through(SHAFT + 1, 0.95 * speed),
+            BearingConstants::Planar(_) => Rise::through(BEARING + 1, 0.95 * rolling),
+        };
+        let idle = Mode {
+            clutch: Clutch::Open,
+            ..super::program::Schedule::new().mode
+        };
+        Record {
+            acceleration: Peak::NONE,
+            inner_moment: Peak::NONE,
+            outer_moment: Peak::NONE,
+            clutch_torque: Peak::NONE,
+            largest_inner_load: Peak::NONE,
+            largest_outer_load: Peak::NONE,
+            largest_pocket_force: Peak::NONE,
+            temperature: Peak::NONE,
+            clutch: Vec::with_capacity(CHANGES),
+            taps: Taps::new(keep.taps, keep.end),
+            rises: [
+                Rise::through(SHAFT + 1, 0.5 * speed),
+                Rise::through(SHAFT + 1, 0.95 * speed),
+                cage,
+            ],
+            turns: CageTurns::until(
+                keep.end,
+                rolling,
+                [INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT, CAGE_SLIP],
+                SHAFT + 1,
+            ),
+            rows: Rows::new(
+                &machine.segment(idle),
+                keep.end,
+                keep.interval.unwrap_or(f64::INFINITY),
+                keep.interval.is_some(),
+            ),
+        }
+    }
+    /// First instant at which the clutch locked, s.
+    pub fn locked_at(&self) -> Option<f64> {
+        self.locks().next()
+    }
+    /// Instants at which the clutch locked, s.
+    pub fn locks(&self) -> impl Iterator<Item = f64> {
+        (self.clutch.iter())
+            .filter(|event| event.clutch == Clutch::Locked)
+            .map(|event| event.time)
+    }
+    /// Means over the last cage turns at a speed of the shaft, rad/s; see [`CageTurns::late_means`].
+    pub fn late_means(&self, speed: f64) -> Option<LateMeans> {
+        self.turns.late_means(speed)
+    }
+    /// Mean cage slip of the last whole cage turn.
+    pub fn last_cage_slip(&self) -> Option<f64> {
+        self.turns.last_cage_slip()
+    }
+    /// First instant the shaft reaches half the target speed, s.
+    pub fn shaft_time_to_50_percent(&self) -> Option<f64> {
+        self.rises[0].time
+    }
+    /// First instant the shaft reaches 95 % of the target speed, s.
+    pub fn shaft_time_to_95_percent(&self) -> Option<f64> {
+        self.rises[1].time
+    }
+    /// First instant the cage reaches 95 % of its rolling speed at the target speed, s.
+    pub fn cage_time_to_95_percent(&self) -> Option<f64> {
+        self.rises[2].time
+    }
+    /// Number of rows.
+    pub fn row_count(&self) -> usize {
+        self.rows.count()
+    }
+    /// The sampled rows.
+    pub fn rows(&self) -> impl DoubleEndedIterator<Item = Row<'_>> {
+        self.rows.iter()
+    }
+    /// Adds the last state of a run as a row, where it is not one already.
+    pub(super) fn finish(&mut self, machine: &RigMachine, mode: &Mode, time: f64, state: &[f64]) {
+        let (_, probe) = machine.inspect(mode, time, state);
+        self.rows.finish(&Row {
+            time,
+            state,
+            probe: &probe,
+            content: machine.content(state),
+        });
+    }
+}
+
+impl<'a> Observer<Segment<'a>> for Record {
+    fn step(&mut self, step: &mut Step<Segment<'a>>) -> Flow {
+        for (peak, probe) in [
+            (&mut self.acceleration, ACCELERATION),
+            (&mut self.inner_moment, INNER_MOMENT),
+            (&mut self.outer_moment, OUTER_MOMENT),
+            (&mut self.clutch_torque, CLUTCH_TORQUE),
+            (&mut self.largest_inner_load, LARGEST_INNER_LOAD),
+            (&mut self.largest_outer_load, LARGEST_OUTER_LOAD),
+            (&mut self.largest_pocket_force, LARGEST_POCKET_FORCE),
+        ] {
+            peak.raise(step.start_probe(probe).abs(), step.start);
+            peak.raise(step.end_probe(probe).abs(), step.end);
+        }
+        self.temperature
+            .raise(step.end_state(TEMPERATURE), step.end);
+        for rise in &mut self.rises {
+            rise.watch(step);
+        }
+        self.turns.watch(step);
+        self.taps.sample(step);
+        self.rows
+            .sample(step, |segment, state| segment.rig.content(state));
+        Flow::Continue
+    }
+}

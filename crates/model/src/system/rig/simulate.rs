@@ -1,0 +1,353 @@
+//! A run of a rig, cut into segments.
+//!
+//! The solver lands on instants that are known. Those at which the clutch locks or gives way are not: a segment halts at
+//! the first step in which one lies, the instant is found, and the run goes back to the start of that step and ends on the
+//! instant. So rows, samples and largest values never see a state that was not.
+//!
+//! ```text
+//!   locks        ω_f - Ω = 0       bisection on dense output, then Newton's method on steps that end there
+//!   gives way    |T| = T_c         bisection on the torque between both ends of the step
+//! ```
+
+use super::clutch::slip_speed;
+use super::layout::{
+    ACCELERATION, CLUTCH_CAPACITY, CLUTCH_TORQUE, FLYWHEEL, FLYWHEEL_ACCELERATION, SHAFT,
+};
+use super::program::Schedule;
+use super::{Clutch, ClutchEvent, Mode, Record, RigMachine, Segment, SegmentRun};
+use solve::{Ending, Flow, Observer, Settings, Step, Stop, Work};
+use std::sync::atomic::AtomicBool;
+
+/// A run that has ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigRun {
+    /// The state at the start.
+    pub start: Vec<f64>,
+    /// Where and why it ended, and what it took.
+    pub ending: Ending,
+    /// The mode at the end.
+    pub mode: Mode,
+}
+
+/// Runs a rig from its start; the times of the settings are those of its program, and start at 0.
+pub fn simulate(
+    machine: &RigMachine,
+    settings: &Settings,
+    record: &mut Record,
+    interrupt: &AtomicBool,
+) -> RigRun {
+    let run = Run {
+        machine,
+        settings: *settings,
+        interrupt,
+    };
+    run.to_the_end(record, false)
+}
+
+/// The same, but no further than to the first instant at which the clutch locks.
+pub(super) fn until_locked(
+    machine: &RigMachine,
+    settings: &Settings,
+    record: &mut Record,
+) -> RigRun {
+    let run = Run {
+        machine,
+        settings: *settings,
+        interrupt: &AtomicBool::new(false),
+    };
+    run.to_the_end(record, true)
+}
+
+/// What a run needs all along.
+#[derive(Clone, Copy)]
+struct Run<'a> {
+    machine: &'a RigMachine,
+    settings: Settings,
+    interrupt: &'a AtomicBool,
+}
+
+/// A change of the clutch within a step.
+struct Found {
+    /// Start of the step, s.
+    start: f64,
+    /// The state there.
+    state: Vec<f64>,
+    /// The instant of the change, s.
+    instant: f64,
+    /// End of the step, s.
+    end: f64,
+}
+
+/// Why a segment halts.
+const CHANGE: &str = "the clutch changes";
+
+/// Watches the clutch, and hands on every step before a change.
+struct Watch<'r> {
+    record: &'r mut Record,
+    found: Option<Found>,
+    last_length: f64,
+}
+
+/// Looks for nothing.
+struct Blind;
+
+impl<'a> Observer<Segment<'a>> for Blind {
+    fn step(&mut self, _step: &mut Step<Segment<'a>>) -> Flow {
+        Flow::Continue
+    }
+}
+
+impl<'a> Observer<Segment<'a>> for Watch<'_> {
+    fn step(&mut self, step: &mut Step<Segment<'a>>) -> Flow {
+        let changes = match step.mode.clutch {
+            Clutch::Open => false,
+            Clutch::Slipping { direction } => {
+                let ahead = step.end_state(FLYWHEEL + 1) - step.end_state(SHAFT + 1);
+                ahead * direction <= 0.0
+            }
+            Clutch::Locked => step.end_probe(CLUTCH_TORQUE).abs() > step.end_probe(CLUTCH_CAPACITY),
+        };
+        if changes {
+            let instant = instant_of_change(step);
+            self.found = Some(Found {
+                start: step.start,
+                state: step.state(0.0).to_vec(),
+                instant,
+                end: step.end,
+            });
+            return Flow::Halt(CHANGE);
+        }
+        self.last_length = step.end - step.start;
+        self.record.step(step)
+    }
+}
+
+/// Where within a step the clutch changes, s.
+fn instant_of_change(step: &mut Step<Segment<'_>>) -> f64 {
+    let clutch = step.mode.clutch;
+    let changed = |step: &mut Step<Segment<'_>>, theta: f64| match clutch {
+        Clutch::Slipping { direction } => {
+            let state = step.leading_state(theta, FLYWHEEL + 2);
+            slip_speed(state) * direction <= 0.0
+        }
+        _ => {
+            let (_, probe) = step.evaluate(theta);
+            probe[CLUTCH_TORQUE].abs() > probe[CLUTCH_CAPACITY]
+        }
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    // 40 halvings: 1e-12 of a step
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        if changed(step, middle) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    step.time(high)
+}
+
+/// Newton steps to the instant of locking; two suffice where the slip is smooth.
+const NEWTON_STEPS: usize = 4;
+
+impl<'a> Run<'a> {
+    fn to_the_end(self, record: &mut Record, to_lock: bool) -> RigRun {
+        let machine = self.machine;
+        let start = machine.start();
+        let (mut time, mut state) = (self.settings.start, start.clone());
+        let mut schedule = Schedule::new();
+        let mut work = Work::default();
+        let mut length = self.settings.first_step;
+        let program = &machine.constants.program;
+        let stop = loop {
+            if schedule.due(program) <= time {
+                schedule.advance(machine, time, &state);
+            }
+            note(record, time, &schedule.mode, &state);
+            if to_lock && schedule.mode.clutch == Clutch::Locked {
+                break Stop::Halted(CHANGE);
+            }
+            if time >= self.settings.end {
+                break Stop::Finished;
+            }
+            let next = schedule.due(program).min(self.settings.end);
+            let mut watch = Watch {
+                record: &mut *record,
+                found: None,
+                last_length: length,
+            };
+            let ending = self.segment(
+                &schedule.mode,
+                (time, next),
+                &state,
+                length,
+                work,
+                &mut watch,
+            );
+            add(&mut work, &ending.work);
+            length = watch.last_length;
+            let found = watch.found;
+            (time, state) = (ending.time, ending.state);
+            match found {
+                None => {}
+                Some(found) => {
+                    let ending = self.change(&mut schedule.mode, &found, &mut work, record);
+                    (time, state) = (ending.time, ending.state);
+                    if ending.stop != Stop::Finished {
+                        break ending.stop;
+                    }
+                    continue;
+                }
+            }
+            if ending.stop != Stop::Finished {
+                break ending.stop;
+            }
+        };
+        record.finish(machine, &schedule.mode, time, &state);
+        RigRun {
+            start,
+            ending: Ending {
+                stop,
+                time,
+                state,
+                work,
+            },
+            mode: schedule.mode,
+        }
+    }
+
+    /// Goes on in a mode between two instants.
+    fn segment<O: Observer<Segment<'a>>>(
+        &self,
+        mode: &Mode,
+        (from, to): (f64, f64),
+        state: &[f64],
+        length: f64,
+        done: Work,
+        observer: &mut O,
+    ) -> Ending {
+        let segment = self.machine.segment(*mode);
+        let settings = Settings {
+            start: from,
+            end: to,
+            first_step: length,
+            step_limit: (self.settings.step_limit).saturating_sub(done.accepted + done.rejected),
+            ..self.settings
+        };
+        solve::run::<f64, SegmentRun<'a>, O>(
+            &[&segment],
+            &[state.to_vec()],
+            std::slice::from_mut(observer),
+            &settings,
+            self.interrupt,
+        )
+        // one machine, one ending
+        .remove(0)
+    }
+
+    /// From the start of the step in which the clutch changes to that instant, and the mode from then on.
+    fn change(
+        &self,
+        mode: &mut Mode,
+        found: &Found,
+        work: &mut Work,
+        record: &mut Record,
+    ) -> Ending {
+        let locks = matches!(mode.clutch, Clutch::Slipping { .. });
+        let span = found.end - found.start;
+        let mut instant = found.instant;
+        if locks {
+            // a slip that began in this step and came to nothing: the step is the shortest there is
+            if instant - found.start < 1e-9 * span {
+                instant = found.end;
+            } else {
+                instant = self.instant_of_locking(mode, found, work);
+            }
+        }
+        let mut ending = if instant > found.start {
+            let length = instant - found.start;
+            self.segment(
+                mode,
+                (found.start, instant),
+                &found.state,
+                length,
+                *work,
+                record,
+            )
+        } else {
+            Ending {
+                stop: Stop::Finished,
+                time: found.start,
+                state: found.state.clone(),
+                work: Work::default(),
+            }
+        };
+        add(work, &ending.work);
+        if ending.stop != Stop::Finished {
+            return ending;
+        }
+        if locks {
+            self.machine.even_out(&mut ending.state);
+            mode.clutch = self.machine.engaged(mode, ending.time, &ending.state);
+        } else {
+            let (_, probe) = self.machine.inspect(mode, ending.time, &ending.state);
+            mode.clutch = Clutch::Slipping {
+                direction: probe[CLUTCH_TORQUE].signum(),
+            };
+        }
+        ending
+    }
+
+    /// The instant at which a slip ends, s: steps that end there bring it to zero.
+    fn instant_of_locking(&self, mode: &Mode, found: &Found, work: &mut Work) -> f64 {
+        let mut instant = found.instant;
+        let least = 1e-13 * self.machine.constants.target_speed.abs();
+        for _ in 0..NEWTON_STEPS {
+            let length = instant - found.start;
+            let ending = self.segment(
+                mode,
+                (found.start, instant),
+                &found.state,
+                length,
+                *work,
+                &mut Blind,
+            );
+            add(work, &ending.work);
+            let slip = slip_speed(&ending.state);
+            if ending.stop != Stop::Finished || slip.abs() <= least {
+                break;
+            }
+            let (_, probe) = self.machine.inspect(mode, instant, &ending.state);
+            let change = slip / (probe[FLYWHEEL_ACCELERATION] - probe[ACCELERATION]);
+            let next = instant - change;
+            // not beyond the step it was found in
+            if !(next > found.start && next <= found.end) {
+                break;
+            }
+            instant = next;
+        }
+        instant
+    }
+}
+
+/// Takes down what the clutch does where it is something new.
+fn note(record: &mut Record, time: f64, mode: &Mode, state: &[f64]) {
+    if record
+        .clutch
+        .last()
+        .is_none_or(|last| last.clutch != mode.clutch)
+    {
+        record.clutch.push(ClutchEvent {
+            time,
+            clutch: mode.clutch,
+            speed: state[SHAFT + 1],
+        });
+    }
+}
+
+fn add(work: &mut Work, more: &Work) {
+    work.accepted += more.accepted;
+    work.rejected += more.rejected;
+    work.rate_calls += more.rate_calls;
+}
