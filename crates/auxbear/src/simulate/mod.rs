@@ -27,6 +27,7 @@ mod drop;
 mod ending;
 pub mod ensemble;
 mod film;
+mod identify;
 mod list;
 mod method;
 pub mod outcome;
@@ -102,6 +103,7 @@ enum Built<'a> {
     Torque(Box<torque::Asked<'a>>),
     Signals(Box<signals::Asked<'a>>),
     Rig(&'a Rig, Box<rig::build::Built>),
+    Identify(Box<identify::Asked<'a>>),
 }
 
 /// Builds the machine that the scenario describes; runs nothing but the steady run that scales a friction moment, which
@@ -119,6 +121,9 @@ pub fn build<'a>(scenario: &'a Scenario, options: &Options) -> Result<Machine<'a
         System::Signals(signals) => {
             signals::Asked::of(signals).map(|asked| Built::Signals(Box::new(asked)))
         }
+        System::Identify(identify) => {
+            identify::Asked::of(identify).map(|asked| Built::Identify(Box::new(asked)))
+        }
         System::Rig(rig) => {
             rig::build::rig(rig, options).map(|built| Built::Rig(rig, Box::new(built)))
         }
@@ -135,6 +140,7 @@ impl Machine<'_> {
             Built::SpinUp(spin_up, built) => spin_up::run(self.scenario, spin_up, built, options),
             Built::Torque(asked) => torque::run(self.scenario, asked),
             Built::Signals(asked) => signals::run(self.scenario, asked),
+            Built::Identify(asked) => identify::run(self.scenario, asked, options),
             Built::Rig(rig, built) => rig::run(self.scenario, rig, built, options),
         };
         let mut before = self.warnings();
