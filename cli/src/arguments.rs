@@ -10,7 +10,7 @@ use std::path::PathBuf;
 #[command(
     name = "auxbear",
     version,
-    after_help = "Start with `auxbear new drop my_drop.toml` (or spin_up, torque, signals), then `auxbear run my_drop.toml`.\n\
+    after_help = "Start with `auxbear new drop my_drop.toml` (or spin_up, torque, rig, signals, identify), then `auxbear run my_drop.toml`.\n\
                   Exit status: 0 done, 1 the run failed, 2 the input is wrong, 130 interrupted."
 )]
 pub struct Arguments {
@@ -25,7 +25,9 @@ pub enum Command {
     /// Show the moments of one bearing over speed, load and acceleration, and write a run directory
     Torque(Torque),
     /// Compute speed, torque and cage speed from the channels of a measurement file, and write a run directory
-    Signals(Signals),
+    Signals(Measured),
+    /// Find what measured tests tell of a bearing: friction, loss, slip, and which explanation they support
+    Identify(Measured),
     /// Read and check a file, print it with every default and its unit; run nothing
     Check {
         /// Scenario file
@@ -36,14 +38,14 @@ pub enum Command {
     },
     /// Write a commented starting file
     New {
-        /// What to describe: drop, spin_up, torque or signals
+        /// What to describe: drop, spin_up, torque, signals, rig or identify
         kind: String,
         /// File to write; printed if none is given
         path: Option<PathBuf>,
     },
     /// Print the JSON Schema of a kind of file, by which editors complete and check it
     Schema {
-        /// Kind of file: drop, spin_up, torque or signals
+        /// Kind of file: drop, spin_up, torque, signals, rig or identify
         kind: String,
     },
     /// Draw the HTML report of one run again, or of several side by side
@@ -93,8 +95,8 @@ pub struct Run {
 }
 
 #[derive(Debug, Args)]
-pub struct Signals {
-    /// File that says what the channels of the measurement are; `auxbear new signals` writes one to start from
+pub struct Measured {
+    /// File that says what is measured; `auxbear new signals` and `auxbear new identify` write one to start from
     pub file: PathBuf,
     /// Run directory to write [runs/NAME of the file, with a number where that is taken]
     #[arg(long, value_name = "DIR")]

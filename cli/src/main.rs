@@ -3,10 +3,10 @@
 mod arguments;
 mod bearings;
 mod console;
+mod measured;
 mod progress;
 mod run;
 mod schema;
-mod signals;
 mod start;
 mod summary;
 mod torque;
@@ -14,7 +14,7 @@ mod torque;
 use arguments::{Arguments, Command};
 use auxbear::problem::{Code, Problem};
 use auxbear::report::directory;
-use auxbear::scenario::{BuiltIn, Scenario};
+use auxbear::scenario::{BuiltIn, Scenario, SystemName};
 use auxbear::simulate::{self, Options};
 use auxbear::validate::{self, Simulation};
 use clap::Parser;
@@ -76,7 +76,8 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
     match command {
         Command::Run(wish) => return run::perform(wish),
         Command::Torque(wish) => return torque::perform(wish),
-        Command::Signals(wish) => return signals::perform(wish),
+        Command::Signals(wish) => return measured::perform(wish, SystemName::Signals),
+        Command::Identify(wish) => return measured::perform(wish, SystemName::Identify),
         Command::Check { file, set } => {
             let scenario = Scenario::read(file, set, &BuiltIn)?;
             let never = AtomicBool::new(false);

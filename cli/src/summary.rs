@@ -50,6 +50,42 @@ const OF_SIGNALS: &[&str] = &[
     "median_cage_slip_deviation",
 ];
 
+const OF_RIG: &[&str] = &[
+    "engagement_time",
+    "clutch_torque_rate",
+    "clutch_lock_time",
+    "peak_acceleration",
+    "shaft_final_speed",
+    "peak_clutch_torque",
+    "peak_outer_race_moment",
+    "cage_slip_at_end",
+    "peak_temperature_rise",
+    "bearing_dissipated_energy",
+    "energy_residual",
+    "angular_momentum_residual",
+    "clipped_channels",
+];
+const OF_IDENTIFY: &[&str] = &[
+    "explanation",
+    "explanation_parameters",
+    "explanation_fit_probability",
+    "steady_moment_form",
+];
+/// Of each test of an identification.
+const OF_TESTS: &[&str] = &[
+    "name",
+    "peak_acceleration",
+    "excess_torque_settled",
+    "excess_torque_settled_deviation",
+    "excess_torque_at_end",
+    "excess_torque_at_end_deviation",
+    "dissipated_energy",
+    "dissipated_energy_deviation",
+    "slip_probability",
+];
+/// What an identification ends with.
+const NEXT_TESTS: &str = "next_tests";
+
 /// Units for people: SI unit, then units from large to small with their value in SI.
 const UNITS: &[(&str, &[(&str, f64)])] = &[
     ("s", &[("s", 1.0), ("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)]),
@@ -70,6 +106,8 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
         "torque" => return torque::text(path, outcome),
         "spin_up" => OF_SPIN_UP,
         "signals" => OF_SIGNALS,
+        "rig" => OF_RIG,
+        "identify" => OF_IDENTIFY,
         _ => OF_DROP,
     };
     for &name in names {
@@ -78,7 +116,24 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
             rows.push([format!("  {}", name.replace('_', " ")), value(quantity)]);
         }
     }
+    for quantity in &outcome.quantities {
+        let of_test = quantity
+            .name
+            .strip_prefix("test_")
+            .and_then(|name| name.split_once('.'));
+        if of_test.is_some_and(|(_, name)| OF_TESTS.contains(&name)) {
+            let name = quantity.name.replace(['_', '.'], " ");
+            rows.push([format!("  {name}"), value(quantity)]);
+        }
+    }
     let mut text = format!("{}\n{}", outcome.title, console::table(&rows));
+    let next = outcome.quantities.iter().find(|q| q.name == NEXT_TESTS);
+    if let Some(Value::Text(next)) = next.map(|q| &q.value) {
+        text.push_str("the next test, the most telling first:\n");
+        for line in next.lines() {
+            text.push_str(&format!("  {line}\n"));
+        }
+    }
     for warning in &outcome.warnings {
         text.push_str(&format!("warning[{}]: {}\n", warning.code, warning.text));
     }
@@ -96,7 +151,7 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
         },
         work.seconds,
         match outcome.system {
-            "signals" => String::new(),
+            "signals" | "identify" => String::new(),
             _ => format!(", {} steps", work.steps),
         }
     ));

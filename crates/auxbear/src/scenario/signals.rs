@@ -23,6 +23,10 @@ pub struct Signals {
     pub torque: Option<TorqueSignal>,
     /// Speed of the cage.
     pub cage: Option<CageSignal>,
+    /// Weight on the bearing, N.
+    pub radial_load: Option<f64>,
+    /// Name of the channel with the temperature of the outer race.
+    pub temperature: Option<String>,
 }
 
 /// A pickup at a wheel with marks.
@@ -171,6 +175,8 @@ impl Signals {
             speed: speed(values),
             torque: torque(values),
             cage: cage(values),
+            radial_load: signals.maybe("radial_load"),
+            temperature: values.text("signals.temperature.channel"),
         }
     }
 }

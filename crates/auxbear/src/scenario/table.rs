@@ -37,6 +37,7 @@ pub fn keys() -> impl Iterator<Item = &'static Key> {
         .chain(table_drive::KEYS)
         .chain(table_torque::KEYS)
         .chain(table_signals::KEYS)
+        .chain(table_signals::TEMPERATURE)
         .chain(table_rig::KEYS)
         .chain(table_identify::KEYS)
         .chain(table_bearing::KEYS)

@@ -27,6 +27,11 @@ pub(super) const SECTIONS: &[Section] = &[
         doc: "A sensor that sees the balls pass, or a vibration that holds their line: speed and slip of the cage. It needs the shaft's speed.",
         systems: SIGNALS,
     },
+    Section {
+        path: "signals.temperature",
+        doc: "A thermometer at the outer race.",
+        systems: SIGNALS,
+    },
 ];
 
 const SAMPLED: Condition = Condition {
@@ -82,6 +87,14 @@ pub(super) const KEYS: &[Key] = &[
     )
     .not_negative()
     .default("0 s", "channels that are taken at once"),
+    Key::new(
+        "signals.radial_load",
+        Kind::Quantity("N"),
+        "60 N",
+        "Weight on the bearing in this test: what auxbear identify needs to know of it.",
+    )
+    .positive()
+    .optional("auxbear identify takes its own identify.radial_load"),
     Key::new(
         "signals.speed.channel",
         Kind::Text,
@@ -291,6 +304,15 @@ pub(super) const KEYS: &[Key] = &[
     .when(&[VIBRATION])
     .default("0.2", "slip of a loaded bearing after its spin-up"),
 ];
+
+/// Keys of the thermometer, the last of the page.
+pub(super) const TEMPERATURE: &[Key] = &[Key::new(
+    "signals.temperature.channel",
+    Kind::Text,
+    "temperature",
+    "Name of the channel as in the file; its unit must be one of a temperature.",
+)
+.optional("no temperature is read")];
 
 /// What the starting file asks for.
 pub(super) const GIVEN: &[&str] = &[

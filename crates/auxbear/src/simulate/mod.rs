@@ -101,7 +101,7 @@ enum Built<'a> {
     Drop(&'a Drop, Box<build::Built>),
     SpinUp(&'a SpinUp, Box<build_spin_up::Built>),
     Torque(Box<torque::Asked<'a>>),
-    Signals(Box<signals::Asked<'a>>),
+    Signals(Box<signals::Asked>),
     Rig(&'a Rig, Box<rig::build::Built>),
     Identify(Box<identify::Asked<'a>>),
 }

@@ -118,7 +118,8 @@ impl Integral<'_> {
     }
 
     fn predict(&self, coordinates: &[f64]) -> Prediction {
-        self.hypothesis.predict(coordinates, self.tests, self.bearing)
+        self.hypothesis
+            .predict(coordinates, self.tests, self.bearing)
     }
 
     /// ln likelihood and χ² per amplitude, and ln of the likelihood over all amplitudes.
@@ -173,7 +174,9 @@ impl Integral<'_> {
 
     /// ln of likelihood at one amplitude times prior, with the penalty.
     fn height(&self, z: &[f64], prediction: &Prediction, amplitude: usize) -> f64 {
-        let whitened = self.observed.whiten(prediction, amplitude, self.directions());
+        let whitened = self
+            .observed
+            .whiten(prediction, amplitude, self.directions());
         let short = Self::shortfall(prediction);
         whitened.log_likelihood().0 - 0.5 * dot(z, z) - 0.5 * short * short
     }
@@ -220,7 +223,9 @@ impl Integral<'_> {
         let mut damping = 1e-2;
         let mut curvature = None;
         for _ in 0..rounds {
-            let whitened = self.observed.whiten(&prediction, amplitude, self.directions());
+            let whitened = self
+                .observed
+                .whiten(&prediction, amplitude, self.directions());
             let h = 1e-3;
             let mut slopes = Vec::with_capacity(size);
             let mut claim_slopes = vec![0.0; size];
@@ -232,8 +237,7 @@ impl Integral<'_> {
                 for entry in &mut slope {
                     *entry /= h;
                 }
-                claim_slopes[axis] =
-                    (Self::shortfall(&other) - Self::shortfall(&prediction)) / h;
+                claim_slopes[axis] = (Self::shortfall(&other) - Self::shortfall(&prediction)) / h;
                 slopes.push(slope);
             }
             let weighted = whitened.metric(&slopes);
@@ -314,7 +318,10 @@ impl Integral<'_> {
         if total == f64::NEG_INFINITY {
             return None;
         }
-        let weights: Vec<f64> = weights.iter().map(|weight| (weight - total).exp()).collect();
+        let weights: Vec<f64> = weights
+            .iter()
+            .map(|weight| (weight - total).exp())
+            .collect();
         let effective = 1.0 / dot(&weights, &weights);
         if effective < 3.0 * size as f64 {
             return None;
@@ -329,9 +336,8 @@ impl Integral<'_> {
         for (draw, weight) in draws.iter().zip(&weights) {
             for i in 0..size {
                 for j in 0..size {
-                    covariance[i * size + j] += weight
-                        * (draw.coordinates[i] - mean[i])
-                        * (draw.coordinates[j] - mean[j]);
+                    covariance[i * size + j] +=
+                        weight * (draw.coordinates[i] - mean[i]) * (draw.coordinates[j] - mean[j]);
                 }
             }
         }
@@ -430,7 +436,8 @@ impl Component {
         let square = self.curvature.square_of(&difference);
         let half_determinant = 0.5 * self.curvature.log_determinant;
         if self.student {
-            half_determinant + log_gamma_ratio(z.len()) - 0.5 * size * (DEGREES * std::f64::consts::PI).ln()
+            half_determinant + log_gamma_ratio(z.len())
+                - 0.5 * size * (DEGREES * std::f64::consts::PI).ln()
                 - 0.5 * (DEGREES + size) * (1.0 + square / DEGREES).ln()
         } else {
             half_determinant - 0.5 * (square + size * (2.0 * std::f64::consts::PI).ln())

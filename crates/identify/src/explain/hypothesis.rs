@@ -110,7 +110,11 @@ impl Hypothesis {
             ],
             Self::HeatedSlip => vec![
                 share,
-                positive("cold traction limit over M", "1", priors.cold_traction_limit),
+                positive(
+                    "cold traction limit over M",
+                    "1",
+                    priors.cold_traction_limit,
+                ),
                 slip_speed,
                 positive("softening of traction", "1", priors.traction_softening),
                 positive("softening of drag", "1", priors.drag_softening),
@@ -198,7 +202,8 @@ impl Hypothesis {
     /// Means of torque and cage speed of one test.
     fn run(self, values: &[f64], test: &Test, bearing: &Bearing) -> (Vec<f64>, Vec<f64>) {
         let reference = bearing.table.reference;
-        let rolls = || test.means((test.steps.iter()).map(|s| bearing.set.cage_speed(s.middle_speed)));
+        let rolls =
+            || test.means((test.steps.iter()).map(|s| bearing.set.cage_speed(s.middle_speed)));
         let fresh = 1.0 - test.past.left;
         match self {
             Self::Rolling => (test.means(rolling_torque(test, bearing, 1.0)), rolls()),
@@ -206,12 +211,13 @@ impl Hypothesis {
                 let load_moment = (1.0 - values[0]) * reference;
                 let torque = rolling_torque(test, bearing, 1.0 - values[0]);
                 let factor = grease_factor(&values[1..], test, bearing.set);
-                let moments = (torque.zip(&test.steps)).zip(factor).map(
-                    |((torque, step), factor)| {
-                        let viscous = (step.steady - load_moment * step.fading).max(0.0);
-                        torque + (factor - 1.0) * viscous
-                    },
-                );
+                let moments =
+                    (torque.zip(&test.steps))
+                        .zip(factor)
+                        .map(|((torque, step), factor)| {
+                            let viscous = (step.steady - load_moment * step.fading).max(0.0);
+                            torque + (factor - 1.0) * viscous
+                        });
                 (test.means(moments), rolls())
             }
             Self::Slip | Self::HeatedSlip => {
@@ -235,7 +241,9 @@ impl Hypothesis {
                     let middle = step.elapsed - 0.5 * step.duration;
                     sign * values[0] * reference * fresh * (1.0 - (-middle / values[1]).exp())
                 });
-                let torque = rolling_torque(test, bearing, 1.0).zip(drift).map(|(a, b)| a + b);
+                let torque = rolling_torque(test, bearing, 1.0)
+                    .zip(drift)
+                    .map(|(a, b)| a + b);
                 (test.means(torque), rolls())
             }
             Self::Creep { sign } => {
@@ -244,7 +252,9 @@ impl Hypothesis {
                     let new = fresh * (1.0 - (-middle / values[1]).exp());
                     1.0 + sign * values[0] * (test.past.left + new)
                 });
-                let torque = rolling_torque(test, bearing, 1.0).zip(creep).map(|(a, b)| a * b);
+                let torque = rolling_torque(test, bearing, 1.0)
+                    .zip(creep)
+                    .map(|(a, b)| a * b);
                 (test.means(torque), rolls())
             }
             Self::SlowSensor => {
@@ -253,15 +263,14 @@ impl Hypothesis {
                 } else {
                     0.0
                 };
-                let torque = (rolling_torque(test, bearing, 1.0).zip(&test.steps)).map(
-                    |(torque, step)| {
+                let torque =
+                    (rolling_torque(test, bearing, 1.0).zip(&test.steps)).map(|(torque, step)| {
                         let kept = (-step.duration / values[0]).exp();
                         let mean_kept = (1.0 - kept) * values[0] / step.duration;
                         let mean = torque + (reading - torque) * mean_kept;
                         reading = torque + (reading - torque) * kept;
                         mean
-                    },
-                );
+                    });
                 (test.means(torque), rolls())
             }
         }
@@ -271,11 +280,7 @@ impl Hypothesis {
 /// t_O of rolling balls along the steps, N m: M - J_O Ω̇.
 ///
 /// - `load_share`: share of M that grows with the load, where the load is another one
-fn rolling_torque(
-    test: &Test,
-    bearing: &Bearing,
-    load_share: f64,
-) -> impl Iterator<Item = f64> {
+fn rolling_torque(test: &Test, bearing: &Bearing, load_share: f64) -> impl Iterator<Item = f64> {
     let inertia = bearing.set.outer_inertia();
     // without an explanation that knows the share, the middle of the prior
     let share = if load_share < 1.0 {
@@ -293,7 +298,11 @@ fn rolling_torque(
 /// Formula: D = [g0+(1-g0)b][1-(1-g_w)w], ḃ = |ω_c|(1-b)/φ_b, ẇ = (1-w)/τ_w while turning
 fn grease_factor(values: &[f64], test: &Test, set: &RollingSet<f64>) -> impl Iterator<Item = f64> {
     let [fresh, worked, angle, time] = [values[0], values[1], values[2], values[3]];
-    let mut build_up = if test.starts_turning { 1.0 } else { test.past.left };
+    let mut build_up = if test.starts_turning {
+        1.0
+    } else {
+        test.past.left
+    };
     let mut breakdown = test.past.left;
     let set = *set;
     (test.steps.iter()).map(move |step| {

@@ -166,8 +166,7 @@ pub fn explain(
         .map(|test| Test::measured(test, &table))
         .collect();
     let rolling = Hypothesis::Rolling.predict(&[], &records, &bearing);
-    let observed =
-        Observed::new(&records, steady, &bearing, rolling).ok_or(Refusal::BadCurve)?;
+    let observed = Observed::new(&records, steady, &bearing, rolling).ok_or(Refusal::BadCurve)?;
     let mut assessments: Vec<Assessment> = Explanation::ALL
         .into_iter()
         .map(|explanation| assess(explanation, &records, &bearing, &observed))
@@ -194,7 +193,10 @@ pub fn explain(
 }
 
 fn conclude(verdict: &Verdict, settings: &Settings) -> Conclusion {
-    let fits = |a: &Assessment| a.fit.is_some_and(|fit| fit.probability >= settings.least_fit);
+    let fits = |a: &Assessment| {
+        a.fit
+            .is_some_and(|fit| fit.probability >= settings.least_fit)
+    };
     let best = verdict.best();
     if best.probability >= settings.decision {
         return if fits(best) {
@@ -259,9 +261,13 @@ fn usable(test: &Measurement) -> bool {
         && numbers(&test.torque)
         && numbers(&test.torque_deviation)
         && test.torque_deviation.iter().all(|d| *d > 0.0)
-        && [test.zero_deviation, test.scale_deviation, test.correlation_time]
-            .iter()
-            .all(|v| v.is_finite() && *v >= 0.0)
+        && [
+            test.zero_deviation,
+            test.scale_deviation,
+            test.correlation_time,
+        ]
+        .iter()
+        .all(|v| v.is_finite() && *v >= 0.0)
         && test.load.is_finite()
         && test.cage.as_ref().is_none_or(|cage| {
             cage.speed.len() == cage.time.len()

@@ -110,7 +110,10 @@ impl Default for Priors {
 impl Priors {
     /// Name of the first range that is none.
     pub(crate) fn fault(&self) -> Option<&'static str> {
-        let odds_are_odds = self.odds.iter().all(|odds| odds.is_finite() && *odds >= 0.0)
+        let odds_are_odds = self
+            .odds
+            .iter()
+            .all(|odds| odds.is_finite() && *odds >= 0.0)
             && self.odds.iter().sum::<f64>() > 0.0;
         if !odds_are_odds {
             return Some("odds");

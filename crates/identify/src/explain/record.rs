@@ -109,8 +109,7 @@ fn limits(
             (stop, end)
         };
         let mut width = (GROWTH * (from - origin)).max(least);
-        while width > least
-            && (speed(from + width) - speed(from)).abs() > SPEED_CHANGE * top_speed
+        while width > least && (speed(from + width) - speed(from)).abs() > SPEED_CHANGE * top_speed
         {
             width = (0.7 * width).max(least);
         }
@@ -275,8 +274,8 @@ fn torque_mean(measurement: &Measurement, from: f64, to: f64) -> (f64, f64) {
     let (mut torque, mut variance) = (0.0, 0.0);
     for i in inside {
         let (value, deviation) = (measurement.torque[i], measurement.torque_deviation[i]);
-        let shared = measurement.zero_deviation.powi(2)
-            + (measurement.scale_deviation * value).powi(2);
+        let shared =
+            measurement.zero_deviation.powi(2) + (measurement.scale_deviation * value).powi(2);
         torque += value / count;
         variance += (deviation * deviation - shared).max(0.01 * deviation * deviation) / count;
     }

@@ -94,7 +94,10 @@ impl Moment<'_> {
         let load = self.slip.load_moment * super::steady::fading(speed.abs());
         // a curve that falls below its own load part has no viscous part there
         if moment.abs() > load {
-            (self.drag * (moment - load.copysign(speed)), self.drag * slope.max(0.0))
+            (
+                self.drag * (moment - load.copysign(speed)),
+                self.drag * slope.max(0.0),
+            )
         } else {
             (0.0, 0.0)
         }
@@ -219,10 +222,9 @@ impl Slip {
             };
             let (next, forces) = moment.advance(state, state);
             state = next;
-            let outer_moment = (1.0 + 2.0 * s) * radius * forces.outer
-                - forces.outer_rolling
-                - forces.couple
-                + radius * (1.0 + s) * forces.drag;
+            let outer_moment =
+                (1.0 + 2.0 * s) * radius * forces.outer - forces.outer_rolling - forces.couple
+                    + radius * (1.0 + s) * forces.drag;
             let cage = state.orbit / (radius * (1.0 + s));
             let spin = state.spin / (s * radius);
             let heat = forces.inner * (radius * step.speed - state.orbit - state.spin)

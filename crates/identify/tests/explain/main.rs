@@ -48,18 +48,35 @@ fn right_as_often_as_promised() {
                     Conclusion::Undecided(_) => wrong += 1,
                 }
                 if std::env::var("EXPLAIN_TELL").is_ok() {
-                    println!("{:?} {:?} {:?} {spent:.2} s", campaign.truth.fault, campaign.truth.bearing.lubricant, verdict.conclusion);
+                    println!(
+                        "{:?} {:?} {:?} {spent:.2} s",
+                        campaign.truth.fault, campaign.truth.bearing.lubricant, verdict.conclusion
+                    );
                     for a in &verdict.assessments {
                         println!(
                             "   {:28} {:.4} lnZ {:9.2} ± {:.2} fit {:?} {}",
-                            a.explanation.name(), a.probability, a.log_evidence, a.log_evidence_deviation,
-                            a.fit.map(|f| (f.chi_squared as i64, f.count, (1e4 * f.probability).round() / 1e4, (1e3 * f.discrepancy).round() / 1e3)),
-                            a.parameters.iter().map(|p| format!("{:.3}±{:.3}", p.mean, p.deviation)).collect::<Vec<_>>().join(" "),
+                            a.explanation.name(),
+                            a.probability,
+                            a.log_evidence,
+                            a.log_evidence_deviation,
+                            a.fit.map(|f| (
+                                f.chi_squared as i64,
+                                f.count,
+                                (1e4 * f.probability).round() / 1e4,
+                                (1e3 * f.discrepancy).round() / 1e3
+                            )),
+                            a.parameters
+                                .iter()
+                                .map(|p| format!("{:.3}±{:.3}", p.mean, p.deviation))
+                                .collect::<Vec<_>>()
+                                .join(" "),
                         );
                     }
                 }
             }
-            println!("cage {with_cage} {truth:?}: right {right} undecided {undecided} none {none} wrong {wrong}");
+            println!(
+                "cage {with_cage} {truth:?}: right {right} undecided {undecided} none {none} wrong {wrong}"
+            );
         }
     }
 }

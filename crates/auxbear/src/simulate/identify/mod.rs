@@ -1,8 +1,85 @@
-//! wip
+//! What measured tests tell of a bearing: from the signals files of several tests to named results.
+//!
+//! ```text
+//! signals files ─signals─▶ speed, torque, cage ─measurement─▶ one Measurement a test
+//!   coast-downs ─▶ M(Ω)      tests ─▶ F, dissipation, slip, skid      all ─▶ doubts, explanations, next test
+//! ```
+//! | page | subject |
+//! |---|---|
+//! | `read` | the signals files and their channels |
+//! | `measured` | from what the signals hold to what the crate `identify` takes |
+//! | `found` | the estimators of that crate, each with its own reason where it refuses |
+//! | `answer`, `answer_tests` | named results |
+//! | `history` | the tests over time since their engagement |
+
+mod answer;
+mod answer_tests;
+mod found;
+mod history;
+mod measured;
+mod read;
+
 use super::Options;
-use super::outcome::Outcome;
-use crate::problem::Problem;
-use crate::scenario::{Identify, Scenario};
-pub(super) struct Asked<'a> { identify: &'a Identify }
-impl Asked<'_> { pub fn of(identify: &Identify) -> Result<Asked<'_>, Box<Problem>> { Ok(Asked { identify }) } }
-pub(super) fn run(_: &Scenario, asked: &Asked, _: &Options) -> Outcome { let _ = asked.identify; todo!() }
+use super::outcome::{Outcome, Picture, Stop, Warning, Work};
+use super::warnings_shared::assumptions;
+use crate::scenario::Scenario;
+use found::Found;
+pub(super) use read::Asked;
+use std::time::Instant;
+
+/// Computes what is asked for and names it.
+pub(super) fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outcome {
+    let clock = Instant::now();
+    let found = Found::of(asked, options);
+    let mut warnings = found.warnings.clone();
+    warnings.extend(assumed(scenario));
+    let history = history::columns(&found);
+    let end = history.first().and_then(|time| time.values.last().copied());
+    let stop = match (&found.moment, found.interrupted) {
+        (_, true) => Stop {
+            reason: "interrupted",
+            time: end.unwrap_or(0.0),
+            text: "Interrupted; what was found until then is kept.".to_string(),
+        },
+        (Ok(_), false) => Stop {
+            reason: "finished",
+            time: end.unwrap_or(0.0),
+            text: "Everything asked for was computed.".to_string(),
+        },
+        (Err(why), false) => Stop {
+            reason: "not answered",
+            time: 0.0,
+            text: format!("the slow tests do not tell the steady moment: {why}"),
+        },
+    };
+    Outcome {
+        system: "identify",
+        title: (scenario.title.clone())
+            .unwrap_or_else(|| "What the tests tell of the bearing".to_string()),
+        quantities: answer::quantities(&found),
+        history,
+        contacts: Vec::new(),
+        stop,
+        warnings,
+        work: Work {
+            members: 1,
+            seconds: clock.elapsed().as_secs_f64(),
+            ..Work::default()
+        },
+        members: Vec::new(),
+        picture: Picture {
+            clearance: None,
+            pressure_limit: None,
+            rolling_cage_ratio: found.set.cage_speed(1.0),
+            balls: asked.identify.ball_count,
+        },
+        files: Vec::new(),
+    }
+}
+
+/// What is assumed of the bearing and the tests.
+fn assumed(scenario: &Scenario) -> Option<Warning> {
+    let values = scenario.resolved.values.iter();
+    let values = values.filter(|value| value.provenance.mark() == "assumed");
+    assumptions(&values.map(|value| value.path).collect::<Vec<_>>())
+}

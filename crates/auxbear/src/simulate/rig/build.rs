@@ -136,21 +136,19 @@ fn torque_rate(rig: &Rig, constants: &RigConstants) -> Result<Option<f64>, Box<P
     };
     match engagement {
         EngagementChoice::Rate(rate) => Ok(Some(rate)),
-        EngagementChoice::PeakAcceleration(wanted) => {
-            engagement_ramp(constants, wanted, rig.speed)
-                .map(Some)
-                .map_err(|why| {
-                    Box::new(
-                        Problem::new(
-                            Code::Impossible,
-                            SCENARIO,
-                            format!("{wanted} rad/s^2, which the clutch does not give: {why}"),
-                            "a peak acceleration that the clutch's largest torque can give is needed",
-                        )
-                        .on_key("rig.peak_acceleration"),
+        EngagementChoice::PeakAcceleration(wanted) => engagement_ramp(constants, wanted, rig.speed)
+            .map(Some)
+            .map_err(|why| {
+                Box::new(
+                    Problem::new(
+                        Code::Impossible,
+                        SCENARIO,
+                        format!("{wanted} rad/s^2, which the clutch does not give: {why}"),
+                        "a peak acceleration that the clutch's largest torque can give is needed",
                     )
-                })
-        }
+                    .on_key("rig.peak_acceleration"),
+                )
+            }),
     }
 }
 

@@ -51,12 +51,7 @@ pub(super) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
         taps: &taps,
     };
     let mut record = Record::new(machine, &keep);
-    let run = simulate(
-        machine,
-        &settings(&rig.run),
-        &mut record,
-        options.interrupt,
-    );
+    let run = simulate(machine, &settings(&rig.run), &mut record, options.interrupt);
     let seconds = clock.elapsed().as_secs_f64();
     let raw = chain::raw(rig, &happened(rig, &record));
     let context = Context {

@@ -57,13 +57,7 @@ pub(super) fn files(
 }
 
 /// What a laboratory would know of the channels.
-fn signals(
-    rig: &Rig,
-    title: &str,
-    file: &str,
-    raw: &[RawChannel],
-    rolling_ratio: f64,
-) -> String {
+fn signals(rig: &Rig, title: &str, file: &str, raw: &[RawChannel], rolling_ratio: f64) -> String {
     let delay = 1.0 / rig.logger.total_rate;
     let quoted = |text: &str| text.replace('\\', "\\\\").replace('"', "\\\"");
     let has = |name: &str| raw.iter().any(|channel| channel.name == name);
@@ -95,5 +89,6 @@ fn signals(
             rig.bearing.ball_count,
         ));
     }
+    text.push_str("\n[signals.temperature]\nchannel = \"rig/temperature\"\n");
     text
 }

@@ -32,7 +32,10 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
         ));
     }
     if let (Some(wanted), Some(reached)) = (
-        scenario.resolved.get("rig.peak_acceleration").and_then(|value| value.value_si),
+        scenario
+            .resolved
+            .get("rig.peak_acceleration")
+            .and_then(|value| value.value_si),
         number("peak_acceleration"),
     ) && (reached / wanted - 1.0).abs() > MISSED
     {
@@ -57,7 +60,11 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     if let Some(pressure) = number("peak_hertz_pressure") {
         list.extend(shared::pressure(bearing, pressure));
     }
-    list.extend(shared::law_range(bearing, speed, context.rig.load.radial_load));
+    list.extend(shared::law_range(
+        bearing,
+        speed,
+        context.rig.load.radial_load,
+    ));
     if context.ending.stop == solve::Stop::Finished {
         list.extend(shared::residual(quantities));
     }

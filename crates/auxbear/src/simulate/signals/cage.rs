@@ -14,13 +14,17 @@ const BANDWIDTH: f64 = 2.0;
 const LOWEST_SLIP: f64 = -0.02;
 
 /// The motion of the cage.
-pub(super) struct Found {
+pub(in crate::simulate) struct Found {
     pub cage: CageSpeed,
     pub notes: Vec<String>,
 }
 
 impl Found {
-    pub fn of(signal: &Signal, wish: &CageSignal, shaft: &shaft::Found) -> Result<Found, String> {
+    pub(super) fn of(
+        signal: &Signal,
+        wish: &CageSignal,
+        shaft: &shaft::Found,
+    ) -> Result<Found, String> {
         let engagement = shaft.speed.change.map(|change| change.engagement.0);
         let turning = shaft.shaft();
         let (balls, ratio) = (wish.ball_count, wish.rolling_ratio);

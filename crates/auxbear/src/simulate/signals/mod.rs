@@ -8,11 +8,12 @@
 //! leaves its quantities empty with the reason, and the run says that it is not complete.
 
 mod answer;
-mod cage;
+pub(super) mod cage;
 mod history;
 mod read;
-mod shaft;
-mod torque;
+pub(super) mod shaft;
+mod temperature;
+pub(super) mod torque;
 
 use super::outcome::{Outcome, Picture, Stop, Warning, Work};
 use super::warnings_shared::assumptions;
@@ -22,14 +23,15 @@ use read::{Listed, Series, Source, Stamps};
 use std::time::Instant;
 
 /// Channels that were read, and what is asked of them.
-pub(super) struct Asked<'a> {
-    signals: &'a Signals,
+pub(super) struct Asked {
+    signals: Signals,
     listed: Vec<Listed>,
     notes: Vec<String>,
     speed: Option<Signal>,
     torque: Option<Series>,
     tap: Option<Series>,
     cage: Option<Signal>,
+    temperature: Option<Series>,
 }
 
 /// What a channel holds.
@@ -38,9 +40,9 @@ enum Signal {
     Stamped(Stamps),
 }
 
-impl Asked<'_> {
+impl Asked {
     /// Reads what is asked for; refuses what is not there or not what it should be.
-    pub fn of(signals: &Signals) -> Result<Asked<'_>, Box<Problem>> {
+    pub fn of(signals: &Signals) -> Result<Asked, Box<Problem>> {
         let mut source = Source::open(&signals.file, "signals.file", signals)?;
         let listed = source.listed();
         let speed = match &signals.speed {
@@ -92,16 +94,29 @@ impl Asked<'_> {
             }
             None => None,
         };
+        let temperature = match &signals.temperature {
+            Some(name) => {
+                let key = "signals.temperature.channel";
+                let mut series = source.series(key, name, false)?;
+                let unit = source.temperature_unit(key, &series)?;
+                for value in &mut series.values {
+                    *value = unit.to_si(*value);
+                }
+                Some(series)
+            }
+            None => None,
+        };
         let mut all = source.notes();
         all.append(&mut notes);
         Ok(Asked {
-            signals,
+            signals: signals.clone(),
             listed,
             notes: all,
             speed,
             torque,
             tap,
             cage,
+            temperature,
         })
     }
 }
@@ -123,13 +138,15 @@ fn in_newton_metres(
 
 /// What was found, and what to know of it.
 #[derive(Default)]
-struct Found {
-    shaft: Option<shaft::Found>,
-    torque: Option<torque::Found>,
-    cage: Option<cage::Found>,
+pub(super) struct Found {
+    pub shaft: Option<shaft::Found>,
+    pub torque: Option<torque::Found>,
+    pub cage: Option<cage::Found>,
+    /// Temperature of the outer race, K, about every 50 ms.
+    pub temperature: Option<temperature::Found>,
     /// What an estimator refused: a name of the channel's part, and why.
     refused: Vec<(&'static str, String)>,
-    warnings: Vec<Warning>,
+    pub warnings: Vec<Warning>,
 }
 
 impl Found {
@@ -141,7 +158,7 @@ impl Found {
     }
 
     /// Why a part has no numbers.
-    fn why(&self, part: &'static str, asked: bool) -> String {
+    pub fn why(&self, part: &'static str, asked: bool) -> String {
         let refused = self.refused.iter().find(|(name, _)| *name == part);
         match refused {
             Some((_, why)) => why.clone(),
@@ -168,9 +185,8 @@ fn assumed(scenario: &Scenario, asked: &Asked) -> Option<Warning> {
     assumptions(&paths.into_iter().filter(counts).collect::<Vec<_>>())
 }
 
-/// Computes what is asked for and names it.
-pub(super) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
-    let clock = Instant::now();
+/// Computes what is asked for.
+pub(super) fn find(asked: &Asked) -> Found {
     let mut found = Found::default();
     found.warn("AB1040", "The file", &asked.notes);
     if let (Some(signal), Some(wish)) = (&asked.speed, &asked.signals.speed) {
@@ -219,6 +235,7 @@ pub(super) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
             Err(why) => found.refused.push(("cage", why)),
         }
     }
+    found.temperature = asked.temperature.as_ref().map(temperature::Found::of);
     let refused: Vec<Warning> = found
         .refused
         .iter()
@@ -228,6 +245,13 @@ pub(super) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
         })
         .collect();
     found.warnings.splice(0..0, refused);
+    found
+}
+
+/// Computes what is asked for and names it.
+pub(super) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
+    let clock = Instant::now();
+    let mut found = find(asked);
     found.warnings.extend(assumed(scenario, asked));
     let history = history::columns(asked, &found);
     let end = history.first().and_then(|time| time.values.last().copied());

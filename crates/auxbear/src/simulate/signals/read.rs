@@ -425,6 +425,22 @@ impl<'a> Source<'a> {
         }
     }
 
+    /// The unit of a channel that must be a temperature.
+    pub fn temperature_unit(
+        &self,
+        key: &'static str,
+        series: &Series,
+    ) -> Result<Unit, Box<Problem>> {
+        unit_of(&series.unit, "K").ok_or_else(|| {
+            self.problem(
+                Code::ChannelUnit,
+                key,
+                format!("channel \"{}\" in \"{}\"", series.name, series.unit.trim()),
+                "a unit of temperature is needed, K or degC",
+            )
+        })
+    }
+
     /// The key that names the file.
     pub fn key(&self) -> &'static str {
         self.key
@@ -433,6 +449,11 @@ impl<'a> Source<'a> {
 
 /// The size in SI of a unit as files write it, where it has the dimension of that SI unit.
 fn si_factor(text: &str, si: &str) -> Option<f64> {
+    unit_of(text, si).map(|unit| unit.to_si(1.0))
+}
+
+/// A unit as files write it, where it has the dimension of that SI unit.
+fn unit_of(text: &str, si: &str) -> Option<Unit> {
     const SPELLINGS: &[(&str, &str)] = &[
         ("Nm", "N m"),
         ("Nmm", "N mm"),
@@ -440,6 +461,9 @@ fn si_factor(text: &str, si: &str) -> Option<f64> {
         ("mNm", "mN m"),
         ("kNm", "kN m"),
         ("sec", "s"),
+        ("°C", "degC"),
+        ("deg C", "degC"),
+        ("C", "degC"),
     ];
     let plain = text.trim().replace(['·', '*', '.'], " ");
     let plain = SPELLINGS
@@ -447,7 +471,7 @@ fn si_factor(text: &str, si: &str) -> Option<f64> {
         .find(|row| row.0 == plain)
         .map_or(plain.as_str(), |row| row.1);
     let (unit, wanted) = (Unit::parse(plain).ok()?, Unit::parse(si).ok()?);
-    (unit.dimension() == wanted.dimension()).then(|| unit.to_si(1.0))
+    (unit.dimension() == wanted.dimension()).then_some(unit)
 }
 
 /// What a reader refuses, as a problem of the scenario.

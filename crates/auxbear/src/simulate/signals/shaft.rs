@@ -16,7 +16,7 @@ const SHORTEST_INTERVAL: f64 = 2e-4;
 const LOOKS: usize = 4000;
 
 /// The motion of the shaft.
-pub(super) struct Found {
+pub(in crate::simulate) struct Found {
     pub speed: Speed,
     pub pulses: Pulses,
     pub pitch: Option<Pitch>,
@@ -35,7 +35,7 @@ pub(super) struct Found {
 }
 
 impl Found {
-    pub fn of(signal: &Signal, wish: &SpeedSignal) -> Result<Found, String> {
+    pub(super) fn of(signal: &Signal, wish: &SpeedSignal) -> Result<Found, String> {
         let words = |refusal: measure::pulse::Refusal| refusal.to_string();
         let found = passages(signal, wish)?;
         let wheel = Wheel {

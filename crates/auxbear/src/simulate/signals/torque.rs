@@ -12,7 +12,7 @@ use measure::uncertain::Uncertain;
 const LONGEST_SEGMENT: usize = 2048;
 
 /// Torque, and the reading it was found from.
-pub(super) struct Found {
+pub(in crate::simulate) struct Found {
     /// The torque; none where no sensor is known.
     pub torque: Option<Torque>,
     pub sensor: Option<Sensor>,
@@ -76,7 +76,7 @@ pub(super) fn faulty(series: &Series) -> Faulty {
 }
 
 impl Found {
-    pub fn of(
+    pub(super) fn of(
         series: &Series,
         faulty: &Faulty,
         wish: &TorqueSignal,

@@ -1,21 +1,24 @@
-//! `auxbear signals`.
+//! `auxbear signals` and `auxbear identify`: what measurements tell, by a file of their own system.
 
-use crate::arguments::Signals;
+use crate::arguments::Measured;
 use crate::{Exit, run};
 use auxbear::problem::{Code, Problem};
 use auxbear::report::directory::free_path;
 use auxbear::scenario::{BuiltIn, Scenario, SystemName};
 
-/// Computes what a measurement holds, by a file of the system `signals`.
-pub fn perform(wish: &Signals) -> Result<Exit, Box<Problem>> {
+/// Computes what a file of this system asks for.
+pub fn perform(wish: &Measured, wanted: SystemName) -> Result<Exit, Box<Problem>> {
     let scenario = Scenario::read(&wish.file, &wish.set, &BuiltIn)?;
     let system = scenario.system.name();
-    if system != SystemName::Signals {
+    if system != wanted {
         let problem = Problem::at_path(
             Code::UnknownWord,
             &wish.file,
             format!("system = \"{}\"", system.word()),
-            "system = \"signals\" is needed; auxbear run runs any system",
+            format!(
+                "system = \"{}\" is needed; auxbear run runs any system",
+                wanted.word()
+            ),
         );
         return Err(Box::new(problem.on_key("system")));
     }

@@ -1,0 +1,185 @@
+//! Named results of one test with acceleration.
+
+use super::found::TestFound;
+use super::history::begin;
+use crate::simulate::list::{List, Origin};
+use crate::simulate::outcome::Value;
+use identify::slip::Established;
+use measure::uncertain::Uncertain;
+
+/// Time after the engagement over which the settled torque is taken, s, and from when on.
+const SETTLED_FROM: f64 = 0.2;
+const SETTLED_TO: f64 = 0.4;
+/// Length of the end of the hold over which the last torque is taken, s.
+const LAST: f64 = 0.5;
+/// Part of the largest speed within which the shaft is at speed.
+const AT_SPEED: f64 = 0.01;
+
+/// Names what one test tells.
+pub(super) fn name(list: &mut List, number: usize, test: &TestFound) {
+    let named = |name: &str| format!("test_{number}.{name}");
+    let m = &test.measurement;
+    list.push(&named("name"), "", Value::Text(test.name.clone()), &TEST);
+    list.number(&named("radial_load"), "N", Ok(m.load), &TEST);
+    list.number(
+        &named("engagement_time"),
+        "s",
+        m.engagement
+            .ok_or_else(|| "no quick change was found".to_string()),
+        &TEST,
+    );
+    let peak = (m.acceleration.iter().zip(&m.acceleration_deviation))
+        .max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+    let peak = peak.ok_or_else(|| "the test is empty".to_string());
+    uncertain(
+        list,
+        &named("peak_acceleration"),
+        "rad/s^2",
+        peak.map(|(value, deviation)| Uncertain::new(*value, *deviation)),
+        &TEST,
+    );
+    torques(list, &named, test);
+    energies(list, &named, test);
+    slip(list, &named, test);
+}
+
+/// A value with its standard deviation under the same name.
+fn uncertain(
+    list: &mut List,
+    name: &str,
+    unit: &'static str,
+    value: Result<Uncertain, String>,
+    origin: &Origin,
+) {
+    list.number(name, unit, value.clone().map(|u| u.value), origin);
+    list.number(
+        &format!("{name}_deviation"),
+        unit,
+        value.map(|u| u.deviation),
+        origin,
+    );
+}
+
+/// Mean torque beyond the steady moment in a part of the test.
+fn excess(test: &TestFound, from: f64, to: f64) -> Result<Uncertain, String> {
+    let loss = test.loss.as_ref().map_err(Clone::clone)?;
+    let inside = loss
+        .points
+        .iter()
+        .filter(|p| p.time >= from && p.time <= to);
+    let values: Vec<Uncertain> = inside.filter_map(|p| p.excess).collect();
+    if values.is_empty() {
+        return Err("there is no torque beside a steady moment then".to_string());
+    }
+    let count = values.len() as f64;
+    // close in time they share their error: the mean is no more certain than one of them
+    Ok(Uncertain::new(
+        values.iter().map(|u| u.value).sum::<f64>() / count,
+        values.iter().map(|u| u.deviation).sum::<f64>() / count,
+    ))
+}
+
+fn torques(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
+    let m = &test.measurement;
+    let start = begin(m);
+    let fastest = m.speed.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+    let last_at_speed = (m.time.iter().zip(&m.speed))
+        .filter(|(_, speed)| speed.abs() >= (1.0 - AT_SPEED) * fastest)
+        .map(|(time, _)| *time)
+        .next_back()
+        .unwrap_or(start);
+    for (name, from, to) in [
+        (
+            "excess_torque_settled",
+            start + SETTLED_FROM,
+            start + SETTLED_TO,
+        ),
+        ("excess_torque_at_end", last_at_speed - LAST, last_at_speed),
+    ] {
+        uncertain(list, &named(name), "N m", excess(test, from, to), &EXCESS);
+    }
+}
+
+fn energies(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
+    let found = test.dissipation.as_ref().map_err(Clone::clone);
+    let none = || "without a cage signal over the whole spin-up".to_string();
+    for (name, pick) in [
+        (
+            "dissipated_energy",
+            (|d| Some(d.best())) as fn(&identify::dissipation::Dissipation) -> Option<Uncertain>,
+        ),
+        ("dissipated_energy_printed", |d| Some(d.printed)),
+        ("dissipated_energy_corrected", |d| Some(d.corrected)),
+        ("dissipated_energy_exact", |d| d.exact),
+        ("dissipated_energy_without_cage", |d| Some(d.without_cage)),
+    ] {
+        let value = found.clone().and_then(|d| pick(d).ok_or_else(none));
+        uncertain(list, &named(name), "J", value, &ENERGY);
+    }
+    list.push(
+        &named("printed_form"),
+        "",
+        match &found {
+            Ok(found) => Value::Text(found.printed_verdict()),
+            Err(why) => Value::None { why: why.clone() },
+        },
+        &ENERGY,
+    );
+}
+
+fn slip(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
+    let slip = test.slip.as_ref().map_err(Clone::clone);
+    list.number(
+        &named("slip_probability"),
+        "1",
+        slip.clone().map(|slip| slip.slipped),
+        &SLIP,
+    );
+    list.number(
+        &named("rolling_established_at"),
+        "s",
+        slip.and_then(|slip| match slip.established {
+            Established::At { time, .. } => Ok(time - begin(&test.measurement)),
+            Established::Throughout => {
+                Err("as far as the signal tells, the cage never slipped".to_string())
+            }
+            Established::Never => Err("not before the record ends".to_string()),
+        }),
+        &SLIP,
+    );
+    list.number(
+        &named("skid_probability"),
+        "1",
+        test.skid.as_ref().map_err(Clone::clone).and_then(|skid| {
+            skid.skidded
+                .ok_or_else(|| "torque and cage do not tell the spin of the balls".to_string())
+        }),
+        &SKID,
+    );
+}
+
+const TEST: Origin = Origin {
+    law: "as the signals of the test tell it",
+    source: "crates/measure/src/speed/mod.rs",
+    valid: "see auxbear signals of its file",
+};
+const EXCESS: Origin = Origin {
+    law: "mean of t_O - M, 0.2 to 0.4 s after the engagement, or over the last 0.5 s at full speed",
+    source: "crates/identify/src/loss/mod.rs",
+    valid: "the deviation is that of one value: errors close in time are shared",
+};
+const ENERGY: Origin = Origin {
+    law: "D = ∫t_O Ω dt + ∫Ω dL - Δ(KE + U) with a cage signal; (21) as printed, corrected; without a cage signal with the path term as an uncertainty",
+    source: "the source paper, (21), and its correction; crates/identify/src/dissipation.rs",
+    valid: "from the engagement until the final speed is reached",
+};
+const SLIP: Origin = Origin {
+    law: "S = 1 - 2(1+s)ω_c/Ω; the largest probability of |S| above 1 % at any time; times count from the engagement",
+    source: "crates/identify/src/slip.rs",
+    valid: "needs a cage signal",
+};
+const SKID: Origin = Origin {
+    law: "spin of the balls from (4), (5), (7) with F ≥ 0",
+    source: "crates/identify/src/skid.rs",
+    valid: "as long as the torque tells it, shortly after the engagement",
+};

@@ -1,0 +1,90 @@
+//! From what the signals of a test hold to what the estimators of the bearing take.
+
+use super::super::signals;
+use identify::{CageTrace, Measurement};
+
+/// Most times of a measurement: beyond, neighbours tell nothing new.
+const MOST_TIMES: usize = 20_000;
+/// Correlation of a smooth random curve is gone after so many times the ratio of its deviation to that of its rate.
+const INDEPENDENT: f64 = 2.0;
+/// Part of the largest speed below which the scale of the torque is not looked at.
+const TURNING: f64 = 0.05;
+
+/// One test as the estimators take it. The reason where a signal is missing.
+pub(super) fn measurement(
+    name: &str,
+    load: f64,
+    found: &signals::Found,
+    scale_deviation: f64,
+) -> Result<Measurement, String> {
+    let lacks = |part: &'static str| format!("no {part}: {}", found.why(part, true));
+    let shaft = found.shaft.as_ref().ok_or_else(|| lacks("speed"))?;
+    let torque = found.torque.as_ref().ok_or_else(|| lacks("torque"))?;
+    let torque = torque.torque.as_ref().ok_or(
+        "the sensor's frequency and damping are needed to take its swing out of the reading",
+    )?;
+    let step = torque.time.len().div_ceil(MOST_TIMES).max(1);
+    let thinned = |list: &[f64]| list.iter().copied().step_by(step).collect::<Vec<f64>>();
+    let time = thinned(&torque.time);
+    let mut motion: Vec<_> = time.iter().map(|time| shaft.speed.at(*time)).collect();
+    let (from, to) = shaft.speed.range();
+    // outside the pulses the shaft rests: before its engagement, and after it came to rest
+    for (motion, time) in motion.iter_mut().zip(&time) {
+        if *time < from || *time > to {
+            (motion.speed, motion.acceleration) = (0.0, 0.0);
+        }
+    }
+    Ok(Measurement {
+        name: name.to_string(),
+        load,
+        speed: motion.iter().map(|m| m.speed).collect(),
+        speed_deviation: motion.iter().map(|m| m.speed_uncertainty()).collect(),
+        acceleration: motion.iter().map(|m| m.acceleration).collect(),
+        acceleration_deviation: motion
+            .iter()
+            .map(|m| m.acceleration_uncertainty())
+            .collect(),
+        torque: thinned(&torque.torque),
+        torque_deviation: thinned(&torque.deviation),
+        zero_deviation: torque.zero.deviation,
+        scale_deviation,
+        correlation_time: correlation_time(torque, shaft.fastest.speed.abs(), shaft),
+        engagement: shaft.speed.change.map(|change| change.engagement.0),
+        cage: found.cage.as_ref().map(|cage| CageTrace {
+            time: cage.cage.time.clone(),
+            speed: cage.cage.speed.clone(),
+            deviation: cage.cage.deviation.clone(),
+        }),
+        temperature: found.temperature.as_ref().map(|found| found.rise(&time)),
+        time,
+    })
+}
+
+/// Time after which two errors of the torque are independent, s: the median ratio of its deviation by noise to that of its
+/// rate while the shaft turns, as of a smooth random curve.
+fn correlation_time(
+    torque: &measure::torque_sensor::Torque,
+    fastest: f64,
+    shaft: &signals::shaft::Found,
+) -> f64 {
+    let turning = |time: f64| shaft.speed.at(time).speed.abs() > TURNING * fastest;
+    let count = torque.time.len();
+    let step = (count / 500).max(1);
+    let mut ratios: Vec<f64> = (0..count)
+        .step_by(step)
+        .filter(|k| turning(torque.time[*k]))
+        .map(|k| {
+            let noise = torque.deviation[k].powi(2) - torque.zero.deviation.powi(2);
+            noise.max(0.0).sqrt() / torque.rate_deviation[k]
+        })
+        .filter(|ratio| ratio.is_finite())
+        .collect();
+    ratios.sort_by(f64::total_cmp);
+    let median = ratios.get(ratios.len() / 2).copied().unwrap_or(0.0);
+    let interval = if count > 1 {
+        (torque.time[count - 1] - torque.time[0]) / (count - 1) as f64
+    } else {
+        0.0
+    };
+    INDEPENDENT * median.max(interval)
+}
