@@ -60,6 +60,8 @@ const SCRIPTS: &[&str] = &[
     include_str!("page/spin_up.js"),
     include_str!("page/torque.js"),
     include_str!("page/signals.js"),
+    include_str!("page/rig.js"),
+    include_str!("page/identify.js"),
     include_str!("page/tables.js"),
     include_str!("page/start.js"),
 ];

@@ -170,8 +170,8 @@ function header(runs) {
     const key = single ? null : element("span", { class: "swatch", style: "background:" + run.colour });
     const origin = spreadOrigin(run);
     const about = element("p", { class: "subtitle" }, key, single ? null : element("strong", {}, run.label + "  "), facts.filter(Boolean).join(" · "));
-    const line = isSignals(run) ? signalsLine(run) : isTorque(run) ? torqueLine(run) : isSpinUp(run) ? spinUpLine(run) : machineLine(run);
-    parts.push(single ? [line, about] : [about, line], isSignals(run) ? signalsVerdict(run) : isTorque(run) ? torqueVerdict(run) : isSpinUp(run) ? spinUpVerdict(run) : verdict(run), origin ? element("p", { class: "small" }, "Large numbers: the unperturbed run. Below them: " + origin + ".") : null);
+    const line = isIdentify(run) ? identifyLine(run) : isRig(run) ? rigLine(run) : isSignals(run) ? signalsLine(run) : isTorque(run) ? torqueLine(run) : isSpinUp(run) ? spinUpLine(run) : machineLine(run);
+    parts.push(single ? [line, about] : [about, line], isIdentify(run) ? identifyVerdict(run) : isRig(run) ? rigVerdict(run) : isSignals(run) ? signalsVerdict(run) : isTorque(run) ? torqueVerdict(run) : isSpinUp(run) ? spinUpVerdict(run) : verdict(run), origin ? element("p", { class: "small" }, "Large numbers: the unperturbed run. Below them: " + origin + ".") : null);
   }
   parts.push(warningBox(runs));
   return element("header", {}, parts);

@@ -35,15 +35,20 @@ function start() {
   // Each system has its own pictures; a page of both kinds of run shows both, each with its own runs.
   const torques = runs.filter(isTorque);
   const measured = runs.filter(isSignals);
-  const moving = runs.filter((run) => !isTorque(run) && !isSignals(run));
-  const drops = moving.filter((run) => !isSpinUp(run));
+  const rigs = runs.filter(isRig);
+  const identified = runs.filter(isIdentify);
+  const moving = runs.filter((run) => !isTorque(run) && !isSignals(run) && !isIdentify(run));
+  const drops = moving.filter((run) => !isSpinUp(run) && !isRig(run));
+  const raced = moving.filter((run) => !isRig(run));
   const spinUps = runs.filter(isSpinUp);
   const builders = [
     ...(runs.length > 1 ? [[differenceSection, runs]] : []),
     ...(drops.length ? [[orbitSection, drops], [contactSection, drops]] : []),
     ...torqueSections(torques),
     ...signalSections(measured),
-    ...(moving.length ? [[speedSection, moving]] : []),
+    ...identifySections(identified),
+    ...rigSections(rigs),
+    ...(raced.length ? [[speedSection, raced]] : []),
     ...(spinUps.length ? [[momentSection, spinUps], [slipSection, spinUps]] : []),
     ...(moving.length ? [[mapSection, moving], [pressureSection, moving]] : []),
     ...(spinUps.length ? [[outerRaceSection, spinUps]] : []),
@@ -52,7 +57,7 @@ function start() {
     ...(moving.length ? [[factSection, moving]] : []),
   ];
   const sections = builders.map(([build, some]) => guarded(build, some));
-  main.append(guarded(header, runs), navigation(sections, moving.length + measured.length > 0), ...sections);
+  main.append(guarded(header, runs), navigation(sections, moving.length + measured.length + identified.length > 0), ...sections);
   redrawAll();
   let waiting = false;
   window.addEventListener("resize", () => {

@@ -13,7 +13,8 @@ const timeline = {
   listeners: [],
   words: "time since release",
   span(runs) {
-    if (runs.every(isSpinUp)) this.words = "time since the start";
+    if (runs.every(isIdentify)) this.words = "time since the engagement";
+    if (runs.every((run) => isSpinUp(run) || isRig(run))) this.words = "time since the start";
     if (runs.every(isSignals)) this.words = "time on the clock of the file";
     const times = runs.filter((run) => run.time && run.time.length > 1).map((run) => run.time);
     if (!times.length) return;

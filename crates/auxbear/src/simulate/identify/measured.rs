@@ -7,6 +7,10 @@ use identify::{CageTrace, Measurement};
 const MOST_TIMES: usize = 20_000;
 /// Correlation of a smooth random curve is gone after so many times the ratio of its deviation to that of its rate.
 const INDEPENDENT: f64 = 2.0;
+/// Covariance of angle, speed and acceleration of a shaft that shows no pulse: 0.01 rad/s, 1 rad/s².
+const AT_REST: [[f64; 3]; 3] = [[1e-4, 0.0, 0.0], [0.0, 1e-4, 0.0], [0.0, 0.0, 1.0]];
+/// Least deviation of a torque over that of the zero or of the noise.
+const LEAST_DEVIATION: f64 = 0.02;
 /// Part of the largest speed below which the scale of the torque is not looked at.
 const TURNING: f64 = 0.05;
 
@@ -27,12 +31,21 @@ pub(super) fn measurement(
     let thinned = |list: &[f64]| list.iter().copied().step_by(step).collect::<Vec<f64>>();
     let time = thinned(&torque.time);
     let mut motion: Vec<_> = time.iter().map(|time| shaft.speed.at(*time)).collect();
-    let (from, to) = shaft.speed.range();
-    // outside the pulses the shaft rests: before its engagement, and after it came to rest
+    let change = shaft.speed.change.filter(|change| change.from_rest);
+    let (first, last) = shaft.speed.range();
+    let from = change.map_or(first, |change| change.engagement.0);
+    // before its engagement and behind its last pulse the shaft rests
     for (motion, time) in motion.iter_mut().zip(&time) {
-        if *time < from || *time > to {
+        if *time < from || *time > last {
             (motion.speed, motion.acceleration) = (0.0, 0.0);
+            motion.covariance = AT_REST;
         }
+    }
+    let mut torque_deviation = thinned(&torque.deviation);
+    // a torque that is zero by definition is not more certain than the data around it
+    let floor = LEAST_DEVIATION * torque.zero.deviation.max(torque.noise);
+    for deviation in &mut torque_deviation {
+        *deviation = deviation.max(floor);
     }
     Ok(Measurement {
         name: name.to_string(),
@@ -45,19 +58,38 @@ pub(super) fn measurement(
             .map(|m| m.acceleration_uncertainty())
             .collect(),
         torque: thinned(&torque.torque),
-        torque_deviation: thinned(&torque.deviation),
+        torque_deviation,
         zero_deviation: torque.zero.deviation,
         scale_deviation,
         correlation_time: correlation_time(torque, shaft.fastest.speed.abs(), shaft),
         engagement: shaft.speed.change.map(|change| change.engagement.0),
-        cage: found.cage.as_ref().map(|cage| CageTrace {
-            time: cage.cage.time.clone(),
-            speed: cage.cage.speed.clone(),
-            deviation: cage.cage.deviation.clone(),
-        }),
+        cage: (found.cage.as_ref())
+            .map(|found| cage(found, change.map(|change| change.engagement.0))),
         temperature: found.temperature.as_ref().map(|found| found.rise(&time)),
         time,
     })
+}
+
+/// The speed of the cage; from the engagement on, where the first ball had not passed yet and the cage rose from rest.
+fn cage(found: &signals::cage::Found, engagement: Option<f64>) -> CageTrace {
+    let found = &found.cage;
+    let mut trace = CageTrace {
+        time: found.time.clone(),
+        speed: found.speed.clone(),
+        deviation: found.deviation.clone(),
+    };
+    if let (Some(engagement), Some(first)) = (engagement, trace.time.first().copied())
+        && engagement < first
+    {
+        let speed = trace.speed[0];
+        trace.time.insert(0, engagement);
+        trace.speed.insert(0, 0.0);
+        // straight between is what is assumed: by as much as a rise with the square of time differs from it
+        let deviation = trace.deviation[0].hypot(0.25 * speed.abs());
+        trace.deviation[0] = deviation;
+        trace.deviation.insert(0, deviation);
+    }
+    trace
 }
 
 /// Time after which two errors of the torque are independent, s: the median ratio of its deviation by noise to that of its

@@ -10,6 +10,8 @@ const SIGNALS: &str = "signals.toml";
 
 /// What a laboratory would state of a sensor that it has calibrated.
 const SCALE_DEVIATION: f64 = 0.005;
+/// How well it would have set the zero before a test, N m.
+const ZERO_DEVIATION: f64 = 5e-4;
 
 /// Name of the raw file.
 fn name(format: RawFormat) -> &'static str {
@@ -80,7 +82,7 @@ fn signals(rig: &Rig, title: &str, file: &str, raw: &[RawChannel], rolling_ratio
     }
     text.push_str(&format!(
         "marks_per_revolution = {}\n\n\
-         [signals.torque]\nchannel = \"rig/torque\"\nsensor_frequency = \"{} Hz\"\ndamping_ratio = {}\nscale_deviation = {SCALE_DEVIATION}\n",
+         [signals.torque]\nchannel = \"rig/torque\"\nsensor_frequency = \"{} Hz\"\ndamping_ratio = {}\nscale_deviation = {SCALE_DEVIATION}\nzero_deviation = \"{ZERO_DEVIATION} N m\"\n",
         rig.pickup.marks, rig.arm.natural_frequency, rig.arm.damping_ratio,
     ));
     if has("rig/ball_pass") {

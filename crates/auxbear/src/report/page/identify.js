@@ -1,0 +1,208 @@
+// The pictures of an identification, in the layout of the source paper's Figs 7 to 10: torque over speed from the slow tests,
+// then speed, acceleration and torque of each test with the steady torque laid over, with bands; and the verdict.
+
+function isIdentify(run) {
+  return run.summary.system === "identify";
+}
+
+const EXPLANATIONS = ["rolling", "rolling with a grease state", "isothermal slip", "slip with heating", "sensor artefact"];
+// 2 % settling of the arm in the source paper, s: the torque before it is what the inversion of the sensor makes of it.
+const SENSOR_SETTLING = 0.1;
+
+function testsOf(run) {
+  const names = Object.keys(run.quantities).map((name) => /^test_(\d+)\.name$/.exec(name)).filter(Boolean);
+  return names.map((match) => ({ key: `test_${match[1]}`, number: Number(match[1]), name: String(quantityOf(run, `test_${match[1]}.name`).value) }));
+}
+
+function bandCurves(x, values, deviations, scale, label, colour) {
+  const moved = (sign) => values.map((value, row) => (isNumber(value) && isNumber(deviations[row]) ? scale * (value + sign * BAND * deviations[row]) : null));
+  return [
+    { label, x, y: values.map((value) => (isNumber(value) ? scale * value : null)), colour, width: 2 },
+    { label: "+2σ", x, y: moved(1), colour: colour + "90", width: 0.75 },
+    { label: "−2σ", x, y: moved(-1), colour: colour + "90", width: 0.75 },
+  ];
+}
+
+function explanationFigure(run, runs) {
+  const title = shareOfRun(run, runs, "Which explanation the data support");
+  const conclusion = quantityOf(run, "explanation");
+  if (typeof conclusion.value !== "string") return figure(title, null, notInThisRun("a comparison of explanations: " + (conclusion.why || "no reason is given")));
+  const rows = EXPLANATIONS.map((name) => {
+    const probability = numberOf(run, "probability_of_" + name.replaceAll(" ", "_"));
+    return element(
+      "tr",
+      {},
+      element("td", { class: "name" }, name),
+      element("td", { class: "bar" }, probability === null ? null : element("div", { style: `width:${100 * probability}%;background:${SERIES_COLOURS.rotor}` })),
+      element("td", {}, probability === null ? "–" : probability > 0 && probability < 1e-4 ? "< 0.01 %" : percentText(probability, 3)),
+    );
+  });
+  const parameters = quantityOf(run, "explanation_parameters").value;
+  const next = String(quantityOf(run, "next_tests").value || "").split("\n").filter(Boolean).map((line) => line.replace(/^\d+\. /, ""));
+  return [
+    figure(
+      title,
+      "Probability after the data, by marginal likelihood with a discrepancy term for what the reduced models leave out. Below the limit of decision the answer is undecided.",
+      element("p", {}, element("strong", {}, "Verdict: " + conclusion.value)),
+      element("table", { class: "bars" }, element("tbody", {}, rows)),
+      typeof parameters === "string" ? element("p", { class: "small" }, "Most probable: " + parameters) : null,
+    ),
+    next.length ? figure(shareOfRun(run, runs, "The next test, the most telling first"), "Expected part of what is open between the explanations that the test would settle.", element("ol", {}, next.map((line) => element("li", {}, line)))) : null,
+  ];
+}
+
+function explanationSection(runs) {
+  return section("explanations", "Verdict", runs.map((run) => explanationFigure(run, runs)));
+}
+
+function steadyFigure(run, runs) {
+  const title = shareOfRun(run, runs, "Torque on the outer race at steady speed");
+  const speeds = listOf(run, "steady_moment_speeds");
+  if (!speeds.length) return figure(title, null, notInThisRun("a steady moment: " + (quantityOf(run, "steady_moment_speeds").why || "no reason is given")));
+  const measured = [listOf(run, "coast_down_speeds"), listOf(run, "coast_down_torques").map((value) => 1e3 * value)];
+  const form = quantityOf(run, "steady_moment_form").value;
+  const series = [
+    { label: "measured", x: measured[0], y: measured[1], colour: SERIES_COLOURS.quiet, width: 0.75 },
+    ...bandCurves(speeds, listOf(run, "steady_moments"), listOf(run, "steady_moment_deviations"), 1e3, `M, ${form} form`, SERIES_COLOURS.limit),
+  ];
+  const forms = ["palmgren", "skf", "spline"].map((name) => [name, numberOf(run, `probability_of_${name}_form`)]).filter(([, probability]) => probability !== null);
+  const correlation = numberOf(run, "largest_parameter_correlation");
+  const words = forms.map(([name, probability]) => `${name} ${percentText(probability, 3)}`).join(", ");
+  return figure(
+    title,
+    `From the slow tests. Probability of the forms: ${words}. ${correlation === null ? "" : `Parameters correlate up to ${numberText(correlation, 3)}: the curve counts, not they. `}${BAND_WORDS}`,
+    curves({ series, across: "speed [rad/s]", upright: "torque [N mm]", height: 320 }),
+  );
+}
+
+function steadySection(runs) {
+  return section("steady", "Steady friction moment", runs.map((run) => steadyFigure(run, runs)));
+}
+
+function settledMarks() {
+  return (pen, plot, ratio) => instantMarks(pen, plot, ratio, [
+    { instant: 0, words: "engaged", colour: SERIES_COLOURS.quiet },
+    { instant: SENSOR_SETTLING, words: "an arm like the source paper's has settled", colour: SERIES_COLOURS.quiet },
+  ]);
+}
+
+// The first part of a test closely, where its torque is decided.
+function closeFigure(run, test) {
+  const upto = 0.6;
+  const rows = run.time.map((_, row) => row).filter((row) => run.time[row] >= -0.02 && run.time[row] <= upto);
+  const x = rows.map((row) => 1e3 * run.time[row]);
+  const of = (name) => rows.map((row) => (columnOf(run, `${test.key}.${name}`) || [])[row]);
+  const steady = { label: "steady torque at this speed", x, y: of("steady_moment").map((value) => (isNumber(value) ? 1e3 * value : null)), colour: SERIES_COLOURS.limit, dash: "7 4" };
+  const series = [...bandCurves(x, of("torque"), of("torque_deviation"), 1e3, "t_O", SERIES_COLOURS.race), steady];
+  return figure(`${test.name}: the torque after the engagement, closely`, null, curves({ series, across: "time since the engagement [ms]", upright: "torque [N mm]", height: 260 }));
+}
+
+function testFigures(run, test) {
+  const one = [run];
+  const of = (name, scale, look) => bandLines(one, `${test.key}.${name}`, `${test.key}.${name}_deviation`, scale, look);
+  const steady = of("steady_moment", 1e3, { label: "steady torque at this speed [N mm]", colour: SERIES_COLOURS.limit, width: 1.5, dash: [7, 4] });
+  const marks = settledMarks();
+  const slip = of("cage_slip", 100, { label: "slip [%]", colour: SERIES_COLOURS.cage, width: 1.25 });
+  const peak = numberOf(run, `${test.key}.peak_acceleration`);
+  const title = `${test.name}${peak === null ? "" : `, peak ${numberText(peak, 4)} rad/s²`}`;
+  return [
+    figure(`${title}: speed`, BAND_WORDS, timePlot({ series: of("speed", 1, { label: "speed [rad/s]", colour: SERIES_COLOURS.rotor, width: 1.5 }), label: "speed [rad/s]", marks, height: 180 })),
+    figure("Acceleration", null, timePlot({ series: of("acceleration", 1, { label: "acceleration [rad/s²]", colour: SERIES_COLOURS.race, width: 1.25 }), label: "acceleration [rad/s²]", marks, height: 180 })),
+    figure("Torque on the outer race, without the sensor's swing", "Dashed: the steady torque of the slow tests at the speed of the moment.", timePlot({ series: [...of("torque", 1e3, { label: "t_O [N mm]", colour: SERIES_COLOURS.race, width: 1.5 }), ...steady], label: "torque [N mm]", marks, height: 260 })),
+    closeFigure(run, test),
+    slip.length ? figure("Slip of the cage", null, timePlot({ series: slip, label: "slip [%]", include: () => [0], height: 160 })) : notInThisRun("slip: " + (quantityOf(run, `${test.key}.slip_probability`).why || "no cage signal"), run),
+  ];
+}
+
+function testSection(runs) {
+  return section("tests", "The tests", runs.map((run) => testsOf(run).map((test) => testFigures(run, test))));
+}
+
+function uncertainText(run, name, unit, scale = 1) {
+  const [value, deviation] = [numberOf(run, name), numberOf(run, name + "_deviation")];
+  if (value === null) return element("span", { class: "absent" }, quantityOf(run, name).why || "–");
+  return `${numberText(scale * value, 4)} ± ${deviation === null ? "?" : numberText(BAND * scale * deviation, 2)} ${unit}`;
+}
+
+function lossFigures(run, runs) {
+  const tests = testsOf(run);
+  if (!tests.length) return null;
+  const table = plainTable(
+    ["test", "t_O − M, 0.2 to 0.4 s", "t_O − M, last 0.5 s at speed", "cage slipped", "balls skidded", "rolls from"],
+    tests.map((test) => {
+      const share = (name) => {
+        const value = numberOf(run, `${test.key}.${name}`);
+        return value === null ? "–" : percentText(value, 3);
+      };
+      const from = numberOf(run, `${test.key}.rolling_established_at`);
+      return [test.name, uncertainText(run, `${test.key}.excess_torque_settled`, "N mm", 1e3), uncertainText(run, `${test.key}.excess_torque_at_end`, "N mm", 1e3), share("slip_probability"), share("skid_probability"), from === null ? quantityOf(run, `${test.key}.rolling_established_at`).why || "–" : engineeringText(from, "s", 3)];
+    }),
+  );
+  const energies = plainTable(
+    ["test", "best", "(21) as printed", "corrected, rolling", "exact, with the cage signal", "without a cage signal"],
+    tests.map((test) => [test.name, ...["", "_printed", "_corrected", "_exact", "_without_cage"].map((form) => uncertainText(run, `${test.key}.dissipated_energy${form}`, "J"))]),
+  );
+  const friction = tests.flatMap((test, index) => bandLines([run], `${test.key}.friction`, `${test.key}.friction_deviation`, 1, { label: `${test.name} [N]`, colour: LINE_COLOURS[index % LINE_COLOURS.length], width: 1.25 }));
+  return [
+    figure(shareOfRun(run, runs, "Beyond the steady moment"), "± is twice the standard deviation. Slip and skid: probability that it happened at any time after the engagement.", table),
+    figure(shareOfRun(run, runs, "Friction F of the accelerated balls"), friction.length ? `Where the balls are known to roll; elsewhere t_O − M alone is known. ${BAND_WORDS}` : null, friction.length ? timePlot({ series: friction, label: "F [N]", include: () => [0], height: 240 }) : notInThisRun("F: nowhere are the balls known to roll", run)),
+    mapFigure(run, runs),
+    figure(shareOfRun(run, runs, "What the spin-up dissipated"), "± is twice the standard deviation. The printed form has the factor 1 + 2s where none belongs.", energies),
+  ];
+}
+
+// F over speed and acceleration: one line an acceleration, where data are near.
+function mapFigure(run, runs) {
+  const [speeds, accelerations, friction, deviations, known] = ["speeds", "accelerations", "friction", "deviations", "known"].map((name) => listOf(run, "loss_map_" + name));
+  const title = shareOfRun(run, runs, "F over speed and acceleration, from all tests");
+  if (!speeds.length) return figure(title, null, notInThisRun("a map of F: " + (quantityOf(run, "loss_map_friction").why || "no reason is given"), run));
+  const levels = [...new Set(accelerations)];
+  const shown = [0, 0.1, 0.3, 0.6, 1].map((share) => levels[Math.round(share * (levels.length - 1))]);
+  const series = shown.flatMap((level, index) => {
+    const rows = speeds.map((_, row) => row).filter((row) => accelerations[row] === level && known[row] > 0);
+    if (rows.length < 2) return [];
+    const x = rows.map((row) => speeds[row]);
+    return bandCurves(x, rows.map((row) => friction[row]), rows.map((row) => deviations[row]), 1, `${numberText(level, 3)} rad/s²`, LINE_COLOURS[index]);
+  });
+  return figure(title, series.length ? `Drawn where data are near. ${BAND_WORDS}` : null, series.length ? curves({ series, across: "speed [rad/s]", upright: "F [N]", height: 260 }) : notInThisRun("places with data near", run));
+}
+
+function lossSection(runs) {
+  return section("losses", "Loss, slip and energy", runs.map((run) => lossFigures(run, runs)));
+}
+
+function rotorFrictionSection(runs) {
+  return section("rotor-friction", "Sliding friction between rotor and race", runs.map((run) => {
+    const slips = listOf(run, "rotor_friction_slips");
+    const series = bandCurves(slips, listOf(run, "rotor_friction_coefficients"), listOf(run, "rotor_friction_deviations"), 1, "coefficient", SERIES_COLOURS.rotor);
+    return figure(shareOfRun(run, runs, "Coefficient of friction over slip"), BAND_WORDS, curves({ series, across: "slip [m/s]", upright: "coefficient", height: 260 }));
+  }));
+}
+
+function identifyVerdict(run) {
+  const conclusion = quantityOf(run, "explanation");
+  const words = typeof conclusion.value === "string" ? conclusion.value : "–";
+  const probability = Math.max(...EXPLANATIONS.map((name) => numberOf(run, "probability_of_" + name.replaceAll(" ", "_")) || 0));
+  const tests = testsOf(run);
+  const best = tests.map((test) => `${test.name}: ${numberOf(run, `${test.key}.dissipated_energy`) === null ? "–" : engineeringText(numberOf(run, `${test.key}.dissipated_energy`), "J", 3)}`);
+  const form = quantityOf(run, "steady_moment_form");
+  return element(
+    "div",
+    { class: "tiles" },
+    stateTile(run),
+    tile("Explanation", words.split(":")[0], [conclusion.why || words.split(": ")[1] || `probability ${percentText(probability, 3)}`]),
+    tile("Steady moment", typeof form.value === "string" ? `${form.value} form` : "–", [form.why]),
+    tile("Dissipated in the spin-ups", `${tests.length} ${tests.length === 1 ? "test" : "tests"}`, best),
+  );
+}
+
+function identifyLine(run) {
+  const input = inputOf(run, "bearing.name");
+  return element("p", { class: "machine" }, `bearing ${input ? inputText(input.value) : "without a name"} · time 0 is the engagement of each test`);
+}
+
+function identifySections(runs) {
+  if (!runs.length) return [];
+  const rubbed = runs.filter((run) => listOf(run, "rotor_friction_slips").length);
+  return [[explanationSection, runs], [steadySection, runs], [testSection, runs], [lossSection, runs], ...(rubbed.length ? [[rotorFrictionSection, rubbed]] : [])];
+}
