@@ -170,7 +170,7 @@ fn up_is_set_against_down() {
     let found = apart.up_against_down.unwrap();
     // 3 N mm, two zeros of 0.3 N mm
     assert!(
-        found.chance < 1e-3 && (found.mean.value - 3e-3).abs() < 1.3e-3,
+        found.chance < 0.01 && (found.mean.value - 3e-3).abs() < 1.3e-3,
         "{found:?}"
     );
     assert!(

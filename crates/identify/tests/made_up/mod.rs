@@ -307,6 +307,8 @@ pub struct Lagging {
     /// What the bearing dissipates from the engagement to the end of the record's first `until` seconds, J.
     pub loss: f64,
     pub until: f64,
+    /// True torque at the times of the test, N m.
+    pub torque: Vec<f64>,
     /// True spin over that of rolling, at the times of the test.
     pub spin_ratio: Vec<f64>,
 }
@@ -405,6 +407,7 @@ pub fn lagging_spin_up(random: &mut Random, peak: f64, lag: f64, skid: f64) -> L
         slip,
         loss: work - kinetic,
         until,
+        torque,
         spin_ratio,
     }
 }
