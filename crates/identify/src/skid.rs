@@ -102,7 +102,11 @@ pub fn skid(
     let weights = trapezoid(&test.time[first..]);
     let (low, high) = steady.range();
     // near rest the sign of a measured speed is noise: the rotation has that of the whole test
-    let turned: f64 = weights.iter().zip(&test.speed[first..]).map(|(w, s)| w * s).sum();
+    let turned: f64 = weights
+        .iter()
+        .zip(&test.speed[first..])
+        .map(|(w, s)| w * s)
+        .sum();
     let way = turned.signum();
     let mut noise = RunningVariance::new(test.correlation_time);
     let (mut push, mut shared, mut friction) = (0.0, 0.0, 0.0);
@@ -124,6 +128,10 @@ pub fn skid(
             * settings
                 .mean_friction
                 .unwrap_or(0.1 * moment.value.abs() / arm);
+        if k == first {
+            // the jump at the engagement lies somewhere within a step of the record
+            shared += weight * moment.value.abs() / arm;
+        }
         let variance = noise.add(time, weight * test.torque_noise(k) / arm);
         let Some(own) = between(&cage.time, &cage.speed, time) else {
             continue;
