@@ -9,7 +9,8 @@
 //! **Does not model**: slip of the balls (J_I is that of rolling balls); whirl (u is that of a centred rotor: the orbit's own
 //! speed at the contact is left out); a load W that does not press at one place; friction that rests.
 //!
-//! Measured (`tests/rotor.rs`, 400 seeds, band of two deviations): the true μ lies in its band at COVERAGE_MU of all times.
+//! Measured (`tests/rotor.rs`, 400 seeds, band of two deviations): the true μ lies in its band at 94.0 % of all times, its means
+//! over six ranges of slip at 95.6 %.
 
 use crate::measurement::SetDeviation;
 use measure::uncertain::Uncertain;

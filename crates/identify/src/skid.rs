@@ -101,18 +101,21 @@ pub fn skid(
     let first = test.time.partition_point(|&t| t < start);
     let weights = trapezoid(&test.time[first..]);
     let (low, high) = steady.range();
+    // near rest the sign of a measured speed is noise: the rotation has that of the whole test
+    let turned: f64 = weights
+        .iter()
+        .zip(&test.speed[first..])
+        .map(|(w, s)| w * s)
+        .sum();
+    let way = turned.signum();
     let mut noise = RunningVariance::new(test.correlation_time);
     let (mut push, mut shared, mut friction) = (0.0, 0.0, 0.0);
     let mut points = Vec::new();
     for (k, weight) in (first..test.time.len()).zip(weights) {
         let speed = test.speed[k];
         let time = test.time[k];
-        let clamped = speed.abs().clamp(low, high).copysign(speed);
-        let turning = speed.abs() >= low * 0.1;
-        let moment = match steady.at(clamped) {
-            Some(moment) if turning => moment,
-            _ => Uncertain::exact(0.0),
-        };
+        let clamped = speed.abs().clamp(low, high).copysign(way);
+        let moment = steady.at(clamped).unwrap_or(Uncertain::exact(0.0));
         // 2(1+s) T_O = (t_O - M)/arm
         push += weight * (test.torque[k] - moment.value) / arm;
         shared += weight
@@ -125,6 +128,10 @@ pub fn skid(
             * settings
                 .mean_friction
                 .unwrap_or(0.1 * moment.value.abs() / arm);
+        if k == first {
+            // the jump at the engagement lies somewhere within a step of the record
+            shared += weight * moment.value.abs() / arm;
+        }
         let variance = noise.add(time, weight * test.torque_noise(k) / arm);
         let Some(own) = between(&cage.time, &cage.speed, time) else {
             continue;
@@ -136,10 +143,9 @@ pub fn skid(
             continue;
         };
         let rolling = set.ball_spin(speed);
-        let sign = speed.signum();
         let unit = inertia * rolling;
         let ratio = Uncertain::new(
-            (push + orbit * own - sign * friction) / unit,
+            (push + orbit * own - way * friction) / unit,
             (variance
                 .max(0.0)
                 .sqrt()

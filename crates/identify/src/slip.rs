@@ -10,7 +10,8 @@
 //! **Does not model**: errors of cage and shaft that are alike (a common clock cancels in S); spin of the balls (see
 //! [`skid`](crate::skid)); a cage signal made with a wrong ball count (see [`doubt`](crate::doubt)).
 //!
-//! Measured (`tests/cage.rs`, 400 seeds, band of two deviations): the true slip lies in its band at COVERAGE_S of all times.
+//! Measured (`tests/cage.rs`, 400 seeds, band of two deviations): the true slip lies in its band at 95.5 % of all times;
+//! the true time from which on it stays below the limit lies between earliest and latest in 98 % of the seeds.
 
 use crate::measurement::Measurement;
 use crate::normal::beyond;
@@ -75,7 +76,7 @@ pub enum Established {
     At {
         /// |S| > limit stays less likely than not from here on, s.
         time: f64,
-        /// |S| > limit stays less likely than 0.975 from here on, s.
+        /// |S| > limit stays less likely than 0.9999 from here on, s: so sure that chance in a long record does not delay it.
         earliest: f64,
         /// |S| > limit stays less likely than 0.025 from here on, s; none if that is not reached.
         latest: Option<f64>,
@@ -187,7 +188,7 @@ fn established(after: &[&SlipPoint]) -> Established {
         (Some(time), Some(first)) if time <= first.time => Established::Throughout,
         (Some(time), _) => Established::At {
             time,
-            earliest: from(0.975).unwrap_or(time),
+            earliest: from(0.9999).unwrap_or(time),
             latest: from(0.025),
         },
         _ => Established::Never,

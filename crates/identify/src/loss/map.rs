@@ -3,7 +3,7 @@
 //! ```text
 //!   F(Ω, Ω̇) = F0(Ω) + F1(Ω) |Ω̇|          F0, F1 smooth in Ω: normal processes, correlation ½ + ½ exp(-(ΔΩ)²/2ℓ²)
 //!   data     means of F over the correlation time of the torque, where the balls are known to roll
-//!   errors   noise of each mean; zero of each test; M's band, by its covariance; masses, common to all
+//!   errors   noise of the means with its correlation in time; zero of each test; M's band, by its covariance; masses, common to all
 //! ```
 //! Sizes of F0 and F1 and the length ℓ are those of the highest marginal likelihood on a grid. Where no data are the band
 //! returns to that size.
@@ -14,6 +14,7 @@ use super::{Loss, LossSettings, State, scale_part};
 use crate::dense::{Matrix, cholesky, dot, forward, log_determinant, solved, zeros};
 use crate::measurement::Measurement;
 use crate::moment::SteadyMoment;
+use crate::series::alike;
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 
@@ -24,14 +25,18 @@ const MOST: usize = 240;
 #[derive(Clone, Copy, Debug)]
 struct Datum {
     test: usize,
+    /// Middle of its times, s.
+    time: f64,
     speed: f64,
     /// |Ω̇|.
     rate: f64,
     /// Ω̇ along the rotation.
     signed_rate: f64,
     friction: f64,
-    /// Variance of its own.
-    own: f64,
+    /// Deviation by the noise of the torque, N.
+    noise: f64,
+    /// Deviation by the acceleration, N.
+    by_rate: f64,
 }
 
 /// Sizes of the prior.
@@ -73,7 +78,7 @@ pub struct MapPlace {
     pub friction: Uncertain,
     /// Distance to the nearest datum, in parts of the range of speeds and of accelerations of the data.
     pub nearest: f64,
-    /// Whether data are near: nearest below 0.15, and the band less than half of what it is without data.
+    /// Whether data are near: nearest below 0.25, and the band less than half of what it is without data.
     pub known: bool,
 }
 
@@ -194,7 +199,7 @@ impl LossMap {
         MapPlace {
             friction,
             nearest,
-            known: nearest < 0.15 && friction.deviation < 0.5 * alone.sqrt(),
+            known: nearest < 0.25 && friction.deviation < 0.5 * alone.sqrt(),
         }
     }
 
@@ -283,11 +288,13 @@ fn means(
         let signed_rate = sign * mean(&|k| test.acceleration[k]);
         data.push(Datum {
             test: number,
+            time: mean(&|k| test.time[k]),
             speed: mean(&|k| test.speed[k].abs()),
             rate: signed_rate.abs(),
             signed_rate,
             friction,
-            own: noise * noise + rate * rate,
+            noise,
+            by_rate: rate,
         });
         start = end;
     }
@@ -328,11 +335,14 @@ fn errors(
                 + own.inner_track_radius.powi(2) * a.friction * b.friction
                 + scale[i] * scale[j];
             if a.test == b.test {
-                value += (tests[a.test].0.zero_deviation / arm).powi(2);
+                let test = tests[a.test].0;
+                value += (test.zero_deviation / arm).powi(2)
+                    + a.noise * b.noise * alike(a.time - b.time, test.correlation_time);
             }
             if i == j {
                 // a thousandth of the rest keeps exact data solvable
-                value += a.own + 1e-6 * (value + a.own) + 1e-300;
+                value += a.by_rate.powi(2);
+                value += 1e-6 * value + 1e-300;
             }
             sum[i][j] = value;
             sum[j][i] = value;

@@ -5,9 +5,9 @@
 //!   cage measured   F = [t_O - M]/share - a(1+s) + b     (7): a = ⅖ N m_b s R ω̇_b, b = (N m_b + m_c) R (1+s)² ω̇_c
 //!   else            t_O - M alone
 //! ```
-//! The second line holds with any slip of the cage, but the spin of the balls is not measured: a ball that grips at least one race
-//! spins up between (1+s) ω̇_c/s (grips outside) and [Ω̇ - (1+s) ω̇_c]/s (grips inside); the middle is Ω̇/(2s), and the range
-//! counts as evenly likely. M is the moment of *rolling* balls: where the cage slips, the change of M is in this F.
+//! The second line holds with any slip of the cage, but the spin of the balls is not measured: a ball that grips one race and
+//! slides on the other spins up with (1+s) ω̇_c/s (grips outside) or [Ω̇ - (1+s) ω̇_c]/s (grips inside). The middle is Ω̇/(2s);
+//! either end counts as equally likely, so that half their distance is one deviation. M is the moment of *rolling* balls: where the cage slips, the change of M is in this F.
 //!
 //! The band holds noise, zero and scale of the torque, M's band, the deviations of Ω and Ω̇, and those of the masses. One sensor
 //! measured t_O and M: its scale acts on their difference.
@@ -16,7 +16,8 @@
 //! looks like F here (see [`doubt`](crate::doubt) and [`explain`](crate::explain)).
 //!
 //! Measured (`tests/loss.rs`, 400 seeds with another noise, a nonlinear sensor and M from made-up coast-downs, band of two
-//! deviations): the true F lies in its band at COVERAGE_F of all times, the true map at COVERAGE_MAP of all places with data.
+//! deviations): the true F lies in its band at 96.1 % of all times, the true map at 95.6 % of all places that count as known. With a
+//! cage that lags and balls that grip outside throughout, one end of what the second line allows, it is 96.4 % of the slipping times.
 
 mod map;
 
@@ -146,14 +147,14 @@ pub fn loss(
         notes.push("no cage signal, and rolling is not stated: t_O - M is told, F is not".into());
     }
     let cage_rates = test.cage.as_ref().map(|cage| {
-        let own = rates(
-            &cage.time,
-            &cage.speed,
-            &cage.deviation,
-            settings.cage_window,
-        );
-        let (rate, deviation): (Vec<f64>, Vec<f64>) = own.into_iter().unzip();
-        (rate, deviation)
+        let window = settings.cage_window;
+        let near = rates(&cage.time, &cage.speed, &cage.deviation, window);
+        let wide = rates(&cage.time, &cage.speed, &cage.deviation, 2.0 * window);
+        // a straight line over twice the window is wrong by four times as much where the rate bends
+        near.iter()
+            .zip(&wide)
+            .map(|((rate, deviation), (other, _))| (*rate, deviation.hypot((other - rate) / 3.0)))
+            .unzip::<f64, f64, Vec<f64>, Vec<f64>>()
     });
     let points: Vec<LossPoint> = (0..test.time.len())
         .map(|k| {
@@ -294,7 +295,7 @@ fn slipping_friction(
         * (set.balls_mass * radius * (1.0 + s).powi(2) * cage_rate.value - spin * middle))
         .hypot(own.cage_mass * set.cage_mass * radius * (1.0 + s).powi(2) * cage_rate.value);
     let deviation = (excess.deviation / arm)
-        .hypot(spin * half_range / 3_f64.sqrt())
+        .hypot(spin * half_range)
         .hypot(spin * test.acceleration_deviation[k] / (2.0 * s))
         .hypot(orbit * cage_rate.deviation)
         .hypot(masses)

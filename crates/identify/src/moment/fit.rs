@@ -174,6 +174,7 @@ pub(super) fn weighed(
             }
         }
     }
+    points.retain(|point| point.log_weight.is_finite());
     let top = points
         .iter()
         .fold(f64::NEG_INFINITY, |a, p| a.max(p.log_weight));
@@ -212,10 +213,9 @@ pub(super) fn weighed(
         posterior.noise += weight * point.noise;
     }
     let wide = colour(blocks, columns, &posterior);
-    for i in 0..size {
-        for j in 0..size {
-            let plain = square[i][j] - posterior.mean[i] * posterior.mean[j];
-            posterior.covariance[i][j] = wide * plain;
+    for (i, row) in square.iter().enumerate() {
+        for (j, value) in row.iter().enumerate() {
+            posterior.covariance[i][j] = wide * (value - posterior.mean[i] * posterior.mean[j]);
         }
     }
     Some(posterior)

@@ -21,7 +21,7 @@
 //! not averaged away); noise slower than the test, other than its zero; F in slow tests (taken as 0).
 //!
 //! Measured (`tests/moment.rs`, 400 made-up coast-downs with another law, another noise and a nonlinear sensor): the band of two
-//! deviations holds the true moment at COVERAGE_M of all speeds.
+//! deviations holds the true moment at 96.6 % of all speeds after one coast-down of 20 s, at 94.9 % after three of 3 s.
 
 mod blocks;
 mod curve;

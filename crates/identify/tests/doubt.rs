@@ -1,0 +1,281 @@
+//! Doubts: each wrong set of tests is named with its numbers, and a sound one raises none.
+
+mod made_up;
+
+use identify::doubt::{Doubt, DoubtSettings, ViscosityByTemperature, doubts};
+use identify::moment::SteadyMoment;
+use identify::{CageTrace, Measurement};
+use made_up::{Random, rolling_spin_up, set, steady};
+
+fn curve(factor: f64) -> SteadyMoment {
+    let speed: Vec<f64> = (0..400).map(|k| 0.4 * f64::from(k)).collect();
+    SteadyMoment {
+        load: 50.0,
+        moment: speed.iter().map(|s| factor * steady(*s)).collect(),
+        // 0.2 N mm that all speeds share
+        covariance: vec![vec![4e-8; 400]; 400],
+        scale_deviation: 0.01,
+        speed,
+    }
+}
+
+fn test(seed: u64) -> Measurement {
+    let mut test = rolling_spin_up(&mut Random::new(seed), 7200.0, 5.0, 0.0).0;
+    test.cage = Some(CageTrace {
+        time: test.time.clone(),
+        speed: test.speed.iter().map(|s| set().cage_speed(*s)).collect(),
+        deviation: vec![0.25; test.time.len()],
+    });
+    test
+}
+
+fn said(tests: &[&Measurement], steady: &SteadyMoment, settings: &DoubtSettings) -> Vec<Doubt> {
+    let found = doubts(tests, Some(steady), &set(), settings).unwrap();
+    for doubt in &found {
+        // each can be said
+        assert!(doubt.to_string().len() > 30);
+    }
+    found
+}
+
+fn told() -> DoubtSettings<'static> {
+    DoubtSettings {
+        wanted_speed: Some(140.0),
+        ball_count: Some(10),
+        viscosity: Some(ViscosityByTemperature::PerKelvin(-0.06, -0.03)),
+        ..DoubtSettings::default()
+    }
+}
+
+#[test]
+fn sound_tests_raise_no_doubt() {
+    // three deviations, three comparisons a test: about one false doubt in a hundred tests
+    let mut raised = 0;
+    for seed in 0..20 {
+        raised += said(&[&test(seed)], &curve(1.0), &told()).len();
+    }
+    assert!(raised <= 1, "{raised}");
+}
+
+#[test]
+fn a_test_that_never_reaches_the_speed() {
+    let settings = DoubtSettings {
+        wanted_speed: Some(180.0),
+        ..told()
+    };
+    let found = said(&[&test(1)], &curve(1.0), &settings);
+    let [
+        Doubt::NeverReaches {
+            reached, wanted, ..
+        },
+    ] = &found[..]
+    else {
+        panic!("{found:?}")
+    };
+    assert!((reached - 150.0).abs() < 1.0 && *wanted == 180.0);
+}
+
+#[test]
+fn a_coast_down_of_another_bearing() {
+    let found = said(&[&test(2)], &curve(1.6), &told());
+    let [
+        Doubt::ForeignSteadyMoment {
+            difference,
+            ratio,
+            speed,
+            ..
+        },
+    ] = &found[..]
+    else {
+        panic!("{found:?}")
+    };
+    assert!((ratio - 1.0 / 1.6).abs() < 0.05 && (speed - 150.0).abs() < 1.0);
+    // 0.6 of 23 N mm
+    assert!((difference.value + 0.6 * steady(150.0)).abs() < 1.5e-3);
+    let other_load = SteadyMoment {
+        load: 100.0,
+        ..curve(1.0)
+    };
+    let found = said(&[&test(2)], &other_load, &told());
+    assert!(
+        matches!(&found[..], [Doubt::LoadOfSteadyMoment { load, steady_load, .. }] if *load == 50.0 && *steady_load == 100.0)
+    );
+}
+
+#[test]
+fn tests_at_different_loads() {
+    let heavy = Measurement {
+        load: 100.0,
+        name: "heavy".into(),
+        ..test(4)
+    };
+    let found = said(&[&test(3), &heavy], &curve(1.0), &told());
+    let Doubt::MixedLoads { loads } = &found[0] else {
+        panic!("{found:?}")
+    };
+    assert_eq!(loads[1], ("heavy".to_string(), 100.0));
+}
+
+#[test]
+fn inertia_that_is_not_known() {
+    let settings = DoubtSettings {
+        masses_known: false,
+        ..told()
+    };
+    let found = said(&[&test(5)], &curve(1.0), &settings);
+    let Doubt::InertiaMissing {
+        torque: Some((least, most)),
+        acceleration,
+        ..
+    } = &found[0]
+    else {
+        panic!("{found:?}")
+    };
+    // no cage: 3/20 N m_b (1+2s) R² Ω̇ at 7200 rad/s² = 3.6 N mm; twice the balls: + ¼·2 N m_b
+    assert!((acceleration - 7200.0).abs() < 300.0);
+    assert!(
+        (least / 3.57e-3 - 1.0).abs() < 0.05 && (most / least - (0.15 + 0.5) / 0.15).abs() < 1e-9,
+        "{least} {most}"
+    );
+    let unknown = physics::rolling::RollingSet {
+        balls_mass: f64::NAN,
+        ..set()
+    };
+    let found = doubts(&[&test(5)], None, &unknown, &told()).unwrap();
+    assert!(matches!(
+        found[0],
+        Doubt::InertiaMissing { torque: None, .. }
+    ));
+}
+
+#[test]
+fn a_cage_signal_of_the_wrong_ball_count() {
+    for (stated, fits) in [(10u32, 9u32), (10, 11), (9, 10), (10, 7), (8, 16)] {
+        let mut wrong = test(6);
+        let factor = f64::from(fits) / f64::from(stated);
+        wrong
+            .cage
+            .as_mut()
+            .unwrap()
+            .speed
+            .iter_mut()
+            .for_each(|s| *s *= factor);
+        let settings = DoubtSettings {
+            ball_count: Some(stated),
+            ..told()
+        };
+        let found = said(&[&wrong], &curve(1.0), &settings);
+        let [
+            Doubt::WrongBallCount {
+                stated: a,
+                fits: b,
+                ratio,
+                ..
+            },
+        ] = &found[..]
+        else {
+            panic!("{found:?}")
+        };
+        assert_eq!((*a, *b), (stated, fits));
+        assert!((ratio.value - factor).abs() < 0.01);
+    }
+    // 4 % off fits no count of ten
+    let mut odd = test(6);
+    odd.cage
+        .as_mut()
+        .unwrap()
+        .speed
+        .iter_mut()
+        .for_each(|s| *s *= 0.96);
+    let found = said(&[&odd], &curve(1.0), &told());
+    assert!(
+        matches!(found[..], [Doubt::CageNeverRolls { .. }]),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn a_temperature_that_explains_everything() {
+    // 20 % below M, and 10 K: 4.5 % a kelvin would take 26 % off M0
+    let mut warm = test(7);
+    let rise: Vec<f64> = warm
+        .time
+        .iter()
+        .map(|t| 10.0 * (1.0 - (-t / 0.5_f64).exp()))
+        .collect();
+    warm.temperature = Some(rise);
+    let found = said(&[&warm], &curve(1.25), &told());
+    let explained = |found: &[Doubt]| {
+        found
+            .iter()
+            .any(|d| matches!(d, Doubt::TemperatureExplains { .. }))
+    };
+    assert!(explained(&found), "{found:?}");
+    // by a law: ν halves
+    let halves = |_: f64| 0.5;
+    let by_law = DoubtSettings {
+        viscosity: Some(ViscosityByTemperature::Law(&halves)),
+        ..told()
+    };
+    assert!(explained(&said(&[&warm], &curve(1.25), &by_law)));
+    // 1 K explains 4 % at most
+    let mut cool = warm.clone();
+    cool.temperature
+        .as_mut()
+        .unwrap()
+        .iter_mut()
+        .for_each(|t| *t *= 0.1);
+    assert!(!explained(&said(&[&cool], &curve(1.25), &told())));
+    // warmer and *more* torque: not by viscosity
+    assert!(!explained(&said(&[&warm], &curve(0.8), &told())));
+}
+
+#[test]
+fn a_torque_that_has_not_settled_and_a_record_too_short() {
+    let mut drifting = test(8);
+    for (torque, time) in drifting.torque.iter_mut().zip(&drifting.time) {
+        *torque -= 2e-3 * (time - 0.2).max(0.0);
+    }
+    let found = said(&[&drifting], &curve(1.0), &told());
+    let change = found.iter().find_map(|d| match d {
+        Doubt::NotSettled { change, over, .. } => Some((change.value, *over)),
+        _ => None,
+    });
+    // 2 N mm/s over a quarter of 5 s
+    let (change, over) = change.unwrap_or_else(|| panic!("{found:?}"));
+    assert!((over - 1.25).abs() < 0.02 && (change + 2.5e-3).abs() < 0.4e-3);
+    let short = test(9).between(0.0, 1.0);
+    let found = said(&[&short], &curve(1.0), &told());
+    assert!(
+        matches!(found[..], [Doubt::TooShort { lasts, needed, .. }] if needed == 4.0 && (lasts - 0.77).abs() < 0.02),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn speeds_outside_the_steady_moment() {
+    let mut narrow = curve(1.0);
+    narrow.speed.iter_mut().for_each(|s| *s *= 0.75);
+    let found = said(&[&test(10)], &narrow, &told());
+    assert!(
+        matches!(&found[..], [Doubt::OutsideMoment { part, range, .. }] if *part > 0.9 && range.1 < 120.0),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn broken_measurements_are_refused_not_doubted() {
+    let mut broken = test(1);
+    broken.speed[3] = f64::INFINITY;
+    assert!(
+        doubts(&[&broken], None, &set(), &told())
+            .unwrap_err()
+            .contains("number 3 of the speeds")
+    );
+    assert!(doubts(&[], None, &set(), &told()).unwrap().is_empty());
+    let still = Measurement {
+        speed: vec![0.0; test(1).time.len()],
+        ..test(1)
+    };
+    assert!(doubts(&[&still], Some(&curve(1.0)), &set(), &told()).is_ok());
+}

@@ -1,0 +1,244 @@
+//! The steady moment: forms told apart, the band that holds the truth, limits and what is refused.
+
+mod made_up;
+
+use identify::Measurement;
+use identify::moment::{Form, MomentSettings, moment};
+use made_up::{Random, coast_down, coasting, covered, seeds, set, steady};
+use physics::palmgren::viscous_moment;
+use physics::skf::{SkfContacts, SkfDeepGroove, SkfMoment};
+
+#[test]
+fn the_band_holds_a_moment_of_another_law() {
+    let count = seeds(30);
+    let (mut inside, mut of) = (0.0, 0.0);
+    let (mut quick, mut quick_of) = (0.0, 0.0);
+    for seed in 0..count {
+        let mut random = Random::new(seed);
+        let scale = random.normal();
+        // one slow coast-down of 20 s; or three of 3 s
+        let slow = coast_down(&mut random, 20.0, 0.01, scale);
+        let three: Vec<Measurement> = (0..3)
+            .map(|_| coast_down(&mut random, 3.0, 0.01, scale))
+            .collect();
+        let settings = MomentSettings::default();
+        for (tests, inside, of) in [
+            (vec![&slow], &mut inside, &mut of),
+            (three.iter().collect(), &mut quick, &mut quick_of),
+        ] {
+            let found = moment(&tests, &set(), &settings).unwrap();
+            let (low, high) = found.curve.range();
+            for k in 0..=20 {
+                let speed = low + (high - low) * f64::from(k) / 20.0;
+                let own = found.curve.at(speed.clamp(low, high)).unwrap();
+                *of += 1.0;
+                if (own.value - steady(speed)).abs() <= 2.0 * own.deviation {
+                    *inside += 1.0;
+                }
+            }
+        }
+    }
+    covered("M, one coast-down of 20 s", inside, of, count);
+    covered("M, three of 3 s", quick, quick_of, count);
+}
+
+#[test]
+fn the_law_that_made_the_data_wins() {
+    let diameter = 2.0 * set().inner_track_radius * (1.0 + set().ball_ratio);
+    let viscosity = 100e-6;
+    let palmgren = |speed: f64| viscous_moment(2.0, viscosity, speed, diameter) + 3e-3;
+    let law = SkfMoment {
+        contacts: SkfContacts::DeepGroove(SkfDeepGroove {
+            r1: 4.1e-7,
+            r2: 1.7,
+            s1: 3.73e-3,
+            s2: 14.6,
+            static_load_rating: 6550.0,
+        }),
+        mean_diameter: diameter,
+        viscosity,
+        starvation: 1.2e-6,
+        boundary_friction: 0.15,
+        film_friction: 0.05,
+        drag: 0.0,
+        seal_moment: 0.0,
+    };
+    let skf = |speed: f64| {
+        let parts = law.parts(speed, 50.0, 0.0);
+        6.0 * parts.speed_dependent + 12.0 * parts.load_dependent
+    };
+    // a bump that no law has
+    let bump = |speed: f64| steady(speed) + 4e-3 * (-((speed - 70.0) / 12.0).powi(2)).exp();
+    let settings = MomentSettings {
+        viscosity: Some(viscosity),
+        skf: Some(law),
+        ..MomentSettings::default()
+    };
+    let truths: [(Form, &dyn Fn(f64) -> f64); 3] = [
+        (Form::Palmgren, &palmgren),
+        (Form::Skf, &skf),
+        (Form::Spline, &bump),
+    ];
+    for (form, truth) in truths {
+        let mut random = Random::new(7);
+        let test = coasting(&mut random, 30.0, 0.01, 0.0, truth);
+        let found = moment(&[&test], &set(), &settings).unwrap();
+        assert_eq!(
+            found.best().form,
+            form,
+            "{:?}",
+            found
+                .forms
+                .iter()
+                .map(|f| (f.form, f.probability))
+                .collect::<Vec<_>>()
+        );
+        assert!(found.best().probability > 0.9);
+        let sum: f64 = found.forms.iter().map(|f| f.probability).sum();
+        assert!((sum - 1.0).abs() < 1e-12);
+        assert!(found.best().noise_correlation >= 0.0 && found.effective_data <= found.data as f64);
+        let best = found.best();
+        match form {
+            Form::Palmgren => {
+                let names: Vec<&str> = best.parameters.iter().map(|p| p.name.as_str()).collect();
+                assert_eq!(names, ["f0", "M1", "zero of coast-down"]);
+                let f0 = best.parameters[0].value;
+                assert!((f0.value - 2.0).abs() < 4.0 * f0.deviation && f0.deviation < 0.1);
+                // what the torque cannot tell: a constant moment and a zero
+                assert!(best.correlation[1][2] < -0.8, "{:?}", best.correlation);
+            }
+            Form::Skf => assert_eq!(best.parameters[0].name, "rolling"),
+            Form::Spline => assert_eq!(best.parameters.len(), 1),
+        }
+    }
+}
+
+#[test]
+fn nothing_is_said_outside_the_measured_speeds() {
+    let mut random = Random::new(3);
+    let test = coast_down(&mut random, 10.0, 0.01, 0.0);
+    let found = moment(&[&test], &set(), &MomentSettings::default()).unwrap();
+    let (low, high) = found.curve.range();
+    let measured = |f: fn(f64, f64) -> f64, from| test.speed.iter().fold(from, |a, &b| f(a, b));
+    assert!(low >= measured(f64::min, f64::MAX) && high <= measured(f64::max, 0.0));
+    assert!(found.curve.at(1.001 * high).is_none() && found.curve.at(0.9 * low).is_none());
+    assert!(found.curve.at(high).is_some() && found.curve.at(-low).is_some());
+}
+
+#[test]
+fn turning_the_other_way_gives_the_same_curve() {
+    let mut random = Random::new(5);
+    let test = coast_down(&mut random, 10.0, 0.01, 0.0);
+    let mut turned = test.clone();
+    for list in [
+        &mut turned.speed,
+        &mut turned.acceleration,
+        &mut turned.torque,
+    ] {
+        list.iter_mut().for_each(|x| *x = -*x);
+    }
+    let settings = MomentSettings::default();
+    let (ahead, back) = (
+        moment(&[&test], &set(), &settings).unwrap(),
+        moment(&[&turned], &set(), &settings).unwrap(),
+    );
+    assert_eq!(ahead.curve, back.curve);
+}
+
+#[test]
+fn up_is_set_against_down() {
+    let mut random = Random::new(11);
+    let down = coast_down(&mut random, 15.0, 0.01, 0.0);
+    let mut same = coast_down(&mut random, 15.0, 0.01, 0.0);
+    let reverse = |test: &mut Measurement| {
+        for list in [&mut test.speed, &mut test.torque, &mut test.acceleration] {
+            list.reverse();
+        }
+        test.acceleration.iter_mut().for_each(|a| *a = -*a);
+        test.name = "run-up".into();
+    };
+    reverse(&mut same);
+    let mut other = same.clone();
+    other.torque.iter_mut().for_each(|t| *t += 3e-3);
+    let settings = MomentSettings::default();
+    let agreeing = moment(&[&same, &down], &set(), &settings)
+        .unwrap()
+        .up_against_down
+        .unwrap();
+    assert!(agreeing.chance > 0.01, "{}", agreeing.chance);
+    let apart = moment(&[&other, &down], &set(), &settings).unwrap();
+    let found = apart.up_against_down.unwrap();
+    // 3 N mm, two zeros of 0.3 N mm
+    assert!(
+        found.chance < 0.01 && (found.mean.value - 3e-3).abs() < 1.3e-3,
+        "{found:?}"
+    );
+    assert!(
+        apart.notes.iter().any(|note| note.contains("speeding up")),
+        "{:?}",
+        apart.notes
+    );
+}
+
+#[test]
+fn it_agrees_with_the_spline_of_the_signals() {
+    // an independent curve through the same data: measure's, by restricted likelihood
+    let mut random = Random::new(17);
+    let test = coast_down(&mut random, 20.0, 0.01, 0.0);
+    let found = moment(&[&test], &set(), &MomentSettings::default()).unwrap();
+    let at: Vec<f64> = (1..15).map(|k| 10.0 * f64::from(k)).collect();
+    let other = measure::steady_curve::direct(&test.speed, &test.torque, &at).unwrap();
+    for (k, speed) in at.iter().enumerate() {
+        let own = found.curve.at(*speed).unwrap();
+        // the same zero is in both; inertia is 0.01 N mm
+        assert!(
+            (own.value - other.torque[k]).abs() < 3.0 * (other.deviation[k] + 0.2e-3),
+            "{speed}"
+        );
+    }
+}
+
+#[test]
+fn what_cannot_be_a_steady_moment_is_refused() {
+    let mut random = Random::new(1);
+    let test = coast_down(&mut random, 10.0, 0.01, 0.0);
+    let settings = MomentSettings::default();
+    let refused = |tests: &[&Measurement], settings: &MomentSettings| {
+        moment(tests, &set(), settings).err().unwrap_or_default()
+    };
+    assert!(refused(&[], &settings).contains("needs a slow test"));
+    let heavy = Measurement {
+        load: 100.0,
+        name: "heavy".into(),
+        ..test.clone()
+    };
+    let why = refused(&[&test, &heavy], &settings);
+    assert!(
+        why.contains("50 N") && why.contains("heavy") && why.contains("100 N"),
+        "{why}"
+    );
+    assert!(refused(&[&test.between(0.0, 0.05)], &settings).contains("too short or not slow"));
+    let mut one = test.clone();
+    one.speed.iter_mut().for_each(|s| *s = 100.0);
+    assert!(refused(&[&one], &settings).contains("range of speeds"));
+    let mut short = test.clone();
+    short.torque.pop();
+    assert!(refused(&[&short], &settings).contains("1000 torques for 1001 times"));
+    let mut broken = test.clone();
+    broken.torque[5] = f64::NAN;
+    assert!(refused(&[&broken], &settings).contains("number 5 of the torques is NaN"));
+    let mut silent = test.clone();
+    silent.torque.iter_mut().for_each(|t| *t = 0.0);
+    silent.acceleration.iter_mut().for_each(|t| *t = 0.0);
+    assert!(refused(&[&silent], &settings).contains("0 throughout"));
+    let wrong = MomentSettings {
+        viscosity: Some(-1.0),
+        ..settings
+    };
+    assert!(refused(&[&test], &wrong).contains("viscosity"));
+    let unknown = physics::rolling::RollingSet {
+        cage_mass: f64::NAN,
+        ..set()
+    };
+    assert!(moment(&[&test], &unknown, &settings).is_err());
+}
