@@ -85,7 +85,6 @@ const CHANGE: &str = "the clutch changes";
 struct Watch<'r> {
     record: &'r mut Record,
     found: Option<Found>,
-    last_length: f64,
 }
 
 /// Looks for nothing.
@@ -117,7 +116,6 @@ impl<'a> Observer<Segment<'a>> for Watch<'_> {
             });
             return Flow::Halt(CHANGE);
         }
-        self.last_length = step.end - step.start;
         self.record.step(step)
     }
 }
@@ -158,7 +156,6 @@ impl<'a> Run<'a> {
         let (mut time, mut state) = (self.settings.start, start.clone());
         let mut schedule = Schedule::new();
         let mut work = Work::default();
-        let mut length = self.settings.first_step;
         let program = &machine.constants.program;
         let stop = loop {
             if schedule.due(program) <= time {
@@ -175,18 +172,16 @@ impl<'a> Run<'a> {
             let mut watch = Watch {
                 record: &mut *record,
                 found: None,
-                last_length: length,
             };
             let ending = self.segment(
                 &schedule.mode,
                 (time, next),
                 &state,
-                length,
+                self.settings.first_step,
                 work,
                 &mut watch,
             );
             add(&mut work, &ending.work);
-            length = watch.last_length;
             let found = watch.found;
             (time, state) = (ending.time, ending.state);
             match found {
@@ -223,7 +218,7 @@ impl<'a> Run<'a> {
         mode: &Mode,
         (from, to): (f64, f64),
         state: &[f64],
-        length: f64,
+        first_step: f64,
         done: Work,
         observer: &mut O,
     ) -> Ending {
@@ -231,7 +226,7 @@ impl<'a> Run<'a> {
         let settings = Settings {
             start: from,
             end: to,
-            first_step: length,
+            first_step,
             step_limit: (self.settings.step_limit).saturating_sub(done.accepted + done.rejected),
             ..self.settings
         };
@@ -266,12 +261,11 @@ impl<'a> Run<'a> {
             }
         }
         let mut ending = if instant > found.start {
-            let length = instant - found.start;
             self.segment(
                 mode,
                 (found.start, instant),
                 &found.state,
-                length,
+                span,
                 *work,
                 record,
             )
@@ -304,12 +298,11 @@ impl<'a> Run<'a> {
         let mut instant = found.instant;
         let least = 1e-13 * self.machine.constants.target_speed.abs();
         for _ in 0..NEWTON_STEPS {
-            let length = instant - found.start;
             let ending = self.segment(
                 mode,
                 (found.start, instant),
                 &found.state,
-                length,
+                found.end - found.start,
                 *work,
                 &mut Blind,
             );
