@@ -171,3 +171,36 @@ fn a_faster_shaft_drives_the_flywheel() {
         assert!(run.energy_residual().abs() < 1e-6);
     }
 }
+
+#[test]
+fn balls_that_hit_their_pockets_do_not_keep_an_overloaded_clutch_from_a_decision() {
+    // a clutch that carries about what the bearing takes: it slips and grips many times
+    let program = Program {
+        start: Start {
+            shaft_speed: SPEED,
+            flywheel_speed: SPEED,
+        },
+        actions: vec![
+            (0.0, Action::Engage(Engagement::at_once(0.0333))),
+            (
+                0.0,
+                Action::MotorTo {
+                    speed: SPEED,
+                    rate: f64::INFINITY,
+                },
+            ),
+        ],
+    };
+    let [_, planar] = fidelities();
+    let run = run(concentric(planar, program), 0.05, 1e-5);
+    println!("{} changes", run.record.clutch.len());
+    assert!(run.record.clutch.len() > 1, "it does slip");
+    for pair in run.record.clutch.windows(2) {
+        assert!(pair[1].time >= pair[0].time && pair[1].clutch != pair[0].clutch);
+    }
+    assert!(run.energy_residual().abs() < 1e-6);
+    assert!(run.heat(CLUTCH_HEAT) >= 0.0);
+    for residual in run.momentum_residuals() {
+        assert!(residual.abs() < 1e-8, "{residual}");
+    }
+}

@@ -25,7 +25,6 @@ fn the_three_tests_of_the_paper_have_their_accelerations() {
         let lock = run.record.locked_at().expect("locks");
         let half = run.record.shaft_time_to_50_percent().expect("half");
         let took = (lock - half) / (1.0 - 0.5_f64.sqrt());
-        println!("{wanted}: {rate} N m/s, {peak} rad/s², {took} s");
         // drags that grow with speed; the flywheel yields 0.2 % where the motor does not hold it
         assert!((took / time - 1.0).abs() < 0.03, "{took} {time}");
     }
