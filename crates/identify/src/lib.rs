@@ -6,11 +6,29 @@
 //! | page | subject |
 //! |---|---|
 //! | [`measurement`] | one test, as its signals tell it |
+//! | [`moment`] | the steady moment M(Ω) from slow tests: the forms that fit, their probabilities, one curve with its band |
+//! | [`loss`] | the friction F of accelerated balls over time, and as a map over speed and acceleration |
+//! | [`dissipation`] | the energy that a spin-up dissipates, with and without a cage signal |
+//! | [`slip`] | slip of the cage and the time until it rolls |
+//! | [`skid`] | spin of the balls, as far as the torque tells it |
+//! | [`rotor_friction`] | sliding friction between rotor and race from the spin-up of a drop |
+//! | [`doubt`] | what must be said of the tests before their numbers are believed |
 //! | [`explain`] | which explanation of a torque transient the data support, and which test would decide |
 //!
-//! It knows no files and no scenario: arrays in SI in, values with deviations out.
+//! It knows no files and no scenario: arrays in SI in, values with deviations out. What is refused is refused with a sentence.
 
+mod dense;
+pub mod dissipation;
+pub mod doubt;
 pub mod explain;
+pub mod loss;
 pub mod measurement;
+pub mod moment;
+mod normal;
+pub mod rotor_friction;
+mod series;
+pub mod skid;
+pub mod slip;
 
-pub use measurement::{CageTrace, Measurement};
+pub use measurement::{CageTrace, Measurement, SetDeviation};
+pub use moment::SteadyMoment;

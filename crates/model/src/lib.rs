@@ -13,5 +13,6 @@ pub mod levitation;
 pub mod motion;
 pub mod mount;
 pub mod rotor;
+pub mod sensor;
 pub mod system;
 pub mod table;

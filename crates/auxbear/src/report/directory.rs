@@ -1,6 +1,6 @@
-//! A run directory: `scenario.toml`, `summary.json`, `history.parquet`, `report.html`.
+//! A run directory: `scenario.toml`, `summary.json`, `history.parquet`, `report.html`, and what the run leaves besides.
 //!
-//! It is filled under the name `DIR.partial` and gets its own name when all four files are complete, so a directory
+//! It is filled under the name `DIR.partial` and gets its own name when all files are complete, so a directory
 //! that looks whole is whole. Whatever goes wrong before, the partial one is removed.
 
 use super::page::{self, PageColumn, PageRun};
@@ -9,6 +9,8 @@ use super::{history, summary};
 use crate::problem::{Code, Problem};
 use crate::scenario::Scenario;
 use crate::simulate::Outcome;
+use crate::simulate::outcome::Attached;
+use measure::recording::Channel;
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read, Write};
@@ -83,6 +85,14 @@ impl NewDirectory {
         self.file(HISTORY, |file| {
             history::write(file, &outcome.history).map_err(io_error)
         })?;
+        for attachment in &outcome.files {
+            match &attachment.content {
+                Attached::Text(text) => {
+                    self.file(&attachment.name, |file| file.write_all(text.as_bytes()))?;
+                }
+                Attached::Recording(channels) => self.recording(&attachment.name, channels)?,
+            }
+        }
         let columns = outcome.history.iter().map(|column| PageColumn {
             name: column.name.clone(),
             unit: column.unit.to_string(),
@@ -103,6 +113,24 @@ impl NewDirectory {
             return Err(taken(&self.path));
         }
         fs::rename(&self.partial, &self.path).map_err(|error| failed(&self.path, &error))
+    }
+
+    /// Writes a measurement file.
+    fn recording(&self, name: &str, channels: &[(Channel, Vec<f64>)]) -> Result<(), Box<Problem>> {
+        let (told, values): (Vec<Channel>, Vec<&[f64]>) = channels
+            .iter()
+            .map(|(channel, values)| (channel.clone(), values.as_slice()))
+            .unzip();
+        measure::file::create(self.partial.join(name), &told)
+            .and_then(|mut writer| {
+                writer.append(&values)?;
+                writer.finish()
+            })
+            .map_err(|error| {
+                let found = format!("that it cannot be written ({error})");
+                let path = self.path.join(name);
+                Box::new(Problem::at_path(Code::OutputFailed, &path, found, WRITABLE))
+            })
     }
 
     /// Writes one file; a problem names the place where it would have stood.

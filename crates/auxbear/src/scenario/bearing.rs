@@ -97,7 +97,7 @@ pub struct Bearing {
     pub static_load_rating: Option<f64>,
     /// Limiting speed in continuous running, rad/s.
     pub limiting_speed: Option<f64>,
-    /// Mass of the inner race with its sleeve, kg.
+    /// Mass of the inner race with its sleeve, kg; 0 where it sits on a shaft.
     pub inner_race_mass: f64,
     /// Moment of inertia of the inner race with its sleeve, kg m².
     pub inner_race_inertia: f64,
@@ -232,7 +232,7 @@ pub(super) fn bearing(values: &Values) -> Bearing {
         ball_material: ball_material(&bearing),
         static_load_rating: bearing.maybe("static_load_rating"),
         limiting_speed: bearing.maybe("limiting_speed"),
-        inner_race_mass: bearing.number("inner_race_mass"),
+        inner_race_mass: bearing.maybe("inner_race_mass").unwrap_or(0.0),
         inner_race_inertia: bearing.number("inner_race_inertia"),
         ball_mass: bearing.maybe("ball_mass"),
         inner_contact_stiffness: bearing.maybe("inner_contact_stiffness"),

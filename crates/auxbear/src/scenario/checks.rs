@@ -39,6 +39,8 @@ pub(super) fn check(system: &System, values: &Values, file: &str) -> Check {
         System::SpinUp(spin_up) => context.spin_up(spin_up),
         System::Torque(torque) => context.torque(torque),
         System::Signals(signals) => context.signals(signals),
+        System::Rig(rig) => context.rig(rig),
+        System::Identify(identify) => context.identify(identify),
     }
 }
 
@@ -117,7 +119,7 @@ impl Context<'_> {
     }
 
     /// Diameters, width and balls go together, also with what the catalogue knows of the bearing named.
-    fn geometry(&self, count: usize, ball: f64, pitch: f64) -> Check {
+    pub(super) fn geometry(&self, count: usize, ball: f64, pitch: f64) -> Check {
         let path = |key: &str| match key {
             "bore_diameter" => "bearing.moment.bore_diameter",
             "outer_diameter" => "bearing.moment.outer_diameter",

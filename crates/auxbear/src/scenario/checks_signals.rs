@@ -86,7 +86,7 @@ impl Context<'_> {
     }
 
     /// Refuses that a key is missing which another one needs.
-    fn needed(&self, path: &'static str, by: &str) -> Check {
+    pub(super) fn needed(&self, path: &'static str, by: &str) -> Check {
         if self.values.is_given(path) {
             return Ok(());
         }
@@ -100,7 +100,7 @@ impl Context<'_> {
         )
     }
 
-    fn refuse(&self, code: Code, path: &str, found: String, needed: &str) -> Check {
+    pub(super) fn refuse(&self, code: Code, path: &str, found: String, needed: &str) -> Check {
         Err(Box::new(self.problem(
             code,
             path,

@@ -2,9 +2,9 @@
 
 use super::bearing_source::{BearingRecord, BearingSource};
 use super::document::{Document, Given, Raw};
-use super::key::{Key, Kind};
+use super::key::{Key, Kind, quoted};
 use super::resolve::{Known, Value, Values, quantity_text};
-use super::{table, table_signals};
+use super::table;
 use crate::catalogue::Catalogue;
 use crate::problem::{Code, Place, Problem, did_you_mean};
 use std::path::{Path, PathBuf};
@@ -45,16 +45,32 @@ impl Values {
 
     /// The path of the user's own catalogue or measurement as it is found from any folder: the resolved file stands in another one.
     pub(super) fn lasting_path(&self, key: &Key, known: Known) -> Known {
-        if key.path != CATALOGUE && !table_signals::FILES.contains(&key.path) {
+        if key.path != CATALOGUE && !table::names_files(key) {
             return known;
         }
-        let path = beside(self.file(), &known.text);
-        let text = std::fs::canonicalize(&path).unwrap_or(path);
-        let text = text.display().to_string();
-        Known {
-            value: Value::Text(text.clone()),
-            text,
-            ..known
+        let lasting = |text: &String| {
+            let path = beside(self.file(), text);
+            let path = std::fs::canonicalize(&path).unwrap_or(path);
+            path.display().to_string()
+        };
+        match &known.value {
+            Value::Texts(texts) => {
+                let texts: Vec<String> = texts.iter().map(lasting).collect();
+                let quoted: Vec<String> = texts.iter().map(|text| quoted(text)).collect();
+                Known {
+                    text: format!("[{}]", quoted.join(", ")),
+                    value: Value::Texts(texts),
+                    ..known
+                }
+            }
+            _ => {
+                let text = lasting(&known.text);
+                Known {
+                    value: Value::Text(text.clone()),
+                    text,
+                    ..known
+                }
+            }
         }
     }
 

@@ -6,13 +6,15 @@
 //! ```text
 //! text + overrides ──document──▶ system; key, raw value, place
 //!                  ──resolve───▶ one value per key: given ▸ catalogue ▸ default ▸ derived
-//!                  ──drop, spin_up, torque, signals──▶ typed SI values  ──checks──▶ Scenario
+//!                  ──drop, spin_up, torque, signals, rig, identify──▶ typed SI values  ──checks──▶ Scenario
 //! ```
 
 mod bearing;
 mod bearing_source;
 mod checks;
 mod checks_drop;
+mod checks_identify;
+mod checks_rig;
 mod checks_separation;
 mod checks_signals;
 mod checks_spin_up;
@@ -22,6 +24,7 @@ mod document;
 mod drop;
 mod fits;
 mod from_catalogue;
+mod identify;
 mod key;
 mod locate;
 mod lubricant;
@@ -33,6 +36,7 @@ mod read_lists;
 mod read_rows;
 mod resolve;
 mod resolved;
+mod rig;
 mod run;
 mod schema;
 mod section;
@@ -45,7 +49,9 @@ mod table_bearing;
 mod table_cage;
 mod table_drive;
 mod table_drop;
+mod table_identify;
 mod table_moment;
+mod table_rig;
 mod table_signals;
 mod table_torque;
 mod template;
@@ -55,11 +61,16 @@ pub use bearing::{BallMaterial, Bearing, BearingType, Drag, Fidelity, OilFilm, T
 pub use bearing_source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
 pub use drop::{Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor, Spin};
 pub use fits::{Fits, Growth};
+pub use identify::{Explanations, Identify, RotorFriction};
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
 pub use lubricant::{Lubricant, LubricantViscosity};
 pub use moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 pub use provenance::Provenance;
 pub use resolved::{Resolved, ResolvedValue};
+pub use rig::{
+    BallPass, Engagement, Logger, RawFormat, Rig, RigArm, RigFlywheel, RigLoad, RigMotor,
+    RigPickup, RigPickupKind, RigProgram, RigShaft, RigTemperature,
+};
 pub use run::{Method, Run};
 pub use schema::schema;
 pub use separation::{Cage, FullComplement, Guidance, Land, Separation};
@@ -131,6 +142,8 @@ impl Scenario {
             SystemName::Drop => System::Drop(Drop::from_values(&values)),
             SystemName::SpinUp => System::SpinUp(SpinUp::from_values(&values)),
             SystemName::Signals => System::Signals(Signals::from_values(&values)),
+            SystemName::Identify => System::Identify(Box::new(Identify::from_values(&values))),
+            SystemName::Rig => System::Rig(Box::new(Rig::from_values(&values))),
             SystemName::Torque => {
                 let laws = torque::compared_laws(&document, &values, bearings);
                 System::Torque(Torque::from_values(&values, laws)?)

@@ -1,6 +1,8 @@
 //! What a scenario may describe: one of several systems.
 
 use super::drop::Drop;
+use super::identify::Identify;
+use super::rig::Rig;
 use super::signals::Signals;
 use super::spin_up::SpinUp;
 use super::torque::Torque;
@@ -16,6 +18,10 @@ pub enum SystemName {
     Torque,
     /// A measurement: speed, torque and cage speed from the channels of a file.
     Signals,
+    /// A test on a rig, and the raw file that its logger writes.
+    Rig,
+    /// What measured tests tell of a bearing.
+    Identify,
 }
 
 impl SystemName {
@@ -25,11 +31,14 @@ impl SystemName {
         SystemName::SpinUp,
         SystemName::Torque,
         SystemName::Signals,
+        SystemName::Rig,
+        SystemName::Identify,
     ];
     /// Their words, in the same order.
-    pub(super) const WORDS: &'static [&'static str] = &["drop", "spin_up", "torque", "signals"];
+    pub(super) const WORDS: &'static [&'static str] =
+        &["drop", "spin_up", "torque", "signals", "rig", "identify"];
     /// Words of systems that are planned, so that asking for one is no spelling mistake.
-    pub(super) const PLANNED: &'static [&'static str] = &["rig"];
+    pub(super) const PLANNED: &'static [&'static str] = &["rotor"];
 
     /// The word in a file: `spin_up`.
     pub fn word(self) -> &'static str {
@@ -63,6 +72,10 @@ pub enum System {
     Torque(Torque),
     /// What a measurement holds.
     Signals(Signals),
+    /// A test on a rig.
+    Rig(Box<Rig>),
+    /// What measured tests tell.
+    Identify(Box<Identify>),
 }
 
 impl System {
@@ -73,6 +86,8 @@ impl System {
             System::SpinUp(_) => SystemName::SpinUp,
             System::Torque(_) => SystemName::Torque,
             System::Signals(_) => SystemName::Signals,
+            System::Rig(_) => SystemName::Rig,
+            System::Identify(_) => SystemName::Identify,
         }
     }
 }

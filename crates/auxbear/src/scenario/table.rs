@@ -6,7 +6,8 @@
 use super::key::{Key, Kind, Presence, Range, Section};
 use super::system::SystemName;
 use super::{
-    table_bearing, table_cage, table_drive, table_drop, table_moment, table_signals, table_torque,
+    table_bearing, table_cage, table_drive, table_drop, table_identify, table_moment, table_rig,
+    table_signals, table_torque,
 };
 
 /// Format name of the scenario files that this version writes.
@@ -19,6 +20,8 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
         .chain(table_drive::SECTIONS)
         .chain(table_torque::SECTIONS)
         .chain(table_signals::SECTIONS)
+        .chain(table_rig::SECTIONS)
+        .chain(table_identify::SECTIONS)
         .chain(table_bearing::SECTIONS)
         .chain(table_cage::SECTIONS)
         .chain(table_bearing::TRACTION_SECTIONS)
@@ -34,6 +37,8 @@ pub fn keys() -> impl Iterator<Item = &'static Key> {
         .chain(table_drive::KEYS)
         .chain(table_torque::KEYS)
         .chain(table_signals::KEYS)
+        .chain(table_rig::KEYS)
+        .chain(table_identify::KEYS)
         .chain(table_bearing::KEYS)
         .chain(table_cage::KEYS)
         .chain(table_bearing::TRACTION)
@@ -66,7 +71,8 @@ pub fn presence(key: &Key, system: SystemName) -> Presence {
     let own = match system {
         SystemName::Torque => table_torque::PRESENCES,
         SystemName::SpinUp => table_drive::PRESENCES,
-        SystemName::Drop | SystemName::Signals => &[],
+        SystemName::Rig => table_rig::PRESENCES,
+        SystemName::Drop | SystemName::Signals | SystemName::Identify => &[],
     };
     let own = own.iter().find(|(path, _)| *path == key.path);
     own.map_or(key.presence, |(_, presence)| *presence)
@@ -77,16 +83,40 @@ pub(super) fn starts_with(key: &Key, system: SystemName) -> bool {
     match system {
         SystemName::Torque => table_torque::GIVEN.contains(&key.path),
         SystemName::Signals => table_signals::GIVEN.contains(&key.path),
+        SystemName::Rig => table_rig::GIVEN.contains(&key.path),
+        SystemName::Identify => table_identify::GIVEN.contains(&key.path),
         SystemName::Drop | SystemName::SpinUp => false,
     }
 }
 
 /// Systems in which something moves.
-pub(super) const MOVING: &[SystemName] = &[SystemName::Drop, SystemName::SpinUp];
+pub(super) const MOVING: &[SystemName] = &[SystemName::Drop, SystemName::SpinUp, SystemName::Rig];
+
+/// Systems in which the inner race is a body of its own, not a part of a shaft.
+pub(super) const FREE_RACE: &[SystemName] = &[SystemName::Drop, SystemName::SpinUp];
 
 /// Systems with a bearing.
-pub(super) const WITH_BEARING: &[SystemName] =
-    &[SystemName::Drop, SystemName::SpinUp, SystemName::Torque];
+pub(super) const WITH_BEARING: &[SystemName] = &[
+    SystemName::Drop,
+    SystemName::SpinUp,
+    SystemName::Torque,
+    SystemName::Rig,
+    SystemName::Identify,
+];
+
+/// Systems with a friction moment of a bearing.
+pub(super) const WITH_MOMENT: &[SystemName] = &[
+    SystemName::Drop,
+    SystemName::SpinUp,
+    SystemName::Torque,
+    SystemName::Rig,
+];
+
+/// Keys that name files beside the scenario.
+pub(super) fn names_files(key: &Key) -> bool {
+    let all = table_signals::FILES.iter().chain(table_identify::FILES);
+    all.into_iter().any(|path| *path == key.path)
+}
 
 const RUN_SECTIONS: &[Section] = &[Section {
     path: "run",
@@ -105,7 +135,7 @@ const HEAD: &[Key] = &[
         "system",
         Kind::Word(SystemName::WORDS),
         "drop",
-        "What is simulated: drop, a levitated rotor that is released onto its auxiliary bearing; spin_up, an inner race that is brought to speed; torque, the torque of a bearing without motion; signals, speed and torque from a measurement.",
+        "What is simulated: drop, a levitated rotor that is released onto its auxiliary bearing; spin_up, an inner race that is brought to speed; torque, the torque of a bearing without motion; signals, speed and torque from a measurement; rig, a test on a rig with the raw file of its logger; identify, what measured tests tell of a bearing.",
     ),
     Key::new(
         "title",

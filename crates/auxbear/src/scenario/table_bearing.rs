@@ -3,7 +3,7 @@
 use super::bearing::OIL_NAMES;
 use super::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
 use super::system::SystemName;
-use super::table::MOVING;
+use super::table::{FREE_RACE, MOVING, WITH_MOMENT};
 
 const DROP: &[SystemName] = &[SystemName::Drop];
 
@@ -80,7 +80,8 @@ pub(super) const KEYS: &[Key] = &[
         "deep groove",
         "Type of the bearing: it chooses factors of the friction moment, and whether there is a contact angle.",
     )
-    .default("deep groove", "the usual auxiliary bearing"),
+    .default("deep groove", "the usual auxiliary bearing")
+    .only(WITH_MOMENT),
     Key::new(
         "bearing.fidelity",
         Kind::Word(&["planar", "rolling"]),
@@ -185,7 +186,8 @@ pub(super) const KEYS: &[Key] = &[
         "Static load rating C0.",
     )
     .positive()
-    .optional("no static safety, and no friction law that needs it"),
+    .optional("no static safety, and no friction law that needs it")
+    .only(WITH_MOMENT),
     Key::new(
         "bearing.limiting_speed",
         Kind::Quantity("rad/s"),
@@ -193,7 +195,8 @@ pub(super) const KEYS: &[Key] = &[
         "Limiting speed in continuous running. A run that exceeds it warns.",
     )
     .positive()
-    .optional("no warning about the speed can be given"),
+    .optional("no warning about the speed can be given")
+    .only(WITH_MOMENT),
     Key::new(
         "bearing.inner_race_mass",
         Kind::Quantity("kg"),
@@ -202,7 +205,7 @@ pub(super) const KEYS: &[Key] = &[
     )
     .positive()
     .catalogued()
-    .only(MOVING),
+    .only(FREE_RACE),
     Key::new(
         "bearing.inner_race_inertia",
         Kind::Quantity("kg m^2"),
@@ -280,7 +283,7 @@ pub(super) const KEYS: &[Key] = &[
         "Hold the centre of the inner race, which then only turns.",
     )
     .default("false", "the inner race moves on its balls")
-    .only(MOVING),
+    .only(FREE_RACE),
     Key::new(
         "bearing.inner_race_torque",
         Kind::Quantity("N m"),

@@ -7,12 +7,12 @@ pub(super) const SECTIONS: &[Section] = &[
     Section {
         path: "bearing.moment",
         doc: "Steady friction moment of the bearing: what its inner race feels against a steady rotation.",
-        systems: super::table::WITH_BEARING,
+        systems: super::table::WITH_MOMENT,
     },
     Section {
         path: "bearing.acceleration_loss",
         doc: "Friction F of the balls in their pockets while the race accelerates, as a sum over the balls: it resists both races, with the sign of the rotation, whatever the sign of the acceleration.",
-        systems: &[SystemName::SpinUp, SystemName::Torque],
+        systems: &[SystemName::SpinUp, SystemName::Torque, SystemName::Rig],
     },
 ];
 

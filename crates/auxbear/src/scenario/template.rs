@@ -14,6 +14,8 @@ pub fn template(kind: &str) -> Option<String> {
         SystemName::Drop => "A levitated rotor drops onto its auxiliary bearing.",
         SystemName::SpinUp => "The inner race of a bearing is brought to speed.",
         SystemName::Signals => "Speed, torque and cage speed from a measurement.",
+        SystemName::Rig => "A test on a rig, and the raw file of its logger.",
+        SystemName::Identify => "What measured tests tell of a bearing.",
         SystemName::Torque => "The torque of a bearing over speed, load and acceleration.",
     };
     let mut out = String::new();

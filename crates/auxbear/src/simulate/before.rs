@@ -44,7 +44,8 @@ impl Machine<'_> {
                 asked.torque.static_load_rating,
                 asked.torque.loads.iter().copied().fold(0.0, f64::max),
             ),
-            Built::Signals(_) => (None, 0.0),
+            Built::Rig(rig, _) => (rig.bearing.static_load_rating, rig.load.radial_load),
+            Built::Signals(_) | Built::Identify(_) => (None, 0.0),
         };
         let above = rating.filter(|rating| load > *rating);
         let warning = above.map(|rating| Warning {
@@ -58,7 +59,8 @@ impl Machine<'_> {
         let rated = match &self.system {
             Built::Drop(drop, _) => speed_rating(&drop.bearing, drop.rotor.speed),
             Built::SpinUp(spin_up, _) => speed_rating(&spin_up.bearing, spin_up.target_speed()),
-            Built::Torque(_) | Built::Signals(_) => None,
+            Built::Rig(rig, _) => speed_rating(&rig.bearing, rig.speed),
+            Built::Torque(_) | Built::Signals(_) | Built::Identify(_) => None,
         };
         warning.into_iter().chain(rated).collect()
     }
@@ -67,7 +69,8 @@ impl Machine<'_> {
         match &self.system {
             Built::Drop(_, built) => built.steady.as_ref(),
             Built::SpinUp(_, built) => built.steady.as_ref(),
-            Built::Torque(_) | Built::Signals(_) => None,
+            Built::Rig(_, built) => built.steady.as_ref(),
+            Built::Torque(_) | Built::Signals(_) | Built::Identify(_) => None,
         }
     }
 }

@@ -113,6 +113,7 @@ pub(super) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Opt
             rolling_cage_ratio: machine.rolling_cage_ratio(),
             balls: drop.bearing.ball_count,
         },
+        files: Vec::new(),
     }
 }
 

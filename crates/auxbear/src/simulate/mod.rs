@@ -7,6 +7,7 @@
 //! | [`ensemble`] | one machine or many, in lanes and threads |
 //! | `drop`, `spin_up`, `torque` | runs a system and names what came out |
 //! | `signals` | reads a measurement and names what it holds |
+//! | [`rig`] | runs a test on a rig and writes what its logger would have written |
 //! | `quantities`, `list` | each named result with its law, source and valid range |
 //! | `columns`, `columns_shared` | the history |
 //! | `warnings`, `warnings_shared` | what to know before trusting the numbers |
@@ -26,12 +27,14 @@ mod drop;
 mod ending;
 pub mod ensemble;
 mod film;
+mod identify;
 mod list;
 mod method;
 pub mod outcome;
 mod quantities;
 mod quantities_spin_up;
 mod quantities_torque;
+pub mod rig;
 mod signals;
 mod skid;
 mod spin_up;
@@ -42,7 +45,7 @@ mod warnings_spin_up;
 mod warnings_torque;
 
 use crate::problem::Problem;
-use crate::scenario::{Drop, Scenario, SpinUp, System};
+use crate::scenario::{Drop, Rig, Scenario, SpinUp, System};
 pub use measure::file::parquet::panic_is_caught;
 pub use outcome::Outcome;
 use std::sync::atomic::AtomicBool;
@@ -99,6 +102,8 @@ enum Built<'a> {
     SpinUp(&'a SpinUp, Box<build_spin_up::Built>),
     Torque(Box<torque::Asked<'a>>),
     Signals(Box<signals::Asked<'a>>),
+    Rig(&'a Rig, Box<rig::build::Built>),
+    Identify(Box<identify::Asked<'a>>),
 }
 
 /// Builds the machine that the scenario describes; runs nothing but the steady run that scales a friction moment, which
@@ -116,6 +121,12 @@ pub fn build<'a>(scenario: &'a Scenario, options: &Options) -> Result<Machine<'a
         System::Signals(signals) => {
             signals::Asked::of(signals).map(|asked| Built::Signals(Box::new(asked)))
         }
+        System::Identify(identify) => {
+            identify::Asked::of(identify).map(|asked| Built::Identify(Box::new(asked)))
+        }
+        System::Rig(rig) => {
+            rig::build::rig(rig, options).map(|built| Built::Rig(rig, Box::new(built)))
+        }
     };
     let system = system.map_err(|problem| scenario.locate(problem))?;
     Ok(Machine { scenario, system })
@@ -129,6 +140,8 @@ impl Machine<'_> {
             Built::SpinUp(spin_up, built) => spin_up::run(self.scenario, spin_up, built, options),
             Built::Torque(asked) => torque::run(self.scenario, asked),
             Built::Signals(asked) => signals::run(self.scenario, asked),
+            Built::Identify(asked) => identify::run(self.scenario, asked, options),
+            Built::Rig(rig, built) => rig::run(self.scenario, rig, built, options),
         };
         let mut before = self.warnings();
         before.retain(|warning| {

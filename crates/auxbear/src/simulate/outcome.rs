@@ -23,6 +23,26 @@ pub struct Outcome {
     pub members: Vec<Vec<(String, Option<f64>)>>,
     /// Numbers that only the pictures need.
     pub picture: Picture,
+    /// Files that the run leaves beside its results.
+    pub files: Vec<Attachment>,
+}
+
+/// A file that a run leaves beside its results.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attachment {
+    /// Name in the run directory.
+    pub name: String,
+    /// What stands in it.
+    pub content: Attached,
+}
+
+/// What stands in a file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Attached {
+    /// A text.
+    Text(String),
+    /// Channels of a measurement with their values; the name of the file tells the format.
+    Recording(Vec<(measure::recording::Channel, Vec<f64>)>),
 }
 
 /// A named result.

@@ -87,6 +87,7 @@ pub(super) fn run(
             rolling_cage_ratio: built.machine.constants.bearing.rolling_cage_ratio(),
             balls: spin_up.bearing.ball_count,
         },
+        files: Vec::new(),
     }
 }
 

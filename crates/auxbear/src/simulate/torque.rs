@@ -158,6 +158,7 @@ pub(super) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
             rolling_cage_ratio: asked.set.cage_speed(1.0),
             balls: torque.ball_count,
         },
+        files: Vec::new(),
     }
 }
 

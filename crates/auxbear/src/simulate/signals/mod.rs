@@ -273,5 +273,6 @@ pub(super) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
                 .as_ref()
                 .map_or(0, |cage| cage.ball_count),
         },
+        files: Vec::new(),
     }
 }

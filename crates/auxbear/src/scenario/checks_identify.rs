@@ -1,0 +1,53 @@
+//! Checks of what measured tests are to tell.
+
+use super::checks::{Check, Context};
+use super::identify::Identify;
+use super::table;
+use crate::problem::Code;
+
+const ROTOR: &str = "identify.rotor_friction";
+const ROTOR_FILE: &str = "identify.rotor_friction.file";
+
+impl Context<'_> {
+    pub(super) fn identify(&self, identify: &Identify) -> Check {
+        self.geometry(
+            identify.ball_count,
+            identify.ball_diameter,
+            identify.pitch_diameter,
+        )?;
+        if let Some(twice) =
+            (identify.tests.iter()).find(|test| identify.coast_downs.contains(test))
+        {
+            return self.refuse(
+                Code::Conflict,
+                "identify.tests",
+                format!("{}, which is a coast-down too", twice.display()),
+                "a test is either slow, and tells the steady moment, or has acceleration",
+            );
+        }
+        match &identify.rotor_friction {
+            Some(_) => {
+                for key in ["rotor_speed", "radial_load", "bore_diameter", "inertia"] {
+                    let path = table::keys().find(|k| k.section() == ROTOR && k.name() == key);
+                    if let Some(path) = path {
+                        self.needed(path.path, ROTOR_FILE)?;
+                    }
+                }
+                Ok(())
+            }
+            None => {
+                let given = table::keys()
+                    .find(|key| key.section() == ROTOR && self.values.is_given(key.path));
+                match given {
+                    None => Ok(()),
+                    Some(key) => self.refuse(
+                        Code::UnusedKey,
+                        key.path,
+                        "a key that has no effect".to_string(),
+                        &format!("{ROTOR_FILE} is needed with it"),
+                    ),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! What measured tests are to tell of a bearing, as typed values in SI.
+
+use super::bearing::{BallMaterial, ball_material};
+use super::resolve::Values;
+use super::section::Section;
+use std::path::PathBuf;
+
+/// Tests of one bearing and what is asked of them. All values are SI.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Identify {
+    /// Name of the bearing in the catalogue.
+    pub bearing: Option<String>,
+    /// Number of balls.
+    pub ball_count: usize,
+    /// Diameter of a ball, m.
+    pub ball_diameter: f64,
+    /// Diameter of the circle through the ball centres, m.
+    pub pitch_diameter: f64,
+    /// Material of the balls.
+    pub ball_material: BallMaterial,
+    /// Mass of one ball, kg; derived from diameter and material where it is `None`.
+    pub ball_mass: Option<f64>,
+    /// Mass of the cage, kg; 0 where there is none.
+    pub cage_mass: f64,
+    /// Signals files of slow tests.
+    pub coast_downs: Vec<PathBuf>,
+    /// Signals files of tests with acceleration.
+    pub tests: Vec<PathBuf>,
+    /// Weight on the bearing in tests that give none, N.
+    pub radial_load: Option<f64>,
+    /// Speed at which tests are compared, rad/s.
+    pub analysed_speed: Option<f64>,
+    /// Whether the balls are stated to roll.
+    pub rolling_stated: bool,
+    /// Kinematic viscosity, m²/s.
+    pub viscosity: Option<f64>,
+    /// Part by which the moment changes per kelvin, 1/K.
+    pub moment_per_kelvin: f64,
+    /// How explanations are compared; none where they are not.
+    pub explanations: Option<Explanations>,
+    /// Sliding friction of a dropped rotor.
+    pub rotor_friction: Option<RotorFriction>,
+}
+
+/// How explanations are compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Explanations {
+    /// Probability from which on one is taken.
+    pub decide_at: f64,
+    /// Seed of the sampled parameters.
+    pub seed: u64,
+}
+
+/// A dropped rotor that brings an inner race up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RotorFriction {
+    /// Signals file with the speed of the race.
+    pub file: PathBuf,
+    /// Spin of the rotor, rad/s.
+    pub rotor_speed: f64,
+    /// Force of the rotor on the race, N.
+    pub radial_load: f64,
+    /// Its relative standard deviation.
+    pub load_deviation: f64,
+    /// Diameter at which the rotor slides, m.
+    pub bore_diameter: f64,
+    /// Inertia of the inner race with its sleeve, kg m².
+    pub inertia: f64,
+}
+
+impl Identify {
+    pub(super) fn from_values(values: &Values) -> Identify {
+        let section = |path| Section { values, path };
+        let (bearing, identify) = (section("bearing"), section("identify"));
+        let (explanations, rotor) = (
+            section("identify.explanations"),
+            section("identify.rotor_friction"),
+        );
+        let files = |path| values.texts(path).iter().map(PathBuf::from).collect();
+        Identify {
+            bearing: values.text("bearing.name"),
+            ball_count: bearing.count("ball_count") as usize,
+            ball_diameter: bearing.number("ball_diameter"),
+            pitch_diameter: bearing.number("pitch_diameter"),
+            ball_material: ball_material(&bearing),
+            ball_mass: bearing.maybe("ball_mass"),
+            cage_mass: bearing.maybe("cage_mass").unwrap_or(0.0),
+            coast_downs: files("identify.coast_down"),
+            tests: files("identify.tests"),
+            radial_load: identify.maybe("radial_load"),
+            analysed_speed: identify.maybe("analysed_speed"),
+            rolling_stated: identify.word("rolling") == "stated",
+            viscosity: identify.maybe("viscosity"),
+            moment_per_kelvin: identify.number("moment_per_kelvin"),
+            explanations: explanations.switch("compare").then(|| Explanations {
+                decide_at: explanations.number("decide_at"),
+                seed: explanations.count("seed"),
+            }),
+            rotor_friction: values
+                .text("identify.rotor_friction.file")
+                .map(|file| RotorFriction {
+                    file: file.into(),
+                    rotor_speed: rotor.maybe("rotor_speed").unwrap_or(f64::NAN),
+                    radial_load: rotor.maybe("radial_load").unwrap_or(f64::NAN),
+                    load_deviation: rotor.number("load_deviation"),
+                    bore_diameter: rotor.maybe("bore_diameter").unwrap_or(f64::NAN),
+                    inertia: rotor.maybe("inertia").unwrap_or(f64::NAN),
+                }),
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! The history of a test on a rig as columns: what happened, not what the logger saw.
+
+use super::Context;
+use crate::simulate::columns_shared::{BearingPlace, Table};
+use crate::simulate::outcome::Column;
+use model::bearing::BearingConstants;
+use model::system::rig::layout::{
+    ARM, BEARING, DETAIL, FLYWHEEL, HEATS, HOUSING, LAND_FORCE, LARGEST_INNER_LOAD,
+    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, PROBES, SHAFT, SOURCES, TEMPERATURE, THERMOCOUPLE,
+};
+use model::system::rig::rate::race_motion;
+
+/// What the probes of the model are, in their order; empty where another column tells it.
+const MEANINGS: [&str; PROBES.len()] = [
+    "moment t_I of the bearing that resists the shaft",
+    "moment t_O of the bearing on the outer race: what the arm is to measure",
+    "friction moment M of the law at this speed and load",
+    "cage slip, 1 less cage speed over its rolling speed; 0 at rest",
+    "acceleration of the shaft",
+    "acceleration of the flywheel",
+    "torque of the clutch on the shaft",
+    "torque that the clutch can carry",
+    "speed by which the flywheel is ahead of the shaft",
+    "torque of the motor on the flywheel",
+    "drag of belt and flywheel bearings",
+    "drag of the shaft's own bearings",
+    "what lateral vibration adds to the moment that the arm feels",
+    "spin of the cage",
+    "size of the force of the balls on the outer race",
+    "heat made in the bearing",
+    "rate of the angular momentum of balls and cage",
+    "sum of the ball loads at the inner race",
+    "largest ball load at the inner race",
+    "largest ball load at the outer race",
+    "",
+    "",
+];
+
+/// All columns; `time` first.
+pub(super) fn history(context: &Context) -> Vec<Column> {
+    let machine = &context.built.machine;
+    let layout = machine.layout();
+    let mut table = Table::over(context.record.rows());
+    let bearing = BearingPlace {
+        bearing: &machine.constants.bearing,
+        inner: SHAFT,
+        states: layout.bearing(),
+        detail: DETAIL,
+        largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
+        cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
+        pressure_factors: context.built.pressure_factors,
+        motion: race_motion,
+    };
+    table.add("time", "s", "time since the start", |row| row.time);
+    for (name, unit, meaning, channel) in [
+        (
+            "bearing.inner_race.speed",
+            "rad/s",
+            "spin of the shaft with the inner race",
+            SHAFT + 1,
+        ),
+        (
+            "flywheel.speed",
+            "rad/s",
+            "spin of the flywheel",
+            FLYWHEEL + 1,
+        ),
+        (
+            "arm.reading",
+            "N m",
+            "torque that the swinging arm indicates, before its gauges",
+            ARM,
+        ),
+        (
+            "bearing.temperature_rise",
+            "K",
+            "temperature of the bearing above the ambient",
+            TEMPERATURE,
+        ),
+        (
+            "thermocouple.temperature_rise",
+            "K",
+            "what the thermocouple has of it",
+            THERMOCOUPLE,
+        ),
+    ] {
+        table.channel(name, unit, meaning, channel);
+    }
+    if !machine.constants.housing.centre_held {
+        for (k, (name, meaning)) in [
+            ("housing.x", "centre of the outer race, to the right"),
+            ("housing.y", "centre of the outer race, upwards"),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            table.channel(name, "m", meaning, HOUSING + k);
+        }
+    }
+    for (probe, ((name, unit), meaning)) in PROBES.iter().zip(MEANINGS).enumerate() {
+        if !meaning.is_empty() {
+            table.probe(name, unit, meaning, probe);
+        }
+    }
+    if let BearingConstants::Rolling(_) = machine.constants.bearing {
+        table.channel("bearing.cage.angle", "rad", "angle of the cage", BEARING);
+    }
+    table.cage(&bearing);
+    table.balls(&bearing);
+    table.flows(
+        "the start",
+        bearing.bearing,
+        (&HEATS, layout.heat(0)),
+        (&SOURCES, layout.source(0)),
+    );
+    table.channel(
+        "energy.outer_race.moment_work",
+        "J",
+        "time integral of t_O times the speed of the shaft",
+        layout.work(1),
+    );
+    table.channel(
+        "energy.outer_race.path_term",
+        "J",
+        "integral of the shaft's speed over the angular momentum of balls and cage",
+        layout.work(2),
+    );
+    table.energies(|state| machine.balance(context.start, state));
+    table.columns
+}

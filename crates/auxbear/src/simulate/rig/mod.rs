@@ -1,0 +1,147 @@
+//! Runs a test on a rig, names what came out, and writes what its logger would have written.
+//!
+//! | page | subject |
+//! |---|---|
+//! | [`build`] | scenario → constants of the model |
+//! | `chain` | from what happened to what the logger writes |
+//! | `raw_file` | the raw file, and the file that says what its channels are |
+//! | `columns`, `quantities`, `warnings` | what happened, by names |
+
+pub mod build;
+mod chain;
+mod columns;
+mod quantities;
+mod raw_file;
+mod warnings;
+
+use super::ending::{settings, stop};
+use super::outcome::{Outcome, Picture, Work};
+use super::{Options, method};
+use crate::scenario::{Rig, Scenario};
+use build::Built;
+use chain::{Happened, Sampled};
+use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
+use model::system::rig::record::Keep;
+use model::system::rig::taps::multiplexed;
+use model::system::rig::{Record, Tap, simulate};
+use solve::Ending;
+use std::time::Instant;
+
+/// Everything the pages that name results need to know.
+struct Context<'a> {
+    rig: &'a Rig,
+    built: &'a Built,
+    start: &'a [f64],
+    record: &'a Record,
+    ending: &'a Ending,
+    mode: model::system::rig::Mode,
+    /// Values that the converter could not hold, with the channel's name.
+    clipped: Vec<(&'static str, usize)>,
+}
+
+/// Runs a test.
+pub(super) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> Outcome {
+    let machine = &built.machine;
+    let clock = Instant::now();
+    let taps = taps(rig);
+    let end = rig.run.duration;
+    let keep = Keep {
+        end,
+        interval: Some(rig.run.output_interval),
+        taps: &taps,
+    };
+    let mut record = Record::new(machine, &keep);
+    let run = simulate(
+        machine,
+        &settings(&rig.run),
+        &mut record,
+        options.interrupt,
+    );
+    let seconds = clock.elapsed().as_secs_f64();
+    let raw = chain::raw(rig, &happened(rig, &record));
+    let context = Context {
+        rig,
+        built,
+        start: &run.start,
+        record: &record,
+        ending: &run.ending,
+        mode: run.mode,
+        clipped: raw
+            .iter()
+            .filter(|channel| channel.clipped > 0)
+            .map(|channel| (channel.name, channel.clipped))
+            .collect(),
+    };
+    let title = (scenario.title.clone()).unwrap_or_else(|| "Test on a rig".to_string());
+    let quantities = quantities::name(&context);
+    let rolling_cage_ratio = machine.constants.bearing.rolling_cage_ratio();
+    Outcome {
+        system: "rig",
+        history: columns::history(&context),
+        contacts: Vec::new(),
+        warnings: warnings::of(scenario, &context, &quantities),
+        quantities,
+        stop: stop(&run.ending),
+        work: Work {
+            members: 1,
+            steps: run.ending.work.accepted,
+            rejected: run.ending.work.rejected,
+            rate_calls: run.ending.work.rate_calls,
+            seconds,
+            method: Some(method::EXPLICIT),
+        },
+        members: Vec::new(),
+        picture: Picture {
+            clearance: None,
+            pressure_limit: rig.bearing.hertz_pressure_limit,
+            rolling_cage_ratio,
+            balls: rig.bearing.ball_count,
+        },
+        files: raw_file::files(rig, &title, raw, rolling_cage_ratio),
+        title,
+    }
+}
+
+/// What the converter samples: the channels in turn. A counter sees the shaft as often as a channel would; its speed beside
+/// the angle tells what lies between.
+fn taps(rig: &Rig) -> Vec<Tap> {
+    let analog = chain::analog(rig);
+    let mut channels = Vec::new();
+    if analog {
+        channels.push(SHAFT);
+    }
+    channels.push(ARM);
+    if rig.ball_pass.is_some() {
+        channels.push(CAGE_ANGLE);
+    }
+    channels.push(THERMOCOUPLE);
+    let mut taps = multiplexed(&channels, rig.logger.total_rate);
+    if !analog {
+        let interval = taps[0].interval;
+        taps.extend([SHAFT, SHAFT + 1].map(|channel| Tap {
+            channel,
+            first: 0.0,
+            interval,
+        }));
+    }
+    taps
+}
+
+fn happened(rig: &Rig, record: &Record) -> Happened {
+    let sampled = |channel: usize| {
+        let tap = record.taps.iter().find(|(tap, _)| tap.channel == channel);
+        tap.map_or_else(Sampled::default, |(tap, values)| Sampled {
+            first: tap.first,
+            interval: tap.interval,
+            values: values.to_vec(),
+        })
+    };
+    Happened {
+        shaft_angle: sampled(SHAFT),
+        shaft_speed: sampled(SHAFT + 1),
+        arm: sampled(ARM),
+        cage_angle: sampled(CAGE_ANGLE),
+        thermocouple: sampled(THERMOCOUPLE),
+        begin: chain::begin(rig),
+    }
+}

@@ -1,0 +1,275 @@
+//! Every named result of a test on a rig with its law, source and valid range: what happened, not what was measured of it.
+
+use super::Context;
+use crate::scenario::{Fidelity, RigProgram};
+use crate::simulate::list::{List, Origin, relative};
+use crate::simulate::outcome::{Quantity, Value};
+use model::system::rig::layout::{
+    CAGE_SLIP, CAGE_SPEED, CLUTCH_HEAT, FLYWHEEL, HEATS, INNER_MOMENT, OUTER_MOMENT, SHAFT,
+    STEADY_MOMENT,
+};
+
+const EQUATIONS: &str = "equations of motion, crates/model/src/system/rig/rate.rs";
+const LEDGER: &str = "energy ledger, crates/model/src/system/rig/ledger.rs";
+
+/// Names the results.
+pub(super) fn name(context: &Context) -> Vec<Quantity> {
+    let mut list = List(Vec::new());
+    engagement(&mut list, context);
+    moments(&mut list, context);
+    loads(&mut list, context);
+    energies(&mut list, context);
+    if context.ending.time == 0.0 {
+        list.clear("the run ended before its first step");
+    }
+    list.0
+}
+
+fn engagement(list: &mut List, context: &Context) {
+    let (record, state) = (context.record, &context.ending.state);
+    let engages = match context.rig.program {
+        RigProgram::SpinUp { engage_at, .. } | RigProgram::RepeatAfterRest { engage_at, .. } => {
+            Ok(engage_at)
+        }
+        RigProgram::CoastDown { .. } | RigProgram::RampAndHold { .. } => {
+            Err("the clutch does not engage in this test".to_string())
+        }
+    };
+    list.number("engagement_time", "s", engages.clone(), &ENGAGEMENT);
+    list.number(
+        "clutch_torque_rate",
+        "N m/s",
+        (context.built.torque_rate)
+            .ok_or_else(|| "the clutch does not engage in this test".to_string()),
+        &RATE,
+    );
+    let locked = engages.and_then(|_| {
+        record
+            .locked_at()
+            .ok_or_else(|| "the clutch still slips at the end".to_string())
+    });
+    list.number("clutch_lock_time", "s", locked, &ENGAGEMENT);
+    list.number(
+        "peak_acceleration",
+        "rad/s^2",
+        Ok(record.acceleration.value),
+        &PEAK_ACCELERATION,
+    );
+    let level = |share: f64| move || format!("{share} % of rig.speed was not reached");
+    for (name, time, why) in [
+        (
+            "shaft_time_to_50_percent",
+            record.shaft_time_to_50_percent(),
+            level(50.0),
+        ),
+        (
+            "shaft_time_to_95_percent",
+            record.shaft_time_to_95_percent(),
+            level(95.0),
+        ),
+        (
+            "cage_time_to_95_percent_of_rolling",
+            record.cage_time_to_95_percent(),
+            level(95.0),
+        ),
+    ] {
+        list.number(name, "s", time.ok_or_else(why), &RISE);
+    }
+    list.number("shaft_final_speed", "rad/s", Ok(state[SHAFT + 1]), &SPEED);
+    list.number(
+        "flywheel_final_speed",
+        "rad/s",
+        Ok(state[FLYWHEEL + 1]),
+        &SPEED,
+    );
+    list.number(
+        "cage_final_speed",
+        "rad/s",
+        Ok(probes(context)[CAGE_SPEED]),
+        &SPEED,
+    );
+    list.number(
+        "peak_clutch_torque",
+        "N m",
+        Ok(record.clutch_torque.value),
+        &PEAK_MOMENT,
+    );
+}
+
+fn moments(list: &mut List, context: &Context) {
+    let record = context.record;
+    let probe = probes(context);
+    list.number(
+        "peak_inner_race_moment",
+        "N m",
+        Ok(record.inner_moment.value),
+        &PEAK_MOMENT,
+    );
+    list.number(
+        "peak_outer_race_moment",
+        "N m",
+        Ok(record.outer_moment.value),
+        &PEAK_MOMENT,
+    );
+    for (name, index) in [
+        ("inner_race_moment_at_end", INNER_MOMENT),
+        ("outer_race_moment_at_end", OUTER_MOMENT),
+        ("law_moment_at_end", STEADY_MOMENT),
+    ] {
+        list.number(name, "N m", Ok(probe[index]), &AT_END);
+    }
+    let turns = context.ending.state[SHAFT + 1].abs() > 0.05 * context.rig.speed;
+    list.number(
+        "cage_slip_at_end",
+        "1",
+        match (context.rig.bearing.fidelity, turns) {
+            (Fidelity::Rolling, _) => {
+                Err("the rolling fidelity takes the balls to roll".to_string())
+            }
+            (Fidelity::Planar, false) => Err("the shaft hardly turns at the end".to_string()),
+            (Fidelity::Planar, true) => {
+                Ok((record.last_cage_slip()).unwrap_or_else(|| probe[CAGE_SLIP]))
+            }
+        },
+        &SLIP,
+    );
+    list.number(
+        "peak_temperature_rise",
+        "K",
+        Ok(record.temperature.value),
+        &TEMPERATURE,
+    );
+}
+
+fn loads(list: &mut List, context: &Context) {
+    let record = context.record;
+    list.ball_loads(
+        [
+            record.largest_inner_load.value,
+            record.largest_outer_load.value,
+        ],
+        context.built.pressure_factors,
+        context.rig.bearing.hertz_pressure_limit,
+    );
+}
+
+fn energies(list: &mut List, context: &Context) {
+    let machine = &context.built.machine;
+    let (start, end) = (context.start, &context.ending.state);
+    let layout = machine.layout();
+    let balance = machine.balance(start, end);
+    list.number("dissipated_energy", "J", Ok(balance.heat()), &ENERGY);
+    list.number(
+        "clutch_heat",
+        "J",
+        Ok(end[layout.heat(CLUTCH_HEAT)]),
+        &ENERGY,
+    );
+    let of_bearing = (0..HEATS.len())
+        .filter(|index| *index < CLUTCH_HEAT)
+        .map(|index| end[layout.heat(index)])
+        .sum();
+    list.number("bearing_dissipated_energy", "J", Ok(of_bearing), &ENERGY);
+    list.number(
+        "energy_residual",
+        "1",
+        relative(
+            balance.energy_residual(),
+            balance.heat().max(balance.work_size()),
+        ),
+        &RESIDUAL,
+    );
+    list.number(
+        "angular_momentum_residual",
+        "N m s",
+        Ok(machine.bearing_momentum_residual(start, end)),
+        &MOMENTUM,
+    );
+    list.push(
+        "clipped_channels",
+        "",
+        match context.clipped.as_slice() {
+            [] => Value::Text("none".to_string()),
+            clipped => Value::Text(
+                clipped
+                    .iter()
+                    .map(|(name, count)| format!("{name}: {count} values"))
+                    .collect::<Vec<_>>()
+                    .join(", "),
+            ),
+        },
+        &CLIPPED,
+    );
+}
+
+/// The probes at the end.
+fn probes(context: &Context) -> Vec<f64> {
+    let machine = &context.built.machine;
+    (machine.inspect(&context.mode, context.ending.time, &context.ending.state)).1
+}
+
+const ENGAGEMENT: Origin = Origin {
+    law: "engaged as the program says; locked where flywheel and shaft first turn alike",
+    source: "crates/model/src/system/rig/clutch.rs",
+    valid: "the instant of locking is found on the dense output of the step",
+};
+const RATE: Origin = Origin {
+    law: "rise of the torque that the clutch can carry: as given, or found for the wanted peak acceleration",
+    source: "crates/model/src/system/rig/ramp.rs",
+    valid: "found with balls that roll; balls that skid take a little less of the shaft",
+};
+const PEAK_ACCELERATION: Origin = Origin {
+    law: "largest acceleration of the shaft",
+    source: EQUATIONS,
+    valid: "at the ends of the steps, which include the locking",
+};
+const RISE: Origin = Origin {
+    law: "first instant at which the speed reaches the level of rig.speed",
+    source: EQUATIONS,
+    valid: "time counts from the start of the test",
+};
+const SPEED: Origin = Origin {
+    law: "angular momentum of each body about its axis",
+    source: EQUATIONS,
+    valid: "stiff shaft and clutch",
+};
+const PEAK_MOMENT: Origin = Origin {
+    law: "largest size of the moment at the ends of the steps",
+    source: EQUATIONS,
+    valid: "what happened; the arm swings and the logger adds noise",
+};
+const AT_END: Origin = Origin {
+    law: "t_I on the shaft, t_O on the outer race, and M(Ω, W) of the law, at the last instant",
+    source: EQUATIONS,
+    valid: "a single instant",
+};
+const SLIP: Origin = Origin {
+    law: "S = 1 - 2(1+s)ω_c/Ω, mean over the last cage turn",
+    source: "kinematics of a rolling ball, crates/physics/src/kinematics.rs",
+    valid: "as it happened; what a sensor tells has its own band",
+};
+const TEMPERATURE: Origin = Origin {
+    law: "C Ṫ = heats of the bearing - G T",
+    source: EQUATIONS,
+    valid: "one node; the moment does not depend on it unless bearing.lubricant_state says so",
+};
+const ENERGY: Origin = Origin {
+    law: "time integral of every loss: force or couple times the relative speed",
+    source: LEDGER,
+    valid: "from the start of the test to its end",
+};
+const RESIDUAL: Origin = Origin {
+    law: "what the ledger misses at the end, over max(heat, works)",
+    source: LEDGER,
+    valid: "a measure of the integration error; it falls with run.tolerance",
+};
+const MOMENTUM: Origin = Origin {
+    law: "∫(t_I - t_O - t_g + moments of weights and of forces off the centre) dt - ΔL of balls and cage",
+    source: LEDGER,
+    valid: "zero but for errors: t_I - t_O = dL/dt on the concentric rig",
+};
+const CLIPPED: Origin = Origin {
+    law: "values beyond the range of the converter",
+    source: "crates/auxbear/src/simulate/rig/chain.rs",
+    valid: "the raw file holds the end of the range there",
+};

@@ -1,0 +1,99 @@
+//! The raw file of a test, as a laboratory's logger leaves it, and the file that tells `auxbear signals` what it holds.
+
+use super::chain::RawChannel;
+use crate::scenario::{RawFormat, Rig, RigPickupKind};
+use crate::simulate::outcome::{Attached, Attachment};
+use measure::recording::{Channel, Clock};
+
+/// Name of the file that tells what the channels are.
+const SIGNALS: &str = "signals.toml";
+
+/// What a laboratory would state of a sensor that it has calibrated.
+const SCALE_DEVIATION: f64 = 0.005;
+
+/// Name of the raw file.
+fn name(format: RawFormat) -> &'static str {
+    match format {
+        RawFormat::Tdms => "raw.tdms",
+        RawFormat::Csv => "raw.csv",
+        RawFormat::Parquet => "raw.parquet",
+    }
+}
+
+/// The raw file and its description.
+pub(super) fn files(
+    rig: &Rig,
+    title: &str,
+    raw: Vec<RawChannel>,
+    rolling_ratio: f64,
+) -> Vec<Attachment> {
+    let name = name(rig.logger.format);
+    let signals = signals(rig, title, name, &raw, rolling_ratio);
+    let channels = raw.into_iter().map(|channel| {
+        let told = Channel {
+            unit: channel.unit.to_string(),
+            description: channel.description,
+            clock: match channel.interval {
+                Some(interval) => Clock::Uniform {
+                    first: 0.0,
+                    interval,
+                },
+                None => Clock::Unknown,
+            },
+            ..Channel::new(channel.name, channel.values.len() as u64)
+        };
+        (told, channel.values)
+    });
+    vec![
+        Attachment {
+            name: name.to_string(),
+            content: Attached::Recording(channels.collect()),
+        },
+        Attachment {
+            name: SIGNALS.to_string(),
+            content: Attached::Text(signals),
+        },
+    ]
+}
+
+/// What a laboratory would know of the channels.
+fn signals(
+    rig: &Rig,
+    title: &str,
+    file: &str,
+    raw: &[RawChannel],
+    rolling_ratio: f64,
+) -> String {
+    let delay = 1.0 / rig.logger.total_rate;
+    let quoted = |text: &str| text.replace('\\', "\\\\").replace('"', "\\\"");
+    let has = |name: &str| raw.iter().any(|channel| channel.name == name);
+    let mut text = format!(
+        "# What the channels of {file} are, as a laboratory would know it.\n\n\
+         format = \"{}\"\nsystem = \"signals\"\ntitle = \"Signals of: {}\"\n\n\
+         [signals]\nfile = \"{file}\"\nchannel_delay = \"{delay} s\"\nradial_load = \"{} N\"\n\n\
+         [signals.speed]\nchannel = \"rig/tacho\"\n",
+        crate::scenario::FORMAT,
+        quoted(title),
+        rig.load.radial_load,
+    );
+    match rig.pickup.kind {
+        RigPickupKind::Analog { .. } => text.push_str("kind = \"analog\"\n"),
+        RigPickupKind::Edges { stamp_deviation } => {
+            text.push_str(&format!(
+                "kind = \"edges\"\nstamp_deviation = \"{stamp_deviation} s\"\n"
+            ));
+        }
+    }
+    text.push_str(&format!(
+        "marks_per_revolution = {}\n\n\
+         [signals.torque]\nchannel = \"rig/torque\"\nsensor_frequency = \"{} Hz\"\ndamping_ratio = {}\nscale_deviation = {SCALE_DEVIATION}\n",
+        rig.pickup.marks, rig.arm.natural_frequency, rig.arm.damping_ratio,
+    ));
+    if has("rig/ball_pass") {
+        text.push_str(&format!(
+            "\n[signals.cage]\nchannel = \"rig/ball_pass\"\nkind = \"passings\"\nball_count = {}\nrolling_ratio = {rolling_ratio}\n",
+            rig.bearing.ball_count,
+        ));
+    }
+    text
+}

@@ -1,0 +1,561 @@
+//! What must be said of the tests before their numbers are believed.
+//!
+//! Each doubt is a finding with its numbers; nothing is averaged away, and nothing here changes a result. A doubt that compares
+//! values counts from three deviations on.
+//!
+//! **Does not model**: which of several causes it is (see [`explain`](crate::explain)); faults of a file or a sensor, which the
+//! estimators of `measure` note.
+
+use crate::dissipation::spin_up_window;
+use crate::measurement::Measurement;
+use crate::moment::{SteadyMoment, same_load};
+use crate::series::{RunningVariance, fastest, median, trapezoid};
+use measure::uncertain::Uncertain;
+use physics::rolling::RollingSet;
+use std::fmt;
+
+/// How the viscosity falls with temperature.
+#[derive(Clone, Copy)]
+pub enum ViscosityByTemperature<'a> {
+    /// ν(start + rise)/ν(start) for a rise in K.
+    Law(&'a dyn Fn(f64) -> f64),
+    /// Relative change per kelvin, 1/K, from the least to the largest in size, as -0.06 to -0.03: ν ∝ e^(change·rise).
+    PerKelvin(f64, f64),
+}
+
+/// What is known beside the tests.
+#[derive(Clone, Copy)]
+pub struct DoubtSettings<'a> {
+    /// Speed at which the tests are to be analysed, rad/s.
+    pub wanted_speed: Option<f64>,
+    /// Number of balls with which the cage signal was made.
+    pub ball_count: Option<u32>,
+    /// Whether the masses of balls and cage are known; if not the cage is taken from none to twice the balls.
+    pub masses_known: bool,
+    /// Viscosity by temperature, where a temperature is measured.
+    pub viscosity: Option<ViscosityByTemperature<'a>>,
+    /// Part of M that depends on viscosity, from its least to its largest, 1.
+    pub viscous_part: (f64, f64),
+    /// Shortest hold after a spin-up that shows whether the torque settles, s.
+    pub shortest_hold: f64,
+}
+
+impl Default for DoubtSettings<'_> {
+    /// Nothing known but the masses. The viscous part is from 0.3 to 1: a greased bearing under light load. The hold is 4 s: the
+    /// source paper's slow change takes 3 to 4 s.
+    fn default() -> Self {
+        Self {
+            wanted_speed: None,
+            ball_count: None,
+            masses_known: true,
+            viscosity: None,
+            viscous_part: (0.3, 1.0),
+            shortest_hold: 4.0,
+        }
+    }
+}
+
+/// One doubt.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Doubt {
+    /// A test never reaches the speed at which it is to be analysed.
+    NeverReaches {
+        /// Name of the test.
+        test: String,
+        /// Its fastest speed, rad/s.
+        reached: f64,
+        /// The speed that is wanted, rad/s.
+        wanted: f64,
+    },
+    /// The speed of a test leaves the curve of the steady moment.
+    OutsideMoment {
+        /// Name of the test.
+        test: String,
+        /// Part of its time while turning, 1.
+        part: f64,
+        /// Speeds of the curve, rad/s.
+        range: (f64, f64),
+    },
+    /// The settled torque is not that of the slow tests: another bearing, load, temperature or state of the lubricant.
+    ForeignSteadyMoment {
+        /// Name of the test.
+        test: String,
+        /// Speed, rad/s.
+        speed: f64,
+        /// Settled torque minus M, N m.
+        difference: Uncertain,
+        /// Settled torque over M, 1.
+        ratio: f64,
+    },
+    /// The slow tests were at another load.
+    LoadOfSteadyMoment {
+        /// Name of the test.
+        test: String,
+        /// Its load, N.
+        load: f64,
+        /// Load of the steady moment, N.
+        steady_load: f64,
+    },
+    /// Tests at different loads are together.
+    MixedLoads {
+        /// Each test with its load, N.
+        loads: Vec<(String, f64)>,
+    },
+    /// The masses of balls and cage are not known, and their inertia matters.
+    InertiaMissing {
+        /// Name of the test in which it matters most.
+        test: String,
+        /// Largest |Ω̇|, rad/s².
+        acceleration: f64,
+        /// Part of inertia in t_O there, N m, with no cage and with one of twice the balls' mass; none if the balls' mass is missing too.
+        torque: Option<(f64, f64)>,
+    },
+    /// The cage settles at another ratio than rolling, as it would if the balls had been counted wrongly.
+    WrongBallCount {
+        /// Name of the test.
+        test: String,
+        /// Balls that the signal was made with.
+        stated: u32,
+        /// Count that would make it roll.
+        fits: u32,
+        /// Measured ω_c over that of rolling, 1.
+        ratio: Uncertain,
+    },
+    /// The cage settles at a ratio that neither rolling nor another count explains.
+    CageNeverRolls {
+        /// Name of the test.
+        test: String,
+        /// Measured ω_c over that of rolling, 1.
+        ratio: Uncertain,
+    },
+    /// The rise of temperature can explain the whole difference to M by viscosity.
+    TemperatureExplains {
+        /// Name of the test.
+        test: String,
+        /// Rise from the start, K.
+        rise: f64,
+        /// Change of the torque that is expected of it, from the least to the largest, N m.
+        expected: (f64, f64),
+        /// Torque minus M at the end, N m.
+        difference: Uncertain,
+    },
+    /// The torque still changes at the end of the steady speed.
+    NotSettled {
+        /// Name of the test.
+        test: String,
+        /// Change from the last but one to the last quarter of the hold, N m.
+        change: Uncertain,
+        /// Between the middles of both, s.
+        over: f64,
+    },
+    /// The record is too short.
+    TooShort {
+        /// Name of the test.
+        test: String,
+        /// Duration of the steady speed after the spin-up, s.
+        lasts: f64,
+        /// Duration that is needed, s.
+        needed: f64,
+    },
+}
+
+/// Number of deviations from which on two values count as different.
+const APART: f64 = 3.0;
+
+/// All doubts of tests against a steady moment.
+///
+/// - `tests`: spin-ups with what follows
+/// - `steady`: M(Ω) of the slow tests; none if there is none
+/// - `set`: balls and cage
+/// - `settings`: what is known beside
+///
+/// Refused: measurements that are broken. Everything else is a doubt.
+pub fn doubts(
+    tests: &[&Measurement],
+    steady: Option<&SteadyMoment>,
+    set: &RollingSet<f64>,
+    settings: &DoubtSettings,
+) -> Result<Vec<Doubt>, String> {
+    for test in tests {
+        test.sound()?;
+    }
+    if let Some(steady) = steady {
+        steady.sound()?;
+    }
+    let mut found = Vec::new();
+    let Some(first) = tests.first() else {
+        return Ok(found);
+    };
+    if tests.iter().any(|test| !same_load(test.load, first.load)) {
+        found.push(Doubt::MixedLoads {
+            loads: tests.iter().map(|t| (t.name.clone(), t.load)).collect(),
+        });
+    }
+    inertia(tests, set, settings, &mut found);
+    for test in tests {
+        let top = fastest(test);
+        if let Some(wanted) = settings.wanted_speed
+            && top < wanted.abs()
+        {
+            found.push(Doubt::NeverReaches {
+                test: test.name.clone(),
+                reached: top,
+                wanted: wanted.abs(),
+            });
+        }
+        if let Some(steady) = steady {
+            if !same_load(test.load, steady.load) {
+                found.push(Doubt::LoadOfSteadyMoment {
+                    test: test.name.clone(),
+                    load: test.load,
+                    steady_load: steady.load,
+                });
+            }
+            outside(test, steady, &mut found);
+        }
+        cage(test, set, settings, &mut found);
+        hold(test, steady, settings, &mut found);
+    }
+    Ok(found)
+}
+
+fn inertia(
+    tests: &[&Measurement],
+    set: &RollingSet<f64>,
+    settings: &DoubtSettings,
+    found: &mut Vec<Doubt>,
+) {
+    let sound = |mass: f64| mass.is_finite() && mass > 0.0;
+    let balls = sound(set.balls_mass);
+    if settings.masses_known && balls && set.cage_mass.is_finite() && set.cage_mass >= 0.0 {
+        return;
+    }
+    let quickest = |test: &Measurement| {
+        test.acceleration
+            .iter()
+            .fold(0.0, |a: f64, x| a.max(x.abs()))
+    };
+    let Some(test) = tests
+        .iter()
+        .max_by(|a, b| quickest(a).total_cmp(&quickest(b)))
+    else {
+        return;
+    };
+    let with = |cage_mass: f64| RollingSet { cage_mass, ..*set }.outer_inertia() * quickest(test);
+    found.push(Doubt::InertiaMissing {
+        test: test.name.clone(),
+        acceleration: quickest(test),
+        torque: balls.then(|| (with(0.0), with(2.0 * set.balls_mass))),
+    });
+}
+
+fn outside(test: &Measurement, steady: &SteadyMoment, found: &mut Vec<Doubt>) {
+    let top = fastest(test);
+    let turning: Vec<f64> = test
+        .speed
+        .iter()
+        .map(|speed| speed.abs())
+        .filter(|speed| *speed > 0.02 * top)
+        .collect();
+    let (low, high) = steady.range();
+    let gone = turning
+        .iter()
+        .filter(|speed| !(low..=high).contains(*speed))
+        .count();
+    let part = gone as f64 / turning.len().max(1) as f64;
+    // a spin-up through the lowest speeds is not worth a word
+    if part > 0.02 {
+        found.push(Doubt::OutsideMoment {
+            test: test.name.clone(),
+            part,
+            range: (low, high),
+        });
+    }
+}
+
+/// Where the cage settles.
+fn cage(
+    test: &Measurement,
+    set: &RollingSet<f64>,
+    settings: &DoubtSettings,
+    found: &mut Vec<Doubt>,
+) {
+    let Some(cage) = &test.cage else { return };
+    let top = fastest(test);
+    let mut ratios = Vec::new();
+    let mut deviations = Vec::new();
+    for ((&time, &own), &deviation) in cage.time.iter().zip(&cage.speed).zip(&cage.deviation) {
+        let Some(speed) = crate::series::between(&test.time, &test.speed, time) else {
+            continue;
+        };
+        let Some(rate) = crate::series::between(&test.time, &test.acceleration, time) else {
+            continue;
+        };
+        // after the spin-up, at speed, without quick changes
+        let late = test
+            .engagement
+            .is_none_or(|start| time > start + 0.5 * (test.time[test.time.len() - 1] - start));
+        if late && speed.abs() > 0.5 * top && rate.abs() < top / 0.1 {
+            let rolling = set.cage_speed(speed);
+            ratios.push(own / rolling);
+            deviations.push(deviation / rolling.abs());
+        }
+    }
+    if ratios.len() < 3 {
+        return;
+    }
+    let middle = median(&ratios);
+    let spread = median(
+        &ratios
+            .iter()
+            .map(|r| (r - middle).abs())
+            .collect::<Vec<_>>(),
+    ) / 0.6745;
+    let ratio = Uncertain::new(middle, spread.max(median(&deviations)));
+    let away = |target: f64| (middle - target).abs();
+    if away(1.0) <= 0.01_f64.max(APART * ratio.deviation) {
+        return;
+    }
+    if let Some(stated) = settings.ball_count.filter(|count| *count > 0) {
+        let fits = (middle * f64::from(stated)).round();
+        let target = fits / f64::from(stated);
+        if (1.0..1000.0).contains(&fits)
+            && fits != f64::from(stated)
+            && away(target) <= 0.01_f64.max(APART * ratio.deviation)
+        {
+            found.push(Doubt::WrongBallCount {
+                test: test.name.clone(),
+                stated,
+                fits: fits as u32,
+                ratio,
+            });
+            return;
+        }
+    }
+    found.push(Doubt::CageNeverRolls {
+        test: test.name.clone(),
+        ratio,
+    });
+}
+
+/// The steady speed after a spin-up: its duration, and what the torque does there.
+fn hold(
+    test: &Measurement,
+    steady: Option<&SteadyMoment>,
+    settings: &DoubtSettings,
+    found: &mut Vec<Doubt>,
+) {
+    let Ok((_, start)) = spin_up_window(test) else {
+        return;
+    };
+    let top = fastest(test);
+    let end = test
+        .time
+        .iter()
+        .zip(&test.speed)
+        .filter(|(time, speed)| **time >= start && speed.abs() >= 0.95 * top)
+        .map(|(time, _)| *time)
+        .fold(start, f64::max);
+    let lasts = end - start;
+    if lasts < settings.shortest_hold {
+        found.push(Doubt::TooShort {
+            test: test.name.clone(),
+            lasts,
+            needed: settings.shortest_hold,
+        });
+    }
+    let quarter = 0.25 * lasts;
+    let inertia = set_free_mean(test, end - 2.0 * quarter, end - quarter);
+    let (Some(before), Some(last)) = (inertia, set_free_mean(test, end - quarter, end)) else {
+        return;
+    };
+    let change = Uncertain::new(last.0 - before.0, last.1.hypot(before.1));
+    if change.value.abs() > APART * change.deviation {
+        found.push(Doubt::NotSettled {
+            test: test.name.clone(),
+            change,
+            over: quarter,
+        });
+    }
+    let Some(steady) = steady else { return };
+    let late = test.between(end - quarter, end);
+    let speed = median(&late.speed);
+    let Some(moment) = steady.without_scale(speed) else {
+        return;
+    };
+    let sign = speed.signum();
+    let apart = sign * (last.0 - moment.value);
+    let difference = Uncertain::new(
+        apart,
+        last.1
+            .hypot(test.zero_deviation)
+            .hypot(moment.deviation)
+            .hypot(test.scale_deviation * apart),
+    );
+    if difference.value.abs() <= APART * difference.deviation {
+        return;
+    }
+    found.push(Doubt::ForeignSteadyMoment {
+        test: test.name.clone(),
+        speed,
+        difference,
+        ratio: last.0 / moment.value,
+    });
+    let Some(temperature) = &late.temperature else {
+        return;
+    };
+    let rise = median(temperature);
+    let Some(viscosity) = settings.viscosity else {
+        return;
+    };
+    let ratios = match viscosity {
+        ViscosityByTemperature::Law(law) => (law(rise), law(rise)),
+        ViscosityByTemperature::PerKelvin(a, b) => ((a * rise).exp(), (b * rise).exp()),
+    };
+    if !(ratios.0 > 0.0 && ratios.1 > 0.0) {
+        return;
+    }
+    let effects =
+        [ratios.0, ratios.1].map(|ratio| moment.value.abs() * (ratio.powf(2.0 / 3.0) - 1.0));
+    let (few, much) = settings.viscous_part;
+    let all = [
+        few * effects[0],
+        much * effects[0],
+        few * effects[1],
+        much * effects[1],
+    ];
+    let expected = all
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
+            (a.min(*x), b.max(*x))
+        });
+    let same_way = difference.value * (expected.0 + expected.1) > 0.0;
+    let most = expected.0.abs().max(expected.1.abs());
+    if same_way && most >= difference.value.abs() - 2.0 * difference.deviation {
+        found.push(Doubt::TemperatureExplains {
+            test: test.name.clone(),
+            rise,
+            expected,
+            difference,
+        });
+    }
+}
+
+/// Mean torque between two times and its deviation by noise alone.
+fn set_free_mean(test: &Measurement, from: f64, to: f64) -> Option<(f64, f64)> {
+    let part = test.between(from, to);
+    if part.time.len() < 2 {
+        return None;
+    }
+    let weights = trapezoid(&part.time);
+    let whole: f64 = weights.iter().sum();
+    let mut noise = RunningVariance::new(part.correlation_time);
+    let (mut sum, mut variance) = (0.0, 0.0);
+    for (k, weight) in weights.iter().enumerate() {
+        sum += weight / whole * part.torque[k];
+        variance = noise.add(part.time[k], weight / whole * part.torque_noise(k));
+    }
+    Some((sum, variance.max(0.0).sqrt()))
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Doubt::NeverReaches {
+                test,
+                reached,
+                wanted,
+            } => write!(
+                out,
+                "{test} reaches {reached:.4} rad/s, never the {wanted:.4} rad/s at which it is to be analysed"
+            ),
+            Doubt::OutsideMoment { test, part, range } => write!(
+                out,
+                "{test} runs outside {:.4} to {:.4} rad/s, where M was measured, for {:.1} % of its time: nothing is told there",
+                range.0,
+                range.1,
+                100.0 * part
+            ),
+            Doubt::ForeignSteadyMoment {
+                test,
+                speed,
+                difference,
+                ratio,
+            } => write!(
+                out,
+                "{test} settles at {:.3} of the steady moment at {speed:.4} rad/s, {:.3e} ± {:.1e} N m apart: the slow test belongs to another bearing, load or temperature, or the lubricant is in another state",
+                ratio, difference.value, difference.deviation
+            ),
+            Doubt::LoadOfSteadyMoment {
+                test,
+                load,
+                steady_load,
+            } => write!(
+                out,
+                "{test} was at {load} N, the steady moment at {steady_load} N: M is not that of this test"
+            ),
+            Doubt::MixedLoads { loads } => {
+                write!(out, "tests at different loads are together:")?;
+                for (test, load) in loads {
+                    write!(out, " {test} {load} N;")?;
+                }
+                write!(
+                    out,
+                    " M and F depend on the load, analyse each load by itself"
+                )
+            }
+            Doubt::InertiaMissing {
+                test,
+                acceleration,
+                torque,
+            } => match torque {
+                Some((least, most)) => write!(
+                    out,
+                    "the mass of the cage is not known: at {acceleration:.4e} rad/s² in {test} inertia takes between {least:.3e} and {most:.3e} N m from the torque (no cage to one of twice the balls' mass)"
+                ),
+                None => write!(
+                    out,
+                    "the masses of balls and cage are not known: at {acceleration:.4e} rad/s² in {test} inertia cannot be told from friction"
+                ),
+            },
+            Doubt::WrongBallCount {
+                test,
+                stated,
+                fits,
+                ratio,
+            } => write!(
+                out,
+                "the cage of {test} settles at {:.4} ± {:.1e} of rolling with {stated} balls stated; {fits} balls would make it roll",
+                ratio.value, ratio.deviation
+            ),
+            Doubt::CageNeverRolls { test, ratio } => write!(
+                out,
+                "the cage of {test} settles at {:.4} ± {:.1e} of rolling: it slips to the end, or radii or contact angle are wrong",
+                ratio.value, ratio.deviation
+            ),
+            Doubt::TemperatureExplains {
+                test,
+                rise,
+                expected,
+                difference,
+            } => write!(
+                out,
+                "{test} warmed by {rise:.2} K: the viscosity changes the moment by {:.2e} to {:.2e} N m, which explains all of its {:.3e} ± {:.1e} N m",
+                expected.0, expected.1, difference.value, difference.deviation
+            ),
+            Doubt::NotSettled { test, change, over } => write!(
+                out,
+                "the torque of {test} still changes at the end: {:.3e} ± {:.1e} N m within {over:.3} s",
+                change.value, change.deviation
+            ),
+            Doubt::TooShort {
+                test,
+                lasts,
+                needed,
+            } => write!(
+                out,
+                "{test} holds its speed for {lasts:.3} s; {needed} s are needed to see whether the torque settles"
+            ),
+        }
+    }
+}

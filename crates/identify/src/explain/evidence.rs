@@ -1,0 +1,468 @@
+//! Marginal likelihood of one form of an explanation.
+//!
+//! Parameters are standard normal coordinates z. Quasi-random points of the prior find where the likelihood lies;
+//! the best are refined by Levenberg and Marquardt's method; importance sampling from a mixture of Student's t around
+//! the modes, of a normal fitted to a first batch of draws, and of the prior itself gives the integral, several times
+//! over: the spread of the repeats is the stated error. Where the claim of an explanation is not fulfilled its prior
+//! is 0, and the rest is raised so that it integrates to 1.
+
+use super::hypothesis::{Bearing, Hypothesis, Prediction};
+use super::linear::{Cholesky, dot, log_sum_exp};
+use super::noise::Observed;
+use super::record::Test;
+use super::sampling::{Random, quasi_normal};
+
+/// A point of the posterior.
+#[derive(Clone, Debug)]
+pub(crate) struct Draw {
+    pub coordinates: Vec<f64>,
+    /// ln of its share of the posterior (unnormalised).
+    pub log_weight: f64,
+    /// ln likelihood and χ² at each amplitude.
+    pub levels: Vec<(f64, f64)>,
+}
+
+/// Evidence and posterior of one form.
+#[derive(Clone, Debug)]
+pub(crate) struct Evidence {
+    pub log: f64,
+    pub deviation: f64,
+    pub draws: Vec<Draw>,
+}
+
+/// All that an integral needs.
+pub(crate) struct Integral<'a> {
+    pub hypothesis: Hypothesis,
+    pub tests: &'a [Test],
+    pub bearing: &'a Bearing<'a>,
+    pub observed: &'a Observed,
+    pub size: usize,
+}
+
+/// A place where the posterior is high, with the factor of its curvature.
+struct Mode {
+    at: Vec<f64>,
+    curvature: Cholesky,
+    height: f64,
+}
+
+/// Part of the proposal: location, curvature, weight; Student's t or normal.
+struct Component {
+    at: Vec<f64>,
+    curvature: Cholesky,
+    weight: f64,
+    student: bool,
+}
+
+/// Degrees of freedom of the proposals' tails.
+const DEGREES: f64 = 5.0;
+
+impl Integral<'_> {
+    pub fn evidence(&self) -> Evidence {
+        if self.size == 0 {
+            let (levels, log) = self.likelihood(&self.predict(&[]));
+            return Evidence {
+                log,
+                deviation: 0.0,
+                draws: vec![Draw {
+                    coordinates: Vec::new(),
+                    log_weight: 0.0,
+                    levels,
+                }],
+            };
+        }
+        let settings = self.bearing.settings;
+        let (starts, claimed) = self.explore(settings.prior_points);
+        let none = Evidence {
+            log: f64::NEG_INFINITY,
+            deviation: 0.0,
+            draws: Vec::new(),
+        };
+        if starts.is_empty() {
+            return none;
+        }
+        let modes = self.modes(&starts);
+        let mut random = Random::new(settings.seed);
+        let mut proposal = self.proposal(&modes);
+        // a first batch shows the shape of the posterior where it is not normal
+        let first = self.batch(&proposal, settings.draws, &mut random);
+        if let Some(component) = self.fitted(&first) {
+            for other in &mut proposal {
+                other.weight *= 0.5;
+            }
+            proposal.push(component);
+        }
+        let mut logs = Vec::new();
+        let mut draws = Vec::new();
+        for _ in 0..settings.repeats.max(2) {
+            let batch = self.batch(&proposal, settings.draws, &mut random);
+            let weights: Vec<f64> = batch.iter().map(|draw| draw.log_weight).collect();
+            logs.push(log_sum_exp(&weights) - (batch.len() as f64).ln() - claimed.ln());
+            draws.extend(batch);
+        }
+        draws.retain(|draw| draw.log_weight > f64::NEG_INFINITY);
+        if draws.is_empty() {
+            return none;
+        }
+        let count = logs.len() as f64;
+        let log = log_sum_exp(&logs) - count.ln();
+        let variance = (logs.iter())
+            .map(|one| ((one - log).exp() - 1.0).powi(2))
+            .sum::<f64>()
+            / (count * (count - 1.0));
+        Evidence {
+            log,
+            deviation: variance.sqrt(),
+            draws,
+        }
+    }
+
+    fn predict(&self, coordinates: &[f64]) -> Prediction {
+        self.hypothesis.predict(coordinates, self.tests, self.bearing)
+    }
+
+    /// ln likelihood and χ² per amplitude, and ln of the likelihood over all amplitudes.
+    fn likelihood(&self, prediction: &Prediction) -> (Vec<(f64, f64)>, f64) {
+        let levels = self.observed.log_likelihood(prediction, self.directions());
+        let logs: Vec<f64> = levels.iter().map(|(log, _)| *log).collect();
+        (levels, log_sum_exp(&logs) - (logs.len() as f64).ln())
+    }
+
+    /// Tests whose effect may scatter; rolling balls have none.
+    fn directions(&self) -> usize {
+        if self.hypothesis == Hypothesis::Rolling {
+            0
+        } else {
+            self.tests.len()
+        }
+    }
+
+    /// The best points of the prior and the share of the prior that fulfils the claim.
+    fn explore(&self, points: u32) -> (Vec<Vec<f64>>, f64) {
+        let shift = vec![0.0; self.size];
+        let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
+        let mut claimed = 0_u32;
+        for index in 0..points {
+            let z = quasi_normal(index, &shift);
+            let prediction = self.predict(&z);
+            if prediction.claim >= 1.0 {
+                claimed += 1;
+                // the widest amplitude shows the way from afar
+                let last = self.observed.amplitudes.len() - 1;
+                let whitened = self.observed.whiten(&prediction, last, self.directions());
+                found.push((whitened.log_likelihood().0, z));
+            }
+        }
+        found.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut starts: Vec<Vec<f64>> = Vec::new();
+        for (_, z) in found {
+            if starts.iter().all(|other| distance(other, &z) > 0.5) {
+                starts.push(z);
+            }
+            if starts.len() == self.bearing.settings.starts {
+                break;
+            }
+        }
+        (starts, f64::from(claimed) / f64::from(points))
+    }
+
+    /// Penalty on a claim that is not fulfilled, as a residual.
+    fn shortfall(prediction: &Prediction) -> f64 {
+        10.0 * (1.05 - prediction.claim).max(0.0)
+    }
+
+    /// ln of likelihood at one amplitude times prior, with the penalty.
+    fn height(&self, z: &[f64], prediction: &Prediction, amplitude: usize) -> f64 {
+        let whitened = self.observed.whiten(prediction, amplitude, self.directions());
+        let short = Self::shortfall(prediction);
+        whitened.log_likelihood().0 - 0.5 * dot(z, z) - 0.5 * short * short
+    }
+
+    fn best_amplitude(&self, prediction: &Prediction) -> usize {
+        let levels = self.observed.log_likelihood(prediction, self.directions());
+        (0..levels.len())
+            .max_by(|i, j| levels[*i].0.total_cmp(&levels[*j].0))
+            .unwrap_or(0)
+    }
+
+    fn modes(&self, starts: &[Vec<f64>]) -> Vec<Mode> {
+        let mut modes: Vec<Mode> = Vec::new();
+        for start in starts {
+            let wide = self.observed.amplitudes.len() - 1;
+            let (z, _) = self.climb(start, wide, 6);
+            let amplitude = self.best_amplitude(&self.predict(&z));
+            let (z, curvature) = self.climb(&z, amplitude, 12);
+            let (_, likelihood) = self.likelihood(&self.predict(&z));
+            let height = likelihood - 0.5 * dot(&z, &z);
+            if let Some(curvature) = curvature
+                && modes.iter().all(|mode| distance(&mode.at, &z) > 0.1)
+            {
+                modes.push(Mode {
+                    at: z,
+                    curvature,
+                    height,
+                });
+            }
+        }
+        modes.sort_by(|a, b| b.height.total_cmp(&a.height));
+        let best = modes.first().map_or(0.0, |mode| mode.height);
+        modes.retain(|mode| mode.height > best - 10.0);
+        modes.truncate(3);
+        modes
+    }
+
+    /// Levenberg's and Marquardt's climb; the place and the factor of the curvature there.
+    fn climb(&self, start: &[f64], amplitude: usize, rounds: u32) -> (Vec<f64>, Option<Cholesky>) {
+        let size = self.size;
+        let mut z = start.to_vec();
+        let mut prediction = self.predict(&z);
+        let mut height = self.height(&z, &prediction, amplitude);
+        let mut damping = 1e-2;
+        let mut curvature = None;
+        for _ in 0..rounds {
+            let whitened = self.observed.whiten(&prediction, amplitude, self.directions());
+            let h = 1e-3;
+            let mut slopes = Vec::with_capacity(size);
+            let mut claim_slopes = vec![0.0; size];
+            for axis in 0..size {
+                let mut moved = z.clone();
+                moved[axis] += h;
+                let other = self.predict(&moved);
+                let mut slope = self.observed.whiten_change(&prediction, &other, amplitude);
+                for entry in &mut slope {
+                    *entry /= h;
+                }
+                claim_slopes[axis] =
+                    (Self::shortfall(&other) - Self::shortfall(&prediction)) / h;
+                slopes.push(slope);
+            }
+            let weighted = whitened.metric(&slopes);
+            let short = Self::shortfall(&prediction);
+            let mut hessian = vec![0.0; size * size];
+            let mut gradient = vec![0.0; size];
+            for i in 0..size {
+                gradient[i] =
+                    dot(&weighted[i], &whitened.residual) - z[i] - short * claim_slopes[i];
+                for j in 0..size {
+                    hessian[i * size + j] = dot(&weighted[i], &slopes[j])
+                        + claim_slopes[i] * claim_slopes[j]
+                        + f64::from(u8::from(i == j));
+                }
+            }
+            curvature = Cholesky::of(&hessian, size);
+            let mut gained = 0.0;
+            for _ in 0..6 {
+                let mut damped = hessian.clone();
+                for i in 0..size {
+                    damped[i * size + i] *= 1.0 + damping;
+                }
+                let Some(factor) = Cholesky::of(&damped, size) else {
+                    break;
+                };
+                let mut step = gradient.clone();
+                factor.solve(&mut step);
+                let length = dot(&step, &step).sqrt();
+                let share = (1.5 / length).min(1.0);
+                let moved: Vec<f64> = (z.iter().zip(&step)).map(|(z, s)| z + share * s).collect();
+                let other = self.predict(&moved);
+                let there = self.height(&moved, &other, amplitude);
+                if there > height {
+                    gained = there - height;
+                    (z, prediction, height) = (moved, other, there);
+                    damping = (0.2 * damping).max(1e-6);
+                    break;
+                }
+                damping *= 8.0;
+            }
+            if gained < 0.02 {
+                break;
+            }
+        }
+        (z, curvature)
+    }
+
+    fn proposal(&self, modes: &[Mode]) -> Vec<Component> {
+        let mass = |mode: &Mode| mode.height - 0.5 * mode.curvature.log_determinant;
+        let total = log_sum_exp(&modes.iter().map(mass).collect::<Vec<_>>());
+        let count = modes.len().max(1) as f64;
+        let mut components: Vec<Component> = (modes.iter())
+            .map(|mode| Component {
+                at: mode.at.clone(),
+                curvature: mode.curvature.clone(),
+                weight: 0.45 * (mass(mode) - total).exp() + 0.45 / count,
+                student: true,
+            })
+            .collect();
+        let mut unit = vec![0.0; self.size * self.size];
+        for i in 0..self.size {
+            unit[i * self.size + i] = 1.0;
+        }
+        components.extend(Cholesky::of(&unit, self.size).map(|curvature| Component {
+            at: vec![0.0; self.size],
+            curvature,
+            weight: if modes.is_empty() { 1.0 } else { 0.1 },
+            student: false,
+        }));
+        components
+    }
+
+    /// Student's t with mean and covariance of the weighted draws.
+    fn fitted(&self, draws: &[Draw]) -> Option<Component> {
+        let size = self.size;
+        let weights: Vec<f64> = draws.iter().map(|draw| draw.log_weight).collect();
+        let total = log_sum_exp(&weights);
+        if total == f64::NEG_INFINITY {
+            return None;
+        }
+        let weights: Vec<f64> = weights.iter().map(|weight| (weight - total).exp()).collect();
+        let effective = 1.0 / dot(&weights, &weights);
+        if effective < 3.0 * size as f64 {
+            return None;
+        }
+        let mut mean = vec![0.0; size];
+        for (draw, weight) in draws.iter().zip(&weights) {
+            for (mean, z) in mean.iter_mut().zip(&draw.coordinates) {
+                *mean += weight * z;
+            }
+        }
+        let mut covariance = vec![0.0; size * size];
+        for (draw, weight) in draws.iter().zip(&weights) {
+            for i in 0..size {
+                for j in 0..size {
+                    covariance[i * size + j] += weight
+                        * (draw.coordinates[i] - mean[i])
+                        * (draw.coordinates[j] - mean[j]);
+                }
+            }
+        }
+        for i in 0..size {
+            covariance[i * size + i] += 1e-6;
+        }
+        let factor = Cholesky::of(&covariance, size)?;
+        let mut inverse = vec![0.0; size * size];
+        for i in 0..size {
+            let mut column = vec![0.0; size];
+            column[i] = 1.0;
+            factor.solve(&mut column);
+            for j in 0..size {
+                inverse[j * size + i] = column[j];
+            }
+        }
+        for i in 0..size {
+            for j in 0..i {
+                inverse[i * size + j] = inverse[j * size + i];
+            }
+        }
+        Some(Component {
+            at: mean,
+            curvature: Cholesky::of(&inverse, size)?,
+            weight: 0.5,
+            student: true,
+        })
+    }
+
+    fn batch(&self, proposal: &[Component], count: usize, random: &mut Random) -> Vec<Draw> {
+        // each component has its share of the draws; the density is that of the whole mixture
+        let total: f64 = proposal.iter().map(|c| c.weight).sum();
+        let mut draws = Vec::with_capacity(count);
+        let mut owed = random.uniform();
+        for component in proposal {
+            owed += component.weight / total * count as f64;
+            while owed >= 1.0 {
+                owed -= 1.0;
+                draws.push(self.draw(component, proposal, total, random));
+            }
+        }
+        draws
+    }
+
+    fn draw(
+        &self,
+        component: &Component,
+        proposal: &[Component],
+        total: f64,
+        random: &mut Random,
+    ) -> Draw {
+        let coordinates = component.sample(random);
+        let densities: Vec<f64> = (proposal.iter())
+            .map(|other| (other.weight / total).ln() + other.log_density(&coordinates))
+            .collect();
+        let prediction = self.predict(&coordinates);
+        if prediction.claim < 1.0 {
+            return Draw {
+                coordinates,
+                log_weight: f64::NEG_INFINITY,
+                levels: Vec::new(),
+            };
+        }
+        let (levels, likelihood) = self.likelihood(&prediction);
+        let prior = -0.5
+            * (dot(&coordinates, &coordinates)
+                + self.size as f64 * (2.0 * std::f64::consts::PI).ln());
+        Draw {
+            log_weight: likelihood + prior - log_sum_exp(&densities),
+            coordinates,
+            levels,
+        }
+    }
+}
+
+impl Component {
+    fn sample(&self, random: &mut Random) -> Vec<f64> {
+        let mut step: Vec<f64> = self.at.iter().map(|_| random.normal()).collect();
+        self.curvature.unwhiten_transposed(&mut step);
+        let stretch = if self.student {
+            let square: f64 = (0..DEGREES as u32).map(|_| random.normal().powi(2)).sum();
+            (DEGREES / square).sqrt()
+        } else {
+            1.0
+        };
+        (self.at.iter().zip(&step))
+            .map(|(at, step)| at + stretch * step)
+            .collect()
+    }
+
+    /// ln of its density.
+    fn log_density(&self, z: &[f64]) -> f64 {
+        let size = z.len() as f64;
+        let difference: Vec<f64> = z.iter().zip(&self.at).map(|(z, at)| z - at).collect();
+        // |Lᵀ d|², L the lower factor of the curvature
+        let square = self.curvature.square_of(&difference);
+        let half_determinant = 0.5 * self.curvature.log_determinant;
+        if self.student {
+            half_determinant + log_gamma_ratio(z.len()) - 0.5 * size * (DEGREES * std::f64::consts::PI).ln()
+                - 0.5 * (DEGREES + size) * (1.0 + square / DEGREES).ln()
+        } else {
+            half_determinant - 0.5 * (square + size * (2.0 * std::f64::consts::PI).ln())
+        }
+    }
+}
+
+/// ln Γ((5+n)/2) - ln Γ(5/2).
+fn log_gamma_ratio(size: usize) -> f64 {
+    let mut sum = 0.0;
+    let mut from = 2.5;
+    for _ in 0..size / 2 {
+        sum += f64::ln(from);
+        from += 1.0;
+    }
+    if size % 2 == 1 {
+        // Γ(x+½)/Γ(x) for x = n + ½: n!/Γ(n+½)
+        let n = (from - 0.5).round();
+        let mut ratio = 1.0 / std::f64::consts::PI.sqrt();
+        let mut k = 1.0;
+        while k <= n {
+            ratio *= k / (k - 0.5);
+            k += 1.0;
+        }
+        sum += ratio.ln();
+    }
+    sum
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    (a.iter().zip(b))
+        .map(|(a, b)| (a - b).powi(2))
+        .sum::<f64>()
+        .sqrt()
+}

@@ -1,0 +1,311 @@
+//! What each explanation predicts.
+
+use physics::rolling::RollingSet;
+
+use super::prior::{Priors, Range};
+use super::record::Test;
+use super::slip::{Slip, load_moment_factor};
+use super::steady::Table;
+use super::{Explanation, Settings};
+
+/// An explanation in the form that is computed: a sensor has several faults, each of one sign.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Hypothesis {
+    Rolling,
+    Grease,
+    Slip,
+    HeatedSlip,
+    Drift { sign: f64 },
+    Creep { sign: f64 },
+    SlowSensor,
+}
+
+/// What predictions need beside parameters.
+pub(crate) struct Bearing<'a> {
+    pub table: &'a Table,
+    pub set: &'a RollingSet<f64>,
+    pub priors: &'a Priors,
+    pub settings: &'a Settings,
+}
+
+/// Predicted means of all tests, test after test.
+#[derive(Clone, Debug)]
+pub(crate) struct Prediction {
+    /// Torque, N m.
+    pub torque: Vec<f64>,
+    /// Cage speed, rad/s.
+    pub cage: Vec<f64>,
+    /// Share of the claim that it fulfils: 1 and more where it does what the explanation says.
+    pub claim: f64,
+}
+
+/// Name, unit and range of a parameter.
+pub(crate) struct Parameter {
+    pub name: &'static str,
+    pub unit: &'static str,
+    kind: Kind,
+    range: Range,
+}
+
+enum Kind {
+    Positive,
+    Share,
+}
+
+impl Parameter {
+    pub fn value(&self, z: f64) -> f64 {
+        match self.kind {
+            Kind::Positive => self.range.positive(z),
+            Kind::Share => self.range.share(z),
+        }
+    }
+}
+
+impl Hypothesis {
+    /// The forms of an explanation, equally probable before the data.
+    pub fn of(explanation: Explanation) -> &'static [Self] {
+        match explanation {
+            Explanation::Rolling => &[Self::Rolling],
+            Explanation::Grease => &[Self::Grease],
+            Explanation::IsothermalSlip => &[Self::Slip],
+            Explanation::HeatedSlip => &[Self::HeatedSlip],
+            Explanation::Sensor => &[
+                Self::Drift { sign: -1.0 },
+                Self::Drift { sign: 1.0 },
+                Self::Creep { sign: -1.0 },
+                Self::Creep { sign: 1.0 },
+                Self::SlowSensor,
+            ],
+        }
+    }
+
+    /// Parameters in the order of the coordinates.
+    pub fn parameters(self, priors: &Priors) -> Vec<Parameter> {
+        let positive = |name, unit, range| Parameter {
+            name,
+            unit,
+            kind: Kind::Positive,
+            range,
+        };
+        let share = Parameter {
+            name: "viscous share of the steady moment",
+            unit: "1",
+            kind: Kind::Share,
+            range: priors.viscous_share,
+        };
+        let slip_speed = positive("slip speed of traction", "m/s", priors.slip_speed);
+        match self {
+            Self::Rolling => Vec::new(),
+            Self::Grease => vec![
+                share,
+                positive("drag factor of fresh grease", "1", priors.fresh_drag),
+                positive("drag factor after breakdown", "1", priors.worked_drag),
+                positive("cage angle of the build-up", "rad", priors.build_up_angle),
+                positive("time of the breakdown", "s", priors.breakdown_time),
+            ],
+            Self::Slip => vec![
+                share,
+                positive("traction limit over M", "1", priors.traction_limit),
+                slip_speed,
+            ],
+            Self::HeatedSlip => vec![
+                share,
+                positive("cold traction limit over M", "1", priors.cold_traction_limit),
+                slip_speed,
+                positive("softening of traction", "1", priors.traction_softening),
+                positive("softening of drag", "1", priors.drag_softening),
+                positive("time of the film's heating", "s", priors.film_time),
+            ],
+            Self::Drift { .. } => vec![
+                positive("drift of the zero over M", "1", priors.drift),
+                positive("time of the drift", "s", priors.sensor_time),
+            ],
+            Self::Creep { .. } => vec![
+                positive("creep of the reading", "1", priors.creep),
+                positive("time of the creep", "s", priors.sensor_time),
+            ],
+            Self::SlowSensor => vec![positive(
+                "excess settling time of the sensor",
+                "s",
+                priors.settling_time,
+            )],
+        }
+    }
+
+    /// Name in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rolling => Explanation::Rolling.name(),
+            Self::Grease => Explanation::Grease.name(),
+            Self::Slip => Explanation::IsothermalSlip.name(),
+            Self::HeatedSlip => Explanation::HeatedSlip.name(),
+            Self::Drift { .. } => "drift of the sensor's zero",
+            Self::Creep { .. } => "creep of the sensor",
+            Self::SlowSensor => "sensor slower than stated",
+        }
+    }
+
+    /// Sign of the effect, for forms that have two.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Drift { sign } | Self::Creep { sign } => sign,
+            _ => 1.0,
+        }
+    }
+
+    /// Predicted means at standard normal coordinates.
+    pub fn predict(self, coordinates: &[f64], tests: &[Test], bearing: &Bearing) -> Prediction {
+        let values: Vec<f64> = (self.parameters(bearing.priors).iter())
+            .zip(coordinates)
+            .map(|(parameter, z)| parameter.value(*z))
+            .collect();
+        let mut prediction = Prediction {
+            torque: Vec::new(),
+            cage: Vec::new(),
+            claim: if self == Self::Rolling { 1.0 } else { 0.0 },
+        };
+        let needs_slip = matches!(self, Self::Slip | Self::HeatedSlip);
+        let (mut effect, mut largest_slip) = (0.0_f64, 0.0_f64);
+        for test in tests {
+            let (mut torque, mut cage) = self.run(&values, test, bearing);
+            let rolling = test.means(rolling_torque(test, bearing, 1.0));
+            for (i, bin) in test.bins.iter().enumerate() {
+                if bin.before {
+                    torque[i] = bearing.table.at(bin.speed).0;
+                    cage[i] = bearing.set.cage_speed(bin.speed);
+                    continue;
+                }
+                effect = effect.max((torque[i] - rolling[i]).abs());
+                if bin.speed > 0.5 * bearing.table.top_speed {
+                    largest_slip =
+                        largest_slip.max(1.0 - cage[i] / bearing.set.cage_speed(bin.speed));
+                }
+            }
+            prediction.torque.append(&mut torque);
+            prediction.cage.append(&mut cage);
+        }
+        if self != Self::Rolling {
+            let size = effect / (bearing.settings.least_effect * bearing.table.reference);
+            prediction.claim = if needs_slip {
+                size.min(largest_slip / bearing.settings.least_slip)
+            } else {
+                size
+            };
+        }
+        prediction
+    }
+
+    /// Means of torque and cage speed of one test.
+    fn run(self, values: &[f64], test: &Test, bearing: &Bearing) -> (Vec<f64>, Vec<f64>) {
+        let reference = bearing.table.reference;
+        let rolls = || test.means((test.steps.iter()).map(|s| bearing.set.cage_speed(s.middle_speed)));
+        let fresh = 1.0 - test.past.left;
+        match self {
+            Self::Rolling => (test.means(rolling_torque(test, bearing, 1.0)), rolls()),
+            Self::Grease => {
+                let load_moment = (1.0 - values[0]) * reference;
+                let torque = rolling_torque(test, bearing, 1.0 - values[0]);
+                let factor = grease_factor(&values[1..], test, bearing.set);
+                let moments = (torque.zip(&test.steps)).zip(factor).map(
+                    |((torque, step), factor)| {
+                        let viscous = (step.steady - load_moment * step.fading).max(0.0);
+                        torque + (factor - 1.0) * viscous
+                    },
+                );
+                (test.means(moments), rolls())
+            }
+            Self::Slip | Self::HeatedSlip => {
+                let heated = self == Self::HeatedSlip;
+                let slip = Slip {
+                    load_moment: (1.0 - values[0]) * reference,
+                    traction_limit: values[1] * reference,
+                    slip_speed: values[2],
+                    traction_softening: if heated { values[3] } else { 0.0 },
+                    drag_softening: if heated { values[4] } else { 0.0 },
+                    film_time: if heated { values[5] } else { 1.0 },
+                };
+                let course = slip.course(test, bearing.table, bearing.set);
+                (
+                    test.means(course.outer_moment.iter().copied()),
+                    test.means(course.cage.iter().copied()),
+                )
+            }
+            Self::Drift { sign } => {
+                let drift = (test.steps.iter()).map(|step| {
+                    let middle = step.elapsed - 0.5 * step.duration;
+                    sign * values[0] * reference * fresh * (1.0 - (-middle / values[1]).exp())
+                });
+                let torque = rolling_torque(test, bearing, 1.0).zip(drift).map(|(a, b)| a + b);
+                (test.means(torque), rolls())
+            }
+            Self::Creep { sign } => {
+                let creep = (test.steps.iter()).map(|step| {
+                    let middle = step.elapsed - 0.5 * step.duration;
+                    let new = fresh * (1.0 - (-middle / values[1]).exp());
+                    1.0 + sign * values[0] * (test.past.left + new)
+                });
+                let torque = rolling_torque(test, bearing, 1.0).zip(creep).map(|(a, b)| a * b);
+                (test.means(torque), rolls())
+            }
+            Self::SlowSensor => {
+                let mut reading = if test.starts_turning {
+                    test.steps.first().map_or(0.0, |step| step.steady)
+                } else {
+                    0.0
+                };
+                let torque = (rolling_torque(test, bearing, 1.0).zip(&test.steps)).map(
+                    |(torque, step)| {
+                        let kept = (-step.duration / values[0]).exp();
+                        let mean_kept = (1.0 - kept) * values[0] / step.duration;
+                        let mean = torque + (reading - torque) * mean_kept;
+                        reading = torque + (reading - torque) * kept;
+                        mean
+                    },
+                );
+                (test.means(torque), rolls())
+            }
+        }
+    }
+}
+
+/// t_O of rolling balls along the steps, N m: M - J_O Ω̇.
+///
+/// - `load_share`: share of M that grows with the load, where the load is another one
+fn rolling_torque(
+    test: &Test,
+    bearing: &Bearing,
+    load_share: f64,
+) -> impl Iterator<Item = f64> {
+    let inertia = bearing.set.outer_inertia();
+    // without an explanation that knows the share, the middle of the prior
+    let share = if load_share < 1.0 {
+        load_share
+    } else {
+        1.0 - bearing.priors.viscous_share.share(0.0)
+    };
+    let extra = share * bearing.table.reference * (load_moment_factor(&test.past) - 1.0);
+    (test.steps.iter())
+        .map(move |step| step.steady + extra * step.fading - inertia * step.acceleration)
+}
+
+/// Drag factor D of the grease along the steps.
+///
+/// Formula: D = [g0+(1-g0)b][1-(1-g_w)w], ḃ = |ω_c|(1-b)/φ_b, ẇ = (1-w)/τ_w while turning
+fn grease_factor(values: &[f64], test: &Test, set: &RollingSet<f64>) -> impl Iterator<Item = f64> {
+    let [fresh, worked, angle, time] = [values[0], values[1], values[2], values[3]];
+    let mut build_up = if test.starts_turning { 1.0 } else { test.past.left };
+    let mut breakdown = test.past.left;
+    let set = *set;
+    (test.steps.iter()).map(move |step| {
+        let cage = set.cage_speed(step.middle_speed);
+        let turning = cage * cage / (cage * cage + 1.0);
+        // half of the step before the value, half after it: the value stands in the middle
+        let built = (-0.5 * cage * step.duration / angle).exp();
+        let broken = (-0.5 * turning * step.duration / time).exp();
+        let middle_up = 1.0 - (1.0 - build_up) * built;
+        let middle_down = 1.0 - (1.0 - breakdown) * broken;
+        build_up = 1.0 - (1.0 - middle_up) * built;
+        breakdown = 1.0 - (1.0 - middle_down) * broken;
+        (fresh + (1.0 - fresh) * middle_up) * (1.0 - (1.0 - worked) * middle_down)
+    })
+}

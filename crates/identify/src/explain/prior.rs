@@ -1,0 +1,146 @@
+//! What is held possible before the data: odds of the explanations and ranges of their parameters.
+
+use super::Explanation;
+
+/// Range that holds 90 % of what is thought possible: 5 % lie below `low`, 5 % above `high`.
+///
+/// A positive quantity is log-normal within it; a share is normal in ln(x/(1-x)).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// 5 % quantile.
+    pub low: f64,
+    /// 95 % quantile.
+    pub high: f64,
+}
+
+/// 95 % quantile of the standard normal distribution.
+const QUANTILE: f64 = 1.644_853_627;
+
+impl Range {
+    /// Range from its 5 % to its 95 % quantile.
+    pub const fn new(low: f64, high: f64) -> Self {
+        Self { low, high }
+    }
+    /// Value of a positive quantity at a standard normal coordinate.
+    pub(crate) fn positive(self, z: f64) -> f64 {
+        place(self.low.ln(), self.high.ln(), z).exp()
+    }
+    /// Value of a share at a standard normal coordinate.
+    pub(crate) fn share(self, z: f64) -> f64 {
+        let logit = |x: f64| (x / (1.0 - x)).ln();
+        1.0 / (1.0 + (-place(logit(self.low), logit(self.high), z)).exp())
+    }
+    fn is_positive(self) -> bool {
+        self.low > 0.0 && self.high > self.low && self.high.is_finite()
+    }
+    fn is_share(self) -> bool {
+        self.is_positive() && self.high < 1.0
+    }
+}
+
+fn place(low: f64, high: f64, z: f64) -> f64 {
+    0.5 * (low + high) + 0.5 * (high - low) / QUANTILE * z
+}
+
+/// Odds and ranges before the data. The defaults are assumed unless a source stands beside them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Priors {
+    /// Prior weight of each explanation in the order of [`Explanation::ALL`]; only ratios matter. 0 rules one out.
+    pub odds: [f64; 5],
+    /// Share of M that depends on speed (M0/M) at the highest speed.
+    pub viscous_share: Range,
+    /// Grease: drag factor of fresh grease g0, before the build-up.
+    pub fresh_drag: Range,
+    /// Grease: drag factor after breakdown g_w.
+    pub worked_drag: Range,
+    /// Grease: cage angle of the build-up φ_b, rad; 0.1 to 3 turns.
+    pub build_up_angle: Range,
+    /// Grease: time constant of the breakdown τ_w, s.
+    pub breakdown_time: Range,
+    /// Grease and sensor: time constant of the recovery at rest, s; only the next test needs it.
+    pub recovery_time: Range,
+    /// Slip: moment R μ_max ΣQ that the inner race can transmit, over M at the highest speed.
+    pub traction_limit: Range,
+    /// Slip with heating: the same while cold.
+    pub cold_traction_limit: Range,
+    /// Slip: speed u0 at which traction reaches 76 % of its limit, m/s.
+    pub slip_speed: Range,
+    /// Heating: logarithm of the loss of traction when the film is in balance with the power M Ω.
+    pub traction_softening: Range,
+    /// Heating: logarithm of the loss of viscous drag at the same rise.
+    pub drag_softening: Range,
+    /// Heating: time constant of the film temperature, s.
+    pub film_time: Range,
+    /// Sensor: size of a drift of the zero, over M at the highest speed; either sign.
+    pub drift: Range,
+    /// Sensor: size of the creep c; either sign.
+    pub creep: Range,
+    /// Sensor: time constant of drift and creep, s.
+    pub sensor_time: Range,
+    /// Sensor: time constant by which it settles more slowly than stated, s.
+    pub settling_time: Range,
+}
+
+impl Default for Priors {
+    fn default() -> Self {
+        let turn = std::f64::consts::TAU;
+        Self {
+            odds: [1.0; 5],
+            // a lightly loaded, grease lubricated bearing at 150 rad/s: Palmgren's M1 is 3 to 30 % of M
+            viscous_share: Range::new(0.7, 0.97),
+            fresh_drag: Range::new(0.4, 0.95),
+            worked_drag: Range::new(0.5, 0.95),
+            build_up_angle: Range::new(0.1 * turn, 3.0 * turn),
+            breakdown_time: Range::new(0.8, 4.0),
+            recovery_time: Range::new(30.0, 36_000.0),
+            traction_limit: Range::new(0.4, 1.2),
+            cold_traction_limit: Range::new(0.7, 2.0),
+            slip_speed: Range::new(0.01, 0.3),
+            traction_softening: Range::new(0.15, 1.5),
+            drag_softening: Range::new(0.02, 0.3),
+            film_time: Range::new(0.5, 5.0),
+            drift: Range::new(0.08, 0.6),
+            creep: Range::new(0.08, 0.5),
+            sensor_time: Range::new(0.3, 5.0),
+            settling_time: Range::new(0.05, 1.0),
+        }
+    }
+}
+
+impl Priors {
+    /// Name of the first range that is none.
+    pub(crate) fn fault(&self) -> Option<&'static str> {
+        let odds_are_odds = self.odds.iter().all(|odds| odds.is_finite() && *odds >= 0.0)
+            && self.odds.iter().sum::<f64>() > 0.0;
+        if !odds_are_odds {
+            return Some("odds");
+        }
+        if !self.viscous_share.is_share() {
+            return Some("viscous_share");
+        }
+        [
+            ("fresh_drag", self.fresh_drag),
+            ("worked_drag", self.worked_drag),
+            ("build_up_angle", self.build_up_angle),
+            ("breakdown_time", self.breakdown_time),
+            ("recovery_time", self.recovery_time),
+            ("traction_limit", self.traction_limit),
+            ("cold_traction_limit", self.cold_traction_limit),
+            ("slip_speed", self.slip_speed),
+            ("traction_softening", self.traction_softening),
+            ("drag_softening", self.drag_softening),
+            ("film_time", self.film_time),
+            ("drift", self.drift),
+            ("creep", self.creep),
+            ("sensor_time", self.sensor_time),
+            ("settling_time", self.settling_time),
+        ]
+        .into_iter()
+        .find_map(|(name, range)| (!range.is_positive()).then_some(name))
+    }
+
+    /// Prior probability of an explanation.
+    pub(crate) fn probability(&self, explanation: Explanation) -> f64 {
+        self.odds[explanation as usize] / self.odds.iter().sum::<f64>()
+    }
+}

@@ -1,0 +1,132 @@
+//! The steady friction moment of the coast-down as plain arrays.
+
+/// Steady friction moment M(Ω) with its band, as a coast-down gave it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SteadyMoment {
+    /// Speeds Ω, rad/s; positive, rising.
+    pub speed: Vec<f64>,
+    /// M at these speeds, N m.
+    pub moment: Vec<f64>,
+    /// Covariance of the moments, (N m)², row after row.
+    pub covariance: Vec<f64>,
+}
+
+/// Equal intervals of the table that stands for the curve.
+const INTERVALS: usize = 512;
+
+/// The curve as a table that is quick to read, 0 at rest.
+#[derive(Clone, Debug)]
+pub(crate) struct Table {
+    interval: f64,
+    moment: Vec<f64>,
+    /// M at the highest speed of the tests, N m.
+    pub reference: f64,
+    /// That speed, rad/s.
+    pub top_speed: f64,
+}
+
+impl SteadyMoment {
+    /// M at a speed, N m: linear between the given speeds, held constant beyond them.
+    fn at(&self, speed: f64) -> f64 {
+        let (low, share) = self.place(speed);
+        let high = (low + 1).min(self.speed.len() - 1);
+        self.moment[low] * (1.0 - share) + self.moment[high] * share
+    }
+
+    /// Index of the knot below a speed and the share of the next one.
+    fn place(&self, speed: f64) -> (usize, f64) {
+        let above = self.speed.partition_point(|knot| *knot <= speed);
+        if above == 0 {
+            return (0, 0.0);
+        }
+        if above == self.speed.len() {
+            return (above - 1, 0.0);
+        }
+        let (a, b) = (self.speed[above - 1], self.speed[above]);
+        (above - 1, (speed - a) / (b - a))
+    }
+
+    /// Covariance of M at two speeds, (N m)²; it fades below the lowest knot as M does.
+    pub(crate) fn covariance_between(&self, one: f64, other: f64) -> f64 {
+        let size = self.speed.len();
+        let corners = |speed: f64| {
+            let (low, share) = self.place(speed);
+            let fade = fading(speed);
+            [
+                (low, (1.0 - share) * fade),
+                ((low + 1).min(size - 1), share * fade),
+            ]
+        };
+        let mut sum = 0.0;
+        for (i, a) in corners(one) {
+            for (j, b) in corners(other) {
+                sum += a * b * self.covariance[i * size + j];
+            }
+        }
+        sum
+    }
+
+    pub(crate) fn table(&self, top_speed: f64) -> Table {
+        let interval = top_speed * 1.02 / INTERVALS as f64;
+        let moment = (0..=INTERVALS)
+            .map(|i| {
+                let speed = i as f64 * interval;
+                self.at(speed) * fading(speed)
+            })
+            .collect();
+        Table {
+            interval,
+            moment,
+            reference: self.at(top_speed),
+            top_speed,
+        }
+    }
+}
+
+/// Fading of a moment at rest: 0 at rest, 1 above some rad/s.
+pub(crate) fn fading(speed: f64) -> f64 {
+    (speed / 0.5).tanh()
+}
+
+impl Table {
+    /// M, N m, and its slope, N m s, at a speed; odd.
+    pub fn at(&self, speed: f64) -> (f64, f64) {
+        let place = (speed.abs() / self.interval).min(INTERVALS as f64 - 1e-9);
+        let low = place as usize;
+        let step = self.moment[low + 1] - self.moment[low];
+        (
+            (self.moment[low] + step * (place - low as f64)).copysign(speed),
+            step / self.interval,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve() -> SteadyMoment {
+        SteadyMoment {
+            speed: vec![10.0, 20.0, 40.0],
+            moment: vec![1.0, 2.0, 3.0],
+            covariance: vec![0.04, 0.01, 0.0, 0.01, 0.04, 0.0, 0.0, 0.0, 0.09],
+        }
+    }
+
+    #[test]
+    fn the_table_follows_the_curve_and_rests_at_rest() {
+        let table = curve().table(40.0);
+        for (speed, moment) in [(15.0, 1.5), (30.0, 2.5), (-30.0, -2.5), (5.0, 1.0)] {
+            // linear curve in a linear table: off by at most a knot inside an interval of 0.08 rad/s
+            assert!((table.at(speed).0 - moment).abs() < 2e-3, "{speed}");
+        }
+        assert_eq!(table.at(0.0).0, 0.0);
+    }
+    #[test]
+    fn covariance_between_knots_is_that_of_linear_interpolation() {
+        // by hand: var of ½(M1 + M2) = ¼(0.04 + 0.04 + 2·0.01)
+        assert!((curve().covariance_between(15.0, 15.0) - 0.025).abs() < 1e-12);
+        assert!((curve().covariance_between(10.0, 20.0) - 0.01).abs() < 1e-12);
+        assert_eq!(curve().covariance_between(0.0, 20.0), 0.0);
+    }
+}

@@ -1,0 +1,177 @@
+//! What the comparison answers.
+
+/// An explanation of a torque transient. Each is a claim of its own: one without a noticeable effect
+/// ([`Settings::least_effect`](super::Settings::least_effect)) is not that explanation but rolling.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Explanation {
+    /// Balls roll, the lubricant is as in the coast-down.
+    Rolling,
+    /// Balls roll; the grease builds up over cage angle and breaks down over time.
+    Grease,
+    /// A limited traction does not bring balls and cage to rolling speed.
+    IsothermalSlip,
+    /// Slip, with a traction that falls as the contact films heat.
+    HeatedSlip,
+    /// Balls roll; the reading drifts, creeps, or settles more slowly than stated.
+    Sensor,
+}
+
+impl Explanation {
+    /// All explanations, in the order of the prior odds.
+    pub const ALL: [Self; 5] = [
+        Self::Rolling,
+        Self::Grease,
+        Self::IsothermalSlip,
+        Self::HeatedSlip,
+        Self::Sensor,
+    ];
+
+    /// Name in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rolling => "rolling",
+            Self::Grease => "rolling with a grease state",
+            Self::IsothermalSlip => "isothermal slip",
+            Self::HeatedSlip => "slip with heating",
+            Self::Sensor => "sensor artefact",
+        }
+    }
+}
+
+/// What the data say.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Conclusion {
+    /// One explanation is probable enough and fits.
+    Supported(Explanation),
+    /// Several are left, the most probable first.
+    Undecided(Vec<Explanation>),
+    /// The most probable one does not fit: none of these.
+    NoneOfThese,
+}
+
+/// A parameter after the data.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimate {
+    /// Name in words.
+    pub name: &'static str,
+    /// Unit; "1" without dimension.
+    pub unit: &'static str,
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation.
+    pub deviation: f64,
+}
+
+/// How well an explanation fits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fit {
+    /// Weighted sum of squares χ², mean over the posterior.
+    pub chi_squared: f64,
+    /// Number of means it sums over.
+    pub count: usize,
+    /// Posterior predictive probability of a χ² at least as large.
+    pub probability: f64,
+    /// Posterior mean of the models' own error over M.
+    pub discrepancy: f64,
+}
+
+/// One explanation after the data.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assessment {
+    /// Which.
+    pub explanation: Explanation,
+    /// Its prior probability.
+    pub prior_probability: f64,
+    /// Its posterior probability among the five.
+    pub probability: f64,
+    /// ln of its marginal likelihood; of densities of N m and rad/s, so only differences matter.
+    pub log_evidence: f64,
+    /// Standard deviation of that number, from repeats.
+    pub log_evidence_deviation: f64,
+    /// How well it fits; none where no parameters in its range fulfil its claim.
+    pub fit: Option<Fit>,
+    /// Form of the explanation that is most probable, e.g. which fault of the sensor.
+    pub form: &'static str,
+    /// Parameters of that form.
+    pub parameters: Vec<Estimate>,
+    /// Draws of the posterior for the ranking of tests.
+    pub(crate) draws: Vec<FormDraw>,
+}
+
+/// A draw with the form it belongs to.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct FormDraw {
+    pub form: super::hypothesis::Hypothesis,
+    pub coordinates: Vec<f64>,
+}
+
+/// The answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// What the data say.
+    pub conclusion: Conclusion,
+    /// Each explanation, in the order of [`Explanation::ALL`].
+    pub assessments: Vec<Assessment>,
+    /// Number of means of torque and of cage speed that were compared.
+    pub means: (usize, usize),
+}
+
+impl Verdict {
+    /// The assessment of an explanation.
+    pub fn of(&self, explanation: Explanation) -> &Assessment {
+        &self.assessments[explanation as usize]
+    }
+
+    /// The most probable explanation.
+    pub fn best(&self) -> &Assessment {
+        let mut best = &self.assessments[0];
+        for assessment in &self.assessments {
+            if assessment.probability > best.probability {
+                best = assessment;
+            }
+        }
+        best
+    }
+}
+
+/// Why nothing can be said.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Refusal {
+    /// No test was given.
+    NoTests,
+    /// A test has arrays of different lengths, less than ten values, times that do not rise, values that are no
+    /// numbers, or a deviation that is not positive.
+    BadTest(String),
+    /// A test of another load than the first: one curve M(Ω) stands for one load.
+    OtherLoad(String),
+    /// The curve M(Ω) is empty, not rising in speed, not positive, or its covariance is none.
+    BadCurve,
+    /// A prior range is not two rising positive numbers, or a share reaches 1.
+    BadPrior(&'static str),
+    /// A setting is out of its range.
+    BadSetting(&'static str),
+}
+
+impl std::fmt::Display for Refusal {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::NoTests => write!(f, "no test was given"),
+            Self::BadTest(name) => write!(
+                f,
+                "test \"{name}\": at least ten values, rising times, equal lengths, numbers and positive deviations are needed"
+            ),
+            Self::OtherLoad(name) => write!(
+                f,
+                "test \"{name}\" ran at another load than the first: tests of one load are compared with one M(Ω)"
+            ),
+            Self::BadCurve => write!(
+                f,
+                "the steady moment needs rising positive speeds, positive moments and a covariance of as many rows"
+            ),
+            Self::BadPrior(name) => write!(f, "prior \"{name}\": its range or odds are none"),
+            Self::BadSetting(name) => write!(f, "setting \"{name}\" is out of its range"),
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}

@@ -1,0 +1,342 @@
+//! F as a map over speed and acceleration, from many tests.
+//!
+//! ```text
+//!   F(Ω, Ω̇) = F0(Ω) + F1(Ω) |Ω̇|          F0, F1 smooth in Ω: normal processes, correlation ½ + ½ exp(-(ΔΩ)²/2ℓ²)
+//!   data     means of F over the correlation time of the torque, where the balls are known to roll
+//!   errors   noise of each mean; zero of each test; M's band, by its covariance; masses, common to all
+//! ```
+//! Sizes of F0 and F1 and the length ℓ are those of the highest marginal likelihood on a grid. Where no data are the band
+//! returns to that size.
+//!
+//! **Does not model**: dependence on load or temperature; rotation one way against the other (Ω and F count along the rotation).
+
+use super::{Loss, LossSettings, State, scale_part};
+use crate::dense::{Matrix, cholesky, dot, forward, log_determinant, solved, zeros};
+use crate::measurement::Measurement;
+use crate::moment::SteadyMoment;
+use measure::uncertain::Uncertain;
+use physics::rolling::RollingSet;
+
+/// Most means that are used: their matrix is dense.
+const MOST: usize = 240;
+
+/// One mean.
+#[derive(Clone, Copy, Debug)]
+struct Datum {
+    test: usize,
+    speed: f64,
+    /// |Ω̇|.
+    rate: f64,
+    /// Ω̇ along the rotation.
+    signed_rate: f64,
+    friction: f64,
+    /// Variance of its own.
+    own: f64,
+}
+
+/// Sizes of the prior.
+#[derive(Clone, Copy, Debug)]
+struct Sizes {
+    constant: f64,
+    proportional: f64,
+    length: f64,
+}
+
+impl Sizes {
+    fn alike(&self, a: f64, b: f64) -> f64 {
+        let apart = (a - b) / self.length;
+        0.5 + 0.5 * (-0.5 * apart * apart).exp()
+    }
+
+    fn covariance(&self, a: (f64, f64), b: (f64, f64)) -> f64 {
+        let amount = self.constant.powi(2) + self.proportional.powi(2) * a.1 * b.1;
+        amount * self.alike(a.0, b.0)
+    }
+}
+
+/// F over speed and acceleration.
+#[derive(Clone, Debug)]
+pub struct LossMap {
+    data: Vec<Datum>,
+    factor: Matrix,
+    weights: Vec<f64>,
+    sizes: Sizes,
+    range: (f64, f64, f64, f64),
+    /// What is not trustworthy.
+    pub notes: Vec<String>,
+}
+
+/// F at a place of the map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapPlace {
+    /// F, N, along the rotation.
+    pub friction: Uncertain,
+    /// Distance to the nearest datum, in parts of the range of speeds and of accelerations of the data.
+    pub nearest: f64,
+    /// Whether data are near: nearest below 0.15, and the band less than half of what it is without data.
+    pub known: bool,
+}
+
+impl LossMap {
+    /// Fits the map to tests with their losses, in pairs, all against one steady moment.
+    ///
+    /// Refused: fewer than 8 means at which the balls are known to roll.
+    pub fn fitted(
+        tests: &[(&Measurement, &Loss)],
+        steady: &SteadyMoment,
+        set: &RollingSet<f64>,
+        settings: &LossSettings,
+    ) -> Result<Self, String> {
+        steady.sound()?;
+        settings.set_deviation.sound()?;
+        let mut data = Vec::new();
+        for (number, (test, loss)) in tests.iter().enumerate() {
+            test.sound()?;
+            if loss.points.len() != test.time.len() {
+                return Err(format!("{}: loss and test have different times", test.name));
+            }
+            means(number, test, loss, set, &mut data);
+        }
+        if data.len() < 8 {
+            return Err(format!(
+                "{} means of F at which the balls are known to roll; at least 8 are needed for a map",
+                data.len()
+            ));
+        }
+        let mut notes = Vec::new();
+        if data.len() > MOST {
+            let step = data.len().div_ceil(MOST);
+            notes.push(format!("every {step}th of {} means is used", data.len()));
+            data = data.into_iter().step_by(step).collect();
+        }
+        let errors = errors(&data, tests, steady, set, settings);
+        let level =
+            (data.iter().map(|d| d.friction.powi(2)).sum::<f64>() / data.len() as f64).sqrt();
+        let span = |f: fn(&Datum) -> f64| {
+            data.iter()
+                .map(f)
+                .fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), x| {
+                    (a.min(x), b.max(x))
+                })
+        };
+        let (low, high) = span(|d| d.speed);
+        let (least, most) = span(|d| d.rate);
+        let floor = errors
+            .iter()
+            .enumerate()
+            .map(|(i, row)| row[i])
+            .fold(f64::INFINITY, f64::min)
+            .sqrt();
+        let level = level.max(floor);
+        let best = Self::sizes(&data, &errors, level, high, most)
+            .ok_or("the means of F do not determine a map")?;
+        let factor =
+            covered(&data, &errors, &best).ok_or("the means of F do not determine a map")?;
+        let friction: Vec<f64> = data.iter().map(|d| d.friction).collect();
+        if most - least < 0.2 * most {
+            notes.push(format!(
+                "all accelerations are from {least:.3e} to {most:.3e} rad/s²: F0 and F1 are hardly told apart"
+            ));
+        }
+        Ok(Self {
+            weights: solved(&factor, &friction),
+            factor,
+            sizes: best,
+            range: (low, high, least, most),
+            data,
+            notes,
+        })
+    }
+
+    /// The sizes of highest marginal likelihood.
+    fn sizes(data: &[Datum], errors: &Matrix, level: f64, high: f64, most: f64) -> Option<Sizes> {
+        let friction: Vec<f64> = data.iter().map(|d| d.friction).collect();
+        let mut best: Option<(f64, Sizes)> = None;
+        for length in [0.25, 0.75, 2.0] {
+            for constant in [0.03, 0.1, 0.3, 1.0, 3.0] {
+                for proportional in [0.03, 0.1, 0.3, 1.0, 3.0] {
+                    let sizes = Sizes {
+                        constant: constant * level,
+                        proportional: proportional * level / most.max(1e-300),
+                        length: length * high,
+                    };
+                    let Some(factor) = covered(data, errors, &sizes) else {
+                        continue;
+                    };
+                    let white = forward(&factor, &friction);
+                    let log = -0.5 * (dot(&white, &white) + log_determinant(&factor));
+                    if best.is_none_or(|(top, _)| log > top) {
+                        best = Some((log, sizes));
+                    }
+                }
+            }
+        }
+        best.map(|(_, sizes)| sizes)
+    }
+
+    /// F at a speed and an acceleration, either sign.
+    ///
+    /// - `speed`: Ω, rad/s
+    /// - `acceleration`: Ω̇, rad/s²
+    pub fn at(&self, speed: f64, acceleration: f64) -> MapPlace {
+        let place = (speed.abs(), acceleration.abs());
+        let alone = self.sizes.covariance(place, place);
+        let friction = self.drawn(alone, |d| self.sizes.covariance(place, (d.speed, d.rate)));
+        let (low, high, least, most) = self.range;
+        let wide = |x: f64, scale: f64| x / scale.max(1e-300);
+        let nearest = self
+            .data
+            .iter()
+            .map(|d| {
+                wide(place.0 - d.speed, high - low).hypot(wide(place.1 - d.rate, most - least))
+            })
+            .fold(f64::INFINITY, f64::min);
+        MapPlace {
+            friction,
+            nearest,
+            known: nearest < 0.15 && friction.deviation < 0.5 * alone.sqrt(),
+        }
+    }
+
+    /// F0 at a speed, N.
+    ///
+    /// - `speed`: Ω, rad/s
+    pub fn constant_part(&self, speed: f64) -> Uncertain {
+        let size = self.sizes.constant.powi(2);
+        self.drawn(size, |d| size * self.sizes.alike(speed.abs(), d.speed))
+    }
+
+    /// F1 at a speed, N s²/rad: F over |Ω̇|.
+    ///
+    /// - `speed`: Ω, rad/s
+    pub fn proportional_part(&self, speed: f64) -> Uncertain {
+        let size = self.sizes.proportional.powi(2);
+        self.drawn(size, |d| {
+            size * d.rate * self.sizes.alike(speed.abs(), d.speed)
+        })
+    }
+
+    fn drawn(&self, alone: f64, with: impl Fn(&Datum) -> f64) -> Uncertain {
+        let row: Vec<f64> = self.data.iter().map(with).collect();
+        let white = forward(&self.factor, &row);
+        let variance = alone - dot(&white, &white);
+        Uncertain::new(dot(&row, &self.weights), variance.max(0.0).sqrt())
+    }
+}
+
+/// Factor of the covariance of the data.
+fn covered(data: &[Datum], errors: &Matrix, sizes: &Sizes) -> Option<Matrix> {
+    let mut sum = errors.clone();
+    for (i, a) in data.iter().enumerate() {
+        for (j, b) in data.iter().enumerate() {
+            sum[i][j] += sizes.covariance((a.speed, a.rate), (b.speed, b.rate));
+        }
+    }
+    cholesky(sum)
+}
+
+/// Means of F over the correlation time, where the balls roll and the speed does not change by more than a tenth of its range.
+fn means(
+    number: usize,
+    test: &Measurement,
+    loss: &Loss,
+    set: &RollingSet<f64>,
+    data: &mut Vec<Datum>,
+) {
+    let arm = set.pocket_friction_arm();
+    let inertia = set.outer_inertia() / arm;
+    let top = test.speed.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+    let fastest = test
+        .acceleration
+        .iter()
+        .fold(0.0, |a: f64, x| a.max(x.abs()));
+    let mut start = 0;
+    while start < loss.points.len() {
+        if loss.points[start].state != State::Rolling {
+            start += 1;
+            continue;
+        }
+        let first = loss.points[start];
+        let mut end = start;
+        while end < loss.points.len() {
+            let point = loss.points[end];
+            let ends = point.state != State::Rolling
+                || (point.speed - first.speed).abs() > 0.1 * top
+                || (point.acceleration - first.acceleration).abs() > 0.1 * fastest
+                || point.time - first.time
+                    > test
+                        .correlation_time
+                        .max(0.02 * (test.time[test.time.len() - 1] - test.time[0]));
+            if ends && end > start {
+                break;
+            }
+            end += 1;
+        }
+        let part = &loss.points[start..end];
+        let count = part.len() as f64;
+        let sign = first.speed.signum();
+        let mean = |f: &dyn Fn(usize) -> f64| (start..end).map(f).sum::<f64>() / count;
+        let friction = mean(&|k| loss.points[k].friction.map_or(0.0, |f| sign * f.value));
+        // errors within a mean are taken as one: at most too wide
+        let noise = mean(&|k| test.torque_noise(k)) / arm;
+        let rate = mean(&|k| test.acceleration_deviation[k]) * inertia;
+        let signed_rate = sign * mean(&|k| test.acceleration[k]);
+        data.push(Datum {
+            test: number,
+            speed: mean(&|k| test.speed[k].abs()),
+            rate: signed_rate.abs(),
+            signed_rate,
+            friction,
+            own: noise * noise + rate * rate,
+        });
+        start = end;
+    }
+}
+
+/// Covariance of the errors of the means.
+fn errors(
+    data: &[Datum],
+    tests: &[(&Measurement, &Loss)],
+    steady: &SteadyMoment,
+    set: &RollingSet<f64>,
+    settings: &LossSettings,
+) -> Matrix {
+    let arm = set.pocket_friction_arm();
+    let inertia = set.outer_inertia();
+    let own = &settings.set_deviation;
+    let mass = own.outer_inertia(set) / arm;
+    let scale: Vec<f64> = data
+        .iter()
+        .map(|d| {
+            let moment = steady.without_scale(d.speed).map_or(0.0, |m| m.value);
+            let torque = moment + arm * d.friction - inertia * d.signed_rate;
+            scale_part(
+                tests[d.test].0,
+                steady,
+                settings.same_sensor,
+                torque,
+                moment,
+            ) / arm
+        })
+        .collect();
+    let mut sum = zeros(data.len(), data.len());
+    for (i, a) in data.iter().enumerate() {
+        for (j, b) in data.iter().enumerate().take(i + 1) {
+            let mut value = steady.covariance_between(a.speed, b.speed).unwrap_or(0.0)
+                / (arm * arm)
+                + mass * mass * a.signed_rate * b.signed_rate
+                + own.inner_track_radius.powi(2) * a.friction * b.friction
+                + scale[i] * scale[j];
+            if a.test == b.test {
+                value += (tests[a.test].0.zero_deviation / arm).powi(2);
+            }
+            if i == j {
+                // a thousandth of the rest keeps exact data solvable
+                value += a.own + 1e-6 * (value + a.own) + 1e-300;
+            }
+            sum[i][j] = value;
+            sum[j][i] = value;
+        }
+    }
+    sum
+}

@@ -1,0 +1,303 @@
+//! The friction F of accelerated balls, over time and as a map.
+//!
+//! ```text
+//!   rolling known   F = [t_O - M + J_O Ω̇]/share          J_O = (1+2s)(3/20 N m_b + ¼ m_c) R², share = (1+2s) R/(2(1+s))
+//!   cage measured   F = [t_O - M]/share - a(1+s) + b     (7): a = ⅖ N m_b s R ω̇_b, b = (N m_b + m_c) R (1+s)² ω̇_c
+//!   else            t_O - M alone
+//! ```
+//! The second line holds with any slip of the cage, but the spin of the balls is not measured: a ball that grips at least one race
+//! spins up between (1+s) ω̇_c/s (grips outside) and [Ω̇ - (1+s) ω̇_c]/s (grips inside); the middle is Ω̇/(2s), and the range
+//! counts as evenly likely. M is the moment of *rolling* balls: where the cage slips, the change of M is in this F.
+//!
+//! The band holds noise, zero and scale of the torque, M's band, the deviations of Ω and Ω̇, and those of the masses. One sensor
+//! measured t_O and M: its scale acts on their difference.
+//!
+//! **Does not model**: errors of Ω̇ and t_O that are alike; a state of the lubricant other than that of the slow tests, which
+//! looks like F here (see [`doubt`](crate::doubt) and [`explain`](crate::explain)).
+//!
+//! Measured (`tests/loss.rs`, 400 seeds with another noise, a nonlinear sensor and M from made-up coast-downs, band of two
+//! deviations): the true F lies in its band at COVERAGE_F of all times, the true map at COVERAGE_MAP of all places with data.
+
+mod map;
+
+pub use map::{LossMap, MapPlace};
+
+use crate::measurement::{Measurement, SetDeviation};
+use crate::moment::{SteadyMoment, same_load};
+use crate::series::{between, rates};
+use crate::slip::{self, SlipSettings, slip_at};
+use measure::uncertain::Uncertain;
+use physics::rolling::RollingSet;
+
+/// What is known of the rolling of the balls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rolling {
+    /// The user states that they roll throughout.
+    Stated,
+    /// As the cage signal tells; unknown without one.
+    ByCage,
+}
+
+/// What is known beside a test.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LossSettings {
+    /// Whether the balls roll.
+    pub rolling: Rolling,
+    /// What counts as rolling in the cage signal.
+    pub slip: SlipSettings,
+    /// What is not known of masses and radius.
+    pub set_deviation: SetDeviation,
+    /// Window over which the acceleration of a slipping cage is taken, s.
+    pub cage_window: f64,
+    /// Whether the steady moment was measured by the sensor of this test.
+    pub same_sensor: bool,
+}
+
+impl Default for LossSettings {
+    /// By the cage, exact masses, the same sensor. The window of 10 ms is the time between two balls that pass at 150 rad/s.
+    fn default() -> Self {
+        Self {
+            rolling: Rolling::ByCage,
+            slip: SlipSettings::default(),
+            set_deviation: SetDeviation::default(),
+            cage_window: 0.01,
+            same_sensor: true,
+        }
+    }
+}
+
+/// What is known of the balls at one time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    /// They roll: F by the first line.
+    Rolling,
+    /// The cage slips, or may: F by the second line, with its wider band.
+    MaySlip,
+    /// Nothing is known of the cage: no F.
+    Unknown,
+    /// The speed lies outside the curve of the steady moment: neither F nor t_O - M.
+    OutsideMoment,
+}
+
+/// What one time tells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LossPoint {
+    /// Time, s.
+    pub time: f64,
+    /// Speed Ω, rad/s.
+    pub speed: f64,
+    /// Acceleration Ω̇, rad/s².
+    pub acceleration: f64,
+    /// What is known of the balls.
+    pub state: State,
+    /// t_O - M, N m.
+    pub excess: Option<Uncertain>,
+    /// Slip of the cage, 1.
+    pub slip: Option<Uncertain>,
+    /// Friction F, N, sum over the balls.
+    pub friction: Option<Uncertain>,
+}
+
+/// The friction of accelerated balls over a test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loss {
+    /// Name of the test.
+    pub name: String,
+    /// One point a time of the test.
+    pub points: Vec<LossPoint>,
+    /// What is not trustworthy.
+    pub notes: Vec<String>,
+}
+
+/// The friction of accelerated balls over a test.
+///
+/// Formula: F = 2(1+s)/((1+2s) R)·[t_O - M + (1+2s)(3/20 N m_b + ¼ m_c) R² Ω̇] where they roll; else as on this page
+///
+/// - `test`: speed, acceleration, torque, and the cage where it was measured
+/// - `steady`: M(Ω) at the load of the test
+/// - `set`: balls and cage
+/// - `settings`: what is known beside
+pub fn loss(
+    test: &Measurement,
+    steady: &SteadyMoment,
+    set: &RollingSet<f64>,
+    settings: &LossSettings,
+) -> Result<Loss, String> {
+    test.sound()?;
+    steady.sound()?;
+    slip::sound(&settings.slip)?;
+    settings.set_deviation.sound()?;
+    let arm = set.pocket_friction_arm();
+    let inertia = set.outer_inertia();
+    if !(arm > 0.0 && arm.is_finite() && inertia >= 0.0 && inertia.is_finite()) {
+        return Err("masses and radii of balls and cage must be positive and finite".into());
+    }
+    if !(settings.cage_window > 0.0 && settings.cage_window.is_finite()) {
+        return Err("the window of the cage's acceleration must be positive and finite".into());
+    }
+    let mut notes = Vec::new();
+    if !same_load(test.load, steady.load) {
+        notes.push(format!(
+            "the test was at {} N, the steady moment at {} N: their difference is in F",
+            test.load, steady.load
+        ));
+    }
+    if settings.rolling == Rolling::ByCage && test.cage.is_none() {
+        notes.push("no cage signal, and rolling is not stated: t_O - M is told, F is not".into());
+    }
+    let cage_rates = test.cage.as_ref().map(|cage| {
+        let own = rates(
+            &cage.time,
+            &cage.speed,
+            &cage.deviation,
+            settings.cage_window,
+        );
+        let (rate, deviation): (Vec<f64>, Vec<f64>) = own.into_iter().unzip();
+        (rate, deviation)
+    });
+    let points: Vec<LossPoint> = (0..test.time.len())
+        .map(|k| {
+            let time = test.time[k];
+            let slip = slip_at(test, set, &settings.slip, time);
+            let cage_rate = cage_rates.as_ref().and_then(|(rate, deviation)| {
+                let times = &test.cage.as_ref()?.time;
+                Some(Uncertain::new(
+                    between(times, rate, time)?,
+                    between(times, deviation, time)?,
+                ))
+            });
+            let excess = excess(test, steady, settings, k);
+            let state = match (excess, settings.rolling, slip) {
+                (None, ..) => State::OutsideMoment,
+                (_, Rolling::Stated, _) => State::Rolling,
+                (_, _, Some(slip)) if slip.slipping <= 0.05 => State::Rolling,
+                (_, _, Some(_)) if cage_rate.is_some() => State::MaySlip,
+                _ => State::Unknown,
+            };
+            let friction = match (state, excess, cage_rate) {
+                (State::Rolling, Some(excess), _) => {
+                    Some(rolling_friction(test, set, settings, k, excess))
+                }
+                (State::MaySlip, Some(excess), Some(rate)) => {
+                    Some(slipping_friction(test, set, settings, k, excess, rate))
+                }
+                _ => None,
+            };
+            LossPoint {
+                time,
+                speed: test.speed[k],
+                acceleration: test.acceleration[k],
+                state,
+                excess,
+                slip: slip.map(|slip| slip.slip),
+                friction,
+            }
+        })
+        .collect();
+    let outside = points
+        .iter()
+        .filter(|p| p.state == State::OutsideMoment)
+        .count();
+    if outside > 0 {
+        let (low, high) = steady.range();
+        notes.push(format!(
+            "{outside} of {} times lie outside the speeds of the steady moment, {low:.4} to {high:.4} rad/s: nothing is told there",
+            points.len()
+        ));
+    }
+    Ok(Loss {
+        name: test.name.clone(),
+        points,
+        notes,
+    })
+}
+
+/// Deviation of t_O - M by what both share at one time: the scale of one sensor, or of each.
+fn scale_part(
+    test: &Measurement,
+    steady: &SteadyMoment,
+    same: bool,
+    torque: f64,
+    moment: f64,
+) -> f64 {
+    if same {
+        test.scale_deviation * (torque - moment)
+    } else {
+        (test.scale_deviation * torque).hypot(steady.scale_deviation * moment)
+    }
+}
+
+/// t_O - M.
+fn excess(
+    test: &Measurement,
+    steady: &SteadyMoment,
+    settings: &LossSettings,
+    k: usize,
+) -> Option<Uncertain> {
+    let speed = test.speed[k];
+    let own = steady.without_scale(speed)?;
+    let torque = test.torque[k];
+    let deviation = test
+        .torque_noise(k)
+        .hypot(test.zero_deviation)
+        .hypot(own.deviation)
+        .hypot(scale_part(
+            test,
+            steady,
+            settings.same_sensor,
+            torque,
+            own.value,
+        ))
+        .hypot(steady.slope(speed)? * test.speed_deviation[k]);
+    Some(Uncertain::new(torque - own.value, deviation))
+}
+
+fn rolling_friction(
+    test: &Measurement,
+    set: &RollingSet<f64>,
+    settings: &LossSettings,
+    k: usize,
+    excess: Uncertain,
+) -> Uncertain {
+    let (arm, inertia) = (set.pocket_friction_arm(), set.outer_inertia());
+    let rate = test.acceleration[k];
+    let value = (excess.value + inertia * rate) / arm;
+    let deviation = excess
+        .deviation
+        .hypot(inertia * test.acceleration_deviation[k])
+        .hypot(settings.set_deviation.outer_inertia(set) * rate)
+        / arm;
+    Uncertain::new(
+        value,
+        deviation.hypot(settings.set_deviation.inner_track_radius * value),
+    )
+}
+
+/// (7), with the spin of the balls between its two bounds.
+fn slipping_friction(
+    test: &Measurement,
+    set: &RollingSet<f64>,
+    settings: &LossSettings,
+    k: usize,
+    excess: Uncertain,
+    cage_rate: Uncertain,
+) -> Uncertain {
+    let (s, radius) = (set.ball_ratio, set.inner_track_radius);
+    let (arm, rate) = (set.pocket_friction_arm(), test.acceleration[k]);
+    let spin = 0.4 * set.balls_mass * s * radius * (1.0 + s);
+    let orbit = (set.balls_mass + set.cage_mass) * radius * (1.0 + s).powi(2);
+    let middle = set.ball_spin(rate);
+    let half_range = (rate - 2.0 * (1.0 + s) * cage_rate.value).abs() / (2.0 * s);
+    let value = excess.value / arm - spin * middle + orbit * cage_rate.value;
+    let own = &settings.set_deviation;
+    let masses = (own.balls_mass
+        * (set.balls_mass * radius * (1.0 + s).powi(2) * cage_rate.value - spin * middle))
+        .hypot(own.cage_mass * set.cage_mass * radius * (1.0 + s).powi(2) * cage_rate.value);
+    let deviation = (excess.deviation / arm)
+        .hypot(spin * half_range / 3_f64.sqrt())
+        .hypot(spin * test.acceleration_deviation[k] / (2.0 * s))
+        .hypot(orbit * cage_rate.deviation)
+        .hypot(masses)
+        .hypot(own.inner_track_radius * value);
+    Uncertain::new(value, deviation)
+}

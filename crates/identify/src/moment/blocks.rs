@@ -1,0 +1,130 @@
+//! What of slow tests is fitted: means over equal times.
+
+use super::MomentSettings;
+use crate::measurement::Measurement;
+use physics::rolling::RollingSet;
+use std::ops::Range;
+
+/// About as many blocks as all tests together become: few, so that quick noise averages out.
+const BLOCKS: f64 = 200.0;
+
+/// Fewest blocks that are fitted.
+const FEWEST: usize = 16;
+
+/// Means of speed and torque over equal times, in the order of time, one test after another.
+pub(super) struct Blocks {
+    /// Speed without sign, rad/s.
+    pub(super) x: Vec<f64>,
+    /// Torque along the rotation without the part of inertia, N m.
+    pub(super) y: Vec<f64>,
+    /// Test of each block.
+    pub(super) test: Vec<usize>,
+    /// Stretches of blocks that follow each other without a gap.
+    pub(super) stretches: Vec<Range<usize>>,
+    /// Duration of a block, s.
+    pub(super) duration: f64,
+    /// Smallest and largest speed of what went in, rad/s.
+    pub(super) range: (f64, f64),
+}
+
+impl Blocks {
+    /// Root mean square of the torque, N m: the unit of the priors.
+    pub(super) fn level(&self) -> f64 {
+        (self.y.iter().map(|y| y * y).sum::<f64>() / self.y.len() as f64).sqrt()
+    }
+
+    pub(super) fn new(
+        tests: &[&Measurement],
+        set: &RollingSet<f64>,
+        settings: &MomentSettings,
+    ) -> Result<Self, String> {
+        let inertia = set.outer_inertia();
+        let taken: Vec<Vec<usize>> = tests
+            .iter()
+            .map(|test| {
+                (0..test.time.len())
+                    .filter(|&k| {
+                        test.speed[k].abs() >= settings.least_speed
+                            && test.acceleration[k].abs() <= settings.slow_acceleration
+                    })
+                    .collect()
+            })
+            .collect();
+        let interval = |test: &Measurement| {
+            (test.time[test.time.len() - 1] - test.time[0]) / (test.time.len() - 1) as f64
+        };
+        let whole: f64 = tests
+            .iter()
+            .zip(&taken)
+            .map(|(test, taken)| taken.len() as f64 * interval(test))
+            .sum();
+        let slowest = tests.iter().map(|test| interval(test)).fold(0.0, f64::max);
+        let duration = (whole / BLOCKS).max(slowest);
+        let mut blocks = Self {
+            x: Vec::new(),
+            y: Vec::new(),
+            test: Vec::new(),
+            stretches: Vec::new(),
+            duration,
+            range: (f64::INFINITY, 0.0),
+        };
+        for (number, (test, taken)) in tests.iter().zip(&taken).enumerate() {
+            let step = interval(test);
+            let size = ((duration / step).round() as usize).max(1);
+            let value = |k: usize| {
+                (test.torque[k] + inertia * test.acceleration[k]) * test.speed[k].signum()
+            };
+            let apart = |a: usize, b: usize| {
+                b != a + 1
+                    || test.time[b] - test.time[a] > 3.0 * step
+                    || test.speed[a].signum() != test.speed[b].signum()
+            };
+            let mut start = 0;
+            while start < taken.len() {
+                let mut end = start + 1;
+                while end < taken.len() && !apart(taken[end - 1], taken[end]) {
+                    end += 1;
+                }
+                let run = &taken[start..end];
+                // shorter stretches tell nothing of the correlation and little of the curve
+                if run.len() / size >= 3 {
+                    let first = blocks.x.len();
+                    for part in run.chunks_exact(size) {
+                        let mean = |f: &dyn Fn(usize) -> f64| {
+                            part.iter().map(|&k| f(k)).sum::<f64>() / size as f64
+                        };
+                        blocks.x.push(mean(&|k| test.speed[k].abs()));
+                        blocks.y.push(mean(&value));
+                        blocks.test.push(number);
+                    }
+                    for &k in &run[..run.len() / size * size] {
+                        let speed = test.speed[k].abs();
+                        blocks.range.0 = blocks.range.0.min(speed);
+                        blocks.range.1 = blocks.range.1.max(speed);
+                    }
+                    blocks.stretches.push(first..blocks.x.len());
+                }
+                start = end;
+            }
+        }
+        if blocks.x.len() < FEWEST {
+            return Err(format!(
+                "slow running above {} rad/s with accelerations below {} rad/s² gives {} values; at least {FEWEST} are needed: the slow test is too short or not slow",
+                settings.least_speed,
+                settings.slow_acceleration,
+                blocks.x.len()
+            ));
+        }
+        if blocks.range.1 - blocks.range.0 < 0.02 * blocks.range.1 {
+            return Err(format!(
+                "all slow running is at {:.4} rad/s: a moment over speed needs a range of speeds",
+                blocks.range.1
+            ));
+        }
+        let level = blocks.level();
+        if !(level > 0.0 && level.is_finite()) {
+            return Err("the torque of the slow tests is 0 throughout".into());
+        }
+        Ok(blocks)
+    }
+}

@@ -1,0 +1,255 @@
+//! Sliding friction between rotor and race, from the spin-up of a drop.
+//!
+//! ```text
+//!   (18), (10), (14)   R_0 μ W = I_I Ω̇ + t_I = (I_I + J_I) Ω̇ + M + share F       along the slip u = R_0 (ω - Ω)
+//! ```
+//! Only while rotor and race touch (W above a least load) and slide (|u| above a least slip). Points share the errors of I_I, J_I,
+//! R_0, M and F; means over slip keep those and average what is left.
+//!
+//! **Does not model**: slip of the balls (J_I is that of rolling balls); whirl (u is that of a centred rotor: the orbit's own
+//! speed at the contact is left out); a load W that does not press at one place; friction that rests.
+//!
+//! Measured (`tests/rotor.rs`, 400 seeds, band of two deviations): the true μ lies in its band at COVERAGE_MU of all times.
+
+use crate::measurement::SetDeviation;
+use measure::uncertain::Uncertain;
+use physics::rolling::RollingSet;
+
+/// The spin-up of a race by a rotor that rubs along it. All lists have the same length; all values are SI.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RubbingSpinUp {
+    /// Name for messages.
+    pub name: String,
+    /// Times, s; rising.
+    pub time: Vec<f64>,
+    /// Speed Ω of the race with its deviation, rad/s.
+    pub race_speed: Vec<Uncertain>,
+    /// Acceleration Ω̇ of the race with its deviation, rad/s².
+    pub race_acceleration: Vec<Uncertain>,
+    /// Speed ω of the rotor with its deviation, rad/s.
+    pub rotor_speed: Vec<Uncertain>,
+    /// Force W between rotor and race with its deviation, N; 0 where they do not touch.
+    pub load: Vec<Uncertain>,
+    /// Time after which two errors of acceleration and load count as independent, s.
+    pub correlation_time: f64,
+}
+
+/// What is known of race and bearing.
+pub struct Race<'a> {
+    /// Inertia I_I of the inner race with its sleeve, kg m².
+    pub inertia: Uncertain,
+    /// Radius R_0 of the bore, m.
+    pub bore_radius: Uncertain,
+    /// Balls and cage.
+    pub set: RollingSet<f64>,
+    /// What is not known of them.
+    pub set_deviation: SetDeviation,
+    /// M at a speed, rad/s, and a load, N; none where it is not known.
+    pub steady_moment: &'a dyn Fn(f64, f64) -> Option<Uncertain>,
+    /// F at a speed, rad/s, and an acceleration, rad/s²; none where it is not known.
+    pub friction: &'a dyn Fn(f64, f64) -> Option<Uncertain>,
+    /// Least W that counts as contact, N.
+    pub least_load: f64,
+    /// Least |u| that counts as sliding, m/s.
+    pub least_slip: f64,
+}
+
+/// Friction at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrictionPoint {
+    /// Time, s.
+    pub time: f64,
+    /// Slip u of the rotor's surface over the race's, m/s.
+    pub slip: Uncertain,
+    /// Coefficient of friction μ, 1; along the slip, negative where the race is driven against it.
+    pub friction: Uncertain,
+    /// Deviation of μ by what all points share.
+    pub shared_deviation: f64,
+}
+
+/// Friction over slip.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RotorFriction {
+    /// Points at which rotor and race slide.
+    pub points: Vec<FrictionPoint>,
+    /// What is not trustworthy.
+    pub notes: Vec<String>,
+    correlation_time: f64,
+}
+
+/// Sliding friction between rotor and race over the spin-up of a drop.
+///
+/// Formula: μ = [(I_I + J_I) Ω̇ + M + share F]/(R_0 W)
+///
+/// - `run`: what was measured
+/// - `race`: race, bearing, moments
+///
+/// Refused: lists that do not fit, nothing that slides under load.
+pub fn rotor_friction(run: &RubbingSpinUp, race: &Race) -> Result<RotorFriction, String> {
+    refuse(run, race)?;
+    let set = &race.set;
+    let share = set.pocket_friction_arm();
+    let inertia = race.inertia.value + set.inner_inertia();
+    let inertia_deviation = race
+        .inertia
+        .deviation
+        .hypot(race.set_deviation.inner_inertia(set));
+    let (mut beyond, mut without) = (0, 0);
+    let mut points = Vec::new();
+    for k in 0..run.time.len() {
+        let (speed, rate, load) = (run.race_speed[k], run.race_acceleration[k], run.load[k]);
+        let bore = race.bore_radius;
+        let apart = run.rotor_speed[k].minus(speed);
+        let slip = bore.times(apart);
+        if load.value < race.least_load || slip.value.abs() < race.least_slip {
+            continue;
+        }
+        let Some(moment) = (race.steady_moment)(speed.value, load.value) else {
+            beyond += 1;
+            continue;
+        };
+        let friction = (race.friction)(speed.value, rate.value).unwrap_or_else(|| {
+            without += 1;
+            Uncertain::exact(0.0)
+        });
+        let drive = inertia * rate.value + moment.value + share * friction.value;
+        let press = bore.value * load.value * slip.value.signum();
+        let value = drive / press;
+        let own = (inertia * rate.deviation / press).hypot(value * load.deviation / load.value);
+        let shared = (inertia_deviation * rate.value / press)
+            .hypot(moment.deviation / press)
+            .hypot(share * friction.deviation / press)
+            .hypot(value * bore.deviation / bore.value);
+        points.push(FrictionPoint {
+            time: run.time[k],
+            slip,
+            friction: Uncertain::new(value, own.hypot(shared)),
+            shared_deviation: shared,
+        });
+    }
+    let mut notes = Vec::new();
+    if beyond > 0 {
+        notes.push(format!(
+            "at {beyond} times the steady moment is not known: they are left out"
+        ));
+    }
+    if without > 0 {
+        notes.push(format!(
+            "at {without} times the friction of accelerated balls is not known: it is taken as 0, μ is then too small by share F/(R_0 W)"
+        ));
+    }
+    if points.is_empty() {
+        return Err(format!(
+            "{}: rotor and race never slide under {} N and {} m/s with a known steady moment",
+            run.name, race.least_load, race.least_slip
+        ));
+    }
+    Ok(RotorFriction {
+        points,
+        notes,
+        correlation_time: run.correlation_time,
+    })
+}
+
+impl RotorFriction {
+    /// Means of slip and μ over equal ranges of |u|, those with points.
+    ///
+    /// - `ranges`: number of ranges
+    ///
+    /// The deviation of a mean holds what its points share in full, and the rest over the number of independent points: their
+    /// time over the correlation time.
+    pub fn over_slip(&self, ranges: usize) -> Vec<FrictionPoint> {
+        let most = self
+            .points
+            .iter()
+            .fold(0.0, |a: f64, p| a.max(p.slip.value.abs()));
+        let ranges = ranges.max(1);
+        (0..ranges)
+            .filter_map(|range| {
+                let part: Vec<&FrictionPoint> = self
+                    .points
+                    .iter()
+                    .filter(|p| {
+                        let place = p.slip.value.abs() / most * ranges as f64;
+                        (place as usize).min(ranges - 1) == range
+                    })
+                    .collect();
+                let (first, last) = (part.first()?, part.last()?);
+                let count = part.len() as f64;
+                let mean = |f: &dyn Fn(&FrictionPoint) -> f64| {
+                    part.iter().map(|p| f(p)).sum::<f64>() / count
+                };
+                let shared = mean(&|p| p.shared_deviation);
+                let own =
+                    mean(&|p| p.friction.deviation.powi(2) - p.shared_deviation.powi(2)).max(0.0);
+                let lasting = last.time - first.time;
+                let independent = if self.correlation_time > 0.0 {
+                    (lasting / self.correlation_time).clamp(1.0, count)
+                } else {
+                    count
+                };
+                Some(FrictionPoint {
+                    time: mean(&|p| p.time),
+                    slip: Uncertain::new(mean(&|p| p.slip.value), mean(&|p| p.slip.deviation)),
+                    friction: Uncertain::new(
+                        mean(&|p| p.friction.value),
+                        shared.hypot((own / independent).sqrt()),
+                    ),
+                    shared_deviation: shared,
+                })
+            })
+            .collect()
+    }
+}
+
+fn refuse(run: &RubbingSpinUp, race: &Race) -> Result<(), String> {
+    race.set_deviation.sound()?;
+    let count = run.time.len();
+    for (what, list) in [
+        ("race speeds", &run.race_speed),
+        ("race accelerations", &run.race_acceleration),
+        ("rotor speeds", &run.rotor_speed),
+        ("loads", &run.load),
+    ] {
+        if list.len() != count {
+            return Err(format!(
+                "{}: {} {what} for {count} times",
+                run.name,
+                list.len()
+            ));
+        }
+        if let Some(at) = list.iter().position(|value| !value.is_sound()) {
+            return Err(format!(
+                "{}: number {at} of the {what} is not finite",
+                run.name
+            ));
+        }
+    }
+    if run
+        .time
+        .windows(2)
+        .any(|p| !(p[1] > p[0] && p[1].is_finite()))
+    {
+        return Err(format!("{}: the times do not rise", run.name));
+    }
+    for (what, value) in [
+        ("inertia of the race", race.inertia),
+        ("bore radius", race.bore_radius),
+    ] {
+        if !(value.is_sound() && value.value > 0.0) {
+            return Err(format!(
+                "the {what} is missing: it must be positive and finite, with a deviation"
+            ));
+        }
+    }
+    let inner = race.set.inner_inertia();
+    if !(inner.is_finite() && inner >= 0.0) {
+        return Err("masses and radii of balls and cage must be positive and finite".into());
+    }
+    if !(race.least_load > 0.0 && race.least_slip > 0.0 && run.correlation_time >= 0.0) {
+        return Err(
+            "least load and least slip must be positive, the correlation time not negative".into(),
+        );
+    }
+    Ok(())
+}

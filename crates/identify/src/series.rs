@@ -1,0 +1,157 @@
+//! Values over time: between samples, their rates, and errors that are alike at neighbouring times.
+
+use crate::measurement::Measurement;
+
+/// Index and weight of the later of two neighbours of a place in a rising list; none outside.
+pub(crate) fn place(list: &[f64], at: f64) -> Option<(usize, f64)> {
+    let (first, last) = (*list.first()?, *list.last()?);
+    if !(at >= first && at <= last) || list.len() < 2 {
+        return None;
+    }
+    let next = list.partition_point(|&x| x <= at).clamp(1, list.len() - 1);
+    let width = list[next] - list[next - 1];
+    Some((next, (at - list[next - 1]) / width))
+}
+
+/// Straight line between the neighbours of a place; none outside.
+pub(crate) fn between(list: &[f64], values: &[f64], at: f64) -> Option<f64> {
+    let (next, weight) = place(list, at)?;
+    Some(values[next - 1] + weight * (values[next] - values[next - 1]))
+}
+
+/// Weights of the trapezoidal rule, s.
+pub(crate) fn trapezoid(time: &[f64]) -> Vec<f64> {
+    let mut weights = vec![0.0; time.len()];
+    for (k, pair) in time.windows(2).enumerate() {
+        let half = 0.5 * (pair[1] - pair[0]);
+        weights[k] += half;
+        weights[k + 1] += half;
+    }
+    weights
+}
+
+/// Correlation of two errors a time apart: exp(-2|Δt|/τ).
+///
+/// Its integral over all Δt is τ, so that a record of length T holds T/τ independent errors: what a time "after which two errors
+/// count as independent" means here.
+pub(crate) fn alike(apart: f64, correlation_time: f64) -> f64 {
+    if correlation_time > 0.0 {
+        (-2.0 * apart.abs() / correlation_time).exp()
+    } else if apart == 0.0 {
+        1.0
+    } else {
+        0.0
+    }
+}
+
+/// Variance of the running sum Σ a_k e_k, errors e of deviation 1 and correlation [`alike`].
+pub(crate) struct RunningVariance {
+    correlation_time: f64,
+    variance: f64,
+    carried: f64,
+    before: Option<f64>,
+}
+
+impl RunningVariance {
+    pub(crate) fn new(correlation_time: f64) -> Self {
+        Self {
+            correlation_time,
+            variance: 0.0,
+            carried: 0.0,
+            before: None,
+        }
+    }
+
+    /// Adds a term and returns the variance of the sum so far.
+    pub(crate) fn add(&mut self, time: f64, factor: f64) -> f64 {
+        if let Some(before) = self.before {
+            self.carried *= alike(time - before, self.correlation_time);
+        }
+        self.variance += factor * factor + 2.0 * factor * self.carried;
+        self.carried += factor;
+        self.before = Some(time);
+        self.variance
+    }
+}
+
+/// Rate of a noisy list by a straight line over a window around each time, with its deviation.
+///
+/// The errors within half a window are taken as common: σ_rate = √6 σ/L, more than independent errors would give.
+pub(crate) fn rates(
+    time: &[f64],
+    values: &[f64],
+    deviation: &[f64],
+    window: f64,
+) -> Vec<(f64, f64)> {
+    (0..time.len())
+        .map(|k| {
+            let mut first = time.partition_point(|&t| t < time[k] - 0.5 * window);
+            let mut last = time.partition_point(|&t| t <= time[k] + 0.5 * window);
+            if last - first < 3 {
+                first = k.saturating_sub(1);
+                last = (k + 2).min(time.len());
+            }
+            let count = (last - first) as f64;
+            let mean = |list: &[f64]| list[first..last].iter().sum::<f64>() / count;
+            let (middle, level) = (mean(time), mean(values));
+            let (mut square, mut product) = (0.0, 0.0);
+            for i in first..last {
+                square += (time[i] - middle).powi(2);
+                product += (time[i] - middle) * (values[i] - level);
+            }
+            let length = time[last - 1] - time[first];
+            (product / square, 6_f64.sqrt() * mean(deviation) / length)
+        })
+        .collect()
+}
+
+/// Fastest speed of a test, rad/s, without sign.
+pub(crate) fn fastest(test: &Measurement) -> f64 {
+    test.speed
+        .iter()
+        .fold(0.0, |top: f64, speed| top.max(speed.abs()))
+}
+
+/// The median of a list; 0 of an empty one.
+pub(crate) fn median(list: &[f64]) -> f64 {
+    let mut sorted = list.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_running_variance_is_the_double_sum() {
+        let time = [0.0, 0.3, 0.35, 1.0, 1.2];
+        let factor = [1.0, -0.5, 2.0, 0.7, 0.1];
+        let mut running = RunningVariance::new(0.8);
+        let mut last = 0.0;
+        for (t, a) in time.iter().zip(factor) {
+            last = running.add(*t, a);
+        }
+        let mut sum = 0.0;
+        for i in 0..5 {
+            for j in 0..5 {
+                sum += factor[i] * factor[j] * (-2.0_f64 * (time[i] - time[j]).abs() / 0.8).exp();
+            }
+        }
+        assert!((last / sum - 1.0).abs() < 1e-13);
+    }
+    #[test]
+    fn a_straight_line_is_found_with_its_rate() {
+        let time: Vec<f64> = (0..50).map(|k| 0.01 * f64::from(k)).collect();
+        let values: Vec<f64> = time.iter().map(|t| 3.0 - 40.0 * t).collect();
+        for (rate, deviation) in rates(&time, &values, &[0.1; 50], 0.1) {
+            assert!((rate + 40.0).abs() < 1e-10 && deviation > 2.4);
+        }
+        assert_eq!(
+            between(&time, &values, 0.005),
+            Some(0.5 * (values[0] + values[1]))
+        );
+        assert_eq!(between(&time, &values, 0.5), None);
+        assert_eq!(place(&time, f64::NAN), None);
+    }
+}

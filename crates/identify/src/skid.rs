@@ -1,0 +1,230 @@
+//! Spin of the balls, as far as the torque on the outer race tells it.
+//!
+//! ```text
+//!   (7)   ⅖ N m_b s R (1+s) ω̇_b = 2(1+s) T_O + b - F,      T_O = (t_O - M)/((1+2s) R),  ∫b dt = (N m_b + m_c) R (1+s)² ω_c
+//!   x = 2s ω_b/Ω        1 where the balls roll on both races;   skid K = 1 - x
+//! ```
+//! ω_b is integrated from rest at the engagement. F ≥ 0 is not known: an exponential prior about a stated mean. Two cases, even
+//! odds before: each ball grips at least one race (x evenly between 1+|S| and 1-|S|), or it skids on both (x evenly below). The
+//! torque's error grows with time in the integral: within some 20 ms the torque tells little, later nothing, and this page says so.
+//!
+//! **Does not model**: balls with different spins (this is their mean); a moment M that falls while balls skid, which looks like
+//! less F; memory from one time to the next beyond the integral.
+
+use crate::measurement::Measurement;
+use crate::moment::SteadyMoment;
+use crate::normal::{below, density};
+use crate::series::{RunningVariance, between, trapezoid};
+use crate::slip::{self, SlipSettings, slip_at};
+use measure::uncertain::Uncertain;
+use physics::rolling::RollingSet;
+
+/// What is known beside a test.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkidSettings {
+    /// What counts as rolling: the limit serves for the skid too.
+    pub slip: SlipSettings,
+    /// Mean of the prior of F, N; none for a tenth of M over the arm of F, which is assumed.
+    pub mean_friction: Option<f64>,
+    /// Bayes factor, or its inverse, from which on the data count as telling, 1.
+    pub telling: f64,
+}
+
+impl Default for SkidSettings {
+    /// Telling from 3 on: evidence worth a mention by the usual scale (Kass and Raftery 1995, from memory).
+    fn default() -> Self {
+        Self {
+            slip: SlipSettings::default(),
+            mean_friction: None,
+            telling: 3.0,
+        }
+    }
+}
+
+/// Spin of the balls at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkidPoint {
+    /// Time, s.
+    pub time: f64,
+    /// x = 2s ω_b/Ω by the integral alone, without bounds, 1.
+    pub spin_ratio: Uncertain,
+    /// Probability of K above the limit; none where the data cannot tell.
+    pub skidding: Option<f64>,
+}
+
+/// Spin of the balls after the engagement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Skid {
+    /// Points from the engagement on, where the shaft turns.
+    pub points: Vec<SkidPoint>,
+    /// Last time at which the data tell anything, s; none if they never do.
+    pub tells_until: Option<f64>,
+    /// Largest probability of a skid at any one time at which the data tell; none if they never do.
+    pub skidded: Option<f64>,
+}
+
+/// Spin of the balls after an engagement from rest.
+///
+/// Formula: as on this page
+///
+/// - `test`: a spin-up from rest with a cage signal
+/// - `steady`: M(Ω) at its load; below its smallest speed M is taken from there
+/// - `set`: balls and cage
+/// - `settings`: what counts as skid, prior of F
+///
+/// Refused: no cage signal, no engagement.
+pub fn skid(
+    test: &Measurement,
+    steady: &SteadyMoment,
+    set: &RollingSet<f64>,
+    settings: &SkidSettings,
+) -> Result<Skid, String> {
+    test.sound()?;
+    steady.sound()?;
+    slip::sound(&settings.slip)?;
+    let (Some(cage), Some(start)) = (&test.cage, test.engagement) else {
+        return Err(format!(
+            "{}: the spin of the balls needs a cage signal and the time of engagement",
+            test.name
+        ));
+    };
+    let (s, radius) = (set.ball_ratio, set.inner_track_radius);
+    let inertia = 0.4 * set.balls_mass * s * radius * (1.0 + s);
+    if !(inertia > 0.0 && inertia.is_finite())
+        || settings.telling.is_nan()
+        || settings.telling < 1.0
+    {
+        return Err("masses and radii must be positive, and the telling factor at least 1".into());
+    }
+    let orbit = (set.balls_mass + set.cage_mass) * radius * (1.0 + s).powi(2);
+    let arm = set.pocket_friction_arm();
+    let first = test.time.partition_point(|&t| t < start);
+    let weights = trapezoid(&test.time[first..]);
+    let (low, high) = steady.range();
+    let mut noise = RunningVariance::new(test.correlation_time);
+    let (mut push, mut shared, mut friction) = (0.0, 0.0, 0.0);
+    let mut points = Vec::new();
+    for (k, weight) in (first..test.time.len()).zip(weights) {
+        let speed = test.speed[k];
+        let time = test.time[k];
+        let clamped = speed.abs().clamp(low, high).copysign(speed);
+        let turning = speed.abs() >= low * 0.1;
+        let moment = match steady.at(clamped) {
+            Some(moment) if turning => moment,
+            _ => Uncertain::exact(0.0),
+        };
+        // 2(1+s) T_O = (t_O - M)/arm
+        push += weight * (test.torque[k] - moment.value) / arm;
+        shared += weight
+            * test
+                .zero_deviation
+                .hypot(moment.deviation)
+                .hypot(test.scale_deviation * (test.torque[k] - moment.value))
+            / arm;
+        friction += weight
+            * settings
+                .mean_friction
+                .unwrap_or(0.1 * moment.value.abs() / arm);
+        let variance = noise.add(time, weight * test.torque_noise(k) / arm);
+        let Some(own) = between(&cage.time, &cage.speed, time) else {
+            continue;
+        };
+        let Some(deviation) = between(&cage.time, &cage.deviation, time) else {
+            continue;
+        };
+        let Some(slip) = slip_at(test, set, &settings.slip, time) else {
+            continue;
+        };
+        let rolling = set.ball_spin(speed);
+        let sign = speed.signum();
+        let unit = inertia * rolling;
+        let ratio = Uncertain::new(
+            (push + orbit * own - sign * friction) / unit,
+            (variance
+                .max(0.0)
+                .sqrt()
+                .hypot(shared)
+                .hypot(orbit * deviation)
+                .hypot(friction)
+                / unit)
+                .abs(),
+        );
+        points.push(SkidPoint {
+            time,
+            spin_ratio: ratio,
+            skidding: probability(ratio, slip.slip.value.abs(), settings),
+        });
+    }
+    if points.is_empty() {
+        return Err(format!(
+            "{}: shaft and cage are not measured together after the engagement",
+            test.name
+        ));
+    }
+    let telling = |p: &&SkidPoint| p.skidding.is_some();
+    Ok(Skid {
+        tells_until: points.iter().rfind(telling).map(|p| p.time),
+        skidded: points.iter().filter_map(|p| p.skidding).reduce(f64::max),
+        points,
+    })
+}
+
+/// Probability of a skid beyond the limit; none where neither case is favoured enough.
+fn probability(ratio: Uncertain, slip: f64, settings: &SkidSettings) -> Option<f64> {
+    let deviation = ratio.deviation.max(1e-9);
+    let place = |x: f64| (x - ratio.value) / deviation;
+    // mean of the likelihood over an interval
+    let mean = |from: f64, to: f64| {
+        if to - from < 1e-6 * deviation {
+            density(place(from)) / deviation
+        } else {
+            (below(place(to)) - below(place(from))) / (to - from)
+        }
+    };
+    let (least, most) = ((1.0 - slip).max(0.0), 1.0 + slip);
+    let grips = mean(least, most);
+    let skids = mean(0.0, least);
+    let limit = 1.0 - settings.slip.limit;
+    // far outside both, the nearer end counts
+    let (grips, skids) = if grips + skids > 1e-300 {
+        (grips, skids)
+    } else if ratio.value > 0.5 {
+        (1.0, 0.0)
+    } else {
+        (0.0, 1.0)
+    };
+    if grips > 0.0 && skids > 0.0 {
+        let factor = skids / grips;
+        if factor < settings.telling && factor > 1.0 / settings.telling {
+            return None;
+        }
+    }
+    let part = |from: f64, to: f64, whole: f64| {
+        let upper = to.min(limit).max(from);
+        if whole <= 0.0 || to <= from {
+            0.0
+        } else {
+            mean(from, upper) * (upper - from) / (whole * (to - from))
+        }
+    };
+    let beyond = grips * part(least, most, grips) + skids * part(0.0, least, skids);
+    Some((beyond / (grips + skids)).clamp(0.0, 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn certain_spins_are_told_and_uncertain_ones_are_not() {
+        let settings = SkidSettings::default();
+        let told = |value, deviation| probability(Uncertain::new(value, deviation), 0.0, &settings);
+        // half the rolling spin, known to 5 %: skids
+        assert!(told(0.5, 0.05).unwrap() > 0.99);
+        // rolling, known to 5 %: a mass at 1 against an even spread below favours rolling 1 to 0.06
+        let rolls = told(1.0, 0.05).unwrap();
+        assert!(rolls < 0.08 && rolls > 0.0);
+        // known to twice its range: nothing
+        assert_eq!(told(0.8, 2.0), None);
+    }
+}
