@@ -18,7 +18,7 @@
 //! | [`rate`] | the equations of motion |
 //! | [`clutch`] | open, slipping, locked: what follows what |
 //! | [`program`] | what is done to the rig, and when |
-//! | [`simulate`] | a run, cut where something is switched or the clutch changes |
+//! | [`simulate`](mod@simulate) | a run, cut where something is switched or the clutch changes |
 //! | [`ramp`] | the engagement that gives a wanted acceleration |
 //! | [`ledger`] | energies, momentum, what closes; the energy by the outer race, (21) |
 //! | [`record`] | what is watched and kept of a run; [`taps`]: what a converter samples |
