@@ -11,7 +11,7 @@
 //!   slipping → slipping   the other way round, where it does not
 //!   locked   → slipping   where |T| exceeds T_c
 //! ```
-//! Friction is not regularised: the instants are found (see [`simulate`](super::simulate)) and the state there goes on.
+//! Friction is not regularised: the instants are found (see [`simulate`](mod@super::simulate)) and the state there goes on.
 //! What is left of ω_f - Ω at a locking (rounding) is evened out at constant angular momentum, and its energy is heat.
 //!
 //! Assumes: one coefficient of friction at rest and in motion. Does not model: warming and fading of the lining.

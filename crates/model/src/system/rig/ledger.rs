@@ -89,7 +89,7 @@ impl RigMachine {
     pub fn inspect(&self, mode: &Mode, time: f64, state: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let mut rate = vec![0.0; self.layout.dimension()];
         let mut probe = vec![0.0; self.layout.probes()];
-        self.rate_of_change(mode, time, state, &mut rate, &mut probe);
+        self.rate_of_change(&self.bearing, mode, time, state, &mut rate, &mut probe);
         (rate, probe)
     }
 }

@@ -18,7 +18,7 @@
 //! | [`rate`] | the equations of motion |
 //! | [`clutch`] | open, slipping, locked: what follows what |
 //! | [`program`] | what is done to the rig, and when |
-//! | [`simulate`] | a run, cut where something is switched or the clutch changes |
+//! | [`simulate`](mod@simulate) | a run, cut where something is switched or the clutch changes |
 //! | [`ramp`] | the engagement that gives a wanted acceleration |
 //! | [`ledger`] | energies, momentum, what closes; the energy by the outer race, (21) |
 //! | [`record`] | what is watched and kept of a run; [`taps`]: what a converter samples |
@@ -461,15 +461,19 @@ impl Machine for Segment<'_> {
     }
     fn transition(&self, _landing: usize, _mode: &mut Mode, _state: &mut [f64]) {}
     fn rate(&self, mode: &Mode, time: f64, state: &[f64], rate: &mut [f64], probe: &mut [f64]) {
-        self.rig.rate_of_change(mode, time, state, rate, probe);
+        let rig = self.rig;
+        rig.rate_of_change(&rig.bearing, mode, time, state, rate, probe);
     }
 }
 
-/// A segment as the solver runs it.
-#[derive(Clone, Copy, Debug)]
-pub struct SegmentRun<'a>(&'a RigMachine);
+/// A segment as the solver runs it; `R` is one machine whose balls are computed several at a time.
+#[derive(Clone, Debug)]
+pub struct SegmentRun<'a, R: Real> {
+    rig: &'a RigMachine,
+    bearing: Bearing<R>,
+}
 
-impl<'a> Batch<f64> for SegmentRun<'a> {
+impl<'a, R: Real> Batch<R> for SegmentRun<'a, R> {
     type Machine = Segment<'a>;
     type Mode = Mode;
 
@@ -477,13 +481,19 @@ impl<'a> Batch<f64> for SegmentRun<'a> {
     where
         Segment<'a>: 'b,
     {
-        SegmentRun(machine(0).rig)
+        assert!(R::LANES == 1, "one rig at a time");
+        let rig = machine(0).rig;
+        SegmentRun {
+            rig,
+            bearing: Bearing::gather(&|_| &rig.constants.bearing),
+        }
     }
     fn gather_mode(modes: &dyn Fn(usize) -> Mode) -> Mode {
         modes(0)
     }
     #[inline(always)]
-    fn rate(&self, mode: &Mode, time: f64, state: &[f64], rate: &mut [f64], probe: &mut [f64]) {
-        self.0.rate_of_change(mode, time, state, rate, probe);
+    fn rate(&self, mode: &Mode, time: R, state: &[R], rate: &mut [R], probe: &mut [R]) {
+        let time = time.lane(0);
+        (self.rig).rate_of_change(&self.bearing, mode, time, state, rate, probe);
     }
 }

@@ -59,10 +59,10 @@ pub enum Action {
     Disengage,
 }
 
-/// How the clutch is pressed: its capacity rises from zero.
+/// How the clutch is pressed: its capacity goes from what it is, zero where it is open, to its largest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Engagement {
-    /// Rise of the capacity, N m/s; infinite for at once.
+    /// Size of the rate at which it does, N m/s; infinite for at once.
     pub rate: f64,
     /// Largest capacity, N m.
     pub largest: f64,
@@ -257,7 +257,8 @@ impl Schedule {
                     self.arrival = None;
                 }
                 Action::Engage(by) => {
-                    (self.mode.capacity, self.full) = rise(time, 0.0, by.largest, by.rate);
+                    let from = self.mode.capacity.at(time);
+                    (self.mode.capacity, self.full) = rise(time, from, by.largest, by.rate);
                     (touched, engaged) = (true, true);
                 }
                 Action::Disengage => {

@@ -21,35 +21,41 @@ use super::layout::{
     OUTER_MOMENT, SHAFT, STEADY_MOMENT, SUPPORT_DRAG, SUPPORT_HEAT, TEMPERATURE, THERMOCOUPLE,
 };
 use super::{Clutch, Mode, RigMachine};
-use crate::bearing::{self, POCKET_FRICTION};
+use crate::bearing::{self, Bearing, POCKET_FRICTION};
 use crate::motion::{Body, Motion};
-use number::Vec2;
+use number::{Real, Vec2};
 
 /// Motion of both races in a state: the inner one turns about the origin, the outer one moves without turning.
 #[inline(always)]
-pub fn race_motion(state: &[f64]) -> Motion<f64> {
+pub fn race_motion<R: Real>(state: &[R]) -> Motion<R> {
+    let zero = R::zero();
     Motion {
         inner: Body::planar(Vec2::zero(), Vec2::zero(), state[SHAFT], state[SHAFT + 1]),
         outer: Body::planar(
             Vec2::new(state[HOUSING], state[HOUSING + 1]),
             Vec2::new(state[HOUSING + 2], state[HOUSING + 3]),
-            0.0,
-            0.0,
+            zero,
+            zero,
         ),
     }
 }
 
 impl RigMachine {
     /// The rate of change of the state, and the probes where asked.
+    ///
+    /// `R` is one machine whose balls are computed several at a time: only the bearing sees it, the rig is plain.
     #[inline(always)]
-    pub(super) fn rate_of_change(
+    pub(super) fn rate_of_change<R: Real>(
         &self,
+        of_bearing: &Bearing<R>,
         mode: &Mode,
         time: f64,
-        state: &[f64],
-        rate: &mut [f64],
-        probe: &mut [f64],
+        state: &[R],
+        rate: &mut [R],
+        probe: &mut [R],
     ) {
+        let plain = |value: R| value.lane(0);
+        let vector = |v: Vec2<R>| Vec2::new(v.x.lane(0), v.y.lane(0));
         let c = &self.constants;
         let layout = &self.layout;
         let (state, rate) = (
@@ -59,7 +65,8 @@ impl RigMachine {
 
         // motions
         let races = race_motion(state);
-        let (speed, flywheel_speed) = (state[SHAFT + 1], state[FLYWHEEL + 1]);
+        let at = |channel: usize| plain(state[channel]);
+        let (speed, flywheel_speed) = (at(SHAFT + 1), at(FLYWHEEL + 1));
 
         // parts react
         let housing = &c.housing;
@@ -74,9 +81,9 @@ impl RigMachine {
         } else {
             &mut probe[DETAIL..]
         };
-        let reaction = self.bearing.react_under(
+        let reaction = of_bearing.react_under(
             &races,
-            held_load,
+            R::splat(held_load),
             &state[own.clone()],
             &mut rate[own.clone()],
             detail,
@@ -93,7 +100,8 @@ impl RigMachine {
         let capacity = mode.capacity.at(time);
 
         // spins of shaft and flywheel
-        let free = reaction.on_inner.moment;
+        let free = plain(reaction.on_inner.moment);
+        let with_loss = |moment: f64| reaction.with_loss(R::splat(speed), R::splat(moment));
         let on_shaft = free - support;
         let on_flywheel = motor - belt;
         let (bearing, acceleration, flywheel_acceleration, torque) = match mode.clutch {
@@ -103,53 +111,61 @@ impl RigMachine {
                     _ => 0.0,
                 };
                 let moment = torque + on_shaft;
-                let bearing = reaction.with_loss(speed, moment);
-                let acceleration = moment / (c.shaft.inertia + bearing.inner_inertia);
+                let bearing = with_loss(moment);
+                let acceleration = moment / (c.shaft.inertia + plain(bearing.inner_inertia));
                 let of_flywheel = (on_flywheel - torque) / c.flywheel.inertia;
                 (bearing, acceleration, of_flywheel, torque)
             }
             Clutch::Locked => {
                 let moment = on_flywheel + on_shaft;
-                let bearing = reaction.with_loss(speed, moment);
-                let shaft = c.shaft.inertia + bearing.inner_inertia;
+                let bearing = with_loss(moment);
+                let shaft = c.shaft.inertia + plain(bearing.inner_inertia);
                 let acceleration = moment / (c.flywheel.inertia + shaft);
                 let torque = shaft * acceleration - on_shaft;
                 (bearing, acceleration, acceleration, torque)
             }
         };
-        let inner_moment = bearing.inner_inertia * acceleration - free;
-        let outer_moment = bearing.on_outer.moment - bearing.outer_inertia * acceleration;
-        rate[SHAFT] = speed;
-        rate[SHAFT + 1] = acceleration;
-        rate[FLYWHEEL] = flywheel_speed;
-        rate[FLYWHEEL + 1] = flywheel_acceleration;
+        let inner_moment = plain(bearing.inner_inertia) * acceleration - free;
+        let outer_moment =
+            plain(bearing.on_outer.moment) - plain(bearing.outer_inertia) * acceleration;
+        let mut put = |channel: usize, value: f64| rate[channel] = R::splat(value);
+        put(SHAFT, speed);
+        put(SHAFT + 1, acceleration);
+        put(FLYWHEEL, flywheel_speed);
+        put(FLYWHEEL + 1, flywheel_acceleration);
 
         // centre of the housing
-        let outer = &races.outer;
+        let (centre, velocity) = (vector(races.outer.position), vector(races.outer.velocity));
+        let on_outer = vector(bearing.on_outer.force);
         let weight = self.weight;
         let centre_acceleration = if housing.centre_held {
             Vec2::zero()
         } else {
-            (weight + bearing.on_outer.force) * (1.0 / self.moving_mass)
+            (weight + on_outer) * (1.0 / self.moving_mass)
         };
-        rate[HOUSING] = outer.velocity.x;
-        rate[HOUSING + 1] = outer.velocity.y;
-        rate[HOUSING + 2] = centre_acceleration.x;
-        rate[HOUSING + 3] = centre_acceleration.y;
+        put(HOUSING, velocity.x);
+        put(HOUSING + 1, velocity.y);
+        put(HOUSING + 2, centre_acceleration.x);
+        put(HOUSING + 3, centre_acceleration.y);
 
         // arm
         let arm = &c.arm;
-        let disturbance = arm.disturbance.moment(state[SHAFT], speed);
-        let off = outer_moment + disturbance - state[ARM];
+        let disturbance = arm.disturbance.moment(at(SHAFT), speed);
+        let off = outer_moment + disturbance - at(ARM);
         let frequency = arm.natural_frequency;
-        rate[ARM] = state[ARM + 1];
-        rate[ARM + 1] = frequency * (frequency * off - 2.0 * arm.damping_ratio * state[ARM + 1]);
+        put(ARM, at(ARM + 1));
+        put(
+            ARM + 1,
+            frequency * (frequency * off - 2.0 * arm.damping_ratio * at(ARM + 1)),
+        );
 
         // ledger
-        let of_bearing = bearing.heat.kinds();
         let mut heats = [0.0; HEATS.len()];
-        heats[..of_bearing.len()].copy_from_slice(&of_bearing);
-        heats[POCKET_FRICTION] += bearing.loss_heat(speed, acceleration);
+        for (heat, kind) in heats.iter_mut().zip(bearing.heat.kinds()) {
+            *heat = plain(kind);
+        }
+        let loss = bearing.loss_heat(R::splat(speed), R::splat(acceleration));
+        heats[POCKET_FRICTION] += plain(loss);
         let bearing_heat: f64 = heats[..bearing::HEATS.len()].iter().sum();
         heats[CLUTCH_HEAT] = match mode.clutch {
             Clutch::Slipping { .. } => torque * (flywheel_speed - speed),
@@ -157,67 +173,90 @@ impl RigMachine {
         };
         heats[BELT_HEAT] = belt * flywheel_speed;
         heats[SUPPORT_HEAT] = support * speed;
-        rate[layout.heat(0)..layout.source(0)].copy_from_slice(&heats);
-        let growth = bearing.growth_impulse * acceleration;
-        rate[layout.source(0)] = motor * flywheel_speed;
-        rate[layout.source(1)] = weight.dot(outer.velocity);
-        rate[layout.source(2)] = growth;
+        for (kind, heat) in heats.into_iter().enumerate() {
+            put(layout.heat(kind), heat);
+        }
+        let growth = plain(bearing.growth_impulse) * acceleration;
+        let external = plain(bearing.external_moment);
+        put(layout.source(0), motor * flywheel_speed);
+        put(layout.source(1), weight.dot(velocity));
+        put(layout.source(2), growth);
         let holding = if housing.centre_held {
             Vec2::zero()
         } else {
             weight
         };
-        rate[layout.angular_impulse()] = motor - belt - support - outer_moment
-            + outer.position.cross(holding)
-            + bearing.external_moment;
+        put(
+            layout.angular_impulse(),
+            motor - belt - support - outer_moment + centre.cross(holding) + external,
+        );
         // of the outer race on the balls
-        let force = -bearing.on_outer.force;
-        let eccentric = bearing.external_moment + outer.position.cross(force);
-        rate[layout.bearing_impulse()] = inner_moment - outer_moment + eccentric;
-        let momentum = (self.bearing).angular_momentum_rate(
+        let force = -on_outer;
+        let eccentric = external + centre.cross(force);
+        put(
+            layout.bearing_impulse(),
+            inner_moment - outer_moment + eccentric,
+        );
+        let momentum = plain(of_bearing.angular_momentum_rate(
             &state[own.clone()],
             &rate[own.clone()],
-            acceleration,
+            R::splat(acceleration),
+        ));
+        let mut put = |channel: usize, value: f64| rate[channel] = R::splat(value);
+        put(layout.work(0), inner_moment * speed);
+        put(layout.work(1), outer_moment * speed);
+        put(layout.work(2), momentum * speed);
+        put(
+            layout.work(3),
+            force.dot(velocity) - eccentric * speed + growth,
         );
-        rate[layout.work(0)] = inner_moment * speed;
-        rate[layout.work(1)] = outer_moment * speed;
-        rate[layout.work(2)] = momentum * speed;
-        rate[layout.work(3)] = force.dot(outer.velocity) - eccentric * speed + growth;
 
         // heat
         let heat = &c.heat;
-        rate[TEMPERATURE] = (bearing_heat - heat.conductance * state[TEMPERATURE]) / heat.capacity;
-        rate[THERMOCOUPLE] = (state[TEMPERATURE] - state[THERMOCOUPLE]) / heat.thermocouple_lag;
+        put(
+            TEMPERATURE,
+            (bearing_heat - heat.conductance * at(TEMPERATURE)) / heat.capacity,
+        );
+        put(
+            THERMOCOUPLE,
+            (at(TEMPERATURE) - at(THERMOCOUPLE)) / heat.thermocouple_lag,
+        );
 
         if !probe.is_empty() {
-            let cage_speed = rate[own.start];
+            let cage_speed = plain(rate[own.start]);
             let rolling = speed * self.rolling_cage_ratio;
-            probe[INNER_MOMENT] = inner_moment;
-            probe[OUTER_MOMENT] = outer_moment;
-            probe[STEADY_MOMENT] = bearing.steady_moment;
-            probe[CAGE_SLIP] = if rolling == 0.0 {
-                0.0
-            } else {
-                1.0 - cage_speed / rolling
-            };
-            probe[ACCELERATION] = acceleration;
-            probe[FLYWHEEL_ACCELERATION] = flywheel_acceleration;
-            probe[CLUTCH_TORQUE] = torque;
-            probe[CLUTCH_CAPACITY] = capacity;
-            probe[CLUTCH_SLIP] = flywheel_speed - speed;
-            probe[MOTOR_TORQUE] = motor;
-            probe[BELT_DRAG] = belt;
-            probe[SUPPORT_DRAG] = support;
-            probe[DISTURBANCE] = disturbance;
-            probe[CAGE_SPEED] = cage_speed;
-            probe[BEARING_LOAD] = force.length_squared().sqrt();
-            probe[BEARING_HEAT] = bearing_heat;
-            probe[MOMENTUM_RATE] = momentum;
-            probe[INNER_LOAD_SUM] = probe[DETAIL..DETAIL + layout.balls].iter().sum();
-            probe[LARGEST_INNER_LOAD] = bearing.largest_inner_load;
-            probe[LARGEST_OUTER_LOAD] = bearing.largest_outer_load;
-            probe[LARGEST_POCKET_FORCE] = bearing.largest_pocket_force;
-            probe[LAND_FORCE] = bearing.land_force;
+            let loads = &probe[DETAIL..DETAIL + layout.balls];
+            let load_sum = loads.iter().map(|load| plain(*load)).sum();
+            let mut tell = |index: usize, value: f64| probe[index] = R::splat(value);
+            tell(INNER_MOMENT, inner_moment);
+            tell(OUTER_MOMENT, outer_moment);
+            tell(STEADY_MOMENT, plain(bearing.steady_moment));
+            tell(
+                CAGE_SLIP,
+                if rolling == 0.0 {
+                    0.0
+                } else {
+                    1.0 - cage_speed / rolling
+                },
+            );
+            tell(ACCELERATION, acceleration);
+            tell(FLYWHEEL_ACCELERATION, flywheel_acceleration);
+            tell(CLUTCH_TORQUE, torque);
+            tell(CLUTCH_CAPACITY, capacity);
+            tell(CLUTCH_SLIP, flywheel_speed - speed);
+            tell(MOTOR_TORQUE, motor);
+            tell(BELT_DRAG, belt);
+            tell(SUPPORT_DRAG, support);
+            tell(DISTURBANCE, disturbance);
+            tell(CAGE_SPEED, cage_speed);
+            tell(BEARING_LOAD, force.length_squared().sqrt());
+            tell(BEARING_HEAT, bearing_heat);
+            tell(MOMENTUM_RATE, momentum);
+            tell(INNER_LOAD_SUM, load_sum);
+            tell(LARGEST_INNER_LOAD, plain(bearing.largest_inner_load));
+            tell(LARGEST_OUTER_LOAD, plain(bearing.largest_outer_load));
+            tell(LARGEST_POCKET_FORCE, plain(bearing.largest_pocket_force));
+            tell(LAND_FORCE, plain(bearing.land_force));
         }
     }
 }

@@ -15,6 +15,7 @@ use super::layout::{
 };
 use super::program::Schedule;
 use super::{Clutch, ClutchEvent, Mode, Record, RigMachine, Segment, SegmentRun};
+use number::{Level, Real, Task};
 use solve::{Ending, Flow, Observer, Settings, Step, Stop, Work};
 use std::sync::atomic::AtomicBool;
 
@@ -36,12 +37,39 @@ pub fn simulate(
     record: &mut Record,
     interrupt: &AtomicBool,
 ) -> RigRun {
+    simulate_on(Level::detect(), machine, settings, record, interrupt)
+}
+
+/// The same on a level of the vector unit: every one gives the same bits.
+///
+/// # Panics
+/// When this machine does not have the level.
+pub fn simulate_on(
+    level: Level,
+    machine: &RigMachine,
+    settings: &Settings,
+    record: &mut Record,
+    interrupt: &AtomicBool,
+) -> RigRun {
     let run = Run {
         machine,
         settings: *settings,
         interrupt,
     };
-    run.to_the_end(record, false)
+    level.run_one(ToTheEnd { run, record })
+}
+
+/// A run as a task.
+struct ToTheEnd<'a, 'r> {
+    run: Run<'a>,
+    record: &'r mut Record,
+}
+
+impl Task for ToTheEnd<'_, '_> {
+    type Output = RigRun;
+    fn run<R: Real>(self) -> RigRun {
+        self.run.to_the_end::<R>(self.record, false)
+    }
 }
 
 /// The same, but no further than to the first instant at which the clutch locks.
@@ -55,7 +83,8 @@ pub(super) fn until_locked(
         settings: *settings,
         interrupt: &AtomicBool::new(false),
     };
-    run.to_the_end(record, true)
+    // balls that roll are few numbers: nothing is gained by several at a time
+    run.to_the_end::<f64>(record, true)
 }
 
 /// What a run needs all along.
@@ -85,7 +114,6 @@ const CHANGE: &str = "the clutch changes";
 struct Watch<'r> {
     record: &'r mut Record,
     found: Option<Found>,
-    last_length: f64,
 }
 
 /// Looks for nothing.
@@ -117,7 +145,6 @@ impl<'a> Observer<Segment<'a>> for Watch<'_> {
             });
             return Flow::Halt(CHANGE);
         }
-        self.last_length = step.end - step.start;
         self.record.step(step)
     }
 }
@@ -152,13 +179,12 @@ fn instant_of_change(step: &mut Step<Segment<'_>>) -> f64 {
 const NEWTON_STEPS: usize = 4;
 
 impl<'a> Run<'a> {
-    fn to_the_end(self, record: &mut Record, to_lock: bool) -> RigRun {
+    fn to_the_end<R: Real>(self, record: &mut Record, to_lock: bool) -> RigRun {
         let machine = self.machine;
         let start = machine.start();
         let (mut time, mut state) = (self.settings.start, start.clone());
         let mut schedule = Schedule::new();
         let mut work = Work::default();
-        let mut length = self.settings.first_step;
         let program = &machine.constants.program;
         let stop = loop {
             if schedule.due(program) <= time {
@@ -175,24 +201,22 @@ impl<'a> Run<'a> {
             let mut watch = Watch {
                 record: &mut *record,
                 found: None,
-                last_length: length,
             };
-            let ending = self.segment(
+            let ending = self.segment::<R, _>(
                 &schedule.mode,
                 (time, next),
                 &state,
-                length,
+                self.settings.first_step,
                 work,
                 &mut watch,
             );
             add(&mut work, &ending.work);
-            length = watch.last_length;
             let found = watch.found;
             (time, state) = (ending.time, ending.state);
             match found {
                 None => {}
                 Some(found) => {
-                    let ending = self.change(&mut schedule.mode, &found, &mut work, record);
+                    let ending = self.change::<R>(&mut schedule.mode, &found, &mut work, record);
                     (time, state) = (ending.time, ending.state);
                     if ending.stop != Stop::Finished {
                         break ending.stop;
@@ -218,12 +242,12 @@ impl<'a> Run<'a> {
     }
 
     /// Goes on in a mode between two instants.
-    fn segment<O: Observer<Segment<'a>>>(
+    fn segment<R: Real, O: Observer<Segment<'a>>>(
         &self,
         mode: &Mode,
         (from, to): (f64, f64),
         state: &[f64],
-        length: f64,
+        first_step: f64,
         done: Work,
         observer: &mut O,
     ) -> Ending {
@@ -231,11 +255,11 @@ impl<'a> Run<'a> {
         let settings = Settings {
             start: from,
             end: to,
-            first_step: length,
+            first_step,
             step_limit: (self.settings.step_limit).saturating_sub(done.accepted + done.rejected),
             ..self.settings
         };
-        solve::run::<f64, SegmentRun<'a>, O>(
+        solve::run::<R, SegmentRun<'a, R>, O>(
             &[&segment],
             &[state.to_vec()],
             std::slice::from_mut(observer),
@@ -247,7 +271,7 @@ impl<'a> Run<'a> {
     }
 
     /// From the start of the step in which the clutch changes to that instant, and the mode from then on.
-    fn change(
+    fn change<R: Real>(
         &self,
         mode: &mut Mode,
         found: &Found,
@@ -262,16 +286,15 @@ impl<'a> Run<'a> {
             if instant - found.start < 1e-9 * span {
                 instant = found.end;
             } else {
-                instant = self.instant_of_locking(mode, found, work);
+                instant = self.instant_of_locking::<R>(mode, found, work);
             }
         }
         let mut ending = if instant > found.start {
-            let length = instant - found.start;
-            self.segment(
+            self.segment::<R, _>(
                 mode,
                 (found.start, instant),
                 &found.state,
-                length,
+                span,
                 *work,
                 record,
             )
@@ -300,16 +323,15 @@ impl<'a> Run<'a> {
     }
 
     /// The instant at which a slip ends, s: steps that end there bring it to zero.
-    fn instant_of_locking(&self, mode: &Mode, found: &Found, work: &mut Work) -> f64 {
+    fn instant_of_locking<R: Real>(&self, mode: &Mode, found: &Found, work: &mut Work) -> f64 {
         let mut instant = found.instant;
         let least = 1e-13 * self.machine.constants.target_speed.abs();
         for _ in 0..NEWTON_STEPS {
-            let length = instant - found.start;
-            let ending = self.segment(
+            let ending = self.segment::<R, _>(
                 mode,
                 (found.start, instant),
                 &found.state,
-                length,
+                found.end - found.start,
                 *work,
                 &mut Blind,
             );

@@ -1,0 +1,77 @@
+//! What is refused, and what cannot be found.
+
+use crate::bench::{SPEED, concentric, rolls};
+use model::bearing::BearingConstants;
+use model::system::rig::{
+    Action, Engagement, Program, RampError, RigMachine, RigRefusal, Start, engagement_ramp,
+};
+
+fn spin_up(largest: f64) -> Program {
+    Program::spin_up(SPEED, 0.0, Engagement { rate: 1.0, largest }, true)
+}
+
+fn refusal(change: impl Fn(&mut model::system::rig::RigConstants)) -> Option<RigRefusal> {
+    let mut c = concentric(BearingConstants::Rolling(rolls()), spin_up(5.0));
+    change(&mut c);
+    RigMachine::new(c).err()
+}
+
+#[test]
+fn constants_without_meaning_are_refused() {
+    assert_eq!(refusal(|_| {}), None);
+    for refused in [
+        refusal(|c| c.shaft.inertia = 0.0),
+        refusal(|c| c.flywheel.inertia = f64::NAN),
+        refusal(|c| c.target_speed = 0.0),
+        refusal(|c| c.heat.capacity = -1.0),
+        refusal(|c| {
+            c.housing.centre_held = false;
+            c.housing.mass = 0.0;
+        }),
+    ] {
+        assert!(
+            matches!(refused, Some(RigRefusal::NotPositive(_))),
+            "{refused:?}"
+        );
+    }
+    let negative = refusal(|c| c.housing.load = -1.0);
+    assert!(matches!(negative, Some(RigRefusal::Negative(_))));
+    let direction = refusal(|c| c.housing.load_direction.x = 1.0);
+    assert_eq!(direction, Some(RigRefusal::Direction));
+    let order = refusal(|c| {
+        c.program.actions = vec![(1.0, Action::MotorOff), (0.5, Action::Disengage)];
+    });
+    assert_eq!(order, Some(RigRefusal::Order(1)));
+    let action = refusal(|c| {
+        c.program.actions = vec![(
+            0.0,
+            Action::Engage(Engagement {
+                rate: -1.0,
+                largest: 1.0,
+            }),
+        )];
+    });
+    assert_eq!(action, Some(RigRefusal::Action(0)));
+}
+
+#[test]
+fn an_acceleration_beyond_the_clutch_is_out_of_reach() {
+    let rig = |program: Program| concentric(BearingConstants::Rolling(rolls()), program);
+    // 0.1 N m on 1e-4 kg m²: less than 1000 rad/s²
+    match engagement_ramp(&rig(spin_up(0.1)), 7200.0, SPEED) {
+        Err(RampError::OutOfReach { nearest }) => {
+            assert!((500.0..1000.0).contains(&nearest), "{nearest}");
+        }
+        other => panic!("{other:?}"),
+    }
+    let still = Program {
+        start: Start::REST,
+        actions: Vec::new(),
+    };
+    let nothing = engagement_ramp(&rig(still), 7200.0, SPEED);
+    assert_eq!(nothing, Err(RampError::NoEngagement));
+    let weak = engagement_ramp(&rig(spin_up(1e-3)), 7200.0, SPEED);
+    assert_eq!(weak, Err(RampError::NeverLocks));
+    let backwards = engagement_ramp(&rig(spin_up(5.0)), 0.0, SPEED);
+    assert_eq!(backwards, Err(RampError::NotPositive));
+}
