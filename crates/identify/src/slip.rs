@@ -19,6 +19,9 @@ use crate::series::{between, fastest};
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 
+/// Deviations from 0 beyond which a slip is one, however wide its band.
+const CERTAIN: f64 = 3.0;
+
 /// What counts as rolling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlipSettings {
@@ -60,9 +63,10 @@ pub struct CageSlip {
     pub points: Vec<SlipPoint>,
     /// The limit, 1.
     pub limit: f64,
-    /// Largest probability of |S| above the limit at any one time after the engagement: at least as probable it is that the cage
-    /// slipped in this test.
-    pub slipped: f64,
+    /// Largest probability of |S| above the limit at any one time after the engagement at which the signal tells it: its band is
+    /// narrower than the limit, or S is far from 0. At least as probable it is that the cage slipped in this test; none where the
+    /// signal never tells.
+    pub slipped: Option<f64>,
     /// When rolling is established, with the earliest and the latest time that the band allows.
     pub established: Established,
 }
@@ -122,7 +126,12 @@ pub fn cage_slip(
         .iter()
         .filter(|point| test.engagement.is_none_or(|start| point.time >= start))
         .collect();
-    let slipped = after.iter().map(|p| p.slipping).fold(0.0, f64::max);
+    // a band wider than the limit around no slip says nothing of it
+    let tells = |p: &&&SlipPoint| {
+        p.slip.deviation <= settings.limit || p.slip.value.abs() > CERTAIN * p.slip.deviation
+    };
+    let told = after.iter().filter(tells).map(|p| p.slipping);
+    let slipped = told.reduce(f64::max);
     Ok(CageSlip {
         limit: settings.limit,
         slipped,

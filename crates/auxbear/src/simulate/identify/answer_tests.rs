@@ -132,7 +132,11 @@ fn slip(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
     list.number(
         &named("slip_probability"),
         "1",
-        slip.clone().map(|slip| slip.slipped),
+        slip.clone().and_then(|slip| {
+            slip.slipped.ok_or_else(|| {
+                "the band of the slip is wider than its limit throughout".to_string()
+            })
+        }),
         &SLIP,
     );
     list.number(
