@@ -152,6 +152,7 @@ pub(super) fn bearing(
                 scale: bearing.moment_share.scale.unwrap_or(1.0),
             }),
             inlet_rolling: inlet_rolling(bearing, contacts)?,
+            lubricant: None,
         }),
         Fidelity::Rolling => {
             let set = RollingSet {
@@ -176,6 +177,7 @@ pub(super) fn bearing(
                 moment: law,
                 axial_load: bearing.moment.axial_load(),
                 loss: acceleration_loss(&bearing.acceleration_loss),
+                lubricant: None,
             })
         }
     })

@@ -78,6 +78,7 @@ pub fn planar_bearing() -> PlanarConstants {
         first_ball_angle: 0.0,
         moment: None,
         inlet_rolling: None,
+        lubricant: None,
     }
 }
 
@@ -216,6 +217,7 @@ pub fn rolling_bearing(planar: &PlanarConstants) -> RollingConstants {
         moment: SteadyMoment::None,
         axial_load: 0.0,
         loss: AccelerationLoss::None,
+        lubricant: None,
     }
 }
 

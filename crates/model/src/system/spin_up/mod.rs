@@ -129,6 +129,8 @@ pub enum Refusal {
     StepOfRollingBalls,
     /// A share of the steady moment outside 0 to 1, or a scale or reference spin that is not positive.
     MomentShare,
+    /// A state of the lubricant that starts outside 0 to 1, or a parameter of it that has no meaning.
+    LubricantState,
 }
 
 impl fmt::Display for Refusal {
@@ -149,6 +151,9 @@ impl fmt::Display for Refusal {
             }
             Refusal::MomentShare => {
                 "the orbit's share of the steady moment lies outside 0 to 1, or its scale or reference spin is not positive"
+            }
+            Refusal::LubricantState => {
+                "the state of the lubricant starts outside 0 to 1, or one of its parameters is not positive"
             }
         })
     }
@@ -201,6 +206,9 @@ impl SpinUpConstants {
     pub fn check(&self) -> Result<(), Refusal> {
         if self.load.smallest() < 0.0 {
             return Err(Refusal::NegativeLoad);
+        }
+        if (self.bearing.lubricant()).is_some_and(|lubricant| !lubricant.is_valid()) {
+            return Err(Refusal::LubricantState);
         }
         match &self.bearing {
             BearingConstants::Rolling(bearing) => {
