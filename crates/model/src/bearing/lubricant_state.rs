@@ -122,17 +122,6 @@ pub(super) struct Factors<R> {
     pub traction: Option<R>,
 }
 
-impl<R: Real> Factors<R> {
-    /// Of a lubricant without a state.
-    #[inline(always)]
-    pub fn none() -> Self {
-        Factors {
-            drag: R::one(),
-            traction: None,
-        }
-    }
-}
-
 impl<R: Real> Lubricant<R> {
     /// One lubricant per lane; none where it has no state.
     pub fn gather<'a>(machine: &dyn Fn(usize) -> Option<&'a LubricantConstants>) -> Option<Self> {
@@ -194,7 +183,7 @@ impl<R: Real> Lubricant<R> {
 
 /// Power that warms the films, W: what is made where lubricant is sheared between balls and races.
 #[inline(always)]
-fn film_heat<R: Real>(heat: &BearingHeat<R>) -> R {
+pub(super) fn film_heat<R: Real>(heat: &BearingHeat<R>) -> R {
     heat.inner_sliding + heat.outer_sliding + heat.steady_moment + heat.inlet_rolling
 }
 
@@ -218,7 +207,8 @@ pub(super) struct Change<'a, R: Real> {
     pub lubricant: &'a Lubricant<R>,
     /// Of the cage against the outer ring.
     pub cage_speed: R,
-    pub heat: &'a BearingHeat<R>,
+    /// Power that warms the films, W: of [`film_heat`].
+    pub film_heat: R,
     /// The lubricant's own.
     pub state: &'a [R],
     /// The lubricant's own.
@@ -229,8 +219,7 @@ impl<R: Real> Vectorized for Change<'_, R> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        let power = film_heat(self.heat);
-        (self.lubricant).rates(self.cage_speed, power, self.state, self.rate);
+        (self.lubricant).rates(self.cage_speed, self.film_heat, self.state, self.rate);
     }
 }
 

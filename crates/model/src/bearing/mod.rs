@@ -308,6 +308,15 @@ impl BearingConstants {
             BearingConstants::Planar(bearing) => bearing.lubricant.as_ref(),
         }
     }
+    /// The same bearing with its lubricant in the state of the law, for good.
+    #[must_use]
+    pub fn at_the_law(mut self) -> Self {
+        match &mut self {
+            BearingConstants::Rolling(bearing) => bearing.lubricant = None,
+            BearingConstants::Planar(bearing) => bearing.lubricant = None,
+        }
+        self
+    }
     /// The lubricant in the states of the bearing, where it has a state.
     pub fn lubricant_at(&self, state: &[f64]) -> Option<LubricantAt> {
         let lubricant = self.lubricant()?;

@@ -21,7 +21,7 @@ use super::ball_states::{OF_BALL, direction, load_ball, race, split, split_mut};
 use super::cage::{self, FreeCage};
 use super::full_complement::{self, FullComplement};
 use super::inlet_couples::{self, InletCouples};
-use super::lubricant_state::{self, Factors, Lubricant, Warmed};
+use super::lubricant_state::{self, Lubricant, Warmed};
 use super::planar_constants::{PlanarConstants, Separation};
 use super::steady_moment::{self, MomentPairs};
 use super::{BallSums, BearingHeat, BearingReaction, largest_part};
@@ -113,23 +113,27 @@ impl<R: Real> Planar<R> {
         detail: &mut [R],
     ) -> BearingReaction<R> {
         let of_lubricant = self.first + OF_BALL * self.balls;
-        let factors = match &self.lubricant {
-            None => Factors::none(),
-            Some(lubricant) => R::vectorized(lubricant_state::Act {
-                lubricant,
-                state: &state[of_lubricant..],
-            }),
-        };
-        // the law is chosen once a call, not once a ball
-        let mut reaction = match (&self.traction, factors.traction) {
-            (Traction::Tanh(law), None) => self.apart(law, motion, state, rate, detail),
-            (Traction::FourParameter(law), None) => self.apart(law, motion, state, rate, detail),
-            (Traction::Dry(law), None) => self.apart(law, motion, state, rate, detail),
-            (Traction::Lubricated(law), None) => self.apart(law, motion, state, rate, detail),
-            // warmed films are rare: for them the sum stands once for all laws
-            (law, Some(factor)) => {
-                let factor = Some(factor.grouped());
-                self.apart(&Warmed { law, factor }, motion, state, rate, detail)
+        let mut drag_factor = R::one();
+        let mut reaction = match &self.lubricant {
+            // the law is chosen once a call, not once a ball
+            None => match &self.traction {
+                Traction::Tanh(law) => self.apart(law, motion, state, rate, detail),
+                Traction::FourParameter(law) => self.apart(law, motion, state, rate, detail),
+                Traction::Dry(law) => self.apart(law, motion, state, rate, detail),
+                Traction::Lubricated(law) => self.apart(law, motion, state, rate, detail),
+            },
+            // here once a ball: the code of the sum stands once for all laws
+            Some(lubricant) => {
+                let factors = R::vectorized(lubricant_state::Act {
+                    lubricant,
+                    state: &state[of_lubricant..],
+                });
+                drag_factor = factors.drag;
+                let law = Warmed {
+                    law: &self.traction,
+                    factor: factors.traction.map(R::grouped),
+                };
+                self.apart(&law, motion, state, rate, detail)
             }
         };
         // apart from the sum above: without a steady moment nothing is paid, and the code above stands once a law
@@ -139,7 +143,7 @@ impl<R: Real> Planar<R> {
                 pairs,
                 motion,
                 held_load,
-                drag_factor: factors.drag,
+                drag_factor,
                 state,
                 rate,
                 reaction: &mut reaction,
@@ -185,7 +189,7 @@ impl<R: Real> Planar<R> {
             R::vectorized(lubricant_state::Change {
                 lubricant,
                 cage_speed: state[1] - motion.outer.spin,
-                heat: &reaction.heat,
+                film_heat: lubricant_state::film_heat(&reaction.heat),
                 state: &state[of_lubricant..],
                 rate: &mut rate[of_lubricant..],
             });

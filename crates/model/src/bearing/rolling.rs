@@ -194,7 +194,16 @@ impl<R: Real> Rolling<R> {
         // their motion
         let turning = (motion.inner.position - motion.outer.position).cross(push);
         let by_inner = self.cage_ratio * turning;
-        let reaction = BearingReaction {
+        if let Some(lubricant) = &self.lubricant {
+            R::vectorized(lubricant_state::Change {
+                lubricant,
+                cage_speed: self.cage_ratio * spin,
+                film_heat: moment * spin,
+                state: &state[STATES..],
+                rate: &mut rate[STATES..],
+            });
+        }
+        BearingReaction {
             on_inner: Wrench::planar(-push, by_inner - resistance),
             on_outer: Wrench::planar(push, turning - by_inner + resistance),
             inner_inertia: self.inner_inertia,
@@ -213,17 +222,7 @@ impl<R: Real> Rolling<R> {
             largest_outer_load: largest(detail, n, 1),
             largest_pocket_force: R::zero(),
             land_force: R::zero(),
-        };
-        if let Some(lubricant) = &self.lubricant {
-            R::vectorized(lubricant_state::Change {
-                lubricant,
-                cage_speed: self.cage_ratio * spin,
-                heat: &reaction.heat,
-                state: &state[STATES..],
-                rate: &mut rate[STATES..],
-            });
         }
-        reaction
     }
 }
 

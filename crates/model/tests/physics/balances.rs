@@ -271,6 +271,19 @@ fn land_moment_on_outer_race(machine: &DropMachine, state: &[f64], b: &PlanarCon
     (contact.bore_radius + 0.5 * depth) * friction * force.max(0.0)
 }
 
+/// What the state of the lubricant makes of the speed-dependent part.
+fn drag_factor(b: &PlanarConstants, part: &[f64]) -> f64 {
+    let Some((grease, films)) = (b.lubricant).and_then(|slow| slow.grease.zip(slow.films)) else {
+        return 1.0;
+    };
+    let [built, worked, rise] = part[part.len() - 3..] else {
+        panic!("three states");
+    };
+    let of_build_up = grease.rested_factor * (1.0 - built) + built;
+    let of_breakdown = (1.0 - worked) + grease.worked_factor * worked;
+    of_build_up * of_breakdown * (-films.drag_coefficient * rise).exp()
+}
+
 /// What the pairs of the steady moment do to the outer race about its centre: drag on the orbit at the balls' distance,
 /// couples against their spin.
 fn steady_moment_on_outer_race(
@@ -294,7 +307,8 @@ fn steady_moment_on_outer_race(
         push += from_inner * (reaction.inner_load / from_inner.length_squared().sqrt());
     }
     let load = push.length_squared().sqrt();
-    let law = |speed: f64| moment.law.parts(speed, load, 0.0);
+    let drag = drag_factor(b, part);
+    let law = |speed: f64| moment.law.parts(speed, load, 0.0).with_drag(drag);
     let outer_sum: f64 = reactions.iter().map(|reaction| reaction.outer_load).sum();
     let mut on_race = 0.0;
     for (j, reaction) in reactions.iter().enumerate() {

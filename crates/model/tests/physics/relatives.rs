@@ -1,16 +1,19 @@
 //! Machines that differ from the reference in one thing each.
 
 use crate::machines::{
-    balance_mount, inlets, let_roll, oil, planar, reference, separate, separations, tilt_contacts,
-    vec2,
+    balance_mount, inlets, let_roll, lubricant, oil, planar, reference, separate, separations,
+    tilt_contacts, vec2,
 };
-use model::bearing::{AccelerationLoss, BearingConstants, SharedMoment, SteadyMoment};
+use model::bearing::{
+    AccelerationLoss, BearingConstants, LubricantConstants, Separation, SharedMoment, SteadyMoment,
+};
 use model::system::drop::DropMachine;
 use physics::palmgren::Palmgren;
 use physics::traction::{DryTraction, FourParameterTraction, Traction};
 
 /// The reference machine and its relatives: other traction laws, oil, oil that resists rolling, a brake, a drive, levitation, a
-/// held race, seven balls, balls that roll, cages free to move, no cage, a race that grows, contacts at an angle.
+/// held race, seven balls, balls that roll, cages free to move, no cage, a race that grows, contacts at an angle, a grease
+/// that builds up between films that warm.
 pub fn machines() -> Vec<DropMachine> {
     let base = || {
         let mut c = reference();
@@ -85,6 +88,18 @@ pub fn machines() -> Vec<DropMachine> {
         separate(&mut c, separation);
         c
     });
+    let mut worked = greased.clone();
+    planar(&mut worked).lubricant = Some(lubricant());
+    let mut worked_rolling = rolls.clone();
+    if let BearingConstants::Rolling(bearing) = &mut worked_rolling.bearing {
+        bearing.lubricant = Some(lubricant());
+    }
+    let mut warmed = resisted.clone();
+    separate(&mut warmed, Separation::FreeCage(None));
+    planar(&mut warmed).lubricant = Some(LubricantConstants {
+        grease: None,
+        ..lubricant()
+    });
     let like_the_reference = base();
     [
         peaked,
@@ -103,6 +118,7 @@ pub fn machines() -> Vec<DropMachine> {
     .into_iter()
     .chain(separated)
     .chain([resisted, resisted_at_an_angle])
+    .chain([worked, worked_rolling, warmed])
     .enumerate()
     .map(|(i, constants)| DropMachine::with_levitation(constants, i % 2 == 0))
     .collect()

@@ -190,10 +190,7 @@ fn machine(
             centre_held: false,
             ..*race
         },
-        bearing: BearingConstants::Planar(PlanarConstants {
-            lubricant: None,
-            ..bearing.clone()
-        }),
+        bearing: BearingConstants::Planar(bearing.clone()).at_the_law(),
         drive: Drive::step(speed),
         load: Table::constant(load),
         target_speed: speed,
