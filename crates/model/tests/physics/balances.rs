@@ -9,7 +9,9 @@ use crate::machines::{
 use crate::relatives::machines;
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::cage::LandRace;
-use model::bearing::{BearingConstants, PlanarConstants, Separation, SharedMoment, SteadyMoment};
+use model::bearing::{
+    BearingConstants, LubricantConstants, PlanarConstants, Separation, SharedMoment, SteadyMoment,
+};
 use model::system::drop::DropMachine;
 use model::system::drop::layout::{
     BEARING, DETAIL, HEATS, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, OUTER, ROTOR, SOURCES,
@@ -197,9 +199,11 @@ fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f
                 push += vec2(c, s) * probe[DETAIL + j];
             }
             let turning = (pair(state, INNER) - pair(state, OUTER)).cross(push);
+            let (drag, _) = lubricant_factors(&b.lubricant, bearing_part(machine, state));
             let steady = match &b.moment {
                 SteadyMoment::Palmgren(law) => {
-                    law.moment(state[INNER + 5], push.length_squared().sqrt())
+                    let parts = law.parts(state[INNER + 5], push.length_squared().sqrt());
+                    drag * parts.speed_dependent + parts.load_dependent
                 }
                 other => panic!("{other:?} is not used here"),
             };
@@ -212,6 +216,7 @@ fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f
         BearingConstants::Planar(b) => {
             let motion = race_motion(state);
             let part = bearing_part(machine, state);
+            let (_, warmed) = lubricant_factors(&b.lubricant, part);
             let steady = (b.moment.as_ref()).map_or(0.0, |moment| {
                 steady_moment_on_outer_race(machine, state, rate, b, moment)
             });
@@ -219,7 +224,8 @@ fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f
                 .map(|j| {
                     let reaction = b.ball_reaction(&motion, part, j);
                     let [inner, outer] = reaction.contacts();
-                    let traction = b.traction.at_races(&inner, &outer).1 * reaction.outer_load;
+                    let coefficient = warmed * b.traction.at_races(&inner, &outer).1;
+                    let traction = coefficient * reaction.outer_load;
                     let [centre, ..] = ball_centre(machine, state, rate, j);
                     let distance = (centre - pair(state, OUTER)).length_squared().sqrt();
                     let approach = distance + b.ball.radius - b.ball.outer_track;
@@ -271,17 +277,19 @@ fn land_moment_on_outer_race(machine: &DropMachine, state: &[f64], b: &PlanarCon
     (contact.bore_radius + 0.5 * depth) * friction * force.max(0.0)
 }
 
-/// What the state of the lubricant makes of the speed-dependent part.
-fn drag_factor(b: &PlanarConstants, part: &[f64]) -> f64 {
-    let Some((grease, films)) = (b.lubricant).and_then(|slow| slow.grease.zip(slow.films)) else {
-        return 1.0;
+/// What the state of the lubricant makes of the speed-dependent part, and of the traction coefficient.
+fn lubricant_factors(slow: &Option<LubricantConstants>, part: &[f64]) -> (f64, f64) {
+    let (Some(slow), [.., built, worked, rise]) = (slow, part) else {
+        return (1.0, 1.0);
     };
-    let [built, worked, rise] = part[part.len() - 3..] else {
-        panic!("three states");
-    };
-    let of_build_up = grease.rested_factor * (1.0 - built) + built;
-    let of_breakdown = (1.0 - worked) + grease.worked_factor * worked;
-    of_build_up * of_breakdown * (-films.drag_coefficient * rise).exp()
+    let of_grease = slow.grease.map_or(1.0, |grease| {
+        (grease.rested_factor * (1.0 - built) + built)
+            * ((1.0 - worked) + grease.worked_factor * worked)
+    });
+    let [drag, traction] = slow.films.map_or([1.0, 1.0], |films| {
+        [films.drag_coefficient, films.traction_coefficient].map(|k| (-k * rise).exp())
+    });
+    (of_grease * drag, traction)
 }
 
 /// What the pairs of the steady moment do to the outer race about its centre: drag on the orbit at the balls' distance,
@@ -307,7 +315,7 @@ fn steady_moment_on_outer_race(
         push += from_inner * (reaction.inner_load / from_inner.length_squared().sqrt());
     }
     let load = push.length_squared().sqrt();
-    let drag = drag_factor(b, part);
+    let (drag, _) = lubricant_factors(&b.lubricant, part);
     let law = |speed: f64| moment.law.parts(speed, load, 0.0).with_drag(drag);
     let outer_sum: f64 = reactions.iter().map(|reaction| reaction.outer_load).sum();
     let mut on_race = 0.0;
