@@ -6,12 +6,10 @@
 use crate::machines::{
     Random, ball_of, bearing_part, let_roll, planar, random_state, reference, vec2,
 };
-use crate::relatives::machines;
+use crate::relatives::{lubricant_factors, machines};
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::cage::LandRace;
-use model::bearing::{
-    BearingConstants, LubricantConstants, PlanarConstants, Separation, SharedMoment, SteadyMoment,
-};
+use model::bearing::{BearingConstants, PlanarConstants, Separation, SharedMoment, SteadyMoment};
 use model::system::drop::DropMachine;
 use model::system::drop::layout::{
     BEARING, DETAIL, HEATS, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, OUTER, ROTOR, SOURCES,
@@ -275,21 +273,6 @@ fn land_moment_on_outer_race(machine: &DropMachine, state: &[f64], b: &PlanarCon
     let slide = past.dot(n.turned()) + surface;
     let friction = contact.friction * (slide * contact.inverse_reference_speed).tanh();
     (contact.bore_radius + 0.5 * depth) * friction * force.max(0.0)
-}
-
-/// What the state of the lubricant makes of the speed-dependent part, and of the traction coefficient.
-fn lubricant_factors(slow: &Option<LubricantConstants>, part: &[f64]) -> (f64, f64) {
-    let (Some(slow), [.., built, worked, rise]) = (slow, part) else {
-        return (1.0, 1.0);
-    };
-    let of_grease = slow.grease.map_or(1.0, |grease| {
-        (grease.rested_factor * (1.0 - built) + built)
-            * ((1.0 - worked) + grease.worked_factor * worked)
-    });
-    let [drag, traction] = slow.films.map_or([1.0, 1.0], |films| {
-        [films.drag_coefficient, films.traction_coefficient].map(|k| (-k * rise).exp())
-    });
-    (of_grease * drag, traction)
 }
 
 /// What the pairs of the steady moment do to the outer race about its centre: drag on the orbit at the balls' distance,

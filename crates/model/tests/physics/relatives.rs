@@ -135,3 +135,18 @@ pub fn grease() -> Palmgren<f64> {
         static_load_rating: 6550.0,
     }
 }
+
+/// What the state of a lubricant, from the states of its bearing, makes of the speed-dependent part, and of the traction coefficient.
+pub fn lubricant_factors(slow: &Option<LubricantConstants>, part: &[f64]) -> (f64, f64) {
+    let (Some(slow), [.., built, worked, rise]) = (slow, part) else {
+        return (1.0, 1.0);
+    };
+    let of_grease = slow.grease.map_or(1.0, |grease| {
+        (grease.rested_factor * (1.0 - built) + built)
+            * ((1.0 - worked) + grease.worked_factor * worked)
+    });
+    let [drag, traction] = slow.films.map_or([1.0, 1.0], |films| {
+        [films.drag_coefficient, films.traction_coefficient].map(|k| (-k * rise).exp())
+    });
+    (of_grease * drag, traction)
+}
