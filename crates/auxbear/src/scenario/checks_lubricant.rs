@@ -5,7 +5,7 @@ use super::checks::{Check, Context};
 use super::moment::Moment;
 use crate::problem::Code;
 
-/// Shortest time in which a slow state changes, s: ten of the largest steps of a run see it.
+/// Shortest time in which a slow state changes, s: the largest step that a run takes unless asked for longer ones.
 const SHORTEST: f64 = 1e-3;
 
 impl Context<'_> {
