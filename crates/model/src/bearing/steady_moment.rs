@@ -271,16 +271,17 @@ impl<R: Real> PairsOfBall<'_, R> {
 impl<R: Real> Planar<R> {
     /// Adds the pairs of the steady moment to the rates and to the reaction.
     #[inline(always)]
-    fn share(
-        &self,
-        pairs: &MomentPairs<R>,
-        motion: &Motion<R>,
-        held_load: R,
-        drag_factor: R,
-        state: &[R],
-        rate: &mut [R],
-        reaction: &mut BearingReaction<R>,
-    ) {
+    fn share(&self, task: Share<'_, R>) {
+        let Share {
+            pairs,
+            motion,
+            held_load,
+            drag_factor,
+            state,
+            rate,
+            reaction,
+            ..
+        } = task;
         let n = self.balls;
         let speed = motion.inner.spin - motion.outer.spin;
         let [x, y, inner_sum, outer_sum] = self.loads(motion, state);
@@ -371,14 +372,6 @@ impl<R: Real> Vectorized for Share<'_, R> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        self.bearing.share(
-            self.pairs,
-            self.motion,
-            self.held_load,
-            self.drag_factor,
-            self.state,
-            self.rate,
-            self.reaction,
-        );
+        self.bearing.share(self);
     }
 }
