@@ -132,3 +132,59 @@ fn lightly_loaded_balls_skid_and_say_so() {
         2e-3,
     );
 }
+
+#[test]
+fn a_rested_grease_starts_low_meets_the_law_and_falls_below_it() {
+    let outcome = outcome("grease_spin_up.toml");
+    let column = |name: &str| {
+        let column = outcome.history.iter().find(|column| column.name == name);
+        let column = column.unwrap_or_else(|| panic!("no {name}"));
+        column.values.clone()
+    };
+    let (time, torque) = (column("time"), column("bearing.outer_race.moment"));
+    let drag = column("bearing.lubricant.drag_factor");
+    // the law: its parts are known from the drag factor at the end, M = D M0 + M1, M1 = 0.0007 (200/6550)^0.5·200·0.036
+    let (last, m1) = (time.len() - 1, 0.8807e-3);
+    let law = (torque[last] - m1) / drag[last] + m1;
+    // 1e-7·2·46656·(143 239)^(2/3) N mm = 25.546 N mm, as by hand for Palmgren's law
+    near("law", law, 25.546e-3 + m1, 1e-3);
+    let at = |instant: f64| {
+        let row = time.iter().position(|time| *time >= instant).unwrap();
+        torque[row] / law
+    };
+    // the ramp has ended at 40 ms, with a fifth of a cage turn
+    assert!(at(0.045) < 0.55, "{}", at(0.045));
+    let met =
+        (torque.iter().zip(&time)).find(|(torque, time)| **time > 0.04 && **torque > 0.95 * law);
+    let met = *met.unwrap().1;
+    assert!((0.2..0.3).contains(&met), "{met}");
+    assert!(torque.iter().all(|torque| *torque < law));
+    assert!((0.78..0.83).contains(&at(3.5)), "{}", at(3.5));
+    near(
+        "drag at the end",
+        number(&outcome, "lubricant_drag_factor_at_end"),
+        drag[last],
+        1e-12,
+    );
+    let built = column("bearing.lubricant.build_up");
+    let worked = column("bearing.lubricant.breakdown");
+    for (built, worked) in built.iter().zip(&worked) {
+        assert!((0.0..=1.0).contains(built) && (0.0..=1.0).contains(worked));
+    }
+    // films do not warm in this run
+    let films = "bearing.lubricant.film_temperature_rise";
+    assert!(outcome.history.iter().all(|column| column.name != films));
+}
+
+#[test]
+fn without_a_lubricant_state_there_is_no_trace_of_one() {
+    let outcome = outcome("spin_up_rolling.toml");
+    let slow = |name: &str| name.contains("lubricant.") || name.starts_with("lubricant_");
+    assert!(outcome.history.iter().all(|column| !slow(&column.name)));
+    assert!(
+        outcome
+            .quantities
+            .iter()
+            .all(|quantity| !slow(&quantity.name))
+    );
+}

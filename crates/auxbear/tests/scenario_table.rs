@@ -242,6 +242,44 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.moment.lubrication=grease",
             "bearing.moment.viscosity=100 mm^2/s",
         ],
+        "bearing.lubricant_state.kind" => &[],
+        "bearing.lubricant_state.rest_before" => &[
+            "bearing.moment.law=measured",
+            "bearing.moment.curve=[[\"1 rad/s\", \"1 N mm\"], [\"2 rad/s\", \"1 N mm\"]]",
+            "bearing.lubricant_state.kind=grease",
+            "bearing.lubricant_state.rested_factor=0.3",
+            "bearing.lubricant_state.build_up_turns=0.7",
+            "bearing.lubricant_state.worked_factor=0.7",
+            "bearing.lubricant_state.breakdown_time=3.5 s",
+            "bearing.lubricant_state.recovery_time=600 s",
+            "bearing.lubricant_state.start=after rest",
+        ],
+        _ if path.starts_with("bearing.lubricant_state.initial_") => &[
+            "bearing.moment.law=measured",
+            "bearing.moment.curve=[[\"1 rad/s\", \"1 N mm\"], [\"2 rad/s\", \"1 N mm\"]]",
+            "bearing.lubricant_state.kind=grease",
+            "bearing.lubricant_state.rested_factor=0.3",
+            "bearing.lubricant_state.build_up_turns=0.7",
+            "bearing.lubricant_state.worked_factor=0.7",
+            "bearing.lubricant_state.breakdown_time=3.5 s",
+            "bearing.lubricant_state.recovery_time=600 s",
+            "bearing.lubricant_state.start=given",
+            "bearing.lubricant_state.initial_build_up=0.4",
+            "bearing.lubricant_state.initial_breakdown=0.3",
+        ],
+        _ if path.starts_with("bearing.lubricant_state.") => &[
+            "bearing.moment.law=measured",
+            "bearing.moment.curve=[[\"1 rad/s\", \"1 N mm\"], [\"2 rad/s\", \"1 N mm\"]]",
+            "bearing.lubricant_state.kind=grease and films",
+            "bearing.lubricant_state.rested_factor=0.3",
+            "bearing.lubricant_state.build_up_turns=0.7",
+            "bearing.lubricant_state.worked_factor=0.7",
+            "bearing.lubricant_state.breakdown_time=3.5 s",
+            "bearing.lubricant_state.recovery_time=600 s",
+            "bearing.lubricant_state.film_heat_capacity=0.5 J/K",
+            "bearing.lubricant_state.film_conductance=0.25 W/K",
+            "bearing.lubricant_state.drag_temperature_coefficient=0.03 1/K",
+        ],
         "signals.speed.stamp_deviation" => &["signals.speed.kind=edges"],
         "signals.cage.highest_slip" => &["signals.cage.kind=vibration"],
         "bearing.acceleration_loss.kind" => &["bearing.fidelity=rolling"],
@@ -288,6 +326,9 @@ fn unlike_any_other(path: &str, kind: Kind, range: Range, example: &str) -> Opti
                 "levitation.stiffness" => 1_234_567.0,
                 "torque.speed_to" => 1234.567,
                 "run.output_interval" => 0.000345678,
+                "bearing.lubricant_state.breakdown_time"
+                | "bearing.lubricant_state.recovery_time"
+                | "bearing.lubricant_state.film_heat_capacity" => 0.0123456,
                 _ if path.starts_with("run.") => {
                     units::parse_quantity(example).unwrap().value_si * 0.9876543
                 }
@@ -315,11 +356,13 @@ fn unlike_any_other(path: &str, kind: Kind, range: Range, example: &str) -> Opti
     }
 }
 
-/// Keys that stand for another value: eccentricity, viscosity.
-const BECOME_OTHERS: [&str; 3] = [
+/// Keys that stand for another value: eccentricity, viscosity, angle of the cage, state after a rest.
+const BECOME_OTHERS: [&str; 5] = [
     "rotor.unbalance",
     "bearing.moment.viscosity_points",
     "bearing.moment.temperature",
+    "bearing.lubricant_state.build_up_turns",
+    "bearing.lubricant_state.rest_before",
 ];
 
 /// Each number reaches the typed scenario, and only under its own name: a value that nothing else has is found there once.
@@ -352,6 +395,12 @@ fn every_number_reaches_the_typed_scenario() {
                 "oil_conductivity" => "conductivity",
                 "load_history" => "radial_load",
                 "torque_history" => "torque",
+                "film_heat_capacity" => "heat_capacity",
+                "film_conductance" => "conductance",
+                "drag_temperature_coefficient" => "drag_coefficient",
+                "traction_temperature_coefficient" => "traction_coefficient",
+                "initial_build_up" => "build_up",
+                "initial_breakdown" => "breakdown",
                 name => name,
             };
             let shown = format!("{typed:#?}");
@@ -385,7 +434,12 @@ fn examples_and_defaults_are_right_values() {
                 let mut list = choices_of(*system, key.path);
                 list.push(format!("{}={text}", key.path));
                 // A choice that needs more keys is read in another test, and the catalogue is no file here.
-                let needs_more = ["rotor.unbalance", "catalogue"].contains(&key.path)
+                let alone = [
+                    "rotor.unbalance",
+                    "catalogue",
+                    "bearing.lubricant_state.kind",
+                ];
+                let needs_more = alone.contains(&key.path)
                     || ["palmgren", "proportional", "inner land", "outer land"].contains(&text);
                 if needs_more {
                     continue;

@@ -5,10 +5,11 @@
 #[allow(dead_code)] // shared with the other tests
 mod machines;
 
-use machines::{inlets, oil, reference, separate, separations, settings};
-use model::bearing::BearingConstants;
+use machines::{inlets, lubricant, oil, planar, reference, separate, separations, settings};
+use model::bearing::{BearingConstants, SharedMoment, SteadyMoment};
 use model::system::drop::{Drop, DropConstants, DropMachine};
 use number::{Level, Real, Task};
+use physics::palmgren::Palmgren;
 use physics::traction::{DryTraction, FourParameterTraction, Traction};
 use solve::{Ending, Flow, Machine, Observer, Step};
 use std::sync::atomic::AtomicBool;
@@ -134,6 +135,52 @@ fn whatever_keeps_the_balls_apart_has_the_same_bits() {
             })
             .collect();
         same_bits(&machines, 0.008);
+    }
+}
+
+#[test]
+fn a_lubricant_that_changes_has_the_same_bits() {
+    // lanes that differ in every parameter of it
+    let machines: Vec<_> = (0..5)
+        .map(|i| {
+            let x = i as f64;
+            let mut constants = variant(i);
+            let bearing = planar(&mut constants);
+            let mut slow = lubricant();
+            slow.build_up = 0.1 * x;
+            slow.breakdown = 0.05 * x;
+            let grease = slow.grease.as_mut().expect("greased");
+            grease.rested_factor *= 1.0 + 0.3 * x;
+            grease.worked_factor *= 1.0 - 0.1 * x;
+            grease.build_up_angle *= 1.0 + x;
+            let films = slow.films.as_mut().expect("they warm");
+            films.heat_capacity *= 0.01 * (1.0 + x);
+            films.traction_coefficient *= 1.0 + x;
+            bearing.lubricant = Some(slow);
+            bearing.ball.orbit_drag = 0.0;
+            bearing.ball.spin_drag = 0.0;
+            bearing.moment = Some(SharedMoment {
+                law: SteadyMoment::Palmgren(grease_law(100e-6 * (1.0 + 0.1 * x))),
+                axial_load: 0.0,
+                orbit_share: 0.5,
+                reference_spin: 1.0,
+                scale: 1.0,
+            });
+            DropMachine::new(constants)
+        })
+        .collect();
+    same_bits(&machines, 0.004);
+}
+
+/// Palmgren's law of a 6005 of 6.55 kN with grease of a viscosity, m²/s.
+fn grease_law(viscosity: f64) -> Palmgren<f64> {
+    Palmgren {
+        viscous_factor: 2.0,
+        viscosity,
+        pitch_diameter: 36e-3,
+        load_factor: 9e-4,
+        load_exponent: 0.55,
+        static_load_rating: 6550.0,
     }
 }
 

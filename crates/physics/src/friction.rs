@@ -38,6 +38,23 @@ impl<R: Real> MomentParts<R> {
     pub fn sum(self) -> R {
         self.speed_dependent + self.load_dependent
     }
+
+    /// The parts where the lubricant is not in the state of the law.
+    ///
+    /// Formula: D M0 + M1
+    ///
+    /// - `drag_factor`: D, not negative
+    ///
+    /// Source: [`lubricant_state`](crate::lubricant_state).
+    /// Valid: as the law and the factor; a law that does not tell its parts is multiplied as a whole.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_drag(self, drag_factor: R) -> Self {
+        MomentParts {
+            speed_dependent: self.speed_dependent * drag_factor,
+            ..self
+        }
+    }
 }
 
 /// The laws of the steady friction moment a bearing can be built with.

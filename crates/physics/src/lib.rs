@@ -14,6 +14,7 @@
 //! | [`traction`] | sliding friction between ball and race |
 //! | [`film`] | thickness of the lubricant film between ball and race |
 //! | [`lubricant`] | lubricants: viscosity over temperature and pressure, limiting stress |
+//! | [`lubricant_state`] | grease that builds up and breaks down, contact films that warm: factors on drag and traction |
 //! | [`lubricant_traction`] | sliding friction between ball and race from the lubricant |
 //! | [`inlet_rolling`] | rolling resistance of the oil in the inlet of a contact |
 //! | [`friction`] | steady friction moment of a rolling bearing: one interface to Palmgren's, the SKF model and a measured curve |
@@ -39,6 +40,7 @@ pub mod hertz;
 pub mod inlet_rolling;
 pub mod kinematics;
 pub mod lubricant;
+pub mod lubricant_state;
 pub mod lubricant_traction;
 pub mod materials;
 pub mod moment_curve;

@@ -13,7 +13,7 @@ pub struct Dimension {
 const BASE: [&str; 5] = ["m", "kg", "s", "K", "rad"];
 
 /// Dimensions with a name and a preferred SI unit; exponents of length, mass, time, temperature, angle.
-const NAMED: [([i64; 5], &str, &str); 32] = [
+const NAMED: [([i64; 5], &str, &str); 35] = [
     ([0, 0, 0, 0, 0], "dimensionless number", "1"),
     ([1, 0, 0, 0, 0], "length", "m"),
     ([0, 1, 0, 0, 0], "mass", "kg"),
@@ -44,6 +44,9 @@ const NAMED: [([i64; 5], &str, &str); 32] = [
     ([2, 0, -1, 0, 0], "kinematic viscosity", "m^2/s"),
     ([-1, 1, -1, 0, 0], "dynamic viscosity", "Pa s"),
     ([1, 1, -3, -1, 0], "thermal conductivity", "W/(m K)"),
+    ([2, 1, -3, -1, 0], "thermal conductance", "W/K"),
+    ([2, 1, -2, -1, 0], "heat capacity", "J/K"),
+    ([0, 0, 0, -1, 0], "temperature coefficient", "1/K"),
     ([0, 0, 2, 0, 0], "time squared", "s^2"),
     ([0, 0, -2, 0, 0], "inverse time squared", "1/s^2"),
 ];

@@ -1,6 +1,7 @@
 //! A bearing as typed values in SI.
 
 use super::fits::{Fits, Growth};
+use super::lubricant_state::LubricantState;
 use super::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 use super::resolve::Values;
 use super::section::Section;
@@ -131,6 +132,8 @@ pub struct Bearing {
     pub moment_share: MomentShare,
     /// Friction of the balls in their pockets while the race accelerates.
     pub acceleration_loss: AccelerationLoss,
+    /// Slow state of the lubricant; none where nothing of it changes.
+    pub lubricant_state: Option<LubricantState>,
 }
 
 /// Traction coefficient as a function of the slip speed u.
@@ -253,6 +256,7 @@ pub(super) fn bearing(values: &Values) -> Bearing {
         moment: Moment::from_values(values),
         moment_share: MomentShare::from_values(values),
         acceleration_loss: AccelerationLoss::from_values(values),
+        lubricant_state: LubricantState::from_values(values),
     }
 }
 

@@ -104,6 +104,7 @@ impl Context<'_> {
         self.traction(bearing.traction)?;
         self.moment(&bearing.moment, &bearing.rated())?;
         self.drag(bearing)?;
+        self.lubricant_state(bearing)?;
         self.acceleration_loss(&bearing.acceleration_loss)
     }
 

@@ -6,8 +6,8 @@
 use super::key::{Key, Kind, Presence, Range, Section};
 use super::system::SystemName;
 use super::{
-    table_bearing, table_cage, table_drive, table_drop, table_identify, table_moment, table_rig,
-    table_signals, table_torque,
+    table_bearing, table_cage, table_drive, table_drop, table_identify, table_lubricant_state,
+    table_moment, table_rig, table_signals, table_torque,
 };
 
 /// Format name of the scenario files that this version writes.
@@ -26,6 +26,7 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
         .chain(table_cage::SECTIONS)
         .chain(table_bearing::TRACTION_SECTIONS)
         .chain(table_moment::SECTIONS)
+        .chain(table_lubricant_state::SECTIONS)
         .chain(RUN_SECTIONS)
         .chain(table_drop::REPEAT_SECTIONS)
 }
@@ -44,6 +45,7 @@ pub fn keys() -> impl Iterator<Item = &'static Key> {
         .chain(table_cage::KEYS)
         .chain(table_bearing::TRACTION)
         .chain(table_moment::KEYS)
+        .chain(table_lubricant_state::KEYS)
         .chain(RUN)
         .chain(table_drop::REPEAT)
 }

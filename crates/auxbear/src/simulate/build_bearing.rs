@@ -12,7 +12,7 @@ use model::bearing::cage::{Land as CageLand, LandRace};
 use model::bearing::full_complement::BallPair;
 use model::bearing::rolling::RollingBall;
 use model::bearing::{
-    AccelerationLoss, BearingConstants, PlanarConstants, RollingConstants,
+    AccelerationLoss, BearingConstants, LubricantConstants, PlanarConstants, RollingConstants,
     Separation as SeparationConstants, SharedMoment, SteadyMoment,
 };
 use model::contact::JournalContact;
@@ -152,6 +152,7 @@ pub(super) fn bearing(
                 scale: bearing.moment_share.scale.unwrap_or(1.0),
             }),
             inlet_rolling: inlet_rolling(bearing, contacts)?,
+            lubricant: lubricant_state(bearing),
         }),
         Fidelity::Rolling => {
             let set = RollingSet {
@@ -176,8 +177,19 @@ pub(super) fn bearing(
                 moment: law,
                 axial_load: bearing.moment.axial_load(),
                 loss: acceleration_loss(&bearing.acceleration_loss),
+                lubricant: lubricant_state(bearing),
             })
         }
+    })
+}
+
+/// The slow state of the lubricant, where it has one.
+fn lubricant_state(bearing: &Bearing) -> Option<LubricantConstants> {
+    (bearing.lubricant_state).map(|state| LubricantConstants {
+        grease: state.grease,
+        films: state.films,
+        build_up: state.build_up,
+        breakdown: state.breakdown,
     })
 }
 
@@ -487,7 +499,7 @@ fn at_rest(
     };
     let machine = SpinUpMachine::new(SpinUpConstants {
         race: *race,
-        bearing: constants.clone(),
+        bearing: constants.clone().at_the_law(),
         drive,
         load: Table::constant(load),
         target_speed: speed,
@@ -518,6 +530,7 @@ pub(super) fn refused(refusal: Refusal) -> Box<Problem> {
         Refusal::NegativeLoad => "drive.radial_load",
         Refusal::StepOfRollingBalls => "drive.acceleration",
         Refusal::MomentShare => "bearing.moment",
+        Refusal::LubricantState => "bearing.lubricant_state",
     };
     Box::new(
         Problem::new(

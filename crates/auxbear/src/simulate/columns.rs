@@ -89,6 +89,7 @@ pub(super) fn history(context: &Context) -> Vec<Column> {
         SLIP_SPEED,
     );
     table.cage(&bearing);
+    table.lubricant(&bearing);
     table.balls(&bearing);
     table.flows(
         "release",

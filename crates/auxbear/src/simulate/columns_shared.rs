@@ -3,7 +3,7 @@
 use super::film::Films;
 use super::outcome::Column;
 use model::bearing::ball_states::CAGE_PLACE;
-use model::bearing::{BearingConstants, Separation};
+use model::bearing::{BearingConstants, LubricantAt, Separation};
 use model::motion::Motion;
 use model::system::energy::Balance;
 use model::system::sampling::Row;
@@ -150,6 +150,60 @@ impl<'a> Table<'a> {
         if guide.is_some() {
             let meaning = "normal force of cage and land";
             self.probe("bearing.cage.land_force", "N", meaning, land);
+        }
+    }
+
+    /// What changes of the lubricant, and its factors.
+    pub fn lubricant(&mut self, place: &BearingPlace) {
+        let Some(lubricant) = place.bearing.lubricant() else {
+            return;
+        };
+        let (grease, films) = (lubricant.grease.is_some(), lubricant.films.is_some());
+        let planar = matches!(place.bearing, BearingConstants::Planar(_));
+        let columns: [(bool, &str, &str, &str, fn(&LubricantAt) -> f64); 5] = [
+            (
+                grease,
+                "build_up",
+                "1",
+                "build-up of the grease: 0 rested, 1 at the level of the law",
+                |at| at.build_up,
+            ),
+            (
+                grease,
+                "breakdown",
+                "1",
+                "breakdown of the grease: 0 rested, 1 worked for long",
+                |at| at.breakdown,
+            ),
+            (
+                films,
+                "film_temperature_rise",
+                "K",
+                "temperature of the contact films above the bulk of the bearing",
+                |at| at.film_temperature_rise,
+            ),
+            (
+                true,
+                "drag_factor",
+                "1",
+                "speed-dependent part of the friction moment over that of the law",
+                |at| at.drag_factor,
+            ),
+            (
+                films && planar,
+                "traction_factor",
+                "1",
+                "traction coefficient over that of the law",
+                |at| at.traction_factor,
+            ),
+        ];
+        for (_, name, unit, meaning, value) in columns.into_iter().filter(|column| column.0) {
+            let name = format!("bearing.lubricant.{name}");
+            self.add(&name, unit, meaning, |row| {
+                let own = &row.state[place.states.clone()];
+                // every row has it where the bearing does
+                (place.bearing.lubricant_at(own)).map_or(f64::NAN, |at| value(&at))
+            });
         }
     }
 

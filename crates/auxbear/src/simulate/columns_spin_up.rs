@@ -14,7 +14,7 @@ use model::system::spin_up::rate::race_motion;
 const MEANINGS: [&str; PROBES.len()] = [
     "moment t_I of the bearing that resists the inner race",
     "moment t_O of the bearing on the outer race, which a torque arm feels",
-    "friction moment M of the law at this speed and load",
+    "friction moment M of the law at this speed and load, with the drag factor of the lubricant",
     "moment of the drive on the inner race",
     "acceleration of the inner race",
     "radial load applied to the inner race",
@@ -62,6 +62,7 @@ pub(super) fn history(context: &Context) -> Vec<Column> {
         }
     }
     table.cage(&bearing);
+    table.lubricant(&bearing);
     table.balls(&bearing);
     table.flows(
         "the start",

@@ -52,6 +52,24 @@ impl List {
             &PRESSURE,
         );
     }
+    /// What the lubricant came to in the bearing's own states; nothing where it has no state.
+    pub fn lubricant(&mut self, bearing: &BearingConstants, own: &[f64]) {
+        let (Some(part), Some(at)) = (bearing.lubricant(), bearing.lubricant_at(own)) else {
+            return;
+        };
+        let mut add = |name: &str, unit: &'static str, value: f64| {
+            self.number(name, unit, Ok(value), &LUBRICANT);
+        };
+        if part.grease.is_some() {
+            add("lubricant_build_up_at_end", "1", at.build_up);
+            add("lubricant_breakdown_at_end", "1", at.breakdown);
+        }
+        if part.films.is_some() {
+            let rise = at.film_temperature_rise;
+            add("lubricant_film_temperature_rise_at_end", "K", rise);
+        }
+        add("lubricant_drag_factor_at_end", "1", at.drag_factor);
+    }
     /// Largest forces on the cage, or between the balls, and what their friction took: peaks of pockets and land, N; heats of
     /// pockets, land and neighbours, J. The factor is that of the pressure between neighbours, Pa/N^(1/3).
     pub fn cage(
@@ -130,6 +148,11 @@ fn share_of_limit(pressure: f64, limit: Option<f64>) -> Result<f64, String> {
     })
 }
 
+const LUBRICANT: Origin = Origin {
+    law: "first-order states of grease and films, factor on the speed-dependent part of the steady moment",
+    source: "crates/physics/src/lubricant_state.rs; the parameters are the scenario's",
+    valid: "film rises of some 20 K; speeds of one order",
+};
 const CAGE_FORCE: Origin = Origin {
     law: "P = max(0, k p(1 + a ṗ)) of pockets and land, Hertz between balls; largest at the ends of the steps",
     source: "Hunt-Crossley contact, crates/model/src/bearing/pocket.rs, cage.rs, full_complement.rs",

@@ -3,7 +3,7 @@
 use super::drop::Context;
 use super::list::{List, Origin, relative};
 use super::outcome::{Quantity, Value};
-use model::system::drop::layout::{HEATS, INNER, ROTOR};
+use model::system::drop::layout::{BEARING, HEATS, INNER, ROTOR};
 
 const EQUATIONS: &str =
     "equations of motion, crates/model/src/system/drop/rate.rs and crates/model/src/bearing/";
@@ -125,6 +125,8 @@ pub(super) fn name(context: &Context) -> Vec<Quantity> {
     }
     let cage_friction =
         heat("pocket_friction") + heat("cage_land_friction") + heat("ball_ball_friction");
+    let own = &state[BEARING..layout.ledger()];
+    list.lubricant(&machine.constants.bearing, own);
     list.cage(
         &machine.constants.bearing,
         [

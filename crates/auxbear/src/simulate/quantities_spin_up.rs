@@ -256,6 +256,8 @@ fn loads(list: &mut List, context: &Context) {
     }
     let cage_friction =
         heat("pocket_friction") + heat("cage_land_friction") + heat("ball_ball_friction");
+    let own = &context.ending.state[machine.layout().bearing()];
+    list.lubricant(&machine.constants.bearing, own);
     list.cage(
         &machine.constants.bearing,
         [

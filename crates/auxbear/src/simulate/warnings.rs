@@ -5,7 +5,7 @@ use super::ensemble::Finished;
 use super::outcome::Warning;
 use super::warnings_shared::{self as shared, warning};
 use crate::scenario::{Fidelity, Moment, Scenario};
-use model::system::drop::layout::PENETRATION_SPEED;
+use model::system::drop::layout::{BEARING, PENETRATION_SPEED};
 use physics::hertz::maximum_pressure;
 
 /// Contacts after which pocket and bounce chaos shows in the later ones.
@@ -114,6 +114,11 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
         ));
     }
     list.extend(shared::films(context.films(), bearing));
+    let own = BEARING..context.machine.layout().ledger();
+    list.extend(shared::film_rise(record.rows().filter_map(|row| {
+        let at = (context.machine.constants.bearing).lubricant_at(&row.state[own.clone()])?;
+        Some(at.film_temperature_rise)
+    })));
     list.extend(shared::skids(context.built.steady.as_ref()));
     list.extend(shared::unscaled(context.built.steady.as_ref()));
     list.extend(shared::scale(context.built.steady.as_ref()));

@@ -12,6 +12,8 @@ const LARGEST_RESIDUAL: f64 = 1e-6;
 
 /// Distance of the friction moment's scale from 1 that creep alone explains.
 const UNREMARKABLE_SCALE: f64 = 0.05;
+/// Temperature rise of the films over which d ln ν/dT of an oil changes by a quarter, K.
+const WARMEST_FILMS: f64 = 20.0;
 /// How near the moment of a steady run comes to the law's where traction suffices.
 const PROMISED_MOMENT: f64 = 0.01;
 
@@ -238,6 +240,19 @@ fn angular_contact(bearing: &Bearing) -> String {
         "The contact angle of {angle:.1} deg is computed in the plane and stays as it is: that holds while an axial preload {held}. \
          Axial motion, tilt and the balls' spin about their contacts are left out."
     )
+}
+
+/// Films so warm that the factors of the lubricant's state have left their range; rises of the films, K.
+pub(super) fn film_rise(rises: impl Iterator<Item = f64>) -> Option<Warning> {
+    let largest = rises.fold(0.0, f64::max);
+    (largest > WARMEST_FILMS).then(|| {
+        warning(
+            "AB1035",
+            format!(
+                "The contact films warm by {largest:.0} K: drag and traction that fall exponentially with temperature hold                  over some {WARMEST_FILMS:.0} K, and the bulk of the bearing would warm as well."
+            ),
+        )
+    })
 }
 
 /// A ring that is said to grow with its shaft beyond the speed at which it leaves it.

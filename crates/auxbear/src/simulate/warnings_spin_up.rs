@@ -29,6 +29,12 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     }
     list.extend(shared::films(context.films(), bearing));
     list.extend(shared::law_range(bearing, speed, load));
+    let (machine, own) = (context.machine(), context.machine().layout().bearing());
+    let rows = context.record.rows();
+    list.extend(shared::film_rise(rows.filter_map(|row| {
+        let at = (machine.constants.bearing).lubricant_at(&row.state[own.clone()])?;
+        Some(at.film_temperature_rise)
+    })));
     if context.ending.stop == solve::Stop::Finished {
         list.extend(shared::residual(quantities));
     }

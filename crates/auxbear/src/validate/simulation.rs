@@ -214,6 +214,7 @@ fn falling_machine(mass: f64, stiffness: f64, clearance: f64, gravity: f64) -> D
         first_ball_angle: 0.0,
         moment: None,
         inlet_rolling: None,
+        lubricant: None,
     };
     let mut constants = DropConstants {
         machine: MachineConstants {
@@ -349,6 +350,7 @@ fn constants(machine: &ReferenceMachine, speed: f64) -> Result<DropConstants, St
             first_ball_angle: 0.0,
             moment: None,
             inlet_rolling: None,
+            lubricant: None,
         }),
         speed,
         unbalance_angle: 0.0,

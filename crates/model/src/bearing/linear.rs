@@ -4,11 +4,12 @@
 //! needs of it are the partial derivatives of its own rates and of its reactions with respect to its own five states and
 //! to the motion of its neighbours.
 //! Left out, as the method allows, which then takes those parts explicitly: how the steady moment couples the balls through
-//! their sums, the rolling resistance of oil, how neighbours without a cage press each other, and what follows from the place
+//! their sums, the rolling resistance of oil, how fast the state of the lubricant changes, how neighbours without a cage press each other, and what follows from the place
 //! of a free cage.
 
 use super::ball::{BallConstants, BallMotion, BallReaction, PocketMotion, RaceMotion};
 use super::ball_states::{CAGE_PLACE, OF_BALL, direction};
+use super::lubricant_state::Warmed;
 use super::planar::distances;
 use super::pocket::PocketShape;
 use super::{PlanarConstants, Separation, cage};
@@ -112,6 +113,7 @@ impl LinearBall {
         take: &mut impl FnMut(usize, &BallMotion<BallDual>, &BallReaction<BallDual>),
     ) {
         let neighbours = Neighbours::of(bearing, motion, state);
+        let warmed = bearing.warmed_traction(state).map(BallDual::splat);
         for ball in 0..bearing.balls {
             let own = bearing.motion(state, ball);
             let seeded = BallMotion {
@@ -123,6 +125,7 @@ impl LinearBall {
             };
             let reaction = BallDual::vectorized(OneBall {
                 bearing: self,
+                warmed,
                 neighbours: &neighbours,
                 seat: bearing.seat(ball),
                 ball: &seeded,
@@ -135,6 +138,8 @@ impl LinearBall {
 /// The reaction of one ball as a task, for the vector unit.
 struct OneBall<'a> {
     bearing: &'a LinearBall,
+    /// Traction coefficient over that of the law, where the films warm.
+    warmed: Option<BallDual>,
     neighbours: &'a Neighbours,
     seat: f64,
     ball: &'a BallMotion<BallDual>,
@@ -155,7 +160,10 @@ impl Vectorized for OneBall<'_> {
             spin: cage.spin,
         };
         let mut reaction = self.bearing.between_races.react(
-            &self.bearing.traction,
+            &Warmed {
+                law: &self.bearing.traction,
+                factor: self.warmed,
+            },
             inner,
             outer,
             &pocket,

@@ -8,7 +8,8 @@
 //! Both may have a steady friction moment: as a whole, or shared by the balls ([`steady_moment`]). Without one, oil resists the
 //! rolling of each ball ([`inlet_couples`]). What the pockets take
 //! while the race accelerates follows from the balls in the planar fidelity; in the rolling one it is given
-//! ([`acceleration_loss`]).
+//! ([`acceleration_loss`]). The lubricant may have a state that changes slowly, with factors on moment and traction
+//! ([`lubricant_state`]).
 //!
 //! A bearing owns the states of its cage and balls; the system owns the races.
 //! Besides its reaction it fills, where asked, a *detail* list with five values a ball:
@@ -22,6 +23,7 @@ pub mod cage;
 pub mod full_complement;
 pub mod inlet_couples;
 pub mod linear;
+pub mod lubricant_state;
 pub mod planar;
 pub mod planar_constants;
 pub mod pocket;
@@ -31,6 +33,7 @@ pub mod steady_moment;
 
 use crate::motion::{Motion, Wrench};
 pub use acceleration_loss::AccelerationLoss;
+pub use lubricant_state::{LubricantAt, LubricantConstants};
 use number::Real;
 use physics::rolling::RollingSet;
 pub use planar::Planar;
@@ -151,7 +154,7 @@ pub struct BearingReaction<R> {
     pub outer_inertia: R,
     /// Size of the inertia j with which the acceleration loss F1|Ω̇| acts, kg m².
     pub loss_inertia: R,
-    /// The steady moment of the law at this speed and load, N m.
+    /// The steady moment of the law at this speed, load and state of the lubricant, N m.
     pub steady_moment: R,
     /// Power with which a growing inner race presses its balls, over the race's acceleration, N m s: 2kΩ ΣQ_el, from
     /// Ṙ = 2kΩΩ̇. It comes from outside the model, which knows no elastic race.
@@ -280,15 +283,44 @@ impl BearingConstants {
         if state < first {
             return format!("cage.{}", CAGE[state]);
         }
+        if let Some(own) = state.checked_sub(self.lubricant_states()) {
+            return lubricant_state::STATE_NAMES[own].to_string();
+        }
         let (list, ball) = ((state - first) / balls, (state - first) % balls);
         format!("ball_{:02}.{}", ball + 1, BALL[list])
     }
-    /// Number of states of cage and balls.
+    /// Number of states: those of cage and balls, then those of the lubricant where it has any.
     pub fn states(&self) -> usize {
+        let of_lubricant = self.lubricant().map_or(0, |_| lubricant_state::STATES);
+        self.lubricant_states() + of_lubricant
+    }
+    /// Number of states of cage and balls: where those of the lubricant begin.
+    fn lubricant_states(&self) -> usize {
         match self {
             BearingConstants::Rolling(_) => rolling::STATES,
             BearingConstants::Planar(bearing) => bearing.states(),
         }
+    }
+    /// The slow state of the lubricant, where it has one.
+    pub fn lubricant(&self) -> Option<&LubricantConstants> {
+        match self {
+            BearingConstants::Rolling(bearing) => bearing.lubricant.as_ref(),
+            BearingConstants::Planar(bearing) => bearing.lubricant.as_ref(),
+        }
+    }
+    /// The same bearing with its lubricant in the state of the law, for good.
+    #[must_use]
+    pub fn at_the_law(mut self) -> Self {
+        match &mut self {
+            BearingConstants::Rolling(bearing) => bearing.lubricant = None,
+            BearingConstants::Planar(bearing) => bearing.lubricant = None,
+        }
+        self
+    }
+    /// The lubricant in the states of the bearing, where it has a state.
+    pub fn lubricant_at(&self, state: &[f64]) -> Option<LubricantAt> {
+        let lubricant = self.lubricant()?;
+        Some(lubricant.at(&state[self.lubricant_states()..]))
     }
     /// Mass that moves with the outer race, kg: the cage, and the balls where they have no states.
     pub fn mass_with_outer_race(&self) -> f64 {
@@ -351,6 +383,9 @@ impl BearingConstants {
             ball[3 * n..4 * n].fill(0.01 * spin);
             ball[4 * n..5 * n].fill(spin * bearing.ball.inner_track / radius);
         }
+        if self.lubricant().is_some() {
+            LubricantConstants::error_scale(&mut scale[self.lubricant_states()..]);
+        }
     }
     /// Whether a kind of [`HEATS`] may be made in this bearing; other kinds always may.
     pub fn may_make(&self, heat: &str) -> bool {
@@ -394,6 +429,9 @@ impl BearingConstants {
         match self {
             BearingConstants::Rolling(bearing) => bearing.rest(state),
             BearingConstants::Planar(bearing) => bearing.rest(state),
+        }
+        if let Some(lubricant) = self.lubricant() {
+            lubricant.rest(&mut state[self.lubricant_states()..]);
         }
     }
     /// Azimuth of a ball, rad.

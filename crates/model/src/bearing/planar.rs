@@ -1,6 +1,7 @@
 //! The bearing ball by ball, in the plane.
 //!
-//! States: those of the cage, then those of the balls: see [`ball_states`](super::ball_states).
+//! States: those of the cage, then those of the balls: see [`ball_states`](super::ball_states); then those of the
+//! lubricant where it has any: see [`lubricant_state`].
 //!
 //! ```text
 //!   I_c ω̇_c = Σ cage moments of the balls - c_c ω_c        ball j: see `ball`
@@ -16,10 +17,11 @@
 use super::ball::{
     BallConstants, BallDistances, BallMotion, PocketMotion, RaceMotion, gather_group,
 };
-use super::ball_states::{direction, load_ball, race, split, split_mut};
+use super::ball_states::{OF_BALL, direction, load_ball, race, split, split_mut};
 use super::cage::{self, FreeCage};
 use super::full_complement::{self, FullComplement};
 use super::inlet_couples::{self, InletCouples};
+use super::lubricant_state::{self, Lubricant, Warmed};
 use super::planar_constants::{PlanarConstants, Separation};
 use super::steady_moment::{self, MomentPairs};
 use super::{BallSums, BearingHeat, BearingReaction, largest_part};
@@ -47,6 +49,7 @@ pub struct Planar<R: Real> {
     twice_growth: Option<R>,
     moment: Option<MomentPairs<R>>,
     couples: Option<InletCouples<R>>,
+    lubricant: Option<Lubricant<R>>,
     apart: Apart<R>,
     /// First state of the balls.
     pub(super) first: usize,
@@ -74,6 +77,7 @@ impl<R: Real> Planar<R> {
                 (bearing.geometry(), bearing.moment.as_ref())
             }),
             couples: InletCouples::gather(&|lane| machine(lane)),
+            lubricant: Lubricant::gather(&|lane| machine(lane).lubricant.as_ref()),
             apart: match &machine(0).separation {
                 Separation::CentredCage => Apart::Centred,
                 Separation::FreeCage(_) => {
@@ -108,12 +112,29 @@ impl<R: Real> Planar<R> {
         rate: &mut [R],
         detail: &mut [R],
     ) -> BearingReaction<R> {
-        // the law is chosen once a call, not once a ball
-        let mut reaction = match &self.traction {
-            Traction::Tanh(law) => self.apart(law, motion, state, rate, detail),
-            Traction::FourParameter(law) => self.apart(law, motion, state, rate, detail),
-            Traction::Dry(law) => self.apart(law, motion, state, rate, detail),
-            Traction::Lubricated(law) => self.apart(law, motion, state, rate, detail),
+        let of_lubricant = self.first + OF_BALL * self.balls;
+        let mut drag_factor = R::one();
+        let mut reaction = match &self.lubricant {
+            // the law is chosen once a call, not once a ball
+            None => match &self.traction {
+                Traction::Tanh(law) => self.apart(law, motion, state, rate, detail),
+                Traction::FourParameter(law) => self.apart(law, motion, state, rate, detail),
+                Traction::Dry(law) => self.apart(law, motion, state, rate, detail),
+                Traction::Lubricated(law) => self.apart(law, motion, state, rate, detail),
+            },
+            // here once a ball: the code of the sum stands once for all laws
+            Some(lubricant) => {
+                let factors = R::vectorized(lubricant_state::Act {
+                    lubricant,
+                    state: &state[of_lubricant..],
+                });
+                drag_factor = factors.drag;
+                let law = Warmed {
+                    law: &self.traction,
+                    factor: factors.traction.map(R::grouped),
+                };
+                self.apart(&law, motion, state, rate, detail)
+            }
         };
         // apart from the sum above: without a steady moment nothing is paid, and the code above stands once a law
         if let Some(pairs) = &self.moment {
@@ -122,6 +143,7 @@ impl<R: Real> Planar<R> {
                 pairs,
                 motion,
                 held_load,
+                drag_factor,
                 state,
                 rate,
                 reaction: &mut reaction,
@@ -162,6 +184,15 @@ impl<R: Real> Planar<R> {
                 detail,
                 reaction: &mut reaction,
             }),
+        }
+        if let Some(lubricant) = &self.lubricant {
+            R::vectorized(lubricant_state::Change {
+                lubricant,
+                cage_speed: state[1] - motion.outer.spin,
+                film_heat: lubricant_state::film_heat(&reaction.heat),
+                state: &state[of_lubricant..],
+                rate: &mut rate[of_lubricant..],
+            });
         }
         reaction
     }

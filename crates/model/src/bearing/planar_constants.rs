@@ -5,6 +5,7 @@ use super::ball::{BallConstants, BallMotion, BallReaction, PocketMotion};
 use super::ball_states::{OF_BALL, OF_CENTRED_CAGE, OF_FREE_CAGE, race, split, split_mut};
 use super::cage::{self, Land};
 use super::full_complement::{self, BallPair};
+use super::lubricant_state::{LubricantConstants, Warmed};
 use super::planar::distances;
 use super::steady_moment::{Geometry, SharedMoment};
 use crate::motion::Motion;
@@ -35,6 +36,8 @@ pub struct PlanarConstants {
     pub moment: Option<SharedMoment>,
     /// Rolling resistance of the oil in the inlets; not counted beside a steady moment, which holds it.
     pub inlet_rolling: Option<ResistanceAtRaces<f64>>,
+    /// The slow state of the lubricant; none where it has none.
+    pub lubricant: Option<LubricantConstants>,
 }
 
 /// What keeps the balls apart.
@@ -86,7 +89,7 @@ impl PlanarConstants {
             Separation::FreeCage(_) => OF_FREE_CAGE,
         }
     }
-    /// Number of states.
+    /// Number of states of cage and balls; those of a lubricant come behind.
     pub fn states(&self) -> usize {
         self.first_ball_state() + OF_BALL * self.balls
     }
@@ -141,13 +144,22 @@ impl PlanarConstants {
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
         let (pocket, ball) = (self.pocket(state, ball), self.motion(state, ball));
         self.separation.beyond_pockets(self.ball).react(
-            &self.traction,
+            &Warmed {
+                law: &self.traction,
+                factor: self.warmed_traction(state),
+            },
             &inner,
             &outer,
             &pocket,
             &ball,
             &distances(&inner, &outer, &ball),
         )
+    }
+    /// Traction coefficient in a state of the bearing over that of the law, where the films warm.
+    pub(super) fn warmed_traction(&self, state: &[f64]) -> Option<f64> {
+        let lubricant = self.lubricant?;
+        let at = lubricant.at(&state[self.states()..]);
+        lubricant.films.map(|_| at.traction_factor)
     }
     pub(super) fn geometry(&self) -> Geometry {
         Geometry {

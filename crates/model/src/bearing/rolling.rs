@@ -6,7 +6,8 @@
 //!   radial force: every ball a Hertz spring (both contacts in series) between the races
 //!   ω_c = Ω/(2(1+s)),  s = r/R
 //! ```
-//! State: cage angle φ_c (rad). Cage and balls move with the outer race where they translate.
+//! State: cage angle φ_c (rad), then those of the lubricant where it has any
+//! ([`lubricant_state`](super::lubricant_state)). Cage and balls move with the outer race where they translate.
 //! Ball loads are quasi-static: the outer load adds the centrifugal force of the ball.
 //!
 //! The inner race grows with its own speed: its track's radius by kΩ².
@@ -16,6 +17,7 @@
 
 use super::acceleration_loss::{AccelerationLoss, Loss};
 use super::ball::gather_group;
+use super::lubricant_state::{self, Lubricant, LubricantConstants};
 use super::steady_moment::SteadyMoment;
 use super::{
     BallSums, BearingConstants, BearingEnergy, BearingHeat, BearingReaction, PlanarConstants,
@@ -26,7 +28,7 @@ use number::{Gather, Real, Vec2, constants};
 use physics::contact::{ball_race, ball_race_energy};
 use physics::rolling::RollingSet;
 
-/// Number of states.
+/// Number of states, without those of a lubricant.
 pub const STATES: usize = 1;
 
 constants! {
@@ -64,6 +66,8 @@ pub struct RollingConstants {
     pub axial_load: f64,
     /// Friction F of the balls in their pockets.
     pub loss: AccelerationLoss,
+    /// The slow state of the lubricant; none where it has none.
+    pub lubricant: Option<LubricantConstants>,
 }
 
 /// The rolling bearing over `R`.
@@ -77,6 +81,7 @@ pub struct Rolling<R: Real> {
     moment: SteadyMoment<R>,
     axial_load: R,
     loss: Option<Loss<R>>,
+    lubricant: Option<Lubricant<R>>,
     seats: Vec<R>,
 }
 
@@ -96,6 +101,7 @@ impl<R: Real> Rolling<R> {
                 let bearing = machine(lane);
                 (bearing.set.pocket_friction_arm(), &bearing.loss)
             }),
+            lubricant: Lubricant::gather(&|lane| machine(lane).lubricant.as_ref()),
             seats: (0..balls)
                 .map(|j| R::from_lanes(|lane| machine(lane).seat(j)))
                 .collect(),
@@ -171,7 +177,15 @@ impl<R: Real> Rolling<R> {
             SteadyMoment::None => R::zero(),
             law => {
                 let load = push.length_squared().max(R::splat(1e-30)).sqrt() + held_load;
-                law.moment(spin, load, self.axial_load)
+                let parts = law.parts(spin, load, self.axial_load);
+                match &self.lubricant {
+                    None => parts.sum(),
+                    Some(lubricant) => {
+                        let state = &state[STATES..];
+                        let factors = R::vectorized(lubricant_state::Act { lubricant, state });
+                        parts.with_drag(factors.drag).sum()
+                    }
+                }
             }
         };
         let (loss_moment, loss_inertia) = match &self.loss {
@@ -183,6 +197,15 @@ impl<R: Real> Rolling<R> {
         // their motion
         let turning = (motion.inner.position - motion.outer.position).cross(push);
         let by_inner = self.cage_ratio * turning;
+        if let Some(lubricant) = &self.lubricant {
+            R::vectorized(lubricant_state::Change {
+                lubricant,
+                cage_speed: self.cage_ratio * spin,
+                film_heat: moment * spin,
+                state: &state[STATES..],
+                rate: &mut rate[STATES..],
+            });
+        }
         BearingReaction {
             on_inner: Wrench::planar(-push, by_inner - resistance),
             on_outer: Wrench::planar(push, turning - by_inner + resistance),
@@ -243,6 +266,7 @@ impl RollingConstants {
                 .as_ref()
                 .map_or(0.0, |shared| shared.axial_load),
             loss: AccelerationLoss::None,
+            lubricant: planar.lubricant,
         }
     }
     /// Angle of a ball on the cage, rad.

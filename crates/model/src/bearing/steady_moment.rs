@@ -16,6 +16,9 @@
 //! χ_o M0 Ω, χ_s M0 Ω, M1 Ω (1+2s)/(2(1+s)) and M1 Ω/(2(1+s)): together M Ω, so statics gives t_I = t_O = M.
 //! A drag to the ground could not: the outer ring would not feel it.
 //!
+//! A lubricant with a slow state multiplies M0 by its drag factor D, in all three places at once: see
+//! [`lubricant_state`](super::lubricant_state).
+//!
 //! What the balls lose otherwise (creep, pockets) is in a measured M already: λ takes it out, see
 //! [`moment_scale`](crate::system::spin_up::moment_scale).
 //!
@@ -153,23 +156,36 @@ impl<R: Real> MomentPairs<R> {
         })
     }
 
-    /// What the balls share at this speed of the inner race against the outer and these loads: radial W, ΣQ_i, ΣQ_o.
+    /// What the balls share at this speed of the inner race against the outer, these loads, radial W, ΣQ_i, ΣQ_o, and a
+    /// drag factor D of the lubricant.
     #[inline(always)]
-    pub fn share(&self, speed: R, load: R, inner_sum: R, outer_sum: R) -> PairsOfBall<'_, R> {
+    pub fn share(
+        &self,
+        speed: R,
+        load: R,
+        inner_sum: R,
+        outer_sum: R,
+        drag_factor: R,
+    ) -> PairsOfBall<'_, R> {
         // without any load nothing is shared: the quotient is of zeros
         let least = R::splat(1e-30);
         let limit = R::splat(LEAST_SPEED);
         let parts = (self.law).parts(speed.abs().max(limit), load, self.axial_load);
         let couple = self.rolling_arm * parts.load_dependent;
         let direction = speed.max(-limit).min(limit) * limit.recip();
+        let drag = drag_factor.grouped();
         PairsOfBall {
             law: &self.of_ball,
-            arms: &self.arms,
+            arms: Arms {
+                orbit: self.arms.orbit * drag,
+                spin: self.arms.spin * drag,
+                ..self.arms
+            },
             load: load.grouped(),
             axial_load: self.axial_load.grouped(),
             inner_couple: (couple / inner_sum.max(least)).grouped(),
             outer_couple: (couple / outer_sum.max(least)).grouped(),
-            moment: parts.sum() * direction,
+            moment: parts.with_drag(drag_factor).sum() * direction,
         }
     }
 }
@@ -208,14 +224,15 @@ pub(super) struct BallPairs<R> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PairsOfBall<'a, R: Real> {
     law: &'a SteadyMoment<R::Group>,
-    arms: &'a Arms<R::Group>,
+    /// With the drag factor.
+    arms: Arms<R::Group>,
     load: R::Group,
     axial_load: R::Group,
     /// λ s/(1+s) M1/ΣQ_i, m.
     inner_couple: R::Group,
     /// λ s/(1+s) M1/ΣQ_o, m.
     outer_couple: R::Group,
-    /// The law's moment M at this speed and load, as if nothing else made friction, N m; below 1 rad/s proportional to
+    /// The law's moment M at this speed, load and drag factor, as if nothing else made friction, N m; below 1 rad/s proportional to
     /// the speed.
     pub moment: R,
 }
@@ -224,7 +241,7 @@ impl<R: Real> PairsOfBall<'_, R> {
     /// The pairs of several balls.
     #[inline(always)]
     pub fn pairs(&self, ball: &BallPlace<R::Group>) -> BallPairs<R::Group> {
-        let a = self.arms;
+        let a = &self.arms;
         let speeds = [
             a.orbit_speed * (ball.past * ball.inverse_distance),
             a.spin_speed * ball.on_outer,
@@ -254,20 +271,22 @@ impl<R: Real> PairsOfBall<'_, R> {
 impl<R: Real> Planar<R> {
     /// Adds the pairs of the steady moment to the rates and to the reaction.
     #[inline(always)]
-    fn share(
-        &self,
-        pairs: &MomentPairs<R>,
-        motion: &Motion<R>,
-        held_load: R,
-        state: &[R],
-        rate: &mut [R],
-        reaction: &mut BearingReaction<R>,
-    ) {
+    fn share(&self, task: Share<'_, R>) {
+        let Share {
+            pairs,
+            motion,
+            held_load,
+            drag_factor,
+            state,
+            rate,
+            reaction,
+            ..
+        } = task;
         let n = self.balls;
         let speed = motion.inner.spin - motion.outer.spin;
         let [x, y, inner_sum, outer_sum] = self.loads(motion, state);
         let load = Vec2::new(x, y).length_squared().sqrt() + held_load;
-        let shared = pairs.share(speed, load, inner_sum, outer_sum);
+        let shared = pairs.share(speed, load, inner_sum, outer_sum, drag_factor);
 
         let lists = split(state, self.first, n);
         let [_, d_radial_speed, _, d_orbit_speed, d_spin] = split_mut(rate, self.first, n);
@@ -343,6 +362,7 @@ pub(super) struct Share<'a, R: Real> {
     pub pairs: &'a MomentPairs<R>,
     pub motion: &'a Motion<R>,
     pub held_load: R,
+    pub drag_factor: R,
     pub state: &'a [R],
     pub rate: &'a mut [R],
     pub reaction: &'a mut BearingReaction<R>,
@@ -352,13 +372,6 @@ impl<R: Real> Vectorized for Share<'_, R> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        self.bearing.share(
-            self.pairs,
-            self.motion,
-            self.held_load,
-            self.state,
-            self.rate,
-            self.reaction,
-        );
+        self.bearing.share(self);
     }
 }

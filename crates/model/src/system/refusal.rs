@@ -18,6 +18,8 @@ pub enum Refusal {
     StepOfRollingBalls,
     /// A share of the steady moment outside 0 to 1, or a scale or reference spin that is not positive.
     MomentShare,
+    /// A state of the lubricant that starts outside 0 to 1, or a parameter of it that has no meaning.
+    LubricantState,
 }
 
 impl fmt::Display for Refusal {
@@ -39,6 +41,9 @@ impl fmt::Display for Refusal {
             Refusal::MomentShare => {
                 "the orbit's share of the steady moment lies outside 0 to 1, or its scale or reference spin is not positive"
             }
+            Refusal::LubricantState => {
+                "the state of the lubricant starts outside 0 to 1, or one of its parameters is not positive"
+            }
         })
     }
 }
@@ -47,6 +52,9 @@ impl std::error::Error for Refusal {}
 
 /// Refuses a bearing that has no meaning; `free_inertia` is that of an inner race whose speed is not given, kg m².
 pub fn of_bearing(bearing: &BearingConstants, free_inertia: Option<f64>) -> Result<(), Refusal> {
+    if (bearing.lubricant()).is_some_and(|lubricant| !lubricant.is_valid()) {
+        return Err(Refusal::LubricantState);
+    }
     match bearing {
         BearingConstants::Rolling(bearing) => {
             if !bearing.loss.is_passive() {

@@ -9,8 +9,8 @@ use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::cage::{Land, LandRace};
 use model::bearing::full_complement::BallPair;
 use model::bearing::{
-    AccelerationLoss, BearingConstants, PlanarConstants, RollingConstants, Separation,
-    SteadyMoment, rolling::RollingBall,
+    AccelerationLoss, BearingConstants, LubricantConstants, PlanarConstants, RollingConstants,
+    Separation, SteadyMoment, lubricant_state, rolling::RollingBall,
 };
 use model::contact::JournalContact;
 use model::levitation::Levitation;
@@ -23,6 +23,7 @@ use physics::film::EntrainedContact;
 use physics::hertz::{BallRace, PointContact, Race};
 use physics::inlet_rolling::ResistanceAtRaces;
 use physics::lubricant::FVA_3;
+use physics::lubricant_state::{FilmHeating, Grease};
 use physics::lubricant_traction::{Asperities, LubricatedContact, STEEL_SURFACE};
 use physics::materials::{BEARING_STEEL, contact_modulus};
 use physics::rolling::RollingSet;
@@ -78,6 +79,7 @@ pub fn planar_bearing() -> PlanarConstants {
         first_ball_angle: 0.0,
         moment: None,
         inlet_rolling: None,
+        lubricant: None,
     }
 }
 
@@ -97,6 +99,27 @@ pub fn land(race: LandRace, radial_clearance: f64) -> Land<f64> {
             friction: 0.05,
             inverse_reference_speed: 1.0 / 0.1,
         },
+    }
+}
+
+/// A grease that lies beside the contacts and is worked within seconds, between films that warm.
+pub fn lubricant() -> LubricantConstants {
+    LubricantConstants {
+        grease: Some(Grease {
+            rested_factor: 0.3,
+            build_up_angle: 0.7 * 2.0 * PI,
+            worked_factor: 0.7,
+            breakdown_time: 3.5,
+            recovery_time: 600.0,
+        }),
+        films: Some(FilmHeating {
+            heat_capacity: 0.5,
+            conductance: 0.25,
+            drag_coefficient: 0.03,
+            traction_coefficient: 0.02,
+        }),
+        build_up: 0.0,
+        breakdown: 0.0,
     }
 }
 
@@ -216,6 +239,7 @@ pub fn rolling_bearing(planar: &PlanarConstants) -> RollingConstants {
         moment: SteadyMoment::None,
         axial_load: 0.0,
         loss: AccelerationLoss::None,
+        lubricant: None,
     }
 }
 
@@ -452,6 +476,14 @@ pub fn random_state(machine: &DropMachine, random: &mut Random) -> Vec<f64> {
                 bearing.set_motion(part, ball, &motion);
             }
         }
+    }
+    if c.bearing.lubricant().is_some() {
+        let part = &mut state[BEARING..machine.layout().ledger()];
+        let first = part.len() - lubricant_state::STATES;
+        let share = |random: &mut Random| 0.5 + random.within(0.5);
+        part[first] = share(random);
+        part[first + 1] = share(random);
+        part[first + 2] = 40.0 * share(random);
     }
     state
 }

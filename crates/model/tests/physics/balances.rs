@@ -6,7 +6,7 @@
 use crate::machines::{
     Random, ball_of, bearing_part, let_roll, planar, random_state, reference, vec2,
 };
-use crate::relatives::machines;
+use crate::relatives::{lubricant_factors, machines};
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::cage::LandRace;
 use model::bearing::{BearingConstants, PlanarConstants, Separation, SharedMoment, SteadyMoment};
@@ -197,9 +197,11 @@ fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f
                 push += vec2(c, s) * probe[DETAIL + j];
             }
             let turning = (pair(state, INNER) - pair(state, OUTER)).cross(push);
+            let (drag, _) = lubricant_factors(&b.lubricant, bearing_part(machine, state));
             let steady = match &b.moment {
                 SteadyMoment::Palmgren(law) => {
-                    law.moment(state[INNER + 5], push.length_squared().sqrt())
+                    let parts = law.parts(state[INNER + 5], push.length_squared().sqrt());
+                    drag * parts.speed_dependent + parts.load_dependent
                 }
                 other => panic!("{other:?} is not used here"),
             };
@@ -212,6 +214,7 @@ fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f
         BearingConstants::Planar(b) => {
             let motion = race_motion(state);
             let part = bearing_part(machine, state);
+            let (_, warmed) = lubricant_factors(&b.lubricant, part);
             let steady = (b.moment.as_ref()).map_or(0.0, |moment| {
                 steady_moment_on_outer_race(machine, state, rate, b, moment)
             });
@@ -219,7 +222,8 @@ fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f
                 .map(|j| {
                     let reaction = b.ball_reaction(&motion, part, j);
                     let [inner, outer] = reaction.contacts();
-                    let traction = b.traction.at_races(&inner, &outer).1 * reaction.outer_load;
+                    let coefficient = warmed * b.traction.at_races(&inner, &outer).1;
+                    let traction = coefficient * reaction.outer_load;
                     let [centre, ..] = ball_centre(machine, state, rate, j);
                     let distance = (centre - pair(state, OUTER)).length_squared().sqrt();
                     let approach = distance + b.ball.radius - b.ball.outer_track;
@@ -294,7 +298,8 @@ fn steady_moment_on_outer_race(
         push += from_inner * (reaction.inner_load / from_inner.length_squared().sqrt());
     }
     let load = push.length_squared().sqrt();
-    let law = |speed: f64| moment.law.parts(speed, load, 0.0);
+    let (drag, _) = lubricant_factors(&b.lubricant, part);
+    let law = |speed: f64| moment.law.parts(speed, load, 0.0).with_drag(drag);
     let outer_sum: f64 = reactions.iter().map(|reaction| reaction.outer_load).sum();
     let mut on_race = 0.0;
     for (j, reaction) in reactions.iter().enumerate() {

@@ -10,6 +10,7 @@ mod balances;
 mod drops;
 mod implicit;
 mod loads;
+mod lubricant;
 mod oil;
 mod relatives;
 mod rest;

@@ -1,16 +1,19 @@
 //! Machines that differ from the reference in one thing each.
 
 use crate::machines::{
-    balance_mount, inlets, let_roll, oil, planar, reference, separate, separations, tilt_contacts,
-    vec2,
+    balance_mount, inlets, let_roll, lubricant, oil, planar, reference, separate, separations,
+    tilt_contacts, vec2,
 };
-use model::bearing::{AccelerationLoss, BearingConstants, SharedMoment, SteadyMoment};
+use model::bearing::{
+    AccelerationLoss, BearingConstants, LubricantConstants, Separation, SharedMoment, SteadyMoment,
+};
 use model::system::drop::DropMachine;
 use physics::palmgren::Palmgren;
 use physics::traction::{DryTraction, FourParameterTraction, Traction};
 
 /// The reference machine and its relatives: other traction laws, oil, oil that resists rolling, a brake, a drive, levitation, a
-/// held race, seven balls, balls that roll, cages free to move, no cage, a race that grows, contacts at an angle.
+/// held race, seven balls, balls that roll, cages free to move, no cage, a race that grows, contacts at an angle, a grease
+/// that builds up between films that warm.
 pub fn machines() -> Vec<DropMachine> {
     let base = || {
         let mut c = reference();
@@ -85,6 +88,18 @@ pub fn machines() -> Vec<DropMachine> {
         separate(&mut c, separation);
         c
     });
+    let mut worked = greased.clone();
+    planar(&mut worked).lubricant = Some(lubricant());
+    let mut worked_rolling = rolls.clone();
+    if let BearingConstants::Rolling(bearing) = &mut worked_rolling.bearing {
+        bearing.lubricant = Some(lubricant());
+    }
+    let mut warmed = resisted.clone();
+    separate(&mut warmed, Separation::FreeCage(None));
+    planar(&mut warmed).lubricant = Some(LubricantConstants {
+        grease: None,
+        ..lubricant()
+    });
     let like_the_reference = base();
     [
         peaked,
@@ -103,6 +118,7 @@ pub fn machines() -> Vec<DropMachine> {
     .into_iter()
     .chain(separated)
     .chain([resisted, resisted_at_an_angle])
+    .chain([worked, worked_rolling, warmed])
     .enumerate()
     .map(|(i, constants)| DropMachine::with_levitation(constants, i % 2 == 0))
     .collect()
@@ -118,4 +134,19 @@ pub fn grease() -> Palmgren<f64> {
         load_exponent: 0.55,
         static_load_rating: 6550.0,
     }
+}
+
+/// What the state of a lubricant, from the states of its bearing, makes of the speed-dependent part, and of the traction coefficient.
+pub fn lubricant_factors(slow: &Option<LubricantConstants>, part: &[f64]) -> (f64, f64) {
+    let (Some(slow), [.., built, worked, rise]) = (slow, part) else {
+        return (1.0, 1.0);
+    };
+    let of_grease = slow.grease.map_or(1.0, |grease| {
+        (grease.rested_factor * (1.0 - built) + built)
+            * ((1.0 - worked) + grease.worked_factor * worked)
+    });
+    let [drag, traction] = slow.films.map_or([1.0, 1.0], |films| {
+        [films.drag_coefficient, films.traction_coefficient].map(|k| (-k * rise).exp())
+    });
+    (of_grease * drag, traction)
 }

@@ -10,6 +10,7 @@ mod balls;
 mod bistable;
 mod lanes;
 mod limits;
+mod lubricant;
 mod rig;
 mod rolling;
 mod steady;

@@ -1,11 +1,11 @@
 //! The Jacobian of a drop with a planar bearing, as an arrow.
 //!
 //! ```text
-//!   border   rotor 6, inner race 6, outer race 4, cage 2 or 6     blocks   five states a ball          tail   ledger
+//!   border   rotor 6, inner race 6, outer race 4, cage 2 or 6, lubricant 0 or 3     blocks   five states a ball     tail   ledger
 //! ```
 //! Each ball is evaluated once over numbers with partials by its own five states and by the eleven of its neighbours; the
 //! rest of the machine once over numbers with partials by the 18 of the border that turn or carry the balls.
-//! Left out: how the steady moment couples the balls through the sums of their loads, the rolling resistance of oil, what
+//! Left out: the lubricant's own states, which change too slowly to need more than explicit steps; how the steady moment couples the balls through the sums of their loads, the rolling resistance of oil, what
 //! follows from the place of a free cage, how neighbours without a cage press each other, the power of a growing race.
 
 use super::layout::{BEARING, INNER, Layout, OUTER, ROTOR};
@@ -17,6 +17,7 @@ use crate::bearing::{BearingConstants, BearingReaction, PlanarConstants};
 use crate::motion::{Motion, Wrench};
 use number::{Dual, Real, Vec2, Vectorized};
 use solve::{Arrowhead, Linear, Shape};
+use std::ops::Range;
 
 /// Channels of the border with derivatives: everything before the place of a free cage and the balls.
 const BORDER: usize = BEARING + 2;
@@ -101,7 +102,7 @@ impl Linear<DropMachine, STATES, NEIGHBOURS, ACTED_ON> for DropLinear {
     fn shape(&self) -> Shape<STATES, NEIGHBOURS, ACTED_ON> {
         let n = self.layout.balls;
         Shape {
-            border: (ROTOR..self.border()).collect(),
+            border: (ROTOR..self.balls()).chain(self.lubricant()).collect(),
             blocks: (0..n)
                 .map(|ball| channels(&self.bearing, ball).map(|own| BEARING + own))
                 .collect(),
@@ -129,9 +130,13 @@ impl Linear<DropMachine, STATES, NEIGHBOURS, ACTED_ON> for DropLinear {
 }
 
 impl DropLinear {
-    /// Number of channels of the border.
-    fn border(&self) -> usize {
+    /// First channel of the balls: as many of the border stand before them.
+    fn balls(&self) -> usize {
         BEARING + self.bearing.first_ball_state()
+    }
+    /// Channels of the border behind the balls: of the lubricant, without derivatives.
+    fn lubricant(&self) -> Range<usize> {
+        BEARING + self.bearing.states()..self.layout.ledger()
     }
 
     /// Derivatives of the rates of the border and of the ledger with respect to the border, under the balls' reaction.
@@ -157,14 +162,14 @@ impl DropLinear {
         self.rate[BEARING] = self.state[CAGE_SPEED];
         let inverse_inertia = BorderDual::splat(1.0 / self.bearing.cage_inertia);
         self.rate[CAGE_SPEED] = sum.on_cage * inverse_inertia;
-        let border = self.border();
+        let (balls, border) = (self.balls(), self.balls() + self.lubricant().len());
         let rows = into.corner.chunks_exact_mut(border);
         for (row, rate) in rows.zip(&self.rate[..BORDER]) {
             row[..BORDER].copy_from_slice(&rate.partial);
         }
         // a free cage moves with its speed; forces on its centre are taken explicitly
-        for channel in BORDER..border - (border - BORDER) / 2 {
-            into.corner[channel * border + channel + (border - BORDER) / 2] = 1.0;
+        for channel in BORDER..balls - (balls - BORDER) / 2 {
+            into.corner[channel * border + channel + (balls - BORDER) / 2] = 1.0;
         }
         let ledger = &self.rate[self.layout.ledger()..];
         let columns = into.tail_border.chunks_exact_mut(ledger.len());

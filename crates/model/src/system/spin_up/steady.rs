@@ -9,6 +9,9 @@
 //! P_m = λ' M Ω, and λ = 1 - P/(M Ω). Where unloaded balls lose their spin the pairs take less: then λ may exceed 1, and
 //! the balls that carry load turn against more than their equal share.
 //!
+//! A lubricant with a slow state is taken in the state of the law, drag and traction factor 1, and without its states, which
+//! never rest: what λ then means beside a drag factor stands in [`lubricant_state`](crate::bearing::lubricant_state).
+//!
 //! Time is cut into ball passes, of a cage turn over the number of balls. A run is steady when the last half of them,
 //! of which the first of all are a cage turn at least, agrees with itself. Unloaded balls repeat nothing exactly, so that
 //! a single turn can be off by half a percent: then the run goes on until the mean is good enough.
@@ -175,7 +178,7 @@ pub fn moment_scale(
     Ok(run)
 }
 
-/// The bearing at a given speed under its load.
+/// The bearing at a given speed under its load, its lubricant in the state of the law.
 fn machine(
     bearing: &PlanarConstants,
     race: &InnerRace<f64>,
@@ -187,7 +190,7 @@ fn machine(
             centre_held: false,
             ..*race
         },
-        bearing: BearingConstants::Planar(bearing.clone()),
+        bearing: BearingConstants::Planar(bearing.clone()).at_the_law(),
         drive: Drive::step(speed),
         load: Table::constant(load),
         target_speed: speed,
