@@ -260,7 +260,7 @@ fn outside(test: &Measurement, steady: &SteadyMoment, found: &mut Vec<Doubt>) {
     let (low, high) = steady.range();
     let gone = turning
         .iter()
-        .filter(|speed| !(low..=high).contains(*speed))
+        .filter(|speed| steady.without_scale(**speed).is_none())
         .count();
     let part = gone as f64 / turning.len().max(1) as f64;
     // a spin-up through the lowest speeds is not worth a word

@@ -4,7 +4,7 @@ mod made_up;
 
 use identify::Measurement;
 use identify::moment::{Form, MomentSettings, moment};
-use made_up::{Random, coast_down, coasting, covered, seeds, set, steady};
+use made_up::{Random, SENSOR, Sensor, coast_down, coasting, covered, seeds, set, steady};
 use physics::palmgren::viscous_moment;
 use physics::skf::{SkfContacts, SkfDeepGroove, SkfMoment};
 
@@ -12,6 +12,7 @@ use physics::skf::{SkfContacts, SkfDeepGroove, SkfMoment};
 fn the_band_holds_a_moment_of_another_law() {
     let count = seeds(30);
     let (mut inside, mut of) = (0.0, 0.0);
+    let (mut slowly, mut slowly_of) = (0.0, 0.0);
     let (mut quick, mut quick_of) = (0.0, 0.0);
     for seed in 0..count {
         let mut random = Random::new(seed);
@@ -22,8 +23,15 @@ fn the_band_holds_a_moment_of_another_law() {
             .map(|_| coast_down(&mut random, 3.0, 0.01, scale))
             .collect();
         let settings = MomentSettings::default();
+        // noise that is alike over a second, a twentieth of the record
+        let sensor = Sensor {
+            length: 1.0,
+            ..SENSOR
+        };
+        let drifting = coasting(&mut random, 20.0, 0.01, scale, &steady, &sensor);
         for (tests, inside, of) in [
             (vec![&slow], &mut inside, &mut of),
+            (vec![&drifting], &mut slowly, &mut slowly_of),
             (three.iter().collect(), &mut quick, &mut quick_of),
         ] {
             let found = moment(&tests, &set(), &settings).unwrap();
@@ -39,6 +47,9 @@ fn the_band_holds_a_moment_of_another_law() {
         }
     }
     covered("M, one coast-down of 20 s", inside, of, count);
+    // a smoothed noise as slow as this is no autoregression: the band is wider than it need be, never narrower
+    println!("M, noise of 0.6 s: {:.1} %", 100.0 * slowly / slowly_of);
+    assert!(slowly / slowly_of >= 0.93);
     covered("M, three of 3 s", quick, quick_of, count);
 }
 
@@ -81,7 +92,7 @@ fn the_law_that_made_the_data_wins() {
     ];
     for (form, truth) in truths {
         let mut random = Random::new(7);
-        let test = coasting(&mut random, 30.0, 0.01, 0.0, truth);
+        let test = coasting(&mut random, 30.0, 0.01, 0.0, truth, &SENSOR);
         let found = moment(&[&test], &set(), &settings).unwrap();
         assert_eq!(
             found.best().form,
@@ -121,7 +132,7 @@ fn nothing_is_said_outside_the_measured_speeds() {
     let (low, high) = found.curve.range();
     let measured = |f: fn(f64, f64) -> f64, from| test.speed.iter().fold(from, |a, &b| f(a, b));
     assert!(low >= measured(f64::min, f64::MAX) && high <= measured(f64::max, 0.0));
-    assert!(found.curve.at(1.001 * high).is_none() && found.curve.at(0.9 * low).is_none());
+    assert!(found.curve.at(1.011 * high).is_none() && found.curve.at(0.9 * low).is_none());
     assert!(found.curve.at(high).is_some() && found.curve.at(-low).is_some());
 }
 

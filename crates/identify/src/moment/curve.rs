@@ -3,6 +3,10 @@
 use crate::series::place;
 use measure::uncertain::Uncertain;
 
+/// Part of the largest speed by which a speed may lie above it and still count as measured: tests and slow tests start from a
+/// drive's speed that is set to about a per cent. M is taken from the end of the curve, its slope's part is in the deviation.
+const ABOVE: f64 = 0.01;
+
 /// The steady moment M(Ω) at one load, between the smallest and the largest speed at which it was measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SteadyMoment {
@@ -51,7 +55,15 @@ impl SteadyMoment {
         (self.speed[0], self.speed[self.speed.len() - 1])
     }
 
-    /// Moment, N m, with the sign of the speed, and its standard deviation with that of the scale; none outside the range.
+    /// The speed without sign as the curve knows it; none outside the range and the hundredth above it.
+    fn within(&self, speed: f64) -> Option<f64> {
+        let (low, high) = self.range();
+        let own = speed.abs();
+        (own >= low && own <= (1.0 + ABOVE) * high).then(|| own.min(high))
+    }
+
+    /// Moment, N m, with the sign of the speed, and its standard deviation with that of the scale; none outside the range, of which
+    /// a hundredth above the largest speed counts as a part.
     ///
     /// - `speed`: Ω, rad/s, either sign
     pub fn at(&self, speed: f64) -> Option<Uncertain> {
@@ -66,12 +78,13 @@ impl SteadyMoment {
     ///
     /// - `speed`: Ω, rad/s, either sign
     pub fn without_scale(&self, speed: f64) -> Option<Uncertain> {
-        let (next, weight) = place(&self.speed, speed.abs())?;
+        let (next, weight) = place(&self.speed, self.within(speed)?)?;
         let value = (1.0 - weight) * self.moment[next - 1] + weight * self.moment[next];
         let variance = self.covariance_between(speed, speed)?;
+        let above = (speed.abs() - self.range().1).max(0.0);
         Some(Uncertain::new(
-            value.copysign(speed),
-            variance.max(0.0).sqrt(),
+            value * speed.signum(),
+            variance.max(0.0).sqrt().hypot(self.slope(speed)? * above),
         ))
     }
 
@@ -79,8 +92,8 @@ impl SteadyMoment {
     ///
     /// - `first`, `second`: Ω, rad/s, either sign
     pub fn covariance_between(&self, first: f64, second: f64) -> Option<f64> {
-        let (i, u) = place(&self.speed, first.abs())?;
-        let (j, v) = place(&self.speed, second.abs())?;
+        let (i, u) = place(&self.speed, self.within(first)?)?;
+        let (j, v) = place(&self.speed, self.within(second)?)?;
         let c = &self.covariance;
         let sum = (1.0 - u) * ((1.0 - v) * c[i - 1][j - 1] + v * c[i - 1][j])
             + u * ((1.0 - v) * c[i][j - 1] + v * c[i][j]);
@@ -91,7 +104,7 @@ impl SteadyMoment {
     ///
     /// - `speed`: Ω, rad/s, either sign
     pub fn slope(&self, speed: f64) -> Option<f64> {
-        let (next, _) = place(&self.speed, speed.abs())?;
+        let (next, _) = place(&self.speed, self.within(speed)?)?;
         Some(
             (self.moment[next] - self.moment[next - 1]) / (self.speed[next] - self.speed[next - 1]),
         )
@@ -128,7 +141,18 @@ mod tests {
         assert!((ahead.deviation - 0.0425_f64.sqrt().hypot(0.25)).abs() < 1e-15);
         assert_eq!(curve.covariance_between(10.0, -40.0), Some(-0.01));
         assert_eq!(curve.covariance_between(-10.0, -40.0), Some(0.01));
-        for outside in [9.99, 40.01, -41.0, 0.0, f64::NAN] {
+        // a moment that noise makes negative stays so, and turns with the speed
+        let negative = SteadyMoment {
+            moment: vec![-1.0, 2.0, 3.0],
+            ..curve.clone()
+        };
+        assert_eq!(negative.at(10.0).unwrap().value, -1.0);
+        assert_eq!(negative.at(-10.0).unwrap().value, 1.0);
+        // just above: the end, its slope of 0.05 in the deviation
+        let above = curve.without_scale(40.4).unwrap();
+        assert_eq!(above.value, 3.0);
+        assert!((above.deviation - 0.3_f64.hypot(0.05 * 0.4)).abs() < 1e-12);
+        for outside in [9.99, 40.41, -41.0, 0.0, f64::NAN] {
             assert_eq!(curve.at(outside), None);
         }
     }

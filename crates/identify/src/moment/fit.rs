@@ -117,7 +117,8 @@ impl Sums {
 
 /// One point of the grid.
 struct Point {
-    correlation: f64,
+    /// Place of its correlation in the list.
+    correlation: usize,
     noise: f64,
     precision: usize,
     log_weight: f64,
@@ -150,7 +151,7 @@ pub(super) fn weighed(
         (matrix, right)
     };
     let mut points = Vec::new();
-    for (white, &correlation) in whitened.iter().zip(&CORRELATIONS) {
+    for (place, (white, &correlation)) in whitened.iter().zip(&CORRELATIONS).enumerate() {
         let log_shape = (sums.count - sums.stretches) * (1.0 - correlation * correlation).ln();
         for &noise in noises {
             for (precision, prior) in priors.iter().enumerate() {
@@ -161,7 +162,7 @@ pub(super) fn weighed(
                 let explained = dot(&right, &solved(&factor, &right));
                 let squares = white[size][size] / (noise * noise) - explained;
                 points.push(Point {
-                    correlation,
+                    correlation: place,
                     noise,
                     precision,
                     log_weight: -0.5
@@ -183,70 +184,74 @@ pub(super) fn weighed(
     }
     let tried = (CORRELATIONS.len() * noises.len() * precisions.len()) as f64;
     let total: f64 = points.iter().map(|p| (p.log_weight - top).exp()).sum();
-    let mut posterior = Posterior {
-        log_evidence: top + (total / tried).ln(),
-        mean: vec![0.0; size],
-        covariance: zeros(size, size),
-        correlation: 0.0,
-        noise: 0.0,
-    };
-    let mut square = zeros(size, size);
-    for point in &points {
-        let weight = (point.log_weight - top).exp() / total;
-        if weight < 1e-6 {
-            continue;
-        }
-        let at = CORRELATIONS
-            .iter()
-            .position(|&rho| rho == point.correlation)?;
-        let (matrix, right) = system(&whitened[at], point.noise, &precisions[point.precision]);
-        let factor = cholesky(matrix)?;
-        let mean = solved(&factor, &right);
-        let own = inverse(&factor);
-        for i in 0..size {
-            posterior.mean[i] += weight * mean[i];
-            for j in 0..size {
-                square[i][j] += weight * (own[i][j] + mean[i] * mean[j]);
+    let points: Vec<(f64, Point)> = points
+        .into_iter()
+        .map(|point| ((point.log_weight - top).exp() / total, point))
+        .filter(|(weight, _)| *weight > 1e-6)
+        .collect();
+    // Mean and covariance over the grid, the noise wider by a factor.
+    let drawn = |wide: f64| {
+        let mut mean = vec![0.0; size];
+        let mut square = zeros(size, size);
+        for (weight, point) in &points {
+            let white = &whitened[point.correlation];
+            let (matrix, right) = system(white, wide * point.noise, &precisions[point.precision]);
+            let factor = cholesky(matrix)?;
+            let own_mean = solved(&factor, &right);
+            let own = inverse(&factor);
+            for i in 0..size {
+                mean[i] += weight * own_mean[i];
+                for j in 0..size {
+                    square[i][j] += weight * (own[i][j] + own_mean[i] * own_mean[j]);
+                }
             }
         }
-        posterior.correlation += weight * point.correlation;
-        posterior.noise += weight * point.noise;
-    }
-    let wide = colour(blocks, columns, &posterior);
-    for (i, row) in square.iter().enumerate() {
-        for (j, value) in row.iter().enumerate() {
-            posterior.covariance[i][j] = wide * (value - posterior.mean[i] * posterior.mean[j]);
+        for (row, a) in square.iter_mut().zip(&mean) {
+            for (value, b) in row.iter_mut().zip(&mean) {
+                *value -= a * b;
+            }
         }
-    }
-    Some(posterior)
+        Some((mean, square))
+    };
+    let over = |f: &dyn Fn(&Point) -> f64| points.iter().map(|(w, p)| w * f(p)).sum::<f64>();
+    let correlation = over(&|point| CORRELATIONS[point.correlation]);
+    let (mean, _) = drawn(1.0)?;
+    let wide = colour(blocks, columns, &mean, correlation);
+    let (mean, covariance) = drawn(wide.sqrt())?;
+    Some(Posterior {
+        log_evidence: top + (total / tried).ln(),
+        mean,
+        covariance,
+        correlation,
+        noise: over(&|point| point.noise),
+    })
 }
 
-/// Factor on the covariance for what a first-order autoregression leaves in the residuals: 1 + 2Σ r_k over the first five lags of
-/// what should be white, at least 1.
-fn colour(blocks: &Blocks, columns: &Matrix, posterior: &Posterior) -> f64 {
-    let mut white = Vec::new();
-    let mut products = [0.0; 5];
+/// Factor on the variance of the noise for what a first-order autoregression leaves in the residuals: 1 + 2Σ r_k of what should
+/// be white, lags falling in weight to 0 (Bartlett) after a few, or three correlation lengths up to twenty; at least 1.
+fn colour(blocks: &Blocks, columns: &Matrix, mean: &[f64], correlation: f64) -> f64 {
+    let lags = (3.0 / (1.0 - correlation)).clamp(5.0, 20.0) as usize;
+    let mut square = 0.0;
+    let mut products = vec![0.0; lags];
     for range in &blocks.stretches {
         let rest: Vec<f64> = range
             .clone()
-            .map(|k| blocks.y[k] - dot(&columns[k], &posterior.mean))
+            .map(|k| blocks.y[k] - dot(&columns[k], mean))
             .collect();
-        let own: Vec<f64> = rest
-            .windows(2)
-            .map(|p| p[1] - posterior.correlation * p[0])
-            .collect();
+        let own: Vec<f64> = rest.windows(2).map(|p| p[1] - correlation * p[0]).collect();
         for (lag, product) in products.iter_mut().enumerate() {
-            *product += own
-                .iter()
-                .zip(own.iter().skip(lag + 1))
-                .map(|(a, b)| a * b)
-                .sum::<f64>();
+            let later = own.iter().skip(lag + 1);
+            *product += own.iter().zip(later).map(|(a, b)| a * b).sum::<f64>();
         }
-        white.extend(own);
+        square += dot(&own, &own);
     }
-    let square = dot(&white, &white);
+    let weighted: f64 = products
+        .iter()
+        .enumerate()
+        .map(|(lag, product)| (1.0 - (lag + 1) as f64 / (lags + 1) as f64) * product)
+        .sum();
     if square > 0.0 {
-        (1.0 + 2.0 * products.iter().sum::<f64>() / square).max(1.0)
+        (1.0 + 2.0 * weighted / square).max(1.0)
     } else {
         1.0
     }

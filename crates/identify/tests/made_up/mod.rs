@@ -92,6 +92,8 @@ const LENGTH: f64 = 0.05;
 /// What a sensor adds.
 pub struct Sensor {
     pub noise: f64,
+    /// Length of the raised cosine that smooths the noise, s.
+    pub length: f64,
     pub zero: f64,
     pub scale: f64,
 }
@@ -99,6 +101,7 @@ pub struct Sensor {
 /// 0.5 N mm of noise, 0.3 N mm of zero, 1 % of scale.
 pub const SENSOR: Sensor = Sensor {
     noise: 0.5e-3,
+    length: LENGTH,
     zero: 0.3e-3,
     scale: 0.01,
 };
@@ -112,7 +115,7 @@ pub fn read(
     scale_error: f64,
 ) -> Vec<f64> {
     let zero = sensor.zero * random.normal();
-    let noise = random.coloured(torque.len(), interval, LENGTH);
+    let noise = random.coloured(torque.len(), interval, sensor.length);
     torque
         .iter()
         .zip(noise)
@@ -191,7 +194,7 @@ pub fn measured(
 
 /// A coast-down from 150 to 3 rad/s in so many seconds: the speed falls as under a constant and a linear drag.
 pub fn coast_down(random: &mut Random, lasts: f64, interval: f64, scale_error: f64) -> Measurement {
-    coasting(random, lasts, interval, scale_error, &steady)
+    coasting(random, lasts, interval, scale_error, &steady, &SENSOR)
 }
 
 /// A coast-down with a given moment.
@@ -201,6 +204,7 @@ pub fn coasting(
     interval: f64,
     scale_error: f64,
     moment: &dyn Fn(f64) -> f64,
+    sensor: &Sensor,
 ) -> Measurement {
     let time: Vec<f64> = (0..=(lasts / interval).round() as usize)
         .map(|k| k as f64 * interval)
@@ -227,7 +231,7 @@ pub fn coasting(
         &speed,
         &acceleration,
         &torque,
-        &SENSOR,
+        sensor,
         scale_error,
     )
 }
