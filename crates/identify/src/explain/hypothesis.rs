@@ -62,7 +62,16 @@ impl Parameter {
 }
 
 impl Hypothesis {
-    /// The forms of an explanation, equally probable before the data.
+    /// Prior probability of this form of its explanation: three faults of a sensor, two of them of either sign.
+    pub fn weight(self) -> f64 {
+        match self {
+            Self::Drift { .. } | Self::Creep { .. } => 1.0 / 6.0,
+            Self::SlowSensor => 1.0 / 3.0,
+            _ => 1.0,
+        }
+    }
+
+    /// The forms of an explanation.
     pub fn of(explanation: Explanation) -> &'static [Self] {
         match explanation {
             Explanation::Rolling => &[Self::Rolling],
@@ -91,7 +100,7 @@ impl Hypothesis {
             name: "viscous share of the steady moment",
             unit: "1",
             kind: Kind::Share,
-            range: priors.viscous_share,
+            range: share_range(priors),
         };
         let slip_speed = positive("slip speed of traction", "m/s", priors.slip_speed);
         match self {
@@ -188,6 +197,14 @@ impl Hypothesis {
             let size = effect / (bearing.settings.least_effect * bearing.table.reference);
             prediction.claim = if needs_slip {
                 size.min(largest_slip / bearing.settings.least_slip)
+            } else if self == Self::SlowSensor {
+                size.min(values[0] / bearing.settings.least_settling)
+            } else if self == Self::Grease {
+                // both states must show, each where the other is as it is
+                let smaller = (tests.iter())
+                    .map(|test| smaller_effect(&values, test, bearing))
+                    .fold(0.0, f64::max);
+                smaller / (bearing.settings.least_effect * bearing.table.reference)
             } else {
                 size
             };
@@ -268,6 +285,11 @@ impl Hypothesis {
     }
 }
 
+/// Range of the viscous share, which the comparison has taken from the curve where none was given.
+fn share_range(priors: &Priors) -> Range {
+    priors.viscous_share.unwrap_or(Range::new(0.8, 0.95))
+}
+
 /// t_O of rolling balls along the steps, N m: M - J_O Ω̇.
 ///
 /// - `load_share`: share of M that grows with the load, where the load is another one
@@ -281,11 +303,34 @@ fn rolling_torque(
     let share = if load_share < 1.0 {
         load_share
     } else {
-        1.0 - bearing.priors.viscous_share.share(0.0)
+        1.0 - share_range(bearing.priors).share(0.0)
     };
     let extra = share * bearing.table.reference * (load_moment_factor(&test.past) - 1.0);
     (test.steps.iter())
         .map(move |step| step.steady + extra * step.fading - inertia * step.acceleration)
+}
+
+/// The smaller of the largest changes of a mean torque that build-up and breakdown make, N m.
+fn smaller_effect(values: &[f64], test: &Test, bearing: &Bearing) -> f64 {
+    let load_moment = (1.0 - values[0]) * bearing.table.reference;
+    let torque = |fresh: f64, worked: f64| {
+        let state = [fresh, worked, values[3], values[4]];
+        let factor = grease_factor(&state, test, bearing.set);
+        test.means((test.steps.iter().zip(factor)).map(|(step, factor)| {
+            factor * (step.steady - load_moment * step.fading).max(0.0)
+        }))
+    };
+    let (both, built, unworked) = (
+        torque(values[1], values[2]),
+        torque(1.0, values[2]),
+        torque(values[1], 1.0),
+    );
+    let largest = |other: &[f64]| {
+        (both.iter().zip(other))
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max)
+    };
+    largest(&built).min(largest(&unworked))
 }
 
 /// Drag factor D of the grease along the steps.

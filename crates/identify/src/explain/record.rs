@@ -40,6 +40,8 @@ pub(crate) struct Bin {
     pub speed: f64,
     /// Mean acceleration, rad/s².
     pub acceleration: f64,
+    /// Change of the torque of rolling balls over it by its width, N m/s.
+    pub steepness: f64,
     /// Whether it lies before the engagement.
     pub before: bool,
     /// Mean torque, N m, and its variance without zero and scale.
@@ -131,7 +133,18 @@ impl Test {
     /// - `speed`: speed over the time since the engagement, rad/s
     /// - `end`: end of the test, s since the engagement
     /// - `least`: least width of a mean, s
-    pub fn planned(speed: &dyn Fn(f64) -> f64, end: f64, least: f64, table: &Table) -> Self {
+    /// - `inertia`: J_O, kg m²
+    pub fn planned(
+        speed: &dyn Fn(f64) -> f64,
+        end: f64,
+        least: f64,
+        table: &Table,
+        inertia: f64,
+    ) -> Self {
+        let rolling = |t: f64| {
+            let h = 1e-3;
+            table.at(speed(t)).0 - inertia * (speed(t + h) - speed(t - h)) / (2.0 * h)
+        };
         let top_speed = table.top_speed;
         let grid = 4000;
         let at = |i: usize| end * i as f64 / grid as f64;
@@ -151,9 +164,9 @@ impl Test {
         };
         for (from, to, age) in limits(speed, end, stop, least, top_speed) {
             let slope = (speed(to) - speed(from)).abs() / (to - from);
-            let longest = (0.04 * age)
-                .clamp(1e-3, 0.05)
-                .min((0.01 * top_speed / slope).max(1e-3));
+            let longest = (0.05 * age)
+                .clamp(1e-3, 0.1)
+                .min((0.015 * top_speed / slope).max(1e-3));
             let count = ((to - from) / longest).ceil().max(2.0);
             let bin = test.bins.len();
             let duration = (to - from) / count;
@@ -179,6 +192,7 @@ impl Test {
                 age,
                 speed: mean_speed,
                 acceleration: (speed(to) - speed(from)) / (to - from),
+                steepness: (rolling(to) - rolling(from)) / (to - from),
                 before: false,
                 torque: 0.0,
                 variance: 0.0,
@@ -189,13 +203,13 @@ impl Test {
     }
 
     /// The means of a measurement.
-    pub fn measured(measurement: &Measurement, table: &Table) -> Self {
+    pub fn measured(measurement: &Measurement, table: &Table, inertia: f64) -> Self {
         let time = &measurement.time;
         let engagement = engagement(measurement, table.top_speed);
         let end = time[time.len() - 1] - engagement;
         let speed = |t: f64| interpolate(time, &measurement.speed, t + engagement);
         let least = LEAST_WIDTH.max(2.0 * measurement.correlation_time);
-        let mut test = Self::planned(&speed, end, least, table);
+        let mut test = Self::planned(&speed, end, least, table, inertia);
         test.zero_deviation = measurement.zero_deviation;
         test.scale_deviation = measurement.scale_deviation;
         for bin in &mut test.bins {
@@ -227,6 +241,7 @@ impl Test {
                     0.0
                 },
                 acceleration: 0.0,
+                steepness: 0.0,
                 before: true,
                 torque,
                 variance,

@@ -137,14 +137,14 @@ impl Truth {
     }
 
     /// The three tests of the paper.
-    pub fn campaign(self, chance: &mut Chance, with_cage: bool) -> Campaign {
+    pub fn campaign(self, chance: &mut Chance) -> Campaign {
         let scale = 1.0 + 0.01 * chance.normal();
         let noise = 1e-3 * chance.between(0.2, 0.5);
         let tests = (PEAKS.iter())
             .map(|peak| {
                 let (speed, fine_until, end) = course(*peak);
                 let rows = self.bearing.run(speed, end, fine_until);
-                self.read(&rows, *peak, scale, noise, with_cage, chance)
+                self.read(&rows, *peak, scale, noise, chance)
             })
             .collect();
         Campaign {
@@ -187,7 +187,6 @@ impl Truth {
         peak: f64,
         scale: f64,
         noise: f64,
-        with_cage: bool,
         chance: &mut Chance,
     ) -> Measurement {
         let zero = 0.3e-3 * chance.normal();
@@ -272,7 +271,7 @@ impl Truth {
                 (sigma * sigma + 0.3e-3_f64.powi(2) + (0.01 * reading).powi(2)).sqrt(),
             );
         }
-        m.cage = with_cage.then_some(cage);
+        m.cage = Some(cage);
         m
     }
 }
