@@ -147,7 +147,8 @@ impl Integral<'_> {
     }
 
     fn predict(&self, coordinates: &[f64]) -> Prediction {
-        self.hypothesis.predict(coordinates, self.tests, self.bearing)
+        self.hypothesis
+            .predict(coordinates, self.tests, self.bearing)
     }
 
     /// ln likelihood and χ² per amplitude, and ln of the likelihood over all amplitudes.
@@ -202,7 +203,9 @@ impl Integral<'_> {
 
     /// ln of likelihood at one amplitude times prior, with the penalty.
     fn height(&self, z: &[f64], prediction: &Prediction, amplitude: usize) -> f64 {
-        let whitened = self.observed.whiten(prediction, amplitude, self.directions());
+        let whitened = self
+            .observed
+            .whiten(prediction, amplitude, self.directions());
         let short = Self::shortfall(prediction);
         whitened.log_likelihood().0 - 0.5 * dot(z, z) - 0.5 * short * short
     }
@@ -249,7 +252,9 @@ impl Integral<'_> {
         let mut damping = 1e-2;
         let mut curvature = None;
         for _ in 0..rounds {
-            let whitened = self.observed.whiten(&prediction, amplitude, self.directions());
+            let whitened = self
+                .observed
+                .whiten(&prediction, amplitude, self.directions());
             let h = 1e-3;
             let mut slopes = Vec::with_capacity(size);
             let mut claim_slopes = vec![0.0; size];
@@ -261,8 +266,7 @@ impl Integral<'_> {
                 for entry in &mut slope {
                     *entry /= h;
                 }
-                claim_slopes[axis] =
-                    (Self::shortfall(&other) - Self::shortfall(&prediction)) / h;
+                claim_slopes[axis] = (Self::shortfall(&other) - Self::shortfall(&prediction)) / h;
                 slopes.push(slope);
             }
             let weighted = whitened.metric(&slopes);
@@ -343,7 +347,10 @@ impl Integral<'_> {
         if total == f64::NEG_INFINITY {
             return None;
         }
-        let weights: Vec<f64> = weights.iter().map(|weight| (weight - total).exp()).collect();
+        let weights: Vec<f64> = weights
+            .iter()
+            .map(|weight| (weight - total).exp())
+            .collect();
         let effective = 1.0 / dot(&weights, &weights);
         if effective < 3.0 * size as f64 {
             return None;
@@ -358,9 +365,8 @@ impl Integral<'_> {
         for (draw, weight) in draws.iter().zip(&weights) {
             for i in 0..size {
                 for j in 0..size {
-                    covariance[i * size + j] += weight
-                        * (draw.coordinates[i] - mean[i])
-                        * (draw.coordinates[j] - mean[j]);
+                    covariance[i * size + j] +=
+                        weight * (draw.coordinates[i] - mean[i]) * (draw.coordinates[j] - mean[j]);
                 }
             }
         }
@@ -459,7 +465,8 @@ impl Component {
         let square = self.curvature.square_of(&difference);
         let half_determinant = 0.5 * self.curvature.log_determinant;
         if self.student {
-            half_determinant + log_gamma_ratio(z.len()) - 0.5 * size * (DEGREES * std::f64::consts::PI).ln()
+            half_determinant + log_gamma_ratio(z.len())
+                - 0.5 * size * (DEGREES * std::f64::consts::PI).ln()
                 - 0.5 * (DEGREES + size) * (1.0 + square / DEGREES).ln()
         } else {
             half_determinant - 0.5 * (square + size * (2.0 * std::f64::consts::PI).ln())
@@ -494,4 +501,102 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
         .map(|(a, b)| (a - b).powi(2))
         .sum::<f64>()
         .sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Explanation, Priors, Settings, SteadyMoment};
+    use super::*;
+    use physics::rolling::RollingSet;
+
+    /// Data of a drift of -0.2 M in 1.5 s with residuals that a fixed rule scatters, in a setting of few means.
+    fn with_data(check: impl Fn(&Integral)) {
+        let steady = SteadyMoment {
+            speed: vec![1.0, 75.0, 150.0],
+            moment: vec![5e-3, 15e-3, 25e-3],
+            covariance: vec![1e-8; 9],
+        };
+        let set = RollingSet {
+            inner_track_radius: 14.8e-3,
+            ball_ratio: 0.214,
+            balls_mass: 10.5e-3,
+            cage_mass: 8e-3,
+        };
+        let (priors, settings) = (Priors::default(), Settings::default());
+        let table = steady.table(150.0);
+        let bearing = Bearing {
+            table: &table,
+            set: &set,
+            priors: &priors,
+            settings: &settings,
+        };
+        let speed = |t: f64| 150.0 * (t / 0.1).clamp(0.0, 1.0);
+        let mut test = Test::planned(&speed, 3.0, 0.05, &table, set.outer_inertia());
+        let rolling = Hypothesis::Rolling.predict(&[], std::slice::from_ref(&test), &bearing);
+        let count = test.bins.len();
+        for (i, bin) in test.bins.iter_mut().enumerate() {
+            let middle = 0.5 * (bin.from + bin.to);
+            let scatter = 3e-4 * (2.5 * i as f64).sin();
+            bin.torque = rolling.torque[i] - 5e-3 * (1.0 - (-middle / 1.5).exp()) + scatter;
+            bin.variance = 1e-7;
+        }
+        assert!(count > 8);
+        test.zero_deviation = 3e-4;
+        test.scale_deviation = 0.01;
+        let tests = [test];
+        let observed = Observed::new(&tests, &steady, &bearing, rolling).expect("a covariance");
+        for hypothesis in [Hypothesis::SlowSensor, Hypothesis::Drift { sign: -1.0 }] {
+            check(&Integral {
+                hypothesis,
+                tests: &tests,
+                bearing: &bearing,
+                observed: &observed,
+                size: hypothesis.parameters(&priors).len(),
+                leader: f64::NEG_INFINITY,
+            });
+        }
+        assert_eq!(Hypothesis::of(Explanation::Sensor).len(), 5);
+    }
+
+    #[test]
+    fn the_integral_is_that_of_a_fine_grid() {
+        with_data(|integral| {
+            let step = 0.04;
+            let axis: Vec<f64> = (-100..=100).map(|i| f64::from(i) * step).collect();
+            let points: Vec<Vec<f64>> = if integral.size == 1 {
+                axis.iter().map(|z| vec![*z]).collect()
+            } else {
+                (axis.iter())
+                    .flat_map(|y| axis.iter().map(|z| vec![*y, *z]))
+                    .collect()
+            };
+            let (mut logs, mut claimed) = (Vec::new(), Vec::new());
+            for z in &points {
+                let prediction = integral.predict(z);
+                if prediction.claim >= 1.0 {
+                    let prior = -0.5 * dot(z, z);
+                    logs.push(prior + integral.likelihood(&prediction).1);
+                    claimed.push(prior);
+                }
+            }
+            let grid = log_sum_exp(&logs) - log_sum_exp(&claimed);
+            let evidence = integral.evidence();
+            // stated deviation, and 0.02 each for the share of the claim by 256 points and for the grid's border
+            let allowed = 4.0 * evidence.deviation + 0.04;
+            assert!(
+                (evidence.log - grid).abs() < allowed,
+                "{} {grid}",
+                evidence.log
+            );
+            assert!(evidence.deviation < 0.15, "{}", evidence.deviation);
+        });
+    }
+
+    #[test]
+    fn ratios_of_gamma_functions() {
+        // Γ(5/2) = 1.329340, Γ(3) = 2, Γ(7/2) = 3.323351, Γ(4) = 6
+        for (size, value) in [(1, 2.0), (2, 3.323_351), (3, 6.0)] {
+            assert!((log_gamma_ratio(size) - (value / 1.329_340_f64).ln()).abs() < 1e-6);
+        }
+    }
 }

@@ -102,6 +102,12 @@ impl Hypothesis {
             kind: Kind::Share,
             range: share_range(priors),
         };
+        let orbit_share = Parameter {
+            name: "share of the viscous part on the orbit",
+            unit: "1",
+            kind: Kind::Share,
+            range: priors.orbit_share,
+        };
         let slip_speed = positive("slip speed of traction", "m/s", priors.slip_speed);
         match self {
             Self::Rolling => Vec::new(),
@@ -116,11 +122,17 @@ impl Hypothesis {
                 share,
                 positive("traction limit over M", "1", priors.traction_limit),
                 slip_speed,
+                orbit_share,
             ],
             Self::HeatedSlip => vec![
                 share,
-                positive("cold traction limit over M", "1", priors.cold_traction_limit),
+                positive(
+                    "cold traction limit over M",
+                    "1",
+                    priors.cold_traction_limit,
+                ),
                 slip_speed,
+                orbit_share,
                 positive("softening of traction", "1", priors.traction_softening),
                 positive("softening of drag", "1", priors.drag_softening),
                 positive("time of the film's heating", "s", priors.film_time),
@@ -174,9 +186,10 @@ impl Hypothesis {
             claim: if self == Self::Rolling { 1.0 } else { 0.0 },
         };
         let needs_slip = matches!(self, Self::Slip | Self::HeatedSlip);
-        let (mut effect, mut largest_slip) = (0.0_f64, 0.0_f64);
+        let (mut effect, mut largest_slip, mut softened) = (0.0_f64, 0.0_f64, 0.0_f64);
         for test in tests {
-            let (mut torque, mut cage) = self.run(&values, test, bearing);
+            let (mut torque, mut cage, more) = self.run(&values, test, bearing);
+            softened = softened.max(more);
             let rolling = test.means(rolling_torque(test, bearing, 1.0));
             for (i, bin) in test.bins.iter().enumerate() {
                 if bin.before {
@@ -196,7 +209,12 @@ impl Hypothesis {
         if self != Self::Rolling {
             let size = effect / (bearing.settings.least_effect * bearing.table.reference);
             prediction.claim = if needs_slip {
-                size.min(largest_slip / bearing.settings.least_slip)
+                let slip = size.min(largest_slip / bearing.settings.least_slip);
+                if self == Self::HeatedSlip {
+                    slip.min(softened / bearing.settings.least_effect)
+                } else {
+                    slip
+                }
             } else if self == Self::SlowSensor {
                 size.min(values[0] / bearing.settings.least_settling)
             } else if self == Self::Grease {
@@ -212,24 +230,26 @@ impl Hypothesis {
         prediction
     }
 
-    /// Means of torque and cage speed of one test.
-    fn run(self, values: &[f64], test: &Test, bearing: &Bearing) -> (Vec<f64>, Vec<f64>) {
+    /// Means of torque and cage speed of one test, and how much traction softened in it.
+    fn run(self, values: &[f64], test: &Test, bearing: &Bearing) -> (Vec<f64>, Vec<f64>, f64) {
         let reference = bearing.table.reference;
-        let rolls = || test.means((test.steps.iter()).map(|s| bearing.set.cage_speed(s.middle_speed)));
+        let rolls =
+            || test.means((test.steps.iter()).map(|s| bearing.set.cage_speed(s.middle_speed)));
         let fresh = 1.0 - test.past.left;
         match self {
-            Self::Rolling => (test.means(rolling_torque(test, bearing, 1.0)), rolls()),
+            Self::Rolling => (test.means(rolling_torque(test, bearing, 1.0)), rolls(), 0.0),
             Self::Grease => {
                 let load_moment = (1.0 - values[0]) * reference;
                 let torque = rolling_torque(test, bearing, 1.0 - values[0]);
                 let factor = grease_factor(&values[1..], test, bearing.set);
-                let moments = (torque.zip(&test.steps)).zip(factor).map(
-                    |((torque, step), factor)| {
-                        let viscous = (step.steady - load_moment * step.fading).max(0.0);
-                        torque + (factor - 1.0) * viscous
-                    },
-                );
-                (test.means(moments), rolls())
+                let moments =
+                    (torque.zip(&test.steps))
+                        .zip(factor)
+                        .map(|((torque, step), factor)| {
+                            let viscous = (step.steady - load_moment * step.fading).max(0.0);
+                            torque + (factor - 1.0) * viscous
+                        });
+                (test.means(moments), rolls(), 0.0)
             }
             Self::Slip | Self::HeatedSlip => {
                 let heated = self == Self::HeatedSlip;
@@ -237,14 +257,16 @@ impl Hypothesis {
                     load_moment: (1.0 - values[0]) * reference,
                     traction_limit: values[1] * reference,
                     slip_speed: values[2],
-                    traction_softening: if heated { values[3] } else { 0.0 },
-                    drag_softening: if heated { values[4] } else { 0.0 },
-                    film_time: if heated { values[5] } else { 1.0 },
+                    orbit_share: values[3],
+                    traction_softening: if heated { values[4] } else { 0.0 },
+                    drag_softening: if heated { values[5] } else { 0.0 },
+                    film_time: if heated { values[6] } else { 1.0 },
                 };
                 let course = slip.course(test, bearing.table, bearing.set);
                 (
                     test.means(course.outer_moment.iter().copied()),
                     test.means(course.cage.iter().copied()),
+                    course.softened,
                 )
             }
             Self::Drift { sign } => {
@@ -252,8 +274,10 @@ impl Hypothesis {
                     let middle = step.elapsed - 0.5 * step.duration;
                     sign * values[0] * reference * fresh * (1.0 - (-middle / values[1]).exp())
                 });
-                let torque = rolling_torque(test, bearing, 1.0).zip(drift).map(|(a, b)| a + b);
-                (test.means(torque), rolls())
+                let torque = rolling_torque(test, bearing, 1.0)
+                    .zip(drift)
+                    .map(|(a, b)| a + b);
+                (test.means(torque), rolls(), 0.0)
             }
             Self::Creep { sign } => {
                 let creep = (test.steps.iter()).map(|step| {
@@ -261,8 +285,10 @@ impl Hypothesis {
                     let new = fresh * (1.0 - (-middle / values[1]).exp());
                     1.0 + sign * values[0] * (test.past.left + new)
                 });
-                let torque = rolling_torque(test, bearing, 1.0).zip(creep).map(|(a, b)| a * b);
-                (test.means(torque), rolls())
+                let torque = rolling_torque(test, bearing, 1.0)
+                    .zip(creep)
+                    .map(|(a, b)| a * b);
+                (test.means(torque), rolls(), 0.0)
             }
             Self::SlowSensor => {
                 let mut reading = if test.starts_turning {
@@ -270,16 +296,15 @@ impl Hypothesis {
                 } else {
                     0.0
                 };
-                let torque = (rolling_torque(test, bearing, 1.0).zip(&test.steps)).map(
-                    |(torque, step)| {
+                let torque =
+                    (rolling_torque(test, bearing, 1.0).zip(&test.steps)).map(|(torque, step)| {
                         let kept = (-step.duration / values[0]).exp();
                         let mean_kept = (1.0 - kept) * values[0] / step.duration;
                         let mean = torque + (reading - torque) * mean_kept;
                         reading = torque + (reading - torque) * kept;
                         mean
-                    },
-                );
-                (test.means(torque), rolls())
+                    });
+                (test.means(torque), rolls(), 0.0)
             }
         }
     }
@@ -293,11 +318,7 @@ fn share_range(priors: &Priors) -> Range {
 /// t_O of rolling balls along the steps, N m: M - J_O Ω̇.
 ///
 /// - `load_share`: share of M that grows with the load, where the load is another one
-fn rolling_torque(
-    test: &Test,
-    bearing: &Bearing,
-    load_share: f64,
-) -> impl Iterator<Item = f64> {
+fn rolling_torque(test: &Test, bearing: &Bearing, load_share: f64) -> impl Iterator<Item = f64> {
     let inertia = bearing.set.outer_inertia();
     // without an explanation that knows the share, the middle of the prior
     let share = if load_share < 1.0 {
@@ -316,9 +337,10 @@ fn smaller_effect(values: &[f64], test: &Test, bearing: &Bearing) -> f64 {
     let torque = |fresh: f64, worked: f64| {
         let state = [fresh, worked, values[3], values[4]];
         let factor = grease_factor(&state, test, bearing.set);
-        test.means((test.steps.iter().zip(factor)).map(|(step, factor)| {
-            factor * (step.steady - load_moment * step.fading).max(0.0)
-        }))
+        test.means(
+            (test.steps.iter().zip(factor))
+                .map(|(step, factor)| factor * (step.steady - load_moment * step.fading).max(0.0)),
+        )
     };
     let (both, built, unworked) = (
         torque(values[1], values[2]),
@@ -338,7 +360,11 @@ fn smaller_effect(values: &[f64], test: &Test, bearing: &Bearing) -> f64 {
 /// Formula: D = [g0+(1-g0)b][1-(1-g_w)w], ḃ = |ω_c|(1-b)/φ_b, ẇ = (1-w)/τ_w while turning
 fn grease_factor(values: &[f64], test: &Test, set: &RollingSet<f64>) -> impl Iterator<Item = f64> {
     let [fresh, worked, angle, time] = [values[0], values[1], values[2], values[3]];
-    let mut build_up = if test.starts_turning { 1.0 } else { test.past.left };
+    let mut build_up = if test.starts_turning {
+        1.0
+    } else {
+        test.past.left
+    };
     let mut breakdown = test.past.left;
     let set = *set;
     (test.steps.iter()).map(move |step| {

@@ -46,8 +46,7 @@ impl Cholesky {
     pub fn whiten_from(&self, first: usize, vector: &mut [f64]) {
         for i in first..self.size {
             let row = &self.lower[i * self.size + first..i * self.size + i];
-            vector[i] =
-                (vector[i] - dot(row, &vector[first..i])) / self.lower[i * self.size + i];
+            vector[i] = (vector[i] - dot(row, &vector[first..i])) / self.lower[i * self.size + i];
         }
     }
 

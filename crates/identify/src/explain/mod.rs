@@ -175,8 +175,7 @@ pub fn explain(
         .map(|test| Test::measured(test, &table, set.outer_inertia()))
         .collect();
     let rolling = Hypothesis::Rolling.predict(&[], &records, &bearing);
-    let observed =
-        Observed::new(&records, steady, &bearing, rolling).ok_or(Refusal::BadCurve)?;
+    let observed = Observed::new(&records, steady, &bearing, rolling).ok_or(Refusal::BadCurve)?;
     // the quick ones first: the slow ones need no care where they are far behind
     let mut leader = f64::NEG_INFINITY;
     let mut assessments: Vec<Assessment> = QUICK_FIRST
@@ -210,7 +209,10 @@ pub fn explain(
 }
 
 fn conclude(verdict: &Verdict, settings: &Settings) -> Conclusion {
-    let fits = |a: &Assessment| a.fit.is_some_and(|fit| fit.probability >= settings.least_fit);
+    let fits = |a: &Assessment| {
+        a.fit
+            .is_some_and(|fit| fit.probability >= settings.least_fit)
+    };
     let best = verdict.best();
     if best.probability >= settings.decision {
         return if fits(best) {
@@ -275,9 +277,13 @@ fn usable(test: &Measurement) -> bool {
         && numbers(&test.torque)
         && numbers(&test.torque_deviation)
         && test.torque_deviation.iter().all(|d| *d > 0.0)
-        && [test.zero_deviation, test.scale_deviation, test.correlation_time]
-            .iter()
-            .all(|v| v.is_finite() && *v >= 0.0)
+        && [
+            test.zero_deviation,
+            test.scale_deviation,
+            test.correlation_time,
+        ]
+        .iter()
+        .all(|v| v.is_finite() && *v >= 0.0)
         && test.load.is_finite()
         && test.cage.as_ref().is_none_or(|cage| {
             cage.speed.len() == cage.time.len()

@@ -169,7 +169,11 @@ pub fn next_test(
         candidates.push(Candidate {
             proposal,
             information,
-            share: if entropy > 0.0 { information / entropy } else { 0.0 },
+            share: if entropy > 0.0 {
+                information / entropy
+            } else {
+                0.0
+            },
         });
     }
     candidates.sort_by(|a, b| b.information.total_cmp(&a.information));
@@ -228,7 +232,10 @@ impl Rig {
             Proposal::CoastDownAtOnce => {
                 // M over a shaft that needs about 20 s
                 let begin = self.ramp + 0.3;
-                planned(&|t| usual(t) - top * ((t - begin) / 20.0).clamp(0.0, 1.0), begin + 20.0)
+                planned(
+                    &|t| usual(t) - top * ((t - begin) / 20.0).clamp(0.0, 1.0),
+                    begin + 20.0,
+                )
             }
             Proposal::HalfSpeed => {
                 planned(&ramp(0.5 * self.ramp, 0.5 * top), 0.5 * self.ramp + 5.0)
@@ -314,7 +321,9 @@ impl Trial<'_> {
             classes.push(Class::of(assessment.probability, points)?);
         }
         let total: f64 = classes.iter().map(|class| class.probability).sum();
-        classes.iter_mut().for_each(|class| class.probability /= total);
+        classes
+            .iter_mut()
+            .for_each(|class| class.probability /= total);
         let entropy = -(classes.iter().map(|c| c.probability * c.probability.ln())).sum::<f64>();
         let mut left = 0.0;
         for class in &classes {
@@ -342,7 +351,7 @@ impl Trial<'_> {
         };
         if form == Hypothesis::HeatedSlip {
             let parameters = form.parameters(self.bearing.priors);
-            let time = parameters[5].value(coordinates[5]);
+            let time = parameters[6].value(coordinates[6]);
             test.past.film = (-rest / time).exp();
         }
         form.predict(coordinates, std::slice::from_ref(&test), self.bearing)

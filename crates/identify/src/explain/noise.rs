@@ -79,9 +79,12 @@ impl Observed {
         let with_cage: Vec<_> = (all.iter().copied())
             .filter(|(_, _, bin)| bin.cage.is_some() && bin.speed > 0.1 * bearing.table.top_speed)
             .collect();
-        let torque = Signal::new(&with_torque, &amplitudes, |bin| bin.torque, |a, i, j| {
-            torque_covariance(a, tests, i, j, steady, bearing)
-        })?;
+        let torque = Signal::new(
+            &with_torque,
+            &amplitudes,
+            |bin| bin.torque,
+            |a, i, j| torque_covariance(a, tests, i, j, steady, bearing),
+        )?;
         let cage = Signal::new(
             &with_cage,
             &amplitudes,
@@ -202,8 +205,9 @@ impl Whitened {
     /// ln of the likelihood and χ².
     pub fn log_likelihood(&self) -> (f64, f64) {
         let inner = self.inner();
-        let mut shares: Vec<f64> =
-            (self.directions.iter()).map(|d| dot(d, &self.residual)).collect();
+        let mut shares: Vec<f64> = (self.directions.iter())
+            .map(|d| dot(d, &self.residual))
+            .collect();
         inner.whiten(&mut shares);
         let square = dot(&self.residual, &self.residual) - dot(&shares, &shares);
         let normal = self.residual.len() as f64 * (2.0 * std::f64::consts::PI).ln();

@@ -66,6 +66,8 @@ pub struct Priors {
     pub cold_traction_limit: Range,
     /// Slip: speed u0 at which traction reaches 76 % of its limit, m/s.
     pub slip_speed: Range,
+    /// Slip: share of the viscous part that brakes the orbit of the balls; the rest brakes their spin.
+    pub orbit_share: Range,
     /// Heating: logarithm of the loss of traction when the film is in balance with the power M Ω.
     pub traction_softening: Range,
     /// Heating: logarithm of the loss of viscous drag at the same rise.
@@ -96,6 +98,7 @@ impl Default for Priors {
             traction_limit: Range::new(0.4, 1.2),
             cold_traction_limit: Range::new(0.7, 2.0),
             slip_speed: Range::new(0.01, 0.3),
+            orbit_share: Range::new(0.3, 0.7),
             traction_softening: Range::new(0.15, 1.5),
             drag_softening: Range::new(0.02, 0.3),
             film_time: Range::new(0.5, 5.0),
@@ -110,13 +113,19 @@ impl Default for Priors {
 impl Priors {
     /// Name of the first range that is none.
     pub(crate) fn fault(&self) -> Option<&'static str> {
-        let odds_are_odds = self.odds.iter().all(|odds| odds.is_finite() && *odds >= 0.0)
+        let odds_are_odds = self
+            .odds
+            .iter()
+            .all(|odds| odds.is_finite() && *odds >= 0.0)
             && self.odds.iter().sum::<f64>() > 0.0;
         if !odds_are_odds {
             return Some("odds");
         }
         if !self.viscous_share.is_none_or(Range::is_share) {
             return Some("viscous_share");
+        }
+        if !self.orbit_share.is_share() {
+            return Some("orbit_share");
         }
         [
             ("fresh_drag", self.fresh_drag),
@@ -158,20 +167,29 @@ impl Priors {
         }
         let determinant = w * wxx - wx * wx;
         let share = if determinant > 1e-6 * w * wxx {
-            let (a, c) = ((wxx * wm - wx * wxm) / determinant, (w * wxm - wx * wm) / determinant);
+            let (a, c) = (
+                (wxx * wm - wx * wxm) / determinant,
+                (w * wxm - wx * wm) / determinant,
+            );
             a / (a + c) + 0.03
         } else {
             // too few speeds to tell: the middle of what Palmgren's law gives for light loads
             0.1
         };
-        let share = if share.is_finite() { share.clamp(0.03, 0.5) } else { 0.1 };
+        let share = if share.is_finite() {
+            share.clamp(0.03, 0.5)
+        } else {
+            0.1
+        };
         Range::new(1.0 - 1.8 * share, 1.0 - share / 1.8)
     }
 
     /// The same with the viscous share of the curve where none was given.
     pub(crate) fn resolved(&self, steady: &SteadyMoment, top_speed: f64) -> Self {
         let mut resolved = self.clone();
-        resolved.viscous_share.get_or_insert_with(|| Self::share_of(steady, top_speed));
+        resolved
+            .viscous_share
+            .get_or_insert_with(|| Self::share_of(steady, top_speed));
         resolved
     }
 

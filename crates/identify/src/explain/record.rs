@@ -111,8 +111,7 @@ fn limits(
             (stop, end)
         };
         let mut width = (GROWTH * (from - origin)).max(least);
-        while width > least
-            && (speed(from + width) - speed(from)).abs() > SPEED_CHANGE * top_speed
+        while width > least && (speed(from + width) - speed(from)).abs() > SPEED_CHANGE * top_speed
         {
             width = (0.7 * width).max(least);
         }
@@ -290,8 +289,8 @@ fn torque_mean(measurement: &Measurement, from: f64, to: f64) -> (f64, f64) {
     let (mut torque, mut variance) = (0.0, 0.0);
     for i in inside {
         let (value, deviation) = (measurement.torque[i], measurement.torque_deviation[i]);
-        let shared = measurement.zero_deviation.powi(2)
-            + (measurement.scale_deviation * value).powi(2);
+        let shared =
+            measurement.zero_deviation.powi(2) + (measurement.scale_deviation * value).powi(2);
         torque += value / count;
         variance += (deviation * deviation - shared).max(0.01 * deviation * deviation) / count;
     }
@@ -310,4 +309,88 @@ pub(crate) fn interpolate(time: &[f64], values: &[f64], t: f64) -> f64 {
     }
     let share = (t - time[above - 1]) / (time[above] - time[above - 1]);
     values[above - 1] + share * (values[above] - values[above - 1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::SteadyMoment;
+    use super::*;
+
+    fn table() -> Table {
+        SteadyMoment {
+            speed: vec![1.0, 150.0],
+            moment: vec![20e-3, 20e-3],
+            covariance: vec![0.0; 4],
+        }
+        .table(150.0)
+    }
+
+    /// Up in 0.1 s, held for 5 s, down in 1.5 s, a second of rest.
+    fn course(t: f64) -> f64 {
+        150.0 * (t / 0.1).clamp(0.0, 1.0) * (1.0 - (t - 5.1) / 1.5).clamp(0.0, 1.0)
+    }
+
+    #[test]
+    fn means_lie_side_by_side_and_none_spans_much_change() {
+        let test = Test::planned(&course, 7.6, 0.02, &table(), 0.0);
+        let mut from = 0.0;
+        for bin in &test.bins {
+            assert_eq!(bin.from, from);
+            from = bin.to;
+            let change = (course(bin.to) - course(bin.from)).abs();
+            // a mean of the least width may span more; a remnant at a border at most doubles the last one
+            let allowed = 0.35 * 150.0_f64;
+            assert!(change < allowed, "{bin:?}");
+        }
+        assert!((from - 7.6).abs() < 0.011);
+        // few enough to count as independent, and closer where more happens
+        assert!((25..60).contains(&test.bins.len()), "{}", test.bins.len());
+        // one border is the standstill: no mean mixes turning and rest
+        let stop = 6.6 - 1.5 * REST;
+        assert!(test.bins.iter().any(|bin| (bin.from - stop).abs() < 0.01));
+        assert!((test.steps.iter().map(|s| s.duration).sum::<f64>() - from).abs() < 1e-9);
+    }
+    #[test]
+    fn the_mean_of_a_constant_is_the_constant() {
+        let test = Test::planned(&course, 7.6, 0.02, &table(), 0.0);
+        for mean in test.means(test.steps.iter().map(|_| 3.0)) {
+            assert!((mean - 3.0).abs() < 1e-9);
+        }
+    }
+    #[test]
+    fn noise_counts_by_its_correlation_time_and_zero_and_scale_apart() {
+        let time: Vec<f64> = (0..4000).map(|i| f64::from(i) * 2e-3).collect();
+        let count = time.len();
+        let measurement = Measurement {
+            name: "constant".into(),
+            load: 50.0,
+            speed: time.iter().map(|t| course(t - 0.4)).collect(),
+            speed_deviation: vec![0.1; count],
+            acceleration: vec![0.0; count],
+            acceleration_deviation: vec![1.0; count],
+            torque: vec![10e-3; count],
+            // 0.3 noise, 0.4 zero, no scale: √(0.3² + 0.4²)
+            torque_deviation: vec![0.5e-3; count],
+            time,
+            zero_deviation: 0.4e-3,
+            scale_deviation: 0.0,
+            correlation_time: 0.02,
+            engagement: Some(0.4),
+            cage: None,
+            temperature: None,
+        };
+        let test = Test::measured(&measurement, &table(), 0.0);
+        for bin in &test.bins {
+            let width = bin.to - bin.from;
+            let expected = 0.3e-3 / (width / 0.02).sqrt();
+            assert!((bin.torque - 10e-3).abs() < 1e-12);
+            assert!((bin.variance.sqrt() / expected - 1.0).abs() < 1e-6);
+        }
+        let before = test
+            .bins
+            .iter()
+            .find(|bin| bin.before)
+            .expect("rest before");
+        assert!((before.to - before.from - 0.38).abs() < 1e-9 && before.speed == 0.0);
+    }
 }

@@ -79,7 +79,9 @@ impl SteadyMoment {
         Table {
             density: 1.0 / interval,
             moment,
-            fading: (0..=INTERVALS).map(|i| fading(i as f64 * interval)).collect(),
+            fading: (0..=INTERVALS)
+                .map(|i| fading(i as f64 * interval))
+                .collect(),
             reference: self.at(top_speed),
             top_speed,
         }

@@ -81,8 +81,12 @@ impl Bearing {
     /// Runs along a course of speed from rest.
     pub fn run(&self, speed: impl Fn(f64) -> f64, end: f64, fine_until: f64) -> Vec<Row> {
         let mut rows = Vec::new();
-        let mean_load: f64 = (0..720).map(|i| self.load(f64::from(i).to_radians() / 2.0)).sum::<f64>() / 720.0;
-        let ball_limit = self.lubricant.traction_limit * MOMENT / RADIUS / (BALLS as f64 * mean_load);
+        let mean_load: f64 = (0..720)
+            .map(|i| self.load(f64::from(i).to_radians() / 2.0))
+            .sum::<f64>()
+            / 720.0;
+        let ball_limit =
+            self.lubricant.traction_limit * MOMENT / RADIUS / (BALLS as f64 * mean_load);
         let (mut orbit, mut spins) = (0.0, [0.0; BALLS]);
         let (mut cage_angle, mut time, mut film) = (0.0_f64, 0.0, 0.0_f64);
         let (mut turned, mut worked) = (0.0_f64, 0.0_f64);
@@ -120,7 +124,14 @@ impl Bearing {
                 balls.clear();
                 for j in 0..BALLS {
                     let (ball, a, b) = self.ball(
-                        race, orbit, last_spins[j], spins[j], push[j], shares[j], drag, h,
+                        race,
+                        orbit,
+                        last_spins[j],
+                        spins[j],
+                        push[j],
+                        shares[j],
+                        drag,
+                        h,
                     );
                     residual += ball.outer - ball.inner;
                     stiffness += a - b;
@@ -143,9 +154,9 @@ impl Bearing {
                     + (b.couple + b.outer_rolling) * b.spin / ball_radius
                     + b.inner_rolling * (b.spin / ball_radius + race)
             }) + orbit_drag * orbit;
-            let outer_moment = sum(&|b| {
-                (1.0 + 2.0 * RATIO) * RADIUS * b.outer - b.outer_rolling - b.couple
-            }) + RADIUS * (1.0 + RATIO) * orbit_drag;
+            let outer_moment =
+                sum(&|b| (1.0 + 2.0 * RATIO) * RADIUS * b.outer - b.outer_rolling - b.couple)
+                    + RADIUS * (1.0 + RATIO) * orbit_drag;
             let cage = orbit / (RADIUS * (1.0 + RATIO));
             rows.push(Row {
                 time,
@@ -153,7 +164,10 @@ impl Bearing {
                 outer_moment,
                 inner_moment: sum(&|b| RADIUS * b.inner + b.inner_rolling),
                 cage,
-                angular_momentum: (BALLS as f64 * BALL_MASS + CAGE_MASS) * RADIUS * (1.0 + RATIO) * orbit
+                angular_momentum: (BALLS as f64 * BALL_MASS + CAGE_MASS)
+                    * RADIUS
+                    * (1.0 + RATIO)
+                    * orbit
                     - 0.4 * BALL_MASS * ball_radius * spins.iter().sum::<f64>(),
                 heat,
             });
@@ -189,7 +203,8 @@ impl Bearing {
             let (outer, outer_slope) = self.traction(orbit - spin, push);
             let (moment, slope) = self.viscous(2.0 * spin / RADIUS);
             let couple_share = 2.0 * RATIO * (1.0 - self.orbit_share) * drag / BALLS as f64;
-            let (couple, couple_slope) = (couple_share * moment, couple_share * slope * 2.0 / RADIUS);
+            let (couple, couple_slope) =
+                (couple_share * moment, couple_share * slope * 2.0 / RADIUS);
             let (a, b) = ((spin / radius + race).tanh(), (spin / radius).tanh());
             let rolling_slope = rolling * (2.0 - a * a - b * b) / radius;
             let ball = Ball {
@@ -200,9 +215,10 @@ impl Bearing {
                 inner_rolling: rolling * a,
                 outer_rolling: rolling * b,
             };
-            let residual = inertia * (spin - last) - inner - outer
-                + (couple + rolling * (a + b)) / radius;
-            let slope = inertia + inner_slope + outer_slope + (couple_slope + rolling_slope) / radius;
+            let residual =
+                inertia * (spin - last) - inner - outer + (couple + rolling * (a + b)) / radius;
+            let slope =
+                inertia + inner_slope + outer_slope + (couple_slope + rolling_slope) / radius;
             (ball, residual, slope, inner_slope, outer_slope)
         };
         // the residual rises with the spin: a bracket around the root, Newton inside it
@@ -227,7 +243,11 @@ impl Bearing {
         }
         let (ball, _, slope, inner_slope, outer_slope) = now;
         let difference = inner_slope - outer_slope;
-        (ball, inner_slope + outer_slope, difference * difference / slope)
+        (
+            ball,
+            inner_slope + outer_slope,
+            difference * difference / slope,
+        )
     }
 
     /// Force and slope over slip: x/(1+|x|^1.5)^(2/3).

@@ -4,9 +4,7 @@ use identify::explain::{Explanation, SteadyMoment};
 use identify::{CageTrace, Measurement};
 use physics::rolling::RollingSet;
 
-use crate::bearing::{
-    BALL_MASS, BALLS, Bearing, CAGE_MASS, Lubricant, MOMENT, RADIUS, RATIO, Row,
-};
+use crate::bearing::{BALL_MASS, BALLS, Bearing, CAGE_MASS, Lubricant, MOMENT, RADIUS, RATIO, Row};
 
 /// Numbers from a seed (xorshift and a sum of uniforms: nothing in common with the product's).
 pub struct Chance(u64);
@@ -247,7 +245,8 @@ impl Truth {
                 let mean = cage_sum / cage_count;
                 let deviation = 0.005 * mean.abs() + 0.05;
                 cage.time.push(row.time - 0.5 * cage_count);
-                cage.speed.push(mean * cage_bias + deviation * chance.normal());
+                cage.speed
+                    .push(mean * cage_bias + deviation * chance.normal());
                 cage.deviation.push(deviation);
                 (cage_sum, cage_count, cage_next) = (0.0, 0.0, cage_next + 0.02);
             }
@@ -267,9 +266,8 @@ impl Truth {
             m.acceleration_deviation.push(20.0);
             last_speed = row.speed;
             m.torque.push(reading);
-            m.torque_deviation.push(
-                (sigma * sigma + 0.3e-3_f64.powi(2) + (0.01 * reading).powi(2)).sqrt(),
-            );
+            m.torque_deviation
+                .push((sigma * sigma + 0.3e-3_f64.powi(2) + (0.01 * reading).powi(2)).sqrt());
         }
         m.cage = Some(cage);
         m

@@ -1,5 +1,8 @@
 //! Does the comparison of explanations name the truth of a laboratory that is finer than its models?
+//!
+//! RESULTS
 
+mod answers;
 mod bearing;
 mod lab;
 
@@ -69,7 +72,11 @@ fn right_as_often_as_promised() {
                     println!(
                         "{seed} {truth:?} {without_cage} {:?} {:.3?} {:?} {:?}",
                         verdict.conclusion,
-                        verdict.assessments.iter().map(|a| a.probability).collect::<Vec<_>>(),
+                        verdict
+                            .assessments
+                            .iter()
+                            .map(|a| a.probability)
+                            .collect::<Vec<_>>(),
                         campaign.truth.fault,
                         campaign.truth.bearing
                     );
@@ -77,7 +84,25 @@ fn right_as_often_as_promised() {
             }
         }
         if std::env::var("EXPLAIN_RUNS").is_ok() {
-            println!("after {} campaigns, with and without cage: {counts:#?}", seed + 1);
+            println!(
+                "after {} campaigns, with and without cage: {counts:#?}",
+                seed + 1
+            );
         }
+    }
+    let total = runs() as u32;
+    for truth in Explanation::ALL {
+        let [with_cage, without] = counts[truth as usize];
+        // of few runs, whose seeds are fixed, all must be right
+        let enough = total - total / 20;
+        assert!(with_cage.right >= enough, "{truth:?} {with_cage:?}");
+        assert!(
+            without.right + without.undecided >= enough,
+            "{truth:?} {without:?}"
+        );
+        assert!(
+            without.wrong + without.none <= total / 20,
+            "{truth:?} {without:?}"
+        );
     }
 }
