@@ -35,6 +35,7 @@ mod linear;
 mod next_test;
 mod noise;
 mod prior;
+mod proposal;
 mod record;
 mod sampling;
 mod slip;

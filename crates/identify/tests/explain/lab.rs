@@ -79,7 +79,7 @@ pub fn course(peak: f64) -> (impl Fn(f64) -> f64 + Copy, f64, f64) {
         let x = ((t - ENGAGEMENT) / ramp).clamp(0.0, 1.0);
         let up = 0.5 * (1.0 - (std::f64::consts::PI * x).cos());
         let left = (1.0 - (t - down) / 1.5).clamp(0.0, 1.0);
-        TOP * up * left.powf(1.1) * (1.0 - 0.002 * (t - ENGAGEMENT).max(0.0).min(2.0))
+        TOP * up * left.powf(1.1) * (1.0 - 0.002 * (t - ENGAGEMENT).clamp(0.0, 2.0))
     };
     (speed, ENGAGEMENT + ramp + 0.2, down + 2.5)
 }
