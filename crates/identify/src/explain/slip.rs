@@ -158,14 +158,24 @@ impl Moment<'_> {
         }
     }
 
-    /// Implicit step by Newton's method, halved where the residual would grow.
-    fn advance(&self, last: State, guess: State) -> (State, Forces) {
+    /// Implicit step by Newton's method, shortened where the residual would grow: the residual is the gradient of a
+    /// convex function, so a short enough step always lowers it.
+    fn advance(&self, last: State, last_speed: f64) -> (State, Forces) {
         let size = |f: &Forces| f.residual[0].powi(2) + f.residual[1].powi(2);
-        let mut state = guess;
-        let mut forces = self.forces(state, last);
+        // either the balls stay as they are (slipping) or they follow the race with the slip they had (rolling)
+        let follow = 0.5 * self.set.inner_track_radius * (self.speed - last_speed);
+        let following = State {
+            orbit: last.orbit + follow,
+            spin: last.spin + follow,
+        };
+        let (mut state, mut forces) = (last, self.forces(last, last));
+        let other = self.forces(following, last);
+        if size(&other) < size(&forces) {
+            (state, forces) = (following, other);
+        }
         // residuals of 1e-5 of the traction limit move t_O by as little
         let enough = (1e-5 * self.limit / self.set.inner_track_radius).powi(2);
-        for _ in 0..40 {
+        for _ in 0..60 {
             let now = size(&forces);
             if now < enough {
                 break;
@@ -175,18 +185,22 @@ impl Moment<'_> {
             let determinant = a * d - b * b;
             let step = [(d * f - b * g) / determinant, (a * g - b * f) / determinant];
             let mut share = 1.0;
-            loop {
+            let better = loop {
                 let next = State {
                     orbit: state.orbit - share * step[0],
                     spin: state.spin - share * step[1],
                 };
                 let tried = self.forces(next, last);
-                if size(&tried) < now || share < 1e-3 {
-                    (state, forces) = (next, tried);
-                    break;
+                if size(&tried) < now {
+                    break Some((next, tried));
                 }
-                share *= 0.5;
-            }
+                share *= 0.35;
+                if share < 1e-9 {
+                    break None;
+                }
+            };
+            let Some(better) = better else { break };
+            (state, forces) = better;
         }
         (state, forces)
     }
@@ -222,6 +236,7 @@ impl Slip {
             orbit: start,
             spin: start,
         };
+        let mut last_speed = 2.0 * start / radius;
         let mut film = test.past.film;
         let mut settled: Option<(f64, f64)> = None;
         // preload keeps part of the ball loads when the dead weight changes: a power below 1, assumed
@@ -239,8 +254,9 @@ impl Slip {
                 orbit_inertia: (set.balls_mass + set.cage_mass) / step.duration,
                 spin_inertia: 0.4 * set.balls_mass / step.duration,
             };
-            let (next, forces) = moment.advance(state, state);
+            let (next, forces) = moment.advance(state, last_speed);
             state = next;
+            last_speed = step.speed;
             let outer_moment =
                 (1.0 + 2.0 * s) * radius * forces.outer - forces.outer_rolling - forces.couple
                     + radius * (1.0 + s) * forces.drag;
