@@ -62,7 +62,16 @@ impl Parameter {
 }
 
 impl Hypothesis {
-    /// The forms of an explanation, equally probable before the data.
+    /// Prior probability of this form of its explanation: three faults of a sensor, two of them of either sign.
+    pub fn weight(self) -> f64 {
+        match self {
+            Self::Drift { .. } | Self::Creep { .. } => 1.0 / 6.0,
+            Self::SlowSensor => 1.0 / 3.0,
+            _ => 1.0,
+        }
+    }
+
+    /// The forms of an explanation.
     pub fn of(explanation: Explanation) -> &'static [Self] {
         match explanation {
             Explanation::Rolling => &[Self::Rolling],
@@ -91,7 +100,13 @@ impl Hypothesis {
             name: "viscous share of the steady moment",
             unit: "1",
             kind: Kind::Share,
-            range: priors.viscous_share,
+            range: share_range(priors),
+        };
+        let orbit_share = Parameter {
+            name: "share of the viscous part on the orbit",
+            unit: "1",
+            kind: Kind::Share,
+            range: priors.orbit_share,
         };
         let slip_speed = positive("slip speed of traction", "m/s", priors.slip_speed);
         match self {
@@ -107,6 +122,7 @@ impl Hypothesis {
                 share,
                 positive("traction limit over M", "1", priors.traction_limit),
                 slip_speed,
+                orbit_share,
             ],
             Self::HeatedSlip => vec![
                 share,
@@ -116,6 +132,7 @@ impl Hypothesis {
                     priors.cold_traction_limit,
                 ),
                 slip_speed,
+                orbit_share,
                 positive("softening of traction", "1", priors.traction_softening),
                 positive("softening of drag", "1", priors.drag_softening),
                 positive("time of the film's heating", "s", priors.film_time),
@@ -169,9 +186,10 @@ impl Hypothesis {
             claim: if self == Self::Rolling { 1.0 } else { 0.0 },
         };
         let needs_slip = matches!(self, Self::Slip | Self::HeatedSlip);
-        let (mut effect, mut largest_slip) = (0.0_f64, 0.0_f64);
+        let (mut effect, mut largest_slip, mut softened) = (0.0_f64, 0.0_f64, 0.0_f64);
         for test in tests {
-            let (mut torque, mut cage) = self.run(&values, test, bearing);
+            let (mut torque, mut cage, more) = self.run(&values, test, bearing);
+            softened = softened.max(more);
             let rolling = test.means(rolling_torque(test, bearing, 1.0));
             for (i, bin) in test.bins.iter().enumerate() {
                 if bin.before {
@@ -191,7 +209,20 @@ impl Hypothesis {
         if self != Self::Rolling {
             let size = effect / (bearing.settings.least_effect * bearing.table.reference);
             prediction.claim = if needs_slip {
-                size.min(largest_slip / bearing.settings.least_slip)
+                let slip = size.min(largest_slip / bearing.settings.least_slip);
+                if self == Self::HeatedSlip {
+                    slip.min(softened / bearing.settings.least_effect)
+                } else {
+                    slip
+                }
+            } else if self == Self::SlowSensor {
+                size.min(values[0] / bearing.settings.least_settling)
+            } else if self == Self::Grease {
+                // both states must show, each where the other is as it is
+                let smaller = (tests.iter())
+                    .map(|test| smaller_effect(&values, test, bearing))
+                    .fold(0.0, f64::max);
+                smaller / (bearing.settings.least_effect * bearing.table.reference)
             } else {
                 size
             };
@@ -199,14 +230,14 @@ impl Hypothesis {
         prediction
     }
 
-    /// Means of torque and cage speed of one test.
-    fn run(self, values: &[f64], test: &Test, bearing: &Bearing) -> (Vec<f64>, Vec<f64>) {
+    /// Means of torque and cage speed of one test, and how much traction softened in it.
+    fn run(self, values: &[f64], test: &Test, bearing: &Bearing) -> (Vec<f64>, Vec<f64>, f64) {
         let reference = bearing.table.reference;
         let rolls =
             || test.means((test.steps.iter()).map(|s| bearing.set.cage_speed(s.middle_speed)));
         let fresh = 1.0 - test.past.left;
         match self {
-            Self::Rolling => (test.means(rolling_torque(test, bearing, 1.0)), rolls()),
+            Self::Rolling => (test.means(rolling_torque(test, bearing, 1.0)), rolls(), 0.0),
             Self::Grease => {
                 let load_moment = (1.0 - values[0]) * reference;
                 let torque = rolling_torque(test, bearing, 1.0 - values[0]);
@@ -218,7 +249,7 @@ impl Hypothesis {
                             let viscous = (step.steady - load_moment * step.fading).max(0.0);
                             torque + (factor - 1.0) * viscous
                         });
-                (test.means(moments), rolls())
+                (test.means(moments), rolls(), 0.0)
             }
             Self::Slip | Self::HeatedSlip => {
                 let heated = self == Self::HeatedSlip;
@@ -226,14 +257,16 @@ impl Hypothesis {
                     load_moment: (1.0 - values[0]) * reference,
                     traction_limit: values[1] * reference,
                     slip_speed: values[2],
-                    traction_softening: if heated { values[3] } else { 0.0 },
-                    drag_softening: if heated { values[4] } else { 0.0 },
-                    film_time: if heated { values[5] } else { 1.0 },
+                    orbit_share: values[3],
+                    traction_softening: if heated { values[4] } else { 0.0 },
+                    drag_softening: if heated { values[5] } else { 0.0 },
+                    film_time: if heated { values[6] } else { 1.0 },
                 };
                 let course = slip.course(test, bearing.table, bearing.set);
                 (
                     test.means(course.outer_moment.iter().copied()),
                     test.means(course.cage.iter().copied()),
+                    course.softened,
                 )
             }
             Self::Drift { sign } => {
@@ -244,7 +277,7 @@ impl Hypothesis {
                 let torque = rolling_torque(test, bearing, 1.0)
                     .zip(drift)
                     .map(|(a, b)| a + b);
-                (test.means(torque), rolls())
+                (test.means(torque), rolls(), 0.0)
             }
             Self::Creep { sign } => {
                 let creep = (test.steps.iter()).map(|step| {
@@ -255,7 +288,7 @@ impl Hypothesis {
                 let torque = rolling_torque(test, bearing, 1.0)
                     .zip(creep)
                     .map(|(a, b)| a * b);
-                (test.means(torque), rolls())
+                (test.means(torque), rolls(), 0.0)
             }
             Self::SlowSensor => {
                 let mut reading = if test.starts_turning {
@@ -271,10 +304,15 @@ impl Hypothesis {
                         reading = torque + (reading - torque) * kept;
                         mean
                     });
-                (test.means(torque), rolls())
+                (test.means(torque), rolls(), 0.0)
             }
         }
     }
+}
+
+/// Range of the viscous share, which the comparison has taken from the curve where none was given.
+fn share_range(priors: &Priors) -> Range {
+    priors.viscous_share.unwrap_or(Range::new(0.8, 0.95))
 }
 
 /// t_O of rolling balls along the steps, N m: M - J_O Ω̇.
@@ -286,11 +324,35 @@ fn rolling_torque(test: &Test, bearing: &Bearing, load_share: f64) -> impl Itera
     let share = if load_share < 1.0 {
         load_share
     } else {
-        1.0 - bearing.priors.viscous_share.share(0.0)
+        1.0 - share_range(bearing.priors).share(0.0)
     };
     let extra = share * bearing.table.reference * (load_moment_factor(&test.past) - 1.0);
     (test.steps.iter())
         .map(move |step| step.steady + extra * step.fading - inertia * step.acceleration)
+}
+
+/// The smaller of the largest changes of a mean torque that build-up and breakdown make, N m.
+fn smaller_effect(values: &[f64], test: &Test, bearing: &Bearing) -> f64 {
+    let load_moment = (1.0 - values[0]) * bearing.table.reference;
+    let torque = |fresh: f64, worked: f64| {
+        let state = [fresh, worked, values[3], values[4]];
+        let factor = grease_factor(&state, test, bearing.set);
+        test.means(
+            (test.steps.iter().zip(factor))
+                .map(|(step, factor)| factor * (step.steady - load_moment * step.fading).max(0.0)),
+        )
+    };
+    let (both, built, unworked) = (
+        torque(values[1], values[2]),
+        torque(1.0, values[2]),
+        torque(values[1], 1.0),
+    );
+    let largest = |other: &[f64]| {
+        (both.iter().zip(other))
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max)
+    };
+    largest(&built).min(largest(&unworked))
 }
 
 /// Drag factor D of the grease along the steps.

@@ -39,9 +39,14 @@ impl Cholesky {
 
     /// L⁻¹ v in place: components of unit variance where v has the covariance A.
     pub fn whiten(&self, vector: &mut [f64]) {
-        for i in 0..self.size {
-            let row = &self.lower[i * self.size..i * self.size + i];
-            vector[i] = (vector[i] - dot(row, &vector[..i])) / self.lower[i * self.size + i];
+        self.whiten_from(0, vector);
+    }
+
+    /// The same where all entries before `first` are 0.
+    pub fn whiten_from(&self, first: usize, vector: &mut [f64]) {
+        for i in first..self.size {
+            let row = &self.lower[i * self.size + first..i * self.size + i];
+            vector[i] = (vector[i] - dot(row, &vector[first..i])) / self.lower[i * self.size + i];
         }
     }
 

@@ -35,6 +35,7 @@ mod linear;
 mod next_test;
 mod noise;
 mod prior;
+mod proposal;
 mod record;
 mod sampling;
 mod slip;
@@ -79,6 +80,10 @@ pub struct Settings {
     pub level_deviation: f64,
     /// Relative deviation of the inertia J_O (masses, cage).
     pub inertia_deviation: f64,
+    /// Deviation of the time by which the torque lags or is smoothed beyond what is stated, s.
+    pub lag_deviation: f64,
+    /// Least excess settling time that makes a slow sensor an explanation, s.
+    pub least_settling: f64,
     /// Points of the prior that are looked at first.
     pub prior_points: u32,
     /// Of these, how many are refined.
@@ -101,6 +106,8 @@ impl Default for Settings {
             effect_scatter: 0.1,
             level_deviation: 0.01,
             inertia_deviation: 0.1,
+            lag_deviation: 0.01,
+            least_settling: 0.03,
             prior_points: 256,
             starts: 3,
             draws: 120,
@@ -125,6 +132,8 @@ impl Settings {
             ("effect_scatter", deviation(self.effect_scatter)),
             ("level_deviation", deviation(self.level_deviation)),
             ("inertia_deviation", deviation(self.inertia_deviation)),
+            ("lag_deviation", deviation(self.lag_deviation)),
+            ("least_settling", deviation(self.least_settling)),
             ("prior_points", (16..=100_000).contains(&self.prior_points)),
             ("starts", (1..=100).contains(&self.starts)),
             ("draws", (20..=1_000_000).contains(&self.draws)),
@@ -156,6 +165,7 @@ pub fn explain(
         return Err(Refusal::BadTest(tests[0].name.clone()));
     }
     let table = steady.table(top_speed);
+    let priors = &priors.resolved(steady, top_speed);
     let bearing = Bearing {
         table: &table,
         set,
@@ -163,14 +173,21 @@ pub fn explain(
         settings,
     };
     let records: Vec<Test> = (tests.iter())
-        .map(|test| Test::measured(test, &table))
+        .map(|test| Test::measured(test, &table, set.outer_inertia()))
         .collect();
     let rolling = Hypothesis::Rolling.predict(&[], &records, &bearing);
     let observed = Observed::new(&records, steady, &bearing, rolling).ok_or(Refusal::BadCurve)?;
-    let mut assessments: Vec<Assessment> = Explanation::ALL
+    // the quick ones first: the slow ones need no care where they are far behind
+    let mut leader = f64::NEG_INFINITY;
+    let mut assessments: Vec<Assessment> = QUICK_FIRST
         .into_iter()
-        .map(|explanation| assess(explanation, &records, &bearing, &observed))
+        .map(|explanation| {
+            let assessment = assess(explanation, &records, &bearing, &observed, leader);
+            leader = leader.max(assessment.log_evidence);
+            assessment
+        })
         .collect();
+    assessments.sort_by_key(|assessment| assessment.explanation as usize);
     let weights: Vec<f64> = (assessments.iter())
         .map(|a| a.prior_probability.ln() + a.log_evidence)
         .collect();
@@ -278,6 +295,15 @@ fn usable(test: &Measurement) -> bool {
         })
 }
 
+/// The explanations by the work that their predictions are.
+const QUICK_FIRST: [Explanation; 5] = [
+    Explanation::Rolling,
+    Explanation::Sensor,
+    Explanation::Grease,
+    Explanation::IsothermalSlip,
+    Explanation::HeatedSlip,
+];
+
 /// Draws of the posterior that are kept for the ranking of tests.
 const KEPT_DRAWS: usize = 48;
 
@@ -286,6 +312,7 @@ fn assess(
     tests: &[Test],
     bearing: &Bearing,
     observed: &Observed,
+    leader: f64,
 ) -> Assessment {
     let prior_probability = bearing.priors.probability(explanation);
     let forms = Hypothesis::of(explanation);
@@ -298,8 +325,11 @@ fn assess(
                 bearing,
                 observed,
                 size: form.parameters(bearing.priors).len(),
+                leader,
             };
-            (*form, integral.evidence())
+            let mut evidence = integral.evidence();
+            evidence.log += form.weight().ln();
+            (*form, evidence)
         })
         .collect();
     let logs: Vec<f64> = results.iter().map(|(_, e)| e.log).collect();
@@ -308,7 +338,7 @@ fn assess(
         explanation,
         prior_probability,
         probability: 0.0,
-        log_evidence: total - (forms.len() as f64).ln(),
+        log_evidence: total,
         log_evidence_deviation: 0.0,
         fit: None,
         form: explanation.name(),

@@ -146,13 +146,14 @@ pub fn next_test(
         return Err(Refusal::BadTest(tests[0].name.clone()));
     }
     let table = steady.table(top_speed);
+    let priors = &priors.resolved(steady, top_speed);
     let bearing = Bearing {
         table: &table,
         set,
         priors,
         settings,
     };
-    let rig = Rig::of(&tests[tests.len() - 1], &table);
+    let rig = Rig::of(&tests[tests.len() - 1], &table, set.outer_inertia());
     let mut candidates = Vec::new();
     for proposal in Proposal::ALL {
         let mut random = Random::new(settings.seed ^ 0xca5e);
@@ -181,6 +182,8 @@ pub fn next_test(
 
 /// What the last test tells of rig and sensors.
 struct Rig {
+    /// J_O, kg m².
+    inertia: f64,
     ramp: f64,
     least_width: f64,
     /// Variance of a mean times its width, (N m)² s.
@@ -197,8 +200,8 @@ const TEMPERATURE_NOISE: f64 = 0.1;
 const HEAT_CAPACITY: super::Range = super::Range::new(50.0, 500.0);
 
 impl Rig {
-    fn of(test: &Measurement, table: &Table) -> Self {
-        let record = Test::measured(test, table);
+    fn of(test: &Measurement, table: &Table, inertia: f64) -> Self {
+        let record = Test::measured(test, table, inertia);
         let ramp = (record.steps.iter())
             .find(|step| step.speed > 0.95 * table.top_speed)
             .map_or(0.1, |step| step.elapsed);
@@ -208,6 +211,7 @@ impl Rig {
             .collect();
         noise.sort_by(f64::total_cmp);
         Self {
+            inertia,
             ramp,
             least_width: (2.0 * test.correlation_time).max(0.02),
             noise: noise.get(noise.len() / 2).copied().unwrap_or(1e-10),
@@ -222,7 +226,7 @@ impl Rig {
         let usual = ramp(self.ramp, top);
         let hold = self.ramp + 5.0;
         let planned = |speed: &dyn Fn(f64) -> f64, end: f64| {
-            Test::planned(speed, end, self.least_width, table)
+            Test::planned(speed, end, self.least_width, table, self.inertia)
         };
         let mut test = match proposal {
             Proposal::CoastDownAtOnce => {
@@ -347,7 +351,7 @@ impl Trial<'_> {
         };
         if form == Hypothesis::HeatedSlip {
             let parameters = form.parameters(self.bearing.priors);
-            let time = parameters[5].value(coordinates[5]);
+            let time = parameters[6].value(coordinates[6]);
             test.past.film = (-rest / time).exp();
         }
         form.predict(coordinates, std::slice::from_ref(&test), self.bearing)

@@ -4,6 +4,7 @@
 //!
 //! ```text
 //!   C = diag(σ²) + zero² (per test) + scale² y yᵀ + cov M(Ω,Ω') + level² M Mᵀ + inertia² jjᵀ, j = J_O Ω̇
+//!     + lag² l lᵀ, l = change of rolling torque over a mean by its width            smoothing by the torque's inversion
 //!     + a² A Aᵀ ∘ K,   A = M + |j|,  K = ρ exp(-|Δln age|) exp(-|ΔΩ|/½Ω_max)       discrepancy
 //!     + scatter² Σ e_t e_tᵀ,  e_t = prediction of test t minus that of rolling balls
 //! ```
@@ -53,6 +54,9 @@ const CAGE_NUGGET: f64 = 0.002;
 const NUGGET: f64 = 0.3;
 /// Part of the inertia moment that a smoothed torque misplaces in time, assumed.
 const SMEAR: f64 = 0.07;
+
+/// Error of M below the lowest speeds of a coast-down, over M; it fades with 3 % of the highest speed. Assumed.
+const NEAR_REST: f64 = 0.3;
 
 impl Observed {
     /// The data of all tests; none where a covariance is not positive definite (a band that is none).
@@ -126,13 +130,15 @@ impl Observed {
             factor.whiten(&mut residual);
             whitened.residual.append(&mut residual);
             for (test, direction) in whitened.directions.iter_mut().enumerate() {
-                let mut effect: Vec<f64> = (signal.place.iter().zip(&signal.test))
-                    .map(|(place, owner)| {
-                        let own = f64::from(u8::from(*owner == test));
-                        self.scatter * own * (predicted[*place] - rolling[*place])
-                    })
-                    .collect();
-                factor.whiten(&mut effect);
+                let mut effect = vec![0.0; signal.place.len()];
+                let first = signal.test.partition_point(|owner| *owner < test);
+                for (i, place) in signal.place.iter().enumerate().skip(first) {
+                    if signal.test[i] != test {
+                        break;
+                    }
+                    effect[i] = self.scatter * (predicted[*place] - rolling[*place]);
+                }
+                factor.whiten_from(first, &mut effect);
                 direction.append(&mut effect);
             }
         }
@@ -269,7 +275,8 @@ fn torque_covariance(
     let mut sum = scale * a.torque * b.torque
         + steady.covariance_between(a.speed, b.speed)
         + settings.level_deviation.powi(2) * m * n
-        + settings.inertia_deviation.powi(2) * j * k;
+        + settings.inertia_deviation.powi(2) * j * k
+        + settings.lag_deviation.powi(2) * a.steepness * b.steepness;
     if !a.before && !b.before {
         let size = amplitude * amplitude * (m + j.abs()) * (n + k.abs());
         sum += size * kernel(one, other, bearing.table.top_speed);
@@ -277,7 +284,11 @@ fn torque_covariance(
     if test == other_test {
         sum += tests[test].zero_deviation.powi(2);
         if std::ptr::eq(a, b) {
-            sum += a.variance + (SMEAR * j).powi(2) + (NUGGET * amplitude * m).powi(2);
+            sum += a.variance
+                + (SMEAR * j).powi(2)
+                + (0.3 * settings.lag_deviation * a.steepness).powi(2)
+                + (NUGGET * amplitude * m).powi(2)
+                + (NEAR_REST * m * (-a.speed / (0.03 * bearing.table.top_speed)).exp()).powi(2);
         }
     }
     sum

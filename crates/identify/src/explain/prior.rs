@@ -1,6 +1,6 @@
 //! What is held possible before the data: odds of the explanations and ranges of their parameters.
 
-use super::Explanation;
+use super::{Explanation, SteadyMoment};
 
 /// Range that holds 90 % of what is thought possible: 5 % lie below `low`, 5 % above `high`.
 ///
@@ -47,8 +47,9 @@ fn place(low: f64, high: f64, z: f64) -> f64 {
 pub struct Priors {
     /// Prior weight of each explanation in the order of [`Explanation::ALL`]; only ratios matter. 0 rules one out.
     pub odds: [f64; 5],
-    /// Share of M that depends on speed (M0/M) at the highest speed.
-    pub viscous_share: Range,
+    /// Share of M that depends on speed (M0/M) at the highest speed; none: from the curve itself, see
+    /// [`Priors::share_of`].
+    pub viscous_share: Option<Range>,
     /// Grease: drag factor of fresh grease g0, before the build-up.
     pub fresh_drag: Range,
     /// Grease: drag factor after breakdown g_w.
@@ -65,6 +66,8 @@ pub struct Priors {
     pub cold_traction_limit: Range,
     /// Slip: speed u0 at which traction reaches 76 % of its limit, m/s.
     pub slip_speed: Range,
+    /// Slip: share of the viscous part that brakes the orbit of the balls; the rest brakes their spin.
+    pub orbit_share: Range,
     /// Heating: logarithm of the loss of traction when the film is in balance with the power M Ω.
     pub traction_softening: Range,
     /// Heating: logarithm of the loss of viscous drag at the same rise.
@@ -86,8 +89,7 @@ impl Default for Priors {
         let turn = std::f64::consts::TAU;
         Self {
             odds: [1.0; 5],
-            // a lightly loaded, grease lubricated bearing at 150 rad/s: Palmgren's M1 is 3 to 30 % of M
-            viscous_share: Range::new(0.7, 0.97),
+            viscous_share: None,
             fresh_drag: Range::new(0.4, 0.95),
             worked_drag: Range::new(0.5, 0.95),
             build_up_angle: Range::new(0.1 * turn, 3.0 * turn),
@@ -96,6 +98,7 @@ impl Default for Priors {
             traction_limit: Range::new(0.4, 1.2),
             cold_traction_limit: Range::new(0.7, 2.0),
             slip_speed: Range::new(0.01, 0.3),
+            orbit_share: Range::new(0.3, 0.7),
             traction_softening: Range::new(0.15, 1.5),
             drag_softening: Range::new(0.02, 0.3),
             film_time: Range::new(0.5, 5.0),
@@ -118,8 +121,11 @@ impl Priors {
         if !odds_are_odds {
             return Some("odds");
         }
-        if !self.viscous_share.is_share() {
+        if !self.viscous_share.is_none_or(Range::is_share) {
             return Some("viscous_share");
+        }
+        if !self.orbit_share.is_share() {
+            return Some("orbit_share");
         }
         [
             ("fresh_drag", self.fresh_drag),
@@ -140,6 +146,51 @@ impl Priors {
         ]
         .into_iter()
         .find_map(|(name, range)| (!range.is_positive()).then_some(name))
+    }
+
+    /// Share of M that depends on speed as the curve tells it: M = M1 + c Ω^(2/3) by least squares of relative
+    /// deviations (Palmgren's form). Where M0 grows with Ω^0.6 and churning, as in SKF's form, this intercept lies
+    /// lower by 3 % of M; so the share of M1 at the highest speed is taken 3 % higher, within a factor of 1.8.
+    ///
+    /// - `steady`: the curve
+    /// - `top_speed`: highest speed of the tests, rad/s
+    pub fn share_of(steady: &SteadyMoment, top_speed: f64) -> Range {
+        // M = a + c x, weights 1/M²
+        let (mut w, mut wx, mut wxx, mut wm, mut wxm) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for (speed, moment) in steady.speed.iter().zip(&steady.moment) {
+            let (weight, x) = (1.0 / (moment * moment), (speed / top_speed).powf(2.0 / 3.0));
+            w += weight;
+            wx += weight * x;
+            wxx += weight * x * x;
+            wm += weight * moment;
+            wxm += weight * x * moment;
+        }
+        let determinant = w * wxx - wx * wx;
+        let share = if determinant > 1e-6 * w * wxx {
+            let (a, c) = (
+                (wxx * wm - wx * wxm) / determinant,
+                (w * wxm - wx * wm) / determinant,
+            );
+            a / (a + c) + 0.03
+        } else {
+            // too few speeds to tell: the middle of what Palmgren's law gives for light loads
+            0.1
+        };
+        let share = if share.is_finite() {
+            share.clamp(0.03, 0.5)
+        } else {
+            0.1
+        };
+        Range::new(1.0 - 1.8 * share, 1.0 - share / 1.8)
+    }
+
+    /// The same with the viscous share of the curve where none was given.
+    pub(crate) fn resolved(&self, steady: &SteadyMoment, top_speed: f64) -> Self {
+        let mut resolved = self.clone();
+        resolved
+            .viscous_share
+            .get_or_insert_with(|| Self::share_of(steady, top_speed));
+        resolved
     }
 
     /// Prior probability of an explanation.

@@ -40,6 +40,8 @@ pub(crate) struct Bin {
     pub speed: f64,
     /// Mean acceleration, rad/s².
     pub acceleration: f64,
+    /// Change of the torque of rolling balls over it by its width, N m/s.
+    pub steepness: f64,
     /// Whether it lies before the engagement.
     pub before: bool,
     /// Mean torque, N m, and its variance without zero and scale.
@@ -130,7 +132,18 @@ impl Test {
     /// - `speed`: speed over the time since the engagement, rad/s
     /// - `end`: end of the test, s since the engagement
     /// - `least`: least width of a mean, s
-    pub fn planned(speed: &dyn Fn(f64) -> f64, end: f64, least: f64, table: &Table) -> Self {
+    /// - `inertia`: J_O, kg m²
+    pub fn planned(
+        speed: &dyn Fn(f64) -> f64,
+        end: f64,
+        least: f64,
+        table: &Table,
+        inertia: f64,
+    ) -> Self {
+        let rolling = |t: f64| {
+            let h = 1e-3;
+            table.at(speed(t)).0 - inertia * (speed(t + h) - speed(t - h)) / (2.0 * h)
+        };
         let top_speed = table.top_speed;
         let grid = 4000;
         let at = |i: usize| end * i as f64 / grid as f64;
@@ -150,9 +163,9 @@ impl Test {
         };
         for (from, to, age) in limits(speed, end, stop, least, top_speed) {
             let slope = (speed(to) - speed(from)).abs() / (to - from);
-            let longest = (0.04 * age)
-                .clamp(1e-3, 0.05)
-                .min((0.01 * top_speed / slope).max(1e-3));
+            let longest = (0.05 * age)
+                .clamp(1e-3, 0.1)
+                .min((0.015 * top_speed / slope).max(1e-3));
             let count = ((to - from) / longest).ceil().max(2.0);
             let bin = test.bins.len();
             let duration = (to - from) / count;
@@ -178,6 +191,7 @@ impl Test {
                 age,
                 speed: mean_speed,
                 acceleration: (speed(to) - speed(from)) / (to - from),
+                steepness: (rolling(to) - rolling(from)) / (to - from),
                 before: false,
                 torque: 0.0,
                 variance: 0.0,
@@ -188,13 +202,13 @@ impl Test {
     }
 
     /// The means of a measurement.
-    pub fn measured(measurement: &Measurement, table: &Table) -> Self {
+    pub fn measured(measurement: &Measurement, table: &Table, inertia: f64) -> Self {
         let time = &measurement.time;
         let engagement = engagement(measurement, table.top_speed);
         let end = time[time.len() - 1] - engagement;
         let speed = |t: f64| interpolate(time, &measurement.speed, t + engagement);
         let least = LEAST_WIDTH.max(2.0 * measurement.correlation_time);
-        let mut test = Self::planned(&speed, end, least, table);
+        let mut test = Self::planned(&speed, end, least, table, inertia);
         test.zero_deviation = measurement.zero_deviation;
         test.scale_deviation = measurement.scale_deviation;
         for bin in &mut test.bins {
@@ -226,6 +240,7 @@ impl Test {
                     0.0
                 },
                 acceleration: 0.0,
+                steepness: 0.0,
                 before: true,
                 torque,
                 variance,
@@ -294,4 +309,88 @@ pub(crate) fn interpolate(time: &[f64], values: &[f64], t: f64) -> f64 {
     }
     let share = (t - time[above - 1]) / (time[above] - time[above - 1]);
     values[above - 1] + share * (values[above] - values[above - 1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::SteadyMoment;
+    use super::*;
+
+    fn table() -> Table {
+        SteadyMoment {
+            speed: vec![1.0, 150.0],
+            moment: vec![20e-3, 20e-3],
+            covariance: vec![0.0; 4],
+        }
+        .table(150.0)
+    }
+
+    /// Up in 0.1 s, held for 5 s, down in 1.5 s, a second of rest.
+    fn course(t: f64) -> f64 {
+        150.0 * (t / 0.1).clamp(0.0, 1.0) * (1.0 - (t - 5.1) / 1.5).clamp(0.0, 1.0)
+    }
+
+    #[test]
+    fn means_lie_side_by_side_and_none_spans_much_change() {
+        let test = Test::planned(&course, 7.6, 0.02, &table(), 0.0);
+        let mut from = 0.0;
+        for bin in &test.bins {
+            assert_eq!(bin.from, from);
+            from = bin.to;
+            let change = (course(bin.to) - course(bin.from)).abs();
+            // a mean of the least width may span more; a remnant at a border at most doubles the last one
+            let allowed = 0.35 * 150.0_f64;
+            assert!(change < allowed, "{bin:?}");
+        }
+        assert!((from - 7.6).abs() < 0.011);
+        // few enough to count as independent, and closer where more happens
+        assert!((25..60).contains(&test.bins.len()), "{}", test.bins.len());
+        // one border is the standstill: no mean mixes turning and rest
+        let stop = 6.6 - 1.5 * REST;
+        assert!(test.bins.iter().any(|bin| (bin.from - stop).abs() < 0.01));
+        assert!((test.steps.iter().map(|s| s.duration).sum::<f64>() - from).abs() < 1e-9);
+    }
+    #[test]
+    fn the_mean_of_a_constant_is_the_constant() {
+        let test = Test::planned(&course, 7.6, 0.02, &table(), 0.0);
+        for mean in test.means(test.steps.iter().map(|_| 3.0)) {
+            assert!((mean - 3.0).abs() < 1e-9);
+        }
+    }
+    #[test]
+    fn noise_counts_by_its_correlation_time_and_zero_and_scale_apart() {
+        let time: Vec<f64> = (0..4000).map(|i| f64::from(i) * 2e-3).collect();
+        let count = time.len();
+        let measurement = Measurement {
+            name: "constant".into(),
+            load: 50.0,
+            speed: time.iter().map(|t| course(t - 0.4)).collect(),
+            speed_deviation: vec![0.1; count],
+            acceleration: vec![0.0; count],
+            acceleration_deviation: vec![1.0; count],
+            torque: vec![10e-3; count],
+            // 0.3 noise, 0.4 zero, no scale: √(0.3² + 0.4²)
+            torque_deviation: vec![0.5e-3; count],
+            time,
+            zero_deviation: 0.4e-3,
+            scale_deviation: 0.0,
+            correlation_time: 0.02,
+            engagement: Some(0.4),
+            cage: None,
+            temperature: None,
+        };
+        let test = Test::measured(&measurement, &table(), 0.0);
+        for bin in &test.bins {
+            let width = bin.to - bin.from;
+            let expected = 0.3e-3 / (width / 0.02).sqrt();
+            assert!((bin.torque - 10e-3).abs() < 1e-12);
+            assert!((bin.variance.sqrt() / expected - 1.0).abs() < 1e-6);
+        }
+        let before = test
+            .bins
+            .iter()
+            .find(|bin| bin.before)
+            .expect("rest before");
+        assert!((before.to - before.from - 0.38).abs() < 1e-9 && before.speed == 0.0);
+    }
 }

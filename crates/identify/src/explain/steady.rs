@@ -17,8 +17,10 @@ const INTERVALS: usize = 512;
 /// The curve as a table that is quick to read, 0 at rest.
 #[derive(Clone, Debug)]
 pub(crate) struct Table {
-    interval: f64,
+    /// Intervals per rad/s.
+    density: f64,
     moment: Vec<f64>,
+    fading: Vec<f64>,
     /// M at the highest speed of the tests, N m.
     pub reference: f64,
     /// That speed, rad/s.
@@ -75,8 +77,11 @@ impl SteadyMoment {
             })
             .collect();
         Table {
-            interval,
+            density: 1.0 / interval,
             moment,
+            fading: (0..=INTERVALS)
+                .map(|i| fading(i as f64 * interval))
+                .collect(),
             reference: self.at(top_speed),
             top_speed,
         }
@@ -89,15 +94,23 @@ pub(crate) fn fading(speed: f64) -> f64 {
 }
 
 impl Table {
-    /// M, N m, and its slope, N m s, at a speed; odd.
-    pub fn at(&self, speed: f64) -> (f64, f64) {
-        let place = (speed.abs() / self.interval).min(INTERVALS as f64 - 1e-9);
+    /// M, its slope, and the fading at rest, all without sign.
+    pub fn with_fading(&self, speed: f64) -> (f64, f64, f64) {
+        let place = (speed.abs() * self.density).min(INTERVALS as f64 - 1e-9);
         let low = place as usize;
+        let share = place - low as f64;
         let step = self.moment[low + 1] - self.moment[low];
         (
-            (self.moment[low] + step * (place - low as f64)).copysign(speed),
-            step / self.interval,
+            self.moment[low] + step * share,
+            step * self.density,
+            self.fading[low] + (self.fading[low + 1] - self.fading[low]) * share,
         )
+    }
+
+    /// M, N m, and its slope, N m s, at a speed; odd.
+    pub fn at(&self, speed: f64) -> (f64, f64) {
+        let (moment, slope, _) = self.with_fading(speed);
+        (moment.copysign(speed), slope)
     }
 }
 

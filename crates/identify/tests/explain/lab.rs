@@ -79,7 +79,7 @@ pub fn course(peak: f64) -> (impl Fn(f64) -> f64 + Copy, f64, f64) {
         let x = ((t - ENGAGEMENT) / ramp).clamp(0.0, 1.0);
         let up = 0.5 * (1.0 - (std::f64::consts::PI * x).cos());
         let left = (1.0 - (t - down) / 1.5).clamp(0.0, 1.0);
-        TOP * up * left.powf(1.1) * (1.0 - 0.002 * (t - ENGAGEMENT).max(0.0).min(2.0))
+        TOP * up * left.powf(1.1) * (1.0 - 0.002 * (t - ENGAGEMENT).clamp(0.0, 2.0))
     };
     (speed, ENGAGEMENT + ramp + 0.2, down + 2.5)
 }
@@ -135,14 +135,14 @@ impl Truth {
     }
 
     /// The three tests of the paper.
-    pub fn campaign(self, chance: &mut Chance, with_cage: bool) -> Campaign {
+    pub fn campaign(self, chance: &mut Chance) -> Campaign {
         let scale = 1.0 + 0.01 * chance.normal();
         let noise = 1e-3 * chance.between(0.2, 0.5);
         let tests = (PEAKS.iter())
             .map(|peak| {
                 let (speed, fine_until, end) = course(*peak);
                 let rows = self.bearing.run(speed, end, fine_until);
-                self.read(&rows, *peak, scale, noise, with_cage, chance)
+                self.read(&rows, *peak, scale, noise, chance)
             })
             .collect();
         Campaign {
@@ -185,7 +185,6 @@ impl Truth {
         peak: f64,
         scale: f64,
         noise: f64,
-        with_cage: bool,
         chance: &mut Chance,
     ) -> Measurement {
         let zero = 0.3e-3 * chance.normal();
@@ -270,7 +269,7 @@ impl Truth {
             m.torque_deviation
                 .push((sigma * sigma + 0.3e-3_f64.powi(2) + (0.01 * reading).powi(2)).sqrt());
         }
-        m.cage = with_cage.then_some(cage);
+        m.cage = Some(cage);
         m
     }
 }
