@@ -135,6 +135,9 @@ impl Grease<f64> {
         (-time / self.recovery_time).exp()
     }
     /// True where all parameters are positive numbers.
+    ///
+    /// Source: the rates and factors are defined for such alone.
+    /// Valid: always.
     pub fn is_valid(&self) -> bool {
         [
             self.rested_factor,
@@ -215,6 +218,9 @@ impl FilmHeating<f64> {
         self.heat_capacity / self.conductance
     }
     /// True where capacity and conductance are positive numbers, and nothing grows with temperature.
+    ///
+    /// Source: the rates and factors are defined for such alone.
+    /// Valid: always.
     pub fn is_valid(&self) -> bool {
         let sizes = [self.heat_capacity, self.conductance];
         let falls = [self.drag_coefficient, self.traction_coefficient];

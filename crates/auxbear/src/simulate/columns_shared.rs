@@ -34,6 +34,9 @@ pub(super) struct BearingPlace<'a> {
     pub motion: fn(&[f64]) -> Motion<f64>,
 }
 
+/// A value of the lubricant.
+type OfLubricant = fn(&LubricantAt) -> f64;
+
 /// Detail of a ball: name, unit, meaning; the loads are known in every fidelity.
 const DETAILS: [(&str, &str, &str); 5] = [
     ("inner_load", "N", "load of the ball on the inner race"),
@@ -160,7 +163,7 @@ impl<'a> Table<'a> {
         };
         let (grease, films) = (lubricant.grease.is_some(), lubricant.films.is_some());
         let planar = matches!(place.bearing, BearingConstants::Planar(_));
-        let columns: [(bool, &str, &str, &str, fn(&LubricantAt) -> f64); 5] = [
+        let columns: [(bool, &str, &str, &str, OfLubricant); 5] = [
             (
                 grease,
                 "build_up",

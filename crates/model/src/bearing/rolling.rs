@@ -7,7 +7,7 @@
 //!   ω_c = Ω/(2(1+s)),  s = r/R
 //! ```
 //! State: cage angle φ_c (rad), then those of the lubricant where it has any
-//! ([`lubricant_state`](super::lubricant_state)). Cage and balls move with the outer race where they translate.
+//! ([`lubricant_state`]). Cage and balls move with the outer race where they translate.
 //! Ball loads are quasi-static: the outer load adds the centrifugal force of the ball.
 //!
 //! The inner race grows with its own speed: its track's radius by kΩ².
