@@ -37,6 +37,7 @@ mod run;
 mod schema;
 mod section;
 mod separation;
+mod signal_analysis;
 mod signals;
 mod spin_up;
 mod system;
@@ -46,6 +47,7 @@ mod table_cage;
 mod table_drive;
 mod table_drop;
 mod table_moment;
+mod table_signal_analysis;
 mod table_signals;
 mod table_torque;
 mod template;
@@ -63,6 +65,9 @@ pub use resolved::{Resolved, ResolvedValue};
 pub use run::{Method, Run};
 pub use schema::schema;
 pub use separation::{Cage, FullComplement, Guidance, Land, Separation};
+pub use signal_analysis::{
+    ConverterSignal, InertiaSource, Measured, SteadySignal, VibrationSignal,
+};
 pub use signals::{
     CageKind, CageSignal, Disturbance, PickupFlank, PickupKind, SensorSource, Signals, SpeedSignal,
     TorqueSignal,

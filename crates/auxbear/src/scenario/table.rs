@@ -6,7 +6,8 @@
 use super::key::{Key, Kind, Presence, Range, Section};
 use super::system::SystemName;
 use super::{
-    table_bearing, table_cage, table_drive, table_drop, table_moment, table_signals, table_torque,
+    table_bearing, table_cage, table_drive, table_drop, table_moment, table_signal_analysis,
+    table_signals, table_torque,
 };
 
 /// Format name of the scenario files that this version writes.
@@ -19,6 +20,7 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
         .chain(table_drive::SECTIONS)
         .chain(table_torque::SECTIONS)
         .chain(table_signals::SECTIONS)
+        .chain(table_signal_analysis::SECTIONS)
         .chain(table_bearing::SECTIONS)
         .chain(table_cage::SECTIONS)
         .chain(table_bearing::TRACTION_SECTIONS)
@@ -34,6 +36,7 @@ pub fn keys() -> impl Iterator<Item = &'static Key> {
         .chain(table_drive::KEYS)
         .chain(table_torque::KEYS)
         .chain(table_signals::KEYS)
+        .chain(table_signal_analysis::KEYS)
         .chain(table_bearing::KEYS)
         .chain(table_cage::KEYS)
         .chain(table_bearing::TRACTION)
