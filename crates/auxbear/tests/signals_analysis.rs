@@ -43,8 +43,7 @@ impl Coast {
             let wave = (MARKS * angle + 2.0_f64).sin();
             let tacho = 2.5 + 2.4 * (3.0 * wave).tanh() + 0.02 * normal();
             let reading = (1e3 * torque(speed) + 0.3 * normal()).min(limit);
-            let vibration =
-                0.5 * (2.0 * angle).cos() + 0.2 * (4.1 * angle).sin() + 0.05 * normal();
+            let vibration = 0.5 * (2.0 * angle).cos() + 0.2 * (4.1 * angle).sin() + 0.05 * normal();
             let time = k as f64 / RATE;
             writeln!(text, "{time},{tacho:.4},{reading:.4},{vibration:.4}").unwrap();
             let slope = -torque(speed) / INERTIA;
@@ -62,7 +61,8 @@ impl Coast {
         );
         let file = self.folder.join("a.toml");
         fs::write(&file, text).unwrap();
-        let scenario = Scenario::read(Path::new(&file), &[], &BuiltIn).map_err(|p| p.to_string())?;
+        let scenario =
+            Scenario::read(Path::new(&file), &[], &BuiltIn).map_err(|p| p.to_string())?;
         run(&scenario, &Options::unwatched(&AtomicBool::new(false))).map_err(|p| p.to_string())
     }
 }
@@ -121,7 +121,9 @@ fn torque_over_speed_by_both_ways() {
     );
     assert!(less.abs() < 3.0 * spread, "{less} {spread}");
     assert!(number(&outcome, "steady_direct_less_inertial_chance") > 1e-3);
-    assert!(matches!(value(&outcome, "steady_up_torques"), Value::None { why } if why.contains("up_from")));
+    assert!(
+        matches!(value(&outcome, "steady_up_torques"), Value::None { why } if why.contains("up_from"))
+    );
     // A pendulum: period of the same inertia, from the law T = 2π √((I + m a²)/(m g a)).
     let period = TAU * ((INERTIA + 0.4 * 0.06 * 0.06) / (0.4 * 9.80665 * 0.06_f64)).sqrt();
     let pendulum = format!(
@@ -142,7 +144,10 @@ fn orders_and_spectrograms() {
     assert!((amplitudes[0] - 0.5).abs() < 0.01, "{amplitudes:?}");
     assert!((amplitudes[1] - 0.2).abs() < 0.01, "{amplitudes:?}");
     let names: Vec<&str> = outcome.history.iter().map(|c| c.name.as_str()).collect();
-    for name in ["vibration.order_2_amplitude", "vibration.order_4_1_deviation"] {
+    for name in [
+        "vibration.order_2_amplitude",
+        "vibration.order_4_1_deviation",
+    ] {
         assert!(names.contains(&name), "{names:?}");
     }
     let orders = list(&outcome, "vibration_order_spectrogram_orders");
@@ -151,7 +156,9 @@ fn orders_and_spectrograms() {
     assert_eq!(levels.len(), orders.len() * times.len());
     // In every column the strongest order is 2.
     for column in levels.chunks(orders.len()) {
-        let top = (0..orders.len()).max_by(|a, b| column[*a].total_cmp(&column[*b])).unwrap();
+        let top = (0..orders.len())
+            .max_by(|a, b| column[*a].total_cmp(&column[*b]))
+            .unwrap();
         assert!((orders[top] - 2.0).abs() < 0.2, "{}", orders[top]);
     }
     let bytes: usize = levels.iter().map(|level| format!("{level},").len()).sum();
@@ -168,9 +175,14 @@ fn a_converter_flags_its_limits() {
     let outcome = coast.asked(&more).unwrap();
     let clipped = number(&outcome, "converter_clipped_values");
     assert_eq!(clipped, number(&outcome, "torque_clipped_values"));
-    assert!(clipped > 100.0 && clipped < 0.5 * SECONDS * RATE, "{clipped}");
+    assert!(
+        clipped > 100.0 && clipped < 0.5 * SECONDS * RATE,
+        "{clipped}"
+    );
     let told = outcome.warnings.iter().any(|warning| {
-        warning.code == "AB1041" && warning.text.contains("clipped") && warning.text.contains("the first at 0.")
+        warning.code == "AB1041"
+            && warning.text.contains("clipped")
+            && warning.text.contains("the first at 0.")
     });
     assert!(told, "{:?}", outcome.warnings);
 }
@@ -179,8 +191,14 @@ fn a_converter_flags_its_limits() {
 fn what_contradicts_itself_is_refused() {
     let coast = Coast::new("refused", f64::INFINITY);
     let cases = [
-        ("[signals.converter]\nbits = 12\n", "signals.converter.channels is needed with it"),
-        ("[signals.converter]\nchannels = [\"torque\"]\nhighest = 10\n", "signals.converter.bits"),
+        (
+            "[signals.converter]\nbits = 12\n",
+            "signals.converter.channels is needed with it",
+        ),
+        (
+            "[signals.converter]\nchannels = [\"torque\"]\nhighest = 10\n",
+            "signals.converter.bits",
+        ),
         (
             "[signals.converter]\nchannels = [\"torqe\"]\nhighest = 10\nbits = 12\n",
             "Did you mean \"torque\"?",
@@ -189,14 +207,23 @@ fn what_contradicts_itself_is_refused() {
             "[signals.converter]\nchannels = [\"torque\"]\nhighest = -1\nbits = 12\n",
             "more than signals.converter.lowest is needed",
         ),
-        ("[signals.vibration]\norders = [\"1\"]\n", "signals.vibration.channel is needed with it"),
+        (
+            "[signals.vibration]\norders = [\"1\"]\n",
+            "signals.vibration.channel is needed with it",
+        ),
         (
             "[signals.vibration]\nchannel = \"vibration\"\norders = [\"1\", \"two\"]\n",
             "\"two\" as entry 2",
         ),
         ("[signals.steady]\nfrom = \"3 s\"\n", "signals.steady.to"),
-        ("[signals.steady]\nfrom = \"3 s\"\nto = \"2 s\"\n", "more than signals.steady.from"),
-        ("[signals.steady]\ninertia = \"1 kg m^2\"\n", "signals.steady.from is needed with it"),
+        (
+            "[signals.steady]\nfrom = \"3 s\"\nto = \"2 s\"\n",
+            "more than signals.steady.from",
+        ),
+        (
+            "[signals.steady]\ninertia = \"1 kg m^2\"\n",
+            "signals.steady.from is needed with it",
+        ),
         (
             "[signals.steady]\nfrom = \"1 s\"\nto = \"2 s\"\ninertia_from = \"pendulum\"\n",
             "signals.steady.test_mass",

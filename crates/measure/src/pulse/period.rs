@@ -46,6 +46,10 @@ impl Correlated {
     }
 
     fn period(&self) -> Option<usize> {
+        // Where one pulse takes a whole number of samples all lags are in step, but for a drift.
+        if 5 * self.telling().count() < self.values.len() {
+            return None;
+        }
         let (at, top) = self.telling().max_by(|a, b| a.1.total_cmp(&b.1))?;
         if top < 0.3f64.max(5.0 * self.scatter(at)) {
             return None;
@@ -76,6 +80,9 @@ impl Correlated {
         self.telling().map(|(_, value)| value).fold(0.0, f64::max)
     }
 }
+
+/// How much larger the correlation of another number of marks than the stated one must be.
+const CLEARLY: f64 = 0.25;
 
 /// Root mean square distance of so many pulses from a whole number of samples, below which they are in step with it; 0.29 where
 /// they have nothing to do with each other.
@@ -127,7 +134,6 @@ fn correlated(pulses: &Pulses) -> Option<Correlated> {
         without_sampling(&mut pattern, times, &gaps, pulses.watched.0, interval);
     }
     let power = pattern.iter().map(|x| x * x).sum::<f64>();
-    // Instants that are stamped have noise that is known; that of samples is stated for the worst flank.
     // The second difference of independent instants with variance u² has the variance 5 u² in three intervals.
     let noise: f64 = gaps
         .iter()
@@ -136,8 +142,7 @@ fn correlated(pulses: &Pulses) -> Option<Correlated> {
         .take(pattern.len())
         .map(|(gap, u)| 5.0 * (u / gap).powi(2))
         .sum();
-    let quiet = pulses.sample_interval.is_none() && power <= 2.0 * noise;
-    if power.is_nan() || power == 0.0 || quiet {
+    if power.is_nan() || power <= 2.0 * noise {
         return None;
     }
     let largest = LARGEST.min(pattern.len() / 2);
@@ -229,14 +234,15 @@ fn solved<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N]) -> Option<[f64;
 /// Compares the marks per revolution that were stated with those that the wheel itself shows, where it does.
 ///
 /// Refused only where another number explains the pattern clearly better than the stated one: marks whose errors are alike
-/// over some of them, and speeds in step with the sampling, are no contradiction. A wheel whose pattern repeats within the
+/// over some of them, and speeds in step with the sampling, are no contradiction. Not told either where errors are lost in the
+/// instants: of a wheel whose marks are off by 1 % of the pitch, with less than some 15 samples a mark. A wheel whose pattern repeats within the
 /// revolution (two equal halves) agrees with the whole.
 pub fn check_marks(pulses: &Pulses) -> Result<(), Refusal> {
     let agreed = correlated(pulses).and_then(|seen| {
         let found = seen.period()?;
         let stated = seen.values.get(pulses.positions);
         let better = match stated {
-            Some(stated) => seen.values[found] - stated > 0.15 + 5.0 * seen.scatter(found),
+            Some(stated) => seen.values[found] - stated > CLEARLY,
             // The record is too short to see the stated number twice.
             None => true,
         };

@@ -112,7 +112,11 @@ fn picture(time: Vec<f64>, upright: &[f64], amplitudes: Vec<Vec<f64>>) -> Pictur
             });
             let most = cells.fold(0.0, f64::max);
             let level = 20.0 * (most / largest).log10();
-            levels.push(if level >= FLOOR { level.round() } else { FLOOR });
+            levels.push(if level >= FLOOR {
+                level.round() + 0.0
+            } else {
+                FLOOR
+            });
         }
     }
     Picture {
