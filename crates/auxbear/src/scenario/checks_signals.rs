@@ -20,7 +20,12 @@ impl Context<'_> {
                 ),
             );
         }
-        for section in ["signals.speed", "signals.torque", "signals.cage"] {
+        for section in [
+            "signals.speed",
+            "signals.torque",
+            "signals.cage",
+            "signals.vibration",
+        ] {
             self.without_channel(section)?;
         }
         if signals.speed.is_some() {
@@ -65,24 +70,98 @@ impl Context<'_> {
                 self.needed(path, "signals.cage.channel")?;
             }
         }
+        if signals.vibration.is_some() {
+            self.needed("signals.speed.channel", "signals.vibration.channel")?;
+        }
+        self.orders(signals)?;
+        self.converter(signals)?;
+        self.parts(signals)
+    }
+
+    fn orders(&self, signals: &Signals) -> Check {
+        let path = "signals.vibration.orders";
+        let Some(vibration) = &signals.vibration else {
+            return Ok(());
+        };
+        let texts = self.values.texts(path);
+        let sound = |order: &f64| *order > 0.0 && *order < 1e4;
+        if let Some(at) = vibration.orders.iter().position(|order| !sound(order)) {
+            let found = format!("\"{}\" as entry {}", texts[at], at + 1);
+            return self.refuse(
+                Code::OutOfRange,
+                path,
+                found,
+                "positive numbers in quotes are needed, e.g. [\"1\", \"2\"]",
+            );
+        }
+        if texts.len() > 8 {
+            let found = format!("{} orders", texts.len());
+            return self.refuse(Code::OutOfRange, path, found, "8 at most are followed");
+        }
         Ok(())
+    }
+
+    fn converter(&self, signals: &Signals) -> Check {
+        let channels = "signals.converter.channels";
+        let Some(converter) = &signals.converter else {
+            return self.together("signals.converter", channels);
+        };
+        for path in ["signals.converter.highest", "signals.converter.bits"] {
+            self.needed(path, channels)?;
+        }
+        if converter.lowest < converter.highest {
+            return Ok(());
+        }
+        let path = "signals.converter.highest";
+        let needed = "more than signals.converter.lowest is needed; a positive number where that is not given";
+        self.refuse(Code::OutOfRange, path, self.text(path), needed)
+    }
+
+    /// Parts of the record: begin and end together, in this order.
+    fn parts(&self, signals: &Signals) -> Check {
+        const PARTS: [[&str; 2]; 3] = [
+            ["signals.speed.change_from", "signals.speed.change_to"],
+            ["signals.steady.from", "signals.steady.to"],
+            ["signals.steady.up_from", "signals.steady.up_to"],
+        ];
+        for [from, to] in PARTS {
+            for (one, other) in [(from, to), (to, from)] {
+                if self.values.is_given(one) {
+                    self.needed(other, one)?;
+                }
+            }
+            if let (Some(begin), Some(end)) = (self.values.number(from), self.values.number(to))
+                && end <= begin
+            {
+                let needed = format!("more than {from} = {} is needed", self.text(from));
+                return self.refuse(Code::OutOfRange, to, self.text(to), &needed);
+            }
+        }
+        if signals.steady.is_some() {
+            self.needed("signals.speed.channel", "signals.steady.from")?;
+            return Ok(());
+        }
+        self.together("signals.steady", "signals.steady.from")
+    }
+
+    /// Refuses a key that is given in a section whose first key is not.
+    fn together(&self, section: &str, first: &str) -> Check {
+        let given =
+            table::keys().find(|key| key.section() == section && self.values.is_given(key.path));
+        match given {
+            Some(key) if !self.values.is_given(first) => self.refuse(
+                Code::UnusedKey,
+                key.path,
+                "a key that has no effect".to_string(),
+                &format!("{first} is needed with it"),
+            ),
+            _ => Ok(()),
+        }
     }
 
     /// Refuses a key that is given in a section whose channel is not.
     fn without_channel(&self, section: &str) -> Check {
-        let channel = format!("{section}.channel");
-        if self.values.is_given(&channel) {
-            return Ok(());
-        }
-        let given =
-            table::keys().find(|key| key.section() == section && self.values.is_given(key.path));
-        let Some(key) = given else { return Ok(()) };
-        self.refuse(
-            Code::UnusedKey,
-            key.path,
-            "a key that has no effect".to_string(),
-            &format!("{channel} is needed with it"),
-        )
+        self.together(section, &format!("{section}.channel"))
     }
 
     /// Refuses that a key is missing which another one needs.

@@ -43,6 +43,7 @@ mod run;
 mod schema;
 mod section;
 mod separation;
+mod signal_analysis;
 mod signals;
 mod spin_up;
 mod system;
@@ -55,6 +56,7 @@ mod table_identify;
 mod table_lubricant_state;
 mod table_moment;
 mod table_rig;
+mod table_signal_analysis;
 mod table_signals;
 mod table_torque;
 mod template;
@@ -78,6 +80,9 @@ pub use rig::{
 pub use run::{Method, Run};
 pub use schema::schema;
 pub use separation::{Cage, FullComplement, Guidance, Land, Separation};
+pub use signal_analysis::{
+    ConverterSignal, InertiaSource, Measured, SteadySignal, VibrationSignal,
+};
 pub use signals::{
     CageKind, CageSignal, Disturbance, PickupFlank, PickupKind, SensorSource, Signals, SpeedSignal,
     TorqueSignal,

@@ -2,6 +2,7 @@
 
 use super::resolve::Values;
 use super::section::Section;
+use super::signal_analysis::{self, ConverterSignal, SteadySignal, VibrationSignal};
 use std::path::PathBuf;
 
 /// A measurement and what is computed from it. All values are SI.
@@ -27,6 +28,12 @@ pub struct Signals {
     pub radial_load: Option<f64>,
     /// Name of the channel with the temperature of the outer race.
     pub temperature: Option<String>,
+    /// The converter.
+    pub converter: Option<ConverterSignal>,
+    /// A vibration.
+    pub vibration: Option<VibrationSignal>,
+    /// Slow runs.
+    pub steady: Option<SteadySignal>,
 }
 
 /// A pickup at a wheel with marks.
@@ -42,8 +49,12 @@ pub struct SpeedSignal {
     pub missing_marks: usize,
     /// Whether a quick change is looked for.
     pub quick_change: bool,
+    /// Where it is looked for, s.
+    pub change_within: Option<(f64, f64)>,
     /// Whether the errors of the marks are taken out.
     pub calibration: bool,
+    /// Acceleration once a turn during the calibration, rad/s².
+    pub ripple: f64,
     /// Standard deviation of a common delay, s.
     pub delay_deviation: f64,
     /// Largest uncertainty of the acceleration, as a part of its peak.
@@ -177,6 +188,9 @@ impl Signals {
             cage: cage(values),
             radial_load: signals.maybe("radial_load"),
             temperature: values.text("signals.temperature.channel"),
+            converter: signal_analysis::converter(values),
+            vibration: signal_analysis::vibration(values),
+            steady: signal_analysis::steady(values),
         }
     }
 }
@@ -204,7 +218,9 @@ fn speed(values: &Values) -> Option<SpeedSignal> {
         marks_per_revolution: speed.count("marks_per_revolution") as usize,
         missing_marks: speed.count("missing_marks") as usize,
         quick_change: speed.word("quick_change") != "none",
+        change_within: speed.maybe("change_from").zip(speed.maybe("change_to")),
         calibration: speed.word("calibration") != "none",
+        ripple: speed.number("ripple"),
         delay_deviation: speed.number("delay_deviation"),
         wanted: speed.maybe("wanted"),
     })

@@ -7,7 +7,7 @@ use super::key::{Key, Kind, Presence, Range, Section};
 use super::system::SystemName;
 use super::{
     table_bearing, table_cage, table_drive, table_drop, table_identify, table_lubricant_state,
-    table_moment, table_rig, table_signals, table_torque,
+    table_moment, table_rig, table_signal_analysis, table_signals, table_torque,
 };
 
 /// Format name of the scenario files that this version writes.
@@ -20,6 +20,7 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
         .chain(table_drive::SECTIONS)
         .chain(table_torque::SECTIONS)
         .chain(table_signals::SECTIONS)
+        .chain(table_signal_analysis::SECTIONS)
         .chain(table_rig::SECTIONS)
         .chain(table_identify::SECTIONS)
         .chain(table_bearing::SECTIONS)
@@ -41,6 +42,7 @@ pub fn keys() -> impl Iterator<Item = &'static Key> {
         .chain(table_signals::TEMPERATURE)
         .chain(table_rig::KEYS)
         .chain(table_identify::KEYS)
+        .chain(table_signal_analysis::KEYS)
         .chain(table_bearing::KEYS)
         .chain(table_cage::KEYS)
         .chain(table_bearing::TRACTION)

@@ -148,12 +148,34 @@ pub(super) const KEYS: &[Key] = &[
     )
     .default("auto", "it is found where there is one"),
     Key::new(
+        "signals.speed.change_from",
+        Kind::Quantity("s"),
+        "4.9 s",
+        "Where the quick change is looked for begins, on the clock of the file: tells which one, where a record holds several.",
+    )
+    .optional("the steepest rise of speed is taken"),
+    Key::new(
+        "signals.speed.change_to",
+        Kind::Quantity("s"),
+        "5.4 s",
+        "Where that part ends.",
+    )
+    .optional("it is needed with signals.speed.change_from"),
+    Key::new(
         "signals.speed.calibration",
         Kind::Word(&["auto", "none"]),
         "auto",
         "Whether the errors of the marks are found from revolutions at even speed and taken out.",
     )
     .default("auto", "no wheel is even; where no revolution is even enough, none are taken out"),
+    Key::new(
+        "signals.speed.ripple",
+        Kind::Quantity("rad/s^2"),
+        "3 rad/s^2",
+        "Standard deviation of an acceleration once a turn while the marks are calibrated, from unbalance under gravity or a belt: it cannot be told from an eccentric wheel.",
+    )
+    .not_negative()
+    .default("0 rad/s^2", "a shaft that runs evenly"),
     Key::new(
         "signals.speed.delay_deviation",
         Kind::Quantity("s"),

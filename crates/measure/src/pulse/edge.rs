@@ -156,6 +156,7 @@ pub fn edges(
         rises: chosen.iter().map(|e| e.2).collect(),
         flank: settings.flank,
         watched: (first, first + interval * (samples.len() - 1) as f64),
+        sample_interval: Some(interval),
         notes,
     })
 }

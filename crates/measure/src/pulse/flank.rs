@@ -31,15 +31,29 @@ const CELLS: usize = 40;
 const FEWEST: usize = 4;
 /// Largest change of the rate of passages from one to the next that leaves a flank its shape.
 const EVEN: f64 = 0.3;
+/// Scatter on the flank, as a part of the span, above which the record does not show its shape: samples that are either low or
+/// high, as of a digital pickup, lie by 0.3 and more from any shape between.
+const UNSEEN: f64 = 0.1;
+/// Cells on the steep part of a flank, below which its shape is that of the cells and not its own.
+const FEWEST_STEEP: usize = 3;
 
 /// A shape over the angle: height from the middle as a part of the span.
 struct Shape {
     heights: [f64; CELLS + 1],
     /// Standard deviation of samples about it.
     scatter: f64,
+    /// That of the samples where it rises most.
+    steep_scatter: f64,
 }
 
 impl Shape {
+    /// Cells that are at least half as steep as the steepest one.
+    fn steep_cells(&self) -> usize {
+        let steps = || self.heights.windows(2).map(|pair| pair[1] - pair[0]);
+        let steepest = steps().fold(0.0, f64::max);
+        steps().filter(|step| *step >= 0.5 * steepest).count()
+    }
+
     /// Height and slope at an angle, in parts of a pitch; none outside.
     fn at(&self, angle: f64) -> Option<(f64, f64)> {
         let place = (angle / HALF + 1.0) * 0.5 * CELLS as f64;
@@ -75,12 +89,10 @@ pub(super) fn sharpen(samples: &[f64], found: &mut [Passing], rises: bool, level
         .collect();
     let sign = if rises { 1.0 } else { -1.0 };
     let scale = sign / levels.span;
-    let step = own.len().div_ceil(PUPILS);
-    let pupils: Vec<(usize, f64)> = own
+    let pupils = pupils(&own, &rates);
+    let before: Vec<(f64, f64)> = own
         .iter()
-        .zip(&rates)
-        .step_by(step)
-        .filter_map(|(&k, rate)| Some((k, (*rate)?)))
+        .map(|&k| (found[k].place, found[k].spread))
         .collect();
     let mut last = None;
     for _ in 0..ROUNDS {
@@ -99,6 +111,12 @@ pub(super) fn sharpen(samples: &[f64], found: &mut [Passing], rises: bool, level
         }
     }
     let Some(shape) = last else { return };
+    if shape.steep_scatter > UNSEEN || shape.steep_cells() < FEWEST_STEEP {
+        for (&k, &(place, spread)) in own.iter().zip(&before) {
+            (found[k].place, found[k].spread) = (place, spread);
+        }
+        return;
+    }
     for (&k, rate) in own.iter().zip(&rates) {
         if let Some(rate) = *rate
             && !found[k].resolved
@@ -106,6 +124,27 @@ pub(super) fn sharpen(samples: &[f64], found: &mut [Passing], rises: bool, level
             lay(samples, &mut found[k], rate, scale, &shape);
         }
     }
+}
+
+/// Passages to learn from with their rates, in order: the slow ones show the shape in full, however few they are in a long
+/// record; others are taken from all over it.
+fn pupils(own: &[usize], rates: &[Option<f64>]) -> Vec<(usize, f64)> {
+    let steady: Vec<(usize, f64)> = own
+        .iter()
+        .zip(rates)
+        .filter_map(|(&k, rate)| Some((k, (*rate)?)))
+        .collect();
+    if steady.len() <= PUPILS {
+        return steady;
+    }
+    let mut slowest = steady.clone();
+    slowest.sort_by(|a, b| a.1.total_cmp(&b.1));
+    slowest.truncate(PUPILS / 2);
+    let step = steady.len().div_ceil(PUPILS / 2);
+    slowest.extend(steady.iter().step_by(step));
+    slowest.sort_by_key(|pupil| pupil.0);
+    slowest.dedup_by_key(|pupil| pupil.0);
+    slowest
 }
 
 /// Lays a flank on the shape; returns by how many samples it moved.
@@ -181,14 +220,21 @@ fn learn(samples: &[f64], found: &[Passing], pupils: &[(usize, f64)], scale: f64
     let mut shape = Shape {
         heights,
         scatter: 0.0,
+        steep_scatter: 0.0,
     };
-    let mut away: Vec<f64> = seen
+    let away: Vec<(f64, f64)> = seen
         .iter()
         .filter_map(|&(place, height)| {
-            let (model, _) = shape.at((place / (0.5 * CELLS as f64) - 1.0) * HALF)?;
-            Some((height - model).abs())
+            let (model, slope) = shape.at((place / (0.5 * CELLS as f64) - 1.0) * HALF)?;
+            Some(((height - model).abs(), slope))
         })
         .collect();
-    shape.scatter = (median(&mut away) / 0.6745).max(1e-3);
+    let steepest = away.iter().map(|a| a.1).fold(0.0, f64::max);
+    // The median of |x| is 0.6745 standard deviations for normal x.
+    let deviation = |least: f64| {
+        let mut sizes: Vec<f64> = away.iter().filter(|a| a.1 >= least).map(|a| a.0).collect();
+        median(&mut sizes) / 0.6745
+    };
+    (shape.scatter, shape.steep_scatter) = (deviation(0.0).max(1e-3), deviation(0.5 * steepest));
     Some(shape)
 }

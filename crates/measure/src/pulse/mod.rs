@@ -18,13 +18,15 @@
 mod edge;
 mod flank;
 mod level;
+mod period;
 mod pitch;
 mod train;
 
 use std::fmt;
 
 pub use edge::{EdgeSettings, edges};
-pub use pitch::{Pitch, calibrate, check_marks, period};
+pub use period::{check_marks, period};
+pub use pitch::{Pitch, calibrate};
 pub use train::{Pulses, Wheel, number};
 
 /// Which flank of a pulse marks the passage.
@@ -53,6 +55,8 @@ pub struct Edges {
     pub flank: Flank,
     /// First and last instant that the pickup was watched, s.
     pub watched: (f64, f64),
+    /// Interval of the samples that the instants were found in, s; none where they were stamped.
+    pub sample_interval: Option<f64>,
     /// What was found wrong, and what was done about it.
     pub notes: Vec<String>,
 }
@@ -86,6 +90,7 @@ impl Edges {
             times,
             flank: Flank::Rising,
             watched: (watched.0.min(first), watched.1.max(last)),
+            sample_interval: None,
             notes: Vec::new(),
         })
     }

@@ -26,6 +26,8 @@ pub struct Pulses {
     pub reference: Option<usize>,
     /// First and last instant that the pickup was watched, s.
     pub watched: (f64, f64),
+    /// Interval of the samples that the instants were found in, s; none where they were stamped.
+    pub sample_interval: Option<f64>,
     /// Pulses that were left out or had to be assumed, as a part of all.
     pub repaired: f64,
     /// What was found wrong, and what was done about it.
@@ -150,6 +152,7 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
         reference: reference.map(|r| if both { 2 * r } else { r }),
         marks,
         watched: edges.watched,
+        sample_interval: edges.sample_interval,
         repaired,
         notes,
     })

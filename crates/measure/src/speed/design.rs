@@ -76,6 +76,7 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
         positions: marks,
         reference: None,
         watched: (-duration, times[n - 1]),
+        sample_interval: None,
         repaired: 0.0,
         notes: Vec::new(),
         times,

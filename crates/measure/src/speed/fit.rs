@@ -10,11 +10,22 @@ pub(super) const STRETCH: usize = 80;
 /// Passages beyond the lively part that take part in its fit.
 const BEYOND: usize = 40;
 
+/// Part of the change of speed that lies before its end. What follows may settle as lively as the change itself was; without
+/// this the change would end where it first calms down, and too few pulses would tell how lively it is.
+const MOST: f64 = 0.85;
+
+/// Fall of the logarithm of the likelihood at a width: that of two and a half standard deviations of a normal density.
+const STEEP: f64 = 3.0;
+/// Time from a start with a jump to the first mark, as a part of the whole change, from which one search begins.
+const SOON: f64 = 0.08;
+
 /// A lively part as it looks at first sight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sight {
     pub engage: f64,
     pub lock: f64,
+    /// When most of the change has come: the end is not before.
+    pub most: f64,
     /// First passage after the engagement.
     pub first: usize,
     /// First passage after the end.
@@ -76,6 +87,7 @@ pub(super) fn sight(data: &Data, wanted: &Transient) -> Option<Sight> {
     }
     // The first interval that reaches nearly all of the change, and the last one before it with nearly none.
     let end = (0..=top).find(|&k| speeds[k] >= low + 0.96 * change)?;
+    let most = (0..=end).find(|&k| speeds[k] >= low + MOST * change)?;
     let start = if rests {
         0
     } else {
@@ -106,6 +118,7 @@ pub(super) fn sight(data: &Data, wanted: &Transient) -> Option<Sight> {
     Some(Sight {
         engage,
         lock,
+        most: all[from + most].time.min(lock),
         first,
         after,
         rests,
@@ -256,6 +269,31 @@ fn thinned(data: &Data, sight: &Sight, range: std::ops::Range<usize>) -> Vec<Pas
         .collect()
 }
 
+/// Widths of a likelihood about its best along each parameter, from the widest ones: exact pulses leave much less open, and
+/// points that all lie far away would tell nothing.
+fn widths(
+    best: &[f64; 3],
+    value: f64,
+    widest: [f64; 3],
+    cost: impl Fn(&[f64; 3]) -> f64,
+) -> [f64; 3] {
+    std::array::from_fn(|k| {
+        let mut width = widest[k];
+        for _ in 0..8 {
+            let rise = |sign: f64| {
+                let mut point = *best;
+                point[k] += sign * width;
+                cost(&point) - value
+            };
+            if rise(1.0).min(rise(-1.0)) < STEEP {
+                break;
+            }
+            width *= 0.5;
+        }
+        width
+    })
+}
+
 /// Plans for the lively part with their weights, the best one first.
 pub(super) fn lively(
     data: &Data,
@@ -287,7 +325,7 @@ pub(super) fn lively(
         };
         let lock = engage + length * x[2].exp();
         let inside = engage >= earliest
-            && lock > first
+            && lock > first.max(sight.most)
             && (lock < latest || !sight.ends)
             && x[0].abs() < 200.0;
         (inside && x[1].abs() < 20.0 && x[2].abs() < 5.0).then(|| Plan {
@@ -331,15 +369,19 @@ pub(super) fn lively(
         } else {
             0.0
         };
-        let start = warm.unwrap_or([density.ln(), offset, 0.0]);
         let steps = [2.0, if sight.rests { 0.3 } else { 0.05 }, 0.1];
-        let best = smallest(
-            start,
-            steps,
-            if warm.is_some() { 45 } else { 100 },
-            0.1,
-            cost(jumps),
-        );
+        let from = |start, calls| smallest(start, steps, calls, 0.1, cost(jumps));
+        let mut best = match warm {
+            Some(warm) => from(warm, 45),
+            None => from([density.ln(), offset, 0.0], 100),
+        };
+        // A motion that starts with a jump has another optimum, shortly before the first mark.
+        if sight.rests && jumps.0 != Knot::Soft {
+            let late = from([density.ln(), SOON.ln(), 0.0], 60);
+            if late.1 < best.1 {
+                best = late;
+            }
+        }
         warm = Some(best.0);
         bests.push((jumps, best));
     }
@@ -352,8 +394,9 @@ pub(super) fn lively(
         if -value < top - 5.0 {
             continue;
         }
-        let guess = [0.8, if sight.rests { 0.3 } else { 0.05 }, 0.08];
         let cost = cost(jumps);
+        let widest = [0.8, if sight.rests { 0.3 } else { 0.05 }, 0.08];
+        let guess = widths(&best, value, widest, &cost);
         let (points, evidence) = spread(best, guess, 28, cost);
         for (x, weight) in points {
             if let Some(plan) = plan(&x, jumps)

@@ -371,6 +371,9 @@ fn scale_of(reading: &[f64]) -> f64 {
     (seen().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt()
 }
 
+/// Factor on the bands from which on it is told.
+const TOLD: f64 = 1.05;
+
 fn tell(input: &Inversion, base: &Pass, colour: f64, notes: &mut Vec<String>) {
     let missing = input.reading.iter().filter(|v| !v.is_finite()).count();
     if missing > 0 {
@@ -380,8 +383,8 @@ fn tell(input: &Inversion, base: &Pass, colour: f64, notes: &mut Vec<String>) {
     }
     let count = base.innovations.len() as f64;
     let correlation = correlation(&base.innovations, 1);
-    // Three standard deviations of a correlation of white noise.
-    if correlation.abs() > 3.0 / count.sqrt() {
+    // Three standard deviations of a correlation of white noise; one that leaves the bands as they are tells nothing.
+    if correlation.abs() > 3.0 / count.sqrt() && colour.sqrt() >= TOLD {
         notes.push(format!(
             "successive innovations of the torque sensor correlate by {correlation:.2}: noise or sensor differ from their model; bands are wider by {:.2}",
             colour.sqrt()

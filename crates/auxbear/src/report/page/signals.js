@@ -127,6 +127,86 @@ function cageSection(runs) {
   );
 }
 
+// A list of a quantity with its gaps.
+function wholeList(run, name, scale = 1) {
+  return list(quantityOf(run, name).value).map((value) => (isNumber(value) ? scale * value : null));
+}
+
+// Levels, column after column, as a picture: time to the right, frequency or order upwards, colour for dB.
+function levelPicture(run, runs, name, upright, words, title, note) {
+  const [times, rungs, levels] = [wholeList(run, `${name}_times`), wholeList(run, `${name}_${upright}`), wholeList(run, `${name}_levels`)];
+  if (!levels.length) return figure(shareOfRun(run, runs, title), null, null, [notInThisRun(quantityOf(run, `${name}_levels`).why || "no reason is given", run)]);
+  const floor = -60;
+  const sheet = element("canvas", { width: times.length, height: rungs.length });
+  const pen = sheet.getContext("2d");
+  const image = pen.createImageData(times.length, rungs.length);
+  levels.forEach((level, index) => {
+    const [column, row] = [Math.floor(index / rungs.length), index % rungs.length];
+    const colour = mapColour(Math.max(0, 1 - (level === null ? floor : level) / floor));
+    const at = 4 * ((rungs.length - 1 - row) * times.length + column);
+    for (let part = 0; part < 3; part++) image.data[at + part] = colour[part];
+    image.data[at + 3] = 255;
+  });
+  pen.putImageData(image, 0, 0);
+  const [width, height, box] = [900, 300, { left: 66, right: 18, top: 10, bottom: 42 }];
+  const half = (values) => (values.length > 1 ? 0.5 * (values[1] - values[0]) : 0.5);
+  const ends = (values) => [values[0] - half(values), values[values.length - 1] + half(values)];
+  const [[left, right], [low, high]] = [ends(times), ends(rungs)];
+  const [wide, tall] = [width - box.left - box.right, height - box.top - box.bottom];
+  const text = (x, y, anchor, label, more) => drawing("text", { x, y, "text-anchor": anchor, fill: PALE_INK, "font-size": 12, ...more }, label);
+  const toX = (x) => box.left + ((x - left) / (right - left)) * wide;
+  const toY = (y) => box.top + tall - ((y - low) / (high - low)) * tall;
+  const ticks = [
+    ...axisSteps(left, right).map((x) => text(toX(x), height - box.bottom + 16, "middle", numberText(x, 6))),
+    ...axisSteps(Math.max(low, 0), high).map((y) => text(box.left - 8, toY(y) + 4, "end", numberText(y, 6))),
+    text(box.left + wide / 2, height - 6, "middle", "time [s]"),
+    text(14, box.top + tall / 2, "middle", words, { transform: `rotate(-90 14 ${box.top + tall / 2})` }),
+  ];
+  const picture = drawing("image", { x: box.left, y: box.top, width: wide, height: tall, href: sheet.toDataURL(), preserveAspectRatio: "none" });
+  return figure(shareOfRun(run, runs, title), `${note} Darkest: the largest amplitude; palest: ${-floor} dB below it and less.`, drawing("svg", { class: "curves", viewBox: `0 0 ${width} ${height}`, role: "img" }, picture, ticks));
+}
+
+const ORDER_COLOURS = ["#1f5fa8", "#b5541c", "#3b7d3b", "#7a4aa0", "#a33a3a", "#287d86", "#8a6d1f", "#555f68"];
+
+function vibrationSection(runs) {
+  return section("vibration", "Vibration", runs.map((run) => {
+    const names = [...run.columns.keys()].filter((name) => /^vibration\.order_.*_amplitude$/.test(name));
+    const series = names.flatMap((name, index) => bandLines([run], name, name.replace(/amplitude$/, "deviation"), 1, { label: `order ${name.slice(16, -10).replace("_", ".")}`, colour: ORDER_COLOURS[index % ORDER_COLOURS.length], width: 1.5 }));
+    const unit = quantityOf(run, "vibration_order_amplitudes").unit;
+    return [
+      signalFigure(shareOfRun(run, runs, "Orders over time"), `Amplitude, peak. ${BAND_WORDS}`, series, { label: unit && unit !== "1" ? `amplitude [${unit}]` : "amplitude, in the unit of the file", include: () => [0], height: 270 }, series.length ? [] : [notInThisRun(quantityOf(run, "vibration_orders").why || "no reason is given", run)]),
+      levelPicture(run, runs, "vibration_spectrogram", "frequencies", "frequency [Hz]", "Spectrogram over time", "What follows the speed bends with it; what stands still is the machine's own."),
+      levelPicture(run, runs, "vibration_order_spectrogram", "orders", "order", "Spectrogram over order", "What follows the speed stands still here."),
+    ];
+  }));
+}
+
+function steadySection(runs) {
+  return section("steady", "Torque over speed", runs.map((run) => {
+    const x = wholeList(run, "steady_speeds");
+    const curve = (name, label, colour) => {
+      const torque = wholeList(run, `steady_${name}_torques`, 1e3);
+      const deviation = wholeList(run, `steady_${name}_deviations`, 1e3);
+      if (!torque.length) return [];
+      const moved = (sign) => torque.map((value, row) => (value === null || deviation[row] === null ? null : value + sign * BAND * deviation[row]));
+      return [{ label, x, y: torque, colour }, { label: "+2σ", x, y: moved(1), colour: colour + "90", width: 0.75 }, { label: "−2σ", x, y: moved(-1), colour: colour + "90", width: 0.75 }];
+    };
+    const series = [...curve("direct", "by the sensor, speed falling", SERIES_COLOURS.race), ...curve("inertial", "−I dΩ/dt", SERIES_COLOURS.rotor), ...curve("up", "by the sensor, speed rising", SERIES_COLOURS.cage)];
+    const row = (words, name) => {
+      const [mean, deviation, chance] = ["", "_deviation", "_chance"].map((end) => numberOf(run, name + end));
+      return mean === null
+        ? [words, element("span", { class: "absent" }, quantityOf(run, name).why || "–"), ""]
+        : [words, `${numberText(1e3 * mean, 3)} ± ${numberText(1e3 * BAND * deviation, 2)} N mm (2σ)`, numberText(chance, 2)];
+    };
+    const inertia = numberOf(run, "steady_inertia");
+    const note = inertia === null ? "" : `I = ${numberText(inertia, 4)} ± ${numberText(BAND * numberOf(run, "steady_inertia_deviation"), 2)} kg m² (2σ). `;
+    return [
+      figure(shareOfRun(run, runs, "Torque over speed in slow running"), `${note}${BAND_WORDS}`, series.length ? curves({ series, across: "speed [rad/s]", upright: "torque [N mm]", height: 320 }) : null, series.length ? null : [notInThisRun(quantityOf(run, "steady_speeds").why || "no reason is given", run)]),
+      figure(shareOfRun(run, runs, "One curve against another"), "Chance: how often equal curves would differ as much.", plainTable(["difference", "mean over the speeds", "chance"], [row("by the sensor less −I dΩ/dt", "steady_direct_less_inertial"), row("rising less falling speed", "steady_up_less_down")])),
+    ];
+  }));
+}
+
 // What was read, what was repaired, and what is not to be trusted.
 function trustSection(runs) {
   return section("trust", "What was read, repaired, and not trusted", runs.map((run) => {
@@ -142,6 +222,8 @@ function trustSection(runs) {
       ["torque: values at the limit of the converter", "torque_clipped_values"],
       ["torque: values held without noise", "torque_stuck_values"],
       ["torque: values that are no numbers", "torque_missing_values"],
+      ["values at the limits of the converter, all its channels", "converter_clipped_values"],
+      ["rounding of the converter, largest share of a channel's noise", "converter_rounding_share_of_noise"],
     ].map(([words, name]) => {
       const quantity = quantityOf(run, name);
       return [words, isNumber(quantity.value) ? numberText(quantity.value, 4) : element("span", { class: "absent" }, quantity.why || "–")];
@@ -163,6 +245,8 @@ function signalSections(runs) {
     [shaftSection, asked("speed")],
     [measuredTorqueSection, asked("torque")],
     [cageSection, asked("cage")],
+    [vibrationSection, asked("vibration")],
+    [steadySection, runs.filter((run) => String((inputOf(run, "signals.steady.from") || { value: "not given" }).value) !== "not given")],
     [trustSection, runs],
   ].filter(([, part]) => part.length);
 }

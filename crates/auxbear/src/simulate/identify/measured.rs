@@ -2,6 +2,7 @@
 
 use super::super::signals;
 use identify::{CageTrace, Measurement};
+use measure::uncertain::Uncertain;
 
 /// Most times of a measurement: beyond, neighbours tell nothing new.
 const MOST_TIMES: usize = 20_000;
@@ -11,6 +12,11 @@ const INDEPENDENT: f64 = 2.0;
 const AT_REST: [[f64; 3]; 3] = [[1e-4, 0.0, 0.0], [0.0, 1e-4, 0.0], [0.0, 0.0, 1.0]];
 /// Least deviation of a torque over that of the zero or of the noise.
 const LEAST_DEVIATION: f64 = 0.02;
+/// Time after the last pulse until the shaft rests and the arm has settled, s, and the least time of rest behind it, s.
+const SETTLING: f64 = 0.5;
+const LEAST_REST: f64 = 0.5;
+/// Parts into which that rest is cut.
+const PARTS: usize = 8;
 /// Part of the largest speed below which the scale of the torque is not looked at.
 const TURNING: f64 = 0.05;
 
@@ -41,7 +47,20 @@ pub(super) fn measurement(
             motion.covariance = AT_REST;
         }
     }
+    let mut values = thinned(&torque.torque);
+    let mut zero_deviation = torque.zero.deviation;
     let mut torque_deviation = thinned(&torque.deviation);
+    // where the zero was not seen before the test it is seen behind it, once the shaft rests
+    if change.is_none()
+        && let Some(zero) = zero_at_rest(&time, &values, last)
+    {
+        for (value, deviation) in values.iter_mut().zip(&mut torque_deviation) {
+            *value -= zero.value;
+            let noise = (deviation.powi(2) - zero_deviation.powi(2)).max(0.0);
+            *deviation = noise.sqrt().hypot(zero.deviation);
+        }
+        zero_deviation = zero.deviation;
+    }
     // a torque that is zero by definition is not more certain than the data around it
     let floor = LEAST_DEVIATION * torque.zero.deviation.max(torque.noise);
     for deviation in &mut torque_deviation {
@@ -57,9 +76,9 @@ pub(super) fn measurement(
             .iter()
             .map(|m| m.acceleration_uncertainty())
             .collect(),
-        torque: thinned(&torque.torque),
+        torque: values,
         torque_deviation,
-        zero_deviation: torque.zero.deviation,
+        zero_deviation,
         scale_deviation,
         correlation_time: correlation_time(torque, shaft.fastest.speed.abs(), shaft),
         engagement: shaft.speed.change.map(|change| change.engagement.0),
@@ -68,6 +87,23 @@ pub(super) fn measurement(
         temperature: found.temperature.as_ref().map(|found| found.rise(&time)),
         time,
     })
+}
+
+/// Reading of the torque while the shaft rests behind its last pulse, s: none where it does not rest long enough.
+fn zero_at_rest(time: &[f64], torque: &[f64], last_pulse: f64) -> Option<Uncertain> {
+    let from = time.partition_point(|time| *time < last_pulse + SETTLING);
+    let rest = torque.get(from..)?;
+    let length = time.last()? - time.get(from)?;
+    if length < LEAST_REST || rest.len() < PARTS {
+        return None;
+    }
+    let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+    let parts: Vec<f64> = rest.chunks(rest.len().div_ceil(PARTS)).map(mean).collect();
+    let zero = mean(&parts);
+    let square = parts.iter().map(|part| (part - zero).powi(2)).sum::<f64>();
+    let count = parts.len() as f64;
+    // the parts are alike to some degree: their scatter itself, not that of their mean
+    Some(Uncertain::new(zero, (square / (count - 1.0)).sqrt()))
 }
 
 /// The speed of the cage; from the engagement on, where the first ball had not passed yet and the cage rose from rest.

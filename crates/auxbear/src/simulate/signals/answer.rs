@@ -11,6 +11,7 @@ pub(super) fn quantities(asked: &Asked, found: &Found) -> Vec<Quantity> {
     speed(&mut list, asked, found);
     torque(&mut list, asked, found);
     cage(&mut list, asked, found);
+    super::answer_analysis::name(&mut list, asked, found);
     list.0
 }
 

@@ -140,6 +140,31 @@ pub(super) fn columns(asked: &Asked, found: &Found) -> Vec<Column> {
             &|t| of(t, &cage.slip_deviation),
         );
     }
+    if let Some((part, found)) = found
+        .vibration
+        .as_ref()
+        .and_then(|part| Some((part, part.orders.as_ref()?)))
+    {
+        for order in &found.orders {
+            let amplitude = order.amplitude();
+            // a point parts the names of a column
+            let name = format!("vibration.order_{}", order.order).replacen('.', "\0", 1);
+            let name = name.replace('.', "_").replace('\0', ".");
+            let words = format!("of order {} of the vibration, peak", order.order);
+            add(
+                &format!("{name}_amplitude"),
+                part.unit,
+                &format!("amplitude {words}"),
+                &|t| at(t, &found.time, &amplitude),
+            );
+            add(
+                &format!("{name}_deviation"),
+                part.unit,
+                &format!("standard deviation of the amplitude {words}"),
+                &|t| at(t, &found.time, &order.deviation),
+            );
+        }
+    }
     columns
 }
 
@@ -160,6 +185,7 @@ fn times(asked: &Asked, found: &Found) -> Vec<f64> {
         asked
             .torque
             .iter()
+            .chain(&asked.vibration)
             .map(|series| (series.first, series.last())),
     );
     let first = spans

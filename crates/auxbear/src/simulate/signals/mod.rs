@@ -2,18 +2,24 @@
 //!
 //! ```text
 //! file ─read─▶ channels ─shaft─▶ speed, acceleration ─torque─▶ torque without the sensor's swing
-//!                                                    └─cage──▶ cage speed, slip
+//!                                                    ├─cage──▶ cage speed, slip
+//!                                                    ├─vibration─▶ orders, spectrograms
+//!                                                    └─steady─▶ torque over speed
 //! ```
 //! The estimators are those of the crate `measure`; here they are fed, and what they find is named. An estimator that refuses
 //! leaves its quantities empty with the reason, and the run says that it is not complete.
 
 mod answer;
+mod answer_analysis;
 pub(super) mod cage;
+mod converter;
 mod history;
 mod read;
 pub(super) mod shaft;
+mod steady;
 mod temperature;
 pub(super) mod torque;
+mod vibration;
 
 use super::outcome::{Outcome, Picture, Stop, Warning, Work};
 use super::warnings_shared::assumptions;
@@ -32,6 +38,7 @@ pub(super) struct Asked {
     tap: Option<Series>,
     cage: Option<Signal>,
     temperature: Option<Series>,
+    vibration: Option<Series>,
 }
 
 /// What a channel holds.
@@ -106,6 +113,15 @@ impl Asked {
             }
             None => None,
         };
+        let vibration = match &signals.vibration {
+            Some(asked) => {
+                Some(source.series("signals.vibration.channel", &asked.channel, false)?)
+            }
+            None => None,
+        };
+        if let Some(converter) = &signals.converter {
+            source.has("signals.converter.channels", &converter.channels)?;
+        }
         let mut all = source.notes();
         all.append(&mut notes);
         Ok(Asked {
@@ -117,6 +133,7 @@ impl Asked {
             tap,
             cage,
             temperature,
+            vibration,
         })
     }
 }
@@ -133,6 +150,10 @@ fn in_newton_metres(
     for value in &mut series.values {
         *value *= factor;
     }
+    if let Some(converter) = &mut series.converter {
+        converter.lowest *= factor;
+        converter.highest *= factor;
+    }
     Ok(series)
 }
 
@@ -144,6 +165,10 @@ pub(super) struct Found {
     pub cage: Option<cage::Found>,
     /// Temperature of the outer race, K, about every 50 ms.
     pub temperature: Option<temperature::Found>,
+    vibration: Option<vibration::Found>,
+    steady: Option<steady::Found>,
+    /// Channels held against their converter.
+    converted: Vec<converter::Converted>,
     /// What an estimator refused: a name of the channel's part, and why.
     refused: Vec<(&'static str, String)>,
     pub warnings: Vec<Warning>,
@@ -185,10 +210,74 @@ fn assumed(scenario: &Scenario, asked: &Asked) -> Option<Warning> {
     assumptions(&paths.into_iter().filter(counts).collect::<Vec<_>>())
 }
 
+/// The channels that were read as samples.
+fn sampled<'a>(asked: &'a Asked) -> impl Iterator<Item = &'a Series> {
+    let of = |signal: &'a Option<Signal>| match signal {
+        Some(Signal::Sampled(series)) => Some(series),
+        _ => None,
+    };
+    let all = [
+        of(&asked.speed),
+        asked.torque.as_ref(),
+        of(&asked.cage),
+        asked.vibration.as_ref(),
+    ];
+    all.into_iter().flatten()
+}
+
+/// A vibration and slow runs, which need the shaft.
+fn more(asked: &Asked, found: &mut Found) {
+    let no_shaft = || Err("it needs the speed of the shaft".to_string());
+    if let (Some(series), Some(wish)) = (&asked.vibration, &asked.signals.vibration) {
+        let vibration = match &found.shaft {
+            Some(shaft) => vibration::Found::of(series, wish, shaft),
+            None => no_shaft(),
+        };
+        match vibration {
+            Ok(vibration) => {
+                found.warn("AB1043", "Vibration", &vibration.notes);
+                found.vibration = Some(vibration);
+            }
+            Err(why) => found.refused.push(("vibration", why)),
+        }
+    }
+    let Some(wish) = &asked.signals.steady else {
+        return;
+    };
+    let faulty = asked.torque.as_ref().map(torque::faulty);
+    let reading = asked.torque.as_ref().zip(faulty.as_ref());
+    let reading = reading.map(|(series, faulty)| (series, faulty, found.torque.as_ref()));
+    let steady = match &found.shaft {
+        Some(shaft) => steady::Found::of(wish, shaft, reading),
+        None => Err("it needs the speed of the shaft".to_string()),
+    };
+    match steady {
+        Ok(steady) => {
+            found.warn("AB1043", "Steady curve", &steady.notes);
+            found.steady = Some(steady);
+        }
+        Err(why) => found.refused.push(("steady", why)),
+    }
+}
+
 /// Computes what is asked for.
 pub(super) fn find(asked: &Asked) -> Found {
     let mut found = Found::default();
     found.warn("AB1040", "The file", &asked.notes);
+    for series in sampled(asked) {
+        let Some(converted) = converter::Converted::of(series) else {
+            continue;
+        };
+        // What is clipped of the torque is told with what is done about it.
+        let own = asked.torque.as_ref().is_some_and(|t| t.name == series.name);
+        let told = converted
+            .told
+            .iter()
+            .filter(|text| !(own && text.contains("clipped")));
+        let told: Vec<String> = told.cloned().collect();
+        found.warn("AB1041", &format!("Channel {}", converted.name), &told);
+        found.converted.push(converted);
+    }
     if let (Some(signal), Some(wish)) = (&asked.speed, &asked.signals.speed) {
         match shaft::Found::of(signal, wish) {
             Ok(shaft) => {
@@ -236,6 +325,7 @@ pub(super) fn find(asked: &Asked) -> Found {
         }
     }
     found.temperature = asked.temperature.as_ref().map(temperature::Found::of);
+    more(asked, &mut found);
     let refused: Vec<Warning> = found
         .refused
         .iter()

@@ -2,6 +2,7 @@
 
 use crate::problem::{Code, Problem, did_you_mean};
 use crate::scenario::Signals;
+use measure::converter::Converter;
 use measure::file;
 use measure::recording::{Channel, Clock, Content, FileError, Instant, Recording};
 use std::path::Path;
@@ -27,6 +28,8 @@ pub struct Series {
     pub interval: f64,
     /// Values in the unit of the file; not-a-number where there is none.
     pub values: Vec<f64>,
+    /// The converter that took them, in the same unit, where it is known.
+    pub converter: Option<Converter>,
 }
 
 impl Series {
@@ -236,13 +239,38 @@ impl<'a> Source<'a> {
             return Err(self.problem(Code::TooManyRows, key, found, needed));
         }
         let values = self.read(key, index, begin, count as usize)?;
+        let converter = self.converter(&channel.name, interval);
         Ok(Series {
+            converter,
             name: channel.name,
             unit: channel.unit,
             first: first + begin as f64 * interval,
             interval,
             values,
         })
+    }
+
+    /// The converter of a channel, where one is told.
+    fn converter(&self, name: &str, interval: f64) -> Option<Converter> {
+        let told = self.signals.converter.as_ref()?;
+        let meant = |known: &String| {
+            let end = name.strip_suffix(known.as_str());
+            end.is_some_and(|start| start.is_empty() || start.ends_with('/'))
+        };
+        told.channels.iter().any(meant).then(|| Converter {
+            rate: 1.0 / interval,
+            channels: 1,
+            lowest: told.lowest,
+            highest: told.highest,
+            bits: told.bits,
+        })
+    }
+
+    /// Refuses names of channels that the file does not have.
+    pub fn has(&self, key: &str, names: &[String]) -> Result<(), Box<Problem>> {
+        names
+            .iter()
+            .try_for_each(|name| self.channel(key, name).map(|_| ()))
     }
 
     /// The instants in a channel, within the part that is looked at.
@@ -472,6 +500,14 @@ fn unit_of(text: &str, si: &str) -> Option<Unit> {
         .map_or(plain.as_str(), |row| row.1);
     let (unit, wanted) = (Unit::parse(plain).ok()?, Unit::parse(si).ok()?);
     (unit.dimension() == wanted.dimension()).then_some(unit)
+}
+
+/// The unit of SI in which a vibration is given, and the factor to it; "1" where the file's unit is none of a vibration.
+pub fn unit_in_si(text: &str) -> (&'static str, f64) {
+    ["m/s^2", "m/s", "m"]
+        .into_iter()
+        .find_map(|unit| Some((unit, si_factor(text, unit)?)))
+        .unwrap_or(("1", 1.0))
 }
 
 /// What a reader refuses, as a problem of the scenario.

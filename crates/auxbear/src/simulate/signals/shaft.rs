@@ -43,7 +43,7 @@ impl Found {
             missing: wish.missing_marks,
         };
         let pulses = number(&found, &wheel).map_err(words)?;
-        // A warning, not a refusal: sampling in step with the pulses makes a pattern too.
+        // A warning, not a refusal: two wheels on one shaft, or a wheel with equal parts, show another number too.
         let doubt = check_marks(&pulses).err().map(words);
         let mut notes = Vec::new();
         let pitch = match wish.calibration {
@@ -56,11 +56,14 @@ impl Found {
         };
         let settings = SpeedSettings {
             transient: match wish.quick_change {
-                true => Transient::Auto,
+                true => wish
+                    .change_within
+                    .map_or(Transient::Auto, |(from, to)| Transient::Within(from, to)),
                 false => Transient::None,
             },
             wanted: wish.wanted,
             latency: wish.delay_deviation,
+            ripple: wish.ripple,
             ..SpeedSettings::default()
         };
         let speed = smooth(&pulses, pitch.as_ref(), &settings).map_err(words)?;

@@ -35,7 +35,7 @@ pub(super) struct Faulty {
 pub(super) fn faulty(series: &Series) -> Faulty {
     let mut reading = series.values.clone();
     let (mut counts, mut stretches, mut begins) = ([0; 3], [0; 3], [f64::NAN; 3]);
-    for fault in faults(&series.values, None) {
+    for fault in faults(&series.values, series.converter.as_ref()) {
         let kind = match fault.fault {
             Fault::Clipped => 0,
             Fault::Stuck => 1,
@@ -72,6 +72,13 @@ pub(super) fn faulty(series: &Series) -> Faulty {
         stuck: counts[1],
         missing: counts[2],
         reading,
+    }
+}
+
+impl Faulty {
+    /// The reading without what is not to be trusted.
+    pub fn reading(&self) -> &[f64] {
+        &self.reading
     }
 }
 

@@ -521,3 +521,36 @@ impl<S: Read + Seek + Send + 'static> Recording for Parquet<S> {
         Ok(texts)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    #[test]
+    fn a_hook_knows_which_panics_are_caught() {
+        // Bits: 1, a caught panic was said to be caught; 2, another one was said to be caught.
+        let seen = Arc::new(AtomicUsize::new(0));
+        let told = seen.clone();
+        let own = std::thread::current().id();
+        let before = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |panic| {
+            // Tests on other threads may fail meanwhile.
+            if std::thread::current().id() != own {
+                return;
+            }
+            let text = panic.payload().downcast_ref::<&str>().copied();
+            let bit = if text == Some("inside") { 1 } else { 2 };
+            if panic_is_caught() {
+                told.fetch_or(bit, Ordering::Relaxed);
+            }
+        }));
+        let inside: Result<(), String> = guarded(|| panic!("inside"));
+        let outside = catch_unwind(|| panic!("outside"));
+        std::panic::set_hook(before);
+        assert_eq!(inside, Err("is damaged".to_string()));
+        assert!(outside.is_err() && !panic_is_caught());
+        assert_eq!(seen.load(Ordering::Relaxed), 1);
+    }
+}

@@ -1,0 +1,214 @@
+//! Torque over speed from slow runs: by the sensor, and by inertia times the slope of the speed.
+
+use super::read::Series;
+use super::{shaft, torque};
+use crate::scenario::{InertiaSource, Measured, SteadySignal};
+use measure::steady_curve::{
+    Difference, SteadyCurve, compare, direct, inertia_from_bifilar, inertia_from_known_torque,
+    inertia_from_pendulum, inertial,
+};
+use measure::uncertain::Uncertain;
+
+/// Values of the speed that a curve is drawn from, at most.
+const MOST: usize = 2000;
+
+/// Curves of a slow run; each has its reason where there is none.
+pub(super) struct Found {
+    pub inertia: Result<Uncertain, String>,
+    /// Torque of the sensor while the speed falls.
+    pub direct: Result<SteadyCurve, String>,
+    /// Inertia times the slope of the speed while it falls.
+    pub inertial: Result<SteadyCurve, String>,
+    /// Torque of the sensor while the speed rises.
+    pub up: Result<SteadyCurve, String>,
+    pub direct_less_inertial: Result<Difference, String>,
+    pub up_less_down: Result<Difference, String>,
+    pub speed: Vec<f64>,
+    pub notes: Vec<String>,
+}
+
+impl Found {
+    pub fn of(
+        wish: &SteadySignal,
+        shaft: &shaft::Found,
+        reading: Option<(&Series, &torque::Faulty, Option<&torque::Found>)>,
+    ) -> Result<Found, String> {
+        let (first, interval, speeds) = speeds(wish.down, shaft)?;
+        let known = || speeds.iter().copied().filter(|v| v.is_finite());
+        let low = known().fold(f64::INFINITY, f64::min);
+        let high = known().fold(f64::NEG_INFINITY, f64::max);
+        if high.partial_cmp(&low) != Some(std::cmp::Ordering::Greater) {
+            return Err("the shaft does not turn in the part that is looked at".to_string());
+        }
+        // The ends of a record tell a curve least.
+        let margin = 0.02 * (high - low);
+        let steps = (wish.points - 1) as f64;
+        let speed: Vec<f64> = (0..wish.points)
+            .map(|k| low + margin + (high - low - 2.0 * margin) * k as f64 / steps)
+            .collect();
+        let inertia = wish
+            .inertia
+            .as_ref()
+            .ok_or_else(|| "no inertia is given".to_string())
+            .and_then(inertia);
+        let inertial = inertia
+            .clone()
+            .and_then(|inertia| inertial(first, interval, &speeds, inertia, &speed));
+        let by_sensor = |part: (f64, f64)| {
+            let (series, faulty, found) =
+                reading.ok_or_else(|| "signals.torque.channel is not given".to_string())?;
+            let (time, torque) = torques(series, faulty, found);
+            let inside = |t: f64| t >= part.0 && t <= part.1;
+            let rows = || time.iter().zip(&torque).filter(|(t, _)| inside(**t));
+            let turning: Vec<f64> = rows().map(|(t, _)| shaft.speed.at(*t).speed).collect();
+            let felt: Vec<f64> = rows().map(|(_, m)| *m).collect();
+            direct(&turning, &felt, &speed)
+        };
+        let direct = by_sensor(wish.down);
+        let up = match wish.up {
+            Some(part) => by_sensor(part),
+            None => Err("signals.steady.up_from is not given".to_string()),
+        };
+        let mut notes = Vec::new();
+        for (name, curve) in [
+            ("by the sensor", &direct),
+            ("by the slope of the speed", &inertial),
+            ("up", &up),
+        ] {
+            if let Ok(curve) = curve {
+                notes.extend(curve.notes.iter().map(|note| format!("{name}: {note}")));
+            }
+        }
+        let set = |first: &Result<SteadyCurve, String>, second: &Result<SteadyCurve, String>| match (
+            first, second,
+        ) {
+            (Ok(first), Ok(second)) => compare(first, second),
+            (Err(why), _) | (_, Err(why)) => Err(why.clone()),
+        };
+        if let (Err(by_sensor), Err(by_slope)) = (&direct, &inertial) {
+            return Err(format!(
+                "by the sensor: {by_sensor}; by the slope of the speed: {by_slope}"
+            ));
+        }
+        Ok(Found {
+            direct_less_inertial: set(&direct, &inertial),
+            up_less_down: set(&up, &direct),
+            inertia,
+            direct,
+            inertial,
+            up,
+            speed,
+            notes,
+        })
+    }
+}
+
+fn inertia(source: &InertiaSource) -> Result<Uncertain, String> {
+    let of = |value: Measured| Uncertain::new(value[0], value[1]);
+    let found = match *source {
+        InertiaSource::Given(value) => of(value),
+        InertiaSource::Pendulum {
+            mass,
+            arm,
+            period,
+            amplitude,
+            gravity,
+        } => inertia_from_pendulum(of(mass), of(arm), of(period), amplitude, gravity),
+        InertiaSource::Bifilar {
+            mass,
+            distance,
+            length,
+            period,
+            gravity,
+        } => inertia_from_bifilar(of(mass), of(distance), of(length), of(period), gravity),
+        InertiaSource::KnownTorque {
+            torque,
+            with,
+            without,
+        } => inertia_from_known_torque(of(torque), of(with), of(without)),
+    };
+    match found.is_sound() && found.value > 0.0 {
+        true => Ok(found),
+        false => Err(format!(
+            "the test of the inertia gives {:.3e} kg m^2: its values contradict each other",
+            found.value
+        )),
+    }
+}
+
+/// Torque over time: without the sensor's swing where that is known, else the reading.
+fn torques(
+    series: &Series,
+    faulty: &torque::Faulty,
+    found: Option<&torque::Found>,
+) -> (Vec<f64>, Vec<f64>) {
+    match found.and_then(|found| found.torque.as_ref()) {
+        Some(torque) => (torque.time.clone(), torque.torque.clone()),
+        None => {
+            let times = (0..series.values.len()).map(|k| series.time(k));
+            (times.collect(), faulty.reading().to_vec())
+        }
+    }
+}
+
+/// First time, interval and speeds of whole turns around equal times: the errors of the marks drop out of them.
+fn speeds(part: (f64, f64), shaft: &shaft::Found) -> Result<(f64, f64, Vec<f64>), String> {
+    let times = &shaft.pulses.times;
+    let marks = &shaft.pulses.marks;
+    let turn = shaft.pulses.positions as i64;
+    let begin = times.partition_point(|t| *t < part.0);
+    let end = times.partition_point(|t| *t <= part.1);
+    let few = || "fewer than 20 turns of the shaft lie in the part that is looked at".to_string();
+    let (Some(first), Some(last)) = (
+        marks.get(begin),
+        end.checked_sub(1).and_then(|e| marks.get(e)),
+    ) else {
+        return Err(few());
+    };
+    let turns = (last - first) / turn;
+    if turns < 20 {
+        return Err(few());
+    }
+    let (from, to) = (times[begin], times[end - 1]);
+    let count = (turns as usize).min(MOST);
+    let interval = (to - from) / count as f64;
+    let speed = |time: f64| {
+        let middle = times.partition_point(|t| *t < time).min(times.len() - 1);
+        let low = marks.partition_point(|mark| *mark < marks[middle] - turn / 2);
+        let high = marks.partition_point(|mark| *mark < marks[low] + turn);
+        match (times.get(high), marks.get(high)) {
+            (Some(after), Some(mark)) if *mark == marks[low] + turn && low < high => {
+                std::f64::consts::TAU / (after - times[low])
+            }
+            _ => f64::NAN,
+        }
+    };
+    let values = (0..count).map(|k| speed(from + (k as f64 + 0.5) * interval));
+    Ok((from + 0.5 * interval, interval, values.collect()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_inertia_that_cannot_be_is_refused() {
+        let known = InertiaSource::KnownTorque {
+            torque: [0.02, 0.0],
+            with: [-10.0, 0.0],
+            without: [10.0, 0.0],
+        };
+        assert!(inertia(&known).is_err());
+        // A ring of 0.4 kg and 50 mm on two strings 50 mm apart and 1.2 m long: I = m r², T from the law.
+        let (m, r, g, d, l) = (0.4, 0.05_f64, 9.81, 0.05_f64, 1.2);
+        let period = (16.0 * std::f64::consts::PI.powi(2) * l * m * r * r / (m * g * d * d)).sqrt();
+        let bifilar = InertiaSource::Bifilar {
+            mass: [m, 0.0],
+            distance: [d, 0.0],
+            length: [l, 0.0],
+            period: [period, 0.0],
+            gravity: g,
+        };
+        assert!((inertia(&bifilar).unwrap().value / (m * r * r) - 1.0).abs() < 1e-12);
+    }
+}
