@@ -288,8 +288,9 @@ fn explained(
         ..explain::Settings::default()
     };
     let priors = Priors::default();
-    let measurements: Vec<Measurement> =
-        tests.iter().map(|test| test.measurement.clone()).collect();
+    let measurements: Vec<Measurement> = (tests.iter())
+        .map(|test| foretold(&test.measurement, moment, set))
+        .collect();
     let curve = &explain::SteadyMoment {
         speed: moment.curve.speed.clone(),
         moment: moment.curve.moment.clone(),
@@ -303,6 +304,19 @@ fn explained(
         Err(why) => Err(why.clone()),
     };
     (verdict, next)
+}
+
+/// A test whose torque is as uncertain as what is foretold of it: an explanation takes speed and acceleration as they are, so what
+/// is not known of them counts as an error of the torque.
+fn foretold(test: &Measurement, moment: &Moment, set: &RollingSet<f64>) -> Measurement {
+    let mut test = test.clone();
+    for (k, deviation) in test.torque_deviation.iter_mut().enumerate() {
+        let slope = moment.curve.slope(test.speed[k]).unwrap_or(0.0);
+        let by_speed = slope * test.speed_deviation[k];
+        let by_inertia = set.outer_inertia() * test.acceleration_deviation[k];
+        *deviation = deviation.hypot(by_speed).hypot(by_inertia);
+    }
+    test
 }
 
 /// The friction of a rotor that brings a race up.
