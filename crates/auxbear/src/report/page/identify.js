@@ -128,7 +128,7 @@ function lossFigures(run, runs) {
   const tests = testsOf(run);
   if (!tests.length) return null;
   const table = plainTable(
-    ["test", "t_O − M, 0.2 to 0.4 s", "t_O − M, last 0.5 s at speed", "cage slipped", "balls skidded", "rolls from"],
+    ["test", "t_O − M, 0.2 to 0.4 s", "t_O − M, last 0.5 s at speed", "cage slipped", "balls skidded, if M holds", "rolls from"],
     tests.map((test) => {
       const share = (name) => {
         const value = numberOf(run, `${test.key}.${name}`);
@@ -144,8 +144,8 @@ function lossFigures(run, runs) {
   );
   const friction = tests.flatMap((test, index) => bandLines([run], `${test.key}.friction`, `${test.key}.friction_deviation`, 1, { label: `${test.name} [N]`, colour: LINE_COLOURS[index % LINE_COLOURS.length], width: 1.25 }));
   return [
-    figure(shareOfRun(run, runs, "Beyond the steady moment"), "± is twice the standard deviation. Slip and skid: probability that it happened at any time after the engagement.", table),
-    figure(shareOfRun(run, runs, "Friction F of the accelerated balls"), friction.length ? `Where the balls are known to roll; elsewhere t_O − M alone is known. ${BAND_WORDS}` : null, friction.length ? timePlot({ series: friction, label: "F [N]", include: () => [0], height: 240 }) : notInThisRun("F: nowhere are the balls known to roll", run)),
+    figure(shareOfRun(run, runs, "Beyond the steady moment"), "± is twice the standard deviation. Slip and skid: probability that it happened at any time after the engagement. The spin of the balls is told by the torque alone and takes M to hold: a lubricant in another state than in the slow tests looks like skid.", table),
+    figure(shareOfRun(run, runs, "Friction F of the accelerated balls"), friction.length ? `Where the balls are known to roll; elsewhere t_O − M alone is known. No friction is negative: where F is, the lubricant or the sensor was in another state than in the slow tests. ${BAND_WORDS}` : null, friction.length ? timePlot({ series: friction, label: "F [N]", include: () => [0], height: 240 }) : notInThisRun("F: nowhere are the balls known to roll", run)),
     mapFigure(run, runs),
     figure(shareOfRun(run, runs, "What the spin-up dissipated"), "± is twice the standard deviation. The printed form has the factor 1 + 2s where none belongs.", energies),
   ];

@@ -36,7 +36,7 @@ function rigTorqueSection(runs) {
     "Moments on the bearing",
     history(
       "Moment on the outer race t_O, what the arm indicates of it, and the friction moment M",
-      "Grey: the arm swings and feels lateral vibration once a turn; its gauges, the converter and their noise come on top in the raw file. Dashed: the law at this speed and load, as a coast-down would measure it.",
+      "Grey: the arm swings and feels lateral vibration once a turn; its gauges, the converter and their noise come on top in the raw file. Dashed: the law at this speed and load, with the state of the lubricant where it has one.",
       runs,
       names,
       [

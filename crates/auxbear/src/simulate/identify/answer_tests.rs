@@ -185,5 +185,5 @@ const SLIP: Origin = Origin {
 const SKID: Origin = Origin {
     law: "spin of the balls from (4), (5), (7) with F ≥ 0",
     source: "crates/identify/src/skid.rs",
-    valid: "as long as the torque tells it, shortly after the engagement",
+    valid: "shortly after the engagement, as long as the torque tells it, with the lubricant in the state of the slow tests: a grease that starts low looks like skid",
 };

@@ -14,7 +14,7 @@ use model::system::rig::rate::race_motion;
 const MEANINGS: [&str; PROBES.len()] = [
     "moment t_I of the bearing that resists the shaft",
     "moment t_O of the bearing on the outer race: what the arm is to measure",
-    "friction moment M of the law at this speed and load",
+    "friction moment M of the law at this speed and load, with the drag factor of the lubricant",
     "cage slip, 1 less cage speed over its rolling speed; 0 at rest",
     "acceleration of the shaft",
     "acceleration of the flywheel",
@@ -106,6 +106,7 @@ pub(super) fn history(context: &Context) -> Vec<Column> {
         table.channel("bearing.cage.angle", "rad", "angle of the cage", BEARING);
     }
     table.cage(&bearing);
+    table.lubricant(&bearing);
     table.balls(&bearing);
     table.flows(
         "the start",

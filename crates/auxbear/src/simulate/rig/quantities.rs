@@ -151,6 +151,9 @@ fn loads(list: &mut List, context: &Context) {
         context.built.pressure_factors,
         context.rig.bearing.hertz_pressure_limit,
     );
+    let machine = &context.built.machine;
+    let own = &context.ending.state[machine.layout().bearing()];
+    list.lubricant(&machine.constants.bearing, own);
 }
 
 fn energies(list: &mut List, context: &Context) {

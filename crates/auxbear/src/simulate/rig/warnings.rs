@@ -60,6 +60,15 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     if let Some(pressure) = number("peak_hertz_pressure") {
         list.extend(shared::pressure(bearing, pressure));
     }
+    let own = context.built.machine.layout().bearing();
+    list.extend(shared::film_rise(context.record.rows().filter_map(|row| {
+        let lubricant = &context.built.machine.constants.bearing;
+        Some(
+            lubricant
+                .lubricant_at(&row.state[own.clone()])?
+                .film_temperature_rise,
+        )
+    })));
     list.extend(shared::law_range(
         bearing,
         speed,

@@ -1,0 +1,219 @@
+//! A rig is simulated, its logger's raw files are written, read and identified: end to end.
+
+use auxbear::report::directory;
+use auxbear::scenario::{BuiltIn, Scenario};
+use auxbear::simulate::outcome::{Attached, Value};
+use auxbear::simulate::{Options, Outcome, run};
+use measure::file;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+fn scenarios() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios")
+}
+
+fn simulated(scenario: &Scenario) -> Outcome {
+    let interrupt = AtomicBool::new(false);
+    let outcome = run(scenario, &Options::unwatched(&interrupt)).expect("it builds");
+    assert!(outcome.stop.complete(), "{:?}", outcome.stop);
+    outcome
+}
+
+fn shipped(name: &str, sets: &[&str]) -> Scenario {
+    let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
+    let path = scenarios().join(format!("{name}.toml"));
+    Scenario::read(&path, &sets, &BuiltIn).expect("it is shipped")
+}
+
+/// Runs a shipped rig into `folder/runs/NAME`, as the command does.
+fn into_runs(folder: &Path, name: &str, sets: &[&str]) -> Outcome {
+    let scenario = shipped(name, sets);
+    let outcome = simulated(&scenario);
+    directory::write(&folder.join("runs").join(name), &scenario, &outcome).expect("it is written");
+    outcome
+}
+
+fn value<'a>(outcome: &'a Outcome, name: &str) -> &'a Value {
+    let quantity = outcome.quantities.iter().find(|q| q.name == name);
+    &quantity.unwrap_or_else(|| panic!("no {name}")).value
+}
+
+fn number(outcome: &Outcome, name: &str) -> f64 {
+    match value(outcome, name) {
+        Value::Number(number) => *number,
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+/// The identification of what stands in `folder/runs`.
+fn identified(folder: &Path, tests: &[&str], more: &str) -> Outcome {
+    let listed: Vec<String> = tests
+        .iter()
+        .map(|name| format!("\"runs/{name}/signals.toml\""))
+        .collect();
+    let text = format!(
+        "format = \"auxbear.scenario/1\"\nsystem = \"identify\"\n[identify]\n\
+         coast_down = [\"runs/rig_coast_down/signals.toml\"]\ntests = [{}]\nviscosity = \"100 mm^2/s\"\n{more}\n\
+         [bearing]\nname = \"6005\"\n",
+        listed.join(", ")
+    );
+    let path = folder.join("identify.toml");
+    std::fs::write(&path, text).expect("a folder to write to");
+    simulated(&Scenario::read(&path, &[], &BuiltIn).expect("it is right"))
+}
+
+#[test]
+fn a_raw_file_holds_the_same_in_every_format() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut torques: Vec<Vec<f64>> = Vec::new();
+    for format in ["tdms", "csv", "parquet"] {
+        let wish = format!("rig.logger.file={format}");
+        let scenario = shipped(
+            "rig_test_3",
+            &[&wish, "run.duration=0.4 s", "rig.release_at=0.35 s"],
+        );
+        let outcome = simulated(&scenario);
+        let path = folder.path().join(format);
+        directory::write(&path, &scenario, &outcome).expect("it is written");
+        let mut recording = file::open(path.join(format!("raw.{format}"))).expect("it is read");
+        assert!(recording.notes().is_empty(), "{:?}", recording.notes());
+        let channels = recording.channels().to_vec();
+        let names: Vec<&str> = channels
+            .iter()
+            .map(|channel| channel.name.as_str())
+            .collect();
+        let index = names
+            .iter()
+            .position(|name| name.ends_with("torque"))
+            .expect("a torque");
+        assert_eq!(channels[index].unit, "N m", "{format}");
+        let mut values = vec![0.0; channels[index].count as usize];
+        let count = recording.read(index, 0, &mut values).expect("it is read");
+        values.truncate(count);
+        torques.push(values);
+    }
+    // 0.4 s of four channels in turn at 42 kHz, from 1/42 kHz on
+    assert_eq!(torques[0].len(), 4200);
+    for other in &torques[1..] {
+        assert_eq!(other.len(), torques[0].len());
+        for (a, b) in other.iter().zip(&torques[0]) {
+            // a text holds every digit
+            assert!((a - b).abs() <= 1e-15, "{a} {b}");
+        }
+    }
+}
+
+#[test]
+fn the_seed_decides_everything_random() {
+    let raw = |seed: &str| {
+        let scenario = shipped(
+            "rig_test_3",
+            &[seed, "run.duration=0.3 s", "rig.release_at=0.29 s"],
+        );
+        let outcome = simulated(&scenario);
+        match outcome.files.into_iter().next().map(|file| file.content) {
+            Some(Attached::Recording(channels)) => channels,
+            other => panic!("{other:?}"),
+        }
+    };
+    let (first, again, other) = (
+        raw("rig.logger.seed=7"),
+        raw("rig.logger.seed=7"),
+        raw("rig.logger.seed=8"),
+    );
+    assert!(first == again);
+    for (a, b) in first.iter().zip(&other) {
+        assert!(a.1 != b.1, "{}", a.0.name);
+    }
+}
+
+#[test]
+fn the_wanted_peak_acceleration_is_reached_and_momentum_closes() {
+    for (name, wanted) in [
+        ("rig_test_1", 1300.0),
+        ("rig_test_2", 7200.0),
+        ("rig_test_3", 11_500.0),
+    ] {
+        let outcome = simulated(&shipped(
+            name,
+            &["run.duration=1 s", "rig.release_at=0.9 s"],
+        ));
+        let peak = number(&outcome, "peak_acceleration");
+        // the search ends at 0.01 %
+        assert!((peak / wanted - 1.0).abs() < 1e-3, "{name}: {peak}");
+        assert!(number(&outcome, "angular_momentum_residual").abs() < 1e-8);
+        assert!(number(&outcome, "energy_residual").abs() < 1e-6);
+    }
+}
+
+/// The source paper's three tests with a grease state: simulated, written, read, identified.
+#[test]
+fn the_grease_of_three_tests_is_found() {
+    let folder = tempfile::tempdir().expect("a folder");
+    into_runs(folder.path(), "rig_coast_down", &[]);
+    let tests = ["rig_test_1", "rig_test_2", "rig_test_3"];
+    for name in tests {
+        into_runs(folder.path(), name, &[]);
+    }
+    let found = identified(folder.path(), &tests, "");
+    assert_eq!(
+        value(&found, "explanation"),
+        &Value::Text("rolling with a grease state".to_string())
+    );
+    assert!(number(&found, "probability_of_rolling_with_a_grease_state") > 0.95);
+    for test in 1..=3 {
+        let of = |name: &str| number(&found, &format!("test_{test}.{name}"));
+        // worked grease: 30 % less of the speed-dependent part, which is all but 1 N mm of 26
+        let (late, deviation) = (
+            of("excess_torque_at_end"),
+            of("excess_torque_at_end_deviation"),
+        );
+        assert!(
+            (-8.5e-3..-5.5e-3).contains(&late) && deviation < 1.5e-3,
+            "{late} ± {deviation}"
+        );
+        assert!(of("slip_probability") < 0.05);
+    }
+}
+
+/// The dissipation of a rolling bearing with known friction, as the outer race tells it.
+#[test]
+fn the_energy_of_a_spin_up_lies_in_its_band() {
+    let folder = tempfile::tempdir().expect("a folder");
+    into_runs(folder.path(), "rig_coast_down", &[]);
+    let plain = ["bearing.lubricant_state.kind=none"];
+    let truth = into_runs(folder.path(), "rig_test_2", &plain);
+    let found = identified(
+        folder.path(),
+        &["rig_test_2"],
+        "explanations.compare = false",
+    );
+    let column = |outcome: &Outcome, name: &str| -> Vec<f64> {
+        let column = outcome.history.iter().find(|column| column.name == name);
+        column.unwrap_or_else(|| panic!("no {name}")).values.clone()
+    };
+    // the truth: rolling balls keep ½ J_I Ω², what t_I put in besides is heat
+    let (time, speed) = (
+        column(&truth, "time"),
+        column(&truth, "bearing.inner_race.speed"),
+    );
+    let end = speed
+        .iter()
+        .position(|speed| *speed >= 0.99 * 149.85)
+        .expect("it reaches its speed");
+    let heat: f64 = ["steady_moment"]
+        .iter()
+        .map(|name| column(&truth, &format!("energy.heat.{name}"))[end])
+        .sum();
+    let (energy, deviation) = (
+        number(&found, "test_1.dissipated_energy"),
+        number(&found, "test_1.dissipated_energy_deviation"),
+    );
+    // the end of the window is found from the measured speed: some milliseconds of 3.8 W
+    let window = 0.006 * 3.85;
+    assert!(
+        (energy - heat).abs() < 2.0 * deviation + window,
+        "{energy} ± {deviation} J, not {heat} J until {} s",
+        time[end]
+    );
+}
