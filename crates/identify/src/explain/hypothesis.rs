@@ -380,3 +380,82 @@ fn grease_factor(values: &[f64], test: &Test, set: &RollingSet<f64>) -> impl Ite
         (fresh + (1.0 - fresh) * middle_up) * (1.0 - (1.0 - worked) * middle_down)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::SteadyMoment;
+    use super::*;
+
+    /// A bearing with a flat curve of 20 N mm, and a test that holds 150 rad/s for 4 s and then rests.
+    fn with_test(check: impl Fn(&Bearing, &Test)) {
+        let steady = SteadyMoment {
+            speed: vec![1.0, 150.0],
+            moment: vec![20e-3, 20e-3],
+            covariance: vec![0.0; 4],
+        };
+        let set = RollingSet {
+            inner_track_radius: 14.8e-3,
+            ball_ratio: 0.214,
+            balls_mass: 10.5e-3,
+            cage_mass: 8e-3,
+        };
+        let table = steady.table(150.0);
+        let speed =
+            |t: f64| 150.0 * (t / 0.02).clamp(0.0, 1.0) * (1.0 - (t - 4.0) / 0.5).clamp(0.0, 1.0);
+        let (priors, settings) = (Priors::default(), Settings::default());
+        let bearing = Bearing {
+            table: &table,
+            set: &set,
+            priors: &priors,
+            settings: &settings,
+        };
+        let test = Test::planned(&speed, 6.0, 0.02, &table, set.outer_inertia());
+        check(&bearing, &test);
+    }
+
+    #[test]
+    fn grease_builds_up_over_cage_angle_and_breaks_down_over_time() {
+        with_test(|bearing, test| {
+            let (fresh, worked, angle, time) = (0.6, 0.7, 10.0, 1.5);
+            let factors: Vec<f64> =
+                grease_factor(&[fresh, worked, angle, time], test, bearing.set).collect();
+            for (step, factor) in test.steps.iter().zip(factors) {
+                let middle = step.elapsed - 0.5 * step.duration;
+                if !(0.05..4.0).contains(&middle) {
+                    continue;
+                }
+                // closed forms: the cage has turned ω_c (t - 10 ms) after a ramp of 20 ms
+                let turned = bearing.set.cage_speed(150.0) * (middle - 0.01);
+                let build_up = 1.0 - (-turned / angle).exp();
+                let breakdown = 1.0 - (-middle / time).exp();
+                let expected =
+                    (fresh + (1.0 - fresh) * build_up) * (1.0 - (1.0 - worked) * breakdown);
+                // the breakdown waits some ms for the cage to turn: 0.01 s/1.5 s of 30 %
+                assert!((factor - expected).abs() < 3e-3, "{middle}");
+            }
+        });
+    }
+
+    #[test]
+    fn at_rest_only_a_drift_is_left_and_a_slow_sensor_follows() {
+        with_test(|bearing, test| {
+            let tests = std::slice::from_ref(test);
+            let end = test.bins.len() - 1;
+            let stop = (test.bins.iter())
+                .position(|bin| bin.from > 4.49)
+                .expect("a rest after the run-down");
+            for form in Explanation::ALL.into_iter().flat_map(Hypothesis::of) {
+                let size = form.parameters(bearing.priors).len();
+                let torque = form.predict(&vec![0.0; size], tests, bearing).torque;
+                match form {
+                    Hypothesis::Drift { sign } => assert!(sign * torque[end] > 1e-3),
+                    // after 1.5 s of rest five time constants (0.22 s) have passed
+                    Hypothesis::SlowSensor => {
+                        assert!(torque[stop] > 1e-3 && torque[end].abs() < 1e-4);
+                    }
+                    _ => assert!(torque[end].abs() < 1e-4, "{form:?} {}", torque[end]),
+                }
+            }
+        });
+    }
+}

@@ -20,14 +20,33 @@
 //! importance sampling with a stated error. An explanation wins with a probability of
 //! [`Settings::decision`] and an acceptable fit; otherwise the verdict is "undecided" or "none of these".
 //!
+//! An explanation is a claim: what it says must show on the torque by [`Settings::least_effect`]. Grease claims that both
+//! its states show, slip a cage that stays behind, heating a traction that still falls 0.3 s after the run-up, a slow
+//! sensor more than what any inversion smooths.
+//!
 //! Assumed: all tests at one load, with the bearing rested before each. Priors are those of [`Priors`]: an explanation
 //! that needs a coincidence (traction and drag that agree to 0.4 % for seconds) is as improbable as the coincidence is.
 //!
 //! # How often it is right
-//! RESULTS
+//! Of 41 campaigns per truth (three tests of the paper each, bearing and sensor finer than the models, effects of 15 to
+//! 40 % of M), judged in a release build; never wrong, never "none of these":
+//!
+//! | truth | right with cage | undecided | right without cage | undecided |
+//! |---|---|---|---|---|
+//! | rolling | 41 | 0 | 36 | 5 |
+//! | grease | 41 | 0 | 41 | 0 |
+//! | isothermal slip | 41 | 0 | 41 | 0 |
+//! | slip with heating | 41 | 0 | 41 | 0 |
+//! | sensor artefact | 39 | 2 | 39 | 2 |
+//!
+//! What stays open is creep against grease (they differ by the load part of M) and, without a signal of the cage, rolling
+//! against a slip that a traction limit just below M leaves small.
+//!
+//! One verdict on three tests of 8 s takes 0.7 to 1.3 s of CPU, on one test 0.3 s.
 //!
 //! Does not model: several explanations at once (skid in the run-up and a grease state), a grease that had not rested,
-//! a moment at rest, faults of the speed signal.
+//! a moment at rest, faults of the speed signal. A breakdown of grease without a build-up is no explanation of its own:
+//! it differs from creep by the load part of M alone, and creep is what it would be called.
 
 mod evidence;
 mod hypothesis;

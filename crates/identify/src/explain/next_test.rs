@@ -335,7 +335,9 @@ impl Trial<'_> {
                 }
             }
         }
-        Some(((entropy - left).clamp(0.0, entropy), entropy))
+        // + 0 makes 0 of -0, which one certain explanation leaves
+        let entropy = entropy.max(0.0) + 0.0;
+        Some(((entropy - left).clamp(0.0, entropy) + 0.0, entropy))
     }
 
     fn predict(&self, form: Hypothesis, coordinates: &[f64], random: &mut Random) -> Prediction {

@@ -198,3 +198,43 @@ impl Priors {
         self.odds[explanation as usize] / self.odds.iter().sum::<f64>()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_ends_at_its_quantiles() {
+        let range = Range::new(0.2, 0.8);
+        for (z, value) in [(-QUANTILE, 0.2), (QUANTILE, 0.8)] {
+            assert!((range.positive(z) - value).abs() < 1e-12);
+            assert!((range.share(z) - value).abs() < 1e-12);
+        }
+        // medians: geometric mean of a positive quantity, ½ of a share symmetric about it
+        assert!((range.positive(0.0) - 0.4).abs() < 1e-12);
+        assert!((range.share(0.0) - 0.5).abs() < 1e-12);
+    }
+    #[test]
+    fn the_load_part_comes_from_the_intercept_of_the_curve() {
+        // Palmgren: 10 % of M at 150 rad/s is load part; 3 % are added: 13 %, within a factor of 1.8
+        let speed: Vec<f64> = (1..=15).map(|i| 10.0 * f64::from(i)).collect();
+        let moment = (speed.iter())
+            .map(|w| 25e-3 * (0.1 + 0.9 * (w / 150.0).powf(2.0 / 3.0)))
+            .collect();
+        let curve = |speed: Vec<f64>, moment: Vec<f64>| SteadyMoment {
+            covariance: vec![0.0; speed.len() * speed.len()],
+            speed,
+            moment,
+        };
+        let range = Priors::share_of(&curve(speed, moment), 150.0);
+        assert!((1.0 - range.low - 0.13 * 1.8).abs() < 1e-9);
+        assert!((1.0 - range.high - 0.13 / 1.8).abs() < 1e-9);
+        // one speed alone tells nothing, and a flat curve has all of it: still ranges
+        for curve in [
+            curve(vec![100.0], vec![20e-3]),
+            curve(vec![50.0, 100.0], vec![20e-3; 2]),
+        ] {
+            assert!(Priors::share_of(&curve, 150.0).is_share());
+        }
+    }
+}
