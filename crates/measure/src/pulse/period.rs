@@ -46,8 +46,8 @@ impl Correlated {
     }
 
     fn period(&self) -> Option<usize> {
-        // Where one pulse takes a whole number of samples all lags are in step, but for a drift.
-        if 5 * self.telling().count() < self.values.len() {
+        // Where one pulse takes a whole number of samples all lags are in step, but for a drift; at other speeds two of three tell.
+        if 2 * self.telling().count() < self.values.len() {
             return None;
         }
         let (at, top) = self.telling().max_by(|a, b| a.1.total_cmp(&b.1))?;
