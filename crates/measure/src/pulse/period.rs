@@ -46,8 +46,8 @@ impl Correlated {
     }
 
     fn period(&self) -> Option<usize> {
-        // Where one pulse takes a whole number of samples all lags are in step, but for a drift.
-        if 5 * self.telling().count() < self.values.len() {
+        // Where one pulse takes a whole number of samples all lags are in step, but for a drift; at other speeds two of three tell.
+        if 2 * self.telling().count() < self.values.len() {
             return None;
         }
         let (at, top) = self.telling().max_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -88,15 +88,27 @@ const CLEARLY: f64 = 0.25;
 /// they have nothing to do with each other.
 const IN_STEP: f64 = 0.15;
 
-/// Whether a number of pulses takes a whole number of samples, in the mean over a record.
+/// The same from half a sample: samples that are either low or high repeat there too.
+const HALF_STEP: f64 = 0.05;
+
+/// Pulses over which their times are averaged, so that the errors of the marks drop out.
+const BLOCK: usize = 100;
+
+/// Whether a number of pulses takes a whole number of samples, over a record.
 fn in_step(times: &[f64], lag: usize, interval: f64) -> bool {
-    let step = (times.len() / 256).max(1);
-    let away = times.iter().zip(&times[lag..]).step_by(step).map(|(a, b)| {
-        let samples = (b - a) / interval;
-        samples - samples.round()
-    });
-    let (count, sum) = away.fold((0.0, 0.0), |(n, s), x| (n + 1.0, s + x * x));
-    sum < IN_STEP * IN_STEP * count
+    let count = times.len() - lag;
+    let block = BLOCK.min(count);
+    let (mut sum, mut half, mut blocks) = (0.0, 0.0, 0.0);
+    for start in (0..=count - block).step_by(block.max(1)) {
+        let ends = |from: usize| times[from..from + block].iter();
+        let whole: f64 = ends(start).zip(ends(start + lag)).map(|(a, b)| b - a).sum();
+        let samples = whole / block as f64 / interval;
+        let away = samples - samples.round();
+        sum += away * away;
+        half += (0.5 - away.abs()).powi(2);
+        blocks += 1.0;
+    }
+    sum < IN_STEP * IN_STEP * blocks || half < HALF_STEP * HALF_STEP * blocks
 }
 
 fn correlated(pulses: &Pulses) -> Option<Correlated> {
