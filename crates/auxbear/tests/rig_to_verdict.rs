@@ -181,7 +181,11 @@ fn the_grease_of_three_tests_is_found() {
 fn the_energy_of_a_spin_up_lies_in_its_band() {
     let folder = tempfile::tempdir().expect("a folder");
     into_runs(folder.path(), "rig_coast_down", &[]);
-    let plain = ["bearing.lubricant_state.kind=none"];
+    // a grease that stays at the level of its law
+    let plain = [
+        "bearing.lubricant_state.rested_factor=1",
+        "bearing.lubricant_state.worked_factor=1",
+    ];
     let truth = into_runs(folder.path(), "rig_test_2", &plain);
     let found = identified(
         folder.path(),

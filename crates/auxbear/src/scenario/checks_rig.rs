@@ -1,7 +1,7 @@
 //! Checks of a test on a rig.
 
 use super::checks::{Check, Context};
-use super::rig::{Rig, RigProgram};
+use super::rig::{RawFormat, Rig, RigPickupKind, RigProgram};
 use crate::problem::Code;
 
 /// Most values of a raw file, in memory at the end of a run: 800 MB.
@@ -33,6 +33,16 @@ impl Context<'_> {
                 self.in_order(second, engage_again_at, "run.duration", rig.run.duration)?;
             }
             RigProgram::CoastDown { .. } | RigProgram::RampAndHold { .. } => {}
+        }
+        if matches!(rig.pickup.kind, RigPickupKind::Edges { .. })
+            && rig.logger.format != RawFormat::Tdms
+        {
+            return self.refuse(
+                Code::Conflict,
+                "rig.logger.file",
+                self.text("rig.logger.file"),
+                "\"tdms\" is needed with rig.pickup.kind = \"edges\": instants are no column beside samples",
+            );
         }
         let values = rig.logger.total_rate * rig.run.duration;
         if values > MOST_VALUES {

@@ -123,12 +123,14 @@ fn taps(rig: &Rig) -> Vec<Tap> {
 }
 
 fn happened(rig: &Rig, record: &Record) -> Happened {
+    // a logger keeps whole scans
+    let scans = record.taps.iter().map(|(_, values)| values.len()).min();
     let sampled = |channel: usize| {
         let tap = record.taps.iter().find(|(tap, _)| tap.channel == channel);
         tap.map_or_else(Sampled::default, |(tap, values)| Sampled {
             first: tap.first,
             interval: tap.interval,
-            values: values.to_vec(),
+            values: values[..scans.unwrap_or(0)].to_vec(),
         })
     };
     Happened {
