@@ -384,13 +384,13 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Explanation, Priors, Settings, SteadyMoment};
+    use super::super::{ContinuedMoment, Explanation, Priors, Settings};
     use super::*;
     use physics::rolling::RollingSet;
 
     /// Data of a drift of -0.2 M in 1.5 s with residuals that a fixed rule scatters, in a setting of few means.
     fn with_data(check: impl Fn(&Integral)) {
-        let steady = SteadyMoment {
+        let steady = ContinuedMoment {
             speed: vec![1.0, 75.0, 150.0],
             moment: vec![5e-3, 15e-3, 25e-3],
             covariance: vec![1e-8; 9],

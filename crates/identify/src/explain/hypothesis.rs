@@ -383,12 +383,12 @@ fn grease_factor(values: &[f64], test: &Test, set: &RollingSet<f64>) -> impl Ite
 
 #[cfg(test)]
 mod tests {
-    use super::super::SteadyMoment;
+    use super::super::ContinuedMoment;
     use super::*;
 
     /// A bearing with a flat curve of 20 N mm, and a test that holds 150 rad/s for 4 s and then rests.
     fn with_test(check: impl Fn(&Bearing, &Test)) {
-        let steady = SteadyMoment {
+        let steady = ContinuedMoment {
             speed: vec![1.0, 150.0],
             moment: vec![20e-3, 20e-3],
             covariance: vec![0.0; 4],

@@ -75,7 +75,7 @@ use verdict::FormDraw;
 
 pub use next_test::{Candidate, Proposal, next_test};
 pub use prior::{Priors, Range};
-pub use steady::SteadyMoment;
+pub use steady::ContinuedMoment;
 pub use verdict::{Assessment, Conclusion, Estimate, Explanation, Fit, Refusal, Verdict};
 
 /// How the comparison is made. The defaults are assumed; the tests state how often they lead to the right answer.
@@ -173,7 +173,7 @@ impl Settings {
 /// A [`Refusal`] where tests, curve, priors or settings cannot be used.
 pub fn explain(
     tests: &[Measurement],
-    steady: &SteadyMoment,
+    steady: &ContinuedMoment,
     set: &RollingSet<f64>,
     priors: &Priors,
     settings: &Settings,
@@ -253,7 +253,7 @@ fn conclude(verdict: &Verdict, settings: &Settings) -> Conclusion {
 
 fn refuse(
     tests: &[Measurement],
-    steady: &SteadyMoment,
+    steady: &ContinuedMoment,
     priors: &Priors,
     settings: &Settings,
 ) -> Result<(), Refusal> {

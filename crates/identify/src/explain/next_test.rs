@@ -19,7 +19,7 @@ use super::linear::{Cholesky, dot, log_sum_exp};
 use super::noise::Observed;
 use super::record::{Past, Test};
 use super::sampling::Random;
-use super::steady::{SteadyMoment, Table};
+use super::steady::{ContinuedMoment, Table};
 use super::{Priors, Refusal, Settings, Verdict, refuse};
 
 /// A test that could be made next.
@@ -135,7 +135,7 @@ impl Proposal {
 pub fn next_test(
     verdict: &Verdict,
     tests: &[Measurement],
-    steady: &SteadyMoment,
+    steady: &ContinuedMoment,
     set: &RollingSet<f64>,
     priors: &Priors,
     settings: &Settings,
@@ -271,7 +271,7 @@ struct Trial<'a> {
     proposal: Proposal,
     test: Test,
     bearing: &'a Bearing<'a>,
-    steady: &'a SteadyMoment,
+    steady: &'a ContinuedMoment,
 }
 
 /// Predictions of one explanation as a normal distribution over whitened data.

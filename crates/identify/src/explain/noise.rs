@@ -15,7 +15,7 @@
 use super::hypothesis::{Bearing, Prediction};
 use super::linear::{Cholesky, dot};
 use super::record::{Bin, Test};
-use super::steady::SteadyMoment;
+use super::steady::ContinuedMoment;
 
 /// The data with the covariances of their errors.
 pub(crate) struct Observed {
@@ -62,7 +62,7 @@ impl Observed {
     /// The data of all tests; none where a covariance is not positive definite (a band that is none).
     pub fn new(
         tests: &[Test],
-        steady: &SteadyMoment,
+        steady: &ContinuedMoment,
         bearing: &Bearing,
         rolling: Prediction,
     ) -> Option<Self> {
@@ -263,7 +263,7 @@ fn torque_covariance(
     tests: &[Test],
     one: (usize, &Bin),
     other: (usize, &Bin),
-    steady: &SteadyMoment,
+    steady: &ContinuedMoment,
     bearing: &Bearing,
 ) -> f64 {
     let ((test, a), (other_test, b)) = (one, other);

@@ -1,6 +1,6 @@
 //! What is held possible before the data: odds of the explanations and ranges of their parameters.
 
-use super::{Explanation, SteadyMoment};
+use super::{ContinuedMoment, Explanation};
 
 /// Range that holds 90 % of what is thought possible: 5 % lie below `low`, 5 % above `high`.
 ///
@@ -154,7 +154,7 @@ impl Priors {
     ///
     /// - `steady`: the curve
     /// - `top_speed`: highest speed of the tests, rad/s
-    pub fn share_of(steady: &SteadyMoment, top_speed: f64) -> Range {
+    pub fn share_of(steady: &ContinuedMoment, top_speed: f64) -> Range {
         // M = a + c x, weights 1/M²
         let (mut w, mut wx, mut wxx, mut wm, mut wxm) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for (speed, moment) in steady.speed.iter().zip(&steady.moment) {
@@ -185,7 +185,7 @@ impl Priors {
     }
 
     /// The same with the viscous share of the curve where none was given.
-    pub(crate) fn resolved(&self, steady: &SteadyMoment, top_speed: f64) -> Self {
+    pub(crate) fn resolved(&self, steady: &ContinuedMoment, top_speed: f64) -> Self {
         let mut resolved = self.clone();
         resolved
             .viscous_share
@@ -221,7 +221,7 @@ mod tests {
         let moment = (speed.iter())
             .map(|w| 25e-3 * (0.1 + 0.9 * (w / 150.0).powf(2.0 / 3.0)))
             .collect();
-        let curve = |speed: Vec<f64>, moment: Vec<f64>| SteadyMoment {
+        let curve = |speed: Vec<f64>, moment: Vec<f64>| ContinuedMoment {
             covariance: vec![0.0; speed.len() * speed.len()],
             speed,
             moment,

@@ -313,11 +313,11 @@ pub(crate) fn interpolate(time: &[f64], values: &[f64], t: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::SteadyMoment;
+    use super::super::ContinuedMoment;
     use super::*;
 
     fn table() -> Table {
-        SteadyMoment {
+        ContinuedMoment {
             speed: vec![1.0, 150.0],
             moment: vec![20e-3, 20e-3],
             covariance: vec![0.0; 4],

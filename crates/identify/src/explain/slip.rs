@@ -293,7 +293,7 @@ impl Slip {
 
 #[cfg(test)]
 mod tests {
-    use super::super::SteadyMoment;
+    use super::super::ContinuedMoment;
     use super::*;
 
     fn set() -> RollingSet<f64> {
@@ -312,7 +312,7 @@ mod tests {
             .map(|w| 3e-3 + 22e-3 * (w / 150.0).powf(2.0 / 3.0))
             .collect();
         let covariance = vec![0.0; speed.len() * speed.len()];
-        SteadyMoment {
+        ContinuedMoment {
             speed,
             moment,
             covariance,

@@ -1,14 +1,27 @@
-//! The steady friction moment of the coast-down as plain arrays.
+//! The steady friction moment continued beyond what was measured: an explanation foretells whole tests, from rest to rest.
 
-/// Steady friction moment M(Ω) with its band, as a coast-down gave it.
+use crate::SteadyMoment;
+
+/// Steady friction moment M(Ω) with its band: straight between its speeds, held above them, fading to 0 at rest below.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SteadyMoment {
+pub struct ContinuedMoment {
     /// Speeds Ω, rad/s; positive, rising.
     pub speed: Vec<f64>,
     /// M at these speeds, N m.
     pub moment: Vec<f64>,
     /// Covariance of the moments, (N m)², row after row.
     pub covariance: Vec<f64>,
+}
+
+impl From<&SteadyMoment> for ContinuedMoment {
+    /// The curve without the deviation of its scale, which the tests share with it.
+    fn from(curve: &SteadyMoment) -> Self {
+        Self {
+            speed: curve.speed.clone(),
+            moment: curve.moment.clone(),
+            covariance: curve.covariance.concat(),
+        }
+    }
 }
 
 /// Equal intervals of the table that stands for the curve.
@@ -27,7 +40,7 @@ pub(crate) struct Table {
     pub top_speed: f64,
 }
 
-impl SteadyMoment {
+impl ContinuedMoment {
     /// M at a speed, N m: linear between the given speeds, held constant beyond them.
     fn at(&self, speed: f64) -> f64 {
         let (low, share) = self.place(speed);
@@ -118,8 +131,8 @@ impl Table {
 mod tests {
     use super::*;
 
-    fn curve() -> SteadyMoment {
-        SteadyMoment {
+    fn curve() -> ContinuedMoment {
+        ContinuedMoment {
             speed: vec![10.0, 20.0, 40.0],
             moment: vec![1.0, 2.0, 3.0],
             covariance: vec![0.04, 0.01, 0.0, 0.01, 0.04, 0.0, 0.0, 0.0, 0.09],

@@ -1,6 +1,6 @@
 //! A virtual laboratory: draws a truth, runs three tests on the fine bearing, reads them with an imperfect sensor.
 
-use identify::explain::{Explanation, SteadyMoment};
+use identify::explain::{ContinuedMoment, Explanation};
 use identify::{CageTrace, Measurement};
 use physics::rolling::RollingSet;
 
@@ -52,7 +52,7 @@ pub struct Truth {
 pub struct Campaign {
     pub truth: Truth,
     pub tests: Vec<Measurement>,
-    pub steady: SteadyMoment,
+    pub steady: ContinuedMoment,
     pub set: RollingSet<f64>,
 }
 
@@ -154,7 +154,7 @@ impl Truth {
     }
 
     /// M(Ω) of a coast-down: right within its band.
-    fn coast_down(&self, chance: &mut Chance) -> SteadyMoment {
+    fn coast_down(&self, chance: &mut Chance) -> ContinuedMoment {
         let speed: Vec<f64> = (0..16).map(|i| 3.0 + 9.8 * f64::from(i)).collect();
         let (level, tilt) = (0.007 * chance.normal(), 0.005 * chance.normal());
         let tilted = |speed: f64| 1.0 - 2.0 * speed / TOP;
@@ -170,7 +170,7 @@ impl Truth {
                 covariance.push(m * n * shared + own);
             }
         }
-        SteadyMoment {
+        ContinuedMoment {
             speed,
             moment,
             covariance,

@@ -36,6 +36,9 @@ const ANALYSED: f64 = 0.95;
 /// Longest wait for more than one result of a step, in values: the friction of a rotor needs no more.
 const ROTOR_TIMES: usize = 2000;
 
+/// Time around the end of a quick change within which a jump of the torque is smeared, s: some times 1/ω_n of a usual arm.
+const SMEARED: f64 = 0.01;
+
 /// One test with what its signals hold and what they tell.
 pub(super) struct TestFound {
     /// Name for people.
@@ -291,11 +294,7 @@ fn explained(
     let measurements: Vec<Measurement> = (tests.iter())
         .map(|test| foretold(&test.measurement, moment, set))
         .collect();
-    let curve = &explain::SteadyMoment {
-        speed: moment.curve.speed.clone(),
-        moment: moment.curve.moment.clone(),
-        covariance: moment.curve.covariance.concat(),
-    };
+    let curve = &explain::ContinuedMoment::from(&moment.curve);
     let verdict = explain::explain(&measurements, curve, set, &priors, &settings)
         .map_err(|why| why.to_string());
     let next = match &verdict {
@@ -308,13 +307,23 @@ fn explained(
 
 /// A test whose torque is as uncertain as what is foretold of it: an explanation takes speed and acceleration as they are, so what
 /// is not known of them counts as an error of the torque.
+///
+/// Where a clutch locks the inertia's part of the torque jumps, which no smoothed torque follows: there it is not known.
 fn foretold(test: &Measurement, moment: &Moment, set: &RollingSet<f64>) -> Measurement {
     let mut test = test.clone();
+    let peak = (test.acceleration.iter().enumerate())
+        .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+        .map_or((0, 0.0), |(at, acceleration)| (at, acceleration.abs()));
+    let locked = test.time.get(peak.0).copied().unwrap_or(f64::NAN);
+    let jump = set.outer_inertia() * peak.1;
     for (k, deviation) in test.torque_deviation.iter_mut().enumerate() {
         let slope = moment.curve.slope(test.speed[k]).unwrap_or(0.0);
         let by_speed = slope * test.speed_deviation[k];
         let by_inertia = set.outer_inertia() * test.acceleration_deviation[k];
         *deviation = deviation.hypot(by_speed).hypot(by_inertia);
+        if (test.time[k] - locked).abs() < SMEARED {
+            *deviation = deviation.hypot(jump);
+        }
     }
     test
 }

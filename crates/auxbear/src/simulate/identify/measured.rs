@@ -40,11 +40,19 @@ pub(super) fn measurement(
     let change = shaft.speed.change.filter(|change| change.from_rest);
     let (first, last) = shaft.speed.range();
     let from = change.map_or(first, |change| change.engagement.0);
-    // before its engagement and behind its last pulse the shaft rests
+    // before its engagement and behind its last pulse the shaft rests, where it may still turn by less than a mark
+    let (ending, braking) = {
+        let end = shaft.speed.at(last);
+        (end.speed, end.acceleration)
+    };
     for (motion, time) in motion.iter_mut().zip(&time) {
         if *time < from || *time > last {
             (motion.speed, motion.acceleration) = (0.0, 0.0);
             motion.covariance = AT_REST;
+            if (last..last + SETTLING).contains(time) {
+                motion.covariance[1][1] += ending * ending;
+                motion.covariance[2][2] += braking * braking;
+            }
         }
     }
     let mut values = thinned(&torque.torque);
