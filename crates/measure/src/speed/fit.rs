@@ -396,7 +396,7 @@ pub(super) fn lively(
         }
         let cost = cost(jumps);
         let widest = [0.8, if sight.rests { 0.3 } else { 0.05 }, 0.08];
-        let guess = widths(&best, value, widest, &cost);
+        let guess = widths(&best, value, widest, cost);
         let (points, evidence) = spread(best, guess, 28, cost);
         for (x, weight) in points {
             if let Some(plan) = plan(&x, jumps)
