@@ -4,6 +4,7 @@ mod bad_input;
 mod bearings;
 mod lists;
 mod place;
+mod rig;
 mod run_directory;
 mod schema;
 mod signals;

@@ -316,8 +316,11 @@ fn foretold(test: &Measurement, moment: &Moment, set: &RollingSet<f64>) -> Measu
         .map_or((0, 0.0), |(at, acceleration)| (at, acceleration.abs()));
     let locked = test.time.get(peak.0).copied().unwrap_or(f64::NAN);
     let jump = set.outer_inertia() * peak.1;
+    // below the slowest speed that was measured the moment falls to nothing
+    let slowest = moment.curve.range().0;
+    let near_rest = moment.curve.at(slowest).map_or(0.0, |m| m.value / slowest);
     for (k, deviation) in test.torque_deviation.iter_mut().enumerate() {
-        let slope = moment.curve.slope(test.speed[k]).unwrap_or(0.0);
+        let slope = moment.curve.slope(test.speed[k]).unwrap_or(near_rest);
         let by_speed = slope * test.speed_deviation[k];
         let by_inertia = set.outer_inertia() * test.acceleration_deviation[k];
         *deviation = deviation.hypot(by_speed).hypot(by_inertia);
