@@ -39,6 +39,10 @@ const ROTOR_TIMES: usize = 2000;
 /// Time around the end of a quick change within which a jump of the torque is smeared, s: some times 1/ω_n of a usual arm.
 const SMEARED: f64 = 0.01;
 
+/// Relative standard deviation of the cage's rolling speed as it is foretold: of the ratio by contact angle and radii, and of a
+/// shaft's speed where its acceleration changes at once. A slip that explains a torque is ten times that.
+const ROLLING_RATIO: f64 = 0.002;
+
 /// One test with what its signals hold and what they tell.
 pub(super) struct TestFound {
     /// Name for people.
@@ -326,6 +330,11 @@ fn foretold(test: &Measurement, moment: &Moment, set: &RollingSet<f64>) -> Measu
         *deviation = deviation.hypot(by_speed).hypot(by_inertia);
         if (test.time[k] - locked).abs() < SMEARED {
             *deviation = deviation.hypot(jump);
+        }
+    }
+    if let Some(cage) = &mut test.cage {
+        for (speed, deviation) in cage.speed.iter().zip(&mut cage.deviation) {
+            *deviation = deviation.hypot(ROLLING_RATIO * speed);
         }
     }
     test
