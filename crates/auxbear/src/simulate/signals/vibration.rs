@@ -99,6 +99,11 @@ impl Found {
 
 /// The largest amplitudes in so many columns and rows as can be seen, in whole dB.
 fn picture(time: Vec<f64>, upright: &[f64], amplitudes: Vec<Vec<f64>>) -> Picture {
+    // A segment with missing values has no spectrum: it is left out.
+    let seen = time.into_iter().zip(amplitudes);
+    let (time, amplitudes): (Vec<f64>, Vec<Vec<f64>>) = seen
+        .filter(|(_, column)| column.iter().any(|v| v.is_finite()))
+        .unzip();
     let wide = time.len().div_ceil(COLUMNS).max(1);
     let high = upright.len().div_ceil(ROWS).max(1);
     let middle = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
