@@ -6,7 +6,7 @@ use serde_json::Value;
 #[test]
 fn every_kind_of_file_has_a_schema() {
     let place = Place::new();
-    for kind in ["drop", "spin_up", "torque", "signals"] {
+    for kind in ["drop", "spin_up", "torque", "signals", "rig", "identify"] {
         let text = place.call(&["schema", kind]).done().out;
         let schema: Value = serde_json::from_str(&text).unwrap();
         assert!(schema["$schema"].as_str().unwrap().contains("2020-12"));

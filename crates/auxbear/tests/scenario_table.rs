@@ -37,6 +37,10 @@ fn base(system: SystemName, path: &str) -> String {
         SystemName::SpinUp => drive(path),
         SystemName::Torque => String::new(),
         SystemName::Signals => return measurement(path),
+        SystemName::Rig => rig(path),
+        SystemName::Identify => {
+            "[identify]\ncoast_down = [\"a.toml\"]\nradial_load = \"60 N\"\n".to_string()
+        }
     };
     let bearing = if path.starts_with("bearing.full_complement.") || path == "bearing.separation" {
         BEARING.replace("cage_mass = \"6 g\"\n", "")
@@ -61,6 +65,21 @@ fn measurement(path: &str) -> String {
          [signals.torque]\nchannel = \"torque\"\n{sensor}\n\
          [signals.cage]\nchannel = \"balls\"\nball_count = 10\nrolling_ratio = 0.4\n"
     )
+}
+
+/// A test on a rig that has the key.
+fn rig(path: &str) -> String {
+    let own = match path {
+        "rig.acceleration" => "program = \"ramp and hold\"\nacceleration = \"50 rad/s^2\"\n",
+        "rig.coasts" => "program = \"coast-down\"\n",
+        "rig.first_release_at" | "rig.engage_again_at" => {
+            "program = \"repeat after rest\"\npeak_acceleration = \"7200 rad/s^2\"\nengage_at = \"1 us\"\n\
+             first_release_at = \"2 us\"\nengage_again_at = \"3 s\"\n"
+        }
+        "rig.clutch.torque_rate" => "program = \"spin-up\"\nengage_at = \"1 us\"\n",
+        _ => "program = \"spin-up\"\npeak_acceleration = \"7200 rad/s^2\"\nengage_at = \"1 us\"\n",
+    };
+    format!("[rig]\nspeed = \"150 rad/s\"\n{own}[rig.load]\nradial_load = \"60 N\"\n")
 }
 
 /// A drive of the kind that has the key.
@@ -280,6 +299,16 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.lubricant_state.film_conductance=0.25 W/K",
             "bearing.lubricant_state.drag_temperature_coefficient=0.03 1/K",
         ],
+        "rig.load.mass" => &["rig.load.housing=hanging", "rig.load.mass=6 kg"],
+        "rig.load.housing" => &["rig.load.mass=6 kg"],
+        "rig.pickup.stamp_deviation" => &["rig.pickup.kind=edges"],
+        _ if path.starts_with("identify.rotor_friction.") => &[
+            "identify.rotor_friction.file=a.toml",
+            "identify.rotor_friction.rotor_speed=1000 rad/s",
+            "identify.rotor_friction.radial_load=80 N",
+            "identify.rotor_friction.bore_diameter=25 mm",
+            "identify.rotor_friction.inertia=4e-6 kg m^2",
+        ],
         "signals.speed.stamp_deviation" => &["signals.speed.kind=edges"],
         "signals.cage.highest_slip" => &["signals.cage.kind=vibration"],
         "bearing.acceleration_loss.kind" => &["bearing.fidelity=rolling"],
@@ -345,6 +374,7 @@ fn unlike_any_other(path: &str, kind: Kind, range: Range, example: &str) -> Opti
         Kind::Coefficient => {
             let si = match range {
                 Range::Above(low) => low + 0.0123456,
+                Range::FromTo(low, _) if low < 0.0 => low * 0.1234567,
                 Range::FromTo(low, _) => low * 1.234567,
                 // a traction coefficient must not become negative, so A is
                 _ if path == "bearing.traction.a" => -0.0612345,
@@ -390,6 +420,9 @@ fn every_number_reaches_the_typed_scenario() {
             let name = match key.name() {
                 "brake_torque" => "torque",
                 "brake_start" => "start",
+                "torque_rate" | "peak_acceleration" => "engagement",
+                "first_release_at" => "release_at",
+                "largest_torque" => "clutch_torque",
                 "kinetic" => "kinetic_coefficient",
                 "static" => "static_coefficient",
                 "oil_conductivity" => "conductivity",
@@ -404,9 +437,16 @@ fn every_number_reaches_the_typed_scenario() {
                 name => name,
             };
             let shown = format!("{typed:#?}");
-            let wrapped = [": Some(\n", ": Constant(\n", ": Table(\n", ": [\n"]
-                .iter()
-                .any(|form| shown.contains(&format!("{name}{form}")))
+            let wrapped = [
+                ": Some(\n",
+                ": Constant(\n",
+                ": Table(\n",
+                ": Rate(\n",
+                ": PeakAcceleration(\n",
+                ": [\n",
+            ]
+            .iter()
+            .any(|form| shown.contains(&format!("{name}{form}")))
                 || key.path == "drive.speed_history";
             // the typed cage and its land have names of their own
             let short = name.trim_start_matches("cage_").trim_start_matches("land_");
