@@ -65,9 +65,7 @@ pub use resolved::{Resolved, ResolvedValue};
 pub use run::{Method, Run};
 pub use schema::schema;
 pub use separation::{Cage, FullComplement, Guidance, Land, Separation};
-pub use signal_analysis::{
-    ConverterSignal, InertiaSource, Measured, SteadySignal, VibrationSignal,
-};
+pub use signal_analysis::{ConverterSignal, InertiaSource, SteadySignal, VibrationSignal};
 pub use signals::{
     CageKind, CageSignal, Disturbance, PickupFlank, PickupKind, SensorSource, Signals, SpeedSignal,
     TorqueSignal,
