@@ -310,6 +310,61 @@ fn choices(path: &str) -> Vec<String> {
             "identify.rotor_friction.inertia=4e-6 kg m^2",
         ],
         "signals.speed.stamp_deviation" => &["signals.speed.kind=edges"],
+        "signals.speed.change_from" => &["signals.speed.change_to=6 s"],
+        "signals.speed.change_to" => &["signals.speed.change_from=0 s"],
+        _ if path.starts_with("signals.converter.") => &[
+            "signals.converter.channels=[\"torque\"]",
+            "signals.converter.highest=10",
+            "signals.converter.bits=14",
+        ],
+        _ if path.starts_with("signals.vibration.") => &["signals.vibration.channel=arm"],
+        "signals.steady.up_from" => &[
+            "signals.steady.from=0 s",
+            "signals.steady.to=100 s",
+            "signals.steady.up_to=100 s",
+        ],
+        "signals.steady.up_to" => &[
+            "signals.steady.from=0 s",
+            "signals.steady.to=100 s",
+            "signals.steady.up_from=0 s",
+        ],
+        "signals.steady.inertia" | "signals.steady.inertia_deviation" => &[
+            "signals.steady.from=0 s",
+            "signals.steady.to=100 s",
+            "signals.steady.inertia=1 kg m^2",
+        ],
+        _ if path.starts_with("signals.steady.string_") => &[
+            "signals.steady.from=0 s",
+            "signals.steady.to=100 s",
+            "signals.steady.inertia_from=bifilar",
+            "signals.steady.test_mass=0.4 kg",
+            "signals.steady.test_period=0.6 s",
+            "signals.steady.string_distance=50 mm",
+            "signals.steady.string_length=1 m",
+        ],
+        _ if path.starts_with("signals.steady.test_torque")
+            || path.starts_with("signals.steady.acceleration_") =>
+        {
+            &[
+                "signals.steady.from=0 s",
+                "signals.steady.to=100 s",
+                "signals.steady.inertia_from=known torque",
+                "signals.steady.test_torque=20 N mm",
+                "signals.steady.acceleration_with=80 rad/s^2",
+                "signals.steady.acceleration_without=-15 rad/s^2",
+            ]
+        }
+        _ if path.starts_with("signals.steady.test_") => &[
+            "signals.steady.from=0 s",
+            "signals.steady.to=100 s",
+            "signals.steady.inertia_from=pendulum",
+            "signals.steady.test_mass=0.4 kg",
+            "signals.steady.test_period=0.6 s",
+            "signals.steady.test_arm=60 mm",
+        ],
+        _ if path.starts_with("signals.steady.") => {
+            &["signals.steady.from=0 s", "signals.steady.to=100 s"]
+        }
         "signals.cage.highest_slip" => &["signals.cage.kind=vibration"],
         "bearing.acceleration_loss.kind" => &["bearing.fidelity=rolling"],
         "bearing.acceleration_loss.force" => &[

@@ -80,9 +80,7 @@ pub use rig::{
 pub use run::{Method, Run};
 pub use schema::schema;
 pub use separation::{Cage, FullComplement, Guidance, Land, Separation};
-pub use signal_analysis::{
-    ConverterSignal, InertiaSource, Measured, SteadySignal, VibrationSignal,
-};
+pub use signal_analysis::{ConverterSignal, InertiaSource, SteadySignal, VibrationSignal};
 pub use signals::{
     CageKind, CageSignal, Disturbance, PickupFlank, PickupKind, SensorSource, Signals, SpeedSignal,
     TorqueSignal,

@@ -34,58 +34,84 @@ pub struct VibrationSignal {
 /// Slow runs, from which torque over speed is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SteadySignal {
-    /// Begin and end of the part with falling speed, s.
-    pub down: (f64, f64),
-    /// Begin and end of a part with rising speed, s.
-    pub up: Option<(f64, f64)>,
+    /// Begin of the part with falling speed, s.
+    pub from: f64,
+    /// Its end, s.
+    pub to: f64,
+    /// Begin of a part with rising speed, s.
+    pub up_from: Option<f64>,
+    /// Its end, s.
+    pub up_to: Option<f64>,
     /// Speeds at which the curves are drawn.
     pub points: usize,
     /// How the inertia is known; none where it is not.
     pub inertia: Option<InertiaSource>,
 }
 
-/// A measured value and its standard deviation.
-pub type Measured = [f64; 2];
-
-/// How the inertia of what coasts is known.
+/// How the inertia of what coasts is known; each value with its standard deviation in the same unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum InertiaSource {
-    /// As given, kg m².
-    Given(Measured),
+    /// As given.
+    Given {
+        /// Inertia, kg m².
+        inertia: f64,
+        /// Its relative standard deviation.
+        inertia_deviation: f64,
+    },
     /// From swinging about a knife edge.
     Pendulum {
         /// Mass, kg.
-        mass: Measured,
+        test_mass: f64,
+        /// Its deviation.
+        test_mass_deviation: f64,
         /// Distance from the knife edge to the mass centre, m.
-        arm: Measured,
+        test_arm: f64,
+        /// Its deviation.
+        test_arm_deviation: f64,
         /// Period, s.
-        period: Measured,
+        test_period: f64,
+        /// Its deviation.
+        test_period_deviation: f64,
         /// Amplitude, rad.
-        amplitude: f64,
+        test_amplitude: f64,
         /// Gravity, m/s².
-        gravity: f64,
+        test_gravity: f64,
     },
     /// From turning on two strings.
     Bifilar {
         /// Mass, kg.
-        mass: Measured,
+        test_mass: f64,
+        /// Its deviation.
+        test_mass_deviation: f64,
         /// Distance of the strings, m.
-        distance: Measured,
+        string_distance: f64,
+        /// Its deviation.
+        string_distance_deviation: f64,
         /// Their length, m.
-        length: Measured,
+        string_length: f64,
+        /// Its deviation.
+        string_length_deviation: f64,
         /// Period, s.
-        period: Measured,
+        test_period: f64,
+        /// Its deviation.
+        test_period_deviation: f64,
         /// Gravity, m/s².
-        gravity: f64,
+        test_gravity: f64,
     },
     /// From the acceleration by a known torque.
     KnownTorque {
         /// Torque, N m.
-        torque: Measured,
+        test_torque: f64,
+        /// Its deviation.
+        test_torque_deviation: f64,
         /// Acceleration with it, rad/s².
-        with: Measured,
+        acceleration_with: f64,
+        /// Its deviation.
+        acceleration_with_deviation: f64,
         /// Acceleration without it, rad/s².
-        without: Measured,
+        acceleration_without: f64,
+        /// Its deviation.
+        acceleration_without_deviation: f64,
     },
 }
 
@@ -131,40 +157,49 @@ pub(super) fn steady(values: &Values) -> Option<SteadySignal> {
         values,
         path: "signals.steady",
     };
-    let part = |from: &str, to: &str| Some((section.maybe(from)?, section.maybe(to)?));
-    let of = |name: &str| -> Measured {
-        [
-            section.number(name),
-            section.number(&format!("{name}_deviation")),
-        ]
-    };
+    let number = |name: &str| section.number(name);
     let inertia = match section.word("inertia_from") {
         "pendulum" => Some(InertiaSource::Pendulum {
-            mass: of("test_mass"),
-            arm: of("test_arm"),
-            period: of("test_period"),
-            amplitude: section.number("test_amplitude"),
-            gravity: section.number("test_gravity"),
+            test_mass: number("test_mass"),
+            test_mass_deviation: number("test_mass_deviation"),
+            test_arm: number("test_arm"),
+            test_arm_deviation: number("test_arm_deviation"),
+            test_period: number("test_period"),
+            test_period_deviation: number("test_period_deviation"),
+            test_amplitude: number("test_amplitude"),
+            test_gravity: number("test_gravity"),
         }),
         "bifilar" => Some(InertiaSource::Bifilar {
-            mass: of("test_mass"),
-            distance: of("string_distance"),
-            length: of("string_length"),
-            period: of("test_period"),
-            gravity: section.number("test_gravity"),
+            test_mass: number("test_mass"),
+            test_mass_deviation: number("test_mass_deviation"),
+            string_distance: number("string_distance"),
+            string_distance_deviation: number("string_distance_deviation"),
+            string_length: number("string_length"),
+            string_length_deviation: number("string_length_deviation"),
+            test_period: number("test_period"),
+            test_period_deviation: number("test_period_deviation"),
+            test_gravity: number("test_gravity"),
         }),
         "known torque" => Some(InertiaSource::KnownTorque {
-            torque: of("test_torque"),
-            with: of("acceleration_with"),
-            without: of("acceleration_without"),
+            test_torque: number("test_torque"),
+            test_torque_deviation: number("test_torque_deviation"),
+            acceleration_with: number("acceleration_with"),
+            acceleration_with_deviation: number("acceleration_with_deviation"),
+            acceleration_without: number("acceleration_without"),
+            acceleration_without_deviation: number("acceleration_without_deviation"),
         }),
-        _ => section.maybe("inertia").map(|value| {
-            InertiaSource::Given([value, value * section.number("inertia_deviation")])
-        }),
+        _ => section
+            .maybe("inertia")
+            .map(|inertia| InertiaSource::Given {
+                inertia,
+                inertia_deviation: number("inertia_deviation"),
+            }),
     };
     Some(SteadySignal {
-        down: part("from", "to")?,
-        up: part("up_from", "up_to"),
+        from: section.maybe("from")?,
+        to: section.maybe("to").unwrap_or(f64::NAN),
+        up_from: section.maybe("up_from"),
+        up_to: section.maybe("up_to"),
         points: section.count("points") as usize,
         inertia,
     })

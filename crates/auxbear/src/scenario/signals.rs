@@ -49,8 +49,10 @@ pub struct SpeedSignal {
     pub missing_marks: usize,
     /// Whether a quick change is looked for.
     pub quick_change: bool,
-    /// Where it is looked for, s.
-    pub change_within: Option<(f64, f64)>,
+    /// Where it is looked for begins, s.
+    pub change_from: Option<f64>,
+    /// Where that ends, s.
+    pub change_to: Option<f64>,
     /// Whether the errors of the marks are taken out.
     pub calibration: bool,
     /// Acceleration once a turn during the calibration, rad/s².
@@ -218,7 +220,8 @@ fn speed(values: &Values) -> Option<SpeedSignal> {
         marks_per_revolution: speed.count("marks_per_revolution") as usize,
         missing_marks: speed.count("missing_marks") as usize,
         quick_change: speed.word("quick_change") != "none",
-        change_within: speed.maybe("change_from").zip(speed.maybe("change_to")),
+        change_from: speed.maybe("change_from"),
+        change_to: speed.maybe("change_to"),
         calibration: speed.word("calibration") != "none",
         ripple: speed.number("ripple"),
         delay_deviation: speed.number("delay_deviation"),

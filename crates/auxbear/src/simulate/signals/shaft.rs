@@ -56,9 +56,10 @@ impl Found {
         };
         let settings = SpeedSettings {
             transient: match wish.quick_change {
-                true => wish
-                    .change_within
-                    .map_or(Transient::Auto, |(from, to)| Transient::Within(from, to)),
+                true => match (wish.change_from, wish.change_to) {
+                    (Some(from), Some(to)) => Transient::Within(from, to),
+                    _ => Transient::Auto,
+                },
                 false => Transient::None,
             },
             wanted: wish.wanted,

@@ -2,7 +2,7 @@
 
 use super::read::Series;
 use super::{shaft, torque};
-use crate::scenario::{InertiaSource, Measured, SteadySignal};
+use crate::scenario::{InertiaSource, SteadySignal};
 use measure::steady_curve::{
     Difference, SteadyCurve, compare, direct, inertia_from_bifilar, inertia_from_known_torque,
     inertia_from_pendulum, inertial,
@@ -33,7 +33,7 @@ impl Found {
         shaft: &shaft::Found,
         reading: Option<(&Series, &torque::Faulty, Option<&torque::Found>)>,
     ) -> Result<Found, String> {
-        let (first, interval, speeds) = speeds(wish.down, shaft)?;
+        let (first, interval, speeds) = speeds((wish.from, wish.to), shaft)?;
         let known = || speeds.iter().copied().filter(|v| v.is_finite());
         let low = known().fold(f64::INFINITY, f64::min);
         let high = known().fold(f64::NEG_INFINITY, f64::max);
@@ -64,8 +64,8 @@ impl Found {
             let felt: Vec<f64> = rows().map(|(_, m)| *m).collect();
             direct(&turning, &felt, &speed)
         };
-        let direct = by_sensor(wish.down);
-        let up = match wish.up {
+        let direct = by_sensor((wish.from, wish.to));
+        let up = match wish.up_from.zip(wish.up_to) {
             Some(part) => by_sensor(part),
             None => Err("signals.steady.up_from is not given".to_string()),
         };
@@ -104,28 +104,57 @@ impl Found {
 }
 
 fn inertia(source: &InertiaSource) -> Result<Uncertain, String> {
-    let of = |value: Measured| Uncertain::new(value[0], value[1]);
+    let of = Uncertain::new;
     let found = match *source {
-        InertiaSource::Given(value) => of(value),
+        InertiaSource::Given {
+            inertia,
+            inertia_deviation,
+        } => of(inertia, inertia * inertia_deviation),
         InertiaSource::Pendulum {
-            mass,
-            arm,
-            period,
-            amplitude,
-            gravity,
-        } => inertia_from_pendulum(of(mass), of(arm), of(period), amplitude, gravity),
+            test_mass,
+            test_mass_deviation,
+            test_arm,
+            test_arm_deviation,
+            test_period,
+            test_period_deviation,
+            test_amplitude,
+            test_gravity,
+        } => inertia_from_pendulum(
+            of(test_mass, test_mass_deviation),
+            of(test_arm, test_arm_deviation),
+            of(test_period, test_period_deviation),
+            test_amplitude,
+            test_gravity,
+        ),
         InertiaSource::Bifilar {
-            mass,
-            distance,
-            length,
-            period,
-            gravity,
-        } => inertia_from_bifilar(of(mass), of(distance), of(length), of(period), gravity),
+            test_mass,
+            test_mass_deviation,
+            string_distance,
+            string_distance_deviation,
+            string_length,
+            string_length_deviation,
+            test_period,
+            test_period_deviation,
+            test_gravity,
+        } => inertia_from_bifilar(
+            of(test_mass, test_mass_deviation),
+            of(string_distance, string_distance_deviation),
+            of(string_length, string_length_deviation),
+            of(test_period, test_period_deviation),
+            test_gravity,
+        ),
         InertiaSource::KnownTorque {
-            torque,
-            with,
-            without,
-        } => inertia_from_known_torque(of(torque), of(with), of(without)),
+            test_torque,
+            test_torque_deviation,
+            acceleration_with,
+            acceleration_with_deviation,
+            acceleration_without,
+            acceleration_without_deviation,
+        } => inertia_from_known_torque(
+            of(test_torque, test_torque_deviation),
+            of(acceleration_with, acceleration_with_deviation),
+            of(acceleration_without, acceleration_without_deviation),
+        ),
     };
     match found.is_sound() && found.value > 0.0 {
         true => Ok(found),
@@ -194,20 +223,27 @@ mod tests {
     #[test]
     fn an_inertia_that_cannot_be_is_refused() {
         let known = InertiaSource::KnownTorque {
-            torque: [0.02, 0.0],
-            with: [-10.0, 0.0],
-            without: [10.0, 0.0],
+            test_torque: 0.02,
+            test_torque_deviation: 0.0,
+            acceleration_with: -10.0,
+            acceleration_with_deviation: 0.0,
+            acceleration_without: 10.0,
+            acceleration_without_deviation: 0.0,
         };
         assert!(inertia(&known).is_err());
         // A ring of 0.4 kg and 50 mm on two strings 50 mm apart and 1.2 m long: I = m r², T from the law.
         let (m, r, g, d, l) = (0.4, 0.05_f64, 9.81, 0.05_f64, 1.2);
         let period = (16.0 * std::f64::consts::PI.powi(2) * l * m * r * r / (m * g * d * d)).sqrt();
         let bifilar = InertiaSource::Bifilar {
-            mass: [m, 0.0],
-            distance: [d, 0.0],
-            length: [l, 0.0],
-            period: [period, 0.0],
-            gravity: g,
+            test_mass: m,
+            test_mass_deviation: 0.0,
+            string_distance: d,
+            string_distance_deviation: 0.0,
+            string_length: l,
+            string_length_deviation: 0.0,
+            test_period: period,
+            test_period_deviation: 0.0,
+            test_gravity: g,
         };
         assert!((inertia(&bifilar).unwrap().value / (m * r * r) - 1.0).abs() < 1e-12);
     }
