@@ -257,11 +257,14 @@ fn holds(condition: &Condition, system: SystemName) -> Value {
     } else {
         given(condition.path)
     };
-    say(
-        &mut schema,
-        condition.path,
-        with_origin(&json!({ "enum": condition.values })),
-    );
+    let values = match key.map(|key| key.kind) {
+        Some(Kind::Switch) => {
+            let switched: Vec<bool> = condition.values.iter().map(|v| *v == "true").collect();
+            json!({ "enum": switched })
+        }
+        _ => json!({ "enum": condition.values }),
+    };
+    say(&mut schema, condition.path, with_origin(&values));
     if condition.path != BEARING_TYPE {
         return schema;
     }
