@@ -12,6 +12,8 @@ const INDEPENDENT: f64 = 2.0;
 const AT_REST: [[f64; 3]; 3] = [[1e-4, 0.0, 0.0], [0.0, 1e-4, 0.0], [0.0, 0.0, 1.0]];
 /// Least deviation of a torque over that of the zero or of the noise.
 const LEAST_DEVIATION: f64 = 0.02;
+/// Marks that would have passed behind the last one, had the shaft not stopped.
+const SILENT_MARKS: f64 = 2.0;
 /// Time after the last pulse until the shaft rests and the arm has settled, s, and the least time of rest behind it, s.
 const SETTLING: f64 = 0.5;
 const LEAST_REST: f64 = 0.5;
@@ -38,15 +40,19 @@ pub(super) fn measurement(
     let time = thinned(&torque.time);
     let mut motion: Vec<_> = time.iter().map(|time| shaft.speed.at(*time)).collect();
     let change = shaft.speed.change.filter(|change| change.from_rest);
-    let (first, last) = shaft.speed.range();
-    let from = change.map_or(first, |change| change.engagement.0);
-    // before its engagement and behind its last pulse the shaft rests, where it may still turn by less than a mark
+    let last = shaft.speed.range().1;
+    let from = change.map_or(f64::NEG_INFINITY, |change| change.engagement.0);
+    // before its engagement from rest the shaft rests, and behind its last pulse where others would have come at its last speed;
+    // there it may still turn by less than a mark
     let (ending, braking) = {
         let end = shaft.speed.at(last);
         (end.speed, end.acceleration)
     };
+    let silence = time.last().map_or(0.0, |end| end - last);
+    let stops = silence * ending.abs() > SILENT_MARKS * shaft.pulses.pitch();
+    let until = if stops { last } else { f64::INFINITY };
     for (motion, time) in motion.iter_mut().zip(&time) {
-        if *time < from || *time > last {
+        if *time < from || *time > until {
             (motion.speed, motion.acceleration) = (0.0, 0.0);
             motion.covariance = AT_REST;
             if (last..last + SETTLING).contains(time) {
@@ -60,6 +66,7 @@ pub(super) fn measurement(
     let mut torque_deviation = thinned(&torque.deviation);
     // where the zero was not seen before the test it is seen behind it, once the shaft rests
     if change.is_none()
+        && stops
         && let Some(zero) = zero_at_rest(&time, &values, last)
     {
         for (value, deviation) in values.iter_mut().zip(&mut torque_deviation) {

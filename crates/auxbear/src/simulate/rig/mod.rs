@@ -16,14 +16,14 @@ mod warnings;
 
 use super::ending::{settings, stop};
 use super::outcome::{Outcome, Picture, Work};
-use super::{Options, method};
+use super::{Options, Phase, method};
 use crate::scenario::{Rig, Scenario};
 use build::Built;
 use chain::{Happened, Sampled};
 use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
 use model::system::rig::record::Keep;
 use model::system::rig::taps::multiplexed;
-use model::system::rig::{Record, Tap, simulate};
+use model::system::rig::{Record, Tap, simulate_told};
 use solve::Ending;
 use std::time::Instant;
 
@@ -51,7 +51,13 @@ pub(super) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
         taps: &taps,
     };
     let mut record = Record::new(machine, &keep);
-    let run = simulate(machine, &settings(&rig.run), &mut record, options.interrupt);
+    let run = simulate_told(
+        machine,
+        &settings(&rig.run),
+        &mut record,
+        options.interrupt,
+        &|done| (options.progress)(Phase::Run, done),
+    );
     let seconds = clock.elapsed().as_secs_f64();
     let raw = chain::raw(rig, &happened(rig, &record));
     let context = Context {

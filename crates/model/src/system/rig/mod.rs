@@ -46,7 +46,7 @@ pub use clutch::{Clutch, ClutchEvent};
 pub use program::{Action, Engagement, Program, Start};
 pub use ramp::{RampError, engagement_ramp};
 pub use record::Record;
-pub use simulate::{RigRun, simulate};
+pub use simulate::{RigRun, simulate, simulate_told};
 pub use taps::{Tap, Taps};
 
 use super::refusal::{self, Refusal};

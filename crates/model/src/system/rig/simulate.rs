@@ -40,6 +40,23 @@ pub fn simulate(
     simulate_on(Level::detect(), machine, settings, record, interrupt)
 }
 
+/// The same, told in thousandths how far it is, from 0 to 1.
+pub fn simulate_told(
+    machine: &RigMachine,
+    settings: &Settings,
+    record: &mut Record,
+    interrupt: &AtomicBool,
+    told: &dyn Fn(f64),
+) -> RigRun {
+    let run = Run {
+        machine,
+        settings: *settings,
+        interrupt,
+        told,
+    };
+    Level::detect().run_one(ToTheEnd { run, record })
+}
+
 /// The same on a level of the vector unit: every one gives the same bits.
 ///
 /// # Panics
@@ -55,6 +72,7 @@ pub fn simulate_on(
         machine,
         settings: *settings,
         interrupt,
+        told: &|_| {},
     };
     level.run_one(ToTheEnd { run, record })
 }
@@ -82,6 +100,7 @@ pub(super) fn until_locked(
         machine,
         settings: *settings,
         interrupt: &AtomicBool::new(false),
+        told: &|_| {},
     };
     // balls that roll are few numbers: nothing is gained by several at a time
     run.to_the_end::<f64>(record, true)
@@ -93,6 +112,7 @@ struct Run<'a> {
     machine: &'a RigMachine,
     settings: Settings,
     interrupt: &'a AtomicBool,
+    told: &'a dyn Fn(f64),
 }
 
 /// A change of the clutch within a step.
@@ -114,6 +134,8 @@ const CHANGE: &str = "the clutch changes";
 struct Watch<'r> {
     record: &'r mut Record,
     found: Option<Found>,
+    told: &'r dyn Fn(f64),
+    end: f64,
 }
 
 /// Looks for nothing.
@@ -144,6 +166,10 @@ impl<'a> Observer<Segment<'a>> for Watch<'_> {
                 end: step.end,
             });
             return Flow::Halt(CHANGE);
+        }
+        let thousandths = |time: f64| (1000.0 * time / self.end) as u64;
+        if thousandths(step.end) > thousandths(step.start) {
+            (self.told)(thousandths(step.end) as f64 * 1e-3);
         }
         self.record.step(step)
     }
@@ -201,6 +227,8 @@ impl<'a> Run<'a> {
             let mut watch = Watch {
                 record: &mut *record,
                 found: None,
+                told: self.told,
+                end: self.settings.end,
             };
             let ending = self.segment::<R, _>(
                 &schedule.mode,
