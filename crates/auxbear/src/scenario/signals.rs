@@ -106,6 +106,8 @@ pub struct TorqueSignal {
     pub scale_deviation: f64,
     /// Standard deviation of the zero, N m.
     pub zero_deviation: Option<f64>,
+    /// Time after the engagement for which sensors of other frequencies are compared, s.
+    pub design_until: Option<f64>,
 }
 
 /// How a sensor is known.
@@ -266,6 +268,7 @@ fn torque(values: &Values) -> Option<TorqueSignal> {
         },
         scale_deviation: torque.number("scale_deviation"),
         zero_deviation: torque.maybe("zero_deviation"),
+        design_until: torque.maybe("design_until"),
     })
 }
 

@@ -287,6 +287,14 @@ pub(super) const KEYS: &[Key] = &[
     .not_negative()
     .optional("the zero may be anywhere in the reading: only a shaft that rests at first shows it"),
     Key::new(
+        "signals.torque.design_until",
+        Kind::Quantity("s"),
+        "0.3 s",
+        "Time after the engagement for which the error of the torque is shown over the frequency that the sensor might have had: the picture by which a torque arm is chosen. It takes seconds.",
+    )
+    .positive()
+    .optional("that picture is not drawn"),
+    Key::new(
         "signals.cage.channel",
         Kind::Text,
         "ball_pass",

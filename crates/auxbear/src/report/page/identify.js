@@ -128,14 +128,14 @@ function lossFigures(run, runs) {
   const tests = testsOf(run);
   if (!tests.length) return null;
   const table = plainTable(
-    ["test", "t_O − M, 0.2 to 0.4 s", "t_O − M, last 0.5 s at speed", "cage slipped", "balls skidded, if M holds", "rolls from"],
+    ["test", "t_O − M, 0.2 to 0.4 s", "t_O − M, last 0.5 s at speed", "would bring balls and cage up in 3.5 s", "cage slipped", "balls skidded, if M holds", "rolls from"],
     tests.map((test) => {
       const share = (name) => {
         const value = numberOf(run, `${test.key}.${name}`);
         return value === null ? "–" : percentText(value, 3);
       };
       const from = numberOf(run, `${test.key}.rolling_established_at`);
-      return [test.name, uncertainText(run, `${test.key}.excess_torque_settled`, "N mm", 1e3), uncertainText(run, `${test.key}.excess_torque_at_end`, "N mm", 1e3), share("slip_probability"), share("skid_probability"), from === null ? quantityOf(run, `${test.key}.rolling_established_at`).why || "–" : engineeringText(from, "s", 3)];
+      return [test.name, uncertainText(run, `${test.key}.excess_torque_settled`, "N mm", 1e3), uncertainText(run, `${test.key}.excess_torque_at_end`, "N mm", 1e3), `${numberText(1e3 * numberOf(run, `${test.key}.torque_to_roll_within_3_5_s`), 2)} N mm`, share("slip_probability"), share("skid_probability"), from === null ? quantityOf(run, `${test.key}.rolling_established_at`).why || "–" : engineeringText(from, "s", 3)];
     }),
   );
   const energies = plainTable(

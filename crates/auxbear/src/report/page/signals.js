@@ -92,7 +92,23 @@ function measuredTorqueSection(runs) {
     ),
     disturbance.length ? signalFigure("Disturbance once a turn, before the sensor amplifies it", BAND_WORDS, disturbance, { label: "amplitude [N mm]", include: () => [0], height: 190 }, []) : null,
     runs.map((run) => torqueSpectrum(run, runs)),
+    runs.map((run) => designFigure(run, runs)),
   );
+}
+
+// By which a torque arm is chosen: its error in this test over the frequency that it might have had.
+function designFigure(run, runs) {
+  const frequencies = listOf(run, "sensor_design_frequencies");
+  if (!frequencies.length) return null;
+  const errors = (name) => listOf(run, `sensor_design_${name}_errors`).map((value) => 1e3 * value);
+  const own = numberOf(run, "sensor_frequency");
+  const top = Math.max(...errors("raw"));
+  const series = [
+    { label: "reading as it is", x: frequencies, y: errors("raw"), colour: SERIES_COLOURS.quiet, dots: true },
+    { label: "inverted", x: frequencies, y: errors("inverted"), colour: SERIES_COLOURS.race, dots: true },
+    ...(own === null ? [] : [{ label: `this sensor, ${numberText(own, 4)} Hz`, x: [own, own], y: [0, top], colour: SERIES_COLOURS.cage, dash: "2 3" }]),
+  ];
+  return figure(shareOfRun(run, runs, "Which frequency a torque sensor should have"), "Root mean square error after the engagement for the torque found here, with the decay, noise and disturbance of this sensor. A stiff arm swings less and reads less: its noise in N mm is that of this one.", curves({ series, across: "frequency of the sensor [Hz]", upright: "error [N mm]", logarithmic: false, height: 260 }));
 }
 
 // Amplitudes over frequency; where the sensor swings and where the shaft's orders lie at its largest speed is told.

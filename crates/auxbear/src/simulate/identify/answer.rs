@@ -19,7 +19,7 @@ pub(super) fn quantities(found: &Found) -> Vec<Quantity> {
     verdict(&mut list, found);
     moment(&mut list, found);
     for (number, test) in found.tests.iter().enumerate() {
-        answer_tests::name(&mut list, number + 1, test);
+        answer_tests::name(&mut list, number + 1, test, &found.set);
     }
     map(&mut list, found);
     rotor(&mut list, found);

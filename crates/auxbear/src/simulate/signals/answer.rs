@@ -290,6 +290,24 @@ fn torque(list: &mut List, asked: &Asked, found: &Found) {
         lines(|s| &s.amplitude),
         &SPECTRUM,
     );
+    for (name, unit, pick) in [
+        (
+            "sensor_design_frequencies",
+            "Hz",
+            (|e| e.frequency) as fn(&measure::torque_sensor::DesignError) -> f64,
+        ),
+        ("sensor_design_raw_errors", "N m", |e| e.raw),
+        ("sensor_design_inverted_errors", "N m", |e| e.inverted),
+    ] {
+        let value = match &part {
+            Ok(part) => match &part.design {
+                Ok(errors) => Value::List(errors.iter().map(pick).collect()),
+                Err(why) => Value::None { why: why.clone() },
+            },
+            Err(why) => Value::None { why: why.clone() },
+        };
+        list.push(name, unit, value, &DESIGN);
+    }
 }
 
 fn cage(list: &mut List, asked: &Asked, found: &Found) {
@@ -366,6 +384,11 @@ const TORQUE: Origin = Origin {
     law: "torque, zero and disturbance once a turn jointly, by smoothing of an unknown input; deviation: standard",
     source: "crates/measure/src/torque_sensor/inversion.rs",
     valid: "a sensor of one degree of freedom with frequency and damping known to their deviations",
+};
+const DESIGN: Origin = Origin {
+    law: "root mean square error of the torque after the engagement, of the reading and of its inversion, by simulated tests",
+    source: "crates/measure/src/torque_sensor/design.rs",
+    valid: "a linear sensor that is known exactly, with the decay, noise and disturbance of the one there is",
 };
 const SPECTRUM: Origin = Origin {
     law: "mean of overlapping Hann segments; amplitude of a sine, peak",

@@ -13,6 +13,7 @@ mod answer;
 mod answer_analysis;
 pub(super) mod cage;
 mod converter;
+mod design;
 mod history;
 mod read;
 pub(super) mod shaft;

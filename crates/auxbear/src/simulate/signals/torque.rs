@@ -1,11 +1,13 @@
 //! The torque that a swinging sensor felt, from its reading.
 
 use super::read::Series;
-use super::shaft;
+use super::{design, shaft};
 use crate::scenario::{Disturbance, SensorSource, TorqueSignal};
 use measure::converter::{Fault, faults};
 use measure::spectrum::{Segments, Spectrum, Window, spectrum};
-use measure::torque_sensor::{Inversion, Sensor, Torque, identify_free_response, invert};
+use measure::torque_sensor::{
+    DesignError, Inversion, Sensor, Torque, identify_free_response, invert,
+};
 use measure::uncertain::Uncertain;
 
 /// Most values in a segment of the spectrum.
@@ -19,6 +21,8 @@ pub(in crate::simulate) struct Found {
     /// Spectrum of the reading; why there is none.
     pub spectrum: Result<Spectrum, String>,
     pub notes: Vec<String>,
+    /// Error of the torque over the frequency of the sensor; why it is not known.
+    pub design: Result<Vec<DesignError>, String>,
 }
 
 /// Values that are not to be trusted.
@@ -106,6 +110,7 @@ impl Found {
             window: Window::Hann,
         };
         Ok(Found {
+            design: design::errors(wish, torque.as_ref(), sensor, shaft),
             torque,
             sensor,
             spectrum: spectrum(&faulty.reading, series.interval, &segments),
