@@ -376,3 +376,31 @@ fn keys_without_their_channel_are_refused() {
         "{cage}"
     );
 }
+
+/// A sensor near the turning frequency is the worst choice; its inversion is better than its reading at every frequency.
+#[test]
+fn the_choice_of_a_sensor_is_shown() {
+    let outcome = example(&["signals.torque.design_until=0.3 s"]);
+    let list = |name: &str| {
+        let quantity = outcome.quantities.iter().find(|q| q.name == name);
+        match quantity.map(|quantity| &quantity.value) {
+            Some(Value::List(list)) => list.clone(),
+            other => panic!("{name}: {other:?}"),
+        }
+    };
+    let (frequencies, raw, inverted) = (
+        list("sensor_design_frequencies"),
+        list("sensor_design_raw_errors"),
+        list("sensor_design_inverted_errors"),
+    );
+    assert!(frequencies.len() >= 8);
+    assert!(
+        raw.iter()
+            .zip(&inverted)
+            .all(|(raw, inverted)| inverted < raw)
+    );
+    let worst = (0..raw.len()).max_by(|a, b| raw[*a].total_cmp(&raw[*b]));
+    // 150 rad/s are 23.9 turns a second
+    let worst = frequencies[worst.expect("a list")];
+    assert!((18.0..=35.0).contains(&worst), "{worst} Hz");
+}
