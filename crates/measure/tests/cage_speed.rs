@@ -196,18 +196,6 @@ fn two_deviations_cover_the_cage_speed_from_vibration() {
         };
         let found =
             from_vibration(0.0, 1.0 / 2000.0, &signal, &truth.shaft(), &line).expect("found");
-        if seed < 6 && std::env::var("P").is_ok() {
-            for k in 0..found.time.len() {
-                eprintln!(
-                    "CSV{seed},{},{},{},{}",
-                    found.time[k],
-                    found.speed[k] - truth.cage(found.time[k]).1,
-                    found.deviation[k],
-                    truth.slip(found.time[k]).0
-                );
-            }
-            eprintln!("{:?} {}", found.notes, found.noise);
-        }
         covered(&found, &truth)
     });
 }
