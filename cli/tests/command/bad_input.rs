@@ -121,8 +121,8 @@ fn a_place_that_cannot_be_written_is_found_before_the_run() {
 fn starting_files_of_other_kinds() {
     let place = Place::new();
     place
-        .call(&["new", "rig"])
-        .refused(&["AB0112", "\"rig\"", "planned"]);
+        .call(&["new", "rotor"])
+        .refused(&["AB0112", "\"rotor\"", "planned"]);
     place
         .call(&["new", "drpo"])
         .refused(&["AB0108", "Did you mean \"drop\"?"]);

@@ -9,12 +9,13 @@ fn help_names_what_is_there_and_nothing_else() {
     let place = Place::new();
     let called = place.call(&["--help"]).done();
     for command in [
-        "run", "torque", "check", "new", "schema", "report", "validate", "bearings",
+        "run", "torque", "signals", "identify", "check", "new", "schema", "report", "validate",
+        "bearings",
     ] {
         assert!(called.out.contains(&format!("\n  {command} ")), "{command}");
         place.call(&[command, "--help"]).done();
     }
-    for later in ["rotor", "identify", "study", "studio"] {
+    for later in ["rotor", "study", "studio"] {
         assert!(!called.out.contains(&format!("\n  {later} ")), "{later}");
     }
 }
@@ -29,7 +30,7 @@ fn the_starting_file_is_written_or_printed_and_reads() {
         printed
     );
     place.call(&["check", "mine.toml"]).done();
-    for kind in ["spin_up", "torque"] {
+    for kind in ["spin_up", "torque", "rig"] {
         place.call(&["new", kind, "other.toml"]).done();
         place.call(&["check", "other.toml"]).done();
         fs::remove_file(place.path("other.toml")).unwrap();

@@ -21,7 +21,7 @@ fn other_kinds_are_told_apart() {
     let place = Place::new();
     for (kind, code, words) in [
         ("drp", "AB0108", "Did you mean \"drop\"?"),
-        ("rig", "AB0112", "planned"),
+        ("rotor", "AB0112", "planned"),
     ] {
         let called = place.call(&["schema", kind]);
         assert_eq!(called.code, Some(2), "{called:?}");

@@ -342,7 +342,7 @@ fn the_starting_file_reads_without_a_problem() {
             assert_eq!(shown, namesake, "{} in {name}", key.path);
         }
     }
-    assert_eq!(template("rig"), None);
+    assert_eq!(template("rotor"), None);
 }
 
 proptest! {

@@ -155,7 +155,7 @@ fn keys_and_sections_of_another_system_are_refused() {
     let problem = Scenario::parse(&torque, "torque.toml", &sets, &BuiltIn).unwrap_err();
     assert_eq!(
         problem.to_string(),
-        "error[AB0110]: torque.toml, --set: bearing.fidelity: found a key that has no effect; it is used only with system = \"drop\" or \"spin_up\"; here it is \"torque\""
+        "error[AB0110]: torque.toml, --set: bearing.fidelity: found a key that has no effect; it is used only with system = \"drop\" or \"spin_up\" or \"rig\"; here it is \"torque\""
     );
 }
 

@@ -4,6 +4,9 @@ use super::Scenario;
 use crate::problem::{Place, Problem};
 use std::collections::BTreeMap;
 
+/// What a problem names as its file until the scenario is known in which it stands.
+pub(crate) const UNNAMED: &str = "the scenario";
+
 /// The text of a scenario, as far as messages name it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Text {
@@ -16,6 +19,10 @@ pub(super) struct Text {
 impl Scenario {
     /// The problem with the file and the line of its key: where the key stands, else where the section begins.
     pub fn locate(&self, mut problem: Box<Problem>) -> Box<Problem> {
+        // what names a file already is wrong in that one
+        if problem.file != UNNAMED {
+            return problem;
+        }
         problem.file.clone_from(&self.text.name);
         if let Some(key) = &problem.key
             && problem.place == Place::Whole

@@ -68,6 +68,7 @@ pub use drop::{Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor, Spin};
 pub use fits::{Fits, Growth};
 pub use identify::{Explanations, Identify, RotorFriction};
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
+pub(crate) use locate::UNNAMED;
 pub use lubricant::{Lubricant, LubricantViscosity};
 pub use lubricant_state::LubricantState;
 pub use moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};

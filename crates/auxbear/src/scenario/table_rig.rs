@@ -177,7 +177,7 @@ pub(super) const KEYS: &[Key] = &[
     Key::new(
         "rig.engage_again_at",
         Kind::Quantity("s"),
-        "8 s",
+        "5 s",
         "When it engages the second time.",
     )
     .positive()
@@ -325,7 +325,7 @@ pub(super) const KEYS: &[Key] = &[
         "Amplitude of the disturbance once a turn at rig.speed, as a torque before the arm amplifies it.",
     )
     .not_negative()
-    .default("0 N m", "none"),
+    .default("0 N m", "nothing of it"),
     Key::new(
         "rig.arm.synchronous_power",
         Kind::Coefficient,
@@ -333,7 +333,7 @@ pub(super) const KEYS: &[Key] = &[
         "Power of the speed with which it grows: 2 for unbalance, 0 for run-out.",
     )
     .within(Range::FromTo(0.0, 4.0))
-    .default("2", "unbalance"),
+    .default("2", "an unbalance"),
     Key::new(
         "rig.arm.noise",
         Kind::Quantity("N m"),
@@ -341,21 +341,21 @@ pub(super) const KEYS: &[Key] = &[
         "Standard deviation of the noise of one value.",
     )
     .not_negative()
-    .default("0 N m", "none"),
+    .default("0 N m", "nothing of it"),
     Key::new(
         "rig.arm.zero",
         Kind::Quantity("N m"),
         "0.3 N mm",
         "Reading without torque.",
     )
-    .default("0 N m", "none"),
+    .default("0 N m", "nothing of it"),
     Key::new(
         "rig.arm.zero_drift",
         Kind::Quantity("N m"),
         "5 N mm",
         "By how much the zero has moved long after the start of the motion: the warming of the strain gauges.",
     )
-    .default("0 N m", "none"),
+    .default("0 N m", "nothing of it"),
     Key::new(
         "rig.arm.drift_time",
         Kind::Quantity("s"),
@@ -379,7 +379,7 @@ pub(super) const KEYS: &[Key] = &[
         "By which part more the reading is too large at the end of its range: a sensor that is not linear.",
     )
     .within(Range::FromTo(-0.5, 0.5))
-    .default("0", "linear"),
+    .default("0", "a linear sensor"),
     Key::new(
         "rig.arm.range",
         Kind::Quantity("N m"),

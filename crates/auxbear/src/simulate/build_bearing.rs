@@ -5,7 +5,7 @@ use super::{Options, Phase};
 use crate::problem::{Code, Problem};
 use crate::scenario::{
     AccelerationLoss as LossChoice, BallMaterial, Bearing, Fidelity, Guidance, Land, Moment,
-    Separation,
+    Separation, UNNAMED,
 };
 use model::bearing::ball::BallConstants;
 use model::bearing::cage::{Land as CageLand, LandRace};
@@ -29,7 +29,7 @@ use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE, ball_mass, co
 use physics::rolling::RollingSet;
 
 /// What a problem found after reading names as its place.
-pub(super) const SCENARIO: &str = "the scenario";
+pub(super) const SCENARIO: &str = UNNAMED;
 
 /// The Hertz contacts of a ball, and its mass.
 pub(super) struct BallContacts {
@@ -72,7 +72,7 @@ pub(super) fn ball_contacts(bearing: &Bearing) -> Result<BallContacts, Box<Probl
             Box::new(
                 Problem::new(
                     Code::BearingGeometry,
-                    "the scenario",
+                    SCENARIO,
                     format!(
                         "a groove curvature of {groove_curvature}, which gives no point contact"
                     ),

@@ -13,7 +13,7 @@ use super::build_bearing::{acceleration_loss, material};
 use super::outcome::{Column, Outcome, Picture, Stop, Work};
 use super::{quantities_torque, warnings_torque};
 use crate::problem::{Code, Problem};
-use crate::scenario::{Moment, Scenario, Torque};
+use crate::scenario::{Moment, Scenario, Torque, UNNAMED};
 use model::bearing::AccelerationLoss;
 use physics::friction::{Friction, MomentParts};
 use physics::materials::ball_mass;
@@ -63,7 +63,7 @@ impl Asked<'_> {
             Box::new(
                 Problem::new(
                     Code::NoLawData,
-                    "the scenario",
+                    UNNAMED,
                     why,
                     "a law that has constants for this bearing",
                 )

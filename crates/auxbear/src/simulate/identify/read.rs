@@ -2,7 +2,7 @@
 
 use super::super::signals;
 use crate::problem::{Code, Problem};
-use crate::scenario::{Identify, NoBearings, Scenario, Signals, System};
+use crate::scenario::{Identify, NoBearings, Scenario, Signals, System, UNNAMED};
 use std::path::Path;
 
 /// One test as its signals file tells it, its channels read.
@@ -61,7 +61,7 @@ fn test(
         Box::new(
             Problem::new(
                 code,
-                "the scenario",
+                UNNAMED,
                 format!("{}, {found}", path.display()),
                 needed,
             )

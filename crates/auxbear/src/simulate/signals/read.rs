@@ -1,7 +1,7 @@
 //! The channels that are asked for, read from a measurement file and brought to one clock in s.
 
 use crate::problem::{Code, Problem, did_you_mean};
-use crate::scenario::Signals;
+use crate::scenario::{Signals, UNNAMED};
 use measure::converter::Converter;
 use measure::file;
 use measure::recording::{Channel, Clock, Content, FileError, Instant, Recording};
@@ -127,7 +127,7 @@ impl<'a> Source<'a> {
         needed: impl Into<String>,
     ) -> Box<Problem> {
         let found = format!("{}, {found}", self.name);
-        Box::new(Problem::new(code, "the scenario", found, needed).on_key(key))
+        Box::new(Problem::new(code, UNNAMED, found, needed).on_key(key))
     }
 
     fn channel(&self, key: &str, name: &str) -> Result<(usize, Channel), Box<Problem>> {
@@ -521,7 +521,7 @@ fn of_file(error: &FileError, key: &str) -> Box<Problem> {
         "" => "a measurement file that can be read is needed",
         needed => needed,
     };
-    Box::new(Problem::new(Code::MeasurementUnreadable, "the scenario", found, needed).on_key(key))
+    Box::new(Problem::new(Code::MeasurementUnreadable, UNNAMED, found, needed).on_key(key))
 }
 
 /// The name of a file without its folders, for messages.
