@@ -122,7 +122,7 @@ fn orders_that_make_no_sense_are_refused() {
         ),
         ("rig.pickup.kind=edges", "rig.pickup"),
         ("rig.program=coast-down", "rig.program"),
-        ("rig.logger.total_rate=1e9 Hz", "raw file"),
+        ("rig.logger.total_rate=1e9 Hz", "rig.logger.total_rate"),
         ("rig.load.radial_load=-3 N", "rig.load.radial_load"),
     ] {
         let mut words = vec!["run", &file, "--set", set, "--out", "none"];

@@ -67,6 +67,7 @@ pub use bearing_source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
 pub use drop::{Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor, Spin};
 pub use fits::{Fits, Growth};
 pub use identify::{Explanations, Identify, RotorFriction};
+pub(crate) use key::quoted;
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
 pub(crate) use locate::UNNAMED;
 pub use lubricant::{Lubricant, LubricantViscosity};

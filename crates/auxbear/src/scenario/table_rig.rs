@@ -507,7 +507,7 @@ pub(super) const KEYS: &[Key] = &[
         "42 kHz",
         "Values a second of all channels together; they are taken in turn.",
     )
-    .positive()
+    .within(Range::FromTo(100.0, 1e8))
     .default("42 kHz", "the source paper's converter"),
     Key::new(
         "rig.logger.bits",

@@ -139,15 +139,15 @@ function lossFigures(run, runs) {
     }),
   );
   const energies = plainTable(
-    ["test", "best", "(21) as printed", "corrected, rolling", "exact, with the cage signal", "without a cage signal"],
-    tests.map((test) => [test.name, ...["", "_printed", "_corrected", "_exact", "_without_cage"].map((form) => uncertainText(run, `${test.key}.dissipated_energy${form}`, "J"))]),
+    ["test", "until, after the engagement", "best", "(21) as printed", "corrected, rolling", "exact, with the cage signal", "without a cage signal"],
+    tests.map((test) => [test.name, engineeringText(numberOf(run, `${test.key}.dissipation_until`), "s", 3), ...["", "_printed", "_corrected", "_exact", "_without_cage"].map((form) => uncertainText(run, `${test.key}.dissipated_energy${form}`, "J"))]),
   );
   const friction = tests.flatMap((test, index) => bandLines([run], `${test.key}.friction`, `${test.key}.friction_deviation`, 1, { label: `${test.name} [N]`, colour: LINE_COLOURS[index % LINE_COLOURS.length], width: 1.25 }));
   return [
     figure(shareOfRun(run, runs, "Beyond the steady moment"), "± is twice the standard deviation. Slip and skid: probability that it happened at any time after the engagement. The spin of the balls is told by the torque alone and takes M to hold: a lubricant in another state than in the slow tests looks like skid.", table),
     figure(shareOfRun(run, runs, "Friction F of the accelerated balls"), friction.length ? `Where the balls are known to roll; elsewhere t_O − M alone is known. No friction is negative: where F is, the lubricant or the sensor was in another state than in the slow tests. ${BAND_WORDS}` : null, friction.length ? timePlot({ series: friction, label: "F [N]", include: () => [0], height: 240 }) : notInThisRun("F: nowhere are the balls known to roll", run)),
     mapFigure(run, runs),
-    figure(shareOfRun(run, runs, "What the spin-up dissipated"), "± is twice the standard deviation. The printed form has the factor 1 + 2s where none belongs.", energies),
+    figure(shareOfRun(run, runs, "What the spin-up dissipated"), "From the engagement until 99 % of the largest speed: where a motor brings up the last per cent, most of it is steady running. ± is twice the standard deviation. The printed form has the factor 1 + 2s where none belongs.", energies),
   ];
 }
 

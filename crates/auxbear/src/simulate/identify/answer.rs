@@ -74,12 +74,11 @@ fn verdict(list: &mut List, found: &Found) {
             format!("{} {:.3e} ± {:.1e} {unit}", p.name, p.mean, p.deviation)
         });
         let values: Vec<String> = values.map(|text| text.trim_end().to_string()).collect();
-        format!(
-            "{} ({}): {}",
-            best.explanation.name(),
-            best.form,
-            values.join("; ")
-        )
+        let name = best.explanation.name();
+        match best.form == name {
+            true => format!("{name}: {}", values.join("; ")),
+            false => format!("{name} ({}): {}", best.form, values.join("; ")),
+        }
     });
     list.push("explanation_parameters", "", text_or(parameters), &VERDICT);
     let fit = verdict.map_err(Clone::clone).and_then(|verdict| {

@@ -39,6 +39,8 @@ const ROTOR_TIMES: usize = 2000;
 /// Time around the end of a quick change within which a jump of the torque is smeared, s: some times 1/ω_n of a usual arm.
 const SMEARED: f64 = 0.01;
 
+/// Time before a stop that a slow test is cut by, s: a usual arm settles within it several times over.
+const STOPPING: f64 = 0.5;
 /// Relative standard deviation of the cage's rolling speed as it is foretold: of the ratio by contact angle and radii, and of a
 /// shaft's speed where its acceleration changes at once. A slip that explains a torque is ten times that.
 const ROLLING_RATIO: f64 = 0.002;
@@ -49,6 +51,8 @@ pub(super) struct TestFound {
     pub name: String,
     /// The test as the estimators take it.
     pub measurement: Measurement,
+    /// Largest acceleration of the shaft, rad/s².
+    pub peak_acceleration: Uncertain,
     /// The friction of accelerated balls.
     pub loss: Result<Loss, String>,
     /// Energy of its spin-up.
@@ -91,7 +95,7 @@ impl Found {
         let mut warnings = Vec::new();
         let mut unusable = Vec::new();
         let interrupted = || options.interrupt.load(Ordering::Relaxed);
-        let mut read = |tests: &[Test]| -> Vec<Measurement> {
+        let mut read = |tests: &[Test]| -> Vec<(Measurement, Uncertain)> {
             let mut list = Vec::new();
             for test in tests {
                 if interrupted() {
@@ -104,9 +108,12 @@ impl Found {
             }
             list
         };
-        let coast_downs = read(&asked.coast_downs);
+        let coast_downs: Vec<Measurement> = (read(&asked.coast_downs).into_iter())
+            .map(|(test, _)| test)
+            .collect();
         let tests = read(&asked.tests);
-        let slow: Vec<&Measurement> = coast_downs.iter().collect();
+        let steady: Vec<Measurement> = coast_downs.iter().map(before_the_stop).collect();
+        let slow: Vec<&Measurement> = steady.iter().collect();
         let moment = match slow.as_slice() {
             [] => Err("none of the slow tests can be used".to_string()),
             slow => moment(
@@ -130,8 +137,9 @@ impl Found {
         let curve = moment.as_ref().map(|moment| &moment.curve);
         let no_moment = || "the steady moment is not known".to_string();
         let tests: Vec<TestFound> = (tests.into_iter())
-            .map(|test| TestFound {
+            .map(|(test, peak_acceleration)| TestFound {
                 name: test.name.clone(),
+                peak_acceleration,
                 loss: (curve.as_ref().map_err(|_| no_moment()))
                     .and_then(|curve| loss(&test, curve, &set, &settings)),
                 dissipation: dissipation(&test, &set, &deviation, None),
@@ -176,12 +184,16 @@ impl Found {
         }));
         let notes = (moment.iter().flat_map(|moment| &moment.notes))
             .chain(map.iter().flat_map(|map| &map.notes))
-            .chain(tests.iter().flat_map(|test| {
-                (test.loss.iter().flat_map(|loss| &loss.notes))
-                    .chain(test.dissipation.iter().flat_map(|found| &found.notes))
-            }))
             .chain(rotor.iter().flat_map(|rotor| &rotor.notes));
-        told.extend(notes.map(|note| Warning {
+        let of_tests = tests.iter().flat_map(|test| {
+            let notes = (test.loss.iter().flat_map(|loss| &loss.notes))
+                .chain(test.dissipation.iter().flat_map(|found| &found.notes));
+            notes.map(|note| match note.contains(&test.name) {
+                true => note.clone(),
+                false => format!("{}: {note}", test.name),
+            })
+        });
+        told.extend(notes.cloned().chain(of_tests).map(|note| Warning {
             code: "AB1062",
             text: format!("{}.", note.trim_end_matches('.')),
         }));
@@ -198,6 +210,17 @@ impl Found {
             warnings: told,
             interrupted: interrupted(),
         }
+    }
+}
+
+/// A slow test without its end: where the shaft stops the moment falls at once, which no smoothed torque follows.
+fn before_the_stop(test: &Measurement) -> Measurement {
+    let turning = test.speed.iter().rposition(|speed| *speed != 0.0);
+    match (turning, test.time.first()) {
+        (Some(last), Some(first)) if last + 1 < test.time.len() => {
+            test.between(*first, test.time[last] - STOPPING)
+        }
+        _ => test.clone(),
     }
 }
 
@@ -228,15 +251,21 @@ fn set_deviation(set: &RollingSet<f64>) -> SetDeviation {
 }
 
 /// The signals of a test as the estimators of the bearing take them.
-fn measured(test: &Test, warnings: &mut Vec<Warning>) -> Result<Measurement, String> {
+fn measured(test: &Test, warnings: &mut Vec<Warning>) -> Result<(Measurement, Uncertain), String> {
     let found = signals::find(&test.asked);
     let scale = (test.signals.torque.as_ref()).map_or(0.0, |torque| torque.scale_deviation);
     let measurement = measurement(&test.name, test.load.unwrap_or(0.0), &found, scale);
-    warnings.extend(found.warnings.into_iter().map(|warning| Warning {
+    warnings.extend(found.warnings.iter().map(|warning| Warning {
         text: format!("{}: {}", test.name, warning.text),
-        ..warning
+        ..warning.clone()
     }));
-    measurement
+    let peak = (found.shaft.as_ref()).map_or(Uncertain::exact(0.0), |shaft| {
+        Uncertain::new(
+            shaft.peak.acceleration,
+            shaft.peak.acceleration_uncertainty(),
+        )
+    });
+    measurement.map(|measurement| (measurement, peak))
 }
 
 fn map(
@@ -302,7 +331,17 @@ fn explained(
     let verdict = explain::explain(&measurements, curve, set, &priors, &settings)
         .map_err(|why| why.to_string());
     let next = match &verdict {
+        Ok(verdict) if matches!(verdict.conclusion, explain::Conclusion::Supported(_)) => {
+            Err("the tests at hand decide".to_string())
+        }
         Ok(verdict) => explain::next_test(verdict, &measurements, curve, set, &priors, &settings)
+            .map(|mut candidates| {
+                let all_see_the_cage = measurements.iter().all(|test| test.cage.is_some());
+                candidates.retain(|candidate| {
+                    !(all_see_the_cage && candidate.proposal == explain::Proposal::CageSensor)
+                });
+                candidates
+            })
             .map_err(|why| why.to_string()),
         Err(why) => Err(why.clone()),
     };

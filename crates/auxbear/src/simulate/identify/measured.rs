@@ -12,8 +12,6 @@ const INDEPENDENT: f64 = 2.0;
 const AT_REST: [[f64; 3]; 3] = [[1e-4, 0.0, 0.0], [0.0, 1e-4, 0.0], [0.0, 0.0, 1.0]];
 /// Least deviation of a torque over that of the zero or of the noise.
 const LEAST_DEVIATION: f64 = 0.02;
-/// Marks that would have passed behind the last one, had the shaft not stopped.
-const SILENT_MARKS: f64 = 2.0;
 /// Time after the last pulse until the shaft rests and the arm has settled, s, and the least time of rest behind it, s.
 const SETTLING: f64 = 0.5;
 const LEAST_REST: f64 = 0.5;
@@ -49,7 +47,7 @@ pub(super) fn measurement(
         (end.speed, end.acceleration)
     };
     let silence = time.last().map_or(0.0, |end| end - last);
-    let stops = silence * ending.abs() > SILENT_MARKS * shaft.pulses.pitch();
+    let stops = silence * ending.abs() > signals::shaft::SILENT_MARKS * shaft.pulses.pitch();
     let until = if stops { last } else { f64::INFINITY };
     for (motion, time) in motion.iter_mut().zip(&time) {
         if *time < from || *time > until {

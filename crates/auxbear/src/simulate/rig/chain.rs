@@ -192,10 +192,14 @@ fn pickup(rig: &Rig, happened: &Happened) -> RawChannel {
             unit: "s",
             description: format!("instants of marks, {} a turn", rig.pickup.marks),
             interval: None,
-            values: instants(happened, &wheel)
-                .into_iter()
-                .map(|time| time + stamp_deviation * noise())
-                .collect(),
+            values: {
+                let stamp = |time| time + stamp_deviation * noise();
+                let mut stamps: Vec<f64> =
+                    instants(happened, &wheel).into_iter().map(stamp).collect();
+                // a counter writes its marks in order
+                stamps.sort_by(f64::total_cmp);
+                stamps
+            },
             clipped: 0,
         },
     }

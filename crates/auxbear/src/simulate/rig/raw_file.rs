@@ -61,15 +61,14 @@ pub(super) fn files(
 /// What a laboratory would know of the channels.
 fn signals(rig: &Rig, title: &str, file: &str, raw: &[RawChannel], rolling_ratio: f64) -> String {
     let delay = 1.0 / rig.logger.total_rate;
-    let quoted = |text: &str| text.replace('\\', "\\\\").replace('"', "\\\"");
+    let title = crate::scenario::quoted(&format!("Signals of: {title}"));
     let has = |name: &str| raw.iter().any(|channel| channel.name == name);
     let mut text = format!(
         "# What the channels of {file} are, as a laboratory would know it.\n\n\
-         format = \"{}\"\nsystem = \"signals\"\ntitle = \"Signals of: {}\"\n\n\
+         format = \"{}\"\nsystem = \"signals\"\ntitle = {title}\n\n\
          [signals]\nfile = \"{file}\"\nchannel_delay = \"{delay} s\"\nradial_load = \"{} N\"\n\n\
          [signals.speed]\nchannel = \"rig/tacho\"\n",
         crate::scenario::FORMAT,
-        quoted(title),
         rig.load.radial_load,
     );
     match rig.pickup.kind {

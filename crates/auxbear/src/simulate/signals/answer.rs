@@ -2,7 +2,7 @@
 
 use super::super::list::{List, Origin};
 use super::super::outcome::{Quantity, Value};
-use super::{Asked, Found, torque};
+use super::{Asked, Found, shaft, torque};
 
 /// Names the results.
 pub(super) fn quantities(asked: &Asked, found: &Found) -> Vec<Quantity> {
@@ -131,7 +131,11 @@ fn speed(list: &mut List, asked: &Asked, found: &Found) {
     list.number(
         "engagement_time_deviation",
         "s",
-        change().map(|c| c.engagement.1),
+        change().and_then(|c| {
+            let shaft = found.shaft.as_ref();
+            let deviation = shaft.and_then(shaft::Found::engagement_deviation);
+            Ok(deviation.unwrap_or(c.engagement.1))
+        }),
         &CHANGE,
     );
     let end = || {

@@ -28,7 +28,7 @@ pub(super) fn columns(asked: &Asked, found: &Found) -> Vec<Column> {
     };
     if let Some(shaft) = &found.shaft {
         let motions: Vec<Motion> = times.iter().map(|&time| shaft.speed.at(time)).collect();
-        let (first, last) = shaft.pulses.watched;
+        let (first, last) = (shaft.pulses.watched.0, shaft.told_until());
         let row = |time: f64| {
             times
                 .partition_point(|t| *t < time)

@@ -279,8 +279,12 @@ pub(super) fn find(asked: &Asked) -> Found {
         found.warn("AB1041", &format!("Channel {}", converted.name), &told);
         found.converted.push(converted);
     }
+    let watched = asked
+        .torque
+        .as_ref()
+        .map(|series| (series.first, series.last()));
     if let (Some(signal), Some(wish)) = (&asked.speed, &asked.signals.speed) {
-        match shaft::Found::of(signal, wish) {
+        match shaft::Found::of(signal, wish, watched) {
             Ok(shaft) => {
                 if let Some(doubt) = &shaft.doubt {
                     found.warn(

@@ -12,6 +12,8 @@ use measure::speed::{Motion, Speed, SpeedSettings, Transient, smooth};
 const LONGEST_INTERVAL: f64 = 1e-3;
 /// Shortest.
 const SHORTEST_INTERVAL: f64 = 2e-4;
+/// Marks that would have passed behind the last one, had the shaft not stopped.
+pub(in crate::simulate) const SILENT_MARKS: f64 = 2.0;
 /// Intervals of a record at which its largest values are looked for.
 const LOOKS: usize = 4000;
 
@@ -35,9 +37,14 @@ pub(in crate::simulate) struct Found {
 }
 
 impl Found {
-    pub(super) fn of(signal: &Signal, wish: &SpeedSignal) -> Result<Found, String> {
+    /// `watched`: time over which another channel was recorded, for instants that tell none of their own.
+    pub(super) fn of(
+        signal: &Signal,
+        wish: &SpeedSignal,
+        watched: Option<(f64, f64)>,
+    ) -> Result<Found, String> {
         let words = |refusal: measure::pulse::Refusal| refusal.to_string();
-        let found = passages(signal, wish)?;
+        let found = passages(signal, wish, watched)?;
         let wheel = Wheel {
             marks: wish.marks_per_revolution,
             missing: wish.missing_marks,
@@ -125,6 +132,31 @@ impl Found {
         }
     }
 
+    /// Standard deviation of the engagement, s: that of the fit, and what a change that begins softly hides before its first
+    /// marks, twice the time between them.
+    pub fn engagement_deviation(&self) -> Option<f64> {
+        let change = self.speed.change?;
+        let next = self
+            .pulses
+            .times
+            .partition_point(|t| *t <= change.engagement.0);
+        let hidden = match (self.pulses.times.get(next), self.pulses.times.get(next + 1)) {
+            (Some(first), Some(second)) if change.from_rest => 2.0 * (second - first),
+            _ => 0.0,
+        };
+        Some(change.engagement.1.hypot(hidden))
+    }
+
+    /// Last time at which the pulses tell of a motion, s: a mark's time behind the last one.
+    pub fn told_until(&self) -> f64 {
+        let watched = self.pulses.watched.1;
+        let Some(last) = self.pulses.times.last() else {
+            return watched;
+        };
+        let speed = self.speed.at(*last).speed.abs();
+        watched.min(last + SILENT_MARKS * self.pulses.pitch() / speed.max(f64::MIN_POSITIVE))
+    }
+
     /// Speed between the two pulses around a time, rad/s; not-a-number outside them.
     pub fn pulse_speed(&self, time: f64) -> f64 {
         let next = self.pulses.times.partition_point(|t| *t <= time);
@@ -136,7 +168,11 @@ impl Found {
     }
 }
 
-fn passages(signal: &Signal, wish: &SpeedSignal) -> Result<Edges, String> {
+fn passages(
+    signal: &Signal,
+    wish: &SpeedSignal,
+    watched: Option<(f64, f64)>,
+) -> Result<Edges, String> {
     let found = match (signal, wish.kind) {
         (Signal::Sampled(series), PickupKind::Analog { flank }) => edges(
             series.first,
@@ -152,18 +188,28 @@ fn passages(signal: &Signal, wish: &SpeedSignal) -> Result<Edges, String> {
                 ..EdgeSettings::default()
             },
         ),
-        (Signal::Stamped(stamps), PickupKind::Edges { stamp_deviation }) => {
-            Edges::stamped(stamps.times.clone(), stamp_deviation, None).map(|mut edges| {
-                if stamps.missing > 0 {
-                    edges.notes.push(format!(
-                        "{} instants are no numbers and were left out",
-                        stamps.missing
-                    ));
-                }
-                edges
-            })
-        }
+        (Signal::Stamped(stamps), PickupKind::Edges { stamp_deviation }) => Edges::stamped(
+            stamps.times.clone(),
+            stamp_deviation,
+            around(stamps, watched),
+        )
+        .map(|mut edges| {
+            if stamps.missing > 0 {
+                edges.notes.push(format!(
+                    "{} instants are no numbers and were left out",
+                    stamps.missing
+                ));
+            }
+            edges
+        }),
         _ => return Err("the channel was read as another kind than asked for".to_string()),
     };
     found.map_err(|refusal| refusal.to_string())
+}
+
+/// A recorded time that holds all instants.
+fn around(stamps: &super::Stamps, watched: Option<(f64, f64)>) -> Option<(f64, f64)> {
+    let (from, to) = watched?;
+    let (first, last) = (stamps.times.first()?, stamps.times.last()?);
+    Some((from.min(*first), to.max(*last)))
 }
