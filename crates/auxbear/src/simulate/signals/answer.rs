@@ -131,10 +131,10 @@ fn speed(list: &mut List, asked: &Asked, found: &Found) {
     list.number(
         "engagement_time_deviation",
         "s",
-        change().and_then(|c| {
+        change().map(|c| {
             let shaft = found.shaft.as_ref();
             let deviation = shaft.and_then(shaft::Found::engagement_deviation);
-            Ok(deviation.unwrap_or(c.engagement.1))
+            deviation.unwrap_or(c.engagement.1)
         }),
         &CHANGE,
     );
