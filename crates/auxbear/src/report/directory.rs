@@ -21,6 +21,9 @@ const SUMMARY: &str = "summary.json";
 const HISTORY: &str = "history.parquet";
 const REPORT: &str = "report.html";
 
+/// Values of a channel that are written at once to a measurement file.
+const PIECE: usize = 16_384;
+
 const WRITABLE: &str = "a place with room and permission to write is needed";
 
 /// A run directory to be: its place is reserved as `DIR.partial`, and given back unless [`NewDirectory::finish`] is
@@ -123,7 +126,14 @@ impl NewDirectory {
             .unzip();
         measure::file::create(self.partial.join(name), &told)
             .and_then(|mut writer| {
-                writer.append(&values)?;
+                // in pieces, as a logger writes: a file that is cut keeps its begin
+                let longest = values.iter().map(|list| list.len()).max().unwrap_or(0);
+                for from in (0..longest).step_by(PIECE) {
+                    let piece = |list: &[f64]| from.min(list.len())..(from + PIECE).min(list.len());
+                    let pieces: Vec<&[f64]> =
+                        values.iter().map(|list| &list[piece(list)]).collect();
+                    writer.append(&pieces)?;
+                }
                 writer.finish()
             })
             .map_err(|error| {

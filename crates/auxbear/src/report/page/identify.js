@@ -82,7 +82,7 @@ function steadySection(runs) {
 function settledMarks() {
   return (pen, plot, ratio) => instantMarks(pen, plot, ratio, [
     { instant: 0, words: "engaged", colour: SERIES_COLOURS.quiet },
-    { instant: SENSOR_SETTLING, words: "an arm like the source paper's has settled", colour: SERIES_COLOURS.quiet },
+    { instant: SENSOR_SETTLING, words: "arm settled (0.1 s)", colour: SERIES_COLOURS.quiet },
   ]);
 }
 

@@ -10,6 +10,8 @@ use measure::torque_sensor::{
 };
 use measure::uncertain::Uncertain;
 
+/// Values at the ends that are left out without a word.
+const FEW: usize = 2;
 /// Most values in a segment of the spectrum.
 const LONGEST_SEGMENT: usize = 2048;
 
@@ -169,7 +171,7 @@ fn inverted(
             .find(|&k| inside(series.time(k)))
             .map_or(from, |k| k + 1);
         let left = series.values.len() - (to - from);
-        if left > 0 {
+        if left > FEW {
             notes.push(format!(
                 "{left} values outside the record of the pickup are not used"
             ));
