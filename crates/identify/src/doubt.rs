@@ -483,8 +483,10 @@ impl fmt::Display for Doubt {
                 ratio,
             } => write!(
                 out,
-                "{test} settles at {:.3} of the steady moment at {speed:.4} rad/s, {:.3e} ± {:.1e} N m apart: the slow test belongs to another bearing, load or temperature, or the lubricant is in another state",
-                ratio, difference.value, difference.deviation
+                "{test} settles at {:.3} of the steady moment at {speed:.1} rad/s, {:.2} ± {:.2} N mm apart: the slow test belongs to another bearing, load or temperature, or the lubricant is in another state",
+                ratio,
+                1e3 * difference.value,
+                1e3 * difference.deviation
             ),
             Doubt::LoadOfSteadyMoment {
                 test,
@@ -511,7 +513,9 @@ impl fmt::Display for Doubt {
             } => match torque {
                 Some((least, most)) => write!(
                     out,
-                    "the mass of the cage is not known: at {acceleration:.4e} rad/s² in {test} inertia takes between {least:.3e} and {most:.3e} N m from the torque (no cage to one of twice the balls' mass)"
+                    "the mass of the cage is not known: at {acceleration:.4e} rad/s² in {test} inertia takes between {:.2} and {:.2} N mm from the torque (no cage to one of twice the balls' mass)",
+                    1e3 * least,
+                    1e3 * most
                 ),
                 None => write!(
                     out,
@@ -540,13 +544,17 @@ impl fmt::Display for Doubt {
                 difference,
             } => write!(
                 out,
-                "{test} warmed by {rise:.2} K: the viscosity changes the moment by {:.2e} to {:.2e} N m, which explains all of its {:.3e} ± {:.1e} N m",
-                expected.0, expected.1, difference.value, difference.deviation
+                "{test} warmed by {rise:.2} K: the viscosity changes the moment by {:.2} to {:.2} N mm, which explains all of its {:.2} ± {:.2} N mm",
+                1e3 * expected.0,
+                1e3 * expected.1,
+                1e3 * difference.value,
+                1e3 * difference.deviation
             ),
             Doubt::NotSettled { test, change, over } => write!(
                 out,
-                "the torque of {test} still changes at the end: {:.3e} ± {:.1e} N m within {over:.3} s",
-                change.value, change.deviation
+                "the torque of {test} still changes at the end: {:.3} ± {:.3} N mm within {over:.2} s",
+                1e3 * change.value,
+                1e3 * change.deviation
             ),
             Doubt::TooShort {
                 test,
