@@ -72,7 +72,7 @@ fn what_does_not_fit_together_is_refused_before_anything_is_written() {
     identify(&place, "absent.toml", "");
     refused("absent.toml");
     identify(&place, &drop, "");
-    refused("system = \\\"drop\\\"");
+    refused("system = \"drop\"");
     identify(
         &place,
         "test/signals.toml",

@@ -300,7 +300,6 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.lubricant_state.drag_temperature_coefficient=0.03 1/K",
         ],
         "rig.load.mass" => &["rig.load.housing=hanging", "rig.load.mass=6 kg"],
-        "rig.load.housing" => &["rig.load.mass=6 kg"],
         "rig.pickup.stamp_deviation" => &["rig.pickup.kind=edges"],
         _ if path.starts_with("identify.rotor_friction.") => &[
             "identify.rotor_friction.file=a.toml",
@@ -408,7 +407,7 @@ fn unlike_any_other(path: &str, kind: Kind, range: Range, example: &str) -> Opti
                 "bearing.cage.land_diameter" => 0.0401234,
                 "bearing.moment.outer_diameter" => 0.0512345,
                 "levitation.stiffness" => 1_234_567.0,
-                "torque.speed_to" => 1234.567,
+                "torque.speed_to" | "rig.logger.total_rate" => 1234.567,
                 "run.output_interval" => 0.000345678,
                 "bearing.lubricant_state.breakdown_time"
                 | "bearing.lubricant_state.recovery_time"

@@ -244,7 +244,7 @@ fn solved<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N]) -> Option<[f64;
 }
 
 /// Correlation from which on a wheel shows a number of marks.
-const SHOWN: f64 = 0.2;
+const SHOWN: f64 = 0.5;
 
 /// Compares the marks per revolution that were stated with those that the wheel itself shows, where it does.
 ///

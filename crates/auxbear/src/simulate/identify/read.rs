@@ -2,7 +2,7 @@
 
 use super::super::signals;
 use crate::problem::{Code, Problem};
-use crate::scenario::{Identify, NoBearings, Scenario, Signals, System, UNNAMED};
+use crate::scenario::{BuiltIn, Identify, Scenario, Signals, System, UNNAMED};
 use std::path::Path;
 
 /// One test as its signals file tells it, its channels read.
@@ -68,7 +68,7 @@ fn test(
             .on_key(key),
         )
     };
-    let scenario = Scenario::read(path, &[], &NoBearings)?;
+    let scenario = Scenario::read(path, &[], &BuiltIn)?;
     let System::Signals(signals) = &scenario.system else {
         let word = scenario.system.name().word();
         return Err(refuse(
