@@ -244,7 +244,7 @@ fn solved<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N]) -> Option<[f64;
 }
 
 /// Correlation from which on a wheel shows a number of marks.
-const SHOWN: f64 = 0.5;
+const SHOWN: f64 = 0.2;
 
 /// Compares the marks per revolution that were stated with those that the wheel itself shows, where it does.
 ///
@@ -261,9 +261,12 @@ pub fn check_marks(pulses: &Pulses) -> Result<(), Refusal> {
             // The record is too short to see the stated number twice.
             None => true,
         };
-        // sampling in step may favour a multiple of a number that the wheel shows by itself
-        let multiple =
-            found % pulses.positions == 0 && stated.is_some_and(|stated| *stated > SHOWN);
+        // sampling in step may favour a multiple of a number that the wheel shows by itself, at every multiple alike
+        let shown = |turns: usize| {
+            let value = seen.values.get(turns * pulses.positions);
+            value.is_some_and(|value| *value > SHOWN)
+        };
+        let multiple = found % pulses.positions == 0 && (1..found / pulses.positions).all(shown);
         let agrees =
             found == pulses.positions || multiple || seen.stands_out(pulses.positions, seen.top());
         (!agrees && better).then_some(found)
