@@ -163,20 +163,21 @@ fn energies(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
     );
 }
 
-/// Whether the torque comes to the steady moment: where it does not, the lubricant or the sensor was in another state than in
-/// the slow tests, and a torque that is too low looks like skid.
-fn as_in_the_slow_tests(test: &TestFound) -> Result<(), String> {
-    let (start, fastest) = (begin(&test.measurement), fastest(test));
-    let excess = excess(test, fastest.1 - LAST, fastest.1)
-        .or_else(|_| excess(test, start + SETTLED_FROM, start + SETTLED_TO))?;
-    match excess.value.abs() > 3.0 * excess.deviation {
-        false => Ok(()),
-        true => Err(format!(
-            "at the end of the hold t_O - M is {:.2} ± {:.2} N mm: M of the slow tests does not hold in this one, and a torque that is low for another reason looks like skid",
+/// What tells that the torque does not come to the steady moment: the lubricant or the sensor was in another state than in the
+/// slow tests. None where it comes there, or where that is not known.
+pub(super) fn off_the_moment(test: &TestFound) -> Option<String> {
+    let (start, end) = (begin(&test.measurement), fastest(test).1);
+    let excess = excess(test, end - LAST, end)
+        .or_else(|_| excess(test, start + SETTLED_FROM, start + SETTLED_TO))
+        .ok()?;
+    (excess.value.abs() > 3.0 * excess.deviation).then(|| {
+        format!(
+            "at the end of the hold of {} t_O - M is {:.2} ± {:.2} N mm: M of the slow tests does not hold there",
+            test.name,
             1e3 * excess.value,
             1e3 * excess.deviation
-        )),
-    }
+        )
+    })
 }
 
 fn slip(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
@@ -206,12 +207,15 @@ fn slip(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
     list.number(
         &named("skid_probability"),
         "1",
-        as_in_the_slow_tests(test)
-            .and(test.skid.as_ref().map_err(Clone::clone))
-            .and_then(|skid| {
+        match off_the_moment(test) {
+            Some(why) => Err(format!(
+                "{why}, and a torque that is low for another reason looks like skid"
+            )),
+            None => test.skid.as_ref().map_err(Clone::clone).and_then(|skid| {
                 skid.skidded
                     .ok_or_else(|| "torque and cage do not tell the spin of the balls".to_string())
             }),
+        },
         &SKID,
     );
 }

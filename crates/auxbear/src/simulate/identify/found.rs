@@ -33,7 +33,7 @@ const CONTACT: f64 = 0.5;
 const SLIDING: f64 = 0.05;
 /// Part of the largest speed at which tests are compared where nothing is asked for.
 const ANALYSED: f64 = 0.95;
-/// Longest wait for more than one result of a step, in values: the friction of a rotor needs no more.
+/// Number of times at which the friction of a rotor is looked at.
 const ROTOR_TIMES: usize = 2000;
 
 /// Time around the end of a quick change within which a jump of the torque is smeared, s: some times 1/ω_n of a usual arm.
