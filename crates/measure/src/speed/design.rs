@@ -111,6 +111,7 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
             lively: Some(Lively {
                 engage,
                 lock: data.units(duration) + late * length,
+                change: change * data.unit,
                 density: (3.0 * peak / length).powi(2) / length,
                 start: Knot::Kink,
                 stop: Knot::Soft,

@@ -16,8 +16,6 @@ const MOST: f64 = 0.85;
 
 /// Fall of the logarithm of the likelihood at a width: that of two and a half standard deviations of a normal density.
 const STEEP: f64 = 3.0;
-/// Time from a start with a jump to the first mark, as a part of the whole change, from which one search begins.
-const SOON: f64 = 0.08;
 
 /// A lively part as it looks at first sight.
 #[derive(Clone, Copy, Debug)]
@@ -294,6 +292,83 @@ fn widths(
     })
 }
 
+/// Logarithm of what is expected, before any mark came, of the density over the usual one (its logarithm) and of a start.
+///
+/// The density is nearly free: a torque that is even or rises evenly is silent between its knots. Of three starts that
+/// explain the marks alike, the softer one is e times as likely; a jump that the marks show is seen against far longer odds.
+fn expected(density: f64, start: Knot) -> f64 {
+    const NEARLY_FREE: f64 = 6.0;
+    let start = match start {
+        Knot::Soft => 1.0,
+        Knot::Kink => 0.0,
+        Knot::Jump => -1.0,
+    };
+    start - 0.5 * (density / NEARLY_FREE).powi(2)
+}
+
+/// Points from which the likelihood is climbed: the best of a scan over the engagement and the density, and the best one far
+/// from it. A clutch that engages softly and one that grips late may both explain the same marks.
+fn valleys(sight: &Sight, density: f64, cost: impl Fn(&[f64; 3]) -> f64) -> Vec<[f64; 3]> {
+    const DENSITY: [f64; 4] = [1.0, -2.0, -5.0, -9.0];
+    let places: &[f64] = if sight.rests {
+        &[
+            -4.5, -3.5, -2.75, -2.25, -1.75, -1.25, -0.75, -0.25, 0.4, 1.1,
+        ]
+    } else {
+        &[-0.15, -0.1, -0.05, 0.0, 0.05, 0.1, 0.15]
+    };
+    let mut best: Vec<([f64; 3], f64)> = places
+        .iter()
+        .map(|&place| {
+            DENSITY
+                .iter()
+                .map(|q| [density.ln() + q, place, 0.0])
+                .map(|point| (point, cost(&point)))
+                .min_by(|a, b| a.1.total_cmp(&b.1))
+                .expect("a density")
+        })
+        .collect();
+    let top = (0..best.len())
+        .min_by(|&a, &b| best[a].1.total_cmp(&best[b].1))
+        .expect("a point");
+    let far = (0..best.len())
+        .filter(|&k| k.abs_diff(top) > 2)
+        .min_by(|&a, &b| best[a].1.total_cmp(&best[b].1))
+        .expect("a point");
+    vec![
+        best.swap_remove(top.max(far)).0,
+        best.swap_remove(top.min(far)).0,
+    ]
+}
+
+/// Most looks at the likelihood on one climb.
+const CLIMB: usize = 300;
+/// Plans that are kept.
+const KEPT: usize = 24;
+
+/// Some plans that stand for many, given the heaviest first: that one, and others at equal steps of the summed weight along
+/// the engagement. To keep only the heaviest would cut off what is less likely on both sides, and the band with it.
+fn thinner(mut parts: Vec<(Plan, f64)>) -> Vec<(Plan, f64)> {
+    let Some(&(best, _)) = parts.first() else {
+        return parts;
+    };
+    let sum: f64 = parts.iter().map(|p| p.1).sum();
+    let engage = |plan: &Plan| plan.lively.map_or(0.0, |lively| lively.engage);
+    parts.sort_by(|a, b| engage(&a.0).total_cmp(&engage(&b.0)));
+    let mut kept = vec![(best, 0.0)];
+    let mut reached = 0.0;
+    for (plan, weight) in parts {
+        let steps = |sum: f64| (sum * KEPT as f64 + 0.5) as usize;
+        let before = steps(reached / sum);
+        reached += weight;
+        let times = steps(reached / sum) - before;
+        if times > 0 {
+            kept.push((plan, times as f64 / KEPT as f64));
+        }
+    }
+    kept
+}
+
 /// Plans for the lively part with their weights, the best one first.
 pub(super) fn lively(
     data: &Data,
@@ -323,15 +398,16 @@ pub(super) fn lively(
         } else {
             sight.engage + length * x[1]
         };
-        let lock = engage + length * x[2].exp();
+        let lock = sight.lock + length * x[2];
         let inside = engage >= earliest
-            && lock > first.max(sight.most)
+            && lock > first.max(sight.most).max(engage)
             && (lock < latest || !sight.ends)
             && x[0].abs() < 200.0;
         (inside && x[1].abs() < 20.0 && x[2].abs() < 5.0).then(|| Plan {
             lively: Some(Lively {
                 engage,
                 lock: if sight.ends { lock } else { last + length },
+                change: sight.change,
                 density: x[0].exp(),
                 start,
                 stop,
@@ -348,42 +424,38 @@ pub(super) fn lively(
     let cost = |jumps| {
         let (plan, some) = (&plan, &some);
         move |x: &[f64; 3]| match plan(x, jumps) {
-            Some(plan) => -plan.likelihood_of(data, some),
+            Some(plan) => {
+                let belief = expected(x[0] - density.ln(), jumps.0);
+                // Any time of the engagement is as likely as any other, not any logarithm of it.
+                let stretched = if sight.rests { x[1] } else { 0.0 };
+                -plan.likelihood_of(data, some) - belief - stretched
+            }
             None => f64::INFINITY,
         }
     };
-    let starts = [Knot::Soft, Knot::Kink, Knot::Jump];
-    let variants: Vec<(Knot, Knot)> = if sight.ends {
-        starts
-            .iter()
-            .flat_map(|&start| [(start, Knot::Soft), (start, Knot::Jump)])
-            .collect()
+    let stops: &[Knot] = if sight.ends {
+        &[Knot::Jump, Knot::Kink, Knot::Soft]
     } else {
-        starts.map(|start| (start, Knot::Soft)).to_vec()
+        &[Knot::Soft]
     };
     let mut bests = Vec::new();
-    let mut warm = None;
-    for jumps in variants {
-        let offset = if sight.rests {
-            ((first - sight.engage) / length).max(0.02).ln()
-        } else {
-            0.0
-        };
-        let steps = [2.0, if sight.rests { 0.3 } else { 0.05 }, 0.1];
-        let from = |start, calls| smallest(start, steps, calls, 0.1, cost(jumps));
-        let mut best = match warm {
-            Some(warm) => from(warm, 45),
-            None => from([density.ln(), offset, 0.0], 100),
-        };
-        // A motion that starts with a jump has another optimum, shortly before the first mark.
-        if sight.rests && jumps.0 != Knot::Soft {
-            let late = from([density.ln(), SOON.ln(), 0.0], 60);
-            if late.1 < best.1 {
-                best = late;
-            }
+    for start in [Knot::Soft, Knot::Kink, Knot::Jump] {
+        let mut warm: Option<[f64; 3]> = None;
+        for &stop in stops {
+            let cost = cost((start, stop));
+            let steps = [2.0, if sight.rests { 0.2 } else { 0.05 }, 0.05];
+            let from = |point, calls| smallest(point, steps, calls, 0.1, &cost);
+            let best = match warm {
+                Some(warm) => from(warm, CLIMB / 2),
+                None => valleys(sight, density, &cost)
+                    .into_iter()
+                    .map(|point| from(point, CLIMB))
+                    .min_by(|a, b| a.1.total_cmp(&b.1))
+                    .expect("the scan names a point"),
+            };
+            warm = Some(best.0);
+            bests.push(((start, stop), best));
         }
-        warm = Some(best.0);
-        bests.push((jumps, best));
     }
     let top = bests
         .iter()
@@ -395,7 +467,7 @@ pub(super) fn lively(
             continue;
         }
         let cost = cost(jumps);
-        let widest = [0.8, if sight.rests { 0.3 } else { 0.05 }, 0.08];
+        let widest = [2.0, if sight.rests { 0.6 } else { 0.05 }, 0.08];
         let guess = widths(&best, value, widest, cost);
         let (points, evidence) = spread(best, guess, 28, cost);
         for (x, weight) in points {
@@ -410,8 +482,5 @@ pub(super) fn lively(
     let top = parts.iter().map(|p| p.1).fold(f64::NEG_INFINITY, f64::max);
     parts.iter_mut().for_each(|p| p.1 = (p.1 - top).exp());
     parts.sort_by(|a, b| b.1.total_cmp(&a.1));
-    parts.truncate(20);
-    let sum: f64 = parts.iter().map(|p| p.1).sum();
-    parts.iter_mut().for_each(|p| p.1 /= sum);
-    (parts, range)
+    (thinner(parts), range)
 }

@@ -86,18 +86,25 @@ fn gathered_with(dt: f64, density: f64, clock: f64) -> Matrix {
     ]
 }
 
-/// Mean and covariance after a time: `f x`, `f p fᵀ + q`, with what is zero left out.
+/// A state after a time of free motion: `f x`.
 #[inline]
-pub(super) fn advance(x: &mut Vector, p: &mut Matrix, dt: f64, density: f64, memory: &Memory) {
+pub(super) fn carry(x: &mut Vector, dt: f64, memory: &Memory) {
     let (h, s) = (0.5 * dt * dt, dt * dt * dt / 6.0);
-    let kept = (-dt * memory.rate).exp();
     *x = [
         x[0] + dt * x[1] + h * x[2] + s * x[3],
         x[1] + dt * x[2] + h * x[3],
         x[2] + dt * x[3],
         x[3],
-        kept * x[4],
+        (-dt * memory.rate).exp() * x[4],
     ];
+}
+
+/// Mean and covariance after a time: `f x`, `f p fᵀ + q`, with what is zero left out.
+#[inline]
+pub(super) fn advance(x: &mut Vector, p: &mut Matrix, dt: f64, density: f64, memory: &Memory) {
+    carry(x, dt, memory);
+    let (h, s) = (0.5 * dt * dt, dt * dt * dt / 6.0);
+    let kept = (-dt * memory.rate).exp();
     let mut a = [[0.0; N]; N];
     for j in 0..N {
         a[0][j] = p[0][j] + dt * p[1][j] + h * p[2][j] + s * p[3][j];

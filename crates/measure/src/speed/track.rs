@@ -13,7 +13,7 @@
 #![allow(clippy::needless_range_loop)] // rows and columns by number read like the formula
 
 use super::matrix::{
-    Matrix, Memory, N, Vector, advance, apply, drift, gathered, minus, plus, product, root,
+    Matrix, Memory, N, Vector, advance, apply, carry, drift, gathered, minus, plus, product, root,
     taken_back, transposed,
 };
 
@@ -84,16 +84,28 @@ pub(super) struct Update {
     stiffness: f64,
 }
 
-/// One pass forward. Returns the log likelihood, up to a constant; `visit` sees every node's belief after it.
+/// What a pass forward tells of the start.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pass {
+    /// Logarithm of the likelihood, up to a constant.
+    pub likelihood: f64,
+    /// First and second derivative of it with the mean at the start along a direction, the second one with its sign turned.
+    pub slope: f64,
+    pub curvature: f64,
+}
+
+/// One pass forward; `direction` is that of the derivatives; `visit` sees every node's belief after it.
 pub(super) fn forward(
     nodes: &[Node],
     start: &Belief,
+    direction: &Vector,
     memory: &Memory,
     mut visit: impl FnMut(&Belief, &Update),
-) -> f64 {
+) -> Pass {
     let mut belief = *start;
+    let mut along = *direction;
     let mut time = nodes.first().map_or(0.0, |node| node.time);
-    let mut likelihood = 0.0;
+    let (mut likelihood, mut slope, mut curvature) = (0.0, 0.0, 0.0);
     for node in nodes {
         let dt = node.time - time;
         time = node.time;
@@ -105,6 +117,7 @@ pub(super) fn forward(
                 node.density,
                 memory,
             );
+            carry(&mut along, dt, memory);
         }
         if let Some(added) = node.added {
             for (i, a) in added.iter().enumerate() {
@@ -121,7 +134,11 @@ pub(super) fn forward(
                 pull: innovation / spread,
                 stiffness: spread.recip(),
             };
+            let change = pulse.of(&along);
+            slope += update.pull * change;
+            curvature += update.stiffness * change * change;
             for i in 0..N {
+                along[i] -= update.gain[i] * change;
                 belief.mean[i] += update.gain[i] * innovation;
                 for j in 0..N {
                     belief.covariance[i][j] -= update.gain[i] * row[j];
@@ -131,10 +148,13 @@ pub(super) fn forward(
         }
         visit(&belief, &update);
     }
-    if likelihood.is_finite() {
-        likelihood
-    } else {
-        f64::NEG_INFINITY
+    if !likelihood.is_finite() {
+        likelihood = f64::NEG_INFINITY;
+    }
+    Pass {
+        likelihood,
+        slope,
+        curvature,
     }
 }
 
@@ -142,7 +162,7 @@ impl Track {
     pub fn new(nodes: Vec<Node>, start: Belief, density: f64, memory: Memory) -> Track {
         let mut filtered = Vec::with_capacity(nodes.len());
         let mut updates: Vec<Update> = Vec::with_capacity(nodes.len());
-        forward(&nodes, &start, &memory, |belief, update| {
+        forward(&nodes, &start, &[0.0; N], &memory, |belief, update| {
             filtered.push(*belief);
             updates.push(*update);
         });
@@ -367,4 +387,74 @@ pub(super) fn mixed(parts: impl Iterator<Item = (f64, Belief)> + Clone) -> Belie
         }
     }
     Belief { mean, covariance }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ten marks of an accelerated start, with noise of the angle.
+    fn marks() -> Vec<Node> {
+        (1..=10)
+            .map(|k| {
+                let time = 0.4 * f64::from(k);
+                let error = 0.01 * f64::from(k * 7 % 5 - 2);
+                Node {
+                    time,
+                    density: 0.05,
+                    pulse: Some(Sight {
+                        angle: 0.5 * time * time + error,
+                        variance: 1e-4,
+                        speed: time,
+                    }),
+                    added: None,
+                }
+            })
+            .collect()
+    }
+
+    fn start(acceleration: f64) -> Belief {
+        let mut covariance = [[0.0; N]; N];
+        for (i, variance) in [0.01, 0.0, 0.3, 0.1, 1e-4].into_iter().enumerate() {
+            covariance[i][i] = variance;
+        }
+        Belief {
+            mean: [0.0, 0.0, acceleration, 0.0, 0.0],
+            covariance,
+        }
+    }
+
+    const MEMORY: Memory = Memory {
+        spread: 1e-2,
+        rate: 0.5,
+    };
+
+    #[test]
+    fn derivatives_along_a_direction_are_those_of_the_likelihood() {
+        let direction = [0.0, 0.0, 1.0, 0.0, 0.0];
+        let pass = |a: f64| forward(&marks(), &start(a), &direction, &MEMORY, |_, _| ());
+        // The likelihood is a parabola of the mean: finite differences of any width are exact.
+        let (below, here, above) = (pass(-0.5), pass(0.0), pass(0.5));
+        let slope = above.likelihood - below.likelihood;
+        let curvature = -4.0 * (above.likelihood - 2.0 * here.likelihood + below.likelihood);
+        assert!((here.slope / slope - 1.0).abs() < 1e-9, "{here:?} {slope}");
+        assert!(
+            (here.curvature / curvature - 1.0).abs() < 1e-9,
+            "{here:?} {curvature}"
+        );
+    }
+
+    #[test]
+    fn they_give_the_start_that_the_smoother_finds() {
+        let direction = [0.0, 0.0, 1.0, 0.0, 0.0];
+        let pass = forward(&marks(), &start(0.0), &direction, &MEMORY, |_, _| ());
+        let track = Track::new(marks(), start(0.0), 0.05, MEMORY);
+        // A track starts at its first node.
+        let first = track.at(track.begin());
+        let variance: f64 = 0.3;
+        let found = variance * pass.slope;
+        let left = variance - variance * variance * pass.curvature;
+        assert!((found - first.mean[2]).abs() < 1e-9, "{found} {first:?}");
+        assert!((left - first.covariance[2][2]).abs() < 1e-9, "{left}");
+    }
 }

@@ -131,11 +131,7 @@ fn speed(list: &mut List, asked: &Asked, found: &Found) {
     list.number(
         "engagement_time_deviation",
         "s",
-        change().map(|c| {
-            let shaft = found.shaft.as_ref();
-            let deviation = shaft.and_then(shaft::Found::engagement_deviation);
-            deviation.unwrap_or(c.engagement.1)
-        }),
+        change().map(|c| c.engagement.1),
         &CHANGE,
     );
     let end = || {

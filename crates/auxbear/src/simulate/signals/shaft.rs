@@ -132,21 +132,6 @@ impl Found {
         }
     }
 
-    /// Standard deviation of the engagement, s: that of the fit, and what a change that begins softly hides before its first
-    /// marks, twice the time between them.
-    pub fn engagement_deviation(&self) -> Option<f64> {
-        let change = self.speed.change?;
-        let next = self
-            .pulses
-            .times
-            .partition_point(|t| *t <= change.engagement.0);
-        let hidden = match (self.pulses.times.get(next), self.pulses.times.get(next + 1)) {
-            (Some(first), Some(second)) if change.from_rest => 2.0 * (second - first),
-            _ => 0.0,
-        };
-        Some(change.engagement.1.hypot(hidden))
-    }
-
     /// Last time at which the pulses tell of a motion, s: a mark's time behind the last one.
     pub fn told_until(&self) -> f64 {
         let watched = self.pulses.watched.1;
