@@ -2,7 +2,7 @@
 
 use super::super::list::{List, Origin};
 use super::super::outcome::{Quantity, Value};
-use super::{Asked, Found, shaft, torque};
+use super::{Asked, Found, torque};
 
 /// Names the results.
 pub(super) fn quantities(asked: &Asked, found: &Found) -> Vec<Quantity> {
