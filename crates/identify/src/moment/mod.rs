@@ -248,8 +248,10 @@ fn refuse(
     Ok(())
 }
 
-/// Whether two loads count as one.
-pub(crate) fn same_load(a: f64, b: f64) -> bool {
+/// Whether two loads count as one: they differ by less than 2 %.
+///
+/// - `a`, `b`: loads, N
+pub fn same_load(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME_LOAD * a.max(b)
 }
 

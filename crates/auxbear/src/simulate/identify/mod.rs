@@ -7,8 +7,8 @@
 //! | page | subject |
 //! |---|---|
 //! | `read` | the signals files and their channels |
-//! | `measured` | from what the signals hold to what the crate `identify` takes |
-//! | `found` | the estimators of that crate, each with its own reason where it refuses |
+//! | `found` | the estimators of the crate `identify`, each with its own reason where it refuses |
+//! | `told` | what to know of the tests, each line once |
 //! | `answer`, `answer_tests` | named results |
 //! | `history` | the tests over time since their engagement |
 
@@ -16,8 +16,8 @@ mod answer;
 mod answer_tests;
 mod found;
 mod history;
-mod measured;
 mod read;
+mod told;
 
 use super::Options;
 use super::outcome::{Outcome, Picture, Stop, Warning, Work};
