@@ -9,7 +9,7 @@
 use crate::dissipation::spin_up_window;
 use crate::measurement::Measurement;
 use crate::moment::{SteadyMoment, same_load};
-use crate::series::{RunningVariance, fastest, median, trapezoid};
+use crate::series::{RunningVariance, median, trapezoid};
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 use std::fmt;
@@ -195,7 +195,7 @@ pub fn doubts(
     }
     inertia(tests, set, settings, &mut found);
     for test in tests {
-        let top = fastest(test);
+        let top = test.fastest();
         if let Some(wanted) = settings.wanted_speed
             && top < wanted.abs()
         {
@@ -252,7 +252,7 @@ fn inertia(
 }
 
 fn outside(test: &Measurement, steady: &SteadyMoment, found: &mut Vec<Doubt>) {
-    let top = fastest(test);
+    let top = test.fastest();
     let turning: Vec<f64> = test
         .speed
         .iter()
@@ -283,7 +283,7 @@ fn cage(
     found: &mut Vec<Doubt>,
 ) {
     let Some(cage) = &test.cage else { return };
-    let top = fastest(test);
+    let top = test.fastest();
     let mut ratios = Vec::new();
     let mut deviations = Vec::new();
     for ((&time, &own), &deviation) in cage.time.iter().zip(&cage.speed).zip(&cage.deviation) {
@@ -350,7 +350,7 @@ fn hold(
     let Ok((_, start)) = spin_up_window(test) else {
         return;
     };
-    let top = fastest(test);
+    let top = test.fastest();
     let end = test
         .time
         .iter()

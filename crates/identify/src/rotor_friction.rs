@@ -40,15 +40,15 @@ pub struct RubbingSpinUp {
 const TIMES: usize = 2000;
 
 impl RubbingSpinUp {
-    /// A spin-up from the motion of the race alone, by a rotor whose spin is held and whose force is known.
+    /// A spin-up from the motion of the race alone, by a rotor whose spin is held and whose force is constant.
     ///
     /// - `name`: name for messages
     /// - `speed`: the motion of the race
     /// - `within`: times between which the rotor lies on the race, s; those of the record count where they are narrower
     /// - `rotor_speed`: spin ω of the rotor, rad/s
-    /// - `load`: force W at a time, s, in N
+    /// - `load`: force W, N
     ///
-    /// Errors of the force count as common to all times, so the correlation time is the whole.
+    /// Errors of a constant force are common to all times, so the correlation time is the whole.
     ///
     /// Refused: no time of the record within.
     pub fn measured(
@@ -56,7 +56,7 @@ impl RubbingSpinUp {
         speed: &Speed,
         within: (f64, f64),
         rotor_speed: Uncertain,
-        load: &dyn Fn(f64) -> Uncertain,
+        load: Uncertain,
     ) -> Result<RubbingSpinUp, String> {
         let (first, last) = speed.range();
         let (from, to) = (first.max(within.0), last.min(within.1));
@@ -80,7 +80,7 @@ impl RubbingSpinUp {
                 .map(|m| Uncertain::new(m.acceleration, m.acceleration_uncertainty()))
                 .collect(),
             rotor_speed: vec![rotor_speed; motions.len()],
-            load: motions.iter().map(|m| load(m.time)).collect(),
+            load: vec![load; motions.len()],
             correlation_time: to - from,
         })
     }

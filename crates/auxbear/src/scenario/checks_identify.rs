@@ -7,7 +7,6 @@ use crate::problem::Code;
 
 const ROTOR: &str = "identify.rotor_friction";
 const ROTOR_FILE: &str = "identify.rotor_friction.file";
-const ROTOR_LOADS: &str = "identify.rotor_friction.load_history";
 
 impl Context<'_> {
     pub(super) fn identify(&self, identify: &Identify) -> Check {
@@ -29,9 +28,6 @@ impl Context<'_> {
         match &identify.rotor_friction {
             Some(rotor) => {
                 for key in ["rotor_speed", "radial_load", "bore_diameter", "inertia"] {
-                    if key == "radial_load" && self.values.is_given(ROTOR_LOADS) {
-                        continue;
-                    }
                     let path = table::keys().find(|k| k.section() == ROTOR && k.name() == key);
                     if let Some(path) = path {
                         self.needed(path.path, ROTOR_FILE)?;
@@ -55,7 +51,7 @@ impl Context<'_> {
         }
     }
 
-    /// When the rotor lies on the race, and with which force.
+    /// When the rotor lies on the race.
     fn rotor_contact(&self, rotor: &RotorFriction) -> Check {
         let to = "identify.rotor_friction.to";
         if let (Some(from), Some(until)) = (rotor.from, rotor.to)
@@ -63,24 +59,6 @@ impl Context<'_> {
         {
             let needed = "a time behind identify.rotor_friction.from is needed";
             return self.refuse(Code::Impossible, to, self.text(to), needed);
-        }
-        let least = "identify.rotor_friction.least_load";
-        if rotor
-            .least_load
-            .is_some_and(|load| load > rotor.radial_load.largest())
-        {
-            let needed = "less than the largest force of the rotor on the race is needed: as it stands nothing counts as contact";
-            return self.refuse(Code::Impossible, least, self.text(least), needed);
-        }
-        if rotor.radial_load.largest() <= 0.0 {
-            let needed =
-                "a force above 0 is needed at some time: without contact there is no friction";
-            return self.refuse(
-                Code::Impossible,
-                ROTOR_LOADS,
-                "nothing but 0".to_string(),
-                needed,
-            );
         }
         Ok(())
     }

@@ -73,15 +73,13 @@ pub struct RotorFriction {
     /// Spin of the rotor, rad/s.
     pub rotor_speed: f64,
     /// Force of the rotor on the race, N.
-    pub radial_load: RotorLoad,
+    pub radial_load: f64,
     /// Its relative standard deviation.
     pub load_deviation: f64,
     /// Time from which on the rotor lies on the race, s.
     pub from: Option<f64>,
     /// Time until which it does, s.
     pub to: Option<f64>,
-    /// Least force that counts as contact, N; found from the force where it is `None`.
-    pub least_load: Option<f64>,
     /// Least slip that counts as sliding, m/s.
     pub least_slip: f64,
     /// Diameter at which the rotor slides, m.
@@ -90,57 +88,6 @@ pub struct RotorFriction {
     pub inertia: f64,
     /// Its relative standard deviation.
     pub inertia_deviation: f64,
-}
-
-impl RotorFriction {
-    /// Force from which on the rotor counts as lying on the race where none is given, N: half of a constant one, a tenth of the
-    /// largest of one that changes.
-    pub fn least_contact(&self) -> f64 {
-        match &self.radial_load {
-            RotorLoad::Constant(load) => 0.5 * load,
-            RotorLoad::History(_) => 0.1 * self.radial_load.largest(),
-        }
-    }
-}
-
-/// Force of a rotor on a race.
-#[derive(Clone, Debug, PartialEq)]
-pub enum RotorLoad {
-    /// Constant, N.
-    Constant(f64),
-    /// Rows of time, s, and force, N: straight between them, 0 outside.
-    History(Vec<[f64; 2]>),
-}
-
-impl RotorLoad {
-    /// The force at a time, N.
-    ///
-    /// - `time`: of the file, s
-    pub fn at(&self, time: f64) -> f64 {
-        match self {
-            RotorLoad::Constant(load) => *load,
-            RotorLoad::History(rows) => {
-                let after = rows.partition_point(|row| row[0] <= time);
-                match (
-                    after.checked_sub(1).and_then(|left| rows.get(left)),
-                    rows.get(after),
-                ) {
-                    (Some([from, low]), Some([to, high])) => {
-                        low + (high - low) * (time - from) / (to - from)
-                    }
-                    _ => 0.0,
-                }
-            }
-        }
-    }
-
-    /// The largest force, N.
-    pub fn largest(&self) -> f64 {
-        match self {
-            RotorLoad::Constant(load) => *load,
-            RotorLoad::History(rows) => rows.iter().map(|row| row[1]).fold(0.0, f64::max),
-        }
-    }
 }
 
 impl Identify {
@@ -183,14 +130,10 @@ impl Identify {
                 .map(|file| RotorFriction {
                     file: file.into(),
                     rotor_speed: rotor.maybe("rotor_speed").unwrap_or(f64::NAN),
-                    radial_load: match rotor.rows("load_history") {
-                        Some(rows) => RotorLoad::History(rows),
-                        None => RotorLoad::Constant(rotor.maybe("radial_load").unwrap_or(f64::NAN)),
-                    },
+                    radial_load: rotor.maybe("radial_load").unwrap_or(f64::NAN),
                     load_deviation: rotor.number("load_deviation"),
                     from: rotor.maybe("from"),
                     to: rotor.maybe("to"),
-                    least_load: rotor.maybe("least_load"),
                     least_slip: rotor.number("least_slip"),
                     bore_diameter: rotor.maybe("bore_diameter").unwrap_or(f64::NAN),
                     inertia: rotor.maybe("inertia").unwrap_or(f64::NAN),

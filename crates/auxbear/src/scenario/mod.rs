@@ -66,7 +66,7 @@ pub use bearing::{BallMaterial, Bearing, BearingType, Drag, Fidelity, OilFilm, T
 pub use bearing_source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
 pub use drop::{Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor, Spin};
 pub use fits::{Fits, Growth};
-pub use identify::{Explanations, Identify, RotorFriction, RotorLoad};
+pub use identify::{Explanations, Identify, RotorFriction};
 pub(crate) use key::quoted;
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
 pub(crate) use locate::UNNAMED;

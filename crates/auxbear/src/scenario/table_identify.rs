@@ -174,19 +174,10 @@ pub(super) const KEYS: &[Key] = &[
         "identify.rotor_friction.radial_load",
         Kind::Quantity("N"),
         "80 N",
-        "Force of the rotor on the race, constant: its weight at this bearing, once it bounces no more. Give this or load_history.",
+        "Force of the rotor on the race, constant: its weight at this bearing, once it bounces no more.",
     )
     .positive()
-    .optional("load_history is needed with identify.rotor_friction.file"),
-    Key::new(
-        "identify.rotor_friction.load_history",
-        Kind::Table("s", "N"),
-        "[[\"0 s\", \"0 N\"], [\"0.1 ms\", \"400 N\"], [\"2 ms\", \"0 N\"]]",
-        "Force of the rotor on the race over the times of the file, of a rotor that bounces: straight between the rows, 0 before the first and after the last.",
-    )
-    .not_negative()
-    .optional("identify.rotor_friction.radial_load counts")
-    .excludes("identify.rotor_friction.radial_load"),
+    .optional("it is needed with identify.rotor_friction.file"),
     Key::new(
         "identify.rotor_friction.load_deviation",
         Kind::Coefficient,
@@ -199,24 +190,16 @@ pub(super) const KEYS: &[Key] = &[
         "identify.rotor_friction.from",
         Kind::Quantity("s"),
         "20 ms",
-        "Time of the file from which on the rotor lies on the race.",
+        "Time of the file from which on the rotor lies on the race with that force: it bounces no more.",
     )
     .optional("from the first pulse on"),
     Key::new(
         "identify.rotor_friction.to",
         Kind::Quantity("s"),
         "0.1 s",
-        "Time of the file until which the rotor lies on the race and spins at rotor_speed.",
+        "Time of the file until which it does and spins at rotor_speed.",
     )
     .optional("to the last pulse"),
-    Key::new(
-        "identify.rotor_friction.least_load",
-        Kind::Quantity("N"),
-        "40 N",
-        "Least force that counts as contact: below it the coefficient is not told.",
-    )
-    .positive()
-    .optional("half of radial_load, or a tenth of the largest of load_history"),
     Key::new(
         "identify.rotor_friction.least_slip",
         Kind::Quantity("m/s"),

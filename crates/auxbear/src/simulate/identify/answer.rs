@@ -209,13 +209,7 @@ fn measured_curve(found: &Found) -> (Vec<f64>, Vec<f64>) {
 }
 
 fn map(list: &mut List, found: &Found) {
-    // one map of speed and acceleration cannot hold what changes with time besides
-    let off = found.tests.iter().find_map(answer_tests::off_the_moment);
-    let fitted = match off {
-        Some(why) => Err(format!("{why}, so that what is left is not F alone")),
-        None => found.map.as_ref().map_err(Clone::clone),
-    };
-    let grid = fitted.map(|map| {
+    let grid = found.map.as_ref().map_err(Clone::clone).map(|map| {
         let largest = |pick: fn(&identify::loss::LossPoint) -> f64| {
             let points = found
                 .tests

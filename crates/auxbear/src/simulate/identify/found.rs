@@ -1,5 +1,6 @@
 //! What the estimators find in the tests, each with its own reason where it refuses.
 
+use super::answer_tests::off_the_moment;
 use super::read::{Asked, Test};
 use super::told::{Told, grouped};
 use crate::scenario::RotorFriction;
@@ -11,7 +12,7 @@ use identify::dissipation::{Dissipation, dissipation};
 use identify::doubt::{ByTemperature, Doubt, DoubtSettings, doubts};
 use identify::explain::{self, Candidate, Foretelling, Priors, Verdict, foretold};
 use identify::loss::{Loss, LossMap, LossSettings, Rolling, loss};
-use identify::moment::{Moment, MomentSettings, moment};
+use identify::moment::{Moment, MomentSettings, moment, same_load};
 use identify::rotor_friction::{self, Race, RubbingSpinUp};
 use identify::signals::{Signals, before_the_stop, measurement};
 use identify::skid::{Skid, SkidSettings, skid};
@@ -264,6 +265,10 @@ fn map(
     settings: &LossSettings,
 ) -> Result<LossMap, String> {
     let curve = curve.ok_or_else(|| "the steady moment is not known".to_string())?;
+    // one map of speed and acceleration cannot hold what changes with time besides
+    if let Some(why) = tests.iter().find_map(off_the_moment) {
+        return Err(format!("{why}, so that what is left is not F alone"));
+    }
     let pairs: Vec<(&Measurement, &Loss)> = (tests.iter())
         .filter_map(|test| Some((&test.measurement, test.loss.as_ref().ok()?)))
         .collect();
@@ -280,8 +285,7 @@ fn doubted(
     set: &RollingSet<f64>,
 ) -> Result<Vec<Doubt>, String> {
     let wish = asked.identify;
-    let fastest = |test: &&Measurement| test.speed.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-    let slowest = tests.iter().map(fastest).fold(f64::INFINITY, f64::min);
+    let slowest = (tests.iter().map(|test| test.fastest())).fold(f64::INFINITY, f64::min);
     let wanted = wish.analysed_speed.unwrap_or(ANALYSED * slowest);
     let change = wish.moment_per_kelvin;
     let open = wish.moment_per_kelvin_deviation * change.abs();
@@ -358,10 +362,6 @@ fn rubbed(
     let found = signals::find(&test.asked);
     told.extend(noted(test, &found));
     let shaft = (found.shaft.as_ref()).ok_or_else(|| found.why("speed", true))?;
-    let load = |time: f64| {
-        let load = wish.radial_load.at(time);
-        Uncertain::new(load, wish.load_deviation * load)
-    };
     let run = RubbingSpinUp::measured(
         &test.name,
         &shaft.speed,
@@ -370,9 +370,8 @@ fn rubbed(
             wish.to.unwrap_or(f64::INFINITY),
         ),
         Uncertain::exact(wish.rotor_speed),
-        &load,
+        Uncertain::new(wish.radial_load, wish.load_deviation * wish.radial_load),
     )?;
-    let least_load = wish.least_load.unwrap_or_else(|| wish.least_contact());
     let friction = |speed: f64, rate: f64| {
         let place = bearing.map.as_ref().ok()?.at(speed, rate);
         place.known.then_some(place.friction)
@@ -386,15 +385,15 @@ fn rubbed(
             set_deviation: bearing.deviation,
             steady_moment: &|speed, _| moment.curve.at(speed),
             friction: &friction,
-            least_load,
+            // the force is constant: all of it is contact
+            least_load: 0.5 * wish.radial_load,
             least_slip: wish.least_slip,
         },
     )?;
-    let largest = wish.radial_load.largest();
-    if !identify::moment::same_load(largest, moment.curve.load) {
+    if !same_load(wish.radial_load, moment.curve.load) {
         found.notes.push(format!(
-            "the rotor presses with up to {largest:.0} N, the steady moment was measured under {:.0} N: the part of it that depends on the load is that of the slow tests",
-            moment.curve.load
+            "the rotor presses with {:.0} N, the steady moment was measured under {:.0} N: the part of it that depends on the load is that of the slow tests",
+            wish.radial_load, moment.curve.load
         ));
     }
     Ok(found)
