@@ -68,7 +68,6 @@ impl Dissipation {
 
     /// Which way the printed form is wrong, in words.
     pub fn printed_verdict(&self) -> String {
-        let Uncertain { value, deviation } = self.printed_error;
         let way = match self.printed_too_large {
             p if p > 0.975 => "too large",
             p if p < 0.025 => "too small",
@@ -79,7 +78,10 @@ impl Dissipation {
         } else {
             ""
         };
-        format!("(21) as printed is {way}: {value:.3e} ± {deviation:.1e} J{negative}")
+        format!(
+            "(21) as printed is {way}: {} J{negative}",
+            self.printed_error
+        )
     }
 }
 

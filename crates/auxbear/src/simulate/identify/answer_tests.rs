@@ -37,7 +37,7 @@ pub(super) fn name(list: &mut List, number: usize, test: &TestFound, set: &Rolli
 }
 
 /// A value with its standard deviation under the same name.
-fn uncertain(
+pub(super) fn uncertain(
     list: &mut List,
     name: &str,
     unit: &'static str,
