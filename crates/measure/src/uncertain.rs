@@ -71,10 +71,16 @@ impl fmt::Display for Uncertain {
         };
         let decimals = (shift - last).clamp(0, MOST_DIGITS) as usize;
         let scale = 10_f64.powi(shift);
-        let (value, deviation) = (self.value / scale, self.deviation / scale);
+        let deviation = self.deviation / scale;
+        let value = format!("{:.decimals$}", self.value / scale);
+        // what is rounded to nothing has no sign
+        let value = match value.trim_start_matches(['-', '0', '.']) {
+            "" => value.trim_start_matches('-'),
+            _ => &value,
+        };
         match shift {
-            0 => write!(out, "{value:.decimals$} ± {deviation:.decimals$}"),
-            _ => write!(out, "({value:.decimals$} ± {deviation:.decimals$})e{shift}"),
+            0 => write!(out, "{value} ± {deviation:.decimals$}"),
+            _ => write!(out, "({value} ± {deviation:.decimals$})e{shift}"),
         }
     }
 }
@@ -91,6 +97,8 @@ mod tests {
             (-12_345.6, 234.0, "-12346 ± 234"),
             (2.313e-5, 1.24e-6, "(2.31 ± 0.12)e-5"),
             (-3e-9, 4e-8, "(-0.3 ± 4.0)e-8"),
+            (-3e-10, 4e-8, "(0.0 ± 4.0)e-8"),
+            (-0.02, 40.0, "0 ± 40"),
             (3.2e7, 1e5, "(3.200 ± 0.010)e7"),
             (0.15, 0.0, "0.1500 ± 0.0000"),
             (0.0, 0.0, "0 ± 0"),
