@@ -121,10 +121,10 @@ fn moment(list: &mut List, found: &Found) {
     }
     let parameters = moment.clone().map(|moment| {
         let fits = moment.forms.iter().map(|fit| {
-            let values = fit
-                .parameters
-                .iter()
-                .map(|p| format!("{} {} {}", p.name, p.value, p.unit));
+            let values = fit.parameters.iter().map(|p| {
+                let unit = if p.unit == "1" { "" } else { p.unit };
+                format!("{} {} {unit}", p.name, p.value)
+            });
             let values: Vec<String> = values.map(|text| text.trim_end().to_string()).collect();
             format!("{}: {}", word(fit.form), values.join("; "))
         });
