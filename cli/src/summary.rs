@@ -70,6 +70,8 @@ const OF_IDENTIFY: &[&str] = &[
     "explanation_parameters",
     "explanation_fit_probability",
     "steady_moment_form",
+    "rotor_friction_coefficient",
+    "rotor_friction_coefficient_deviation",
 ];
 /// Of each test of an identification.
 const OF_TESTS: &[&str] = &[
@@ -159,9 +161,10 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
     text
 }
 
-/// Whether a quantity needs a channel that the file does not name.
+/// Whether a quantity needs a channel or another file that the file does not name.
 fn not_asked_for(quantity: &Quantity) -> bool {
-    matches!(&quantity.value, Value::None { why } if why.ends_with(".channel is not given"))
+    let absent = [".channel is not given", ".file is not given"];
+    matches!(&quantity.value, Value::None { why } if absent.iter().any(|end| why.ends_with(end)))
 }
 
 fn value(quantity: &Quantity) -> String {

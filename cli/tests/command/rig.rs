@@ -92,6 +92,15 @@ fn what_does_not_fit_together_is_refused_before_anything_is_written() {
         "rotor_friction.rotor_speed = \"100 rad/s\"",
     );
     refused("identify.rotor_friction.file is needed with it");
+    let rotor = "rotor_friction.file = \"test/signals.toml\"\nrotor_friction.rotor_speed = \"100 rad/s\"\n\
+        rotor_friction.radial_load = \"60 N\"\nrotor_friction.bore_diameter = \"25 mm\"\n\
+        rotor_friction.inertia = \"4e-6 kg m^2\"\nrotor_friction.from = \"0.2 s\"\nrotor_friction.to = \"0.1 s\"";
+    identify(&place, "test/signals.toml", rotor);
+    refused("a time behind identify.rotor_friction.from is needed");
+    identify(&place, "test/signals.toml", "cage_mass_deviation = 20");
+    refused("identify.cage_mass_deviation");
+    identify(&place, "test/signals.toml", "settling_time = 0.5");
+    refused("identify.settling_time");
 }
 
 #[test]

@@ -24,7 +24,7 @@
 
 use crate::measurement::{Measurement, SetDeviation};
 use crate::normal::below;
-use crate::series::{RunningVariance, between, fastest, trapezoid};
+use crate::series::{RunningVariance, between, trapezoid};
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 use physics::spin_up_energy::{SpinUpEnergy, spin_up_loss};
@@ -68,7 +68,6 @@ impl Dissipation {
 
     /// Which way the printed form is wrong, in words.
     pub fn printed_verdict(&self) -> String {
-        let Uncertain { value, deviation } = self.printed_error;
         let way = match self.printed_too_large {
             p if p > 0.975 => "too large",
             p if p < 0.025 => "too small",
@@ -79,14 +78,17 @@ impl Dissipation {
         } else {
             ""
         };
-        format!("(21) as printed is {way}: {value:.3e} ± {deviation:.1e} J{negative}")
+        format!(
+            "(21) as printed is {way}: {} J{negative}",
+            self.printed_error
+        )
     }
 }
 
 /// The spin-up of a test: from the engagement, or the last rest, to the time at which 99 % of the fastest speed is reached.
 pub fn spin_up_window(test: &Measurement) -> Result<(f64, f64), String> {
     test.sound()?;
-    let top = fastest(test);
+    let top = test.fastest();
     if top == 0.0 {
         return Err(format!("{}: the shaft never turns", test.name));
     }
@@ -150,7 +152,7 @@ pub fn dissipation(
             window.1
         ));
     }
-    let top = fastest(&part);
+    let top = part.fastest();
     if part.speed[0].abs() > 0.1 * top {
         return Err(format!(
             "{}: the shaft turns with {:.4} rad/s at {} s already: the loss is that of a spin-up from rest",

@@ -9,18 +9,20 @@
 use crate::dissipation::spin_up_window;
 use crate::measurement::Measurement;
 use crate::moment::{SteadyMoment, same_load};
-use crate::series::{RunningVariance, fastest, median, trapezoid};
+use crate::series::{RunningVariance, median, trapezoid};
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 use std::fmt;
 
-/// How the viscosity falls with temperature.
+/// What a rise of temperature changes.
 #[derive(Clone, Copy)]
-pub enum ViscosityByTemperature<'a> {
-    /// ν(start + rise)/ν(start) for a rise in K.
-    Law(&'a dyn Fn(f64) -> f64),
-    /// Relative change per kelvin, 1/K, from the least to the largest in size, as -0.06 to -0.03: ν ∝ e^(change·rise).
-    PerKelvin(f64, f64),
+pub enum ByTemperature<'a> {
+    /// The viscosity: ν(start + rise)/ν(start) for a rise in K.
+    Viscosity(&'a dyn Fn(f64) -> f64),
+    /// The viscosity: its relative change per kelvin, 1/K, from one bound to the other, as -0.06 to -0.03: ν ∝ e^(change·rise).
+    ViscosityPerKelvin(f64, f64),
+    /// The whole moment: its relative change per kelvin, 1/K: M ∝ e^(change·rise), within two deviations.
+    MomentPerKelvin(Uncertain),
 }
 
 /// What is known beside the tests.
@@ -32,9 +34,9 @@ pub struct DoubtSettings<'a> {
     pub ball_count: Option<u32>,
     /// Whether the masses of balls and cage are known; if not the cage is taken from none to twice the balls.
     pub masses_known: bool,
-    /// Viscosity by temperature, where a temperature is measured.
-    pub viscosity: Option<ViscosityByTemperature<'a>>,
-    /// Part of M that depends on viscosity, from its least to its largest, 1.
+    /// What temperature changes, where one is measured.
+    pub temperature: Option<ByTemperature<'a>>,
+    /// Part of M that depends on viscosity, from its least to its largest, 1; all of it where the change of the moment is given.
     pub viscous_part: (f64, f64),
     /// Shortest hold after a spin-up that shows whether the torque settles, s.
     pub shortest_hold: f64,
@@ -48,7 +50,7 @@ impl Default for DoubtSettings<'_> {
             wanted_speed: None,
             ball_count: None,
             masses_known: true,
-            viscosity: None,
+            temperature: None,
             viscous_part: (0.3, 1.0),
             shortest_hold: 4.0,
         }
@@ -193,7 +195,7 @@ pub fn doubts(
     }
     inertia(tests, set, settings, &mut found);
     for test in tests {
-        let top = fastest(test);
+        let top = test.fastest();
         if let Some(wanted) = settings.wanted_speed
             && top < wanted.abs()
         {
@@ -250,7 +252,7 @@ fn inertia(
 }
 
 fn outside(test: &Measurement, steady: &SteadyMoment, found: &mut Vec<Doubt>) {
-    let top = fastest(test);
+    let top = test.fastest();
     let turning: Vec<f64> = test
         .speed
         .iter()
@@ -281,7 +283,7 @@ fn cage(
     found: &mut Vec<Doubt>,
 ) {
     let Some(cage) = &test.cage else { return };
-    let top = fastest(test);
+    let top = test.fastest();
     let mut ratios = Vec::new();
     let mut deviations = Vec::new();
     for ((&time, &own), &deviation) in cage.time.iter().zip(&cage.speed).zip(&cage.deviation) {
@@ -348,7 +350,7 @@ fn hold(
     let Ok((_, start)) = spin_up_window(test) else {
         return;
     };
-    let top = fastest(test);
+    let top = test.fastest();
     let end = test
         .time
         .iter()
@@ -405,19 +407,25 @@ fn hold(
         return;
     };
     let rise = median(temperature);
-    let Some(viscosity) = settings.viscosity else {
+    let Some(changed) = settings.temperature else {
         return;
     };
-    let ratios = match viscosity {
-        ViscosityByTemperature::Law(law) => (law(rise), law(rise)),
-        ViscosityByTemperature::PerKelvin(a, b) => ((a * rise).exp(), (b * rise).exp()),
+    let by_viscosity = |ratio: f64| ratio.powf(2.0 / 3.0) - 1.0;
+    let (effects, (few, much)) = match changed {
+        ByTemperature::Viscosity(law) => ([by_viscosity(law(rise)); 2], settings.viscous_part),
+        ByTemperature::ViscosityPerKelvin(a, b) => (
+            [a, b].map(|change| by_viscosity((change * rise).exp())),
+            settings.viscous_part,
+        ),
+        ByTemperature::MomentPerKelvin(change) => (
+            [-2.0, 2.0].map(|off| ((change.value + off * change.deviation) * rise).exp() - 1.0),
+            (1.0, 1.0),
+        ),
     };
-    if !(ratios.0 > 0.0 && ratios.1 > 0.0) {
+    if !effects.iter().all(|effect| effect.is_finite()) {
         return;
     }
-    let effects =
-        [ratios.0, ratios.1].map(|ratio| moment.value.abs() * (ratio.powf(2.0 / 3.0) - 1.0));
-    let (few, much) = settings.viscous_part;
+    let effects = effects.map(|effect| moment.value.abs() * effect);
     let all = [
         few * effects[0],
         much * effects[0],
@@ -458,112 +466,118 @@ fn set_free_mean(test: &Measurement, from: f64, to: f64) -> Option<(f64, f64)> {
     Some((sum, variance.max(0.0).sqrt()))
 }
 
-impl fmt::Display for Doubt {
-    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+impl Doubt {
+    /// Name of the test that it is about; none where it is about all.
+    pub fn test(&self) -> Option<&str> {
+        match self {
+            Doubt::NeverReaches { test, .. }
+            | Doubt::OutsideMoment { test, .. }
+            | Doubt::ForeignSteadyMoment { test, .. }
+            | Doubt::LoadOfSteadyMoment { test, .. }
+            | Doubt::InertiaMissing { test, .. }
+            | Doubt::WrongBallCount { test, .. }
+            | Doubt::CageNeverRolls { test, .. }
+            | Doubt::TemperatureExplains { test, .. }
+            | Doubt::NotSettled { test, .. }
+            | Doubt::TooShort { test, .. } => Some(test),
+            Doubt::MixedLoads { .. } => None,
+        }
+    }
+
+    /// What is doubted, without the name of the test.
+    pub fn finding(&self) -> String {
         match self {
             Doubt::NeverReaches {
-                test,
-                reached,
-                wanted,
-            } => write!(
-                out,
-                "{test} reaches {reached:.4} rad/s, never the {wanted:.4} rad/s at which it is to be analysed"
+                reached, wanted, ..
+            } => format!(
+                "it reaches {reached:.4} rad/s, never the {wanted:.4} rad/s at which it is to be analysed"
             ),
-            Doubt::OutsideMoment { test, part, range } => write!(
-                out,
-                "{test} runs outside {:.4} to {:.4} rad/s, where M was measured, for {:.1} % of its time: nothing is told there",
+            Doubt::OutsideMoment { part, range, .. } => format!(
+                "it runs outside {:.4} to {:.4} rad/s, where M was measured, for {:.1} % of its time: nothing is told there",
                 range.0,
                 range.1,
                 100.0 * part
             ),
             Doubt::ForeignSteadyMoment {
-                test,
                 speed,
                 difference,
                 ratio,
-            } => write!(
-                out,
-                "{test} settles at {:.3} of the steady moment at {speed:.1} rad/s, {:.2} ± {:.2} N mm apart: the slow test belongs to another bearing, load or temperature, or the lubricant is in another state",
-                ratio,
+                ..
+            } => format!(
+                "the torque settles at {ratio:.3} of the steady moment at {speed:.1} rad/s, {:.2} ± {:.2} N mm apart: the slow test belongs to another bearing, load or temperature, or the lubricant is in another state",
                 1e3 * difference.value,
                 1e3 * difference.deviation
             ),
             Doubt::LoadOfSteadyMoment {
-                test,
-                load,
-                steady_load,
-            } => write!(
-                out,
-                "{test} was at {load} N, the steady moment at {steady_load} N: M is not that of this test"
+                load, steady_load, ..
+            } => format!(
+                "it was at {load} N, the steady moment at {steady_load} N: M is not that of this test"
             ),
             Doubt::MixedLoads { loads } => {
-                write!(out, "tests at different loads are together:")?;
-                for (test, load) in loads {
-                    write!(out, " {test} {load} N;")?;
-                }
-                write!(
-                    out,
-                    " M and F depend on the load, analyse each load by itself"
+                let each: Vec<String> = (loads.iter())
+                    .map(|(test, load)| format!("{test} {load} N"))
+                    .collect();
+                format!(
+                    "tests at different loads are together: {}; M and F depend on the load, analyse each load by itself",
+                    each.join("; ")
                 )
             }
             Doubt::InertiaMissing {
-                test,
                 acceleration,
                 torque,
+                ..
             } => match torque {
-                Some((least, most)) => write!(
-                    out,
-                    "the mass of the cage is not known: at {acceleration:.4e} rad/s² in {test} inertia takes between {:.2} and {:.2} N mm from the torque (no cage to one of twice the balls' mass)",
+                Some((least, most)) => format!(
+                    "the mass of the cage is not known: at {acceleration:.0} rad/s² inertia takes between {:.2} and {:.2} N mm from the torque (no cage to one of twice the balls' mass)",
                     1e3 * least,
                     1e3 * most
                 ),
-                None => write!(
-                    out,
-                    "the masses of balls and cage are not known: at {acceleration:.4e} rad/s² in {test} inertia cannot be told from friction"
+                None => format!(
+                    "the masses of balls and cage are not known: at {acceleration:.0} rad/s² inertia cannot be told from friction"
                 ),
             },
             Doubt::WrongBallCount {
-                test,
                 stated,
                 fits,
                 ratio,
-            } => write!(
-                out,
-                "the cage of {test} settles at {:.4} ± {:.1e} of rolling with {stated} balls stated; {fits} balls would make it roll",
+                ..
+            } => format!(
+                "the cage settles at {:.4} ± {:.4} of rolling with {stated} balls stated; {fits} balls would make it roll",
                 ratio.value, ratio.deviation
             ),
-            Doubt::CageNeverRolls { test, ratio } => write!(
-                out,
-                "the cage of {test} settles at {:.4} ± {:.1e} of rolling: it slips to the end, or radii or contact angle are wrong",
+            Doubt::CageNeverRolls { ratio, .. } => format!(
+                "the cage settles at {:.4} ± {:.4} of rolling: it slips to the end, or radii or contact angle are wrong",
                 ratio.value, ratio.deviation
             ),
             Doubt::TemperatureExplains {
-                test,
                 rise,
                 expected,
                 difference,
-            } => write!(
-                out,
-                "{test} warmed by {rise:.2} K: the viscosity changes the moment by {:.2} to {:.2} N mm, which explains all of its {:.2} ± {:.2} N mm",
+                ..
+            } => format!(
+                "the outer race warmed by {rise:.2} K, which changes the moment by {:.2} to {:.2} N mm and explains all of its {:.2} ± {:.2} N mm",
                 1e3 * expected.0,
                 1e3 * expected.1,
                 1e3 * difference.value,
                 1e3 * difference.deviation
             ),
-            Doubt::NotSettled { test, change, over } => write!(
-                out,
-                "the torque of {test} still changes at the end: {:.3} ± {:.3} N mm within {over:.2} s",
+            Doubt::NotSettled { change, over, .. } => format!(
+                "the torque still changes at the end of the hold: by {:.3} ± {:.3} N mm within {over:.2} s",
                 1e3 * change.value,
                 1e3 * change.deviation
             ),
-            Doubt::TooShort {
-                test,
-                lasts,
-                needed,
-            } => write!(
-                out,
-                "{test} holds its speed for {lasts:.3} s; {needed} s are needed to see whether the torque settles"
+            Doubt::TooShort { lasts, needed, .. } => format!(
+                "it holds its speed for {lasts:.3} s; {needed} s are needed to see whether the torque settles"
             ),
+        }
+    }
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        match self.test() {
+            Some(test) => write!(out, "{test}: {}", self.finding()),
+            None => out.write_str(&self.finding()),
         }
     }
 }

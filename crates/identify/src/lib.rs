@@ -5,7 +5,8 @@
 //!
 //! | page | subject |
 //! |---|---|
-//! | [`measurement`] | one test, as its signals tell it |
+//! | [`measurement`] | one test: speed, acceleration, torque, cage |
+//! | [`signals`] | one test put together from what its signals hold: rest, zero, correlation of errors |
 //! | [`moment`] | the steady moment M(Ω) from slow tests: the forms that fit, their probabilities, one curve with its band |
 //! | [`loss`] | the friction F of accelerated balls over time, and as a map over speed and acceleration |
 //! | [`dissipation`] | the energy that a spin-up dissipates, with and without a cage signal |
@@ -27,6 +28,7 @@ pub mod moment;
 mod normal;
 pub mod rotor_friction;
 mod series;
+pub mod signals;
 pub mod skid;
 pub mod slip;
 

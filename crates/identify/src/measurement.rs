@@ -39,6 +39,9 @@ pub struct Measurement {
     pub temperature: Option<Vec<f64>>,
 }
 
+/// Part of the largest speed within which the shaft counts as at speed.
+const AT_SPEED: f64 = 0.01;
+
 /// Speed of the cage over times of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CageTrace {
@@ -150,6 +153,28 @@ impl Measurement {
             not_negative(name, "cage speed", &cage.deviation)?;
         }
         Ok(())
+    }
+
+    /// When the test begins, s: at its engagement, else with its record.
+    pub fn begin(&self) -> f64 {
+        let first = self.time.first().copied().unwrap_or(0.0);
+        self.engagement.unwrap_or(first)
+    }
+
+    /// The largest speed of the shaft without sign, rad/s.
+    pub fn fastest(&self) -> f64 {
+        self.speed
+            .iter()
+            .fold(0.0, |top: f64, speed| top.max(speed.abs()))
+    }
+
+    /// The last time at which the shaft turns within 1 % of its largest speed, s.
+    pub fn last_at_speed(&self) -> f64 {
+        let at_speed = (1.0 - AT_SPEED) * self.fastest();
+        let last = (self.time.iter().zip(&self.speed))
+            .rfind(|(_, speed)| speed.abs() >= at_speed)
+            .map(|(time, _)| *time);
+        last.unwrap_or_else(|| self.begin())
     }
 
     /// The part of a measurement between two times, s, both included.

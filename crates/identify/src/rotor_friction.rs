@@ -13,6 +13,7 @@
 //! over six ranges of slip at 95.6 %.
 
 use crate::measurement::SetDeviation;
+use measure::speed::Speed;
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 
@@ -33,6 +34,56 @@ pub struct RubbingSpinUp {
     pub load: Vec<Uncertain>,
     /// Time after which two errors of acceleration and load count as independent, s.
     pub correlation_time: f64,
+}
+
+/// Number of times at which a measured spin-up is looked at.
+const TIMES: usize = 2000;
+
+impl RubbingSpinUp {
+    /// A spin-up from the motion of the race alone, by a rotor whose spin is held and whose force is constant.
+    ///
+    /// - `name`: name for messages
+    /// - `speed`: the motion of the race
+    /// - `within`: times between which the rotor lies on the race, s; those of the record count where they are narrower
+    /// - `rotor_speed`: spin ω of the rotor, rad/s
+    /// - `load`: force W, N
+    ///
+    /// Errors of a constant force are common to all times, so the correlation time is the whole.
+    ///
+    /// Refused: no time of the record within.
+    pub fn measured(
+        name: &str,
+        speed: &Speed,
+        within: (f64, f64),
+        rotor_speed: Uncertain,
+        load: Uncertain,
+    ) -> Result<RubbingSpinUp, String> {
+        let (first, last) = speed.range();
+        let (from, to) = (first.max(within.0), last.min(within.1));
+        if from >= to || !(to - from).is_finite() {
+            return Err(format!(
+                "{name}: the speed of the race is known from {first:.4} to {last:.4} s, the rotor lies on it from {:.4} to {:.4} s",
+                within.0, within.1
+            ));
+        }
+        let motions: Vec<_> = (0..TIMES)
+            .map(|k| from + (to - from) * k as f64 / (TIMES - 1) as f64)
+            .map(|time| speed.at(time))
+            .collect();
+        Ok(RubbingSpinUp {
+            name: name.to_string(),
+            time: motions.iter().map(|m| m.time).collect(),
+            race_speed: (motions.iter())
+                .map(|m| Uncertain::new(m.speed, m.speed_uncertainty()))
+                .collect(),
+            race_acceleration: (motions.iter())
+                .map(|m| Uncertain::new(m.acceleration, m.acceleration_uncertainty()))
+                .collect(),
+            rotor_speed: vec![rotor_speed; motions.len()],
+            load: vec![load; motions.len()],
+            correlation_time: to - from,
+        })
+    }
 }
 
 /// What is known of race and bearing.

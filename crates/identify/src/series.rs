@@ -1,7 +1,5 @@
 //! Values over time: between samples, their rates, and errors that are alike at neighbouring times.
 
-use crate::measurement::Measurement;
-
 /// Index and weight of the later of two neighbours of a place in a rising list; none outside.
 pub(crate) fn place(list: &[f64], at: f64) -> Option<(usize, f64)> {
     let (first, last) = (*list.first()?, *list.last()?);
@@ -103,13 +101,6 @@ pub(crate) fn rates(
             (product / square, 6_f64.sqrt() * mean(deviation) / length)
         })
         .collect()
-}
-
-/// Fastest speed of a test, rad/s, without sign.
-pub(crate) fn fastest(test: &Measurement) -> f64 {
-    test.speed
-        .iter()
-        .fold(0.0, |top: f64, speed| top.max(speed.abs()))
 }
 
 /// The median of a list; 0 of an empty one.

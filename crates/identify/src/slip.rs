@@ -15,7 +15,7 @@
 
 use crate::measurement::Measurement;
 use crate::normal::beyond;
-use crate::series::{between, fastest};
+use crate::series::between;
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 
@@ -149,7 +149,7 @@ pub(crate) fn slip_at(
 ) -> Option<SlipPoint> {
     let cage = test.cage.as_ref()?;
     let speed = between(&test.time, &test.speed, time)?;
-    if speed.abs() <= settings.least_part * fastest(test) || speed == 0.0 {
+    if speed.abs() <= settings.least_part * test.fastest() || speed == 0.0 {
         return None;
     }
     let speed_deviation = between(&test.time, &test.speed_deviation, time)?;

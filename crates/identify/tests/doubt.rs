@@ -2,10 +2,11 @@
 
 mod made_up;
 
-use identify::doubt::{Doubt, DoubtSettings, ViscosityByTemperature, doubts};
+use identify::doubt::{ByTemperature, Doubt, DoubtSettings, doubts};
 use identify::moment::SteadyMoment;
 use identify::{CageTrace, Measurement};
 use made_up::{Random, rolling_spin_up, set, steady};
+use measure::uncertain::Uncertain;
 
 fn curve(factor: f64) -> SteadyMoment {
     let speed: Vec<f64> = (0..400).map(|k| 0.4 * f64::from(k)).collect();
@@ -32,8 +33,13 @@ fn test(seed: u64) -> Measurement {
 fn said(tests: &[&Measurement], steady: &SteadyMoment, settings: &DoubtSettings) -> Vec<Doubt> {
     let found = doubts(tests, Some(steady), &set(), settings).unwrap();
     for doubt in &found {
-        // each can be said
-        assert!(doubt.to_string().len() > 30);
+        // each can be said, with the name of its test before the finding alone
+        let said = doubt.to_string();
+        assert!(said.len() > 30);
+        if let Some(test) = doubt.test() {
+            assert_eq!(said, format!("{test}: {}", doubt.finding()));
+            assert!(!doubt.finding().contains(test));
+        }
     }
     found
 }
@@ -42,7 +48,7 @@ fn told() -> DoubtSettings<'static> {
     DoubtSettings {
         wanted_speed: Some(140.0),
         ball_count: Some(10),
-        viscosity: Some(ViscosityByTemperature::PerKelvin(-0.06, -0.03)),
+        temperature: Some(ByTemperature::ViscosityPerKelvin(-0.06, -0.03)),
         ..DoubtSettings::default()
     }
 }
@@ -214,10 +220,23 @@ fn a_temperature_that_explains_everything() {
     // by a law: ν halves
     let halves = |_: f64| 0.5;
     let by_law = DoubtSettings {
-        viscosity: Some(ViscosityByTemperature::Law(&halves)),
+        temperature: Some(ByTemperature::Viscosity(&halves)),
         ..told()
     };
     assert!(explained(&said(&[&warm], &curve(1.25), &by_law)));
+    // by the moment itself: 2 % ± ½ % a kelvin take up to 26 % within two deviations, 1 % takes 10 %
+    for (change, explains) in [
+        (Uncertain::new(-0.02, 0.005), true),
+        (Uncertain::new(-0.02, 0.0), true),
+        (Uncertain::new(-0.01, 0.0), false),
+    ] {
+        let by_moment = DoubtSettings {
+            temperature: Some(ByTemperature::MomentPerKelvin(change)),
+            ..told()
+        };
+        let found = said(&[&warm], &curve(1.25), &by_moment);
+        assert_eq!(explained(&found), explains, "{change:?}");
+    }
     // 1 K explains 4 % at most
     let mut cool = warm.clone();
     cool.temperature

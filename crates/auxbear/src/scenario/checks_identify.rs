@@ -1,7 +1,7 @@
 //! Checks of what measured tests are to tell.
 
 use super::checks::{Check, Context};
-use super::identify::Identify;
+use super::identify::{Identify, RotorFriction};
 use super::table;
 use crate::problem::Code;
 
@@ -26,14 +26,14 @@ impl Context<'_> {
             );
         }
         match &identify.rotor_friction {
-            Some(_) => {
+            Some(rotor) => {
                 for key in ["rotor_speed", "radial_load", "bore_diameter", "inertia"] {
                     let path = table::keys().find(|k| k.section() == ROTOR && k.name() == key);
                     if let Some(path) = path {
                         self.needed(path.path, ROTOR_FILE)?;
                     }
                 }
-                Ok(())
+                self.rotor_contact(rotor)
             }
             None => {
                 let given = table::keys()
@@ -49,5 +49,17 @@ impl Context<'_> {
                 }
             }
         }
+    }
+
+    /// When the rotor lies on the race.
+    fn rotor_contact(&self, rotor: &RotorFriction) -> Check {
+        let to = "identify.rotor_friction.to";
+        if let (Some(from), Some(until)) = (rotor.from, rotor.to)
+            && until <= from
+        {
+            let needed = "a time behind identify.rotor_friction.from is needed";
+            return self.refuse(Code::Impossible, to, self.text(to), needed);
+        }
+        Ok(())
     }
 }

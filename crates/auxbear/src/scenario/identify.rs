@@ -36,6 +36,16 @@ pub struct Identify {
     pub viscosity: Option<f64>,
     /// Part by which the moment changes per kelvin, 1/K.
     pub moment_per_kelvin: f64,
+    /// Its relative standard deviation.
+    pub moment_per_kelvin_deviation: f64,
+    /// Relative standard deviation of the mass of the balls.
+    pub ball_mass_deviation: f64,
+    /// Relative standard deviation of the mass of the cage.
+    pub cage_mass_deviation: f64,
+    /// Relative standard deviation of the radius of the inner track.
+    pub track_radius_deviation: f64,
+    /// Time within which the torque arm settles, s.
+    pub settling_time: f64,
     /// How explanations are compared; none where they are not.
     pub explanations: Option<Explanations>,
     /// Sliding friction of a dropped rotor.
@@ -47,6 +57,10 @@ pub struct Identify {
 pub struct Explanations {
     /// Probability from which on one is taken.
     pub decide_at: f64,
+    /// Time around the largest acceleration within which a jump of the torque is smeared, s.
+    pub locking_window: f64,
+    /// Relative standard deviation of the cage's rolling speed over the shaft's speed.
+    pub rolling_ratio_deviation: f64,
     /// Seed of the sampled parameters.
     pub seed: u64,
 }
@@ -62,10 +76,18 @@ pub struct RotorFriction {
     pub radial_load: f64,
     /// Its relative standard deviation.
     pub load_deviation: f64,
+    /// Time from which on the rotor lies on the race, s.
+    pub from: Option<f64>,
+    /// Time until which it does, s.
+    pub to: Option<f64>,
+    /// Least slip that counts as sliding, m/s.
+    pub least_slip: f64,
     /// Diameter at which the rotor slides, m.
     pub bore_diameter: f64,
     /// Inertia of the inner race with its sleeve, kg m².
     pub inertia: f64,
+    /// Its relative standard deviation.
+    pub inertia_deviation: f64,
 }
 
 impl Identify {
@@ -92,8 +114,15 @@ impl Identify {
             rolling_stated: identify.word("rolling") == "stated",
             viscosity: identify.maybe("viscosity"),
             moment_per_kelvin: identify.number("moment_per_kelvin"),
+            moment_per_kelvin_deviation: identify.number("moment_per_kelvin_deviation"),
+            ball_mass_deviation: identify.number("ball_mass_deviation"),
+            cage_mass_deviation: identify.number("cage_mass_deviation"),
+            track_radius_deviation: identify.number("track_radius_deviation"),
+            settling_time: identify.number("settling_time"),
             explanations: explanations.switch("compare").then(|| Explanations {
                 decide_at: explanations.number("decide_at"),
+                locking_window: explanations.number("locking_window"),
+                rolling_ratio_deviation: explanations.number("rolling_ratio_deviation"),
                 seed: explanations.count("seed"),
             }),
             rotor_friction: values
@@ -103,8 +132,12 @@ impl Identify {
                     rotor_speed: rotor.maybe("rotor_speed").unwrap_or(f64::NAN),
                     radial_load: rotor.maybe("radial_load").unwrap_or(f64::NAN),
                     load_deviation: rotor.number("load_deviation"),
+                    from: rotor.maybe("from"),
+                    to: rotor.maybe("to"),
+                    least_slip: rotor.number("least_slip"),
                     bore_diameter: rotor.maybe("bore_diameter").unwrap_or(f64::NAN),
                     inertia: rotor.maybe("inertia").unwrap_or(f64::NAN),
+                    inertia_deviation: rotor.number("inertia_deviation"),
                 }),
         }
     }

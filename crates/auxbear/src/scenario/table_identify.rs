@@ -78,6 +78,46 @@ pub(super) const KEYS: &[Key] = &[
     .within(Range::FromTo(-0.2, 0.0))
     .assumed("-0.02", "two thirds of the 3 % by which the viscosity of a mineral oil falls near 40 °C"),
     Key::new(
+        "identify.moment_per_kelvin_deviation",
+        Kind::Coefficient,
+        "0.5",
+        "Relative standard deviation of moment_per_kelvin.",
+    )
+    .within(Range::FromTo(0.0, 1.0))
+    .assumed("0.5", "oils thin by 2 to 6 % per kelvin, and a part of the moment does not follow the viscosity"),
+    Key::new(
+        "identify.ball_mass_deviation",
+        Kind::Coefficient,
+        "0.02",
+        "Relative standard deviation of the mass of the balls.",
+    )
+    .within(Range::FromTo(0.0, 1.0))
+    .assumed("0.02", "a diameter known to 0.5 % makes 1.5 % of the mass, the density of the steel another 1 %"),
+    Key::new(
+        "identify.cage_mass_deviation",
+        Kind::Coefficient,
+        "0.02",
+        "Relative standard deviation of the mass of the cage.",
+    )
+    .within(Range::FromTo(0.0, 1.0))
+    .assumed("0.02", "a cage that was weighed, with the grease that clings to it; one that was estimated may be off by 20 %"),
+    Key::new(
+        "identify.track_radius_deviation",
+        Kind::Coefficient,
+        "0.002",
+        "Relative standard deviation of the radius of the inner race track, (pitch_diameter - ball_diameter)/2.",
+    )
+    .within(Range::FromTo(0.0, 0.5))
+    .assumed("0.002", "some hundredths of a millimetre in 15 mm"),
+    Key::new(
+        "identify.settling_time",
+        Kind::Quantity("s"),
+        "0.5 s",
+        "Time within which the torque arm settles after a sudden change: a slow test is cut by it before its stop, and a zero is read from so long after the last pulse on.",
+    )
+    .positive()
+    .assumed("0.5 s", "five times the 0.1 s in which an arm of ζω_n = 39 1/s settles to 2 %, as that of the source paper"),
+    Key::new(
         "identify.explanations.compare",
         Kind::Switch,
         "true",
@@ -92,6 +132,22 @@ pub(super) const KEYS: &[Key] = &[
     )
     .within(Range::FromTo(0.5, 0.999_999))
     .default("0.95", "one wrong answer in twenty"),
+    Key::new(
+        "identify.explanations.locking_window",
+        Kind::Quantity("s"),
+        "10 ms",
+        "Time around the largest acceleration, where a clutch locks, within which the jump of the inertia's part of the torque is smeared: the torque is not known there to that jump.",
+    )
+    .positive()
+    .assumed("10 ms", "about 1/ω_n of usual torque arms: 16 ms at 10 Hz, 5 ms at 30 Hz"),
+    Key::new(
+        "identify.explanations.rolling_ratio_deviation",
+        Kind::Coefficient,
+        "0.002",
+        "Relative standard deviation of the ratio of the cage's rolling speed to the shaft's, by contact angle and radii.",
+    )
+    .within(Range::FromTo(0.0, 0.1))
+    .assumed("0.002", "diameters that are off by 1 %, or a contact angle of 8 deg taken as none; a slip that explains a torque is ten times that"),
     Key::new(
         "identify.explanations.seed",
         Kind::Count,
@@ -118,7 +174,7 @@ pub(super) const KEYS: &[Key] = &[
         "identify.rotor_friction.radial_load",
         Kind::Quantity("N"),
         "80 N",
-        "Force of the rotor on the race: its weight at this bearing, once it bounces no more.",
+        "Force of the rotor on the race, constant: its weight at this bearing, once it bounces no more.",
     )
     .positive()
     .optional("it is needed with identify.rotor_friction.file"),
@@ -130,6 +186,28 @@ pub(super) const KEYS: &[Key] = &[
     )
     .within(Range::FromTo(0.0, 1.0))
     .assumed("0.05", "a weight whose share at this bearing is known to 5 %"),
+    Key::new(
+        "identify.rotor_friction.from",
+        Kind::Quantity("s"),
+        "20 ms",
+        "Time of the file from which on the rotor lies on the race with that force: it bounces no more.",
+    )
+    .optional("from the first pulse on"),
+    Key::new(
+        "identify.rotor_friction.to",
+        Kind::Quantity("s"),
+        "0.1 s",
+        "Time of the file until which it does and spins at rotor_speed.",
+    )
+    .optional("to the last pulse"),
+    Key::new(
+        "identify.rotor_friction.least_slip",
+        Kind::Quantity("m/s"),
+        "0.05 m/s",
+        "Least slip of the rotor's surface over the race's that counts as sliding.",
+    )
+    .positive()
+    .assumed("0.05 m/s", "a rotor that swings by 80 µm at 100 Hz moves its surface as fast"),
     Key::new(
         "identify.rotor_friction.bore_diameter",
         Kind::Quantity("m"),
@@ -146,6 +224,14 @@ pub(super) const KEYS: &[Key] = &[
     )
     .positive()
     .optional("it is needed with identify.rotor_friction.file"),
+    Key::new(
+        "identify.rotor_friction.inertia_deviation",
+        Kind::Coefficient,
+        "0.02",
+        "Relative standard deviation of that inertia.",
+    )
+    .within(Range::FromTo(0.0, 1.0))
+    .assumed("0.02", "radii known to 0.5 % make 2 % of an inertia"),
 ];
 
 /// What the starting file gives.

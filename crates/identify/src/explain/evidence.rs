@@ -384,17 +384,15 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{ContinuedMoment, Explanation, Priors, Settings};
+    use super::super::steady::known;
+    use super::super::{Explanation, Priors, Settings};
     use super::*;
     use physics::rolling::RollingSet;
 
     /// Data of a drift of -0.2 M in 1.5 s with residuals that a fixed rule scatters, in a setting of few means.
     fn with_data(check: impl Fn(&Integral)) {
-        let steady = ContinuedMoment {
-            speed: vec![1.0, 75.0, 150.0],
-            moment: vec![5e-3, 15e-3, 25e-3],
-            covariance: vec![1e-8; 9],
-        };
+        let mut steady = known(vec![1.0, 75.0, 150.0], vec![5e-3, 15e-3, 25e-3]);
+        steady.covariance = vec![vec![1e-8; 3]; 3];
         let set = RollingSet {
             inner_track_radius: 14.8e-3,
             ball_ratio: 0.214,
@@ -402,15 +400,9 @@ mod tests {
             cage_mass: 8e-3,
         };
         let (priors, settings) = (Priors::default(), Settings::default());
-        let table = steady.table(150.0);
-        let bearing = Bearing {
-            table: &table,
-            set: &set,
-            priors: &priors,
-            settings: &settings,
-        };
+        let bearing = Bearing::new(&steady, 150.0, &set, &priors, &settings);
         let speed = |t: f64| 150.0 * (t / 0.1).clamp(0.0, 1.0);
-        let mut test = Test::planned(&speed, 3.0, 0.05, &table, set.outer_inertia());
+        let mut test = Test::planned(&speed, 3.0, 0.05, &bearing.table, set.outer_inertia());
         let rolling = Hypothesis::Rolling.predict(&[], std::slice::from_ref(&test), &bearing);
         let count = test.bins.len();
         for (i, bin) in test.bins.iter_mut().enumerate() {
@@ -423,7 +415,7 @@ mod tests {
         test.zero_deviation = 3e-4;
         test.scale_deviation = 0.01;
         let tests = [test];
-        let observed = Observed::new(&tests, &steady, &bearing, rolling).expect("a covariance");
+        let observed = Observed::new(&tests, &bearing).expect("a covariance");
         for hypothesis in [Hypothesis::SlowSensor, Hypothesis::Drift { sign: -1.0 }] {
             check(&Integral {
                 hypothesis,

@@ -5,8 +5,9 @@ use physics::rolling::RollingSet;
 use super::prior::{Priors, Range};
 use super::record::Test;
 use super::slip::{Slip, load_moment_factor};
-use super::steady::Table;
+use super::steady::{Continued, Table};
 use super::{Explanation, Settings};
+use crate::SteadyMoment;
 
 /// An explanation in the form that is computed: a sensor has several faults, each of one sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,10 +23,33 @@ pub(crate) enum Hypothesis {
 
 /// What predictions need beside parameters.
 pub(crate) struct Bearing<'a> {
-    pub table: &'a Table,
+    /// The steady curve.
+    pub steady: Continued<'a>,
+    /// The same up to the highest speed of the tests, quick to read.
+    pub table: Table,
     pub set: &'a RollingSet<f64>,
-    pub priors: &'a Priors,
+    /// Priors with what they take from the curve.
+    pub priors: Priors,
     pub settings: &'a Settings,
+}
+
+impl<'a> Bearing<'a> {
+    /// Curve and priors up to the highest speed of the tests, rad/s.
+    pub fn new(
+        steady: &'a SteadyMoment,
+        top_speed: f64,
+        set: &'a RollingSet<f64>,
+        priors: &Priors,
+        settings: &'a Settings,
+    ) -> Self {
+        Self {
+            steady: Continued(steady),
+            table: Continued(steady).table(top_speed),
+            set,
+            priors: priors.resolved(steady, top_speed),
+            settings,
+        }
+    }
 }
 
 /// Predicted means of all tests, test after test.
@@ -176,7 +200,7 @@ impl Hypothesis {
 
     /// Predicted means at standard normal coordinates.
     pub fn predict(self, coordinates: &[f64], tests: &[Test], bearing: &Bearing) -> Prediction {
-        let values: Vec<f64> = (self.parameters(bearing.priors).iter())
+        let values: Vec<f64> = (self.parameters(&bearing.priors).iter())
             .zip(coordinates)
             .map(|(parameter, z)| parameter.value(*z))
             .collect();
@@ -262,7 +286,7 @@ impl Hypothesis {
                     drag_softening: if heated { values[5] } else { 0.0 },
                     film_time: if heated { values[6] } else { 1.0 },
                 };
-                let course = slip.course(test, bearing.table, bearing.set);
+                let course = slip.course(test, &bearing.table, bearing.set);
                 (
                     test.means(course.outer_moment.iter().copied()),
                     test.means(course.cage.iter().copied()),
@@ -324,7 +348,7 @@ fn rolling_torque(test: &Test, bearing: &Bearing, load_share: f64) -> impl Itera
     let share = if load_share < 1.0 {
         load_share
     } else {
-        1.0 - share_range(bearing.priors).share(0.0)
+        1.0 - share_range(&bearing.priors).share(0.0)
     };
     let extra = share * bearing.table.reference * (load_moment_factor(&test.past) - 1.0);
     (test.steps.iter())
@@ -383,33 +407,23 @@ fn grease_factor(values: &[f64], test: &Test, set: &RollingSet<f64>) -> impl Ite
 
 #[cfg(test)]
 mod tests {
-    use super::super::ContinuedMoment;
+    use super::super::steady::known;
     use super::*;
 
     /// A bearing with a flat curve of 20 N mm, and a test that holds 150 rad/s for 4 s and then rests.
     fn with_test(check: impl Fn(&Bearing, &Test)) {
-        let steady = ContinuedMoment {
-            speed: vec![1.0, 150.0],
-            moment: vec![20e-3, 20e-3],
-            covariance: vec![0.0; 4],
-        };
+        let steady = known(vec![1.0, 150.0], vec![20e-3, 20e-3]);
         let set = RollingSet {
             inner_track_radius: 14.8e-3,
             ball_ratio: 0.214,
             balls_mass: 10.5e-3,
             cage_mass: 8e-3,
         };
-        let table = steady.table(150.0);
         let speed =
             |t: f64| 150.0 * (t / 0.02).clamp(0.0, 1.0) * (1.0 - (t - 4.0) / 0.5).clamp(0.0, 1.0);
         let (priors, settings) = (Priors::default(), Settings::default());
-        let bearing = Bearing {
-            table: &table,
-            set: &set,
-            priors: &priors,
-            settings: &settings,
-        };
-        let test = Test::planned(&speed, 6.0, 0.02, &table, set.outer_inertia());
+        let bearing = Bearing::new(&steady, 150.0, &set, &priors, &settings);
+        let test = Test::planned(&speed, 6.0, 0.02, &bearing.table, set.outer_inertia());
         check(&bearing, &test);
     }
 
@@ -445,7 +459,7 @@ mod tests {
                 .position(|bin| bin.from > 4.49)
                 .expect("a rest after the run-down");
             for form in Explanation::ALL.into_iter().flat_map(Hypothesis::of) {
-                let size = form.parameters(bearing.priors).len();
+                let size = form.parameters(&bearing.priors).len();
                 let torque = form.predict(&vec![0.0; size], tests, bearing).torque;
                 match form {
                     Hypothesis::Drift { sign } => assert!(sign * torque[end] > 1e-3),

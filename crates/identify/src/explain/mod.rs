@@ -49,6 +49,7 @@
 //! it differs from creep by the load part of M alone, and creep is what it would be called.
 
 mod evidence;
+mod foretold;
 mod hypothesis;
 mod linear;
 mod next_test;
@@ -63,7 +64,7 @@ mod verdict;
 
 use physics::rolling::RollingSet;
 
-use crate::Measurement;
+use crate::{Measurement, SteadyMoment};
 
 use evidence::{Evidence, Integral};
 use hypothesis::{Bearing, Hypothesis};
@@ -73,9 +74,9 @@ use record::Test;
 use sampling::{Random, chi_squared_exceeds};
 use verdict::FormDraw;
 
+pub use foretold::{Foretelling, foretold};
 pub use next_test::{Candidate, Proposal, next_test};
 pub use prior::{Priors, Range};
-pub use steady::ContinuedMoment;
 pub use verdict::{Assessment, Conclusion, Estimate, Explanation, Fit, Refusal, Verdict};
 
 /// How the comparison is made. The defaults are assumed; the tests state how often they lead to the right answer.
@@ -165,37 +166,25 @@ impl Settings {
 
 /// Which explanation the tests of one bearing support.
 ///
-/// - `tests`: all at one load; the record may include rest before, run-down and rest after
-/// - `steady`: M(Ω) at this load
+/// - `tests`: all at one load; the record may include rest before, run-down and rest after; speed and acceleration are taken as
+///   they are, [`foretold`] makes what is not known of them an error of the torque
+/// - `steady`: M(Ω) at this load; between its speeds as it is, held above them, fading to 0 at rest below
 /// - `set`: masses and radii of balls and cage
 ///
 /// # Errors
 /// A [`Refusal`] where tests, curve, priors or settings cannot be used.
 pub fn explain(
     tests: &[Measurement],
-    steady: &ContinuedMoment,
+    steady: &SteadyMoment,
     set: &RollingSet<f64>,
     priors: &Priors,
     settings: &Settings,
 ) -> Result<Verdict, Refusal> {
-    refuse(tests, steady, priors, settings)?;
-    let top_speed = (tests.iter().flat_map(|test| &test.speed)).fold(0.0_f64, |a, b| a.max(*b));
-    if top_speed <= 0.0 {
-        return Err(Refusal::BadTest(tests[0].name.clone()));
-    }
-    let table = steady.table(top_speed);
-    let priors = &priors.resolved(steady, top_speed);
-    let bearing = Bearing {
-        table: &table,
-        set,
-        priors,
-        settings,
-    };
+    let bearing = bearing(tests, steady, set, priors, settings)?;
     let records: Vec<Test> = (tests.iter())
-        .map(|test| Test::measured(test, &table, set.outer_inertia()))
+        .map(|test| Test::measured(test, &bearing.table, set.outer_inertia()))
         .collect();
-    let rolling = Hypothesis::Rolling.predict(&[], &records, &bearing);
-    let observed = Observed::new(&records, steady, &bearing, rolling).ok_or(Refusal::BadCurve)?;
+    let observed = Observed::new(&records, &bearing).ok_or(Refusal::BadCurve)?;
     // the quick ones first: the slow ones need no care where they are far behind
     let mut leader = f64::NEG_INFINITY;
     let mut assessments: Vec<Assessment> = QUICK_FIRST
@@ -251,9 +240,25 @@ fn conclude(verdict: &Verdict, settings: &Settings) -> Conclusion {
     Conclusion::Undecided(left.iter().map(|a| a.explanation).collect())
 }
 
+/// The bearing as the comparison and the ranking of tests see it, where tests, curve, priors and settings can be used.
+fn bearing<'a>(
+    tests: &[Measurement],
+    steady: &'a SteadyMoment,
+    set: &'a RollingSet<f64>,
+    priors: &Priors,
+    settings: &'a Settings,
+) -> Result<Bearing<'a>, Refusal> {
+    refuse(tests, steady, priors, settings)?;
+    let top_speed = (tests.iter().flat_map(|test| &test.speed)).fold(0.0_f64, |a, b| a.max(*b));
+    if top_speed <= 0.0 {
+        return Err(Refusal::BadTest(tests[0].name.clone()));
+    }
+    Ok(Bearing::new(steady, top_speed, set, priors, settings))
+}
+
 fn refuse(
     tests: &[Measurement],
-    steady: &ContinuedMoment,
+    steady: &SteadyMoment,
     priors: &Priors,
     settings: &Settings,
 ) -> Result<(), Refusal> {
@@ -270,11 +275,12 @@ fn refuse(
     let rising = |values: &[f64]| values.windows(2).all(|pair| pair[1] > pair[0]);
     let curve = size > 0
         && steady.moment.len() == size
-        && steady.covariance.len() == size * size
+        && steady.covariance.len() == size
         && rising(&steady.speed)
         && steady.speed[0] > 0.0
         && steady.moment.iter().all(|m| m.is_finite() && *m > 0.0)
-        && steady.covariance.iter().all(|c| c.is_finite());
+        && (steady.covariance.iter())
+            .all(|row| row.len() == size && row.iter().all(|c| c.is_finite()));
     if !curve {
         return Err(Refusal::BadCurve);
     }
@@ -343,7 +349,7 @@ fn assess(
                 tests,
                 bearing,
                 observed,
-                size: form.parameters(bearing.priors).len(),
+                size: form.parameters(&bearing.priors).len(),
                 leader,
             };
             let mut evidence = integral.evidence();
@@ -417,7 +423,7 @@ fn estimates(
     weights: &[f64],
     bearing: &Bearing,
 ) -> Vec<Estimate> {
-    (form.parameters(bearing.priors).iter().enumerate())
+    (form.parameters(&bearing.priors).iter().enumerate())
         .map(|(axis, parameter)| {
             let value = |draw: &evidence::Draw| parameter.value(draw.coordinates[axis]);
             let mean: f64 = (evidence.draws.iter().zip(weights))

@@ -12,15 +12,15 @@
 
 use physics::rolling::RollingSet;
 
-use crate::Measurement;
+use crate::{Measurement, SteadyMoment};
 
 use super::hypothesis::{Bearing, Hypothesis, Prediction};
 use super::linear::{Cholesky, dot, log_sum_exp};
 use super::noise::Observed;
 use super::record::{Past, Test};
 use super::sampling::Random;
-use super::steady::{ContinuedMoment, Table};
-use super::{Priors, Refusal, Settings, Verdict, refuse};
+use super::steady::Table;
+use super::{Priors, Refusal, Settings, Verdict, bearing};
 
 /// A test that could be made next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,33 +135,21 @@ impl Proposal {
 pub fn next_test(
     verdict: &Verdict,
     tests: &[Measurement],
-    steady: &ContinuedMoment,
+    steady: &SteadyMoment,
     set: &RollingSet<f64>,
     priors: &Priors,
     settings: &Settings,
 ) -> Result<Vec<Candidate>, Refusal> {
-    refuse(tests, steady, priors, settings)?;
-    let top_speed = (tests.iter().flat_map(|test| &test.speed)).fold(0.0_f64, |a, b| a.max(*b));
-    if top_speed <= 0.0 {
-        return Err(Refusal::BadTest(tests[0].name.clone()));
-    }
-    let table = steady.table(top_speed);
-    let priors = &priors.resolved(steady, top_speed);
-    let bearing = Bearing {
-        table: &table,
-        set,
-        priors,
-        settings,
-    };
-    let rig = Rig::of(&tests[tests.len() - 1], &table, set.outer_inertia());
+    let bearing = bearing(tests, steady, set, priors, settings)?;
+    let table = &bearing.table;
+    let rig = Rig::of(&tests[tests.len() - 1], table, set.outer_inertia());
     let mut candidates = Vec::new();
     for proposal in Proposal::ALL {
         let mut random = Random::new(settings.seed ^ 0xca5e);
         let trial = Trial {
             proposal,
-            test: rig.plan(proposal, &table),
+            test: rig.plan(proposal, table),
             bearing: &bearing,
-            steady,
         };
         let (information, entropy) = trial
             .information(verdict, &mut random)
@@ -271,7 +259,6 @@ struct Trial<'a> {
     proposal: Proposal,
     test: Test,
     bearing: &'a Bearing<'a>,
-    steady: &'a ContinuedMoment,
 }
 
 /// Predictions of one explanation as a normal distribution over whitened data.
@@ -293,8 +280,7 @@ impl Trial<'_> {
     /// Expected information and the entropy that is left, nats.
     fn information(&self, verdict: &Verdict, random: &mut Random) -> Option<(f64, f64)> {
         let one = std::slice::from_ref(&self.test);
-        let rolling = Hypothesis::Rolling.predict(&[], one, self.bearing);
-        let observed = Observed::new(one, self.steady, self.bearing, rolling.clone())?;
+        let observed = Observed::new(one, self.bearing)?;
         let discrepancy = verdict.best().fit.map_or(0.02, |fit| fit.discrepancy);
         let nearest = |a: &f64| (a.ln() - discrepancy.max(1e-6).ln()).abs();
         let amplitude = (0..observed.amplitudes.len()).min_by(|i, j| {
@@ -309,7 +295,8 @@ impl Trial<'_> {
             let points: Vec<Vec<f64>> = (assessment.draws.iter().step_by(every))
                 .map(|draw| {
                     let prediction = self.predict(draw.form, &draw.coordinates, random);
-                    let mut point = observed.whiten_change(&rolling, &prediction, amplitude);
+                    let mut point =
+                        observed.whiten_change(&observed.rolling, &prediction, amplitude);
                     let scatter = 1.0 + self.bearing.settings.effect_scatter * random.normal();
                     point.iter_mut().for_each(|x| *x *= scatter);
                     if self.proposal == Proposal::Temperature {
@@ -352,7 +339,7 @@ impl Trial<'_> {
             ..test.past
         };
         if form == Hypothesis::HeatedSlip {
-            let parameters = form.parameters(self.bearing.priors);
+            let parameters = form.parameters(&self.bearing.priors);
             let time = parameters[6].value(coordinates[6]);
             test.past.film = (-rest / time).exp();
         }

@@ -12,10 +12,9 @@
 //! it. The last term lets the size of an effect differ a little from test to test. Cage speeds have a covariance of
 //! their own. At rest no discrepancy is allowed: a shaft that stands transmits no moment that a model could miss.
 
-use super::hypothesis::{Bearing, Prediction};
+use super::hypothesis::{Bearing, Hypothesis, Prediction};
 use super::linear::{Cholesky, dot};
 use super::record::{Bin, Test};
-use super::steady::ContinuedMoment;
 
 /// The data with the covariances of their errors.
 pub(crate) struct Observed {
@@ -24,7 +23,8 @@ pub(crate) struct Observed {
     /// Amplitudes a of the discrepancy.
     pub amplitudes: Vec<f64>,
     scatter: f64,
-    rolling: Prediction,
+    /// What rolling balls would give: effects are counted from there.
+    pub rolling: Prediction,
 }
 
 /// Means of one kind.
@@ -60,12 +60,7 @@ const NEAR_REST: f64 = 0.3;
 
 impl Observed {
     /// The data of all tests; none where a covariance is not positive definite (a band that is none).
-    pub fn new(
-        tests: &[Test],
-        steady: &ContinuedMoment,
-        bearing: &Bearing,
-        rolling: Prediction,
-    ) -> Option<Self> {
+    pub fn new(tests: &[Test], bearing: &Bearing) -> Option<Self> {
         let settings = bearing.settings;
         let all: Vec<(usize, usize, &Bin)> = (tests.iter().enumerate())
             .flat_map(|(t, test)| test.bins.iter().map(move |bin| (t, bin)))
@@ -83,7 +78,7 @@ impl Observed {
             &with_torque,
             &amplitudes,
             |bin| bin.torque,
-            |a, i, j| torque_covariance(a, tests, i, j, steady, bearing),
+            |a, i, j| torque_covariance(a, tests, i, j, bearing),
         )?;
         let cage = Signal::new(
             &with_cage,
@@ -96,7 +91,7 @@ impl Observed {
             cage,
             amplitudes,
             scatter: settings.effect_scatter,
-            rolling,
+            rolling: Hypothesis::Rolling.predict(&[], tests, bearing),
         })
     }
 
@@ -263,7 +258,6 @@ fn torque_covariance(
     tests: &[Test],
     one: (usize, &Bin),
     other: (usize, &Bin),
-    steady: &ContinuedMoment,
     bearing: &Bearing,
 ) -> f64 {
     let ((test, a), (other_test, b)) = (one, other);
@@ -273,7 +267,7 @@ fn torque_covariance(
     let (m, n) = (bearing.table.at(a.speed).0, bearing.table.at(b.speed).0);
     let scale = tests[test].scale_deviation * tests[other_test].scale_deviation;
     let mut sum = scale * a.torque * b.torque
-        + steady.covariance_between(a.speed, b.speed)
+        + bearing.steady.covariance_between(a.speed, b.speed)
         + settings.level_deviation.powi(2) * m * n
         + settings.inertia_deviation.powi(2) * j * k
         + settings.lag_deviation.powi(2) * a.steepness * b.steepness;

@@ -1,6 +1,7 @@
 //! What is held possible before the data: odds of the explanations and ranges of their parameters.
 
-use super::{ContinuedMoment, Explanation};
+use super::Explanation;
+use crate::SteadyMoment;
 
 /// Range that holds 90 % of what is thought possible: 5 % lie below `low`, 5 % above `high`.
 ///
@@ -154,7 +155,7 @@ impl Priors {
     ///
     /// - `steady`: the curve
     /// - `top_speed`: highest speed of the tests, rad/s
-    pub fn share_of(steady: &ContinuedMoment, top_speed: f64) -> Range {
+    pub fn share_of(steady: &SteadyMoment, top_speed: f64) -> Range {
         // M = a + c x, weights 1/M²
         let (mut w, mut wx, mut wxx, mut wm, mut wxm) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for (speed, moment) in steady.speed.iter().zip(&steady.moment) {
@@ -185,7 +186,7 @@ impl Priors {
     }
 
     /// The same with the viscous share of the curve where none was given.
-    pub(crate) fn resolved(&self, steady: &ContinuedMoment, top_speed: f64) -> Self {
+    pub(crate) fn resolved(&self, steady: &SteadyMoment, top_speed: f64) -> Self {
         let mut resolved = self.clone();
         resolved
             .viscous_share
@@ -201,6 +202,7 @@ impl Priors {
 
 #[cfg(test)]
 mod tests {
+    use super::super::steady::known;
     use super::*;
 
     #[test]
@@ -221,18 +223,13 @@ mod tests {
         let moment = (speed.iter())
             .map(|w| 25e-3 * (0.1 + 0.9 * (w / 150.0).powf(2.0 / 3.0)))
             .collect();
-        let curve = |speed: Vec<f64>, moment: Vec<f64>| ContinuedMoment {
-            covariance: vec![0.0; speed.len() * speed.len()],
-            speed,
-            moment,
-        };
-        let range = Priors::share_of(&curve(speed, moment), 150.0);
+        let range = Priors::share_of(&known(speed, moment), 150.0);
         assert!((1.0 - range.low - 0.13 * 1.8).abs() < 1e-9);
         assert!((1.0 - range.high - 0.13 / 1.8).abs() < 1e-9);
         // one speed alone tells nothing, and a flat curve has all of it: still ranges
         for curve in [
-            curve(vec![100.0], vec![20e-3]),
-            curve(vec![50.0, 100.0], vec![20e-3; 2]),
+            known(vec![100.0], vec![20e-3]),
+            known(vec![50.0, 100.0], vec![20e-3; 2]),
         ] {
             assert!(Priors::share_of(&curve, 150.0).is_share());
         }

@@ -313,16 +313,11 @@ pub(crate) fn interpolate(time: &[f64], values: &[f64], t: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::ContinuedMoment;
+    use super::super::steady::{Continued, known};
     use super::*;
 
     fn table() -> Table {
-        ContinuedMoment {
-            speed: vec![1.0, 150.0],
-            moment: vec![20e-3, 20e-3],
-            covariance: vec![0.0; 4],
-        }
-        .table(150.0)
+        Continued(&known(vec![1.0, 150.0], vec![20e-3, 20e-3])).table(150.0)
     }
 
     /// Up in 0.1 s, held for 5 s, down in 1.5 s, a second of rest.

@@ -293,7 +293,7 @@ impl Slip {
 
 #[cfg(test)]
 mod tests {
-    use super::super::ContinuedMoment;
+    use super::super::steady::{Continued, known};
     use super::*;
 
     fn set() -> RollingSet<f64> {
@@ -311,13 +311,7 @@ mod tests {
         let moment = (speed.iter())
             .map(|w| 3e-3 + 22e-3 * (w / 150.0).powf(2.0 / 3.0))
             .collect();
-        let covariance = vec![0.0; speed.len() * speed.len()];
-        ContinuedMoment {
-            speed,
-            moment,
-            covariance,
-        }
-        .table(150.0)
+        Continued(&known(speed, moment)).table(150.0)
     }
 
     fn slip(traction_limit: f64) -> Slip {

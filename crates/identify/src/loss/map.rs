@@ -140,7 +140,7 @@ impl LossMap {
         let friction: Vec<f64> = data.iter().map(|d| d.friction).collect();
         if most - least < 0.2 * most {
             notes.push(format!(
-                "all accelerations are from {least:.3e} to {most:.3e} rad/s²: F0 and F1 are hardly told apart"
+                "all accelerations are from {least:.0} to {most:.0} rad/s²: F0 and F1 are hardly told apart"
             ));
         }
         Ok(Self {

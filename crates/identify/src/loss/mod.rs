@@ -19,6 +19,7 @@
 //! deviations): the true F lies in its band at 95.8 % of all times, the true map at 95.9 % of all places that count as known. With a
 //! cage that lags and balls that grip outside throughout, one end of what the second line allows, it is 96.4 % of the slipping times.
 
+mod excess;
 mod map;
 
 pub use map::{LossMap, MapPlace};

@@ -167,8 +167,8 @@ pub fn moment(
                 Ok(found) => {
                     if found.chance < 0.01 {
                         notes.push(format!(
-                            "speeding up and slowing down differ by {:.3e} ± {:.1e} N m: their mean is no steady moment",
-                            found.mean.value, found.mean.deviation
+                            "speeding up and slowing down differ by {} N m: their mean is no steady moment",
+                            found.mean
                         ));
                     }
                     up_against_down = Some(found);
@@ -180,10 +180,10 @@ pub fn moment(
     }
     if let Some(best) = whole.forms.first() {
         for parameter in &best.parameters {
-            let Uncertain { value, deviation } = parameter.value;
-            if !parameter.name.starts_with("zero") && value < -2.0 * deviation {
+            let found = parameter.value;
+            if !parameter.name.starts_with("zero") && found.value < -2.0 * found.deviation {
                 notes.push(format!(
-                    "{} of the most probable form is negative ({value:.3e} ± {deviation:.1e} {}): no such law",
+                    "{} of the most probable form is negative ({found} {}): no such law",
                     parameter.name, parameter.unit
                 ));
             }
@@ -248,8 +248,10 @@ fn refuse(
     Ok(())
 }
 
-/// Whether two loads count as one.
-pub(crate) fn same_load(a: f64, b: f64) -> bool {
+/// Whether two loads count as one: they differ by less than 2 %.
+///
+/// - `a`, `b`: loads, N
+pub fn same_load(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME_LOAD * a.max(b)
 }
 

@@ -1,6 +1,7 @@
 //! A virtual laboratory: draws a truth, runs three tests on the fine bearing, reads them with an imperfect sensor.
 
-use identify::explain::{ContinuedMoment, Explanation};
+use identify::SteadyMoment;
+use identify::explain::Explanation;
 use identify::{CageTrace, Measurement};
 use physics::rolling::RollingSet;
 
@@ -52,7 +53,7 @@ pub struct Truth {
 pub struct Campaign {
     pub truth: Truth,
     pub tests: Vec<Measurement>,
-    pub steady: ContinuedMoment,
+    pub steady: SteadyMoment,
     pub set: RollingSet<f64>,
 }
 
@@ -154,7 +155,7 @@ impl Truth {
     }
 
     /// M(Ω) of a coast-down: right within its band.
-    fn coast_down(&self, chance: &mut Chance) -> ContinuedMoment {
+    fn coast_down(&self, chance: &mut Chance) -> SteadyMoment {
         let speed: Vec<f64> = (0..16).map(|i| 3.0 + 9.8 * f64::from(i)).collect();
         let (level, tilt) = (0.007 * chance.normal(), 0.005 * chance.normal());
         let tilted = |speed: f64| 1.0 - 2.0 * speed / TOP;
@@ -164,16 +165,20 @@ impl Truth {
             .collect();
         let mut covariance = Vec::new();
         for (i, (m, w)) in exact.iter().zip(&speed).enumerate() {
+            let mut row = Vec::new();
             for (j, (n, v)) in exact.iter().zip(&speed).enumerate() {
                 let own = if i == j { 5e-5_f64.powi(2) } else { 0.0 };
                 let shared = 0.007_f64.powi(2) + 0.005_f64.powi(2) * tilted(*w) * tilted(*v);
-                covariance.push(m * n * shared + own);
+                row.push(m * n * shared + own);
             }
+            covariance.push(row);
         }
-        ContinuedMoment {
+        SteadyMoment {
+            load: 50.0,
             speed,
             moment,
             covariance,
+            scale_deviation: 0.0,
         }
     }
 

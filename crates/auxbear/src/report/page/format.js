@@ -21,12 +21,21 @@ function numberText(value, digits = 5) {
   if (!isNumber(value)) return "–";
   if (value === 0) return "0";
   const size = Math.abs(value);
-  if (Number.isInteger(value) && size < 1e7) return String(value).replace("-", "−");
+  if (Number.isInteger(value) && size < 1e7) return thousandsApart(String(value));
   if (size >= 1e6 || size < 1e-3) {
     const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
     return `${trimmed(mantissa)} × ${powerOfTen(Number(exponent))}`;
   }
-  return trimmed(value.toPrecision(digits));
+  const text = value.toPrecision(digits);
+  // more digits before the point than asked for: 11 530, not 1.153e+4
+  return text.includes("e") ? thousandsApart(String(Number(text))) : trimmed(text);
+}
+
+// Thousands apart from 10 000 on.
+function thousandsApart(text) {
+  const [whole, ...rest] = text.replace("-", "−").split(".");
+  const digits = whole.replace("−", "").length;
+  return [digits > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, "\u202f") : whole, ...rest].join(".");
 }
 
 function powerOfTen(exponent) {
@@ -34,12 +43,11 @@ function powerOfTen(exponent) {
 }
 
 function trimmed(text) {
-  const short = text.includes(".") && !text.includes("e") ? text.replace(/\.?0+$/, "") : text;
-  return short.replace("-", "−");
+  return thousandsApart(text.includes(".") ? text.replace(/\.?0+$/, "") : text);
 }
 
 function unitText(unit) {
-  return unit === "1" || !unit ? "" : unit;
+  return unit === "1" || !unit ? "" : unit.replace(/\^([0-9])/g, (_, power) => SUPERSCRIPT[power]);
 }
 
 // The prefixed unit in which a value of this size reads best.

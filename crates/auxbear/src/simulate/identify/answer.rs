@@ -7,6 +7,7 @@ use crate::simulate::list::{List, Origin};
 use crate::simulate::outcome::{Quantity, Value};
 use identify::explain::{Conclusion, Explanation};
 use identify::moment::{Form, Moment};
+use measure::uncertain::Uncertain;
 
 /// Speeds at which the steady moment is listed.
 const CURVE_POINTS: usize = 60;
@@ -71,7 +72,8 @@ fn verdict(list: &mut List, found: &Found) {
         let best = verdict.best();
         let values = best.parameters.iter().map(|p| {
             let unit = if p.unit == "1" { "" } else { p.unit };
-            format!("{} {:.3e} ± {:.1e} {unit}", p.name, p.mean, p.deviation)
+            let value = Uncertain::new(p.mean, p.deviation);
+            format!("{} {value} {unit}", p.name)
         });
         let values: Vec<String> = values.map(|text| text.trim_end().to_string()).collect();
         let name = best.explanation.name();
@@ -120,10 +122,8 @@ fn moment(list: &mut List, found: &Found) {
     let parameters = moment.clone().map(|moment| {
         let fits = moment.forms.iter().map(|fit| {
             let values = fit.parameters.iter().map(|p| {
-                format!(
-                    "{} {:.4e} ± {:.1e} {}",
-                    p.name, p.value.value, p.value.deviation, p.unit
-                )
+                let unit = if p.unit == "1" { "" } else { p.unit };
+                format!("{} {} {unit}", p.name, p.value)
             });
             let values: Vec<String> = values.map(|text| text.trim_end().to_string()).collect();
             format!("{}: {}", word(fit.form), values.join("; "))
@@ -140,7 +140,7 @@ fn moment(list: &mut List, found: &Found) {
         let speed = |k: usize| from + (to - from) * k as f64 / (CURVE_POINTS - 1) as f64;
         (0..CURVE_POINTS).map(speed).collect::<Vec<f64>>()
     });
-    let of_speeds = |pick: fn(measure::uncertain::Uncertain) -> f64| {
+    let of_speeds = |pick: fn(Uncertain) -> f64| {
         let moment = found.moment.as_ref().map_err(Clone::clone)?;
         let at = |speed: &f64| moment.curve.at(*speed).map_or(f64::NAN, pick);
         Ok::<Vec<f64>, String>(speeds.clone()?.iter().map(at).collect())
@@ -209,13 +209,7 @@ fn measured_curve(found: &Found) -> (Vec<f64>, Vec<f64>) {
 }
 
 fn map(list: &mut List, found: &Found) {
-    // one map of speed and acceleration cannot hold what changes with time besides
-    let off = found.tests.iter().find_map(answer_tests::off_the_moment);
-    let fitted = match off {
-        Some(why) => Err(format!("{why}, so that what is left is not F alone")),
-        None => found.map.as_ref().map_err(Clone::clone),
-    };
-    let grid = fitted.map(|map| {
+    let grid = found.map.as_ref().map_err(Clone::clone).map(|map| {
         let largest = |pick: fn(&identify::loss::LossPoint) -> f64| {
             let points = found
                 .tests
@@ -264,8 +258,14 @@ fn map(list: &mut List, found: &Found) {
 }
 
 fn rotor(list: &mut List, found: &Found) {
-    let points = found.rotor.as_ref().map_err(Clone::clone);
-    let points = points.map(|rotor| rotor.over_slip(20));
+    let rotor = found.rotor.as_ref().map_err(Clone::clone);
+    let mean = rotor.clone().and_then(|rotor| {
+        let whole = rotor.over_slip(1);
+        let first = whole.first().map(|point| point.friction);
+        first.ok_or_else(|| "there is no slip".to_string())
+    });
+    answer_tests::uncertain(list, "rotor_friction_coefficient", "1", mean, &ROTOR);
+    let points = rotor.map(|rotor| rotor.over_slip(20));
     for (name, unit, pick) in [
         (
             "rotor_friction_slips",

@@ -1,21 +1,14 @@
 //! Named results of one test with acceleration.
 
 use super::found::TestFound;
-use super::history::begin;
 use crate::simulate::list::{List, Origin};
 use crate::simulate::outcome::Value;
+use identify::Measurement;
+use identify::loss::Loss;
 use identify::slip::Established;
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 use physics::spin_up_energy::SpinUpEnergy;
-
-/// Time after the engagement over which the settled torque is taken, s, and from when on.
-const SETTLED_FROM: f64 = 0.2;
-const SETTLED_TO: f64 = 0.4;
-/// Length of the end of the hold over which the last torque is taken, s.
-const LAST: f64 = 0.5;
-/// Part of the largest speed within which the shaft is at speed.
-const AT_SPEED: f64 = 0.01;
 
 /// Names what one test tells.
 pub(super) fn name(list: &mut List, number: usize, test: &TestFound, set: &RollingSet<f64>) {
@@ -44,7 +37,7 @@ pub(super) fn name(list: &mut List, number: usize, test: &TestFound, set: &Rolli
 }
 
 /// A value with its standard deviation under the same name.
-fn uncertain(
+pub(super) fn uncertain(
     list: &mut List,
     name: &str,
     unit: &'static str,
@@ -60,49 +53,17 @@ fn uncertain(
     );
 }
 
-/// Mean torque beyond the steady moment in a part of the test.
-fn excess(test: &TestFound, from: f64, to: f64) -> Result<Uncertain, String> {
-    let loss = test.loss.as_ref().map_err(Clone::clone)?;
-    let inside = loss
-        .points
-        .iter()
-        .filter(|p| p.time >= from && p.time <= to);
-    let values: Vec<Uncertain> = inside.filter_map(|p| p.excess).collect();
-    if values.is_empty() {
-        return Err("there is no torque beside a steady moment then".to_string());
-    }
-    let count = values.len() as f64;
-    // close in time they share their error: the mean is no more certain than one of them
-    Ok(Uncertain::new(
-        values.iter().map(|u| u.value).sum::<f64>() / count,
-        values.iter().map(|u| u.deviation).sum::<f64>() / count,
-    ))
-}
-
-/// The largest speed of a test, rad/s, and the last time at which the shaft is at it, s.
-fn fastest(test: &TestFound) -> (f64, f64) {
-    let m = &test.measurement;
-    let fastest = m.speed.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-    let last = (m.time.iter().zip(&m.speed))
-        .filter(|(_, speed)| speed.abs() >= (1.0 - AT_SPEED) * fastest)
-        .map(|(time, _)| *time)
-        .next_back();
-    (fastest, last.unwrap_or_else(|| begin(m)))
-}
-
 fn torques(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
-    let m = &test.measurement;
-    let start = begin(m);
-    let last_at_speed = fastest(test).1;
-    for (name, from, to) in [
-        (
-            "excess_torque_settled",
-            start + SETTLED_FROM,
-            start + SETTLED_TO,
-        ),
-        ("excess_torque_at_end", last_at_speed - LAST, last_at_speed),
+    let loss = test.loss.as_ref().map_err(Clone::clone);
+    let unknown = || "there is no torque beside a steady moment then".to_string();
+    type Part = fn(&Loss, &Measurement) -> Option<Uncertain>;
+    for (name, part) in [
+        ("excess_torque_settled", Loss::settled_excess as Part),
+        ("excess_torque_at_end", Loss::excess_at_end),
     ] {
-        uncertain(list, &named(name), "N m", excess(test, from, to), &EXCESS);
+        let value =
+            (loss.clone()).and_then(|loss| part(loss, &test.measurement).ok_or_else(unknown));
+        uncertain(list, &named(name), "N m", value, &EXCESS);
     }
 }
 
@@ -115,10 +76,9 @@ fn rolling_up(
     test: &TestFound,
     set: &RollingSet<f64>,
 ) {
-    let fastest = fastest(test).0;
     let rolling = SpinUpEnergy {
         set: *set,
-        final_speed: fastest,
+        final_speed: test.measurement.fastest(),
         outer_moment_work: 0.0,
     };
     let torque = rolling.final_angular_momentum() / FALL;
@@ -149,7 +109,7 @@ fn energies(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
     list.number(
         &named("dissipation_until"),
         "s",
-        found.clone().map(|d| d.window.1 - begin(&test.measurement)),
+        found.clone().map(|d| d.window.1 - test.measurement.begin()),
         &ENERGY,
     );
     list.push(
@@ -166,11 +126,8 @@ fn energies(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
 /// What tells that the torque does not come to the steady moment: the lubricant or the sensor was in another state than in the
 /// slow tests. None where it comes there, or where that is not known.
 pub(super) fn off_the_moment(test: &TestFound) -> Option<String> {
-    let (start, end) = (begin(&test.measurement), fastest(test).1);
-    let excess = excess(test, end - LAST, end)
-        .or_else(|_| excess(test, start + SETTLED_FROM, start + SETTLED_TO))
-        .ok()?;
-    (excess.value.abs() > 3.0 * excess.deviation).then(|| {
+    let loss = test.loss.as_ref().ok()?;
+    loss.off_the_moment(&test.measurement).map(|excess| {
         format!(
             "at the end of the hold of {} t_O - M is {:.2} ± {:.2} N mm: M of the slow tests does not hold there",
             test.name,
@@ -196,7 +153,7 @@ fn slip(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
         &named("rolling_established_at"),
         "s",
         slip.and_then(|slip| match slip.established {
-            Established::At { time, .. } => Ok(time - begin(&test.measurement)),
+            Established::At { time, .. } => Ok(time - test.measurement.begin()),
             Established::Throughout => {
                 Err("as far as the signal tells, the cage never slipped".to_string())
             }

@@ -2,7 +2,6 @@
 
 use super::found::{Found, TestFound};
 use crate::simulate::outcome::Column;
-use identify::Measurement;
 use measure::uncertain::Uncertain;
 
 /// Interval in the quick part, s, and how long that lasts after the engagement.
@@ -29,16 +28,10 @@ pub(super) fn columns(found: &Found) -> Vec<Column> {
     columns
 }
 
-/// When a test begins, s of its record.
-pub(super) fn begin(test: &Measurement) -> f64 {
-    let first = test.time.first().copied().unwrap_or(0.0);
-    test.engagement.unwrap_or(first)
-}
-
 fn times(tests: &[TestFound]) -> Vec<f64> {
     let longest = tests.iter().map(|test| {
         let m = &test.measurement;
-        m.time.last().copied().unwrap_or(0.0) - begin(m)
+        m.time.last().copied().unwrap_or(0.0) - m.begin()
     });
     let longest = longest.fold(0.0, f64::max);
     if tests.is_empty() {
@@ -59,7 +52,7 @@ fn of_test(
     times: &[f64],
 ) {
     let m = &test.measurement;
-    let begin = begin(m);
+    let begin = m.begin();
     let mut add = |name: &str, unit: &'static str, meaning: &str, values: Vec<f64>| {
         columns.push(Column {
             name: format!("test_{number}.{name}"),

@@ -7,8 +7,8 @@
 //! | page | subject |
 //! |---|---|
 //! | `read` | the signals files and their channels |
-//! | `measured` | from what the signals hold to what the crate `identify` takes |
-//! | `found` | the estimators of that crate, each with its own reason where it refuses |
+//! | `found` | the estimators of the crate `identify`, each with its own reason where it refuses |
+//! | `told` | what to know of the tests, each line once |
 //! | `answer`, `answer_tests` | named results |
 //! | `history` | the tests over time since their engagement |
 
@@ -16,8 +16,8 @@ mod answer;
 mod answer_tests;
 mod found;
 mod history;
-mod measured;
 mod read;
+mod told;
 
 use super::Options;
 use super::outcome::{Outcome, Picture, Stop, Warning, Work};
@@ -32,7 +32,7 @@ pub(super) fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outc
     let clock = Instant::now();
     let found = Found::of(asked, options);
     let mut warnings = found.warnings.clone();
-    warnings.extend(assumed(scenario));
+    warnings.extend(assumed(scenario, asked));
     let history = history::columns(&found);
     let end = history.first().and_then(|time| time.values.last().copied());
     let stop = match (&found.moment, found.interrupted) {
@@ -77,9 +77,14 @@ pub(super) fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outc
     }
 }
 
-/// What is assumed of the bearing and the tests.
-fn assumed(scenario: &Scenario) -> Option<Warning> {
+/// What is assumed of the bearing and the tests, as far as it counts.
+fn assumed(scenario: &Scenario, asked: &Asked) -> Option<Warning> {
+    let wish = asked.identify;
+    let counts = |path: &str| {
+        !(path.starts_with("identify.rotor_friction.") && wish.rotor_friction.is_none()
+            || path.starts_with("identify.explanations.") && wish.explanations.is_none())
+    };
     let values = scenario.resolved.values.iter();
-    let values = values.filter(|value| value.provenance.mark() == "assumed");
+    let values = values.filter(|value| value.provenance.mark() == "assumed" && counts(value.path));
     assumptions(&values.map(|value| value.path).collect::<Vec<_>>())
 }

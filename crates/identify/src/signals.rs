@@ -1,0 +1,358 @@
+//! One test put together from what its signals hold.
+//!
+//! ```text
+//!   speed from pulses, torque without its sensor's swing, cage ──▶ Measurement on the torque's times (every nth where they are many)
+//!
+//!   at rest          before an engagement from rest, and behind the last pulse where the next ones did not come: Ω = 0, Ω̇ = 0
+//!   zero at rest     the reading's mean once the arm has settled behind that last pulse
+//!   correlation      τ = 2 · median(σ_torque/σ_rate), the times at which the shaft turns
+//! ```
+//! The settling time is that of the torque arm after a sudden change: within it a reading still swings, and a smoothed torque does
+//! not follow. Nothing here is fitted; what the signals do not tell is in the deviations.
+//!
+//! **Does not model**: a shaft that turns on by less than a mark behind its last pulse, other than by its deviation; a zero that
+//! wanders between the test and the rest behind it.
+
+use crate::measurement::{CageTrace, Measurement};
+use measure::cage_speed::CageSpeed;
+use measure::speed::{Motion, Speed};
+use measure::torque_sensor::Torque;
+use measure::uncertain::Uncertain;
+
+/// What the estimators of `measure` found in the signals of one test.
+#[derive(Clone, Copy)]
+pub struct Signals<'a> {
+    /// Name for messages.
+    pub name: &'a str,
+    /// Radial load on the bearing, N.
+    pub load: f64,
+    /// The motion of the shaft.
+    pub speed: &'a Speed,
+    /// Largest speed of the shaft without sign, rad/s.
+    pub fastest: f64,
+    /// Angle without a pulse from which on the shaft counts as stopped, rad: some marks.
+    pub silence: f64,
+    /// The torque on the outer race.
+    pub torque: &'a Torque,
+    /// Relative standard deviation of its scale.
+    pub scale_deviation: f64,
+    /// The motion of the cage, where it was measured.
+    pub cage: Option<&'a CageSpeed>,
+    /// Time within which the torque arm settles after a sudden change, s.
+    pub settling_time: f64,
+}
+
+/// Most times of a measurement: beyond, neighbours tell nothing new.
+const MOST_TIMES: usize = 20_000;
+/// Covariance of angle, speed and acceleration of a shaft that shows no pulse: 0.01 rad/s, 1 rad/s².
+const AT_REST: [[f64; 3]; 3] = [[1e-4, 0.0, 0.0], [0.0, 1e-4, 0.0], [0.0, 0.0, 1.0]];
+/// Least deviation of a torque over that of the zero or of the noise: a torque that is zero by definition is not more certain than
+/// the data around it.
+const LEAST_DEVIATION: f64 = 0.02;
+/// Least time of rest that a zero is taken from, s: several correlation times of a reading.
+const LEAST_REST: f64 = 0.5;
+/// Parts into which that rest is cut.
+const PARTS: usize = 8;
+/// Correlation of a smooth random curve is gone after so many times the ratio of its deviation to that of its rate.
+const INDEPENDENT: f64 = 2.0;
+/// Part of the largest speed below which the scale of the torque is not looked at.
+const TURNING: f64 = 0.05;
+/// Most times at which it is looked at.
+const LOOKS: usize = 500;
+/// Deviation of a cage's speed over the speed of its first ball, where the rise before it is taken as straight: a rise with the
+/// square of time differs from it by as much.
+const FIRST_RISE: f64 = 0.25;
+
+/// The measurement that signals tell, without a temperature.
+///
+/// - `signals`: what was found in them
+///
+/// Each torque's deviation is at least 2 % of that of zero or noise. Where no rest before the test tells the zero, that behind it
+/// does, see [`zero_at_rest`].
+pub fn measurement(signals: &Signals) -> Measurement {
+    let torque = signals.torque;
+    let step = torque.time.len().div_ceil(MOST_TIMES).max(1);
+    let thinned = |list: &[f64]| list.iter().copied().step_by(step).collect::<Vec<f64>>();
+    let time = thinned(&torque.time);
+    let change = signals.speed.change.filter(|change| change.from_rest);
+    let last_pulse = signals.speed.range().1;
+    let stops = stops(signals, &time, last_pulse);
+    let motion = motions(signals, &time, stops.then_some(last_pulse));
+    let mut values = thinned(&torque.torque);
+    let mut zero_deviation = torque.zero.deviation;
+    let mut torque_deviation = thinned(&torque.deviation);
+    if change.is_none()
+        && stops
+        && let Some(zero) = zero_at_rest(&time, &values, last_pulse + signals.settling_time)
+    {
+        for (value, deviation) in values.iter_mut().zip(&mut torque_deviation) {
+            *value -= zero.value;
+            let noise = (deviation.powi(2) - zero_deviation.powi(2)).max(0.0);
+            *deviation = noise.sqrt().hypot(zero.deviation);
+        }
+        zero_deviation = zero.deviation;
+    }
+    let floor = LEAST_DEVIATION * torque.zero.deviation.max(torque.noise);
+    for deviation in &mut torque_deviation {
+        *deviation = deviation.max(floor);
+    }
+    let turning = |time: f64| signals.speed.at(time).speed.abs() > TURNING * signals.fastest;
+    Measurement {
+        name: signals.name.to_string(),
+        load: signals.load,
+        speed: motion.iter().map(|m| m.speed).collect(),
+        speed_deviation: motion.iter().map(Motion::speed_uncertainty).collect(),
+        acceleration: motion.iter().map(|m| m.acceleration).collect(),
+        acceleration_deviation: motion
+            .iter()
+            .map(Motion::acceleration_uncertainty)
+            .collect(),
+        torque: values,
+        torque_deviation,
+        zero_deviation,
+        scale_deviation: signals.scale_deviation,
+        correlation_time: correlation_time(torque, &turning),
+        engagement: signals.speed.change.map(|change| change.engagement.0),
+        cage: (signals.cage).map(|found| cage(found, change.map(|change| change.engagement.0))),
+        temperature: None,
+        time,
+    }
+}
+
+/// Whether the shaft stops behind its last pulse: at its last speed others would have come.
+fn stops(signals: &Signals, time: &[f64], last_pulse: f64) -> bool {
+    let silence = time.last().map_or(0.0, |end| end - last_pulse);
+    silence * signals.speed.at(last_pulse).speed.abs() > signals.silence
+}
+
+/// The motion at the times of the torque; at rest before an engagement from rest and behind a stop.
+fn motions(signals: &Signals, time: &[f64], stop: Option<f64>) -> Vec<Motion> {
+    let mut motion: Vec<Motion> = time.iter().map(|time| signals.speed.at(*time)).collect();
+    let change = signals.speed.change.filter(|change| change.from_rest);
+    let from = change.map_or(f64::NEG_INFINITY, |change| change.engagement.0);
+    let last = signals.speed.range().1;
+    let end = signals.speed.at(last);
+    let until = stop.unwrap_or(f64::INFINITY);
+    for (motion, time) in motion.iter_mut().zip(time) {
+        if *time < from || *time > until {
+            (motion.speed, motion.acceleration) = (0.0, 0.0);
+            motion.covariance = AT_REST;
+            // just behind the last pulse it may still turn by less than a mark
+            if (last..last + signals.settling_time).contains(time) {
+                motion.covariance[1][1] += end.speed * end.speed;
+                motion.covariance[2][2] += end.acceleration * end.acceleration;
+            }
+        }
+    }
+    motion
+}
+
+/// The zero of a torque reading from the rest at its end; none where that is shorter than half a second.
+///
+/// Formula: zero = mean of eight means over equal parts; σ_zero = their scatter, √(Σ(part - zero)²/7)
+///
+/// - `time`: times, s
+/// - `torque`: readings, N m
+/// - `from`: when the shaft rests and the arm has settled, s
+///
+/// The parts share slow errors to some degree, so the deviation is their scatter itself, not that of their mean.
+pub fn zero_at_rest(time: &[f64], torque: &[f64], from: f64) -> Option<Uncertain> {
+    let first = time.partition_point(|time| *time < from);
+    let rest = torque.get(first..)?;
+    let length = time.last()? - time.get(first)?;
+    if length < LEAST_REST || rest.len() < PARTS {
+        return None;
+    }
+    let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+    let parts: Vec<f64> = rest.chunks(rest.len().div_ceil(PARTS)).map(mean).collect();
+    let zero = mean(&parts);
+    let square = parts.iter().map(|part| (part - zero).powi(2)).sum::<f64>();
+    let count = parts.len() as f64;
+    Some(Uncertain::new(zero, (square / (count - 1.0)).sqrt()))
+}
+
+/// Time after which two errors of a torque count as independent, s; never less than the interval of its times.
+///
+/// Formula: τ = 2 · median(√(σ² - σ_zero²)/σ_rate): a smooth random curve of deviation σ whose rate has the deviation σ_rate
+/// changes by as much as itself within σ/σ_rate
+///
+/// - `torque`: the torque with its rate and their deviations
+/// - `turning`: whether the shaft turns at a time, s; a torque that is zero by definition tells nothing
+pub fn correlation_time(torque: &Torque, turning: &dyn Fn(f64) -> bool) -> f64 {
+    let count = torque.time.len();
+    let step = (count / LOOKS).max(1);
+    let mut ratios: Vec<f64> = (0..count)
+        .step_by(step)
+        .filter(|k| turning(torque.time[*k]))
+        .map(|k| {
+            let noise = torque.deviation[k].powi(2) - torque.zero.deviation.powi(2);
+            noise.max(0.0).sqrt() / torque.rate_deviation[k]
+        })
+        .filter(|ratio| ratio.is_finite())
+        .collect();
+    ratios.sort_by(f64::total_cmp);
+    let median = ratios.get(ratios.len() / 2).copied().unwrap_or(0.0);
+    let interval = if count > 1 {
+        (torque.time[count - 1] - torque.time[0]) / (count - 1) as f64
+    } else {
+        0.0
+    };
+    INDEPENDENT * median.max(interval)
+}
+
+/// The speed of the cage; from the engagement on, where the first ball had not passed yet and the cage rose from rest.
+fn cage(found: &CageSpeed, engagement: Option<f64>) -> CageTrace {
+    let mut trace = CageTrace {
+        time: found.time.clone(),
+        speed: found.speed.clone(),
+        deviation: found.deviation.clone(),
+    };
+    if let (Some(engagement), Some(first)) = (engagement, trace.time.first().copied())
+        && engagement < first
+    {
+        let speed = trace.speed[0];
+        trace.time.insert(0, engagement);
+        trace.speed.insert(0, 0.0);
+        let deviation = trace.deviation[0].hypot(FIRST_RISE * speed.abs());
+        trace.deviation[0] = deviation;
+        trace.deviation.insert(0, deviation);
+    }
+    trace
+}
+
+/// A slow test without its end: where the shaft stops the moment falls at once, which no smoothed torque follows.
+///
+/// - `test`: the test
+/// - `settling_time`: time by which it is cut before the stop, s
+///
+/// A test that turns to its end stays whole.
+pub fn before_the_stop(test: &Measurement, settling_time: f64) -> Measurement {
+    let turning = test.speed.iter().rposition(|speed| *speed != 0.0);
+    match (turning, test.time.first()) {
+        (Some(last), Some(first)) if last + 1 < test.time.len() => {
+            test.between(*first, test.time[last] - settling_time)
+        }
+        _ => test.clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ten seconds of torque at 100 Hz.
+    fn times() -> Vec<f64> {
+        (0..=1000).map(|k| 0.01 * f64::from(k)).collect()
+    }
+
+    fn torque(deviation: f64, rate_deviation: f64) -> Torque {
+        let time = times();
+        let all = |value: f64| vec![value; time.len()];
+        Torque {
+            torque: all(0.02),
+            deviation: all(deviation),
+            rate: all(0.0),
+            rate_deviation: all(rate_deviation),
+            disturbance: all(0.0),
+            disturbance_deviation: all(0.0),
+            disturbance_power: 0.0,
+            zero: Uncertain::new(0.0, 3e-4),
+            noise: 1e-3,
+            calming: 1.0,
+            log_likelihood: 0.0,
+            notes: Vec::new(),
+            time,
+        }
+    }
+
+    #[test]
+    fn the_zero_is_the_mean_at_rest_and_as_uncertain_as_its_parts_scatter() {
+        let time = times();
+        // 20 N mm until 6 s, then a swing that has settled at 7 s; at rest 0.4 N mm in four parts and 0.6 in the others
+        let reading: Vec<f64> = (time.iter())
+            .map(|t| match *t {
+                t if t < 6.0 => 20e-3,
+                t if t < 7.0 => 5e-3,
+                t => [0.4e-3, 0.6e-3][(8.0 * (t - 7.0) / 3.01) as usize % 2],
+            })
+            .collect();
+        let zero = zero_at_rest(&time, &reading, 7.0).unwrap();
+        // by hand: mean 0.5, scatter √(8·0.1²/7) N mm; a sample at a border changes a part by 0.2/38
+        assert!((zero.value - 0.5e-3).abs() < 3e-6, "{}", zero.value);
+        assert!((zero.deviation / 0.1e-3 - (8.0_f64 / 7.0).sqrt()).abs() < 0.06);
+        // half a second is the least, and a rest behind the record is none
+        assert!(zero_at_rest(&time, &reading, 9.6).is_none());
+        assert!(zero_at_rest(&time, &reading, 11.0).is_none());
+        assert!(zero_at_rest(&[], &[], 0.0).is_none());
+    }
+    #[test]
+    fn errors_are_independent_after_twice_the_ratio_to_their_rate() {
+        // noise of 1 N mm beside a zero of 0.3: √(1 + 0.09); its rate 25 N mm/s: 2/25 s
+        let wide = torque((1.0_f64 + 0.09).sqrt() * 1e-3, 25e-3);
+        assert!((correlation_time(&wide, &|_| true) - 0.08).abs() < 1e-12);
+        // no time at which it turns, no noise at all, or a quick one: the interval, twice
+        for (torque, turns) in [
+            (&wide, false),
+            (&torque(3e-4, 25e-3), true),
+            (&torque(1e-3, 1e3), true),
+        ] {
+            assert!((correlation_time(torque, &|_| turns) - 0.02).abs() < 1e-12);
+        }
+        // where it rests the deviation is another, and does not count
+        let mut both = wide.clone();
+        both.deviation[..600].fill(3e-4);
+        assert!((correlation_time(&both, &|time| time >= 6.0) - 0.08).abs() < 1e-12);
+    }
+    #[test]
+    fn a_slow_test_is_cut_before_its_stop_alone() {
+        let time = times();
+        let count = time.len();
+        let coasting = |until: f64| Measurement {
+            name: "coast-down".into(),
+            load: 60.0,
+            speed: (time.iter())
+                .map(|t| (15.0 * (until - t)).max(0.0))
+                .collect(),
+            speed_deviation: vec![0.1; count],
+            acceleration: vec![-15.0; count],
+            acceleration_deviation: vec![1.0; count],
+            torque: vec![0.02; count],
+            torque_deviation: vec![1e-3; count],
+            time: time.clone(),
+            zero_deviation: 0.0,
+            scale_deviation: 0.0,
+            correlation_time: 0.02,
+            engagement: None,
+            cage: None,
+            temperature: None,
+        };
+        let cut = before_the_stop(&coasting(8.0), 0.5);
+        // the last time that turns is 7.99 s
+        assert!((cut.time.last().unwrap() - 7.49).abs() < 1e-9);
+        assert_eq!(cut.time[0], 0.0);
+        assert_eq!(
+            before_the_stop(&coasting(20.0), 0.5).time.len(),
+            count,
+            "it turns to its end"
+        );
+    }
+    #[test]
+    fn a_cage_rises_from_rest_before_its_first_ball() {
+        let found = CageSpeed {
+            time: vec![1.2, 1.3],
+            speed: vec![40.0, 60.0],
+            deviation: vec![3.0, 1.0],
+            slip: vec![0.0; 2],
+            slip_deviation: vec![0.1; 2],
+            noise: 0.0,
+            notes: Vec::new(),
+        };
+        let trace = cage(&found, Some(1.1));
+        assert_eq!((trace.time[0], trace.speed[0]), (1.1, 0.0));
+        // a quarter of 40 rad/s beside 3
+        assert_eq!(trace.deviation, vec![109_f64.sqrt(), 109_f64.sqrt(), 1.0]);
+        for without in [None, Some(1.25)] {
+            assert_eq!(cage(&found, without).time, found.time);
+        }
+    }
+}
