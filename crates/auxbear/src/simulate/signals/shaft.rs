@@ -3,7 +3,7 @@
 use super::Signal;
 use crate::scenario::{PickupFlank, PickupKind, SpeedSignal};
 use measure::pulse::{
-    EdgeSettings, Edges, Flank, Pitch, Pulses, Wheel, calibrate, check_marks, edges, number,
+    EdgeSettings, Edges, Flank, Marks, Pitch, Pulses, Wheel, calibrate, check_marks, edges, number,
 };
 use measure::shaft::Shaft;
 use measure::speed::{Motion, Speed, SpeedSettings, Transient, smooth};
@@ -51,8 +51,16 @@ impl Found {
         };
         let pulses = number(&found, &wheel).map_err(words)?;
         // A warning, not a refusal: two wheels on one shaft, or a wheel with equal parts, show another number too.
-        let doubt = check_marks(&pulses).err().map(words);
         let mut notes = Vec::new();
+        let doubt = match check_marks(&pulses) {
+            Marks::Contradicted(why) => Some(words(why)),
+            // One mark or two have no pattern of their own.
+            Marks::Untold(why) if wish.marks_per_revolution > 2 => {
+                notes.push(format!("the number of marks could not be checked: {why}"));
+                None
+            }
+            Marks::Untold(_) | Marks::Shown => None,
+        };
         let pitch = match wish.calibration {
             true => calibrate(&pulses)
                 .map_err(|why| {
