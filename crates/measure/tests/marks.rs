@@ -244,7 +244,9 @@ const SEEDS: u64 = 6;
 
 /// True wheels of 12, 60 and 360 marks are never called wrong; wrong numbers are told where the wheel shows its own.
 ///
-/// COVERAGE
+/// With 100 seeds: of 1800 true wheels none is called wrong; of 3600 numbers that are no multiple 77 % are told, of 1800
+/// twofold ones 45 %; 15 of these with another number than the wheel's, a part or a multiple of it. Told most seldom: digital
+/// signals, whose instants are those of the samples, and a dozen marks, of which too few differ.
 #[test]
 fn true_wheels_are_not_called_wrong_and_wrong_ones_are() {
     let (mut alarms, mut count) = (vec![], 0);
@@ -286,8 +288,9 @@ fn true_wheels_are_not_called_wrong_and_wrong_ones_are() {
     println!("told {told:?} of {asked:?}, with another number {strange:#?}");
     assert!(alarms.is_empty());
     assert!(strange.len() * 50 <= told[0], "{strange:#?}");
-    assert!(10 * told[0] >= 5 * asked[0], "{told:?} of {asked:?}");
-    assert!(10 * told[1] >= 1 * asked[1], "{told:?} of {asked:?}");
+    // 77 and 45 % less five standard deviations of so many.
+    assert!(10 * told[0] >= 6 * asked[0], "{told:?} of {asked:?}");
+    assert!(10 * told[1] >= 2 * asked[1], "{told:?} of {asked:?}");
 }
 
 /// An even wheel on a shaft whose speed ripples ten times a turn: the ripple is no wheel of six marks.
