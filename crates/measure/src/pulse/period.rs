@@ -55,7 +55,7 @@ const SURE: f64 = 3.0;
 /// After how many pulses the pattern of intervals repeats: the positions per revolution as the wheel itself tells them.
 ///
 /// Intervals are compared with their two neighbours, so that speed and acceleration drop out. None where no period stands out
-/// of the noise of the instants and of sampling, or where fewer than three periods were seen.
+/// of the noise of the instants and of sampling, or where fewer than two and a half periods were seen.
 pub fn period(pulses: &Pulses) -> Option<usize> {
     Correlated::of(pulses)?.period()
 }
