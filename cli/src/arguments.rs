@@ -1,7 +1,6 @@
 //! The command line as types; its texts are what `--help` prints.
 
 use clap::{Args, Parser, Subcommand};
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// What happens when a magnetically levitated rotor falls onto its auxiliary rolling bearings, how these bearings are brought
@@ -40,7 +39,7 @@ pub enum Command {
     New {
         /// What to describe: drop, spin_up, torque, signals, rig or identify
         kind: String,
-        /// File to write; printed if none is given
+        /// File to write; printed if none is given, or for -
         path: Option<PathBuf>,
     },
     /// Print the JSON Schema of a kind of file, by which editors complete and check it
@@ -87,8 +86,8 @@ pub struct Run {
     #[arg(long, value_name = "N")]
     pub repeat: Option<String>,
     /// Number of threads [all cores]; the numbers do not depend on it
-    #[arg(long, value_name = "N")]
-    pub threads: Option<NonZeroUsize>,
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub threads: Option<String>,
     /// Print nothing but problems
     #[arg(long)]
     pub quiet: bool,

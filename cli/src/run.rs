@@ -3,7 +3,7 @@
 use crate::arguments::Run;
 use crate::progress::Progress;
 use crate::{Exit, console, summary};
-use auxbear::problem::Problem;
+use auxbear::problem::{Code, Problem};
 use auxbear::report::directory::{NewDirectory, free_path};
 use auxbear::scenario::{BuiltIn, Scenario};
 use auxbear::simulate::outcome::Stop;
@@ -25,6 +25,7 @@ const ECHO: Duration = Duration::from_millis(500);
 
 /// Simulates a scenario and writes its run directory.
 pub fn perform(wish: &Run) -> Result<Exit, Box<Problem>> {
+    let threads = wish.threads.as_deref().map(threads).transpose()?;
     let mut sets = wish.set.clone();
     // As an override it is checked like any value, and the resolved file repeats it.
     sets.extend(wish.repeat.iter().map(|n| format!("repeat.count={n}")));
@@ -33,7 +34,16 @@ pub fn perform(wish: &Run) -> Result<Exit, Box<Problem>> {
         let stem = wish.file.file_stem().unwrap_or_default();
         free_path(&stem.to_string_lossy())
     });
-    execute(&scenario, &path, wish.threads, wish.quiet)
+    execute(&scenario, &path, threads, wish.quiet)
+}
+
+/// The number of threads asked for.
+fn threads(text: &str) -> Result<NonZeroUsize, Box<Problem>> {
+    text.trim().parse().map_err(|_| {
+        let found = format!("\"{text}\"");
+        let needed = "a whole number from 1 on is needed; without it all cores are used";
+        Box::new(Problem::new(Code::OutOfRange, "auxbear run", found, needed).on_key("--threads"))
+    })
 }
 
 /// Runs a scenario, writes its run directory and tells what came out.

@@ -2,6 +2,7 @@
 
 use crate::console;
 use auxbear::problem::{Code, Problem, did_you_mean};
+use auxbear::report::directory::{failed, misplaced};
 use auxbear::scenario::{SystemName, template};
 use std::fs::{self, File};
 use std::io::{ErrorKind, Write};
@@ -13,7 +14,8 @@ const PLANNED: [&str; 2] = ["rotor", "study"];
 /// Prints or writes the starting file of a kind.
 pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
     let text = template(kind).ok_or_else(|| unknown("auxbear new", kind))?;
-    let Some(path) = path else {
+    // A dash stands for the standard output.
+    let Some(path) = path.filter(|path| *path != Path::new("-")) else {
         console::print(&text);
         return Ok(());
     };
@@ -24,7 +26,7 @@ pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
             "something of this name",
             "a starting file is never written over another: choose another path",
         )),
-        _ => failed(path, &error),
+        _ => misplaced(path, &error),
     })?;
     file.write_all(text.as_bytes()).map_err(|error| {
         let _ = fs::remove_file(path);
@@ -46,13 +48,4 @@ pub fn unknown(command: &str, kind: &str) -> Box<Problem> {
         Problem::new(Code::UnknownWord, command, format!("\"{kind}\""), needed)
             .with_hint(did_you_mean(kind, built()))
     })
-}
-
-fn failed(path: &Path, error: &std::io::Error) -> Box<Problem> {
-    Box::new(Problem::at_path(
-        Code::OutputFailed,
-        path,
-        format!("that it cannot be written ({error})"),
-        "a place with room and permission to write is needed",
-    ))
 }

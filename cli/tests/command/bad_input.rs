@@ -78,7 +78,6 @@ fn words_that_are_no_command() {
     for words in [
         &["rnu", "drop.toml"][..],
         &["run"],
-        &["run", "drop.toml", "--threads", "0"],
         &["run", "drop.toml", "--ouput", "x"],
         &["studio"],
         &[],
@@ -111,10 +110,42 @@ fn results_are_never_written_over_others() {
 fn a_place_that_cannot_be_written_is_found_before_the_run() {
     let place = Place::new();
     fs::write(place.path("file"), "").unwrap();
-    let called = place.call(&["run", "drop.toml", "--out", "file/run"]);
-    assert_eq!(called.code, Some(1));
-    assert!(called.err.starts_with("error[AB0302]: file"), "{called:?}");
+    for out in ["file/run", "..", "/proc/run"] {
+        let called = place.call(&["run", "drop.toml", "--out", out]);
+        called.refused(&["error[AB030"]);
+    }
+    for words in [
+        &["run", "drop.toml", "--out", "file/run"][..],
+        &["new", "drop", "file/drop.toml"],
+    ] {
+        place
+            .call(words)
+            .refused(&["error[AB0307]: file", "nothing can be made there"]);
+    }
     assert_eq!(place.names(), ["file"]);
+}
+
+#[test]
+fn a_number_of_threads_that_is_none() {
+    let place = Place::new();
+    for threads in ["0", "-1", "1.5", "many", "99999999999999999999"] {
+        let called = place.call(&["run", "drop.toml", "--threads", threads]);
+        called.refused(&[
+            "error[AB0106]: auxbear run: --threads: found",
+            threads,
+            "a whole number from 1 on is needed",
+        ]);
+    }
+    assert!(place.names().is_empty());
+}
+
+#[test]
+fn a_dash_is_the_standard_output() {
+    let place = Place::new();
+    let printed = place.call(&["new", "drop", "-"]).done().out;
+    assert_eq!(printed, place.call(&["new", "drop"]).done().out);
+    assert!(printed.contains("system = \"drop\""), "{printed}");
+    assert!(place.names().is_empty());
 }
 
 #[test]

@@ -82,6 +82,8 @@ pub enum Code {
     ChannelClock,
     /// AB0306
     ChannelUnit,
+    /// AB0307
+    OutputPlace,
     /// AB0401
     DuplicateBearing,
     /// AB0402
@@ -281,7 +283,7 @@ impl Code {
             Code::Impossible,
             "AB0211",
             "Motion that cannot be",
-            "The motion asked for has no answer in the model, for example a step of speed on balls that always roll.",
+            "What is asked for has no answer in the model, for example a step of speed on balls that always roll.",
         ),
         (
             Code::OutputExists,
@@ -318,6 +320,12 @@ impl Code {
             "AB0306",
             "Unit of a channel",
             "A channel has no unit, or one of another dimension than what is computed from it.",
+        ),
+        (
+            Code::OutputPlace,
+            "AB0307",
+            "No place for results",
+            "Nothing can be made at the path that was given: a part of it is no folder, or may not be written.",
         ),
         (
             Code::DuplicateBearing,
@@ -494,7 +502,8 @@ impl fmt::Display for Problem {
 
 impl std::error::Error for Problem {}
 
-/// What a user typed, without line breaks and control characters and not longer than a line.
+/// What a user typed, without line breaks and control characters and not longer than a line; a sentence of our own belongs to
+/// what is allowed, which is never cut.
 fn one_line(text: &str) -> String {
     const LONGEST: usize = 160;
     let clean = text.chars().map(|c| if c.is_control() { ' ' } else { c });

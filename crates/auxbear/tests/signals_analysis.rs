@@ -166,6 +166,91 @@ fn orders_and_spectrograms() {
 }
 
 #[test]
+fn a_spectrogram_ends_at_the_highest_frequency() {
+    let coast = Coast::new("highest_frequency", f64::INFINITY);
+    let asked = |more: &str| {
+        coast.asked(&format!(
+            "[signals.vibration]\nchannel = \"vibration\"\n{more}"
+        ))
+    };
+    let whole = asked("").unwrap();
+    let frequencies = list(&whole, "vibration_spectrogram_frequencies");
+    // Half of 2000 values a second, less half of one of 64 rows.
+    assert!(*frequencies.last().unwrap() > 980.0, "{frequencies:?}");
+    let low = asked("highest_frequency = \"100 Hz\"\n").unwrap();
+    let frequencies = list(&low, "vibration_spectrogram_frequencies");
+    let times = list(&low, "vibration_spectrogram_times");
+    let levels = list(&low, "vibration_spectrogram_levels");
+    assert!(*frequencies.last().unwrap() <= 100.0 && frequencies.len() >= 32);
+    assert!(times.len() >= 32, "{}", times.len());
+    assert_eq!(levels.len(), frequencies.len() * times.len());
+    // Order 2 of some 120 rad/s is the strongest line at first: 38 Hz.
+    let top = (0..frequencies.len())
+        .max_by(|a, b| levels[*a].total_cmp(&levels[*b]))
+        .unwrap();
+    assert!(
+        (frequencies[top] - 38.0).abs() < 2.5,
+        "{}",
+        frequencies[top]
+    );
+    for (value, needed) in [
+        (
+            "1.5 kHz",
+            "at most 1000 Hz is needed, half of the sampling rate of channel \"vibration\"",
+        ),
+        ("0 Hz", "above 0"),
+        ("-5 Hz", "above 0"),
+        ("100", "e.g. \"500 Hz\""),
+        ("100 rpm/s", "e.g. \"500 Hz\""),
+    ] {
+        let told = asked(&format!("highest_frequency = \"{value}\"\n")).unwrap_err();
+        assert!(
+            told.contains("signals.vibration.highest_frequency") && told.contains(needed),
+            "{told}"
+        );
+    }
+}
+
+#[test]
+fn a_speed_that_falls_evenly_has_a_deviation() {
+    // 60 marks at 150 rad/s, slowed by 5 rad/s², stamped to 0.1 µs with noise of it.
+    let folder = std::env::temp_dir().join(format!("auxbear_even_{}", std::process::id()));
+    fs::create_dir_all(&folder).unwrap();
+    let mut text = String::from("mark,tacho\n");
+    let mut state = 3u64;
+    for mark in 0..2000 {
+        let angle = f64::from(mark) * TAU / 60.0;
+        let time = (150.0 - (150.0_f64.powi(2) - 10.0 * angle).sqrt()) / 5.0;
+        let sum: u64 = (0..12)
+            .map(|_| {
+                state = state
+                    .wrapping_mul(6364136223846793005)
+                    .wrapping_add(1442695040888963407);
+                state >> 33
+            })
+            .sum();
+        let noise = 1e-7 * (sum as f64 / f64::from(1u32 << 31) - 6.0);
+        writeln!(text, "{mark},{:.12}", 1.0 + time + noise).unwrap();
+    }
+    fs::write(folder.join("even.csv"), text).unwrap();
+    let file = folder.join("even.toml");
+    let asked = "format = \"auxbear.scenario/1\"\nsystem = \"signals\"\n[signals]\nfile = \"even.csv\"\n\
+                 [signals.speed]\nchannel = \"tacho\"\nkind = \"edges\"\nstamp_deviation = \"0.1 us\"\nmarks_per_revolution = 60\n";
+    fs::write(&file, asked).unwrap();
+    let never = AtomicBool::new(false);
+    let scenario = Scenario::read(&file, &[], &BuiltIn).unwrap();
+    let outcome = run(&scenario, &Options::unwatched(&never)).unwrap();
+    let (peak, spread) = (
+        number(&outcome, "peak_acceleration"),
+        number(&outcome, "peak_acceleration_deviation"),
+    );
+    // A cubic through 2000 instants over 1.4 s, of 1.5e-5 rad each: some 1e-5 rad/s² in the middle, ten times that at the ends.
+    assert!(spread > 1e-6 && spread < 1e-2, "{spread}");
+    assert!((peak + 5.0).abs() < 5.0 * spread, "{peak} {spread}");
+    assert!(number(&outcome, "peak_speed_deviation") > 0.0);
+}
+
+#[test]
 fn a_converter_flags_its_limits() {
     // The torque starts at 2.0 N mm with 0.3 N mm of noise: a limit of 2.2 clips it at first.
     let coast = Coast::new("converter", 2.2);

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use measure::pulse::{
-    EdgeSettings, Edges, Flank, Pulses, Wheel, calibrate, check_marks, edges, number, period,
+    EdgeSettings, Edges, Flank, Marks, Pulses, Wheel, calibrate, check_marks, edges, number, period,
 };
 use measure::speed::{SpeedSettings, Transient, smooth};
 use proptest::prelude::*;
@@ -291,15 +291,22 @@ fn the_pattern_of_intervals_tells_the_marks_of_the_wheel() {
         // What the user says does not matter: he may be wrong.
         let wrong = number(&stamped(pulses.times.clone()), &FULL(50)).unwrap();
         assert_eq!(period(&wrong), Some(marks));
-        assert!(check_marks(&pulses).is_ok());
-        let refusal = check_marks(&wrong).unwrap_err();
+        assert_eq!(check_marks(&pulses), Marks::Shown);
+        let Marks::Contradicted(refusal) = check_marks(&wrong) else {
+            panic!("{marks}");
+        };
         assert!(
             refusal.found.contains(&format!("after {marks} pulses, 50")),
             "{refusal}"
         );
     }
     // A perfect wheel has no pattern.
-    assert_eq!(period(&coast(&[0.0; 60], 9, 1e-6, 1.5)), None);
+    let even = coast(&[0.0; 60], 9, 1e-6, 1.5);
+    assert_eq!(period(&even), None);
+    let Marks::Untold(why) = check_marks(&even) else {
+        panic!("an even wheel");
+    };
+    assert!(why.contains("noise of their instants"), "{why}");
 }
 
 #[test]

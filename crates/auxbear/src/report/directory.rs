@@ -42,14 +42,14 @@ impl NewDirectory {
         }
         let partial = partial_of(path).ok_or_else(|| {
             Box::new(Problem::at_path(
-                Code::OutputFailed,
+                Code::OutputPlace,
                 path,
                 "no name of a directory",
                 "a directory with a name of its own is needed",
             ))
         })?;
         if let Some(parent) = path.parent() {
-            fs::create_dir_all(parent).map_err(|error| failed(parent, &error))?;
+            fs::create_dir_all(parent).map_err(|error| misplaced(parent, &error))?;
         }
         match fs::create_dir(&partial) {
             Ok(()) => Ok(NewDirectory {
@@ -64,7 +64,7 @@ impl NewDirectory {
                     "choose another directory, or remove this one if no run is using it",
                 )))
             }
-            Err(error) => Err(failed(&partial, &error)),
+            Err(error) => Err(misplaced(&partial, &error)),
         }
     }
 
@@ -278,7 +278,7 @@ pub fn write_report(file: &Path, directories: &[PathBuf]) -> Result<(), Box<Prob
     };
     let mut out = File::create_new(file).map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => taken(file),
-        _ => failed(file, &error),
+        _ => misplaced(file, &error),
     })?;
     out.write_all(text.as_bytes()).map_err(|error| {
         let _ = fs::remove_file(file);
@@ -314,7 +314,19 @@ fn taken(path: &Path) -> Box<Problem> {
     ))
 }
 
-fn failed(path: &Path, error: &std::io::Error) -> Box<Problem> {
+/// Why nothing can be made at a path that was given: the place is wrong, or the disk is full.
+pub fn misplaced(path: &Path, error: &std::io::Error) -> Box<Problem> {
+    match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => failed(path, error),
+        _ => {
+            let found = format!("that nothing can be made there ({error})");
+            Box::new(Problem::at_path(Code::OutputPlace, path, found, WRITABLE))
+        }
+    }
+}
+
+/// What the system refused to write.
+pub fn failed(path: &Path, error: &std::io::Error) -> Box<Problem> {
     let found = format!("that it cannot be written ({error})");
     Box::new(Problem::at_path(Code::OutputFailed, path, found, WRITABLE))
 }

@@ -25,6 +25,8 @@ pub struct VibrationSignal {
     pub orders: Vec<f64>,
     /// Bandwidth of their amplitudes, Hz.
     pub bandwidth: f64,
+    /// Highest frequency of the spectrogram over time, Hz; half of the sampling rate where none is given.
+    pub highest_frequency: Option<f64>,
     /// Highest order of the spectrogram over order.
     pub highest_order: f64,
     /// Turns in a spectrum over order.
@@ -139,6 +141,7 @@ pub(super) fn vibration(values: &Values) -> Option<VibrationSignal> {
         channel: values.text("signals.vibration.channel")?,
         orders: orders(values),
         bandwidth: section.number("bandwidth"),
+        highest_frequency: section.maybe("highest_frequency"),
         highest_order: section.number("highest_order"),
         turns: section.count("turns") as usize,
     })

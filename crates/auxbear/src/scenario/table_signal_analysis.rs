@@ -119,6 +119,14 @@ pub(super) const KEYS: &[Key] = &[
     .positive()
     .default("2 Hz", "amplitudes that change within half a second"),
     Key::new(
+        "signals.vibration.highest_frequency",
+        Kind::Quantity("Hz"),
+        "500 Hz",
+        "Highest frequency of the spectrogram over time, at most half of the sampling rate; the lower it is, the finer the lines.",
+    )
+    .positive()
+    .optional("half of the channel's sampling rate"),
+    Key::new(
         "signals.vibration.highest_order",
         Kind::Coefficient,
         "20",

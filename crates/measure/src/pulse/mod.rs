@@ -10,7 +10,7 @@
 //! | [`number`] | counts marks: gaps are filled in the count, doubled pulses are left out, each with a note | times that do not increase |
 //! | [`calibrate`] | angular error of every mark, from revolutions whose speed changes evenly | fewer than two even revolutions |
 //! | [`period`] | number of pulses after which the pattern of intervals repeats | no pattern above the noise |
-//! | [`check_marks`] | compares it with the marks that were stated | they differ |
+//! | [`check_marks`] | compares it with the marks that were stated | they differ, or why nothing can be told |
 //!
 //! **What it does not model**: an error of the wheel that changes with time or speed (loose discs, a lateral vibration of
 //! the shaft seen by one pickup); speed ripple locked to the revolution cannot be told from mark errors and is taken for such.
@@ -18,6 +18,7 @@
 mod edge;
 mod flank;
 mod level;
+mod marks;
 mod period;
 mod pitch;
 mod train;
@@ -25,7 +26,8 @@ mod train;
 use std::fmt;
 
 pub use edge::{EdgeSettings, edges};
-pub use period::{check_marks, period};
+pub use marks::{Marks, check_marks};
+pub use period::period;
 pub use pitch::{Pitch, calibrate};
 pub use train::{Pulses, Wheel, number};
 

@@ -1,120 +1,313 @@
-//! How many marks a wheel has, as its own errors tell it.
+//! After how many pulses the errors of a wheel repeat, as its pulses tell.
 //!
 //! ```text
-//! intervals ─▶ pattern: each against its two neighbours ─▶ without what sampling makes ─▶ correlation over the lag
+//! intervals ─▶ pattern: each against its two neighbours ─▶ without what sampling makes ─▶ correlation over the lag ─▶ combs
 //! ```
+//! A wheel that repeats after P pulses repeats after 2P, 3P, … too. The evidence of P is that of all these lags together, its
+//! comb, in which every pair of pulses counts once:
+//!
+//! ```text
+//! n = Σₘ n(mP),   r = Σₘ n(mP) ρ(mP) / n          ρ: correlation of the pattern, n(L): pairs of pulses L apart
+//! E(P) = -½ n ln(1 - r²)
+//! ```
+//! E is the logarithm of the likelihood ratio of P against no period, of pairs taken as independent normal ones. A divisor of
+//! P has more lags of which fewer show anything, a multiple has fewer lags, so that E is largest at the wheel's own period.
+//! Were there no wheel, z = r √n would be as large for one P as for another: its scatter over all P tells how much sampling and
+//! noise make.
+//!
 //! Where the rate of pulses is nearly in step with the sampling, the errors of the instants repeat too, after another number
 //! of pulses than the wheel's. They are a function of the place of the instant between two samples; this part is found by
 //! least squares and taken out. What is left of it repeats after numbers of pulses that take a whole number of samples: such
-//! numbers alone prove nothing, so that at some speeds nothing is told.
+//! lags alone prove nothing and are left out of all combs, so that at some speeds nothing is told.
 
-use super::{Pulses, Refusal, median};
+use super::{Pulses, median};
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex;
+use std::f64::consts::TAU;
 
 /// Harmonics of the place between two samples that are taken out.
-const HARMONICS: usize = 4;
+const HARMONICS: usize = 12;
 /// Fewest values of the pattern from which they are found.
 const FEWEST: usize = 60;
+/// Pulses that are looked at, at most.
+const WINDOW: usize = 8192;
+/// Largest period that is looked for.
+const LARGEST: usize = 2048;
+/// Pairs of pulses from which on a lag counts, as a part of all.
+const FEWEST_PAIRS: f64 = 0.1;
+/// Scatters of a comb from which on a period stands out: the largest of 2000 normal values exceeds 5 once in 2000 records; the
+/// scatter itself is found from combs that are not quite independent.
+const STANDS_OUT: f64 = 6.0;
+/// Largest mean correlation: what pulses never reach is left out of the evidence.
+const MOST: f64 = 0.9999;
+/// Standard deviations of a difference of two mean correlations from which on they differ: 5 of a normal one come by chance
+/// once in two million.
+const DIFFER: f64 = 5.0;
+/// Chance of a wheel of independent marks to look like one of equal parts, below which it is taken for such.
+pub(super) const ALIKE: f64 = 1e-4;
+/// Largest number of parts of a revolution that may look alike by chance.
+const MOST_PARTS: usize = 12;
+/// Part of the scatter that is left to chance where all is explained.
+const OPEN: f64 = 0.01;
+/// Standard deviations by which a mean correlation may be off, where a wheel is to be told from one with fewer marks.
+const SURE: f64 = 3.0;
 
 /// After how many pulses the pattern of intervals repeats: the positions per revolution as the wheel itself tells them.
 ///
-/// Intervals are compared with their two neighbours, so that speed and acceleration drop out; the shortest lag whose
-/// correlation is as large as the largest one, within its scatter, is the period. None where the pattern does not stand out of
-/// the noise of the instants and of sampling, or where fewer than three periods were seen.
+/// Intervals are compared with their two neighbours, so that speed and acceleration drop out. None where no period stands out
+/// of the noise of the instants and of sampling, or where fewer than two and a half periods were seen.
 pub fn period(pulses: &Pulses) -> Option<usize> {
-    correlated(pulses)?.period()
+    Correlated::of(pulses)?.period()
 }
 
 /// Correlation of the pattern over the lag.
-struct Correlated {
+pub(super) struct Correlated {
     values: Vec<f64>,
-    count: usize,
-    /// Whether so many pulses take a whole number of samples: what repeats then may be the sampling.
-    in_step: Vec<bool>,
+    /// Pairs at each lag; none where so many pulses are in step with the sampling: what repeats then may be the sampling.
+    pairs: Vec<f64>,
+    /// Scatter of combs by chance: that of what the best period leaves unexplained, at least that of white noise.
+    scatter: f64,
+    /// Number of values of the pattern.
+    pub count: usize,
+    /// Mean time between pulses, s.
+    pub gap: f64,
+}
+
+/// Mean correlation over some lags.
+#[derive(Clone, Copy)]
+pub(super) struct Mean {
+    pub value: f64,
+    /// Its standard deviation.
+    pub deviation: f64,
+}
+
+/// Whether one mean correlation is less than another beyond chance.
+pub(super) fn less(one: Option<Mean>, other: Option<Mean>) -> bool {
+    one.zip(other).is_some_and(|(one, other)| {
+        other.value - one.value > DIFFER * one.deviation.hypot(other.deviation)
+    })
 }
 
 impl Correlated {
-    /// Standard deviation of a correlation by chance, at a lag.
-    fn scatter(&self, lag: usize) -> f64 {
-        // Second differences make neighbouring values dependent: about half as many count.
-        (2.0 / (self.count - lag.min(self.count - 1)) as f64).sqrt()
-    }
-
-    /// Lags that tell of the wheel and not of the sampling.
-    fn telling(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let all = self.values.iter().copied().enumerate().skip(1);
-        all.filter(|&(lag, _)| !self.in_step[lag])
-    }
-
-    fn period(&self) -> Option<usize> {
-        // Where one pulse takes a whole number of samples all lags are in step, but for a drift; at other speeds two of three tell.
-        if 2 * self.telling().count() < self.values.len() {
+    pub fn of(pulses: &Pulses) -> Option<Correlated> {
+        let times = &pulses.times[longest_regular(pulses)];
+        let gaps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        if gaps.len() < 12 {
             return None;
         }
-        let (at, top) = self.telling().max_by(|a, b| a.1.total_cmp(&b.1))?;
-        if top < 0.3f64.max(5.0 * self.scatter(at)) {
-            return None;
-        }
-        // What the wheel does not explain is left to chance.
-        let open = (1.0 - top * top).max(0.05).sqrt();
-        let near = |lag: usize, value: f64| {
-            value >= top - (0.02 + 4.0 * open * self.scatter(lag)).min(0.2 * top)
+        let mut pattern = pattern(pulses, times, &gaps);
+        let count = pattern.len();
+        let longest = count - (FEWEST_PAIRS * count as f64).ceil() as usize;
+        let sampling = pulses.sample_interval.map(|s| Sampling::of(times, s));
+        let pairs = |lag: usize| {
+            let telling = lag > 0 && sampling.as_ref().is_none_or(|s| !s.in_step(lag));
+            if telling { (count - lag) as f64 } else { 0.0 }
         };
-        let (whole, _) = self.telling().find(|&(lag, value)| near(lag, value))?;
-        // The wheel's own period may be in step itself, or weaker by what sampling adds: then all its multiples stand out.
-        (1..=whole).find(|&lag| whole.is_multiple_of(lag) && self.stands_out(lag, top))
+        let mut seen = Correlated {
+            values: correlations(&pattern, longest)?,
+            pairs: (0..=longest).map(pairs).collect(),
+            scatter: 1.0,
+            count,
+            gap: (times[times.len() - 1] - times[0]) / gaps.len() as f64,
+        };
+        let best = seen.best()?;
+        without_period(&mut pattern, best);
+        if let Some(values) = correlations(&pattern, longest) {
+            let found = std::mem::replace(&mut seen.values, values);
+            seen.scatter = seen.scatter_beside(best);
+            seen.values = found;
+        }
+        Some(seen)
     }
 
-    /// Whether all multiples of a lag that tell are nearly as large as the largest; a wheel with two like halves has half.
-    fn stands_out(&self, lag: usize, top: f64) -> bool {
-        let mut multiples = self
-            .telling()
-            .filter(|(other, _)| other.is_multiple_of(lag))
-            .peekable();
-        multiples.peek().is_some()
-            && multiples.all(|(other, value)| {
-                value >= (0.7 * top).max(5.0 * self.scatter(other)).min(0.8 * top)
-            })
+    /// Sums over lags: of pairs times correlation, and of pairs.
+    fn sums(&self, lags: impl Iterator<Item = usize>) -> (f64, f64) {
+        lags.fold((0.0, 0.0), |(sum, pairs), lag| {
+            (
+                sum + self.pairs[lag] * self.values[lag],
+                pairs + self.pairs[lag],
+            )
+        })
     }
 
-    fn top(&self) -> f64 {
-        self.telling().map(|(_, value)| value).fold(0.0, f64::max)
+    /// Multiples of a number that are lags.
+    fn multiples(&self, of: usize) -> impl Iterator<Item = usize> + '_ {
+        (of.max(1)..self.values.len()).step_by(of.max(1))
+    }
+
+    /// Largest period of which the record holds two and a half.
+    fn largest(&self) -> usize {
+        LARGEST.min(2 * self.count / 5).min(self.values.len() - 1)
+    }
+
+    /// The comb of a period, r √n; none where all its lags are in step with the sampling.
+    fn comb(&self, period: usize) -> Option<f64> {
+        let (sum, pairs) = self.sums(self.multiples(period));
+        (pairs > 0.0).then(|| sum / pairs.sqrt())
+    }
+
+    /// Evidence of a period against none; negative where its pulses are unlike.
+    fn evidence(&self, period: usize) -> Option<f64> {
+        let (sum, pairs) = self.sums(self.multiples(period));
+        let mean = (sum / pairs).clamp(-MOST, MOST);
+        (pairs > 0.0).then(|| -0.5 * pairs * (-mean * mean).ln_1p() * mean.signum())
+    }
+
+    /// Scatter of the combs that have nothing to do with a period.
+    fn scatter_beside(&self, period: usize) -> f64 {
+        let others = (3..=self.largest()).filter(|&other| common(other, period) == 1);
+        let mut sizes: Vec<f64> = others.filter_map(|p| self.comb(p)).map(f64::abs).collect();
+        // The median of |x| is 0.6745 standard deviations for normal x.
+        (median(&mut sizes) / 0.6745).max(1.0)
+    }
+
+    /// Mean correlation over the multiples of a number that are none of another; none where no lag tells.
+    ///
+    /// What the wheel explains is not left to chance: its part of the scatter is less by 1 - r².
+    pub fn mean(&self, multiples_of: usize, none_of: Option<usize>) -> Option<Mean> {
+        let left = |lag: &usize| none_of.is_none_or(|other| !lag.is_multiple_of(other));
+        let (sum, pairs) = self.sums(self.multiples(multiples_of).filter(left));
+        let value = sum / pairs;
+        (pairs > 0.0).then(|| Mean {
+            value,
+            deviation: self.scatter * ((1.0 - value * value).max(OPEN) / pairs).sqrt(),
+        })
+    }
+
+    /// Whether a period stands out of chance and of sampling.
+    ///
+    /// A wheel repeats at every multiple alike: where one lag is far above most of them, it counts as chance allows. What
+    /// repeats more than twice as well with the sampling is the sampling's.
+    pub fn stands_out(&self, period: usize) -> bool {
+        let lags: Vec<usize> = self
+            .multiples(period)
+            .filter(|&lag| self.pairs[lag] > 0.0)
+            .collect();
+        if lags.len() < 2 {
+            return false;
+        }
+        let mut values: Vec<f64> = lags.iter().map(|&lag| self.values[lag]).collect();
+        values.sort_by(f64::total_cmp);
+        let middle = values[(values.len() - 1) / 2];
+        let most = |lag: usize| middle + SURE * self.scatter / self.pairs[lag].sqrt();
+        let sum: f64 = lags
+            .iter()
+            .map(|&lag| self.pairs[lag] * self.values[lag].min(most(lag)))
+            .sum();
+        let pairs: f64 = lags.iter().map(|&lag| self.pairs[lag]).sum();
+        let in_step = |of: usize| {
+            let lags = self.multiples(of).filter(|&lag| self.in_step(lag));
+            let squares: Vec<f64> = lags.map(|lag| self.values[lag].powi(2)).collect();
+            (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
+        };
+        let sampling = in_step(1).max(in_step(period));
+        sum >= STANDS_OUT * self.scatter * pairs.sqrt() && 2.0 * sum / pairs >= sampling
+    }
+
+    /// The period with the most evidence; 2 where only every other pulse is alike.
+    fn best(&self) -> Option<usize> {
+        let all = (2..=self.largest()).filter_map(|period| Some((period, self.evidence(period)?)));
+        Some(all.max_by(|a, b| a.1.total_cmp(&b.1))?.0)
+    }
+
+    /// The period that stands out most, or a multiple that explains more than its parts do, or an equal part of it.
+    ///
+    /// Of a dozen marks some are alike by chance, so that a part of the revolution has more evidence than the whole. Errors of
+    /// marks and of sampling together repeat where both do: a multiple in step with the sampling is not taken.
+    pub fn period(&self) -> Option<usize> {
+        let mut period = self
+            .best()
+            .filter(|&best| best > 2 && self.stands_out(best))?;
+        let largest = self.largest();
+        while let Some(whole) = (2..=MOST_PARTS)
+            .map(|parts| parts * period)
+            .take_while(|&whole| whole <= largest)
+            .filter(|&whole| self.pairs[whole] > 0.0)
+            .find(|&whole| less(self.mean(period, Some(whole)), self.mean(whole, None)))
+        {
+            period = whole;
+        }
+        let equal = |part: &usize| {
+            let chance = self.chance_of_parts(*part, period);
+            chance.is_some_and(|chance| chance < ALIKE)
+        };
+        (3..period).find(equal).or(Some(period))
+    }
+
+    /// Whether so many pulses take a whole number of samples.
+    pub fn in_step(&self, lag: usize) -> bool {
+        self.pairs.get(lag).is_some_and(|&pairs| pairs == 0.0)
+    }
+
+    /// Independent values that a pattern holds within its period: that many whose correlations have the same sum of squares.
+    ///
+    /// Differences of instants make neighbours alike; a sine, as a ripple of the speed makes it, holds two whatever the period.
+    pub fn independent(&self, period: usize) -> f64 {
+        let Some(whole) = self.mean(period, None) else {
+            return 0.0;
+        };
+        let at = |lag: usize| {
+            let (sum, pairs) = self.sums((lag..self.values.len()).step_by(period));
+            match pairs > 0.0 {
+                true => (sum / pairs).powi(2) - self.scatter * self.scatter / pairs,
+                false => 0.0,
+            }
+        };
+        let alike = (1..period).map(at).sum::<f64>() / (whole.value * whole.value);
+        period as f64 / (1.0 + alike).max(1.0)
+    }
+
+    /// Chance that a wheel of independent marks looks as if it repeated after a part of a revolution: of a correlation r of f
+    /// pairs of normal values, `(1 - r²)^(f/2)`.
+    pub fn chance_of_parts(&self, part: usize, whole: usize) -> Option<f64> {
+        if !whole.is_multiple_of(part) {
+            return None;
+        }
+        let full = self.mean(whole, None)?;
+        let parts = self.mean(part, Some(whole))?;
+        let ratio = (parts.value - SURE * parts.deviation) / (full.value + SURE * full.deviation);
+        let pairs = self.independent(part) * (whole / part - 1) as f64;
+        Some((1.0 - ratio.clamp(0.0, 1.0).powi(2)).powf(0.5 * pairs))
     }
 }
 
-/// How much larger the correlation of another number of marks than the stated one must be.
-const CLEARLY: f64 = 0.25;
-
-/// Root mean square distance of so many pulses from a whole number of samples, below which they are in step with it; 0.29 where
-/// they have nothing to do with each other.
-const IN_STEP: f64 = 0.15;
-
-/// The same from half a sample: samples that are either low or high repeat there too.
-const HALF_STEP: f64 = 0.05;
-
-/// Pulses over which their times are averaged, so that the errors of the marks drop out.
-const BLOCK: usize = 100;
-
-/// Whether a number of pulses takes a whole number of samples, over a record.
-fn in_step(times: &[f64], lag: usize, interval: f64) -> bool {
-    let count = times.len() - lag;
-    let block = BLOCK.min(count);
-    let (mut sum, mut half, mut blocks) = (0.0, 0.0, 0.0);
-    for start in (0..=count - block).step_by(block.max(1)) {
-        let ends = |from: usize| times[from..from + block].iter();
-        let whole: f64 = ends(start).zip(ends(start + lag)).map(|(a, b)| b - a).sum();
-        let samples = whole / block as f64 / interval;
-        let away = samples - samples.round();
-        sum += away * away;
-        half += (0.5 - away.abs()).powi(2);
-        blocks += 1.0;
+/// Correlations of values over the lag, from 0 to the longest; none where there is nothing.
+fn correlations(values: &[f64], longest: usize) -> Option<Vec<f64>> {
+    let size = (2 * values.len()).next_power_of_two();
+    let mut line: Vec<Complex<f64>> = values.iter().map(|&x| Complex::new(x, 0.0)).collect();
+    line.resize(size, Complex::default());
+    let mut planner = FftPlanner::new();
+    planner.plan_fft_forward(size).process(&mut line);
+    line.iter_mut()
+        .for_each(|x| *x = Complex::new(x.norm_sqr(), 0.0));
+    planner.plan_fft_inverse(size).process(&mut line);
+    let power = line[0].re;
+    if power.is_nan() || power <= 0.0 {
+        return None;
     }
-    sum < IN_STEP * IN_STEP * blocks || half < HALF_STEP * HALF_STEP * blocks
+    let count = values.len() as f64;
+    let at = |lag: usize| line[lag].re / power * count / (count - lag as f64);
+    Some((0..=longest).map(at).collect())
 }
 
-fn correlated(pulses: &Pulses) -> Option<Correlated> {
-    const WINDOW: usize = 8192;
-    const LARGEST: usize = 1024;
-    // The last stretch without repairs: a spin-up ends, a coast-down begins at speed; the longer one of both ends.
+/// Takes the mean of every place out of values that repeat after a period.
+fn without_period(values: &mut [f64], period: usize) {
+    for place in 0..period.min(values.len()) {
+        let places = || (place..values.len()).step_by(period);
+        let mean = places().map(|k| values[k]).sum::<f64>() / places().count() as f64;
+        (place..values.len())
+            .step_by(period)
+            .for_each(|k| values[k] -= mean);
+    }
+}
+
+/// Largest common divisor.
+fn common(a: usize, b: usize) -> usize {
+    if b == 0 { a } else { common(b, a % b) }
+}
+
+/// The last stretch without repairs: a spin-up ends, a coast-down begins at speed; the longest one.
+fn longest_regular(pulses: &Pulses) -> std::ops::Range<usize> {
     let regular = |k: usize| pulses.marks[k + 1] - pulses.marks[k] == 1;
     let mut best = 0..0;
     let mut start = 0;
@@ -126,16 +319,23 @@ fn correlated(pulses: &Pulses) -> Option<Correlated> {
             start = k + 1;
         }
     }
-    let from = best.end.saturating_sub(WINDOW).max(best.start);
-    let times = &pulses.times[from..best.end];
-    let gaps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    if gaps.len() < 12 {
-        return None;
-    }
+    best.end.saturating_sub(WINDOW).max(best.start)..best.end
+}
+
+/// Each interval against its two neighbours, without what sampling makes, and without what tells two flanks apart.
+fn pattern(pulses: &Pulses, times: &[f64], gaps: &[f64]) -> Vec<f64> {
     let mut pattern: Vec<f64> = gaps
         .windows(3)
         .map(|g| g[1].ln() - 0.5 * (g[0].ln() + g[2].ln()))
         .collect();
+    // Where both flanks are used every other interval is longer, by the duty; a pattern that repeats after two tells no marks.
+    for parity in 0..2 {
+        let places = || (parity..pattern.len()).step_by(2);
+        let mean = places().map(|k| pattern[k]).sum::<f64>() / places().count().max(1) as f64;
+        (parity..pattern.len())
+            .step_by(2)
+            .for_each(|k| pattern[k] -= mean);
+    }
     // Slow starts bend the logarithm: such values are cut, or they would outweigh all others.
     let mut sizes: Vec<f64> = pattern.iter().map(|x| x.abs()).collect();
     let cut = 6.0 * median(&mut sizes);
@@ -143,41 +343,56 @@ fn correlated(pulses: &Pulses) -> Option<Correlated> {
     if let Some(interval) = pulses.sample_interval
         && pattern.len() >= FEWEST
     {
-        without_sampling(&mut pattern, times, &gaps, pulses.watched.0, interval);
+        without_sampling(&mut pattern, times, gaps, pulses.watched.0, interval);
     }
-    let power = pattern.iter().map(|x| x * x).sum::<f64>();
-    // The second difference of independent instants with variance u² has the variance 5 u² in three intervals.
-    let noise: f64 = gaps
-        .iter()
-        .skip(1)
-        .zip(&pulses.uncertainties[from + 1..])
-        .take(pattern.len())
-        .map(|(gap, u)| 5.0 * (u / gap).powi(2))
-        .sum();
-    if power.is_nan() || power <= 2.0 * noise {
-        return None;
+    pattern
+}
+
+/// Root mean square distance of so many pulses from a whole number of samples, below which they are in step with it; 0.29 where
+/// they have nothing to do with each other.
+const IN_STEP: f64 = 0.15;
+
+/// The same from half a sample: samples that are either low or high repeat there too.
+const HALF_STEP: f64 = 0.05;
+
+/// Stretches of a record that tell how pulses lie to the samples, at most.
+const BLOCKS: usize = 32;
+
+/// Pulses over which their times are averaged, so that the errors of the marks drop out.
+const BLOCK: usize = 100;
+
+/// Times of pulses in samples, summed up.
+struct Sampling {
+    /// Sum of the times before each pulse, samples.
+    sums: Vec<f64>,
+}
+
+impl Sampling {
+    fn of(times: &[f64], interval: f64) -> Sampling {
+        let mut sums = vec![0.0];
+        let mut sum = 0.0;
+        for time in times {
+            sum += (time - times[0]) / interval;
+            sums.push(sum);
+        }
+        Sampling { sums }
     }
-    let largest = LARGEST.min(pattern.len() / 2);
-    let values = (0..=largest)
-        .map(|lag| {
-            let product: f64 = pattern
-                .iter()
-                .zip(&pattern[lag..])
-                .map(|(a, b)| a * b)
-                .sum();
-            product / power * pattern.len() as f64 / (pattern.len() - lag) as f64
-        })
-        .collect();
-    let in_step = |lag| {
-        pulses
-            .sample_interval
-            .is_some_and(|interval| in_step(times, lag, interval))
-    };
-    Some(Correlated {
-        values,
-        count: pattern.len(),
-        in_step: (0..=largest).map(in_step).collect(),
-    })
+
+    /// Whether a number of pulses takes a whole number of samples, over a record.
+    fn in_step(&self, lag: usize) -> bool {
+        let count = self.sums.len() - 1 - lag;
+        let block = BLOCK.min(count);
+        let (mut sum, mut half, mut blocks) = (0.0, 0.0, 0.0);
+        for start in (0..=count - block).step_by(block.max(count / BLOCKS).max(1)) {
+            let whole = |from: usize| self.sums[from + block] - self.sums[from];
+            let samples = (whole(start + lag) - whole(start)) / block as f64;
+            let away = samples - samples.round();
+            sum += away * away;
+            half += (0.5 - away.abs()).powi(2);
+            blocks += 1.0;
+        }
+        sum < IN_STEP * IN_STEP * blocks || half < HALF_STEP * HALF_STEP * blocks
+    }
 }
 
 /// Takes out of a pattern what errors of the instants make that depend on their place between two samples.
@@ -188,7 +403,7 @@ fn without_sampling(pattern: &mut [f64], times: &[f64], gaps: &[f64], first: f64
     let waves: Vec<[f64; SIZE]> = times
         .iter()
         .map(|t| {
-            let turn = std::f64::consts::TAU * ((t - first) / interval).fract();
+            let turn = TAU * ((t - first) / interval).fract();
             std::array::from_fn(|i| {
                 let (sine, cosine) = ((i / 2 + 1) as f64 * turn).sin_cos();
                 if i % 2 == 0 { cosine } else { sine }
@@ -241,44 +456,4 @@ fn solved<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N]) -> Option<[f64;
         b[p] = (b[p] - known) / a[p][p];
     }
     Some(b)
-}
-
-/// Correlation from which on a wheel shows a number of marks.
-const SHOWN: f64 = 0.2;
-
-/// Compares the marks per revolution that were stated with those that the wheel itself shows, where it does.
-///
-/// Refused only where another number explains the pattern clearly better than the stated one: marks whose errors are alike
-/// over some of them, and speeds in step with the sampling, are no contradiction. Not told either where errors are lost in the
-/// instants: of a wheel whose marks are off by 1 % of the pitch, with less than some 15 samples a mark. A wheel whose pattern repeats within the
-/// revolution (two equal halves) agrees with the whole.
-pub fn check_marks(pulses: &Pulses) -> Result<(), Refusal> {
-    let agreed = correlated(pulses).and_then(|seen| {
-        let found = seen.period()?;
-        let stated = seen.values.get(pulses.positions);
-        let better = match stated {
-            Some(stated) => seen.values[found] - stated > CLEARLY,
-            // The record is too short to see the stated number twice.
-            None => true,
-        };
-        // sampling in step may favour a multiple of a number that the wheel shows by itself, at every multiple alike
-        let shown = |turns: usize| {
-            let value = seen.values.get(turns * pulses.positions);
-            value.is_some_and(|value| *value > SHOWN)
-        };
-        let multiple = found % pulses.positions == 0 && (1..found / pulses.positions).all(shown);
-        let agrees =
-            found == pulses.positions || multiple || seen.stands_out(pulses.positions, seen.top());
-        (!agrees && better).then_some(found)
-    });
-    match agreed {
-        Some(found) => Err(Refusal::new(
-            format!(
-                "the pattern of intervals repeats after {found} pulses, {} per revolution are stated",
-                pulses.positions
-            ),
-            "the number of marks of this wheel; both flanks of a pulse count as two",
-        )),
-        None => Ok(()),
-    }
 }

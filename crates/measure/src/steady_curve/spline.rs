@@ -12,8 +12,9 @@ use crate::state_space::colour;
 const SPLINES: usize = 24;
 
 /// Most values that are fitted; longer records are averaged in blocks. Few, so that noise faster than a block averages out and
-/// what is left is near a first-order autoregression.
-const BLOCKS: usize = 160;
+/// what is left is near a first-order autoregression: of 160 blocks the band of a run of six seconds with noise correlated over
+/// 0.2 s held 88 % of the truth, of 80 it holds 93 %.
+const BLOCKS: usize = 80;
 
 type Square = Vec<[f64; SPLINES]>;
 

@@ -103,14 +103,13 @@ function speedSection(runs) {
       dash: [2, 3],
     });
   }
-  const marks = (pen, plot, ratio) => {
-    // With more than two runs the words would cover the curves: one instant each, the others are in the table.
-    const shown = INSTANTS.filter(([name]) => runs.length <= 2 || name === "inner_race_time_to_95_percent");
-    const known = runs.flatMap((run) =>
+  // With more than two runs the words would cover each other: one instant each, the others are in the table.
+  const shown = INSTANTS.filter(([name]) => runs.length <= 2 || name === "inner_race_time_to_95_percent");
+  const marks = instantMarks(
+    runs.flatMap((run) =>
       shown.map(([name, words, part]) => ({ instant: numberOf(run, name), words: run.prefix + words, colour: several ? run.colour : SERIES_COLOURS[part] })),
-    );
-    instantMarks(pen, plot, ratio, known.filter((mark) => mark.instant !== null));
-  };
+    ),
+  );
   // Where no rotor slides its speed is not missing.
   const rotor = runs.some((run) => !isSpinUp(run)) ? ["rotor.speed"] : [];
   const names = [...rotor, "bearing.inner_race.speed", "bearing.cage.speed"];

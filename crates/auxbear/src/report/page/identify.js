@@ -80,7 +80,7 @@ function steadySection(runs) {
 }
 
 function settledMarks() {
-  return (pen, plot, ratio) => instantMarks(pen, plot, ratio, [
+  return instantMarks([
     { instant: 0, words: "engaged", colour: SERIES_COLOURS.quiet },
     { instant: SENSOR_SETTLING, words: "arm settled (0.1 s)", colour: SERIES_COLOURS.quiet },
   ]);

@@ -5,10 +5,7 @@ function isRig(run) {
 }
 
 function rigMarks(runs) {
-  return (pen, plot, ratio) => {
-    const known = runs.flatMap((run) => [["engagement_time", "engaged"], ["clutch_lock_time", "locked"]].map(([name, words]) => ({ instant: numberOf(run, name), words: run.prefix + words, colour: runs.length > 1 ? run.colour : SERIES_COLOURS.quiet })));
-    instantMarks(pen, plot, ratio, known.filter((mark) => mark.instant !== null));
-  };
+  return instantMarks(runs.flatMap((run) => [["engagement_time", "engaged"], ["clutch_lock_time", "locked"]].map(([name, words]) => ({ instant: numberOf(run, name), words: run.prefix + words, colour: runs.length > 1 ? run.colour : SERIES_COLOURS.quiet }))));
 }
 
 function rigSpeedSection(runs) {

@@ -27,10 +27,7 @@ function lackOf(runs, column, quantity, words) {
 }
 
 function engagementMarks(runs) {
-  return (pen, plot, ratio) => {
-    const known = runs.flatMap((run) => [["engagement_time", "engaged"], ["change_end_time", "end of the change"]].map(([name, words]) => ({ instant: numberOf(run, name), words: run.prefix + words, colour: runs.length > 1 ? run.colour : SERIES_COLOURS.quiet })));
-    instantMarks(pen, plot, ratio, known.filter((mark) => mark.instant !== null));
-  };
+  return instantMarks(runs.flatMap((run) => [["engagement_time", "engaged"], ["change_end_time", "end of the change"]].map(([name, words]) => ({ instant: numberOf(run, name), words: run.prefix + words, colour: runs.length > 1 ? run.colour : SERIES_COLOURS.quiet }))));
 }
 
 function signalFigure(title, note, series, options, lack) {

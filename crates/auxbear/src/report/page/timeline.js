@@ -1,6 +1,7 @@
 // Time plots that share one time window: drag in any of them to zoom all, double-click to see everything again.
 
 const AXIS_WIDTH = 74;
+const PLOT_TOP = 12;
 const SHORTEST_SPAN = 1e-9;
 const SMALLEST_RANGE = 1e-12;
 
@@ -77,6 +78,12 @@ function axis(options) {
   };
 }
 
+// Space above a plot, px: for the words of its marks, or the number of the highest tick.
+function wordsHeight(options) {
+  const rows = (options.marks && options.marks.rows) || 0;
+  return rows ? 6 + WORD_ROW * rows : PLOT_TOP;
+}
+
 // options: series [{label, time, values, shown?, colour, width?, dash?, fill?}], label, height?, second? {label, factor},
 // include? (begin, end) -> values the vertical range must hold, marks? (pen, plot) draws on top, ticks? runs whose
 // contact starts are marked, stacked: lines that cannot be hidden one by one.
@@ -86,8 +93,8 @@ function timePlot(options) {
   const factor = options.second ? options.second.factor : 1;
   const configuration = {
     width: 600,
-    height: options.height || 250,
-    padding: [12, options.second ? 0 : AXIS_WIDTH, 0, 0],
+    height: (options.height || 250) + wordsHeight(options) - PLOT_TOP,
+    padding: [wordsHeight(options), options.second ? 0 : AXIS_WIDTH, 0, 0],
     scales: {
       x: { time: false, range: () => [timeline.begin, timeline.end] },
       y: { range: (_, low, high) => paddedRange(low, high, options.include ? options.include(timeline.begin, timeline.end) : []) },
@@ -163,7 +170,8 @@ function drawMarks(plot, options) {
   const { left, top, width, height } = plot.bbox;
   pen.save();
   pen.beginPath();
-  pen.rect(left, top - 10 * ratio, width, height + 10 * ratio);
+  const above = wordsHeight(options) * ratio;
+  pen.rect(left, top - above, width, height + above);
   pen.clip();
   pen.setLineDash([]);
   for (const run of options.ticks || []) {
@@ -181,15 +189,36 @@ function drawMarks(plot, options) {
   pen.restore();
 }
 
-// Vertical lines at instants [{instant, words, colour}], each with its words on its own row, so that close instants
-// stay readable.
-function instantMarks(pen, plot, ratio, instants) {
+// Rows of words above a plot, at most; what does not fit on them goes on inside it.
+const WORD_ROWS = 4;
+const WORD_ROW = 15;
+
+// Marks at instants [{instant, words, colour}]: upright lines, their words above the plot, where no curve is.
+function instantMarks(instants) {
+  const known = instants.filter((mark) => mark.instant !== null);
+  const marks = (pen, plot, ratio) => drawInstants(pen, plot, ratio, known);
+  marks.rows = Math.min(known.length, WORD_ROWS);
+  return marks;
+}
+
+// Words that would meet stand on rows of their own; the first instant is nearest to the plot.
+function drawInstants(pen, plot, ratio, instants) {
   const { left, width } = plot.bbox;
   const placed = instants
     .map((mark) => ({ ...mark, x: plot.valToPos(mark.instant, "x", true) }))
-    .filter((mark) => mark.x >= left && mark.x <= left + width);
+    .filter((mark) => mark.x >= left && mark.x <= left + width)
+    .sort((one, other) => one.x - other.x);
   for (const mark of placed) instantLine(pen, plot, ratio, mark);
-  placed.forEach((mark, row) => instantWords(pen, plot, ratio, mark, row));
+  pen.font = FONT.replace("12px", 11 * ratio + "px");
+  const ends = [];
+  for (const mark of placed) {
+    const space = pen.measureText(mark.words).width + 10 * ratio;
+    const start = Math.max(left, Math.min(mark.x - 4 * ratio, left + width - space));
+    const free = ends.findIndex((end) => end <= start);
+    const row = free < 0 ? ends.length : free;
+    ends[row] = start + space;
+    instantWords(pen, plot, ratio, { ...mark, start, space }, row);
+  }
 }
 
 function instantLine(pen, plot, ratio, { x, colour }) {
@@ -204,23 +233,14 @@ function instantLine(pen, plot, ratio, { x, colour }) {
   pen.setLineDash([]);
 }
 
-function instantWords(pen, plot, ratio, { x, words, colour }, row) {
-  const { left, top, width, height } = plot.bbox;
-  pen.font = FONT.replace("12px", 11 * ratio + "px");
-  const space = pen.measureText(words).width + 8 * ratio;
-  const start = x + space > left + width ? x - space + 4 * ratio : x + 4 * ratio;
-  // At the zero end of the range, where the curves have not yet risen.
-  const downwards = Math.abs(plot.scales.y.min) > Math.abs(plot.scales.y.max);
-  const base = downwards ? top + (14 + 15 * row) * ratio : top + height - (14 + 15 * row) * ratio;
-  // A thin pale edge keeps the words readable on a curve and the curve visible beside them.
-  pen.strokeStyle = "rgba(255,255,255,0.9)";
-  pen.lineWidth = 3 * ratio;
-  pen.lineJoin = "round";
+function instantWords(pen, plot, ratio, { start, space, words, colour }, row) {
+  const base = plot.bbox.top - (5 + WORD_ROW * (row < WORD_ROWS ? row : WORD_ROWS - 2 - row)) * ratio;
+  pen.fillStyle = "#fff";
+  if (row >= WORD_ROWS) pen.fillRect(start, base - 11 * ratio, space, 14 * ratio);
   pen.fillStyle = colour;
   pen.textAlign = "left";
   pen.textBaseline = "alphabetic";
-  pen.strokeText(words, start, base);
-  pen.fillText(words, start, base);
+  pen.fillText(words, start + 4 * ratio, base);
 }
 
 function levelMark(pen, plot, ratio, level, words, colour) {

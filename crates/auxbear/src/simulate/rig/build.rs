@@ -143,8 +143,8 @@ fn torque_rate(rig: &Rig, constants: &RigConstants) -> Result<Option<f64>, Box<P
                     Problem::new(
                         Code::Impossible,
                         SCENARIO,
-                        format!("{wanted} rad/s^2, which the clutch does not give: {why}"),
-                        "a peak acceleration that the clutch's largest torque can give is needed",
+                        format!("{wanted} rad/s^2, which the clutch does not give"),
+                        format!("a peak acceleration that it can give is needed: {why}"),
                     )
                     .on_key("rig.peak_acceleration"),
                 )

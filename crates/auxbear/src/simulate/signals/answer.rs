@@ -101,7 +101,7 @@ fn speed(list: &mut List, asked: &Asked, found: &Found) {
     list.number(
         "peak_speed_deviation",
         "rad/s",
-        of(&|s| s.fastest.speed_uncertainty()),
+        of(&|s| s.speed_deviation(&s.fastest)),
         &SPEED,
     );
     list.number(
@@ -113,7 +113,7 @@ fn speed(list: &mut List, asked: &Asked, found: &Found) {
     list.number(
         "peak_acceleration_deviation",
         "rad/s^2",
-        of(&|s| s.peak.acceleration_uncertainty()),
+        of(&|s| s.acceleration_deviation(&s.peak)),
         &SPEED,
     );
     list.number(

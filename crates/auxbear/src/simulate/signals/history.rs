@@ -34,7 +34,7 @@ pub(super) fn columns(asked: &Asked, found: &Found) -> Vec<Column> {
                 .partition_point(|t| *t < time)
                 .min(times.len().saturating_sub(1))
         };
-        let of = |time: f64, value: fn(&Motion) -> f64| match motions.get(row(time)) {
+        let of = |time: f64, value: &dyn Fn(&Motion) -> f64| match motions.get(row(time)) {
             Some(motion) if time >= first && time <= last => value(motion),
             _ => f64::NAN,
         };
@@ -48,28 +48,28 @@ pub(super) fn columns(asked: &Asked, found: &Found) -> Vec<Column> {
             "shaft.angle",
             "rad",
             "angle of the shaft from the first mark that passed",
-            &|t| of(t, |m| m.angle),
+            &|t| of(t, &|m| m.angle),
         );
         add("shaft.speed", "rad/s", "speed of the shaft", &|t| {
-            of(t, |m| m.speed)
+            of(t, &|m| m.speed)
         });
         add(
             "shaft.speed_deviation",
             "rad/s",
             "standard deviation of that speed",
-            &|t| of(t, Motion::speed_uncertainty),
+            &|t| of(t, &|m| shaft.speed_deviation(m)),
         );
         add(
             "shaft.acceleration",
             "rad/s^2",
             "acceleration of the shaft",
-            &|t| of(t, |m| m.acceleration),
+            &|t| of(t, &|m| m.acceleration),
         );
         add(
             "shaft.acceleration_deviation",
             "rad/s^2",
             "standard deviation of that acceleration",
-            &|t| of(t, Motion::acceleration_uncertainty),
+            &|t| of(t, &|m| shaft.acceleration_deviation(m)),
         );
     }
     if let Some(series) = &asked.torque {

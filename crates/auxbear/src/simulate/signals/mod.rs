@@ -18,6 +18,7 @@ mod history;
 mod read;
 pub(super) mod shaft;
 mod steady;
+mod stiffest;
 mod temperature;
 pub(super) mod torque;
 mod vibration;
@@ -116,7 +117,9 @@ impl Asked {
         };
         let vibration = match &signals.vibration {
             Some(asked) => {
-                Some(source.series("signals.vibration.channel", &asked.channel, false)?)
+                let series = source.series("signals.vibration.channel", &asked.channel, false)?;
+                source.below_half_rate(asked, &series)?;
+                Some(series)
             }
             None => None,
         };

@@ -1,7 +1,7 @@
 //! The channels that are asked for, read from a measurement file and brought to one clock in s.
 
 use crate::problem::{Code, Problem, did_you_mean};
-use crate::scenario::{Signals, UNNAMED};
+use crate::scenario::{Signals, UNNAMED, VibrationSignal};
 use measure::converter::Converter;
 use measure::file;
 use measure::recording::{Channel, Clock, Content, FileError, Instant, Recording};
@@ -271,6 +271,29 @@ impl<'a> Source<'a> {
         names
             .iter()
             .try_for_each(|name| self.channel(key, name).map(|_| ()))
+    }
+
+    /// Refuses a highest frequency that the samples of a vibration do not reach.
+    pub fn below_half_rate(
+        &self,
+        asked: &VibrationSignal,
+        series: &Series,
+    ) -> Result<(), Box<Problem>> {
+        let half = 0.5 / series.interval;
+        match asked.highest_frequency {
+            // Clocks are read with their rounding.
+            Some(highest) if highest > half * (1.0 + 1e-6) => Err(self.problem(
+                Code::OutOfRange,
+                "signals.vibration.highest_frequency",
+                format!("{} Hz", units::number_text(highest)),
+                format!(
+                    "at most {} Hz is needed, half of the sampling rate of channel \"{}\"",
+                    units::number_text((half * 1e6).round() / 1e6),
+                    series.name
+                ),
+            )),
+            _ => Ok(()),
+        }
     }
 
     /// The instants in a channel, within the part that is looked at.

@@ -1,9 +1,10 @@
 //! Speed and acceleration of the shaft from the pulses of its pickup.
 
 use super::Signal;
+use super::stiffest::Stiffest;
 use crate::scenario::{PickupFlank, PickupKind, SpeedSignal};
 use measure::pulse::{
-    EdgeSettings, Edges, Flank, Pitch, Pulses, Wheel, calibrate, check_marks, edges, number,
+    EdgeSettings, Edges, Flank, Marks, Pitch, Pulses, Wheel, calibrate, check_marks, edges, number,
 };
 use measure::shaft::Shaft;
 use measure::speed::{Motion, Speed, SpeedSettings, Transient, smooth};
@@ -29,6 +30,8 @@ pub(in crate::simulate) struct Found {
     pub notes: Vec<String>,
     /// Why the marks per revolution may be wrong.
     pub doubt: Option<String>,
+    /// What the deviations cannot be less than; none where there is a quick change, whose are larger.
+    stiffest: Option<Stiffest>,
     first: f64,
     interval: f64,
     angle: Vec<f64>,
@@ -51,8 +54,16 @@ impl Found {
         };
         let pulses = number(&found, &wheel).map_err(words)?;
         // A warning, not a refusal: two wheels on one shaft, or a wheel with equal parts, show another number too.
-        let doubt = check_marks(&pulses).err().map(words);
         let mut notes = Vec::new();
+        let doubt = match check_marks(&pulses) {
+            Marks::Contradicted(why) => Some(words(why)),
+            // One mark or two have no pattern of their own.
+            Marks::Untold(why) if wish.marks_per_revolution > 2 => {
+                notes.push(format!("the number of marks could not be checked: {why}"));
+                None
+            }
+            Marks::Untold(_) | Marks::Shown => None,
+        };
         let pitch = match wish.calibration {
             true => calibrate(&pulses)
                 .map_err(|why| {
@@ -105,7 +116,12 @@ impl Found {
         let (Some(peak), Some(fastest)) = (peak, fastest) else {
             return Err("the record has no length".to_string());
         };
+        let stiffest = match speed.change {
+            Some(_) => None,
+            None => Stiffest::of(&pulses, &speed),
+        };
         Ok(Found {
+            stiffest,
             peak,
             fastest,
             notes,
@@ -130,6 +146,21 @@ impl Found {
             speed: &self.rate,
             speed_deviation: &self.deviation,
         }
+    }
+
+    /// Standard deviation of the speed, rad/s.
+    pub fn speed_deviation(&self, motion: &Motion) -> f64 {
+        let least = self.stiffest.as_ref().map_or(0.0, |s| s.speed(motion.time));
+        motion.speed_uncertainty().max(least)
+    }
+
+    /// Standard deviation of the acceleration, rad/s².
+    pub fn acceleration_deviation(&self, motion: &Motion) -> f64 {
+        let least = self
+            .stiffest
+            .as_ref()
+            .map_or(0.0, |s| s.acceleration(motion.time));
+        motion.acceleration_uncertainty().max(least)
     }
 
     /// Last time at which the pulses tell of a motion, s: a mark's time behind the last one.

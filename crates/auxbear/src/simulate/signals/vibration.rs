@@ -10,6 +10,10 @@ use measure::spectrum::{AngularSettings, Segments, Window, order_spectrogram, sp
 const COLUMNS: usize = 90;
 /// Rows of a picture, at most.
 const ROWS: usize = 96;
+/// Columns that are left where lines are made finer, at least.
+const FEWEST_COLUMNS: usize = 32;
+/// Values in a segment, at most.
+const LONGEST: usize = 1 << 16;
 /// Level that is shown as none, dB below the largest.
 const FLOOR: f64 = -80.0;
 /// Speed below which a spectrum over order is not taken, as a part of the largest.
@@ -63,7 +67,12 @@ impl Found {
             )?),
         };
         notes.extend(found.iter().flat_map(|found| found.notes.iter().cloned()));
-        let length = (values.len() / COLUMNS).next_power_of_two().clamp(64, 4096);
+        let highest = wish.highest_frequency.unwrap_or(f64::INFINITY);
+        // Long enough to fill the columns, or the rows below the highest frequency where there are times enough for that.
+        let columns = (values.len() / COLUMNS).next_power_of_two().clamp(64, 4096);
+        let rows = (ROWS as f64 / (highest * interval)) as usize;
+        let rows = rows.min(values.len() / FEWEST_COLUMNS).min(LONGEST);
+        let length = columns.max(rows.next_power_of_two());
         let segments = Segments {
             length: length.min(values.len().max(8)),
             overlap: 0.5,
@@ -73,7 +82,9 @@ impl Found {
             let amplitudes = found.density.iter();
             let amplitudes = amplitudes.map(|d| d.iter().map(|v| v.sqrt()).collect());
             let time = found.time.iter().map(|t| first + t).collect();
-            picture(time, &found.frequency, amplitudes.collect())
+            let lines = found.frequency.partition_point(|f| *f <= highest);
+            let seen = amplitudes.map(|d: Vec<f64>| d[..lines.min(d.len())].to_vec());
+            picture(time, &found.frequency[..lines], seen.collect())
         });
         let settings = AngularSettings {
             highest_order: wish.highest_order,
