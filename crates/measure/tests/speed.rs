@@ -66,6 +66,35 @@ fn constant_acceleration_is_found_within_the_band() {
 }
 
 #[test]
+fn an_even_coast_down_of_half_a_minute_keeps_its_band() {
+    // From 150 rad/s with -4 rad/s² for 30 s: the fit is a cubic, whose own covariance is lost in rounding.
+    let (mut inside, mut count) = (0, 0);
+    for seed in 0..20 {
+        let train = pulses(12, 30.0, 2e-6, seed, |t| 150.0 * t - 2.0 * t * t);
+        let speed = smooth(&train, None, &SpeedSettings::default()).unwrap();
+        for k in 1..30 {
+            let motion = speed.at(f64::from(k));
+            let off = [
+                (
+                    motion.speed - 150.0 + 4.0 * motion.time,
+                    motion.speed_uncertainty(),
+                ),
+                (motion.acceleration + 4.0, motion.acceleration_uncertainty()),
+            ];
+            for (off, band) in off {
+                assert!(band > 0.0 && band < 0.05, "{motion:?}");
+                inside += usize::from(off.abs() < 2.0 * band);
+                count += 1;
+            }
+        }
+    }
+    let part = inside as f64 / count as f64;
+    println!("even coast-down: {:.1} % inside", 100.0 * part);
+    // 95 % of a cubic's errors; they go together along a record, of which there are 20.
+    assert!(part > 0.85, "{part}");
+}
+
+#[test]
 fn a_slow_ramp_from_rest_and_a_coast_down() {
     // 30 rad/s² from 0.5 s on for 5 s, then 150 rad/s.
     let ramp = pulses(60, 7.0, 2e-6, 3, |t| {

@@ -52,6 +52,15 @@ impl Speed {
         let [angle, speed, acceleration, jerk] = std::array::from_fn(|i| belief.mean[i] * scale[i]);
         let late = [speed, acceleration, jerk].map(|x| x * self.latency);
         let wrong = self.wrong_wheel(0.0, speed, acceleration);
+        let mut known: [[f64; 3]; 3] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| belief.covariance[i][j] * scale[i] * scale[j])
+        });
+        if let Some(stiffest) = &self.stiffest {
+            for order in [1, 2] {
+                let variance = &mut known[order][order];
+                *variance = variance.max(stiffest.variance(order as i32, seconds));
+            }
+        }
         Motion {
             time: seconds,
             angle,
@@ -60,7 +69,7 @@ impl Speed {
             covariance: std::array::from_fn(|i| {
                 std::array::from_fn(|j| {
                     let wheel: f64 = wrong.iter().map(|w| w[i] * w[j]).sum();
-                    belief.covariance[i][j] * scale[i] * scale[j] + late[i] * late[j] + wheel
+                    known[i][j] + late[i] * late[j] + wheel
                 })
             }),
         }

@@ -20,12 +20,14 @@ mod fit;
 mod matrix;
 mod plan;
 mod search;
+mod stiffest;
 mod track;
 
 use crate::pulse::{Pitch, Pulses, Refusal};
 pub use design::marks_needed;
 use matrix::N;
 use plan::{Data, Plan};
+use stiffest::Stiffest;
 use track::{Belief, Track};
 
 /// Where a quick change of speed is looked for.
@@ -122,6 +124,8 @@ pub struct Speed {
     origin: f64,
     unit: f64,
     latency: f64,
+    /// What the variances cannot be less than; none where there is a quick change, whose are larger.
+    stiffest: Option<Stiffest>,
     /// Standard deviation of an order-one error that the calibration may hold, rad.
     eccentricity: f64,
     /// The quick change, where there is one.
@@ -244,6 +248,7 @@ pub fn smooth(
         origin: data.origin,
         unit: data.unit,
         latency: settings.latency.max(0.0),
+        stiffest: None,
         eccentricity: pitch.map_or(0.0, |p| {
             settings.ripple.max(0.0) / (p.speed * p.speed).max(1e-12)
         }),
@@ -285,6 +290,9 @@ pub fn smooth(
             "the intervals of the pulses differ so much that they cannot be smoothed".into(),
             "pulses of one wheel that turns forward; look at the signal",
         ));
+    }
+    if speed.change.is_none() {
+        speed.stiffest = Stiffest::of(pulses, &speed);
     }
     if let (Some(change), Some(wanted)) = (speed.change, settings.wanted) {
         let (from, to) = (

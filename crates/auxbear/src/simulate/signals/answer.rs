@@ -101,7 +101,7 @@ fn speed(list: &mut List, asked: &Asked, found: &Found) {
     list.number(
         "peak_speed_deviation",
         "rad/s",
-        of(&|s| s.speed_deviation(&s.fastest)),
+        of(&|s| s.fastest.speed_uncertainty()),
         &SPEED,
     );
     list.number(
@@ -113,7 +113,7 @@ fn speed(list: &mut List, asked: &Asked, found: &Found) {
     list.number(
         "peak_acceleration_deviation",
         "rad/s^2",
-        of(&|s| s.acceleration_deviation(&s.peak)),
+        of(&|s| s.peak.acceleration_uncertainty()),
         &SPEED,
     );
     list.number(

@@ -18,7 +18,6 @@ mod history;
 mod read;
 pub(super) mod shaft;
 mod steady;
-mod stiffest;
 mod temperature;
 pub(super) mod torque;
 mod vibration;

@@ -1,7 +1,6 @@
 //! Speed and acceleration of the shaft from the pulses of its pickup.
 
 use super::Signal;
-use super::stiffest::Stiffest;
 use crate::scenario::{PickupFlank, PickupKind, SpeedSignal};
 use measure::pulse::{
     EdgeSettings, Edges, Flank, Marks, Pitch, Pulses, Wheel, calibrate, check_marks, edges, number,
@@ -30,8 +29,6 @@ pub(in crate::simulate) struct Found {
     pub notes: Vec<String>,
     /// Why the marks per revolution may be wrong.
     pub doubt: Option<String>,
-    /// What the deviations cannot be less than; none where there is a quick change, whose are larger.
-    stiffest: Option<Stiffest>,
     first: f64,
     interval: f64,
     angle: Vec<f64>,
@@ -116,12 +113,7 @@ impl Found {
         let (Some(peak), Some(fastest)) = (peak, fastest) else {
             return Err("the record has no length".to_string());
         };
-        let stiffest = match speed.change {
-            Some(_) => None,
-            None => Stiffest::of(&pulses, &speed),
-        };
         Ok(Found {
-            stiffest,
             peak,
             fastest,
             notes,
@@ -146,21 +138,6 @@ impl Found {
             speed: &self.rate,
             speed_deviation: &self.deviation,
         }
-    }
-
-    /// Standard deviation of the speed, rad/s.
-    pub fn speed_deviation(&self, motion: &Motion) -> f64 {
-        let least = self.stiffest.as_ref().map_or(0.0, |s| s.speed(motion.time));
-        motion.speed_uncertainty().max(least)
-    }
-
-    /// Standard deviation of the acceleration, rad/s².
-    pub fn acceleration_deviation(&self, motion: &Motion) -> f64 {
-        let least = self
-            .stiffest
-            .as_ref()
-            .map_or(0.0, |s| s.acceleration(motion.time));
-        motion.acceleration_uncertainty().max(least)
     }
 
     /// Last time at which the pulses tell of a motion, s: a mark's time behind the last one.

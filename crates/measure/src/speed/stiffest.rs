@@ -9,13 +9,14 @@
 //!
 //! **Does not model**: errors of the marks, and noise of the instants that is correlated.
 
-use measure::pulse::Pulses;
-use measure::speed::Speed;
+use super::Speed;
+use crate::pulse::Pulses;
 
 /// Coefficients of the cubic.
 const SIZE: usize = 4;
 
 /// Covariance of the coefficients of a cubic.
+#[derive(Clone, Debug)]
 pub(super) struct Stiffest {
     middle: f64,
     /// Half the length, s.
@@ -50,8 +51,9 @@ impl Stiffest {
         })
     }
 
-    /// Standard deviation of the derivative of the angle of an order, 1 or 2, at a time of the record.
-    fn deviation(&self, order: i32, time: f64) -> f64 {
+    /// Variance of the derivative of the angle of an order, 1 (speed, rad²/s²) or 2 (acceleration, rad²/s⁴), at a time of
+    /// the record.
+    pub fn variance(&self, order: i32, time: f64) -> f64 {
         let x = ((time - self.middle) / self.half).clamp(-1.0, 1.0);
         let row = match order {
             1 => [0.0, 1.0, 2.0 * x, 3.0 * x * x],
@@ -61,17 +63,7 @@ impl Stiffest {
         let variance: f64 = lines
             .map(|(a, line)| a * line.iter().zip(&row).map(|(c, b)| c * b).sum::<f64>())
             .sum();
-        variance.max(0.0).sqrt() / self.half.powi(order)
-    }
-
-    /// Standard deviation of the speed, rad/s.
-    pub fn speed(&self, time: f64) -> f64 {
-        self.deviation(1, time)
-    }
-
-    /// Standard deviation of the acceleration, rad/s².
-    pub fn acceleration(&self, time: f64) -> f64 {
-        self.deviation(2, time)
+        variance.max(0.0) / self.half.powi(2 * order)
     }
 }
 
