@@ -23,8 +23,8 @@
 //! small by more than two deviations in 38 % of them: the cages lagged by 5 to 35 ms.
 
 use crate::measurement::{Measurement, SetDeviation};
-use crate::normal::below;
 use crate::series::{RunningVariance, between, trapezoid};
+use measure::normal::below;
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 use physics::spin_up_energy::{SpinUpEnergy, spin_up_loss};

@@ -25,7 +25,6 @@ pub mod explain;
 pub mod loss;
 pub mod measurement;
 pub mod moment;
-mod normal;
 pub mod rotor_friction;
 mod series;
 pub mod signals;

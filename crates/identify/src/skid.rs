@@ -13,9 +13,9 @@
 
 use crate::measurement::Measurement;
 use crate::moment::SteadyMoment;
-use crate::normal::{below, density};
 use crate::series::{RunningVariance, between, trapezoid};
 use crate::slip::{self, SlipSettings, slip_at};
+use measure::normal::{below, density};
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 

@@ -14,8 +14,8 @@
 //! the true time from which on it stays below the limit lies between earliest and latest in 98 % of the seeds.
 
 use crate::measurement::Measurement;
-use crate::normal::beyond;
 use crate::series::between;
+use measure::normal::beyond;
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 

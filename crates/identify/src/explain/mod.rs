@@ -69,9 +69,10 @@ use crate::{Measurement, SteadyMoment};
 use evidence::{Evidence, Integral};
 use hypothesis::{Bearing, Hypothesis};
 use linear::log_sum_exp;
+use measure::normal::squares_above;
 use noise::Observed;
 use record::Test;
-use sampling::{Random, chi_squared_exceeds};
+use sampling::Random;
 use verdict::FormDraw;
 
 pub use foretold::{Foretelling, foretold};
@@ -456,7 +457,7 @@ fn fit(evidence: &Evidence, weights: &[f64], observed: &Observed) -> Fit {
         for ((log, square), amplitude) in draw.levels.iter().zip(&observed.amplitudes) {
             let share = weight * (log - total).exp();
             fit.chi_squared += share * square;
-            fit.probability += share * chi_squared_exceeds(*square, count);
+            fit.probability += share * squares_above(*square, count);
             fit.discrepancy += share * amplitude;
         }
     }

@@ -1,4 +1,6 @@
-//! Reproducible numbers: a quasi-random sequence, pseudo-random numbers, the normal distribution.
+//! Reproducible numbers: a quasi-random sequence, pseudo-random numbers.
+
+use measure::normal::quantile;
 
 /// Pseudo-random numbers from a seed alone: SplitMix64 (Steele, Lea, Flood 2014, from memory).
 #[derive(Clone, Debug)]
@@ -21,7 +23,7 @@ impl Random {
     }
     /// Standard normal.
     pub fn normal(&mut self) -> f64 {
-        normal_quantile(self.uniform())
+        quantile(self.uniform())
     }
 }
 
@@ -37,93 +39,15 @@ pub(crate) fn quasi_normal(index: u32, shift: &[f64]) -> Vec<f64> {
                 value += weight * f64::from(rest % base);
                 rest /= base;
             }
-            normal_quantile(value.fract().clamp(1e-12, 1.0 - 1e-12))
+            quantile(value.fract().clamp(1e-12, 1.0 - 1e-12))
         })
         .collect()
-}
-
-/// Quantile of the standard normal distribution, relative error below 1.2e-9 (P. J. Acklam's fit, from memory).
-pub(crate) fn normal_quantile(probability: f64) -> f64 {
-    const A: [f64; 6] = [
-        -3.969_683_028_665_376e1,
-        2.209_460_984_245_205e2,
-        -2.759_285_104_469_687e2,
-        1.383_577_518_672_69e2,
-        -3.066_479_806_614_716e1,
-        2.506_628_277_459_239,
-    ];
-    const B: [f64; 6] = [
-        -5.447_609_879_822_406e1,
-        1.615_858_368_580_409e2,
-        -1.556_989_798_598_866e2,
-        6.680_131_188_771_972e1,
-        -1.328_068_155_288_572e1,
-        1.0,
-    ];
-    const C: [f64; 6] = [
-        -7.784_894_002_430_293e-3,
-        -3.223_964_580_411_365e-1,
-        -2.400_758_277_161_838,
-        -2.549_732_539_343_734,
-        4.374_664_141_464_968,
-        2.938_163_982_698_783,
-    ];
-    const D: [f64; 5] = [
-        7.784_695_709_041_462e-3,
-        3.224_671_290_700_398e-1,
-        2.445_134_137_142_996,
-        3.754_408_661_907_416,
-        1.0,
-    ];
-    let polynomial = |c: &[f64], x: f64| c.iter().fold(0.0, |sum, c| sum * x + c);
-    let tail = |p: f64| {
-        let q = (-2.0 * p.ln()).sqrt();
-        polynomial(&C, q) / polynomial(&D, q)
-    };
-    if probability < 0.02425 {
-        tail(probability)
-    } else if probability > 1.0 - 0.02425 {
-        -tail(1.0 - probability)
-    } else {
-        let q = probability - 0.5;
-        q * polynomial(&A, q * q) / polynomial(&B, q * q)
-    }
-}
-
-/// Probability that chi-squared with so many degrees of freedom exceeds a value, after Wilson and Hilferty: within
-/// 0.002 for three degrees and more.
-pub(crate) fn chi_squared_exceeds(value: f64, degrees: usize) -> f64 {
-    let variance = 2.0 / (9.0 * degrees.max(1) as f64);
-    let z = ((value / degrees.max(1) as f64).cbrt() - 1.0 + variance) / variance.sqrt();
-    normal_exceeds(z)
-}
-
-/// Probability that a standard normal number exceeds z, absolute error below 1e-7 (Abramowitz and Stegun 26.2.17,
-/// from memory); in the far tail its leading term.
-fn normal_exceeds(z: f64) -> f64 {
-    if z < 0.0 {
-        return 1.0 - normal_exceeds(-z);
-    }
-    let t = 1.0 / (1.0 + 0.231_641_9 * z);
-    let series = t
-        * (0.319_381_530
-            + t * (-0.356_563_782
-                + t * (1.781_477_937 + t * (-1.821_255_978 + t * 1.330_274_429))));
-    (-0.5 * z * z).exp() * series / (2.0 * std::f64::consts::PI).sqrt()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn quantiles_and_tails_of_tables() {
-        // Tables: 97.5 % at 1.959964, 99.9 % at 3.090232; chi-squared with 10 degrees exceeds 23.209 in 1 %.
-        assert!((normal_quantile(0.975) - 1.959_964).abs() < 1e-6);
-        assert!((normal_quantile(0.001) + 3.090_232).abs() < 1e-6);
-        assert!((normal_exceeds(1.959_964) - 0.025).abs() < 1e-6);
-        assert!((chi_squared_exceeds(23.209, 10) - 0.01).abs() < 5e-4);
-    }
     #[test]
     fn the_sequence_fills_evenly() {
         // mean 0 and variance 1 of 512 quasi-random points: discrepancy (ln n)/n, far below 1/√512 = 0.044

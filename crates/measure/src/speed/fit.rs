@@ -447,7 +447,7 @@ pub(super) fn lively(
             let from = |point, calls| smallest(point, steps, calls, 0.1, &cost);
             let best = match warm {
                 Some(warm) => from(warm, CLIMB / 2),
-                None => valleys(sight, density, &cost)
+                None => valleys(sight, density, cost)
                     .into_iter()
                     .map(|point| from(point, CLIMB))
                     .min_by(|a, b| a.1.total_cmp(&b.1))

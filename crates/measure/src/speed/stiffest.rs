@@ -106,11 +106,10 @@ mod tests {
             [0.0, 0.1, 0.3, 1.0],
         ];
         let b = inverse(a).unwrap();
-        for i in 0..SIZE {
-            for j in 0..SIZE {
-                let product: f64 = (0..SIZE).map(|k| a[i][k] * b[k][j]).sum();
-                assert!((product - f64::from(u8::from(i == j))).abs() < 1e-14);
-            }
+        for cell in 0..SIZE * SIZE {
+            let (i, j) = (cell / SIZE, cell % SIZE);
+            let product: f64 = (0..SIZE).map(|k| a[i][k] * b[k][j]).sum();
+            assert!((product - f64::from(u8::from(i == j))).abs() < 1e-14);
         }
         assert!(inverse([[1.0; SIZE]; SIZE]).is_none());
     }

@@ -1,6 +1,7 @@
 //! One curve against another.
 
 use super::SteadyCurve;
+use crate::normal::squares_above;
 
 /// Difference of two curves at their common speeds.
 #[derive(Clone, Debug)]
@@ -58,7 +59,7 @@ pub fn compare(first: &SteadyCurve, second: &SteadyCurve) -> Result<Difference, 
     let (squares, directions) = squares(covariance, &difference);
     Ok(Difference {
         speed: common.iter().map(|&k| first.speed[k]).collect(),
-        chance: tail(squares, directions),
+        chance: squares_above(squares, directions),
         difference,
         deviation,
         mean: crate::uncertain::Uncertain::new(mean, spread),
@@ -112,39 +113,9 @@ fn squares(mut a: Vec<Vec<f64>>, difference: &[f64]) -> (f64, usize) {
     )
 }
 
-/// Probability that a sum of squares of so many normal numbers is larger.
-fn tail(squares: f64, directions: usize) -> f64 {
-    if directions == 0 {
-        return 1.0;
-    }
-    let n = directions as f64;
-    let spread = 2.0 / (9.0 * n);
-    let z = ((squares / n).cbrt() - 1.0 + spread) / spread.sqrt();
-    // Normal tail by the continued fraction's first form: Abramowitz and Stegun 26.2.17, error below 1e-7 (from memory).
-    let t = 1.0 / (1.0 + 0.231_641_9 * z.abs());
-    let series = t
-        * (0.319_381_530
-            + t * (-0.356_563_782
-                + t * (1.781_477_937 + t * (-1.821_255_978 + t * 1.330_274_429))));
-    let upper = (-0.5 * z * z).exp() / std::f64::consts::TAU.sqrt() * series;
-    if z >= 0.0 { upper } else { 1.0 - upper }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_tail_is_that_of_tables() {
-        // 95 % points of chi-squared: 3.841, 18.307, 31.410 for 1, 10, 20; the approximation holds to 0.003.
-        for (n, point) in [(1, 3.841), (10, 18.307), (20, 31.410)] {
-            assert!(
-                (tail(point, n) - 0.05).abs() < 3e-3,
-                "{n}: {}",
-                tail(point, n)
-            );
-        }
-    }
 
     #[test]
     fn squares_do_not_depend_on_the_axes() {
