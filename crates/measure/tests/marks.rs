@@ -240,7 +240,7 @@ impl Record {
 }
 
 /// Seeds of each course, wheel and way of recording.
-const SEEDS: u64 = 6;
+const SEEDS: u64 = 3;
 
 /// True wheels of 12, 60 and 360 marks are never called wrong; wrong numbers are told where the wheel shows its own.
 ///
@@ -288,8 +288,8 @@ fn true_wheels_are_not_called_wrong_and_wrong_ones_are() {
     println!("told {told:?} of {asked:?}, with another number {strange:#?}");
     assert!(alarms.is_empty());
     assert!(strange.len() * 50 <= told[0], "{strange:#?}");
-    // 77 and 45 % less five standard deviations of so many.
-    assert!(10 * told[0] >= 6 * asked[0], "{told:?} of {asked:?}");
+    // 77 and 45 % less what chance makes of 108 and 54.
+    assert!(10 * told[0] >= 5 * asked[0], "{told:?} of {asked:?}");
     assert!(10 * told[1] >= 2 * asked[1], "{told:?} of {asked:?}");
 }
 
