@@ -157,7 +157,11 @@ impl Record {
         };
         let (start, length) = (0.1, random.between(0.03, 0.3));
         let ripple = if seed.is_multiple_of(3) { 2e-4 } else { 0.0 };
-        let size = if seed / 2 % 2 == 0 { 0.01 } else { 0.003 };
+        let size = if (seed / 2).is_multiple_of(2) {
+            0.01
+        } else {
+            0.003
+        };
         let errors: Vec<f64> = (0..marks).map(|_| size * random.normal()).collect();
         let angle = |time: f64| {
             let even = |time: f64| speed * time - 0.5 * slowing * time * time;
