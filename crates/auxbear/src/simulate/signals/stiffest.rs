@@ -114,9 +114,9 @@ mod tests {
             [0.0, 0.1, 0.3, 1.0],
         ];
         let b = inverse(a).unwrap();
-        for i in 0..SIZE {
+        for (i, line) in a.iter().enumerate() {
             for j in 0..SIZE {
-                let product: f64 = (0..SIZE).map(|k| a[i][k] * b[k][j]).sum();
+                let product: f64 = line.iter().zip(&b).map(|(x, row)| x * row[j]).sum();
                 assert!((product - f64::from(u8::from(i == j))).abs() < 1e-14);
             }
         }
