@@ -213,24 +213,14 @@ fn a_spectrogram_ends_at_the_highest_frequency() {
 
 #[test]
 fn a_speed_that_falls_evenly_has_a_deviation() {
-    // 60 marks at 150 rad/s, slowed by 5 rad/s², stamped to 0.1 µs with noise of it.
+    // 60 marks at 150 rad/s, slowed by 5 rad/s²; the covariance of the smoothing spline is lost in rounding here.
     let folder = std::env::temp_dir().join(format!("auxbear_even_{}", std::process::id()));
     fs::create_dir_all(&folder).unwrap();
     let mut text = String::from("mark,tacho\n");
-    let mut state = 3u64;
     for mark in 0..2000 {
         let angle = f64::from(mark) * TAU / 60.0;
         let time = (150.0 - (150.0_f64.powi(2) - 10.0 * angle).sqrt()) / 5.0;
-        let sum: u64 = (0..12)
-            .map(|_| {
-                state = state
-                    .wrapping_mul(6364136223846793005)
-                    .wrapping_add(1442695040888963407);
-                state >> 33
-            })
-            .sum();
-        let noise = 1e-7 * (sum as f64 / f64::from(1u32 << 31) - 6.0);
-        writeln!(text, "{mark},{:.12}", 1.0 + time + noise).unwrap();
+        writeln!(text, "{mark},{time:.9}").unwrap();
     }
     fs::write(folder.join("even.csv"), text).unwrap();
     let file = folder.join("even.toml");
@@ -244,9 +234,9 @@ fn a_speed_that_falls_evenly_has_a_deviation() {
         number(&outcome, "peak_acceleration"),
         number(&outcome, "peak_acceleration_deviation"),
     );
-    // A cubic through 2000 instants over 1.4 s, of 1.5e-5 rad each: some 1e-5 rad/s² in the middle, ten times that at the ends.
-    assert!(spread > 1e-6 && spread < 1e-2, "{spread}");
-    assert!((peak + 5.0).abs() < 5.0 * spread, "{peak} {spread}");
+    // A cubic through 2000 instants of 2e-6 rad each over 1.4 s: 4e-6 rad/s² at its ends.
+    assert!((1e-6..1e-4).contains(&spread), "{spread}");
+    assert!((peak + 5.0).abs() < 3.0 * spread, "{peak} {spread}");
     assert!(number(&outcome, "peak_speed_deviation") > 0.0);
 }
 

@@ -157,7 +157,11 @@ impl Record {
         };
         let (start, length) = (0.1, random.between(0.03, 0.3));
         let ripple = if seed.is_multiple_of(3) { 2e-4 } else { 0.0 };
-        let size = if seed / 2 % 2 == 0 { 0.01 } else { 0.003 };
+        let size = if (seed / 2).is_multiple_of(2) {
+            0.01
+        } else {
+            0.003
+        };
         let errors: Vec<f64> = (0..marks).map(|_| size * random.normal()).collect();
         let angle = |time: f64| {
             let even = |time: f64| speed * time - 0.5 * slowing * time * time;
@@ -240,7 +244,7 @@ impl Record {
 }
 
 /// Seeds of each course, wheel and way of recording.
-const SEEDS: u64 = 6;
+const SEEDS: u64 = 3;
 
 /// True wheels of 12, 60 and 360 marks are never called wrong; wrong numbers are told where the wheel shows its own.
 ///
@@ -287,9 +291,9 @@ fn true_wheels_are_not_called_wrong_and_wrong_ones_are() {
     );
     println!("told {told:?} of {asked:?}, with another number {strange:#?}");
     assert!(alarms.is_empty());
-    assert!(strange.len() * 50 <= told[0], "{strange:#?}");
-    // 77 and 45 % less five standard deviations of so many.
-    assert!(10 * told[0] >= 6 * asked[0], "{told:?} of {asked:?}");
+    assert!(strange.len() * 20 <= told[0], "{strange:#?}");
+    // 77 and 45 % less what chance makes of 108 and 54.
+    assert!(10 * told[0] >= 5 * asked[0], "{told:?} of {asked:?}");
     assert!(10 * told[1] >= 2 * asked[1], "{told:?} of {asked:?}");
 }
 
