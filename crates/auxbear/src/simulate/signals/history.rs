@@ -57,7 +57,7 @@ pub(super) fn columns(asked: &Asked, found: &Found) -> Vec<Column> {
             "shaft.speed_deviation",
             "rad/s",
             "standard deviation of that speed",
-            &|t| of(t, &|m| shaft.speed_deviation(m)),
+            &|t| of(t, &Motion::speed_uncertainty),
         );
         add(
             "shaft.acceleration",
@@ -69,7 +69,7 @@ pub(super) fn columns(asked: &Asked, found: &Found) -> Vec<Column> {
             "shaft.acceleration_deviation",
             "rad/s^2",
             "standard deviation of that acceleration",
-            &|t| of(t, &|m| shaft.acceleration_deviation(m)),
+            &|t| of(t, &Motion::acceleration_uncertainty),
         );
     }
     if let Some(series) = &asked.torque {
