@@ -28,6 +28,16 @@ const LATE: Shape = |x| x * x;
 /// A torque that is doubled halfway.
 const DOUBLED: Shape = |x| if x < 0.5 { 0.5 } else { 1.0 };
 
+/// A motor that follows an even ramp with a lag of a fiftieth of its length, at both ends.
+const LAGS: Shape = |x| {
+    let run = |x: f64| 1.0 - (-50.0 * x).exp();
+    if x < 0.9 {
+        run(x)
+    } else {
+        run(0.9) * (-50.0 * (x - 0.9)).exp()
+    }
+};
+
 /// Speed that is reached, rad/s.
 const REACHED: f64 = 150.0;
 
@@ -272,6 +282,41 @@ fn a_torque_that_breaks_away() {
 #[test]
 fn a_torque_that_begins_with_the_square_of_time() {
     covers("late", LATE, &RIGS, &VAGUE);
+}
+
+#[test]
+fn a_slow_ramp_that_begins_and_ends_with_a_lag() {
+    // Corners of a tenth of a second in a ramp of five that is silent between them.
+    let slow = rig(60, 5.0, 5e-6);
+    let (mut inside, mut count) = (0, 0);
+    for seed in 0..12 {
+        let (truth, speed) = estimate(LAGS, &slow, seed);
+        let change = speed.change.unwrap();
+        let off = change.engagement.0 - truth.engage;
+        println!(
+            "{seed}: engagement off {:.1} ± {:.1} ms",
+            1e3 * off,
+            1e3 * change.engagement.1
+        );
+
+        // The start, the ramp, the corner and what follows it.
+        let spots = [
+            0.1, 0.15, 0.2, 0.3, 0.5, 1.0, 2.0, 3.0, 4.0, 4.4, 4.5, 4.55, 4.6, 4.7, 4.9, 5.3,
+        ];
+        for time in spots.map(|t| truth.engage + t) {
+            let (motion, wanted) = (speed.at(time), truth.at(time));
+            let off = (motion.speed - wanted[1]) / motion.speed_uncertainty();
+            let also = (motion.acceleration - wanted[2]) / motion.acceleration_uncertainty();
+            if std::env::var("SOFT").is_ok() {
+                println!("   {:.2} {off:.1} {also:.1}", time - truth.engage);
+            }
+            inside += usize::from(off.abs() < 2.0) + usize::from(also.abs() < 2.0);
+            count += 2;
+        }
+    }
+    let part = inside as f64 / count as f64;
+    println!("slow ramp: {:.1} % inside", 100.0 * part);
+    assert!(part > 0.85, "{part}");
 }
 
 #[test]

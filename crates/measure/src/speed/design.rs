@@ -113,6 +113,7 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
                 lock: data.units(duration) + late * length,
                 change: change * data.unit,
                 density: (3.0 * peak / length).powi(2) / length,
+                head: None,
                 start: Knot::Kink,
                 stop: Knot::Soft,
             }),

@@ -2,7 +2,7 @@
 
 use super::Transient;
 use super::matrix::Memory;
-use super::plan::{Data, Knot, Lively, Noise, Passage, Plan};
+use super::plan::{Data, Head, Knot, Lively, Noise, Passage, Plan};
 use super::search::{smallest, spread};
 
 /// Passages in one stretch of a quiet part whose likelihood is taken.
@@ -392,7 +392,7 @@ pub(super) fn lively(
         first - 4.0 * length
     };
     let latest = (sight.lock + length).min(data.passages[to - 1].time);
-    let plan = |x: &[f64; 3], (start, stop): (Knot, Knot)| -> Option<Plan> {
+    let plan = |x: &[f64; 3], (start, stop, head): (Knot, Knot, f64)| -> Option<Plan> {
         let engage = if sight.rests {
             first - length * x[1].exp()
         } else {
@@ -409,6 +409,10 @@ pub(super) fn lively(
                 lock: if sight.ends { lock } else { last + length },
                 change: sight.change,
                 density: x[0].exp(),
+                head: (head > 0.0).then(|| Head {
+                    share: head,
+                    first: first - engage,
+                }),
                 start,
                 stop,
             }),
@@ -438,11 +442,21 @@ pub(super) fn lively(
     } else {
         &[Knot::Soft]
     };
+    // A long change may be livelier at its start than on the whole: a motor that follows an even ramp with a lag.
+    let within = sight.after.saturating_sub(sight.first);
+    let heads: &[f64] = if within > 3 * STRETCH {
+        &[0.0, 1e-3, 1e-2, 1e-1]
+    } else {
+        &[0.0]
+    };
     let mut bests = Vec::new();
-    for start in [Knot::Soft, Knot::Kink, Knot::Jump] {
+    for (start, head) in [Knot::Soft, Knot::Kink, Knot::Jump]
+        .into_iter()
+        .flat_map(|start| heads.iter().map(move |&head| (start, head)))
+    {
         let mut warm: Option<[f64; 3]> = None;
         for &stop in stops {
-            let cost = cost((start, stop));
+            let cost = cost((start, stop, head));
             let steps = [2.0, if sight.rests { 0.2 } else { 0.05 }, 0.05];
             let from = |point, calls| smallest(point, steps, calls, 0.1, &cost);
             let best = match warm {
@@ -454,7 +468,7 @@ pub(super) fn lively(
                     .expect("the scan names a point"),
             };
             warm = Some(best.0);
-            bests.push(((start, stop), best));
+            bests.push(((start, stop, head), best));
         }
     }
     let top = bests

@@ -145,6 +145,8 @@ pub(super) struct Lively {
     pub change: f64,
     /// Density of the snap between.
     pub density: f64,
+    /// A start that is livelier, where it is.
+    pub head: Option<Head>,
     /// What may jump at the engagement.
     pub start: Knot,
     /// What may jump at the end.
@@ -159,13 +161,46 @@ impl Lively {
     fn added(&self, knot: Knot) -> [f64; 4] {
         let length = self.lock - self.engage;
         let acceleration = self.change / length;
-        let jerk = STEEPEST * acceleration / length;
+        let jerk = (STEEPEST * acceleration / length).powi(2);
         match knot {
             Knot::Soft => [0.0; 4],
-            Knot::Kink => [0.0, 0.0, 0.0, jerk * jerk],
-            Knot::Jump => [0.0, 0.0, acceleration * acceleration, jerk * jerk],
+            Knot::Kink => [0.0, 0.0, 0.0, jerk],
+            Knot::Jump => [0.0, 0.0, acceleration * acceleration, jerk],
         }
     }
+
+    /// The same for the engagement: a start that is livelier than the whole change may reach the mean acceleration before the
+    /// first mark.
+    fn started(&self) -> [f64; 4] {
+        let mut added = self.added(self.start);
+        if let Some(head) = &self.head
+            && self.start != Knot::Soft
+        {
+            added[3] += (self.change / (self.lock - self.engage) / head.first.max(1.0)).powi(2);
+        }
+        added
+    }
+
+    /// Density between the knots.
+    fn density_at(&self, time: f64) -> f64 {
+        let Some(head) = &self.head else {
+            return self.density;
+        };
+        let acceleration = self.change / (self.lock - self.engage);
+        let since = (time - self.engage).max(head.first);
+        self.density
+            .max(head.share * acceleration * acceleration / since.powi(3))
+    }
+}
+
+/// A start that is livelier than the whole change, the more the shorter ago it was: after a time τ the acceleration a of
+/// the change wanders by the root of `share` while that time passes once more, which is a snap of the density
+/// `share a²/τ³`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Head {
+    pub share: f64,
+    /// From the engagement to the first mark.
+    pub first: f64,
 }
 
 /// Jerk at a knot over that of an even rise to the mean acceleration: 2 for a rise to the lock, 6 for a parabola.
@@ -185,6 +220,16 @@ pub(super) struct Plan {
 }
 
 impl Plan {
+    /// Density of the part of the record that an instant lies in.
+    pub fn density(&self, time: f64) -> f64 {
+        match &self.lively {
+            Some(lively) if time > lively.engage && time <= lively.lock => lively.density_at(time),
+            Some(lively) if time <= lively.engage => self.quiet[0],
+            Some(_) if time <= self.settled => self.quiet[1],
+            _ => self.quiet[2],
+        }
+    }
+
     /// Nodes, start and density after the last node, of some passages.
     pub fn nodes(&self, data: &Data, range: std::ops::Range<usize>) -> (Vec<Node>, Belief) {
         self.nodes_of(data, &data.passages[range])
@@ -201,32 +246,26 @@ impl Plan {
                 start = resting(data, lively);
                 knots.push((lively.engage, None));
             } else if lively.engage > first.time {
-                knots.push((lively.engage, Some(lively.added(lively.start))));
+                knots.push((lively.engage, Some(lively.started())));
             }
             if lively.lock > first.time {
                 knots.push((lively.lock, Some(lively.added(lively.stop))));
             }
         }
         start.covariance[4][4] = clock;
-        let density = |time: f64| match &self.lively {
-            Some(lively) if time > lively.engage && time <= lively.lock => lively.density,
-            Some(lively) if time <= lively.engage => self.quiet[0],
-            Some(_) if time <= self.settled => self.quiet[1],
-            _ => self.quiet[2],
-        };
         let mut knots = knots.into_iter().peekable();
         for passage in passages {
             while let Some((time, added)) = knots.next_if(|knot| knot.0 <= passage.time) {
                 nodes.push(Node {
                     time,
-                    density: density(time),
+                    density: self.density(time),
                     pulse: None,
                     added,
                 });
             }
             nodes.push(Node {
                 time: passage.time,
-                density: density(passage.time),
+                density: self.density(passage.time),
                 pulse: Some(Sight {
                     angle: passage.angle,
                     variance: self.noise.variance(passage),
@@ -295,7 +334,7 @@ fn moving(first: &Passage, pitch: f64) -> Belief {
 
 /// Belief at the engagement from rest: no speed, an angle anywhere before the first mark.
 fn resting(data: &Data, lively: &Lively) -> Belief {
-    let added = lively.added(lively.start);
+    let added = lively.started();
     let mut covariance = [[0.0; N]; N];
     covariance[0][0] = data.before * data.before / 12.0;
     covariance[2][2] = added[2];
