@@ -2,7 +2,7 @@
 
 use crate::files::read;
 use auxbear::problem::Problem;
-use auxbear::scenario::{BuiltIn, Scenario};
+use auxbear::scenario::Scenario;
 use auxbear::simulate::{self, Machine, Options};
 use std::sync::atomic::AtomicBool;
 
