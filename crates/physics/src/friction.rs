@@ -143,36 +143,17 @@ impl<R: Real> Gather<R> for Friction<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bearing_6005::{PALMGREN, SKF, SKF_GREASE};
     use crate::palmgren::viscous_moment;
-    use crate::skf_constants::{SkfBearing, SkfLubricant, SkfOil, SkfSupply, SkfType};
+    use crate::skf_constants::SkfLubricant;
     use number::{Level, Task};
     use proptest::prelude::*;
 
-    const PALMGREN: Palmgren<f64> = Palmgren {
-        viscous_factor: 1.7,
-        viscosity: 100e-6,
-        pitch_diameter: 36e-3,
-        load_factor: 0.0007,
-        load_exponent: 0.5,
-        static_load_rating: 6550.0,
-    };
     /// A 6005 under every law.
     fn laws() -> [Friction<f64>; 6] {
-        let bearing = SkfBearing {
-            kind: SkfType::DeepGroove,
-            series: "60",
-            bore: 25e-3,
-            outer_diameter: 47e-3,
-            width: 12e-3,
-            static_load_rating: Some(6550.0),
-            ceramic_balls: false,
-        };
         let grease = SkfLubricant {
-            viscosity: 100e-6,
-            supply: SkfSupply::GreaseOrOilAir,
-            oil: SkfOil::Mineral,
-            drag_variable: 0.0,
             seal_moment: 2e-3,
+            ..SKF_GREASE
         };
         let points = [(0.0, 0.01), (20.0, 0.012), (100.0, 0.011), (400.0, 0.03)];
         [
@@ -185,7 +166,7 @@ mod tests {
                 static_radial_factor: 0.6,
                 static_axial_factor: 0.5,
             }),
-            Friction::Skf(bearing.moment(&grease).unwrap()),
+            Friction::Skf(SKF.moment(&grease).unwrap()),
             Friction::Curve(MomentCurve::through(&points).unwrap()),
         ]
     }

@@ -195,19 +195,11 @@ fn palmgren_speed(law: &Palmgren<f64>, speed: f64) -> Option<Departure> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bearing_6005::{PALMGREN, SKF, SKF_GREASE};
     use crate::moment_curve::MomentCurve;
     use crate::palmgren::PalmgrenCombined;
-    use crate::skf_constants::{SkfBearing, SkfLubricant, SkfOil, SkfSupply, SkfType};
     use crate::viscosity::ICE_POINT;
 
-    const PALMGREN: Palmgren<f64> = Palmgren {
-        viscous_factor: 1.7,
-        viscosity: 100e-6,
-        pitch_diameter: 36e-3,
-        load_factor: 0.0007,
-        load_exponent: 0.5,
-        static_load_rating: 6550.0,
-    };
     fn at(speed: f64, radial_load: f64, axial_load: f64) -> OperatingPoint {
         OperatingPoint {
             speed,
@@ -247,23 +239,7 @@ mod tests {
     }
     #[test]
     fn skf_deep_groove() {
-        let bearing = SkfBearing {
-            kind: SkfType::DeepGroove,
-            series: "60",
-            bore: 25e-3,
-            outer_diameter: 47e-3,
-            width: 12e-3,
-            static_load_rating: Some(6550.0),
-            ceramic_balls: false,
-        };
-        let grease = SkfLubricant {
-            viscosity: 100e-6,
-            supply: SkfSupply::GreaseOrOilAir,
-            oil: SkfOil::Mineral,
-            drag_variable: 0.0,
-            seal_moment: 0.0,
-        };
-        let law = Friction::Skf(bearing.moment(&grease).unwrap());
+        let law = Friction::Skf(SKF.moment(&SKF_GREASE).unwrap());
         assert_eq!(quantities(&law, at(100.0, 6e3, 1.6e3)), [""; 0]);
         assert_eq!(
             quantities(&law, at(100.0, 7e3, -1.7e3)),

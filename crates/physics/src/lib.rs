@@ -32,6 +32,8 @@
 //! | [`unbalance`] | whirl of an unbalanced rotor on a linear support |
 
 pub mod angular_contact;
+#[cfg(test)]
+mod bearing_6005;
 pub mod contact;
 pub mod film;
 pub mod friction;

@@ -309,17 +309,9 @@ const GAUSS_10: [(f64, f64); 5] = [
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bearing_6005::rolling_set as set;
     use number::{Gather, Level, Task};
 
-    /// The 6005 of the reference file `rolling.json`.
-    fn set() -> RollingSet<f64> {
-        RollingSet {
-            inner_track_radius: 14.825e-3,
-            ball_ratio: 3.175 / 14.825,
-            balls_mass: 10.0 * 0.0010524208776796881,
-            cage_mass: 5e-3,
-        }
-    }
     fn near(value: f64, reference: f64) -> bool {
         (value / reference - 1.0).abs() < 1e-13 // rounding of a dozen operations
     }

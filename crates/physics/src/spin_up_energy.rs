@@ -128,20 +128,12 @@ impl SpinUpEnergy {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bearing_6005::rolling_set as set;
     use crate::rolling::Acceleration;
 
     const FINAL: f64 = 1000.0;
     const STEPS: u32 = 1000;
 
-    /// The 6005 of the reference file `rolling.json`.
-    fn set() -> RollingSet<f64> {
-        RollingSet {
-            inner_track_radius: 14.825e-3,
-            ball_ratio: 3.175 / 14.825,
-            balls_mass: 10.0 * 0.0010524208776796881,
-            cage_mass: 5e-3,
-        }
-    }
     /// Kinetic energy of balls and cage.
     fn kinetic(set: &RollingSet<f64>, cage: f64, spin: f64) -> f64 {
         let (s, r) = (set.ball_ratio, set.inner_track_radius);
@@ -165,6 +157,21 @@ mod tests {
         /// Heat, of friction power.
         heat: f64,
     }
+    impl Account {
+        fn of(outer_moment_work: f64, path: f64, work: f64, heat: f64) -> Self {
+            let energy = SpinUpEnergy {
+                set: set(),
+                final_speed: FINAL,
+                outer_moment_work,
+            };
+            Account {
+                energy,
+                path,
+                work,
+                heat,
+            }
+        }
+    }
 
     /// Balls that roll while the race gains `rate` against a constant moment.
     fn rolling(moment: f64, rate: f64) -> Account {
@@ -182,17 +189,7 @@ mod tests {
             work += t_inner * speed * step;
             heat += moment * speed * step;
         }
-        let energy = SpinUpEnergy {
-            set,
-            final_speed: FINAL,
-            outer_moment_work: outer,
-        };
-        Account {
-            energy,
-            path,
-            work,
-            heat,
-        }
+        Account::of(outer, path, work, heat)
     }
 
     /// A race at full speed from the start; balls roll at the outer race and skid at the inner one until they catch up.
@@ -217,17 +214,7 @@ mod tests {
             // the ball's surface at the inner race runs with 2(1+s) R ω_c
             heat += (traction * r * (FINAL - 2.0 * (1.0 + s) * orbit) + moment * FINAL) * step;
         }
-        let energy = SpinUpEnergy {
-            set,
-            final_speed: FINAL,
-            outer_moment_work: outer,
-        };
-        Account {
-            energy,
-            path,
-            work,
-            heat,
-        }
+        Account::of(outer, path, work, heat)
     }
     fn kinetic_at_the_end() -> f64 {
         let set = set();

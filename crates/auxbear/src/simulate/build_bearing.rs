@@ -1,5 +1,6 @@
 //! From a bearing of a scenario to the constants of the model.
 
+use super::bearing_run::PressureFactors;
 use super::build_traction::{inlet_rolling, traction};
 use super::{Options, Phase};
 use crate::problem::{Code, Problem};
@@ -44,8 +45,17 @@ pub(super) struct BallContacts {
     /// Stiffness of two neighbouring balls, N/m^1.5.
     neighbour_stiffness: f64,
     /// Pressure between them per cube root of the force, Pa/N^(1/3); none where a cage keeps them apart.
-    pub neighbour_pressure_factor: Option<f64>,
+    neighbour_pressure_factor: Option<f64>,
     ball_mass: f64,
+}
+
+impl BallContacts {
+    pub fn pressure_factors(&self) -> PressureFactors {
+        PressureFactors {
+            races: [self.inner.pressure_factor, self.outer.pressure_factor],
+            neighbours: self.neighbour_pressure_factor,
+        }
+    }
 }
 
 /// Materials of the balls.

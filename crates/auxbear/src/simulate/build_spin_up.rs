@@ -1,6 +1,7 @@
 //! From a spin-up to the constants of the model.
 
 use super::Options;
+use super::bearing_run::PressureFactors;
 use super::build_bearing::{self, SteadyFinding, SteadyPoint, refused, table};
 use crate::problem::Problem;
 use crate::scenario::{Course, Drive as DriveChoice, SpeedCourse, SpinUp};
@@ -13,12 +14,8 @@ use number::Vec2;
 pub struct Built {
     /// The machine.
     pub machine: SpinUpMachine,
-    /// Pressure of a ball/inner race contact per cube root of its load, Pa/N^(1/3).
-    pub inner_pressure_factor: f64,
-    /// Pressure of a ball/outer race contact per cube root of its load, Pa/N^(1/3).
-    pub outer_pressure_factor: f64,
-    /// The same between neighbouring balls, where no cage keeps them apart.
-    pub neighbour_pressure_factor: Option<f64>,
+    /// Hertz pressure in the contacts of a ball.
+    pub pressure_factors: PressureFactors,
     /// A steady run at the target speed under the last load; none where the bearing has no steady moment.
     pub steady: Option<SteadyFinding>,
 }
@@ -52,9 +49,7 @@ pub fn spin_up(spin_up: &SpinUp, options: &Options) -> Result<Built, Box<Problem
     .map_err(refused)?;
     Ok(Built {
         machine,
-        inner_pressure_factor: contacts.inner.pressure_factor,
-        outer_pressure_factor: contacts.outer.pressure_factor,
-        neighbour_pressure_factor: contacts.neighbour_pressure_factor,
+        pressure_factors: contacts.pressure_factors(),
         steady,
     })
 }

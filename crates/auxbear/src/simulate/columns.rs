@@ -1,34 +1,19 @@
 //! The history of a drop as columns.
 
-use super::columns_shared::{BearingPlace, Table};
+use super::columns_shared::Table;
 use super::drop::Context;
 use super::outcome::Column;
 use model::system::drop::layout::{
-    BEARING, DETAIL, FRICTION_FORCE, HEATS, INNER, LAND_FORCE, LARGEST_INNER_LOAD,
-    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, NORMAL_FORCE, OUTER, PENETRATION, ROTOR, SLIP_SPEED,
-    SOURCES,
+    FRICTION_FORCE, INNER, NORMAL_FORCE, OUTER, PENETRATION, ROTOR, SLIP_SPEED,
 };
-use model::system::drop::rate::race_motion;
 use model::system::sampling::Row;
 
 /// All columns; `time` first.
 pub(super) fn history(context: &Context) -> Vec<Column> {
     let machine = context.machine;
     let layout = machine.layout();
-    let mut table = Table::over(context.finished.record.rows());
-    let bearing = BearingPlace {
-        bearing: &machine.constants.bearing,
-        inner: INNER,
-        states: BEARING..layout.ledger(),
-        detail: DETAIL,
-        largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
-        cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
-        pressure_factors: [
-            context.built.inner_pressure_factor,
-            context.built.outer_pressure_factor,
-        ],
-        motion: race_motion,
-    };
+    let run = context.bearing();
+    let mut table = Table::over(&run);
 
     table.add("time", "s", "time since release", |row| row.time);
     let centre = |row: &Row| machine.rotor_centre(row.state);
@@ -45,7 +30,7 @@ pub(super) fn history(context: &Context) -> Vec<Column> {
         |row| centre(row).y,
     );
     table.channel("rotor.speed", "rad/s", "spin of the rotor", ROTOR + 5);
-    table.inner_race(&bearing);
+    table.inner_race(INNER);
     table.channel(
         "bearing.outer_race.x",
         "m",
@@ -88,15 +73,8 @@ pub(super) fn history(context: &Context) -> Vec<Column> {
         "sliding speed of the surfaces, inner race less rotor",
         SLIP_SPEED,
     );
-    table.cage(&bearing);
-    table.lubricant(&bearing);
-    table.balls(&bearing);
-    table.flows(
-        "release",
-        bearing.bearing,
-        (&HEATS, layout.heat(0)),
-        (&SOURCES, layout.source(0)),
-    );
+    table.bearing();
+    table.flows("release", layout);
     let start = &context.finished.start;
     table.energies(|state| machine.balance(start, state));
     table.columns

@@ -1,37 +1,19 @@
 //! Columns that every moving system has: races, balls, pressures, energies.
 
+use super::bearing_run::BearingRun;
 use super::film::Films;
 use super::outcome::Column;
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::{BearingConstants, LubricantAt, Separation};
-use model::motion::Motion;
 use model::system::energy::Balance;
+use model::system::layout::{Channels, Layout};
 use model::system::sampling::Row;
 use physics::hertz::maximum_pressure;
 
 /// A history that is being named.
 pub(super) struct Table<'a> {
     pub columns: Vec<Column>,
-    rows: Vec<Row<'a>>,
-}
-
-/// Where a bearing stands in states and probes.
-pub(super) struct BearingPlace<'a> {
-    pub bearing: &'a BearingConstants,
-    /// First channel of the inner race: x y, velocities, angle, speed.
-    pub inner: usize,
-    /// The bearing's own channels.
-    pub states: std::ops::Range<usize>,
-    /// First probe of the detail of the balls.
-    pub detail: usize,
-    /// Probes of the largest ball loads at the inner and the outer race.
-    pub largest_loads: [usize; 2],
-    /// Probes of the largest pocket force and of the force at the land.
-    pub cage_forces: [usize; 2],
-    /// Pressure of a ball contact per cube root of its load at the inner and the outer race, Pa/N^(1/3).
-    pub pressure_factors: [f64; 2],
-    /// Motion of the races in a state of the system.
-    pub motion: fn(&[f64]) -> Motion<f64>,
+    run: &'a BearingRun<'a>,
 }
 
 /// A value of the lubricant.
@@ -70,10 +52,10 @@ fn full_complement(bearing: &BearingConstants) -> bool {
 
 impl<'a> Table<'a> {
     /// No columns yet.
-    pub fn over(rows: impl Iterator<Item = Row<'a>>) -> Self {
+    pub fn over(run: &'a BearingRun<'a>) -> Self {
         Table {
             columns: Vec::new(),
-            rows: rows.collect(),
+            run,
         }
     }
     pub fn add(
@@ -87,7 +69,7 @@ impl<'a> Table<'a> {
             name: name.to_string(),
             unit,
             meaning: meaning.to_string(),
-            values: self.rows.iter().map(value).collect(),
+            values: self.run.rows.iter().map(value).collect(),
         });
     }
     pub fn channel(&mut self, name: &str, unit: &'static str, meaning: &str, channel: usize) {
@@ -97,9 +79,8 @@ impl<'a> Table<'a> {
         self.add(name, unit, meaning, |row| row.probe[probe]);
     }
 
-    /// Place and speed of the inner race.
-    pub fn inner_race(&mut self, place: &BearingPlace) {
-        let first = place.inner;
+    /// Place and speed of the inner race: x y, velocities, angle, speed, from a first channel.
+    pub fn inner_race(&mut self, first: usize) {
         for (name, unit, meaning, channel) in [
             ("x", "m", "inner race centre, to the right", first),
             ("y", "m", "inner race centre, upwards", first + 1),
@@ -114,12 +95,20 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// Cage, lubricant and balls.
+    pub fn bearing(&mut self) {
+        self.cage();
+        self.lubricant();
+        self.balls();
+    }
+
     /// Place of a cage that is free to move, and the largest forces on it.
-    pub fn cage(&mut self, place: &BearingPlace) {
-        let BearingConstants::Planar(bearing) = place.bearing else {
+    fn cage(&mut self) {
+        let run = self.run;
+        let BearingConstants::Planar(bearing) = run.bearing else {
             return;
         };
-        let [pocket, land] = place.cage_forces;
+        let [pocket, land] = run.cage_forces;
         match &bearing.separation {
             Separation::Neighbours(_) => {
                 self.probe(
@@ -147,7 +136,7 @@ impl<'a> Table<'a> {
         .into_iter()
         .enumerate()
         {
-            let channel = place.states.start + CAGE_PLACE + k;
+            let channel = run.states.start + CAGE_PLACE + k;
             self.channel(&format!("bearing.cage.{name}"), "m", meaning, channel);
         }
         if guide.is_some() {
@@ -157,12 +146,13 @@ impl<'a> Table<'a> {
     }
 
     /// What changes of the lubricant, and its factors.
-    pub fn lubricant(&mut self, place: &BearingPlace) {
-        let Some(lubricant) = place.bearing.lubricant() else {
+    fn lubricant(&mut self) {
+        let run = self.run;
+        let Some(lubricant) = run.bearing.lubricant() else {
             return;
         };
         let (grease, films) = (lubricant.grease.is_some(), lubricant.films.is_some());
-        let planar = matches!(place.bearing, BearingConstants::Planar(_));
+        let planar = matches!(run.bearing, BearingConstants::Planar(_));
         let columns: [(bool, &str, &str, &str, OfLubricant); 5] = [
             (
                 grease,
@@ -203,38 +193,36 @@ impl<'a> Table<'a> {
         for (_, name, unit, meaning, value) in columns.into_iter().filter(|column| column.0) {
             let name = format!("bearing.lubricant.{name}");
             self.add(&name, unit, meaning, |row| {
-                let own = &row.state[place.states.clone()];
                 // every row has it where the bearing does
-                (place.bearing.lubricant_at(own)).map_or(f64::NAN, |at| value(&at))
+                let at = run.bearing.lubricant_at(run.own(row.state));
+                at.map_or(f64::NAN, |at| value(&at))
             });
         }
     }
 
     /// Azimuth, loads, slips and pocket force of every ball, and the largest pressures.
-    pub fn balls(&mut self, place: &BearingPlace) {
-        let n = place.bearing.balls();
-        let known = match place.bearing {
+    fn balls(&mut self) {
+        let run = self.run;
+        let n = run.bearing.balls();
+        let known = match run.bearing {
             BearingConstants::Planar(_) => DETAILS.len(),
             BearingConstants::Rolling(_) => LOADS,
         };
-        let films = Films::of(place.bearing, place.states.clone(), place.motion);
+        let films = Films::of(run);
         for ball in 0..n {
             let name = |what: &str| format!("bearing.ball_{:02}.{what}", ball + 1);
             self.add(
                 &name("azimuth"),
                 "rad",
                 "azimuth of the ball from x",
-                |row| {
-                    let own = &row.state[place.states.clone()];
-                    place.bearing.azimuth(own, ball)
-                },
+                |row| run.bearing.azimuth(run.own(row.state), ball),
             );
             for (k, mut detail) in DETAILS.into_iter().take(known).enumerate() {
-                if detail == POCKET && full_complement(place.bearing) {
+                if detail == POCKET && full_complement(run.bearing) {
                     detail = NEIGHBOUR;
                 }
                 let (what, unit, meaning) = detail;
-                self.probe(&name(what), unit, meaning, place.detail + k * n + ball);
+                self.probe(&name(what), unit, meaning, run.detail + k * n + ball);
             }
             if let Some(films) = &films {
                 for (race, side) in ["inner", "outer"].into_iter().enumerate() {
@@ -249,10 +237,11 @@ impl<'a> Table<'a> {
                 }
             }
         }
-        for (race, (probe, factor)) in ["inner", "outer"]
-            .into_iter()
-            .zip(place.largest_loads.into_iter().zip(place.pressure_factors))
-        {
+        for (race, (probe, factor)) in ["inner", "outer"].into_iter().zip(
+            run.largest_loads
+                .into_iter()
+                .zip(run.pressure_factors.races),
+        ) {
             self.add(
                 &format!("bearing.{race}_pressure"),
                 "Pa",
@@ -262,23 +251,22 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Heats and works since an event ("release"): their names and the channel of the first. What this bearing cannot make
-    /// has no column.
-    pub fn flows(
-        &mut self,
-        since: &str,
-        bearing: &BearingConstants,
-        heats: (&[&str], usize),
-        sources: (&[&str], usize),
-    ) {
-        for (i, heat) in heats.0.iter().enumerate() {
+    /// Heats and works since an event ("release"). What this bearing cannot make has no column.
+    pub fn flows<S: Channels>(&mut self, since: &str, layout: &Layout<S>) {
+        let bearing = self.run.bearing;
+        for (i, heat) in S::HEATS.iter().enumerate() {
             if !bearing.may_make(heat) {
                 continue;
             }
             let meaning = format!("heat made since {since}: {}", heat.replace('_', " "));
-            self.channel(&format!("energy.heat.{heat}"), "J", &meaning, heats.1 + i);
+            self.channel(
+                &format!("energy.heat.{heat}"),
+                "J",
+                &meaning,
+                layout.heat(i),
+            );
         }
-        for (i, source) in sources.0.iter().enumerate() {
+        for (i, source) in S::SOURCES.iter().enumerate() {
             if *source == "inner_race_growth" && !bearing.grows() {
                 continue;
             }
@@ -287,9 +275,25 @@ impl<'a> Table<'a> {
                 &format!("energy.source.{source}"),
                 "J",
                 &meaning,
-                sources.1 + i,
+                layout.source(i),
             );
         }
+    }
+
+    /// What the moment on the outer race tells of a spin-up; `body`, for short `name`, turns with the inner race.
+    pub fn outer_race_works<S: Channels>(&mut self, body: &str, name: &str, layout: &Layout<S>) {
+        self.channel(
+            "energy.outer_race.moment_work",
+            "J",
+            &format!("time integral of t_O times the speed of the {body}"),
+            layout.work(1),
+        );
+        self.channel(
+            "energy.outer_race.path_term",
+            "J",
+            &format!("integral of the {name}'s speed over the angular momentum of balls and cage"),
+            layout.work(2),
+        );
     }
 
     /// What is stored, and what the ledger misses.

@@ -1,14 +1,10 @@
 //! The history of a spin-up as columns.
 
-use super::columns_shared::{BearingPlace, Table};
+use super::columns_shared::Table;
 use super::outcome::Column;
 use super::spin_up::Context;
 use crate::scenario::Drive;
-use model::system::spin_up::layout::{
-    DETAIL, HEATS, INNER, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
-    PROBES, ROTOR, SOURCES,
-};
-use model::system::spin_up::rate::race_motion;
+use model::system::spin_up::layout::{INNER, LARGEST_POCKET_FORCE, PROBES, ROTOR};
 
 /// What the probes of the model are, in their order.
 const MEANINGS: [&str; PROBES.len()] = [
@@ -34,54 +30,24 @@ const MEANINGS: [&str; PROBES.len()] = [
 pub(super) fn history(context: &Context) -> Vec<Column> {
     let machine = context.machine();
     let layout = machine.layout();
-    let mut table = Table::over(context.record.rows());
-    let bearing = BearingPlace {
-        bearing: &machine.constants.bearing,
-        inner: INNER,
-        states: layout.bearing(),
-        detail: DETAIL,
-        largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
-        cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
-        pressure_factors: [
-            context.built.inner_pressure_factor,
-            context.built.outer_pressure_factor,
-        ],
-        motion: race_motion,
-    };
+    let run = context.bearing();
+    let mut table = Table::over(&run);
 
     table.add("time", "s", "time since the start", |row| row.time);
     let slides = matches!(context.spin_up.drive, Drive::SlidingRotor { .. });
     if slides {
         table.channel("rotor.speed", "rad/s", "spin of the rotor", ROTOR + 1);
     }
-    table.inner_race(&bearing);
+    table.inner_race(INNER);
     for (probe, ((name, unit), meaning)) in PROBES.iter().zip(MEANINGS).enumerate() {
         // what holds the cage follows with the balls
         if probe < LARGEST_POCKET_FORCE && (slides || !name.starts_with("rotor.")) {
             table.probe(name, unit, meaning, probe);
         }
     }
-    table.cage(&bearing);
-    table.lubricant(&bearing);
-    table.balls(&bearing);
-    table.flows(
-        "the start",
-        bearing.bearing,
-        (&HEATS, layout.heat(0)),
-        (&SOURCES, layout.source(0)),
-    );
-    table.channel(
-        "energy.outer_race.moment_work",
-        "J",
-        "time integral of t_O times the speed of the inner race",
-        layout.work(1),
-    );
-    table.channel(
-        "energy.outer_race.path_term",
-        "J",
-        "integral of the race's speed over the angular momentum of balls and cage",
-        layout.work(2),
-    );
+    table.bearing();
+    table.flows("the start", layout);
+    table.outer_race_works("inner race", "race", layout);
     table.energies(|state| machine.balance(context.start, state));
     table.columns
 }

@@ -1,15 +1,16 @@
 //! Runs a drop and names what came out.
 
+use super::bearing_run::BearingRun;
 use super::build::{self, Built};
 use super::ending::{settings, stop};
 use super::ensemble::{self, Finished, Member, Plan};
-use super::film::{self, Films};
 use super::outcome::{Contact, Outcome, Picture, Spread, Stop, Value, Work};
-use super::skid::{Skidding, Skids};
 use super::{Options, columns, method, quantities, warnings};
 use crate::scenario::{Drop, Scenario};
 use model::system::drop::DropMachine;
-use model::system::drop::layout::BEARING;
+use model::system::drop::layout::{
+    DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
+};
 use model::system::drop::rate::race_motion;
 use number::Vec2;
 use rand_distr::{Distribution, StandardNormal};
@@ -26,20 +27,18 @@ pub(super) struct Context<'a> {
     pub members: usize,
 }
 
-impl Context<'_> {
-    /// The films between balls and races, where traction is theirs.
-    pub fn films(&self) -> Option<film::Summary> {
-        let bearing = &self.machine.constants.bearing;
-        let states = BEARING..self.machine.layout().ledger();
-        let films = Films::of(bearing, states, race_motion)?;
-        Some(films.summary(|| self.finished.record.rows()))
-    }
-    /// Where the balls slide, where they may.
-    pub fn skids(&self) -> Option<Skidding> {
-        let bearing = &self.machine.constants.bearing;
-        let states = BEARING..self.machine.layout().ledger();
-        let skids = Skids::of(bearing, states, race_motion)?;
-        Some(skids.summary(|| self.finished.record.rows()))
+impl<'a> Context<'a> {
+    pub fn bearing(&self) -> BearingRun<'a> {
+        BearingRun {
+            bearing: &self.machine.constants.bearing,
+            states: self.machine.layout().bearing(),
+            detail: DETAIL,
+            largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
+            cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
+            pressure_factors: self.built.pressure_factors,
+            motion: race_motion,
+            rows: self.finished.record.rows().collect(),
+        }
     }
 }
 

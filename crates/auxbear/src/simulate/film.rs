@@ -1,17 +1,16 @@
 //! The films between balls and races, told after a run from its rows.
 
+use super::bearing_run::BearingRun;
 use super::list::{List, Origin};
 use super::outcome::Warning;
 use super::warnings_shared::warning;
 use crate::scenario::{Bearing, Traction as TractionChoice};
 use model::bearing::{BearingConstants, PlanarConstants};
-use model::motion::Motion;
 use model::system::sampling::Row;
 use physics::lubricant::HIGHEST_PRESSURE;
 use physics::lubricant_traction::ContactState;
 use physics::traction::{LubricatedRaces, Traction};
 use physics::viscosity::ICE_POINT;
-use std::ops::Range;
 
 /// λ below which asperities carry much of the load.
 const MIXED: f64 = 1.0;
@@ -24,50 +23,39 @@ const HOTTEST: f64 = 200.0;
 
 /// The films of a bearing whose traction is that of its oil.
 pub(super) struct Films<'a> {
+    run: &'a BearingRun<'a>,
     bearing: &'a PlanarConstants,
     law: &'a LubricatedRaces<f64>,
-    states: Range<usize>,
-    motion: fn(&[f64]) -> Motion<f64>,
 }
 
 impl<'a> Films<'a> {
     /// None where traction is not that of an oil.
-    pub fn of(
-        bearing: &'a BearingConstants,
-        states: Range<usize>,
-        motion: fn(&[f64]) -> Motion<f64>,
-    ) -> Option<Films<'a>> {
-        let BearingConstants::Planar(bearing) = bearing else {
+    pub fn of(run: &'a BearingRun<'a>) -> Option<Films<'a>> {
+        let BearingConstants::Planar(bearing) = run.bearing else {
             return None;
         };
         let Traction::Lubricated(law) = &bearing.traction else {
             return None;
         };
-        Some(Films {
-            bearing,
-            law,
-            states,
-            motion,
-        })
+        Some(Films { run, bearing, law })
     }
 
     /// Films of a ball at the inner and the outer race; none where it carries no load.
     pub fn at(&self, row: &Row, ball: usize) -> [Option<ContactState<f64>>; 2] {
-        let own = &row.state[self.states.clone()];
-        let reaction = (self.bearing).ball_reaction(&(self.motion)(row.state), own, ball);
+        let motion = (self.run.motion)(row.state);
+        let reaction = (self.bearing).ball_reaction(&motion, self.run.own(row.state), ball);
         let [inner, outer] = reaction.contacts();
         [(&self.law.inner, inner), (&self.law.outer, outer)]
             .map(|(law, at)| (at.load > 0.0).then(|| law.state(at.slip, at.load, at.entrainment)))
     }
 
     /// What all loaded contacts came to in the rows in which the race turns fast.
-    pub fn summary<'r, I: Iterator<Item = Row<'r>>>(&self, rows: impl Fn() -> I) -> Summary {
-        let speed = |row: &Row| (self.motion)(row.state).inner.spin.abs();
-        let fastest = rows().map(|row| speed(&row)).fold(0.0, f64::max);
+    pub fn summary(&self) -> Summary {
+        let least = FAST * self.run.fastest();
         let mut summary = Summary::default();
-        for row in rows().filter(|row| speed(row) >= FAST * fastest) {
+        for row in (self.run.rows.iter()).filter(|row| self.run.speed(row) >= least) {
             for state in (0..self.bearing.balls)
-                .flat_map(|ball| self.at(&row, ball))
+                .flat_map(|ball| self.at(row, ball))
                 .flatten()
             {
                 summary.add(&state);

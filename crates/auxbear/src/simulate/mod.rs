@@ -8,13 +8,15 @@
 //! | `drop`, `spin_up`, `torque` | runs a system and names what came out |
 //! | `signals` | reads a measurement and names what it holds |
 //! | [`rig`] | runs a test on a rig and writes what its logger would have written |
-//! | `quantities`, `list` | each named result with its law, source and valid range |
+//! | `quantities`, `quantities_shared`, `list` | each named result with its law, source and valid range |
+//! | `bearing_run`, `film`, `skid` | the bearing of a run, what its rows tell of films and sliding balls |
 //! | `columns`, `columns_shared` | the history |
 //! | `warnings`, `warnings_shared` | what to know before trusting the numbers |
 //! | `method` | explicit or linearly implicit steps |
 //! | `ending` | settings of the integration, and how a run ended |
 //! | [`outcome`] | the data handed over |
 
+mod bearing_run;
 mod before;
 pub mod build;
 pub mod build_bearing;
@@ -32,6 +34,7 @@ mod list;
 mod method;
 pub mod outcome;
 mod quantities;
+mod quantities_shared;
 mod quantities_spin_up;
 mod quantities_torque;
 pub mod rig;

@@ -3,7 +3,8 @@
 use super::drop::Context;
 use super::list::{List, Origin, relative};
 use super::outcome::{Quantity, Value};
-use model::system::drop::layout::{BEARING, HEATS, INNER, ROTOR};
+use super::quantities_shared::{End, LargestForces};
+use model::system::drop::layout::{INNER, ROTOR};
 
 const EQUATIONS: &str =
     "equations of motion, crates/model/src/system/drop/rate.rs and crates/model/src/bearing/";
@@ -16,7 +17,6 @@ pub(super) fn name(context: &Context) -> Vec<Quantity> {
     let record = &context.finished.record;
     let ending = &context.finished.ending;
     let machine = context.machine;
-    let layout = machine.layout();
     let state = &ending.state;
     let mut list = List(Vec::new());
     let no_contact = || "rotor and inner race never touched in this run".to_string();
@@ -59,83 +59,39 @@ pub(super) fn name(context: &Context) -> Vec<Quantity> {
     );
 
     // speeds
-    let never = |what: &str| {
-        let text = format!("{what} was not reached by {:.4e} s", ending.time);
-        move || text
-    };
-    list.number(
-        "inner_race_time_to_50_percent",
-        "s",
-        record
-            .inner_race_time_to_50_percent()
-            .ok_or_else(never("half of the rotor's release speed")),
+    let never = |what: &str| format!("{what} was not reached by {:.4e} s", ending.time);
+    list.rises(
+        "inner_race",
+        [
+            record.inner_race_time_to_50_percent(),
+            record.inner_race_time_to_95_percent(),
+            record.cage_time_to_95_percent(),
+        ],
+        [
+            never("half of the rotor's release speed"),
+            never("95 % of the rotor's release speed"),
+            never("95 % of the rolling cage speed of the rotor's release speed"),
+        ],
         &RISE,
     );
-    list.number(
-        "inner_race_time_to_95_percent",
-        "s",
-        record
-            .inner_race_time_to_95_percent()
-            .ok_or_else(never("95 % of the rotor's release speed")),
-        &RISE,
-    );
-    list.number(
-        "cage_time_to_95_percent_of_rolling",
-        "s",
-        record.cage_time_to_95_percent().ok_or_else(never(
-            "95 % of the rolling cage speed of the rotor's release speed",
-        )),
-        &RISE,
-    );
-    list.number(
-        "inner_race_final_speed",
-        "rad/s",
-        Ok(state[INNER + 5]),
-        &SPEED,
-    );
-    list.number(
-        "cage_final_speed",
-        "rad/s",
-        Ok(machine.cage_speed(state)),
-        &SPEED,
-    );
-    list.number("rotor_final_speed", "rad/s", Ok(state[ROTOR + 5]), &SPEED);
+    for (name, speed) in [
+        ("inner_race_final_speed", state[INNER + 5]),
+        ("cage_final_speed", machine.cage_speed(state)),
+        ("rotor_final_speed", state[ROTOR + 5]),
+    ] {
+        list.number(name, "rad/s", Ok(speed), &SPEED);
+    }
 
-    list.ball_loads(
-        [
-            record.largest_inner_load.value,
-            record.largest_outer_load.value,
-        ],
-        [
-            context.built.inner_pressure_factor,
-            context.built.outer_pressure_factor,
-        ],
-        context.drop.bearing.hertz_pressure_limit,
-    );
-    if let Some(films) = context.films() {
-        films.name(&mut list);
-    }
-    let heat = |name: &str| -> f64 {
-        let index = HEATS.iter().position(|heat| *heat == name);
-        index.map_or(0.0, |index| state[layout.heat(index)])
+    let end = End {
+        layout: machine.layout(),
+        state,
     };
-    let slips = [heat("inner_ball_slip"), heat("outer_ball_slip")];
-    if let Some(skids) = context.skids() {
-        skids.name(&mut list, slips);
-    }
-    let cage_friction =
-        heat("pocket_friction") + heat("cage_land_friction") + heat("ball_ball_friction");
-    let own = &state[BEARING..layout.ledger()];
-    list.lubricant(&machine.constants.bearing, own);
-    list.cage(
-        &machine.constants.bearing,
-        [
-            record.largest_pocket_force.value,
-            record.largest_land_force.value,
-        ],
-        context.built.neighbour_pressure_factor,
-        cage_friction,
-    );
+    let forces = LargestForces {
+        loads: [record.largest_inner_load, record.largest_outer_load],
+        cage: [record.largest_pocket_force, record.largest_land_force],
+    };
+    let limit = context.drop.bearing.hertz_pressure_limit;
+    list.balls(&context.bearing(), &forces, limit, &end);
 
     // displacements and whirl
     list.number(
@@ -178,32 +134,12 @@ pub(super) fn name(context: &Context) -> Vec<Quantity> {
     list.number("whirl_turns", "", Ok(turns), &WHIRL);
 
     // energies
-    list.number(
-        "rotor_race_friction_energy",
-        "J",
-        Ok(heat("rotor_race_friction")),
-        &ENERGY,
-    );
-    list.number(
-        "ball_slip_energy",
-        "J",
-        if layout.ball_states {
-            Ok(slips[0] + slips[1])
-        } else {
-            Err("balls do not slip in the rolling fidelity".to_string())
-        },
-        &ENERGY,
-    );
-    let flows = machine.flows(state);
-    list.number("dissipated_energy", "J", Ok(flows.heat), &ENERGY);
+    list.losses(&end, machine.flows(state).heat, &ENERGY);
     let (energy, momentum) = residuals(context);
     list.number("energy_residual", "1", energy, &RESIDUAL);
     list.number("angular_momentum_residual", "1", momentum, &RESIDUAL);
     list.mark_chaotic(&CHAOTIC);
-    if ending.time == 0.0 {
-        list.clear("the run ended before its first step");
-    }
-    list.0
+    list.ended_at(ending.time)
 }
 
 /// What is turned over must exceed this share of the kinetic energy at the start to be compared with.
@@ -234,18 +170,14 @@ fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, String>) {
     )
 }
 
-/// Results of late contacts and of pocket impacts: first impacts, spin-up times and energies are reproducible, these are not.
-const CHAOTIC: [&str; 10] = [
+/// Results of late contacts: first impacts, spin-up times and energies are reproducible, these are not.
+const CHAOTIC: [&str; 6] = [
     "peak_contact_force",
     "contact_count",
     "contact_start_times",
     "peak_ball_load",
     "peak_hertz_pressure",
     "hertz_pressure_share_of_limit",
-    "peak_pocket_force",
-    "peak_cage_land_force",
-    "peak_ball_ball_force",
-    "peak_ball_ball_pressure",
 ];
 
 const FIRST_CONTACT: Origin = Origin {

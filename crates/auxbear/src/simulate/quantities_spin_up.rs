@@ -2,10 +2,11 @@
 
 use super::list::{List, Origin, relative};
 use super::outcome::{Quantity, Value};
+use super::quantities_shared::{End, LargestForces};
 use super::spin_up::Context;
 use crate::scenario::{Drive, Fidelity};
 use model::system::spin_up::layout::{
-    CAGE_SLIP, CAGE_SPEED, HEATS, INNER, INNER_MOMENT, OUTER_MOMENT, ROTOR, STEADY_MOMENT,
+    CAGE_SLIP, CAGE_SPEED, INNER, INNER_MOMENT, OUTER_MOMENT, ROTOR, STEADY_MOMENT, SpinUpChannels,
 };
 use model::system::spin_up::record::LateMeans;
 
@@ -28,64 +29,42 @@ pub(super) fn name(context: &Context) -> Vec<Quantity> {
     slip(&mut list, context);
     loads(&mut list, context);
     energies(&mut list, context);
-    if context.ending.time == 0.0 {
-        list.clear("the run ended before its first step");
-    }
-    list.0
+    list.ended_at(context.ending.time)
 }
 
 fn times(list: &mut List, context: &Context) {
     let (record, state) = (context.record, &context.ending.state);
     let target = context.spin_up.target_speed();
     let never = |what: &str, speed: f64| {
-        let text = format!(
-            "{what} ({speed:.1} rad/s) was not reached by {:.4} ms",
-            1e3 * context.ending.time
-        );
-        move || text
+        let instant = 1e3 * context.ending.time;
+        format!("{what} ({speed:.1} rad/s) was not reached by {instant:.4} ms")
     };
     let rolling = target * context.machine().constants.bearing.rolling_cage_ratio();
-    list.number(
-        "inner_race_time_to_50_percent",
-        "s",
-        record
-            .inner_race_time_to_50_percent()
-            .ok_or_else(never("half of the full speed", 0.5 * target)),
+    list.rises(
+        "inner_race",
+        [
+            record.inner_race_time_to_50_percent(),
+            record.inner_race_time_to_95_percent(),
+            record.cage_time_to_95_percent(),
+        ],
+        [
+            never("half of the full speed", 0.5 * target),
+            never("95 % of the full speed", 0.95 * target),
+            never("95 % of the rolling cage speed", 0.95 * rolling),
+        ],
         &RISE,
     );
-    list.number(
-        "inner_race_time_to_95_percent",
-        "s",
-        record
-            .inner_race_time_to_95_percent()
-            .ok_or_else(never("95 % of the full speed", 0.95 * target)),
-        &RISE,
-    );
-    list.number(
-        "cage_time_to_95_percent_of_rolling",
-        "s",
-        record
-            .cage_time_to_95_percent()
-            .ok_or_else(never("95 % of the rolling cage speed", 0.95 * rolling)),
-        &RISE,
-    );
-    list.number(
-        "inner_race_final_speed",
-        "rad/s",
-        Ok(state[INNER + 5]),
-        &SPEED,
-    );
-    let probe = probes(context);
-    list.number("cage_final_speed", "rad/s", Ok(probe[CAGE_SPEED]), &SPEED);
-    list.number(
-        "rotor_final_speed",
-        "rad/s",
-        match context.spin_up.drive {
-            Drive::SlidingRotor { .. } => Ok(state[ROTOR + 1]),
-            Drive::Torque { .. } | Drive::Speed(_) => Err("no rotor slides here".to_string()),
-        },
-        &SPEED,
-    );
+    let rotor_speed = match context.spin_up.drive {
+        Drive::SlidingRotor { .. } => Ok(state[ROTOR + 1]),
+        Drive::Torque { .. } | Drive::Speed(_) => Err("no rotor slides here".to_string()),
+    };
+    for (name, speed) in [
+        ("inner_race_final_speed", Ok(state[INNER + 5])),
+        ("cage_final_speed", Ok(probes(context)[CAGE_SPEED])),
+        ("rotor_final_speed", rotor_speed),
+    ] {
+        list.number(name, "rad/s", speed, &SPEED);
+    }
 }
 
 fn moments(list: &mut List, context: &Context) {
@@ -98,18 +77,12 @@ fn moments(list: &mut List, context: &Context) {
     ] {
         list.number(name, "N m", Ok(value), &PEAK_MOMENT);
     }
-    list.number(
-        "inner_race_moment_at_end",
-        "N m",
-        Ok(probe[INNER_MOMENT]),
-        &INNER_RACE,
-    );
-    list.number(
-        "outer_race_moment_at_end",
-        "N m",
-        Ok(probe[OUTER_MOMENT]),
-        &OUTER_RACE,
-    );
+    for (name, index, origin) in [
+        ("inner_race_moment_at_end", INNER_MOMENT, &INNER_RACE),
+        ("outer_race_moment_at_end", OUTER_MOMENT, &OUTER_RACE),
+    ] {
+        list.number(name, "N m", Ok(probe[index]), origin);
+    }
     let no_law = || "bearing.moment.law is none".to_string();
     let steady = context.built.steady.as_ref();
     list.number(
@@ -234,79 +207,29 @@ fn slip(list: &mut List, context: &Context) {
     );
 }
 
-fn loads(list: &mut List, context: &Context) {
-    list.ball_loads(
-        [
-            context.record.largest_inner_load.value,
-            context.record.largest_outer_load.value,
-        ],
-        [
-            context.built.inner_pressure_factor,
-            context.built.outer_pressure_factor,
-        ],
-        context.spin_up.bearing.hertz_pressure_limit,
-    );
-    if let Some(films) = context.films() {
-        films.name(list);
+fn end<'a>(context: &Context<'a>) -> End<'a, SpinUpChannels> {
+    End {
+        layout: context.machine().layout(),
+        state: &context.ending.state,
     }
-    let machine = context.machine();
-    let heat = |name: &str| heat_of(context, name);
-    if let Some(skids) = context.skids() {
-        skids.name(list, [heat("inner_ball_slip"), heat("outer_ball_slip")]);
-    }
-    let cage_friction =
-        heat("pocket_friction") + heat("cage_land_friction") + heat("ball_ball_friction");
-    let own = &context.ending.state[machine.layout().bearing()];
-    list.lubricant(&machine.constants.bearing, own);
-    list.cage(
-        &machine.constants.bearing,
-        [
-            context.record.largest_pocket_force.value,
-            context.record.largest_land_force.value,
-        ],
-        context.built.neighbour_pressure_factor,
-        cage_friction,
-    );
-    list.mark_chaotic(&CHAOTIC);
 }
 
-/// Forces of pocket impacts: tiny changes of the start change them much.
-const CHAOTIC: [&str; 4] = [
-    "peak_pocket_force",
-    "peak_cage_land_force",
-    "peak_ball_ball_force",
-    "peak_ball_ball_pressure",
-];
-
-/// What a kind of heat has summed up at the end, J.
-fn heat_of(context: &Context, name: &str) -> f64 {
-    let layout = context.machine().layout();
-    let index = HEATS.iter().position(|heat| *heat == name);
-    index.map_or(0.0, |index| context.ending.state[layout.heat(index)])
+fn loads(list: &mut List, context: &Context) {
+    let record = context.record;
+    let forces = LargestForces {
+        loads: [record.largest_inner_load, record.largest_outer_load],
+        cage: [record.largest_pocket_force, record.largest_land_force],
+    };
+    let limit = context.spin_up.bearing.hertz_pressure_limit;
+    list.balls(&context.bearing(), &forces, limit, &end(context));
 }
 
 fn energies(list: &mut List, context: &Context) {
     let machine = context.machine();
     let (start, state) = (context.start, &context.ending.state);
-    let heat = |name: &str| heat_of(context, name);
-    list.number(
-        "rotor_race_friction_energy",
-        "J",
-        Ok(heat("rotor_race_friction")),
-        &ENERGY,
-    );
-    list.number(
-        "ball_slip_energy",
-        "J",
-        match context.spin_up.bearing.fidelity {
-            Fidelity::Planar => Ok(heat("inner_ball_slip") + heat("outer_ball_slip")),
-            Fidelity::Rolling => Err("balls do not slip in the rolling fidelity".to_string()),
-        },
-        &ENERGY,
-    );
     let balance = machine.balance(start, state);
     let heat = balance.heat();
-    list.number("dissipated_energy", "J", Ok(heat), &ENERGY);
+    list.losses(&end(context), heat, &ENERGY);
     let forms = machine.outer_race_energy(start, state);
     for (name, value, origin) in [
         ("bearing_dissipated_energy", forms.dissipated, &ENERGY),

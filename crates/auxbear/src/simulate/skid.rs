@@ -1,11 +1,9 @@
 //! Where balls slide on their races, told after a run from its rows.
 
+use super::bearing_run::BearingRun;
 use super::list::{List, Origin};
 use super::outcome::Value;
 use model::bearing::{BearingConstants, PlanarConstants};
-use model::motion::Motion;
-use model::system::sampling::Row;
-use std::ops::Range;
 
 /// Slip from which a loaded contact skids, as a share of the rolling speed of its race's surface.
 const SKIDS: f64 = 0.05;
@@ -14,9 +12,8 @@ const HARDLY_TURNS: f64 = 0.05;
 
 /// The ball contacts of a run.
 pub(super) struct Skids<'a> {
+    run: &'a BearingRun<'a>,
     bearing: &'a PlanarConstants,
-    states: Range<usize>,
-    motion: fn(&[f64]) -> Motion<f64>,
 }
 
 /// What the rows tell: of the inner race, then of the outer one.
@@ -29,35 +26,26 @@ pub(super) struct Skidding {
 
 impl<'a> Skids<'a> {
     /// None where balls roll always.
-    pub fn of(
-        bearing: &'a BearingConstants,
-        states: Range<usize>,
-        motion: fn(&[f64]) -> Motion<f64>,
-    ) -> Option<Skids<'a>> {
-        match bearing {
-            BearingConstants::Planar(bearing) => Some(Skids {
-                bearing,
-                states,
-                motion,
-            }),
+    pub fn of(run: &'a BearingRun<'a>) -> Option<Skids<'a>> {
+        match run.bearing {
+            BearingConstants::Planar(bearing) => Some(Skids { run, bearing }),
             BearingConstants::Rolling(_) => None,
         }
     }
 
     /// What all rows came to.
-    pub fn summary<'r, I: Iterator<Item = Row<'r>>>(&self, rows: impl Fn() -> I) -> Skidding {
-        let speed = |row: &Row| (self.motion)(row.state).inner.spin.abs();
-        let fastest = rows().map(|row| speed(&row)).fold(0.0, f64::max);
+    pub fn summary(&self) -> Skidding {
+        let least = HARDLY_TURNS * self.run.fastest();
         let mut found = Skidding {
             judged: 0,
             skids: [0; 2],
             work: [(); 2].map(|()| vec![0.0; self.bearing.balls]),
         };
         let mut before: Option<(f64, Vec<[f64; 2]>)> = None;
-        for row in rows() {
-            let motion = (self.motion)(row.state);
-            let own = &row.state[self.states.clone()];
-            let turns = speed(&row) > HARDLY_TURNS * fastest;
+        for row in &self.run.rows {
+            let motion = (self.run.motion)(row.state);
+            let own = self.run.own(row.state);
+            let turns = self.run.speed(row) > least;
             let mut powers = Vec::with_capacity(self.bearing.balls);
             for ball in 0..self.bearing.balls {
                 let r = self.bearing.ball_reaction(&motion, own, ball);

@@ -1,12 +1,14 @@
 //! Runs a spin-up and names what came out.
 
+use super::bearing_run::BearingRun;
 use super::build_spin_up::Built;
 use super::ending::{settings, stop};
-use super::film::{self, Films};
 use super::outcome::{Outcome, Picture, Work};
-use super::skid::{Skidding, Skids};
 use super::{Options, Phase, columns_spin_up, method, quantities_spin_up, warnings_spin_up};
 use crate::scenario::{Scenario, SpinUp};
+use model::system::spin_up::layout::{
+    DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
+};
 use model::system::spin_up::rate::race_motion;
 use model::system::spin_up::record::Record;
 use model::system::spin_up::{SpinUp as System, SpinUpMachine};
@@ -22,23 +24,21 @@ pub(super) struct Context<'a> {
     pub ending: &'a Ending,
 }
 
-impl Context<'_> {
-    pub fn machine(&self) -> &SpinUpMachine {
+impl<'a> Context<'a> {
+    pub fn machine(&self) -> &'a SpinUpMachine {
         &self.built.machine
     }
-    /// The films between balls and races, where traction is theirs.
-    pub fn films(&self) -> Option<film::Summary> {
-        let machine = self.machine();
-        let states = machine.layout().bearing();
-        let films = Films::of(&machine.constants.bearing, states, race_motion)?;
-        Some(films.summary(|| self.record.rows()))
-    }
-    /// Where the balls slide, where they may.
-    pub fn skids(&self) -> Option<Skidding> {
-        let machine = self.machine();
-        let states = machine.layout().bearing();
-        let skids = Skids::of(&machine.constants.bearing, states, race_motion)?;
-        Some(skids.summary(|| self.record.rows()))
+    pub fn bearing(&self) -> BearingRun<'a> {
+        BearingRun {
+            bearing: &self.machine().constants.bearing,
+            states: self.machine().layout().bearing(),
+            detail: DETAIL,
+            largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
+            cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
+            pressure_factors: self.built.pressure_factors,
+            motion: race_motion,
+            rows: self.record.rows().collect(),
+        }
     }
 }
 

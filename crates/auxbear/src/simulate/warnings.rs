@@ -5,7 +5,7 @@ use super::ensemble::Finished;
 use super::outcome::Warning;
 use super::warnings_shared::{self as shared, warning};
 use crate::scenario::{Fidelity, Moment, Scenario};
-use model::system::drop::layout::{BEARING, PENETRATION_SPEED};
+use model::system::drop::layout::PENETRATION_SPEED;
 use physics::hertz::maximum_pressure;
 
 /// Contacts after which pocket and bounce chaos shows in the later ones.
@@ -52,23 +52,14 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
             ),
         ));
     }
-    let factors = (
-        context.built.inner_pressure_factor,
-        context.built.outer_pressure_factor,
-    );
-    let neighbours = context.built.neighbour_pressure_factor;
+    let factors = &context.built.pressure_factors;
     let pressure = members.iter().fold(0.0, |largest: f64, member| {
+        let record = &member.record;
+        let loads = [record.largest_inner_load, record.largest_outer_load];
         largest
-            .max(maximum_pressure(
-                factors.0,
-                member.record.largest_inner_load.value,
-            ))
-            .max(maximum_pressure(
-                factors.1,
-                member.record.largest_outer_load.value,
-            ))
-            .max(neighbours.map_or(0.0, |factor| {
-                maximum_pressure(factor, member.record.largest_pocket_force.value)
+            .max(factors.at_races(loads.map(|load| load.value)))
+            .max(factors.neighbours.map_or(0.0, |factor| {
+                maximum_pressure(factor, record.largest_pocket_force.value)
             }))
     });
     list.extend(shared::pressure(bearing, pressure));
@@ -113,12 +104,9 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
             ),
         ));
     }
-    list.extend(shared::films(context.films(), bearing));
-    let own = BEARING..context.machine.layout().ledger();
-    list.extend(shared::film_rise(record.rows().filter_map(|row| {
-        let at = (context.machine.constants.bearing).lubricant_at(&row.state[own.clone()])?;
-        Some(at.film_temperature_rise)
-    })));
+    let run = context.bearing();
+    list.extend(shared::films(&run, bearing));
+    list.extend(shared::film_rise(&run));
     list.extend(shared::skids(context.built.steady.as_ref()));
     list.extend(shared::unscaled(context.built.steady.as_ref()));
     list.extend(shared::scale(context.built.steady.as_ref()));

@@ -1,7 +1,7 @@
 //! Warnings that several systems give.
 
+use super::bearing_run::BearingRun;
 use super::build_bearing::{ScaleOrigin, SteadyFinding};
-use super::film::Summary;
 use super::outcome::{Quantity, Value, Warning};
 use crate::scenario::{BallMaterial, Bearing, BearingType, Fidelity, Moment, Scenario};
 use physics::angular_contact::radial_load_that_unloads_a_ball;
@@ -61,17 +61,23 @@ pub(super) fn pressure(bearing: &Bearing, pressure: f64) -> Option<Warning> {
 
 /// An energy ledger that does not close, where the run came to its end.
 pub(super) fn residual(quantities: &[Quantity]) -> Option<Warning> {
-    let residual = quantities
-        .iter()
-        .find(|quantity| quantity.name == "energy_residual")?;
-    match residual.value {
-        Value::Number(residual) if residual.abs() > LARGEST_RESIDUAL => Some(warning(
+    let residual = number(quantities, "energy_residual")?;
+    (residual.abs() > LARGEST_RESIDUAL).then(|| {
+        warning(
             "AB1006",
             format!(
                 "The energy ledger misses {residual:.1e} of what was turned over: a smaller run.tolerance closes it."
             ),
-        )),
-        _ => None,
+        )
+    })
+}
+
+/// The value of a result, where it has one.
+pub(super) fn number(quantities: &[Quantity], name: &str) -> Option<f64> {
+    let quantity = quantities.iter().find(|quantity| quantity.name == name)?;
+    match quantity.value {
+        Value::Number(value) => Some(value),
+        Value::None { .. } | Value::List(_) | Value::Text(_) => None,
     }
 }
 
@@ -169,8 +175,9 @@ pub(super) fn law_range(bearing: &Bearing, speed: f64, load: f64) -> Vec<Warning
 }
 
 /// Films that are thin or outside their law.
-pub(super) fn films(films: Option<Summary>, bearing: &Bearing) -> Vec<Warning> {
-    films.map_or_else(Vec::new, |films| films.warnings(bearing))
+pub(super) fn films(run: &BearingRun, bearing: &Bearing) -> Vec<Warning> {
+    run.films()
+        .map_or_else(Vec::new, |films| films.warnings(bearing))
 }
 
 /// A moment law that stays away although the bearing turns for long.
@@ -242,9 +249,9 @@ fn angular_contact(bearing: &Bearing) -> String {
     )
 }
 
-/// Films so warm that the factors of the lubricant's state have left their range; rises of the films, K.
-pub(super) fn film_rise(rises: impl Iterator<Item = f64>) -> Option<Warning> {
-    let largest = rises.fold(0.0, f64::max);
+/// Films so warm that the factors of the lubricant's state have left their range.
+pub(super) fn film_rise(run: &BearingRun) -> Option<Warning> {
+    let largest = run.largest_film_rise();
     (largest > WARMEST_FILMS).then(|| {
         warning(
             "AB1035",

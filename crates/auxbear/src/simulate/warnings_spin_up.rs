@@ -1,6 +1,6 @@
 //! What the user should know before trusting the numbers of a spin-up.
 
-use super::outcome::{Quantity, Value, Warning};
+use super::outcome::{Quantity, Warning};
 use super::quantities_spin_up::rolling_start_to_end;
 use super::spin_up::Context;
 use super::warnings_shared::{self as shared, warning};
@@ -20,21 +20,17 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     list.extend(shared::skids(context.built.steady.as_ref()));
     list.extend(shared::speed_rating(bearing, speed));
     list.extend(shared::lift_off(bearing, speed));
-    if let Some(Value::Number(pressure)) = number(quantities, "peak_hertz_pressure") {
-        let neighbours = match number(quantities, "peak_ball_ball_pressure") {
-            Some(Value::Number(pressure)) => *pressure,
-            _ => 0.0,
-        };
-        list.extend(shared::pressure(bearing, pressure.max(neighbours)));
+    if let Some(pressure) = shared::number(quantities, "peak_hertz_pressure") {
+        let neighbours = shared::number(quantities, "peak_ball_ball_pressure");
+        list.extend(shared::pressure(
+            bearing,
+            pressure.max(neighbours.unwrap_or(0.0)),
+        ));
     }
-    list.extend(shared::films(context.films(), bearing));
+    let run = context.bearing();
+    list.extend(shared::films(&run, bearing));
     list.extend(shared::law_range(bearing, speed, load));
-    let (machine, own) = (context.machine(), context.machine().layout().bearing());
-    let rows = context.record.rows();
-    list.extend(shared::film_rise(rows.filter_map(|row| {
-        let at = (machine.constants.bearing).lubricant_at(&row.state[own.clone()])?;
-        Some(at.film_temperature_rise)
-    })));
+    list.extend(shared::film_rise(&run));
     if context.ending.stop == solve::Stop::Finished {
         list.extend(shared::residual(quantities));
     }
@@ -64,9 +60,4 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     list.extend(shared::kind(bearing));
     list.extend(shared::assumed(scenario, bearing));
     list
-}
-
-fn number<'a>(quantities: &'a [Quantity], name: &str) -> Option<&'a Value> {
-    let quantity = quantities.iter().find(|quantity| quantity.name == name);
-    quantity.map(|quantity| &quantity.value)
 }

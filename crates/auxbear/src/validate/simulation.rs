@@ -11,7 +11,7 @@ use model::levitation::Levitation;
 use model::mount::Mount;
 use model::rotor::Rotor;
 use model::system::drop::layout::{
-    BEARING, FRICTION_FORCE, HEATS, INNER, NORMAL_FORCE, PENETRATION, ROTOR, SLIP_SPEED,
+    BEARING, FRICTION_FORCE, INNER, NORMAL_FORCE, PENETRATION, ROTOR, SLIP_SPEED,
 };
 use model::system::drop::rate::{race_motion, rotor_motion};
 use model::system::drop::{DropConstants, DropMachine, MachineConstants};
@@ -71,10 +71,7 @@ impl Simulator for Simulation {
         let rotor = rotor_motion(&state);
         let centre = drop.constants.machine.rotor.geometric_centre(&rotor);
         let levitation = if levitated { 1.0 } else { 0.0 };
-        let heat = |name: &str| -> f64 {
-            let index = HEATS.iter().position(|heat| *heat == name);
-            index.map_or(f64::NAN, |index| rate[layout.heat(index)])
-        };
+        let heat = |name: &str| layout.heat_of(&rate, name).unwrap_or(f64::NAN);
         rates.extend([
             heat("inner_contact_damping"),
             heat("outer_contact_damping"),
@@ -107,10 +104,7 @@ impl Simulator for Simulation {
         let layout = *machine.layout();
         let finished = simulate(machine.clone(), Some(start), reference.duration, TOLERANCE)?;
         let (record, end) = (&finished.record, &finished.ending.state);
-        let heat = |name: &str| -> f64 {
-            let index = HEATS.iter().position(|heat| *heat == name);
-            index.map_or(f64::NAN, |index| end[layout.heat(index)])
-        };
+        let heat = |name: &str| layout.heat_of(end, name).unwrap_or(f64::NAN);
         Ok(DropAnswer {
             first_impact_force: record.contacts.first().map(|contact| contact.peak_force),
             peak_contact_force: record.peak_contact_force().map(|peak| peak.value),
@@ -389,7 +383,7 @@ fn state(machine: &DropMachine, reference: &[f64]) -> Vec<f64> {
         };
         planar(machine).set_motion(&mut state[BEARING..], ball, &motion);
     }
-    state.resize(layout.ledger() + model::system::drop::layout::LEDGER, 0.0);
+    state.resize(layout.dimension(), 0.0);
     state
 }
 

@@ -17,7 +17,7 @@ use super::ball_states::{
     CAGE_PLACE, OF_FREE_CAGE, add, direction, grouped, load_ball, split, split_mut,
 };
 use super::pocket::PocketShape;
-use super::{BallSums, BearingEnergy, BearingReaction, PlanarConstants, largest_part};
+use super::{BallSums, BearingEnergy, BearingReaction, PlanarConstants, largest_part, seat};
 use crate::contact::{ContactReaction, JournalContact};
 use crate::motion::{Body, Motion};
 use crate::rotor::GeometricCentre;
@@ -117,9 +117,9 @@ impl<R: Real> FreeCage<R> {
         let balls = first.balls;
         let constant =
             |value: &dyn Fn(&PlanarConstants) -> f64| R::from_lanes(|lane| value(machine(lane).0));
-        let seat = |part: &dyn Fn(f64) -> f64| {
+        let of_seat = |part: &dyn Fn(f64) -> f64| {
             (0..balls)
-                .map(|j| constant(&|bearing| part(bearing.seat(j))))
+                .map(|j| constant(&|bearing| part(seat(j, bearing.balls))))
                 .collect()
         };
         let of_lane = |lane: usize| machine(lane).1;
@@ -140,8 +140,8 @@ impl<R: Real> FreeCage<R> {
                 constant(&|bearing| bearing.ball.gravity.x),
                 constant(&|bearing| bearing.ball.gravity.y),
             ),
-            seat_x: seat(&f64::cos),
-            seat_y: seat(&f64::sin),
+            seat_x: of_seat(&f64::cos),
+            seat_y: of_seat(&f64::sin),
         }
     }
 
@@ -277,7 +277,7 @@ pub(super) fn energy(
     let mass = bearing.cage_mass;
     let in_pockets: f64 = (0..bearing.balls)
         .map(|ball| {
-            let axis = direction(cage.angle + bearing.seat(ball));
+            let axis = direction(cage.angle + seat(ball, bearing.balls));
             let own = bearing.motion(state, ball);
             let pocket = (bearing.ball).in_pocket(shape(land), &of_balls, axis, &own);
             bearing.ball.pocket_energy(pocket.penetration)

@@ -12,7 +12,7 @@ use super::ball_states::{CAGE_PLACE, OF_BALL, direction};
 use super::lubricant_state::Warmed;
 use super::planar::distances;
 use super::pocket::PocketShape;
-use super::{PlanarConstants, Separation, cage};
+use super::{PlanarConstants, Separation, cage, seat};
 use crate::motion::Motion;
 use number::{Dual, Gather, Real, Vec2, Vectorized};
 use physics::traction::Traction;
@@ -127,7 +127,7 @@ impl LinearBall {
                 bearing: self,
                 warmed,
                 neighbours: &neighbours,
-                seat: bearing.seat(ball),
+                seat: seat(ball, bearing.balls),
                 ball: &seeded,
             });
             take(ball, &seeded, &reaction);

@@ -41,6 +41,16 @@ pub use planar_constants::{PlanarConstants, Separation};
 pub use rolling::{Rolling, RollingConstants};
 pub use steady_moment::{SharedMoment, SteadyMoment};
 
+/// Angle of a ball's seat on the cage, rad: seats are spread evenly.
+pub fn seat(ball: usize, balls: usize) -> f64 {
+    2.0 * std::f64::consts::PI * ball as f64 / balls as f64
+}
+
+/// The seats of all balls.
+fn seats<R: Real>(balls: usize) -> Vec<R> {
+    (0..balls).map(|ball| R::splat(seat(ball, balls))).collect()
+}
+
 /// Values a ball in a bearing's detail.
 pub const DETAIL_PER_BALL: usize = 5;
 
@@ -437,7 +447,7 @@ impl BearingConstants {
     /// Azimuth of a ball, rad.
     pub fn azimuth(&self, state: &[f64], ball: usize) -> f64 {
         match self {
-            BearingConstants::Rolling(bearing) => state[0] + bearing.seat(ball),
+            BearingConstants::Rolling(bearing) => state[0] + seat(ball, bearing.balls),
             BearingConstants::Planar(bearing) => bearing.motion(state, ball).azimuth,
         }
     }

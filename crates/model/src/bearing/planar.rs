@@ -24,7 +24,7 @@ use super::inlet_couples::{self, InletCouples};
 use super::lubricant_state::{self, Lubricant, Warmed};
 use super::planar_constants::{PlanarConstants, Separation};
 use super::steady_moment::{self, MomentPairs};
-use super::{BallSums, BearingHeat, BearingReaction, largest_part};
+use super::{BallSums, BearingHeat, BearingReaction, largest_part, seats};
 use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, Vectorized};
 use physics::traction::{Traction, TractionLaw};
@@ -96,9 +96,7 @@ impl<R: Real> Planar<R> {
                 }
             },
             first: machine(0).first_ball_state(),
-            seats: (0..balls)
-                .map(|j| R::from_lanes(|lane| machine(lane).seat(j)))
-                .collect(),
+            seats: seats(balls),
         }
     }
 

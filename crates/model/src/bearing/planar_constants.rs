@@ -1,6 +1,5 @@
 //! What a planar bearing is made of: its constants, its states, what it stores.
 
-use super::BearingEnergy;
 use super::ball::{BallConstants, BallMotion, BallReaction, PocketMotion};
 use super::ball_states::{OF_BALL, OF_CENTRED_CAGE, OF_FREE_CAGE, race, split, split_mut};
 use super::cage::{self, Land};
@@ -8,6 +7,7 @@ use super::full_complement::{self, BallPair};
 use super::lubricant_state::{LubricantConstants, Warmed};
 use super::planar::distances;
 use super::steady_moment::{Geometry, SharedMoment};
+use super::{BearingEnergy, seat};
 use crate::motion::Motion;
 use number::Real;
 use physics::inlet_rolling::ResistanceAtRaces;
@@ -52,10 +52,6 @@ pub enum Separation<R> {
 }
 
 impl PlanarConstants {
-    /// Angle of a pocket on the cage, rad.
-    pub fn seat(&self, ball: usize) -> f64 {
-        2.0 * std::f64::consts::PI * ball as f64 / self.balls as f64
-    }
     /// Motion of one ball.
     pub fn motion(&self, state: &[f64], ball: usize) -> BallMotion<f64> {
         let [radius, radial_speed, azimuth, orbit_speed, spin] =
@@ -114,7 +110,7 @@ impl PlanarConstants {
             let motion = BallMotion {
                 radius: self.rest_radius(),
                 radial_speed: 0.0,
-                azimuth: self.first_ball_angle + self.seat(ball),
+                azimuth: self.first_ball_angle + seat(ball, self.balls),
                 orbit_speed: 0.0,
                 spin: 0.0,
             };
@@ -174,7 +170,7 @@ impl PlanarConstants {
     }
     fn pocket(&self, state: &[f64], ball: usize) -> PocketMotion<f64> {
         PocketMotion {
-            angle: state[0] + self.seat(ball),
+            angle: state[0] + seat(ball, self.balls),
             spin: state[1],
         }
     }

@@ -21,7 +21,7 @@ use super::lubricant_state::{self, Lubricant, LubricantConstants};
 use super::steady_moment::SteadyMoment;
 use super::{
     BallSums, BearingConstants, BearingEnergy, BearingHeat, BearingReaction, PlanarConstants,
-    largest,
+    largest, seat, seats,
 };
 use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, constants};
@@ -102,9 +102,7 @@ impl<R: Real> Rolling<R> {
                 (bearing.set.pocket_friction_arm(), &bearing.loss)
             }),
             lubricant: Lubricant::gather(&|lane| machine(lane).lubricant.as_ref()),
-            seats: (0..balls)
-                .map(|j| R::from_lanes(|lane| machine(lane).seat(j)))
-                .collect(),
+            seats: seats(balls),
         }
     }
 
@@ -269,10 +267,6 @@ impl RollingConstants {
             lubricant: planar.lubricant,
         }
     }
-    /// Angle of a ball on the cage, rad.
-    pub fn seat(&self, ball: usize) -> f64 {
-        2.0 * std::f64::consts::PI * ball as f64 / self.balls as f64
-    }
     pub(super) fn rest(&self, state: &mut [f64]) {
         state[0] = self.first_ball_angle;
     }
@@ -281,7 +275,7 @@ impl RollingConstants {
         let offset = motion.inner.position - motion.outer.position;
         let elastic = (0..self.balls)
             .map(|j| {
-                let (sine, cosine) = (state[0] + self.seat(j)).sin_cos();
+                let (sine, cosine) = (state[0] + seat(j, self.balls)).sin_cos();
                 let grown = self.ball.inner_track_growth * motion.inner.spin * motion.inner.spin;
                 let interference = self.ball.interference + grown;
                 let approach = interference + offset.dot(Vec2::new(cosine, sine));

@@ -3,6 +3,7 @@
 pub mod cage_turns;
 pub mod drop;
 pub mod energy;
+pub mod layout;
 pub mod outer_race;
 pub mod refusal;
 pub mod rig;

@@ -12,27 +12,20 @@
 //! the moments, so the exact form is a check and not an identity. Where a race moves, the work `other`
 //! carries its part.
 
+use super::layout::{Channels, Layout};
+use crate::bearing::{self, BearingEnergy};
 use physics::rolling::RollingSet;
 use physics::spin_up_energy::{SpinUpEnergy, spin_up_loss};
 
-/// What flowed in a spin-up from rest.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpinUpFlows {
-    /// Masses and radii of balls and cage.
-    pub set: RollingSet<f64>,
-    /// Final speed Ω0 of the inner race, rad/s.
-    pub final_speed: f64,
-    /// Sum of the heats in the bearing, J.
-    pub dissipated: f64,
-    /// ∫t_O Ω dt, J.
-    pub outer_work: f64,
-    /// ∫Ω dL, J.
-    pub path: f64,
-    /// What drags to the ground and races that move or grow add, J; 0 on the concentric rig.
-    pub other: f64,
-    /// Rise of the energy of balls, cage and contacts, J.
-    pub stored: f64,
-}
+/// Works by the moments on the races that a spin-up keeps, in the order of their channels.
+///
+/// | name | integral over time |
+/// |---|---|
+/// | `inner_moment` | t_I Ω |
+/// | `outer_moment` | t_O Ω: what a torque arm and a speed pick-up give |
+/// | `momentum` | Ω dL/dt, L of balls and cage |
+/// | `other` | what drags to the ground, weights and races that move or grow add; 0 on the concentric rig |
+pub const WORKS: [&str; 4] = ["inner_moment", "outer_moment", "momentum", "other"];
 
 /// What the bearing dissipated in a spin-up from rest, J: true, and as the outer race tells it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,20 +47,43 @@ pub struct OuterRaceEnergy {
 }
 
 impl OuterRaceEnergy {
-    /// Told by what flowed.
-    pub fn of(flows: &SpinUpFlows) -> Self {
+    /// Told by the ledgers of two states (start, end) of a system that keeps [`WORKS`], with the final speed Ω0 of the inner
+    /// race, rad/s, and the energy of balls, cage and contacts in a state.
+    ///
+    /// The printed and the corrected form and the bounds of the path term take the balls to have been at rest at the
+    /// start and to roll at the end.
+    pub fn between<S: Channels>(
+        layout: &Layout<S>,
+        set: RollingSet<f64>,
+        final_speed: f64,
+        stored: impl Fn(&[f64]) -> BearingEnergy,
+        [start, end]: [&[f64]; 2],
+    ) -> Self {
+        let flow = |channel: usize| end[channel] - start[channel];
+        let (outer_work, path, other) = (
+            flow(layout.work(1)),
+            flow(layout.work(2)),
+            flow(layout.work(3)),
+        );
         let by_outer_race = SpinUpEnergy {
-            set: flows.set,
-            final_speed: flows.final_speed,
-            outer_moment_work: flows.outer_work,
+            set,
+            final_speed,
+            outer_moment_work: outer_work,
         };
         let (least_path, largest_path) = by_outer_race.path_term_bounds();
         OuterRaceEnergy {
-            dissipated: flows.dissipated,
+            dissipated: (0..bearing::HEATS.len())
+                .map(|kind| flow(layout.heat(kind)))
+                .sum(),
             printed: by_outer_race.printed_loss(),
             corrected: by_outer_race.rolling_loss(),
-            exact: spin_up_loss(flows.outer_work, flows.other, flows.path, flows.stored),
-            path: flows.path,
+            exact: spin_up_loss(
+                outer_work,
+                other,
+                path,
+                stored(end).sum() - stored(start).sum(),
+            ),
+            path,
             least_path,
             largest_path,
         }

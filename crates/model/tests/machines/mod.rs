@@ -10,13 +10,13 @@ use model::bearing::cage::{Land, LandRace};
 use model::bearing::full_complement::BallPair;
 use model::bearing::{
     AccelerationLoss, BearingConstants, LubricantConstants, PlanarConstants, RollingConstants,
-    Separation, SteadyMoment, lubricant_state, rolling::RollingBall,
+    Separation, SteadyMoment, lubricant_state, rolling::RollingBall, seat,
 };
 use model::contact::JournalContact;
 use model::levitation::Levitation;
 use model::mount::Mount;
 use model::rotor::Rotor;
-use model::system::drop::layout::{BEARING, HEATS, INNER, OUTER, ROTOR};
+use model::system::drop::layout::{BEARING, INNER, OUTER, ROTOR};
 use model::system::drop::{Drop, DropConstants, DropMachine, MachineConstants};
 use number::Vec2;
 use physics::film::EntrainedContact;
@@ -319,8 +319,8 @@ pub fn let_roll(constants: &mut DropConstants) {
 
 /// What a kind of heat has summed up in a state.
 pub fn heat_of(machine: &DropMachine, state: &[f64], kind: &str) -> f64 {
-    let index = HEATS.iter().position(|name| *name == kind);
-    state[machine.layout().heat(index.expect("a kind of heat"))]
+    let heat = machine.layout().heat_of(state, kind);
+    heat.expect("a kind of heat")
 }
 
 /// Removes gravity from a machine, and the weight that the levitation carries.
@@ -469,7 +469,7 @@ pub fn random_state(machine: &DropMachine, random: &mut Random) -> Vec<f64> {
                 let motion = BallMotion {
                     radius: bearing.rest_radius() + random.within(8e-6),
                     radial_speed: random.within(0.2),
-                    azimuth: cage_angle + bearing.seat(ball) + random.within(travel),
+                    azimuth: cage_angle + seat(ball, bearing.balls) + random.within(travel),
                     orbit_speed: random.within(600.0),
                     spin: random.within(6000.0),
                 };

@@ -9,7 +9,9 @@ use crate::machines::{
 use crate::relatives::{lubricant_factors, machines};
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::cage::LandRace;
-use model::bearing::{BearingConstants, PlanarConstants, Separation, SharedMoment, SteadyMoment};
+use model::bearing::{
+    BearingConstants, PlanarConstants, Separation, SharedMoment, SteadyMoment, seat,
+};
 use model::system::drop::DropMachine;
 use model::system::drop::layout::{
     BEARING, DETAIL, HEATS, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, OUTER, ROTOR, SOURCES,
@@ -193,7 +195,7 @@ fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f
             let (_, probe) = machine.inspect(state);
             let mut push = vec2(0.0, 0.0);
             for j in 0..b.balls {
-                let (s, c) = (bearing_part(machine, state)[0] + b.seat(j)).sin_cos();
+                let (s, c) = (bearing_part(machine, state)[0] + seat(j, b.balls)).sin_cos();
                 push += vec2(c, s) * probe[DETAIL + j];
             }
             let turning = (pair(state, INNER) - pair(state, OUTER)).cross(push);

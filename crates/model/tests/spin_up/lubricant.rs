@@ -4,7 +4,7 @@ use crate::machines::lubricant;
 use crate::rig::{Run, greased_bearing, machine, palmgren, rolling, run};
 use model::bearing::{BearingConstants, LubricantAt, LubricantConstants, SteadyMoment};
 use model::system::sampling::Row;
-use model::system::spin_up::layout::{BEARING, HEATS, INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT};
+use model::system::spin_up::layout::{BEARING, INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT};
 use model::system::spin_up::{Drive, Refusal, SpinUpConstants, SpinUpMachine};
 use model::table::Table;
 use physics::friction::MomentParts;
@@ -153,8 +153,8 @@ fn films_warm_by_the_heat_of_the_ledger_and_store_nothing() {
         let run = run(constants, 0.1, 1e-6);
         let films = lubricant().films.expect("they warm");
         let heat = |kind: &str| {
-            let index = HEATS.iter().position(|heat| *heat == kind);
-            run.end[run.machine.layout().heat(index.expect("a heat"))]
+            let heat = run.machine.layout().heat_of(&run.end, kind);
+            heat.expect("a heat")
         };
         let made = heat("inner_ball_slip") + heat("outer_ball_slip") + heat("steady_moment");
         let at = lubricant_of(&run, &run.end);

@@ -3,6 +3,7 @@
 use crate::problem::{Code, Problem};
 use crate::scenario::{Engagement as EngagementChoice, Rig, RigProgram};
 use crate::simulate::Options;
+use crate::simulate::bearing_run::PressureFactors;
 use crate::simulate::build_bearing::{self, SCENARIO, SteadyFinding, SteadyPoint};
 use model::system::rig::{
     Action, Arm, Disturbance, Drag, Engagement, Flywheel, HeatNode, Housing, Motor, Program,
@@ -22,10 +23,8 @@ pub struct Built {
     pub machine: RigMachine,
     /// Rate of the clutch's torque, N m/s: as given, or found; none where it does not engage in the test.
     pub torque_rate: Option<f64>,
-    /// Pressure of a ball contact per cube root of its load at the inner and the outer race, Pa/N^(1/3).
-    pub pressure_factors: [f64; 2],
-    /// The same between neighbouring balls, where no cage keeps them apart.
-    pub neighbour_pressure_factor: Option<f64>,
+    /// Hertz pressure in the contacts of a ball.
+    pub pressure_factors: PressureFactors,
     /// A steady run at the speed of the test; none where the bearing has no steady moment.
     pub steady: Option<SteadyFinding>,
 }
@@ -97,11 +96,7 @@ pub(in crate::simulate) fn rig(rig: &Rig, options: &Options) -> Result<Built, Bo
     Ok(Built {
         machine,
         torque_rate,
-        pressure_factors: [
-            contacts.inner.pressure_factor,
-            contacts.outer.pressure_factor,
-        ],
-        neighbour_pressure_factor: contacts.neighbour_pressure_factor,
+        pressure_factors: contacts.pressure_factors(),
         steady,
     })
 }

@@ -1,14 +1,12 @@
 //! The history of a test on a rig as columns: what happened, not what the logger saw.
 
 use super::Context;
-use crate::simulate::columns_shared::{BearingPlace, Table};
+use crate::simulate::columns_shared::Table;
 use crate::simulate::outcome::Column;
 use model::bearing::BearingConstants;
 use model::system::rig::layout::{
-    ARM, BEARING, DETAIL, FLYWHEEL, HEATS, HOUSING, LAND_FORCE, LARGEST_INNER_LOAD,
-    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, PROBES, SHAFT, SOURCES, TEMPERATURE, THERMOCOUPLE,
+    ARM, BEARING, FLYWHEEL, HOUSING, PROBES, SHAFT, TEMPERATURE, THERMOCOUPLE,
 };
-use model::system::rig::rate::race_motion;
 
 /// What the probes of the model are, in their order; empty where another column tells it.
 const MEANINGS: [&str; PROBES.len()] = [
@@ -40,17 +38,8 @@ const MEANINGS: [&str; PROBES.len()] = [
 pub(super) fn history(context: &Context) -> Vec<Column> {
     let machine = &context.built.machine;
     let layout = machine.layout();
-    let mut table = Table::over(context.record.rows());
-    let bearing = BearingPlace {
-        bearing: &machine.constants.bearing,
-        inner: SHAFT,
-        states: layout.bearing(),
-        detail: DETAIL,
-        largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
-        cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
-        pressure_factors: context.built.pressure_factors,
-        motion: race_motion,
-    };
+    let run = context.bearing();
+    let mut table = Table::over(&run);
     table.add("time", "s", "time since the start", |row| row.time);
     for (name, unit, meaning, channel) in [
         (
@@ -105,27 +94,9 @@ pub(super) fn history(context: &Context) -> Vec<Column> {
     if let BearingConstants::Rolling(_) = machine.constants.bearing {
         table.channel("bearing.cage.angle", "rad", "angle of the cage", BEARING);
     }
-    table.cage(&bearing);
-    table.lubricant(&bearing);
-    table.balls(&bearing);
-    table.flows(
-        "the start",
-        bearing.bearing,
-        (&HEATS, layout.heat(0)),
-        (&SOURCES, layout.source(0)),
-    );
-    table.channel(
-        "energy.outer_race.moment_work",
-        "J",
-        "time integral of t_O times the speed of the shaft",
-        layout.work(1),
-    );
-    table.channel(
-        "energy.outer_race.path_term",
-        "J",
-        "integral of the shaft's speed over the angular momentum of balls and cage",
-        layout.work(2),
-    );
+    table.bearing();
+    table.flows("the start", layout);
+    table.outer_race_works("shaft", "shaft", layout);
     table.energies(|state| machine.balance(context.start, state));
     table.columns
 }

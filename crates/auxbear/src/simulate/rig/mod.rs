@@ -14,13 +14,18 @@ mod quantities;
 mod raw_file;
 mod warnings;
 
+use super::bearing_run::BearingRun;
 use super::ending::{settings, stop};
 use super::outcome::{Outcome, Picture, Work};
 use super::{Options, Phase, method};
 use crate::scenario::{Rig, Scenario};
 use build::Built;
 use chain::{Happened, Sampled};
-use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
+use model::system::rig::layout::{
+    ARM, CAGE_ANGLE, DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD,
+    LARGEST_POCKET_FORCE, SHAFT, THERMOCOUPLE,
+};
+use model::system::rig::rate::race_motion;
 use model::system::rig::record::Keep;
 use model::system::rig::taps::multiplexed;
 use model::system::rig::{Record, Tap, simulate_told};
@@ -37,6 +42,22 @@ struct Context<'a> {
     mode: model::system::rig::Mode,
     /// Values that the converter could not hold, with the channel's name.
     clipped: Vec<(&'static str, usize)>,
+}
+
+impl<'a> Context<'a> {
+    fn bearing(&self) -> BearingRun<'a> {
+        let machine = &self.built.machine;
+        BearingRun {
+            bearing: &machine.constants.bearing,
+            states: machine.layout().bearing(),
+            detail: DETAIL,
+            largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
+            cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
+            pressure_factors: self.built.pressure_factors,
+            motion: race_motion,
+            rows: self.record.rows().collect(),
+        }
+    }
 }
 
 /// Runs a test.

@@ -19,10 +19,7 @@ pub(super) fn name(context: &Context) -> Vec<Quantity> {
     moments(&mut list, context);
     loads(&mut list, context);
     energies(&mut list, context);
-    if context.ending.time == 0.0 {
-        list.clear("the run ended before its first step");
-    }
-    list.0
+    list.ended_at(context.ending.time)
 }
 
 fn engagement(list: &mut List, context: &Context) {
@@ -55,62 +52,36 @@ fn engagement(list: &mut List, context: &Context) {
         Ok(record.acceleration.value),
         &PEAK_ACCELERATION,
     );
-    let level = |share: f64| move || format!("{share} % of rig.speed was not reached");
-    for (name, time, why) in [
-        (
-            "shaft_time_to_50_percent",
+    let never = |share: f64| format!("{share} % of rig.speed was not reached");
+    list.rises(
+        "shaft",
+        [
             record.shaft_time_to_50_percent(),
-            level(50.0),
-        ),
-        (
-            "shaft_time_to_95_percent",
             record.shaft_time_to_95_percent(),
-            level(95.0),
-        ),
-        (
-            "cage_time_to_95_percent_of_rolling",
             record.cage_time_to_95_percent(),
-            level(95.0),
-        ),
+        ],
+        [never(50.0), never(95.0), never(95.0)],
+        &RISE,
+    );
+    for (name, speed) in [
+        ("shaft_final_speed", state[SHAFT + 1]),
+        ("flywheel_final_speed", state[FLYWHEEL + 1]),
+        ("cage_final_speed", probes(context)[CAGE_SPEED]),
     ] {
-        list.number(name, "s", time.ok_or_else(why), &RISE);
+        list.number(name, "rad/s", Ok(speed), &SPEED);
     }
-    list.number("shaft_final_speed", "rad/s", Ok(state[SHAFT + 1]), &SPEED);
-    list.number(
-        "flywheel_final_speed",
-        "rad/s",
-        Ok(state[FLYWHEEL + 1]),
-        &SPEED,
-    );
-    list.number(
-        "cage_final_speed",
-        "rad/s",
-        Ok(probes(context)[CAGE_SPEED]),
-        &SPEED,
-    );
-    list.number(
-        "peak_clutch_torque",
-        "N m",
-        Ok(record.clutch_torque.value),
-        &PEAK_MOMENT,
-    );
+    for (name, peak) in [
+        ("peak_clutch_torque", record.clutch_torque),
+        ("peak_inner_race_moment", record.inner_moment),
+        ("peak_outer_race_moment", record.outer_moment),
+    ] {
+        list.number(name, "N m", Ok(peak.value), &PEAK_MOMENT);
+    }
 }
 
 fn moments(list: &mut List, context: &Context) {
     let record = context.record;
     let probe = probes(context);
-    list.number(
-        "peak_inner_race_moment",
-        "N m",
-        Ok(record.inner_moment.value),
-        &PEAK_MOMENT,
-    );
-    list.number(
-        "peak_outer_race_moment",
-        "N m",
-        Ok(record.outer_moment.value),
-        &PEAK_MOMENT,
-    );
     for (name, index) in [
         ("inner_race_moment_at_end", INNER_MOMENT),
         ("outer_race_moment_at_end", OUTER_MOMENT),
@@ -142,18 +113,10 @@ fn moments(list: &mut List, context: &Context) {
 }
 
 fn loads(list: &mut List, context: &Context) {
-    let record = context.record;
-    list.ball_loads(
-        [
-            record.largest_inner_load.value,
-            record.largest_outer_load.value,
-        ],
-        context.built.pressure_factors,
-        context.rig.bearing.hertz_pressure_limit,
-    );
-    let machine = &context.built.machine;
-    let own = &context.ending.state[machine.layout().bearing()];
-    list.lubricant(&machine.constants.bearing, own);
+    let (run, record) = (context.bearing(), context.record);
+    let loads = [record.largest_inner_load, record.largest_outer_load];
+    list.ball_loads(&run, loads, context.rig.bearing.hertz_pressure_limit);
+    list.lubricant(&run, &context.ending.state);
 }
 
 fn energies(list: &mut List, context: &Context) {

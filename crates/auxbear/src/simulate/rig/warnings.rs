@@ -2,7 +2,7 @@
 
 use super::Context;
 use crate::scenario::Scenario;
-use crate::simulate::outcome::{Quantity, Value, Warning};
+use crate::simulate::outcome::{Quantity, Warning};
 use crate::simulate::warnings_shared::{self as shared, warning};
 use model::system::rig::layout::SHAFT;
 
@@ -15,13 +15,6 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     let mut list = Vec::new();
     let speeds = context.record.rows().map(|row| row.state[SHAFT + 1].abs());
     let speed = speeds.fold(0.0, f64::max);
-    let number = |name: &str| {
-        let quantity = quantities.iter().find(|quantity| quantity.name == name);
-        match quantity.map(|quantity| &quantity.value) {
-            Some(Value::Number(number)) => Some(*number),
-            _ => None,
-        }
-    };
     list.extend(shared::skids(context.built.steady.as_ref()));
     for (name, count) in &context.clipped {
         list.push(warning(
@@ -36,7 +29,7 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
             .resolved
             .get("rig.peak_acceleration")
             .and_then(|value| value.value_si),
-        number("peak_acceleration"),
+        shared::number(quantities, "peak_acceleration"),
     ) && (reached / wanted - 1.0).abs() > MISSED
     {
         list.push(warning(
@@ -57,18 +50,10 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     }
     list.extend(shared::speed_rating(bearing, speed));
     list.extend(shared::lift_off(bearing, speed));
-    if let Some(pressure) = number("peak_hertz_pressure") {
+    if let Some(pressure) = shared::number(quantities, "peak_hertz_pressure") {
         list.extend(shared::pressure(bearing, pressure));
     }
-    let own = context.built.machine.layout().bearing();
-    list.extend(shared::film_rise(context.record.rows().filter_map(|row| {
-        let lubricant = &context.built.machine.constants.bearing;
-        Some(
-            lubricant
-                .lubricant_at(&row.state[own.clone()])?
-                .film_temperature_rise,
-        )
-    })));
+    list.extend(shared::film_rise(&context.bearing()));
     list.extend(shared::law_range(
         bearing,
         speed,

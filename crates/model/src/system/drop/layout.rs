@@ -9,7 +9,8 @@
 //! ```
 
 use super::DropConstants;
-use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
+use crate::bearing;
+use crate::system::layout::{self, Channels, heats_and};
 
 /// First channel of the rotor.
 pub const ROTOR: usize = 0;
@@ -21,20 +22,8 @@ pub const OUTER: usize = 12;
 pub const BEARING: usize = 16;
 
 /// Kinds of heat, in the order of their channels: those of the bearing, then the machine's own.
-pub const HEATS: [&str; bearing::HEATS.len() + 3] = {
-    const OWN: [&str; 3] = ["mount_damping", "rotor_race_damping", "rotor_race_friction"];
-    let mut all = [""; bearing::HEATS.len() + 3];
-    let mut i = 0;
-    while i < all.len() {
-        all[i] = if i < bearing::HEATS.len() {
-            bearing::HEATS[i]
-        } else {
-            OWN[i - bearing::HEATS.len()]
-        };
-        i += 1;
-    }
-    all
-};
+pub const HEATS: [&str; bearing::HEATS.len() + 3] =
+    heats_and(["mount_damping", "rotor_race_damping", "rotor_race_friction"]);
 /// Kinds of source, in the order of their channels.
 pub const SOURCES: [&str; 4] = [
     "levitation",
@@ -42,8 +31,6 @@ pub const SOURCES: [&str; 4] = [
     "inner_race_torque",
     "inner_race_growth",
 ];
-/// Channels of the ledger: heats, sources, external angular impulse.
-pub const LEDGER: usize = HEATS.len() + SOURCES.len() + 1;
 
 /// Probe: penetration of the rotor/race contact, m.
 pub const PENETRATION: usize = 0;
@@ -71,88 +58,58 @@ pub const DETAIL: usize = 10;
 /// Gravity that scales speeds where there is less, m/s²: a rotor in a vertical machine still touches.
 const LEAST_GRAVITY: f64 = 1.0;
 
-/// Sizes of a drop's state.
+/// Names of the channels before the bearing's.
+const BODIES: [&str; BEARING] = [
+    "rotor.x",
+    "rotor.y",
+    "rotor.x_speed",
+    "rotor.y_speed",
+    "rotor.angle",
+    "rotor.speed",
+    "bearing.inner_race.x",
+    "bearing.inner_race.y",
+    "bearing.inner_race.x_speed",
+    "bearing.inner_race.y_speed",
+    "bearing.inner_race.angle",
+    "bearing.inner_race.speed",
+    "bearing.outer_race.x",
+    "bearing.outer_race.y",
+    "bearing.outer_race.x_speed",
+    "bearing.outer_race.y_speed",
+];
+
+/// What a drop has besides the states of its bearing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Layout {
-    /// Number of balls.
-    pub balls: usize,
-    /// Number of the bearing's own states.
-    pub bearing_states: usize,
-    /// True where the balls have states of their own.
-    pub ball_states: bool,
+pub struct DropChannels;
+
+impl Channels for DropChannels {
+    const BODIES: &'static [&'static str] = &BODIES;
+    const HEATS: &'static [&'static str] = &HEATS;
+    const SOURCES: &'static [&'static str] = &SOURCES;
+    const PROBES: usize = DETAIL;
 }
 
+/// Sizes of a drop's state.
+pub type Layout = layout::Layout<DropChannels>;
+
 impl Layout {
-    /// The layout of a machine.
-    pub fn of(constants: &DropConstants) -> Self {
-        Layout {
-            balls: constants.bearing.balls(),
-            bearing_states: constants.bearing.states(),
-            ball_states: matches!(constants.bearing, BearingConstants::Planar(_)),
-        }
-    }
-    /// First channel of the ledger.
-    pub fn ledger(&self) -> usize {
-        BEARING + self.bearing_states
-    }
-    /// Number of channels.
-    pub fn dimension(&self) -> usize {
-        self.ledger() + LEDGER
-    }
-    /// Number of probes.
-    pub fn probes(&self) -> usize {
-        DETAIL + DETAIL_PER_BALL * self.balls
-    }
     /// Number of first probes watched in every step: balls that roll find the largest loads in the list of all.
     pub fn watched_probes(&self) -> usize {
         if self.ball_states {
             DETAIL
         } else {
-            DETAIL + 2 * self.balls
+            self.probes_with_loads()
         }
     }
     /// Number of first channels watched in every step: rotor, races, cage.
     pub fn watched_channels(&self) -> usize {
         (BEARING + 2).min(self.ledger())
     }
-    /// Channel of a heat of [`HEATS`].
-    pub fn heat(&self, index: usize) -> usize {
-        self.ledger() + index
-    }
-    /// Channel of the work of a source of [`SOURCES`].
-    pub fn source(&self, index: usize) -> usize {
-        self.ledger() + HEATS.len() + index
-    }
-    /// Channels of the heats, of the works of the sources, and of the external angular impulse.
-    pub fn flows(&self) -> std::ops::Range<usize> {
-        self.heat(0)..self.angular_impulse() + 1
-    }
-    /// Channel of the external angular impulse.
-    pub fn angular_impulse(&self) -> usize {
-        self.ledger() + HEATS.len() + SOURCES.len()
-    }
-
-    /// Name of a channel.
-    pub fn channel_name(&self, bearing: &BearingConstants, channel: usize) -> String {
-        const BODY: [&str; 6] = ["x", "y", "x_speed", "y_speed", "angle", "speed"];
-        let ledger = self.ledger();
-        match channel {
-            c if c < INNER => format!("rotor.{}", BODY[c]),
-            c if c < OUTER => format!("bearing.inner_race.{}", BODY[c - INNER]),
-            c if c < BEARING => format!("bearing.outer_race.{}", BODY[c - OUTER]),
-            c if c < ledger => format!("bearing.{}", bearing.state_name(c - BEARING)),
-            c if c < ledger + HEATS.len() => format!("energy.heat.{}", HEATS[c - ledger]),
-            c if c < ledger + HEATS.len() + SOURCES.len() => {
-                format!("energy.source.{}", SOURCES[c - ledger - HEATS.len()])
-            }
-            _ => "angular_momentum.impulse".to_string(),
-        }
-    }
 
     /// The magnitude that matters in each channel: a tolerance of 1e-6 allows errors of one millionth of it a step.
     ///
     /// Lengths by the radial air clearance, speeds by the fall through the clearance, spins by the release speed,
-    /// energies by the spin energy of the inner race brought to speed; the bearing's by [`BearingConstants::error_scale`].
+    /// energies by the spin energy of the inner race brought to speed; the bearing's by [`error_scale`](bearing::BearingConstants::error_scale).
     pub fn error_scale(&self, constants: &DropConstants) -> Vec<f64> {
         let machine = &constants.machine;
         let clearance = machine.contact.radial_clearance;
@@ -170,7 +127,7 @@ impl Layout {
                 scale[body + 5] = spin;
             }
         }
-        (constants.bearing).error_scale(&mut scale[BEARING..self.ledger()], spin, fall_speed);
+        (constants.bearing).error_scale(&mut scale[self.bearing()], spin, fall_speed);
         scale[self.ledger()..self.angular_impulse()].fill(energy);
         scale[self.angular_impulse()] = machine.inner_race_inertia * spin;
         scale

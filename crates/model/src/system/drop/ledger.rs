@@ -4,7 +4,7 @@
 //! change of angular momentum about the origin = external angular impulse.
 
 use super::DropMachine;
-use super::layout::{BEARING, HEATS};
+use super::layout::HEATS;
 use super::rate::{race_motion, rotor_motion};
 use crate::system::energy::{Balance, Content, Flows};
 use solve::Machine;
@@ -18,8 +18,8 @@ impl DropMachine {
         let (inner, outer) = (&races.inner, &races.outer);
         let centre = m.rotor.geometric_centre(&rotor);
         let contact = m.contact.react(&centre, rotor.spin, inner);
-        let own = BEARING..self.layout().ledger();
-        let bearing = self.constants.bearing.energy(&races, &state[own]);
+        let own = &state[self.layout().bearing()];
+        let bearing = self.constants.bearing.energy(&races, own);
         let outer_mass = self.constants.outer_moving_mass();
 
         let (rotor_translation, rotor_spin) = m.rotor.kinetic_energy(&rotor);

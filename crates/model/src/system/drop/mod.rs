@@ -30,7 +30,7 @@ use crate::contact::JournalContact;
 use crate::levitation::Levitation;
 use crate::mount::Mount;
 use crate::rotor::Rotor;
-use layout::{LEDGER, Layout};
+use layout::Layout;
 use number::{Gather, Real, Vec2, constants};
 use solve::{Batch, Machine};
 
@@ -122,7 +122,7 @@ impl DropMachine {
     }
     /// A machine, levitated or not.
     pub fn with_levitation(constants: DropConstants, levitated: bool) -> Self {
-        let layout = Layout::of(&constants);
+        let layout = Layout::of(&constants.bearing);
         let brakes = constants.brake_start > 0.0 && constants.brake_start.is_finite();
         DropMachine {
             one: Drop::of(&|_| &constants, layout),
@@ -188,7 +188,7 @@ impl Machine for DropMachine {
         self.layout.dimension()
     }
     fn quadratures(&self) -> usize {
-        LEDGER
+        Layout::LEDGER
     }
     fn probes(&self) -> usize {
         self.layout.probes()

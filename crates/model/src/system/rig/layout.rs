@@ -10,11 +10,14 @@
 //!   then    ledger       heats, works of the sources, external angular impulses of the rig and of balls and cage,
 //!                        works by the moments on the races
 //! ```
+//! The work `other` of [`WORKS`] is that of (t_g - c_o × F_o)Ω + F_o·v_o and of the growth of the race, F_o of the outer race on
+//! the balls.
 //! What a converter samples comes first: it is cheap to read between two steps ([`taps`](super::taps)).
 
 use super::RigConstants;
-use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
-use std::ops::Range;
+use crate::bearing;
+use crate::system::layout::{self, Channels, heats_and};
+use crate::system::outer_race::WORKS;
 
 /// First channel of the shaft: angle, speed.
 pub const SHAFT: usize = 0;
@@ -34,18 +37,8 @@ pub const BEARING: usize = 12;
 pub const CAGE_ANGLE: usize = BEARING;
 
 /// Kinds of heat, in the order of their channels: those of the bearing, then the rig's. Names as in results.
-pub const HEATS: [&str; bearing::HEATS.len() + 3] = {
-    let mut all = [""; bearing::HEATS.len() + 3];
-    let mut i = 0;
-    while i < bearing::HEATS.len() {
-        all[i] = bearing::HEATS[i];
-        i += 1;
-    }
-    all[CLUTCH_HEAT] = "clutch";
-    all[BELT_HEAT] = "belt";
-    all[SUPPORT_HEAT] = "support_bearings";
-    all
-};
+pub const HEATS: [&str; bearing::HEATS.len() + 3] =
+    heats_and(["clutch", "belt", "support_bearings"]);
 /// Index of the heat of the clutch among [`HEATS`].
 pub const CLUTCH_HEAT: usize = bearing::HEATS.len();
 /// Index of the heat of belt and flywheel bearings among [`HEATS`].
@@ -54,17 +47,6 @@ pub const BELT_HEAT: usize = CLUTCH_HEAT + 1;
 pub const SUPPORT_HEAT: usize = CLUTCH_HEAT + 2;
 /// Kinds of source, in the order of their channels.
 pub const SOURCES: [&str; 3] = ["motor", "weight", "inner_race_growth"];
-/// Works by the moments on the races, in the order of their channels.
-///
-/// | name | integral over time |
-/// |---|---|
-/// | `inner_moment` | t_I Ω |
-/// | `outer_moment` | t_O Ω: what a torque arm and a speed pick-up give |
-/// | `momentum` | Ω dL/dt, L of balls and cage |
-/// | `other` | (t_g - c_o × F_o)Ω + F_o·v_o + growth of the race, F_o of the outer race on the balls; 0 on the concentric rig |
-pub const WORKS: [&str; 4] = ["inner_moment", "outer_moment", "momentum", "other"];
-/// Channels of the ledger: heats, sources, two external angular impulses, works.
-pub const LEDGER: usize = HEATS.len() + SOURCES.len() + 2 + WORKS.len();
 
 /// Probe: moment t_I that resists the shaft in the test bearing, N m.
 pub const INNER_MOMENT: usize = 0;
@@ -139,105 +121,43 @@ pub const PROBES: [(&str, &str); DETAIL] = [
     ("bearing.cage.land_force", "N"),
 ];
 
-/// Names and units of the channels before the bearing's.
-pub const CHANNELS: [(&str, &str); BEARING] = [
-    ("shaft.angle", "rad"),
-    ("shaft.speed", "rad/s"),
-    ("flywheel.angle", "rad"),
-    ("flywheel.speed", "rad/s"),
-    ("arm.reading", "N m"),
-    ("arm.reading_rate", "N m/s"),
-    ("bearing.temperature_rise", "K"),
-    ("thermocouple.temperature_rise", "K"),
-    ("housing.x", "m"),
-    ("housing.y", "m"),
-    ("housing.x_speed", "m/s"),
-    ("housing.y_speed", "m/s"),
+/// Names of the channels before the bearing's.
+const BODIES: [&str; BEARING] = [
+    "shaft.angle",
+    "shaft.speed",
+    "flywheel.angle",
+    "flywheel.speed",
+    "arm.reading",
+    "arm.reading_rate",
+    "bearing.temperature_rise",
+    "thermocouple.temperature_rise",
+    "housing.x",
+    "housing.y",
+    "housing.x_speed",
+    "housing.y_speed",
 ];
 
-/// Sizes of a rig's state.
+/// What a rig has besides the states of its bearing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Layout {
-    /// Number of balls.
-    pub balls: usize,
-    /// Number of the bearing's own states.
-    pub bearing_states: usize,
+pub struct RigChannels;
+
+impl Channels for RigChannels {
+    const BODIES: &'static [&'static str] = &BODIES;
+    const HEATS: &'static [&'static str] = &HEATS;
+    const SOURCES: &'static [&'static str] = &SOURCES;
+    const IMPULSES: &'static [&'static str] = &["impulse", "bearing_impulse"];
+    const WORKS: &'static [&'static str] = &WORKS;
+    const PROBES: usize = DETAIL;
 }
 
+/// Sizes of a rig's state.
+pub type Layout = layout::Layout<RigChannels>;
+
 impl Layout {
-    /// The layout of a rig.
-    pub fn of(constants: &RigConstants) -> Self {
-        Layout {
-            balls: constants.bearing.balls(),
-            bearing_states: constants.bearing.states(),
-        }
-    }
-    /// Channels of the bearing.
-    #[inline(always)]
-    pub fn bearing(&self) -> Range<usize> {
-        BEARING..self.ledger()
-    }
-    /// First channel of the ledger.
-    #[inline(always)]
-    pub fn ledger(&self) -> usize {
-        BEARING + self.bearing_states
-    }
-    /// Number of channels.
-    #[inline(always)]
-    pub fn dimension(&self) -> usize {
-        self.ledger() + LEDGER
-    }
-    /// Number of probes.
-    pub fn probes(&self) -> usize {
-        DETAIL + DETAIL_PER_BALL * self.balls
-    }
-    /// Number of probes that are looked at in every step: down to the loads of the balls.
-    pub fn watched_probes(&self) -> usize {
-        DETAIL + 2 * self.balls
-    }
-    /// Channel of a heat of [`HEATS`].
-    #[inline(always)]
-    pub fn heat(&self, index: usize) -> usize {
-        self.ledger() + index
-    }
-    /// Channel of the work of a source of [`SOURCES`].
-    #[inline(always)]
-    pub fn source(&self, index: usize) -> usize {
-        self.heat(HEATS.len()) + index
-    }
-    /// Channels of the heats, of the works of the sources, and of the external angular impulse of the rig.
-    pub fn flows(&self) -> Range<usize> {
-        self.heat(0)..self.angular_impulse() + 1
-    }
-    /// Channel of the external angular impulse of the rig.
-    #[inline(always)]
-    pub fn angular_impulse(&self) -> usize {
-        self.source(SOURCES.len())
-    }
     /// Channel of the external angular impulse of balls and cage.
     #[inline(always)]
     pub fn bearing_impulse(&self) -> usize {
         self.angular_impulse() + 1
-    }
-    /// Channel of a work of [`WORKS`].
-    #[inline(always)]
-    pub fn work(&self, index: usize) -> usize {
-        self.bearing_impulse() + 1 + index
-    }
-
-    /// Name of a channel.
-    pub fn channel_name(&self, bearing: &BearingConstants, channel: usize) -> String {
-        match channel {
-            c if c < BEARING => CHANNELS[c].0.to_string(),
-            c if c < self.ledger() => format!("bearing.{}", bearing.state_name(c - BEARING)),
-            c if c < self.source(0) => format!("energy.heat.{}", HEATS[c - self.ledger()]),
-            c if c < self.angular_impulse() => {
-                format!("energy.source.{}", SOURCES[c - self.source(0)])
-            }
-            c if c == self.angular_impulse() => "angular_momentum.impulse".to_string(),
-            c if c == self.bearing_impulse() => "angular_momentum.bearing_impulse".to_string(),
-            c => format!("energy.work.{}", WORKS[c - self.work(0)]),
-        }
     }
 
     /// The magnitude that matters in each channel: a tolerance of 1e-6 allows errors of one millionth of it a step.

@@ -12,9 +12,9 @@
 use super::layout::{FLYWHEEL, HEATS, SHAFT};
 use super::rate::race_motion;
 use super::{Mode, RigMachine};
-use crate::bearing::{self, BearingEnergy};
+use crate::bearing::BearingEnergy;
 use crate::system::energy::{Balance, Content, Flows};
-use crate::system::outer_race::{OuterRaceEnergy, SpinUpFlows};
+use crate::system::outer_race::OuterRaceEnergy;
 
 impl RigMachine {
     /// Energies and angular momentum at a state.
@@ -65,24 +65,15 @@ impl RigMachine {
         (end[impulse] - start[impulse]) - (held(end) - held(start))
     }
 
-    /// The energy that the bearing dissipated between two states, told in four ways.
-    ///
-    /// The printed and the corrected form and the bounds of the path term take the balls to have been at rest at the
-    /// start and to roll at the end.
+    /// The energy that the bearing dissipated between two states, told in four ways; see [`OuterRaceEnergy::between`].
     pub fn outer_race_energy(&self, start: &[f64], end: &[f64]) -> OuterRaceEnergy {
-        let layout = &self.layout;
-        let flow = |channel: usize| end[channel] - start[channel];
-        OuterRaceEnergy::of(&SpinUpFlows {
-            set: self.constants.bearing.set(),
-            final_speed: end[SHAFT + 1],
-            dissipated: (0..bearing::HEATS.len())
-                .map(|kind| flow(layout.heat(kind)))
-                .sum(),
-            outer_work: flow(layout.work(1)),
-            path: flow(layout.work(2)),
-            other: flow(layout.work(3)),
-            stored: self.bearing_content(end).sum() - self.bearing_content(start).sum(),
-        })
+        OuterRaceEnergy::between(
+            &self.layout,
+            self.constants.bearing.set(),
+            end[SHAFT + 1],
+            |state| self.bearing_content(state),
+            [start, end],
+        )
     }
 
     /// The rate of change of a state at an instant in a mode, for inspection: (rate, probes).

@@ -343,7 +343,7 @@ impl RigMachine {
     /// A rig at its start.
     pub fn new(constants: RigConstants) -> Result<Self, RigRefusal> {
         constants.check()?;
-        let layout = Layout::of(&constants);
+        let layout = Layout::of(&constants.bearing);
         Ok(RigMachine {
             bearing: Bearing::gather(&|_| &constants.bearing),
             rolling_cage_ratio: constants.bearing.rolling_cage_ratio(),
@@ -436,13 +436,13 @@ impl Machine for Segment<'_> {
         self.rig.layout.dimension()
     }
     fn quadratures(&self) -> usize {
-        layout::LEDGER
+        Layout::LEDGER
     }
     fn probes(&self) -> usize {
         self.rig.layout.probes()
     }
     fn watched_probes(&self) -> usize {
-        self.rig.layout.watched_probes()
+        self.rig.layout.probes_with_loads()
     }
     fn watched_channels(&self) -> usize {
         layout::FLYWHEEL + 2

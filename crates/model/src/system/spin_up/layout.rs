@@ -7,10 +7,13 @@
 //!   then   ledger       heats, works of the sources, external angular impulse,
 //!                       works by the moments on the races
 //! ```
+//! The work `other` of [`WORKS`] is that of t_g Ω - (c_i × F)Ω + F·v_i and of the growth of the race: drags to the ground, weight,
+//! a race that moves or grows.
 
 use super::SpinUpConstants;
-use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
-use std::ops::Range;
+use crate::bearing;
+use crate::system::layout::{self, Channels, heats_and};
+use crate::system::outer_race::WORKS;
 
 /// First channel of the inner race.
 pub const INNER: usize = 0;
@@ -20,15 +23,7 @@ pub const ROTOR: usize = 6;
 pub const BEARING: usize = 8;
 
 /// Kinds of heat, in the order of their channels: those of the bearing, then the sliding rotor's. Names as in results.
-pub const HEATS: [&str; bearing::HEATS.len() + 1] = {
-    let mut all = ["rotor_race_friction"; bearing::HEATS.len() + 1];
-    let mut i = 0;
-    while i < bearing::HEATS.len() {
-        all[i] = bearing::HEATS[i];
-        i += 1;
-    }
-    all
-};
+pub const HEATS: [&str; bearing::HEATS.len() + 1] = heats_and(["rotor_race_friction"]);
 /// Kinds of source, in the order of their channels.
 pub const SOURCES: [&str; 4] = [
     "radial_load",
@@ -36,17 +31,6 @@ pub const SOURCES: [&str; 4] = [
     "inner_race_torque",
     "inner_race_growth",
 ];
-/// Works by the moments on the races, in the order of their channels.
-///
-/// | name | integral over time |
-/// |---|---|
-/// | `inner_moment` | t_I Ω |
-/// | `outer_moment` | t_O Ω: what a torque arm and a speed pick-up give |
-/// | `momentum` | Ω dL/dt, L of balls and cage |
-/// | `other` | t_g Ω - (c_i × F)Ω + F·v_i + growth of the race: drags to the ground, weight, a race that moves or grows; 0 on the concentric rig |
-pub const WORKS: [&str; 4] = ["inner_moment", "outer_moment", "momentum", "other"];
-/// Channels of the ledger: heats, sources, external angular impulse, works.
-pub const LEDGER: usize = HEATS.len() + SOURCES.len() + 1 + WORKS.len();
 
 /// Probe: moment t_I that resists the inner race, N m.
 pub const INNER_MOMENT: usize = 0;
@@ -103,83 +87,34 @@ pub const PROBES: [(&str, &str); DETAIL] = [
     ("bearing.cage.land_force", "N"),
 ];
 
-/// Sizes of a spin-up's state.
+/// Names of the channels before the bearing's.
+const BODIES: [&str; BEARING] = [
+    "bearing.inner_race.x",
+    "bearing.inner_race.y",
+    "bearing.inner_race.x_speed",
+    "bearing.inner_race.y_speed",
+    "bearing.inner_race.angle",
+    "bearing.inner_race.speed",
+    "rotor.angle",
+    "rotor.speed",
+];
+
+/// What a spin-up has besides the states of its bearing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Layout {
-    /// Number of balls.
-    pub balls: usize,
-    /// Number of the bearing's own states.
-    pub bearing_states: usize,
+pub struct SpinUpChannels;
+
+impl Channels for SpinUpChannels {
+    const BODIES: &'static [&'static str] = &BODIES;
+    const HEATS: &'static [&'static str] = &HEATS;
+    const SOURCES: &'static [&'static str] = &SOURCES;
+    const WORKS: &'static [&'static str] = &WORKS;
+    const PROBES: usize = DETAIL;
 }
 
+/// Sizes of a spin-up's state.
+pub type Layout = layout::Layout<SpinUpChannels>;
+
 impl Layout {
-    /// The layout of a machine.
-    pub fn of(constants: &SpinUpConstants) -> Self {
-        Layout {
-            balls: constants.bearing.balls(),
-            bearing_states: constants.bearing.states(),
-        }
-    }
-    /// Channels of the bearing.
-    #[inline(always)]
-    pub fn bearing(&self) -> Range<usize> {
-        BEARING..self.ledger()
-    }
-    /// First channel of the ledger.
-    #[inline(always)]
-    pub fn ledger(&self) -> usize {
-        BEARING + self.bearing_states
-    }
-    /// Number of channels.
-    #[inline(always)]
-    pub fn dimension(&self) -> usize {
-        self.ledger() + LEDGER
-    }
-    /// Number of probes.
-    pub fn probes(&self) -> usize {
-        DETAIL + DETAIL_PER_BALL * self.balls
-    }
-    /// Channel of a heat of [`HEATS`].
-    #[inline(always)]
-    pub fn heat(&self, index: usize) -> usize {
-        self.ledger() + index
-    }
-    /// Channel of the work of a source of [`SOURCES`].
-    #[inline(always)]
-    pub fn source(&self, index: usize) -> usize {
-        self.heat(HEATS.len()) + index
-    }
-    /// Channels of the heats, of the works of the sources, and of the external angular impulse.
-    pub fn flows(&self) -> std::ops::Range<usize> {
-        self.heat(0)..self.angular_impulse() + 1
-    }
-    /// Channel of the external angular impulse.
-    #[inline(always)]
-    pub fn angular_impulse(&self) -> usize {
-        self.source(SOURCES.len())
-    }
-    /// Channel of a work of [`WORKS`].
-    #[inline(always)]
-    pub fn work(&self, index: usize) -> usize {
-        self.angular_impulse() + 1 + index
-    }
-
-    /// Name of a channel.
-    pub fn channel_name(&self, bearing: &BearingConstants, channel: usize) -> String {
-        const BODY: [&str; 6] = ["x", "y", "x_speed", "y_speed", "angle", "speed"];
-        match channel {
-            c if c < ROTOR => format!("bearing.inner_race.{}", BODY[c]),
-            c if c < BEARING => format!("rotor.{}", BODY[c - ROTOR + 4]),
-            c if c < self.ledger() => format!("bearing.{}", bearing.state_name(c - BEARING)),
-            c if c < self.source(0) => format!("energy.heat.{}", HEATS[c - self.ledger()]),
-            c if c < self.angular_impulse() => {
-                format!("energy.source.{}", SOURCES[c - self.source(0)])
-            }
-            c if c == self.angular_impulse() => "angular_momentum.impulse".to_string(),
-            c => format!("energy.work.{}", WORKS[c - self.work(0)]),
-        }
-    }
-
     /// The magnitude that matters in each channel: a tolerance of 1e-6 allows errors of one millionth of it a step.
     ///
     /// Places of race and balls by a ten-thousandth of the ball, speeds of centres by a thousandth of the speed of the

@@ -4,15 +4,15 @@
 //! change of angular momentum about the origin = external angular impulse.
 //!
 //! The forms and their conditions stand in [`outer_race`](crate::system::outer_race). Where the inner race moves, the work
-//! `other` of [`WORKS`](super::layout::WORKS) carries its part.
+//! `other` carries its part; see [`layout`](super::layout).
 
 use super::Drive;
 use super::SpinUpMachine;
 use super::layout::{HEATS, INNER, ROTOR};
 use super::rate::race_motion;
-use crate::bearing::{self, BearingEnergy};
+use crate::bearing::BearingEnergy;
 use crate::system::energy::{Balance, Content, Flows};
-use crate::system::outer_race::{OuterRaceEnergy, SpinUpFlows};
+use crate::system::outer_race::OuterRaceEnergy;
 use solve::Machine;
 
 impl SpinUpMachine {
@@ -61,24 +61,15 @@ impl SpinUpMachine {
         Balance::between(start, end, |state| (self.content(state), self.flows(state)))
     }
 
-    /// The energy that the bearing dissipated between two states, told in four ways.
-    ///
-    /// The printed and the corrected form and the bounds of the path term take the balls to have been at rest at the
-    /// start and to roll at the end.
+    /// The energy that the bearing dissipated between two states, told in four ways; see [`OuterRaceEnergy::between`].
     pub fn outer_race_energy(&self, start: &[f64], end: &[f64]) -> OuterRaceEnergy {
-        let layout = &self.layout;
-        let flow = |channel: usize| end[channel] - start[channel];
-        OuterRaceEnergy::of(&SpinUpFlows {
-            set: self.constants.bearing.set(),
-            final_speed: end[INNER + 5],
-            dissipated: (0..bearing::HEATS.len())
-                .map(|kind| flow(layout.heat(kind)))
-                .sum(),
-            outer_work: flow(layout.work(1)),
-            path: flow(layout.work(2)),
-            other: flow(layout.work(3)),
-            stored: self.bearing_content(end).sum() - self.bearing_content(start).sum(),
-        })
+        OuterRaceEnergy::between(
+            &self.layout,
+            self.constants.bearing.set(),
+            end[INNER + 5],
+            |state| self.bearing_content(state),
+            [start, end],
+        )
     }
 
     /// The rate of change of a state at an instant, for inspection: (rate, probes).

@@ -206,7 +206,7 @@ impl SpinUpMachine {
     /// A machine at rest.
     pub fn new(constants: SpinUpConstants) -> Result<Self, Refusal> {
         constants.check()?;
-        let layout = Layout::of(&constants);
+        let layout = Layout::of(&constants.bearing);
         Ok(SpinUpMachine {
             one: SpinUp::of(&|_| &constants, layout),
             landings: constants.landings(),

@@ -1,5 +1,6 @@
 //! The resolved file: every value with its origin, and the same numbers bit for bit when it is read again.
 
+use crate::files::{must_read, owned as sets};
 use auxbear::scenario::{
     BallMaterial, BearingRecord, BearingSource, Cage, Drop, Fidelity, Moment, NoBearings,
     Provenance, Scenario, Separation, Spin, System, SystemName, Traction, keys, keys_of, template,
@@ -78,14 +79,7 @@ cage_mass = "6 g"
 "#;
 
 fn read(text: &str, sets: &[String]) -> Scenario {
-    match Scenario::parse(text, "test.toml", sets, &OneBearing) {
-        Ok(scenario) => scenario,
-        Err(problem) => panic!("{problem}\n{sets:?}\n{text}"),
-    }
-}
-
-fn sets(list: &[&str]) -> Vec<String> {
-    list.iter().map(|set| set.to_string()).collect()
+    must_read(&OneBearing, text, sets)
 }
 
 /// Every number by path, as bits, derived ones included.

@@ -1,20 +1,10 @@
 //! The slow state of the lubricant in scenarios: what is read, what is refused.
 
-use auxbear::scenario::{BuiltIn, LubricantState, Scenario, System};
+use crate::files::{SPIN_UP, read, spin_up};
+use auxbear::scenario::LubricantState;
 use std::f64::consts::TAU;
 
-const GOOD: &str = r#"format = "auxbear.scenario/1"
-system = "spin_up"
-
-[drive]
-kind = "sliding rotor"
-radial_load = "80 N"
-rotor_speed = "1000 rad/s"
-
-[bearing]
-name = "6005"
-cage_mass = "8 g"
-
+const GREASE: &str = r#"
 [bearing.moment]
 law = "palmgren"
 lubrication = "grease"
@@ -33,23 +23,18 @@ drag_temperature_coefficient = "0.03 1/K"
 traction_temperature_coefficient = "0.01 1/K"
 "#;
 
-fn read(text: &str, sets: &[&str]) -> Result<Scenario, String> {
-    let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
-    Scenario::parse(text, "a.toml", &sets, &BuiltIn).map_err(|problem| problem.to_string())
+/// A spin-up with grease and films.
+fn good() -> String {
+    format!("{SPIN_UP}{GREASE}")
 }
 
 fn state(sets: &[&str]) -> Option<LubricantState> {
-    match read(GOOD, sets)
-        .unwrap_or_else(|problem| panic!("{problem}"))
-        .system
-    {
-        System::SpinUp(spin_up) => spin_up.bearing.lubricant_state,
-        other => panic!("{other:?}"),
-    }
+    let scenario = read(&good(), sets).unwrap_or_else(|problem| panic!("{problem}"));
+    spin_up(scenario).bearing.lubricant_state
 }
 
 fn message(sets: &[&str]) -> String {
-    read(GOOD, sets).expect_err("it was accepted")
+    read(&good(), sets).expect_err("it was accepted")
 }
 
 #[test]
@@ -65,7 +50,7 @@ fn grease_and_films_are_read_in_si() {
 
 #[test]
 fn a_resolved_file_gives_the_same_state_again() {
-    let first = read(GOOD, &["bearing.lubricant_state.start=worked"]).unwrap();
+    let first = read(&good(), &["bearing.lubricant_state.start=worked"]).unwrap();
     let again = read(&first.resolved.toml(), &[]).unwrap();
     assert_eq!(first.system, again.system);
 }
@@ -96,16 +81,15 @@ fn the_start_is_rested_worked_given_or_after_a_rest() {
 
 #[test]
 fn nothing_changes_unless_asked_for() {
-    let plain = GOOD.split("[bearing.lubricant_state]").next().unwrap();
-    let System::SpinUp(spin_up) = read(plain, &[]).unwrap().system else {
-        panic!("a spin-up");
-    };
-    assert_eq!(spin_up.bearing.lubricant_state, None);
+    let good = good();
+    let plain = good.split("[bearing.lubricant_state]").next().unwrap();
+    let read = spin_up(read(plain, &[]).unwrap());
+    assert_eq!(read.bearing.lubricant_state, None);
 }
 
 #[test]
 fn what_has_no_meaning_is_refused_where_it_stands() {
-    let without_law = GOOD
+    let without_law = good()
         .lines()
         .filter(|line| !line.starts_with("lubrication") && !line.starts_with("viscosity"))
         .collect::<Vec<_>>()

@@ -1,21 +1,9 @@
 //! Friction of the bearing as a whole: laws, tables by lubrication, viscosity by temperature, acceleration loss, and a
 //! user's own catalogue.
 
+use crate::files::{self, SPIN_UP, read};
 use auxbear::scenario::{AccelerationLoss, BuiltIn, Moment, Scenario, SpinUp, System};
 use std::fs;
-
-const GOOD: &str = r#"format = "auxbear.scenario/1"
-system = "spin_up"
-
-[drive]
-kind = "sliding rotor"
-radial_load = "80 N"
-rotor_speed = "1000 rad/s"
-
-[bearing]
-name = "6005"
-cage_mass = "8 g"
-"#;
 
 /// Ball by ball: a name that the catalogue has, and a friction law with everything it needs.
 const PALMGREN: [&str; 3] = [
@@ -31,18 +19,11 @@ const SKF: [&str; 3] = [
 const POINTS: &str = "bearing.moment.viscosity_points=[[\"40 degC\", \"100 mm^2/s\"], [\"100 degC\", \"11 mm^2/s\"]]";
 
 fn scenario(sets: &[&str]) -> Result<Scenario, String> {
-    let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
-    Scenario::parse(GOOD, "a.toml", &sets, &BuiltIn).map_err(|problem| problem.to_string())
+    read(SPIN_UP, sets)
 }
 
 fn spin_up(sets: &[&str]) -> SpinUp {
-    match scenario(sets)
-        .unwrap_or_else(|problem| panic!("{problem}"))
-        .system
-    {
-        System::SpinUp(spin_up) => spin_up,
-        other => panic!("{other:?}"),
-    }
+    files::spin_up(scenario(sets).unwrap_or_else(|problem| panic!("{problem}")))
 }
 
 fn message(sets: &[&str]) -> String {
@@ -370,7 +351,7 @@ fn drag_to_the_ground_and_a_moment_exclude_each_other() {
 fn a_catalogue_beside_the_file_is_used_and_its_problems_named() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("spin_up.toml");
-    let text = GOOD
+    let text = SPIN_UP
         .replace("name = \"6005\"", "name = \"mine\"")
         .replace("[drive]", "catalogue = \"my_bearings.toml\"\n\n[drive]");
     fs::write(&file, text).unwrap();

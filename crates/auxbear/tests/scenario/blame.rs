@@ -1,7 +1,8 @@
 //! A message blames the key that the user gave, with its line, and says what would put it right.
 
+use crate::files::read;
 use auxbear::problem::Problem;
-use auxbear::scenario::{BuiltIn, Scenario};
+use auxbear::scenario::Scenario;
 use auxbear::simulate::{self, Machine, Options};
 use std::sync::atomic::AtomicBool;
 
@@ -56,11 +57,6 @@ moving_mass = "0.15 kg"
 [bearing]
 name = "6005"
 "#;
-
-fn read(text: &str, sets: &[&str]) -> Result<Scenario, String> {
-    let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
-    Scenario::parse(text, "a.toml", &sets, &BuiltIn).map_err(|problem| problem.to_string())
-}
 
 fn message(text: &str, sets: &[&str]) -> String {
     read(text, sets).expect_err(&format!("{sets:?}"))

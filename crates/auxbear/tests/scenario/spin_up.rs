@@ -1,49 +1,31 @@
 //! Spin-up files: what they become, and the one message of each wrong one.
 
+use crate::files::{self, SPIN_UP, read_from};
 use auxbear::scenario::{
-    BuiltIn, Course, Drive, NoBearings, Scenario, SpeedCourse, SpinUp, System, template,
+    BuiltIn, Course, Drive, NoBearings, Scenario, SpeedCourse, SpinUp, template,
 };
-
-/// A complete file; tests replace lines of it.
-const GOOD: &str = r#"format = "auxbear.scenario/1"
-system = "spin_up"
-
-[drive]
-kind = "sliding rotor"
-radial_load = "80 N"
-rotor_speed = "1000 rad/s"
-
-[bearing]
-name = "6005"
-cage_mass = "8 g"
-"#;
 
 const SPEED: &str = "kind = \"speed\"";
 const SLIDING: &str = "kind = \"sliding rotor\"";
 const ROTOR: &str = "rotor_speed = \"1000 rad/s\"\n";
 
 fn parse(text: &str, sets: &[&str]) -> Result<SpinUp, String> {
-    let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
-    let scenario = Scenario::parse(text, "spin_up.toml", &sets, &BuiltIn);
-    match scenario.map_err(|problem| problem.to_string())?.system {
-        System::SpinUp(spin_up) => Ok(spin_up),
-        other => panic!("{other:?}"),
-    }
+    read_from(&BuiltIn, "spin_up.toml", text, sets).map(files::spin_up)
 }
 
 /// The message after one line of the good file is replaced.
 fn message(line: &str, by: &str) -> String {
-    assert!(GOOD.contains(line), "{line}");
-    parse(&GOOD.replacen(line, by, 1), &[]).expect_err(by)
+    assert!(SPIN_UP.contains(line), "{line}");
+    parse(&SPIN_UP.replacen(line, by, 1), &[]).expect_err(by)
 }
 
 fn set_message(set: &str) -> String {
-    parse(GOOD, &[set]).expect_err(set)
+    parse(SPIN_UP, &[set]).expect_err(set)
 }
 
 #[test]
 fn a_sliding_rotor_is_read() {
-    let read = parse(GOOD, &[]).unwrap();
+    let read = parse(SPIN_UP, &[]).unwrap();
     assert_eq!(read.radial_load, Course::Constant(80.0));
     assert_eq!(read.load_direction, -std::f64::consts::FRAC_PI_2);
     assert_eq!(read.target_speed(), 1000.0);
@@ -66,7 +48,7 @@ fn a_sliding_rotor_is_read() {
     let Drive::SlidingRotor {
         rotor_polar_inertia,
         ..
-    } = parse(GOOD, &free).unwrap().drive
+    } = parse(SPIN_UP, &free).unwrap().drive
     else {
         panic!();
     };
@@ -78,9 +60,9 @@ fn tables_are_read_in_the_file_and_as_overrides() {
     let rows = "[[\"0 s\", \"200 N\"], [\"10 ms\", \"80 N\"]]";
     let table = Course::Table(vec![[0.0, 200.0], [0.01, 80.0]]);
     let by = format!("load_history = {{ value = {rows}, source = \"measured\" }}");
-    let read = parse(&GOOD.replace("radial_load = \"80 N\"", &by), &[]).unwrap();
+    let read = parse(&SPIN_UP.replace("radial_load = \"80 N\"", &by), &[]).unwrap();
     assert_eq!(read.radial_load, table);
-    let without = GOOD.replace("radial_load = \"80 N\"\n", "");
+    let without = SPIN_UP.replace("radial_load = \"80 N\"\n", "");
     let set = format!("drive.load_history={rows}");
     assert_eq!(parse(&without, &[&set]).unwrap().radial_load, table);
     // the resolved file holds the rows as they were written
@@ -95,7 +77,7 @@ fn tables_are_read_in_the_file_and_as_overrides() {
 
 #[test]
 fn speeds_and_torques_are_read() {
-    let text = GOOD.replace(ROTOR, "");
+    let text = SPIN_UP.replace(ROTOR, "");
     let text = |kind: &str| text.replace(SLIDING, &format!("kind = \"{kind}\""));
     let speed = |sets: &[&str]| parse(&text("speed"), sets).unwrap().drive;
     assert_eq!(
@@ -183,7 +165,7 @@ fn each_kind_of_drive_has_its_own_keys() {
         message(ROTOR, ""),
         "error[AB0107]: spin_up.toml: drive.rotor_speed: found no value; an angular speed is needed, e.g. \"12000 rpm\""
     );
-    let text = GOOD.replace(ROTOR, "").replace(SLIDING, SPEED);
+    let text = SPIN_UP.replace(ROTOR, "").replace(SLIDING, SPEED);
     assert_eq!(
         parse(&text, &[]).unwrap_err(),
         "error[AB0107]: spin_up.toml: drive.final_speed: found no value; an angular speed is needed, e.g. \"12000 rpm\""
@@ -269,7 +251,7 @@ fn the_bore_is_smaller_than_the_track() {
 
 #[test]
 fn the_speed_is_that_of_the_largest_row() {
-    let text = GOOD.replace(ROTOR, "").replace(SLIDING, SPEED);
+    let text = SPIN_UP.replace(ROTOR, "").replace(SLIDING, SPEED);
     let rows = "drive.speed_history=[[\"0 s\", \"0 rad/s\"], [\"1 s\", \"-60 rad/s\"], [\"2 s\", \"0 rad/s\"]]";
     assert_eq!(parse(&text, &[rows]).unwrap().target_speed(), -60.0);
 }
@@ -284,7 +266,7 @@ fn a_speed_of_zero_is_no_spin_up() {
 
 #[test]
 fn balls_that_always_roll_follow_no_step() {
-    let text = GOOD.replace(ROTOR, "").replace(SLIDING, SPEED);
+    let text = SPIN_UP.replace(ROTOR, "").replace(SLIDING, SPEED);
     let rolling =
         |set: &str| parse(&text, &["bearing.fidelity=rolling", set]).expect_err("a step was taken");
     assert_eq!(

@@ -1,31 +1,9 @@
 //! Traction from an oil, as a scenario gives it.
 
-use auxbear::scenario::{NoBearings, Scenario, System, Traction};
+use crate::files::{DROP, read};
+use auxbear::scenario::{Scenario, System, Traction};
 
-const OIL: &str = r#"format = "auxbear.scenario/1"
-system = "drop"
-[rotor]
-mass = "8 kg"
-polar_inertia = "0.01 kg m^2"
-unbalance_eccentricity = "5 um"
-speed = "12000 rpm"
-[levitation]
-stiffness = "1e6 N/m"
-damping = "1000 N s/m"
-[contact]
-radial_air_clearance = "0.25 mm"
-bore_diameter = "25 mm"
-[mount]
-stiffness = "2e7 N/m"
-damping = "5000 N s/m"
-moving_mass = "0.15 kg"
-[bearing]
-ball_count = 10
-ball_diameter = "6.35 mm"
-pitch_diameter = "36 mm"
-inner_race_mass = "20.4 g"
-inner_race_inertia = "3.9e-6 kg m^2"
-cage_mass = "5 g"
+const OIL: &str = r#"
 [bearing.traction]
 law = "lubricant"
 oil = "FVA 3"
@@ -33,8 +11,7 @@ oil_temperature = "60 degC"
 "#;
 
 fn parse(sets: &[&str]) -> Result<Scenario, String> {
-    let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
-    Scenario::parse(OIL, "oil.toml", &sets, &NoBearings).map_err(|problem| problem.to_string())
+    read(&format!("{DROP}{OIL}"), sets)
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The table of keys: documented, right in itself, and each number of it reaches the typed scenario.
 
+use crate::files::must_read;
 use auxbear::scenario::{
     BuiltIn, Kind, Presence, Range, Scenario, SystemName, keys, keys_of, sections, sections_of,
     systems,
@@ -104,10 +105,7 @@ fn drive(path: &str) -> String {
 }
 
 fn read(text: &str, sets: &[String]) -> Scenario {
-    match Scenario::parse(text, "test.toml", sets, &BuiltIn) {
-        Ok(scenario) => scenario,
-        Err(problem) => panic!("{problem}\n{sets:?}\n{text}"),
-    }
+    must_read(&BuiltIn, text, sets)
 }
 
 #[test]

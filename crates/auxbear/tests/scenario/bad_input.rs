@@ -1,38 +1,7 @@
 //! Every wrong input gets its one message: file, line, key, what was found, what is needed, what was meant.
 
+use crate::files::{DROP, read_from};
 use auxbear::scenario::{BearingRecord, BearingSource, Provenance, Scenario};
-
-/// A complete file; tests replace lines of it.
-const GOOD: &str = r#"format = "auxbear.scenario/1"
-system = "drop"
-
-[rotor]
-mass = "8 kg"
-polar_inertia = "0.01 kg m^2"
-unbalance_eccentricity = "5 um"
-speed = "12000 rpm"
-
-[levitation]
-stiffness = "1e6 N/m"
-damping = "1000 N s/m"
-
-[contact]
-radial_air_clearance = "0.25 mm"
-bore_diameter = "25 mm"
-
-[mount]
-stiffness = "2e7 N/m"
-damping = "5000 N s/m"
-moving_mass = "0.15 kg"
-
-[bearing]
-ball_count = 10
-ball_diameter = "6.35 mm"
-pitch_diameter = "36 mm"
-inner_race_mass = "20.4 g"
-inner_race_inertia = "3.9e-6 kg m^2"
-cage_mass = "5 g"
-"#;
 
 struct TwoBearings;
 
@@ -61,27 +30,26 @@ impl BearingSource for TwoBearings {
 }
 
 fn parse(text: &str, sets: &[&str]) -> Result<Scenario, String> {
-    let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
-    Scenario::parse(text, "drop.toml", &sets, &TwoBearings).map_err(|problem| problem.to_string())
+    read_from(&TwoBearings, "drop.toml", text, sets)
 }
 
 /// The message after one line of the good file is replaced.
 fn message(line: &str, by: &str) -> String {
-    assert!(GOOD.contains(line), "{line}");
-    parse(&GOOD.replacen(line, by, 1), &[]).expect_err(by)
+    assert!(DROP.contains(line), "{line}");
+    parse(&DROP.replacen(line, by, 1), &[]).expect_err(by)
 }
 
 fn set_message(set: &str) -> String {
-    parse(GOOD, &[set]).expect_err(set)
+    parse(DROP, &[set]).expect_err(set)
 }
 
 #[test]
 fn the_good_file_is_good() {
-    assert!(parse(GOOD, &[]).is_ok());
-    assert!(parse(&format!("\u{feff}{GOOD}"), &[]).is_ok());
-    assert!(parse(&GOOD.replace('\n', "\r\n"), &[]).is_ok());
-    assert!(parse(GOOD, &["rotor.speed=0 rpm"]).is_ok());
-    assert!(parse(GOOD, &["rotor.speed=-12000 rpm"]).is_ok());
+    assert!(parse(DROP, &[]).is_ok());
+    assert!(parse(&format!("\u{feff}{DROP}"), &[]).is_ok());
+    assert!(parse(&DROP.replace('\n', "\r\n"), &[]).is_ok());
+    assert!(parse(DROP, &["rotor.speed=0 rpm"]).is_ok());
+    assert!(parse(DROP, &["rotor.speed=-12000 rpm"]).is_ok());
 }
 
 #[test]
@@ -110,7 +78,7 @@ fn an_unknown_key_names_the_near_one() {
 
 #[test]
 fn the_first_wrong_line_is_told() {
-    let text = GOOD
+    let text = DROP
         .replace("polar_inertia", "inertia_polar")
         .replace("cage_mass", "cagemass");
     let told = parse(&text, &[]).unwrap_err();
@@ -281,7 +249,7 @@ fn geometry_that_cannot_be_is_refused() {
         "error[AB0202]: drop.toml:24: bearing.ball_count: found 18 balls of 6.35 mm on a pitch circle of 36 mm, whose centres are only 6.251 mm apart; at most 17 balls fit"
     );
     for fits in ["bearing.ball_count=17", "bearing.ball_count=3"] {
-        assert!(parse(GOOD, &[fits]).is_ok(), "{fits}");
+        assert!(parse(DROP, &[fits]).is_ok(), "{fits}");
     }
     assert_eq!(
         message("\"36 mm\"", "\"6 mm\""),
@@ -306,17 +274,17 @@ fn contact_at_the_start_is_refused_with_both_numbers() {
     // The reference start state of the same machine has its mass centre at G = (-0.36718, -0.57978) µm with e = 5 µm along
     // x, so the geometric centre is |G - e| = 5.398403 µm from the centre of levitation.
     assert!(set_message("contact.radial_air_clearance=5.3984 um").contains("AB0205"));
-    assert!(parse(GOOD, &["contact.radial_air_clearance=5.3985 um"]).is_ok());
+    assert!(parse(DROP, &["contact.radial_air_clearance=5.3985 um"]).is_ok());
     // Two planes share twice the mass.
     let two = |clearance: &str| {
         let clearance = format!("contact.radial_air_clearance={clearance}");
-        parse(GOOD, &["rotor.mass=16 kg", "rotor.planes=2", &clearance])
+        parse(DROP, &["rotor.mass=16 kg", "rotor.planes=2", &clearance])
     };
     assert!(two("5.3984 um").is_err() && two("5.3985 um").is_ok());
     // At rest the unbalance does not whirl.
     assert!(
         parse(
-            GOOD,
+            DROP,
             &["rotor.speed=0 rpm", "contact.radial_air_clearance=1 nm"]
         )
         .is_ok()
@@ -324,12 +292,12 @@ fn contact_at_the_start_is_refused_with_both_numbers() {
     // Far above resonance the rotor turns about its centre of mass: the whirl is the eccentricity, 5 µm.
     let fast = |clearance: &str| {
         let clearance = format!("contact.radial_air_clearance={clearance}");
-        parse(GOOD, &["rotor.speed=1e200 rpm", &clearance])
+        parse(DROP, &["rotor.speed=1e200 rpm", &clearance])
     };
     assert!(fast("4.99 um").is_err() && fast("5.01 um").is_ok());
     // Without damping the whirl at resonance has no bound.
     let resonant = parse(
-        GOOD,
+        DROP,
         &[
             "rotor.mass=1 kg",
             "rotor.speed=1000 rad/s",
@@ -353,7 +321,7 @@ fn a_traction_law_that_would_make_energy_is_refused() {
             "bearing.traction.c=5 s/m".to_string(),
             format!("bearing.traction.d={d}"),
         ];
-        parse(GOOD, &sets.each_ref().map(String::as_str))
+        parse(DROP, &sets.each_ref().map(String::as_str))
     };
     assert!(law("-0.07", "0.35 s/m", "0.07").is_ok());
     for (a, b, d) in [("0.07", "0 s/m", "-0.07"), ("-0.07", "-0.9 s/m", "0.07")] {
@@ -380,7 +348,7 @@ fn a_clearance_of_the_size_of_a_ball_is_refused() {
 
 #[test]
 fn perturbed_starts_that_touch_are_refused() {
-    let perturbed = |deviation: &str| parse(GOOD, &["repeat.count=8", deviation]);
+    let perturbed = |deviation: &str| parse(DROP, &["repeat.count=8", deviation]);
     let rotor = perturbed("repeat.rotor_position_deviation=1 mm").unwrap_err();
     assert!(
         rotor.contains("repeat.rotor_position_deviation") && rotor.contains("no perturbed start"),
@@ -414,14 +382,14 @@ fn bearings_are_looked_up() {
         "error[AB0102]: drop.toml:24: bearing.name: found the number 6005; a text in quotes is needed, e.g. \"6005\""
     );
     // On the command line the name needs no quotes.
-    assert!(parse(GOOD, &["bearing.name=6005"]).is_ok());
-    let nameless = GOOD.replace("bore_diameter = \"25 mm\"\n", "");
+    assert!(parse(DROP, &["bearing.name=6005"]).is_ok());
+    let nameless = DROP.replace("bore_diameter = \"25 mm\"\n", "");
     assert_eq!(
         parse(&nameless, &[]).unwrap_err(),
         "error[AB0107]: drop.toml: contact.bore_diameter: found no value; a length above 0 is needed, e.g. \"25 mm\". bearing.name takes it from the catalogue"
     );
     assert!(parse(&nameless, &["bearing.name=6005"]).is_ok());
-    let incomplete = GOOD.replace("cage_mass = \"5 g\"\n", "");
+    let incomplete = DROP.replace("cage_mass = \"5 g\"\n", "");
     assert_eq!(
         parse(&incomplete, &["bearing.name=6005"]).unwrap_err(),
         "error[AB0107]: drop.toml: bearing.cage_mass: found no value; a mass above 0 is needed, e.g. \"5 g\". The catalogue does not know it of \"6005\""
@@ -464,10 +432,10 @@ fn two_values_for_one_thing_are_refused() {
         "bearing.traction.d=0.08",
     ];
     assert_eq!(
-        parse(GOOD, &four).unwrap_err(),
+        parse(DROP, &four).unwrap_err(),
         "error[AB0109]: drop.toml, --set: bearing.traction.d: found 0.08; d = -a = 0.07 is needed, so that there is no traction without slip"
     );
-    assert!(parse(GOOD, &[&four[..4], &["bearing.traction.d=0.07"]].concat()).is_ok());
+    assert!(parse(DROP, &[&four[..4], &["bearing.traction.d=0.07"]].concat()).is_ok());
     assert_eq!(
         message(
             "mass = \"8 kg\"",

@@ -1,0 +1,14 @@
+//! Scenario files: what they become, what is refused, what each message says.
+
+mod bad_file;
+mod bad_input;
+mod blame;
+mod files;
+mod friction;
+mod lubricant;
+mod lubricant_state;
+mod resolved;
+mod schema;
+mod spin_up;
+mod spin_up_runs;
+mod table;
