@@ -33,6 +33,8 @@ pub struct Measurement {
     pub correlation_time: f64,
     /// When the clutch engaged, s; none where nothing changed quickly.
     pub engagement: Option<f64>,
+    /// Standard deviation of that time, s.
+    pub engagement_deviation: f64,
     /// Speed of the cage, where it was measured.
     pub cage: Option<CageTrace>,
     /// Temperature of the outer race over `time`, K above the start; where it was measured.
@@ -133,6 +135,7 @@ impl Measurement {
             ("deviation of the zero", self.zero_deviation),
             ("deviation of the scale", self.scale_deviation),
             ("correlation time", self.correlation_time),
+            ("deviation of the engagement", self.engagement_deviation),
         ] {
             if !(value >= 0.0 && value.is_finite()) {
                 return Err(format!(
@@ -199,6 +202,7 @@ impl Measurement {
             scale_deviation: self.scale_deviation,
             correlation_time: self.correlation_time,
             engagement: self.engagement,
+            engagement_deviation: self.engagement_deviation,
             cage: self.cage.as_ref().map(|cage| {
                 let range = cut(&cage.time);
                 CageTrace {

@@ -113,6 +113,7 @@ pub fn measurement(signals: &Signals) -> Measurement {
         scale_deviation: signals.scale_deviation,
         correlation_time: correlation_time(torque, &turning),
         engagement: signals.speed.change.map(|change| change.engagement.0),
+        engagement_deviation: change.map_or(0.0, |change| change.engagement.1),
         cage: (signals.cage).map(|found| cage(found, change.map(|change| change.engagement.0))),
         temperature: None,
         time,
@@ -323,6 +324,7 @@ mod tests {
             scale_deviation: 0.0,
             correlation_time: 0.02,
             engagement: None,
+            engagement_deviation: 0.0,
             cage: None,
             temperature: None,
         };

@@ -72,6 +72,7 @@ fn nonsense(random: &mut Random, count: usize, wild: f64) -> Measurement {
         scale_deviation: 0.01,
         correlation_time: random.uniform() * 0.1,
         engagement: (random.uniform() < 0.7).then(|| random.uniform()),
+        engagement_deviation: 0.0,
         cage: (random.uniform() < 0.7).then_some(cage),
         temperature: Some(temperature),
     }

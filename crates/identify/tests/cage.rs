@@ -192,6 +192,7 @@ fn a_skid_needs_cage_and_engagement() {
     let settings = SkidSettings::default();
     let without = Measurement {
         engagement: None,
+        engagement_deviation: 0.0,
         ..run.test.clone()
     };
     assert!(

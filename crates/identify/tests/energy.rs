@@ -146,6 +146,7 @@ fn the_deviation_of_the_work_counts_what_errors_share() {
         scale_deviation: 0.0,
         correlation_time: 0.02,
         engagement: None,
+        engagement_deviation: 0.0,
         cage: None,
         temperature: None,
         time,

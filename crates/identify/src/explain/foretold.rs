@@ -121,6 +121,7 @@ mod tests {
             scale_deviation: 0.0,
             correlation_time: 0.01,
             engagement: None,
+            engagement_deviation: 0.0,
             cage: Some(CageTrace {
                 time: vec![0.0, 0.05],
                 speed: vec![0.0, 8.0],

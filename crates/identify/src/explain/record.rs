@@ -227,7 +227,9 @@ impl Test {
                 (!inside.is_empty()).then_some((sum / count, variance))
             });
         }
-        let (from, to) = (time[0], engagement - measurement.correlation_time);
+        // Only what surely lies before the engagement is rest.
+        let unsure = measurement.correlation_time + 2.0 * measurement.engagement_deviation;
+        let (from, to) = (time[0], engagement - unsure);
         let (torque, variance) = torque_mean(measurement, from, to);
         if variance.is_finite() {
             test.bins.push(Bin {
@@ -371,6 +373,7 @@ mod tests {
             scale_deviation: 0.0,
             correlation_time: 0.02,
             engagement: Some(0.4),
+            engagement_deviation: 0.0,
             cage: None,
             temperature: None,
         };

@@ -96,6 +96,7 @@ mod tests {
             scale_deviation: 0.0,
             correlation_time: 0.02,
             engagement: Some(1.0),
+            engagement_deviation: 0.0,
             cage: None,
             temperature: None,
             speed,

@@ -214,6 +214,7 @@ impl Truth {
             scale_deviation: 0.01,
             correlation_time: 0.02,
             engagement: Some(ENGAGEMENT),
+            engagement_deviation: 0.0,
             cage: None,
             temperature: None,
         };

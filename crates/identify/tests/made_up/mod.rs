@@ -187,6 +187,7 @@ pub fn measured(
         scale_deviation: sensor.scale,
         correlation_time: CORRELATION,
         engagement: None,
+        engagement_deviation: 0.0,
         cage: None,
         temperature: None,
     }

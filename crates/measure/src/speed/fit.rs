@@ -295,15 +295,18 @@ fn widths(
 /// Logarithm of what is expected, before any mark came, of the density over the usual one (its logarithm) and of a start.
 ///
 /// The density is nearly free: a torque that is even or rises evenly is silent between its knots. Of three starts that
-/// explain the marks alike, the softer one is e times as likely; a jump that the marks show is seen against far longer odds.
-fn expected(density: f64, start: Knot) -> f64 {
+/// explain the marks alike, the softer one is e times as likely, and a start with a lag is not expected; what the marks show is
+/// seen against far longer odds.
+fn expected(density: f64, start: Knot, head: f64) -> f64 {
     const NEARLY_FREE: f64 = 6.0;
+    const LAG: f64 = -5.0;
+    let lag = if head > 0.0 { LAG } else { 0.0 };
     let start = match start {
         Knot::Soft => 1.0,
         Knot::Kink => 0.0,
         Knot::Jump => -1.0,
     };
-    start - 0.5 * (density / NEARLY_FREE).powi(2)
+    start + lag - 0.5 * (density / NEARLY_FREE).powi(2)
 }
 
 /// Points from which the likelihood is climbed: the best of a scan over the engagement and the density, and the best one far
@@ -369,6 +372,12 @@ fn thinner(mut parts: Vec<(Plan, f64)>) -> Vec<(Plan, f64)> {
     kept
 }
 
+/// Whether a change has so many marks that its start may be livelier than the whole: a motor that follows an even ramp with
+/// a lag.
+pub(super) fn is_long(sight: &Sight) -> bool {
+    sight.after.saturating_sub(sight.first) > 3 * STRETCH
+}
+
 /// Plans for the lively part with their weights, the best one first.
 pub(super) fn lively(
     data: &Data,
@@ -429,7 +438,7 @@ pub(super) fn lively(
         let (plan, some) = (&plan, &some);
         move |x: &[f64; 3]| match plan(x, jumps) {
             Some(plan) => {
-                let belief = expected(x[0] - density.ln(), jumps.0);
+                let belief = expected(x[0] - density.ln(), jumps.0, jumps.2);
                 // Any time of the engagement is as likely as any other, not any logarithm of it.
                 let stretched = if sight.rests { x[1] } else { 0.0 };
                 -plan.likelihood_of(data, some) - belief - stretched
@@ -442,9 +451,7 @@ pub(super) fn lively(
     } else {
         &[Knot::Soft]
     };
-    // A long change may be livelier at its start than on the whole: a motor that follows an even ramp with a lag.
-    let within = sight.after.saturating_sub(sight.first);
-    let heads: &[f64] = if within > 3 * STRETCH {
+    let heads: &[f64] = if is_long(sight) {
         &[0.0, 1e-3, 1e-2, 1e-1]
     } else {
         &[0.0]

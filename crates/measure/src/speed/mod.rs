@@ -401,6 +401,13 @@ fn summary(data: &Data, sight: &fit::Sight, plans: &[(Plan, f64)]) -> Change {
     };
     let (engage, engage_spread) = moments(&|l| l.engage);
     let (lock, lock_spread) = moments(&|l| l.lock);
+    // Where a start has a lag, what came before the first marks is told by nothing that came after them.
+    let next = data.passages.partition_point(|p| p.time <= engage);
+    let hidden = match data.passages.get(next + 1) {
+        Some(second) if sight.rests => 0.5 * (second.time - engage),
+        _ => 0.0,
+    } * moments(&|l| f64::from(u8::from(l.head.is_some()))).0;
+    let engage_spread = engage_spread.hypot(hidden);
     let jump = moments(&|l| f64::from(u8::from(l.start == plan::Knot::Jump)))
         .0
         .clamp(0.0, 1.0);
