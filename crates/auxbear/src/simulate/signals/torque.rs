@@ -5,6 +5,7 @@ use super::{design, shaft};
 use crate::scenario::{Disturbance, SensorSource, TorqueSignal};
 use measure::converter::{Fault, faults};
 use measure::spectrum::{Segments, Spectrum, Window, spectrum};
+use measure::speed::Change;
 use measure::torque_sensor::{
     DesignError, Inversion, Sensor, Torque, identify_free_response, invert,
 };
@@ -189,7 +190,7 @@ fn inverted(
     });
     let change = shaft
         .and_then(|shaft| shaft.speed.change)
-        .filter(|change| change.from_rest);
+        .filter(|change| change.from_rest && rests_at_first(change, series.time(from)));
     if change.is_none() && wish.zero_deviation.is_none() {
         notes.push("the shaft does not rest at first and zero_deviation is not given: the zero of the reading is not known".to_string());
     }
@@ -211,4 +212,9 @@ fn inverted(
     })?;
     notes.extend(torque.notes.iter().cloned());
     Ok(torque)
+}
+
+/// Whether the shaft surely rests at the start of a record, s: its engagement lies two deviations behind it.
+fn rests_at_first(change: &Change, start: f64) -> bool {
+    change.engagement.0 - 2.0 * change.engagement.1 > start
 }
