@@ -418,7 +418,7 @@ pub(super) fn lively(
                 lock: if sight.ends { lock } else { last + length },
                 change: sight.change,
                 density: x[0].exp(),
-                head: (head > 0.0).then(|| Head {
+                head: (head > 0.0).then_some(Head {
                     share: head,
                     first: first - engage,
                 }),
