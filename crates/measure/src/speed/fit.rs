@@ -2,7 +2,7 @@
 
 use super::Transient;
 use super::matrix::Memory;
-use super::plan::{Data, Head, Knot, Lively, Noise, Passage, Plan};
+use super::plan::{Data, Head, Knot, Livelier, Lively, Noise, Passage, Plan};
 use super::search::{smallest, spread};
 
 /// Passages in one stretch of a quiet part whose likelihood is taken.
@@ -252,6 +252,71 @@ pub(super) fn settling(
     };
     let start = smallest([0.0], [4.0], 12, 0.05, cost).0;
     quiet * smallest(start, [2.0], 16, 0.05, cost).0[0].max(0.0).exp()
+}
+
+/// Gain of the logarithm of the likelihood from which a stretch counts as livelier than its part of the record: of a
+/// hundred stretches that are not, one gains so much by chance.
+const NOTABLE: f64 = 4.0;
+
+/// Stretches behind the quick change, or anywhere where there is none, that are livelier than the part of the record they lie
+/// in: a clutch that lets go, a brake, the corner at which a slow ramp ends, the last turns before a stop.
+///
+/// Windows of 80 marks, of every fourth, every sixteenth and so on: what is quick shows in short ones, what is weak in long
+/// ones. They overlap by half, so that nothing happens between two of them; a part has the largest density of its windows.
+pub(super) fn livelier(data: &Data, plan: &Plan) -> Vec<Livelier> {
+    const PART: usize = STRETCH / 2;
+    const LONGER: usize = 4;
+    let quiet_from = plan.lively.map_or(f64::NEG_INFINITY, |lively| lively.lock);
+    let first = data.passages.partition_point(|p| p.time <= quiet_from);
+    let all = &data.passages[first..];
+    let mut densities = vec![0.0f64; all.len().div_ceil(PART)];
+    let mut step = 1;
+    while step * STRETCH <= all.len() {
+        for begin in (0..=all.len() - step * STRETCH).step_by(step * PART) {
+            let end = begin + step * STRETCH;
+            let usual = plan.density(all[begin + step * PART].time).ln();
+            let window: Vec<Passage> = all[begin..end].iter().step_by(step).copied().collect();
+            if let Some(density) = own_density(data, plan, &window, usual) {
+                for own in &mut densities[begin / PART..end.div_ceil(PART)] {
+                    *own = own.max(density);
+                }
+            }
+        }
+        step *= LONGER;
+    }
+    let part = |k: usize| {
+        let end = ((k + 1) * PART).min(all.len() - 1);
+        (all[k * PART].time, all[end].time)
+    };
+    (densities.iter().enumerate())
+        .filter(|(_, density)| **density > 0.0)
+        .map(|(k, density)| Livelier {
+            from: part(k).0,
+            to: part(k).1,
+            density: *density,
+        })
+        .collect()
+}
+
+/// Density of a window of its own, where it is much more likely than the usual one, which is given by its logarithm.
+fn own_density(data: &Data, plan: &Plan, window: &[Passage], usual: f64) -> Option<f64> {
+    let cost = |x: &[f64; 1]| {
+        let alone = Plan {
+            quiet: [x[0].exp(); 3],
+            lively: None,
+            settled: 0.0,
+            rests: false,
+            ..*plan
+        };
+        -alone.likelihood_of(data, window)
+    };
+    let here = cost(&[usual]);
+    let best = [2.0, 4.0, 7.0, 10.0, 14.0, 20.0]
+        .map(|more| (usual + more, cost(&[usual + more])))
+        .into_iter()
+        .fold((usual, here), |a, b| if b.1 < a.1 { b } else { a });
+    let notable = here - best.1 > NOTABLE;
+    notable.then(|| smallest([best.0], [1.5], 14, 0.1, cost).0[0].exp())
 }
 
 /// Passages that tell the knots and the density: all near the knots, some between where there are many.

@@ -192,7 +192,7 @@ pub fn smooth(
             "pulses as `number` gives them",
         ));
     }
-    let data = Data::new(pulses, pitch);
+    let mut data = Data::new(pulses, pitch);
     let sight = fit::sight(&data, &settings.transient);
     if let Some(sight) = &sight {
         enough(&data, sight, settings)?;
@@ -283,6 +283,7 @@ pub fn smooth(
         speed.window = (begin, data.passages[range.end - margin].time);
         speed.change = Some(summary(&data, sight, &plans));
     }
+    data.livelier = fit::livelier(&data, &base);
     let (nodes, start) = base.nodes(&data, 0..n);
     speed.base = Track::new(nodes, start, base.quiet[2], noise.memory);
     if !(speed.base.is_finite() && speed.parts.iter().all(|(_, track)| track.is_finite())) {

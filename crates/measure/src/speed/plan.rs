@@ -33,6 +33,16 @@ pub(super) struct Data {
     /// Usual angle between marks, rad.
     pub pitch: f64,
     pub calibrated: bool,
+    /// Stretches that are livelier than the part of the record they lie in, side by side and in order.
+    pub livelier: Vec<Livelier>,
+}
+
+/// A stretch with a density of its own.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Livelier {
+    pub from: f64,
+    pub to: f64,
+    pub density: f64,
 }
 
 impl Data {
@@ -90,7 +100,18 @@ impl Data {
             before,
             pitch: nominal,
             calibrated: pitch.is_some(),
+            livelier: Vec::new(),
         }
+    }
+
+    /// Density of the livelier stretch that an instant lies in; 0 where there is none.
+    fn livelier_at(&self, time: f64) -> f64 {
+        let next = self.livelier.partition_point(|stretch| stretch.to < time);
+        let stretch = self
+            .livelier
+            .get(next)
+            .filter(|stretch| stretch.from <= time);
+        stretch.map_or(0.0, |stretch| stretch.density)
     }
 
     /// Seconds of an instant in units.
@@ -253,19 +274,20 @@ impl Plan {
             }
         }
         start.covariance[4][4] = clock;
+        let density = |time: f64| self.density(time).max(data.livelier_at(time));
         let mut knots = knots.into_iter().peekable();
         for passage in passages {
             while let Some((time, added)) = knots.next_if(|knot| knot.0 <= passage.time) {
                 nodes.push(Node {
                     time,
-                    density: self.density(time),
+                    density: density(time),
                     pulse: None,
                     added,
                 });
             }
             nodes.push(Node {
                 time: passage.time,
-                density: self.density(passage.time),
+                density: density(passage.time),
                 pulse: Some(Sight {
                     angle: passage.angle,
                     variance: self.noise.variance(passage),
