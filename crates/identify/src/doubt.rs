@@ -466,7 +466,20 @@ fn set_free_mean(test: &Measurement, from: f64, to: f64) -> Option<(f64, f64)> {
     Some((sum, variance.max(0.0).sqrt()))
 }
 
+/// Settled torque over M, or M over it, from which M is not of the same bearing, load and temperature: what lubricants, slip
+/// and sensors do stays below it.
+const FOREIGN: f64 = 2.0;
+
 impl Doubt {
+    /// Whether no explanation may be sought with this M: a torque that settles below half of it or above twice it would be
+    /// called a sensor's fault.
+    pub fn forbids_comparison(&self) -> bool {
+        match self {
+            Doubt::ForeignSteadyMoment { ratio, .. } => *ratio < 1.0 / FOREIGN || *ratio > FOREIGN,
+            _ => false,
+        }
+    }
+
     /// Name of the test that it is about; none where it is about all.
     pub fn test(&self) -> Option<&str> {
         match self {

@@ -153,7 +153,14 @@ impl Found {
                 (Err(why()), Err(why()))
             }
             (Err(_), Some(_)) => (Err(no_moment()), Err(no_moment())),
-            (Ok(moment), Some(how)) => explained(&tests, moment, &set, how),
+            (Ok(moment), Some(how)) => match doubts.iter().find(|doubt| doubt.forbids_comparison())
+            {
+                Some(doubt) => {
+                    let why = || format!("M is not of these tests: {}", doubt.finding());
+                    (Err(why()), Err(why()))
+                }
+                None => explained(&tests, moment, &set, how),
+            },
         };
         let rotor = match (&wish.rotor_friction, &asked.rotor) {
             (Some(wish), Some(test)) => {
