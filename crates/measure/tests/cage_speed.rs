@@ -362,3 +362,60 @@ fn what_cannot_be_followed_is_refused() {
             .contains("too short")
     );
 }
+
+/// A rolling cage through a spin-up in which fewer than two balls pass: it is told between them.
+#[test]
+fn a_rolling_cage_is_told_through_a_quick_spin_up() {
+    let (mut inside, mut count) = (0, 0);
+    for seed in 0..20 {
+        let mut random = Random::new(seed);
+        // From rest at 0.2 s, evenly rising acceleration for 41 ms to 150 rad/s.
+        let (begin, length, top) = (0.2, 0.041, 150.0);
+        let speed = |t: f64| top * ((t - begin) / length).clamp(0.0, 1.0).powi(2);
+        let angle = |t: f64| {
+            let x = ((t - begin) / length).clamp(0.0, 1.0);
+            top * length * x.powi(3) / 3.0 + top * (t - begin - length).max(0.0)
+        };
+        let interval = 2e-4;
+        let times = (0..15_000).map(|k| f64::from(k) * interval);
+        let (angles, speeds): (Vec<f64>, Vec<f64>) = times.map(|t| (angle(t), speed(t))).unzip();
+        let shaft = Shaft {
+            first: 0.0,
+            interval,
+            angle: &angles,
+            speed: &speeds,
+            speed_deviation: &[],
+        };
+        let pitch = TAU / BALLS as f64;
+        let start = pitch * random.uniform();
+        let mut passed = Vec::new();
+        let mut next = 1.0;
+        for k in 0..15_000 {
+            let here = start + RATIO * angles[k];
+            while here >= next * pitch {
+                passed.push(k as f64 * interval + 2e-5 * random.normal());
+                next += 1.0;
+            }
+        }
+        let found = from_pulses(&passed, &shaft, BALLS, RATIO, Some(begin)).unwrap();
+        let rises = found
+            .time
+            .iter()
+            .filter(|t| (begin..begin + length).contains(*t));
+        assert!(rises.count() > 15, "a value every 2 ms");
+        for ((time, value), band) in found.time.iter().zip(&found.speed).zip(&found.deviation) {
+            if *time > begin && *time < begin + 3.0 * length {
+                let off = (value - RATIO * speed(*time)).abs();
+                assert!(off < 1.5, "seed {seed}: {off} at {time}");
+                inside += usize::from(off < 2.0 * band);
+                count += 1;
+            }
+        }
+    }
+    let part = inside as f64 / count as f64;
+    println!(
+        "rolling cage in a quick spin-up: {:.1} % inside",
+        100.0 * part
+    );
+    assert!(part > 0.9, "{part}");
+}

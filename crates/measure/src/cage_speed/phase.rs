@@ -20,7 +20,26 @@ pub(super) struct Deviations<'a> {
     pub(super) removed: &'a [f64],
     /// Time of an engagement after which slip may change fast, s.
     pub(super) engagement: Option<f64>,
+    /// Whether shaft and cage rest at the first time.
+    pub(super) from_rest: bool,
 }
+
+/// Times and deviations of an angle with instants between them at which nothing was seen.
+#[derive(Default)]
+struct Filled {
+    time: Vec<f64>,
+    deviation: Vec<f64>,
+    weight: Vec<f64>,
+    from_rest: bool,
+}
+
+/// After an engagement the cage's speed is told at such intervals, s, for such a time, s: few balls pass while it rises.
+const CLOSE: f64 = 2e-3;
+const CLOSE_FOR: f64 = 0.5;
+
+/// Speeds below which the shaft rests, and above which it surely turns, over its highest.
+const REST: f64 = 0.01;
+const TURNS: f64 = 1e-4;
 
 /// Change of slip that is usual within [`USUAL_TIME`], 1: the centre of a prior that is wide (a factor of 12 either way in the
 /// intensity) and counts only where noise hides the wander of the slip. Assumed.
@@ -64,8 +83,16 @@ impl Deviations<'_> {
         };
         let (hyper, lowest) = simplex::lowest(guess, [1.0, 1.0, 1.5, 1.5, 0.4], 0.02, 240, cost);
         let filter = self.filtered(&hyper, true);
-        let states = filter.smoothed();
         let wide = colour(filter.innovations());
+        let filled = self.filled(shaft);
+        let dense = Deviations {
+            time: &filled.time,
+            deviation: &filled.deviation,
+            weight: &filled.weight,
+            from_rest: filled.from_rest,
+            ..*self
+        };
+        let states = dense.filtered(&hyper, true).smoothed();
         let mut variance: Vec<f64> = states.iter().map(|s| s.variance[1] * wide).collect();
         for axis in 0..if self.engagement.is_some() { 5 } else { 3 } {
             let moved = |by: f64| {
@@ -76,7 +103,7 @@ impl Deviations<'_> {
             let curvature = (cost(&moved(0.5)) + cost(&moved(-0.5)) - 2.0 * lowest) / 0.25;
             let deviation = (1.0 / curvature.max(0.25)).sqrt();
             for by in [deviation, -deviation] {
-                let other = self.filtered(&moved(by), true).smoothed();
+                let other = dense.filtered(&moved(by), true).smoothed();
                 for ((v, a), b) in variance.iter_mut().zip(&states).zip(&other) {
                     *v += 0.5 * ((b.mean[1] - a.mean[1]).powi(2) + b.variance[1] - a.variance[1]);
                 }
@@ -114,12 +141,15 @@ impl Deviations<'_> {
             ..CageSpeed::default()
         };
         for (k, ((&time, state), variance)) in
-            self.time.iter().zip(&states).zip(&variance).enumerate()
+            dense.time.iter().zip(&states).zip(&variance).enumerate()
         {
             let rolling = ratio * shaft.speed_at(time);
             let shaft_part = ratio * shaft.speed_deviation_at(time);
             let excess = state.mean[1] + self.removed.get(k).copied().unwrap_or(0.0);
             let own = variance.max(state.variance[1]).max(0.0).sqrt();
+            // Before the first ball has passed the cage may be anywhere between rest and rolling.
+            let unseen = self.time.first().is_some_and(|first| time < *first);
+            let own = own.hypot(if unseen { rolling / 12f64.sqrt() } else { 0.0 });
             // The deviation is relative to the shaft's angle, which is known better than its speed: what the shaft's speed has
             // wrong for longer than a passing is not in the deviation's rate.
             let deviation = own.hypot(shaft_part);
@@ -142,6 +172,49 @@ impl Deviations<'_> {
         }
         result.notes = notes;
         Ok(result)
+    }
+
+    /// The same with instants between the passings after an engagement, and from it on where the shaft rested.
+    fn filled(&self, shaft: &Shaft) -> Filled {
+        let mut filled = Filled::default();
+        let unseen = |filled: &mut Filled, from: f64, to: f64| {
+            let parts = ((to - from) / CLOSE).ceil().max(1.0);
+            for k in 1..parts as usize {
+                let time = from + (to - from) * k as f64 / parts;
+                // A slip has no value where the shaft rests.
+                if shaft.speed_at(time).abs() > TURNS * shaft.fastest() {
+                    filled.time.push(time);
+                    filled.deviation.push(f64::NAN);
+                    filled.weight.push(1.0);
+                }
+            }
+        };
+        // A signal whose trend was taken out is seen at equal times already.
+        let engagement = self.engagement.filter(|_| self.removed.is_empty());
+        let until = engagement.map_or(f64::NEG_INFINITY, |time| time + CLOSE_FOR);
+        if let (Some(engagement), Some(first)) = (engagement, self.time.first())
+            && engagement < *first
+            && *first < until
+            && shaft.covers(engagement)
+            && shaft.speed_at(engagement).abs() < REST * shaft.fastest()
+        {
+            unseen(&mut filled, engagement, *first);
+            filled.from_rest = !filled.time.is_empty();
+        }
+        for (k, (&time, &deviation)) in self.time.iter().zip(self.deviation).enumerate() {
+            filled.time.push(time);
+            filled.deviation.push(deviation);
+            filled
+                .weight
+                .push(self.weight.get(k).copied().unwrap_or(1.0));
+            if let Some(&next) = self.time.get(k + 1)
+                && engagement.is_some_and(|engagement| time > engagement)
+                && time < until
+            {
+                unseen(&mut filled, time, next);
+            }
+        }
+        filled
     }
 
     /// Noise as second differences show it, and the usual changes of slip.
@@ -192,6 +265,7 @@ impl Deviations<'_> {
         // Wide: any phase, any speed that moves the phase by a fifth of its wrap in a step, any rate that does so in ten.
         let speed = (0.2 * spread / step).powi(2);
         let rate = (0.02 * spread / (step * step)).powi(2).min(1e12 * speed);
+        let speed = if self.from_rest { 0.0 } else { speed };
         let prior = [
             [spread * spread, 0.0, 0.0],
             [0.0, speed, 0.0],

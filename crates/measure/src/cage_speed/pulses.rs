@@ -13,7 +13,8 @@ const LAG: f64 = 0.15;
 /// `passings` in s, in order; `balls` the number of balls; `ratio` the speed of a rolling cage over that of the shaft, 1;
 /// `engagement` the time after which slip may change fast, s. Missing and double passings are found and told (missing ones not
 /// within 0.15 s after the engagement, where the cage may lag); errors of the ball
-/// spacing that repeat with the cage are taken out where the record is long enough. The list holds one value a passing.
+/// spacing that repeat with the cage are taken out where the record is long enough. The list holds one value a passing, and for
+/// half a second after an engagement values every 2 ms between them: the cage rises there while hardly a ball passes.
 pub fn from_pulses(
     passings: &[f64],
     shaft: &Shaft,
@@ -76,6 +77,7 @@ pub fn from_pulses(
         wrap: f64::INFINITY,
         removed: &[],
         engagement,
+        from_rest: false,
     };
     data.smoothed(shaft, ratio, notes)
 }
