@@ -390,8 +390,8 @@ fn a_rolling_cage_is_told_through_a_quick_spin_up() {
         let start = pitch * random.uniform();
         let mut passed = Vec::new();
         let mut next = 1.0;
-        for k in 0..15_000 {
-            let here = start + RATIO * angles[k];
+        for (k, angle) in angles.iter().enumerate() {
+            let here = start + RATIO * angle;
             while here >= next * pitch {
                 passed.push(k as f64 * interval + 2e-5 * random.normal());
                 next += 1.0;
