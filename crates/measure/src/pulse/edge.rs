@@ -188,15 +188,20 @@ fn flips(samples: &[f64], levels: &Levels, part: f64) -> Vec<Flip> {
 }
 
 /// The middle between the levels at every flip: between the plateaus on its two sides, so that it follows a drift, and the
-/// height of each mark.
+/// height of each mark. Plateaus of few samples tell their level with noise, so that each middle is drawn to that of its
+/// neighbours as far as these differ by no more than noise.
 fn middles(samples: &[f64], flips: &[Flip], levels: &Levels, fixed: bool) -> Vec<f64> {
-    flips
+    let own: Vec<Middle> = flips
         .iter()
         .enumerate()
         .map(|(k, flip)| {
             let rough = levels.middle(flip.sample);
+            let unknown = Middle {
+                value: rough,
+                variance: f64::INFINITY,
+            };
             if fixed {
-                return rough;
+                return unknown;
             }
             let begin = k
                 .checked_sub(1)
@@ -209,18 +214,53 @@ fn middles(samples: &[f64], flips: &[Flip], levels: &Levels, fixed: bool) -> Vec
             let sign = if flip.rises { 1.0 } else { -1.0 };
             let before = plateau(&samples[begin..flip.sample], rough, -sign);
             let after = plateau(&samples[flip.sample..end], rough, sign);
-            match (before, after) {
-                (Some(before), Some(after)) => 0.5 * (before + after),
-                _ => rough,
-            }
+            let (Some(before), Some(after)) = (before, after) else {
+                return unknown;
+            };
             // A plateau that a gap cut short must not carry the middle out of the flank.
-            .clamp(rough - 0.2 * levels.span, rough + 0.2 * levels.span)
+            let most = 0.2 * levels.span;
+            Middle {
+                value: (0.5 * (before.0 + after.0)).clamp(rough - most, rough + most),
+                variance: 0.25 * levels.noise.powi(2) * (1.0 / before.1 + 1.0 / after.1),
+            }
         })
-        .collect()
+        .collect();
+    (0..own.len()).map(|k| among_neighbours(&own, k)).collect()
 }
 
-/// Level of a plateau on one side of the middle: mean of the samples that are far from it.
-fn plateau(samples: &[f64], middle: f64, sign: f64) -> Option<f64> {
+/// A middle as its own plateaus tell it.
+struct Middle {
+    value: f64,
+    /// Variance that the noise of the samples leaves.
+    variance: f64,
+}
+
+/// A middle, given its neighbours: their mean, and so much of the difference from it as neighbours differ in truth.
+fn among_neighbours(own: &[Middle], k: usize) -> f64 {
+    const NEIGHBOURS: usize = 20;
+    let here = &own[k];
+    let near = &own[k.saturating_sub(NEIGHBOURS)..(k + NEIGHBOURS + 1).min(own.len())];
+    let mean_of = |value: &dyn Fn(&Middle) -> f64| {
+        let known = near.iter().filter(|middle| middle.variance.is_finite());
+        let (sum, weights) = known.fold((0.0, 0.0), |(sum, weights), middle| {
+            let weight = middle.variance.max(1e-30).recip();
+            (sum + weight * value(middle), weights + weight)
+        });
+        (weights > 0.0).then(|| sum / weights)
+    };
+    let Some(mean) = mean_of(&|middle| middle.value) else {
+        return here.value;
+    };
+    if !here.variance.is_finite() {
+        return mean;
+    }
+    let apart = mean_of(&|middle| (middle.value - mean).powi(2) - middle.variance);
+    let apart = apart.unwrap_or(0.0).max(0.0);
+    mean + (here.value - mean) * apart / (apart + here.variance).max(1e-30)
+}
+
+/// Level of a plateau on one side of the middle, mean of the samples that are far from it, and their number.
+fn plateau(samples: &[f64], middle: f64, sign: f64) -> Option<(f64, f64)> {
     let away = samples
         .iter()
         .map(|x| sign * (x - middle))
@@ -229,7 +269,8 @@ fn plateau(samples: &[f64], middle: f64, sign: f64) -> Option<f64> {
     let (sum, count) = away
         .filter(|&x| x >= 0.8 * largest)
         .fold((0.0, 0usize), |(s, n), x| (s + x, n + 1));
-    (largest > 0.0).then(|| middle + sign * sum / count.max(1) as f64)
+    let count = count.max(1) as f64;
+    (largest > 0.0).then(|| (middle + sign * sum / count, count))
 }
 
 /// Where the signal crosses the middle at a flip, and the standard uncertainty of it, both in samples; and whether the flank

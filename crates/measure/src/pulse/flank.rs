@@ -34,6 +34,10 @@ const EVEN: f64 = 0.3;
 /// Scatter on the flank, as a part of the span, above which the record does not show its shape: samples that are either low or
 /// high, as of a digital pickup, lie by 0.3 and more from any shape between.
 const UNSEEN: f64 = 0.1;
+/// Places at which a flank is tried: so far to either side, samples, so many at once, and so often closer.
+const AWAY: f64 = 1.0;
+const PLACES: usize = 40;
+const CLOSER: usize = 5;
 /// Cells on the steep part of a flank, below which its shape is that of the cells and not its own.
 const FEWEST_STEEP: usize = 3;
 
@@ -44,6 +48,8 @@ struct Shape {
     scatter: f64,
     /// That of the samples where it rises most.
     steep_scatter: f64,
+    /// Largest slope.
+    steepest: f64,
 }
 
 impl Shape {
@@ -54,18 +60,48 @@ impl Shape {
         steps().filter(|step| *step >= 0.5 * steepest).count()
     }
 
-    /// Height and slope at an angle, in parts of a pitch; none outside.
+    /// Whether the shape is other than flat somewhere in an interval of angles, in parts of a pitch.
+    fn changes(&self, from: f64, to: f64) -> bool {
+        self.inside(to).0 - self.inside(from).0 > 0.25 * self.scatter
+    }
+
+    /// Height and slope at an angle; beyond the ends as at them.
+    fn inside(&self, angle: f64) -> (f64, f64) {
+        let within = HALF * (1.0 - 1e-9);
+        let slope = |found: Option<(f64, f64)>| found.unwrap_or((0.0, 0.0));
+        slope(self.at(angle.clamp(-within, within)))
+    }
+
+    /// Height that a sample is expected to have at an angle, and its variance: steep parts scatter more.
+    fn expected(&self, angle: f64) -> (f64, f64) {
+        let (height, slope) = self.inside(angle);
+        let more = (self.steep_scatter.powi(2) - self.scatter.powi(2)).max(0.0);
+        let part = (slope / self.steepest).powi(2).min(1.0);
+        (height, self.scatter.powi(2) + part * more)
+    }
+
+    /// Height and slope at an angle, in parts of a pitch; none outside. Cubics through the cells, with slopes that let none of
+    /// them overshoot.
     fn at(&self, angle: f64) -> Option<(f64, f64)> {
         let place = (angle / HALF + 1.0) * 0.5 * CELLS as f64;
         if !(0.0..CELLS as f64).contains(&place) {
             return None;
         }
-        let k = place as usize;
-        let (a, b) = (self.heights[k], self.heights[k + 1]);
-        Some((
-            a + (b - a) * (place - k as f64),
-            (b - a) * CELLS as f64 / (2.0 * HALF),
-        ))
+        let (k, x) = (place as usize, place.fract());
+        let rise = |k: usize| self.heights[k + 1] - self.heights[k];
+        let slope = |k: usize| {
+            let (left, right) = (rise(k.max(1) - 1), rise(k.min(CELLS - 1)));
+            if left * right > 0.0 {
+                2.0 * left * right / (left + right)
+            } else {
+                0.0
+            }
+        };
+        let (from, to, up) = (slope(k), slope(k + 1), rise(k));
+        let (square, cube) = (3.0 * up - 2.0 * from - to, from + to - 2.0 * up);
+        let height = self.heights[k] + x * (from + x * (square + x * cube));
+        let steepness = from + x * (2.0 * square + x * 3.0 * cube);
+        Some((height, steepness * CELLS as f64 / (2.0 * HALF)))
     }
 }
 
@@ -121,7 +157,7 @@ pub(super) fn sharpen(samples: &[f64], found: &mut [Passing], rises: bool, level
         if let Some(rate) = *rate
             && !found[k].resolved
         {
-            lay(samples, &mut found[k], rate, scale, &shape);
+            weigh(samples, &mut found[k], rate, scale, &shape);
         }
     }
 }
@@ -185,6 +221,60 @@ fn lay(samples: &[f64], passing: &mut Passing, rate: f64, scale: f64, shape: &Sh
     0.0
 }
 
+/// Lays a flank on the shape: mean and deviation of all places at which the samples about it are likely. A flank that hides
+/// between two samples may be anywhere there; one that a sample meets is where that sample says.
+fn weigh(samples: &[f64], passing: &mut Passing, rate: f64, scale: f64, shape: &Shape) -> f64 {
+    let reach = HALF / rate;
+    let begin = (passing.place - reach).ceil().max(0.0) as usize;
+    let end = ((passing.place + reach) as usize + 1).min(samples.len());
+    let near: Vec<(f64, f64)> = (begin..end)
+        .map(|m| (m as f64, scale * (samples[m] - passing.middle)))
+        .filter(|(m, height)| {
+            let (from, to) = (m - passing.place - AWAY, m - passing.place + AWAY);
+            height.is_finite() && shape.changes(from * rate, to * rate)
+        })
+        .collect();
+    let misfit = |place: f64| -> f64 {
+        near.iter()
+            .map(|&(m, height)| {
+                let (model, variance) = shape.expected((m - place) * rate);
+                (height - model).powi(2) / variance + variance.ln()
+            })
+            .sum()
+    };
+    let (mut from, mut to) = (passing.place - AWAY, passing.place + AWAY);
+    for _ in 0..CLOSER {
+        let step = (to - from) / PLACES as f64;
+        let misfits: Vec<f64> = (0..=PLACES)
+            .map(|k| misfit(from + k as f64 * step))
+            .collect();
+        let least = misfits.iter().copied().fold(f64::INFINITY, f64::min);
+        let (mut sum, mut first, mut second) = (0.0, 0.0, 0.0);
+        let (mut low, mut high) = (to, from);
+        for (k, misfit) in misfits.iter().enumerate() {
+            let place = k as f64 * step;
+            let weight = (0.5 * (least - misfit)).exp();
+            sum += weight;
+            first += weight * place;
+            second += weight * place * place;
+            if weight > 1e-4 {
+                low = low.min(from + place - step);
+                high = high.max(from + place + step);
+            }
+        }
+        let mean = first / sum;
+        let spread = (second / sum - mean * mean).max(0.0).sqrt();
+        if spread > 1.5 * step || high - low > 0.7 * (to - from) {
+            let moved = from + mean - passing.place;
+            passing.place += moved;
+            passing.spread = spread.max(1e-3);
+            return moved;
+        }
+        (from, to) = (low, high);
+    }
+    0.0
+}
+
 /// The mean shape of passages, slow ones first of all: they show it in full.
 fn learn(samples: &[f64], found: &[Passing], pupils: &[(usize, f64)], scale: f64) -> Option<Shape> {
     let fastest = pupils.iter().map(|p| p.1).fold(1e-9, f64::max);
@@ -221,6 +311,7 @@ fn learn(samples: &[f64], found: &[Passing], pupils: &[(usize, f64)], scale: f64
         heights,
         scatter: 0.0,
         steep_scatter: 0.0,
+        steepest: 0.0,
     };
     let away: Vec<(f64, f64)> = seen
         .iter()
@@ -236,5 +327,6 @@ fn learn(samples: &[f64], found: &[Passing], pupils: &[(usize, f64)], scale: f64
         median(&mut sizes) / 0.6745
     };
     (shape.scatter, shape.steep_scatter) = (deviation(0.0).max(1e-3), deviation(0.5 * steepest));
+    shape.steepest = steepest.max(1e-12);
     Some(shape)
 }
