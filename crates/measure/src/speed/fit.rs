@@ -272,7 +272,8 @@ pub(super) fn livelier(data: &Data, plan: &Plan) -> Vec<Livelier> {
     let mut densities = vec![0.0f64; all.len().div_ceil(PART)];
     let mut step = 1;
     while step * STRETCH <= all.len() {
-        for begin in (0..=all.len() - step * STRETCH).step_by(step * PART) {
+        let latest = all.len() - step * STRETCH;
+        for begin in (0..latest).step_by(step * PART).chain([latest]) {
             let end = begin + step * STRETCH;
             let usual = plan.density(all[begin + step * PART].time).ln();
             let window: Vec<Passage> = all[begin..end].iter().step_by(step).copied().collect();

@@ -232,6 +232,8 @@ pub fn smooth(
     }
     if n - calm_from >= 3 * fit::STRETCH {
         base.quiet[2] = fit::calm(&data, calm_from..n, noise, density);
+        // A change that settles is no calmer than what comes after it.
+        base.quiet[1] = base.quiet[1].max(base.quiet[2]);
     }
     let mut speed = Speed {
         base: Track::new(
