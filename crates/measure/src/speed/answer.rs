@@ -44,8 +44,8 @@ impl Speed {
         ]
     }
 
-    /// The motion at an instant, s; outside the range of the pulses it is carried on, with growing covariance, and before
-    /// an engagement from rest it is rest.
+    /// The motion at an instant, s; outside the range of the pulses it is carried on, with growing covariance; before an
+    /// engagement from rest it is rest, and after the last mark of a shaft that stops it comes to rest.
     pub fn at(&self, seconds: f64) -> Motion {
         let belief = self.belief((seconds - self.origin) / self.unit);
         let scale = self.scale();
@@ -61,7 +61,7 @@ impl Speed {
                 *variance = variance.max(stiffest.variance(order as i32, seconds));
             }
         }
-        Motion {
+        let motion = Motion {
             time: seconds,
             angle,
             speed,
@@ -72,7 +72,10 @@ impl Speed {
                     known[i][j] + late[i] * late[j] + wheel
                 })
             }),
-        }
+        };
+        let motion = self.stop.map_or(motion, |stop| stop.applied(motion));
+        let hidden = self.breakaway.as_ref();
+        hidden.map_or(motion, |breakaway| breakaway.applied(motion))
     }
 
     /// Covariance of angle, speed and acceleration at one instant (rows) with those at another (columns), s.

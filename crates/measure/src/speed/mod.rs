@@ -15,19 +15,23 @@
 //! than a few pulses; more than one quick change in a record (give the window of the one that is wanted).
 
 mod answer;
+mod breakaway;
 mod design;
 mod fit;
 mod matrix;
 mod plan;
 mod search;
 mod stiffest;
+mod stop;
 mod track;
 
 use crate::pulse::{Pitch, Pulses, Refusal};
+use breakaway::Breakaway;
 pub use design::marks_needed;
 use matrix::N;
 use plan::{Data, Plan};
 use stiffest::Stiffest;
+use stop::Stop;
 use track::{Belief, Track};
 
 /// Where a quick change of speed is looked for.
@@ -126,6 +130,10 @@ pub struct Speed {
     latency: f64,
     /// What the variances cannot be less than; none where there is a quick change, whose are larger.
     stiffest: Option<Stiffest>,
+    /// How the shaft comes to rest after the last mark, where it does.
+    stop: Option<Stop>,
+    /// What the friction seen there hides of a start from rest.
+    breakaway: Option<Breakaway>,
     /// Standard deviation of an order-one error that the calibration may hold, rad.
     eccentricity: f64,
     /// The quick change, where there is one.
@@ -251,6 +259,8 @@ pub fn smooth(
         unit: data.unit,
         latency: settings.latency.max(0.0),
         stiffest: None,
+        stop: None,
+        breakaway: None,
         eccentricity: pitch.map_or(0.0, |p| {
             settings.ripple.max(0.0) / (p.speed * p.speed).max(1e-12)
         }),
@@ -296,6 +306,11 @@ pub fn smooth(
     }
     if speed.change.is_none() {
         speed.stiffest = Stiffest::of(pulses, &speed);
+    }
+    speed.stop = Stop::of(pulses, &speed);
+    speed.breakaway = Breakaway::of(pulses, &speed);
+    if let (Some(change), Some(breakaway)) = (&mut speed.change, &speed.breakaway) {
+        change.engagement.1 = change.engagement.1.hypot(breakaway.deviation);
     }
     if let (Some(change), Some(wanted)) = (speed.change, settings.wanted) {
         let (from, to) = (
