@@ -34,6 +34,25 @@ impl Speed {
         mixed(beliefs.iter().copied())
     }
 
+    /// Factors on the deviations of angle, speed and acceleration at an instant, in units.
+    fn factors(&self, time: f64) -> [f64; 3] {
+        let smoothness = self.smoothness.as_ref();
+        smoothness.map_or([1.0; 3], |smoothness| smoothness.at(time))
+    }
+
+    /// Angle, speed, acceleration and jerk of a path at an instant, in units, so far from the mean as the factors say.
+    fn scaled(&self, time: f64, path: [f64; 4]) -> [f64; 4] {
+        let factors = self.factors(time);
+        if factors == [1.0; 3] {
+            return path;
+        }
+        let mean = self.belief(time).mean;
+        std::array::from_fn(|i| match factors.get(i) {
+            Some(factor) => mean[i] + factor * (path[i] - mean[i]),
+            None => path[i],
+        })
+    }
+
     /// Units of angle, speed, acceleration and jerk.
     fn scale(&self) -> [f64; 4] {
         [
@@ -47,13 +66,15 @@ impl Speed {
     /// The motion at an instant, s; outside the range of the pulses it is carried on, with growing covariance; before an
     /// engagement from rest it is rest, and after the last mark of a shaft that stops it comes to rest.
     pub fn at(&self, seconds: f64) -> Motion {
-        let belief = self.belief((seconds - self.origin) / self.unit);
+        let time = (seconds - self.origin) / self.unit;
+        let (belief, factors) = (self.belief(time), self.factors(time));
         let scale = self.scale();
         let [angle, speed, acceleration, jerk] = std::array::from_fn(|i| belief.mean[i] * scale[i]);
         let late = [speed, acceleration, jerk].map(|x| x * self.latency);
         let wrong = self.wrong_wheel(0.0, speed, acceleration);
         let mut known: [[f64; 3]; 3] = std::array::from_fn(|i| {
-            std::array::from_fn(|j| belief.covariance[i][j] * scale[i] * scale[j])
+            let factor = |i: usize| factors[i] * scale[i];
+            std::array::from_fn(|j| belief.covariance[i][j] * factor(i) * factor(j))
         });
         if let Some(stiffest) = &self.stiffest {
             for order in [1, 2] {
@@ -114,6 +135,7 @@ impl Speed {
             ]
             .map(|x| x * self.latency)
         });
+        let factors = times.map(|time| self.factors(time));
         let wrong = [0, 1].map(|k| {
             self.wrong_wheel(
                 mean[k][0] - mean[0][0],
@@ -131,7 +153,9 @@ impl Speed {
                     })
                     .sum();
                 let wheel: f64 = (0..2).map(|w| wrong[0][w][i] * wrong[1][w][j]).sum();
-                own * scale[i] * scale[j] + late[0][i] * late[1][j] + wheel
+                own * factors[0][i] * scale[i] * factors[1][j] * scale[j]
+                    + late[0][i] * late[1][j]
+                    + wheel
             })
         })
     }
@@ -178,6 +202,7 @@ impl Speed {
                 } else {
                     [x[0], x[1], x[2], x[3]]
                 };
+                let rest = if inside { self.scaled(t, rest) } else { rest };
                 let [angle, speed, acceleration, jerk] =
                     std::array::from_fn(|i| rest[i] * scale[i]);
                 let late = [speed, acceleration, jerk].map(|v| v * delay);

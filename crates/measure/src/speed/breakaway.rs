@@ -52,7 +52,10 @@ impl Breakaway {
         if motion.time > self.engagement - self.deviation && left > 0.0 {
             let hidden = self.deviation * left.min(1.0);
             let mut add = |i: usize, deviation: f64| motion.covariance[i][i] += deviation.powi(2);
-            add(1, motion.acceleration.abs().max(self.slope * hidden) * hidden);
+            add(
+                1,
+                motion.acceleration.abs().max(self.slope * hidden) * hidden,
+            );
             add(2, self.slope * hidden);
         }
         motion

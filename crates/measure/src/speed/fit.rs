@@ -375,10 +375,12 @@ fn expected(density: f64, start: Knot, head: f64) -> f64 {
     start + lag - 0.5 * (density / NEARLY_FREE).powi(2)
 }
 
-/// Points from which the likelihood is climbed: the best of a scan over the engagement and the density, and the best one far
-/// from it. A clutch that engages softly and one that grips late may both explain the same marks.
+/// Points from which the likelihood is climbed: the best of a scan over the engagement, the density and the end, and the best
+/// one far from it. A clutch that engages softly and one that grips late may both explain the same marks. A change is seen to
+/// end where nearly all of it has come; a torque that rises to the end has still a fiftieth of its way to go there.
 fn valleys(sight: &Sight, density: f64, cost: impl Fn(&[f64; 3]) -> f64) -> Vec<[f64; 3]> {
     const DENSITY: [f64; 4] = [1.0, -2.0, -5.0, -9.0];
+    const END: [f64; 3] = [0.0, 0.01, 0.02];
     let places: &[f64] = if sight.rests {
         &[
             -4.5, -3.5, -2.75, -2.25, -1.75, -1.25, -0.75, -0.25, 0.4, 1.1,
@@ -391,7 +393,7 @@ fn valleys(sight: &Sight, density: f64, cost: impl Fn(&[f64; 3]) -> f64) -> Vec<
         .map(|&place| {
             DENSITY
                 .iter()
-                .map(|q| [density.ln() + q, place, 0.0])
+                .flat_map(|q| END.map(|end| [density.ln() + q, place, end]))
                 .map(|point| (point, cost(&point)))
                 .min_by(|a, b| a.1.total_cmp(&b.1))
                 .expect("a density")

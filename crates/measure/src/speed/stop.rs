@@ -61,7 +61,11 @@ impl Stop {
             let left = 1.0 - turning / self.length;
             motion.angle = self.last.angle + self.last.speed * turning * 0.5 * (1.0 + left);
             motion.speed = self.last.speed * left;
-            motion.acceleration = if left > 0.0 { self.last.acceleration } else { 0.0 };
+            motion.acceleration = if left > 0.0 {
+                self.last.acceleration
+            } else {
+                0.0
+            };
             // What was open at the last mark fades as the shaft comes to rest, but for the angle.
             for (i, fade) in [1.0, left, left].into_iter().enumerate() {
                 for (j, other) in [1.0, left, left].into_iter().enumerate() {

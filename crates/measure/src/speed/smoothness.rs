@@ -1,0 +1,140 @@
+//! Deviations within a quick change, given how smooth the change turns out to be.
+//!
+//! ```text
+//! P(q)   variance at the density q: a part from the noise of the pulses and one from the motion, β P where P ~ q^β
+//! δ      by how much an estimate moves when the fit is made ten times stiffer
+//!        E δ² = P(q/10) (1 + 9 β) - P(q)   if the snap is white noise of the density q
+//! ρ      ⟨δ²⟩/⟨E δ²⟩ over about a tenth of the change
+//! variance   P - β P (1 - ρ)
+//! ```
+//! One density serves the whole change, its corners and its even middle; and a motion that is smoother than white snap is met
+//! by the same fit with errors from the noise alone, which are 0.6 (acceleration) to 0.8 (speed) of the deviation P. Where the
+//! estimate hardly moves as the fit is made stiffer, the motion has little to do with what is left open; where it moves
+//! more than white snap would let it, the band is too narrow. The noise takes part in δ, so that a smooth motion keeps
+//! some of βP.
+//!
+//! E δ²: an estimate from all pulses leaves an error that is uncorrelated with any other linear estimate from them, so that
+//! the variances of two differ by E δ²; that of the stiffer fit is its noise part (1 - β) P(q/10) and ten times its motion
+//! part β P(q/10).
+//!
+//! **Does not model**: the first and the last fifth of a change, where knots leave more open than the density does: there the
+//! factor fades out.
+
+use super::answer::at;
+use super::plan::Plan;
+use super::track::{Belief, Track, mixed};
+
+/// How much stiffer the other fit is.
+const STIFFER: f64 = 10.0;
+/// Instants at which the two are compared.
+const POINTS: usize = 80;
+/// Standard deviation of the window of the mean, and length over which the factor fades in and out, as parts of the change.
+const WINDOW: f64 = 0.08;
+const FADES: f64 = 0.2;
+/// Least part of a variance that is left.
+const LEAST: f64 = 0.02;
+
+/// Factors on the deviations of speed and acceleration over a quick change.
+#[derive(Clone, Debug)]
+pub(super) struct Smoothness {
+    from: f64,
+    to: f64,
+    factors: Vec<[f64; 2]>,
+}
+
+/// A state at an instant: from the fit, and how the stiffer one differs.
+struct Compared {
+    /// Variance of the mixture.
+    whole: f64,
+    /// Mean variance of its tracks, and the exponent β.
+    within: f64,
+    exponent: f64,
+    /// δ² and what is expected of it.
+    moved: f64,
+    expected: f64,
+}
+
+/// A plan that is ten times stiffer.
+pub(super) fn stiffer(plan: &Plan) -> Plan {
+    let mut plan = *plan;
+    plan.quiet = plan.quiet.map(|density| density / STIFFER);
+    if let Some(lively) = &mut plan.lively {
+        lively.density /= STIFFER;
+        if let Some(head) = &mut lively.head {
+            head.share /= STIFFER;
+        }
+    }
+    plan
+}
+
+impl Smoothness {
+    /// That of a change between two instants, from its tracks and the stiffer ones with their weights.
+    pub fn of(
+        tracks: &[(f64, Track)],
+        stiffer: &[(f64, Track)],
+        (from, to): (f64, f64),
+    ) -> Smoothness {
+        let time = |k: usize| from + (to - from) * k as f64 / POINTS as f64;
+        let rows: Vec<[Compared; 2]> = (0..=POINTS)
+            .map(|k| compared(tracks, stiffer, time(k)))
+            .collect();
+        let factor = |k: usize, state: usize| {
+            let here = &rows[k][state];
+            let (mut moved, mut expected) = (0.0, 0.0);
+            for (j, row) in rows.iter().enumerate() {
+                let away = (j as f64 - k as f64) / POINTS as f64 / WINDOW;
+                let weight = (-0.5 * away * away).exp();
+                moved += weight * row[state].moved;
+                expected += weight * row[state].expected;
+            }
+            let place = k as f64 / POINTS as f64;
+            let faded = (place.min(1.0 - place) / FADES).min(1.0);
+            let more = faded * here.exponent * here.within * (moved / expected - 1.0);
+            let factor = (1.0 + more / here.whole).max(LEAST).sqrt();
+            if factor.is_finite() { factor } else { 1.0 }
+        };
+        Smoothness {
+            from,
+            to,
+            factors: (0..=POINTS).map(|k| [factor(k, 0), factor(k, 1)]).collect(),
+        }
+    }
+
+    /// Factors on the deviations of angle, speed and acceleration at an instant, in units.
+    pub fn at(&self, time: f64) -> [f64; 3] {
+        let place = (time - self.from) / (self.to - self.from) * POINTS as f64;
+        if !(0.0..POINTS as f64).contains(&place) {
+            return [1.0; 3];
+        }
+        let (k, part) = (place as usize, place.fract());
+        let (left, right) = (self.factors[k], self.factors[k + 1]);
+        let between = |state: usize| left[state] + part * (right[state] - left[state]);
+        [1.0, between(0), between(1)]
+    }
+}
+
+/// Speed and acceleration at an instant.
+fn compared(tracks: &[(f64, Track)], stiffer: &[(f64, Track)], time: f64) -> [Compared; 2] {
+    let beliefs = |tracks: &[(f64, Track)]| -> Vec<(f64, Belief)> {
+        let all = tracks.iter();
+        all.map(|(weight, track)| (*weight, at(track, time)))
+            .collect()
+    };
+    let (soft, hard) = (beliefs(tracks), beliefs(stiffer));
+    let (mean_soft, mean_hard) = (mixed(soft.iter().copied()), mixed(hard.iter().copied()));
+    [1, 2].map(|state| {
+        let within = |beliefs: &[(f64, Belief)]| -> f64 {
+            let variances = beliefs.iter().map(|(w, b)| w * b.covariance[state][state]);
+            variances.sum::<f64>().max(0.0)
+        };
+        let (soft, hard) = (within(&soft), within(&hard));
+        let exponent = ((soft / hard).ln() / STIFFER.ln()).clamp(0.0, 1.0);
+        Compared {
+            whole: mean_soft.covariance[state][state],
+            within: soft,
+            exponent,
+            moved: (mean_soft.mean[state] - mean_hard.mean[state]).powi(2),
+            expected: (hard * (1.0 + (STIFFER - 1.0) * exponent) - soft).max(0.0),
+        }
+    })
+}
