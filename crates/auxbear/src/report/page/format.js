@@ -83,6 +83,24 @@ function leadingPower(value) {
   return value === 0 ? 0 : Math.floor(Math.log10(Math.abs(value)));
 }
 
+// A value and what it may be off, with the digits that this leaves: two of the band, the value to the same place.
+function bandNumbers(value, band) {
+  if (!isNumber(value)) return "–";
+  if (!isNumber(band)) return `${numberText(value, 4)} ± ?`;
+  if (!(band > 0)) return numberText(value, 5);
+  const size = leadingPower(value === 0 ? band : value);
+  if (size > 6 || size < -3) return `(${bandNumbers(value / 10 ** size, band / 10 ** size)}) × ${powerOfTen(size)}`;
+  const decimals = 1 - leadingPower(Number(band.toPrecision(2)));
+  const text = (number) => thousandsApart(decimals >= 0 ? decimalText(number, decimals) : String(Math.round(number * 10 ** decimals) * 10 ** -decimals));
+  return `${text(value)} ± ${text(band)}`;
+}
+
+// The same in the unit in which the value reads best.
+function bandText(value, band, unit) {
+  const [name, scale] = readableUnit(Math.max(Math.abs(value), Math.abs(band)), unit);
+  return `${bandNumbers(value / scale, band / scale)} ${name}`.trim();
+}
+
 // One unit for a whole column of values, and as many decimals as give the largest of them so many digits.
 function columnScale(values, unit, digits) {
   const largest = values.filter(isNumber).reduce((most, value) => Math.max(most, Math.abs(value)), 0);

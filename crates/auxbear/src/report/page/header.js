@@ -3,6 +3,9 @@
 // Above this share of what was turned over the energy ledger counts as open.
 const RESIDUAL_TO_DOUBT = 1e-6;
 
+// What ± means wherever it stands.
+const BAND_NOTE = "± twice the standard deviation";
+
 // state: "good" or "bad" where there is a criterion, else nothing.
 function tile(title, value, notes, state) {
   return element(
@@ -29,7 +32,9 @@ function meanNote(quantity) {
 function quantityTile(run, title, name, note, state) {
   const quantity = quantityOf(run, name);
   if (!isNumber(quantity.value)) return tile(title, "–", ["not in this run: " + (quantity.why || "no reason given")]);
-  return tile(title, engineeringText(quantity.value, quantity.unit, 4), [meanNote(quantity), note(quantity.value)], state && state(quantity.value));
+  const deviation = numberOf(run, name + "_deviation");
+  const text = deviation === null ? engineeringText(quantity.value, quantity.unit, 4) : bandText(quantity.value, BAND * deviation, quantity.unit);
+  return tile(title, text, [meanNote(quantity), deviation === null ? null : BAND_NOTE, note && note(quantity.value)], state && state(quantity.value));
 }
 
 function stateTile(run) {

@@ -121,7 +121,7 @@ function testSection(runs) {
 function uncertainText(run, name, unit, scale = 1) {
   const [value, deviation] = [numberOf(run, name), numberOf(run, name + "_deviation")];
   if (value === null) return element("span", { class: "absent" }, quantityOf(run, name).why || "–");
-  return `${numberText(scale * value, 4)} ± ${deviation === null ? "?" : numberText(BAND * scale * deviation, 2)} ${unit}`;
+  return `${bandNumbers(scale * value, deviation === null ? null : BAND * scale * deviation)} ${unit}`.trim();
 }
 
 function lossFigures(run, runs) {
@@ -192,7 +192,7 @@ function identifyVerdict(run) {
     stateTile(run),
     tile("Explanation", words.split(":")[0], [conclusion.why || words.split(": ")[1] || `probability ${percentText(probability, 3)}`]),
     tile("Steady moment", typeof form.value === "string" ? `${form.value} form` : "–", [form.why]),
-    numberOf(run, "rotor_friction_coefficient") === null ? null : tile("Friction rotor/race", uncertainText(run, "rotor_friction_coefficient", ""), ["mean over the slips, ± twice the standard deviation"]),
+    numberOf(run, "rotor_friction_coefficient") === null ? null : tile("Friction rotor/race", uncertainText(run, "rotor_friction_coefficient", ""), ["mean over the slips, " + BAND_NOTE]),
     tile("Dissipated in the spin-ups", `${tests.length} ${tests.length === 1 ? "test" : "tests"}`, best),
   );
 }

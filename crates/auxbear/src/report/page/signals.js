@@ -209,10 +209,10 @@ function steadySection(runs) {
       const [mean, deviation, chance] = ["", "_deviation", "_chance"].map((end) => numberOf(run, name + end));
       return mean === null
         ? [words, element("span", { class: "absent" }, quantityOf(run, name).why || "–"), ""]
-        : [words, `${numberText(1e3 * mean, 3)} ± ${numberText(1e3 * BAND * deviation, 2)} N mm (2σ)`, numberText(chance, 2)];
+        : [words, `${bandNumbers(1e3 * mean, 1e3 * BAND * deviation)} N mm (2σ)`, numberText(chance, 2)];
     };
     const inertia = numberOf(run, "steady_inertia");
-    const note = inertia === null ? "" : `I = ${numberText(inertia, 4)} ± ${numberText(BAND * numberOf(run, "steady_inertia_deviation"), 2)} kg m² (2σ). `;
+    const note = inertia === null ? "" : `I = ${bandNumbers(inertia, BAND * numberOf(run, "steady_inertia_deviation"))} kg m² (2σ). `;
     return [
       figure(shareOfRun(run, runs, "Torque over speed in slow running"), `${note}${BAND_WORDS}`, series.length ? curves({ series, across: "speed [rad/s]", upright: "torque [N mm]", height: 320 }) : null, series.length ? null : [notInThisRun(quantityOf(run, "steady_speeds").why || "no reason is given", run)]),
       figure(shareOfRun(run, runs, "One curve against another"), "Chance: how often equal curves would differ as much.", plainTable(["difference", "mean over the speeds", "chance"], [row("by the sensor less −I dΩ/dt", "steady_direct_less_inertial"), row("rising less falling speed", "steady_up_less_down")])),
@@ -265,21 +265,17 @@ function signalSections(runs) {
 }
 
 function signalsVerdict(run) {
-  const beside = (name, unit, scale = 1, percent = false) => {
-    const deviation = numberOf(run, name);
-    return deviation === null ? null : `± ${percent ? percentText(BAND * deviation, 3) : engineeringText(BAND * deviation * scale, unit, 3)} (2σ)`;
-  };
   const asked = (section) => String((inputOf(run, `signals.${section}.channel`) || { value: "not given" }).value) !== "not given";
-  const slip = quantityOf(run, "median_cage_slip");
+  const [slip, deviation] = [quantityOf(run, "median_cage_slip"), numberOf(run, "median_cage_slip_deviation")];
   return element(
     "div",
     { class: "tiles" },
     stateTile(run),
-    asked("speed") ? quantityTile(run, "Largest speed", "peak_speed", () => beside("peak_speed_deviation", "rad/s")) : null,
-    asked("speed") ? quantityTile(run, "Largest acceleration", "peak_acceleration", () => beside("peak_acceleration_deviation", "rad/s^2")) : null,
-    asked("speed") ? quantityTile(run, "Engagement", "engagement_time", () => beside("engagement_time_deviation", "s")) : null,
-    asked("torque") ? quantityTile(run, "Largest torque", "peak_torque", () => beside("peak_torque_deviation", "N m")) : null,
-    asked("cage") ? tile("Median slip of the cage", isNumber(slip.value) ? percentText(slip.value, 3) : "–", [isNumber(slip.value) ? beside("median_cage_slip_deviation", "1", 1, true) : "not in this run: " + slip.why]) : null,
+    asked("speed") ? quantityTile(run, "Largest speed", "peak_speed") : null,
+    asked("speed") ? quantityTile(run, "Largest acceleration", "peak_acceleration") : null,
+    asked("speed") ? quantityTile(run, "Engagement", "engagement_time") : null,
+    asked("torque") ? quantityTile(run, "Largest torque", "peak_torque") : null,
+    asked("cage") ? tile("Median slip of the cage", isNumber(slip.value) ? `${bandNumbers(100 * slip.value, 100 * BAND * deviation)} %` : "–", [isNumber(slip.value) ? BAND_NOTE : "not in this run: " + slip.why]) : null,
   );
 }
 
