@@ -5,9 +5,9 @@
 //! lower one; at the engagement torque and rate may jump. Before it the shaft rests and the torque is zero by definition.
 //! Intensities, their decay and the noise are those of the highest likelihood with wide priors.
 //!
-//! A reading at the limit of its converter says only that the true one is at least there. What lies beyond is not guessed: the
-//! torque is told where it would stay within half a deviation though the true readings lay beyond the limit by the whole span
-//! of the record, and nowhere else ([`Clipped`]).
+//! A reading at the limit of its converter ([`Clipped`]) says only that the true one is at least there. What lies beyond is not
+//! guessed, and no torque is told there. Beside it the torque is computed once more with readings beyond the limit by twice what
+//! slopes and duration let expect: the band widens by what that changes; where that is more than two deviations no torque is told.
 //!
 //! Source: physics of the sensor as in the module; unknown-input smoothing as by Lourens et al., Mech. Syst. Signal Process. 29
 //! (2012) 446 (from memory).
@@ -117,11 +117,8 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
     let engagement = input
         .engagement
         .filter(|e| inside(e) && input.rests_at_first());
-    if let (None, Some(given)) = (engagement, &input.engagement) {
-        notes.push(match inside(given) {
-            true => "the engagement may lie before the record and is not used".into(),
-            false => "the engagement lies outside the record and is not used".into(),
-        });
+    if input.engagement.is_some_and(|given| !inside(&given)) {
+        notes.push("the engagement lies outside the record and is not used".into());
     }
     let knot = engagement.map(|e| e.value);
     // Hyper-parameters from the part of the record that tells most of them.
@@ -264,15 +261,21 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         let moved = |k: usize, index: usize| other.states[k].0[index] - base.states[k].0[index];
         let lost = f64::NAN;
         for k in 0..told.len() {
+            let by = moved(k, TORQUE).abs();
+            // a torque that is zero by definition stays so
             let rests = deviation[k] == 0.0;
-            let hidden = thin.limits[k].is_some() || moved(k, TORQUE).abs() > UNTOLD * deviation[k];
-            if hidden && !rests {
+            if !rests && (thin.limits[k].is_some() || by > UNTOLD * deviation[k]) {
                 (told[k], deviation[k]) = (lost, lost);
                 (told_rate[k], rate_deviation[k]) = (lost, lost);
+            } else if !rests {
+                deviation[k] = deviation[k].hypot(by);
+                rate_deviation[k] = rate_deviation[k].hypot(moved(k, RATE));
             }
-            let amplitude = growth(k) * moved(k, COSINE).hypot(moved(k, SINE));
-            if amplitude > UNTOLD * disturbance_deviation[k] {
+            let by = growth(k) * moved(k, COSINE).hypot(moved(k, SINE));
+            if by > UNTOLD * disturbance_deviation[k] {
                 (disturbance[k], disturbance_deviation[k]) = (lost, lost);
+            } else {
+                disturbance_deviation[k] = disturbance_deviation[k].hypot(by);
             }
         }
         let by = if told.is_empty() { 0.0 } else { moved(0, ZERO) };
@@ -482,8 +485,8 @@ impl Thin {
     }
 }
 
-/// Part of a deviation by which what clipped readings hide may move what is told.
-const UNTOLD: f64 = 0.5;
+/// Deviations by which what clipped readings hide may move what is told.
+const UNTOLD: f64 = 2.0;
 
 /// Standard deviation of the reading; the unit in which the filter works.
 fn scale_of(reading: &[f64]) -> f64 {

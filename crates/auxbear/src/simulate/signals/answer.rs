@@ -249,7 +249,7 @@ fn torque(list: &mut List, asked: &Asked, found: &Found) {
     list.number(
         "median_torque_deviation",
         "N m",
-        inverted().map(|t| median(&t.deviation)),
+        whole().map(|t| median(&t.deviation)),
         &TORQUE,
     );
     list.number(

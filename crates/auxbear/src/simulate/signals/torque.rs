@@ -64,11 +64,18 @@ pub(super) fn faulty(series: &Series) -> Faulty {
             begins[kind] = series.time(fault.first);
         }
         if kind == 0 {
+            let above = value(fault.first) > 0.5 * (low + high);
             cut.push(Clipped {
                 first: fault.first,
                 count: fault.count,
-                limit: value(fault.first),
-                above: value(fault.first) > 0.5 * (low + high),
+                limit: series.converter.map_or(value(fault.first), |converter| {
+                    if above {
+                        converter.highest
+                    } else {
+                        converter.lowest
+                    }
+                }),
+                above,
             });
         }
         counts[kind] += fault.count;
@@ -93,8 +100,8 @@ pub(super) fn faulty(series: &Series) -> Faulty {
             begins[kind]
         )
     });
-    let furthest = (cut.iter().map(|part| value(part.first)))
-        .reduce(|a, b| if b.abs() > a.abs() { b } else { a });
+    let furthest =
+        (cut.iter().map(|part| part.limit)).reduce(|a, b| if b.abs() > a.abs() { b } else { a });
     let at_limit = furthest.map(|limit| {
         format!(
             "the reading is clipped at {:.4} N mm in {} stretches, the first at {:.6} s",
