@@ -3,8 +3,11 @@
 // Above this share of what was turned over the energy ledger counts as open.
 const RESIDUAL_TO_DOUBT = 1e-6;
 
-// What ± means wherever it stands.
-const BAND_NOTE = "± twice the standard deviation";
+// A value with what it may be off below it: twice the standard deviation.
+function bandValue([value, band], unit) {
+  const whole = (text) => `${text} ${unit}`.trim();
+  return [whole(value), band === null ? null : element("div", { class: "tile-band" }, `± ${whole(band)} (2σ)`)];
+}
 
 // state: "good" or "bad" where there is a criterion, else nothing.
 function tile(title, value, notes, state) {
@@ -33,8 +36,11 @@ function quantityTile(run, title, name, note, state) {
   const quantity = quantityOf(run, name);
   if (!isNumber(quantity.value)) return tile(title, "–", ["not in this run: " + (quantity.why || "no reason given")]);
   const deviation = numberOf(run, name + "_deviation");
-  const text = deviation === null ? engineeringText(quantity.value, quantity.unit, 4) : bandText(quantity.value, BAND * deviation, quantity.unit);
-  return tile(title, text, [meanNote(quantity), deviation === null ? null : BAND_NOTE, note && note(quantity.value)], state && state(quantity.value));
+  const shown = () => {
+    const [unit, scale] = readableUnit(Math.max(Math.abs(quantity.value), BAND * deviation), quantity.unit);
+    return bandValue(bandParts(quantity.value / scale, (BAND * deviation) / scale), unit);
+  };
+  return tile(title, deviation === null ? engineeringText(quantity.value, quantity.unit, 4) : shown(), [meanNote(quantity), note && note(quantity.value)], state && state(quantity.value));
 }
 
 function stateTile(run) {

@@ -192,7 +192,7 @@ function identifyVerdict(run) {
     stateTile(run),
     tile("Explanation", words.split(":")[0], [conclusion.why || words.split(": ")[1] || `probability ${percentText(probability, 3)}`]),
     tile("Steady moment", typeof form.value === "string" ? `${form.value} form` : "–", [form.why]),
-    numberOf(run, "rotor_friction_coefficient") === null ? null : tile("Friction rotor/race", uncertainText(run, "rotor_friction_coefficient", ""), ["mean over the slips, " + BAND_NOTE]),
+    numberOf(run, "rotor_friction_coefficient") === null ? null : tile("Friction rotor/race", uncertainText(run, "rotor_friction_coefficient", ""), ["mean over the slips, ± twice the standard deviation"]),
     tile("Dissipated in the spin-ups", `${tests.length} ${tests.length === 1 ? "test" : "tests"}`, best),
   );
 }
