@@ -146,6 +146,26 @@ fn the_wanted_peak_acceleration_is_reached_and_momentum_closes() {
     }
 }
 
+/// A test whose torque was cut at the end of its range tells nothing of the bearing.
+#[test]
+fn a_clipped_test_is_not_identified() {
+    let folder = tempfile::tempdir().expect("a folder");
+    into_runs(folder.path(), "rig_coast_down", &[]);
+    into_runs(folder.path(), "rig_test_2", &["rig.arm.range=28 N mm"]);
+    let found = identified(
+        folder.path(),
+        &["rig_test_2"],
+        "explanations.compare = false",
+    );
+    let told = (found.warnings.iter()).find(|warning| warning.code == "AB1060");
+    let told = &told.expect("it is told").text;
+    assert!(
+        told.starts_with("rig_test_2: it is not used: the reading is clipped at 2"),
+        "{told}"
+    );
+    assert!(!(found.quantities.iter()).any(|quantity| quantity.name.starts_with("test_1.")));
+}
+
 /// What the rig calls its peak acceleration is what the signals say of it: that of the spin-up, not of the release.
 #[test]
 fn the_peak_of_a_ramp_is_not_that_of_its_release() {

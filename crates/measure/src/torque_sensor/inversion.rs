@@ -459,12 +459,11 @@ impl Thin {
             let excess = (steepest.reduce(f64::max))
                 .map_or(f64::INFINITY, |slope| 0.5 * slope * (end - first) as f64);
             let excess = (excess + 3.0 * noise).min(high - low);
-            for k in first..end {
-                if let Some((limit, side)) = self.limits[k] {
-                    let state = &expected.states[k].0;
-                    let bridge = state[0] + state[ZERO];
-                    moved[k] = side * (side * limit).max(side * bridge) + side * excess;
-                }
+            let stretch =
+                (self.limits[first..end].iter().flatten()).zip(&expected.states[first..end]);
+            for (value, (&(limit, side), (state, _))) in moved[first..end].iter_mut().zip(stretch) {
+                let bridge = state[0] + state[ZERO];
+                *value = side * (side * limit).max(side * bridge) + side * excess;
             }
             next = end;
         }
