@@ -132,6 +132,11 @@ fn orders_that_make_no_sense_are_refused() {
         ("rig.pickup.kind=edges", "rig.pickup"),
         ("rig.program=coast-down", "rig.program"),
         ("rig.logger.total_rate=1e9 Hz", "rig.logger.total_rate"),
+        (
+            "rig.logger.format=tdms",
+            "Did you mean \"rig.logger.file\"?",
+        ),
+        ("rig.logger.file=TDM", "Did you mean \"tdms\"?"),
         ("rig.load.radial_load=-3 N", "rig.load.radial_load"),
     ] {
         let mut words = vec!["run", &file, "--set", set, "--out", "none"];

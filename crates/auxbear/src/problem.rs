@@ -462,6 +462,15 @@ impl Problem {
         Problem::new(code, path.display().to_string(), found, allowed)
     }
 
+    /// What the TOML reader refuses, as one clause at its place.
+    pub(crate) fn of_toml(error: &toml::de::Error, text: &str, file: &str) -> Box<Problem> {
+        let clauses: Vec<&str> = error.message().lines().map(str::trim).collect();
+        let found = format!("what is not valid TOML ({})", clauses.join("; "));
+        let needed = "lines of the form key = \"value\" are needed";
+        let place = (error.span()).map_or(Place::Whole, |span| Place::of_offset(text, span.start));
+        Box::new(Problem::new(Code::Syntax, file, found, needed).at(place))
+    }
+
     /// Adds the place.
     pub fn at(mut self, place: Place) -> Problem {
         self.place = place;

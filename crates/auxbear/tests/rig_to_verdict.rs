@@ -146,6 +146,57 @@ fn the_wanted_peak_acceleration_is_reached_and_momentum_closes() {
     }
 }
 
+/// A test whose torque was cut at the end of its range tells nothing of the bearing.
+#[test]
+fn a_clipped_test_is_not_identified() {
+    let folder = tempfile::tempdir().expect("a folder");
+    into_runs(folder.path(), "rig_coast_down", &[]);
+    into_runs(folder.path(), "rig_test_2", &["rig.arm.range=28 N mm"]);
+    let found = identified(
+        folder.path(),
+        &["rig_test_2"],
+        "explanations.compare = false",
+    );
+    let told = (found.warnings.iter()).find(|warning| warning.code == "AB1060");
+    let told = &told.expect("it is told").text;
+    assert!(
+        told.starts_with("rig_test_2: it is not used: the reading is clipped at 2"),
+        "{told}"
+    );
+    assert!(!(found.quantities.iter()).any(|quantity| quantity.name.starts_with("test_1.")));
+}
+
+/// What the rig calls its peak acceleration is what the signals say of it: that of the spin-up, not of the release.
+#[test]
+fn the_peak_of_a_ramp_is_not_that_of_its_release() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let short = ["run.duration=12 s"];
+    let truth = into_runs(folder.path(), "rig_slow_ramp", &short);
+    let (peak, release) = (
+        number(&truth, "peak_acceleration"),
+        number(&truth, "peak_deceleration"),
+    );
+    // the motor rises by 30 rad/s²
+    assert!((peak / 30.0 - 1.0).abs() < 0.02, "{peak}");
+    assert!(release < -35.0, "{release}");
+    let signals = folder.path().join("runs/rig_slow_ramp/signals.toml");
+    let read = simulated(&Scenario::read(&signals, &[], &BuiltIn).expect("it is written"));
+    let (found, deviation) = (
+        number(&read, "peak_acceleration"),
+        number(&read, "peak_acceleration_deviation"),
+    );
+    assert!(
+        (found - peak).abs() < 3.0 * deviation + 0.01 * peak,
+        "{found} ± {deviation}, not {peak}"
+    );
+    let coasting = simulated(&shipped("rig_coast_down", &["run.duration=1 s"]));
+    let (peak, slowing) = (
+        number(&coasting, "peak_acceleration"),
+        number(&coasting, "peak_deceleration"),
+    );
+    assert!(peak < 0.0 && peak == slowing, "{peak} {slowing}");
+}
+
 /// The source paper's three tests with a grease state: simulated, written, read, identified.
 #[test]
 fn the_grease_of_three_tests_is_found() {

@@ -169,7 +169,10 @@ fn a_record_that_does_not_carry_the_answer_says_what_would() {
         .find(|warning| warning.code == "AB1042")
         .unwrap();
     assert!(
-        refusal.text.contains("0.1 % are wanted; needed:"),
+        refusal
+            .text
+            .starts_with("No speed from channel \"rig/tacho\" of spin_up.tdms: ")
+            && refusal.text.contains("0.1 % are wanted; needed:"),
         "{}",
         refusal.text
     );
@@ -350,6 +353,153 @@ fn clipped_and_missing_torque_is_told() {
             .any(|text| text.starts_with("Channel torque:") && text.contains("clipped")),
         "{told:?}"
     );
+}
+
+/// A reading at its limit says that the torque is there or beyond: nothing is told of it there, and the peak not at all.
+#[test]
+fn a_torque_that_was_clipped_has_no_peak() {
+    let whole = example(&[]);
+    assert!(number(&whole, "peak_torque") > 20e-3);
+    let outcome = example(&[
+        "signals.converter.channels=[\"rig/torque\"]",
+        "signals.converter.highest=35",
+        "signals.converter.lowest=-29",
+        "signals.converter.bits=14",
+    ]);
+    assert!(outcome.stop.complete(), "{:?}", outcome.stop);
+    assert!(number(&outcome, "torque_clipped_values") > 10.0);
+    for name in [
+        "peak_torque",
+        "peak_torque_deviation",
+        "time_of_peak_torque",
+    ] {
+        let quantity = outcome.quantities.iter().find(|q| q.name == name);
+        match &quantity.unwrap().value {
+            Value::None { why } => assert!(why.contains("clipped at"), "{why}"),
+            other => panic!("{name}: {other:?}"),
+        }
+    }
+    let torque = |time: f64| 1e-3 * (3.0 + 22.0 * (speed(time) / 150.0).powf(2.0 / 3.0));
+    let rows = column(&outcome, "time")
+        .iter()
+        .zip(column(&outcome, "torque.torque"))
+        .zip(column(&outcome, "torque.deviation"))
+        .filter(|((time, _), _)| **time > 0.35 && **time < 1.4);
+    let (mut told, mut inside, mut hidden) = (0.0, 0.0, 0.0);
+    for ((time, value), deviation) in rows {
+        if value.is_nan() {
+            assert!(deviation.is_nan());
+            hidden += 1.0;
+            continue;
+        }
+        told += 1.0;
+        inside += f64::from((value - torque(*time)).abs() <= 2.0 * deviation);
+    }
+    println!("told {told}, inside {inside}, hidden {hidden}");
+    assert!(hidden > 100.0, "{hidden}");
+    assert!(told > 500.0, "{told}");
+    // one record, whose rows are correlated
+    assert!(inside >= 0.8 * told, "{inside} of {told}");
+    assert!(
+        outcome
+            .warnings
+            .iter()
+            .any(|w| w.code == "AB1043" && w.text.contains("the torque is not told for")),
+        "{:?}",
+        outcome.warnings
+    );
+}
+
+/// A slip that no cage has at speed names the counts that would explain it.
+#[test]
+fn wrong_counts_of_balls_and_marks_are_told() {
+    let told = |sets: &[&str]| {
+        let outcome = example(sets);
+        let doubts = outcome.warnings.iter().filter(|w| w.code == "AB1045");
+        doubts.map(|w| w.text.clone()).collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(told(&[]), "");
+    for (set, right) in [
+        (
+            "signals.cage.ball_count=5",
+            "10 balls instead of 5 (signals.cage.ball_count)",
+        ),
+        ("signals.cage.ball_count=9", "10 balls instead of 9"),
+        ("signals.cage.ball_count=20", "10 balls instead of 20"),
+        (
+            "signals.speed.marks_per_revolution=30",
+            "60 marks per revolution instead of 30 (signals.speed.marks_per_revolution)",
+        ),
+    ] {
+        let told = told(&[set]);
+        assert!(
+            told.starts_with(
+                "Channel \"rig/ball_pass\" of spin_up.tdms: the cage rests at a slip of"
+            ) && told.contains(right),
+            "{set}: {told}"
+        );
+    }
+}
+
+#[test]
+fn a_spectrum_of_the_torque_ends_where_it_holds_something() {
+    let end = |sets: &[&str]| {
+        let outcome = example(sets);
+        let quantity = outcome.quantities.iter();
+        let quantity = quantity.filter(|q| q.name == "torque_spectrum_frequencies");
+        match quantity.map(|q| &q.value).next() {
+            Some(Value::List(list)) => list.last().copied().unwrap(),
+            other => panic!("{other:?}"),
+        }
+    };
+    // the sensor swings at 30 Hz, order 1 is at 24 Hz, half of the rate at 250 Hz
+    let own = end(&[]);
+    assert!((85.0..130.0).contains(&own), "{own}");
+    let asked = end(&["signals.torque.highest_frequency=60 Hz"]);
+    assert!(asked <= 60.0 && asked > 55.0, "{asked}");
+    let all = end(&["signals.torque.highest_frequency=250 Hz"]);
+    assert!(all > 245.0, "{all}");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/signals_spin_up.toml");
+    for asked in ["0.01 Hz", "251 Hz"] {
+        let set = format!("signals.torque.highest_frequency={asked}");
+        let scenario = Scenario::read(&file, &[set], &BuiltIn).unwrap();
+        let never = AtomicBool::new(false);
+        let told = match build(&scenario, &Options::unwatched(&never)) {
+            Ok(_) => panic!("{asked} is taken"),
+            Err(problem) => problem.to_string(),
+        };
+        // 1.5 s in four: lines 2.7 Hz apart
+        assert!(
+            told.contains("signals.torque.highest_frequency")
+                && told.contains("from 10.6")
+                && told.contains("to 250 Hz is needed"),
+            "{told}"
+        );
+    }
+}
+
+#[test]
+fn a_temperature_is_no_signal_of_a_sensor() {
+    for (section, more) in [
+        ("speed", ""),
+        (
+            "cage",
+            "[signals.speed]\nchannel = \"time\"\nkind = \"edges\"\nstamp_deviation = \"1 us\"\nmarks_per_revolution = 60\n",
+        ),
+    ] {
+        let keys = match section {
+            "speed" => "marks_per_revolution = 60\n",
+            _ => "ball_count = 10\nrolling_ratio = 0.4\n",
+        };
+        let text = format!("{more}[signals.{section}]\nchannel = \"torque\"\n{keys}");
+        let told = problem("run.csv", &table("K", &|_| None), &text);
+        assert!(
+            told.contains("AB0306")
+                && told.contains(&format!("signals.{section}.channel"))
+                && told.contains("channel \"torque\" in \"K\", a temperature"),
+            "{told}"
+        );
+    }
 }
 
 #[test]

@@ -196,8 +196,10 @@ fn a_spectrogram_ends_at_the_highest_frequency() {
     for (value, needed) in [
         (
             "1.5 kHz",
-            "at most 1000 Hz is needed, half of the sampling rate of channel \"vibration\"",
+            "to 1000 Hz is needed: 4 lines as fine as the record has them, and half of the sampling rate of channel \"vibration\"",
         ),
+        // 12 s in 32 columns: lines 2.7 Hz apart, four of them
+        ("0.01 Hz", "from 10.667 to 1000 Hz is needed"),
         ("0 Hz", "above 0"),
         ("-5 Hz", "above 0"),
         ("100", "e.g. \"500 Hz\""),
@@ -260,6 +262,22 @@ fn a_converter_flags_its_limits() {
             && warning.text.contains("the first at 0.")
     });
     assert!(told, "{:?}", outcome.warnings);
+}
+
+/// What is left of a clipped torque is lower than the torque: no mean is taken of it.
+#[test]
+fn a_clipped_torque_has_no_steady_curve() {
+    let coast = Coast::new("clipped", 2.2);
+    let more = format!(
+        "{TORQUE}[signals.converter]\nchannels = [\"torque\"]\nhighest = 2.2\nlowest = -2.2\nbits = 12\n\
+         [signals.steady]\nfrom = \"0.5 s\"\nto = \"11.5 s\"\ninertia = \"0.0002 kg m^2\"\n"
+    );
+    let outcome = coast.asked(&more).unwrap();
+    match value(&outcome, "steady_direct_torques") {
+        Value::None { why } => assert!(why.contains("clipped at 2.2000 N mm"), "{why}"),
+        other => panic!("{other:?}"),
+    }
+    assert_eq!(list(&outcome, "steady_inertial_torques").len(), 40);
 }
 
 #[test]

@@ -555,11 +555,13 @@ impl Doubt {
                 ratio,
                 ..
             } => format!(
-                "the cage settles at {:.4} ± {:.4} of rolling with {stated} balls stated; {fits} balls would make it roll",
-                ratio.value, ratio.deviation
+                "the cage settles at {:.4} ± {:.4} of rolling with {stated} balls stated; {fits} balls would make it roll, or {:.3} times the marks per revolution that are stated",
+                ratio.value,
+                ratio.deviation,
+                1.0 / ratio.value
             ),
             Doubt::CageNeverRolls { ratio, .. } => format!(
-                "the cage settles at {:.4} ± {:.4} of rolling: it slips to the end, or radii or contact angle are wrong",
+                "the cage settles at {:.4} ± {:.4} of rolling: it slips to the end, or radii, contact angle or marks per revolution are wrong",
                 ratio.value, ratio.deviation
             ),
             Doubt::TemperatureExplains {

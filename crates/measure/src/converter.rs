@@ -188,8 +188,8 @@ pub struct Interval {
 
 /// Finds clipped, stuck and missing stretches, in the order of time.
 ///
-/// With a `converter` clipping is at its limits. Without one, it is where the channel's own highest or lowest value is held for
-/// three values or more, twice or more, and is not held like that elsewhere. Stuck is a run of equal values so long that, with
+/// With a `converter` clipping is at its limits. Without one, it is every value at the channel's own highest or lowest, where that
+/// is held for three values or more, twice or more, and neighbours are not equal like that elsewhere. Stuck is a run of equal values so long that, with
 /// the share of equal neighbours in the channel, it comes about by chance once in a million records.
 pub fn faults(values: &[f64], converter: Option<&Converter>) -> Vec<Interval> {
     let runs = runs(values);
@@ -221,8 +221,7 @@ pub fn faults(values: &[f64], converter: Option<&Converter>) -> Vec<Interval> {
         let fault = if !value.is_finite() {
             Some(Fault::Missing)
         } else if limit(value)
-            && (converter.is_some()
-                || (low < high && count >= 3 && held_often(value) && usual < 0.2))
+            && (converter.is_some() || (low < high && held_often(value) && usual < 0.2))
         {
             Some(Fault::Clipped)
         } else if count as f64 > bound {

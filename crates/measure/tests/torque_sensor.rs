@@ -5,7 +5,7 @@ mod synthetic;
 
 use measure::shaft::Shaft;
 use measure::torque_sensor::{
-    Design, Inversion, Sensor, design_error, identify_free_response, invert,
+    Clipped, Design, Inversion, Sensor, design_error, identify_free_response, invert,
 };
 use measure::uncertain::Uncertain;
 use std::f64::consts::TAU;
@@ -129,6 +129,7 @@ impl Test {
             first: 0.0,
             interval: INTERVAL,
             reading: &self.reading,
+            clipped: &[],
             shaft: Some(Shaft {
                 first: 0.0,
                 interval: INTERVAL,
@@ -308,6 +309,88 @@ fn missing_values_are_bridged_and_told() {
             .any(|n| n.contains("10 torque readings are missing"))
     );
     assert!(torque.deviation[205] > torque.deviation[190]);
+}
+
+/// The stretches of a reading at or beyond a limit, which are cut to it.
+fn cut(reading: &mut [f64], limit: f64) -> Vec<Clipped> {
+    let mut found: Vec<Clipped> = Vec::new();
+    for (k, value) in reading.iter_mut().enumerate() {
+        if *value < limit {
+            continue;
+        }
+        *value = limit;
+        match found.last_mut() {
+            Some(last) if last.first + last.count == k => last.count += 1,
+            _ => found.push(Clipped {
+                first: k,
+                count: 1,
+                limit,
+                above: true,
+            }),
+        }
+    }
+    found
+}
+
+/// Readings at a limit say that the true ones are there or beyond, not by how much: the torque they would tell is not told, and
+/// what is told beside them keeps its band.
+#[test]
+fn clipped_readings_tell_no_torque() {
+    let (mut told, mut inside, mut at_limit) = (0, 0, 0);
+    for seed in 0..6 {
+        for limit in [15.0, 33.0, 37.0] {
+            let mut test = measured(30.0, 40 + seed, MIDDLE, true);
+            let clipped = cut(&mut test.reading, limit);
+            let torque = invert(&Inversion {
+                clipped: &clipped,
+                ..test.input()
+            })
+            .expect("inverts");
+            for part in &clipped {
+                for k in part.first..part.first + part.count {
+                    at_limit += usize::from(torque.torque[k].is_finite());
+                    assert!(torque.torque[k].is_nan() == torque.deviation[k].is_nan());
+                }
+            }
+            let told_some = torque.notes.iter().any(|n| n.contains("not told"));
+            assert_eq!(told_some, !clipped.is_empty());
+            let start = (test.engagement.value / INTERVAL) as usize + 1;
+            for k in start..torque.torque.len() {
+                let away = (torque.torque[k] - test.truth[k]).abs();
+                told += usize::from(away.is_finite());
+                inside += usize::from(away <= 2.0 * torque.deviation[k]);
+            }
+            // the rest before it is a rest still
+            assert!(torque.torque[..start - 2].iter().all(|t| *t == 0.0));
+        }
+    }
+    println!("told {told}, inside {inside}, at the limit {at_limit}");
+    assert_eq!(at_limit, 0);
+    // some of the records clip a few readings only, or none: most of those stays told
+    assert!(told > 1000, "{told}");
+    // the share of the bands without clipping, less what so few seeds scatter
+    assert!(inside as f64 > 0.88 * told as f64, "{inside} of {told}");
+}
+
+/// A rest that an uncertain engagement leaves open teaches no zero.
+#[test]
+fn a_rest_that_may_be_none_is_none() {
+    let test = measured(30.0, 13, FAST, true);
+    let open = Inversion {
+        engagement: Some(Uncertain::new(test.engagement.value, 0.2)),
+        zero: Uncertain::new(0.0, 5.0),
+        ..test.input()
+    };
+    assert!(!open.rests_at_first() && test.input().rests_at_first());
+    let found = invert(&open).expect("inverts");
+    let none = invert(&Inversion {
+        engagement: None,
+        ..open
+    })
+    .expect("inverts");
+    assert_eq!(found.torque, none.torque);
+    assert_eq!(found.zero, none.zero);
+    assert!(found.notes.iter().any(|n| n.contains("no rest before")));
 }
 
 #[test]

@@ -11,7 +11,7 @@ use measure::spectrum::{
     AngularSettings, Segments, Window, order_spectrogram, spectrogram, spectrum,
 };
 use measure::steady_curve::{direct, inertial};
-use measure::torque_sensor::{Inversion, Sensor, identify_free_response, invert};
+use measure::torque_sensor::{Clipped, Inversion, Sensor, identify_free_response, invert};
 use measure::uncertain::Uncertain;
 use std::f64::consts::TAU;
 use std::time::Instant;
@@ -141,6 +141,7 @@ fn ten_seconds_are_quick() {
             first: 0.0,
             interval,
             reading: &reading[..last],
+            clipped: &[],
             shaft: Some(shaft),
             engagement: Some(Uncertain::new(0.5, 2e-4)),
             zero: Uncertain::new(0.0, 10.0),
@@ -285,6 +286,12 @@ fn nonsense_is_survived() {
             first: 0.0,
             interval: x,
             reading: &a,
+            clipped: &[Clipped {
+                first: (length as f64 * r.uniform()) as usize,
+                count: (20.0 * r.uniform()) as usize,
+                limit: number(r),
+                above: r.uniform() < 0.5,
+            }],
             shaft: (r.uniform() < 0.5).then_some(shaft),
             engagement: Some(Uncertain::new(y, 0.0)),
             zero: Uncertain::new(0.0, 1.0),

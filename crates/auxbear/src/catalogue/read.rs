@@ -41,21 +41,7 @@ pub(super) fn read(text: &str, file: &str, built_in: bool) -> Read<Vec<Bearing>>
             format!("bearings are needed, after format = \"{FORMAT}\""),
         )));
     }
-    let root = DeTable::parse(text).map_err(|error| {
-        let lines: Vec<&str> = error.message().lines().map(str::trim).collect();
-        let place = error
-            .span()
-            .map_or(Place::Whole, |span| Place::of_offset(text, span.start));
-        Box::new(
-            Problem::new(
-                Code::Syntax,
-                file,
-                format!("what is not valid TOML ({})", lines.join("; ")),
-                "lines of the form key = \"value\" are needed",
-            )
-            .at(place),
-        )
-    })?;
+    let root = DeTable::parse(text).map_err(|error| Problem::of_toml(&error, text, file))?;
     reader.whole(root.get_ref())
 }
 

@@ -73,21 +73,7 @@ struct Entry {
 impl Document {
     /// Reads a text and the overrides; refuses what is no TOML and what is no key.
     pub(super) fn read(text: &str, file: &str, sets: &[String]) -> Result<Document, Box<Problem>> {
-        let root = DeTable::parse(text).map_err(|error| {
-            let message = one_clause(error.message());
-            let place = error
-                .span()
-                .map_or(Place::Whole, |span| Place::of_offset(text, span.start));
-            Box::new(
-                Problem::new(
-                    Code::Syntax,
-                    file,
-                    format!("what is not valid TOML ({message})"),
-                    "lines of the form key = \"value\" are needed",
-                )
-                .at(place),
-            )
-        })?;
+        let root = DeTable::parse(text).map_err(|error| Problem::of_toml(&error, text, file))?;
         require_format(text, root.get_ref(), file)?;
         let mut document = Document {
             file: file.to_string(),
@@ -291,15 +277,6 @@ fn find_system(
 fn quoted_words(words: &[&str]) -> String {
     let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
     words.join(", ")
-}
-
-/// The message of the TOML reader as one clause.
-fn one_clause(message: &str) -> String {
-    message
-        .lines()
-        .map(str::trim)
-        .collect::<Vec<_>>()
-        .join("; ")
 }
 
 /// Lists all keys and sections below a table.

@@ -55,6 +55,11 @@ pub(super) fn meant(path: &[String], system: SystemName) -> Option<String> {
         return Some(hint.to_string());
     }
     let dotted = path.join(".");
+    if let Some((_, right)) = SYNONYMS.iter().find(|pair| pair.0 == dotted)
+        && table::keys_of(system).any(|key| key.path == *right)
+    {
+        return question(&[right]);
+    }
     let section = path[..path.len() - 1].join(".");
     let all = || {
         table::keys_of(system)
@@ -85,6 +90,9 @@ pub(super) fn meant(path: &[String], system: SystemName) -> Option<String> {
     names.truncate(3);
     question(&names)
 }
+
+/// Names that another key bears elsewhere, and what is meant by them.
+const SYNONYMS: [(&str, &str); 1] = [("rig.logger.format", "rig.logger.file")];
 
 /// Keys of one system and what stands for them in another.
 const COUNTERPARTS: [(&str, &str); 4] = [

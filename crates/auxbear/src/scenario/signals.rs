@@ -108,6 +108,8 @@ pub struct TorqueSignal {
     pub zero_deviation: Option<f64>,
     /// Time after the engagement for which sensors of other frequencies are compared, s.
     pub design_until: Option<f64>,
+    /// Where its spectrum ends, Hz.
+    pub highest_frequency: Option<f64>,
 }
 
 /// How a sensor is known.
@@ -269,6 +271,7 @@ fn torque(values: &Values) -> Option<TorqueSignal> {
         scale_deviation: torque.number("scale_deviation"),
         zero_deviation: torque.maybe("zero_deviation"),
         design_until: torque.maybe("design_until"),
+        highest_frequency: torque.maybe("highest_frequency"),
     })
 }
 

@@ -295,6 +295,14 @@ pub(super) const KEYS: &[Key] = &[
     .positive()
     .optional("that picture is not drawn"),
     Key::new(
+        "signals.torque.highest_frequency",
+        Kind::Quantity("Hz"),
+        "200 Hz",
+        "Highest frequency of the spectrum of the reading, at most half of the sampling rate; the lower it is, the finer the lines.",
+    )
+    .positive()
+    .optional("as far as the reading holds lines, and behind the sensor's frequency and the shaft's first orders"),
+    Key::new(
         "signals.cage.channel",
         Kind::Text,
         "ball_pass",

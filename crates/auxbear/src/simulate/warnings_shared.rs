@@ -252,14 +252,14 @@ fn angular_contact(bearing: &Bearing) -> String {
 /// Films so warm that the factors of the lubricant's state have left their range.
 pub(super) fn film_rise(run: &BearingRun) -> Option<Warning> {
     let largest = run.largest_film_rise();
-    (largest > WARMEST_FILMS).then(|| {
-        warning(
-            "AB1035",
-            format!(
-                "The contact films warm by {largest:.0} K: drag and traction that fall exponentially with temperature hold                  over some {WARMEST_FILMS:.0} K, and the bulk of the bearing would warm as well."
-            ),
-        )
-    })
+    (largest > WARMEST_FILMS).then(|| warning("AB1035", warm_films(largest)))
+}
+
+fn warm_films(rise: f64) -> String {
+    format!(
+        "The contact films warm by {rise:.0} K: drag and traction that fall exponentially with temperature hold \
+         over some {WARMEST_FILMS:.0} K, and the bulk of the bearing would warm as well."
+    )
 }
 
 /// A ring that is said to grow with its shaft beyond the speed at which it leaves it.
@@ -310,4 +310,18 @@ pub(super) fn assumptions(paths: &[&str]) -> Option<Warning> {
             ),
         )
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_has_single_spaces() {
+        let told = warm_films(34.0);
+        assert!(
+            told.contains("hold over some 20 K") && !told.contains("  "),
+            "{told}"
+        );
+    }
 }

@@ -125,6 +125,7 @@ pub fn design_error(design: &Design, frequencies: &[f64]) -> Result<Vec<DesignEr
                 first: 0.0,
                 interval: design.interval,
                 reading: &reading,
+                clipped: &[],
                 shaft: (design.disturbance != 0.0).then_some(shaft),
                 engagement: (rest > 0).then_some(Uncertain::exact(knot)),
                 zero: Uncertain::new(0.0, if rest > 0 { 10.0 * design.noise } else { 0.0 }),

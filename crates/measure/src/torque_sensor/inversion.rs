@@ -5,6 +5,10 @@
 //! lower one; at the engagement torque and rate may jump. Before it the shaft rests and the torque is zero by definition.
 //! Intensities, their decay and the noise are those of the highest likelihood with wide priors.
 //!
+//! A reading at the limit of its converter ([`Clipped`]) says only that the true one is at least there. What lies beyond is not
+//! guessed, and no torque is told there. Beside it the torque is computed once more with readings beyond the limit by twice what
+//! slopes and duration let expect: the band widens by what that changes; where that is more than two deviations no torque is told.
+//!
 //! Source: physics of the sensor as in the module; unknown-input smoothing as by Lourens et al., Mech. Syst. Signal Process. 29
 //! (2012) 446 (from memory).
 
@@ -25,9 +29,12 @@ pub struct Inversion<'a> {
     pub interval: f64,
     /// Reading in any unit of torque; NaN where there is none.
     pub reading: &'a [f64],
+    /// Readings at the limit of their converter; they are not used as they are.
+    pub clipped: &'a [Clipped],
     /// The shaft over all the time of the reading; none where there is no synchronous disturbance to remove.
     pub shaft: Option<Shaft<'a>>,
-    /// Time at which the clutch engages, with its standard deviation, s; before it the shaft rests. None: it turns throughout.
+    /// Time at which the clutch engages, with its standard deviation, s; before it the shaft rests. None: it turns throughout. An
+    /// engagement that may lie before the record, within two deviations, is not used: no rest tells a zero then.
     pub engagement: Option<Uncertain>,
     /// Zero of the reading, known to this standard deviation, in the unit of the reading; it is estimated where the shaft rests.
     pub zero: Uncertain,
@@ -39,7 +46,28 @@ pub struct Inversion<'a> {
     pub disturbance_power: Option<f64>,
 }
 
-/// Torque as the data tell it. All lists have the same length.
+/// Readings that stand at the limit of what their converter can show: the true ones are there or beyond.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clipped {
+    /// Index of the first of them.
+    pub first: usize,
+    /// Their number.
+    pub count: usize,
+    /// The limit, in the unit of the reading.
+    pub limit: f64,
+    /// Whether it is the upper limit.
+    pub above: bool,
+}
+
+impl Inversion<'_> {
+    /// Whether the shaft surely rests at the start of the record: its engagement lies two deviations behind it.
+    pub fn rests_at_first(&self) -> bool {
+        self.engagement
+            .is_some_and(|engagement| engagement.value - 2.0 * engagement.deviation > self.first)
+    }
+}
+
+/// Torque as the data tell it. All lists have the same length; NaN, with its deviation, is what clipped readings do not tell.
 #[derive(Clone, Debug)]
 pub struct Torque {
     /// Times, s: those of the reading, or of the middle of blocks of it where it is finer than the sensor needs.
@@ -85,10 +113,11 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
     }
     let swing = input.sensor.swing();
     let end = samples.first + (samples.reading.len() - 1) as f64 * samples.interval;
+    let inside = |e: &Uncertain| e.value > samples.first && e.value < end;
     let engagement = input
         .engagement
-        .filter(|e| e.value > samples.first && e.value < end);
-    if engagement.is_none() && input.engagement.is_some() {
+        .filter(|e| inside(e) && input.rests_at_first());
+    if input.engagement.is_some_and(|given| !inside(&given)) {
         notes.push("the engagement lies outside the record and is not used".into());
     }
     let knot = engagement.map(|e| e.value);
@@ -193,11 +222,14 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         *v += (input.scale_deviation * state.0[TORQUE]).powi(2);
     }
     let noise = hyper[0].exp() * spread;
-    tell(input, &base, colour, &mut notes);
+    tell(input, &base, colour, engagement.is_some(), &mut notes);
     for (v, state) in variance.iter_mut().zip(&base.states) {
         *v = v.max(state.1[TORQUE]);
     }
     let pick = |index: usize| base.states.iter().map(|s| s.0[index]).collect::<Vec<_>>();
+    let mut deviation: Vec<f64> = variance.iter().map(|v| v.max(0.0).sqrt()).collect();
+    let mut told = pick(TORQUE);
+    let mut told_rate = pick(RATE);
     let growth = |k: usize| chain.growth(k, power);
     let amplitude = |k: usize| base.states[k].0[COSINE].hypot(base.states[k].0[SINE]);
     let spread_of = |index: usize| {
@@ -206,30 +238,69 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
             .map(|s| (colour * s.1[index]).max(0.0).sqrt())
             .collect::<Vec<_>>()
     };
+    let mut disturbance: Vec<f64> = (0..base.states.len())
+        .map(|k| growth(k) * amplitude(k))
+        .collect();
+    let mut disturbance_deviation: Vec<f64> = (0..base.states.len())
+        .map(|k| {
+            let variances = &base.states[k].1;
+            let mean = 0.5 * colour * (variances[COSINE] + variances[SINE]);
+            growth(k) * mean.max(0.0).sqrt()
+        })
+        .collect();
+    let mut zero = base.states.first().map_or(input.zero, |s| {
+        Uncertain::new(s.0[ZERO], (colour * s.1[ZERO]).max(0.0).sqrt())
+    });
+    let mut rate_deviation = spread_of(RATE);
+    if let Some(reading) = thin.beyond_limits(&base, noise) {
+        let samples = Samples {
+            reading: &reading,
+            ..samples
+        };
+        let other = Chain::new(samples, swing, knot, power, spread).smoothed(&hyper);
+        let moved = |k: usize, index: usize| other.states[k].0[index] - base.states[k].0[index];
+        let lost = f64::NAN;
+        for k in 0..told.len() {
+            let by = moved(k, TORQUE).abs();
+            // a torque that is zero by definition stays so
+            let rests = deviation[k] == 0.0;
+            if !rests && (thin.limits[k].is_some() || by > UNTOLD * deviation[k]) {
+                (told[k], deviation[k]) = (lost, lost);
+                (told_rate[k], rate_deviation[k]) = (lost, lost);
+            } else if !rests {
+                deviation[k] = deviation[k].hypot(by);
+                rate_deviation[k] = rate_deviation[k].hypot(moved(k, RATE));
+            }
+            let by = growth(k) * moved(k, COSINE).hypot(moved(k, SINE));
+            if by > UNTOLD * disturbance_deviation[k] {
+                (disturbance[k], disturbance_deviation[k]) = (lost, lost);
+            } else {
+                disturbance_deviation[k] = disturbance_deviation[k].hypot(by);
+            }
+        }
+        let by = if told.is_empty() { 0.0 } else { moved(0, ZERO) };
+        zero.deviation = zero.deviation.hypot(by);
+        let count = told.iter().filter(|value| value.is_nan()).count();
+        if count > 0 {
+            notes.push(format!(
+                "the torque is not told for {:.3} s of {:.3} s: readings there, or beside, are clipped, and the true ones may lie beyond by any amount",
+                count as f64 * samples.interval,
+                told.len() as f64 * samples.interval
+            ));
+        }
+    }
     Ok(Torque {
         time: (0..base.states.len())
             .map(|k| samples.first + k as f64 * samples.interval)
             .collect(),
-        torque: pick(TORQUE),
-        deviation: variance.iter().map(|v| v.max(0.0).sqrt()).collect(),
-        rate: pick(RATE),
-        rate_deviation: spread_of(RATE),
-        disturbance: (0..base.states.len())
-            .map(|k| growth(k) * amplitude(k))
-            .collect(),
-        disturbance_deviation: (0..base.states.len())
-            .map(|k| {
-                let variances = &base.states[k].1;
-                growth(k)
-                    * (0.5 * colour * (variances[COSINE] + variances[SINE]))
-                        .max(0.0)
-                        .sqrt()
-            })
-            .collect(),
+        torque: told,
+        deviation,
+        rate: told_rate,
+        rate_deviation,
+        disturbance,
+        disturbance_deviation,
         disturbance_power: power,
-        zero: base.states.first().map_or(input.zero, |s| {
-            Uncertain::new(s.0[ZERO], (colour * s.1[ZERO]).max(0.0).sqrt())
-        }),
+        zero,
         noise,
         calming: hyper[3].exp(),
         log_likelihood: base.log_likelihood,
@@ -298,6 +369,8 @@ struct Thin {
     first: f64,
     interval: f64,
     reading: Vec<f64>,
+    /// The limit at which a block holds a reading, and its side: 1 above, -1 below.
+    limits: Vec<Option<(f64, f64)>>,
     angle: Vec<f64>,
     speed: Vec<f64>,
 }
@@ -328,11 +401,19 @@ impl Thin {
         }
         let interval = block as f64 * input.interval;
         let first = input.first + 0.5 * (block - 1) as f64 * input.interval;
-        let reading = input
+        let mut reading: Vec<f64> = input
             .reading
             .chunks_exact(block)
             .map(|part| part.iter().sum::<f64>() / block as f64)
             .collect();
+        let mut limits = vec![None; count];
+        for part in input.clipped.iter().filter(|part| part.count > 0) {
+            let blocks = part.first / block..=(part.first + part.count - 1) / block;
+            for k in blocks.take_while(|k| *k < count) {
+                reading[k] = f64::NAN;
+                limits[k] = Some((part.limit, if part.above { 1.0 } else { -1.0 }));
+            }
+        }
         let times = (0..count).map(|k| first + k as f64 * interval);
         let (angle, speed) = match &input.shaft {
             Some(shaft) => times
@@ -344,9 +425,49 @@ impl Thin {
             first,
             interval,
             reading,
+            limits,
             angle,
             speed,
         })
+    }
+
+    /// The reading with what may lie beyond its limits; none where nothing is clipped.
+    ///
+    /// The true reading enters a stretch with a slope and leaves it with one: a parabola rises by a quarter of slope times
+    /// duration between them. Twice that, and three deviations of the noise, lie beyond the limit here; the whole span of the
+    /// record where that is less, or no slope is known.
+    fn beyond_limits(&self, expected: &Pass, noise: f64) -> Option<Vec<f64>> {
+        let known = self.reading.iter().filter(|v| v.is_finite());
+        let (low, high) = known.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| {
+            (l.min(v), h.max(v))
+        });
+        let mut moved = self.reading.clone();
+        let mut next = 0;
+        while let Some(first) = (next..moved.len()).find(|k| self.limits[*k].is_some()) {
+            let end = (first..moved.len())
+                .find(|k| self.limits[*k].is_none())
+                .unwrap_or(moved.len());
+            let step = |one: Option<usize>, other: Option<usize>| {
+                let at = |k: Option<usize>| self.reading.get(k?).copied();
+                (at(one)? - at(other)?).abs().into()
+            };
+            let slopes: [Option<f64>; 2] = [
+                step(first.checked_sub(1), first.checked_sub(2)),
+                step(Some(end), Some(end + 1)),
+            ];
+            let steepest = (slopes.iter().flatten().copied()).filter(|slope| slope.is_finite());
+            let excess = (steepest.reduce(f64::max))
+                .map_or(f64::INFINITY, |slope| 0.5 * slope * (end - first) as f64);
+            let excess = (excess + 3.0 * noise).min(high - low);
+            let stretch =
+                (self.limits[first..end].iter().flatten()).zip(&expected.states[first..end]);
+            for (value, (&(limit, side), (state, _))) in moved[first..end].iter_mut().zip(stretch) {
+                let bridge = state[0] + state[ZERO];
+                *value = side * (side * limit).max(side * bridge) + side * excess;
+            }
+            next = end;
+        }
+        (next > 0).then_some(moved)
     }
 
     fn samples<'a>(&'a self, input: &Inversion) -> Samples<'a> {
@@ -363,6 +484,9 @@ impl Thin {
     }
 }
 
+/// Deviations by which what clipped readings hide may move what is told.
+const UNTOLD: f64 = 2.0;
+
 /// Standard deviation of the reading; the unit in which the filter works.
 fn scale_of(reading: &[f64]) -> f64 {
     let seen = || reading.iter().filter(|v| v.is_finite());
@@ -374,8 +498,13 @@ fn scale_of(reading: &[f64]) -> f64 {
 /// Factor on the bands from which on it is told.
 const TOLD: f64 = 1.05;
 
-fn tell(input: &Inversion, base: &Pass, colour: f64, notes: &mut Vec<String>) {
-    let missing = input.reading.iter().filter(|v| !v.is_finite()).count();
+fn tell(input: &Inversion, base: &Pass, colour: f64, rests: bool, notes: &mut Vec<String>) {
+    let unknown = |part: &[f64]| part.iter().filter(|v| !v.is_finite()).count();
+    let clipped = input.clipped.iter().map(|part| {
+        let end = (part.first + part.count).min(input.reading.len());
+        unknown(input.reading.get(part.first..end).unwrap_or(&[]))
+    });
+    let missing = unknown(input.reading) - clipped.sum::<usize>().min(unknown(input.reading));
     if missing > 0 {
         notes.push(format!(
             "{missing} torque readings are missing and were bridged"
@@ -401,7 +530,7 @@ fn tell(input: &Inversion, base: &Pass, colour: f64, notes: &mut Vec<String>) {
             "no shaft angle was given: the synchronous disturbance is inside the torque".into(),
         );
     }
-    if input.engagement.is_none() {
+    if !rests {
         notes.push("no rest before the test: the zero of the reading is as given, and a jump of the torque is smeared".into());
     }
 }

@@ -19,7 +19,7 @@ mod inversion;
 mod response;
 
 pub use design::{Design, DesignError, design_error};
-pub use inversion::{Inversion, Torque, invert};
+pub use inversion::{Clipped, Inversion, Torque, invert};
 pub use response::{FreeResponse, identify_free_response};
 
 use crate::uncertain::Uncertain;

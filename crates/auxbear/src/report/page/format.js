@@ -83,6 +83,26 @@ function leadingPower(value) {
   return value === 0 ? 0 : Math.floor(Math.log10(Math.abs(value)));
 }
 
+// A value and what it may be off, with the digits that this leaves: two of the band, the value to the same place.
+function bandParts(value, band) {
+  if (!isNumber(value)) return ["–", null];
+  if (!isNumber(band)) return [numberText(value, 4), "?"];
+  if (!(band > 0)) return [numberText(value, 5), null];
+  const size = leadingPower(Math.max(Math.abs(value), band));
+  if (size > 6 || size < -3) return bandParts(value / 10 ** size, band / 10 ** size).map((part) => `${part} × ${powerOfTen(size)}`);
+  const decimals = 1 - leadingPower(Number(band.toPrecision(2)));
+  const text = (number) => thousandsApart(decimals >= 0 ? decimalText(number, decimals) : String(Math.round(number * 10 ** decimals) * 10 ** -decimals));
+  return [text(value), text(band)];
+}
+
+// The same in one line.
+function bandNumbers(value, band) {
+  const [number, spread] = bandParts(value, band);
+  if (spread === null) return number;
+  const power = / × 10\S+$/.exec(number);
+  return power ? `(${number.slice(0, power.index)} ± ${spread.replace(power[0], "")})${power[0]}` : `${number} ± ${spread}`;
+}
+
 // One unit for a whole column of values, and as many decimals as give the largest of them so many digits.
 function columnScale(values, unit, digits) {
   const largest = values.filter(isNumber).reduce((most, value) => Math.max(most, Math.abs(value)), 0);

@@ -3,6 +3,12 @@
 // Above this share of what was turned over the energy ledger counts as open.
 const RESIDUAL_TO_DOUBT = 1e-6;
 
+// A value with what it may be off below it: twice the standard deviation.
+function bandValue([value, band], unit) {
+  const whole = (text) => `${text} ${unit}`.trim();
+  return [whole(value), band === null ? null : element("div", { class: "tile-band" }, `± ${whole(band)} (2σ)`)];
+}
+
 // state: "good" or "bad" where there is a criterion, else nothing.
 function tile(title, value, notes, state) {
   return element(
@@ -29,7 +35,12 @@ function meanNote(quantity) {
 function quantityTile(run, title, name, note, state) {
   const quantity = quantityOf(run, name);
   if (!isNumber(quantity.value)) return tile(title, "–", ["not in this run: " + (quantity.why || "no reason given")]);
-  return tile(title, engineeringText(quantity.value, quantity.unit, 4), [meanNote(quantity), note(quantity.value)], state && state(quantity.value));
+  const deviation = numberOf(run, name + "_deviation");
+  const shown = () => {
+    const [unit, scale] = readableUnit(Math.max(Math.abs(quantity.value), BAND * deviation), quantity.unit);
+    return bandValue(bandParts(quantity.value / scale, (BAND * deviation) / scale), unit);
+  };
+  return tile(title, deviation === null ? engineeringText(quantity.value, quantity.unit, 4) : shown(), [meanNote(quantity), note && note(quantity.value)], state && state(quantity.value));
 }
 
 function stateTile(run) {

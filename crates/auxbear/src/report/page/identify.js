@@ -121,7 +121,7 @@ function testSection(runs) {
 function uncertainText(run, name, unit, scale = 1) {
   const [value, deviation] = [numberOf(run, name), numberOf(run, name + "_deviation")];
   if (value === null) return element("span", { class: "absent" }, quantityOf(run, name).why || "–");
-  return `${numberText(scale * value, 4)} ± ${deviation === null ? "?" : numberText(BAND * scale * deviation, 2)} ${unit}`;
+  return `${bandNumbers(scale * value, deviation === null ? null : BAND * scale * deviation)} ${unit}`.trim();
 }
 
 function lossFigures(run, runs) {

@@ -7,17 +7,18 @@ function isSignals(run) {
 const BAND = 2;
 const BAND_WORDS = "Pale lines: twice the standard deviation to both sides.";
 
-// A line and its band from a column and that of its deviation.
+// A line and its band from a column and that of its deviation; nothing where the band is wider than `look.widest`.
 function bandLines(runs, name, deviation, scale, look) {
   return runs.flatMap((run) => {
-    const values = scaledColumn(run, name, scale);
-    if (!values) return [];
+    const whole = scaledColumn(run, name, scale);
+    if (!whole) return [];
     const colour = runs.length > 1 ? run.colour : look.colour;
     const spread = scaledColumn(run, deviation, scale * BAND);
+    const values = look.widest ? whole.map((value, row) => (spread && spread[row] <= look.widest ? value : null)) : whole;
     const moved = (sign) => values.map((value, row) => (isNumber(value) && isNumber(spread[row]) ? value + sign * spread[row] : null));
-    const pale = { colour: colour + "80", width: 0.75, time: run.time };
+    const pale = { colour: colour + "80", width: 0.75, time: run.time, gaps: true };
     const band = spread ? [{ ...pale, label: run.prefix + "+2σ", values: moved(1) }, { ...pale, label: run.prefix + "−2σ", values: moved(-1) }] : [];
-    return [{ ...look, label: run.prefix + look.label, time: run.time, values, colour }, ...band];
+    return [{ ...look, label: run.prefix + look.label, time: run.time, values, colour, gaps: true }, ...band];
   });
 }
 
@@ -112,7 +113,8 @@ function designFigure(run, runs) {
 function torqueSpectrum(run, runs) {
   const frequencies = listOf(run, "torque_spectrum_frequencies");
   const amplitudes = listOf(run, "torque_spectrum_amplitudes").map((value) => 1e3 * value);
-  if (!frequencies.length) return null;
+  const title = shareOfRun(run, runs, "Spectrum of the reading");
+  if (!frequencies.length) return figure(title, null, null, [notInThisRun(quantityOf(run, "torque_spectrum_frequencies").why || "no reason is given", run)]);
   const top = Math.max(...amplitudes);
   const bottom = Math.min(...amplitudes.filter((value) => value > 0));
   const upright = (at, label, colour, dash) => ({ label, x: [at, at], y: [bottom, top], colour, dash, width: 1.25 });
@@ -125,18 +127,20 @@ function torqueSpectrum(run, runs) {
     ...(sensor === null ? [] : [upright(sensor, `sensor, ${numberText(sensor, 4)} Hz`, SERIES_COLOURS.race, "7 4")]),
     ...orders.map(([order, at]) => upright(at, `order ${order} at the largest speed, ${numberText(at, 4)} Hz`, SERIES_COLOURS.cage, "2 3")),
   ];
-  return figure(shareOfRun(run, runs, "Spectrum of the reading"), "Amplitude of a sine, peak; overlapping Hann segments over the whole record. A speed that changes smears its orders.", curves({ series, across: "frequency [Hz]", upright: "amplitude [N mm]", logarithmic: true, height: 280 }));
+  return figure(title, "Amplitude of a sine, peak; overlapping Hann segments over the whole record. A speed that changes smears its orders.", curves({ series, across: "frequency [Hz]", upright: "amplitude [N mm]", logarithmic: true, height: 280 }));
 }
+
+// A band beyond which a slip tells nothing, %.
+const WIDEST_SLIP = 10;
 
 function cageSection(runs) {
   const speed = bandLines(runs, "cage.speed", "cage.speed_deviation", 1, { label: "cage [rad/s]", colour: SERIES_COLOURS.cage, width: 1.5 });
-  const slip = bandLines(runs, "cage.slip", "cage.slip_deviation", 100, { label: "slip [%]", colour: SERIES_COLOURS.cage, width: 1.5 });
-  const least = (begin, end) => [0];
+  const slip = bandLines(runs, "cage.slip", "cage.slip_deviation", 100, { label: "slip [%]", colour: SERIES_COLOURS.cage, width: 1.5, widest: WIDEST_SLIP });
   return section(
     "cage",
     "Cage",
     signalFigure("Speed of the cage", BAND_WORDS, speed, { label: "speed [rad/s]", marks: engagementMarks(runs), height: 230 }, lackOf(runs, "cage.speed", "cage_speed_at_end", "the cage")),
-    slip.length ? signalFigure("Slip of the cage", `0 % where the balls roll, 100 % where the cage rests. ${BAND_WORDS}`, slip, { label: "slip [%]", include: least, height: 230 }, []) : null,
+    slip.length ? signalFigure("Slip of the cage", `0 % where the balls roll, 100 % where the cage rests; nothing is drawn where the band is wider than ±${WIDEST_SLIP} %. ${BAND_WORDS}`, slip, { label: "slip [%]", include: () => [-0.5, 0.5], height: 230 }, []) : null,
   );
 }
 
@@ -209,10 +213,10 @@ function steadySection(runs) {
       const [mean, deviation, chance] = ["", "_deviation", "_chance"].map((end) => numberOf(run, name + end));
       return mean === null
         ? [words, element("span", { class: "absent" }, quantityOf(run, name).why || "–"), ""]
-        : [words, `${numberText(1e3 * mean, 3)} ± ${numberText(1e3 * BAND * deviation, 2)} N mm (2σ)`, numberText(chance, 2)];
+        : [words, `${bandNumbers(1e3 * mean, 1e3 * BAND * deviation)} N mm (2σ)`, numberText(chance, 2)];
     };
     const inertia = numberOf(run, "steady_inertia");
-    const note = inertia === null ? "" : `I = ${numberText(inertia, 4)} ± ${numberText(BAND * numberOf(run, "steady_inertia_deviation"), 2)} kg m² (2σ). `;
+    const note = inertia === null ? "" : `I = ${bandNumbers(inertia, BAND * numberOf(run, "steady_inertia_deviation"))} kg m² (2σ). `;
     return [
       figure(shareOfRun(run, runs, "Torque over speed in slow running"), `${note}${BAND_WORDS}`, series.length ? curves({ series, across: "speed [rad/s]", upright: "torque [N mm]", height: 320 }) : null, series.length ? null : [notInThisRun(quantityOf(run, "steady_speeds").why || "no reason is given", run)]),
       figure(shareOfRun(run, runs, "One curve against another"), "Chance: how often equal curves would differ as much.", plainTable(["difference", "mean over the speeds", "chance"], [row("by the sensor less −I dΩ/dt", "steady_direct_less_inertial"), row("rising less falling speed", "steady_up_less_down")])),
@@ -265,21 +269,17 @@ function signalSections(runs) {
 }
 
 function signalsVerdict(run) {
-  const beside = (name, unit, scale = 1, percent = false) => {
-    const deviation = numberOf(run, name);
-    return deviation === null ? null : `± ${percent ? percentText(BAND * deviation, 3) : engineeringText(BAND * deviation * scale, unit, 3)} (2σ)`;
-  };
   const asked = (section) => String((inputOf(run, `signals.${section}.channel`) || { value: "not given" }).value) !== "not given";
-  const slip = quantityOf(run, "median_cage_slip");
+  const [slip, deviation] = [quantityOf(run, "median_cage_slip"), numberOf(run, "median_cage_slip_deviation")];
   return element(
     "div",
     { class: "tiles" },
     stateTile(run),
-    asked("speed") ? quantityTile(run, "Largest speed", "peak_speed", () => beside("peak_speed_deviation", "rad/s")) : null,
-    asked("speed") ? quantityTile(run, "Largest acceleration", "peak_acceleration", () => beside("peak_acceleration_deviation", "rad/s^2")) : null,
-    asked("speed") ? quantityTile(run, "Engagement", "engagement_time", () => beside("engagement_time_deviation", "s")) : null,
-    asked("torque") ? quantityTile(run, "Largest torque", "peak_torque", () => beside("peak_torque_deviation", "N m")) : null,
-    asked("cage") ? tile("Median slip of the cage", isNumber(slip.value) ? percentText(slip.value, 3) : "–", [isNumber(slip.value) ? beside("median_cage_slip_deviation", "1", 1, true) : "not in this run: " + slip.why]) : null,
+    asked("speed") ? quantityTile(run, "Largest speed", "peak_speed") : null,
+    asked("speed") ? quantityTile(run, "Largest acceleration", "peak_acceleration") : null,
+    asked("speed") ? quantityTile(run, "Engagement", "engagement_time") : null,
+    asked("torque") ? quantityTile(run, "Largest torque", "peak_torque") : null,
+    asked("cage") ? tile("Median slip of the cage", isNumber(slip.value) ? bandValue(bandParts(100 * slip.value, 100 * BAND * deviation), "%") : "–", [isNumber(slip.value) ? null : "not in this run: " + slip.why]) : null,
   );
 }
 

@@ -139,7 +139,8 @@ function timePlot(options) {
       fill: line.fill,
       width: line.width || 1.25,
       dash: line.dash,
-      spanGaps: true,
+      // A line with gaps of its own shows them; times of other lines, at which it has no value, are none.
+      spanGaps: !line.gaps,
       points: { show: false },
       value: (plot, _, __, row) => {
         const instant = row === null || row === undefined ? null : plot.data[0][row];

@@ -235,6 +235,11 @@ fn measured(
     let lacks = |part: &'static str| format!("no {part}: {}", found.why(part, true));
     let shaft = found.shaft.as_ref().ok_or_else(|| lacks("speed"))?;
     let torque = found.torque.as_ref().ok_or_else(|| lacks("torque"))?;
+    if let Some(why) = &torque.hidden {
+        return Err(format!(
+            "{why}; a wider range, or signals.from and signals.to without that part, is needed"
+        ));
+    }
     let torque = torque.torque.as_ref().ok_or(
         "the sensor's frequency and damping are needed to take its swing out of the reading",
     )?;

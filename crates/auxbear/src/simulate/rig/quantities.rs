@@ -46,11 +46,21 @@ fn engagement(list: &mut List, context: &Context) {
             .ok_or_else(|| "the clutch still slips at the end".to_string())
     });
     list.number("clutch_lock_time", "s", locked, &ENGAGEMENT);
+    let against = 0.0 - record.deceleration.value;
     list.number(
         "peak_acceleration",
         "rad/s^2",
-        Ok(record.acceleration.value),
+        Ok(match context.rig.program {
+            RigProgram::CoastDown { .. } => against,
+            _ => record.acceleration.value,
+        }),
         &PEAK_ACCELERATION,
+    );
+    list.number(
+        "peak_deceleration",
+        "rad/s^2",
+        Ok(against),
+        &PEAK_DECELERATION,
     );
     let never = |share: f64| format!("{share} % of rig.speed was not reached");
     list.rises(
@@ -185,9 +195,14 @@ const RATE: Origin = Origin {
     valid: "found with balls that roll; balls that skid take a little less of the shaft",
 };
 const PEAK_ACCELERATION: Origin = Origin {
-    law: "largest acceleration of the shaft",
+    law: "largest acceleration of the shaft in the direction of its turning while the test brings it up; of a coast-down, that of its slowing; as peak_acceleration of measured signals",
     source: EQUATIONS,
     valid: "at the ends of the steps, which include the locking",
+};
+const PEAK_DECELERATION: Origin = Origin {
+    law: "largest acceleration of the shaft against its turning, below 0: the release, the running out",
+    source: EQUATIONS,
+    valid: "at the ends of the steps, which include the release",
 };
 const RISE: Origin = Origin {
     law: "first instant at which the speed reaches the level of rig.speed",

@@ -2,7 +2,7 @@
 
 use super::super::list::{List, Origin};
 use super::super::outcome::{Quantity, Value};
-use super::{Asked, Found, torque};
+use super::{Asked, Found, median, torque};
 
 /// Names the results.
 pub(super) fn quantities(asked: &Asked, found: &Found) -> Vec<Quantity> {
@@ -108,7 +108,7 @@ fn speed(list: &mut List, asked: &Asked, found: &Found) {
         "peak_acceleration",
         "rad/s^2",
         of(&|s| s.peak.acceleration),
-        &SPEED,
+        &PEAK_ACCELERATION,
     );
     list.number(
         "peak_acceleration_deviation",
@@ -218,38 +218,44 @@ fn torque(list: &mut List, asked: &Asked, found: &Found) {
         Err(why) => Err(why.clone()),
     };
     let largest = |values: &[f64]| {
-        let place = (0..values.len()).max_by(|a, b| values[*a].abs().total_cmp(&values[*b].abs()));
+        let known = (0..values.len()).filter(|place| values[*place].is_finite());
+        let place = known.max_by(|a, b| values[*a].abs().total_cmp(&values[*b].abs()));
         place.unwrap_or(0)
     };
     let pick = |values: &[f64], place: usize| values.get(place).copied().unwrap_or(f64::NAN);
+    // the largest may be where a clipped reading hides it
+    let whole = || {
+        let hidden = part.as_ref().ok().and_then(|part| part.hidden.clone());
+        hidden.map_or_else(&inverted, Err)
+    };
     list.number(
         "peak_torque",
         "N m",
-        inverted().map(|t| pick(&t.torque, largest(&t.torque))),
+        whole().map(|t| pick(&t.torque, largest(&t.torque))),
         &TORQUE,
     );
     list.number(
         "peak_torque_deviation",
         "N m",
-        inverted().map(|t| pick(&t.deviation, largest(&t.torque))),
+        whole().map(|t| pick(&t.deviation, largest(&t.torque))),
         &TORQUE,
     );
     list.number(
         "time_of_peak_torque",
         "s",
-        inverted().map(|t| pick(&t.time, largest(&t.torque))),
+        whole().map(|t| pick(&t.time, largest(&t.torque))),
         &TORQUE,
     );
     list.number(
         "median_torque_deviation",
         "N m",
-        inverted().map(|t| median(&t.deviation)),
+        whole().map(|t| median(&t.deviation)),
         &TORQUE,
     );
     list.number(
         "largest_synchronous_disturbance",
         "N m",
-        inverted().map(|t| pick(&t.disturbance, largest(&t.disturbance))),
+        whole().map(|t| pick(&t.disturbance, largest(&t.disturbance))),
         &TORQUE,
     );
     list.number(
@@ -339,12 +345,6 @@ fn cage(list: &mut List, asked: &Asked, found: &Found) {
     list.number("cage_angle_noise", "rad", of(&|c| c.noise), &CAGE);
 }
 
-fn median(values: &[f64]) -> f64 {
-    let mut known: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
-    known.sort_by(f64::total_cmp);
-    known.get(known.len() / 2).copied().unwrap_or(f64::NAN)
-}
-
 const FILE: Origin = Origin {
     law: "as the file tells it",
     source: "the measurement file, crates/measure/src/file",
@@ -364,6 +364,11 @@ const SPEED: Origin = Origin {
     law: "smoothing spline of the seventh degree through the pulses, as stiff as their likelihood asks for; deviation: standard",
     source: "crates/measure/src/speed; bands held against 400 synthetic records in crates/measure/tests/speed_coverage.rs",
     valid: "one quick change in the record; no ripple quicker than two marks can show",
+};
+const PEAK_ACCELERATION: Origin = Origin {
+    law: "largest acceleration within the quick change in the direction in which it changes the speed; where there is none, the largest of the record by size; with its sign",
+    source: SPEED.source,
+    valid: SPEED.valid,
 };
 const CHANGE: Origin = Origin {
     law: "knots of the spline at which acceleration or its rate may jump, by likelihood",

@@ -5,6 +5,7 @@ use crate::scenario::{CageKind, CageSignal};
 use measure::cage_speed::{CageSpeed, Line, from_pulses, from_vibration};
 use measure::order::orders;
 use measure::pulse::{EdgeSettings, edges};
+use measure::uncertain::Uncertain;
 
 /// Orders of the shaft that are taken out of a vibration before a line is followed.
 const SHAFT_ORDERS: &[f64] = &[1.0, 2.0, 3.0];
@@ -12,6 +13,15 @@ const SHAFT_ORDERS: &[f64] = &[1.0, 2.0, 3.0];
 const BANDWIDTH: f64 = 2.0;
 /// A ratio that is not exact shows as slip below 0.
 const LOWEST_SLIP: f64 = -0.02;
+
+/// A cage that rests further behind its rolling at speed, loaded, has not been measured; counts that are wrong look like it.
+const HIGHEST_SLIP: f64 = 0.3;
+/// Part of the largest speed from which on slip is looked at.
+const AT_SPEED: f64 = 0.5;
+/// Deviations from which on two values count as different.
+const APART: f64 = 3.0;
+/// Part by which a ratio may be off for its radii and contact angle.
+const RATIO: f64 = 0.01;
 
 /// The motion of the cage.
 pub(in crate::simulate) struct Found {
@@ -84,5 +94,77 @@ impl Found {
         }?;
         notes.extend(cage.notes.iter().cloned());
         Ok(Found { cage, notes })
+    }
+
+    /// What is odd of a slip at steady speed: no cage leads its rolling, nor stays far behind it; a wrong count does.
+    ///
+    /// - `marks`: marks per revolution that are stated
+    pub(super) fn doubt(
+        &self,
+        wish: &CageSignal,
+        marks: usize,
+        shaft: &shaft::Found,
+    ) -> Option<String> {
+        let slip = self.at_speed(shaft)?;
+        let apart = APART * slip.deviation;
+        if slip.value > LOWEST_SLIP - apart && slip.value < HIGHEST_SLIP + apart {
+            return None;
+        }
+        let ratio = 1.0 - slip.value;
+        let near = RATIO.max(apart);
+        let mut fits = Vec::new();
+        let stated = wish.ball_count as f64;
+        let balls = (ratio * stated).round();
+        if balls >= 1.0 && balls != stated && (balls / stated - ratio).abs() <= near {
+            fits.push(format!(
+                "{balls} balls instead of {stated} (signals.cage.ball_count)"
+            ));
+        }
+        let stated = marks as f64;
+        let marks = (stated / ratio).round();
+        if marks >= 1.0 && marks != stated && (stated / marks - ratio).abs() <= near {
+            fits.push(format!(
+                "{marks} marks per revolution instead of {stated} (signals.speed.marks_per_revolution)"
+            ));
+        }
+        let fits = match fits.is_empty() {
+            true => "no other count of balls or marks would: the cage slips, or signals.cage.rolling_ratio is wrong"
+                .to_string(),
+            false => format!("it would roll with {}", fits.join(", or with ")),
+        };
+        let cannot = match slip.value < 0.0 {
+            true => "no cage leads its rolling",
+            false => "so far behind its rolling few cages stay",
+        };
+        Some(format!(
+            "the cage rests at a slip of {:.3} ± {:.3}, and {cannot}; {fits}",
+            slip.value, slip.deviation
+        ))
+    }
+
+    /// The slip behind a quick change, at speed.
+    fn at_speed(&self, shaft: &shaft::Found) -> Option<Uncertain> {
+        let change = shaft.speed.change;
+        let from = change.map_or(f64::NEG_INFINITY, |change| {
+            change.end.map_or(change.engagement.0, |end| end.0)
+        });
+        let least = AT_SPEED * shaft.fastest.speed.abs();
+        let cage = &self.cage;
+        let seen = cage.time.iter().zip(&cage.slip).zip(&cage.slip_deviation);
+        let (slips, deviations): (Vec<f64>, Vec<f64>) = seen
+            .filter(|((time, slip), deviation)| {
+                let known = slip.is_finite() && deviation.is_finite();
+                known && **time > from && shaft.speed.at(**time).speed.abs() > least
+            })
+            .map(|((_, slip), deviation)| (*slip, *deviation))
+            .unzip();
+        if slips.len() < 3 {
+            return None;
+        }
+        let middle = super::median(&slips);
+        let away: Vec<f64> = slips.iter().map(|slip| (slip - middle).abs()).collect();
+        // 0.6745: the median of the size of a normal error of deviation 1
+        let spread = (super::median(&away) / 0.6745).max(super::median(&deviations));
+        Some(Uncertain::new(middle, spread))
     }
 }

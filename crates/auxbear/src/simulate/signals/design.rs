@@ -55,6 +55,9 @@ pub(super) fn errors(
             left + part.clamp(0.0, 1.0) * (right - left)
         })
         .collect();
+    if expected.iter().any(|value| value.is_nan()) {
+        return Err("the torque is not told where the reading is clipped".to_string());
+    }
     let disturbance = torque.disturbance.iter().fold(0.0_f64, |a, b| a.max(*b));
     let possible: Vec<f64> = (FREQUENCIES.into_iter())
         .filter(|frequency| frequency * interval * SAMPLES < 1.0)

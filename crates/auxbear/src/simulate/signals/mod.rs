@@ -17,9 +17,11 @@ mod design;
 mod history;
 mod read;
 pub(super) mod shaft;
+mod spectrum;
 mod steady;
 mod temperature;
 pub(super) mod torque;
+mod unit;
 mod vibration;
 
 use super::outcome::{Outcome, Picture, Stop, Warning, Work};
@@ -58,7 +60,7 @@ impl Asked {
                 let key = "signals.speed.channel";
                 Some(match speed.kind {
                     PickupKind::Analog { .. } => {
-                        Signal::Sampled(source.series(key, &speed.channel, false)?)
+                        Signal::Sampled(source.passings(key, &speed.channel)?)
                     }
                     PickupKind::Edges { .. } => {
                         Signal::Stamped(source.stamps(key, &speed.channel)?)
@@ -72,13 +74,14 @@ impl Asked {
         let mut notes = Vec::new();
         if let Some(asked) = &signals.torque {
             let key = "signals.torque.channel";
-            torque = Some(in_newton_metres(
-                &mut source,
-                key,
-                &asked.channel,
-                asked.scale,
-                false,
-            )?);
+            let series = in_newton_metres(&mut source, key, &asked.channel, asked.scale, false)?;
+            source.reaches(
+                "signals.torque.highest_frequency",
+                asked.highest_frequency,
+                &series,
+                spectrum::resolved(series.values.len(), series.interval),
+            )?;
+            torque = Some(series);
             if let Some(SensorSource::Tap {
                 tap_file,
                 tap_channel,
@@ -97,7 +100,7 @@ impl Asked {
                 let key = "signals.cage.channel";
                 Some(match cage.kind {
                     CageKind::Edges => Signal::Stamped(source.stamps(key, &cage.channel)?),
-                    _ => Signal::Sampled(source.series(key, &cage.channel, false)?),
+                    _ => Signal::Sampled(source.passings(key, &cage.channel)?),
                 })
             }
             None => None,
@@ -117,7 +120,12 @@ impl Asked {
         let vibration = match &signals.vibration {
             Some(asked) => {
                 let series = source.series("signals.vibration.channel", &asked.channel, false)?;
-                source.below_half_rate(asked, &series)?;
+                source.reaches(
+                    "signals.vibration.highest_frequency",
+                    asked.highest_frequency,
+                    &series,
+                    vibration::resolved(series.values.len(), series.interval),
+                )?;
                 Some(series)
             }
             None => None,
@@ -139,6 +147,37 @@ impl Asked {
             vibration,
         })
     }
+
+    /// Where a part comes from: channel and file, as in "channel \"torque\" of run.tdms".
+    fn place(&self, part: &str) -> String {
+        let asked = &self.signals;
+        let channel = match part {
+            "speed" => asked.speed.as_ref().map(|one| &one.channel),
+            "torque" => asked.torque.as_ref().map(|one| &one.channel),
+            "cage" => asked.cage.as_ref().map(|one| &one.channel),
+            "vibration" => asked.vibration.as_ref().map(|one| &one.channel),
+            _ => None,
+        };
+        let file = read::short(&asked.file);
+        match channel {
+            Some(channel) => format!("channel \"{channel}\" of {file}"),
+            None => file,
+        }
+    }
+}
+
+/// The middle of the values that are numbers; not-a-number where there is none.
+fn median(values: &[f64]) -> f64 {
+    let mut known: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+    known.sort_by(f64::total_cmp);
+    known.get(known.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+/// A text that begins a sentence.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+    first.into_iter().chain(letters).collect()
 }
 
 fn in_newton_metres(
@@ -326,6 +365,12 @@ pub(super) fn find(asked: &Asked) -> Found {
         match cage {
             Ok(cage) => {
                 found.warn("AB1043", "Cage", &cage.notes);
+                let marks = asked.signals.speed.as_ref();
+                let marks = marks.map_or(0, |speed| speed.marks_per_revolution);
+                let shaft = found.shaft.as_ref();
+                if let Some(doubt) = shaft.and_then(|shaft| cage.doubt(wish, marks, shaft)) {
+                    found.warn("AB1045", &capital(&asked.place("cage")), &[doubt]);
+                }
                 found.cage = Some(cage);
             }
             Err(why) => found.refused.push(("cage", why)),
@@ -338,7 +383,15 @@ pub(super) fn find(asked: &Asked) -> Found {
         .iter()
         .map(|(part, why)| Warning {
             code: "AB1042",
-            text: format!("No {part}: {}.", why.trim_end_matches('.')),
+            text: format!(
+                "No {} from {}: {}.",
+                match *part {
+                    "steady" => "steady curve",
+                    other => other,
+                },
+                asked.place(part),
+                why.trim_end_matches('.')
+            ),
         })
         .collect();
     found.warnings.splice(0..0, refused);

@@ -1,7 +1,8 @@
 //! The channels that are asked for, read from a measurement file and brought to one clock in s.
 
+use super::unit::{no_signal, si_factor, unit_of};
 use crate::problem::{Code, Problem, did_you_mean};
-use crate::scenario::{Signals, UNNAMED, VibrationSignal};
+use crate::scenario::{Signals, UNNAMED};
 use measure::converter::Converter;
 use measure::file;
 use measure::recording::{Channel, Clock, Content, FileError, Instant, Recording};
@@ -12,6 +13,8 @@ use units::Unit;
 const MOST_VALUES: u64 = 50_000_000;
 /// Values read at a time from a channel that is a clock.
 const PIECE: usize = 1 << 16;
+/// Lines that a spectrum needs to show anything.
+const FEWEST_LINES: f64 = 4.0;
 /// How far an instant may be from an even clock, in intervals: beyond, values are not at equal times.
 const UNEVEN: f64 = 0.1;
 
@@ -273,26 +276,53 @@ impl<'a> Source<'a> {
             .try_for_each(|name| self.channel(key, name).map(|_| ()))
     }
 
-    /// Refuses a highest frequency that the samples of a vibration do not reach.
-    pub fn below_half_rate(
+    /// Refuses a highest frequency of a spectrum that the samples do not reach, or below which they have no lines.
+    ///
+    /// - `resolved`: distance of two lines at best, Hz
+    pub fn reaches(
         &self,
-        asked: &VibrationSignal,
+        key: &'static str,
+        highest: Option<f64>,
         series: &Series,
+        resolved: f64,
     ) -> Result<(), Box<Problem>> {
         let half = 0.5 / series.interval;
-        match asked.highest_frequency {
+        let least = FEWEST_LINES * resolved;
+        match highest {
             // Clocks are read with their rounding.
-            Some(highest) if highest > half * (1.0 + 1e-6) => Err(self.problem(
-                Code::OutOfRange,
-                "signals.vibration.highest_frequency",
-                format!("{} Hz", units::number_text(highest)),
-                format!(
-                    "at most {} Hz is needed, half of the sampling rate of channel \"{}\"",
-                    units::number_text((half * 1e6).round() / 1e6),
-                    series.name
-                ),
-            )),
+            Some(highest) if highest > half * (1.0 + 1e-6) || highest < least.min(half) => {
+                let text = |value: f64| units::number_text(value);
+                Err(self.problem(
+                    Code::OutOfRange,
+                    key,
+                    format!("{} Hz", text(highest)),
+                    format!(
+                        "from {} to {} Hz is needed: {FEWEST_LINES} lines as fine as the record has them, and half of the sampling rate of channel \"{}\"",
+                        text((least * 1e3).ceil() / 1e3),
+                        text((half * 1e6).round() / 1e6),
+                        series.name
+                    ),
+                ))
+            }
             _ => Ok(()),
+        }
+    }
+
+    /// The values of a channel in which passing marks or balls are looked for; refuses what is another quantity by its unit.
+    pub fn passings(&mut self, key: &'static str, name: &str) -> Result<Series, Box<Problem>> {
+        let series = self.series(key, name, false)?;
+        match no_signal(&series.unit) {
+            Some(quantity) => Err(self.problem(
+                Code::ChannelUnit,
+                key,
+                format!(
+                    "channel \"{}\" in \"{}\", a {quantity}",
+                    series.name,
+                    series.unit.trim()
+                ),
+                "the signal of a sensor that sees each of them pass is needed, e.g. in V",
+            )),
+            None => Ok(series),
         }
     }
 
@@ -498,41 +528,6 @@ impl<'a> Source<'a> {
     }
 }
 
-/// The size in SI of a unit as files write it, where it has the dimension of that SI unit.
-fn si_factor(text: &str, si: &str) -> Option<f64> {
-    unit_of(text, si).map(|unit| unit.to_si(1.0))
-}
-
-/// A unit as files write it, where it has the dimension of that SI unit.
-fn unit_of(text: &str, si: &str) -> Option<Unit> {
-    const SPELLINGS: &[(&str, &str)] = &[
-        ("Nm", "N m"),
-        ("Nmm", "N mm"),
-        ("Ncm", "N cm"),
-        ("mNm", "mN m"),
-        ("kNm", "kN m"),
-        ("sec", "s"),
-        ("°C", "degC"),
-        ("deg C", "degC"),
-        ("C", "degC"),
-    ];
-    let plain = text.trim().replace(['·', '*', '.'], " ");
-    let plain = SPELLINGS
-        .iter()
-        .find(|row| row.0 == plain)
-        .map_or(plain.as_str(), |row| row.1);
-    let (unit, wanted) = (Unit::parse(plain).ok()?, Unit::parse(si).ok()?);
-    (unit.dimension() == wanted.dimension()).then_some(unit)
-}
-
-/// The unit of SI in which a vibration is given, and the factor to it; "1" where the file's unit is none of a vibration.
-pub fn unit_in_si(text: &str) -> (&'static str, f64) {
-    ["m/s^2", "m/s", "m"]
-        .into_iter()
-        .find_map(|unit| Some((unit, si_factor(text, unit)?)))
-        .unwrap_or(("1", 1.0))
-}
-
 /// What a reader refuses, as a problem of the scenario.
 fn of_file(error: &FileError, key: &str) -> Box<Problem> {
     let place = match error.place.as_str() {
@@ -548,23 +543,7 @@ fn of_file(error: &FileError, key: &str) -> Box<Problem> {
 }
 
 /// The name of a file without its folders, for messages.
-fn short(path: &Path) -> String {
+pub fn short(path: &Path) -> String {
     let name = path.file_name().unwrap_or(path.as_os_str());
     name.to_string_lossy().into_owned()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::si_factor;
-
-    #[test]
-    fn units_of_files_are_understood_as_labs_write_them() {
-        for text in ["N m", "Nm", "N·m", "N*m"] {
-            assert_eq!(si_factor(text, "N m"), Some(1.0), "{text}");
-        }
-        assert_eq!(si_factor("Nmm", "N m"), Some(1e-3));
-        assert_eq!(si_factor("N", "N m"), None);
-        assert_eq!(si_factor("", "N m"), None);
-        assert_eq!(si_factor("ms", "s"), Some(1e-3));
-    }
 }

@@ -22,7 +22,7 @@ pub(in crate::simulate) struct Found {
     pub speed: Speed,
     pub pulses: Pulses,
     pub pitch: Option<Pitch>,
-    /// Where the largest acceleration is.
+    /// Where the acceleration is largest: in the quick change in its direction, by size where there is none.
     pub peak: Motion,
     /// Where the largest speed is.
     pub fastest: Motion,
@@ -107,8 +107,14 @@ impl Found {
         let change = speed
             .change
             .map(|change| (change.engagement.0, change.end.map_or(range.1, |end| end.0)));
-        let (from, to) = change.unwrap_or(range);
-        let peak = looked(from, to, &|motion| motion.acceleration.abs());
+        let peak = match change {
+            // what swings back behind an engagement, or a release, is no part of the spin-up
+            Some((from, to)) => {
+                let way = 1.0_f64.copysign(speed.at(to).speed - speed.at(from).speed);
+                looked(from, to, &|motion| way * motion.acceleration)
+            }
+            None => looked(range.0, range.1, &|motion| motion.acceleration.abs()),
+        };
         let fastest = looked(range.0, range.1, &|motion| motion.speed.abs());
         let (Some(peak), Some(fastest)) = (peak, fastest) else {
             return Err("the record has no length".to_string());

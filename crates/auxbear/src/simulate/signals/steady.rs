@@ -57,6 +57,9 @@ impl Found {
         let by_sensor = |part: (f64, f64)| {
             let (series, faulty, found) =
                 reading.ok_or_else(|| "signals.torque.channel is not given".to_string())?;
+            if let Some(why) = faulty.cut_between(series, part.0, part.1) {
+                return Err(why);
+            }
             let (time, torque) = torques(series, faulty, found);
             let inside = |t: f64| t >= part.0 && t <= part.1;
             let rows = || time.iter().zip(&torque).filter(|(t, _)| inside(**t));

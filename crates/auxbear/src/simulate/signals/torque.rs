@@ -1,20 +1,21 @@
 //! The torque that a swinging sensor felt, from its reading.
 
 use super::read::Series;
-use super::{design, shaft};
+use super::{design, shaft, spectrum};
 use crate::scenario::{Disturbance, SensorSource, TorqueSignal};
 use measure::converter::{Fault, faults};
-use measure::spectrum::{Segments, Spectrum, Window, spectrum};
-use measure::speed::Change;
+use measure::spectrum::Spectrum;
 use measure::torque_sensor::{
-    DesignError, Inversion, Sensor, Torque, identify_free_response, invert,
+    Clipped, DesignError, Inversion, Sensor, Torque, identify_free_response, invert,
 };
 use measure::uncertain::Uncertain;
+use std::f64::consts::TAU;
 
 /// Values at the ends that are left out without a word.
 const FEW: usize = 2;
-/// Most values in a segment of the spectrum.
-const LONGEST_SEGMENT: usize = 2048;
+/// What a spectrum shows at least: so many times the frequency of the sensor, so many orders of the shaft.
+const OF_SENSOR: f64 = 3.0;
+const ORDERS: f64 = 4.0;
 
 /// Torque, and the reading it was found from.
 pub(in crate::simulate) struct Found {
@@ -26,6 +27,8 @@ pub(in crate::simulate) struct Found {
     pub notes: Vec<String>,
     /// Error of the torque over the frequency of the sensor; why it is not known.
     pub design: Result<Vec<DesignError>, String>,
+    /// Why a part of the torque is not told, its peak with it; none where all of it is.
+    pub hidden: Option<String>,
 }
 
 /// Values that are not to be trusted.
@@ -36,20 +39,44 @@ pub(super) struct Faulty {
     pub stuck: usize,
     pub missing: usize,
     reading: Vec<f64>,
+    /// Where the reading is at a limit.
+    cut: Vec<Clipped>,
+    /// What it tells there, in words.
+    at_limit: Option<String>,
 }
 
 /// Looks for values at the limits of the converter, held values and gaps, and takes them out.
 pub(super) fn faulty(series: &Series) -> Faulty {
     let mut reading = series.values.clone();
     let (mut counts, mut stretches, mut begins) = ([0; 3], [0; 3], [f64::NAN; 3]);
+    let (low, high) = range(&series.values);
+    let value = |index: usize| series.values.get(index).copied().unwrap_or(f64::NAN);
+    let mut cut = Vec::new();
     for fault in faults(&series.values, series.converter.as_ref()) {
         let kind = match fault.fault {
             Fault::Clipped => 0,
+            // A flat top is one, though nothing is known of the converter.
+            Fault::Stuck if low < high && [low, high].contains(&value(fault.first)) => 0,
             Fault::Stuck => 1,
             Fault::Missing => 2,
         };
         if stretches[kind] == 0 {
             begins[kind] = series.time(fault.first);
+        }
+        if kind == 0 {
+            let above = value(fault.first) > 0.5 * (low + high);
+            cut.push(Clipped {
+                first: fault.first,
+                count: fault.count,
+                limit: series.converter.map_or(value(fault.first), |converter| {
+                    if above {
+                        converter.highest
+                    } else {
+                        converter.lowest
+                    }
+                }),
+                above,
+            });
         }
         counts[kind] += fault.count;
         stretches[kind] += 1;
@@ -73,8 +100,20 @@ pub(super) fn faulty(series: &Series) -> Faulty {
             begins[kind]
         )
     });
+    let furthest =
+        (cut.iter().map(|part| part.limit)).reduce(|a, b| if b.abs() > a.abs() { b } else { a });
+    let at_limit = furthest.map(|limit| {
+        format!(
+            "the reading is clipped at {:.4} N mm in {} stretches, the first at {:.6} s",
+            1e3 * limit,
+            stretches[0],
+            begins[0]
+        )
+    });
     Faulty {
         told: told.collect(),
+        cut,
+        at_limit,
         clipped: counts[0],
         stuck: counts[1],
         missing: counts[2],
@@ -87,6 +126,40 @@ impl Faulty {
     pub fn reading(&self) -> &[f64] {
         &self.reading
     }
+
+    /// What is at a limit of the part between two indices, counted from the first.
+    fn cut(&self, from: usize, to: usize) -> Vec<Clipped> {
+        let parts = self.cut.iter().filter_map(|part| {
+            let (begin, end) = (part.first.max(from), (part.first + part.count).min(to));
+            (begin < end).then(|| Clipped {
+                first: begin - from,
+                count: end - begin,
+                ..*part
+            })
+        });
+        parts.collect()
+    }
+
+    /// Why a mean of the torque between two times, s, would be false; none where nothing is clipped there.
+    pub fn cut_between(&self, series: &Series, from: f64, to: f64) -> Option<String> {
+        let inside = |part: &Clipped| {
+            let last = part.first + part.count.max(1) - 1;
+            series.time(part.first) <= to && series.time(last) >= from
+        };
+        let why = self.at_limit.as_ref()?;
+        self.cut
+            .iter()
+            .any(inside)
+            .then(|| format!("{why}: a mean of what is left would be false there"))
+    }
+}
+
+/// Lowest and highest of the values that are numbers.
+fn range(values: &[f64]) -> (f64, f64) {
+    let known = values.iter().copied().filter(|v| v.is_finite());
+    known.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
+        (l.min(v), h.max(v))
+    })
 }
 
 impl Found {
@@ -106,17 +179,27 @@ impl Found {
                 None
             }
         };
-        let length = (series.values.len() / 4).clamp(8, LONGEST_SEGMENT);
-        let segments = Segments {
-            length,
-            overlap: 0.5,
-            window: Window::Hann,
-        };
+        let swing = sensor.map_or(0.0, |sensor| OF_SENSOR * sensor.frequency.value);
+        let turns = shaft.map_or(0.0, |shaft| ORDERS * shaft.fastest.speed.abs() / TAU);
+        let untold = |torque: &Torque| torque.torque.iter().any(|value| value.is_nan());
+        let hidden = (faulty.at_limit.as_ref())
+            .filter(|_| torque.as_ref().is_some_and(untold))
+            .map(|why| {
+                format!(
+                    "{why}: the true one is there or beyond, by an unknown amount, and so is the largest torque"
+                )
+            });
         Ok(Found {
+            hidden,
             design: design::errors(wish, torque.as_ref(), sensor, shaft),
             torque,
             sensor,
-            spectrum: spectrum(&faulty.reading, series.interval, &segments),
+            spectrum: spectrum::of(
+                &faulty.reading,
+                series.interval,
+                wish.highest_frequency,
+                swing.max(turns),
+            ),
             notes,
         })
     }
@@ -143,7 +226,7 @@ fn sensor(
         (Some(SensorSource::Tap { tap_start, .. }), Some(tap)) => {
             let start = tap_start.map(|start| (start / tap.interval).ceil() as usize);
             let response = identify_free_response(&tap.values, tap.interval, start)
-                .map_err(|why| format!("the tap does not tell the sensor: {why}"))?;
+                .map_err(|why| format!("the tap does not tell the sensor: {}, {why}", tap.name))?;
             notes.extend(response.notes.iter().map(|note| format!("tap: {note}")));
             Ok(Some(response.sensor))
         }
@@ -184,21 +267,17 @@ fn inverted(
         );
     }
     let reading = faulty.reading.get(from..to).unwrap_or(&[]);
-    let known = || reading.iter().copied().filter(|v| v.is_finite());
-    let (low, high) = known().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
-        (l.min(v), h.max(v))
-    });
+    let (low, high) = range(reading);
     let change = shaft
         .and_then(|shaft| shaft.speed.change)
-        .filter(|change| change.from_rest && rests_at_first(change, series.time(from)));
-    if change.is_none() && wish.zero_deviation.is_none() {
-        notes.push("the shaft does not rest at first and zero_deviation is not given: the zero of the reading is not known".to_string());
-    }
-    let torque = invert(&Inversion {
+        .filter(|change| change.from_rest);
+    let cut = faulty.cut(from, to);
+    let input = Inversion {
         sensor,
         first: series.time(from),
         interval: series.interval,
         reading,
+        clipped: &cut,
         shaft: turning,
         engagement: change.map(|change| Uncertain::new(change.engagement.0, change.engagement.1)),
         zero: Uncertain::new(0.0, wish.zero_deviation.unwrap_or(high - low)),
@@ -209,12 +288,11 @@ fn inverted(
             Disturbance::Unbalance => Some(2.0),
             Disturbance::RunOut => Some(0.0),
         },
-    })?;
+    };
+    if !input.rests_at_first() && wish.zero_deviation.is_none() {
+        notes.push("the shaft does not rest at first and zero_deviation is not given: the zero of the reading is not known".to_string());
+    }
+    let torque = invert(&input)?;
     notes.extend(torque.notes.iter().cloned());
     Ok(torque)
-}
-
-/// Whether the shaft surely rests at the start of a record, s: its engagement lies two deviations behind it.
-fn rests_at_first(change: &Change, start: f64) -> bool {
-    change.engagement.0 - 2.0 * change.engagement.1 > start
 }

@@ -1,7 +1,8 @@
 //! Orders and spectrograms of a vibration.
 
-use super::read::{Series, unit_in_si};
+use super::read::Series;
 use super::shaft;
+use super::unit::unit_in_si;
 use crate::scenario::VibrationSignal;
 use measure::order::{Orders, orders};
 use measure::spectrum::{AngularSettings, Segments, Window, order_spectrogram, spectrogram};
@@ -18,6 +19,11 @@ const LONGEST: usize = 1 << 16;
 const FLOOR: f64 = -80.0;
 /// Speed below which a spectrum over order is not taken, as a part of the largest.
 const SLOW: f64 = 0.05;
+
+/// Distance of two lines of the spectrogram over time at best, Hz.
+pub(super) fn resolved(count: usize, interval: f64) -> f64 {
+    1.0 / ((count / FEWEST_COLUMNS).clamp(8, LONGEST) as f64 * interval)
+}
 
 /// Levels over two axes.
 pub(super) struct Picture {

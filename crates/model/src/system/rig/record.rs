@@ -30,8 +30,10 @@ pub struct Keep<'a> {
 /// Everything kept of one rig.
 #[derive(Clone, Debug)]
 pub struct Record {
-    /// Largest acceleration of the shaft, rad/s²; its size, of either sign.
+    /// Largest acceleration of the shaft in the direction of the target speed, rad/s².
     pub acceleration: Peak,
+    /// Largest acceleration of the shaft against that direction, rad/s²; its size.
+    pub deceleration: Peak,
     /// Largest size of the moment t_I that resists the shaft in the bearing, N m.
     pub inner_moment: Peak,
     /// Largest size of the moment t_O on the outer race, N m.
@@ -54,6 +56,8 @@ pub struct Record {
     rises: [Rise; 3],
     turns: CageTurns,
     rows: Rows,
+    /// Direction of the target speed.
+    forward: f64,
 }
 
 /// Changes of the clutch for which room is made before a run.
@@ -76,6 +80,7 @@ impl Record {
         };
         Record {
             acceleration: Peak::NONE,
+            deceleration: Peak::NONE,
             inner_moment: Peak::NONE,
             outer_moment: Peak::NONE,
             clutch_torque: Peak::NONE,
@@ -102,6 +107,7 @@ impl Record {
                 keep.interval.unwrap_or(f64::INFINITY),
                 keep.interval.is_some(),
             ),
+            forward: 1.0_f64.copysign(speed),
         }
     }
     /// First instant at which the clutch locked, s.
@@ -156,8 +162,14 @@ impl Record {
 
 impl<'a> Observer<Segment<'a>> for Record {
     fn step(&mut self, step: &mut Step<Segment<'a>>) -> Flow {
+        for (peak, sign) in [
+            (&mut self.acceleration, self.forward),
+            (&mut self.deceleration, -self.forward),
+        ] {
+            peak.raise(sign * step.start_probe(ACCELERATION), step.start);
+            peak.raise(sign * step.end_probe(ACCELERATION), step.end);
+        }
         for (peak, probe) in [
-            (&mut self.acceleration, ACCELERATION),
             (&mut self.inner_moment, INNER_MOMENT),
             (&mut self.outer_moment, OUTER_MOMENT),
             (&mut self.clutch_torque, CLUTCH_TORQUE),
