@@ -104,6 +104,30 @@ impl Integral<'_> {
         if draws.is_empty() {
             return none;
         }
+        if std::env::var("DBG").is_ok() {
+            let best = draws
+                .iter()
+                .max_by(|a, b| {
+                    (a.levels
+                        .iter()
+                        .map(|l| l.0)
+                        .fold(f64::NEG_INFINITY, f64::max))
+                    .total_cmp(
+                        &b.levels
+                            .iter()
+                            .map(|l| l.0)
+                            .fold(f64::NEG_INFINITY, f64::max),
+                    )
+                })
+                .unwrap();
+            let p = self.predict(&best.coordinates);
+            let a = self.best_amplitude(&p);
+            println!(
+                "DBG form {:?} amplitude {} level {:?}",
+                self.hypothesis, self.observed.amplitudes[a], best.levels[a]
+            );
+            self.observed.debug(&p, a, self.tests);
+        }
         let count = logs.len() as f64;
         let log = log_sum_exp(&logs) - count.ln();
         let variance = (logs.iter())
@@ -384,6 +408,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::record::LeastWidth;
     use super::super::steady::known;
     use super::super::{Explanation, Priors, Settings};
     use super::*;
@@ -402,7 +427,13 @@ mod tests {
         let (priors, settings) = (Priors::default(), Settings::default());
         let bearing = Bearing::new(&steady, 150.0, &set, &priors, &settings);
         let speed = |t: f64| 150.0 * (t / 0.1).clamp(0.0, 1.0);
-        let mut test = Test::planned(&speed, 3.0, 0.05, &bearing.table, set.outer_inertia());
+        let mut test = Test::planned(
+            &speed,
+            3.0,
+            &LeastWidth::even(0.05),
+            &bearing.table,
+            set.outer_inertia(),
+        );
         let rolling = Hypothesis::Rolling.predict(&[], std::slice::from_ref(&test), &bearing);
         let count = test.bins.len();
         for (i, bin) in test.bins.iter_mut().enumerate() {

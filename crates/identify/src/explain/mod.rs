@@ -304,13 +304,11 @@ fn usable(test: &Measurement) -> bool {
         && numbers(&test.torque)
         && numbers(&test.torque_deviation)
         && test.torque_deviation.iter().all(|d| *d > 0.0)
-        && [
-            test.zero_deviation,
-            test.scale_deviation,
-            test.correlation_time,
-        ]
-        .iter()
-        .all(|v| v.is_finite() && *v >= 0.0)
+        && numbers(&test.correlation_time)
+        && test.correlation_time.iter().all(|t| *t >= 0.0)
+        && [test.zero_deviation, test.scale_deviation]
+            .iter()
+            .all(|v| v.is_finite() && *v >= 0.0)
         && test.load.is_finite()
         && test.cage.as_ref().is_none_or(|cage| {
             cage.speed.len() == cage.time.len()

@@ -49,7 +49,7 @@ pub(crate) struct Whitened {
 /// Relative deviation of the geometry 1+s behind a cage speed, from the contact angle: assumed.
 const CAGE_SCALE: f64 = 0.003;
 /// Relative error of one mean of the cage speed beside its noise: counting of balls over a changing speed, assumed.
-const CAGE_NUGGET: f64 = 0.002;
+const CAGE_NUGGET: f64 = 5e-4;
 /// Error of one mean over the discrepancy: 0.3 of its amplitude is not shared with neighbours, assumed.
 const NUGGET: f64 = 0.3;
 /// Part of the inertia moment that a smoothed torque misplaces in time, assumed.
@@ -83,7 +83,7 @@ impl Observed {
         let cage = Signal::new(
             &with_cage,
             &amplitudes,
-            |bin| bin.cage.map_or(0.0, |(value, _)| value),
+            |bin| bin.cage.map_or(0.0, |mean| mean.speed),
             |a, i, j| cage_covariance(a, i, j, bearing),
         )?;
         Some(Self {
@@ -156,6 +156,49 @@ impl Observed {
         all
     }
 
+    pub fn debug(&self, prediction: &Prediction, amplitude: usize, tests: &[Test]) {
+        let bins: Vec<(usize, &Bin)> = tests
+            .iter()
+            .enumerate()
+            .flat_map(|(t, test)| test.bins.iter().map(move |b| (t, b)))
+            .collect();
+        for (name, signal, predicted) in [
+            ("T", &self.torque, &prediction.torque),
+            ("C", &self.cage, &prediction.cage),
+        ] {
+            let n = signal.place.len();
+            let f = &signal.factor[amplitude];
+            let r: Vec<f64> = signal
+                .value
+                .iter()
+                .zip(&signal.place)
+                .map(|(v, p)| v - predicted[*p])
+                .collect();
+            let mut x = r.clone();
+            f.solve(&mut x);
+            let chi: f64 = x.iter().zip(&r).map(|(a, b)| a * b).sum();
+            println!("DBG {name} n {n} chi {chi:.1}");
+            for i in 0..n {
+                let mut e = vec![0.0; n];
+                e[i] = 1.0;
+                f.solve(&mut e);
+                let z = x[i] / e[i].sqrt();
+                let (t, b) = bins[signal.place[i]];
+                println!(
+                    "DBGZ {name} {t} {:.4} {:.4} sp {:.1} before {} val {:.5} res {:.6} loo {:.6} z {:.2} share {:.2}",
+                    b.from,
+                    b.to,
+                    b.speed,
+                    b.before,
+                    signal.value[i],
+                    r[i],
+                    1.0 / e[i].sqrt(),
+                    z,
+                    x[i] * r[i]
+                );
+            }
+        }
+    }
     /// ln of the likelihood and χ² at each amplitude.
     pub fn log_likelihood(&self, prediction: &Prediction, tests: usize) -> Vec<(f64, f64)> {
         (0..self.amplitudes.len())
@@ -304,7 +347,7 @@ fn cage_covariance(
         + share * share * m * n * kernel(one, other, bearing.table.top_speed);
     if test == other_test && std::ptr::eq(a, b) {
         let top = bearing.set.cage_speed(bearing.table.top_speed);
-        sum += a.cage.map_or(0.0, |(_, variance)| variance) + (CAGE_NUGGET * top).powi(2);
+        sum += a.cage.map_or(0.0, |mean| mean.variance) + (CAGE_NUGGET * top).powi(2);
     }
     sum
 }
