@@ -104,30 +104,6 @@ impl Integral<'_> {
         if draws.is_empty() {
             return none;
         }
-        if std::env::var("DBG").is_ok() {
-            let best = draws
-                .iter()
-                .max_by(|a, b| {
-                    (a.levels
-                        .iter()
-                        .map(|l| l.0)
-                        .fold(f64::NEG_INFINITY, f64::max))
-                    .total_cmp(
-                        &b.levels
-                            .iter()
-                            .map(|l| l.0)
-                            .fold(f64::NEG_INFINITY, f64::max),
-                    )
-                })
-                .unwrap();
-            let p = self.predict(&best.coordinates);
-            let a = self.best_amplitude(&p);
-            println!(
-                "DBG form {:?} amplitude {} level {:?}",
-                self.hypothesis, self.observed.amplitudes[a], best.levels[a]
-            );
-            self.observed.debug(&p, a, self.tests);
-        }
         let count = logs.len() as f64;
         let log = log_sum_exp(&logs) - count.ln();
         let variance = (logs.iter())
@@ -174,11 +150,7 @@ impl Integral<'_> {
 
     /// Tests whose effect may scatter; rolling balls have none.
     fn directions(&self) -> usize {
-        if self.hypothesis == Hypothesis::Rolling {
-            0
-        } else {
-            self.tests.len()
-        }
+        self.hypothesis.directions(self.tests.len())
     }
 
     /// The best points of the prior and the share of the prior that fulfils the claim.
@@ -446,7 +418,8 @@ mod tests {
         test.zero_deviation = 3e-4;
         test.scale_deviation = 0.01;
         let tests = [test];
-        let observed = Observed::new(&tests, &bearing).expect("a covariance");
+        let observed =
+            Observed::new(&tests, &bearing, &settings.discrepancy).expect("a covariance");
         for hypothesis in [Hypothesis::SlowSensor, Hypothesis::Drift { sign: -1.0 }] {
             check(&Integral {
                 hypothesis,

@@ -190,6 +190,11 @@ impl Hypothesis {
         }
     }
 
+    /// Of so many tests, those whose effect may scatter; rolling balls have none.
+    pub fn directions(self, tests: usize) -> usize {
+        if self == Self::Rolling { 0 } else { tests }
+    }
+
     /// Sign of the effect, for forms that have two.
     pub fn sign(self) -> f64 {
         match self {

@@ -286,7 +286,7 @@ impl Trial<'_> {
     /// Expected information and the entropy that is left, nats.
     fn information(&self, verdict: &Verdict, random: &mut Random) -> Option<(f64, f64)> {
         let one = std::slice::from_ref(&self.test);
-        let observed = Observed::new(one, self.bearing)?;
+        let observed = Observed::new(one, self.bearing, &self.bearing.settings.discrepancy)?;
         let discrepancy = verdict.best().fit.map_or(0.02, |fit| fit.discrepancy);
         let nearest = |a: &f64| (a.ln() - discrepancy.max(1e-6).ln()).abs();
         let amplitude = (0..observed.amplitudes.len()).min_by(|i, j| {

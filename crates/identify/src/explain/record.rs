@@ -461,6 +461,89 @@ mod tests {
             assert!((mean - 3.0).abs() < 1e-9);
         }
     }
+    /// A spin-up of 13 s whose torque is smoothed over 20 ms until half a second after it, over 0.2 s later.
+    fn smoothed_more_in_the_hold() -> Measurement {
+        let time: Vec<f64> = (0..6500).map(|i| f64::from(i) * 2e-3).collect();
+        let count = time.len();
+        let cage_speed = |t: f64| 0.4 * course(t - 0.4);
+        // balls pass every 0.6 rad of the cage
+        let (mut angle, mut passed) = (0.0, Vec::new());
+        for pair in time.windows(2) {
+            let before = (angle / 0.6_f64).floor();
+            angle += cage_speed(pair[1]) * (pair[1] - pair[0]);
+            if (angle / 0.6).floor() > before {
+                passed.push(pair[1]);
+            }
+        }
+        Measurement {
+            name: "long".into(),
+            load: 50.0,
+            speed: time.iter().map(|t| course(t - 0.4)).collect(),
+            speed_deviation: vec![0.1; count],
+            acceleration: vec![0.0; count],
+            acceleration_deviation: vec![1.0; count],
+            torque: vec![0.0; count],
+            torque_deviation: vec![0.5e-3; count],
+            correlation_time: (time.iter())
+                .map(|t| if *t < 0.9 { 0.02 } else { 0.2 })
+                .collect(),
+            time,
+            zero_deviation: 0.0,
+            scale_deviation: 0.0,
+            engagement: Some(0.4),
+            engagement_deviation: 0.0,
+            cage: Some(CageTrace {
+                speed: passed.iter().map(|t| cage_speed(*t)).collect(),
+                deviation: vec![0.1; passed.len()],
+                time: passed,
+            }),
+            temperature: None,
+        }
+    }
+
+    #[test]
+    fn a_long_hold_leaves_the_means_of_the_spin_up_as_they_are() {
+        let long = smoothed_more_in_the_hold();
+        let whole = Test::measured(&long, &table(), 0.0);
+        let cut = Test::measured(&long.between(0.0, 1.2), &table(), 0.0);
+        let early = |test: &Test| -> Vec<(f64, f64)> {
+            let bins = test.bins.iter().filter(|bin| bin.to < 0.4 && !bin.before);
+            bins.map(|bin| (bin.from, bin.to)).collect()
+        };
+        let parts = early(&whole);
+        assert_eq!(parts, early(&cut));
+        // two correlation times each at first; one time for all would be 0.4 s
+        assert!(
+            parts.len() > 5 && (parts[0].1 - 0.04).abs() < 1e-9,
+            "{parts:?}"
+        );
+        for bin in &whole.bins {
+            assert!(bin.from < 0.4 || bin.to - bin.from > 0.19, "{bin:?}");
+        }
+    }
+    #[test]
+    fn a_mean_of_the_cage_is_one_over_time() {
+        let long = smoothed_more_in_the_hold();
+        let test = Test::measured(&long, &table(), 0.0);
+        let foretold = test.cage_means(test.steps.iter().map(|s| 0.4 * s.middle_speed));
+        for (bin, foretold) in test.bins.iter().zip(foretold) {
+            let Some(mean) = bin.cage else { continue };
+            // straight between balls 10 ms apart at full speed, and steps of some ms: a few tenths of a per cent of 60 rad/s;
+            // a mean over balls would be 2 rad/s too high while the cage is braked
+            assert!((mean.speed - foretold).abs() < 0.2, "{bin:?} {foretold}");
+        }
+    }
+    #[test]
+    fn a_torque_that_is_zero_by_definition_is_no_value() {
+        let mut long = smoothed_more_in_the_hold();
+        let before = |test: &Measurement| {
+            let test = Test::measured(test, &table(), 0.0);
+            test.bins.iter().any(|bin| bin.before)
+        };
+        assert!(before(&long));
+        long.zero_deviation = 1e-3;
+        assert!(!before(&long));
+    }
     #[test]
     fn noise_counts_by_its_correlation_time_and_zero_and_scale_apart() {
         let time: Vec<f64> = (0..4000).map(|i| f64::from(i) * 2e-3).collect();

@@ -62,6 +62,8 @@ pub const ENGAGEMENT: f64 = 0.2;
 pub const PEAKS: [f64; 3] = [1300.0, 7200.0, 11_500.0];
 /// Deviation of the noise per mean of 10 ms is drawn from 0.2 to 0.5 N mm.
 const GRID: f64 = 2e-3;
+/// Deviation of the cage's speed at a ball over its change since the last one.
+const CHANGE: f64 = 0.25;
 
 pub fn set() -> RollingSet<f64> {
     RollingSet {
@@ -226,6 +228,7 @@ impl Truth {
         let cage_bias = 1.0 + 0.001 * chance.normal();
         let pitch = std::f64::consts::TAU / BALLS as f64;
         let (mut cage_angle, mut next_ball) = (0.0, pitch * chance.uniform());
+        let mut last_cage = 0.0;
         let mut last_speed = 0.0;
         for row in rows {
             let h = row.time - last;
@@ -250,16 +253,20 @@ impl Truth {
             if cage_angle >= next_ball {
                 // a ball passes
                 next_ball += pitch;
-                let deviation = 0.005 * row.cage.abs() + 0.05;
+                // between two balls it is known by as much as it changes at most
+                let change = row.cage - last_cage;
+                last_cage = row.cage;
+                let noise = 0.005 * row.cage.abs() + 0.05;
+                let deviation = noise.hypot(CHANGE * change);
                 if cage.time.is_empty() {
                     // from rest to the first ball the speed is hardly known
                     cage.time.push(ENGAGEMENT);
                     cage.speed.push(0.0);
-                    cage.deviation.push(deviation.hypot(0.25 * row.cage));
+                    cage.deviation.push(deviation);
                 }
                 cage.time.push(row.time);
                 cage.speed
-                    .push(row.cage * cage_bias + deviation * chance.normal());
+                    .push(row.cage * cage_bias + noise * chance.normal());
                 cage.deviation.push(deviation);
             }
             if row.time < next - 1e-9 {

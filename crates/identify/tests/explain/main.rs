@@ -16,6 +16,7 @@
 
 mod answers;
 mod bearing;
+mod fit;
 mod lab;
 
 use identify::explain::{Conclusion, Explanation, Priors, Settings, Verdict, explain};
@@ -59,7 +60,7 @@ impl Count {
 }
 
 /// Campaigns of each explanation. The whole number is run in a release build with EXPLAIN_RUNS=100.
-fn runs() -> u64 {
+pub fn runs() -> u64 {
     std::env::var("EXPLAIN_RUNS")
         .ok()
         .and_then(|runs| runs.parse().ok())
