@@ -157,11 +157,11 @@ impl Priors {
     /// ```
     /// With Palmgren's exponent x is the load part. Where M0 grows with Ω^0.6 and churning, as in SKF's form, x lies lower by
     /// 3 % of M. Palmgren's own load part f1 P d_m is small against f0 (ν n)^(2/3) d_m³ where tests are lightly loaded: of a
-    /// deep groove bearing 6005 under 20 to 200 N at 50 to 150 rad/s with f1 of 0.0006 (P/C0)^½ to 0.0009 (P/C0)^½, f0 of 0.7
-    /// to 3 and 50 to 200 mm²/s it is 0.02 to 7 % of M; a plain coefficient of friction of 0.0015 makes it up to 30 %. Below
-    /// 0.2 % it makes no difference to any explanation.
+    /// deep groove bearing 6005 under 20 to 200 N at 50 to 150 rad/s with f1 of 0.0005 to 0.0009 (P/C0)^½, f0 of 1.1 to 3.4
+    /// and 50 to 200 mm²/s it is 0.03 to 21 % of M, 0.9 % in the middle; a plain coefficient of friction of 0.0015 makes it
+    /// 0.5 to 47 %. So the curve decides, and its lower end is open down to 0.2 %, below which nothing changes.
     ///
-    /// Source: Palmgren's moments as in `crates/physics/src/friction_moment`; factors for deep groove ball bearings.
+    /// Source: `crates/physics/src/palmgren.rs` with the factors for deep groove bearings of `palmgren_factors.rs`.
     ///
     /// - `steady`: the curve
     /// - `top_speed`: highest speed of the tests Ω0, rad/s
@@ -206,7 +206,8 @@ impl Priors {
         Range::new(1.0 - high, 1.0 - low)
     }
 
-    /// Viscous share where too few speeds tell it: what Palmgren's law and a plain coefficient of friction give for light loads.
+    /// Viscous share where too few speeds tell it: most of what Palmgren's law and a plain coefficient of friction give for light
+    /// loads.
     const UNKNOWN_SHARE: Range = Range::new(0.7, 0.995);
 
     /// The same with the viscous share of the curve where none was given.
