@@ -39,6 +39,7 @@
 //! | slip with heating | 100 | 0 | 100 | 0 |
 //! | sensor artefact | 96 | 4 | 95 | 5 |
 //!
+//! Measured with means as wide as in the hold; since they follow the noise the first five of each are all right, none undecided.
 //! What stays open is creep against grease (they differ by the load part of M) and, without a signal of the cage, rolling
 //! against a slip that a traction limit just below M leaves small.
 //!
