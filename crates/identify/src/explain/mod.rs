@@ -88,7 +88,7 @@ pub struct Settings {
     pub seed: u64,
     /// Probability from which an explanation wins.
     pub decision: f64,
-    /// Least posterior predictive probability of an acceptable fit.
+    /// Least probability of an acceptable fit.
     pub least_fit: f64,
     /// Least effect on the torque that makes an explanation differ from rolling, over M.
     pub least_effect: f64,

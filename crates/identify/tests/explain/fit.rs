@@ -57,7 +57,10 @@ fn the_probability_of_the_fit_is_about_even() {
         // 12 % of many; of five, one
         assert!(below <= (count * 12 / 100).max(1), "{list:?}");
         // "none of these" of a true explanation would be a wrong answer: one in a hundred
-        assert!(list[count / 100] > Settings::default().least_fit, "{list:?}");
+        assert!(
+            list[count / 100] > Settings::default().least_fit,
+            "{list:?}"
+        );
         // not good whatever the data are
         assert!(list[count / 4] < 0.98, "{list:?}");
         if std::env::var("EXPLAIN_RUNS").is_ok() {
