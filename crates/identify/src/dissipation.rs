@@ -235,19 +235,20 @@ pub fn dissipation(
 
 /// ∫t_O Ω dt, J, of a measurement.
 ///
-/// Formula: σ² = ΣΣ n_i n_j σ_i σ_j e^(-2|t_i-t_j|/τ) + (σ_zero ∫Ω dt)² + (σ_scale ∫t_O Ω dt)² + (∫|t_O| σ_Ω dt)², n = Ω dt
+/// Formula: σ² = ΣΣ n_i n_j σ_i σ_j e^(-2|∫dt/τ|) + (σ_zero ∫Ω dt)² + (σ_scale ∫t_O Ω dt)² + (∫|t_O| σ_Ω dt)², n = Ω dt
 ///
 /// - `test`: speed and torque with their deviations
 pub fn outer_moment_work(test: &Measurement) -> Uncertain {
     let weights = trapezoid(&test.time);
-    let mut noise = RunningVariance::new(test.correlation_time);
+    let age = test.noise_age();
+    let mut noise = RunningVariance::default();
     let (mut work, mut angle, mut by_speed, mut variance) = (0.0, 0.0, 0.0, 0.0);
     for (k, weight) in weights.iter().enumerate() {
         let turned = weight * test.speed[k];
         work += test.torque[k] * turned;
         angle += turned;
         by_speed += weight * test.torque[k].abs() * test.speed_deviation[k];
-        variance = noise.add(test.time[k], turned * test.torque_noise(k));
+        variance = noise.add(age[k], turned * test.torque_noise(k));
     }
     let deviation = variance
         .max(0.0)

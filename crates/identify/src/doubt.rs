@@ -457,11 +457,12 @@ fn set_free_mean(test: &Measurement, from: f64, to: f64) -> Option<(f64, f64)> {
     }
     let weights = trapezoid(&part.time);
     let whole: f64 = weights.iter().sum();
-    let mut noise = RunningVariance::new(part.correlation_time);
+    let age = part.noise_age();
+    let mut noise = RunningVariance::default();
     let (mut sum, mut variance) = (0.0, 0.0);
     for (k, weight) in weights.iter().enumerate() {
         sum += weight / whole * part.torque[k];
-        variance = noise.add(part.time[k], weight / whole * part.torque_noise(k));
+        variance = noise.add(age[k], weight / whole * part.torque_noise(k));
     }
     Some((sum, variance.max(0.0).sqrt()))
 }

@@ -29,8 +29,9 @@ pub struct Measurement {
     pub zero_deviation: f64,
     /// Relative standard deviation of the scale of the torque alone: shared by all tests of one sensor.
     pub scale_deviation: f64,
-    /// Time after which two errors of the torque count as independent, zero and scale apart, s.
-    pub correlation_time: f64,
+    /// Time after which two errors of the torque count as independent at each time, zero and scale apart, s: a torque is
+    /// smoothed less while it changes.
+    pub correlation_time: Vec<f64>,
     /// When the clutch engaged, s; none where nothing changed quickly.
     pub engagement: Option<f64>,
     /// Standard deviation of that time, s.
@@ -43,6 +44,8 @@ pub struct Measurement {
 
 /// Part of the largest speed within which the shaft counts as at speed.
 const AT_SPEED: f64 = 0.01;
+/// Correlation time of errors that have none, s.
+const LEAST_CORRELATION: f64 = 1e-9;
 
 /// Speed of the cage over times of its own.
 #[derive(Clone, Debug, PartialEq)]
@@ -116,6 +119,7 @@ impl Measurement {
             ("deviations of acceleration", &self.acceleration_deviation),
             ("torques", &self.torque),
             ("deviations of torque", &self.torque_deviation),
+            ("correlation times", &self.correlation_time),
         ] {
             listed(name, what, list, count)?;
         }
@@ -127,6 +131,7 @@ impl Measurement {
             ("speed", &self.speed_deviation),
             ("acceleration", &self.acceleration_deviation),
             ("torque", &self.torque_deviation),
+            ("correlation in time", &self.correlation_time),
         ] {
             not_negative(name, what, list)?;
         }
@@ -134,7 +139,6 @@ impl Measurement {
             ("load", self.load),
             ("deviation of the zero", self.zero_deviation),
             ("deviation of the scale", self.scale_deviation),
-            ("correlation time", self.correlation_time),
             ("deviation of the engagement", self.engagement_deviation),
         ] {
             if !(value >= 0.0 && value.is_finite()) {
@@ -200,7 +204,7 @@ impl Measurement {
             torque_deviation: part(&self.torque_deviation),
             zero_deviation: self.zero_deviation,
             scale_deviation: self.scale_deviation,
-            correlation_time: self.correlation_time,
+            correlation_time: part(&self.correlation_time),
             engagement: self.engagement,
             engagement_deviation: self.engagement_deviation,
             cage: self.cage.as_ref().map(|cage| {
@@ -213,6 +217,35 @@ impl Measurement {
             }),
             temperature: self.temperature.as_deref().map(part),
         }
+    }
+
+    /// Age of the torque's noise in correlation times since the first time: what two times are apart, their errors are alike by
+    /// e^(-2 apart).
+    ///
+    /// Formula: ∫dt/τ
+    pub(crate) fn noise_age(&self) -> Vec<f64> {
+        let mut age = 0.0;
+        let mut before: Option<(f64, f64)> = None;
+        (self.time.iter().zip(&self.correlation_time))
+            .map(|(time, correlation)| {
+                let rate = 1.0 / correlation.max(LEAST_CORRELATION);
+                if let Some((last, last_rate)) = before {
+                    age += 0.5 * (rate + last_rate) * (time - last);
+                }
+                before = Some((*time, rate));
+                age
+            })
+            .collect()
+    }
+
+    /// The correlation time at a time, s; at the nearest one that was measured.
+    pub(crate) fn correlation_time_at(&self, time: f64) -> f64 {
+        let above = self.time.partition_point(|t| *t < time);
+        let count = self.correlation_time.len();
+        self.correlation_time
+            .get(above.min(count.saturating_sub(1)))
+            .copied()
+            .unwrap_or(0.0)
     }
 
     /// Standard deviation of one torque without zero and scale, N m.

@@ -28,46 +28,31 @@ pub(crate) fn trapezoid(time: &[f64]) -> Vec<f64> {
     weights
 }
 
-/// Correlation of two errors a time apart: exp(-2|Δt|/τ).
+/// Correlation of two errors some correlation times apart: exp(-2 apart).
 ///
-/// Its integral over all Δt is τ, so that a record of length T holds T/τ independent errors: what a time "after which two errors
+/// Its integral over all times is τ, so that a record of length T holds T/τ independent errors: what a time "after which two errors
 /// count as independent" means here.
-pub(crate) fn alike(apart: f64, correlation_time: f64) -> f64 {
-    if correlation_time > 0.0 {
-        (-2.0 * apart.abs() / correlation_time).exp()
-    } else if apart == 0.0 {
-        1.0
-    } else {
-        0.0
-    }
+pub(crate) fn alike(apart: f64) -> f64 {
+    (-2.0 * apart.abs()).exp()
 }
 
 /// Variance of the running sum Σ a_k e_k, errors e of deviation 1 and correlation [`alike`].
+#[derive(Default)]
 pub(crate) struct RunningVariance {
-    correlation_time: f64,
     variance: f64,
     carried: f64,
     before: Option<f64>,
 }
 
 impl RunningVariance {
-    pub(crate) fn new(correlation_time: f64) -> Self {
-        Self {
-            correlation_time,
-            variance: 0.0,
-            carried: 0.0,
-            before: None,
-        }
-    }
-
-    /// Adds a term and returns the variance of the sum so far.
-    pub(crate) fn add(&mut self, time: f64, factor: f64) -> f64 {
+    /// Adds a term at an age in correlation times and returns the variance of the sum so far.
+    pub(crate) fn add(&mut self, age: f64, factor: f64) -> f64 {
         if let Some(before) = self.before {
-            self.carried *= alike(time - before, self.correlation_time);
+            self.carried *= alike(age - before);
         }
         self.variance += factor * factor + 2.0 * factor * self.carried;
         self.carried += factor;
-        self.before = Some(time);
+        self.before = Some(age);
         self.variance
     }
 }
@@ -118,10 +103,10 @@ mod tests {
     fn the_running_variance_is_the_double_sum() {
         let time = [0.0, 0.3, 0.35, 1.0, 1.2];
         let factor = [1.0, -0.5, 2.0, 0.7, 0.1];
-        let mut running = RunningVariance::new(0.8);
+        let mut running = RunningVariance::default();
         let mut last = 0.0;
         for (t, a) in time.iter().zip(factor) {
-            last = running.add(*t, a);
+            last = running.add(*t / 0.8, a);
         }
         let mut sum = 0.0;
         for i in 0..5 {

@@ -5,7 +5,7 @@
 //!
 //!   at rest          before an engagement from rest, and behind the last pulse where the next ones did not come: Ω = 0, Ω̇ = 0
 //!   zero at rest     the reading's mean once the arm has settled behind that last pulse
-//!   correlation      τ = 2 · median(σ_torque/σ_rate), the times at which the shaft turns
+//!   correlation      τ = 2 σ_torque/σ_rate at each time
 //! ```
 //! The settling time is that of the torque arm after a sudden change: within it a reading still swings, and a smoothed torque does
 //! not follow. Nothing here is fitted; what the signals do not tell is in the deviations.
@@ -55,10 +55,6 @@ const LEAST_REST: f64 = 0.5;
 const PARTS: usize = 8;
 /// Correlation of a smooth random curve is gone after so many times the ratio of its deviation to that of its rate.
 const INDEPENDENT: f64 = 2.0;
-/// Part of the largest speed below which the scale of the torque is not looked at.
-const TURNING: f64 = 0.05;
-/// Most times at which it is looked at.
-const LOOKS: usize = 500;
 /// Deviation of a cage's speed over the speed of its first ball, where the rise before it is taken as straight: a rise with the
 /// square of time differs from it by as much.
 const FIRST_RISE: f64 = 0.25;
@@ -96,7 +92,6 @@ pub fn measurement(signals: &Signals) -> Measurement {
     for deviation in &mut torque_deviation {
         *deviation = deviation.max(floor);
     }
-    let turning = |time: f64| signals.speed.at(time).speed.abs() > TURNING * signals.fastest;
     Measurement {
         name: signals.name.to_string(),
         load: signals.load,
@@ -111,7 +106,7 @@ pub fn measurement(signals: &Signals) -> Measurement {
         torque_deviation,
         zero_deviation,
         scale_deviation: signals.scale_deviation,
-        correlation_time: correlation_time(torque, &turning),
+        correlation_time: thinned(&correlation_time(torque)),
         engagement: signals.speed.change.map(|change| change.engagement.0),
         engagement_deviation: change.map_or(0.0, |change| change.engagement.1),
         cage: (signals.cage).map(|found| cage(found, change.map(|change| change.engagement.0))),
@@ -172,33 +167,31 @@ pub fn zero_at_rest(time: &[f64], torque: &[f64], from: f64) -> Option<Uncertain
     Some(Uncertain::new(zero, (square / (count - 1.0)).sqrt()))
 }
 
-/// Time after which two errors of a torque count as independent, s; never less than the interval of its times.
+/// Time after which two errors of a torque count as independent, s, at each time; never less than twice the interval of its times.
 ///
-/// Formula: τ = 2 · median(√(σ² - σ_zero²)/σ_rate): a smooth random curve of deviation σ whose rate has the deviation σ_rate
+/// Formula: τ = 2 √(σ² - σ_zero²)/σ_rate: a smooth random curve of deviation σ whose rate has the deviation σ_rate
 /// changes by as much as itself within σ/σ_rate
 ///
-/// - `torque`: the torque with its rate and their deviations
-/// - `turning`: whether the shaft turns at a time, s; a torque that is zero by definition tells nothing
-pub fn correlation_time(torque: &Torque, turning: &dyn Fn(f64) -> bool) -> f64 {
+/// - `torque`: the torque with its rate and their deviations; it is smoothed less where it changes
+pub fn correlation_time(torque: &Torque) -> Vec<f64> {
     let count = torque.time.len();
-    let step = (count / LOOKS).max(1);
-    let mut ratios: Vec<f64> = (0..count)
-        .step_by(step)
-        .filter(|k| turning(torque.time[*k]))
-        .map(|k| {
-            let noise = torque.deviation[k].powi(2) - torque.zero.deviation.powi(2);
-            noise.max(0.0).sqrt() / torque.rate_deviation[k]
-        })
-        .filter(|ratio| ratio.is_finite())
-        .collect();
-    ratios.sort_by(f64::total_cmp);
-    let median = ratios.get(ratios.len() / 2).copied().unwrap_or(0.0);
     let interval = if count > 1 {
         (torque.time[count - 1] - torque.time[0]) / (count - 1) as f64
     } else {
         0.0
     };
-    INDEPENDENT * median.max(interval)
+    (torque.deviation.iter().zip(&torque.rate_deviation))
+        .map(|(deviation, rate_deviation)| {
+            let noise = deviation.powi(2) - torque.zero.deviation.powi(2);
+            let ratio = noise.max(0.0).sqrt() / rate_deviation;
+            INDEPENDENT
+                * if ratio.is_finite() {
+                    ratio.max(interval)
+                } else {
+                    interval
+                }
+        })
+        .collect()
 }
 
 /// The speed of the cage; from the engagement on, where the first ball had not passed yet and the cage rose from rest.
@@ -289,20 +282,17 @@ mod tests {
     #[test]
     fn errors_are_independent_after_twice_the_ratio_to_their_rate() {
         // noise of 1 N mm beside a zero of 0.3: √(1 + 0.09); its rate 25 N mm/s: 2/25 s
-        let wide = torque((1.0_f64 + 0.09).sqrt() * 1e-3, 25e-3);
-        assert!((correlation_time(&wide, &|_| true) - 0.08).abs() < 1e-12);
-        // no time at which it turns, no noise at all, or a quick one: the interval, twice
-        for (torque, turns) in [
-            (&wide, false),
-            (&torque(3e-4, 25e-3), true),
-            (&torque(1e-3, 1e3), true),
-        ] {
-            assert!((correlation_time(torque, &|_| turns) - 0.02).abs() < 1e-12);
+        let mut wide = torque((1.0_f64 + 0.09).sqrt() * 1e-3, 25e-3);
+        // a time at which it is smoothed over a fifth of that
+        wide.rate_deviation[300] = 125e-3;
+        let times = correlation_time(&wide);
+        for (time, expected) in [(0, 0.08), (299, 0.08), (300, 0.02), (1000, 0.08)] {
+            assert!((times[time] - expected).abs() < 1e-12);
         }
-        // where it rests the deviation is another, and does not count
-        let mut both = wide.clone();
-        both.deviation[..600].fill(3e-4);
-        assert!((correlation_time(&both, &|time| time >= 6.0) - 0.08).abs() < 1e-12);
+        // no noise at all, or a quick one: the interval, twice
+        for torque in [&torque(3e-4, 25e-3), &torque(1e-3, 1e3)] {
+            assert!((correlation_time(torque)[500] - 0.02).abs() < 1e-12);
+        }
     }
     #[test]
     fn a_slow_test_is_cut_before_its_stop_alone() {
@@ -322,7 +312,7 @@ mod tests {
             time: time.clone(),
             zero_deviation: 0.0,
             scale_deviation: 0.0,
-            correlation_time: 0.02,
+            correlation_time: vec![0.02; count],
             engagement: None,
             engagement_deviation: 0.0,
             cage: None,

@@ -108,7 +108,8 @@ pub fn skid(
         .map(|(w, s)| w * s)
         .sum();
     let way = turned.signum();
-    let mut noise = RunningVariance::new(test.correlation_time);
+    let age = test.noise_age();
+    let mut noise = RunningVariance::default();
     let (mut push, mut shared, mut friction) = (0.0, 0.0, 0.0);
     let mut points = Vec::new();
     for (k, weight) in (first..test.time.len()).zip(weights) {
@@ -132,7 +133,7 @@ pub fn skid(
             // the jump at the engagement lies somewhere within a step of the record
             shared += weight * moment.value.abs() / arm;
         }
-        let variance = noise.add(time, weight * test.torque_noise(k) / arm);
+        let variance = noise.add(age[k], weight * test.torque_noise(k) / arm);
         let Some(own) = between(&cage.time, &cage.speed, time) else {
             continue;
         };

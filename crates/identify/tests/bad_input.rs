@@ -53,6 +53,7 @@ fn nonsense(random: &mut Random, count: usize, wild: f64) -> Measurement {
         deviation: positive(list(0.2)),
     };
     let temperature = list(5.0);
+    let correlation_time = positive(list(0.1));
     Measurement {
         name: "nonsense".into(),
         load: odd(random).abs(),
@@ -70,7 +71,7 @@ fn nonsense(random: &mut Random, count: usize, wild: f64) -> Measurement {
         torque_deviation: c,
         zero_deviation: 1e-4,
         scale_deviation: 0.01,
-        correlation_time: random.uniform() * 0.1,
+        correlation_time,
         engagement: (random.uniform() < 0.7).then(|| random.uniform()),
         engagement_deviation: 0.0,
         cage: (random.uniform() < 0.7).then_some(cage),

@@ -144,7 +144,7 @@ fn the_deviation_of_the_work_counts_what_errors_share() {
         torque_deviation: vec![1e-3; count as usize],
         zero_deviation: 0.0,
         scale_deviation: 0.0,
-        correlation_time: 0.02,
+        correlation_time: vec![0.02; count as usize],
         engagement: None,
         engagement_deviation: 0.0,
         cage: None,

@@ -94,7 +94,7 @@ fn behind_its_last_pulse_a_shaft_rests_and_the_reading_tells_its_zero() {
     assert!(found.zero_deviation < 1e-4 && found.zero_deviation > 1e-5);
     let expected = 0.4e-3_f64.hypot(found.zero_deviation);
     assert!((found.torque_deviation[at(4.0)] / expected - 1.0).abs() < 1e-9);
-    assert!((found.correlation_time - 2.0 * 0.4e-3 / 20e-3).abs() < 1e-9);
+    assert!((found.correlation_time[at(4.0)] - 2.0 * 0.4e-3 / 20e-3).abs() < 1e-9);
 }
 
 #[test]

@@ -150,11 +150,7 @@ impl Integral<'_> {
 
     /// Tests whose effect may scatter; rolling balls have none.
     fn directions(&self) -> usize {
-        if self.hypothesis == Hypothesis::Rolling {
-            0
-        } else {
-            self.tests.len()
-        }
+        self.hypothesis.directions(self.tests.len())
     }
 
     /// The best points of the prior and the share of the prior that fulfils the claim.
@@ -384,6 +380,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::record::LeastWidth;
     use super::super::steady::known;
     use super::super::{Explanation, Priors, Settings};
     use super::*;
@@ -402,7 +399,13 @@ mod tests {
         let (priors, settings) = (Priors::default(), Settings::default());
         let bearing = Bearing::new(&steady, 150.0, &set, &priors, &settings);
         let speed = |t: f64| 150.0 * (t / 0.1).clamp(0.0, 1.0);
-        let mut test = Test::planned(&speed, 3.0, 0.05, &bearing.table, set.outer_inertia());
+        let mut test = Test::planned(
+            &speed,
+            3.0,
+            &LeastWidth::even(0.05),
+            &bearing.table,
+            set.outer_inertia(),
+        );
         let rolling = Hypothesis::Rolling.predict(&[], std::slice::from_ref(&test), &bearing);
         let count = test.bins.len();
         for (i, bin) in test.bins.iter_mut().enumerate() {
@@ -415,7 +418,8 @@ mod tests {
         test.zero_deviation = 3e-4;
         test.scale_deviation = 0.01;
         let tests = [test];
-        let observed = Observed::new(&tests, &bearing).expect("a covariance");
+        let observed =
+            Observed::new(&tests, &bearing, &settings.discrepancy).expect("a covariance");
         for hypothesis in [Hypothesis::SlowSensor, Hypothesis::Drift { sign: -1.0 }] {
             check(&Integral {
                 hypothesis,

@@ -119,7 +119,7 @@ mod tests {
             torque_deviation: vec![0.5e-3; count],
             zero_deviation: 0.0,
             scale_deviation: 0.0,
-            correlation_time: 0.01,
+            correlation_time: vec![0.01; count],
             engagement: None,
             engagement_deviation: 0.0,
             cage: Some(CageTrace {

@@ -190,6 +190,11 @@ impl Hypothesis {
         }
     }
 
+    /// Of so many tests, those whose effect may scatter; rolling balls have none.
+    pub fn directions(self, tests: usize) -> usize {
+        if self == Self::Rolling { 0 } else { tests }
+    }
+
     /// Sign of the effect, for forms that have two.
     pub fn sign(self) -> f64 {
         match self {
@@ -258,7 +263,7 @@ impl Hypothesis {
     fn run(self, values: &[f64], test: &Test, bearing: &Bearing) -> (Vec<f64>, Vec<f64>, f64) {
         let reference = bearing.table.reference;
         let rolls =
-            || test.means((test.steps.iter()).map(|s| bearing.set.cage_speed(s.middle_speed)));
+            || test.cage_means((test.steps.iter()).map(|s| bearing.set.cage_speed(s.middle_speed)));
         let fresh = 1.0 - test.past.left;
         match self {
             Self::Rolling => (test.means(rolling_torque(test, bearing, 1.0)), rolls(), 0.0),
@@ -289,7 +294,7 @@ impl Hypothesis {
                 let course = slip.course(test, &bearing.table, bearing.set);
                 (
                     test.means(course.outer_moment.iter().copied()),
-                    test.means(course.cage.iter().copied()),
+                    test.cage_means(course.cage.iter().copied()),
                     course.softened,
                 )
             }
@@ -407,6 +412,7 @@ fn grease_factor(values: &[f64], test: &Test, set: &RollingSet<f64>) -> impl Ite
 
 #[cfg(test)]
 mod tests {
+    use super::super::record::LeastWidth;
     use super::super::steady::known;
     use super::*;
 
@@ -423,7 +429,13 @@ mod tests {
             |t: f64| 150.0 * (t / 0.02).clamp(0.0, 1.0) * (1.0 - (t - 4.0) / 0.5).clamp(0.0, 1.0);
         let (priors, settings) = (Priors::default(), Settings::default());
         let bearing = Bearing::new(&steady, 150.0, &set, &priors, &settings);
-        let test = Test::planned(&speed, 6.0, 0.02, &bearing.table, set.outer_inertia());
+        let test = Test::planned(
+            &speed,
+            6.0,
+            &LeastWidth::even(0.02),
+            &bearing.table,
+            set.outer_inertia(),
+        );
         check(&bearing, &test);
     }
 

@@ -17,7 +17,7 @@ use crate::{Measurement, SteadyMoment};
 use super::hypothesis::{Bearing, Hypothesis, Prediction};
 use super::linear::{Cholesky, dot, log_sum_exp};
 use super::noise::Observed;
-use super::record::{Past, Test};
+use super::record::{CageMean, LeastWidth, Past, Test};
 use super::sampling::Random;
 use super::steady::Table;
 use super::{Priors, Refusal, Settings, Verdict, bearing};
@@ -173,7 +173,8 @@ struct Rig {
     /// J_O, kg m².
     inertia: f64,
     ramp: f64,
-    least_width: f64,
+    /// Least width of a mean, s, over the time since the engagement.
+    least_width: LeastWidth,
     /// Variance of a mean times its width, (N m)² s.
     noise: f64,
     zero_deviation: f64,
@@ -201,7 +202,7 @@ impl Rig {
         Self {
             inertia,
             ramp,
-            least_width: (2.0 * test.correlation_time).max(0.02),
+            least_width: LeastWidth::of(test, table.top_speed),
             noise: noise.get(noise.len() / 2).copied().unwrap_or(1e-10),
             zero_deviation: test.zero_deviation,
             scale_deviation: test.scale_deviation,
@@ -214,7 +215,7 @@ impl Rig {
         let usual = ramp(self.ramp, top);
         let hold = self.ramp + 5.0;
         let planned = |speed: &dyn Fn(f64) -> f64, end: f64| {
-            Test::planned(speed, end, self.least_width, table, self.inertia)
+            Test::planned(speed, end, &self.least_width, table, self.inertia)
         };
         let mut test = match proposal {
             Proposal::CoastDownAtOnce => {
@@ -247,7 +248,12 @@ impl Rig {
             if proposal == Proposal::CageSensor {
                 // a value each 10 ms
                 let deviation = CAGE_NOISE * 0.4 * top;
-                bin.cage = Some((0.0, deviation * deviation * 0.01 / width));
+                bin.cage = Some(CageMean {
+                    from: bin.from,
+                    to: bin.to,
+                    speed: 0.0,
+                    variance: deviation * deviation * 0.01 / width,
+                });
             }
         }
         test
@@ -280,7 +286,7 @@ impl Trial<'_> {
     /// Expected information and the entropy that is left, nats.
     fn information(&self, verdict: &Verdict, random: &mut Random) -> Option<(f64, f64)> {
         let one = std::slice::from_ref(&self.test);
-        let observed = Observed::new(one, self.bearing)?;
+        let observed = Observed::new(one, self.bearing, &self.bearing.settings.discrepancy)?;
         let discrepancy = verdict.best().fit.map_or(0.02, |fit| fit.discrepancy);
         let nearest = |a: &f64| (a.ln() - discrepancy.max(1e-6).ln()).abs();
         let amplitude = (0..observed.amplitudes.len()).min_by(|i, j| {

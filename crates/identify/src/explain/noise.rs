@@ -49,7 +49,11 @@ pub(crate) struct Whitened {
 /// Relative deviation of the geometry 1+s behind a cage speed, from the contact angle: assumed.
 const CAGE_SCALE: f64 = 0.003;
 /// Relative error of one mean of the cage speed beside its noise: counting of balls over a changing speed, assumed.
-const CAGE_NUGGET: f64 = 0.002;
+const CAGE_NUGGET: f64 = 5e-4;
+/// Error of the reduced model of slip over the slip that is seen, assumed: one load and one spin stand for all balls.
+const SLIP_ERROR: f64 = 0.1;
+/// Discrepancy of the cage speed over that of the torque, assumed.
+const CAGE_SHARE: f64 = 0.5;
 /// Error of one mean over the discrepancy: 0.3 of its amplitude is not shared with neighbours, assumed.
 const NUGGET: f64 = 0.3;
 /// Part of the inertia moment that a smoothed torque misplaces in time, assumed.
@@ -60,14 +64,15 @@ const NEAR_REST: f64 = 0.3;
 
 impl Observed {
     /// The data of all tests; none where a covariance is not positive definite (a band that is none).
-    pub fn new(tests: &[Test], bearing: &Bearing) -> Option<Self> {
+    ///
+    /// - `amplitudes`: of the discrepancy
+    pub fn new(tests: &[Test], bearing: &Bearing, amplitudes: &[f64]) -> Option<Self> {
         let settings = bearing.settings;
         let all: Vec<(usize, usize, &Bin)> = (tests.iter().enumerate())
             .flat_map(|(t, test)| test.bins.iter().map(move |bin| (t, bin)))
             .enumerate()
             .map(|(place, (t, bin))| (place, t, bin))
             .collect();
-        let amplitudes = settings.discrepancy.clone();
         let with_torque: Vec<_> = (all.iter().copied())
             .filter(|(_, _, bin)| bin.variance.is_finite())
             .collect();
@@ -76,20 +81,20 @@ impl Observed {
             .collect();
         let torque = Signal::new(
             &with_torque,
-            &amplitudes,
+            amplitudes,
             |bin| bin.torque,
             |a, i, j| torque_covariance(a, tests, i, j, bearing),
         )?;
         let cage = Signal::new(
             &with_cage,
-            &amplitudes,
-            |bin| bin.cage.map_or(0.0, |(value, _)| value),
+            amplitudes,
+            |bin| bin.cage.map_or(0.0, |mean| mean.speed),
             |a, i, j| cage_covariance(a, i, j, bearing),
         )?;
         Some(Self {
             torque,
             cage,
-            amplitudes,
+            amplitudes: amplitudes.to_vec(),
             scatter: settings.effect_scatter,
             rolling: Hypothesis::Rolling.predict(&[], tests, bearing),
         })
@@ -299,12 +304,14 @@ fn cage_covariance(
         bearing.set.cage_speed(a.speed),
         bearing.set.cage_speed(b.speed),
     );
-    let share = 0.5 * amplitude;
+    let share = CAGE_SHARE * amplitude;
+    let slip = |bin: &Bin, rolling: f64| bin.cage.map_or(0.0, |mean| (rolling - mean.speed).abs());
+    let slip_error = SLIP_ERROR * SLIP_ERROR * slip(a, m) * slip(b, n);
     let mut sum = CAGE_SCALE * CAGE_SCALE * m * n
-        + share * share * m * n * kernel(one, other, bearing.table.top_speed);
+        + (share * share * m * n + slip_error) * kernel(one, other, bearing.table.top_speed);
     if test == other_test && std::ptr::eq(a, b) {
         let top = bearing.set.cage_speed(bearing.table.top_speed);
-        sum += a.cage.map_or(0.0, |(_, variance)| variance) + (CAGE_NUGGET * top).powi(2);
+        sum += a.cage.map_or(0.0, |mean| mean.variance) + (CAGE_NUGGET * top).powi(2);
     }
     sum
 }

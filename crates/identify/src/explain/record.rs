@@ -3,7 +3,8 @@
 //! Means lie closer where more happens: their width grows with the time since the engagement and, after the
 //! run-down, with the time since standstill; none spans a large change of speed.
 
-use crate::Measurement;
+use crate::series::{RunningVariance, trapezoid};
+use crate::{CageTrace, Measurement};
 
 use super::steady::{Table, fading};
 
@@ -47,8 +48,20 @@ pub(crate) struct Bin {
     /// Mean torque, N m, and its variance without zero and scale.
     pub torque: f64,
     pub variance: f64,
-    /// Mean cage speed, rad/s, and its variance.
-    pub cage: Option<(f64, f64)>,
+    /// Mean cage speed.
+    pub cage: Option<CageMean>,
+}
+
+/// A mean of the cage speed over the part of a time that its signal covers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CageMean {
+    /// Times since the engagement, s.
+    pub from: f64,
+    pub to: f64,
+    /// rad/s.
+    pub speed: f64,
+    /// Its variance, (rad/s)².
+    pub variance: f64,
 }
 
 /// What happened to the bearing before a test, as far as it lasts.
@@ -90,21 +103,62 @@ pub(crate) const REST: f64 = 0.005;
 /// Least width of a mean, s.
 const LEAST_WIDTH: f64 = 0.02;
 
+/// Least width of a mean over the time since the engagement: two correlation times there.
+///
+/// A torque is smoothed less while it changes. One width for a whole test would be that of its longest part: a record with a long
+/// hold would tell less of the spin-up than the same one cut short.
+#[derive(Clone, Debug)]
+pub(crate) struct LeastWidth {
+    time: Vec<f64>,
+    width: Vec<f64>,
+}
+
+impl LeastWidth {
+    /// Of a measured test.
+    pub fn of(test: &Measurement, top_speed: f64) -> Self {
+        let engagement = engagement(test, top_speed);
+        Self {
+            time: test.time.iter().map(|t| t - engagement).collect(),
+            width: (test.correlation_time.iter())
+                .map(|time| LEAST_WIDTH.max(2.0 * time))
+                .collect(),
+        }
+    }
+
+    /// One width throughout, s.
+    #[cfg(test)]
+    pub fn even(width: f64) -> Self {
+        Self {
+            time: vec![0.0],
+            width: vec![width],
+        }
+    }
+
+    fn at(&self, time: f64) -> f64 {
+        interpolate(&self.time, &self.width, time)
+    }
+}
+
 /// Limits of the means after the engagement, s since the engagement, with the age of each.
 ///
 /// - `speed`: speed over the time since the engagement
 /// - `stop`: time of standstill, s
-/// - `least`: least width, s
+/// - `least`: least width
 fn limits(
     speed: &dyn Fn(f64) -> f64,
     end: f64,
     stop: f64,
-    least: f64,
+    least: &LeastWidth,
     top_speed: f64,
 ) -> Vec<(f64, f64, f64)> {
     let mut limits = Vec::new();
     let mut from = 0.0;
-    while end - from > 0.5 * least {
+    loop {
+        let first = least.at(from);
+        let least = first.max(least.at(from + first));
+        if end - from <= 0.5 * least {
+            break;
+        }
         let (origin, border) = if from < stop {
             (0.0, stop)
         } else {
@@ -131,12 +185,12 @@ impl Test {
     ///
     /// - `speed`: speed over the time since the engagement, rad/s
     /// - `end`: end of the test, s since the engagement
-    /// - `least`: least width of a mean, s
+    /// - `least`: least width of a mean
     /// - `inertia`: J_O, kg m²
     pub fn planned(
         speed: &dyn Fn(f64) -> f64,
         end: f64,
-        least: f64,
+        least: &LeastWidth,
         table: &Table,
         inertia: f64,
     ) -> Self {
@@ -207,31 +261,27 @@ impl Test {
         let engagement = engagement(measurement, table.top_speed);
         let end = time[time.len() - 1] - engagement;
         let speed = |t: f64| interpolate(time, &measurement.speed, t + engagement);
-        let least = LEAST_WIDTH.max(2.0 * measurement.correlation_time);
-        let mut test = Self::planned(&speed, end, least, table, inertia);
+        let least = LeastWidth::of(measurement, table.top_speed);
+        let age = measurement.noise_age();
+        let mut test = Self::planned(&speed, end, &least, table, inertia);
         test.zero_deviation = measurement.zero_deviation;
         test.scale_deviation = measurement.scale_deviation;
         for bin in &mut test.bins {
             let (from, to) = (bin.from + engagement, bin.to + engagement);
-            (bin.torque, bin.variance) = torque_mean(measurement, from, to);
-            bin.cage = measurement.cage.as_ref().and_then(|cage| {
-                let inside = cage.time.partition_point(|t| *t < from)
-                    ..cage.time.partition_point(|t| *t < to);
-                let count = inside.len() as f64;
-                let sum: f64 = cage.speed[inside.clone()].iter().sum();
-                let variance = cage.deviation[inside.clone()]
-                    .iter()
-                    .map(|deviation| deviation * deviation)
-                    .sum::<f64>()
-                    / (count * count);
-                (!inside.is_empty()).then_some((sum / count, variance))
-            });
+            (bin.torque, bin.variance) = torque_mean(measurement, &age, from, to);
+            let cage = measurement.cage.as_ref();
+            bin.cage = cage.and_then(|cage| cage_mean(cage, from, to));
+            if let Some(mean) = &mut bin.cage {
+                mean.from -= engagement;
+                mean.to -= engagement;
+            }
         }
         // Only what surely lies before the engagement is rest.
-        let unsure = measurement.correlation_time + 2.0 * measurement.engagement_deviation;
+        let unsure =
+            measurement.correlation_time_at(engagement) + 2.0 * measurement.engagement_deviation;
         let (from, to) = (time[0], engagement - unsure);
-        let (torque, variance) = torque_mean(measurement, from, to);
-        if variance.is_finite() {
+        let (torque, variance) = torque_mean(measurement, &age, from, to);
+        if variance.is_finite() && !zeroed(measurement, from, to) {
             test.bins.push(Bin {
                 from: from - engagement,
                 to: to - engagement,
@@ -261,6 +311,20 @@ impl Test {
         }
         sums
     }
+
+    /// Means of the cage speed along the steps, one for each bin, over the part of it that the cage's signal covers.
+    pub fn cage_means(&self, values: impl Iterator<Item = f64>) -> Vec<f64> {
+        let mut sums = vec![0.0; self.bins.len()];
+        for (step, value) in self.steps.iter().zip(values) {
+            let bin = &self.bins[step.bin];
+            let (from, to) = bin
+                .cage
+                .map_or((bin.from, bin.to), |mean| (mean.from, mean.to));
+            let inside = step.elapsed.min(to) - (step.elapsed - step.duration).max(from);
+            sums[step.bin] += value * inside.max(0.0) / (to - from);
+        }
+        sums
+    }
 }
 
 /// When the test began, s: as told, else the first sign of turning.
@@ -281,23 +345,66 @@ fn engagement(measurement: &Measurement, top_speed: f64) -> f64 {
 }
 
 /// Mean of the torque over some time, N m, and its variance without zero and scale; infinite without data.
-fn torque_mean(measurement: &Measurement, from: f64, to: f64) -> (f64, f64) {
+///
+/// - `age`: age of the noise at each time, correlation times
+fn torque_mean(measurement: &Measurement, age: &[f64], from: f64, to: f64) -> (f64, f64) {
     let time = &measurement.time;
     let inside = time.partition_point(|t| *t < from)..time.partition_point(|t| *t < to);
     if inside.is_empty() || to <= from {
         return (0.0, f64::INFINITY);
     }
     let count = inside.len() as f64;
+    let mut noise = RunningVariance::default();
     let (mut torque, mut variance) = (0.0, 0.0);
     for i in inside {
         let (value, deviation) = (measurement.torque[i], measurement.torque_deviation[i]);
         let shared =
             measurement.zero_deviation.powi(2) + (measurement.scale_deviation * value).powi(2);
         torque += value / count;
-        variance += (deviation * deviation - shared).max(0.01 * deviation * deviation) / count;
+        let own = (deviation * deviation - shared).max(0.01 * deviation * deviation);
+        variance = noise.add(age[i], own.sqrt() / count);
     }
-    let independent = ((to - from) / measurement.correlation_time.max(1e-9)).clamp(1.0, count);
-    (torque, variance / independent)
+    (torque, variance)
+}
+
+/// Whether the torque between two times is zero by definition, because the zero was taken there: its deviation is less than the
+/// zero's, and it tells nothing of how far the zero is off.
+fn zeroed(measurement: &Measurement, from: f64, to: f64) -> bool {
+    let time = &measurement.time;
+    let inside = time.partition_point(|t| *t < from)..time.partition_point(|t| *t < to);
+    let count = inside.len() as f64;
+    let square: f64 = (measurement.torque_deviation[inside].iter())
+        .map(|d| d * d)
+        .sum();
+    square < count * measurement.zero_deviation.powi(2)
+}
+
+/// Mean of the cage speed over the part of a time that its signal covers; none without a value in it.
+///
+/// Balls pass in unequal times: a mean of their values would be that of an accelerated cage's late, or a braked one's early speed.
+/// So it is the integral of the speed, straight between the values, over its time.
+fn cage_mean(cage: &CageTrace, from: f64, to: f64) -> Option<CageMean> {
+    let inside = cage.time.partition_point(|t| *t < from)..cage.time.partition_point(|t| *t < to);
+    let (first, last) = (cage.time.first()?, cage.time.last()?);
+    let (from, to) = (from.max(*first), to.min(*last));
+    if inside.is_empty() || to <= from {
+        return None;
+    }
+    let mut time = vec![from];
+    time.extend(cage.time[inside].iter().filter(|t| **t > from && **t < to));
+    time.push(to);
+    let (mut speed, mut variance) = (0.0, 0.0);
+    for (t, weight) in time.iter().zip(trapezoid(&time)) {
+        let share = weight / (to - from);
+        speed += share * interpolate(&cage.time, &cage.speed, *t);
+        variance += (share * interpolate(&cage.time, &cage.deviation, *t)).powi(2);
+    }
+    Some(CageMean {
+        from,
+        to,
+        speed,
+        variance,
+    })
 }
 
 /// Linear interpolation, constant beyond the ends.
@@ -329,7 +436,7 @@ mod tests {
 
     #[test]
     fn means_lie_side_by_side_and_none_spans_much_change() {
-        let test = Test::planned(&course, 7.6, 0.02, &table(), 0.0);
+        let test = Test::planned(&course, 7.6, &LeastWidth::even(0.02), &table(), 0.0);
         let mut from = 0.0;
         for bin in &test.bins {
             assert_eq!(bin.from, from);
@@ -349,10 +456,93 @@ mod tests {
     }
     #[test]
     fn the_mean_of_a_constant_is_the_constant() {
-        let test = Test::planned(&course, 7.6, 0.02, &table(), 0.0);
+        let test = Test::planned(&course, 7.6, &LeastWidth::even(0.02), &table(), 0.0);
         for mean in test.means(test.steps.iter().map(|_| 3.0)) {
             assert!((mean - 3.0).abs() < 1e-9);
         }
+    }
+    /// A spin-up of 13 s whose torque is smoothed over 20 ms until half a second after it, over 0.2 s later.
+    fn smoothed_more_in_the_hold() -> Measurement {
+        let time: Vec<f64> = (0..6500).map(|i| f64::from(i) * 2e-3).collect();
+        let count = time.len();
+        let cage_speed = |t: f64| 0.4 * course(t - 0.4);
+        // balls pass every 0.6 rad of the cage
+        let (mut angle, mut passed) = (0.0, Vec::new());
+        for pair in time.windows(2) {
+            let before = (angle / 0.6_f64).floor();
+            angle += cage_speed(pair[1]) * (pair[1] - pair[0]);
+            if (angle / 0.6).floor() > before {
+                passed.push(pair[1]);
+            }
+        }
+        Measurement {
+            name: "long".into(),
+            load: 50.0,
+            speed: time.iter().map(|t| course(t - 0.4)).collect(),
+            speed_deviation: vec![0.1; count],
+            acceleration: vec![0.0; count],
+            acceleration_deviation: vec![1.0; count],
+            torque: vec![0.0; count],
+            torque_deviation: vec![0.5e-3; count],
+            correlation_time: (time.iter())
+                .map(|t| if *t < 0.9 { 0.02 } else { 0.2 })
+                .collect(),
+            time,
+            zero_deviation: 0.0,
+            scale_deviation: 0.0,
+            engagement: Some(0.4),
+            engagement_deviation: 0.0,
+            cage: Some(CageTrace {
+                speed: passed.iter().map(|t| cage_speed(*t)).collect(),
+                deviation: vec![0.1; passed.len()],
+                time: passed,
+            }),
+            temperature: None,
+        }
+    }
+
+    #[test]
+    fn a_long_hold_leaves_the_means_of_the_spin_up_as_they_are() {
+        let long = smoothed_more_in_the_hold();
+        let whole = Test::measured(&long, &table(), 0.0);
+        let cut = Test::measured(&long.between(0.0, 1.2), &table(), 0.0);
+        let early = |test: &Test| -> Vec<(f64, f64)> {
+            let bins = test.bins.iter().filter(|bin| bin.to < 0.4 && !bin.before);
+            bins.map(|bin| (bin.from, bin.to)).collect()
+        };
+        let parts = early(&whole);
+        assert_eq!(parts, early(&cut));
+        // two correlation times each at first; one time for all would be 0.4 s
+        assert!(
+            parts.len() > 5 && (parts[0].1 - 0.04).abs() < 1e-9,
+            "{parts:?}"
+        );
+        for bin in &whole.bins {
+            assert!(bin.from < 0.4 || bin.to - bin.from > 0.19, "{bin:?}");
+        }
+    }
+    #[test]
+    fn a_mean_of_the_cage_is_one_over_time() {
+        let long = smoothed_more_in_the_hold();
+        let test = Test::measured(&long, &table(), 0.0);
+        let foretold = test.cage_means(test.steps.iter().map(|s| 0.4 * s.middle_speed));
+        for (bin, foretold) in test.bins.iter().zip(foretold) {
+            let Some(mean) = bin.cage else { continue };
+            // straight between balls 10 ms apart at full speed, and steps of some ms: a few tenths of a per cent of 60 rad/s;
+            // a mean over balls would be 2 rad/s too high while the cage is braked
+            assert!((mean.speed - foretold).abs() < 0.2, "{bin:?} {foretold}");
+        }
+    }
+    #[test]
+    fn a_torque_that_is_zero_by_definition_is_no_value() {
+        let mut long = smoothed_more_in_the_hold();
+        let before = |test: &Measurement| {
+            let test = Test::measured(test, &table(), 0.0);
+            test.bins.iter().any(|bin| bin.before)
+        };
+        assert!(before(&long));
+        long.zero_deviation = 1e-3;
+        assert!(!before(&long));
     }
     #[test]
     fn noise_counts_by_its_correlation_time_and_zero_and_scale_apart() {
@@ -371,7 +561,7 @@ mod tests {
             time,
             zero_deviation: 0.4e-3,
             scale_deviation: 0.0,
-            correlation_time: 0.02,
+            correlation_time: vec![0.02; count],
             engagement: Some(0.4),
             engagement_deviation: 0.0,
             cage: None,
@@ -380,9 +570,16 @@ mod tests {
         let test = Test::measured(&measurement, &table(), 0.0);
         for bin in &test.bins {
             let width = bin.to - bin.from;
-            let expected = 0.3e-3 / (width / 0.02).sqrt();
+            // errors alike by e^(-|Δt|/10 ms): of a long mean σ √(20 ms/T), of a short one less than that
+            let part = 0.02 / width;
+            let expected =
+                0.3e-3 * (part * (1.0 - 0.5 * part * (1.0 - (-2.0 / part).exp()))).sqrt();
             assert!((bin.torque - 10e-3).abs() < 1e-12);
-            assert!((bin.variance.sqrt() / expected - 1.0).abs() < 1e-6);
+            // values 2 ms apart instead of an integral, and up to one of 20 more or less in a mean
+            assert!(
+                (bin.variance.sqrt() / expected - 1.0).abs() < 0.03,
+                "{width}"
+            );
         }
         let before = test
             .bins

@@ -293,6 +293,7 @@ impl Slip {
 
 #[cfg(test)]
 mod tests {
+    use super::super::record::LeastWidth;
     use super::super::steady::{Continued, known};
     use super::*;
 
@@ -330,7 +331,13 @@ mod tests {
     fn test(acceleration: f64, table: &Table) -> Test {
         let ramp = 150.0 / acceleration;
         let speed = move |t: f64| 150.0 * (t / ramp).clamp(0.0, 1.0);
-        Test::planned(&speed, ramp + 1.0, 0.02, table, set().outer_inertia())
+        Test::planned(
+            &speed,
+            ramp + 1.0,
+            &LeastWidth::even(0.02),
+            table,
+            set().outer_inertia(),
+        )
     }
 
     #[test]

@@ -65,11 +65,11 @@ pub struct Estimate {
 /// How well an explanation fits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
-    /// Weighted sum of squares χ², mean over the posterior.
+    /// Weighted sum of squares χ² of the best of the posterior, with that of its parameters against their priors.
     pub chi_squared: f64,
     /// Number of means it sums over.
     pub count: usize,
-    /// Posterior predictive probability of a χ² at least as large.
+    /// Probability of a χ² at least as large, where the explanation is true with parameters as its priors tell.
     pub probability: f64,
     /// Posterior mean of the models' own error over M.
     pub discrepancy: f64,

@@ -94,7 +94,7 @@ mod tests {
             torque_deviation: vec![1e-3; count],
             zero_deviation: 0.0,
             scale_deviation: 0.0,
-            correlation_time: 0.02,
+            correlation_time: vec![0.02; count],
             engagement: Some(1.0),
             engagement_deviation: 0.0,
             cage: None,

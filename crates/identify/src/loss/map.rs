@@ -25,8 +25,8 @@ const MOST: usize = 240;
 #[derive(Clone, Copy, Debug)]
 struct Datum {
     test: usize,
-    /// Middle of its times, s.
-    time: f64,
+    /// Age of the torque's noise, correlation times.
+    age: f64,
     speed: f64,
     /// |Ω̇|.
     rate: f64,
@@ -250,6 +250,7 @@ fn means(
 ) {
     let arm = set.pocket_friction_arm();
     let inertia = set.outer_inertia() / arm;
+    let age = test.noise_age();
     let top = test.speed.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
     let fastest = test
         .acceleration
@@ -269,8 +270,7 @@ fn means(
                 || (point.speed - first.speed).abs() > 0.1 * top
                 || (point.acceleration - first.acceleration).abs() > 0.1 * fastest
                 || point.time - first.time
-                    > test
-                        .correlation_time
+                    > test.correlation_time[start]
                         .max(0.02 * (test.time[test.time.len() - 1] - test.time[0]));
             if ends && end > start {
                 break;
@@ -288,7 +288,7 @@ fn means(
         let signed_rate = sign * mean(&|k| test.acceleration[k]);
         data.push(Datum {
             test: number,
-            time: mean(&|k| test.time[k]),
+            age: mean(&|k| age[k]),
             speed: mean(&|k| test.speed[k].abs()),
             rate: signed_rate.abs(),
             signed_rate,
@@ -336,8 +336,8 @@ fn errors(
                 + scale[i] * scale[j];
             if a.test == b.test {
                 let test = tests[a.test].0;
-                value += (test.zero_deviation / arm).powi(2)
-                    + a.noise * b.noise * alike(a.time - b.time, test.correlation_time);
+                value +=
+                    (test.zero_deviation / arm).powi(2) + a.noise * b.noise * alike(a.age - b.age);
             }
             if i == j {
                 // a thousandth of the rest keeps exact data solvable

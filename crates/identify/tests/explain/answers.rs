@@ -63,6 +63,7 @@ fn cut(mut campaign: Campaign) -> Campaign {
         &mut test.acceleration_deviation,
         &mut test.torque,
         &mut test.torque_deviation,
+        &mut test.correlation_time,
     ] {
         values.truncate(count);
     }

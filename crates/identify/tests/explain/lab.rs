@@ -62,6 +62,8 @@ pub const ENGAGEMENT: f64 = 0.2;
 pub const PEAKS: [f64; 3] = [1300.0, 7200.0, 11_500.0];
 /// Deviation of the noise per mean of 10 ms is drawn from 0.2 to 0.5 N mm.
 const GRID: f64 = 2e-3;
+/// Deviation of the cage's speed at a ball over its change since the last one.
+const CHANGE: f64 = 0.25;
 
 pub fn set() -> RollingSet<f64> {
     RollingSet {
@@ -212,7 +214,7 @@ impl Truth {
             torque_deviation: Vec::new(),
             zero_deviation: 0.3e-3,
             scale_deviation: 0.01,
-            correlation_time: 0.02,
+            correlation_time: Vec::new(),
             engagement: Some(ENGAGEMENT),
             engagement_deviation: 0.0,
             cage: None,
@@ -224,7 +226,9 @@ impl Truth {
             deviation: Vec::new(),
         };
         let cage_bias = 1.0 + 0.001 * chance.normal();
-        let (mut cage_sum, mut cage_count, mut cage_next) = (0.0, 0.0, 0.02);
+        let pitch = std::f64::consts::TAU / BALLS as f64;
+        let (mut cage_angle, mut next_ball) = (0.0, pitch * chance.uniform());
+        let mut last_cage = 0.0;
         let mut last_speed = 0.0;
         for row in rows {
             let h = row.time - last;
@@ -245,16 +249,25 @@ impl Truth {
             }
             smooth += (1.0 - (-h / 4e-3).exp()) * (torque - smooth);
             smoother += (1.0 - (-h / 4e-3).exp()) * (smooth - smoother);
-            cage_sum += row.cage * h;
-            cage_count += h;
-            if row.time >= cage_next - 1e-9 {
-                let mean = cage_sum / cage_count;
-                let deviation = 0.005 * mean.abs() + 0.05;
-                cage.time.push(row.time - 0.5 * cage_count);
+            cage_angle += row.cage * h;
+            if cage_angle >= next_ball {
+                // a ball passes
+                next_ball += pitch;
+                // between two balls it is known by as much as it changes at most
+                let change = row.cage - last_cage;
+                last_cage = row.cage;
+                let noise = 0.005 * row.cage.abs() + 0.05;
+                let deviation = noise.hypot(CHANGE * change);
+                if cage.time.is_empty() {
+                    // from rest to the first ball the speed is hardly known
+                    cage.time.push(ENGAGEMENT);
+                    cage.speed.push(0.0);
+                    cage.deviation.push(deviation);
+                }
+                cage.time.push(row.time);
                 cage.speed
-                    .push(mean * cage_bias + deviation * chance.normal());
+                    .push(row.cage * cage_bias + noise * chance.normal());
                 cage.deviation.push(deviation);
-                (cage_sum, cage_count, cage_next) = (0.0, 0.0, cage_next + 0.02);
             }
             if row.time < next - 1e-9 {
                 continue;
@@ -272,6 +285,7 @@ impl Truth {
             m.acceleration_deviation.push(20.0);
             last_speed = row.speed;
             m.torque.push(reading);
+            m.correlation_time.push(0.02);
             m.torque_deviation
                 .push((sigma * sigma + 0.3e-3_f64.powi(2) + (0.01 * reading).powi(2)).sqrt());
         }

@@ -185,7 +185,7 @@ pub fn measured(
         time,
         zero_deviation: sensor.zero,
         scale_deviation: sensor.scale,
-        correlation_time: CORRELATION,
+        correlation_time: vec![CORRELATION; count],
         engagement: None,
         engagement_deviation: 0.0,
         cage: None,

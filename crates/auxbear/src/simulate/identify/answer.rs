@@ -288,9 +288,9 @@ const VERDICT: Origin = Origin {
     valid: "the explanations listed, one at a time, with the priors of crates/identify/src/explain/prior.rs",
 };
 const FIT: Origin = Origin {
-    law: "posterior predictive probability of a χ² at least as large as that of the data",
+    law: "probability of a χ² of data and parameters at least as large, where the explanation is true with parameters as its priors tell",
     source: "crates/identify/src/explain/mod.rs",
-    valid: "of the most probable explanation; below 0.1 % none of these fits",
+    valid: "of the most probable explanation; below 0.1 % none of these fits; near 1 where the bands of the signals are wider than their errors",
 };
 const NEXT: Origin = Origin {
     law: "expected reduction of the entropy over the explanations",

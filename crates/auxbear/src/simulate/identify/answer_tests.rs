@@ -123,20 +123,6 @@ fn energies(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
     );
 }
 
-/// What tells that the torque does not come to the steady moment: the lubricant or the sensor was in another state than in the
-/// slow tests. None where it comes there, or where that is not known.
-pub(super) fn off_the_moment(test: &TestFound) -> Option<String> {
-    let loss = test.loss.as_ref().ok()?;
-    loss.off_the_moment(&test.measurement).map(|excess| {
-        format!(
-            "at the end of the hold of {} t_O - M is {:.2} ± {:.2} N mm: M of the slow tests does not hold there",
-            test.name,
-            1e3 * excess.value,
-            1e3 * excess.deviation
-        )
-    })
-}
-
 fn slip(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
     let slip = test.slip.as_ref().map_err(Clone::clone);
     list.number(
@@ -164,7 +150,7 @@ fn slip(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
     list.number(
         &named("skid_probability"),
         "1",
-        match off_the_moment(test) {
+        match test.off_the_moment() {
             Some(why) => Err(format!(
                 "{why}, and a torque that is low for another reason looks like skid"
             )),

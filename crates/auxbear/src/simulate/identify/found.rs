@@ -1,6 +1,5 @@
 //! What the estimators find in the tests, each with its own reason where it refuses.
 
-use super::answer_tests::off_the_moment;
 use super::read::{Asked, Test};
 use super::told::{Told, grouped};
 use crate::scenario::RotorFriction;
@@ -42,6 +41,22 @@ pub(super) struct TestFound {
     pub slip: Result<CageSlip, String>,
     /// Spin of the balls.
     pub skid: Result<Skid, String>,
+}
+
+impl TestFound {
+    /// What tells that the torque does not come to the steady moment: the lubricant or the sensor was in another state than in the
+    /// slow tests, and what is left of t_O - M is not F alone. None where it comes there, or where that is not known.
+    pub fn off_the_moment(&self) -> Option<String> {
+        let loss = self.loss.as_ref().ok()?;
+        loss.off_the_moment(&self.measurement).map(|excess| {
+            format!(
+                "at the end of the hold of {} t_O - M is {:.2} ± {:.2} N mm: M of the slow tests does not hold there",
+                self.name,
+                1e3 * excess.value,
+                1e3 * excess.deviation
+            )
+        })
+    }
 }
 
 /// Everything that was found.
@@ -278,7 +293,7 @@ fn map(
 ) -> Result<LossMap, String> {
     let curve = curve.ok_or_else(|| "the steady moment is not known".to_string())?;
     // one map of speed and acceleration cannot hold what changes with time besides
-    if let Some(why) = tests.iter().find_map(off_the_moment) {
+    if let Some(why) = tests.iter().find_map(TestFound::off_the_moment) {
         return Err(format!("{why}, so that what is left is not F alone"));
     }
     let pairs: Vec<(&Measurement, &Loss)> = (tests.iter())

@@ -150,12 +150,15 @@ fn of_test(
             "t_O - M: torque on the outer race beyond the steady moment",
             loss.points.iter().map(|point| point.excess).collect(),
         );
-        both(
-            "friction",
-            "N",
-            "friction F of accelerated balls, their sum",
-            loss.points.iter().map(|point| point.friction).collect(),
-        );
+        // as for the map: with another M what is left is not F
+        if test.off_the_moment().is_none() {
+            both(
+                "friction",
+                "N",
+                "friction F of accelerated balls, their sum",
+                loss.points.iter().map(|point| point.friction).collect(),
+            );
+        }
     }
     if let Ok(slip) = &test.slip {
         let time: Vec<f64> = slip.points.iter().map(|point| point.time).collect();
