@@ -9,7 +9,8 @@
 //! at which acceleration and jerk may jump. From rest the speed is zero until the engagement, the angle is anywhere
 //! between two marks, and what jumps first drives the shaft forward. How softly a clutch began before its first marks is
 //! open: starts without a jump, with one of the jerk and with one of the acceleration are all carried along, and the
-//! engagement has the band that they leave.
+//! engagement has the band that they leave. The deviations within the change follow how smooth it turns out to be, and a
+//! shaft that stops after its last mark comes to rest.
 //!
 //! **What it does not model**: a shaft that turns back; a speed ripple quicker than two marks can show; noise of the instants with a memory longer
 //! than a few pulses; more than one quick change in a record (give the window of the one that is wanted).
