@@ -138,6 +138,7 @@ impl Test {
                 speed_deviation: &[],
             }),
             engagement: Some(self.engagement),
+            lock: None,
             zero: Uncertain::new(0.0, 100.0),
             zero_wander: 0.0,
             // 1.3 % rms at 40 N mm are 0.5 % at 25 N mm.
@@ -378,6 +379,7 @@ fn a_rest_that_may_be_none_is_none() {
     let test = measured(30.0, 13, FAST, true);
     let open = Inversion {
         engagement: Some(Uncertain::new(test.engagement.value, 0.2)),
+        lock: None,
         zero: Uncertain::new(0.0, 5.0),
         ..test.input()
     };

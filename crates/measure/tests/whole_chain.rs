@@ -294,6 +294,7 @@ fn nonsense_is_survived() {
             }],
             shaft: (r.uniform() < 0.5).then_some(shaft),
             engagement: Some(Uncertain::new(y, 0.0)),
+            lock: None,
             zero: Uncertain::new(0.0, 1.0),
             zero_wander: 0.0,
             scale_deviation: 0.0,

@@ -28,16 +28,22 @@ pub(super) struct Stop {
 /// Intervals without a mark after which a mark is missed.
 const SILENCE: f64 = 3.0;
 
+/// Least speed at the last mark, as a part of the mean one since the mark before.
+const SLOWEST: f64 = 0.1;
+
 impl Stop {
     /// The stop of a record, where it has one.
     pub fn of(pulses: &Pulses, speed: &Speed) -> Option<Stop> {
         let n = pulses.times.len();
         let (before, end) = (pulses.times[n.checked_sub(2)?], pulses.times[n - 1]);
-        let last = speed.at(end);
+        let mut last = speed.at(end);
+        // A shaft that creeps over its last mark may seem to turn back there by what the noise leaves.
+        let mean = pulses.pitch() / (end - before);
+        last.speed = last.speed.max(SLOWEST * mean);
         let length = -last.speed / last.acceleration;
         let brakes = last.speed > 0.0 && length.is_finite() && length > 0.0;
         let stops_before_the_next_mark = 0.5 * last.speed * length < 1.5 * pulses.pitch();
-        let silent = pulses.watched.1 - end > SILENCE * pulses.pitch() / last.speed;
+        let silent = pulses.watched.1 - end > SILENCE * (end - before);
         (brakes && stops_before_the_next_mark && silent).then_some(Stop {
             before,
             last,
@@ -56,6 +62,7 @@ impl Stop {
         if motion.time <= self.before {
             return motion;
         }
+        motion.speed = motion.speed.max(0.0);
         if since_last > 0.0 {
             let turning = since_last.min(self.length);
             let left = 1.0 - turning / self.length;

@@ -48,14 +48,44 @@ impl<'a> Samples<'a> {
 /// Everything that does not depend on the hyper-parameters.
 pub(super) struct Chain<'a> {
     input: Samples<'a>,
-    pub(super) knot: Option<f64>,
+    knots: Knots,
     scale: f64,
     /// One step of the interval without disturbance, and the noise that unit intensity gathers.
     whole: (Matrix<STATES>, Matrix<STATES>),
     /// Response of reading and rate to cos θ and sin θ over the step that ends at sample k.
     forcing: Vec<[f64; 4]>,
-    /// The step with the knot inside: until it, from it on, each with gathered noise.
-    split: Option<(usize, Matrix<STATES>, Matrix<STATES>, Matrix<STATES>)>,
+    /// The steps with the engagement and with the lock inside.
+    engaging: Option<Split>,
+    locking: Option<Split>,
+}
+
+/// Instants, s, at which torque and rate may jump: the engagement, before which the shaft rests, and the lock after it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Knots {
+    pub(super) engagement: Option<f64>,
+    pub(super) lock: Option<f64>,
+}
+
+/// A step with a knot inside: until it and from it on, each with the noise that unit intensity gathers.
+struct Split {
+    at: usize,
+    until: (Matrix<STATES>, Matrix<STATES>),
+    after: (Matrix<STATES>, Matrix<STATES>),
+}
+
+impl Split {
+    /// The step of some samples in which an instant lies; none outside of them.
+    fn of(input: &Samples, swing: Swing, instant: f64) -> Option<Split> {
+        let h = input.interval;
+        let place = (instant - input.first) / h;
+        let before = place.floor();
+        let inside = place > 0.0 && place < (input.reading.len() - 1) as f64;
+        inside.then(|| Split {
+            at: before as usize + 1,
+            until: stepped(swing, (place - before) * h),
+            after: stepped(swing, (before + 1.0 - place) * h),
+        })
+    }
 }
 
 /// Means and variances of the smoothed states, in the unit of the reading.
@@ -69,18 +99,19 @@ impl<'a> Chain<'a> {
     pub(super) fn new(
         input: Samples<'a>,
         swing: Swing,
-        knot: Option<f64>,
+        knots: Knots,
         power: f64,
         scale: f64,
     ) -> Self {
         let h = input.interval;
         let mut chain = Self {
             input,
-            knot,
+            knots,
             scale,
             whole: stepped(swing, h),
             forcing: Vec::with_capacity(input.reading.len()),
-            split: None,
+            engaging: (knots.engagement).and_then(|knot| Split::of(&input, swing, knot)),
+            locking: knots.lock.and_then(|knot| Split::of(&input, swing, knot)),
         };
         let nodes = force_response(swing, h);
         for k in 0..input.reading.len() {
@@ -89,15 +120,6 @@ impl<'a> Chain<'a> {
             } else {
                 chain.forced(k, power, &nodes)
             });
-        }
-        if let Some(knot) = knot {
-            let place = (knot - input.first) / h;
-            if place > 0.0 && place < (input.reading.len() - 1) as f64 {
-                let before = place.floor();
-                let (until, _) = stepped(swing, (place - before) * h);
-                let (after, noise) = stepped(swing, (before + 1.0 - place) * h);
-                chain.split = Some((before as usize + 1, until, after, noise));
-            }
         }
         chain
     }
@@ -178,7 +200,7 @@ impl<'a> Chain<'a> {
     fn filtered(&self, hyper: &Hyper, keep: bool) -> Filter<STATES> {
         let input = &self.input;
         let [noise, slow, fast, calming] = hyper.map(|v| v.clamp(-40.0, 40.0).exp());
-        let rests = self.split.is_some();
+        let rests = self.engaging.is_some();
         let zero = input.zero.deviation / self.scale;
         // Amplitudes of the disturbance may drift by 3 % of the reading's spread in a second, the zero as told.
         let drift = if input.angle.is_empty() {
@@ -213,37 +235,36 @@ impl<'a> Chain<'a> {
             prior[TORQUE][0] = wide;
             prior[1][1] = wide;
         }
+        let mut jump = [[0.0; STATES]; STATES];
+        jump[TORQUE][TORQUE] = wide;
+        jump[RATE][RATE] = wide / 0.05_f64.powi(2);
         let mut filter = Filter::new(mean, prior, keep);
         let mut turning = !rests;
         for (k, &value) in input.reading.iter().enumerate() {
             let time = input.first + k as f64 * input.interval;
             if k > 0 {
-                match &self.split {
-                    Some((at, until, after, gathered)) if *at == k => {
-                        filter.predict(until, &[[0.0; STATES]; STATES]);
-                        let mut jump = [[0.0; STATES]; STATES];
-                        jump[TORQUE][TORQUE] = wide;
-                        jump[RATE][RATE] = wide / 0.05_f64.powi(2);
-                        filter.predict(&identity(), &jump);
-                        let mut transition = *after;
-                        self.put_forcing(k, &mut transition);
-                        filter.predict(&transition, &with_drift(gathered, slow + fast));
-                        turning = true;
-                    }
-                    _ => {
-                        let mut transition = self.whole.0;
-                        self.put_forcing(k, &mut transition);
-                        let intensity = match self.knot {
-                            Some(knot) if turning => {
-                                slow + fast
-                                    * (-(time - knot - 0.5 * input.interval).max(0.0) / calming)
-                                        .exp()
-                            }
-                            _ if turning => slow,
-                            _ => 0.0,
-                        };
-                        filter.predict(&transition, &with_drift(&self.whole.1, intensity));
-                    }
+                let intensity = slow + fast * self.liveliness(time, calming);
+                let here = |split: &&Split| split.at == k;
+                let engages = self.engaging.as_ref().filter(here);
+                let locks = self.locking.as_ref().filter(here);
+                if let Some(split) = engages {
+                    filter.predict(&split.until.0, &[[0.0; STATES]; STATES]);
+                    filter.predict(&identity(), &jump);
+                    let mut transition = split.after.0;
+                    self.put_forcing(k, &mut transition);
+                    filter.predict(&transition, &with_drift(&split.after.1, slow + fast));
+                    turning = true;
+                } else if let Some(split) = locks.filter(|_| turning) {
+                    filter.predict(&split.until.0, &scaled(&split.until.1, slow + fast));
+                    filter.predict(&identity(), &jump);
+                    let mut transition = split.after.0;
+                    self.put_forcing(k, &mut transition);
+                    filter.predict(&transition, &with_drift(&split.after.1, slow + fast));
+                } else {
+                    let mut transition = self.whole.0;
+                    self.put_forcing(k, &mut transition);
+                    let intensity = if turning { intensity } else { 0.0 };
+                    filter.predict(&transition, &with_drift(&self.whole.1, intensity));
                 }
             }
             let mut row = [0.0; STATES];
@@ -257,6 +278,15 @@ impl<'a> Chain<'a> {
             filter.observe(value.is_finite().then_some(&seen));
         }
         filter
+    }
+
+    /// Part of the fast intensity in the step that ends at a time: all of it while the clutch slips, less and less after that.
+    fn liveliness(&self, time: f64, calming: f64) -> f64 {
+        let Some(engagement) = self.knots.engagement else {
+            return 0.0;
+        };
+        let from = self.knots.lock.unwrap_or(engagement);
+        (-(time - from - 0.5 * self.input.interval).max(0.0) / calming).exp()
     }
 
     fn put_forcing(&self, k: usize, transition: &mut Matrix<STATES>) {

@@ -2,7 +2,8 @@
 //!
 //! States: reading y, its rate over ω, torque T, its rate, the two amplitudes c and s of the order-1 disturbance, the zero of
 //! the reading. The torque is an integrated random walk whose intensity is high just after the engagement and decays to a
-//! lower one; at the engagement torque and rate may jump. Before it the shaft rests and the torque is zero by definition.
+//! lower one; at the engagement torque and rate may jump. Before it the shaft rests and the torque is zero by definition. Where
+//! the lock is known they may jump there too, and the intensity stays high until then.
 //! Intensities, their decay and the noise are those of the highest likelihood with wide priors.
 //!
 //! A reading at the limit of its converter ([`Clipped`]) says only that the true one is at least there. What lies beyond is not
@@ -12,7 +13,7 @@
 //! Source: physics of the sensor as in the module; unknown-input smoothing as by Lourens et al., Mech. Syst. Signal Process. 29
 //! (2012) 446 (from memory).
 
-use super::chain::{COSINE, Chain, Pass, RATE, SINE, Samples, TORQUE, ZERO};
+use super::chain::{COSINE, Chain, Knots, Pass, RATE, SINE, Samples, TORQUE, ZERO};
 use super::{Sensor, Swing};
 use crate::shaft::Shaft;
 use crate::state_space::{colour, correlation};
@@ -36,6 +37,9 @@ pub struct Inversion<'a> {
     /// Time at which the clutch engages, with its standard deviation, s; before it the shaft rests. None: it turns throughout. An
     /// engagement that may lie before the record, within two deviations, is not used: no rest tells a zero then.
     pub engagement: Option<Uncertain>,
+    /// Time at which the clutch locks, with its standard deviation, s, where it is known and not before the engagement: what
+    /// the acceleration makes of the torque ends there at once. None: the torque calms down from the engagement on.
+    pub lock: Option<Uncertain>,
     /// Zero of the reading, known to this standard deviation, in the unit of the reading; it is estimated where the shaft rests.
     pub zero: Uncertain,
     /// Wander of that zero, unit of the reading per √s; 0 where it does not wander.
@@ -98,6 +102,9 @@ pub struct Torque {
     pub notes: Vec<String>,
 }
 
+/// Deviation of the lock, as a part of the interval, below which it changes nothing.
+const NOTABLE: f64 = 0.05;
+
 /// Finds the torque that a sensor felt, its order-1 disturbance and its zero, with standard deviations.
 ///
 /// The error names what is wrong with the input. The band contains the uncertainty of frequency, damping and engagement time
@@ -121,6 +128,12 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         notes.push("the engagement lies outside the record and is not used".into());
     }
     let knot = engagement.map(|e| e.value);
+    let lock =
+        (input.lock).filter(|lock| knot.is_some_and(|knot| lock.value > knot) && inside(lock));
+    let knots = Knots {
+        engagement: knot,
+        lock: lock.map(|lock| lock.value),
+    };
     // Hyper-parameters from the part of the record that tells most of them.
     let (from, to) = match knot {
         Some(knot) => {
@@ -134,7 +147,7 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
     let near = samples.part(from, to);
     let free = input.disturbance_power.is_none() && input.shaft.is_some() && engagement.is_some();
     let mut power = input.disturbance_power.unwrap_or(2.0);
-    let built = |power| Chain::new(near, swing, knot, power, spread);
+    let built = |power| Chain::new(near, swing, knots, power, spread);
     let mut part = built(power);
     let mut hyper = part.most_likely(part.guess(), 200);
     let mut rivals = Vec::new();
@@ -152,7 +165,7 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         }
     }
     let lowest = part.cost(&hyper);
-    let chain = Chain::new(samples, swing, knot, power, spread);
+    let chain = Chain::new(samples, swing, knots, power, spread);
     let base = chain.smoothed(&hyper);
     let mut variance: Vec<f64> = base.states.iter().map(|s| s.1[TORQUE]).collect();
     let colour = colour(&base.innovations);
@@ -184,7 +197,7 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         let weight = 1.0 / (1.0 + (cost - lowest).clamp(-20.0, 20.0).exp());
         if weight > 0.01 {
             widen(
-                &Chain::new(samples, swing, knot, *other, spread).smoothed(&hyper),
+                &Chain::new(samples, swing, knots, *other, spread).smoothed(&hyper),
                 weight,
             );
         }
@@ -199,22 +212,33 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
                 omega: swing.omega * ratio,
                 ..swing
             },
-            knot,
+            knots,
             1.0,
         ));
     }
     if wider(input.sensor.damping_ratio) {
         let zeta = swing.zeta + input.sensor.damping_ratio.deviation;
-        shifted.push((Swing { zeta, ..swing }, knot, 1.0));
+        shifted.push((Swing { zeta, ..swing }, knots, 1.0));
     }
     if let Some(engagement) = engagement.filter(|e| wider(*e)) {
         for by in [engagement.deviation, -engagement.deviation] {
-            shifted.push((swing, Some(engagement.value + by), 0.5));
+            let engagement = Some(engagement.value + by);
+            let moved = Knots {
+                engagement,
+                ..knots
+            };
+            shifted.push((swing, moved, 0.5));
         }
     }
-    for (swing, knot, weight) in shifted {
+    if let Some(lock) = lock.filter(|lock| lock.deviation > NOTABLE * samples.interval) {
+        for by in [lock.deviation, -lock.deviation] {
+            let lock = Some(lock.value + by);
+            shifted.push((swing, Knots { lock, ..knots }, 0.5));
+        }
+    }
+    for (swing, knots, weight) in shifted {
         widen(
-            &Chain::new(samples, swing, knot, power, spread).smoothed(&hyper),
+            &Chain::new(samples, swing, knots, power, spread).smoothed(&hyper),
             weight,
         );
     }
@@ -257,7 +281,7 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
             reading: &reading,
             ..samples
         };
-        let other = Chain::new(samples, swing, knot, power, spread).smoothed(&hyper);
+        let other = Chain::new(samples, swing, knots, power, spread).smoothed(&hyper);
         let moved = |k: usize, index: usize| other.states[k].0[index] - base.states[k].0[index];
         let lost = f64::NAN;
         for k in 0..told.len() {

@@ -280,6 +280,9 @@ fn inverted(
         clipped: &cut,
         shaft: turning,
         engagement: change.map(|change| Uncertain::new(change.engagement.0, change.engagement.1)),
+        lock: change
+            .and_then(|change| change.end)
+            .map(|(time, deviation)| Uncertain::new(time, deviation)),
         zero: Uncertain::new(0.0, wish.zero_deviation.unwrap_or(high - low)),
         zero_wander: 0.0,
         scale_deviation: wish.scale_deviation,
