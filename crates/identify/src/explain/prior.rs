@@ -91,7 +91,7 @@ impl Default for Priors {
         Self {
             odds: [1.0; 5],
             viscous_share: None,
-            fresh_drag: Range::new(0.4, 0.95),
+            fresh_drag: Range::new(0.2, 0.95),
             worked_drag: Range::new(0.5, 0.95),
             build_up_angle: Range::new(0.1 * turn, 3.0 * turn),
             breakdown_time: Range::new(0.8, 4.0),
