@@ -144,6 +144,7 @@ fn ten_seconds_are_quick() {
             clipped: &[],
             shaft: Some(shaft),
             engagement: Some(Uncertain::new(0.5, 2e-4)),
+            lock: None,
             zero: Uncertain::new(0.0, 10.0),
             zero_wander: 0.0,
             scale_deviation: 0.005,
