@@ -6,6 +6,11 @@ function isIdentify(run) {
 }
 
 const EXPLANATIONS = ["rolling", "rolling with a grease state", "isothermal slip", "slip with heating", "sensor artefact"];
+
+// A probability; what is hardly possible is not told to its last digit.
+function chanceText(probability) {
+  return probability > 0 && probability < 1e-4 ? "< 0.01 %" : percentText(probability, 3);
+}
 // 2 % settling of the arm in the source paper, s: the torque before it is what the inversion of the sensor makes of it.
 const SENSOR_SETTLING = 0.1;
 
@@ -34,10 +39,12 @@ function explanationFigure(run, runs) {
       {},
       element("td", { class: "name" }, name),
       element("td", { class: "bar" }, probability === null ? null : element("div", { style: `width:${100 * probability}%;background:${SERIES_COLOURS.rotor}` })),
-      element("td", {}, probability === null ? "–" : probability > 0 && probability < 1e-4 ? "< 0.01 %" : percentText(probability, 3)),
+      element("td", {}, probability === null ? "–" : chanceText(probability)),
     );
   });
   const parameters = quantityOf(run, "explanation_parameters").value;
+  const fit = numberOf(run, "explanation_fit_probability");
+  const fits = fit === null ? "" : `. Data less like it would come with a probability of ${percentText(fit, 2)}`;
   const next = String(quantityOf(run, "next_tests").value || "").split("\n").filter(Boolean).map((line) => line.replace(/^\d+\. /, ""));
   return [
     figure(
@@ -45,7 +52,7 @@ function explanationFigure(run, runs) {
       "Probability after the data, by marginal likelihood with a discrepancy term for what the reduced models leave out. Below the limit of decision the answer is undecided.",
       element("p", {}, element("strong", {}, "Verdict: " + conclusion.value)),
       element("table", { class: "bars" }, element("tbody", {}, rows)),
-      typeof parameters === "string" ? element("p", { class: "small" }, "Most probable: " + parameters) : null,
+      typeof parameters === "string" ? element("p", { class: "small" }, "Most probable: " + parameters + fits) : null,
     ),
     next.length ? figure(shareOfRun(run, runs, "The next test, the most telling first"), "Expected part of what is open between the explanations that the test would settle.", element("ol", {}, next.map((line) => element("li", {}, line)))) : null,
   ];
@@ -55,6 +62,9 @@ function explanationSection(runs) {
   return section("explanations", "Verdict", runs.map((run) => explanationFigure(run, runs)));
 }
 
+// Forms of the steady moment, as the field calls them.
+const FORMS = { palmgren: "Palmgren's form", skf: "SKF's form", spline: "spline" };
+
 function steadyFigure(run, runs) {
   const title = shareOfRun(run, runs, "Torque on the outer race at steady speed");
   const speeds = listOf(run, "steady_moment_speeds");
@@ -63,11 +73,11 @@ function steadyFigure(run, runs) {
   const form = quantityOf(run, "steady_moment_form").value;
   const series = [
     { label: "measured", x: measured[0], y: measured[1], colour: SERIES_COLOURS.quiet, width: 0.75 },
-    ...bandCurves(speeds, listOf(run, "steady_moments"), listOf(run, "steady_moment_deviations"), 1e3, `M, ${form} form`, SERIES_COLOURS.limit),
+    ...bandCurves(speeds, listOf(run, "steady_moments"), listOf(run, "steady_moment_deviations"), 1e3, `M, ${FORMS[form] || form}`, SERIES_COLOURS.limit),
   ];
-  const forms = ["palmgren", "skf", "spline"].map((name) => [name, numberOf(run, `probability_of_${name}_form`)]).filter(([, probability]) => probability !== null);
+  const forms = Object.keys(FORMS).map((name) => [name, numberOf(run, `probability_of_${name}_form`)]).filter(([, probability]) => probability !== null);
   const correlation = numberOf(run, "largest_parameter_correlation");
-  const words = forms.map(([name, probability]) => `${name} ${percentText(probability, 3)}`).join(", ");
+  const words = forms.map(([name, probability]) => `${FORMS[name]} ${chanceText(probability)}`).join(", ");
   return figure(
     title,
     `From the slow tests. Probability of the forms: ${words}. ${correlation === null ? "" : `Parameters correlate up to ${numberText(correlation, 3)}: the curve counts, not they. `}${BAND_WORDS}`,
@@ -102,7 +112,7 @@ function testFigures(run, test) {
   const of = (name, scale, look) => bandLines(one, `${test.key}.${name}`, `${test.key}.${name}_deviation`, scale, look);
   const steady = of("steady_moment", 1e3, { label: "steady torque at this speed [N mm]", colour: SERIES_COLOURS.limit, width: 1.5, dash: [7, 4] });
   const marks = settledMarks();
-  const slip = of("cage_slip", 100, { label: "slip [%]", colour: SERIES_COLOURS.cage, width: 1.25 });
+  const slip = of("cage_slip", 100, { label: "slip [%]", colour: SERIES_COLOURS.cage, width: 1.25, widest: WIDEST_SLIP });
   const peak = numberOf(run, `${test.key}.peak_acceleration`);
   const title = `${test.name}${peak === null ? "" : `, peak ${numberText(peak, 4)} rad/s²`}`;
   return [
@@ -110,7 +120,7 @@ function testFigures(run, test) {
     figure("Acceleration", null, timePlot({ series: of("acceleration", 1, { label: "acceleration [rad/s²]", colour: SERIES_COLOURS.race, width: 1.25 }), label: "acceleration [rad/s²]", marks, height: 180 })),
     figure("Torque on the outer race, without the sensor's swing", "Dashed: the steady torque of the slow tests at the speed of the moment.", timePlot({ series: [...of("torque", 1e3, { label: "t_O [N mm]", colour: SERIES_COLOURS.race, width: 1.5 }), ...steady], label: "torque [N mm]", marks, height: 260 })),
     closeFigure(run, test),
-    slip.length ? figure("Slip of the cage", null, timePlot({ series: slip, label: "slip [%]", include: () => [0], height: 160 })) : notInThisRun("slip: " + (quantityOf(run, `${test.key}.slip_probability`).why || "no cage signal"), run),
+    slip.length ? figure("Slip of the cage", `0 % where the balls roll; nothing is drawn where the band is wider than ±${WIDEST_SLIP} %.`, timePlot({ series: slip, label: "slip [%]", include: () => [-0.5, 0.5], height: 160 })) : notInThisRun("slip: " + (quantityOf(run, `${test.key}.slip_probability`).why || "no cage signal"), run),
   ];
 }
 
@@ -132,7 +142,7 @@ function lossFigures(run, runs) {
     tests.map((test) => {
       const share = (name) => {
         const value = numberOf(run, `${test.key}.${name}`);
-        return value === null ? "–" : percentText(value, 3);
+        return value === null ? "–" : chanceText(value);
       };
       const from = numberOf(run, `${test.key}.rolling_established_at`);
       return [test.name, uncertainText(run, `${test.key}.excess_torque_settled`, "N mm", 1e3), uncertainText(run, `${test.key}.excess_torque_at_end`, "N mm", 1e3), `${numberText(1e3 * numberOf(run, `${test.key}.torque_to_roll_within_3_5_s`), 2)} N mm`, share("slip_probability"), share("skid_probability"), from === null ? quantityOf(run, `${test.key}.rolling_established_at`).why || "–" : engineeringText(from, "s", 3)];
@@ -184,14 +194,15 @@ function identifyVerdict(run) {
   const words = typeof conclusion.value === "string" ? conclusion.value : "–";
   const probability = Math.max(...EXPLANATIONS.map((name) => numberOf(run, "probability_of_" + name.replaceAll(" ", "_")) || 0));
   const tests = testsOf(run);
-  const best = tests.map((test) => `${test.name}: ${numberOf(run, `${test.key}.dissipated_energy`) === null ? "–" : engineeringText(numberOf(run, `${test.key}.dissipated_energy`), "J", 3)}`);
+  const energy = (test) => (numberOf(run, `${test.key}.dissipated_energy`) === null ? "–" : `${uncertainText(run, `${test.key}.dissipated_energy`, "mJ", 1e3)} (2σ)`);
+  const best = tests.map((test) => `${test.name}: ${energy(test)}`);
   const form = quantityOf(run, "steady_moment_form");
   return element(
     "div",
     { class: "tiles" },
     stateTile(run),
     tile("Explanation", words.split(":")[0], [conclusion.why || words.split(": ")[1] || `probability ${percentText(probability, 3)}`]),
-    tile("Steady moment", typeof form.value === "string" ? `${form.value} form` : "–", [form.why]),
+    tile("Steady moment", typeof form.value === "string" ? FORMS[form.value] || form.value : "–", [form.why]),
     numberOf(run, "rotor_friction_coefficient") === null ? null : tile("Friction rotor/race", uncertainText(run, "rotor_friction_coefficient", ""), ["mean over the slips, ± twice the standard deviation"]),
     tile("Dissipated in the spin-ups", `${tests.length} ${tests.length === 1 ? "test" : "tests"}`, best),
   );

@@ -40,7 +40,10 @@ function curves({ series, across, upright, height = 300, logarithmic = false }) 
   let [left, right] = [Math.min(...xs), Math.max(...xs)];
   if (left > 0 && left < 0.05 * right) left = 0;
   if (!(right > left)) right = left + 1;
-  let [low, high] = logarithmic ? [Math.min(...ys), Math.max(...ys)] : paddedRange(Math.min(...ys), Math.max(...ys), []);
+  let [low, high] = [Math.min(...ys), Math.max(...ys)];
+  // A peak that touches the frame looks cut off.
+  const room = 0.04 * (high - low);
+  [low, high] = logarithmic ? [low - room, high + room] : paddedRange(low, high, []);
   if (!(high > low)) [low, high] = [low - 0.5, high + 0.5];
   const toX = (x) => box.left + ((x - left) / (right - left)) * (width - box.left - box.right);
   const toY = (y) => height - box.bottom - ((y - low) / (high - low)) * (height - box.top - box.bottom);
