@@ -174,7 +174,12 @@ fn finite(value: f64) -> Option<f64> {
 fn result(quantity: &Quantity) -> Found<'_> {
     let (value, why) = match &quantity.value {
         Value::Number(number) if number.is_finite() => (Json::Number(*number), None),
-        Value::List(list) if list.iter().all(|number| number.is_finite()) => {
+        // A place without a number is null; an infinite number is a fault.
+        Value::List(list)
+            if list.is_empty()
+                || list.iter().any(|number| number.is_finite())
+                    && !list.iter().any(|number| number.is_infinite()) =>
+        {
             (Json::List(list), None)
         }
         Value::Number(_) | Value::List(_) => (Json::Null, Some(NOT_FINITE)),
@@ -267,6 +272,7 @@ mod tests {
             Value::Number(f64::NAN),
             Value::Number(f64::NEG_INFINITY),
             Value::List(vec![1.0, f64::INFINITY]),
+            Value::List(vec![f64::NAN]),
         ] {
             let printed = printed(value);
             assert!(printed["value"].is_null());
@@ -277,6 +283,8 @@ mod tests {
             why: "no contact".to_string(),
         });
         assert!(absent["value"].is_null() && absent["why"] == "no contact");
+        let gaps = printed(Value::List(vec![1.0, f64::NAN]));
+        assert!(gaps["value"][0] == 1.0 && gaps["value"][1].is_null());
         let list = printed(Value::List(vec![1.0, 2.5]));
         assert_eq!(list["value"], serde_json::json!([1.0, 2.5]));
         assert!(list.get("why").is_none());

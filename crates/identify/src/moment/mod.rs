@@ -282,6 +282,7 @@ fn difference(up: &SteadyMoment, down: &SteadyMoment) -> Result<Difference, Stri
             deviation: own.iter().map(|u| u.deviation).collect(),
             // one sensor: the scale is the same in both and cancels but for its part of the difference
             scale_deviation: 0.0,
+            zero_deviation: 0.0,
             covariance: speed
                 .iter()
                 .map(|&a| {

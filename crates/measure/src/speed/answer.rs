@@ -254,16 +254,20 @@ fn between(track: &Track, times: [f64; 2]) -> Matrix {
     })
 }
 
-/// Belief of a track, at rest before its start where it starts from rest.
+/// Belief of a track: at rest before its start where it starts from rest, carried back where it moves.
 pub(super) fn at(track: &Track, time: f64) -> Belief {
-    if time < track.begin() {
-        let mut belief = *track.start();
-        let angle = belief.covariance[0][0];
-        belief.mean[2] = 0.0;
-        belief.mean[3] = 0.0;
-        belief.covariance = [[0.0; N]; N];
-        belief.covariance[0][0] = angle;
-        return belief;
+    if time >= track.begin() {
+        return track.at(time);
     }
-    track.at(time)
+    let mut belief = *track.start();
+    // A start from rest is the one whose speed is known.
+    if belief.covariance[1][1] > 0.0 {
+        return track.before(time);
+    }
+    let angle = belief.covariance[0][0];
+    belief.mean[2] = 0.0;
+    belief.mean[3] = 0.0;
+    belief.covariance = [[0.0; N]; N];
+    belief.covariance[0][0] = angle;
+    belief
 }

@@ -275,6 +275,26 @@ impl Track {
         }
     }
 
+    /// Belief at an instant before the first node, of a motion that was as it is there: the state from all pulses, carried
+    /// back, with the noise that the time between gathers.
+    pub fn before(&self, time: f64) -> Belief {
+        let first = self.at(self.begin());
+        let back = time - self.begin();
+        let density = self.nodes.first().map_or(self.density, |node| node.density);
+        let path = drift(
+            back,
+            &Memory {
+                rate: 0.0,
+                ..self.memory
+            },
+        );
+        let spread = product(&path, &product(&first.covariance, &transposed(&path)));
+        Belief {
+            mean: apply(&path, &first.mean),
+            covariance: plus(&spread, &gathered(-back, density, &self.memory)),
+        }
+    }
+
     /// Covariance of the states at two instants, the first one not after the second, from all pulses.
     pub fn between(&self, first: f64, second: f64) -> Matrix {
         let (from, _, _) = self.around(first);

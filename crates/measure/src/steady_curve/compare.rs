@@ -20,7 +20,7 @@ pub struct Difference {
 
 /// Sets two curves against each other that were drawn at the same speeds, up against down or direct against inertial.
 ///
-/// Errors of the curves are taken as independent. The chance is that of the sum of squares over the directions in which the
+/// Errors of the curves are taken as independent: a scale or a zero that both share must be left out of both. The chance is that of the sum of squares over the directions in which the
 /// covariance is not negligible. Source: multivariate normal theory; Wilson and Hilferty, PNAS 17 (1931) 684, for the tail (from
 /// memory).
 pub fn compare(first: &SteadyCurve, second: &SteadyCurve) -> Result<Difference, String> {
@@ -43,9 +43,11 @@ pub fn compare(first: &SteadyCurve, second: &SteadyCurve) -> Result<Difference, 
             common
                 .iter()
                 .map(|&j| {
-                    let scale =
-                        |c: &SteadyCurve| c.scale_deviation.powi(2) * c.torque[i] * c.torque[j];
-                    first.covariance[i][j] + second.covariance[i][j] + scale(first) + scale(second)
+                    let of = |c: &SteadyCurve| {
+                        let scale = c.scale_deviation.powi(2) * c.torque[i] * c.torque[j];
+                        c.covariance[i][j] + scale + c.zero_deviation.powi(2)
+                    };
+                    of(first) + of(second)
                 })
                 .collect()
         })

@@ -30,8 +30,10 @@ pub struct SteadyCurve {
     pub torque: Vec<f64>,
     /// Standard deviation of the torque by noise and correlated residuals.
     pub deviation: Vec<f64>,
-    /// Relative standard deviation that all torques share: of the inertia, or 0.
+    /// Relative standard deviation that all torques share: of the inertia or of the sensor's calibration, or 0.
     pub scale_deviation: f64,
+    /// Standard deviation of an error that all torques share: of the sensor's zero, or 0.
+    pub zero_deviation: f64,
     /// Covariance of the torques by noise, by rows; 0 where the torque is NaN.
     pub covariance: Vec<Vec<f64>>,
     /// Residual of the fit, rms, in the unit of what was fitted.
@@ -43,13 +45,13 @@ pub struct SteadyCurve {
 }
 
 impl SteadyCurve {
-    /// Standard deviation of the torque with that of the scale.
+    /// Standard deviation of the torque with that of the scale and of the zero.
     pub fn whole_deviation(&self) -> Vec<f64> {
         let scale = self.scale_deviation;
         self.torque
             .iter()
             .zip(&self.deviation)
-            .map(|(m, s)| s.hypot(scale * m))
+            .map(|(m, s)| s.hypot(scale * m).hypot(self.zero_deviation))
             .collect()
     }
 }
@@ -160,6 +162,7 @@ fn drawn(spline: &Spline, at: &[f64], rows: &[Option<Vec<f64>>], factor: f64) ->
         torque,
         deviation,
         scale_deviation: 0.0,
+        zero_deviation: 0.0,
         covariance,
         residual: spline.residual,
         correlation: spline.correlation,

@@ -227,12 +227,16 @@ impl<'a> Chain<'a> {
             prior[SINE][SINE] = wide;
         }
         if !rests {
-            // Reading and torque agree up to what a swing of the size of the record does.
-            prior[TORQUE][TORQUE] = wide;
+            // Reading and torque agree up to what a swing of the size of the record does, about what the record begins with: a
+            // torque that hardly changes may be large beside its spread. What of it is zero only the zero's own deviation tells.
+            let level = self.first_level() / self.scale - mean[ZERO];
+            (mean[0], mean[TORQUE]) = (level, level);
+            let torque = wide + 100.0 * zero * zero;
+            prior[TORQUE][TORQUE] = torque;
             prior[RATE][RATE] = wide / 0.05_f64.powi(2);
-            prior[0][0] = 2.0 * wide;
-            prior[0][TORQUE] = wide;
-            prior[TORQUE][0] = wide;
+            prior[0][0] = torque + wide;
+            prior[0][TORQUE] = torque;
+            prior[TORQUE][0] = torque;
             prior[1][1] = wide;
         }
         let mut jump = [[0.0; STATES]; STATES];
@@ -278,6 +282,15 @@ impl<'a> Chain<'a> {
             filter.observe(value.is_finite().then_some(&seen));
         }
         filter
+    }
+
+    /// Median of the first readings, in their unit.
+    fn first_level(&self) -> f64 {
+        const FIRST: usize = 50;
+        let known = self.input.reading.iter().copied();
+        let mut first: Vec<f64> = known.filter(|v| v.is_finite()).take(FIRST).collect();
+        first.sort_by(f64::total_cmp);
+        first.get(first.len() / 2).copied().unwrap_or(0.0)
     }
 
     /// Part of the fast intensity in the step that ends at a time: all of it while the clutch slips, less and less after that.

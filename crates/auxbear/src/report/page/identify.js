@@ -85,7 +85,7 @@ function steadyFigure(run, runs) {
   );
 }
 
-function steadySection(runs) {
+function steadyMomentSection(runs) {
   return section("steady", "Steady friction moment", runs.map((run) => steadyFigure(run, runs)));
 }
 
@@ -216,5 +216,5 @@ function identifyLine(run) {
 function identifySections(runs) {
   if (!runs.length) return [];
   const rubbed = runs.filter((run) => listOf(run, "rotor_friction_slips").length);
-  return [[explanationSection, runs], [steadySection, runs], [testSection, runs], [lossSection, runs], ...(rubbed.length ? [[rotorFrictionSection, rubbed]] : [])];
+  return [[explanationSection, runs], [steadyMomentSection, runs], [testSection, runs], [lossSection, runs], ...(rubbed.length ? [[rotorFrictionSection, rubbed]] : [])];
 }

@@ -290,7 +290,7 @@ fn more(asked: &Asked, found: &mut Found) {
     let reading = asked.torque.as_ref().zip(faulty.as_ref());
     let reading = reading.map(|(series, faulty)| (series, faulty, found.torque.as_ref()));
     let steady = match &found.shaft {
-        Some(shaft) => steady::Found::of(wish, shaft, reading),
+        Some(shaft) => steady::Found::of(wish, shaft, reading, asked.signals.torque.as_ref()),
         None => Err("it needs the speed of the shaft".to_string()),
     };
     match steady {

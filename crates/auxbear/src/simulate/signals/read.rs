@@ -175,8 +175,16 @@ impl<'a> Source<'a> {
         ))
     }
 
-    /// Seconds from the earliest start of the file to that of a channel, and its delay by the converter.
+    /// Seconds from the earliest start of the file to that of a channel, and its delay by the converter: columns of times are
+    /// no turn of it.
     fn offset(&self, index: usize, channel: &Channel) -> f64 {
+        let before = &self.recording.channels()[..index];
+        let turn = before.iter().filter(|c| c.content != Content::Time).count();
+        self.start(channel) + turn as f64 * self.signals.channel_delay
+    }
+
+    /// Seconds from the earliest start of the file to that of a channel.
+    fn start(&self, channel: &Channel) -> f64 {
         let starts = self.recording.channels().iter().filter_map(|c| c.start);
         let earlier = |a: Instant, b: Instant| {
             if (a.seconds, a.fraction) <= (b.seconds, b.fraction) {
@@ -185,13 +193,12 @@ impl<'a> Source<'a> {
                 b
             }
         };
-        let start = match (channel.start, starts.reduce(earlier)) {
+        match (channel.start, starts.reduce(earlier)) {
             (Some(own), Some(first)) => {
                 own.seconds.saturating_sub(first.seconds) as f64 + own.fraction - first.fraction
             }
             _ => 0.0,
-        };
-        start + index as f64 * self.signals.channel_delay
+        }
     }
 
     /// The values of a channel at equal times, within the part that is looked at; all of it where `whole`.
@@ -338,7 +345,8 @@ impl<'a> Source<'a> {
             Content::Time => 1.0,
             _ => self.seconds(key, &channel)?,
         };
-        let offset = self.offset(index, &channel);
+        // A counter takes its stamps when they come.
+        let offset = self.start(&channel);
         let read = self.read(key, index, 0, channel.count as usize)?;
         let known: Vec<f64> = read
             .iter()

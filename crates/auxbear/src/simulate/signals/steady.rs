@@ -2,7 +2,7 @@
 
 use super::read::Series;
 use super::{shaft, torque};
-use crate::scenario::{InertiaSource, SteadySignal};
+use crate::scenario::{InertiaSource, SteadySignal, TorqueSignal};
 use measure::steady_curve::{
     Difference, SteadyCurve, compare, direct, inertia_from_bifilar, inertia_from_known_torque,
     inertia_from_pendulum, inertial,
@@ -32,6 +32,7 @@ impl Found {
         wish: &SteadySignal,
         shaft: &shaft::Found,
         reading: Option<(&Series, &torque::Faulty, Option<&torque::Found>)>,
+        sensor: Option<&TorqueSignal>,
     ) -> Result<Found, String> {
         let (first, interval, speeds) = speeds((wish.from, wish.to), shaft)?;
         let known = || speeds.iter().copied().filter(|v| v.is_finite());
@@ -67,8 +68,8 @@ impl Found {
             let felt: Vec<f64> = rows().map(|(_, m)| *m).collect();
             direct(&turning, &felt, &speed)
         };
-        let direct = by_sensor((wish.from, wish.to));
-        let up = match wish.up_from.zip(wish.up_to) {
+        let mut direct = by_sensor((wish.from, wish.to));
+        let mut up = match wish.up_from.zip(wish.up_to) {
             Some(part) => by_sensor(part),
             None => Err("signals.steady.up_from is not given".to_string()),
         };
@@ -93,9 +94,20 @@ impl Found {
                 "by the sensor: {by_sensor}; by the slope of the speed: {by_slope}"
             ));
         }
+        // Zero and scale of the sensor are the same up and down; beside the inertia they count.
+        let up_less_down = set(&up, &direct);
+        let found = reading.and_then(|(_, _, found)| found?.torque.as_ref());
+        let zero = match found {
+            Some(torque) => torque.zero.deviation,
+            None => sensor.and_then(|s| s.zero_deviation).unwrap_or(0.0),
+        };
+        for curve in [&mut direct, &mut up].into_iter().flatten() {
+            curve.zero_deviation = zero;
+            curve.scale_deviation = sensor.map_or(0.0, |sensor| sensor.scale_deviation);
+        }
         Ok(Found {
             direct_less_inertial: set(&direct, &inertial),
-            up_less_down: set(&up, &direct),
+            up_less_down,
             inertia,
             direct,
             inertial,

@@ -283,7 +283,11 @@ fn inverted(
         lock: change
             .and_then(|change| change.end)
             .map(|(time, deviation)| Uncertain::new(time, deviation)),
-        zero: Uncertain::new(0.0, wish.zero_deviation.unwrap_or(high - low)),
+        // Where nothing is known of the zero, all of the reading may be one.
+        zero: Uncertain::new(
+            0.0,
+            (wish.zero_deviation).unwrap_or((high - low).max(high.abs()).max(low.abs())),
+        ),
         zero_wander: 0.0,
         scale_deviation: wish.scale_deviation,
         disturbance_power: match wish.disturbance {
