@@ -6,13 +6,14 @@
 //! **Does not model**: which of several causes it is (see [`explain`](crate::explain)); faults of a file or a sensor, which the
 //! estimators of `measure` note.
 
+mod finding;
+
 use crate::dissipation::spin_up_window;
 use crate::measurement::Measurement;
 use crate::moment::{SteadyMoment, same_load};
 use crate::series::{RunningVariance, median, trapezoid};
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
-use std::fmt;
 
 /// What a rise of temperature changes.
 #[derive(Clone, Copy)]
@@ -75,6 +76,8 @@ pub enum Doubt {
         test: String,
         /// Part of its time while turning, 1.
         part: f64,
+        /// Part of its time above the curve's speeds, beyond [`ABOVE`], 1.
+        above: f64,
         /// Speeds of the curve, rad/s.
         range: (f64, f64),
     },
@@ -264,12 +267,20 @@ fn outside(test: &Measurement, steady: &SteadyMoment, found: &mut Vec<Doubt>) {
         .iter()
         .filter(|speed| steady.without_scale(**speed).is_none())
         .count();
-    let part = gone as f64 / turning.len().max(1) as f64;
+    let share = |count: usize| count as f64 / turning.len().max(1) as f64;
+    let part = share(gone);
+    let above = share(
+        turning
+            .iter()
+            .filter(|speed| **speed > ABOVE * high)
+            .count(),
+    );
     // a spin-up through the lowest speeds is not worth a word
     if part > 0.02 {
         found.push(Doubt::OutsideMoment {
             test: test.name.clone(),
             part,
+            above,
             range: (low, high),
         });
     }
@@ -467,133 +478,5 @@ fn set_free_mean(test: &Measurement, from: f64, to: f64) -> Option<(f64, f64)> {
     Some((sum, variance.max(0.0).sqrt()))
 }
 
-/// Settled torque over M, or M over it, from which M is not of the same bearing, load and temperature: what lubricants, slip
-/// and sensors do stays below it.
-const FOREIGN: f64 = 2.0;
-
-impl Doubt {
-    /// Whether no explanation may be sought with this M: a torque that settles below half of it or above twice it would be
-    /// called a sensor's fault.
-    pub fn forbids_comparison(&self) -> bool {
-        match self {
-            Doubt::ForeignSteadyMoment { ratio, .. } => *ratio < 1.0 / FOREIGN || *ratio > FOREIGN,
-            _ => false,
-        }
-    }
-
-    /// Name of the test that it is about; none where it is about all.
-    pub fn test(&self) -> Option<&str> {
-        match self {
-            Doubt::NeverReaches { test, .. }
-            | Doubt::OutsideMoment { test, .. }
-            | Doubt::ForeignSteadyMoment { test, .. }
-            | Doubt::LoadOfSteadyMoment { test, .. }
-            | Doubt::InertiaMissing { test, .. }
-            | Doubt::WrongBallCount { test, .. }
-            | Doubt::CageNeverRolls { test, .. }
-            | Doubt::TemperatureExplains { test, .. }
-            | Doubt::NotSettled { test, .. }
-            | Doubt::TooShort { test, .. } => Some(test),
-            Doubt::MixedLoads { .. } => None,
-        }
-    }
-
-    /// What is doubted, without the name of the test.
-    pub fn finding(&self) -> String {
-        match self {
-            Doubt::NeverReaches {
-                reached, wanted, ..
-            } => format!(
-                "it reaches {reached:.4} rad/s, never the {wanted:.4} rad/s at which it is to be analysed"
-            ),
-            Doubt::OutsideMoment { part, range, .. } => format!(
-                "it runs outside {:.4} to {:.4} rad/s, where M was measured, for {:.1} % of its time: nothing is told there",
-                range.0,
-                range.1,
-                100.0 * part
-            ),
-            Doubt::ForeignSteadyMoment {
-                speed,
-                difference,
-                ratio,
-                ..
-            } => format!(
-                "the torque settles at {ratio:.3} of the steady moment at {speed:.1} rad/s, {:.2} ± {:.2} N mm apart: the slow test belongs to another bearing, load or temperature, or the lubricant is in another state",
-                1e3 * difference.value,
-                1e3 * difference.deviation
-            ),
-            Doubt::LoadOfSteadyMoment {
-                load, steady_load, ..
-            } => format!(
-                "it was at {load} N, the steady moment at {steady_load} N: M is not that of this test"
-            ),
-            Doubt::MixedLoads { loads } => {
-                let each: Vec<String> = (loads.iter())
-                    .map(|(test, load)| format!("{test} {load} N"))
-                    .collect();
-                format!(
-                    "tests at different loads are together: {}; M and F depend on the load, analyse each load by itself",
-                    each.join("; ")
-                )
-            }
-            Doubt::InertiaMissing {
-                acceleration,
-                torque,
-                ..
-            } => match torque {
-                Some((least, most)) => format!(
-                    "the mass of the cage is not known: at {acceleration:.0} rad/s² inertia takes between {:.2} and {:.2} N mm from the torque (no cage to one of twice the balls' mass)",
-                    1e3 * least,
-                    1e3 * most
-                ),
-                None => format!(
-                    "the masses of balls and cage are not known: at {acceleration:.0} rad/s² inertia cannot be told from friction"
-                ),
-            },
-            Doubt::WrongBallCount {
-                stated,
-                fits,
-                ratio,
-                ..
-            } => format!(
-                "the cage settles at {:.4} ± {:.4} of rolling with {stated} balls stated; {fits} balls would make it roll, or {:.3} times the marks per revolution that are stated",
-                ratio.value,
-                ratio.deviation,
-                1.0 / ratio.value
-            ),
-            Doubt::CageNeverRolls { ratio, .. } => format!(
-                "the cage settles at {:.4} ± {:.4} of rolling: it slips to the end, or radii, contact angle or marks per revolution are wrong",
-                ratio.value, ratio.deviation
-            ),
-            Doubt::TemperatureExplains {
-                rise,
-                expected,
-                difference,
-                ..
-            } => format!(
-                "the outer race warmed by {rise:.2} K, which changes the moment by {:.2} to {:.2} N mm and explains all of its {:.2} ± {:.2} N mm",
-                1e3 * expected.0,
-                1e3 * expected.1,
-                1e3 * difference.value,
-                1e3 * difference.deviation
-            ),
-            Doubt::NotSettled { change, over, .. } => format!(
-                "the torque still changes at the end of the hold: by {:.3} ± {:.3} N mm within {over:.2} s",
-                1e3 * change.value,
-                1e3 * change.deviation
-            ),
-            Doubt::TooShort { lasts, needed, .. } => format!(
-                "it holds its speed for {lasts:.3} s; {needed} s are needed to see whether the torque settles"
-            ),
-        }
-    }
-}
-
-impl fmt::Display for Doubt {
-    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        match self.test() {
-            Some(test) => write!(out, "{test}: {}", self.finding()),
-            None => out.write_str(&self.finding()),
-        }
-    }
-}
+/// Speed over the highest one at which M was measured, from which on M is not known.
+const ABOVE: f64 = 1.03;

@@ -533,3 +533,43 @@ fn the_design_picture_shows_the_worst_arm() {
     assert!(errors[0].inverted > errors[3].inverted);
     assert!(errors.iter().all(|e| e.inverted < e.raw));
 }
+
+#[test]
+fn a_torque_that_hardly_changes_keeps_its_level() {
+    let mut random = Random::new(3);
+    // 20 N mm throughout, noise of 1 N mm, no rest.
+    let reading: Vec<f64> = (0..2000).map(|_| 20.0 + random.normal()).collect();
+    let told = |zero: f64| {
+        let torque = invert(&Inversion {
+            sensor: Sensor {
+                frequency: Uncertain::exact(30.0),
+                damping_ratio: Uncertain::exact(0.2),
+            },
+            first: 0.0,
+            interval: INTERVAL,
+            reading: &reading,
+            clipped: &[],
+            shaft: None,
+            engagement: None,
+            lock: None,
+            zero: Uncertain::new(0.0, zero),
+            zero_wander: 0.0,
+            scale_deviation: 0.0,
+            disturbance_power: None,
+        })
+        .unwrap();
+        (torque.torque[1000], torque.deviation[1000])
+    };
+    for zero in [0.01, 0.5, 2.0, 20.0] {
+        let (torque, deviation) = told(zero);
+        println!("zero to {zero}: {torque:.2} ± {deviation:.2}");
+        assert!(
+            (torque - 20.0).abs() < 0.3 + 0.05 * zero,
+            "{zero}: {torque}"
+        );
+        assert!(
+            deviation > 0.9 * zero && deviation < 0.3 + 1.3 * zero,
+            "{zero}: {deviation}"
+        );
+    }
+}

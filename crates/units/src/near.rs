@@ -51,7 +51,8 @@ pub fn nearest_names<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) 
             let distance = if name.to_lowercase() == found.to_lowercase() {
                 1
             } else {
-                edit_distance(found, name)
+                let small = edit_distance(&found.to_lowercase(), &name.to_lowercase());
+                edit_distance(found, name).min(small + 1)
             };
             // Replacing every letter makes any name of the same length.
             (distance <= allowed && distance < 2 * length.max(other)).then_some((distance, name))

@@ -291,6 +291,20 @@ mod tests {
         ]
     }
 
+    /// The scripts share one scope: of two functions of one name the later one would win without a word.
+    #[test]
+    fn no_two_functions_of_the_scripts_have_one_name() {
+        let mut names: Vec<&str> = SCRIPTS
+            .iter()
+            .flat_map(|script| script.lines())
+            .filter_map(|line| line.strip_prefix("function ")?.split('(').next())
+            .collect();
+        assert!(names.len() > 100);
+        names.sort_unstable();
+        let twice: Vec<_> = names.windows(2).filter(|pair| pair[0] == pair[1]).collect();
+        assert!(twice.is_empty(), "{twice:?}");
+    }
+
     #[test]
     fn values_are_little_endian_single_precision_unless_that_is_coarse() {
         // 1.0f32 is 00 00 80 3f and 2.0f32 is 00 00 00 40 in memory order.

@@ -528,6 +528,12 @@ pub(super) const KEYS: &[Key] = &[
 
 /// What the starting file gives.
 pub(super) const GIVEN: &[&str] = &[
+    "bearing.operating_diametral_clearance",
+    "bearing.moment.law",
+    "bearing.moment.lubrication",
+    "bearing.moment.series",
+    "bearing.moment.viscosity",
+    "bearing.static_load_rating",
     "rig.peak_acceleration",
     "rig.release_at",
     "rig.arm.natural_frequency",

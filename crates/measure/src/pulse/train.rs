@@ -111,6 +111,14 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
             edges.times[first]
         ));
     }
+    if let Some((stop, start)) = rest(&kept, &edges.times) {
+        return Err(Refusal::new(
+            format!(
+                "the shaft comes to rest after {stop:.4} s and starts again before {start:.4} s"
+            ),
+            "a part of the record with one start from rest: give where it begins or ends (from, to)",
+        ));
+    }
     let steps = steps(&kept, &edges.times);
     let mut count = 0i64;
     let mut counts = vec![0i64];
@@ -241,6 +249,25 @@ fn without_strays(
         indices.iter().map(|&k| which[k]).collect(),
         indices.iter().map(|&k| marks[k]).collect(),
     )
+}
+
+/// The last pulse before a rest within the record and the first one after it, where there is one: a gap to which the shaft
+/// slows down and from which it speeds up again, slower on both sides than it usually is. How often it turned there is not known.
+fn rest(kept: &[usize], times: &[f64]) -> Option<(f64, f64)> {
+    let gaps: Vec<f64> = kept
+        .windows(2)
+        .map(|pair| times[pair[1]] - times[pair[0]])
+        .collect();
+    let usual = super::median(&mut gaps.clone());
+    let rests = |k: usize| {
+        let [c, b, a] = [gaps[k - 3], gaps[k - 2], gaps[k - 1]];
+        let [x, y, z] = [gaps[k + 1], gaps[k + 2], gaps[k + 3]];
+        let slows = c < b && b < a && a > 5.0 * usual;
+        let starts = x > y && y > z && x > 3.0 * usual;
+        slows && starts && gaps[k] > 2.0 * a.max(x)
+    };
+    let k = (3..gaps.len().saturating_sub(3)).find(|&k| rests(k))?;
+    Some((times[kept[k]], times[kept[k + 1]]))
 }
 
 /// Positions from each pulse to the next.

@@ -171,7 +171,7 @@ impl Found {
             (Ok(moment), Some(how)) => match doubts.iter().find(|doubt| doubt.forbids_comparison())
             {
                 Some(doubt) => {
-                    let why = || format!("M is not of these tests: {}", doubt.finding());
+                    let why = || format!("M does not hold for these tests: {}", doubt.finding());
                     (Err(why()), Err(why()))
                 }
                 None => explained(&tests, moment, &set, how),

@@ -1,7 +1,7 @@
 //! The raw file of a test, as a laboratory's logger leaves it, and the file that tells `auxbear signals` what it holds.
 
 use super::chain::RawChannel;
-use crate::scenario::{RawFormat, Rig, RigPickupKind};
+use crate::scenario::{RawFormat, Rig, RigPickupKind, RigProgram};
 use crate::simulate::outcome::{Attached, Attachment};
 use measure::recording::{Channel, Clock};
 
@@ -58,6 +58,24 @@ pub(super) fn files(
     ]
 }
 
+/// Which part of the record is looked at: of two spin-ups the second one, with some of the rest before it. Over a rest the turns
+/// of the shaft cannot be counted.
+fn part(rig: &Rig) -> String {
+    match rig.program {
+        RigProgram::RepeatAfterRest {
+            release_at,
+            engage_again_at,
+            ..
+        } => {
+            let from = engage_again_at - (0.2 * (engage_again_at - release_at)).min(1.0);
+            format!(
+                "# The second of two spin-ups; take this line away and say to = \"{from} s\" for the first.\nfrom = \"{from} s\"\n"
+            )
+        }
+        _ => String::new(),
+    }
+}
+
 /// What a laboratory would know of the channels.
 fn signals(rig: &Rig, title: &str, file: &str, raw: &[RawChannel], rolling_ratio: f64) -> String {
     let delay = 1.0 / rig.logger.total_rate;
@@ -66,10 +84,11 @@ fn signals(rig: &Rig, title: &str, file: &str, raw: &[RawChannel], rolling_ratio
     let mut text = format!(
         "# What the channels of {file} are, as a laboratory would know it.\n\n\
          format = \"{}\"\nsystem = \"signals\"\ntitle = {title}\n\n\
-         [signals]\nfile = \"{file}\"\nchannel_delay = \"{delay} s\"\nradial_load = \"{} N\"\n\n\
+         [signals]\nfile = \"{file}\"\nchannel_delay = \"{delay} s\"\nradial_load = \"{} N\"\n{}\n\
          [signals.speed]\nchannel = \"rig/tacho\"\n",
         crate::scenario::FORMAT,
         rig.load.radial_load,
+        part(rig),
     );
     match rig.pickup.kind {
         RigPickupKind::Analog { .. } => text.push_str("kind = \"analog\"\n"),

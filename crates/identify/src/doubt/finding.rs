@@ -1,0 +1,139 @@
+//! What a doubt says, whom it is about, and whether an explanation may be sought in spite of it.
+
+use super::Doubt;
+use std::fmt;
+
+/// Settled torque over M, or M over it, from which M is not of the same bearing, load and temperature: what lubricants, slip
+/// and sensors do stays below it.
+const FOREIGN: f64 = 2.0;
+
+/// Part of a test above the speeds of M, from which on what the curve would be carried on to decides.
+const MOSTLY: f64 = 0.05;
+
+impl Doubt {
+    /// Whether no explanation may be sought with this M: a torque that settles below half of it or above twice it would be
+    /// called a sensor's fault; and so would one at speeds that the slow tests never reached.
+    pub fn forbids_comparison(&self) -> bool {
+        match self {
+            Doubt::OutsideMoment { above, .. } => *above > MOSTLY,
+            Doubt::ForeignSteadyMoment { ratio, .. } => *ratio < 1.0 / FOREIGN || *ratio > FOREIGN,
+            _ => false,
+        }
+    }
+
+    /// Name of the test that it is about; none where it is about all.
+    pub fn test(&self) -> Option<&str> {
+        match self {
+            Doubt::NeverReaches { test, .. }
+            | Doubt::OutsideMoment { test, .. }
+            | Doubt::ForeignSteadyMoment { test, .. }
+            | Doubt::LoadOfSteadyMoment { test, .. }
+            | Doubt::InertiaMissing { test, .. }
+            | Doubt::WrongBallCount { test, .. }
+            | Doubt::CageNeverRolls { test, .. }
+            | Doubt::TemperatureExplains { test, .. }
+            | Doubt::NotSettled { test, .. }
+            | Doubt::TooShort { test, .. } => Some(test),
+            Doubt::MixedLoads { .. } => None,
+        }
+    }
+
+    /// What is doubted, without the name of the test.
+    pub fn finding(&self) -> String {
+        match self {
+            Doubt::NeverReaches {
+                reached, wanted, ..
+            } => format!(
+                "it reaches {reached:.4} rad/s, never the {wanted:.4} rad/s at which it is to be analysed"
+            ),
+            Doubt::OutsideMoment { part, range, .. } => format!(
+                "it runs outside {:.4} to {:.4} rad/s, where M was measured, for {:.1} % of its time: nothing is told there",
+                range.0,
+                range.1,
+                100.0 * part
+            ),
+            Doubt::ForeignSteadyMoment {
+                speed,
+                difference,
+                ratio,
+                ..
+            } => format!(
+                "the torque settles at {ratio:.3} of the steady moment at {speed:.1} rad/s, {:.2} ± {:.2} N mm apart: the slow test belongs to another bearing, load or temperature, or the lubricant is in another state",
+                1e3 * difference.value,
+                1e3 * difference.deviation
+            ),
+            Doubt::LoadOfSteadyMoment {
+                load, steady_load, ..
+            } => format!(
+                "it was at {load} N, the steady moment at {steady_load} N: M is not that of this test"
+            ),
+            Doubt::MixedLoads { loads } => {
+                let each: Vec<String> = (loads.iter())
+                    .map(|(test, load)| format!("{test} {load} N"))
+                    .collect();
+                format!(
+                    "tests at different loads are together: {}; M and F depend on the load, analyse each load by itself",
+                    each.join("; ")
+                )
+            }
+            Doubt::InertiaMissing {
+                acceleration,
+                torque,
+                ..
+            } => match torque {
+                Some((least, most)) => format!(
+                    "the mass of the cage is not known: at {acceleration:.0} rad/s² inertia takes between {:.2} and {:.2} N mm from the torque (no cage to one of twice the balls' mass)",
+                    1e3 * least,
+                    1e3 * most
+                ),
+                None => format!(
+                    "the masses of balls and cage are not known: at {acceleration:.0} rad/s² inertia cannot be told from friction"
+                ),
+            },
+            Doubt::WrongBallCount {
+                stated,
+                fits,
+                ratio,
+                ..
+            } => format!(
+                "the cage settles at {:.4} ± {:.4} of rolling with {stated} balls stated; {fits} balls would make it roll, or {:.3} times the marks per revolution that are stated",
+                ratio.value,
+                ratio.deviation,
+                1.0 / ratio.value
+            ),
+            Doubt::CageNeverRolls { ratio, .. } => format!(
+                "the cage settles at {:.4} ± {:.4} of rolling: it slips to the end, or radii, contact angle or marks per revolution are wrong",
+                ratio.value, ratio.deviation
+            ),
+            Doubt::TemperatureExplains {
+                rise,
+                expected,
+                difference,
+                ..
+            } => format!(
+                "the outer race warmed by {rise:.2} K, which changes the moment by {:.2} to {:.2} N mm and explains all of its {:.2} ± {:.2} N mm",
+                1e3 * expected.0,
+                1e3 * expected.1,
+                1e3 * difference.value,
+                1e3 * difference.deviation
+            ),
+            Doubt::NotSettled { change, over, .. } => format!(
+                "the torque still changes at the end of the hold: by {:.3} ± {:.3} N mm within {over:.2} s",
+                1e3 * change.value,
+                1e3 * change.deviation
+            ),
+            Doubt::TooShort { lasts, needed, .. } => format!(
+                "it holds its speed for {lasts:.3} s; {needed} s are needed to see whether the torque settles"
+            ),
+        }
+    }
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        match self.test() {
+            Some(test) => write!(out, "{test}: {}", self.finding()),
+            None => out.write_str(&self.finding()),
+        }
+    }
+}
