@@ -76,7 +76,7 @@ pub enum Doubt {
         test: String,
         /// Part of its time while turning, 1.
         part: f64,
-        /// Part of its time above the curve's speeds, beyond [`ABOVE`], 1.
+        /// Part of its time above the speeds of the curve by 3 % and more, 1.
         above: f64,
         /// Speeds of the curve, rad/s.
         range: (f64, f64),
