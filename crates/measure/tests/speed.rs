@@ -406,9 +406,9 @@ fn few_pulses_and_odd_numbers_are_refused_or_survived() {
                 missing: 0,
             },
         )
-        .unwrap()
     };
-    let refusal = smooth(&train(vec![0.0, 1.0, 2.0]), None, &SpeedSettings::default()).unwrap_err();
+    let three = train(vec![0.0, 1.0, 2.0]).unwrap();
+    let refusal = smooth(&three, None, &SpeedSettings::default()).unwrap_err();
     assert!(refusal.needed.contains("6 pulses"), "{refusal}");
     let mut random = Random::new(21);
     for k in 0..60 {
@@ -419,7 +419,9 @@ fn few_pulses_and_odd_numbers_are_refused_or_survived() {
                 time
             })
             .collect();
-        if let Ok(speed) = smooth(&train(times), None, &SpeedSettings::default()) {
+        // Some of these trains look like a rest within the record.
+        let Ok(odd) = train(times) else { continue };
+        if let Ok(speed) = smooth(&odd, None, &SpeedSettings::default()) {
             let motion = speed.at(0.5 * time);
             assert!(
                 motion.speed.is_finite() && motion.covariance[2][2].is_finite(),
@@ -431,7 +433,7 @@ fn few_pulses_and_odd_numbers_are_refused_or_survived() {
             ..Default::default()
         };
         let _ = smooth(
-            &train(vec![0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6]),
+            &train(vec![0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6]).unwrap(),
             None,
             &window,
         );
