@@ -3,7 +3,7 @@
 use physics::rolling::RollingSet;
 
 use super::prior::{Priors, Range};
-use super::record::Test;
+use super::record::{Step, Test};
 use super::slip::{Slip, load_moment_factor};
 use super::steady::{Continued, Table};
 use super::{Explanation, Settings};
@@ -19,6 +19,7 @@ pub(crate) enum Hypothesis {
     Drift { sign: f64 },
     Creep { sign: f64 },
     SlowSensor,
+    AnotherMoment,
 }
 
 /// What predictions need beside parameters.
@@ -109,6 +110,7 @@ impl Hypothesis {
                 Self::Creep { sign: 1.0 },
                 Self::SlowSensor,
             ],
+            Explanation::AnotherMoment => &[Self::AnotherMoment],
         }
     }
 
@@ -174,6 +176,18 @@ impl Hypothesis {
                 "s",
                 priors.settling_time,
             )],
+            Self::AnotherMoment => vec![
+                positive(
+                    "steady moment over that of the slow tests",
+                    "1",
+                    priors.moment_ratio,
+                ),
+                positive(
+                    "the same at half the speed over that at full speed",
+                    "1",
+                    priors.ratio_at_half_speed,
+                ),
+            ],
         }
     }
 
@@ -187,6 +201,7 @@ impl Hypothesis {
             Self::Drift { .. } => "drift of the sensor's zero",
             Self::Creep { .. } => "creep of the sensor",
             Self::SlowSensor => "sensor slower than stated",
+            Self::AnotherMoment => Explanation::AnotherMoment.name(),
         }
     }
 
@@ -335,8 +350,24 @@ impl Hypothesis {
                     });
                 (test.means(torque), rolls(), 0.0)
             }
+            Self::AnotherMoment => {
+                let factor = (test.steps.iter()).map(|step| ratio_at(values, step, bearing));
+                let torque = rolling_torque(test, bearing, 1.0)
+                    .zip(&test.steps)
+                    .zip(factor)
+                    .map(|((torque, step), factor)| torque + (factor - 1.0) * step.steady);
+                (test.means(torque), rolls(), 0.0)
+            }
         }
     }
+}
+
+/// Steady moment of the tests over that of the slow tests at the speed of a step, 1.
+///
+/// Formula: k(Ω) = k(Ω0) h^lg2(Ω0/Ω), h = k(Ω0/2)/k(Ω0), Ω not below 0.02 Ω0: a power of the speed, as laws of M differ by
+fn ratio_at(values: &[f64], step: &Step, bearing: &Bearing) -> f64 {
+    let share = step.middle_speed.abs() / bearing.table.top_speed;
+    values[0] * values[1].powf(-share.clamp(0.02, 1.0).log2())
 }
 
 /// Range of the viscous share, which the comparison has taken from the curve where none was given.
@@ -459,6 +490,28 @@ mod tests {
                 // the breakdown waits some ms for the cage to turn: 0.01 s/1.5 s of 30 %
                 assert!((factor - expected).abs() < 3e-3, "{middle}");
             }
+        });
+    }
+
+    #[test]
+    fn another_steady_moment_differs_by_a_power_of_the_speed() {
+        with_test(|bearing, test| {
+            // 1.2 at 150 rad/s and 10 % more at 75: 1.2·1.1^lg2(150/Ω) of a flat curve of 20 N mm
+            for step in &test.steps {
+                let speed = step.middle_speed;
+                let expected = 1.2 * 1.1_f64.powf((150.0 / speed.max(3.0)).log2());
+                assert!((ratio_at(&[1.2, 1.1], step, bearing) / expected - 1.0).abs() < 1e-12);
+            }
+            // held: its ratio at the highest speed, and no part of inertia
+            let coordinates = [1.2_f64, 1.1].map(f64::ln);
+            let scale = [2.0_f64, 1.25].map(|high| high.ln() / 1.644_853_627);
+            let z = [coordinates[0] / scale[0], coordinates[1] / scale[1]];
+            let tests = std::slice::from_ref(test);
+            let torque = Hypothesis::AnotherMoment.predict(&z, tests, bearing).torque;
+            let held = (test.bins.iter())
+                .position(|bin| bin.from > 1.0)
+                .expect("a hold");
+            assert!((torque[held] - 24e-3).abs() < 1e-9, "{}", torque[held]);
         });
     }
 

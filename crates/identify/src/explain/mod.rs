@@ -1,7 +1,7 @@
 //! Which explanation of a torque transient the data support, and which test would decide.
 //!
 //! After a quick spin-up t_O is low, reaches the steady curve M(Ω) after some tenths of a second and then falls below
-//! it within seconds. Five explanations are compared, over all tests of a bearing jointly:
+//! it within seconds. Six explanations are compared, over all tests of a bearing jointly:
 //!
 //! | explanation | what it predicts |
 //! |---|---|
@@ -10,6 +10,7 @@
 //! | isothermal slip | balls and cage follow a limited traction; the cage stays behind, the missing inertia shows |
 //! | slip with heating | the same, traction and drag falling with the film's temperature |
 //! | sensor artefact | rolling, read with a drifting zero (it stays at rest), with creep, or too slowly |
+//! | another steady moment | rolling, with k (Ω/Ω0)^-e M(Ω): the slow tests had another bearing, load, temperature or scale |
 //!
 //! ```text
 //!   p(y | E) = ∫ p(y | z, a) p(z | E) p(a) dz da      p(E | y) ∝ odds(E) p(y | E)
@@ -330,8 +331,9 @@ fn usable(test: &Measurement) -> bool {
 }
 
 /// The explanations by the work that their predictions are.
-const QUICK_FIRST: [Explanation; 5] = [
+const QUICK_FIRST: [Explanation; 6] = [
     Explanation::Rolling,
+    Explanation::AnotherMoment,
     Explanation::Sensor,
     Explanation::Grease,
     Explanation::IsothermalSlip,
@@ -494,6 +496,8 @@ fn fit(
         fit.chi_squared += share * all;
         fit.probability += share * squares_above(all, count);
     }
+    // shares sum to 1 but for rounding
+    fit.probability = fit.probability.min(1.0);
     fit
 }
 

@@ -90,7 +90,8 @@ impl Proposal {
         match self {
             Self::CoastDownAtOnce => {
                 "Worked grease lowers the viscous part at every speed, a drifted zero all speeds by the same torque, \
-                 creep all by the same factor; slip ends where M falls below the traction limit."
+                 creep and another steady moment all by the same factor, creep not at first; slip ends where M falls below \
+                 the traction limit."
             }
             Self::RepeatAfterSeconds => {
                 "Worked grease starts low and shows no build-up; a sensor that has drifted does not drift again; slip, \

@@ -47,7 +47,7 @@ fn place(low: f64, high: f64, z: f64) -> f64 {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Priors {
     /// Prior weight of each explanation in the order of [`Explanation::ALL`]; only ratios matter. 0 rules one out.
-    pub odds: [f64; 5],
+    pub odds: [f64; 6],
     /// Share of M that depends on speed (M0/M) at the highest speed; none: from the curve itself, see
     /// [`Priors::share_of`].
     pub viscous_share: Option<Range>,
@@ -83,13 +83,17 @@ pub struct Priors {
     pub sensor_time: Range,
     /// Sensor: time constant by which it settles more slowly than stated, s.
     pub settling_time: Range,
+    /// Another steady moment: that of the tests over that of the slow tests, at the highest speed.
+    pub moment_ratio: Range,
+    /// Another steady moment: that ratio at half the highest speed over the ratio at the highest.
+    pub ratio_at_half_speed: Range,
 }
 
 impl Default for Priors {
     fn default() -> Self {
         let turn = std::f64::consts::TAU;
         Self {
-            odds: [1.0; 5],
+            odds: [1.0; 6],
             viscous_share: None,
             fresh_drag: Range::new(0.2, 0.95),
             worked_drag: Range::new(0.5, 0.95),
@@ -107,6 +111,8 @@ impl Default for Priors {
             creep: Range::new(0.08, 0.5),
             sensor_time: Range::new(0.3, 5.0),
             settling_time: Range::new(0.05, 1.0),
+            moment_ratio: Range::new(0.5, 2.0),
+            ratio_at_half_speed: Range::new(0.8, 1.25),
         }
     }
 }
@@ -144,6 +150,8 @@ impl Priors {
             ("creep", self.creep),
             ("sensor_time", self.sensor_time),
             ("settling_time", self.settling_time),
+            ("moment_ratio", self.moment_ratio),
+            ("ratio_at_half_speed", self.ratio_at_half_speed),
         ]
         .into_iter()
         .find_map(|(name, range)| (!range.is_positive()).then_some(name))

@@ -14,16 +14,19 @@ pub enum Explanation {
     HeatedSlip,
     /// Balls roll; the reading drifts, creeps, or settles more slowly than stated.
     Sensor,
+    /// Balls roll; the steady moment of the slow tests is not that of these tests.
+    AnotherMoment,
 }
 
 impl Explanation {
     /// All explanations, in the order of the prior odds.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Rolling,
         Self::Grease,
         Self::IsothermalSlip,
         Self::HeatedSlip,
         Self::Sensor,
+        Self::AnotherMoment,
     ];
 
     /// Name in words.
@@ -34,6 +37,7 @@ impl Explanation {
             Self::IsothermalSlip => "isothermal slip",
             Self::HeatedSlip => "slip with heating",
             Self::Sensor => "sensor artefact",
+            Self::AnotherMoment => "another steady moment",
         }
     }
 }
@@ -82,7 +86,7 @@ pub struct Assessment {
     pub explanation: Explanation,
     /// Its prior probability.
     pub prior_probability: f64,
-    /// Its posterior probability among the five.
+    /// Its posterior probability among them all.
     pub probability: f64,
     /// ln of its marginal likelihood; of densities of N m and rad/s, so only differences matter.
     pub log_evidence: f64,

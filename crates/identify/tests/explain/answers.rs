@@ -5,7 +5,7 @@ use identify::explain::{
 };
 
 use crate::bearing::{Bearing, Lubricant, MOMENT};
-use crate::lab::{Campaign, Chance, Fault, TOP, Truth, course};
+use crate::lab::{Campaign, Chance, Fault, Slow, TOP, Truth, course};
 use crate::{campaign, judge};
 
 /// A bearing that rolls, or slips where its traction limit is low.
@@ -90,6 +90,7 @@ fn one_short_test_leaves_doubt_and_the_next_test_is_named() {
     let truth = Truth {
         bearing: bearing(5.0),
         fault: Fault::Creep(-0.25, 1.5),
+        slow: Slow::same(&bearing(5.0)),
     };
     let campaign = cut(truth.campaign(&mut chance));
     let verdict = judge(&campaign);
@@ -193,7 +194,7 @@ fn what_cannot_be_used_is_refused() {
         Err(Refusal::BadPrior("drift"))
     );
     assert_eq!(
-        ask(&|_, p, _| p.odds = [0.0; 5]),
+        ask(&|_, p, _| p.odds = [0.0; 6]),
         Err(Refusal::BadPrior("odds"))
     );
     assert_eq!(

@@ -42,11 +42,29 @@ pub enum Fault {
     Slow(f64),
 }
 
-/// A truth: a bearing and a sensor.
+/// A truth: a bearing and a sensor, and which bearing the slow tests were made with.
 #[derive(Clone, Copy, Debug)]
 pub struct Truth {
     pub bearing: Bearing,
     pub fault: Fault,
+    pub slow: Slow,
+}
+
+/// The steady moment of the slow tests over that of the bearing at 150 rad/s, and its part without speed dependence.
+#[derive(Clone, Copy, Debug)]
+pub struct Slow {
+    pub level: f64,
+    pub load_share: f64,
+}
+
+impl Slow {
+    /// Slow tests with the same bearing.
+    pub fn same(bearing: &Bearing) -> Self {
+        Self {
+            level: 1.0,
+            load_share: bearing.load_share,
+        }
+    }
 }
 
 /// Tests of one truth with the curve of its coast-down.
@@ -102,6 +120,7 @@ impl Truth {
             orbit_share: chance.between(0.35, 0.65),
         };
         let mut fault = Fault::None;
+        let mut slow = Slow::same(&bearing);
         let effect = chance.between(0.15, 0.4);
         let turn = std::f64::consts::TAU;
         match explanation {
@@ -133,8 +152,19 @@ impl Truth {
                     _ => Fault::Slow(chance.between(0.1, 0.5)),
                 };
             }
+            Explanation::AnotherMoment => {
+                let sign = if chance.uniform() < 0.5 { -1.0 } else { 1.0 };
+                slow = Slow {
+                    level: 1.0 / (1.0 + sign * effect),
+                    load_share: chance.between(0.05, 0.2),
+                };
+            }
         }
-        Self { bearing, fault }
+        Self {
+            bearing,
+            fault,
+            slow,
+        }
     }
 
     /// The three tests of the paper.
@@ -161,7 +191,13 @@ impl Truth {
         let speed: Vec<f64> = (0..16).map(|i| 3.0 + 9.8 * f64::from(i)).collect();
         let (level, tilt) = (0.007 * chance.normal(), 0.005 * chance.normal());
         let tilted = |speed: f64| 1.0 - 2.0 * speed / TOP;
-        let exact: Vec<f64> = speed.iter().map(|w| self.bearing.steady(*w)).collect();
+        let slow = Bearing {
+            load_share: self.slow.load_share,
+            ..self.bearing
+        };
+        let exact: Vec<f64> = (speed.iter())
+            .map(|w| self.slow.level * slow.steady(*w))
+            .collect();
         let moment = (exact.iter().zip(&speed))
             .map(|(m, w)| m * (1.0 + level + tilt * tilted(*w)) + 5e-5 * chance.normal())
             .collect();

@@ -70,7 +70,7 @@ pub fn runs() -> u64 {
 
 #[test]
 fn right_as_often_as_promised() {
-    let mut counts = [[Count::default(); 2]; 5];
+    let mut counts = [[Count::default(); 2]; Explanation::ALL.len()];
     for seed in 0..runs() {
         for truth in Explanation::ALL {
             let mut campaign = campaign(truth, seed);

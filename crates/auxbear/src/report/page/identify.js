@@ -5,7 +5,7 @@ function isIdentify(run) {
   return run.summary.system === "identify";
 }
 
-const EXPLANATIONS = ["rolling", "rolling with a grease state", "isothermal slip", "slip with heating", "sensor artefact"];
+const EXPLANATIONS = ["rolling", "rolling with a grease state", "isothermal slip", "slip with heating", "sensor artefact", "another steady moment"];
 
 // A probability; what is hardly possible is not told to its last digit.
 function chanceText(probability) {

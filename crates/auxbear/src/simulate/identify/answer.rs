@@ -77,9 +77,13 @@ fn verdict(list: &mut List, found: &Found) {
         });
         let values: Vec<String> = values.map(|text| text.trim_end().to_string()).collect();
         let name = best.explanation.name();
-        match best.form == name {
-            true => format!("{name}: {}", values.join("; ")),
-            false => format!("{name} ({}): {}", best.form, values.join("; ")),
+        let form = match best.form == name {
+            true => name.to_string(),
+            false => format!("{name} ({})", best.form),
+        };
+        match values.is_empty() {
+            true => form,
+            false => format!("{form}: {}", values.join("; ")),
         }
     });
     list.push("explanation_parameters", "", text_or(parameters), &VERDICT);
@@ -283,7 +287,7 @@ fn rotor(list: &mut List, found: &Found) {
 }
 
 const VERDICT: Origin = Origin {
-    law: "posterior probability among five explanations, by marginal likelihood with a correlated discrepancy; decided from identify.explanations.decide_at on",
+    law: "posterior probability among six explanations, by marginal likelihood with a correlated discrepancy; decided from identify.explanations.decide_at on",
     source: "crates/identify/src/explain/mod.rs",
     valid: "the explanations listed, one at a time, with the priors of crates/identify/src/explain/prior.rs",
 };
