@@ -3,7 +3,7 @@
 #[path = "synthetic/rig.rs"]
 mod synthetic;
 
-use measure::cage_speed::{CageSpeed, Line, from_pulses, from_vibration};
+use measure::cage_speed::{CageSpeed, Line, QuickChange, from_pulses, from_vibration};
 use measure::shaft::Shaft;
 use std::f64::consts::TAU;
 use synthetic::{Random, SpinUp, median};
@@ -243,7 +243,17 @@ fn two_deviations_cover_a_cage_that_lags() {
                 passings.push(k as f64 * h + 30e-6 * random.normal());
             }
         }
-        let found = from_pulses(&passings, &shaft, BALLS, RATIO, Some(0.1)).expect("found");
+        let found = from_pulses(
+            &passings,
+            &shaft,
+            BALLS,
+            RATIO,
+            Some(QuickChange {
+                engagement: 0.1,
+                lock: None,
+            }),
+        )
+        .expect("found");
         assert!(
             !found.notes.iter().any(|n| n.contains("missing")),
             "{:?}",
@@ -397,7 +407,17 @@ fn a_rolling_cage_is_told_through_a_quick_spin_up() {
                 next += 1.0;
             }
         }
-        let found = from_pulses(&passed, &shaft, BALLS, RATIO, Some(begin)).unwrap();
+        let found = from_pulses(
+            &passed,
+            &shaft,
+            BALLS,
+            RATIO,
+            Some(QuickChange {
+                engagement: begin,
+                lock: None,
+            }),
+        )
+        .unwrap();
         let rises = found
             .time
             .iter()

@@ -3,7 +3,7 @@
 #[path = "synthetic/rig.rs"]
 mod synthetic;
 
-use measure::cage_speed::{Line, from_pulses, from_vibration};
+use measure::cage_speed::{Line, QuickChange, from_pulses, from_vibration};
 use measure::converter::{Converter, aligned, faults};
 use measure::order::orders;
 use measure::shaft::Shaft;
@@ -268,7 +268,19 @@ fn nonsense_is_survived() {
         answers += faults(&a, (x > 0.0).then_some(&converter)).len();
         answers += usize::from(direct(&a, &b, &c).is_ok());
         answers += usize::from(inertial(x, y, &a, Uncertain::new(z, 0.0), &b).is_ok());
-        answers += usize::from(from_pulses(&a, &shaft, length, x, Some(y)).is_ok());
+        answers += usize::from(
+            from_pulses(
+                &a,
+                &shaft,
+                length,
+                x,
+                Some(QuickChange {
+                    engagement: y,
+                    lock: Some(x),
+                }),
+            )
+            .is_ok(),
+        );
         let line = Line {
             ratio: x,
             order: number(r),

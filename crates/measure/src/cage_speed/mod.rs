@@ -20,6 +20,15 @@ mod ridge;
 pub use pulses::from_pulses;
 pub use ridge::{Line, from_vibration};
 
+/// A quick change of the shaft's speed, in which the cage may slip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct QuickChange {
+    /// Time of its begin, s.
+    pub engagement: f64,
+    /// Time at which the shaft's acceleration ends at once, s; none where it does not, or is not known.
+    pub lock: Option<f64>,
+}
+
 /// Speed of a cage over time. All lists have the same length.
 #[derive(Clone, Debug, Default)]
 pub struct CageSpeed {
@@ -29,6 +38,8 @@ pub struct CageSpeed {
     pub speed: Vec<f64>,
     /// Standard deviation of that speed, rad/s.
     pub deviation: Vec<f64>,
+    /// Time after which two errors of that speed count as independent, s.
+    pub correlation_time: Vec<f64>,
     /// Slip, 1: 0 where the cage rolls, 1 where it rests.
     pub slip: Vec<f64>,
     /// Standard deviation of the slip, 1.

@@ -20,6 +20,8 @@ pub(super) struct Deviations<'a> {
     pub(super) removed: &'a [f64],
     /// Time of an engagement after which slip may change fast, s.
     pub(super) engagement: Option<f64>,
+    /// Time at which the shaft's acceleration ends at once, s: the deviation's rate changes by as much where the cage slips.
+    pub(super) lock: Option<f64>,
     /// Whether shaft and cage rest at the first time.
     pub(super) from_rest: bool,
 }
@@ -32,6 +34,15 @@ struct Filled {
     weight: Vec<f64>,
     from_rest: bool,
 }
+
+/// Time before a lock over which the acceleration that ends there is taken, s.
+const BEFORE_LOCK: f64 = 4e-3;
+
+/// Correlation time of what is not seen before the first ball, over the time until it passes: one error, not several.
+const ONE_ERROR: f64 = 10.0;
+
+/// Correlation of a smooth random curve is gone after so many times the ratio of its deviation to that of its rate.
+const INDEPENDENT: f64 = 2.0;
 
 /// After an engagement the cage's speed is told at such intervals, s, for such a time, s: few balls pass while it rises.
 const CLOSE: f64 = 2e-3;
@@ -74,15 +85,16 @@ impl Deviations<'_> {
                 .sum::<f64>()
             / self.time.len() as f64;
         let guess = self.guess(rolling);
+        let kink = self.kink(shaft, ratio);
         let cost = |hyper: &Hyper| {
             let widths = [3.0, 2.0, 2.5, 5.0, 0.7];
             let prior: f64 = (0..5)
                 .map(|i| 0.5 * ((hyper[i] - guess[i]) / widths[i]).powi(2))
                 .sum();
-            prior - self.filtered(hyper, false).log_likelihood()
+            prior - self.filtered(hyper, kink, false).log_likelihood()
         };
         let (hyper, lowest) = simplex::lowest(guess, [1.0, 1.0, 1.5, 1.5, 0.4], 0.02, 240, cost);
-        let filter = self.filtered(&hyper, true);
+        let filter = self.filtered(&hyper, kink, true);
         let wide = colour(filter.innovations());
         let filled = self.filled(shaft);
         let dense = Deviations {
@@ -92,7 +104,7 @@ impl Deviations<'_> {
             from_rest: filled.from_rest,
             ..*self
         };
-        let states = dense.filtered(&hyper, true).smoothed();
+        let states = dense.filtered(&hyper, kink, true).smoothed();
         let mut variance: Vec<f64> = states.iter().map(|s| s.variance[1] * wide).collect();
         for axis in 0..if self.engagement.is_some() { 5 } else { 3 } {
             let moved = |by: f64| {
@@ -103,7 +115,7 @@ impl Deviations<'_> {
             let curvature = (cost(&moved(0.5)) + cost(&moved(-0.5)) - 2.0 * lowest) / 0.25;
             let deviation = (1.0 / curvature.max(0.25)).sqrt();
             for by in [deviation, -deviation] {
-                let other = dense.filtered(&moved(by), true).smoothed();
+                let other = dense.filtered(&moved(by), kink, true).smoothed();
                 for ((v, a), b) in variance.iter_mut().zip(&states).zip(&other) {
                     *v += 0.5 * ((b.mean[1] - a.mean[1]).powi(2) + b.variance[1] - a.variance[1]);
                 }
@@ -150,6 +162,11 @@ impl Deviations<'_> {
             // Before the first ball has passed the cage may be anywhere between rest and rolling.
             let unseen = self.time.first().is_some_and(|first| time < *first);
             let own = own.hypot(if unseen { rolling / 12f64.sqrt() } else { 0.0 });
+            let rate = (state.variance[2] * wide).max(0.0).sqrt();
+            result.correlation_time.push(match self.time.first() {
+                Some(first) if unseen => ONE_ERROR * (first - dense.time[0]),
+                _ => INDEPENDENT * own / rate.max(f64::MIN_POSITIVE),
+            });
             // The deviation is relative to the shaft's angle, which is known better than its speed: what the shaft's speed has
             // wrong for longer than a passing is not in the deviation's rate.
             let deviation = own.hypot(shaft_part);
@@ -251,7 +268,19 @@ impl Deviations<'_> {
         }
     }
 
-    fn filtered(&self, hyper: &Hyper, keep: bool) -> Filter<3> {
+    /// The instant of the lock and the variance of the change of the deviation's rate there.
+    ///
+    /// Formula: δ̈ = ω̇_c - ratio·Ω̇ is 0 where the cage rolls; where it slips ω̇_c does not follow, and δ̈ jumps by ratio·Ω̇
+    fn kink(&self, shaft: &Shaft, ratio: f64) -> Option<(f64, f64)> {
+        let lock = self.lock.filter(|lock| shaft.covers(*lock))?;
+        let before = lock - BEFORE_LOCK;
+        let acceleration = (shaft.speed_at(lock) - shaft.speed_at(before)) / BEFORE_LOCK;
+        shaft
+            .covers(before)
+            .then_some((lock, (ratio * acceleration).powi(2)))
+    }
+
+    fn filtered(&self, hyper: &Hyper, kink: Option<(f64, f64)>, keep: bool) -> Filter<3> {
         let [noise, wander, slow, fast, calming] = hyper.map(|v| v.clamp(-80.0, 60.0).exp());
         let first = self
             .deviation
@@ -284,30 +313,14 @@ impl Deviations<'_> {
                     } else {
                         0.0
                     };
-                let powers = [
-                    q * dt,
-                    q * dt * dt / 2.0,
-                    q * dt.powi(3) / 3.0,
-                    q * dt.powi(4) / 8.0,
-                    q * dt.powi(5) / 20.0,
-                ];
-                let gathered = [
-                    [
-                        powers[4] + wander * dt.powi(3) / 3.0,
-                        powers[3] + wander * dt * dt / 2.0,
-                        0.5 * powers[2],
-                    ],
-                    [
-                        powers[3] + wander * dt * dt / 2.0,
-                        powers[2] + wander * dt,
-                        powers[1],
-                    ],
-                    [0.5 * powers[2], powers[1], powers[0]],
-                ];
-                filter.predict(
-                    &[[1.0, dt, 0.5 * dt * dt], [0.0, 1.0, dt], [0.0, 0.0, 1.0]],
-                    &gathered,
-                );
+                match kink.filter(|(lock, _)| *lock > self.time[k - 1] && *lock <= time) {
+                    Some((lock, variance)) => {
+                        let before = lock - self.time[k - 1];
+                        advance(&mut filter, before, q, wander, variance);
+                        advance(&mut filter, dt - before, q, wander, 0.0);
+                    }
+                    None => advance(&mut filter, dt, q, wander, 0.0),
+                }
             }
             let expected = filter.now()[0];
             let seen = Observation {
@@ -319,4 +332,36 @@ impl Deviations<'_> {
         }
         filter
     }
+}
+
+/// Angle, speed and rate after a time.
+///
+/// - `dt`: the time, s
+/// - `q`, `wander`: intensities of the wander of the rate and of the speed
+/// - `jump`: variance of a change of the rate at the end
+fn advance(filter: &mut Filter<3>, dt: f64, q: f64, wander: f64, jump: f64) {
+    let powers = [
+        q * dt,
+        q * dt * dt / 2.0,
+        q * dt.powi(3) / 3.0,
+        q * dt.powi(4) / 8.0,
+        q * dt.powi(5) / 20.0,
+    ];
+    let gathered = [
+        [
+            powers[4] + wander * dt.powi(3) / 3.0,
+            powers[3] + wander * dt * dt / 2.0,
+            0.5 * powers[2],
+        ],
+        [
+            powers[3] + wander * dt * dt / 2.0,
+            powers[2] + wander * dt,
+            powers[1],
+        ],
+        [0.5 * powers[2], powers[1], powers[0] + jump],
+    ];
+    filter.predict(
+        &[[1.0, dt, 0.5 * dt * dt], [0.0, 1.0, dt], [0.0, 0.0, 1.0]],
+        &gathered,
+    );
 }

@@ -1,7 +1,7 @@
 //! Cage speed from the times at which balls pass a sensor.
 
-use super::CageSpeed;
 use super::phase::Deviations;
+use super::{CageSpeed, QuickChange};
 use crate::shaft::Shaft;
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ const LAG: f64 = 0.15;
 /// Speed of a cage from the times at which its balls pass a sensor at rest.
 ///
 /// `passings` in s, in order; `balls` the number of balls; `ratio` the speed of a rolling cage over that of the shaft, 1;
-/// `engagement` the time after which slip may change fast, s. Missing and double passings are found and told (missing ones not
+/// `change` a quick change of the shaft's speed, after whose begin slip may change fast. Missing and double passings are found and told (missing ones not
 /// within 0.15 s after the engagement, where the cage may lag); errors of the ball
 /// spacing that repeat with the cage are taken out where the record is long enough. The list holds one value a passing, and for
 /// half a second after an engagement values every 2 ms between them: the cage rises there while hardly a ball passes.
@@ -20,9 +20,10 @@ pub fn from_pulses(
     shaft: &Shaft,
     balls: usize,
     ratio: f64,
-    engagement: Option<f64>,
+    change: Option<QuickChange>,
 ) -> Result<CageSpeed, String> {
     shaft.check()?;
+    let engagement = change.map(|change| change.engagement);
     if balls == 0 || balls > 10_000 {
         return Err(format!("{balls} balls are not a bearing"));
     }
@@ -77,6 +78,7 @@ pub fn from_pulses(
         wrap: f64::INFINITY,
         removed: &[],
         engagement,
+        lock: change.and_then(|change| change.lock),
         from_rest: false,
     };
     data.smoothed(shaft, ratio, notes)

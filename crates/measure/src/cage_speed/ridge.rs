@@ -142,6 +142,7 @@ pub fn from_vibration(
         wrap: TAU / line.order,
         removed: &removed,
         engagement: line.engagement,
+        lock: None,
         from_rest: false,
     };
     data.smoothed(shaft, line.ratio, notes)

@@ -2,7 +2,7 @@
 
 use super::{Signal, shaft};
 use crate::scenario::{CageKind, CageSignal};
-use measure::cage_speed::{CageSpeed, Line, from_pulses, from_vibration};
+use measure::cage_speed::{CageSpeed, Line, QuickChange, from_pulses, from_vibration};
 use measure::order::orders;
 use measure::pulse::{EdgeSettings, edges};
 use measure::uncertain::Uncertain;
@@ -36,6 +36,10 @@ impl Found {
         shaft: &shaft::Found,
     ) -> Result<Found, String> {
         let engagement = shaft.speed.change.map(|change| change.engagement.0);
+        let change = shaft.speed.change.map(|change| QuickChange {
+            engagement: change.engagement.0,
+            lock: change.end.map(|end| end.0),
+        });
         let turning = shaft.shaft();
         let (balls, ratio) = (wish.ball_count, wish.rolling_ratio);
         let mut notes = Vec::new();
@@ -47,7 +51,7 @@ impl Found {
                         stamps.missing
                     ));
                 }
-                from_pulses(&stamps.times, &turning, balls, ratio, engagement)
+                from_pulses(&stamps.times, &turning, balls, ratio, change)
             }
             (Signal::Sampled(series), CageKind::Vibration { highest_slip }) => {
                 let (first, interval) = (series.first, series.interval);
@@ -89,7 +93,7 @@ impl Found {
                 )
                 .map_err(|refusal| refusal.to_string())?;
                 notes.extend(found.notes.iter().cloned());
-                from_pulses(&found.times, &turning, balls, ratio, engagement)
+                from_pulses(&found.times, &turning, balls, ratio, change)
             }
         }?;
         notes.extend(cage.notes.iter().cloned());
