@@ -23,7 +23,7 @@
 //! small by more than two deviations in 38 % of them: the cages lagged by 5 to 35 ms.
 
 use crate::measurement::{Measurement, SetDeviation};
-use crate::series::{RunningVariance, between, trapezoid};
+use crate::series::{RunningVariance, between, interpolate, trapezoid};
 use measure::normal::below;
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
@@ -282,7 +282,10 @@ fn with_cage(
             test.name, window.0, window.1
         )
     };
-    let mut times: Vec<(f64, f64, f64, f64)> = Vec::new();
+    let age = cage.age();
+    let mut times: Vec<(f64, f64)> = Vec::new();
+    // deviation and age of the cage's error at each time
+    let mut errors: Vec<(f64, f64)> = Vec::new();
     for (k, &time) in part.time.iter().enumerate() {
         let (own, deviation) = match (
             between(&cage.time, &cage.speed, time),
@@ -295,7 +298,8 @@ fn with_cage(
             }
             _ => return Err(missing()),
         };
-        times.push((part.speed[k], own, deviation, time));
+        times.push((part.speed[k], own));
+        errors.push((deviation, interpolate(&cage.time, &age, time)));
     }
     // sum over one bound of the ball spin: grips outside (true) or inside
     let sums = |outside: bool| {
@@ -324,16 +328,20 @@ fn with_cage(
     let exact = |of: (f64, f64)| spin_up_loss(work.value, 0.0, of.0, of.1);
     let value = 0.5 * (exact(outside) + exact(inside));
     let last = times[times.len() - 1];
-    // ∫Ω dL = [ΩL] - ∫L dΩ: an error of the last cage speed, and those on the way, independent from one signal time to the next
-    let count = cage
-        .time
-        .iter()
-        .filter(|t| **t >= window.0 && **t <= window.1)
-        .count()
-        .max(1) as f64;
-    let way = orbit
-        * last.0
-        * (times.iter().map(|t| t.2 * t.2).sum::<f64>() / times.len() as f64 / count).sqrt();
+    // ∫Ω dL = [ΩL] - ∫L dΩ and ΔKE = orbit ω_c dω_c at the end: sums over one error of the cage that fades with time
+    let by_cage = |at_end: f64| {
+        let mut error = RunningVariance::default();
+        let mut variance = 0.0;
+        for (k, (deviation, age)) in errors.iter().enumerate() {
+            let (before, after) = (k.saturating_sub(1), (k + 1).min(times.len() - 1));
+            let mut share = -0.5 * (times[after].0 - times[before].0);
+            if k + 1 == times.len() {
+                share += at_end;
+            }
+            variance = error.add(*age, orbit * share * deviation);
+        }
+        variance.max(0.0).sqrt()
+    };
     let masses = {
         let total = set.balls_mass + set.cage_mass;
         let inertial = value - work.value;
@@ -341,13 +349,10 @@ fn with_cage(
             .hypot(set_deviation.cage_mass * set.cage_mass / total * inertial)
             .hypot(2.0 * set_deviation.inner_track_radius * inertial)
     };
-    let path_deviation = (orbit * last.0 * last.2)
-        .hypot(way)
-        .hypot(0.5 * (outside.0 - inside.0));
+    let path_deviation = by_cage(last.0).hypot(0.5 * (outside.0 - inside.0));
     let deviation = work
         .deviation
-        .hypot(orbit * (last.0 - last.1) * last.2)
-        .hypot(way)
+        .hypot(by_cage(last.0 - last.1))
         .hypot(0.5 * (exact(outside) - exact(inside)))
         .hypot(masses);
     let masses_of_path = if value == work.value {

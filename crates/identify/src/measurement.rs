@@ -1,5 +1,6 @@
 //! One test, as its signals tell it.
 
+use crate::series::ages;
 use physics::rolling::RollingSet;
 
 /// Speed, acceleration and torque of one test on a common grid of times. All values are SI.
@@ -36,6 +37,8 @@ pub struct Measurement {
     pub engagement: Option<f64>,
     /// Standard deviation of that time, s.
     pub engagement_deviation: f64,
+    /// Time at rest since a test before that ran the bearing as this one does, s; none where it had rested for long.
+    pub rest_before: Option<f64>,
     /// Speed of the cage, where it was measured.
     pub cage: Option<CageTrace>,
     /// Temperature of the outer race over `time`, K above the start; where it was measured.
@@ -44,8 +47,6 @@ pub struct Measurement {
 
 /// Part of the largest speed within which the shaft counts as at speed.
 const AT_SPEED: f64 = 0.01;
-/// Correlation time of errors that have none, s.
-const LEAST_CORRELATION: f64 = 1e-9;
 
 /// Speed of the cage over times of its own.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,6 +57,39 @@ pub struct CageTrace {
     pub speed: Vec<f64>,
     /// Its standard deviation, rad/s.
     pub deviation: Vec<f64>,
+    /// Time after which two of its errors count as independent at each time, s.
+    pub correlation_time: Vec<f64>,
+}
+
+impl CageTrace {
+    /// Values with errors of their own: between two of them, on a straight line, errors are alike.
+    ///
+    /// - `time`: s; rising
+    /// - `speed`, `deviation`: rad/s, of the same length
+    pub fn independent(time: Vec<f64>, speed: Vec<f64>, deviation: Vec<f64>) -> Self {
+        let correlation_time = spacing(&time);
+        Self {
+            time,
+            speed,
+            deviation,
+            correlation_time,
+        }
+    }
+
+    /// Age of its errors in correlation times.
+    pub(crate) fn age(&self) -> Vec<f64> {
+        ages(&self.time, &self.correlation_time)
+    }
+}
+
+/// Distance of each time to its neighbours, the mean of both sides; 0 of a single one.
+pub(crate) fn spacing(time: &[f64]) -> Vec<f64> {
+    (0..time.len())
+        .map(|k| {
+            let (before, after) = (k.saturating_sub(1), (k + 1).min(time.len() - 1));
+            (time[after] - time[before]) / (after - before).max(1) as f64
+        })
+        .collect()
 }
 
 /// Relative standard deviations of what a rolling set is made of: what is not known of the inertia of balls and cage.
@@ -158,6 +192,9 @@ impl Measurement {
             listed(name, "deviations of cage speed", &cage.deviation, count)?;
             rising(name, "times of the cage", &cage.time)?;
             not_negative(name, "cage speed", &cage.deviation)?;
+            let correlation = &cage.correlation_time;
+            listed(name, "correlation times of the cage", correlation, count)?;
+            not_negative(name, "cage's correlation time", correlation)?;
         }
         Ok(())
     }
@@ -207,12 +244,14 @@ impl Measurement {
             correlation_time: part(&self.correlation_time),
             engagement: self.engagement,
             engagement_deviation: self.engagement_deviation,
+            rest_before: self.rest_before,
             cage: self.cage.as_ref().map(|cage| {
                 let range = cut(&cage.time);
                 CageTrace {
                     time: cage.time[range.clone()].to_vec(),
                     speed: cage.speed[range.clone()].to_vec(),
-                    deviation: cage.deviation[range].to_vec(),
+                    deviation: cage.deviation[range.clone()].to_vec(),
+                    correlation_time: cage.correlation_time[range].to_vec(),
                 }
             }),
             temperature: self.temperature.as_deref().map(part),
@@ -224,18 +263,7 @@ impl Measurement {
     ///
     /// Formula: ∫dt/τ
     pub(crate) fn noise_age(&self) -> Vec<f64> {
-        let mut age = 0.0;
-        let mut before: Option<(f64, f64)> = None;
-        (self.time.iter().zip(&self.correlation_time))
-            .map(|(time, correlation)| {
-                let rate = 1.0 / correlation.max(LEAST_CORRELATION);
-                if let Some((last, last_rate)) = before {
-                    age += 0.5 * (rate + last_rate) * (time - last);
-                }
-                before = Some((*time, rate));
-                age
-            })
-            .collect()
+        ages(&self.time, &self.correlation_time)
     }
 
     /// The correlation time at a time, s; at the nearest one that was measured.

@@ -17,6 +17,19 @@ pub(crate) fn between(list: &[f64], values: &[f64], at: f64) -> Option<f64> {
     Some(values[next - 1] + weight * (values[next] - values[next - 1]))
 }
 
+/// Linear interpolation, constant beyond the ends.
+pub(crate) fn interpolate(time: &[f64], values: &[f64], t: f64) -> f64 {
+    let above = time.partition_point(|knot| *knot <= t);
+    if above == 0 {
+        return values[0];
+    }
+    if above == time.len() {
+        return values[above - 1];
+    }
+    let share = (t - time[above - 1]) / (time[above] - time[above - 1]);
+    values[above - 1] + share * (values[above] - values[above - 1])
+}
+
 /// Weights of the trapezoidal rule, s.
 pub(crate) fn trapezoid(time: &[f64]) -> Vec<f64> {
     let mut weights = vec![0.0; time.len()];
@@ -34,6 +47,27 @@ pub(crate) fn trapezoid(time: &[f64]) -> Vec<f64> {
 /// count as independent" means here.
 pub(crate) fn alike(apart: f64) -> f64 {
     (-2.0 * apart.abs()).exp()
+}
+
+/// Shortest correlation time, s: errors that have none.
+const LEAST_CORRELATION: f64 = 1e-9;
+
+/// Age of noise in correlation times since the first time: what two times are apart, their errors are alike by [`alike`].
+///
+/// Formula: ∫dt/τ
+pub(crate) fn ages(time: &[f64], correlation_time: &[f64]) -> Vec<f64> {
+    let mut age = 0.0;
+    let mut before: Option<(f64, f64)> = None;
+    (time.iter().zip(correlation_time))
+        .map(|(time, correlation)| {
+            let rate = 1.0 / correlation.max(LEAST_CORRELATION);
+            if let Some((last, last_rate)) = before {
+                age += 0.5 * (rate + last_rate) * (time - last);
+            }
+            before = Some((*time, rate));
+            age
+        })
+        .collect()
 }
 
 /// Variance of the running sum Σ a_k e_k, errors e of deviation 1 and correlation [`alike`].

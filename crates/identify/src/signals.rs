@@ -13,7 +13,7 @@
 //! **Does not model**: a shaft that turns on by less than a mark behind its last pulse, other than by its deviation; a zero that
 //! wanders between the test and the rest behind it.
 
-use crate::measurement::{CageTrace, Measurement};
+use crate::measurement::{CageTrace, Measurement, spacing};
 use measure::cage_speed::CageSpeed;
 use measure::speed::{Motion, Speed};
 use measure::torque_sensor::Torque;
@@ -40,6 +40,8 @@ pub struct Signals<'a> {
     pub cage: Option<&'a CageSpeed>,
     /// Time within which the torque arm settles after a sudden change, s.
     pub settling_time: f64,
+    /// Time at rest since the test before, s; none after a long rest.
+    pub rest_before: Option<f64>,
 }
 
 /// Most times of a measurement: beyond, neighbours tell nothing new.
@@ -109,6 +111,7 @@ pub fn measurement(signals: &Signals) -> Measurement {
         correlation_time: thinned(&correlation_time(torque)),
         engagement: signals.speed.change.map(|change| change.engagement.0),
         engagement_deviation: change.map_or(0.0, |change| change.engagement.1),
+        rest_before: signals.rest_before,
         cage: (signals.cage).map(|found| cage(found, change.map(|change| change.engagement.0))),
         temperature: None,
         time,
@@ -200,6 +203,9 @@ fn cage(found: &CageSpeed, engagement: Option<f64>) -> CageTrace {
         time: found.time.clone(),
         speed: found.speed.clone(),
         deviation: found.deviation.clone(),
+        correlation_time: (found.correlation_time.iter().zip(spacing(&found.time)))
+            .map(|(correlation, apart)| correlation.max(apart))
+            .collect(),
     };
     if let (Some(engagement), Some(first)) = (engagement, trace.time.first().copied())
         && engagement < first
@@ -210,6 +216,7 @@ fn cage(found: &CageSpeed, engagement: Option<f64>) -> CageTrace {
         let deviation = trace.deviation[0].hypot(FIRST_RISE * speed.abs());
         trace.deviation[0] = deviation;
         trace.deviation.insert(0, deviation);
+        trace.correlation_time.insert(0, first - engagement);
     }
     trace
 }
@@ -315,6 +322,7 @@ mod tests {
             correlation_time: vec![0.02; count],
             engagement: None,
             engagement_deviation: 0.0,
+            rest_before: None,
             cage: None,
             temperature: None,
         };
@@ -334,6 +342,7 @@ mod tests {
             time: vec![1.2, 1.3],
             speed: vec![40.0, 60.0],
             deviation: vec![3.0, 1.0],
+            correlation_time: vec![0.02, 0.15],
             slip: vec![0.0; 2],
             slip_deviation: vec![0.1; 2],
             noise: 0.0,
@@ -343,6 +352,9 @@ mod tests {
         assert_eq!((trace.time[0], trace.speed[0]), (1.1, 0.0));
         // a quarter of 40 rad/s beside 3
         assert_eq!(trace.deviation, vec![109_f64.sqrt(), 109_f64.sqrt(), 1.0]);
+        // between two balls errors are alike
+        assert!((trace.correlation_time[1] - 0.1).abs() < 1e-9);
+        assert_eq!(trace.correlation_time[2], 0.15);
         for without in [None, Some(1.25)] {
             assert_eq!(cage(&found, without).time, found.time);
         }

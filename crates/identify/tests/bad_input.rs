@@ -47,11 +47,11 @@ fn nonsense(random: &mut Random, count: usize, wild: f64) -> Measurement {
         positive(list(1.0)),
         positive(list(1e-3)),
     );
-    let cage = CageTrace {
-        time: (0..count).map(|k| 0.011 * k as f64).collect(),
-        speed: list(40.0),
-        deviation: positive(list(0.2)),
-    };
+    let cage = CageTrace::independent(
+        (0..count).map(|k| 0.011 * k as f64).collect(),
+        list(40.0),
+        positive(list(0.2)),
+    );
     let temperature = list(5.0);
     let correlation_time = positive(list(0.1));
     Measurement {
@@ -74,6 +74,7 @@ fn nonsense(random: &mut Random, count: usize, wild: f64) -> Measurement {
         correlation_time,
         engagement: (random.uniform() < 0.7).then(|| random.uniform()),
         engagement_deviation: 0.0,
+        rest_before: None,
         cage: (random.uniform() < 0.7).then_some(cage),
         temperature: Some(temperature),
     }

@@ -69,11 +69,11 @@ fn the_true_slip_lies_in_its_band() {
 fn a_rolling_cage_never_slipped() {
     let mut random = Random::new(9);
     let (mut test, _) = rolling_spin_up(&mut random, 7200.0, 0.2, 0.0);
-    test.cage = Some(CageTrace {
-        time: test.time.clone(),
-        speed: test.speed.iter().map(|s| set().cage_speed(*s)).collect(),
-        deviation: vec![0.005; test.time.len()],
-    });
+    test.cage = Some(CageTrace::independent(
+        test.time.clone(),
+        test.speed.iter().map(|s| set().cage_speed(*s)).collect(),
+        vec![0.005; test.time.len()],
+    ));
     test.speed_deviation = vec![0.01; test.time.len()];
     let found = cage_slip(&test, &set(), &SlipSettings::default()).unwrap();
     assert_eq!(found.established, Established::Throughout);
@@ -106,11 +106,7 @@ fn without_a_cage_signal_slip_is_not_known() {
             .unwrap_err()
             .contains("without a cage signal")
     );
-    let elsewhere = CageTrace {
-        time: vec![100.0, 101.0],
-        speed: vec![60.0; 2],
-        deviation: vec![0.1; 2],
-    };
+    let elsewhere = CageTrace::independent(vec![100.0, 101.0], vec![60.0; 2], vec![0.1; 2]);
     let test = Measurement {
         cage: Some(elsewhere),
         ..test
@@ -193,6 +189,7 @@ fn a_skid_needs_cage_and_engagement() {
     let without = Measurement {
         engagement: None,
         engagement_deviation: 0.0,
+        rest_before: None,
         ..run.test.clone()
     };
     assert!(

@@ -22,11 +22,11 @@ fn curve(factor: f64) -> SteadyMoment {
 
 fn test(seed: u64) -> Measurement {
     let mut test = rolling_spin_up(&mut Random::new(seed), 7200.0, 5.0, 0.0).0;
-    test.cage = Some(CageTrace {
-        time: test.time.clone(),
-        speed: test.speed.iter().map(|s| set().cage_speed(*s)).collect(),
-        deviation: vec![0.25; test.time.len()],
-    });
+    test.cage = Some(CageTrace::independent(
+        test.time.clone(),
+        test.speed.iter().map(|s| set().cage_speed(*s)).collect(),
+        vec![0.25; test.time.len()],
+    ));
     test
 }
 

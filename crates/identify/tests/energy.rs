@@ -71,10 +71,12 @@ fn quiet(moment: f64, cage: bool) -> (Measurement, f64) {
     test.acceleration = rate;
     test.engagement = Some(0.2);
     if cage {
-        test.cage = Some(CageTrace {
-            speed: speed.iter().map(|s| set.cage_speed(*s)).collect(),
-            deviation: vec![0.01; time.len()],
-            time,
+        test.cage = Some({
+            let (speed, deviation) = (
+                speed.iter().map(|s| set.cage_speed(*s)).collect(),
+                vec![0.01; time.len()],
+            );
+            CageTrace::independent(time, speed, deviation)
         });
     }
     // M times the angle turned up to 0.25 s: half of 150 rad/s over the ramp of 41.7 ms, then the hold
@@ -147,6 +149,7 @@ fn the_deviation_of_the_work_counts_what_errors_share() {
         correlation_time: vec![0.02; count as usize],
         engagement: None,
         engagement_deviation: 0.0,
+        rest_before: None,
         cage: None,
         temperature: None,
         time,
@@ -217,11 +220,11 @@ fn a_window_that_is_no_spin_up_is_refused() {
             .contains("never turns")
     );
     let mut late = test.clone();
-    late.cage = Some(CageTrace {
-        time: vec![0.24, 0.3],
-        speed: vec![60.0, 61.0],
-        deviation: vec![0.1; 2],
-    });
+    late.cage = Some(CageTrace::independent(
+        vec![0.24, 0.3],
+        vec![60.0, 61.0],
+        vec![0.1; 2],
+    ));
     let found = dissipation(&late, &set(), &EXACT, None).unwrap();
     assert!(
         found.exact.is_none() && found.notes[0].contains("does not cover"),

@@ -253,3 +253,39 @@ fn what_cannot_be_a_steady_moment_is_refused() {
     };
     assert!(moment(&[&test], &unknown, &settings).is_err());
 }
+
+#[test]
+fn slow_tests_that_disagree_are_named() {
+    let settings = MomentSettings::default();
+    let mut alarms = 0;
+    for seed in 0..6 {
+        let mut random = Random::new(500 + seed);
+        let scale = random.normal();
+        let mut one = coast_down(&mut random, 10.0, 0.01, scale);
+        let mut other = coast_down(&mut random, 10.0, 0.01, scale);
+        (one.name, other.name) = ("monday".into(), "friday".into());
+        // of one bearing
+        alarms += u32::from(
+            moment(&[&one, &other], &set(), &settings)
+                .unwrap()
+                .unequal
+                .is_some(),
+        );
+        // of another: half as much again
+        let more = |speed: f64| 1.5 * steady(speed);
+        let mut third = coasting(&mut random, 10.0, 0.01, scale, &more, &SENSOR);
+        third.name = "another".into();
+        let found = moment(&[&one, &other, &third], &set(), &settings).unwrap();
+        let unequal = found.unequal.expect("a difference of a half");
+        assert_eq!(unequal.tests.0, "another");
+        // the ratio of the means over the common speeds, each known to a per cent or two
+        assert!((unequal.ratio - 1.5).abs() < 0.1, "{unequal:?}");
+        assert!(unequal.forbids_comparison());
+        assert!(
+            unequal.finding().contains("another"),
+            "{}",
+            unequal.finding()
+        );
+    }
+    assert_eq!(alarms, 0, "of six pairs of one bearing");
+}

@@ -70,6 +70,7 @@ fn signals<'a>(speed: &'a Speed, torque: &'a Torque) -> Signals<'a> {
         scale_deviation: 0.01,
         cage: None,
         settling_time: 0.5,
+        rest_before: None,
     }
 }
 

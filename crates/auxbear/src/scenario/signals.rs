@@ -26,6 +26,8 @@ pub struct Signals {
     pub cage: Option<CageSignal>,
     /// Weight on the bearing, N.
     pub radial_load: Option<f64>,
+    /// Time at rest since a test before this one, s.
+    pub rest_before: Option<f64>,
     /// Name of the channel with the temperature of the outer race.
     pub temperature: Option<String>,
     /// The converter.
@@ -193,6 +195,7 @@ impl Signals {
             torque: torque(values),
             cage: cage(values),
             radial_load: signals.maybe("radial_load"),
+            rest_before: signals.maybe("rest_before"),
             temperature: values.text("signals.temperature.channel"),
             converter: signal_analysis::converter(values),
             vibration: signal_analysis::vibration(values),

@@ -96,6 +96,14 @@ pub(super) const KEYS: &[Key] = &[
     .positive()
     .optional("auxbear identify takes its own identify.radial_load"),
     Key::new(
+        "signals.rest_before",
+        Kind::Quantity("s"),
+        "5 s",
+        "Time at rest before this test, where a test before it had run the bearing like this: what auxbear identify takes grease and sensor to have recovered in.",
+    )
+    .not_negative()
+    .optional("the bearing had rested for long"),
+    Key::new(
         "signals.speed.channel",
         Kind::Text,
         "tacho",

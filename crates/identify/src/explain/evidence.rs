@@ -49,6 +49,8 @@ struct Mode {
     height: f64,
 }
 
+/// Batches that lead from the modes to the posterior, at most.
+const ADAPTATIONS: usize = 8;
 /// ln of evidence by which Laplace's approximation must lie below the leader to be final.
 const HOPELESS: f64 = 20.0;
 /// Deviation of ln evidence that is stated for it: a factor of 3, assumed.
@@ -84,13 +86,19 @@ impl Integral<'_> {
         }
         let mut random = Random::new(settings.seed);
         let mut proposal = self.proposal(&modes);
-        // a first batch shows the shape of the posterior where it is not normal
-        let first = self.batch(&proposal, settings.draws, &mut random);
-        if let Some(component) = Component::fitted(&first, self.size) {
+        // a first batch shows the shape of the posterior where it is not normal; where hardly a draw of it counts, others lead there
+        for _ in 0..ADAPTATIONS {
+            let first = self.batch(&proposal, settings.draws, &mut random);
+            let Some((component, power)) = Component::fitted(&first, self.size) else {
+                break;
+            };
             for other in &mut proposal {
                 other.weight *= 0.5;
             }
             proposal.push(component);
+            if power == 1.0 {
+                break;
+            }
         }
         let mut logs = Vec::new();
         let mut draws = Vec::new();
@@ -110,9 +118,14 @@ impl Integral<'_> {
             .map(|one| ((one - log).exp() - 1.0).powi(2))
             .sum::<f64>()
             / (count * (count - 1.0));
+        // of few draws that count the repeats may agree by chance
+        let weights: Vec<f64> = draws.iter().map(|draw| draw.log_weight).collect();
+        let total = log_sum_exp(&weights);
+        let squares: f64 = weights.iter().map(|w| (2.0 * (w - total)).exp()).sum();
+        let few = (squares - 1.0 / draws.len() as f64).max(0.0);
         Evidence {
             log,
-            deviation: variance.sqrt(),
+            deviation: variance.max(few).sqrt(),
             draws,
         }
     }
@@ -397,7 +410,7 @@ mod tests {
             cage_mass: 8e-3,
         };
         let (priors, settings) = (Priors::default(), Settings::default());
-        let bearing = Bearing::new(&steady, 150.0, &set, &priors, &settings);
+        let bearing = Bearing::new(&steady, 150.0, &set, &priors, &settings, false);
         let speed = |t: f64| 150.0 * (t / 0.1).clamp(0.0, 1.0);
         let mut test = Test::planned(
             &speed,
@@ -426,7 +439,7 @@ mod tests {
                 tests: &tests,
                 bearing: &bearing,
                 observed: &observed,
-                size: hypothesis.parameters(&priors).len(),
+                size: hypothesis.parameters(&bearing).len(),
                 leader: f64::NEG_INFINITY,
             });
         }

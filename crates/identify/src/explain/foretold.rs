@@ -122,11 +122,12 @@ mod tests {
             correlation_time: vec![0.01; count],
             engagement: None,
             engagement_deviation: 0.0,
-            cage: Some(CageTrace {
-                time: vec![0.0, 0.05],
-                speed: vec![0.0, 8.0],
-                deviation: vec![0.3; 2],
-            }),
+            rest_before: None,
+            cage: Some(CageTrace::independent(
+                vec![0.0, 0.05],
+                vec![0.0, 8.0],
+                vec![0.3; 2],
+            )),
             temperature: None,
             time,
         };

@@ -3,7 +3,7 @@
 use physics::rolling::RollingSet;
 
 use super::prior::{Priors, Range};
-use super::record::{Step, Test};
+use super::record::{Past, Step, Test};
 use super::slip::{Slip, load_moment_factor};
 use super::steady::{Continued, Table};
 use super::{Explanation, Settings};
@@ -32,6 +32,8 @@ pub(crate) struct Bearing<'a> {
     /// Priors with what they take from the curve.
     pub priors: Priors,
     pub settings: &'a Settings,
+    /// Whether a test follows another one after a rest: the recovery at rest is a parameter then.
+    pub repeated: bool,
 }
 
 impl<'a> Bearing<'a> {
@@ -42,9 +44,11 @@ impl<'a> Bearing<'a> {
         set: &'a RollingSet<f64>,
         priors: &Priors,
         settings: &'a Settings,
+        repeated: bool,
     ) -> Self {
         Self {
             steady: Continued(steady),
+            repeated,
             table: Continued(steady).table(top_speed),
             set,
             priors: priors.resolved(steady, top_speed),
@@ -114,8 +118,53 @@ impl Hypothesis {
         }
     }
 
-    /// Parameters in the order of the coordinates.
-    pub fn parameters(self, priors: &Priors) -> Vec<Parameter> {
+    /// Parameters in the order of the coordinates; the recovery at rest is the last one, where a test tells of it.
+    pub fn parameters(self, bearing: &Bearing) -> Vec<Parameter> {
+        let mut parameters = self.own_parameters(&bearing.priors);
+        if bearing.repeated && self.recovers() {
+            parameters.push(Parameter {
+                name: "time of the recovery at rest",
+                unit: "s",
+                kind: Kind::Positive,
+                range: bearing.priors.recovery_time,
+            });
+        }
+        parameters
+    }
+
+    /// Values of the parameters at standard normal coordinates.
+    pub fn values(self, coordinates: &[f64], bearing: &Bearing) -> Vec<f64> {
+        (self.parameters(bearing).iter())
+            .zip(coordinates)
+            .map(|(parameter, z)| parameter.value(*z))
+            .collect()
+    }
+
+    /// Time of the recovery at rest, s, where it is a parameter.
+    pub fn recovery(self, values: &[f64], bearing: &Bearing) -> Option<f64> {
+        (bearing.repeated && self.recovers()).then(|| values[values.len() - 1])
+    }
+
+    /// Whether a rest undoes what it does.
+    fn recovers(self) -> bool {
+        matches!(self, Self::Grease | Self::Drift { .. } | Self::Creep { .. })
+    }
+
+    /// What is left of the test before after a rest.
+    ///
+    /// Formula: e^(-rest/τ), τ of the recovery for grease and sensor, of the film for its rise
+    ///
+    /// - `rest`: s
+    /// - `values`: parameters, the recovery last where it is one
+    pub fn left(self, rest: f64, recovery: f64, values: &[f64]) -> (f64, f64) {
+        let film = match self {
+            Self::HeatedSlip => (-rest / values[6]).exp(),
+            _ => 0.0,
+        };
+        ((-rest / recovery).exp(), film)
+    }
+
+    fn own_parameters(self, priors: &Priors) -> Vec<Parameter> {
         let positive = |name, unit, range| Parameter {
             name,
             unit,
@@ -220,10 +269,7 @@ impl Hypothesis {
 
     /// Predicted means at standard normal coordinates.
     pub fn predict(self, coordinates: &[f64], tests: &[Test], bearing: &Bearing) -> Prediction {
-        let values: Vec<f64> = (self.parameters(&bearing.priors).iter())
-            .zip(coordinates)
-            .map(|(parameter, z)| parameter.value(*z))
-            .collect();
+        let values = self.values(coordinates, bearing);
         let mut prediction = Prediction {
             torque: Vec::new(),
             cage: Vec::new(),
@@ -232,6 +278,21 @@ impl Hypothesis {
         let needs_slip = matches!(self, Self::Slip | Self::HeatedSlip);
         let (mut effect, mut largest_slip, mut softened) = (0.0_f64, 0.0_f64, 0.0_f64);
         for test in tests {
+            let after_a_rest = test.rest_before.map(|rest| {
+                // what does not recover has no parameter for it
+                let recovery = self.recovery(&values, bearing).unwrap_or(f64::INFINITY);
+                let (left, film) = self.left(rest, recovery, &values);
+                let past = Past {
+                    left,
+                    film,
+                    ..test.past
+                };
+                Test {
+                    past,
+                    ..test.clone()
+                }
+            });
+            let test = after_a_rest.as_ref().unwrap_or(test);
             let (mut torque, mut cage, more) = self.run(&values, test, bearing);
             softened = softened.max(more);
             let rolling = test.means(rolling_torque(test, bearing, 1.0));
@@ -459,7 +520,7 @@ mod tests {
         let speed =
             |t: f64| 150.0 * (t / 0.02).clamp(0.0, 1.0) * (1.0 - (t - 4.0) / 0.5).clamp(0.0, 1.0);
         let (priors, settings) = (Priors::default(), Settings::default());
-        let bearing = Bearing::new(&steady, 150.0, &set, &priors, &settings);
+        let bearing = Bearing::new(&steady, 150.0, &set, &priors, &settings, false);
         let test = Test::planned(
             &speed,
             6.0,
@@ -516,6 +577,51 @@ mod tests {
     }
 
     #[test]
+    fn a_test_after_a_rest_begins_with_what_is_left() {
+        with_test(|bearing, test| {
+            let bearing = Bearing {
+                repeated: true,
+                priors: bearing.priors.clone(),
+                table: bearing.table.clone(),
+                ..*bearing
+            };
+            // medians of the priors: fresh, worked; a recovery of √(30·36000) s
+            let size = Hypothesis::Grease.parameters(&bearing).len();
+            let values = Hypothesis::Grease.values(&vec![0.0; size], &bearing);
+            let recovery = (30.0_f64 * 36_000.0).sqrt();
+            assert!(
+                (Hypothesis::Grease.recovery(&values, &bearing).unwrap() / recovery - 1.0).abs()
+                    < 1e-9
+            );
+            let after = |rest: f64| {
+                let test = Test {
+                    rest_before: Some(rest),
+                    ..test.clone()
+                };
+                let tests = std::slice::from_ref(&test);
+                Hypothesis::Grease
+                    .predict(&vec![0.0; size], tests, &bearing)
+                    .torque
+            };
+            let rested = Hypothesis::Grease
+                .predict(&vec![0.0; size], std::slice::from_ref(test), &bearing)
+                .torque;
+            // after many recoveries all is as after a long rest
+            for (long, rested) in after(50.0 * recovery).iter().zip(&rested) {
+                assert!((long - rested).abs() < 1e-12);
+            }
+            // at once: built up and worked from the first turn on, M1 + g_w M0 of a flat curve of 20 N mm
+            let reference = bearing.table.reference;
+            let expected = reference * (1.0 - values[0] + values[0] * values[2]);
+            let held = (test.bins.iter()).position(|bin| bin.from > 0.1).unwrap();
+            assert!((after(0.0)[held] / expected - 1.0).abs() < 1e-3);
+            // half of it left: b = w = ½ at the begin, so early torque lies between
+            let half = after(recovery * 2.0_f64.ln())[held];
+            assert!(half > rested[held].min(expected) && half < reference);
+        });
+    }
+
+    #[test]
     fn at_rest_only_a_drift_is_left_and_a_slow_sensor_follows() {
         with_test(|bearing, test| {
             let tests = std::slice::from_ref(test);
@@ -524,7 +630,7 @@ mod tests {
                 .position(|bin| bin.from > 4.49)
                 .expect("a rest after the run-down");
             for form in Explanation::ALL.into_iter().flat_map(Hypothesis::of) {
-                let size = form.parameters(&bearing.priors).len();
+                let size = form.parameters(bearing).len();
                 let torque = form.predict(&vec![0.0; size], tests, bearing).torque;
                 match form {
                     Hypothesis::Drift { sign } => assert!(sign * torque[end] > 1e-3),

@@ -25,7 +25,8 @@
 //! its states show, slip a cage that stays behind, heating a traction that still falls 0.3 s after the run-up, a slow
 //! sensor more than what any inversion smooths.
 //!
-//! Assumed: all tests at one load, with the bearing rested before each. Priors are those of [`Priors`]: an explanation
+//! Assumed: all tests at one load, with the bearing rested before each but where [`Measurement::rest_before`] tells otherwise: such a
+//! test begins with what is left of a whole test like it. Priors are those of [`Priors`]: an explanation
 //! that needs a coincidence (traction and drag that agree to 0.4 % for seconds) is as improbable as the coincidence is.
 //!
 //! # How often it is right
@@ -73,6 +74,7 @@ use hypothesis::{Bearing, Hypothesis};
 use linear::log_sum_exp;
 use measure::normal::squares_above;
 use noise::Observed;
+use proposal::tempered;
 use record::Test;
 use sampling::Random;
 use verdict::FormDraw;
@@ -265,7 +267,10 @@ fn bearing<'a>(
     if top_speed <= 0.0 {
         return Err(Refusal::BadTest(tests[0].name.clone()));
     }
-    Ok(Bearing::new(steady, top_speed, set, priors, settings))
+    let repeated = tests.iter().any(|test| test.rest_before.is_some());
+    Ok(Bearing::new(
+        steady, top_speed, set, priors, settings, repeated,
+    ))
 }
 
 fn refuse(
@@ -344,6 +349,9 @@ const QUICK_FIRST: [Explanation; 6] = [
 /// better than half a per cent, would make any fit look good.
 const FINE: [f64; 2] = [0.001, 0.002];
 
+/// Draws that must count in a mean over the posterior.
+const LEAST_COUNTING: f64 = 8.0;
+
 /// Draws of the posterior that are kept for the ranking of tests.
 const KEPT_DRAWS: usize = 48;
 
@@ -364,7 +372,7 @@ fn assess(
                 tests,
                 bearing,
                 observed,
-                size: form.parameters(&bearing.priors).len(),
+                size: form.parameters(bearing).len(),
                 leader,
             };
             let mut evidence = integral.evidence();
@@ -428,10 +436,11 @@ fn assess(
     assessment
 }
 
+/// Weights of the draws; where fewer than some count all are weighed more evenly, so that no deviation comes out as 0.
 fn normalised(evidence: &Evidence) -> Vec<f64> {
     let logs: Vec<f64> = evidence.draws.iter().map(|draw| draw.log_weight).collect();
-    let total = log_sum_exp(&logs);
-    logs.iter().map(|log| (log - total).exp()).collect()
+    let least = LEAST_COUNTING.min(logs.len() as f64);
+    tempered(&logs, least).map_or_else(Vec::new, |(weights, _)| weights)
 }
 
 fn estimates(
@@ -440,7 +449,7 @@ fn estimates(
     weights: &[f64],
     bearing: &Bearing,
 ) -> Vec<Estimate> {
-    (form.parameters(&bearing.priors).iter().enumerate())
+    (form.parameters(bearing).iter().enumerate())
         .map(|(axis, parameter)| {
             let value = |draw: &evidence::Draw| parameter.value(draw.coordinates[axis]);
             let mean: f64 = (evidence.draws.iter().zip(weights))

@@ -336,20 +336,21 @@ impl Trial<'_> {
 
     fn predict(&self, form: Hypothesis, coordinates: &[f64], random: &mut Random) -> Prediction {
         let mut test = self.test.clone();
-        let recovery = self.bearing.priors.recovery_time.positive(random.normal());
+        let values = form.values(coordinates, self.bearing);
+        let recovery = match form.recovery(&values, self.bearing) {
+            Some(told) => told,
+            None => self.bearing.priors.recovery_time.positive(random.normal()),
+        };
         let rest = match self.proposal {
             Proposal::RepeatAfterSeconds => 5.0,
             _ => 86_400.0,
         };
+        let (left, film) = form.left(rest, recovery, &values);
         test.past = Past {
-            left: (-rest / recovery).exp(),
+            left,
+            film,
             ..test.past
         };
-        if form == Hypothesis::HeatedSlip {
-            let parameters = form.parameters(&self.bearing.priors);
-            let time = parameters[6].value(coordinates[6]);
-            test.past.film = (-rest / time).exp();
-        }
         form.predict(coordinates, std::slice::from_ref(&test), self.bearing)
     }
 

@@ -16,21 +16,11 @@ pub(crate) struct Component {
 const DEGREES: f64 = 5.0;
 
 impl Component {
-    /// Student's t with mean and covariance of the weighted draws.
-    pub fn fitted(draws: &[Draw], size: usize) -> Option<Self> {
-        let weights: Vec<f64> = draws.iter().map(|draw| draw.log_weight).collect();
-        let total = log_sum_exp(&weights);
-        if total == f64::NEG_INFINITY {
-            return None;
-        }
-        let weights: Vec<f64> = weights
-            .iter()
-            .map(|weight| (weight - total).exp())
-            .collect();
-        let effective = 1.0 / dot(&weights, &weights);
-        if effective < 3.0 * size as f64 {
-            return None;
-        }
+    /// Student's t with mean and covariance of the weighted draws, and the power to which their weights had to be raised so that
+    /// enough of them count: below 1 the draws lie beside the posterior, and the component leads towards it.
+    pub fn fitted(draws: &[Draw], size: usize) -> Option<(Self, f64)> {
+        let logs: Vec<f64> = draws.iter().map(|draw| draw.log_weight).collect();
+        let (weights, power) = tempered(&logs, 3.0 * size as f64)?;
         let mut mean = vec![0.0; size];
         for (draw, weight) in draws.iter().zip(&weights) {
             for (mean, z) in mean.iter_mut().zip(&draw.coordinates) {
@@ -47,7 +37,8 @@ impl Component {
             }
         }
         for i in 0..size {
-            covariance[i * size + i] += 1e-6;
+            covariance[i * size + i] *= 1.0 + 1e-6;
+            covariance[i * size + i] += 1e-10;
         }
         let factor = Cholesky::of(&covariance, size)?;
         let mut inverse = vec![0.0; size * size];
@@ -64,12 +55,13 @@ impl Component {
                 inverse[i * size + j] = inverse[j * size + i];
             }
         }
-        Some(Self {
+        let component = Self {
             at: mean,
             curvature: Cholesky::of(&inverse, size)?,
             weight: 0.5,
             student: true,
-        })
+        };
+        Some((component, power))
     }
 
     pub fn sample(&self, random: &mut Random) -> Vec<f64> {
@@ -103,6 +95,51 @@ impl Component {
     }
 }
 
+/// Weights of draws raised to the largest power of at most 1 at which as many count as asked for, and that power; they sum to 1.
+/// None where fewer draws have a weight at all.
+///
+/// Formula: n = 1/Σw²
+///
+/// - `logs`: ln of the weights
+/// - `least`: how many must count
+pub(crate) fn tempered(logs: &[f64], least: f64) -> Option<(Vec<f64>, f64)> {
+    let usable = logs.iter().filter(|log| **log > f64::NEG_INFINITY).count();
+    if (usable as f64) < least || usable == 0 {
+        return None;
+    }
+    let raised = |power: f64| {
+        let logs: Vec<f64> = (logs.iter())
+            .map(|log| {
+                if *log > f64::NEG_INFINITY {
+                    power * log
+                } else {
+                    *log
+                }
+            })
+            .collect();
+        let total = log_sum_exp(&logs);
+        logs.iter()
+            .map(|log| (log - total).exp())
+            .collect::<Vec<_>>()
+    };
+    let effective = |weights: &[f64]| 1.0 / dot(weights, weights);
+    let whole = raised(1.0);
+    if effective(&whole) >= least {
+        return Some((whole, 1.0));
+    }
+    // all equal at a power of 0
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if effective(&raised(middle)) >= least {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Some((raised(low), low))
+}
+
 /// ln Γ((5+n)/2) - ln Γ(5/2).
 fn log_gamma_ratio(size: usize) -> f64 {
     let mut sum = 0.0;
@@ -128,6 +165,19 @@ fn log_gamma_ratio(size: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn weights_are_raised_until_enough_draws_count() {
+        let logs = [0.0, -100.0, -200.0, f64::NEG_INFINITY];
+        // two count at most where the third hardly does: w2 = e^(-100 p), 1/(1 + w2²)·(1 + w2)² = 2 only at p = 0
+        let (weights, power) = tempered(&logs, 1.5).expect("three draws");
+        assert!((1.0 / dot(&weights, &weights) - 1.5).abs() < 1e-6 && power < 0.1);
+        assert_eq!(weights[3], 0.0);
+        // as they are where enough count
+        assert_eq!(tempered(&[0.0, 0.0], 2.0), Some((vec![0.5, 0.5], 1.0)));
+        assert_eq!(tempered(&logs, 4.0), None);
+        assert_eq!(tempered(&[], 0.0), None);
+    }
 
     #[test]
     fn ratios_of_gamma_functions() {

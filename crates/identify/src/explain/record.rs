@@ -3,7 +3,7 @@
 //! Means lie closer where more happens: their width grows with the time since the engagement and, after the
 //! run-down, with the time since standstill; none spans a large change of speed.
 
-use crate::series::{RunningVariance, trapezoid};
+use crate::series::{RunningVariance, interpolate, trapezoid};
 use crate::{CageTrace, Measurement};
 
 use super::steady::{Table, fading};
@@ -92,6 +92,8 @@ pub(crate) struct Test {
     pub scale_deviation: f64,
     pub starts_turning: bool,
     pub past: Past,
+    /// Time at rest since the test before, s; none after a long rest.
+    pub rest_before: Option<f64>,
 }
 
 /// Growth of the width of a mean with its age.
@@ -214,6 +216,7 @@ impl Test {
             scale_deviation: 0.0,
             starts_turning: speed(0.0) > REST * top_speed,
             past: Past::RESTED,
+            rest_before: None,
         };
         for (from, to, age) in limits(speed, end, stop, least, top_speed) {
             let slope = (speed(to) - speed(from)).abs() / (to - from);
@@ -266,11 +269,13 @@ impl Test {
         let mut test = Self::planned(&speed, end, &least, table, inertia);
         test.zero_deviation = measurement.zero_deviation;
         test.scale_deviation = measurement.scale_deviation;
+        test.rest_before = measurement.rest_before;
+        let cage = measurement.cage.as_ref();
+        let cage_age = cage.map(CageTrace::age).unwrap_or_default();
         for bin in &mut test.bins {
             let (from, to) = (bin.from + engagement, bin.to + engagement);
             (bin.torque, bin.variance) = torque_mean(measurement, &age, from, to);
-            let cage = measurement.cage.as_ref();
-            bin.cage = cage.and_then(|cage| cage_mean(cage, from, to));
+            bin.cage = cage.and_then(|cage| cage_mean(cage, &cage_age, from, to));
             if let Some(mean) = &mut bin.cage {
                 mean.from -= engagement;
                 mean.to -= engagement;
@@ -383,7 +388,9 @@ fn zeroed(measurement: &Measurement, from: f64, to: f64) -> bool {
 ///
 /// Balls pass in unequal times: a mean of their values would be that of an accelerated cage's late, or a braked one's early speed.
 /// So it is the integral of the speed, straight between the values, over its time.
-fn cage_mean(cage: &CageTrace, from: f64, to: f64) -> Option<CageMean> {
+///
+/// - `age`: of the cage's errors in correlation times
+fn cage_mean(cage: &CageTrace, age: &[f64], from: f64, to: f64) -> Option<CageMean> {
     let inside = cage.time.partition_point(|t| *t < from)..cage.time.partition_point(|t| *t < to);
     let (first, last) = (cage.time.first()?, cage.time.last()?);
     let (from, to) = (from.max(*first), to.min(*last));
@@ -394,10 +401,12 @@ fn cage_mean(cage: &CageTrace, from: f64, to: f64) -> Option<CageMean> {
     time.extend(cage.time[inside].iter().filter(|t| **t > from && **t < to));
     time.push(to);
     let (mut speed, mut variance) = (0.0, 0.0);
+    let mut error = RunningVariance::default();
     for (t, weight) in time.iter().zip(trapezoid(&time)) {
         let share = weight / (to - from);
         speed += share * interpolate(&cage.time, &cage.speed, *t);
-        variance += (share * interpolate(&cage.time, &cage.deviation, *t)).powi(2);
+        let own = share * interpolate(&cage.time, &cage.deviation, *t);
+        variance = error.add(interpolate(&cage.time, age, *t), own);
     }
     Some(CageMean {
         from,
@@ -405,19 +414,6 @@ fn cage_mean(cage: &CageTrace, from: f64, to: f64) -> Option<CageMean> {
         speed,
         variance,
     })
-}
-
-/// Linear interpolation, constant beyond the ends.
-pub(crate) fn interpolate(time: &[f64], values: &[f64], t: f64) -> f64 {
-    let above = time.partition_point(|knot| *knot <= t);
-    if above == 0 {
-        return values[0];
-    }
-    if above == time.len() {
-        return values[above - 1];
-    }
-    let share = (t - time[above - 1]) / (time[above] - time[above - 1]);
-    values[above - 1] + share * (values[above] - values[above - 1])
 }
 
 #[cfg(test)]
@@ -492,10 +488,13 @@ mod tests {
             scale_deviation: 0.0,
             engagement: Some(0.4),
             engagement_deviation: 0.0,
-            cage: Some(CageTrace {
-                speed: passed.iter().map(|t| cage_speed(*t)).collect(),
-                deviation: vec![0.1; passed.len()],
-                time: passed,
+            rest_before: None,
+            cage: Some({
+                let (speed, deviation) = (
+                    passed.iter().map(|t| cage_speed(*t)).collect(),
+                    vec![0.1; passed.len()],
+                );
+                CageTrace::independent(passed, speed, deviation)
             }),
             temperature: None,
         }
@@ -564,6 +563,7 @@ mod tests {
             correlation_time: vec![0.02; count],
             engagement: Some(0.4),
             engagement_deviation: 0.0,
+            rest_before: None,
             cage: None,
             temperature: None,
         };

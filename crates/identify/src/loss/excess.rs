@@ -97,6 +97,7 @@ mod tests {
             correlation_time: vec![0.02; count],
             engagement: Some(1.0),
             engagement_deviation: 0.0,
+            rest_before: None,
             cage: None,
             temperature: None,
             speed,

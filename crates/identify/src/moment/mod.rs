@@ -28,8 +28,10 @@ mod blocks;
 mod curve;
 mod fit;
 mod forms;
+mod unequal;
 
 pub use curve::SteadyMoment;
+pub use unequal::Unequal;
 
 use crate::dense::{Matrix, zeros};
 use crate::measurement::Measurement;
@@ -127,6 +129,8 @@ pub struct Moment {
     pub effective_data: f64,
     /// Moment speeding up minus moment slowing down, where the tests have both.
     pub up_against_down: Option<Difference>,
+    /// The two slow tests of one direction that differ most, where they differ by more than their bands.
+    pub unequal: Option<Unequal>,
     /// What is not trustworthy.
     pub notes: Vec<String>,
 }
@@ -203,6 +207,7 @@ pub fn moment(
     }
     whole.notes = notes;
     whole.up_against_down = up_against_down;
+    whole.unequal = unequal::unequal(tests, set, settings);
     Ok(whole)
 }
 
@@ -362,6 +367,7 @@ fn fitted(
         data: blocks.x.len(),
         mean_duration: blocks.duration,
         effective_data: blocks.x.len() as f64 * (1.0 - rho) / (1.0 + rho),
+        unequal: None,
         up_against_down: None,
         notes: Vec::new(),
         forms,

@@ -253,14 +253,12 @@ impl Truth {
             correlation_time: Vec::new(),
             engagement: Some(ENGAGEMENT),
             engagement_deviation: 0.0,
+            rest_before: None,
             cage: None,
             temperature: None,
         };
-        let mut cage = CageTrace {
-            time: Vec::new(),
-            speed: Vec::new(),
-            deviation: Vec::new(),
-        };
+        let (mut cage_time, mut cage_speed, mut cage_deviation) =
+            (Vec::new(), Vec::new(), Vec::new());
         let cage_bias = 1.0 + 0.001 * chance.normal();
         let pitch = std::f64::consts::TAU / BALLS as f64;
         let (mut cage_angle, mut next_ball) = (0.0, pitch * chance.uniform());
@@ -294,16 +292,15 @@ impl Truth {
                 last_cage = row.cage;
                 let noise = 0.005 * row.cage.abs() + 0.05;
                 let deviation = noise.hypot(CHANGE * change);
-                if cage.time.is_empty() {
+                if cage_time.is_empty() {
                     // from rest to the first ball the speed is hardly known
-                    cage.time.push(ENGAGEMENT);
-                    cage.speed.push(0.0);
-                    cage.deviation.push(deviation);
+                    cage_time.push(ENGAGEMENT);
+                    cage_speed.push(0.0);
+                    cage_deviation.push(deviation);
                 }
-                cage.time.push(row.time);
-                cage.speed
-                    .push(row.cage * cage_bias + noise * chance.normal());
-                cage.deviation.push(deviation);
+                cage_time.push(row.time);
+                cage_speed.push(row.cage * cage_bias + noise * chance.normal());
+                cage_deviation.push(deviation);
             }
             if row.time < next - 1e-9 {
                 continue;
@@ -325,7 +322,11 @@ impl Truth {
             m.torque_deviation
                 .push((sigma * sigma + 0.3e-3_f64.powi(2) + (0.01 * reading).powi(2)).sqrt());
         }
-        m.cage = Some(cage);
+        m.cage = Some(CageTrace::independent(
+            cage_time,
+            cage_speed,
+            cage_deviation,
+        ));
         m
     }
 }

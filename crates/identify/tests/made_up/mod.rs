@@ -188,6 +188,7 @@ pub fn measured(
         correlation_time: vec![CORRELATION; count],
         engagement: None,
         engagement_deviation: 0.0,
+        rest_before: None,
         cage: None,
         temperature: None,
     }
@@ -398,14 +399,16 @@ pub fn lagging_spin_up(random: &mut Random, peak: f64, lag: f64, skid: f64) -> L
             }
         })
         .collect();
-    test.cage = Some(CageTrace {
-        speed: cage_speed
-            .iter()
-            .zip(&noise)
-            .map(|(c, n)| c + 0.25 * n)
-            .collect(),
-        deviation: vec![0.25; time.len()],
-        time,
+    test.cage = Some({
+        let (speed, deviation) = (
+            cage_speed
+                .iter()
+                .zip(&noise)
+                .map(|(c, n)| c + 0.25 * n)
+                .collect(),
+            vec![0.25; time.len()],
+        );
+        CageTrace::independent(time, speed, deviation)
     });
     Lagging {
         test,

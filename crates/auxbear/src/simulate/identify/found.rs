@@ -168,10 +168,9 @@ impl Found {
                 (Err(why()), Err(why()))
             }
             (Err(_), Some(_)) => (Err(no_moment()), Err(no_moment())),
-            (Ok(moment), Some(how)) => match doubts.iter().find(|doubt| doubt.forbids_comparison())
-            {
-                Some(doubt) => {
-                    let why = || format!("M does not hold for these tests: {}", doubt.finding());
+            (Ok(moment), Some(how)) => match no_comparison(moment, &doubts) {
+                Some(finding) => {
+                    let why = || format!("M does not hold for these tests: {finding}");
                     (Err(why()), Err(why()))
                 }
                 None => explained(&tests, moment, &set, how),
@@ -196,6 +195,8 @@ impl Found {
             Some(test) => Told::of("AB1061", test, &doubt.finding()),
             None => Told::of_all("AB1061", &doubt.finding()),
         }));
+        let unequal = moment.iter().filter_map(|moment| moment.unequal.as_ref());
+        told.extend(unequal.map(|unequal| Told::of_all("AB1061", &unequal.finding())));
         let notes = (moment.iter().flat_map(|moment| &moment.notes))
             .chain(map.iter().flat_map(|map| &map.notes))
             .chain(rotor.iter().flat_map(|rotor| &rotor.notes));
@@ -219,6 +220,17 @@ impl Found {
             interrupted: interrupted(),
         }
     }
+}
+
+/// Why no explanation may be sought with this M.
+fn no_comparison(moment: &Moment, doubts: &[Doubt]) -> Option<String> {
+    let unequal = (moment.unequal.iter())
+        .filter(|unequal| unequal.forbids_comparison())
+        .map(|unequal| unequal.finding());
+    let doubted = (doubts.iter())
+        .filter(|doubt| doubt.forbids_comparison())
+        .map(Doubt::finding);
+    unequal.chain(doubted).next()
 }
 
 /// Masses and radii of balls and cage.
@@ -268,6 +280,7 @@ fn measured(
         scale_deviation: (test.signals.torque.as_ref()).map_or(0.0, |asked| asked.scale_deviation),
         cage: found.cage.as_ref().map(|found| &found.cage),
         settling_time,
+        rest_before: test.signals.rest_before,
     });
     measurement.temperature =
         (found.temperature.as_ref()).map(|found| found.rise(&measurement.time));

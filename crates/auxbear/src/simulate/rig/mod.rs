@@ -18,7 +18,7 @@ use super::bearing_run::BearingRun;
 use super::ending::{settings, stop};
 use super::outcome::{Outcome, Picture, Work};
 use super::{Options, Phase, method};
-use crate::scenario::{Rig, Scenario};
+use crate::scenario::{Rig, RigProgram, Scenario};
 use build::Built;
 use chain::{Happened, Sampled};
 use model::system::rig::layout::{
@@ -80,7 +80,8 @@ pub(super) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
         &|done| (options.progress)(Phase::Run, done),
     );
     let seconds = clock.elapsed().as_secs_f64();
-    let raw = chain::raw(rig, &happened(rig, &record));
+    let happened = happened(rig, &record);
+    let raw = chain::raw(rig, &happened);
     let context = Context {
         rig,
         built,
@@ -119,7 +120,7 @@ pub(super) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
             rolling_cage_ratio,
             balls: rig.bearing.ball_count,
         },
-        files: raw_file::files(rig, &title, raw, rolling_cage_ratio),
+        files: raw_file::files(rig, &title, raw, rolling_cage_ratio, rested(rig, &happened)),
         title,
     }
 }
@@ -148,6 +149,26 @@ fn taps(rig: &Rig) -> Vec<Tap> {
     }
     taps
 }
+
+/// Time at rest before the second of two spin-ups, s; none of one spin-up, or where the shaft never came to rest.
+fn rested(rig: &Rig, happened: &Happened) -> Option<f64> {
+    let RigProgram::RepeatAfterRest {
+        engage_again_at, ..
+    } = rig.program
+    else {
+        return None;
+    };
+    let angle = &happened.shaft_angle;
+    let again = ((engage_again_at - angle.first) / angle.interval) as usize;
+    let before = angle.values.get(..again.min(angle.values.len()))?;
+    let last = before.last()?;
+    let turning = (before.iter()).rposition(|angle| (angle - last).abs() > STANDING)?;
+    let stopped = angle.first + angle.interval * (turning + 1) as f64;
+    (stopped + angle.interval < engage_again_at).then(|| engage_again_at - stopped)
+}
+
+/// Angle within which a shaft counts as standing, rad: no mark of a pickup is as fine.
+const STANDING: f64 = 1e-3;
 
 fn happened(rig: &Rig, record: &Record) -> Happened {
     // a logger keeps whole scans

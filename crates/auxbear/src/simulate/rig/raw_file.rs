@@ -28,9 +28,10 @@ pub(super) fn files(
     title: &str,
     raw: Vec<RawChannel>,
     rolling_ratio: f64,
+    rested: Option<f64>,
 ) -> Vec<Attachment> {
     let name = name(rig.logger.format);
-    let signals = signals(rig, title, name, &raw, rolling_ratio);
+    let signals = signals(rig, title, name, &raw, rolling_ratio, rested);
     let channels = raw.into_iter().map(|channel| {
         let told = Channel {
             unit: channel.unit.to_string(),
@@ -60,7 +61,9 @@ pub(super) fn files(
 
 /// Which part of the record is looked at: of two spin-ups the second one, with some of the rest before it. Over a rest the turns
 /// of the shaft cannot be counted.
-fn part(rig: &Rig) -> String {
+///
+/// - `rested`: time at rest before the second spin-up, s
+fn part(rig: &Rig, rested: Option<f64>) -> String {
     match rig.program {
         RigProgram::RepeatAfterRest {
             release_at,
@@ -68,8 +71,11 @@ fn part(rig: &Rig) -> String {
             ..
         } => {
             let from = engage_again_at - (0.2 * (engage_again_at - release_at)).min(1.0);
+            let rest = rested.map_or_else(String::new, |rest| {
+                format!("rest_before = \"{rest:.3} s\"\n")
+            });
             format!(
-                "# The second of two spin-ups; take this line away and say to = \"{from} s\" for the first.\nfrom = \"{from} s\"\n"
+                "# The second of two spin-ups; take these lines away and say to = \"{from} s\" for the first.\nfrom = \"{from} s\"\n{rest}"
             )
         }
         _ => String::new(),
@@ -77,7 +83,14 @@ fn part(rig: &Rig) -> String {
 }
 
 /// What a laboratory would know of the channels.
-fn signals(rig: &Rig, title: &str, file: &str, raw: &[RawChannel], rolling_ratio: f64) -> String {
+fn signals(
+    rig: &Rig,
+    title: &str,
+    file: &str,
+    raw: &[RawChannel],
+    rolling_ratio: f64,
+    rested: Option<f64>,
+) -> String {
     let delay = 1.0 / rig.logger.total_rate;
     let title = crate::scenario::quoted(&format!("Signals of: {title}"));
     let has = |name: &str| raw.iter().any(|channel| channel.name == name);
@@ -88,7 +101,7 @@ fn signals(rig: &Rig, title: &str, file: &str, raw: &[RawChannel], rolling_ratio
          [signals.speed]\nchannel = \"rig/tacho\"\n",
         crate::scenario::FORMAT,
         rig.load.radial_load,
-        part(rig),
+        part(rig, rested),
     );
     match rig.pickup.kind {
         RigPickupKind::Analog { .. } => text.push_str("kind = \"analog\"\n"),
