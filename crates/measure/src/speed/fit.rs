@@ -375,12 +375,36 @@ fn expected(density: f64, start: Knot, head: f64) -> f64 {
     start + lag - 0.5 * (density / NEARLY_FREE).powi(2)
 }
 
-/// Points from which the likelihood is climbed: the best of a scan over the engagement, the density and the end, and the best
-/// one far from it. A clutch that engages softly and one that grips late may both explain the same marks. A change is seen to
-/// end where nearly all of it has come; a torque that rises to the end has still a fiftieth of its way to go there.
-fn valleys(sight: &Sight, density: f64, cost: impl Fn(&[f64; 3]) -> f64) -> Vec<[f64; 3]> {
+/// Ends of a change, as parts of its length behind the one at first sight, at which the likelihood is looked at, valley by
+/// valley.
+///
+/// A change is seen to end where nearly all of it has come; a torque that rises to the end has still a fiftieth of its way to
+/// go there. Where marks are few, that is seen some marks late, and each interval between two of them is a valley of its own:
+/// an acceleration that jumps is never likely to do so just at a mark.
+fn ends(data: &Data, sight: &Sight, length: f64) -> Vec<Vec<f64>> {
+    const NEAR: [f64; 3] = [0.0, 0.01, 0.02];
+    const EARLIER: usize = 6;
+    const INTERVALS: usize = 7;
+    let from = sight.after.saturating_sub(EARLIER);
+    let middles = data.passages[from..]
+        .windows(2)
+        .map(|pair| (0.5 * (pair[0].time + pair[1].time) - sight.lock) / length)
+        .take(INTERVALS)
+        .filter(|end| end.abs() > 2.0 * NEAR[1] && sight.lock + end * length > sight.most)
+        .map(|end| vec![end]);
+    std::iter::once(NEAR.to_vec()).chain(middles).collect()
+}
+
+/// Points from which the likelihood is climbed, two for each valley of the end: the best of a scan over the engagement and the
+/// density, and the best one far from it. A clutch that engages softly and one that grips late may both explain the same
+/// marks.
+fn valleys(
+    sight: &Sight,
+    density: f64,
+    ends: &[Vec<f64>],
+    cost: impl Fn(&[f64; 3]) -> f64,
+) -> Vec<[f64; 3]> {
     const DENSITY: [f64; 4] = [1.0, -2.0, -5.0, -9.0];
-    const END: [f64; 3] = [0.0, 0.01, 0.02];
     let places: &[f64] = if sight.rests {
         &[
             -4.5, -3.5, -2.75, -2.25, -1.75, -1.25, -0.75, -0.25, 0.4, 1.1,
@@ -388,34 +412,80 @@ fn valleys(sight: &Sight, density: f64, cost: impl Fn(&[f64; 3]) -> f64) -> Vec<
     } else {
         &[-0.15, -0.1, -0.05, 0.0, 0.05, 0.1, 0.15]
     };
-    let mut best: Vec<([f64; 3], f64)> = places
-        .iter()
-        .map(|&place| {
+    let mut points = Vec::new();
+    for ends in ends {
+        let at = |place: f64| {
             DENSITY
                 .iter()
-                .flat_map(|q| END.map(|end| [density.ln() + q, place, end]))
+                .flat_map(|q| ends.iter().map(move |&end| [density.ln() + q, place, end]))
                 .map(|point| (point, cost(&point)))
                 .min_by(|a, b| a.1.total_cmp(&b.1))
                 .expect("a density")
-        })
-        .collect();
-    let top = (0..best.len())
-        .min_by(|&a, &b| best[a].1.total_cmp(&best[b].1))
-        .expect("a point");
-    let far = (0..best.len())
-        .filter(|&k| k.abs_diff(top) > 2)
-        .min_by(|&a, &b| best[a].1.total_cmp(&best[b].1))
-        .expect("a point");
-    vec![
-        best.swap_remove(top.max(far)).0,
-        best.swap_remove(top.min(far)).0,
-    ]
+        };
+        let best: Vec<_> = places.iter().map(|&place| at(place)).collect();
+        let least = |of: &dyn Fn(usize) -> bool| {
+            let some = (0..best.len()).filter(|&k| of(k));
+            some.min_by(|&a, &b| best[a].1.total_cmp(&best[b].1))
+        };
+        let top = least(&|_| true);
+        let far = least(&|k| top.is_some_and(|top| k.abs_diff(top) > 2));
+        points.extend([top, far].into_iter().flatten().map(|k| best[k].0));
+    }
+    points
 }
 
 /// Most looks at the likelihood on one climb.
 const CLIMB: usize = 300;
+/// Fall of the logarithm of the likelihood from which a point has no weight.
+const UNLIKELY: f64 = 5.0;
+/// Distance between two summits along the logarithm of the time from engagement to first mark, or along the engagement of a
+/// turning shaft; along the end a tenth of it.
+const APART: f64 = 0.2;
 /// Plans that are kept.
 const KEPT: usize = 24;
+
+/// The foot of a valley: a climb that is begun anew, with a quieter motion, until that gains nothing. A quiet motion that its
+/// knots explain lies at the end of a valley that is long and narrow, in which one climb comes to a stop.
+fn climbed(
+    point: [f64; 3],
+    steps: [f64; 3],
+    calls: usize,
+    cost: impl Fn(&[f64; 3]) -> f64,
+) -> ([f64; 3], f64) {
+    const AGAIN: usize = 4;
+    let mut best = smallest(point, steps, calls, 0.1, &cost);
+    for _ in 0..AGAIN {
+        let closer = [-1.5 * steps[0], 0.1 * steps[1], 0.1 * steps[2]];
+        let next = smallest(best.0, closer, calls / 2, 0.1, &cost);
+        let gain = best.1 - next.1;
+        if next.1 < best.1 {
+            best = next;
+        }
+        // Written so that a value that is not a number ends it.
+        if !(gain > 0.5) {
+            break;
+        }
+    }
+    best
+}
+
+/// The best of some climbs, and those that are nearly as likely and lie apart from all better ones.
+fn summits(mut climbs: Vec<([f64; 3], f64)>) -> Vec<([f64; 3], f64)> {
+    const MOST_SUMMITS: usize = 3;
+    climbs.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let mut kept: Vec<([f64; 3], f64)> = Vec::new();
+    for climb in climbs {
+        let apart = kept.iter().all(|better| {
+            let away = |k: usize| (climb.0[k] - better.0[k]).abs();
+            away(1) > APART || away(2) > 0.1 * APART
+        });
+        let likely = kept.first().is_none_or(|best| climb.1 < best.1 + UNLIKELY);
+        if apart && likely && kept.len() < MOST_SUMMITS {
+            kept.push(climb);
+        }
+    }
+    kept
+}
 
 /// Some plans that stand for many, given the heaviest first: that one, and others at equal steps of the summed weight along
 /// the engagement. To keep only the heaviest would cut off what is less likely on both sides, and the band with it.
@@ -524,26 +594,36 @@ pub(super) fn lively(
     } else {
         &[0.0]
     };
+    let ends = match sight.ends {
+        true => ends(data, sight, length),
+        false => vec![vec![0.0]],
+    };
+    let steps = [2.0, if sight.rests { 0.2 } else { 0.05 }, 0.05];
     let mut bests = Vec::new();
     for (start, head) in [Knot::Soft, Knot::Kink, Knot::Jump]
         .into_iter()
         .flat_map(|start| heads.iter().map(move |&head| (start, head)))
     {
-        let mut warm: Option<[f64; 3]> = None;
+        let mut warm: Vec<[f64; 3]> = Vec::new();
         for &stop in stops {
             let cost = cost((start, stop, head));
-            let steps = [2.0, if sight.rests { 0.2 } else { 0.05 }, 0.05];
-            let from = |point, calls| smallest(point, steps, calls, 0.1, &cost);
-            let best = match warm {
-                Some(warm) => from(warm, CLIMB / 2),
-                None => valleys(sight, density, cost)
-                    .into_iter()
-                    .map(|point| from(point, CLIMB))
-                    .min_by(|a, b| a.1.total_cmp(&b.1))
-                    .expect("the scan names a point"),
+            let from = |point: &[f64; 3], calls| climbed(*point, steps, calls, &cost);
+            let tops: Vec<_> = if warm.is_empty() {
+                let points = valleys(sight, density, &ends, cost);
+                let short: Vec<_> = points
+                    .iter()
+                    .map(|point| smallest(*point, steps, CLIMB / 4, 0.1, &cost))
+                    .collect();
+                let tops = summits(short);
+                tops.iter().map(|top| from(&top.0, CLIMB)).collect()
+            } else {
+                warm.iter().map(|point| from(point, CLIMB / 2)).collect()
             };
-            warm = Some(best.0);
-            bests.push(((start, stop, head), best));
+            let tops = summits(tops);
+            if warm.is_empty() {
+                warm = tops.iter().map(|top| top.0).collect();
+            }
+            bests.extend(tops.into_iter().map(|top| ((start, stop, head), top)));
         }
     }
     let top = bests
@@ -551,8 +631,7 @@ pub(super) fn lively(
         .map(|b| -b.1.1)
         .fold(f64::NEG_INFINITY, f64::max);
     for (jumps, (best, value)) in bests {
-        // What is less likely by e^-5 at its best has no weight.
-        if -value < top - 5.0 {
+        if -value < top - UNLIKELY {
             continue;
         }
         let cost = cost(jumps);

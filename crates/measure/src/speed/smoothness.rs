@@ -20,7 +20,6 @@
 //! **Does not model**: the first and the last fifth of a change, where knots leave more open than the density does: there the
 //! factor fades out.
 
-use super::answer::at;
 use super::plan::Plan;
 use super::track::{Belief, Track, mixed};
 
@@ -117,7 +116,7 @@ impl Smoothness {
 fn compared(tracks: &[(f64, Track)], stiffer: &[(f64, Track)], time: f64) -> [Compared; 2] {
     let beliefs = |tracks: &[(f64, Track)]| -> Vec<(f64, Belief)> {
         let all = tracks.iter();
-        all.map(|(weight, track)| (*weight, at(track, time)))
+        all.map(|(weight, track)| (*weight, track.at(time)))
             .collect()
     };
     let (soft, hard) = (beliefs(tracks), beliefs(stiffer));
