@@ -19,6 +19,7 @@ mod answer;
 mod breakaway;
 mod design;
 mod fit;
+mod lively;
 mod matrix;
 mod plan;
 mod search;
@@ -276,7 +277,7 @@ pub fn smooth(
         notes,
     };
     if let Some(sight) = &sight {
-        let (plans, range) = fit::lively(&data, sight, &base);
+        let (plans, range) = lively::lively(&data, sight, &base);
         let Some((best, _)) = plans.first() else {
             return Err(Refusal::new(
                 "the start and the end of the quick change cannot be told".into(),
