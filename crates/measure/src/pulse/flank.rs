@@ -183,20 +183,35 @@ fn pupils(own: &[usize], rates: &[Option<f64>]) -> Vec<(usize, f64)> {
     slowest
 }
 
+/// Samples within the shape's half width of a place, by their numbers.
+fn window(samples: &[f64], place: f64, rate: f64) -> std::ops::Range<usize> {
+    let reach = HALF / rate;
+    let begin = (place - reach).ceil().max(0.0) as usize;
+    begin..((place + reach) as usize + 1).min(samples.len())
+}
+
+/// The same with their heights from the middle as parts of the span; what is no number is left out.
+fn near<'a>(
+    samples: &'a [f64],
+    passing: &Passing,
+    rate: f64,
+    scale: f64,
+) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
+    let middle = passing.middle;
+    window(samples, passing.place, rate)
+        .map(move |m| (m as f64, scale * (samples[m] - middle)))
+        .filter(|(_, height)| height.is_finite())
+}
+
 /// Lays a flank on the shape; returns by how many samples it moved.
 fn lay(samples: &[f64], passing: &mut Passing, rate: f64, scale: f64, shape: &Shape) -> f64 {
-    let reach = HALF / rate;
-    let begin = (passing.place - reach).ceil().max(0.0) as usize;
-    let end = ((passing.place + reach) as usize + 1).min(samples.len());
+    let near = near(samples, passing, rate, scale);
     let mut place = passing.place;
     let mut weight = 0.0;
     for _ in 0..2 {
         let (mut pull, mut stiffness) = (0.0, 0.0);
-        for (m, x) in samples.iter().enumerate().take(end).skip(begin) {
-            let height = scale * (x - passing.middle);
-            if let Some((model, slope)) = shape.at((m as f64 - place) * rate)
-                && height.is_finite()
-            {
+        for (m, height) in near.clone() {
+            if let Some((model, slope)) = shape.at((m - place) * rate) {
                 let slope = slope * rate;
                 pull -= slope * (height - model);
                 stiffness += slope * slope;
@@ -223,15 +238,11 @@ fn lay(samples: &[f64], passing: &mut Passing, rate: f64, scale: f64, shape: &Sh
 
 /// Lays a flank on the shape: mean and deviation of all places at which the samples about it are likely. A flank that hides
 /// between two samples may be anywhere there; one that a sample meets is where that sample says.
-fn weigh(samples: &[f64], passing: &mut Passing, rate: f64, scale: f64, shape: &Shape) -> f64 {
-    let reach = HALF / rate;
-    let begin = (passing.place - reach).ceil().max(0.0) as usize;
-    let end = ((passing.place + reach) as usize + 1).min(samples.len());
-    let near: Vec<(f64, f64)> = (begin..end)
-        .map(|m| (m as f64, scale * (samples[m] - passing.middle)))
-        .filter(|(m, height)| {
+fn weigh(samples: &[f64], passing: &mut Passing, rate: f64, scale: f64, shape: &Shape) {
+    let near: Vec<(f64, f64)> = near(samples, passing, rate, scale)
+        .filter(|(m, _)| {
             let (from, to) = (m - passing.place - AWAY, m - passing.place + AWAY);
-            height.is_finite() && shape.changes(from * rate, to * rate)
+            shape.changes(from * rate, to * rate)
         })
         .collect();
     let misfit = |place: f64| -> f64 {
@@ -265,14 +276,12 @@ fn weigh(samples: &[f64], passing: &mut Passing, rate: f64, scale: f64, shape: &
         let mean = first / sum;
         let spread = (second / sum - mean * mean).max(0.0).sqrt();
         if spread > 1.5 * step || high - low > 0.7 * (to - from) {
-            let moved = from + mean - passing.place;
-            passing.place += moved;
+            passing.place = from + mean;
             passing.spread = spread.max(1e-3);
-            return moved;
+            return;
         }
         (from, to) = (low, high);
     }
-    0.0
 }
 
 /// The mean shape of passages, slow ones first of all: they show it in full.
@@ -283,11 +292,9 @@ fn learn(samples: &[f64], found: &[Passing], pupils: &[(usize, f64)], scale: f64
     for &(k, rate) in pupils {
         let passing = &found[k];
         let weight = (fastest / rate).powi(4).min(1e4);
-        let reach = HALF / rate;
-        let begin = (passing.place - reach).ceil().max(0.0) as usize;
-        let end = ((passing.place + reach) as usize + 1).min(samples.len());
-        let step = ((end - begin) / 200).max(1);
-        for m in (begin..end).step_by(step) {
+        let window = window(samples, passing.place, rate);
+        let step = (window.len() / 200).max(1);
+        for m in window.step_by(step) {
             let height = scale * (samples[m] - passing.middle);
             let place = ((m as f64 - passing.place) * rate / HALF + 1.0) * 0.5 * CELLS as f64;
             if height.is_finite() && place >= 0.0 && place < CELLS as f64 {

@@ -1,6 +1,5 @@
 //! What is asked of a smoothed record: the motion at an instant, covariance between instants, paths at random.
 
-use super::matrix::{Matrix, N};
 use super::track::{Belief, Track, mixed};
 use super::{Motion, Speed};
 
@@ -29,7 +28,7 @@ impl Speed {
         let beliefs: Vec<(f64, Belief)> = self
             .tracks(time)
             .iter()
-            .map(|(w, track)| (*w, at(track, time)))
+            .map(|(w, track)| (*w, track.at(time)))
             .collect();
         mixed(beliefs.iter().copied())
     }
@@ -66,23 +65,26 @@ impl Speed {
     /// The motion at an instant, s; outside the range of the pulses it is carried on, with growing covariance; before an
     /// engagement from rest it is rest, and after the last mark of a shaft that stops it comes to rest.
     pub fn at(&self, seconds: f64) -> Motion {
+        let motion = self.told(seconds);
+        let motion = self.stop.map_or(motion, |stop| stop.applied(motion));
+        let hidden = self.breakaway.as_ref();
+        hidden.map_or(motion, |breakaway| breakaway.applied(motion))
+    }
+
+    /// The motion that the pulses alone tell of.
+    fn told(&self, seconds: f64) -> Motion {
         let time = (seconds - self.origin) / self.unit;
         let (belief, factors) = (self.belief(time), self.factors(time));
         let scale = self.scale();
         let [angle, speed, acceleration, jerk] = std::array::from_fn(|i| belief.mean[i] * scale[i]);
         let late = [speed, acceleration, jerk].map(|x| x * self.latency);
         let wrong = self.wrong_wheel(0.0, speed, acceleration);
-        let mut known: [[f64; 3]; 3] = std::array::from_fn(|i| {
+        let known: [[f64; 3]; 3] = std::array::from_fn(|i| {
             let factor = |i: usize| factors[i] * scale[i];
             std::array::from_fn(|j| belief.covariance[i][j] * factor(i) * factor(j))
         });
-        if let Some(stiffest) = &self.stiffest {
-            for order in [1, 2] {
-                let variance = &mut known[order][order];
-                *variance = variance.max(stiffest.variance(order as i32, seconds));
-            }
-        }
-        let motion = Motion {
+        let floor = self.floor(seconds, [known[1][1], known[2][2]]);
+        Motion {
             time: seconds,
             angle,
             speed,
@@ -90,24 +92,68 @@ impl Speed {
             covariance: std::array::from_fn(|i| {
                 std::array::from_fn(|j| {
                     let wheel: f64 = wrong.iter().map(|w| w[i] * w[j]).sum();
-                    known[i][j] + late[i] * late[j] + wheel
+                    let lacking = if i == j { floor[i] * floor[i] } else { 0.0 };
+                    known[i][j] + lacking + late[i] * late[j] + wheel
                 })
             }),
+        }
+    }
+
+    /// What the deviations of angle, speed and acceleration lack, given the variances of the last two, that they cannot be
+    /// less than.
+    fn floor(&self, seconds: f64, known: [f64; 2]) -> [f64; 3] {
+        let lacks = |stiffest: &super::Stiffest, order: usize| {
+            let least = stiffest.variance(order as i32, seconds);
+            (least - known[order - 1]).max(0.0).sqrt()
         };
-        let motion = self.stop.map_or(motion, |stop| stop.applied(motion));
-        let hidden = self.breakaway.as_ref();
-        hidden.map_or(motion, |breakaway| breakaway.applied(motion))
+        let stiffest = self.stiffest.as_ref();
+        stiffest.map_or([0.0; 3], |s| [0.0, lacks(s, 1), lacks(s, 2)])
+    }
+
+    /// The instant from which an instant's motion follows, s, and how much of what was open there is left: behind the last
+    /// mark of a shaft that stops it is that mark.
+    fn source(&self, seconds: f64) -> (f64, [f64; 3]) {
+        let stop = self.stop.as_ref();
+        stop.map_or((seconds, [1.0; 3]), |stop| stop.source(seconds))
+    }
+
+    /// Deviations of angle, speed and acceleration at an instant, s, that pulses do not tell of: what the stop and what the
+    /// breakaway hide. Each is one error for all instants.
+    fn hidden(&self, seconds: f64) -> [[f64; 3]; 2] {
+        let stop = self.stop.map_or([0.0; 3], |stop| stop.hidden(seconds));
+        let breakaway = self.breakaway.as_ref();
+        let start = breakaway.map_or([0.0; 3], |breakaway| {
+            breakaway.hidden(seconds, || self.told(seconds).acceleration)
+        });
+        [stop, start]
     }
 
     /// Covariance of angle, speed and acceleration at one instant (rows) with those at another (columns), s.
     ///
     /// Within a quick change, and outside it, all that is unknown takes part; between an instant inside and one outside, the
-    /// knots count as known.
+    /// knots count as known. What a stop and a breakaway hide is the same error at all instants.
     pub fn covariance(&self, first: f64, second: f64) -> [[f64; 3]; 3] {
         if second < first {
             let other = self.covariance(second, first);
             return std::array::from_fn(|i| std::array::from_fn(|j| other[j][i]));
         }
+        let sources = [first, second].map(|t| self.source(t));
+        let told = self.covariance_told(sources[0].0, sources[1].0);
+        let hidden = [first, second].map(|t| self.hidden(t));
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                let left = sources[0].1[i] * sources[1].1[j];
+                let own: f64 = match i == j {
+                    true => (0..2).map(|k| hidden[0][k][i] * hidden[1][k][i]).sum(),
+                    false => 0.0,
+                };
+                told[i][j] * left + own
+            })
+        })
+    }
+
+    /// What the pulses alone tell of the same, for instants in order.
+    fn covariance_told(&self, first: f64, second: f64) -> [[f64; 3]; 3] {
         let times = [first, second].map(|t| (t - self.origin) / self.unit);
         let inside = times
             .iter()
@@ -119,7 +165,10 @@ impl Speed {
         };
         let parts: Vec<_> = tracks
             .iter()
-            .map(|(w, track)| (*w, times.map(|t| at(track, t)), between(track, times)))
+            .map(|(w, track)| {
+                let both = track.between(times[0], times[1]);
+                (*w, times.map(|t| track.at(t)), both)
+            })
             .collect();
         let mean: [[f64; 3]; 2] = std::array::from_fn(|k| {
             std::array::from_fn(|i| parts.iter().map(|p| p.0 * p.1[k].mean[i]).sum())
@@ -143,6 +192,12 @@ impl Speed {
                 mean[k][2] * scale[2],
             )
         });
+        let floor = [0, 1].map(|k| {
+            let seconds = [first, second][k];
+            let belief = self.belief(times[k]);
+            let known = |i: usize| belief.covariance[i][i] * (factors[k][i] * scale[i]).powi(2);
+            self.floor(seconds, [known(1), known(2)])
+        });
         std::array::from_fn(|i| {
             std::array::from_fn(|j| {
                 let own: f64 = parts
@@ -153,7 +208,13 @@ impl Speed {
                     })
                     .sum();
                 let wheel: f64 = (0..2).map(|w| wrong[0][w][i] * wrong[1][w][j]).sum();
+                let lacking = if i == j {
+                    floor[0][i] * floor[1][i]
+                } else {
+                    0.0
+                };
                 own * factors[0][i] * scale[i] * factors[1][j] * scale[j]
+                    + lacking
                     + late[0][i] * late[1][j]
                     + wheel
             })
@@ -163,17 +224,18 @@ impl Speed {
     /// A motion drawn at random from all that the pulses leave open: angle, speed and acceleration at increasing instants, s.
     ///
     /// `uniform` from 0 to 1 picks the knots; `normal` gives independent standard normal numbers. All instants within the
-    /// quick change or all anywhere: then the knots count as known. Instants before the first pulse, or before an
-    /// engagement from rest, are at its state.
+    /// quick change or all anywhere: then the knots count as known. Before the first pulse and behind a stop the motion is
+    /// carried on as by [`Speed::at`].
     pub fn draw(
         &self,
         times: &[f64],
         uniform: f64,
         normal: &mut dyn FnMut() -> f64,
     ) -> Vec<[f64; 3]> {
-        let units: Vec<f64> = times
+        let sources: Vec<(f64, [f64; 3])> = times.iter().map(|t| self.source(*t)).collect();
+        let units: Vec<f64> = sources
             .iter()
-            .map(|t| (t - self.origin) / self.unit)
+            .map(|(t, _)| (t - self.origin) / self.unit)
             .collect();
         let inside = units
             .iter()
@@ -187,29 +249,35 @@ impl Speed {
             Some((_, track)) if inside => track,
             _ => &self.base,
         };
-        let begin = track.begin();
-        let clamped: Vec<f64> = units.iter().map(|t| t.max(begin)).collect();
-        let path = track.draw(&clamped, normal);
+        let path = track.draw(&units, normal);
         let (delay, sine, cosine) = (normal() * self.latency, normal(), normal());
+        // One error each of speed and of acceleration: the least one, that of a stop, that of a breakaway.
+        let own: [[f64; 3]; 3] = std::array::from_fn(|_| [0.0, normal(), normal()]);
         let scale = self.scale();
         let origin = path.first().map_or(0.0, |x| x[0]);
-        units
-            .iter()
-            .zip(&path)
-            .map(|(&t, x)| {
-                let rest = if t < begin {
-                    [x[0], 0.0, 0.0, 0.0]
-                } else {
-                    [x[0], x[1], x[2], x[3]]
-                };
-                let rest = if inside { self.scaled(t, rest) } else { rest };
-                let [angle, speed, acceleration, jerk] =
-                    std::array::from_fn(|i| rest[i] * scale[i]);
+        std::iter::zip(times, sources)
+            .zip(units.iter().zip(&path))
+            .map(|((&time, (source, left)), (&unit, x))| {
+                let x = [x[0], x[1], x[2], x[3]];
+                let x = if inside { self.scaled(unit, x) } else { x };
+                let [angle, speed, acceleration, jerk] = std::array::from_fn(|i| x[i] * scale[i]);
                 let late = [speed, acceleration, jerk].map(|v| v * delay);
                 let wrong = self.wrong_wheel(angle - origin, speed, acceleration);
                 let now = [angle, speed, acceleration];
+                let (told, wanted) = (self.told(source), self.at(time));
+                let told = [told.angle, told.speed, told.acceleration];
+                let wanted = [wanted.angle, wanted.speed, wanted.acceleration];
+                let (belief, factors) = (self.belief(unit), self.factors(unit));
+                let known = |i: usize| belief.covariance[i][i] * (factors[i] * scale[i]).powi(2);
+                let floor = self.floor(source, [known(1), known(2)]);
+                let hidden = self.hidden(time);
                 std::array::from_fn(|i| {
-                    now[i] + late[i] + sine * wrong[0][i] + cosine * wrong[1][i]
+                    let away = now[i] - told[i]
+                        + late[i]
+                        + sine * wrong[0][i]
+                        + cosine * wrong[1][i]
+                        + own[0][i] * floor[i];
+                    wanted[i] + left[i] * away + own[1][i] * hidden[0][i] + own[2][i] * hidden[1][i]
                 })
             })
             .collect()
@@ -240,34 +308,4 @@ impl Speed {
         };
         [of(sine, cosine), of(cosine, -sine)]
     }
-}
-
-/// Covariance of the states of a track at two instants in order, at rest before its start.
-fn between(track: &Track, times: [f64; 2]) -> Matrix {
-    let begin = track.begin();
-    let both = track.between(times[0].max(begin), times[1].max(begin));
-    std::array::from_fn(|i| {
-        std::array::from_fn(|j| {
-            let rests = (i > 0 && times[0] < begin) || (j > 0 && times[1] < begin);
-            if rests { 0.0 } else { both[i][j] }
-        })
-    })
-}
-
-/// Belief of a track: at rest before its start where it starts from rest, carried back where it moves.
-pub(super) fn at(track: &Track, time: f64) -> Belief {
-    if time >= track.begin() {
-        return track.at(time);
-    }
-    let mut belief = *track.start();
-    // A start from rest is the one whose speed is known.
-    if belief.covariance[1][1] > 0.0 {
-        return track.before(time);
-    }
-    let angle = belief.covariance[0][0];
-    belief.mean[2] = 0.0;
-    belief.mean[3] = 0.0;
-    belief.covariance = [[0.0; N]; N];
-    belief.covariance[0][0] = angle;
-    belief
 }

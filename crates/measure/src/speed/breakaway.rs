@@ -46,17 +46,23 @@ impl Breakaway {
         })
     }
 
+    /// Deviations of angle, speed and acceleration at an instant, s, that the pulses do not tell of, given the acceleration.
+    pub fn hidden(&self, time: f64, acceleration: impl FnOnce() -> f64) -> [f64; 3] {
+        let left = (self.first - time) / (self.first - self.engagement);
+        if time <= self.engagement - self.deviation || left <= 0.0 {
+            return [0.0; 3];
+        }
+        let hidden = self.deviation * left.min(1.0);
+        let gained = acceleration().abs().max(self.slope * hidden);
+        [0.0, gained * hidden, self.slope * hidden]
+    }
+
     /// The motion at an instant with what is hidden of it.
     pub fn applied(&self, mut motion: Motion) -> Motion {
-        let left = (self.first - motion.time) / (self.first - self.engagement);
-        if motion.time > self.engagement - self.deviation && left > 0.0 {
-            let hidden = self.deviation * left.min(1.0);
-            let mut add = |i: usize, deviation: f64| motion.covariance[i][i] += deviation.powi(2);
-            add(
-                1,
-                motion.acceleration.abs().max(self.slope * hidden) * hidden,
-            );
-            add(2, self.slope * hidden);
+        let acceleration = motion.acceleration;
+        let hidden = self.hidden(motion.time, || acceleration);
+        for (i, deviation) in hidden.into_iter().enumerate() {
+            motion.covariance[i][i] += deviation * deviation;
         }
         motion
     }

@@ -13,6 +13,11 @@ const OFFERED: [usize; 32] = [
     500, 512, 720, 1000, 1024, 1440, 2000, 2048,
 ];
 
+/// Smallest number of marks offered that is not below a number.
+pub(super) fn offered(least: f64) -> Option<usize> {
+    OFFERED.into_iter().find(|&marks| marks as f64 >= least)
+}
+
 /// Fewest marks per revolution that give the acceleration of a spin-up from rest to the wanted uncertainty, root mean square
 /// over the spin-up, as a part of its peak.
 ///
@@ -20,7 +25,8 @@ const OFFERED: [usize; 32] = [
 /// s; `wanted`: relative uncertainty. None where not even 2048 marks are enough, or an argument is not positive.
 ///
 /// The smoother itself is asked, for a bell-shaped acceleration `(1 - cos 2πt/T)/2` and exactly known mark angles; it
-/// promises no more than that.
+/// promises no more than that. Enough pulses for a band come within the change of an acceleration that rises evenly too, in
+/// which the shaft turns by a third of what it would at the speed reached.
 pub fn marks_needed(change: f64, duration: f64, timing: f64, wanted: f64) -> Option<usize> {
     let positive = [change, duration, timing, wanted]
         .iter()
@@ -36,6 +42,9 @@ pub fn marks_needed(change: f64, duration: f64, timing: f64, wanted: f64) -> Opt
 /// Relative uncertainty that a number of marks gives; none where there are too few or far too many to ask.
 fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<f64> {
     let pitch = TAU / marks as f64;
+    if change * duration / 3.0 < (super::FEWEST_WITHIN + 1) as f64 * pitch {
+        return None;
+    }
     let whole = 0.5 * change * duration;
     // Angle of the bell at a part x of its duration.
     let angle = |x: f64| {
@@ -65,9 +74,6 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
         from = low;
         times.push(duration * low);
         wanted += pitch;
-    }
-    if times.iter().filter(|t| **t < duration).count() < super::FEWEST_WITHIN {
-        return None;
     }
     let n = times.len();
     let pulses = Pulses {
@@ -132,7 +138,7 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
             let time = engage + length * (k as f64 + 0.5) / points as f64;
             let beliefs: Vec<_> = parts
                 .iter()
-                .map(|p| ((p.0 - top).exp() / total, super::answer::at(&p.1, time)))
+                .map(|p| ((p.0 - top).exp() / total, p.1.at(time)))
                 .collect();
             mixed(beliefs.iter().copied()).covariance[2][2] / points as f64
         })

@@ -20,7 +20,6 @@
 //! **Does not model**: the first and the last fifth of a change, where knots leave more open than the density does: there the
 //! factor fades out.
 
-use super::answer::at;
 use super::plan::Plan;
 use super::track::{Belief, Track, mixed};
 
@@ -117,7 +116,7 @@ impl Smoothness {
 fn compared(tracks: &[(f64, Track)], stiffer: &[(f64, Track)], time: f64) -> [Compared; 2] {
     let beliefs = |tracks: &[(f64, Track)]| -> Vec<(f64, Belief)> {
         let all = tracks.iter();
-        all.map(|(weight, track)| (*weight, at(track, time)))
+        all.map(|(weight, track)| (*weight, track.at(time)))
             .collect()
     };
     let (soft, hard) = (beliefs(tracks), beliefs(stiffer));
@@ -137,4 +136,81 @@ fn compared(tracks: &[(f64, Track)], stiffer: &[(f64, Track)], time: f64) -> [Co
             expected: (hard * (1.0 + (STIFFER - 1.0) * exponent) - soft).max(0.0),
         }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::matrix::{Memory, N};
+    use super::super::track::{Node, Sight};
+    use super::*;
+
+    /// Integral of a function over u from 0 to infinity, by the rule of trapezia over ln u.
+    fn integral(of: impl Fn(f64) -> f64) -> f64 {
+        let step = 1e-3;
+        (-20_000..20_000)
+            .map(|k| {
+                let u = (step * f64::from(k)).exp();
+                step * u * of(u)
+            })
+            .sum()
+    }
+
+    /// A long record at even times, with its middle.
+    fn track(density: f64, variance: f64) -> Track {
+        let node = |k: i32| Node {
+            time: f64::from(k),
+            density,
+            pulse: Some(Sight {
+                angle: 0.0,
+                variance,
+                speed: 0.0,
+            }),
+            added: None,
+        };
+        let mut covariance = [[0.0; N]; N];
+        for (i, spread) in [1.0, 0.1, 0.01, 1e-3].into_iter().enumerate() {
+            covariance[i][i] = spread;
+        }
+        let start = Belief {
+            mean: [0.0; N],
+            covariance,
+        };
+        let memory = Memory {
+            spread: 1e-9,
+            rate: 1.0,
+        };
+        Track::new((0..=400).map(node).collect(), start, density, memory)
+    }
+
+    /// A spline of order four through noise, in the frequency u that the density q and the noise r make one, u⁸ = ω⁸ r/q:
+    /// it passes 1/(1 + u⁸); of a derivative d the variance is ∫ u^2d/(1 + u⁸), that from the noise alone
+    /// ∫ u^2d/(1 + u⁸)².
+    #[test]
+    fn errors_from_the_noise_alone_are_three_fifths_and_four_fifths_of_the_deviation() {
+        let (variance, corner) = (1e-4, 0.3f64);
+        let soft = track(variance * corner.powi(8), variance);
+        let hard = track(variance * corner.powi(8) / STIFFER, variance);
+        let compared = compared(&[(1.0, soft)], &[(1.0, hard)], 200.3);
+        for (order, compared, stated) in [(1, &compared[0], 0.8), (2, &compared[1], 0.6)] {
+            let power = |u: f64| u.powi(2 * order);
+            let whole = integral(|u| power(u) / (1.0 + u.powi(8)));
+            let noise = integral(|u| power(u) / (1.0 + u.powi(8)).powi(2));
+            let part = (noise / whole).sqrt();
+            assert!((part - stated).abs() < 0.02, "{order}: {part}");
+            // The rest is from the motion, and is what grows with the density.
+            assert!(
+                (compared.exponent - (1.0 - noise / whole)).abs() < 2e-3,
+                "{order}: {} {}",
+                compared.exponent,
+                1.0 - noise / whole
+            );
+            // Both sides of the spectrum, over 2π; one pulse a unit of time.
+            let wanted = variance * corner.powi(2 * order + 1) * whole / std::f64::consts::PI;
+            assert!(
+                (compared.within / wanted - 1.0).abs() < 1e-2,
+                "{order}: {} {wanted}",
+                compared.within
+            );
+        }
+    }
 }

@@ -230,10 +230,6 @@ impl Track {
             && self.curvature.iter().all(sound)
     }
 
-    pub fn start(&self) -> &Belief {
-        &self.start
-    }
-
     /// Filtered belief carried to an instant, and the adjoint there.
     fn around(&self, time: f64) -> (Belief, Vector, Matrix) {
         let next = self.times.partition_point(|&t| t <= time);
@@ -264,7 +260,60 @@ impl Track {
     }
 
     /// Belief at an instant from all pulses.
+    ///
+    /// Before the first node a shaft that starts from rest is where it starts; one that turns moves as at the first node,
+    /// carried back with the noise that the time between gathers.
     pub fn at(&self, time: f64) -> Belief {
+        let begin = self.begin();
+        if time >= begin {
+            return self.within(time);
+        }
+        let first = self.within(begin);
+        if self.rests() {
+            let mut mean = [0.0; N];
+            mean[0] = first.mean[0];
+            let mut covariance = [[0.0; N]; N];
+            covariance[0][0] = first.covariance[0][0];
+            return Belief { mean, covariance };
+        }
+        let path = self.back(time - begin);
+        let spread = product(&path, &product(&first.covariance, &transposed(&path)));
+        Belief {
+            mean: apply(&path, &first.mean),
+            covariance: plus(&spread, &self.lost(begin - time)),
+        }
+    }
+
+    /// Whether the shaft rests before the first node: a start from rest is the one whose speed is known.
+    fn rests(&self) -> bool {
+        self.start.covariance[1][1] <= 0.0
+    }
+
+    /// Free motion back over a time before the first node, where the error of the instants plays no part.
+    fn back(&self, dt: f64) -> Matrix {
+        let still = Memory {
+            rate: 0.0,
+            ..self.memory
+        };
+        drift(dt, &still)
+    }
+
+    /// Covariance that a time before the first node gathers, seen from its end: neighbouring derivatives err against each
+    /// other.
+    fn lost(&self, length: f64) -> Matrix {
+        let density = self.nodes.first().map_or(self.density, |node| node.density);
+        let still = Memory {
+            rate: 0.0,
+            ..self.memory
+        };
+        let gathered = gathered(length, density, &still);
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| gathered[i][j] * if (i + j) % 2 == 0 { 1.0 } else { -1.0 })
+        })
+    }
+
+    /// Belief at an instant not before the first node.
+    fn within(&self, time: f64) -> Belief {
         let (belief, gradient, curvature) = self.around(time);
         let p = &belief.covariance;
         let shift = apply(p, &gradient);
@@ -275,28 +324,33 @@ impl Track {
         }
     }
 
-    /// Belief at an instant before the first node, of a motion that was as it is there: the state from all pulses, carried
-    /// back, with the noise that the time between gathers.
-    pub fn before(&self, time: f64) -> Belief {
-        let first = self.at(self.begin());
-        let back = time - self.begin();
-        let density = self.nodes.first().map_or(self.density, |node| node.density);
-        let path = drift(
-            back,
-            &Memory {
-                rate: 0.0,
-                ..self.memory
-            },
-        );
-        let spread = product(&path, &product(&first.covariance, &transposed(&path)));
-        Belief {
-            mean: apply(&path, &first.mean),
-            covariance: plus(&spread, &gathered(-back, density, &self.memory)),
-        }
-    }
-
     /// Covariance of the states at two instants, the first one not after the second, from all pulses.
     pub fn between(&self, first: f64, second: f64) -> Matrix {
+        let begin = self.begin();
+        if first >= begin {
+            return self.between_within(first, second);
+        }
+        if self.rests() {
+            // The angle at rest is the one at the start.
+            let both = self.between_within(begin, second.max(begin));
+            return std::array::from_fn(|i| {
+                std::array::from_fn(|j| {
+                    let moves = i == 0 && (j == 0 || second >= begin);
+                    if moves { both[i][j] } else { 0.0 }
+                })
+            });
+        }
+        if second < begin {
+            return product(&self.back(first - second), &self.at(second).covariance);
+        }
+        product(
+            &self.back(first - begin),
+            &self.between_within(begin, second),
+        )
+    }
+
+    /// The same for instants not before the first node.
+    fn between_within(&self, first: f64, second: f64) -> Matrix {
         let (from, _, _) = self.around(first);
         let (to, _, curvature) = self.around(second);
         // How an error at the first instant is carried through forecasts and updates to the second.
@@ -324,7 +378,7 @@ impl Track {
         minus(&ahead, &product(&ahead, &seen))
     }
 
-    /// A path drawn at random from the belief, at increasing instants not before the first node.
+    /// A path drawn at random from the belief, at increasing instants.
     ///
     /// A motion and its pulses are made up from the model and smoothed like the measured ones; their error is added to the
     /// smoothed measurement. Source: Durbin and Koopman, Biometrika 89, 2002 (from memory).
@@ -336,8 +390,20 @@ impl Track {
         let moved = shake(&self.start.covariance);
         let mut x: Vector = std::array::from_fn(|i| self.start.mean[i] + moved[i]);
         let mut made = self.nodes.clone();
-        let mut path = Vec::with_capacity(times.len());
         let mut time = self.begin();
+        let (early, late) = times.split_at(times.partition_point(|t| *t < time));
+        let mut path = vec![[0.0; N]; early.len()];
+        let (mut later, mut before) = (x, time);
+        for (state, &t) in path.iter_mut().zip(early).rev() {
+            if self.rests() {
+                state[0] = x[0];
+                continue;
+            }
+            let noise = shake(&self.lost(before - t));
+            let free = apply(&self.back(t - before), &later);
+            *state = std::array::from_fn(|i| free[i] + noise[i]);
+            (later, before) = (*state, t);
+        }
         let step =
             |x: &mut Vector, dt: f64, density: f64, shake: &mut dyn FnMut(&Matrix) -> Vector| {
                 if dt > 0.0 {
@@ -346,7 +412,7 @@ impl Track {
                     *x = std::array::from_fn(|i| free[i] + noise[i]);
                 }
             };
-        let mut wanted = times.iter().peekable();
+        let mut wanted = late.iter().peekable();
         for node in &mut made {
             while let Some(&&t) = wanted.peek()
                 && t < node.time

@@ -67,11 +67,26 @@ pub fn spin_up(seed: u64, speed: f64, peak: f64, after: f64) -> Truth {
             }
         }
     };
+    let (top, mean) = height(&raw);
+    spun(&mut r, raw, speed, speed / (peak * mean / top), after)
+}
+
+/// The same with an acceleration of a given shape over the slip, and a given length of it, s.
+pub fn shaped(seed: u64, shape: impl Fn(f64) -> f64, speed: f64, length: f64, after: f64) -> Truth {
+    spun(&mut Random::new(seed), shape, speed, length, after)
+}
+
+/// Top and mean of a shape.
+fn height(raw: impl Fn(f64) -> f64) -> (f64, f64) {
     let many = 4000;
     let values: Vec<f64> = (0..=many).map(|k| raw(k as f64 / many as f64)).collect();
     let top = values.iter().copied().fold(0.0, f64::max);
-    let mean = values.iter().sum::<f64>() / many as f64 / top;
-    let length = speed / (peak * mean);
+    (top, values.iter().sum::<f64>() / many as f64)
+}
+
+fn spun(r: &mut Random, raw: impl Fn(f64) -> f64, speed: f64, length: f64, after: f64) -> Truth {
+    let (top, mean) = height(&raw);
+    let peak = speed / (length * mean / top);
     let step = (length / 4000.0).min(2e-5);
     let engage = r.between(0.04, 0.06) + length * r.uniform();
     let drag = r.between(10.0, 40.0);

@@ -1,0 +1,177 @@
+//! Few marks in a quick change: what eight of them tell, what fewer do not, and how many are enough.
+//!
+//! A pickup whose flanks are sampled, on a wheel whose marks are off by a hundredth of their pitch. Where marks are few the
+//! likelihood of the engagement has many summits, one for each interval between marks that the lock may lie in; a search that
+//! misses the highest one is wrong by a fifth of the slip with a band of a tenth.
+//!
+//! Forty seeds a case in a release build; parts of the instants of the slip within two standard deviations:
+//!
+//! | marks, in the slip | rises evenly: speed, acceleration | is even | breaks away |
+//! |---|---|---|---|
+//! | 12, nine in 63 to 94 ms | 91.0, 94.3 % | 95.1, 96.9 % | 96.1, 96.3 % |
+//! | 24, twelve in 42 to 63 ms | 98.4, 99.0 % | 98.0, 98.1 % | 95.6, 96.4 % |
+//! | 60, nine in 13 to 19 ms | 98.2, 99.4 % | 94.8, 91.5 % | 87.4, 80.8 % |
+//!
+//! With seven of 12 or 24 marks it was 82 to 100 % each, with five 79 % of the acceleration where the torque breaks away: refused.
+
+#[path = "synthetic/wheel.rs"]
+mod synthetic;
+
+use std::f64::consts::TAU;
+
+use measure::pulse::{EdgeSettings, Pulses, Wheel, calibrate, edges, number};
+use measure::speed::{Speed, SpeedSettings, marks_needed, smooth};
+use synthetic::{Random, Truth, shaped};
+
+/// Samples per second of the pickup: one of four channels of a converter of 42 kHz.
+const RATE: f64 = 10_500.0;
+/// Speed that is reached, rad/s.
+const REACHED: f64 = 150.0;
+
+/// A shape of the acceleration, and the mean of the speed over the slip as a part of the one reached.
+type Shape = (fn(f64) -> f64, f64);
+
+const RAMP: Shape = (|x| x, 1.0 / 3.0);
+const EVEN: Shape = (|_| 1.0, 0.5);
+const BREAKS_AWAY: Shape = (|x| 0.2 + 0.8 * x, (0.1 + 0.8 / 6.0) / 0.6);
+
+/// What an optical pickup shows of a wheel whose marks are off by a hundredth of their pitch.
+fn pickup(truth: &Truth, seed: u64, marks: usize) -> Vec<f64> {
+    let mut random = Random::new(seed ^ 0x77);
+    let count = marks as f64;
+    let mut places: Vec<f64> = (0..marks)
+        .map(|k| k as f64 + 0.01 * random.normal())
+        .collect();
+    places.push(places[0] + count);
+    (0..(truth.end() * RATE) as usize)
+        .map(|k| {
+            let turned = truth.angle(k as f64 / RATE) / TAU * count;
+            let inside = turned - ((turned - places[0]) / count).floor() * count;
+            let after = places.partition_point(|place| *place <= inside);
+            let after = after.clamp(1, marks);
+            let (left, right) = (places[after - 1], places[after]);
+            let phase = TAU * (inside - left) / (right - left);
+            let volts = 2.5 * (1.0 + (6.0 * phase.cos()).tanh()) + 0.05 * random.normal();
+            let bit = 20.0 / 16384.0;
+            (volts / bit).round() * bit
+        })
+        .collect()
+}
+
+fn passages(truth: &Truth, seed: u64, marks: usize) -> Pulses {
+    let samples = pickup(truth, seed, marks);
+    let found = edges(0.0, RATE.recip(), &samples, &EdgeSettings::default()).unwrap();
+    number(&found, &Wheel { marks, missing: 0 }).unwrap()
+}
+
+fn smoothed(truth: &Truth, seed: u64, marks: usize) -> Result<Speed, measure::pulse::Refusal> {
+    let pulses = passages(truth, seed, marks);
+    let pitch = calibrate(&pulses).unwrap();
+    let settings = SpeedSettings {
+        latency: 5e-6,
+        ..SpeedSettings::default()
+    };
+    smooth(&pulses, Some(&pitch), &settings)
+}
+
+/// Slip in which so many marks pass, s.
+fn slip(shape: Shape, marks: usize, within: f64) -> f64 {
+    within * TAU / marks as f64 / (REACHED * shape.1)
+}
+
+fn seeds() -> u64 {
+    std::env::var("FEW_MARKS_SEEDS")
+        .ok()
+        .and_then(|seeds| seeds.parse().ok())
+        .unwrap_or(4)
+}
+
+#[test]
+fn the_engagement_of_a_rising_torque_is_found_with_twelve_marks_in_the_slip() {
+    // 60 marks and 26 ms: the first mark passes after two fifths of the slip.
+    let mut inside = 0;
+    for seed in 0..seeds() {
+        let truth = shaped(seed, RAMP.0, REACHED, 0.0258, 0.5);
+        let change = smoothed(&truth, seed, 60).unwrap().change.unwrap();
+        let off = change.engagement.0 - truth.engage;
+        // A tenth of the slip is half of what a summit that is missed costs.
+        assert!(off.abs() < 2.6e-3, "{seed}: {off} {change:?}");
+        inside += usize::from(off.abs() < 2.0 * change.engagement.1);
+    }
+    // One of four outside comes by chance in a sixth of all trials, two in a hundredth.
+    assert!(inside as u64 + 1 >= seeds(), "{inside}");
+}
+
+#[test]
+fn too_few_marks_are_refused_with_a_number_that_is_enough() {
+    for (marks, length) in [(12, 0.0412), (24, 0.0258)] {
+        for seed in 0..2 {
+            let truth = shaped(seed, RAMP.0, REACHED, length, 0.5);
+            let refusal = smoothed(&truth, seed, marks).unwrap_err();
+            let enough: usize = refusal
+                .needed
+                .split_whitespace()
+                .find_map(|word| word.parse().ok())
+                .unwrap();
+            assert!(enough > marks && enough <= 3 * marks, "{refusal}");
+            let change = smoothed(&truth, seed, enough).unwrap().change.unwrap();
+            let off = change.engagement.0 - truth.engage;
+            assert!(off.abs() < 0.1 * length, "{enough}: {off} {change:?}");
+        }
+    }
+}
+
+#[test]
+fn marks_that_are_asked_for_beforehand_are_enough_for_a_rising_torque() {
+    let marks = marks_needed(REACHED, 0.0258, 2e-6, 0.1).unwrap();
+    assert!((44..=90).contains(&marks), "{marks}");
+    let truth = shaped(3, RAMP.0, REACHED, 0.0258, 0.5);
+    assert!(smoothed(&truth, 3, marks).is_ok());
+}
+
+#[test]
+fn eight_marks_and_more_hold_their_band() {
+    let (mut speeds, mut accelerations, mut count) = (0, 0, 0);
+    for (marks, within) in [(12, 9.0), (24, 12.0), (60, 9.0)] {
+        for (name, shape) in [("ramp", RAMP), ("even", EVEN), ("breaks away", BREAKS_AWAY)] {
+            let length = slip(shape, marks, within);
+            let (mut speed, mut acceleration, mut refused, mut all) = (0, 0, 0, 0);
+            for seed in 0..seeds() {
+                let truth = shaped(seed, shape.0, REACHED, length, 0.5);
+                let Ok(found) = smoothed(&truth, seed, marks) else {
+                    refused += 1;
+                    continue;
+                };
+                for k in 0..48 {
+                    let time = truth.engage + length * (f64::from(k) + 0.5) / 48.0;
+                    let motion = found.at(time);
+                    let away = (motion.speed - truth.speed(time)) / motion.speed_uncertainty();
+                    speed += usize::from(away.abs() < 2.0);
+                    let away = (motion.acceleration - truth.acceleration(time))
+                        / motion.acceleration_uncertainty();
+                    acceleration += usize::from(away.abs() < 2.0);
+                    all += 1;
+                }
+            }
+            println!(
+                "{name}, {marks} marks, {within} in {:.0} ms: speed {:.1} %, acceleration {:.1} %, {refused} refused",
+                1e3 * length,
+                100.0 * speed as f64 / all as f64,
+                100.0 * acceleration as f64 / all as f64
+            );
+            assert!(refused == 0, "{name} {marks} {within}");
+            speeds += speed;
+            accelerations += acceleration;
+            count += all;
+        }
+    }
+    let (speed, acceleration) = (
+        speeds as f64 / count as f64,
+        accelerations as f64 / count as f64,
+    );
+    // Nine tenths over all cases, less a deviation of some forty records whose instants stand or fall together.
+    assert!(
+        speed > 0.87 && acceleration > 0.87,
+        "{speed} {acceleration}"
+    );
+}
