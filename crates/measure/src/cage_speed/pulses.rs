@@ -74,7 +74,6 @@ pub fn from_pulses(
         time: &time,
         deviation: &deviation,
         weight: &weight,
-        wrap: f64::INFINITY,
         removed: &[],
         engagement,
         from_rest: false,

@@ -325,6 +325,10 @@ fn cage(list: &mut List, asked: &Asked, found: &Found) {
         cage.as_ref()
             .map(|found| value(&found.cage))
             .map_err(|why| why.to_string())
+            .and_then(|value| match value.is_nan() {
+                true => Err("the cage speed has no value there: the warnings tell why".to_string()),
+                false => Ok(value),
+            })
     };
     let last = |values: &[f64]| values.last().copied().unwrap_or(f64::NAN);
     list.number("median_cage_slip", "1", of(&|c| median(&c.slip)), &CAGE);

@@ -9,6 +9,7 @@ use measure::torque_sensor::{
     Clipped, DesignError, Inversion, Sensor, Torque, identify_free_response, invert,
 };
 use measure::uncertain::Uncertain;
+use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
 /// Values at the ends that are left out without a word.
@@ -16,6 +17,11 @@ const FEW: usize = 2;
 /// What a spectrum shows at least: so many times the frequency of the sensor, so many orders of the shaft.
 const OF_SENSOR: f64 = 3.0;
 const ORDERS: f64 = 4.0;
+/// Factors by which another damping ratio is tried, and the largest that is: behind it nothing swings.
+const FACTORS: [f64; 4] = [0.125, 0.35, 2.8, 8.0];
+const MOST_DAMPED: f64 = 3.0;
+/// Logarithm of the likelihood by which another damping must be ahead: far more than the unknown torque's freedom explains.
+const CONTRADICTED: f64 = 12.0;
 
 /// Torque, and the reading it was found from.
 pub(in crate::simulate) struct Found {
@@ -299,7 +305,44 @@ fn inverted(
     if !input.rests_at_first() && wish.zero_deviation.is_none() {
         notes.push("the shaft does not rest at first and zero_deviation is not given: the zero of the reading is not known".to_string());
     }
+    if let (Some(why), true) = (
+        &faulty.at_limit,
+        high.partial_cmp(&low) != Some(Ordering::Greater),
+    ) {
+        return Err(format!(
+            "{why}, and nothing that changes is left of the reading beside it"
+        ));
+    }
     let torque = invert(&input)?;
     notes.extend(torque.notes.iter().cloned());
+    notes.extend(contradicted(&input, &torque));
     Ok(torque)
+}
+
+/// What tells that the sensor swings with another damping than is said: the reading behind an engagement, which starts its swing.
+fn contradicted(input: &Inversion, found: &Torque) -> Option<String> {
+    input.engagement?;
+    let own = input.sensor.damping_ratio;
+    let others = FACTORS.iter().filter_map(|factor| {
+        let damping_ratio = Uncertain::new(own.value * factor, own.deviation * factor);
+        if damping_ratio.value > MOST_DAMPED {
+            return None;
+        }
+        let sensor = Sensor {
+            damping_ratio,
+            ..input.sensor
+        };
+        let other = invert(&Inversion { sensor, ..*input }).ok()?;
+        Some((damping_ratio.value, other.log_likelihood))
+    });
+    let (ratio, most) = others.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let more = most - found.log_likelihood;
+    (more > CONTRADICTED).then(|| {
+        format!(
+            "the reading contradicts the damping ratio {} of the sensor: with one about {} it is more likely by a factor of 10^{:.0}; a tap would tell it (signals.torque.tap_file)",
+            units::number_text((own.value * 1e4).round() / 1e4),
+            units::number_text((ratio * 1e2).round() / 1e2),
+            more / std::f64::consts::LN_10
+        )
+    })
 }
