@@ -577,7 +577,7 @@ fn times_without_a_unit_are_asked_for() {
         let told = problem(
             "run.csv",
             &bare,
-            &format!("time_unit = \"{unit}\"\n{TORQUE}highest_frequency = \"1 GHz\"\n"),
+            &format!("time_unit = \"{unit}\"\n{TORQUE}highest_frequency = \"1e9 Hz\"\n"),
         );
         let half = format!("to {} Hz is needed", 0.5 * rate);
         assert!(told.contains(&half), "{told}");
@@ -600,7 +600,7 @@ fn an_interval_that_contradicts_the_file_is_told() {
     let same = problem(
         "run.csv",
         &table("N mm", &|_| None),
-        &format!("sample_interval = \"1 ms\"\n{TORQUE}highest_frequency = \"1 GHz\"\n"),
+        &format!("sample_interval = \"1 ms\"\n{TORQUE}highest_frequency = \"1e9 Hz\"\n"),
     );
     assert!(same.contains("highest_frequency"), "{same}");
 }

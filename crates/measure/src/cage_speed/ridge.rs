@@ -104,19 +104,19 @@ pub fn from_vibration(
         ));
     }
     let mut notes = Vec::new();
-    if lost > 0.05 {
+    if lost > 0.0 {
         notes.push(format!(
-            "the line is lost in noise during {:.0} % of the way: there is no value there",
+            "the line is lost in noise during {:.1} % of the way: there is no value there",
             100.0 * lost
         ));
     }
-    if in_doubt > 0.01 {
+    if in_doubt > 0.0 {
         notes.push(format!(
-            "another path of the line is as likely during {:.0} % of the way: there is no value there",
+            "another path of the line is as likely during {:.1} % of the way: there is no value there",
             100.0 * in_doubt
         ));
     }
-    notes.extend(rivals(&turned, |travel| path.smooth_at(travel), slips)?);
+    notes.extend(rivals(&turned, &path, usable, slips)?);
     // Fine: cells that do not overlap, so that white noise stays white.
     let mut known: Vec<f64> = (0..path.slip.len())
         .filter(|&k| usable(k))
@@ -348,14 +348,21 @@ fn phases(cells: &[Cell], standing: &[f64], usable: &[bool]) -> (Vec<f64>, Vec<f
 
 /// Refuses or tells another line in the range beside the ridge.
 ///
-/// `slip` of the ridge over travel, `slips` that are looked for.
+/// `usable` spectra of the path, `slips` that are looked for.
 fn rivals(
     turned: &Signal,
-    slip: impl Fn(f64) -> f64,
+    path: &Path,
+    usable: impl Fn(usize) -> bool,
     slips: (f64, f64),
 ) -> Result<Option<String>, String> {
+    let slip = |travel: f64| path.smooth_at(travel);
     // Turned back by its own slip the ridge is what changes slowly.
-    let cells = turned.cells(HOP, OVERLAPS, &slip);
+    let mut cells = turned.cells(HOP, OVERLAPS, slip);
+    for (k, cell) in cells.iter_mut().enumerate() {
+        if !usable(path.nearest((k as f64 + 0.5 * OVERLAPS as f64) * HOP)) {
+            cell.value = [0.0; 2];
+        }
+    }
     let reach = RIVAL_HALF / 2;
     let mut powers = 0.0;
     let rest: Vec<Cell> = (0..cells.len())

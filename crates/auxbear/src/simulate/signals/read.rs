@@ -213,8 +213,13 @@ impl<'a> Source<'a> {
     /// Seconds from the earliest start of the file to that of a channel, and its delay by the converter: columns of times are
     /// no turn of it.
     fn offset(&self, index: usize, channel: &Channel) -> f64 {
-        let before = &self.recording.channels()[..index];
-        let turn = before.iter().filter(|c| c.content != Content::Time).count();
+        let all = self.recording.channels();
+        let is_clock = |k: usize| all.iter().any(|c| c.clock == Clock::Channel(k));
+        let times = |k: usize, c: &Channel| {
+            c.content == Content::Time || si_factor(&c.unit, "s").is_some() || is_clock(k)
+        };
+        let before = all.iter().enumerate().take(index);
+        let turn = before.filter(|(k, c)| !times(*k, c)).count();
         self.start(channel) + turn as f64 * self.signals.channel_delay
     }
 
