@@ -38,6 +38,8 @@ pub struct Line {
     pub engagement: Option<f64>,
 }
 
+/// Slip above which a line is too slow to be told from the mean of the signal.
+const NEAR_REST: f64 = 0.98;
 /// Chance of another path above which the ridge has no value.
 const DOUBT: f64 = 0.05;
 /// Power of a line over that of noise in a spectrum below which it is lost.
@@ -81,7 +83,7 @@ pub fn from_vibration(
             "the signal is too short to follow a line: {travel:.0} periods of it are common to it and the shaft, {least:.0} are needed"
         ));
     }
-    let slips = (line.lowest_slip, line.highest_slip.min(0.98));
+    let slips = (line.lowest_slip, line.highest_slip.min(NEAR_REST));
     let middle = 0.5 * (slips.0 + slips.1);
     let coarse = turned.cells(HOP, OVERLAPS, |_| middle);
     let path =
@@ -281,7 +283,7 @@ fn refuse(interval: f64, line: &Line) -> Result<(), String> {
     {
         return Err("ratio and order of the line must be positive".into());
     }
-    if !(line.lowest_slip < line.highest_slip
+    if !(line.lowest_slip < line.highest_slip.min(NEAR_REST)
         && line.lowest_slip >= -1.0
         && line.highest_slip <= 1.0)
     {

@@ -17,11 +17,8 @@ const FEW: usize = 2;
 /// What a spectrum shows at least: so many times the frequency of the sensor, so many orders of the shaft.
 const OF_SENSOR: f64 = 3.0;
 const ORDERS: f64 = 4.0;
-/// Factors by which another damping ratio is tried, and the largest that is: behind it nothing swings.
-const FACTORS: [f64; 4] = [0.125, 0.35, 2.8, 8.0];
-const MOST_DAMPED: f64 = 3.0;
-/// Logarithm of the likelihood by which another damping must be ahead: far more than the unknown torque's freedom explains.
-const CONTRADICTED: f64 = 12.0;
+/// Damping ratio from which on nothing swings.
+const NO_SWING: f64 = 1.0;
 
 /// Torque, and the reading it was found from.
 pub(in crate::simulate) struct Found {
@@ -225,10 +222,21 @@ fn sensor(
                 damping_deviation,
             }),
             _,
-        ) => Ok(Some(Sensor {
-            frequency: Uncertain::new(*sensor_frequency, sensor_frequency * frequency_deviation),
-            damping_ratio: Uncertain::new(*damping_ratio, damping_ratio * damping_deviation),
-        })),
+        ) => {
+            if *damping_ratio >= NO_SWING {
+                notes.push(format!(
+                    "a damping ratio of {} is that of a sensor that does not swing, as hardly a torque arm is: one that is too large shows torques that were not; a tap would tell it (signals.torque.tap_file)",
+                    units::number_text(*damping_ratio)
+                ));
+            }
+            Ok(Some(Sensor {
+                frequency: Uncertain::new(
+                    *sensor_frequency,
+                    sensor_frequency * frequency_deviation,
+                ),
+                damping_ratio: Uncertain::new(*damping_ratio, damping_ratio * damping_deviation),
+            }))
+        }
         (Some(SensorSource::Tap { tap_start, .. }), Some(tap)) => {
             let start = tap_start.map(|start| (start / tap.interval).ceil() as usize);
             let response = identify_free_response(&tap.values, tap.interval, start)
@@ -315,34 +323,5 @@ fn inverted(
     }
     let torque = invert(&input)?;
     notes.extend(torque.notes.iter().cloned());
-    notes.extend(contradicted(&input, &torque));
     Ok(torque)
-}
-
-/// What tells that the sensor swings with another damping than is said: the reading behind an engagement, which starts its swing.
-fn contradicted(input: &Inversion, found: &Torque) -> Option<String> {
-    input.engagement?;
-    let own = input.sensor.damping_ratio;
-    let others = FACTORS.iter().filter_map(|factor| {
-        let damping_ratio = Uncertain::new(own.value * factor, own.deviation * factor);
-        if damping_ratio.value > MOST_DAMPED {
-            return None;
-        }
-        let sensor = Sensor {
-            damping_ratio,
-            ..input.sensor
-        };
-        let other = invert(&Inversion { sensor, ..*input }).ok()?;
-        Some((damping_ratio.value, other.log_likelihood))
-    });
-    let (ratio, most) = others.max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let more = most - found.log_likelihood;
-    (more > CONTRADICTED).then(|| {
-        format!(
-            "the reading contradicts the damping ratio {} of the sensor: with one about {} it is more likely by a factor of 10^{:.0}; a tap would tell it (signals.torque.tap_file)",
-            units::number_text((own.value * 1e4).round() / 1e4),
-            units::number_text((ratio * 1e2).round() / 1e2),
-            more / std::f64::consts::LN_10
-        )
-    })
 }
