@@ -91,7 +91,7 @@ fn stamped(drop: &Outcome) -> String {
     };
     let (time, speed) = (column("time"), column("bearing.inner_race.speed"));
     let mark = TAU / MARKS as f64;
-    let (mut angle, mut next, mut text) = (0.0, mark, "mark,tacho\n".to_string());
+    let (mut angle, mut next, mut text) = (0.0, mark, "mark,tacho [s]\n".to_string());
     // errors of a fixed rule: uniform with the deviation of a stamp
     let mut seed = 7_u64;
     for row in 1..time.len() {

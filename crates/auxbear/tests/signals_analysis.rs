@@ -218,7 +218,7 @@ fn a_speed_that_falls_evenly_has_a_deviation() {
     // 60 marks at 150 rad/s, slowed by 5 rad/s²; the covariance of the smoothing spline is lost in rounding here.
     let folder = std::env::temp_dir().join(format!("auxbear_even_{}", std::process::id()));
     fs::create_dir_all(&folder).unwrap();
-    let mut text = String::from("mark,tacho\n");
+    let mut text = String::from("mark,tacho [s]\n");
     for mark in 0..2000 {
         let angle = f64::from(mark) * TAU / 60.0;
         let time = (150.0 - (150.0_f64.powi(2) - 10.0 * angle).sqrt()) / 5.0;
@@ -326,4 +326,70 @@ fn what_contradicts_itself_is_refused() {
         let told = coast.asked(more).map(|_| ()).unwrap_err();
         assert!(told.contains(words), "{more}: {told}");
     }
+}
+
+/// Zero and scale of the sensor are in the band of what it reads over the speed; where the zero is not told that is said.
+#[test]
+fn a_steady_curve_carries_zero_and_scale_of_the_sensor() {
+    let coast = Coast::new("steady_zero", f64::INFINITY);
+    let slow = "[signals.steady]\nfrom = \"0.5 s\"\nto = \"11.5 s\"\ninertia = \"0.0002 kg m^2\"\n";
+    let deviations = |zero: &str, scale: f64| {
+        let sensor =
+            format!("[signals.torque]\nchannel = \"torque\"\n{zero}scale_deviation = {scale}\n");
+        let outcome = coast.asked(&format!("{sensor}{slow}")).unwrap();
+        let told = outcome.warnings.iter();
+        let told = told.filter(|w| {
+            w.code == "AB1043"
+                && w.text
+                    .contains("signals.torque.zero_deviation is not given")
+        });
+        (
+            list(&outcome, "steady_direct_deviations").to_vec(),
+            list(&outcome, "steady_direct_torques").to_vec(),
+            told.filter(|w| w.text.starts_with("Steady curve")).count(),
+            value(&outcome, "steady_direct_less_inertial").clone(),
+        )
+    };
+    let (bare, torques, told, difference) = deviations("", 0.0);
+    assert_eq!(told, 1);
+    assert!(matches!(difference, Value::None { why } if why.contains("zero of the reading")));
+    let (zeroed, _, told, difference) = deviations("zero_deviation = \"0.1 N mm\"\n", 0.0);
+    assert_eq!(told, 0);
+    assert!(matches!(difference, Value::Number(_)));
+    let (scaled, ..) = deviations("zero_deviation = \"0.1 N mm\"\n", 0.05);
+    for k in 0..bare.len() {
+        // 0.1 N mm of zero and 5 % of the torque stand beside the noise of the mean
+        assert!((zeroed[k] - bare[k].hypot(0.1e-3)).abs() < 1e-3 * zeroed[k]);
+        assert!((scaled[k] - zeroed[k].hypot(0.05 * torques[k])).abs() < 1e-3 * scaled[k]);
+    }
+}
+
+/// A converter takes its channels in turn; a counter stamps when its event comes, and a column of times takes no turn.
+#[test]
+fn only_channels_of_the_converter_are_delayed() {
+    let folder = tempfile::tempdir().unwrap();
+    // a column of times, a channel before the torque, the torque
+    let mut text = String::from("time,other,torque\ns,V,N mm\n");
+    for k in 0..400 {
+        let time = f64::from(k) * 1e-3;
+        let torque = if k < 200 { 0 } else { 5 } + k % 3;
+        writeln!(text, "{time:.3},0,{torque}").unwrap();
+    }
+    fs::write(folder.path().join("run.csv"), text).unwrap();
+    let asked = |delay: &str| {
+        let text = format!(
+            "format = \"auxbear.scenario/1\"\nsystem = \"signals\"\n[signals]\nfile = \"run.csv\"\nchannel_delay = \"{delay}\"\n\
+             [signals.torque]\nchannel = \"torque\"\n"
+        );
+        let file = folder.path().join("a.toml");
+        fs::write(&file, text).unwrap();
+        let scenario = Scenario::read(&file, &[], &BuiltIn).unwrap();
+        let outcome = run(&scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap();
+        let time = outcome.history.iter().find(|column| column.name == "time");
+        time.expect("there is one").values[0]
+    };
+    assert_eq!(asked("0 s"), 0.0);
+    // one channel before it takes a turn; the column of times does not
+    let delayed = asked("0.2 ms");
+    assert!((delayed - 0.2e-3).abs() < 1e-12, "{delayed}");
 }

@@ -270,11 +270,6 @@ impl<const N: usize> Filter<N> {
         self.log_likelihood
     }
 
-    /// Expected state as it is now, before later observations.
-    pub(crate) fn now(&self) -> &Vector<N> {
-        &self.mean
-    }
-
     /// Innovations in units of their standard deviation, in order; white if the model holds.
     pub(crate) fn innovations(&self) -> &[f64] {
         &self.innovations

@@ -261,3 +261,12 @@ fn no_damage_makes_the_reader_panic() {
         });
     }
 }
+
+/// Old writers end a line with a carriage return alone.
+#[test]
+fn lines_that_end_with_a_return_are_read() {
+    let mut file = open("time [s],force [N]\r0,1\r0.1,2\r0.2,-3\r");
+    assert_eq!(all(&mut file, "force"), [1.0, 2.0, -3.0]);
+    assert_eq!(file.channels()[1].clock, uniform(0.0, 0.1));
+    assert!(file.notes().is_empty(), "{}", notes(&file));
+}

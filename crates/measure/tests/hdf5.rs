@@ -187,3 +187,18 @@ fn no_damage_makes_the_reader_panic() {
         });
     }
 }
+
+/// MATLAB writes its text into a user block before the file: the end that the file tells counts from its first byte.
+#[test]
+fn a_user_block_is_no_cut() {
+    let told = |bytes: Vec<u8>| {
+        let file = Hdf5::from_source(Cursor::new(bytes), "v73.mat".as_ref()).unwrap();
+        file.notes()
+            .iter()
+            .any(|note| note.text.contains("cut off"))
+    };
+    let whole = bytes("v73.mat");
+    assert!(!told(whole.clone()));
+    let length = whole.len();
+    assert!(told(whole[..length - 1].to_vec()));
+}

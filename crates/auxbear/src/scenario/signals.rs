@@ -16,6 +16,8 @@ pub struct Signals {
     pub to: Option<f64>,
     /// Interval of channels without a clock, s.
     pub sample_interval: Option<f64>,
+    /// Unit of times of which the file tells none.
+    pub time_unit: Option<String>,
     /// Delay from each channel of the file to the next, s.
     pub channel_delay: f64,
     /// Speed of the shaft.
@@ -190,6 +192,7 @@ impl Signals {
             from: signals.maybe("from"),
             to: signals.maybe("to"),
             sample_interval: signals.maybe("sample_interval"),
+            time_unit: values.text("signals.time_unit"),
             channel_delay: signals.number("channel_delay"),
             speed: speed(values),
             torque: torque(values),

@@ -80,6 +80,13 @@ pub(super) const KEYS: &[Key] = &[
     .positive()
     .optional("a channel without a clock is refused"),
     Key::new(
+        "signals.time_unit",
+        Kind::Word(&["s", "ms", "us", "ns", "min"]),
+        "s",
+        "Unit of a column of times, or of instants, of which the file tells none.",
+    )
+    .optional("times without a unit are refused"),
+    Key::new(
         "signals.channel_delay",
         Kind::Quantity("s"),
         "23.8 us",

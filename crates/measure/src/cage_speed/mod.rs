@@ -13,6 +13,8 @@
 //!
 //! Not modelled: a cage that turns backwards, ball spacing that changes with load.
 
+mod cells;
+mod path;
 mod phase;
 mod pulses;
 mod ridge;

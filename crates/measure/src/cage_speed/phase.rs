@@ -4,7 +4,7 @@ use super::CageSpeed;
 use crate::shaft::Shaft;
 use crate::simplex;
 use crate::state_space::{Filter, Observation, colour};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// Observed deviations of the cage angle.
 pub(super) struct Deviations<'a> {
@@ -14,8 +14,6 @@ pub(super) struct Deviations<'a> {
     pub(super) deviation: &'a [f64],
     /// Relative variance of each, 1 on the average.
     pub(super) weight: &'a [f64],
-    /// The deviation is known up to multiples of this, rad; infinite where it is continuous.
-    pub(super) wrap: f64,
     /// Rate of the deviation that was already taken out, rad/s, at the times; empty where none.
     pub(super) removed: &'a [f64],
     /// Time of an engagement after which slip may change fast, s.
@@ -127,17 +125,6 @@ impl Deviations<'_> {
                 wide.sqrt()
             ));
         }
-        let phase_noise = if self.wrap.is_finite() {
-            (0.5 * hyper[0]).exp() * TAU / self.wrap
-        } else {
-            0.0
-        };
-        // At 0.45 rad one value in 7 million passes half a turn by noise alone; the model's own wander comes on top.
-        if phase_noise > 0.45 {
-            notes.push(format!(
-                "the line's phase has a noise of {phase_noise:.2} rad: it may have lost or won whole cycles, which the band does not tell"
-            ));
-        }
         let outliers = filter
             .innovations()
             .iter()
@@ -238,7 +225,7 @@ impl Deviations<'_> {
     fn guess(&self, rolling: f64) -> Hyper {
         let mut seconds = Vec::new();
         for d in self.deviation.windows(3) {
-            let second = self.wrapped(d[2] - d[1]) - self.wrapped(d[1] - d[0]);
+            let second = d[2] - 2.0 * d[1] + d[0];
             if second.is_finite() {
                 seconds.push(second.abs());
             }
@@ -258,14 +245,6 @@ impl Deviations<'_> {
             fast.ln(),
             0.05_f64.ln(),
         ]
-    }
-
-    fn wrapped(&self, angle: f64) -> f64 {
-        if self.wrap.is_finite() {
-            angle - self.wrap * (angle / self.wrap).round()
-        } else {
-            angle
-        }
     }
 
     /// The instant of the lock and the variance of the change of the deviation's rate there.
@@ -289,9 +268,9 @@ impl Deviations<'_> {
             .find(|v| v.is_finite())
             .unwrap_or(0.0);
         let length = (self.time[self.time.len() - 1] - self.time[0]).max(1e-6);
-        let spread = if self.wrap.is_finite() { self.wrap } else { PI };
+        let spread = PI;
         let step = length / self.time.len() as f64;
-        // Wide: any phase, any speed that moves the phase by a fifth of its wrap in a step, any rate that does so in ten.
+        // Wide: any phase, any speed that moves the phase by a tenth of a turn in a step, any rate that does so in ten.
         let speed = (0.2 * spread / step).powi(2);
         let rate = (0.02 * spread / (step * step)).powi(2).min(1e12 * speed);
         let speed = if self.from_rest { 0.0 } else { speed };
@@ -322,10 +301,9 @@ impl Deviations<'_> {
                     None => advance(&mut filter, dt, q, wander, 0.0),
                 }
             }
-            let expected = filter.now()[0];
             let seen = Observation {
                 row: [1.0, 0.0, 0.0],
-                value: expected + self.wrapped(deviation - expected),
+                value: deviation,
                 variance: noise * self.weight.get(k).copied().unwrap_or(1.0),
             };
             filter.observe(deviation.is_finite().then_some(&seen));

@@ -75,7 +75,6 @@ pub fn from_pulses(
         time: &time,
         deviation: &deviation,
         weight: &weight,
-        wrap: f64::INFINITY,
         removed: &[],
         engagement,
         lock: change.and_then(|change| change.lock),

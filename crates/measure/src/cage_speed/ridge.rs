@@ -1,9 +1,24 @@
 //! Cage speed from a line in a vibration or proximity signal.
 //!
 //! The signal is turned back by the phase of a rolling cage; what remains of the line is a slow rotation. Its rate is found
-//! coarsely as the best path through short spectra, taken out, and the rest of the phase is smoothed.
+//! coarsely as the best path of slip through short spectra over the travel of the line, taken out, and the rest of the phase is
+//! smoothed.
+//!
+//! What else the same signal could be, and what is done about it:
+//!
+//! - another path through the spectra: where its chance is above 5 % the ridge has no value;
+//! - a phase that lost a cycle in every cell of P periods: its slip is wrong by 1/P, which is further from the path than half of
+//!   that: such values are left out, as is every slip outside the range that is looked for;
+//! - a cycle lost or won once, which noise of the phase does: its chance is in the deviation, and told where it counts;
+//! - another line in the range, at an order of the shaft or beside the ridge: above half of the ridge's amplitude, more than a
+//!   sideline by modulation can have, nothing tells which of the two is the cage's, and both are refused; a weaker one is told;
+//! - a line of the shaft at the very order of the ridge, which looks the same: it is told.
+//!
+//! A line above half of the sampling rate folds to where it is not; that is for the filter before the converter.
 
 use super::CageSpeed;
+use super::cells::{Cell, Signal};
+use super::path::{APART, HOP, LENGTH, OVERLAPS, Path, RIVAL_HALF, Rival, followed, rival};
 use super::phase::Deviations;
 use crate::shaft::Shaft;
 use std::f64::consts::{PI, TAU};
@@ -23,10 +38,34 @@ pub struct Line {
     pub engagement: Option<f64>,
 }
 
+/// Slip above which a line is too slow to be told from the mean of the signal.
+const NEAR_REST: f64 = 0.98;
+/// Chance of another path above which the ridge has no value.
+const DOUBT: f64 = 0.05;
+/// Power of a line over that of noise in a spectrum below which it is lost.
+const LOST: f64 = 4.0;
+/// Spectra over which that is averaged, on either side.
+const NEAR: usize = 4;
+/// Periods of a cell in which the phase is read, and the power over noise in a spectrum that the shorter ones need: below it
+/// the phase has a noise of more than 0.45 rad, of which one value in 7 million passes half a turn.
+const PERIODS: [(f64, f64); 3] = [(4.0, 15.0), (8.0, 7.5), (16.0, 0.0)];
+/// Share of the record that must be left.
+const LEAST_SHARE: f64 = 0.2;
+/// Amplitudes of another line over that of the ridge from which on it is refused, and told.
+const REFUSED: f64 = 0.5;
+const TOLD: f64 = 0.25;
+/// Distance from the ridge from which on a line beside it is another, as a slip.
+const BESIDE: f64 = 0.02;
+/// Cells over which a cycle that is lost turns into slip.
+const MEMORY: usize = 8;
+/// How near a ridge is to an order of the shaft that could be it, as a slip.
+const AT_ORDER: f64 = 1e-3;
+
 /// Speed of a cage from a signal that holds a line near ball pass.
 ///
-/// `signal` at equal `interval` from the time `first` on, s; NaN where there is none. Values are returned at equal times, about
-/// one in four periods of the line. Other lines near it (shaft orders) should be removed before.
+/// `signal` at equal `interval` from the time `first` on, s; NaN where there is none. Values are returned about one in four
+/// periods of the line, of a weak line one in 8 or 16; they are NaN where the line is lost, may be another, or leaves the slips
+/// that are looked for. Other lines near it (shaft orders) should be removed before. The error says why no cage speed is told.
 pub fn from_vibration(
     first: f64,
     interval: f64,
@@ -36,6 +75,170 @@ pub fn from_vibration(
 ) -> Result<CageSpeed, String> {
     shaft.check()?;
     refuse(interval, line)?;
+    let turned = signal_of(first, interval, signal, shaft, line)?;
+    let travel = turned.travel();
+    let least = 2.0 * LENGTH;
+    if travel < least {
+        return Err(format!(
+            "the signal is too short to follow a line: {travel:.0} periods of it are common to it and the shaft, {least:.0} are needed"
+        ));
+    }
+    let slips = (line.lowest_slip, line.highest_slip.min(NEAR_REST));
+    let middle = 0.5 * (slips.0 + slips.1);
+    let coarse = turned.cells(HOP, OVERLAPS, |_| middle);
+    let path =
+        followed(&coarse, middle, slips).ok_or("the signal is too short to follow a line")?;
+    let standing = standing(&path);
+    let share = |kept: &dyn Fn(usize) -> bool| {
+        let kept = (0..path.slip.len()).filter(|&k| kept(k)).count();
+        kept as f64 / path.slip.len() as f64
+    };
+    let in_doubt = 1.0 - share(&|k| path.doubt[k] <= DOUBT);
+    let lost = 1.0 - share(&|k| standing[k] >= LOST);
+    let usable = |k: usize| path.doubt[k] <= DOUBT && standing[k] >= LOST;
+    if share(&usable) < LEAST_SHARE {
+        return Err(format!(
+            "no line between the slips {:.3} and {:.3} stands out of the noise so that it can be followed: it is lost during {:.0} % of the way, and another path is as likely during {:.0} %",
+            slips.0,
+            slips.1,
+            100.0 * lost,
+            100.0 * in_doubt
+        ));
+    }
+    let mut notes = Vec::new();
+    if lost > 0.0 {
+        notes.push(format!(
+            "the line is lost in noise during {:.1} % of the way: there is no value there",
+            100.0 * lost
+        ));
+    }
+    if in_doubt > 0.0 {
+        notes.push(format!(
+            "another path of the line is as likely during {:.1} % of the way: there is no value there",
+            100.0 * in_doubt
+        ));
+    }
+    notes.extend(rivals(&turned, &path, usable, slips)?);
+    // Fine: cells that do not overlap, so that white noise stays white.
+    let mut known: Vec<f64> = (0..path.slip.len())
+        .filter(|&k| usable(k))
+        .map(|k| standing[k])
+        .collect();
+    known.sort_by(f64::total_cmp);
+    let typical = known[known.len() / 3];
+    let periods = PERIODS
+        .iter()
+        .find(|(_, needed)| typical >= *needed)
+        .map_or(16.0, |(periods, _)| *periods);
+    let fine = turned.cells(periods, 1, |t| path.smooth_at(t));
+    let travel_of = |cell: usize| (cell as f64 + 0.5) * periods;
+    let kept: Vec<usize> = (0..fine.len()).filter(|&k| fine[k].count > 0.0).collect();
+    let time: Vec<f64> = kept.iter().map(|&k| fine[k].time).collect();
+    let usable: Vec<bool> = kept
+        .iter()
+        .map(|&k| usable(path.nearest(travel_of(k))))
+        .collect();
+    let slip: Vec<f64> = kept.iter().map(|&k| path.slip_at(travel_of(k))).collect();
+    // Against one slip, so that all that the slip does is seen by what smooths it.
+    let mut steady = slip.clone();
+    steady.sort_by(f64::total_cmp);
+    let steady = steady[steady.len() / 2];
+    let removed: Vec<f64> = time
+        .iter()
+        .map(|&t| -steady * line.ratio * shaft.speed_at(t))
+        .collect();
+    let seen: Vec<Cell> = kept.iter().map(|&k| fine[k]).collect();
+    let sizes: Vec<f64> = kept
+        .iter()
+        .map(|&k| standing[path.nearest(travel_of(k))])
+        .collect();
+    let (turns, weight) = phases(&seen, &sizes, &usable);
+    let mut gone = Gone {
+        path: &path,
+        steady,
+        travel: 0.0,
+        turned: 0.0,
+    };
+    let deviation: Vec<f64> = kept
+        .iter()
+        .zip(&turns)
+        .map(|(&k, turn)| turned.direction() * TAU * (turn - gone.until(travel_of(k))) / line.order)
+        .collect();
+    let edge = 0.02 * (slips.1 - slips.0);
+    let at_edge = slip
+        .iter()
+        .filter(|s| **s < slips.0 + edge || **s > slips.1 - edge)
+        .count();
+    if at_edge * 50 > slip.len() {
+        notes.push("the line runs along the limit of the slip that is looked for".into());
+    }
+    let data = Deviations {
+        time: &time,
+        deviation: &deviation,
+        weight: &weight,
+        removed: &removed,
+        engagement: line.engagement,
+        lock: None,
+        from_rest: false,
+    };
+    let mut found = data.smoothed(shaft, line.ratio, notes)?;
+    let noise: Vec<f64> = weight
+        .iter()
+        .map(|weight| found.noise * line.order * weight.sqrt())
+        .collect();
+    let mean = found.noise * line.order;
+    // At 0.45 rad one value in 7 million passes half a turn by noise alone; the model's own wander comes on top.
+    if mean > 0.45 {
+        found.notes.push(format!(
+            "the line's phase has a noise of {mean:.2} rad: it may have lost or won whole cycles, whose chance is in the band"
+        ));
+    }
+    with_lost_cycles(&mut found, &noise, periods);
+    let cut = |k: usize| {
+        let away = (found.slip[k] - slip[k]).abs();
+        let outside = !(slips.0..=slips.1).contains(&found.slip[k]);
+        (outside || away > APART.min(0.5 / periods), !usable[k])
+    };
+    let cuts: Vec<(bool, bool)> = (0..found.slip.len()).map(cut).collect();
+    for (k, _) in cuts.iter().enumerate().filter(|(_, cut)| cut.0 || cut.1) {
+        for list in [
+            &mut found.speed,
+            &mut found.deviation,
+            &mut found.slip,
+            &mut found.slip_deviation,
+        ] {
+            list[k] = f64::NAN;
+        }
+    }
+    let left = cuts.iter().filter(|cut| cut.0 && !cut.1).count();
+    if left > 0 {
+        found.notes.push(format!(
+            "the line leaves the slips from {:.3} to {:.3}, or its path, during {:.1} % of the time: there is no value there",
+            slips.0,
+            slips.1,
+            100.0 * left as f64 / cuts.len() as f64
+        ));
+    }
+    let gone = cuts.iter().filter(|cut| cut.0 || cut.1).count();
+    if ((cuts.len() - gone) as f64) < LEAST_SHARE * cuts.len() as f64 {
+        return Err(format!(
+            "the line cannot be followed within the slips {:.3} to {:.3} for more than {:.0} % of the time",
+            slips.0,
+            slips.1,
+            100.0 - 100.0 * gone as f64 / cuts.len() as f64
+        ));
+    }
+    found.notes.extend(at_order(&found, turned.periods));
+    Ok(found)
+}
+
+fn signal_of<'a>(
+    first: f64,
+    interval: f64,
+    signal: &'a [f64],
+    shaft: &'a Shaft,
+    line: &Line,
+) -> Result<Signal<'a>, String> {
     let (from, to) = (
         first.max(shaft.first),
         (first + signal.len() as f64 * interval).min(shaft.last()),
@@ -50,102 +253,27 @@ pub fn from_vibration(
     if fastest <= 0.0 {
         return Err("the shaft does not turn".into());
     }
-    let (low, high) = (-line.highest_slip * fastest, -line.lowest_slip * fastest);
-    let mut notes = Vec::new();
-    let middle = 0.5 * (low + high);
-    let reach = 0.5 * (high - low).max(2.0 / (to - from));
-    if (fastest + reach) * interval > 0.4 {
+    let highest = fastest * (1.0 - line.lowest_slip).max(1.0);
+    if highest * interval > 0.4 {
         return Err(format!(
-            "the line at up to {fastest:.0} Hz needs more than {:.0} values a second",
-            2.5 * (fastest + reach)
+            "the line at up to {highest:.0} Hz needs more than {:.0} values a second",
+            2.5 * highest
         ));
     }
-    let back = |time: f64| line.order * line.ratio * shaft.angle_at(time);
-    // Coarse: 8 values per period of the largest deviation.
-    let hop = ((1.0 / (8.0 * reach * interval)) as usize).clamp(1, signal.len().max(1));
-    let hop_time = hop as f64 * interval;
     let begin = ((from - first) / interval).ceil().max(0.0) as usize;
     let end = (((to - first) / interval) as usize).min(signal.len());
-    if end < begin.saturating_add(32 * hop) {
-        return Err(format!(
-            "the signal is too short to follow a line: {:.3} s are common to it and the shaft, {:.3} s are needed",
-            to - from,
-            32.0 * hop_time
-        ));
-    }
-    let mean = {
-        let seen = signal[begin..end].iter().filter(|v| v.is_finite());
-        seen.clone().sum::<f64>() / seen.count().max(1) as f64
-    };
-    let slow = Turned {
+    let part = (begin.min(end), end);
+    let seen = signal[part.0..part.1].iter().filter(|v| v.is_finite());
+    let mean = seen.clone().sum::<f64>() / seen.count().max(1) as f64;
+    Ok(Signal {
         first,
         interval,
-        signal,
+        values: signal,
+        part,
         mean,
-    };
-    let coarse = slow.blocks(begin, end, hop, 2 * hop, |t| {
-        back(t) + TAU * middle * (t - first)
-    });
-    let path = followed(&coarse, reach * hop_time);
-    let rate: Vec<f64> = path
-        .iter()
-        .map(|cycles| TAU * (middle + cycles / hop_time))
-        .collect();
-    let start_time = first + begin as f64 * interval;
-    // Phase of the coarse path: its rate is linear between blocks.
-    let mut phase = vec![0.0];
-    for pair in rate.windows(2) {
-        phase.push(phase[phase.len() - 1] + 0.5 * (pair[0] + pair[1]) * hop_time);
-    }
-    let coarse_at = |time: f64| {
-        let place = ((time - start_time) / hop_time - 1.0).max(0.0);
-        let k = (place as usize).min(rate.len() - 2);
-        let u = (place - k as f64).min(1.0);
-        let turned = phase[k] + (rate[k] * u + 0.5 * (rate[k + 1] - rate[k]) * u * u) * hop_time;
-        (turned, rate[k] + u * (rate[k + 1] - rate[k]))
-    };
-    // Fine: blocks of four periods of the line, not overlapping, so that white noise stays white.
-    let fine = ((4.0 / (fastest * interval)) as usize).max(1);
-    let blocks = slow.blocks(begin, end, fine, fine, |t| back(t) + coarse_at(t).0);
-    let fine_time = fine as f64 * interval;
-    let time: Vec<f64> = (0..blocks.len())
-        .map(|k| start_time + (k as f64 + 0.5) * fine_time)
-        .collect();
-    let removed: Vec<f64> = time.iter().map(|&t| coarse_at(t).1 / line.order).collect();
-    let (deviation, weight, weak) = phases(&blocks, line.order);
-    if weak > 0.05 {
-        notes.push(format!(
-            "the line is lost in noise during {:.0} % of the time",
-            100.0 * weak
-        ));
-    }
-    let slowest = time
-        .iter()
-        .map(|&t| line.ratio * line.order * shaft.speed_at(t).abs() / TAU)
-        .fold(f64::INFINITY, f64::min);
-    if slowest * fine_time < 2.0 {
-        notes.push(
-            "where the shaft is slow the line is not separated from the mean of the signal".into(),
-        );
-    }
-    let edge = path
-        .iter()
-        .filter(|c| c.abs() > 0.97 * reach * hop_time)
-        .count();
-    if edge * 50 > path.len() {
-        notes.push("the line runs along the limit of the slip that is looked for".into());
-    }
-    let data = Deviations {
-        time: &time,
-        deviation: &deviation,
-        weight: &weight,
-        wrap: TAU / line.order,
-        removed: &removed,
-        engagement: line.engagement,
-        lock: None,
-        from_rest: false,
-    };
-    data.smoothed(shaft, line.ratio, notes)
+        shaft,
+        periods: line.ratio * line.order,
+    })
 }
 
 fn refuse(interval: f64, line: &Line) -> Result<(), String> {
@@ -156,7 +284,7 @@ fn refuse(interval: f64, line: &Line) -> Result<(), String> {
     {
         return Err("ratio and order of the line must be positive".into());
     }
-    if !(line.lowest_slip < line.highest_slip
+    if !(line.lowest_slip < line.highest_slip.min(NEAR_REST)
         && line.lowest_slip >= -1.0
         && line.highest_slip <= 1.0)
     {
@@ -165,159 +293,183 @@ fn refuse(interval: f64, line: &Line) -> Result<(), String> {
     Ok(())
 }
 
-struct Turned<'a> {
-    first: f64,
-    interval: f64,
-    signal: &'a [f64],
-    mean: f64,
-}
-
-impl Turned<'_> {
-    /// Means of the signal turned back by a phase, weighted by a Hann window of `length`, one in `hop` values.
-    fn blocks(
-        &self,
-        begin: usize,
-        end: usize,
-        hop: usize,
-        length: usize,
-        phase: impl Fn(f64) -> f64,
-    ) -> Vec<[f64; 2]> {
-        let turned: Vec<[f64; 2]> = (begin..end)
-            .map(|k| {
-                let value = self.signal[k] - self.mean;
-                let (sine, cosine) = phase(self.first + k as f64 * self.interval).sin_cos();
-                if value.is_finite() {
-                    [value * cosine, -value * sine]
-                } else {
-                    [0.0, 0.0]
-                }
-            })
-            .collect();
-        let window: Vec<f64> = (0..length)
-            .map(|i| 1.0 - (TAU * (i as f64 + 0.5) / length as f64).cos())
-            .collect();
-        let total: f64 = window.iter().sum();
-        let mut blocks = Vec::new();
-        let mut start = 0;
-        while start + length <= turned.len() {
-            let mut sum = [0.0; 2];
-            for (value, weight) in turned[start..start + length].iter().zip(&window) {
-                sum[0] += weight * value[0];
-                sum[1] += weight * value[1];
-            }
-            blocks.push(sum.map(|s| s / total));
-            start += hop;
-        }
-        blocks
-    }
-}
-
-/// Cycles per value of the strongest smooth path through short spectra of a complex series, within ± `reach`.
-fn followed(series: &[[f64; 2]], reach: f64) -> Vec<f64> {
-    let half = 8_usize;
-    let bins = 65_usize;
-    let frequency = |bin: usize| reach * (2.0 * bin as f64 / (bins - 1) as f64 - 1.0);
-    let step = 4_usize;
-    let centres: Vec<usize> = (0..series.len()).step_by(step).collect();
-    let mut powers = Vec::with_capacity(centres.len());
-    for &centre in &centres {
-        let (from, to) = (
-            centre.saturating_sub(half),
-            (centre + half + 1).min(series.len()),
-        );
-        let mut total = 0.0;
-        let power: Vec<f64> = (0..bins)
-            .map(|bin| {
-                let mut sum = [0.0; 2];
-                for (k, value) in series.iter().enumerate().take(to).skip(from) {
-                    let lag = k as f64 - centre as f64;
-                    let weight = 1.0 + (PI * lag / (half as f64 + 1.0)).cos();
-                    let (sine, cosine) = (TAU * frequency(bin) * lag).sin_cos();
-                    sum[0] += weight * (value[0] * cosine + value[1] * sine);
-                    sum[1] += weight * (value[1] * cosine - value[0] * sine);
-                }
-                sum[0] * sum[0] + sum[1] * sum[1]
-            })
-            .inspect(|p| total += p)
-            .collect();
-        let mean = (total / bins as f64).max(f64::MIN_POSITIVE);
-        powers.push(
-            power
-                .into_iter()
-                .map(|p| (p / mean).min(1e3))
-                .collect::<Vec<f64>>(),
-        );
-    }
-    // Best path: power counts, a move of one bin a step costs little, of more costs its square.
-    let penalty = |from: usize, to: usize| 0.15 * (from as f64 - to as f64).powi(2);
-    let mut score = powers[0].clone();
-    let mut origin = Vec::with_capacity(powers.len());
-    for power in &powers[1..] {
-        let mut next = vec![0.0; bins];
-        let mut from = vec![0_usize; bins];
-        for bin in 0..bins {
-            let near = bin.saturating_sub(8)..(bin + 9).min(bins);
-            let best = near
-                .max_by(|&a, &b| {
-                    (score[a] - penalty(a, bin)).total_cmp(&(score[b] - penalty(b, bin)))
-                })
-                .unwrap_or(bin);
-            from[bin] = best;
-            next[bin] = score[best] - penalty(best, bin) + power[bin];
-        }
-        origin.push(from);
-        score = next;
-    }
-    let mut bin = (0..bins)
-        .max_by(|&a, &b| score[a].total_cmp(&score[b]))
-        .unwrap_or(0);
-    let mut nodes = vec![frequency(bin)];
-    for from in origin.iter().rev() {
-        bin = from[bin];
-        nodes.push(frequency(bin));
-    }
-    nodes.reverse();
-    // Smooth over three nodes, then linear between them.
-    let smooth: Vec<f64> = (0..nodes.len())
+/// Power of the line over that of noise, averaged over some spectra.
+fn standing(path: &Path) -> Vec<f64> {
+    let count = path.strength.len();
+    (0..count)
         .map(|k| {
-            let near = &nodes[k.saturating_sub(1)..(k + 2).min(nodes.len())];
+            let near = &path.strength[k.saturating_sub(NEAR)..(k + NEAR + 1).min(count)];
             near.iter().sum::<f64>() / near.len() as f64
-        })
-        .collect();
-    (0..series.len())
-        .map(|k| {
-            let place = k as f64 / step as f64;
-            let i = (place as usize).min(smooth.len().saturating_sub(2));
-            match smooth.get(i + 1) {
-                Some(next) => smooth[i] + (place - i as f64).min(1.0) * (next - smooth[i]),
-                None => smooth[i],
-            }
         })
         .collect()
 }
 
-/// Deviations of the cage angle, their relative variance, and the share of time in which the line is lost.
-fn phases(blocks: &[[f64; 2]], order: f64) -> (Vec<f64>, Vec<f64>, f64) {
-    let strength: Vec<f64> = (0..blocks.len())
-        .map(|k| {
-            let near = &blocks[k.saturating_sub(3)..(k + 4).min(blocks.len())];
-            near.iter().map(|b| b[0] * b[0] + b[1] * b[1]).sum::<f64>() / near.len() as f64
+/// Turns by which a path lags one slip.
+struct Gone<'a> {
+    path: &'a Path,
+    steady: f64,
+    travel: f64,
+    turned: f64,
+}
+
+impl Gone<'_> {
+    /// Turns until a travel that does not fall from call to call.
+    fn until(&mut self, travel: f64) -> f64 {
+        let parts = ((travel - self.travel) / HOP).ceil().max(1.0) as usize;
+        let step = (travel - self.travel) / parts as f64;
+        for k in 0..parts {
+            let middle = self.travel + (k as f64 + 0.5) * step;
+            self.turned += step * (self.path.smooth_at(middle) - self.steady);
+        }
+        self.travel = travel;
+        self.turned
+    }
+}
+
+/// Phases against the path, in turns without jumps, not-a-number where they are not usable; and their relative variance, from
+/// the power of the line over that of noise around each cell.
+fn phases(cells: &[Cell], standing: &[f64], usable: &[bool]) -> (Vec<f64>, Vec<f64>) {
+    let mut before = 0.0_f64;
+    let turns = cells
+        .iter()
+        .zip(usable)
+        .map(|(cell, usable)| {
+            if !usable {
+                return f64::NAN;
+            }
+            let turn = cell.value[1].atan2(cell.value[0]) / TAU;
+            before = turn + (before - turn).round();
+            before
         })
         .collect();
-    let mean = strength.iter().sum::<f64>() / strength.len().max(1) as f64;
-    let deviation = blocks.iter().map(|b| b[1].atan2(b[0]) / order).collect();
-    let weight = strength
+    let known = |standing: &f64| standing.max(LOST);
+    let inverse: f64 = standing.iter().map(|s| 1.0 / known(s)).sum();
+    let mean = standing.len() as f64 / inverse;
+    let weight = standing.iter().map(|s| mean / known(s)).collect();
+    (turns, weight)
+}
+
+/// Refuses or tells another line in the range beside the ridge.
+///
+/// `usable` spectra of the path, `slips` that are looked for.
+fn rivals(
+    turned: &Signal,
+    path: &Path,
+    usable: impl Fn(usize) -> bool,
+    slips: (f64, f64),
+) -> Result<Option<String>, String> {
+    let slip = |travel: f64| path.smooth_at(travel);
+    // Turned back by its own slip the ridge is what changes slowly.
+    let mut cells = turned.cells(HOP, OVERLAPS, slip);
+    for (k, cell) in cells.iter_mut().enumerate() {
+        if !usable(path.nearest((k as f64 + 0.5 * OVERLAPS as f64) * HOP)) {
+            cell.value = [0.0; 2];
+        }
+    }
+    let reach = RIVAL_HALF / 2;
+    let mut powers = 0.0;
+    let rest: Vec<Cell> = (0..cells.len())
+        .map(|k| {
+            let near = &cells[k.saturating_sub(reach)..(k + reach + 1).min(cells.len())];
+            let mean = |axis: usize| {
+                near.iter().map(|cell| cell.value[axis]).sum::<f64>() / near.len() as f64
+            };
+            let ridge = [mean(0), mean(1)];
+            powers += ridge[0].powi(2) + ridge[1].powi(2);
+            let value = cells[k].value;
+            Cell {
+                value: [value[0] - ridge[0], value[1] - ridge[1]],
+                ..cells[k]
+            }
+        })
+        .collect();
+    let amplitude = (powers / cells.len().max(1) as f64).sqrt();
+    let mean =
+        (0..cells.len()).map(|k| slip(k as f64 * HOP)).sum::<f64>() / cells.len().max(1) as f64;
+    // The same turned back by one slip, against which an order of the shaft stands still.
+    let middle = 0.5 * (slips.0 + slips.1);
+    let mut turn = 0.0;
+    let still: Vec<Cell> = rest
         .iter()
-        .map(|s| (mean / s.max(1e-6 * mean).max(f64::MIN_POSITIVE)).max(1e-3))
+        .enumerate()
+        .map(|(k, cell)| {
+            let (sine, cosine) = (TAU * turn).sin_cos();
+            turn += HOP * (slip((k as f64 + 0.5) * HOP + 1.0) - middle);
+            let [real, imaginary] = cell.value;
+            Cell {
+                value: [
+                    real * cosine + imaginary * sine,
+                    imaginary * cosine - real * sine,
+                ],
+                ..*cell
+            }
+        })
         .collect();
-    // Noise: what changes from block to block.
-    let mut jumps: Vec<f64> = blocks
-        .windows(2)
-        .map(|w| (w[1][0] - w[0][0]).powi(2) + (w[1][1] - w[0][1]).powi(2))
+    let fixed = rival(&still, middle, slips).map(|found| (found.slip, found, "at the slip"));
+    let moving = rival(&rest, 0.0, (slips.0 - mean, slips.1 - mean))
+        .filter(|found| found.slip.abs() > BESIDE)
+        .map(|found| (mean + found.slip, found, "beside it, about the slip"));
+    let stronger = |a: &Rival, b: &Rival| a.amplitude.total_cmp(&b.amplitude);
+    let Some((at, found, how)) = [fixed, moving]
+        .into_iter()
+        .flatten()
+        .max_by(|a, b| stronger(&a.1, &b.1))
+    else {
+        return Ok(None);
+    };
+    let part = found.amplitude / amplitude.max(f64::MIN_POSITIVE);
+    let order = turned.periods * (1.0 - at);
+    let told = format!(
+        "beside the line about the slip {mean:.3} there is another {how} {at:.3} (order {order:.2} of the shaft) with {:.0} % of its amplitude",
+        100.0 * part
+    );
+    if part > REFUSED {
+        return Err(format!(
+            "{told}: nothing tells which of the two is the cage's; a narrower range of slip would"
+        ));
+    }
+    Ok((part > TOLD).then_some(told))
+}
+
+/// Tells where the ridge stays at an order of the shaft.
+fn at_order(found: &CageSpeed, periods: f64) -> Option<String> {
+    let middle = |values: &mut Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        values.get(values.len() / 2).copied()
+    };
+    let known = |list: &[f64]| list.iter().copied().filter(|v| v.is_finite()).collect();
+    let mut slips: Vec<f64> = known(&found.slip);
+    let slip = middle(&mut slips)?;
+    let deviation = middle(&mut known(&found.slip_deviation))?;
+    let mut away = slips.iter().map(|s| (s - slip).abs()).collect();
+    let limit = AT_ORDER.max(2.0 * deviation);
+    let order = (periods * (1.0 - slip)).round();
+    let steady = middle(&mut away)? < 0.5 * limit;
+    let at = order >= 1.0 && (periods * (1.0 - slip) - order).abs() < limit * periods;
+    (steady && at).then(|| {
+        format!(
+            "the line stays at order {order} of the shaft: a line of the shaft itself looks the same"
+        )
+    })
+}
+
+/// Adds to the deviations what a cycle that noise loses or wins would do.
+///
+/// `noise` of the phase of each value, rad, of cells of so many periods.
+fn with_lost_cycles(found: &mut CageSpeed, noise: &[f64], periods: f64) {
+    // The next phase is foretold with about as much error again: one and a quarter of its noise in all.
+    let chances: Vec<f64> = noise
+        .iter()
+        .map(|noise| crate::normal::beyond(0.0, 1.25 * noise, PI))
         .collect();
-    jumps.sort_by(f64::total_cmp);
-    let noise = jumps.get(jumps.len() / 4).copied().unwrap_or(0.0);
-    let lost =
-        strength.iter().filter(|s| **s < 1.5 * noise).count() as f64 / strength.len().max(1) as f64;
-    (deviation, weight, lost)
+    for k in 0..found.slip.len() {
+        let near = &chances[k.saturating_sub(MEMORY / 2)..(k + MEMORY / 2 + 1).min(chances.len())];
+        let chance = near.iter().sum::<f64>().min(1.0);
+        let jump = chance.sqrt() / (MEMORY as f64 * periods);
+        let rolling = found.speed[k] / (1.0 - found.slip[k]);
+        if jump > 0.1 * found.slip_deviation[k] && rolling.is_finite() {
+            found.deviation[k] = found.deviation[k].hypot(jump * rolling);
+            found.slip_deviation[k] = found.slip_deviation[k].hypot(jump);
+        }
+    }
 }

@@ -323,8 +323,12 @@ fn cage(list: &mut List, asked: &Asked, found: &Found) {
         .ok_or_else(|| found.why("cage", asked.cage.is_some()));
     let of = |value: &dyn Fn(&measure::cage_speed::CageSpeed) -> f64| {
         cage.as_ref()
-            .map(|found| value(&found.cage))
+            .map(|found| value(&found.told))
             .map_err(|why| why.to_string())
+            .and_then(|value| match value.is_nan() {
+                true => Err("the cage speed has no value there: the warnings tell why".to_string()),
+                false => Ok(value),
+            })
     };
     let last = |values: &[f64]| values.last().copied().unwrap_or(f64::NAN);
     list.number("median_cage_slip", "1", of(&|c| median(&c.slip)), &CAGE);

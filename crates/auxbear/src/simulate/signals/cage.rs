@@ -25,7 +25,10 @@ const RATIO: f64 = 0.01;
 
 /// The motion of the cage.
 pub(in crate::simulate) struct Found {
+    /// For other estimators: where nothing is told, the speed is any of the slips that were looked for.
     pub cage: CageSpeed,
+    /// As it is told: not-a-number where nothing is.
+    pub told: CageSpeed,
     pub notes: Vec<String>,
 }
 
@@ -97,7 +100,24 @@ impl Found {
             }
         }?;
         notes.extend(cage.notes.iter().cloned());
-        Ok(Found { cage, notes })
+        let told = cage.clone();
+        let mut cage = cage;
+        let (middle, width) = match wish.kind {
+            CageKind::Vibration { highest_slip } => (
+                0.5 * (LOWEST_SLIP + highest_slip),
+                highest_slip - LOWEST_SLIP,
+            ),
+            _ => (0.5, 1.0),
+        };
+        for (k, time) in cage.time.iter().enumerate() {
+            if cage.speed[k].is_nan() || cage.deviation[k].is_nan() {
+                let rolling = ratio * turning.speed_at(*time);
+                cage.speed[k] = rolling * (1.0 - middle);
+                // any slip of the range is as likely
+                cage.deviation[k] = rolling.abs() * width / 12f64.sqrt();
+            }
+        }
+        Ok(Found { cage, told, notes })
     }
 
     /// What is odd of a slip at steady speed: no cage leads its rolling, nor stays far behind it; a wrong count does.

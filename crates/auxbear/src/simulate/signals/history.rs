@@ -116,7 +116,7 @@ pub(super) fn columns(asked: &Asked, found: &Found) -> Vec<Column> {
         );
     }
     if let Some(found) = &found.cage {
-        let cage = &found.cage;
+        let cage = &found.told;
         let of = |time: f64, values: &[f64]| at(time, &cage.time, values);
         add("cage.speed", "rad/s", "speed of the cage", &|t| {
             of(t, &cage.speed)

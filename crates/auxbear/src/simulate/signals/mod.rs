@@ -72,6 +72,7 @@ impl Asked {
         let mut torque = None;
         let mut tap = None;
         let mut notes = Vec::new();
+        let mut tap_source = None;
         if let Some(asked) = &signals.torque {
             let key = "signals.torque.channel";
             let series = in_newton_metres(&mut source, key, &asked.channel, asked.scale, false)?;
@@ -92,6 +93,7 @@ impl Asked {
                 let key = other.key();
                 let series = other.series(key, tap_channel, true)?;
                 notes = other.notes();
+                tap_source = Some(other);
                 tap = Some(series);
             }
         }
@@ -133,6 +135,7 @@ impl Asked {
         if let Some(converter) = &signals.converter {
             source.has("signals.converter.channels", &converter.channels)?;
         }
+        source.interval_holds(tap_source.as_ref())?;
         let mut all = source.notes();
         all.append(&mut notes);
         Ok(Asked {

@@ -1,5 +1,7 @@
 //! The channels that are asked for, read from a measurement file and brought to one clock in s.
 
+mod clock;
+
 use super::unit::{no_signal, si_factor, unit_of};
 use crate::problem::{Code, Problem, did_you_mean};
 use crate::scenario::{Signals, UNNAMED};
@@ -11,12 +13,10 @@ use units::Unit;
 
 /// Most values that are taken from a channel: 400 MB.
 const MOST_VALUES: u64 = 50_000_000;
-/// Values read at a time from a channel that is a clock.
-const PIECE: usize = 1 << 16;
 /// Lines that a spectrum needs to show anything.
 const FEWEST_LINES: f64 = 4.0;
-/// How far an instant may be from an even clock, in intervals: beyond, values are not at equal times.
-const UNEVEN: f64 = 0.1;
+/// Part by which an interval in the scenario may differ from that of the file, as where a rate is written down with three digits.
+const ROUNDED: f64 = 1e-3;
 
 /// Values of a channel at equal intervals.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,6 +76,10 @@ pub struct Source<'a> {
     /// The key that names the file.
     key: &'static str,
     name: String,
+    /// Whether the interval of the scenario was taken for a channel.
+    interval_taken: bool,
+    /// A channel whose own clock has another interval than the scenario, and that, s.
+    contradicted: Option<(String, f64)>,
 }
 
 impl<'a> Source<'a> {
@@ -92,6 +96,8 @@ impl<'a> Source<'a> {
             signals,
             key,
             name,
+            interval_taken: false,
+            contradicted: None,
         })
     }
 
@@ -135,7 +141,20 @@ impl<'a> Source<'a> {
 
     fn channel(&self, key: &str, name: &str) -> Result<(usize, Channel), Box<Problem>> {
         let channels = self.recording.channels();
-        let exact = channels.iter().position(|channel| channel.name == name);
+        let alike = || (0..channels.len()).filter(|k| channels[*k].name == name);
+        if let (Some(first), Some(second)) = (alike().next(), alike().nth(1)) {
+            let found = format!(
+                "which has {} channels \"{name}\", the first two as numbers {} and {} of {}",
+                alike().count(),
+                first + 1,
+                second + 1,
+                channels.len()
+            );
+            let needed =
+                "a name that only one channel has is needed: rename the others in the file";
+            return Err(self.problem(Code::UnknownChannel, key, found, needed));
+        }
+        let exact = alike().next();
         // a name without its group, where only one channel has it
         let mut ends = channels.iter().enumerate().filter(|(_, channel)| {
             let end = channel.name.strip_suffix(name);
@@ -156,7 +175,7 @@ impl<'a> Source<'a> {
                 0 => "a file with channels is needed".to_string(),
                 _ => format!("it has the channels {}", known.join(", ")),
             };
-            let found = format!("which has no channel \"{name}\"");
+            let found = format!("which has no channel \"{name}\"{}", self.unread());
             let problem = self.problem(Code::UnknownChannel, key, found, needed);
             return Err(Box::new(problem.with_hint(did_you_mean(name, names()))));
         };
@@ -166,7 +185,7 @@ impl<'a> Source<'a> {
             (_, 0) => "which holds no values",
             _ => return Ok((index, channel)),
         };
-        let found = format!("channel \"{name}\", {found}");
+        let found = format!("channel \"{name}\", {found}{}", self.unread());
         Err(self.problem(
             Code::UnknownChannel,
             key,
@@ -175,11 +194,32 @@ impl<'a> Source<'a> {
         ))
     }
 
+    /// What the reader found wrong with the file, for a message that misses something; a file cut by a crash tells it here.
+    fn unread(&self) -> String {
+        let notes = self.notes();
+        let more = match notes.len() {
+            0..=2 => String::new(),
+            all => format!("; and {} more", all - 2),
+        };
+        match notes.as_slice() {
+            [] => String::new(),
+            some => {
+                let first: Vec<&str> = some.iter().take(2).map(String::as_str).collect();
+                format!(" (what was read of it: {}{more})", first.join("; "))
+            }
+        }
+    }
+
     /// Seconds from the earliest start of the file to that of a channel, and its delay by the converter: columns of times are
     /// no turn of it.
     fn offset(&self, index: usize, channel: &Channel) -> f64 {
-        let before = &self.recording.channels()[..index];
-        let turn = before.iter().filter(|c| c.content != Content::Time).count();
+        let all = self.recording.channels();
+        let is_clock = |k: usize| all.iter().any(|c| c.clock == Clock::Channel(k));
+        let times = |k: usize, c: &Channel| {
+            c.content == Content::Time || si_factor(&c.unit, "s").is_some() || is_clock(k)
+        };
+        let before = all.iter().enumerate().take(index);
+        let turn = before.filter(|(k, c)| !times(*k, c)).count();
         self.start(channel) + turn as f64 * self.signals.channel_delay
     }
 
@@ -212,7 +252,10 @@ impl<'a> Source<'a> {
         let (first, interval) = match (&channel.clock, self.signals.sample_interval) {
             (Clock::Uniform { first, interval }, _) => (*first, *interval),
             (Clock::Channel(clock), _) => self.even_clock(key, name, *clock)?,
-            (Clock::Unknown, Some(interval)) => (0.0, interval),
+            (Clock::Unknown, Some(interval)) => {
+                self.interval_taken = true;
+                (0.0, interval)
+            }
             (Clock::Unknown, None) => {
                 return Err(self.problem(
                     Code::ChannelClock,
@@ -222,6 +265,12 @@ impl<'a> Source<'a> {
                 ));
             }
         };
+        if let Some(told) = self.signals.sample_interval
+            && (interval / told - 1.0).abs() > ROUNDED
+        {
+            self.contradicted
+                .get_or_insert((channel.name.clone(), interval));
+        }
         let first = first + self.offset(index, &channel);
         let (begin, end) = if whole {
             (0, channel.count)
@@ -377,95 +426,6 @@ impl<'a> Source<'a> {
             .map_or(count, |to| place(to).saturating_add(1))
             .min(count);
         (begin, end)
-    }
-
-    fn backwards(&self, key: &str, name: &str, value: usize, from: f64, to: f64) -> Box<Problem> {
-        self.problem(
-            Code::ChannelClock,
-            key,
-            format!("channel \"{name}\", whose time goes from {from} s to {to} s at value {value}"),
-            "times that rise from value to value are needed",
-        )
-    }
-
-    /// Seconds of one unit of a channel of times.
-    fn seconds(&self, key: &str, channel: &Channel) -> Result<f64, Box<Problem>> {
-        if channel.unit.trim().is_empty() {
-            return Ok(1.0);
-        }
-        si_factor(&channel.unit, "s").ok_or_else(|| {
-            self.problem(
-                Code::ChannelUnit,
-                key,
-                format!("channel \"{}\" in \"{}\"", channel.name, channel.unit),
-                "instants in a unit of time are needed, e.g. s",
-            )
-        })
-    }
-
-    /// First time and interval of a clock that is a channel, s.
-    fn even_clock(
-        &mut self,
-        key: &'static str,
-        name: &str,
-        clock: usize,
-    ) -> Result<(f64, f64), Box<Problem>> {
-        let Some(times) = self.recording.channels().get(clock).cloned() else {
-            let found = format!("channel \"{name}\", whose clock the file does not hold");
-            return Err(self.problem(Code::ChannelClock, key, found, "a whole file is needed"));
-        };
-        let seconds = match times.content {
-            Content::Time => 1.0,
-            _ => self.seconds(key, &times)?,
-        };
-        let count = times.count.min(MOST_VALUES) as usize;
-        if count < 2 {
-            let found = format!(
-                "channel \"{name}\", whose clock \"{}\" has {count} values",
-                times.name
-            );
-            return Err(self.problem(Code::ChannelClock, key, found, "two at least are needed"));
-        }
-        let ends = |values: &[f64]| values.first().copied();
-        let first = ends(&self.read(key, clock, 0, 1)?).unwrap_or(f64::NAN) * seconds;
-        let last = ends(&self.read(key, clock, count as u64 - 1, 1)?).unwrap_or(f64::NAN) * seconds;
-        let interval = (last - first) / (count - 1) as f64;
-        let mut before = f64::NEG_INFINITY;
-        let mut worst: Option<(usize, f64)> = None;
-        for begin in (0..count).step_by(PIECE) {
-            let piece = self.read(key, clock, begin as u64, PIECE.min(count - begin))?;
-            for (k, value) in piece.iter().enumerate() {
-                let (at, time) = (begin + k, value * seconds);
-                if !time.is_finite() {
-                    let found = format!(
-                        "channel \"{}\", the clock of \"{name}\": value {at} is no number",
-                        times.name
-                    );
-                    return Err(self.problem(
-                        Code::ChannelClock,
-                        key,
-                        found,
-                        "a time for each value is needed",
-                    ));
-                }
-                if time <= before {
-                    return Err(self.backwards(key, &times.name, at, before, time));
-                }
-                before = time;
-                let away = ((time - first) / interval - at as f64).abs();
-                if away > UNEVEN && worst.is_none_or(|(_, most)| away > most) {
-                    worst = Some((at, away));
-                }
-            }
-        }
-        if let Some((at, away)) = worst {
-            let found = format!(
-                "channel \"{name}\", whose values are not at equal times: value {at} is {away:.2} intervals off"
-            );
-            let needed = "values at equal times are needed; instants of marks are read with kind = \"edges\"";
-            return Err(self.problem(Code::ChannelClock, key, found, needed));
-        }
-        Ok((first, interval))
     }
 
     fn read(

@@ -12,6 +12,9 @@ use measure::uncertain::Uncertain;
 /// Values of the speed that a curve is drawn from, at most.
 const MOST: usize = 2000;
 
+/// What a torque of a reading whose zero is not told lacks.
+const NO_ZERO: &str = "the zero of the reading is not known: signals.torque.zero_deviation is not given, so that the torque by the sensor may be off by any constant, which its band does not hold";
+
 /// Curves of a slow run; each has its reason where there is none.
 pub(super) struct Found {
     pub inertia: Result<Uncertain, String>,
@@ -98,15 +101,23 @@ impl Found {
         let up_less_down = set(&up, &direct);
         let found = reading.and_then(|(_, _, found)| found?.torque.as_ref());
         let zero = match found {
-            Some(torque) => torque.zero.deviation,
-            None => sensor.and_then(|s| s.zero_deviation).unwrap_or(0.0),
+            Some(torque) => Some(torque.zero.deviation),
+            None => sensor.and_then(|s| s.zero_deviation),
         };
+        if zero.is_none() && (direct.is_ok() || up.is_ok()) {
+            notes.push(NO_ZERO.to_string());
+        }
+        let against = match zero {
+            Some(_) => Ok(()),
+            None => Err(NO_ZERO.to_string()),
+        };
+        let zero = zero.unwrap_or(0.0);
         for curve in [&mut direct, &mut up].into_iter().flatten() {
             curve.zero_deviation = zero;
             curve.scale_deviation = sensor.map_or(0.0, |sensor| sensor.scale_deviation);
         }
         Ok(Found {
-            direct_less_inertial: set(&direct, &inertial),
+            direct_less_inertial: set(&direct, &inertial).and_then(|all| against.map(|()| all)),
             up_less_down,
             inertia,
             direct,
@@ -174,8 +185,8 @@ fn inertia(source: &InertiaSource) -> Result<Uncertain, String> {
     match found.is_sound() && found.value > 0.0 {
         true => Ok(found),
         false => Err(format!(
-            "the test of the inertia gives {:.3e} kg m^2: its values contradict each other",
-            found.value
+            "the test of the inertia gives {} kg m^2: its values contradict each other",
+            units::number_text((found.value * 1e9).round() / 1e9)
         )),
     }
 }

@@ -9,6 +9,7 @@ use measure::torque_sensor::{
     Clipped, DesignError, Inversion, Sensor, Torque, identify_free_response, invert,
 };
 use measure::uncertain::Uncertain;
+use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
 /// Values at the ends that are left out without a word.
@@ -16,6 +17,8 @@ const FEW: usize = 2;
 /// What a spectrum shows at least: so many times the frequency of the sensor, so many orders of the shaft.
 const OF_SENSOR: f64 = 3.0;
 const ORDERS: f64 = 4.0;
+/// Damping ratio from which on nothing swings.
+const NO_SWING: f64 = 1.0;
 
 /// Torque, and the reading it was found from.
 pub(in crate::simulate) struct Found {
@@ -219,10 +222,21 @@ fn sensor(
                 damping_deviation,
             }),
             _,
-        ) => Ok(Some(Sensor {
-            frequency: Uncertain::new(*sensor_frequency, sensor_frequency * frequency_deviation),
-            damping_ratio: Uncertain::new(*damping_ratio, damping_ratio * damping_deviation),
-        })),
+        ) => {
+            if *damping_ratio >= NO_SWING {
+                notes.push(format!(
+                    "a damping ratio of {} is that of a sensor that does not swing, as hardly a torque arm is: one that is too large shows torques that were not; a tap would tell it (signals.torque.tap_file)",
+                    units::number_text(*damping_ratio)
+                ));
+            }
+            Ok(Some(Sensor {
+                frequency: Uncertain::new(
+                    *sensor_frequency,
+                    sensor_frequency * frequency_deviation,
+                ),
+                damping_ratio: Uncertain::new(*damping_ratio, damping_ratio * damping_deviation),
+            }))
+        }
         (Some(SensorSource::Tap { tap_start, .. }), Some(tap)) => {
             let start = tap_start.map(|start| (start / tap.interval).ceil() as usize);
             let response = identify_free_response(&tap.values, tap.interval, start)
@@ -298,6 +312,14 @@ fn inverted(
     };
     if !input.rests_at_first() && wish.zero_deviation.is_none() {
         notes.push("the shaft does not rest at first and zero_deviation is not given: the zero of the reading is not known".to_string());
+    }
+    if let (Some(why), true) = (
+        &faulty.at_limit,
+        high.partial_cmp(&low) != Some(Ordering::Greater),
+    ) {
+        return Err(format!(
+            "{why}, and nothing that changes is left of the reading beside it"
+        ));
     }
     let torque = invert(&input)?;
     notes.extend(torque.notes.iter().cloned());

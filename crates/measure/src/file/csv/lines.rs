@@ -16,6 +16,8 @@ const LONGEST: usize = 1 << 24;
 pub(super) enum Letters {
     /// ASCII, UTF-8 or a code page of one byte a letter.
     Bytes,
+    /// The same with lines that end with a carriage return alone, as old writers of Apple's made them.
+    Returns,
     /// UTF-16, the lower byte first.
     LowFirst,
     /// UTF-16, the higher byte first.
@@ -30,6 +32,22 @@ impl Letters {
             [0xfe, 0xff, ..] => (Letters::HighFirst, 2),
             [0xef, 0xbb, 0xbf, ..] => (Letters::Bytes, 3),
             _ => (Letters::Bytes, 0),
+        }
+    }
+
+    /// The same, of a file with this beginning, which may show lines that end with a carriage return alone.
+    pub fn with_ends(self, head: &[u8]) -> Letters {
+        match self {
+            Letters::Bytes if !head.contains(&b'\n') && head.contains(&b'\r') => Letters::Returns,
+            other => other,
+        }
+    }
+
+    /// Bytes of the end of a line.
+    fn mark(self) -> usize {
+        match self {
+            Letters::Bytes | Letters::Returns => 1,
+            Letters::LowFirst | Letters::HighFirst => 2,
         }
     }
 }
@@ -74,8 +92,7 @@ impl Lines {
         let mut looked = 0;
         let (end, past) = loop {
             if let Some(end) = self.end_of_line(self.used + looked) {
-                let mark = if self.letters == Letters::Bytes { 1 } else { 2 };
-                break (end, end + mark);
+                break (end, end + self.letters.mark());
             }
             if !self.more {
                 break (self.buffer.len(), self.buffer.len());
@@ -99,7 +116,7 @@ impl Lines {
         }
         let raw = &self.buffer[self.used..end];
         match self.letters {
-            Letters::Bytes => line.extend(raw),
+            Letters::Bytes | Letters::Returns => line.extend(raw),
             wide => {
                 let words = raw.chunks_exact(2).map(|pair| match wide {
                     Letters::LowFirst => u16::from_le_bytes([pair[0], pair[1]]),
@@ -124,6 +141,7 @@ impl Lines {
         let rest = self.buffer.get(from..)?;
         match self.letters {
             Letters::Bytes => rest.iter().position(|&b| b == b'\n').map(|end| from + end),
+            Letters::Returns => rest.iter().position(|&b| b == b'\r').map(|end| from + end),
             wide => {
                 let end = match wide {
                     Letters::LowFirst => [b'\n', 0],
@@ -155,6 +173,7 @@ mod tests {
     fn lines(bytes: &[u8]) -> Vec<String> {
         let mut source = Source::new(Cursor::new(bytes), "x".as_ref()).unwrap();
         let (letters, mark) = Letters::of(bytes);
+        let letters = letters.with_ends(bytes);
         let (mut lines, mut line, mut found) = (Lines::new(letters, mark), Vec::new(), Vec::new());
         while lines.next(&mut source, &mut line).unwrap() {
             found.push(text(&line));
@@ -166,6 +185,7 @@ mod tests {
     fn ends_of_lines_and_marks_do_not_belong_to_the_text() {
         assert_eq!(lines(b"\xef\xbb\xbfa\r\nb\n\nc"), ["a", "b", "", "c"]);
         assert_eq!(lines(b"a\n"), ["a"]);
+        assert_eq!(lines(b"a\rb\rc"), ["a", "b", "c"]);
         assert!(lines(b"").is_empty());
     }
 

@@ -106,6 +106,9 @@ impl<S: Read + Seek> Csv<S> {
         let mut mark = [0; 3];
         let there = source.read_at(0, &mut mark)?;
         let (letters, mark) = Letters::of(&mark[..there]);
+        let mut begin = vec![0; HEAD_BYTES.min(1 << 16)];
+        let there = source.read_at(0, &mut begin)?;
+        let letters = letters.with_ends(&begin[..there]);
         let mut lines = Lines::new(letters, mark);
         let (mut head, mut places, mut line, mut bytes) = (Vec::new(), Vec::new(), Vec::new(), 0);
         while head.len() < HEAD_LINES && bytes < HEAD_BYTES {

@@ -54,10 +54,12 @@ impl<S: Read + Seek> Storage<S> {
             return Err(source.error(at, "the superblock is damaged or of a new version", needed));
         };
         // A user block stands before the signature; some writers leave it out of the base.
+        // The end counts from the begin of the file, as the library writes it beside a base; without one from the signature.
+        let left_out = if base == 0 { at } else { 0 };
         let base = if base == 0 { at } else { base };
         let allowance = source.length().saturating_mul(16).saturating_add(16 << 20);
         Ok(Storage {
-            end: end.and_then(|end| end.checked_add(if base == at { at } else { 0 })),
+            end: end.and_then(|end| end.checked_add(left_out)),
             source,
             base,
             address_size,
