@@ -6,7 +6,8 @@ use identify::loss::{Loss, LossMap, LossSettings, Rolling, State, loss};
 use identify::moment::{MomentSettings, moment};
 use identify::{Measurement, SetDeviation, SteadyMoment};
 use made_up::{
-    Random, coast_down, covered, friction, lagging_spin_up, rolling_spin_up, seeds, set, steady,
+    Random, coast_down, covered, friction, lagging_spin_up, rolling_spin_up, rolling_with, seeds,
+    set, steady,
 };
 use measure::uncertain::Uncertain;
 
@@ -243,4 +244,70 @@ fn the_map_is_honest_where_no_data_are() {
     let sum = map.constant_part(75.0).value + 2000.0 * map.proportional_part(75.0).value;
     assert!((sum - near.friction.value).abs() < 1e-9);
     assert!(LossMap::fitted(&[], &exact(), &set(), &settings).is_err());
+}
+
+/// Places of the map that are asked, from rest to beyond the data.
+fn places() -> impl Iterator<Item = (f64, f64)> {
+    let speeds = [10.0, 50.0, 100.0, 149.0, 300.0, 600.0];
+    let rates = [0.0, 200.0, 1300.0, 3600.0, 7000.0, 14_000.0, 30_000.0];
+    (speeds.into_iter()).flat_map(move |speed| rates.map(|rate| (speed, rate)))
+}
+
+#[test]
+fn what_is_known_does_not_depend_on_the_size_of_the_friction() {
+    type Law = fn(f64, f64) -> f64;
+    let laws: [(&str, Law); 3] = [
+        ("none", |_, _| 0.0),
+        // a sixth of M over the arm of F
+        ("constant", |speed, _| if speed > 0.0 { 0.4 } else { 0.0 }),
+        ("proportional", |_, rate| 1e-4 * rate.abs()),
+    ];
+    let settings = LossSettings {
+        rolling: Rolling::Stated,
+        ..LossSettings::default()
+    };
+    // from 4 rad/s on, as slow tests tell it: at rest there is no M
+    let whole = exact();
+    let curve = SteadyMoment {
+        speed: whole.speed[10..].to_vec(),
+        moment: whole.moment[10..].to_vec(),
+        covariance: vec![vec![0.0; 390]; 390],
+        ..whole
+    };
+    let count = seeds(3);
+    for seed in 0..count {
+        let mut known: Vec<Vec<bool>> = Vec::new();
+        for (name, law) in laws {
+            // the same noise for each law
+            let mut random = Random::new(5000 + seed);
+            let runs: Vec<(Measurement, Vec<f64>)> = [1300.0, 3000.0, 7200.0]
+                .map(|peak| rolling_with(&mut random, peak, 2.0, 0.0, &law))
+                .into();
+            let losses: Vec<Loss> = runs
+                .iter()
+                .map(|(test, _)| loss(test, &curve, &set(), &settings).unwrap())
+                .collect();
+            let pairs: Vec<(&Measurement, &Loss)> =
+                runs.iter().map(|r| &r.0).zip(&losses).collect();
+            let map = LossMap::fitted(&pairs, &curve, &set(), &settings).unwrap();
+            known.push(places().map(|(s, r)| map.at(s, r).known).collect());
+            // held for seconds, and on the way of all three
+            for (speed, rate) in [(149.0, 0.0), (75.0, 1300.0), (75.0, 7000.0)] {
+                assert!(map.at(speed, rate).known, "{name}: {speed} {rate}");
+            }
+            // twice the speed, twice the acceleration
+            for (speed, rate) in [(300.0, 0.0), (75.0, 14_000.0)] {
+                assert!(!map.at(speed, rate).known, "{name}: {speed} {rate}");
+            }
+            for (speed, rate) in places().filter(|(s, r)| map.at(*s, *r).known) {
+                let own = map.at(speed, rate).friction;
+                // some twenty places of 9 maps that share their errors: beyond four deviations none is expected
+                assert!(
+                    (own.value - law(speed, rate)).abs() < 4.0 * own.deviation,
+                    "{name} {seed}: {own} at {speed} {rate}"
+                );
+            }
+        }
+        assert!(known[0] == known[1] && known[1] == known[2]);
+    }
 }

@@ -104,6 +104,7 @@ fn the_true_coefficient_lies_in_its_band() {
         let race = Race {
             inertia: Uncertain::new(RACE_INERTIA * (1.0 + 0.02 * i), 0.02 * RACE_INERTIA),
             bore_radius: Uncertain::new(BORE * (1.0 + 0.005 * r), 0.005 * BORE),
+            air_clearance: Uncertain::exact(0.0),
             set: set(),
             set_deviation: SetDeviation::default(),
             steady_moment: &law,
@@ -139,6 +140,7 @@ fn exact_race<'a>(
     Race {
         inertia: Uncertain::exact(RACE_INERTIA),
         bore_radius: Uncertain::exact(BORE),
+        air_clearance: Uncertain::exact(0.0),
         set: set(),
         set_deviation: SetDeviation::default(),
         steady_moment,
@@ -219,4 +221,141 @@ fn a_moment_that_is_not_known_leaves_a_gap_and_says_so() {
             .unwrap_err()
             .contains("loads for")
     );
+}
+
+/// Inertia of the race of an unbalanced rotor, kg m², and its steady moment, N m.
+const LIGHT_RACE: f64 = 3.9e-6;
+const MOMENT: f64 = 0.06;
+
+/// A race that a rotor of 1250 rad/s and 0.25 mm of air clearance brings up under a weight that its unbalance swings by four tenths
+/// with every turn, read with a constant load; then it creeps for some turns.
+///
+/// It is up after some 70 ms of 5 ms a turn.
+fn unbalanced(clearance: f64) -> RubbingSpinUp {
+    let (rotor, step, weight) = (1250.0, 2e-6, 80.0);
+    let inertia = LIGHT_RACE + set().inner_inertia();
+    let mut speed = 0.0;
+    let (mut time, mut race, mut rates) = (vec![], vec![], vec![]);
+    for k in 0..60_000 {
+        let t = f64::from(k) * step;
+        let load = weight * (1.0 + 0.4 * (rotor * t + 0.3).sin());
+        let slip = (BORE - clearance) * rotor - BORE * speed;
+        let rate = (BORE * creeping(slip) * load - MOMENT) / inertia;
+        if k % 20 == 0 {
+            time.push(t);
+            race.push(Uncertain::exact(speed));
+            rates.push(Uncertain::exact(rate));
+        }
+        speed += rate * step;
+    }
+    RubbingSpinUp {
+        name: "unbalanced".into(),
+        rotor_speed: vec![Uncertain::exact(rotor); time.len()],
+        load: vec![Uncertain::new(weight, 0.01 * weight); time.len()],
+        race_speed: race,
+        race_acceleration: rates,
+        correlation_time: 0.12,
+        time,
+    }
+}
+
+/// A coefficient that fades where the rotor hardly slides.
+fn creeping(slip: f64) -> f64 {
+    0.15 * (slip / 0.05).tanh()
+}
+
+#[test]
+fn what_the_unbalance_swings_averages_out_of_whole_turns() {
+    let clearance = 0.25e-3;
+    let run = unbalanced(clearance);
+    let law = |_: f64, _: f64| Some(Uncertain::exact(MOMENT));
+    let none = |_: f64, _: f64| Some(Uncertain::exact(0.0));
+    let mut race = exact_race(&law, &none);
+    race.air_clearance = Uncertain::exact(clearance);
+    race.inertia = Uncertain::exact(LIGHT_RACE);
+    race.least_slip = 1e-3;
+    let found = rotor_friction(&run, &race).unwrap();
+    // single points swing by the whole of it
+    let sliding = |p: &&identify::rotor_friction::FrictionPoint| p.slip.value > 1.0;
+    let worst = (found.points.iter().filter(sliding))
+        .map(|p| (p.friction.value - 0.15).abs())
+        .fold(0.0, f64::max);
+    assert!(worst > 0.05, "{worst}");
+    assert!(
+        found
+            .notes
+            .iter()
+            .any(|note| note.contains("within a turn"))
+    );
+    let means = found.over_slip(20);
+    assert!(means.len() >= 8, "{means:?}");
+    for mean in &means {
+        let (own, slip) = (mean.friction, mean.slip);
+        assert!(own.deviation > 0.0014 * own.value / 0.15 && own.deviation < 0.02);
+        if slip.value > 1.0 {
+            // 0.06 of swing over 2π of a turn
+            assert!((own.value - 0.15).abs() < 0.005, "{mean:?}");
+        } else {
+            // the slip at which it is told, within the slips of its turns
+            let (low, high) = (
+                creeping(slip.value - 2.0 * slip.deviation),
+                creeping(slip.value + 2.0 * slip.deviation),
+            );
+            assert!(
+                own.value > low - 0.003 && own.value < high + 0.003,
+                "{mean:?}"
+            );
+        }
+    }
+    // it ends creeping, where friction carries M: μ = M/(R_0 W)
+    let creep = means[0];
+    assert!((creep.friction.value - 0.06).abs() < 0.004, "{creep:?}");
+    // told at the slip at which it lies; W swings μ between 0.043 and 0.1 there
+    assert!(
+        (creep.friction.value - creeping(creep.slip.value)).abs() < 0.01,
+        "{creep:?}"
+    );
+    // a rotor taken as wide as the bore slides by ω c0 more
+    race.air_clearance = Uncertain::exact(0.0);
+    let wide = rotor_friction(&run, &race).unwrap();
+    let off = wide.points[0].slip.value - found.points[0].slip.value;
+    assert!((off - 1250.0 * clearance).abs() < 1e-9, "{off}");
+    race.air_clearance = Uncertain::exact(BORE);
+    assert!(
+        rotor_friction(&run, &race)
+            .unwrap_err()
+            .contains("air clearance")
+    );
+}
+
+#[test]
+fn less_than_a_turn_holds_the_whole_swing_in_its_band() {
+    let whole = unbalanced(0.25e-3);
+    // half a turn of 5 ms
+    let from = whole.time.partition_point(|t| *t < 10.0e-3);
+    let to = whole.time.partition_point(|t| *t < 12.5e-3);
+    let run = RubbingSpinUp {
+        time: whole.time[from..to].to_vec(),
+        race_speed: whole.race_speed[from..to].to_vec(),
+        race_acceleration: whole.race_acceleration[from..to].to_vec(),
+        rotor_speed: whole.rotor_speed[from..to].to_vec(),
+        load: whole.load[from..to].to_vec(),
+        ..whole
+    };
+    let law = |_: f64, _: f64| Some(Uncertain::exact(MOMENT));
+    let none = |_: f64, _: f64| Some(Uncertain::exact(0.0));
+    let mut race = exact_race(&law, &none);
+    race.air_clearance = Uncertain::exact(0.25e-3);
+    race.inertia = Uncertain::exact(LIGHT_RACE);
+    let found = rotor_friction(&run, &race).unwrap();
+    assert!(
+        found
+            .notes
+            .iter()
+            .any(|note| note.contains("less than a turn"))
+    );
+    let (mean, means) = (found.mean(), found.over_slip(20));
+    assert!(means.len() == 1, "{means:?}");
+    assert!(mean.friction.deviation > 0.01, "{mean:?}");
+    assert!((mean.friction.value - 0.15).abs() < 3.0 * mean.friction.deviation);
 }

@@ -84,6 +84,8 @@ pub struct RotorFriction {
     pub least_slip: f64,
     /// Diameter at which the rotor slides, m.
     pub bore_diameter: f64,
+    /// Radial air clearance, m: by so much the rotor's radius is less.
+    pub radial_air_clearance: Option<f64>,
     /// Inertia of the inner race with its sleeve, kg m².
     pub inertia: f64,
     /// Its relative standard deviation.
@@ -136,6 +138,7 @@ impl Identify {
                     to: rotor.maybe("to"),
                     least_slip: rotor.number("least_slip"),
                     bore_diameter: rotor.maybe("bore_diameter").unwrap_or(f64::NAN),
+                    radial_air_clearance: rotor.maybe("radial_air_clearance"),
                     inertia: rotor.maybe("inertia").unwrap_or(f64::NAN),
                     inertia_deviation: rotor.number("inertia_deviation"),
                 }),

@@ -217,6 +217,14 @@ pub(super) const KEYS: &[Key] = &[
     .positive()
     .optional("it is needed with identify.rotor_friction.file"),
     Key::new(
+        "identify.rotor_friction.radial_air_clearance",
+        Kind::Quantity("m"),
+        "0.25 mm",
+        "Radial air clearance of the rotor in that bore: its surface is slower than one of the bore's radius would be.",
+    )
+    .positive()
+    .optional("the rotor counts as wide as the bore, and its slip as too large"),
+    Key::new(
         "identify.rotor_friction.inertia",
         Kind::Quantity("kg m^2"),
         "3.9e-6 kg m^2",

@@ -5,8 +5,18 @@
 //!   data     means of F over the correlation time of the torque, where the balls are known to roll
 //!   errors   noise of the means with its correlation in time; zero of each test; M's band, by its covariance; masses, common to all
 //! ```
-//! Sizes of F0 and F1 and the length ℓ are those of the highest marginal likelihood on a grid. Where no data are the band
-//! returns to that size.
+//! Sizes of F0 and F1 and the length ℓ are those of the highest marginal likelihood on a grid, none smaller than the least error of
+//! a mean: data cannot tell that F is smaller than they can see. Where no data are the band returns to that size.
+//!
+//! Whether F is *known* at a place is asked of the data, not of F: what the same data, with the same errors, leave of a prior that
+//! is wide and always the same.
+//!
+//! ```text
+//!   known    V = k - kᵀ (K + E)⁻¹ k < (S/4)²     and a datum within a quarter of the range of speeds and accelerations
+//!   S        mean of M over the arm of F: an F that is as large as all of M
+//!   K, k     F0 and F1·(largest |Ω̇|) of deviation S each, ℓ a quarter of the largest speed;   E: the errors above
+//! ```
+//! So a bearing without F has the same known places as one with much of it.
 //!
 //! **Does not model**: dependence on load or temperature; rotation one way against the other (Ω and F count along the rotation).
 
@@ -20,6 +30,12 @@ use physics::rolling::RollingSet;
 
 /// Most means that are used: their matrix is dense.
 const MOST: usize = 240;
+/// Distance to the nearest datum, in parts of the ranges of the data, up to which a place is known.
+const NEAR: f64 = 0.25;
+/// What the data may leave of the wide prior, over its size.
+const LEFT: f64 = 0.25;
+/// Lengths that are tried, and the first of them for the wide prior: over the largest speed.
+const LENGTHS: [f64; 3] = [0.25, 0.75, 2.0];
 
 /// One mean.
 #[derive(Clone, Copy, Debug)]
@@ -66,6 +82,9 @@ pub struct LossMap {
     factor: Matrix,
     weights: Vec<f64>,
     sizes: Sizes,
+    /// The wide prior, and the factor of the data under it.
+    wide: Sizes,
+    wide_factor: Matrix,
     range: (f64, f64, f64, f64),
     /// What is not trustworthy.
     pub notes: Vec<String>,
@@ -78,7 +97,8 @@ pub struct MapPlace {
     pub friction: Uncertain,
     /// Distance to the nearest datum, in parts of the range of speeds and of accelerations of the data.
     pub nearest: f64,
-    /// Whether data are near: nearest below 0.25, and the band less than half of what it is without data.
+    /// Whether data are near: nearest below 0.25, and what these data leave of a prior as wide as M is less than a quarter of it,
+    /// whatever F is.
     pub known: bool,
 }
 
@@ -133,10 +153,11 @@ impl LossMap {
             .fold(f64::INFINITY, f64::min)
             .sqrt();
         let level = level.max(floor);
-        let best = Self::sizes(&data, &errors, level, high, most)
-            .ok_or("the means of F do not determine a map")?;
-        let factor =
-            covered(&data, &errors, &best).ok_or("the means of F do not determine a map")?;
+        let undetermined = "the means of F do not determine a map";
+        let best = Self::sizes(&data, &errors, level, floor, high, most).ok_or(undetermined)?;
+        let factor = covered(&data, &errors, &best).ok_or(undetermined)?;
+        let wide = wide(&data, steady, set.pocket_friction_arm(), high, most);
+        let wide_factor = covered(&data, &errors, &wide).ok_or(undetermined)?;
         let friction: Vec<f64> = data.iter().map(|d| d.friction).collect();
         if most - least < 0.2 * most {
             notes.push(format!(
@@ -147,6 +168,8 @@ impl LossMap {
             weights: solved(&factor, &friction),
             factor,
             sizes: best,
+            wide,
+            wide_factor,
             range: (low, high, least, most),
             data,
             notes,
@@ -154,15 +177,30 @@ impl LossMap {
     }
 
     /// The sizes of highest marginal likelihood.
-    fn sizes(data: &[Datum], errors: &Matrix, level: f64, high: f64, most: f64) -> Option<Sizes> {
+    ///
+    /// - `level`: root mean square of F, N
+    /// - `floor`: least error of a mean, N
+    /// - `high`, `most`: largest speed and |Ω̇|
+    fn sizes(
+        data: &[Datum],
+        errors: &Matrix,
+        level: f64,
+        floor: f64,
+        high: f64,
+        most: f64,
+    ) -> Option<Sizes> {
         let friction: Vec<f64> = data.iter().map(|d| d.friction).collect();
+        let mut tried: Vec<f64> = [0.03, 0.1, 0.3, 1.0, 3.0]
+            .map(|part| (part * level).max(floor))
+            .to_vec();
+        tried.dedup();
         let mut best: Option<(f64, Sizes)> = None;
-        for length in [0.25, 0.75, 2.0] {
-            for constant in [0.03, 0.1, 0.3, 1.0, 3.0] {
-                for proportional in [0.03, 0.1, 0.3, 1.0, 3.0] {
+        for length in LENGTHS {
+            for &constant in &tried {
+                for &proportional in &tried {
                     let sizes = Sizes {
-                        constant: constant * level,
-                        proportional: proportional * level / most.max(1e-300),
+                        constant,
+                        proportional: per(proportional, most),
                         length: length * high,
                     };
                     let Some(factor) = covered(data, errors, &sizes) else {
@@ -199,8 +237,19 @@ impl LossMap {
         MapPlace {
             friction,
             nearest,
-            known: nearest < 0.25 && friction.deviation < 0.5 * alone.sqrt(),
+            known: nearest < NEAR && self.left(place) < LEFT * self.wide.constant,
         }
+    }
+
+    /// What the data leave of the wide prior at a place, N.
+    fn left(&self, place: (f64, f64)) -> f64 {
+        let with = |d: &Datum| self.wide.covariance(place, (d.speed, d.rate));
+        let white = forward(
+            &self.wide_factor,
+            &self.data.iter().map(with).collect::<Vec<_>>(),
+        );
+        let variance = self.wide.covariance(place, place) - dot(&white, &white);
+        variance.max(0.0).sqrt()
     }
 
     /// F0 at a speed, N.
@@ -226,6 +275,22 @@ impl LossMap {
         let white = forward(&self.factor, &row);
         let variance = alone - dot(&white, &white);
         Uncertain::new(dot(&row, &self.weights), variance.max(0.0).sqrt())
+    }
+}
+
+/// A size over the largest rate; 0 where nothing accelerates.
+fn per(size: f64, most: f64) -> f64 {
+    if most > 0.0 { size / most } else { 0.0 }
+}
+
+/// The prior against which data are weighed: F as large as all of M.
+fn wide(data: &[Datum], steady: &SteadyMoment, arm: f64, high: f64, most: f64) -> Sizes {
+    let moment = |d: &Datum| steady.without_scale(d.speed).map_or(0.0, |m| m.value.abs());
+    let size = data.iter().map(moment).sum::<f64>() / (arm * data.len() as f64);
+    Sizes {
+        constant: size,
+        proportional: per(size, most),
+        length: LENGTHS[0] * high,
     }
 }
 

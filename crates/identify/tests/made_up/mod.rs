@@ -267,6 +267,17 @@ pub fn rolling_spin_up(
     hold: f64,
     scale_error: f64,
 ) -> (Measurement, Vec<f64>) {
+    rolling_with(random, peak, hold, scale_error, &friction)
+}
+
+/// A spin-up with rolling balls of a given F over speed and acceleration, and that F.
+pub fn rolling_with(
+    random: &mut Random,
+    peak: f64,
+    hold: f64,
+    scale_error: f64,
+    friction: &dyn Fn(f64, f64) -> f64,
+) -> (Measurement, Vec<f64>) {
     let interval = 1e-3;
     let lasts = 0.2 + 300.0 / peak + hold;
     let time: Vec<f64> = (0..(lasts / interval) as usize)

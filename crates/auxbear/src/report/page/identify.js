@@ -44,13 +44,14 @@ function explanationFigure(run, runs) {
   });
   const parameters = quantityOf(run, "explanation_parameters").value;
   const fit = numberOf(run, "explanation_fit_probability");
+  const limits = quantityOf(run, "explanation_slip_limit").value;
   const fits = fit === null ? "" : `. Data less like it would come with a probability of ${percentText(fit, 2)}`;
   const next = String(quantityOf(run, "next_tests").value || "").split("\n").filter(Boolean).map((line) => line.replace(/^\d+\. /, ""));
   return [
     figure(
       title,
       "Probability after the data, by marginal likelihood with a discrepancy term for what the reduced models leave out. Below the limit of decision the answer is undecided.",
-      element("p", {}, element("strong", {}, "Verdict: " + conclusion.value)),
+      element("p", {}, element("strong", {}, "Verdict: " + conclusion.value), typeof limits === "string" ? ` (${limits})` : null),
       element("table", { class: "bars" }, element("tbody", {}, rows)),
       typeof parameters === "string" ? element("p", { class: "small" }, "Most probable: " + parameters + fits) : null,
     ),
@@ -96,10 +97,25 @@ function settledMarks() {
   ]);
 }
 
+// Rows of a test from a little before its engagement to some time after, s.
+function rowsUpTo(run, upto) {
+  return run.time.map((_, row) => row).filter((row) => run.time[row] >= -0.1 * upto && run.time[row] <= upto);
+}
+
+// The quick part of a test closely: speed and acceleration, as long again as the spin-up takes.
+function quickFigures(run, test) {
+  const until = numberOf(run, `${test.key}.dissipation_until`);
+  if (until === null) return null;
+  const rows = rowsUpTo(run, 2 * until);
+  const x = rows.map((row) => 1e3 * run.time[row]);
+  const of = (name) => rows.map((row) => (columnOf(run, `${test.key}.${name}`) || [])[row]);
+  const look = (name, label, colour) => curves({ series: bandCurves(x, of(name), of(name + "_deviation"), 1, label, colour), across: "time since the engagement [ms]", upright: label, height: 200 });
+  return [figure(`${test.name}: speed and acceleration after the engagement, closely`, null, look("speed", "speed [rad/s]", SERIES_COLOURS.rotor), look("acceleration", "acceleration [rad/s²]", SERIES_COLOURS.race))];
+}
+
 // The first part of a test closely, where its torque is decided.
 function closeFigure(run, test) {
-  const upto = 0.6;
-  const rows = run.time.map((_, row) => row).filter((row) => run.time[row] >= -0.02 && run.time[row] <= upto);
+  const rows = rowsUpTo(run, 0.6);
   const x = rows.map((row) => 1e3 * run.time[row]);
   const of = (name) => rows.map((row) => (columnOf(run, `${test.key}.${name}`) || [])[row]);
   const steady = { label: "steady torque at this speed", x, y: of("steady_moment").map((value) => (isNumber(value) ? 1e3 * value : null)), colour: SERIES_COLOURS.limit, dash: "7 4" };
@@ -119,6 +135,7 @@ function testFigures(run, test) {
     figure(`${title}: speed`, BAND_WORDS, timePlot({ series: of("speed", 1, { label: "speed [rad/s]", colour: SERIES_COLOURS.rotor, width: 1.5 }), label: "speed [rad/s]", marks, height: 180 })),
     figure("Acceleration", null, timePlot({ series: of("acceleration", 1, { label: "acceleration [rad/s²]", colour: SERIES_COLOURS.race, width: 1.25 }), label: "acceleration [rad/s²]", marks, height: 180 })),
     figure("Torque on the outer race, without the sensor's swing", "Dashed: the steady torque of the slow tests at the speed of the moment.", timePlot({ series: [...of("torque", 1e3, { label: "t_O [N mm]", colour: SERIES_COLOURS.race, width: 1.5 }), ...steady], label: "torque [N mm]", marks, height: 260 })),
+    quickFigures(run, test),
     closeFigure(run, test),
     slip.length ? figure("Slip of the cage", `0 % where the balls roll; nothing is drawn where the band is wider than ±${WIDEST_SLIP} %.`, timePlot({ series: slip, label: "slip [%]", include: () => [-0.5, 0.5], height: 160 })) : notInThisRun("slip: " + (quantityOf(run, `${test.key}.slip_probability`).why || "no cage signal"), run),
   ];
@@ -138,7 +155,7 @@ function lossFigures(run, runs) {
   const tests = testsOf(run);
   if (!tests.length) return null;
   const table = plainTable(
-    ["test", "t_O − M, 0.2 to 0.4 s", "t_O − M, last 0.5 s at speed", "would bring balls and cage up in 3.5 s", "cage slipped", "balls skidded, if M holds", "rolls from"],
+    ["test", "t_O − M, 0.2 to 0.4 s", "t_O − M, last 0.5 s at speed", "would bring balls and cage up in 3.5 s", "cage slipped", "balls skidded, if M holds", "rolls from, after the engagement"],
     tests.map((test) => {
       const share = (name) => {
         const value = numberOf(run, `${test.key}.${name}`);
@@ -185,7 +202,7 @@ function rotorFrictionSection(runs) {
   return section("rotor-friction", "Sliding friction between rotor and race", runs.map((run) => {
     const slips = listOf(run, "rotor_friction_slips");
     const series = bandCurves(slips, listOf(run, "rotor_friction_coefficients"), listOf(run, "rotor_friction_deviations"), 1, "coefficient", SERIES_COLOURS.rotor);
-    return figure(shareOfRun(run, runs, "Coefficient of friction over slip"), BAND_WORDS, curves({ series, across: "slip [m/s]", upright: "coefficient", height: 260 }));
+    return figure(shareOfRun(run, runs, "Coefficient of friction over slip"), `Means over whole turns of the rotor, each at the mean slip of its turns. ${BAND_WORDS}`, curves({ series, across: "slip [m/s]", upright: "coefficient", height: 260 }));
   }));
 }
 

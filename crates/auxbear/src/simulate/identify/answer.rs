@@ -5,8 +5,9 @@ use super::answer_tests;
 use super::found::Found;
 use crate::simulate::list::{List, Origin};
 use crate::simulate::outcome::{Quantity, Value};
-use identify::explain::{Conclusion, Explanation};
+use identify::explain::{self, Conclusion, Explanation};
 use identify::moment::{Form, Moment};
+use identify::slip::{Established, SlipSettings};
 use measure::uncertain::Uncertain;
 
 /// Speeds at which the steady moment is listed.
@@ -62,6 +63,8 @@ fn verdict(list: &mut List, found: &Found) {
             Conclusion::NoneOfThese => "none of these".to_string(),
         });
     list.push("explanation", "", text_or(conclusion), &VERDICT);
+    let limits = verdict.map_err(Clone::clone).map(|_| slip_limits(found));
+    list.push("explanation_slip_limit", "", text_or(limits), &VERDICT);
     for explanation in Explanation::ALL {
         let name = format!("probability_of_{}", explanation.name().replace(' ', "_"));
         let of = verdict.map_err(Clone::clone);
@@ -106,6 +109,23 @@ fn verdict(list: &mut List, found: &Found) {
         lines.collect::<Vec<_>>().join("\n")
     });
     list.push("next_tests", "", text_or(named), &NEXT);
+}
+
+/// From which slip on the comparison calls it slip, beside the narrower limit of the slip itself.
+fn slip_limits(found: &Found) -> String {
+    let least = 1e2 * explain::Settings::default().least_slip;
+    let limit = 1e2 * SlipSettings::default().limit;
+    let never = found.tests.iter().filter(
+        |test| matches!(&test.slip, Ok(slip) if matches!(slip.established, Established::Never)),
+    );
+    let names: Vec<&str> = never.map(|test| test.name.as_str()).collect();
+    let tests = match names.is_empty() {
+        true => String::new(),
+        false => format!("; by that one {} never came to roll", names.join(", ")),
+    };
+    format!(
+        "a slip of the cage below {least} % counts as rolling among the explanations; slip_probability and rolling_established_at count from {limit} % on{tests}"
+    )
 }
 
 fn moment(list: &mut List, found: &Found) {
@@ -180,7 +200,7 @@ fn moment(list: &mut List, found: &Found) {
         "effective_steady_data",
         "",
         moment.map(|moment| moment.effective_data),
-        &EVIDENCE,
+        &WORTH,
     );
 }
 
@@ -263,11 +283,7 @@ fn map(list: &mut List, found: &Found) {
 
 fn rotor(list: &mut List, found: &Found) {
     let rotor = found.rotor.as_ref().map_err(Clone::clone);
-    let mean = rotor.clone().and_then(|rotor| {
-        let whole = rotor.over_slip(1);
-        let first = whole.first().map(|point| point.friction);
-        first.ok_or_else(|| "there is no slip".to_string())
-    });
+    let mean = rotor.clone().map(|rotor| rotor.mean().friction);
     answer_tests::uncertain(list, "rotor_friction_coefficient", "1", mean, &ROTOR);
     let points = rotor.map(|rotor| rotor.over_slip(20));
     for (name, unit, pick) in [
@@ -276,6 +292,9 @@ fn rotor(list: &mut List, found: &Found) {
             "m/s",
             (|p| p.slip.value) as fn(&identify::rotor_friction::FrictionPoint) -> f64,
         ),
+        ("rotor_friction_slip_deviations", "m/s", |p| {
+            p.slip.deviation
+        }),
         ("rotor_friction_coefficients", "1", |p| p.friction.value),
         ("rotor_friction_deviations", "1", |p| p.friction.deviation),
     ] {
@@ -306,6 +325,11 @@ const EVIDENCE: Origin = Origin {
     source: "crates/identify/src/moment/mod.rs",
     valid: "between the smallest and the largest speed of the slow tests",
 };
+const WORTH: Origin = Origin {
+    law: "n (1-ρ)/(1+ρ) of n means whose errors correlate by ρ from one to the next: as many independent ones tell a level as well",
+    source: "crates/identify/src/moment/mod.rs",
+    valid: "2 where ρ is at its limit of 0.98: what is left of the best form changes as slowly as the curve itself",
+};
 const CURVE: Origin = Origin {
     law: "M(Ω) of the most probable form, with the band of its noise, zero, form and scale",
     source: "crates/identify/src/moment/mod.rs",
@@ -319,10 +343,10 @@ const COAST_DOWN: Origin = Origin {
 const MAP: Origin = Origin {
     law: "F = F0(Ω) + F1(Ω)|Ω̇| by a Gaussian process over all tests where the balls are known to roll",
     source: "crates/identify/src/loss/map.rs",
-    valid: "where data are near (known = 1)",
+    valid: "where data are near (known = 1): they tell F there to within a quarter of M over its arm, whatever F is",
 };
 const ROTOR: Origin = Origin {
-    law: "μ = (I_I Ω̇ + t_I)/(R_0 W)",
+    law: "μ = (I_I Ω̇ + t_I)/(R_0 W) over whole turns of the rotor, at the mean slip u = (R_0 - c0) ω - R_0 Ω of each",
     source: "the source paper, (18); crates/identify/src/rotor_friction.rs",
     valid: "while the rotor slides and lies on the race with the weight given",
 };

@@ -21,7 +21,7 @@ pub(super) fn name(list: &mut List, number: usize, test: &TestFound, set: &Rolli
         "s",
         m.engagement
             .ok_or_else(|| "no quick change was found".to_string()),
-        &TEST,
+        &ENGAGED,
     );
     uncertain(
         list,
@@ -93,12 +93,18 @@ fn rolling_up(
 fn energies(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
     let found = test.dissipation.as_ref().map_err(Clone::clone);
     let none = || "without a cage signal over the whole spin-up".to_string();
+    uncertain(
+        list,
+        &named("dissipated_energy"),
+        "J",
+        test.best_energy(),
+        &ENERGY,
+    );
     for (name, pick) in [
         (
-            "dissipated_energy",
-            (|d| Some(d.best())) as fn(&identify::dissipation::Dissipation) -> Option<Uncertain>,
+            "dissipated_energy_printed",
+            (|d| Some(d.printed)) as fn(&identify::dissipation::Dissipation) -> Option<Uncertain>,
         ),
-        ("dissipated_energy_printed", |d| Some(d.printed)),
         ("dissipated_energy_corrected", |d| Some(d.corrected)),
         ("dissipated_energy_exact", |d| d.exact),
         ("dissipated_energy_without_cage", |d| Some(d.without_cage)),
@@ -110,7 +116,7 @@ fn energies(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
         &named("dissipation_until"),
         "s",
         found.clone().map(|d| d.window.1 - test.measurement.begin()),
-        &ENERGY,
+        &UNTIL,
     );
     list.push(
         &named("printed_form"),
@@ -145,12 +151,12 @@ fn slip(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
             }
             Established::Never => Err("not before the record ends".to_string()),
         }),
-        &SLIP,
+        &ROLLS,
     );
     list.number(
         &named("skid_probability"),
         "1",
-        match test.off_the_moment() {
+        match test.withheld() {
             Some(why) => Err(format!(
                 "{why}, and a torque that is low for another reason looks like skid"
             )),
@@ -168,6 +174,11 @@ const TEST: Origin = Origin {
     source: "crates/measure/src/speed/mod.rs",
     valid: "see auxbear signals of its file",
 };
+const ENGAGED: Origin = Origin {
+    law: "when the quick change of the speed begins, in the time of the file; other times of a test count from here",
+    source: "crates/measure/src/speed/mod.rs",
+    valid: "see auxbear signals of its file",
+};
 const EXCESS: Origin = Origin {
     law: "mean of t_O - M, 0.2 to 0.4 s after the engagement, or over the last 0.5 s at full speed",
     source: "crates/identify/src/loss/mod.rs",
@@ -179,12 +190,22 @@ const ROLLING_UP: Origin = Origin {
     valid: "compare it with the fall of the torque: balls that still speed up would need traction and drag to agree this closely",
 };
 const ENERGY: Origin = Origin {
-    law: "D = ∫t_O Ω dt + ∫Ω dL - Δ(KE + U) with a cage signal; (21) as printed, corrected; without a cage signal with the path term as an uncertainty",
+    law: "D = ∫t_O Ω dt + ∫Ω dL - Δ(KE + U) with a cage signal; (21) as printed, corrected; without a cage signal the corrected form where rolling is stated, else with the path term as an uncertainty",
     source: "the source paper, (21), and its correction; crates/identify/src/dissipation.rs",
     valid: "from the engagement until the final speed is reached",
 };
+const UNTIL: Origin = Origin {
+    law: "when 99 % of the largest speed is reached, counted from the engagement",
+    source: "crates/identify/src/dissipation.rs",
+    valid: "engagement_time is in the time of the file",
+};
+const ROLLS: Origin = Origin {
+    law: "from when on |S| above 1 % stays less likely than not, counted from the engagement",
+    source: "crates/identify/src/slip.rs",
+    valid: "needs a cage signal; engagement_time is in the time of the file",
+};
 const SLIP: Origin = Origin {
-    law: "S = 1 - 2(1+s)ω_c/Ω; the largest probability of |S| above 1 % at any time; times count from the engagement",
+    law: "S = 1 - 2(1+s)ω_c/Ω; the largest probability of |S| above 1 % at any time",
     source: "crates/identify/src/slip.rs",
     valid: "needs a cage signal",
 };

@@ -9,7 +9,9 @@ use crate::simulate::outcome::Warning;
 use crate::simulate::signals;
 use identify::dissipation::{Dissipation, dissipation};
 use identify::doubt::{ByTemperature, Doubt, DoubtSettings, doubts};
-use identify::explain::{self, Candidate, Foretelling, Priors, Verdict, foretold};
+use identify::explain::{
+    self, Candidate, Conclusion, Explanation, Foretelling, Priors, Verdict, foretold,
+};
 use identify::loss::{Loss, LossMap, LossSettings, Rolling, loss};
 use identify::moment::{Moment, MomentSettings, moment, same_load};
 use identify::rotor_friction::{self, Race, RubbingSpinUp};
@@ -41,6 +43,10 @@ pub(super) struct TestFound {
     pub slip: Result<CageSlip, String>,
     /// Spin of the balls.
     pub skid: Result<Skid, String>,
+    /// Whether the user states that the balls roll throughout.
+    pub rolling_stated: bool,
+    /// What the verdict names as the cause of t_O - M, where that is not the balls.
+    pub other_cause: Option<String>,
 }
 
 impl TestFound {
@@ -56,6 +62,35 @@ impl TestFound {
                 1e3 * excess.deviation
             )
         })
+    }
+
+    /// Why neither F nor the spin of the balls is read from t_O - M; none where nothing speaks against it.
+    pub fn withheld(&self) -> Option<String> {
+        (self.off_the_moment()).or_else(|| self.other_cause.clone())
+    }
+
+    /// The best that is known of the energy of its spin-up, J: by the cage signal; else of balls that roll, where that is stated;
+    /// else with the path term as an uncertainty.
+    pub fn best_energy(&self) -> Result<Uncertain, String> {
+        let found = self.dissipation.as_ref().map_err(Clone::clone)?;
+        Ok(match (found.exact, self.rolling_stated) {
+            (None, true) => found.corrected,
+            _ => found.best(),
+        })
+    }
+}
+
+/// What a verdict names as the cause of t_O - M, where that is neither friction nor inertia of the balls.
+fn other_cause(verdict: &Verdict) -> Option<String> {
+    let Conclusion::Supported(explanation) = verdict.conclusion else {
+        return None;
+    };
+    match explanation {
+        Explanation::Grease | Explanation::Sensor | Explanation::AnotherMoment => Some(format!(
+            "the tests support \"{}\", by which t_O - M is not the friction and inertia of the balls alone",
+            explanation.name()
+        )),
+        Explanation::Rolling | Explanation::IsothermalSlip | Explanation::HeatedSlip => None,
     }
 }
 
@@ -77,6 +112,8 @@ pub(super) struct Found {
     pub next: Result<Vec<Candidate>, String>,
     /// Sliding friction of a dropped rotor.
     pub rotor: Result<rotor_friction::RotorFriction, String>,
+    /// Why none of the tests with acceleration that were given can be used; none where one can, or none was given.
+    pub unused: Option<String>,
     /// What to know before trusting the numbers.
     pub warnings: Vec<Warning>,
     /// Whether it was interrupted.
@@ -108,6 +145,7 @@ impl Found {
             .map(|(test, _)| test)
             .collect();
         let tests = read(&asked.tests);
+        let unused = all_unused(&tests, &asked.tests, &unusable);
         let steady: Vec<Measurement> = (coast_downs.iter())
             .map(|test| before_the_stop(test, wish.settling_time))
             .collect();
@@ -138,7 +176,7 @@ impl Found {
         };
         let curve = moment.as_ref().map(|moment| &moment.curve);
         let no_moment = || "the steady moment is not known".to_string();
-        let tests: Vec<TestFound> = (tests.into_iter())
+        let mut tests: Vec<TestFound> = (tests.into_iter())
             .map(|(test, peak_acceleration)| TestFound {
                 name: test.name.clone(),
                 peak_acceleration,
@@ -148,10 +186,11 @@ impl Found {
                 slip: cage_slip(&test, &set, &SlipSettings::default()),
                 skid: (curve.as_ref().map_err(|_| no_moment()))
                     .and_then(|curve| skid(&test, curve, &set, &SkidSettings::default())),
+                rolling_stated: wish.rolling_stated,
+                other_cause: None,
                 measurement: test,
             })
             .collect();
-        let map = map(&tests, curve.as_ref().ok().copied(), &set, &settings);
         let measurements: Vec<&Measurement> = tests.iter().map(|test| &test.measurement).collect();
         let doubts = doubted(asked, &measurements, curve.as_ref().ok().copied(), &set);
         let doubts = doubts.unwrap_or_else(|why| {
@@ -168,6 +207,10 @@ impl Found {
                 (Err(why()), Err(why()))
             }
             (Err(_), Some(_)) => (Err(no_moment()), Err(no_moment())),
+            (Ok(_), Some(_)) if unused.is_some() => {
+                let why = || unused.clone().unwrap_or_default();
+                (Err(why()), Err(why()))
+            }
             (Ok(moment), Some(how)) => match no_comparison(moment, &doubts) {
                 Some(finding) => {
                     let why = || format!("M does not hold for these tests: {finding}");
@@ -175,6 +218,14 @@ impl Found {
                 }
                 None => explained(&tests, moment, &set, how),
             },
+        };
+        let cause = verdict.as_ref().ok().and_then(other_cause);
+        for test in &mut tests {
+            test.other_cause.clone_from(&cause);
+        }
+        let map = match &unused {
+            Some(why) => Err(why.clone()),
+            None => map(&tests, curve.as_ref().ok().copied(), &set, &settings),
         };
         let rotor = match (&wish.rotor_friction, &asked.rotor) {
             (Some(wish), Some(test)) => {
@@ -216,6 +267,7 @@ impl Found {
             verdict,
             next,
             rotor,
+            unused,
             warnings: grouped(&told),
             interrupted: interrupted(),
         }
@@ -231,6 +283,20 @@ fn no_comparison(moment: &Moment, doubts: &[Doubt]) -> Option<String> {
         .filter(|doubt| doubt.forbids_comparison())
         .map(Doubt::finding);
     unequal.chain(doubted).next()
+}
+
+/// Why none of the tests that were asked for is there.
+fn all_unused<T>(found: &[T], asked: &[Test], unusable: &[(String, String)]) -> Option<String> {
+    let of = |test: &Test| unusable.iter().find(|(name, _)| *name == test.name);
+    let why: Vec<String> = (asked.iter().filter_map(of))
+        .map(|(name, why)| format!("{name}: {why}"))
+        .collect();
+    (found.is_empty() && !why.is_empty()).then(|| {
+        format!(
+            "none of the tests with acceleration can be used: {}",
+            why.join("; ")
+        )
+    })
 }
 
 /// Masses and radii of balls and cage.
@@ -306,7 +372,7 @@ fn map(
 ) -> Result<LossMap, String> {
     let curve = curve.ok_or_else(|| "the steady moment is not known".to_string())?;
     // one map of speed and acceleration cannot hold what changes with time besides
-    if let Some(why) = tests.iter().find_map(TestFound::off_the_moment) {
+    if let Some(why) = tests.iter().find_map(TestFound::withheld) {
         return Err(format!("{why}, so that what is left is not F alone"));
     }
     let pairs: Vec<(&Measurement, &Loss)> = (tests.iter())
@@ -421,6 +487,7 @@ fn rubbed(
         &Race {
             inertia: Uncertain::new(wish.inertia, wish.inertia_deviation * wish.inertia),
             bore_radius: Uncertain::exact(0.5 * wish.bore_diameter),
+            air_clearance: Uncertain::exact(wish.radial_air_clearance.unwrap_or(0.0)),
             set: bearing.set,
             set_deviation: bearing.deviation,
             steady_moment: &|speed, _| moment.curve.at(speed),
@@ -430,6 +497,12 @@ fn rubbed(
             least_slip: wish.least_slip,
         },
     )?;
+    if wish.radial_air_clearance.is_none() {
+        found.notes.push(format!(
+            "the air clearance of the rotor is not given (identify.rotor_friction.radial_air_clearance): it counts as wide as the bore, and every slip is too large by {:.3} m/s a tenth of a millimetre of clearance",
+            1e-4 * wish.rotor_speed
+        ));
+    }
     if !same_load(wish.radial_load, moment.curve.load) {
         found.notes.push(format!(
             "the rotor presses with {:.0} N, the steady moment was measured under {:.0} N: the part of it that depends on the load is that of the slow tests",

@@ -150,8 +150,8 @@ fn of_test(
             "t_O - M: torque on the outer race beyond the steady moment",
             loss.points.iter().map(|point| point.excess).collect(),
         );
-        // as for the map: with another M what is left is not F
-        if test.off_the_moment().is_none() {
+        // as for the map: with another M or another cause what is left is not F
+        if test.withheld().is_none() {
             both(
                 "friction",
                 "N",

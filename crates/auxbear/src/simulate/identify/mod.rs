@@ -36,6 +36,11 @@ pub(super) fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outc
     let history = history::columns(&found);
     let end = history.first().and_then(|time| time.values.last().copied());
     let stop = match (&found.moment, found.interrupted) {
+        (Ok(_), false) if found.unused.is_some() => Stop {
+            reason: "not answered",
+            time: 0.0,
+            text: found.unused.clone().unwrap_or_default(),
+        },
         (_, true) => Stop {
             reason: "interrupted",
             time: end.unwrap_or(0.0),

@@ -68,7 +68,15 @@ fn test(
             .on_key(key),
         )
     };
-    let scenario = Scenario::read(path, &[], &BuiltIn)?;
+    let scenario = Scenario::read(path, &[], &BuiltIn).map_err(|problem| match problem.code {
+        // a file that is not there is wrong where it is named
+        Code::FileMissing | Code::FileIsFolder | Code::FileUnreadable => refuse(
+            problem.code,
+            problem.found.clone(),
+            "the path of a signals file is needed, relative to this one",
+        ),
+        _ => problem,
+    })?;
     let System::Signals(signals) = &scenario.system else {
         let word = scenario.system.name().word();
         return Err(refuse(

@@ -13,7 +13,13 @@ pub(super) struct Told {
 
 impl Told {
     /// Said of one test.
+    ///
+    /// Where the text begins with the name, or says it again on the way, it is left out: the line names the test already, and a
+    /// name that is a number is none to be merged.
     pub fn of(code: &'static str, test: &str, text: &str) -> Told {
+        let named = format!("{test}: ");
+        let text = text.replace(&format!(" {named}"), " ");
+        let text = text.trim_start_matches(named.as_str());
         Told {
             code,
             test: Some(test.to_string()),
@@ -160,6 +166,21 @@ mod tests {
                 "fast, slow: 27 to 1446 of 8029 times lie outside 3.7 to 150 rad/s: nothing is told there.",
                 "slow, fast: it settles at 0.714 of M, -12.4 to -7.4 ± 0.13 N mm (2σ) apart.",
                 "no SKF law is given.",
+            ]
+        );
+    }
+    #[test]
+    fn the_name_of_a_test_is_said_once_though_it_be_a_number() {
+        let told: Vec<Told> = ["1300", "7200", "11500"]
+            .iter()
+            .map(|name| Told::of("AB1062", name, &format!("{name}: no cage signal")))
+            .chain([Told::of("AB1060", "r1", "it is not used: r1: no mark")])
+            .collect();
+        assert_eq!(
+            texts(&told),
+            [
+                "1300, 7200, 11500: no cage signal.",
+                "r1: it is not used: no mark.",
             ]
         );
     }

@@ -1,10 +1,14 @@
 //! What the user should know before trusting the numbers of a test on a rig.
 
-use super::Context;
-use crate::scenario::Scenario;
+use super::{Context, chain, taps};
+use crate::scenario::{Rig, Scenario};
 use crate::simulate::outcome::{Quantity, Warning};
 use crate::simulate::warnings_shared::{self as shared, warning};
 use model::system::rig::layout::SHAFT;
+use std::f64::consts::TAU;
+
+/// Fewest samples of a mark from which its passing is read.
+const FEWEST_SAMPLES: f64 = 4.0;
 
 /// By how much the peak acceleration may miss the wanted one without a word.
 const MISSED: f64 = 0.01;
@@ -24,6 +28,7 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
             ),
         ));
     }
+    list.extend(sampled(context.rig, speed));
     if let (Some(wanted), Some(reached)) = (
         scenario
             .resolved
@@ -69,4 +74,58 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     list.extend(shared::kind(bearing));
     list.extend(shared::assumed(scenario, bearing));
     list
+}
+
+/// Marks that pass more quickly than their channel is sampled.
+///
+/// - `speed`: largest speed of the shaft, rad/s
+fn sampled(rig: &Rig, speed: f64) -> Option<Warning> {
+    if !chain::analog(rig) {
+        return None;
+    }
+    let interval = taps(rig).first()?.interval;
+    let passing = TAU / (speed * rig.pickup.marks as f64);
+    (passing < FEWEST_SAMPLES * interval).then(|| {
+        warning(
+            "AB1053",
+            format!(
+                "At {speed:.4} rad/s a mark passes the pickup every {:.3} ms, and its channel is sampled every {:.3} ms: {:.2} samples \
+                 a mark, of which {FEWEST_SAMPLES} are needed to read the speed from the raw file.",
+                1e3 * passing,
+                1e3 * interval,
+                passing / interval
+            ),
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::{BuiltIn, System};
+    use std::path::Path;
+
+    fn shipped(sets: &[&str]) -> Rig {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/rig_test_1.toml");
+        let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
+        let scenario = Scenario::read(&path, &sets, &BuiltIn).expect("it is shipped");
+        match scenario.system {
+            System::Rig(rig) => *rig,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn marks_that_pass_between_two_samples_are_told() {
+        // four channels at 42 kHz in all, 60 marks: 7.3 samples a mark at 150 rad/s, 4 at 275 rad/s
+        let rig = shipped(&[]);
+        let limit = TAU * 10_500.0 / (4.0 * 60.0);
+        assert!(sampled(&rig, 150.0).is_none() && sampled(&rig, 0.99 * limit).is_none());
+        let told = sampled(&rig, 20_000.0 * TAU / 60.0).expect("half a sample a mark");
+        assert!(told.text.contains("0.52 samples"), "{}", told.text);
+        assert!(sampled(&rig, 1.01 * limit).is_some());
+        // a counter has no samples
+        let counted = shipped(&["rig.pickup.kind=edges"]);
+        assert!(sampled(&counted, 1e4).is_none());
+    }
 }
