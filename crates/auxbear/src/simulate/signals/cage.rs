@@ -29,6 +29,8 @@ pub(in crate::simulate) struct Found {
     pub cage: CageSpeed,
     /// As it is told: not-a-number where nothing is.
     pub told: CageSpeed,
+    /// Speed of a rolling cage over that of the shaft.
+    pub rolling_ratio: f64,
     pub notes: Vec<String>,
 }
 
@@ -117,7 +119,12 @@ impl Found {
                 cage.deviation[k] = rolling.abs() * width / 12f64.sqrt();
             }
         }
-        Ok(Found { cage, told, notes })
+        Ok(Found {
+            cage,
+            told,
+            rolling_ratio: ratio,
+            notes,
+        })
     }
 
     /// What is odd of a slip at steady speed: no cage leads its rolling, nor stays far behind it; a wrong count does.

@@ -90,17 +90,26 @@ pub(super) fn columns(asked: &Asked, found: &Found) -> Vec<Column> {
         .and_then(|found| found.torque.as_ref())
     {
         let of = |time: f64, values: &[f64]| at(time, &torque.time, values);
+        let change = found.shaft.as_ref().and_then(|shaft| shaft.speed.change);
+        let lock = change.and_then(|change| change.end).map(|end| end.0);
+        let beside = |time: f64| lock.and_then(|lock| beside_a_jump(time, lock, &torque.time));
         add(
             "torque.torque",
             "N m",
-            "torque that the sensor felt",
-            &|t| of(t, &torque.torque),
+            "torque that the sensor felt; at a lock it jumps",
+            &|t| match beside(t) {
+                Some(k) => torque.torque[k] + torque.rate[k] * (t - torque.time[k]),
+                None => of(t, &torque.torque),
+            },
         );
         add(
             "torque.deviation",
             "N m",
             "standard deviation of that torque",
-            &|t| of(t, &torque.deviation),
+            &|t| match beside(t) {
+                Some(k) => torque.deviation[k],
+                None => of(t, &torque.deviation),
+            },
         );
         add(
             "torque.disturbance",
@@ -115,17 +124,37 @@ pub(super) fn columns(asked: &Asked, found: &Found) -> Vec<Column> {
             &|t| of(t, &torque.disturbance_deviation),
         );
     }
-    if let Some(found) = &found.cage {
-        let cage = &found.told;
+    if let Some(seen) = &found.cage {
+        let cage = &seen.told;
         let of = |time: f64, values: &[f64]| at(time, &cage.time, values);
-        add("cage.speed", "rad/s", "speed of the cage", &|t| {
-            of(t, &cage.speed)
-        });
+        // the slip is smooth where the shaft's speed has kinks: the cage's speed is that of the row's shaft with its slip
+        let motion = |time: f64| {
+            let shaft = found.shaft.as_ref()?;
+            let ratio = seen.rolling_ratio;
+            let slip = of(time, &cage.slip);
+            let motion = shaft.speed.at(time);
+            (slip.is_finite()).then_some((ratio, slip, motion))
+        };
+        add(
+            "cage.speed",
+            "rad/s",
+            "speed of the cage",
+            &|t| match motion(t) {
+                Some((ratio, slip, motion)) => ratio * motion.speed * (1.0 - slip),
+                None => of(t, &cage.speed),
+            },
+        );
         add(
             "cage.speed_deviation",
             "rad/s",
             "standard deviation of that speed",
-            &|t| of(t, &cage.deviation),
+            &|t| match motion(t) {
+                Some((ratio, slip, motion)) => {
+                    let own = ratio * motion.speed * of(t, &cage.slip_deviation);
+                    own.hypot(ratio * (1.0 - slip) * motion.speed_uncertainty())
+                }
+                None => of(t, &cage.deviation),
+            },
         );
         add(
             "cage.slip",
@@ -233,6 +262,14 @@ fn between(place: f64, values: &[f64]) -> f64 {
     }
 }
 
+/// The one of two neighbouring times, by its index, that is on the same side of a jump between them.
+fn beside_a_jump(time: f64, jump: f64, times: &[f64]) -> Option<usize> {
+    let next = times.partition_point(|t| *t <= time);
+    let (before, after) = (next.checked_sub(1)?, next);
+    let between = times[before] < jump && jump <= *times.get(after)?;
+    between.then_some(if time < jump { before } else { after })
+}
+
 /// Value at a time among times that rise.
 fn at(time: f64, times: &[f64], values: &[f64]) -> f64 {
     let next = times.partition_point(|t| *t <= time);
@@ -249,4 +286,21 @@ fn at(time: f64, times: &[f64], values: &[f64]) -> f64 {
     }
     let width = times[next] - times[next - 1];
     between((next - 1) as f64 + (time - times[next - 1]) / width, values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_beside_a_jump_takes_the_value_of_its_side() {
+        let times = [0.0, 1.0, 2.0];
+        assert_eq!(beside_a_jump(1.2, 1.5, &times), Some(1));
+        assert_eq!(beside_a_jump(1.5, 1.5, &times), Some(2));
+        assert_eq!(beside_a_jump(1.9, 1.5, &times), Some(2));
+        // none between its neighbours, and beyond the ends
+        for time in [0.5, -1.0, 2.5] {
+            assert_eq!(beside_a_jump(time, 1.5, &times), None);
+        }
+    }
 }
