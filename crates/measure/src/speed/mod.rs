@@ -179,7 +179,7 @@ const FEWEST: usize = 6;
 /// | torque | speed and acceleration inside | engagement inside | engagement off (median) | peak |
 /// |---|---|---|---|---|
 /// | rises evenly | 98 to 99 % | 100 % | below 0.1 % | 0.1 to 0.2 % |
-/// | the same on a turning shaft | 97 to 99 % | 100 % | 0.1 to 0.2 % | 0.2 % |
+/// | the same on a turning shaft | 97 to 99 % | 100 % | 0.1 to 0.4 % | 0.2 to 0.3 % |
 /// | even | 98 to 100 % | 100 % | 0 to 0.1 % | 0.0 to 0.5 % |
 /// | breaks away, then rises | 92 to 100 % | 100 % | 0 to 14 % | 0.1 to 0.7 % |
 /// | begins with the square of time | 92 to 99 % | 67 to 100 % | 5 to 13 % | 0.7 to 3.2 % |
