@@ -159,8 +159,8 @@ fn climbed(
         if next.1 < best.1 {
             best = next;
         }
-        // Written so that a value that is not a number ends it.
-        if !(gain > 0.5) {
+        // From a point that is impossible nothing is gained by trying again.
+        if gain.is_nan() || gain < 0.5 {
             break;
         }
     }
@@ -305,7 +305,7 @@ pub(super) fn lively(
         let mut warm: Vec<[f64; 3]> = Vec::new();
         for &stop in stops {
             let cost = cost((start, stop, head));
-            let from = |point: &[f64; 3], calls| climbed(*point, steps, calls, &cost);
+            let from = |point: &[f64; 3], calls| climbed(*point, steps, calls, cost);
             let tops: Vec<_> = if warm.is_empty() {
                 let points = valleys(sight, density, &ends, cost);
                 let short: Vec<_> = points

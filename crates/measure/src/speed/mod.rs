@@ -161,7 +161,7 @@ const FEWEST: usize = 6;
 /// eight, one whose acceleration is less certain than [`SpeedSettings::wanted`].
 ///
 /// Four hundred made-up spin-ups a case, from models other than this one (`tests/speed_coverage.rs`), to 150 rad/s: bands of
-/// two standard deviations hold the truth in 93 to 97.4 % of all instants; medians of the error of the peak acceleration and
+/// two standard deviations hold the truth in 93 to 97.3 % of all instants; medians of the error of the peak acceleration and
 /// of the root mean square error, as parts of the peak:
 ///
 /// | spin-up | marks | peak | rms |
@@ -173,17 +173,17 @@ const FEWEST: usize = 6;
 /// | 223 ms, 1300 rad/s², smooth | 12, sampled | 0.2 % | 0.8 % |
 /// | | 60, sampled | 0.1 % | 0.4 % |
 ///
-/// Torques with a jump at the lock (`tests/soft_clutch.rs`, two hundred a case; 12, 60 and 360 stamped marks, 26 to 228 ms); the engagement as
+/// Torques with a jump at the lock (`tests/soft_clutch.rs`, a hundred a case; 12, 60 and 360 stamped marks, 26 to 228 ms); the engagement as
 /// a part of the slip:
 ///
 /// | torque | speed and acceleration inside | engagement inside | engagement off (median) | peak |
 /// |---|---|---|---|---|
 /// | rises evenly | 98 to 99 % | 100 % | below 0.1 % | 0.1 to 0.2 % |
-/// | the same on a turning shaft | 98 to 99 % | 100 % | 0.1 to 0.4 % | 0.2 to 0.3 % |
-/// | even | 98 to 100 % | 99 to 100 % | below 0.2 % | 0.0 to 0.5 % |
-/// | breaks away, then rises | 94 to 100 % | 96 to 100 % | 0 to 14 % | 0.1 to 0.7 % |
-/// | begins with the square of time | 93 to 100 % | 70 to 100 % | 5 to 13 % | 0.7 to 3.2 % |
-/// | is doubled halfway | 89 to 98 % | 99 to 100 % | 8 to 15 % | 3.6 to 4.1 % |
+/// | the same on a turning shaft | 97 to 99 % | 100 % | 0.1 to 0.4 % | 0.2 to 0.3 % |
+/// | even | 98 to 100 % | 100 % | 0 to 0.1 % | 0.0 to 0.5 % |
+/// | breaks away, then rises | 92 to 100 % | 100 % | 0 to 14 % | 0.1 to 0.7 % |
+/// | begins with the square of time | 92 to 99 % | 67 to 100 % | 5 to 13 % | 0.7 to 3.2 % |
+/// | is doubled halfway | 89 to 98 % | 100 % | 8 to 14 % | 3.5 to 4.3 % |
 pub fn smooth(
     pulses: &Pulses,
     pitch: Option<&Pitch>,

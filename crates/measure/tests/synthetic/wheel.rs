@@ -67,7 +67,7 @@ pub fn spin_up(seed: u64, speed: f64, peak: f64, after: f64) -> Truth {
             }
         }
     };
-    let (top, mean) = height(&raw);
+    let (top, mean) = height(raw);
     spun(&mut r, raw, speed, speed / (peak * mean / top), after)
 }
 
