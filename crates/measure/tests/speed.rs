@@ -441,10 +441,9 @@ fn few_pulses_and_odd_numbers_are_refused_or_survived() {
 }
 
 #[test]
-fn ten_seconds_of_sixty_marks_take_a_moment() {
+fn ten_seconds_of_sixty_marks_are_smoothed() {
     let truth = synthetic::spin_up(6, 150.0, 7200.0, 9.85);
     let samples = synthetic::pickup(&truth, 6, 60, 1e4);
-    let start = std::time::Instant::now();
     let found = edges(
         0.0,
         1e-4,
@@ -465,24 +464,17 @@ fn ten_seconds_of_sixty_marks_take_a_moment() {
     .unwrap();
     let pitch = calibrate(&train).unwrap();
     let smoothed = smooth(&train, Some(&pitch), &SpeedSettings::default()).unwrap();
-    let fitted = start.elapsed();
     let sum: f64 = (0..100_000)
         .map(|k| smoothed.at(k as f64 * 1e-4).speed)
         .sum();
-    let all = start.elapsed();
-    println!(
-        "{} pulses: {fitted:?} to smooth, {all:?} with the speed at 10 kHz ({sum:.0})",
-        train.times.len()
-    );
-    // Half a second is the share of this step in the whole chain; four times that for a machine that does other things too.
-    assert!(all.as_secs_f64() < 2.0, "{all:?}");
+    // 150 rad/s but for the change of some 0.03 s at its begin
+    assert!((sum * 1e-5 / 150.0 - 1.0).abs() < 0.05, "{sum}");
 }
 
 #[test]
-fn ten_seconds_of_an_encoder_take_a_moment() {
+fn ten_seconds_of_an_encoder_are_smoothed() {
     // 360 marks at 150 rad/s: 86 000 pulses.
     let train = pulses(360, 10.0, 2e-7, 5, |t| 150.0 * t - 0.5 * t * t);
-    let start = std::time::Instant::now();
     let again = Edges::stamped(train.times.clone(), 2e-7, None).unwrap();
     let train = number(
         &again,
@@ -494,12 +486,9 @@ fn ten_seconds_of_an_encoder_take_a_moment() {
     .unwrap();
     let pitch = calibrate(&train).unwrap();
     let speed = smooth(&train, Some(&pitch), &SpeedSettings::default()).unwrap();
-    let took = start.elapsed();
-    println!("{} pulses: {took:?}", train.times.len());
     assert!(
         (speed.at(5.0).acceleration + 1.0).abs() < 0.5,
         "{:?}",
         speed.at(5.0)
     );
-    assert!(took.as_secs_f64() < 2.0, "{took:?}");
 }
