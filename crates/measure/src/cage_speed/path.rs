@@ -25,6 +25,8 @@ const SHARE: f64 = 0.35;
 const CHANGE: f64 = 0.006;
 /// Distance of two slips at most, 1.
 const FINE: f64 = 0.004;
+/// Power of the foot of a line over its own, with what a change of slip within a spectrum adds.
+const FOOT: f64 = 1e-2;
 /// Power of noise that is taken at least, as a part of the highest line of a spectrum.
 const LEAST_NOISE: f64 = 5e-3;
 /// Standard deviation of the weights by which the smooth slip is averaged, in spectra: 18 periods.
@@ -177,6 +179,20 @@ pub(super) fn followed(cells: &[Cell], middle: f64, slips: (f64, f64)) -> Option
             power.iter().map(|p| p / noise).collect()
         })
         .collect();
+    let beyond: Vec<_> = (0..8)
+        .flat_map(|k| {
+            let away = 0.5 * f64::from(k + 1) / LENGTH;
+            [slips.0 - away, slips.1 + away]
+        })
+        .map(|slip| spectrum.table(middle - slip))
+        .collect();
+    let outside: Vec<f64> = centres
+        .iter()
+        .map(|&centre| {
+            let powers = beyond.iter().map(|t| spectrum.power(centre, t));
+            powers.fold(0.0, f64::max)
+        })
+        .collect();
     let best = strongest(&weights, width);
     let chances = chances(&weights, width);
     let near = (APART / width).ceil() as usize;
@@ -193,7 +209,11 @@ pub(super) fn followed(cells: &[Cell], middle: f64, slips: (f64, f64)) -> Option
         let mean: f64 = around.map(|b| chance[b] * slip(b)).sum();
         path.slip
             .push(if here > 1e-3 { mean / here } else { slip(bin) });
-        path.doubt.push((1.0 - here).max(0.0));
+        // At the border the line itself may lie beyond; and what is far below a line beyond may be the foot of that.
+        let foot = FOOT * outside[k] > powers[k][bin];
+        let border = bin == 0 || bin + 1 == bins || foot;
+        path.doubt
+            .push(if border { 1.0 } else { (1.0 - here).max(0.0) });
         path.strength
             .push((powers[k][bin] / noises[k] - 1.0).max(0.0));
     }
