@@ -157,8 +157,24 @@ pub fn edges(
         flank: settings.flank,
         watched: (first, first + interval * (samples.len() - 1) as f64),
         sample_interval: Some(interval),
+        unwatched: unwatched(first, interval, samples),
         notes,
     })
+}
+
+/// Stretches between finite samples, s.
+fn unwatched(first: f64, interval: f64, samples: &[f64]) -> Vec<(f64, f64)> {
+    let mut stretches = Vec::new();
+    let mut last = None;
+    for k in (0..samples.len()).filter(|&k| samples[k].is_finite()) {
+        if let Some(last) = last
+            && k > last + 1
+        {
+            stretches.push((first + interval * last as f64, first + interval * k as f64));
+        }
+        last = Some(k);
+    }
+    stretches
 }
 
 /// Changes between the levels, with hysteresis.

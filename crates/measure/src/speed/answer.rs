@@ -3,6 +3,7 @@
 use super::matrix::{Matrix, N};
 use super::track::{Belief, Track, mixed};
 use super::{Motion, Speed};
+use crate::pulse::Gap;
 
 impl Speed {
     /// First and last instant for which there is an answer, s.
@@ -11,6 +12,11 @@ impl Speed {
             self.origin + self.unit * self.base.begin(),
             self.origin + self.unit * self.base.end(),
         )
+    }
+
+    /// Silences of the pickup, in which marks passed unseen.
+    pub fn gaps(&self) -> impl Iterator<Item = &Gap> {
+        self.bridges.iter().map(|bridge| &bridge.gap)
     }
 
     /// The tracks that hold at an instant, in units, with their weights.
@@ -64,8 +70,12 @@ impl Speed {
     }
 
     /// The motion at an instant, s; outside the range of the pulses it is carried on, with growing covariance; before an
-    /// engagement from rest it is rest, and after the last mark of a shaft that stops it comes to rest.
+    /// engagement from rest it is rest, and after the last mark of a shaft that stops it comes to rest. While the pickup was
+    /// silent ([`Speed::gaps`]) it is bounded by what both sides say.
     pub fn at(&self, seconds: f64) -> Motion {
+        if let Some(bridge) = self.bridges.iter().find(|bridge| bridge.holds(seconds)) {
+            return bridge.at(seconds);
+        }
         let time = (seconds - self.origin) / self.unit;
         let (belief, factors) = (self.belief(time), self.factors(time));
         let scale = self.scale();

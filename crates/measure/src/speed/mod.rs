@@ -17,6 +17,7 @@
 
 mod answer;
 mod breakaway;
+mod bridge;
 mod design;
 mod fit;
 mod matrix;
@@ -27,8 +28,9 @@ mod stiffest;
 mod stop;
 mod track;
 
-use crate::pulse::{Pitch, Pulses, Refusal};
+use crate::pulse::{Gap, Pitch, Pulses, Refusal};
 use breakaway::Breakaway;
+use bridge::Bridge;
 pub use design::marks_needed;
 use matrix::N;
 use plan::{Data, Plan};
@@ -139,6 +141,8 @@ pub struct Speed {
     stop: Option<Stop>,
     /// What the friction seen there hides of a start from rest.
     breakaway: Option<Breakaway>,
+    /// Silences of the pickup.
+    bridges: Vec<Bridge>,
     /// Standard deviation of an order-one error that the calibration may hold, rad.
     eccentricity: f64,
     /// The quick change, where there is one.
@@ -208,6 +212,7 @@ pub fn smooth(
     let mut data = Data::new(pulses, pitch);
     let sight = fit::sight(&data, &settings.transient);
     if let Some(sight) = &sight {
+        seen(pulses, &data, sight)?;
         enough(&data, sight, settings)?;
     }
     let mut notes = pulses.notes.clone();
@@ -267,6 +272,7 @@ pub fn smooth(
         stiffest: None,
         stop: None,
         breakaway: None,
+        bridges: Vec::new(),
         eccentricity: pitch.map_or(0.0, |p| {
             settings.ripple.max(0.0) / (p.speed * p.speed).max(1e-12)
         }),
@@ -321,6 +327,7 @@ pub fn smooth(
     if speed.change.is_none() {
         speed.stiffest = Stiffest::of(pulses, &speed);
     }
+    speed.bridges = Bridge::all(pulses, &speed);
     speed.stop = Stop::of(pulses, &speed);
     speed.breakaway = Breakaway::of(pulses, &speed);
     if let (Some(change), Some(breakaway)) = (&mut speed.change, &speed.breakaway) {
@@ -356,6 +363,22 @@ pub fn smooth(
 
 /// Fewest pulses within a quick change that are looked at.
 const FEWEST_WITHIN: usize = 4;
+
+/// Refuses a quick change in which the pickup was silent.
+fn seen(pulses: &Pulses, data: &Data, sight: &fit::Sight) -> Result<(), Refusal> {
+    let (from, to) = (data.seconds(sight.engage), data.seconds(sight.lock));
+    let within = |gap: &&Gap| gap.from < to && gap.to > from;
+    match pulses.gaps.iter().find(within) {
+        Some(gap) => Err(Refusal::new(
+            format!(
+                "the pickup is silent from {:.4} s to {:.4} s, within the quick change of speed from about {from:.4} s to {to:.4} s",
+                gap.from, gap.to
+            ),
+            "a record that shows the change, or a part of this one without it (from, to)",
+        )),
+        None => Ok(()),
+    }
+}
 
 /// Refuses a quick change with too few pulses to see anything of it.
 fn enough(data: &Data, sight: &fit::Sight, settings: &SpeedSettings) -> Result<(), Refusal> {
