@@ -155,6 +155,28 @@ fn report(name: &str, truth: &Motion, samples: &[f64]) {
     }
 }
 
+fn edges_of(name: &str, truth: &Motion, samples: &[f64], seed: u64) {
+    let phase = Random::new(seed).between(0.0, TAU);
+    let e = edges(0.0, RATE.recip(), samples, &EdgeSettings::default()).unwrap();
+    println!("{name}: {} edges, unseen {:.2}", e.times.len(), e.unseen);
+    let mut bins: Vec<(String, Vec<(f64, f64)>)> = vec![];
+    for (k, (t, u)) in e.times.iter().zip(&e.uncertainties).enumerate() {
+        let turned = 60.0 * truth.of(&truth.angle, *t) + phase;
+        let off = (turned / TAU).round() * TAU - turned;
+        let w = truth.of(&truth.speed, *t).max(1e-3);
+        let error = -off / 60.0 / w;
+        let bin = if k < 6 { format!("first{k}") } else if k + 6 > e.times.len() { format!("last{}", e.times.len() - k) } else if *t < truth.lock { "change".into() } else if *t < truth.release { "hold".into() } else { format!("coast{:.0}", (w / 30.0).floor() * 30.0) };
+        match bins.iter_mut().find(|b| b.0 == bin) { Some(b) => b.1.push((error, *u)), None => bins.push((bin, vec![(error, *u)])) }
+    }
+    for (bin, all) in bins {
+        let n = all.len() as f64;
+        let mean = all.iter().map(|e| e.0).sum::<f64>() / n;
+        let rms = (all.iter().map(|e| e.0.powi(2)).sum::<f64>() / n).sqrt();
+        let z = (all.iter().map(|e| (e.0 / e.1).powi(2)).sum::<f64>() / n).sqrt();
+        println!("    {bin} n {n} mean {:.2} rms {:.2} us, stated {:.2} us, z {:.2}", 1e6 * mean, 1e6 * rms, 1e6 * all[all.len() / 2].1, z);
+    }
+}
+
 #[test]
 fn explore() {
     let seeds: u64 = std::env::var("SEEDS").ok().and_then(|s| s.parse().ok()).unwrap_or(2);
@@ -168,6 +190,7 @@ fn explore() {
             ("light", truth.seen(0.02, seed, |x, _, _| light(x))),
             ("sine", truth.seen(0.02, seed, |x, _, _| 5.0 * sine(x))),
             ("vr", truth.seen(0.01, seed, |x, w, _| 5.0 * w / 150.0 * sine(x))),
+            ("vrnoisy", truth.seen(0.15, seed, |x, w, _| 5.0 * w / 150.0 * sine(x))),
             ("vrsat", truth.seen(0.01, seed, |x, w, _| (20.0 * w / 150.0 * sine(x)).clamp(-5.0, 5.0))),
             ("fade", truth.seen(0.02, seed, |x, _, t| light(x) * (1.0 - 0.7 * t / end))),
         ];
@@ -185,6 +208,7 @@ fn explore() {
         }
         for (name, samples) in &all {
             if which.is_empty() || which.split(',').any(|w| name.contains(w)) {
+                if std::env::var("EDGES").is_ok() { edges_of(name, &truth, samples, seed); }
                 report(&format!("{name} {seed}"), &truth, samples);
             }
         }

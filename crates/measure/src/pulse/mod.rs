@@ -16,12 +16,14 @@
 //! the shaft seen by one pickup); speed ripple locked to the revolution cannot be told from mark errors and is taken for such.
 
 mod edge;
+mod envelope;
 mod flank;
 mod gap;
 mod level;
 mod marks;
 mod period;
 mod pitch;
+mod shape;
 mod train;
 
 use std::fmt;
@@ -61,6 +63,9 @@ pub struct Edges {
     pub watched: (f64, f64),
     /// Interval of the samples that the instants were found in, s; none where they were stamped.
     pub sample_interval: Option<f64>,
+    /// Height of the first pulse at which the noise would have hidden it, as a part of that height, where the height grows with
+    /// the speed; 0 where it does not.
+    pub unseen: f64,
     /// Intervals within that in which there is no signal, s, in order.
     pub unwatched: Vec<(f64, f64)>,
     /// What was found wrong, and what was done about it.
@@ -97,6 +102,7 @@ impl Edges {
             flank: Flank::Rising,
             watched: (watched.0.min(first), watched.1.max(last)),
             sample_interval: None,
+            unseen: 0.0,
             unwatched: Vec::new(),
             notes: Vec::new(),
         })

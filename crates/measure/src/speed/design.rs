@@ -78,6 +78,7 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
         watched: (-duration, times[n - 1]),
         sample_interval: None,
         gaps: Vec::new(),
+        unseen: 0.0,
         repaired: 0.0,
         notes: Vec::new(),
         times,

@@ -330,6 +330,9 @@ pub fn smooth(
     speed.bridges = Bridge::all(pulses, &speed);
     speed.stop = Stop::of(pulses, &speed);
     speed.breakaway = Breakaway::of(pulses, &speed);
+    if speed.stop.is_none() {
+        speed.notes.extend(fell_silent(pulses, &speed));
+    }
     if let (Some(change), Some(breakaway)) = (&mut speed.change, &speed.breakaway) {
         change.engagement.1 = change.engagement.1.hypot(breakaway.deviation);
     }
@@ -363,6 +366,22 @@ pub fn smooth(
 
 /// Fewest pulses within a quick change that are looked at.
 const FEWEST_WITHIN: usize = 4;
+
+/// Usual intervals without a mark, at the speed of the last ones, after which a pickup is taken for stuck.
+const STUCK: f64 = 8.0;
+
+/// Says that marks end at a speed from which a shaft does not stop at once.
+fn fell_silent(pulses: &Pulses, speed: &Speed) -> Option<String> {
+    let last = *pulses.times.last()?;
+    let rate = speed.at(last).speed / pulses.pitch();
+    let silent = pulses.watched.1 - last;
+    (silent * rate > STUCK).then(|| {
+        format!(
+            "no mark came after {last:.4} s, for {silent:.4} s, though the shaft turned at {:.1} rad/s: the pickup is stuck, its pulses sank into the noise, or the shaft stopped at once; what is told behind does not follow from the pulses",
+            rate * pulses.pitch()
+        )
+    })
+}
 
 /// Refuses a quick change in which the pickup was silent.
 fn seen(pulses: &Pulses, data: &Data, sight: &fit::Sight) -> Result<(), Refusal> {

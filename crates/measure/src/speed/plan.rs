@@ -28,7 +28,7 @@ pub(super) struct Data {
     pub unit: f64,
     /// First and last instant watched, in units.
     pub watched: (f64, f64),
-    /// Angle from the mark before the first pulse to it, rad.
+    /// Angle from the last mark that can have passed unseen before the first pulse to it, rad.
     pub before: f64,
     /// Usual angle between marks, rad.
     pub pitch: f64,
@@ -38,6 +38,9 @@ pub(super) struct Data {
     /// Stretches that are livelier than the part of the record they lie in, side by side and in order.
     pub livelier: Vec<Livelier>,
 }
+
+/// Largest part of the first pulse that is taken for hidden: the angle before it is 20 pitches then.
+const MOST_UNSEEN: f64 = 0.966;
 
 /// A stretch with a density of its own.
 #[derive(Clone, Copy, Debug)]
@@ -102,7 +105,10 @@ impl Data {
         let previous = (pulses.position(0) + pulses.positions - 1) % pulses.positions;
         let ahead = pitch.filter(|_| joined.contains(&0));
         let ahead = ahead.and_then(|p| p.errors.get(previous)).unwrap_or(&0.0);
-        let before = (nominal + first - ahead).max(0.1 * nominal);
+        // Pulses that grow with the speed show no mark before a part u of that at the first one. Where the torque rises evenly
+        // the angle goes with the speed's power of 3/2: θ_unseen = u^1.5 (θ_unseen + pitch).
+        let hidden = pulses.unseen.clamp(0.0, MOST_UNSEEN).powf(1.5);
+        let before = (nominal + first - ahead).max(0.1 * nominal) / (1.0 - hidden);
         Data {
             passages,
             origin,
