@@ -1,7 +1,9 @@
 //! From samples to the instants of flanks.
 
+use super::envelope::Envelope;
 use super::flank::{Passing, sharpen};
 use super::level::Levels;
+use super::shape::Shape;
 use super::{Edges, Flank, Refusal};
 
 /// How flanks are found.
@@ -31,6 +33,10 @@ impl Default for EdgeSettings {
 const REACH: usize = 24;
 /// Part of the height of a pulse, on each side of the middle, in which a flank is taken as straight.
 const STRAIGHT: f64 = 0.3;
+/// Part of what a parabola corrects that may still be wrong.
+const LEFT: f64 = 0.3;
+/// Deviations of the crossing by which that of a parabola is elsewhere, from which on a flank is bent.
+const BENT: f64 = 3.0;
 /// Samples of a plateau, next to the flank, that tell its level, at most.
 const PLATEAU: usize = 64;
 
@@ -78,15 +84,28 @@ pub fn edges(
         }
         None => Levels::find(samples)?,
     };
+    let evened = match settings.levels {
+        Some(_) => None,
+        None => Envelope::of(samples, levels.span, levels.noise),
+    };
+    let (levels, evened) = match evened {
+        Some(envelope) => {
+            let evened = envelope.evened(samples);
+            (Levels::evened(levels.noise, envelope), Some(evened))
+        }
+        None => (levels, None),
+    };
+    let samples = evened.as_deref().unwrap_or(samples);
+    let fixed = settings.levels.is_some() || levels.envelope().is_some_and(|e| e.own_level);
     let part = match settings.hysteresis {
-        Some(part) if (0.0..=0.45).contains(&part) => part,
+        Some(part) if (0.0..=0.45).contains(&part) => Some(part),
         Some(part) => {
             return Err(Refusal::new(
                 format!("hysteresis {part}"),
                 "a part of the pulse height from 0 to 0.45",
             ));
         }
-        None => (4.0 * levels.noise / levels.span).clamp(0.15, 0.4),
+        None => None,
     };
     let mut notes = Vec::new();
     let gaps = samples
@@ -99,7 +118,7 @@ pub fn edges(
         ));
     }
     let flips = flips(samples, &levels, part);
-    let middles = middles(samples, &flips, &levels, settings.levels.is_some());
+    let middles = middles(samples, &flips, &levels, fixed);
     let mut found: Vec<Passing> = flips
         .iter()
         .zip(&middles)
@@ -121,7 +140,14 @@ pub fn edges(
         Flank::Both | Flank::Centre => &[true, false],
     };
     for &rises in kinds {
-        sharpen(samples, &mut found, rises, &levels);
+        match Shape::of(samples, &found, rises, &levels) {
+            Shape::Same => sharpen(samples, &mut found, rises, &levels),
+            Shape::OverSpeed(over) => {
+                sharpen(&over.samples, &mut found, rises, &levels);
+                over.state(&mut found, rises, &levels);
+            }
+            Shape::None => {}
+        }
     }
     found.sort_by(|a, b| a.place.total_cmp(&b.place));
     let found = found
@@ -157,20 +183,39 @@ pub fn edges(
         flank: settings.flank,
         watched: (first, first + interval * (samples.len() - 1) as f64),
         sample_interval: Some(interval),
+        unseen: levels.envelope().filter(|e| e.own_level).map_or(0.0, |e| e.unseen),
+        unwatched: unwatched(first, interval, samples),
         notes,
     })
 }
 
+/// Stretches between finite samples, s.
+fn unwatched(first: f64, interval: f64, samples: &[f64]) -> Vec<(f64, f64)> {
+    let mut stretches = Vec::new();
+    let mut last = None;
+    for k in (0..samples.len()).filter(|&k| samples[k].is_finite()) {
+        if let Some(last) = last
+            && k > last + 1
+        {
+            stretches.push((first + interval * last as f64, first + interval * k as f64));
+        }
+        last = Some(k);
+    }
+    stretches
+}
+
 /// Changes between the levels, with hysteresis.
-fn flips(samples: &[f64], levels: &Levels, part: f64) -> Vec<Flip> {
-    let margin = part * levels.span;
+fn flips(samples: &[f64], levels: &Levels, part: Option<f64>) -> Vec<Flip> {
     let mut flips = Vec::new();
     let mut high: Option<bool> = None;
-    for (sample, &x) in samples.iter().enumerate() {
+    let (from, to) = levels.envelope().map_or((0, samples.len()), |e| (e.range.0, e.range.1 + 1));
+    for (sample, &x) in samples.iter().enumerate().take(to).skip(from) {
         if !x.is_finite() {
             high = None;
             continue;
         }
+        let noisy = || (4.0 * levels.noise_at(sample) / levels.span).clamp(0.15, 0.4);
+        let margin = levels.span * part.unwrap_or_else(noisy);
         let away = x - levels.middle(sample);
         let now = if away > margin {
             true
@@ -221,7 +266,7 @@ fn middles(samples: &[f64], flips: &[Flip], levels: &Levels, fixed: bool) -> Vec
             let most = 0.2 * levels.span;
             Middle {
                 value: (0.5 * (before.0 + after.0)).clamp(rough - most, rough + most),
-                variance: 0.25 * levels.noise.powi(2) * (1.0 / before.1 + 1.0 / after.1),
+                variance: 0.25 * levels.noise_at(flip.sample).powi(2) * (1.0 / before.1 + 1.0 / after.1),
             }
         })
         .collect();
@@ -304,6 +349,7 @@ fn crossing(
         return None;
     }
     let limit = STRAIGHT * levels.span;
+    let noise_here = levels.noise_at(flip.sample);
     let mut from = below + 1;
     while from > 0
         && below + 1 - from < REACH
@@ -334,8 +380,27 @@ fn crossing(
             let misfit = (from..to)
                 .map(|k| (height(k) - mean - slope * (k as f64 - centre)).powi(2))
                 .sum::<f64>();
-            let noise = levels.noise.max((misfit / (n - 2.0)).sqrt());
+            let noise = noise_here.max((misfit / (n - 2.0)).sqrt());
             let spread = noise / slope * (1.0 / n + away * away / square).sqrt();
+            // A shaft that starts or stops on the flank bends it; by how much a parabola crosses elsewhere is open.
+            let middle = square / n;
+            let (mut along, mut fourth) = (0.0, 0.0);
+            for k in from..to {
+                let x = (k as f64 - centre).powi(2) - middle;
+                along += x * height(k);
+                fourth += x * x;
+            }
+            let shift = -along / fourth * (away * away - middle) / slope;
+            let bent = shift.abs() > BENT * spread;
+            // About a level of its own a signal is straight but for the motion: the parabola is right.
+            let (away, spread) = match levels.envelope().is_some_and(|e| e.own_level) {
+                true => {
+                    let own = noise_here / slope * (1.0 / n + middle * middle / fourth).sqrt();
+                    let left = if bent { LEFT * shift } else { 0.0 };
+                    (away + shift, own.hypot(left))
+                }
+                false => (away, if bent { spread.hypot(shift) } else { spread }),
+            };
             if away.abs() <= n {
                 return Some((centre + away, spread.max(1e-3), true));
             }
@@ -361,7 +426,7 @@ fn crossing(
     let interpolation = 0.29 * (-1.2 * (width - 1.0).max(0.0)).exp();
     Some((
         below as f64 + place,
-        (levels.noise / slope).hypot(interpolation).max(1e-3),
+        (noise_here / slope).hypot(interpolation).max(1e-3),
         false,
     ))
 }

@@ -1,5 +1,6 @@
 //! The two levels of a pulse signal, from the signal itself.
 
+use super::envelope::Envelope;
 use super::{Refusal, median, quantile};
 
 /// Where a signal is high or low, over the samples.
@@ -12,6 +13,8 @@ pub(super) struct Levels {
     pub span: f64,
     /// Standard deviation of the noise of a sample.
     pub noise: f64,
+    /// Height of pulses before they were evened, where they were.
+    envelope: Option<Envelope>,
 }
 
 impl Levels {
@@ -32,7 +35,30 @@ impl Levels {
             middle: vec![0.5 * (low + high)],
             span: high - low,
             noise: noise(samples),
+            envelope: None,
         }
+    }
+
+    /// Those of a signal that was evened, whose noise was as given.
+    pub fn evened(noise: f64, envelope: Envelope) -> Levels {
+        Levels {
+            block: usize::MAX,
+            middle: vec![0.0],
+            span: 1.0,
+            noise,
+            envelope: Some(envelope),
+        }
+    }
+
+    /// The height of pulses before they were evened, where they were.
+    pub fn envelope(&self) -> Option<&Envelope> {
+        self.envelope.as_ref()
+    }
+
+    /// Standard deviation of the noise of a sample.
+    pub fn noise_at(&self, sample: usize) -> f64 {
+        let height = self.envelope.as_ref().map_or(1.0, |e| e.at(sample).1);
+        self.noise / height
     }
 
     /// Finds levels block by block: a block that holds both levels tells its own, the others take their neighbours'.
@@ -73,6 +99,7 @@ impl Levels {
             middle: fill(extremes.len(), &known),
             span,
             noise,
+            envelope: None,
         })
     }
 }
@@ -100,16 +127,24 @@ fn second_extremes(samples: &[f64]) -> (f64, f64) {
 }
 
 /// Standard deviation of the noise from the smallest tenth of the differences: the flanks of pulses are in the upper part.
+///
+/// A signal that never rests, as a sine, has no smallest differences that are noise alone; differences of the third order, in
+/// which little is left of it, tell there.
 fn noise(samples: &[f64]) -> f64 {
     let stride = (samples.len() / 20_000).max(1);
-    let mut steps: Vec<f64> = samples
-        .windows(2)
-        .step_by(stride)
-        .map(|pair| (pair[1] - pair[0]).abs())
-        .filter(|step| step.is_finite())
-        .collect();
-    // A tenth of |x| is below 0.1257 standard deviations for normal x; a difference has √2 the noise.
-    quantile(&mut steps, 0.1) / (0.1257 * 2f64.sqrt())
+    // A tenth of |x| is below 0.1257 standard deviations for normal x; a difference has √2 the noise, the third one √20.
+    let of = |width: usize, factor: f64, difference: &dyn Fn(&[f64]) -> f64| {
+        let mut steps: Vec<f64> = samples
+            .windows(width)
+            .step_by(stride)
+            .map(|near| difference(near).abs())
+            .filter(|step| step.is_finite())
+            .collect();
+        quantile(&mut steps, 0.1) / (0.1257 * factor.sqrt())
+    };
+    let first = of(2, 2.0, &|x| x[1] - x[0]);
+    let third = of(4, 20.0, &|x| x[3] - 3.0 * x[2] + 3.0 * x[1] - x[0]);
+    if third < 0.5 * first { third } else { first }
 }
 
 /// Values at `0..count` by straight lines between the known ones, constant beyond them.

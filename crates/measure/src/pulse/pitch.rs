@@ -63,23 +63,23 @@ const EVEN: f64 = 0.03;
 /// less than 3 %.
 pub fn calibrate(pulses: &Pulses) -> Result<Pitch, Refusal> {
     let n = pulses.positions;
-    let (first, last) = match (pulses.marks.first(), pulses.marks.last()) {
+    // Beyond a gap that is not surely counted the marks are others.
+    let joined = pulses.joined();
+    let marks = &pulses.marks[joined.clone()];
+    let (first, last) = match (marks.first(), marks.last()) {
         (Some(&first), Some(&last)) if last > first => (first, last),
         _ => return Err(too_short(0.0)),
     };
     let span = (last - first) as usize + 1;
-    if n < 2 || span < 2 * n + 1 || span > 64 * pulses.times.len() + 1024 {
+    if n < 2 || span < 2 * n + 1 || span > 64 * joined.len() + 1024 {
         return Err(too_short(span as f64 / n.max(1) as f64));
     }
-    let origin = pulses.times[0];
+    let times = &pulses.times[joined.clone()];
+    let origin = times[0];
     let mut time = vec![f64::NAN; span];
     let mut stated = vec![0.0; span];
-    for ((&mark, &t), &u) in pulses
-        .marks
-        .iter()
-        .zip(&pulses.times)
-        .zip(&pulses.uncertainties)
-    {
+    let uncertainties = &pulses.uncertainties[joined];
+    for ((&mark, &t), &u) in marks.iter().zip(times).zip(uncertainties) {
         time[(mark - first) as usize] = t - origin;
         stated[(mark - first) as usize] = u;
     }
@@ -95,8 +95,7 @@ pub fn calibrate(pulses: &Pulses) -> Result<Pitch, Refusal> {
         sums[k + 1] = std::array::from_fn(|s| sums[k][s] + here[s]);
     }
     // A window with a pulse missing or too many does not hold every mark once.
-    let full = pulses
-        .marks
+    let full = marks
         .iter()
         .map(|m| m.rem_euclid(n as i64))
         .collect::<std::collections::BTreeSet<_>>()

@@ -1,6 +1,7 @@
 //! Which mark passed at which edge.
 
-use super::{Edges, Flank, Refusal, median};
+use super::gap::{LONG, count as count_over, is_sure};
+use super::{Edges, Flank, Gap, Refusal, median};
 
 /// The wheel that the pickup looks at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +29,10 @@ pub struct Pulses {
     pub watched: (f64, f64),
     /// Interval of the samples that the instants were found in, s; none where they were stamped.
     pub sample_interval: Option<f64>,
+    /// Intervals in which the pickup was silent though the shaft turned, in order.
+    pub gaps: Vec<Gap>,
+    /// As [`Edges::unseen`].
+    pub unseen: f64,
     /// Pulses that were left out or had to be assumed, as a part of all.
     pub repaired: f64,
     /// What was found wrong, and what was done about it.
@@ -40,6 +45,22 @@ impl Pulses {
         std::f64::consts::TAU / self.positions as f64
     }
 
+    /// The longest row of pulses whose marks are surely counted from each other.
+    pub(crate) fn joined(&self) -> std::ops::Range<usize> {
+        let unsure = self.gaps.iter().filter(|gap| !gap.sure);
+        let mut ends: Vec<usize> = unsure.map(|gap| gap.pulse).collect();
+        ends.push(self.times.len());
+        let mut longest = 0..0;
+        let mut begin = 0;
+        for end in ends {
+            if end - begin > longest.len() {
+                longest = begin..end;
+            }
+            begin = end;
+        }
+        longest
+    }
+
     /// Position on the wheel of a pulse, 0 to below [`Pulses::positions`].
     pub fn position(&self, pulse: usize) -> usize {
         self.marks[pulse].rem_euclid(self.positions as i64) as usize
@@ -48,7 +69,9 @@ impl Pulses {
 
 /// Numbers the marks.
 ///
-/// An interval much longer than both its neighbours holds marks that gave no pulse: the count goes on as if they had. A
+/// An interval much longer than both its neighbours holds marks that gave no pulse: the count goes on as if they had. Six
+/// and more, or a stretch without signal, are a gap of their own ([`Gap`]): the speeds on both sides say how many they were,
+/// and where they leave more than one number the gap says that the count is not sure. A
 /// pulse that splits an interval in two much shorter than the neighbours is left out, and so is one that comes much too
 /// early or too late. Each leaves a note. From rest on,
 /// intervals shrink steadily; this alone is never taken for a fault.
@@ -119,10 +142,13 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
             "a part of the record with one start from rest: give where it begins or ends (from, to)",
         ));
     }
-    let steps = steps(&kept, &edges.times);
+    let kept = without_broken(kept, edges, wheel);
+    let mut steps = steps(&kept, &edges.times);
+    let silent = silent(&kept, edges, &mut steps, wheel);
+    notes.extend(silent.iter().map(told));
     let mut count = 0i64;
     let mut counts = vec![0i64];
-    let (mut lost, mut first_lost) = (0usize, None);
+    let (mut lost, mut repairs, mut first_lost) = (0usize, 0usize, None);
     let mut references = Vec::new();
     for (k, &step) in steps.iter().enumerate() {
         count += step;
@@ -130,6 +156,11 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
         if wheel.missing > 0 && step == wheel.missing as i64 + 1 {
             references.push(count);
         } else if step > 1 {
+            let own = silent.iter().any(|gap| gap.pulse == k + 1);
+            repairs += (step - 1) as usize;
+            if own {
+                continue;
+            }
             lost += (step - 1) as usize;
             first_lost.get_or_insert(edges.times[kept[k]]);
         }
@@ -140,7 +171,14 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
             "{lost} pulses missing, the first after {time:.6} s: counted as if they had come"
         ));
     }
-    let repaired = (lost + extra.len()) as f64 / edges.times.len().max(1) as f64;
+    if edges.unseen > HIDDEN {
+        notes.push(format!(
+            "the first pulse, at {:.6} s, is only {:.1} times as high as what the noise hides: marks may have passed unseen before it",
+            edges.times[kept[0]],
+            edges.unseen.recip()
+        ));
+    }
+    let repaired = (repairs + extra.len()) as f64 / edges.times.len().max(1) as f64;
     if repaired > 0.05 {
         notes.push(format!(
             "{:.0} % of the pulses had to be repaired: do not trust this channel",
@@ -152,7 +190,18 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
     } else {
         (kept, counts)
     };
-    let (which, marks) = without_strays(which, marks, &edges.times, &mut notes);
+    let (which, marks) = without_strays(which, marks, edges, &silent, &mut notes);
+    let place = |time: f64| which.partition_point(|&k| edges.times[k] < time);
+    let gaps = silent
+        .into_iter()
+        .map(|gap| Gap {
+            pulse: place(gap.to),
+            positions: gap.positions * if both { 2 } else { 1 },
+            deviation: gap.deviation * if both { 2.0 } else { 1.0 },
+            ..gap
+        })
+        .filter(|gap| gap.pulse > 0 && gap.pulse < which.len())
+        .collect();
     Ok(Pulses {
         times: which.iter().map(|&k| edges.times[k]).collect(),
         uncertainties: which.iter().map(|&k| edges.uncertainties[k]).collect(),
@@ -161,10 +210,15 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
         marks,
         watched: edges.watched,
         sample_interval: edges.sample_interval,
+        gaps,
+        unseen: edges.unseen,
         repaired,
         notes,
     })
 }
+
+/// Height at which the noise hides a pulse over that of the first one, from which on it is told.
+const HIDDEN: f64 = 0.3;
 
 /// Edges without those that split an interval; and those left out.
 fn without_doubles(main: &[usize], times: &[f64]) -> (Vec<usize>, Vec<usize>) {
@@ -205,12 +259,19 @@ fn without_doubles(main: &[usize], times: &[f64]) -> (Vec<usize>, Vec<usize>) {
 fn without_strays(
     which: Vec<usize>,
     marks: Vec<i64>,
-    times: &[f64],
+    edges: &Edges,
+    silent: &[Gap],
     notes: &mut Vec<String>,
 ) -> (Vec<usize>, Vec<i64>) {
+    let times = &edges.times;
+    // Pulses on both sides of a gap say nothing of each other.
+    let parted = |k: usize| {
+        let (from, to) = (times[which[k - 2]], times[which[k + 2]]);
+        silent.iter().any(|gap| gap.from < to && gap.to > from)
+    };
     let away: Vec<f64> = (0..which.len())
         .map(|k| {
-            if k < 2 || k + 2 >= which.len() {
+            if k < 2 || k + 2 >= which.len() || parted(k) {
                 return 0.0;
             }
             let others = [k - 2, k - 1, k + 1, k + 2];
@@ -333,6 +394,87 @@ fn long_steps(gaps: &[f64], steps: &[i64], k: usize, ratio: f64) -> i64 {
     let part = (0.5 * before + 0.5 * gaps[k]) / (0.5 * (before + after) + gaps[k]);
     let rate = rate_left + (rate_right - rate_left) * part;
     (gaps[k] * rate).round().max(1.0) as i64
+}
+
+/// Pulses without the two beside a long silence: a pickup that fails or comes back within a pulse makes a flank of its own.
+fn without_broken(kept: Vec<usize>, edges: &Edges, wheel: &Wheel) -> Vec<usize> {
+    let steps = steps(&kept, &edges.times);
+    let beside = |k: usize| {
+        let long = |k: usize| {
+            let step = steps.get(k).copied().unwrap_or(0);
+            step >= LONG && step != wheel.missing as i64 + 1
+        };
+        k.checked_sub(1).is_some_and(long) || long(k)
+    };
+    // A pulse between two silences, or one of few, tells of nothing but itself.
+    let left: Vec<usize> = (0..kept.len()).filter(|&k| !beside(k)).collect();
+    if left.len() < kept.len() / 2 {
+        return kept;
+    }
+    left.into_iter().map(|k| kept[k]).collect()
+}
+
+/// Long silences and stretches without signal, with the positions that passed; `steps` follow them. The pulse of a gap is here
+/// that of `kept`.
+fn silent(kept: &[usize], edges: &Edges, steps: &mut [i64], wheel: &Wheel) -> Vec<Gap> {
+    let time = |k: usize| edges.times[kept[k]];
+    let unwatched = |k: usize| {
+        let next = edges.unwatched.partition_point(|u| u.1 <= time(k));
+        let usual = (k > 0).then(|| time(k) - time(k - 1));
+        edges.unwatched.get(next).is_some_and(|u| {
+            u.0 < time(k + 1) && usual.is_none_or(|usual| u.1 - u.0 > 0.5 * usual)
+        })
+    };
+    let reference = wheel.missing as i64 + 1;
+    let is_gap: Vec<bool> = (0..steps.len())
+        .map(|k| (steps[k] >= LONG && steps[k] != reference) || unwatched(k))
+        .collect();
+    let mut gaps = Vec::new();
+    for k in (0..steps.len()).filter(|&k| is_gap[k]) {
+        // Marks from the edge away, up to the next gap.
+        let (mut left, mut right) = (vec![(time(k), 0.0)], vec![(time(k + 1), 0.0)]);
+        for j in (0..k).rev().take_while(|&j| !is_gap[j]) {
+            let mark = left[left.len() - 1].1 - steps[j] as f64;
+            left.push((time(j), mark));
+        }
+        for j in (k + 1..steps.len()).take_while(|&j| !is_gap[j]) {
+            let mark = right[right.len() - 1].1 + steps[j] as f64;
+            right.push((time(j + 1), mark));
+        }
+        let noise = edges.uncertainties[kept[k]].max(edges.uncertainties[kept[k + 1]]);
+        let found = count_over(&left, &right, noise).filter(|found| found.0.is_finite());
+        let (mean, deviation) = found.unwrap_or((steps[k] as f64, f64::INFINITY));
+        // Where the sides tell nothing the two intervals beside it must do.
+        if found.is_some_and(|found| found.1 < 0.5 * found.0.abs()) {
+            steps[k] = (mean.round() as i64).max(1);
+        }
+        let sure = is_sure(mean, deviation, steps[k]);
+        if steps[k] >= LONG || !sure {
+            gaps.push(Gap {
+                from: time(k),
+                to: time(k + 1),
+                pulse: k + 1,
+                positions: steps[k],
+                deviation,
+                sure,
+            });
+        }
+    }
+    gaps
+}
+
+/// A gap in words.
+fn told(gap: &Gap) -> String {
+    let Gap { from, to, .. } = gap;
+    let passed = gap.positions - 1;
+    match gap.sure {
+        true => format!(
+            "the pickup is silent from {from:.6} s to {to:.6} s: {passed} marks passed unseen, and what is told in between follows from both sides"
+        ),
+        false => format!(
+            "the pickup is silent from {from:.6} s to {to:.6} s: about {passed} marks passed unseen, how many is not sure; angles before and after do not join"
+        ),
+    }
 }
 
 /// Position after the left-out marks, from the long intervals that look like them.

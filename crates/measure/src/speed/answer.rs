@@ -2,6 +2,7 @@
 
 use super::track::{Belief, Track, mixed};
 use super::{Motion, Speed};
+use crate::pulse::Gap;
 
 impl Speed {
     /// First and last instant for which there is an answer, s.
@@ -10,6 +11,11 @@ impl Speed {
             self.origin + self.unit * self.base.begin(),
             self.origin + self.unit * self.base.end(),
         )
+    }
+
+    /// Silences of the pickup, in which marks passed unseen.
+    pub fn gaps(&self) -> impl Iterator<Item = &Gap> {
+        self.bridges.iter().map(|bridge| &bridge.gap)
     }
 
     /// The tracks that hold at an instant, in units, with their weights.
@@ -63,8 +69,12 @@ impl Speed {
     }
 
     /// The motion at an instant, s; outside the range of the pulses it is carried on, with growing covariance; before an
-    /// engagement from rest it is rest, and after the last mark of a shaft that stops it comes to rest.
+    /// engagement from rest it is rest, and after the last mark of a shaft that stops it comes to rest. While the pickup was
+    /// silent ([`Speed::gaps`]) it is bounded by what both sides say.
     pub fn at(&self, seconds: f64) -> Motion {
+        if let Some(bridge) = self.bridges.iter().find(|bridge| bridge.holds(seconds)) {
+            return bridge.at(seconds);
+        }
         let motion = self.told(seconds);
         let motion = self.stop.map_or(motion, |stop| stop.applied(motion));
         let hidden = self.breakaway.as_ref();

@@ -17,6 +17,7 @@
 
 mod answer;
 mod breakaway;
+mod bridge;
 mod design;
 mod fit;
 mod lively;
@@ -28,8 +29,9 @@ mod stiffest;
 mod stop;
 mod track;
 
-use crate::pulse::{Pitch, Pulses, Refusal};
+use crate::pulse::{Gap, Pitch, Pulses, Refusal};
 use breakaway::Breakaway;
+use bridge::Bridge;
 pub use design::marks_needed;
 use matrix::N;
 use plan::{Data, Plan};
@@ -140,6 +142,8 @@ pub struct Speed {
     stop: Option<Stop>,
     /// What the friction seen there hides of a start from rest.
     breakaway: Option<Breakaway>,
+    /// Silences of the pickup.
+    bridges: Vec<Bridge>,
     /// Standard deviation of an order-one error that the calibration may hold, rad.
     eccentricity: f64,
     /// The quick change, where there is one.
@@ -209,6 +213,7 @@ pub fn smooth(
     let mut data = Data::new(pulses, pitch);
     let sight = fit::sight(&data, &settings.transient);
     if let Some(sight) = &sight {
+        seen(pulses, &data, sight)?;
         enough(&data, sight, settings)?;
     }
     let mut notes = pulses.notes.clone();
@@ -268,6 +273,7 @@ pub fn smooth(
         stiffest: None,
         stop: None,
         breakaway: None,
+        bridges: Vec::new(),
         eccentricity: pitch.map_or(0.0, |p| {
             settings.ripple.max(0.0) / (p.speed * p.speed).max(1e-12)
         }),
@@ -322,8 +328,12 @@ pub fn smooth(
     if speed.change.is_none() {
         speed.stiffest = Stiffest::of(pulses, &speed);
     }
+    speed.bridges = Bridge::all(pulses, &speed);
     speed.stop = Stop::of(pulses, &speed);
     speed.breakaway = Breakaway::of(pulses, &speed);
+    if speed.stop.is_none() {
+        speed.notes.extend(fell_silent(pulses, &speed));
+    }
     if let (Some(change), Some(breakaway)) = (&mut speed.change, &speed.breakaway) {
         change.engagement.1 = change.engagement.1.hypot(breakaway.deviation);
     }
@@ -369,6 +379,38 @@ const FEWEST_LOOKED_AT: usize = 4;
 /// the band: of a deviation from ν degrees of freedom a band of two holds nine tenths from ν = 5 on (Student: 0.898), which
 /// are eight pulses. `tests/few_marks.rs` shows that it does.
 const FEWEST_WITHIN: usize = 8;
+
+/// Usual intervals without a mark, at the speed of the last ones, after which a pickup is taken for stuck.
+const STUCK: f64 = 8.0;
+
+/// Says that marks end at a speed from which a shaft does not stop at once.
+fn fell_silent(pulses: &Pulses, speed: &Speed) -> Option<String> {
+    let last = *pulses.times.last()?;
+    let rate = speed.at(last).speed / pulses.pitch();
+    let silent = pulses.watched.1 - last;
+    (silent * rate > STUCK).then(|| {
+        format!(
+            "no mark came after {last:.4} s, for {silent:.4} s, though the shaft turned at {:.1} rad/s: the pickup is stuck, its pulses sank into the noise, or the shaft stopped at once; what is told behind does not follow from the pulses",
+            rate * pulses.pitch()
+        )
+    })
+}
+
+/// Refuses a quick change in which the pickup was silent.
+fn seen(pulses: &Pulses, data: &Data, sight: &fit::Sight) -> Result<(), Refusal> {
+    let (from, to) = (data.seconds(sight.engage), data.seconds(sight.lock));
+    let within = |gap: &&Gap| gap.from < to && gap.to > from;
+    match pulses.gaps.iter().find(within) {
+        Some(gap) => Err(Refusal::new(
+            format!(
+                "the pickup is silent from {:.4} s to {:.4} s, within the quick change of speed from about {from:.4} s to {to:.4} s",
+                gap.from, gap.to
+            ),
+            "a record that shows the change, or a part of this one without it (from, to)",
+        )),
+        None => Ok(()),
+    }
+}
 
 /// Refuses a quick change with too few pulses to see anything of it.
 fn enough(data: &Data, sight: &fit::Sight, settings: &SpeedSettings) -> Result<(), Refusal> {

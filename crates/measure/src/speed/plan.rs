@@ -1,7 +1,7 @@
 //! From pulses to the nodes of a track: noises, densities, knots.
 
 use super::matrix::{Memory, N};
-use super::track::{Belief, Node, Pass, Sight, forward};
+use super::track::{Belief, Fresh, Node, Pass, Sight, forward};
 use crate::pulse::{Pitch, Pulses};
 
 /// A passage, in the units of the fit.
@@ -28,14 +28,19 @@ pub(super) struct Data {
     pub unit: f64,
     /// First and last instant watched, in units.
     pub watched: (f64, f64),
-    /// Angle from the mark before the first pulse to it, rad.
+    /// Angle from the last mark that can have passed unseen before the first pulse to it, rad.
     pub before: f64,
     /// Usual angle between marks, rad.
     pub pitch: f64,
     pub calibrated: bool,
+    /// Instants of the first passages behind a silence of the pickup; nothing is carried over to them.
+    pub fresh: Vec<f64>,
     /// Stretches that are livelier than the part of the record they lie in, side by side and in order.
     pub livelier: Vec<Livelier>,
 }
+
+/// Largest part of the first pulse that is taken for hidden: the angle before it is 20 pitches then.
+const MOST_UNSEEN: f64 = 0.966;
 
 /// A stretch with a density of its own.
 #[derive(Clone, Copy, Debug)]
@@ -48,13 +53,21 @@ pub(super) struct Livelier {
 impl Data {
     pub fn new(pulses: &Pulses, pitch: Option<&Pitch>) -> Data {
         let nominal = pulses.pitch();
-        let error = |position: usize| {
+        // Beyond a gap that is not surely counted any mark may have any of the errors.
+        let joined = pulses.joined();
+        let error = |pulse: usize| {
             pitch
-                .and_then(|p| p.errors.get(position).copied())
+                .filter(|_| joined.contains(&pulse))
+                .and_then(|p| p.errors.get(pulses.position(pulse)).copied())
                 .unwrap_or(0.0)
         };
-        let left = |position: usize| match pitch {
-            Some(p) => Some(p.covariance(position, position))
+        let usual = pitch.map_or(0.0, |p| {
+            p.errors.iter().map(|e| e * e).sum::<f64>() / p.errors.len().max(1) as f64
+        });
+        let left = |pulse: usize| match pitch {
+            Some(_) if !joined.contains(&pulse) => usual,
+            Some(p) => Some(pulses.position(pulse))
+                .map(|position| p.covariance(position, position))
                 .filter(|v| v.is_finite())
                 .unwrap_or(0.0)
                 .max(0.0),
@@ -67,28 +80,35 @@ impl Data {
             .map(|pair| pair[1] - pair[0])
             .collect();
         let unit = crate::pulse::median(&mut gaps).max(1e-12);
-        let first = error(pulses.position(0));
+        let first = error(0);
         let mut passages: Vec<Passage> = (0..pulses.times.len())
             .map(|k| Passage {
                 time: (pulses.times[k] - origin) / unit,
                 angle: (pulses.marks[k] - pulses.marks[0]) as f64 * nominal
-                    + error(pulses.position(k))
+                    + error(k)
                     - first,
                 speed: 0.0,
                 spread: pulses.uncertainties[k] / unit,
-                left: left(pulses.position(k)),
+                left: left(k),
             })
             .collect();
+        let parted = |k: usize| pulses.gaps.iter().any(|gap| gap.pulse == k);
         for k in 0..passages.len() {
+            let last = k + 1 == passages.len() || parted(k + 1);
             let (a, b) = (
-                &passages[k.saturating_sub(1)],
-                &passages[(k + 1).min(passages.len() - 1)],
+                &passages[if parted(k) && !last { k } else { k.saturating_sub(1) }],
+                &passages[if last { k } else { k + 1 }],
             );
             let speed = (b.angle - a.angle) / (b.time - a.time).max(1e-9);
             passages[k].speed = speed;
         }
         let previous = (pulses.position(0) + pulses.positions - 1) % pulses.positions;
-        let before = (nominal + first - error(previous)).max(0.1 * nominal);
+        let ahead = pitch.filter(|_| joined.contains(&0));
+        let ahead = ahead.and_then(|p| p.errors.get(previous)).unwrap_or(&0.0);
+        // Pulses that grow with the speed show no mark before a part u of that at the first one. Where the torque rises evenly
+        // the angle goes with the speed's power of 3/2: θ_unseen = u^1.5 (θ_unseen + pitch).
+        let hidden = pulses.unseen.clamp(0.0, MOST_UNSEEN).powf(1.5);
+        let before = (nominal + first - ahead).max(0.1 * nominal) / (1.0 - hidden);
         Data {
             passages,
             origin,
@@ -100,6 +120,9 @@ impl Data {
             before,
             pitch: nominal,
             calibrated: pitch.is_some(),
+            fresh: (pulses.gaps.iter())
+                .map(|gap| (pulses.times[gap.pulse] - origin) / unit)
+                .collect(),
             livelier: Vec::new(),
         }
     }
@@ -112,6 +135,11 @@ impl Data {
             .get(next)
             .filter(|stretch| stretch.from <= time);
         stretch.map_or(0.0, |stretch| stretch.density)
+    }
+
+    /// Whether a passage, by its instant, is the first one behind a silence.
+    pub fn is_fresh(&self, time: f64) -> bool {
+        self.fresh.binary_search_by(|fresh| fresh.total_cmp(&time)).is_ok()
     }
 
     /// Seconds of an instant in units.
@@ -260,7 +288,7 @@ impl Plan {
         let mut nodes = Vec::with_capacity(passages.len() + 2);
         let mut knots: Vec<(f64, Option<[f64; 4]>)> = Vec::new();
         let first = passages[0];
-        let mut start = moving(&first, data.pitch);
+        let mut start = moving(first.angle, first.speed, data.pitch);
         let clock = self.noise.memory.spread * self.noise.memory.spread;
         if let Some(lively) = &self.lively {
             if self.rests && lively.engage <= first.time {
@@ -276,13 +304,17 @@ impl Plan {
         start.covariance[4][4] = clock;
         let density = |time: f64| self.density(time).max(data.livelier_at(time));
         let mut knots = knots.into_iter().peekable();
+        let mut gaps = data.fresh.partition_point(|&time| time <= first.time);
         for passage in passages {
+            let passed = data.fresh[gaps..].partition_point(|&time| time <= passage.time);
+            gaps += passed;
             while let Some((time, added)) = knots.next_if(|knot| knot.0 <= passage.time) {
                 nodes.push(Node {
                     time,
                     density: density(time),
                     pulse: None,
                     added,
+                    fresh: None,
                 });
             }
             nodes.push(Node {
@@ -294,6 +326,11 @@ impl Plan {
                     speed: passage.speed,
                 }),
                 added: None,
+                fresh: (passed > 0).then_some(Fresh {
+                    angle: passage.angle,
+                    speed: passage.speed,
+                    pitch: data.pitch,
+                }),
             });
         }
         (nodes, start)
@@ -341,15 +378,15 @@ fn forward_only(pass: &Pass, variance: f64) -> f64 {
 }
 
 /// Belief before a first passage in motion: hardly anything.
-fn moving(first: &Passage, pitch: f64) -> Belief {
-    let speed = first.speed.max(1e-6 * pitch);
+pub(super) fn moving(angle: f64, speed: f64, pitch: f64) -> Belief {
+    let speed = speed.max(1e-6 * pitch);
     let mut covariance = [[0.0; N]; N];
     covariance[0][0] = pitch * pitch;
     covariance[1][1] = (0.3 * speed).powi(2);
     covariance[2][2] = (0.1 * speed).powi(2);
     covariance[3][3] = (0.03 * speed).powi(2);
     Belief {
-        mean: [first.angle, speed, 0.0, 0.0, 0.0],
+        mean: [angle, speed, 0.0, 0.0, 0.0],
         covariance,
     }
 }

@@ -12,6 +12,7 @@
 //! Source: Bierman, Factorization Methods for Discrete Sequential Estimation, 1977, chapter X (from memory).
 #![allow(clippy::needless_range_loop)] // rows and columns by number read like the formula
 
+use super::plan::moving;
 use super::matrix::{
     Matrix, Memory, N, Vector, advance, apply, carry, drift, gathered, minus, plus, product, root,
     taken_back, transposed,
@@ -49,6 +50,26 @@ pub(super) struct Node {
     pub pulse: Option<Sight>,
     /// Variance added to each state, before the pulse.
     pub added: Option<[f64; 4]>,
+    /// A motion that begins anew, before the pulse: what was before tells nothing of it.
+    pub fresh: Option<Fresh>,
+}
+
+/// A motion of which nearly nothing is known.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fresh {
+    pub angle: f64,
+    /// Rough speed.
+    pub speed: f64,
+    /// Angle between marks.
+    pub pitch: f64,
+}
+
+impl Fresh {
+    fn belief(&self, memory: &Memory) -> Belief {
+        let mut belief = moving(self.angle, self.speed, self.pitch);
+        belief.covariance[4][4] = memory.spread * memory.spread;
+        belief
+    }
 }
 
 /// Mean and covariance of a state.
@@ -124,6 +145,10 @@ pub(super) fn forward(
                 belief.covariance[i][i] += a;
             }
         }
+        if let Some(fresh) = &node.fresh {
+            belief = fresh.belief(memory);
+            along = [0.0; N];
+        }
         let mut update = Update::default();
         if let Some(pulse) = &node.pulse {
             let innovation = pulse.angle - pulse.of(&belief.mean);
@@ -189,6 +214,9 @@ impl Track {
                         c[i][j] += lever * other * (twice + stiffness);
                     }
                 }
+            }
+            if nodes[k].fresh.is_some() {
+                (g, c) = ([0.0; N], [[0.0; N]; N]);
             }
             gradient[k] = g;
             curvature[k] = c;
@@ -360,6 +388,9 @@ impl Track {
         while k < self.nodes.len() && self.nodes[k].time <= second {
             carried = product(&drift(self.nodes[k].time - time, &self.memory), &carried);
             time = self.nodes[k].time;
+            if self.nodes[k].fresh.is_some() {
+                carried = [[0.0; N]; N];
+            }
             if let Some(pulse) = &self.nodes[k].pulse {
                 let gain = self.updates[k].gain;
                 let row: Vector =
@@ -430,6 +461,11 @@ impl Track {
                 }));
                 x = std::array::from_fn(|i| x[i] + noise[i]);
             }
+            if let Some(fresh) = &node.fresh {
+                let belief = fresh.belief(&self.memory);
+                let noise = shake(&belief.covariance);
+                x = std::array::from_fn(|i| belief.mean[i] + noise[i]);
+            }
             if let Some(pulse) = &mut node.pulse {
                 let mut only = [[0.0; N]; N];
                 only[0][0] = pulse.variance;
@@ -494,6 +530,7 @@ mod tests {
                         speed: time,
                     }),
                     added: None,
+                    fresh: None,
                 }
             })
             .collect()

@@ -3,6 +3,7 @@
 use super::super::list::{List, Origin};
 use super::super::outcome::{Quantity, Value};
 use super::{Asked, Found, median, torque};
+use measure::pulse::Gap;
 
 /// Names the results.
 pub(super) fn quantities(asked: &Asked, found: &Found) -> Vec<Quantity> {
@@ -71,6 +72,16 @@ fn speed(list: &mut List, asked: &Asked, found: &Found) {
         of(&|s| s.pulses.repaired),
         &PULSES,
     );
+    for (name, end) in [
+        ("pickup_silent_from", (|gap| gap.from) as fn(&Gap) -> f64),
+        ("pickup_silent_to", |gap| gap.to),
+    ] {
+        let value = match &shaft {
+            Ok(shaft) => Value::List(shaft.speed.gaps().map(end).collect()),
+            Err(why) => Value::None { why: why.to_string() },
+        };
+        list.push(name, "s", value, &SILENT);
+    }
     list.number(
         "pulse_timing_factor",
         "1",
@@ -358,6 +369,11 @@ const PULSES: Origin = Origin {
     law: "crossings of the middle between the two levels of the signal; gaps are counted, doubles are left out",
     source: "crates/measure/src/pulse",
     valid: "pulses of one wheel that turns forward",
+};
+const SILENT: Origin = Origin {
+    law: "intervals in which six marks or more passed unseen, or the signal is missing; speeds in between follow from both sides, and no extreme is taken there",
+    source: "crates/measure/src/pulse/gap.rs",
+    valid: "a shaft that does not brake and speed up again unseen",
 };
 const PITCH: Origin = Origin {
     law: "largest error of a mark, from revolutions at even speed, over the pitch",

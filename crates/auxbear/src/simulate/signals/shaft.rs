@@ -3,7 +3,7 @@
 use super::Signal;
 use crate::scenario::{PickupFlank, PickupKind, SpeedSignal};
 use measure::pulse::{
-    EdgeSettings, Edges, Flank, Marks, Pitch, Pulses, Wheel, calibrate, check_marks, edges, number,
+    EdgeSettings, Edges, Flank, Gap, Marks, Pitch, Pulses, Wheel, calibrate, check_marks, edges, number,
 };
 use measure::shaft::Shaft;
 use measure::speed::{Motion, Speed, SpeedSettings, Transient, smooth};
@@ -99,8 +99,13 @@ impl Found {
         }
         let looked = |from: f64, to: f64, size: &dyn Fn(&Motion) -> f64| {
             let at = |k: usize| speed.at(from + (to - from) * k as f64 / LOOKS as f64);
+            let told = |motion: &Motion| {
+                let hidden = |gap: &Gap| motion.time > gap.from && motion.time < gap.to;
+                !speed.gaps().any(hidden)
+            };
             (0..=LOOKS)
                 .map(at)
+                .filter(told)
                 .max_by(|a, b| size(a).total_cmp(&size(b)))
         };
         let range = speed.range();
