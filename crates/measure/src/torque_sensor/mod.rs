@@ -13,6 +13,7 @@
 //! Not modelled: a second mode, play, a sensor whose damping depends on amplitude. Torque may be in any unit; it comes back in
 //! the unit of the reading.
 
+mod blocks;
 mod chain;
 mod design;
 mod inversion;
