@@ -132,15 +132,15 @@ impl Torque {
 /// Time over which what swings is judged, s.
 const ROUND: f64 = 0.5;
 
-/// Powers of the speed with which a disturbance may grow: a run-out, an unbalance, and what lies between.
-const POWERS: [f64; 5] = [2.0, 1.5, 1.0, 0.5, 0.0];
+/// Powers of the speed with which a disturbance may grow, an unbalance, a run-out and what lies between, each with its odds
+/// before the data speak: a third for the run-out, which alone is there at rest, and two thirds for what grows.
+const POWERS: [(f64, f64); 5] = [(2.0, 1.0), (1.5, 1.0), (1.0, 1.0), (0.5, 1.0), (0.0, 2.0)];
 
 /// Times that another power may be found likelier, each with intensities of its own.
 const ROUNDS: usize = 3;
 
-/// Probability of a power below which it is left out, and from which on it is told.
-const NEGLIGIBLE: f64 = 0.005;
-const NOTED: f64 = 0.05;
+/// Probability of a power below which it is left out: so little weight would widen a band that still does not reach it.
+const NEGLIGIBLE: f64 = 0.05;
 
 /// Deviations of the engagement before it up to which it counts.
 const FARTHEST: f64 = 4.0;
@@ -198,7 +198,7 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
     let mut growths = vec![(power, 0.0)];
     for _ in 0..if free { ROUNDS } else { 0 } {
         growths = (POWERS.iter())
-            .map(|&power| (power, whole(power).cost(&hyper)))
+            .map(|&(power, odds)| (power, whole(power).cost(&hyper) - odds.ln()))
             .collect();
         growths.sort_by(|a, b| a.1.total_cmp(&b.1));
         if growths[0].0 == power {
@@ -219,16 +219,11 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         .filter(|(weight, _)| *weight > NEGLIGIBLE)
         .map(|(weight, power)| (weight, whole(power).smoothed(&hyper)))
         .collect();
-    if let Some((weight, _)) = others.first() {
-        let told: Vec<String> = (growths.iter().take(1 + others.len()))
-            .map(|g| g.0.to_string())
-            .collect();
-        if *weight > NOTED {
-            notes.push(format!(
-                "the record does not tell with which power of the speed the disturbance once a turn grows ({}): the band holds their difference",
-                told.join(", ")
-            ));
-        }
+    if !others.is_empty() && growths[..=others.len()].iter().any(|g| g.0 == 0.0) {
+        notes.push(
+            "the record does not tell whether the disturbance once a turn grows with speed or is there at rest too: mean and band hold both"
+                .to_string(),
+        );
     }
     let base = mixed(&likely, &others);
     let mut variance: Vec<f64> = base.states.iter().map(|s| colour * s.1[TORQUE]).collect();

@@ -17,11 +17,13 @@ mod blocks;
 mod chain;
 mod design;
 mod inversion;
+mod line;
 mod response;
+mod swing;
 
 pub use design::{Design, DesignError, design_error};
 pub use inversion::{Clipped, Inversion, Torque, invert};
-pub use response::{FreeResponse, identify_free_response};
+pub use response::{Excitation, FreeResponse, identify_free_response};
 
 use crate::uncertain::Uncertain;
 

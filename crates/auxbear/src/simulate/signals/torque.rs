@@ -225,8 +225,18 @@ fn sensor(
         })),
         (Some(SensorSource::Tap { tap_start, .. }), Some(tap)) => {
             let start = tap_start.map(|start| (start / tap.interval).ceil() as usize);
-            let response = identify_free_response(&tap.values, tap.interval, start)
-                .map_err(|why| format!("the tap does not tell the sensor: {}, {why}", tap.name))?;
+            let response =
+                identify_free_response(&tap.values, tap.interval, start).map_err(|why| {
+                    let told = if start.is_none() {
+                        "; signals.torque.tap_start tells from where on the sensor swings freely"
+                    } else {
+                        ""
+                    };
+                    format!(
+                        "the tap does not tell the sensor: {}, {why}{told}",
+                        tap.name
+                    )
+                })?;
             notes.extend(response.notes.iter().map(|note| format!("tap: {note}")));
             Ok(Some(response.sensor))
         }
@@ -299,7 +309,14 @@ fn inverted(
     if !input.rests_at_first() && wish.zero_deviation.is_none() {
         notes.push("the shaft does not rest at first and zero_deviation is not given: the zero of the reading is not known".to_string());
     }
-    let torque = invert(&input)?;
+    let mut torque = invert(&input)?;
     notes.extend(torque.notes.iter().cloned());
+    if turning.is_none() && wish.disturbance != Disturbance::None {
+        torque.hold_what_swings();
+        notes.push(
+            "the band of the torque holds what swings in it within half a second: a disturbance once a turn may be a part of that"
+                .to_string(),
+        );
+    }
     Ok(torque)
 }
