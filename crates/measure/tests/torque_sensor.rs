@@ -4,9 +4,7 @@
 mod synthetic;
 
 use measure::shaft::Shaft;
-use measure::torque_sensor::{
-    Clipped, Design, Inversion, Sensor, design_error, identify_free_response, invert,
-};
+use measure::torque_sensor::{Clipped, Design, Inversion, Sensor, design_error, invert};
 use measure::uncertain::Uncertain;
 use std::f64::consts::TAU;
 use synthetic::{Random, SpinUp, median};
@@ -427,77 +425,6 @@ fn what_cannot_be_inverted_is_refused() {
     assert!(invert(&coarse).expect_err("coarse").contains("period"));
 }
 
-/// Free swing after a half-sine tap of 3 ms, or after a step; sampled with noise of two colours.
-fn tapped(arm: f64, zeta: f64, seed: u64, step: bool, hard: f64) -> Vec<f64> {
-    let mut random = Random::new(seed + 77);
-    let omega = TAU * arm;
-    let (mut y, mut v) = (0.0_f64, 0.0);
-    let (h, every) = (4e-5, 50);
-    let count = 1000;
-    let begin = 0.2 + INTERVAL * random.uniform();
-    let noise = random.coloured(count, 0.15, 0.5);
-    let mut reading = Vec::new();
-    for (k, noise) in noise.iter().enumerate() {
-        reading.push(y + 7.0 + noise);
-        for i in 0..every {
-            let t = (k * every + i) as f64 * h - begin;
-            let force = if step {
-                if t > 0.0 { 40.0 } else { 0.0 }
-            } else if t > 0.0 && t < 0.003 {
-                8000.0 / arm * (t / 0.003 * std::f64::consts::PI).sin()
-            } else {
-                0.0
-            };
-            // Semi-implicit Euler: frequency wrong by (ω h)²/24, 1e-5 here.
-            v += h * (omega * omega * (force - y - hard * y * y * y) - 2.0 * zeta * omega * v);
-            y += h * v;
-        }
-    }
-    reading
-}
-
-#[test]
-fn a_tap_tells_frequency_and_damping() {
-    for step in [false, true] {
-        let (mut inside, mut count) = ([0, 0], 0);
-        for seed in 0..400 {
-            let (arm, zeta) = [(10.0, 0.3), (30.0, 0.207), (60.0, 0.104)][seed % 3];
-            let reading = tapped(arm, zeta, seed as u64, step, 0.0);
-            let start = step.then_some(102);
-            let found = identify_free_response(&reading, INTERVAL, start).expect("a swing");
-            let (f, z) = (found.sensor.frequency, found.sensor.damping_ratio);
-            inside[0] += usize::from((f.value - arm).abs() <= 2.0 * f.deviation);
-            inside[1] += usize::from((z.value - zeta).abs() <= 2.0 * z.deviation);
-            count += 1;
-            assert!(
-                (f.value - arm).abs() < 0.05 * arm,
-                "{} of {arm} Hz",
-                f.value
-            );
-        }
-        let share = inside.map(|n| f64::from(n as u32) / f64::from(count));
-        println!(
-            "step {step}: frequency {:.3}, damping {:.3} inside two deviations",
-            share[0], share[1]
-        );
-        assert!(share.iter().all(|s| (0.90..=0.98).contains(s)), "{share:?}");
-    }
-}
-
-#[test]
-fn a_sensor_that_is_not_linear_is_told() {
-    let reading = tapped(60.0, 0.02, 3, false, 2e-5);
-    let found = identify_free_response(&reading, INTERVAL, None).expect("a swing");
-    assert!(
-        found.notes.iter().any(|n| n.contains("not linear")),
-        "{:?}",
-        found.notes
-    );
-    let linear = tapped(60.0, 0.02, 3, false, 0.0);
-    let found = identify_free_response(&linear, INTERVAL, None).expect("a swing");
-    assert!(found.notes.is_empty(), "{:?}", found.notes);
-}
-
 /// A 20 to 30 Hz arm is the worst choice when the shaft turns at 23 Hz, raw; inverted, faster is better.
 #[test]
 fn the_design_picture_shows_the_worst_arm() {
@@ -572,4 +499,71 @@ fn a_torque_that_hardly_changes_keeps_its_level() {
             "{zero}: {deviation}"
         );
     }
+}
+
+/// Before an engagement that is known to some milliseconds the torque may be there already.
+#[test]
+fn the_band_before_an_engagement_holds_its_uncertainty() {
+    for (late, known) in [(0.002, 0.002), (0.004, 0.002)] {
+        let test = measured(60.0, 21, FAST, false);
+        let truth = test.engagement.value;
+        let torque = invert(&Inversion {
+            engagement: Some(Uncertain::new(truth + late, known)),
+            ..test.input()
+        })
+        .expect("inverts");
+        let (mut inside, mut count) = (0, 0);
+        for (k, time) in torque.time.iter().enumerate() {
+            if *time > truth && *time < truth + late {
+                let error = (torque.torque[k] - test.truth[k]).abs();
+                println!("{error:.2} ± {:.2}", torque.deviation[k]);
+                assert!(torque.deviation[k] > 0.1);
+                inside += usize::from(error <= 2.0 * torque.deviation[k]);
+                count += 1;
+            }
+            // far before it the shaft surely rests
+            if *time < truth - 5.0 * known {
+                assert_eq!(torque.deviation[k], 0.0);
+            }
+        }
+        assert!(
+            count > 0 && (late > 0.003 || inside == count),
+            "{inside} of {count}"
+        );
+    }
+}
+
+/// Where the speed is not known the disturbance stays in the torque, and its band holds it.
+#[test]
+fn a_disturbance_that_stays_in_the_torque_is_in_its_band() {
+    let (mut narrow, mut wide, mut count) = (0, 0, 0);
+    for seed in 0..4 {
+        let test = measured(30.0, 50 + seed, FAST, false);
+        let zero = invert(&test.input()).expect("inverts").zero.value;
+        let mut torque = invert(&Inversion {
+            shaft: None,
+            engagement: None,
+            zero: Uncertain::new(zero, 0.1),
+            ..test.input()
+        })
+        .expect("inverts");
+        let inside = |torque: &measure::torque_sensor::Torque| {
+            let steady = torque.time.iter().enumerate();
+            steady
+                .filter(|(_, time)| **time > test.engagement.value + 0.1)
+                .filter(|(k, _)| {
+                    (torque.torque[*k] - test.truth[*k]).abs() <= 2.0 * torque.deviation[*k]
+                })
+                .count()
+        };
+        narrow += inside(&torque);
+        torque.hold_what_swings();
+        wide += inside(&torque);
+        count += (torque.time.iter())
+            .filter(|time| **time > test.engagement.value + 0.1)
+            .count();
+    }
+    println!("{narrow} -> {wide} of {count}");
+    assert!((narrow as f64) < 0.7 * count as f64);
+    assert!(wide as f64 > 0.95 * count as f64);
 }

@@ -277,7 +277,7 @@ pub(super) const KEYS: &[Key] = &[
         "Time from the first value of that channel from which on no force acts.",
     )
     .not_negative()
-    .optional("the largest swing is taken"),
+    .optional("it is found from the rest before a tap or a step"),
     Key::new(
         "signals.torque.disturbance",
         Kind::Word(&["auto", "unbalance", "run-out", "none"]),

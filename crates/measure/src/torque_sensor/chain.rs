@@ -48,8 +48,11 @@ impl<'a> Samples<'a> {
 /// Everything that does not depend on the hyper-parameters.
 pub(super) struct Chain<'a> {
     input: Samples<'a>,
-    knots: Knots,
+    /// Power of the speed with which the disturbance grows.
+    power: f64,
     scale: f64,
+    /// Time since the torque was lively last, s, at the middle of the step that ends at sample k.
+    calm: Vec<f64>,
     /// One step of the interval without disturbance, and the noise that unit intensity gathers.
     whole: (Matrix<STATES>, Matrix<STATES>),
     /// Response of reading and rate to cos θ and sin θ over the step that ends at sample k.
@@ -106,8 +109,9 @@ impl<'a> Chain<'a> {
         let h = input.interval;
         let mut chain = Self {
             input,
-            knots,
+            power,
             scale,
+            calm: calm(&input, knots),
             whole: stepped(swing, h),
             forcing: Vec::with_capacity(input.reading.len()),
             engaging: (knots.engagement).and_then(|knot| Split::of(&input, swing, knot)),
@@ -118,24 +122,30 @@ impl<'a> Chain<'a> {
             chain.forcing.push(if k == 0 || input.angle.is_empty() {
                 [0.0; 4]
             } else {
-                chain.forced(k, power, &nodes)
+                chain.forced(k, &nodes)
             });
         }
         chain
     }
 
-    pub(super) fn growth(&self, k: usize, power: f64) -> f64 {
+    /// Amplitude of the disturbance at a sample over that at the highest speed.
+    fn growth(&self, k: usize) -> f64 {
         match self.input.speed.get(k) {
-            Some(speed) if self.input.fastest > 0.0 && power != 0.0 => {
-                (speed.abs() / self.input.fastest).powf(power)
-            }
-            Some(_) => 1.0,
+            Some(speed) => self.grown(speed.abs()),
             None => 0.0,
         }
     }
 
+    fn grown(&self, speed: f64) -> f64 {
+        if self.power == 0.0 || self.input.fastest <= 0.0 {
+            1.0
+        } else {
+            (speed / self.input.fastest).powf(self.power)
+        }
+    }
+
     /// Integral of the response to cos θ and sin θ over the step that ends at sample k; angle by a cubic through angle and speed.
-    fn forced(&self, k: usize, power: f64, nodes: &[(f64, f64, [f64; 2])]) -> [f64; 4] {
+    fn forced(&self, k: usize, nodes: &[(f64, f64, [f64; 2])]) -> [f64; 4] {
         let (angle, speed, h) = (self.input.angle, self.input.speed, self.input.interval);
         let (a0, a1, s0, s1) = (angle[k - 1], angle[k], speed[k - 1] * h, speed[k] * h);
         let mut sum = [0.0; 4];
@@ -144,13 +154,7 @@ impl<'a> Chain<'a> {
             let theta =
                 a0 * v * v * (1.0 + 2.0 * u) + a1 * u * u * (3.0 - 2.0 * u) + s0 * u * v * v
                     - s1 * u * u * v;
-            let growth = if power == 0.0 || self.input.fastest <= 0.0 {
-                1.0
-            } else {
-                ((s0 * v + s1 * u) / (h * self.input.fastest))
-                    .abs()
-                    .powf(power)
-            };
+            let growth = self.grown((s0 * v + s1 * u).abs() / h);
             let (sine, cosine) = theta.sin_cos();
             sum[0] += weight * growth * cosine * to_reading;
             sum[1] += weight * growth * cosine * to_rate;
@@ -238,6 +242,15 @@ impl<'a> Chain<'a> {
             prior[0][TORQUE] = torque;
             prior[TORQUE][0] = torque;
             prior[1][1] = wide;
+        } else if self.power == 0.0
+            && let Some(angle) = input.angle.first()
+        {
+            // Settled under a run-out, which does not ask for motion.
+            let (sine, cosine) = angle.sin_cos();
+            prior[0][0] = wide;
+            for (index, part) in [(COSINE, cosine), (SINE, sine)] {
+                (prior[0][index], prior[index][0]) = (wide * part, wide * part);
+            }
         }
         let mut jump = [[0.0; STATES]; STATES];
         jump[TORQUE][TORQUE] = wide;
@@ -245,9 +258,8 @@ impl<'a> Chain<'a> {
         let mut filter = Filter::new(mean, prior, keep);
         let mut turning = !rests;
         for (k, &value) in input.reading.iter().enumerate() {
-            let time = input.first + k as f64 * input.interval;
             if k > 0 {
-                let intensity = slow + fast * self.liveliness(time, calming);
+                let intensity = slow + fast * (-self.calm[k] / calming).exp();
                 let here = |split: &&Split| split.at == k;
                 let engages = self.engaging.as_ref().filter(here);
                 let locks = self.locking.as_ref().filter(here);
@@ -293,15 +305,6 @@ impl<'a> Chain<'a> {
         first.get(first.len() / 2).copied().unwrap_or(0.0)
     }
 
-    /// Part of the fast intensity in the step that ends at a time: all of it while the clutch slips, less and less after that.
-    fn liveliness(&self, time: f64, calming: f64) -> f64 {
-        let Some(engagement) = self.knots.engagement else {
-            return 0.0;
-        };
-        let from = self.knots.lock.unwrap_or(engagement);
-        (-(time - from - 0.5 * self.input.interval).max(0.0) / calming).exp()
-    }
-
     fn put_forcing(&self, k: usize, transition: &mut Matrix<STATES>) {
         let [cosine_reading, cosine_rate, sine_reading, sine_rate] = self.forcing[k];
         transition[0][COSINE] = cosine_reading;
@@ -310,17 +313,23 @@ impl<'a> Chain<'a> {
         transition[1][SINE] = sine_rate;
     }
 
+    /// What all readings tell; the amplitudes of the disturbance are those at each time.
     pub(super) fn smoothed(&self, hyper: &Hyper) -> Pass {
         let filter = self.filtered(hyper, true);
         let scale = self.scale;
         let states = filter
             .smoothed()
             .iter()
-            .map(|s| {
-                (
-                    s.mean.map(|m| m * scale),
-                    s.variance.map(|v| v * scale * scale),
-                )
+            .enumerate()
+            .map(|(k, s)| {
+                let mut mean = s.mean.map(|m| m * scale);
+                let mut variance = s.variance.map(|v| v * scale * scale);
+                let growth = self.growth(k);
+                for index in [COSINE, SINE] {
+                    mean[index] *= growth;
+                    variance[index] *= growth * growth;
+                }
+                (mean, variance)
             })
             .collect();
         Pass {
@@ -330,6 +339,53 @@ impl<'a> Chain<'a> {
                 - filter.innovations().len() as f64 * scale.ln(),
         }
     }
+}
+
+/// A pass and others with their weights, as one: means and variances of the mixture.
+pub(super) fn mixed(likely: &Pass, others: &[(f64, Pass)]) -> Pass {
+    let rest = 1.0 - others.iter().map(|(weight, _)| weight).sum::<f64>();
+    let mix = |k: usize, (first, variance): &(Vector<STATES>, Vector<STATES>)| {
+        let (mut mean, mut square) = ([0.0; STATES], [0.0; STATES]);
+        for index in 0..STATES {
+            // about the first, so that nothing is lost in rounding
+            square[index] = rest * variance[index];
+            for (weight, other) in others {
+                let (state, variance) = &other.states[k];
+                let away = state[index] - first[index];
+                mean[index] += weight * away;
+                square[index] += weight * (variance[index] + away * away);
+            }
+            square[index] -= mean[index] * mean[index];
+            mean[index] += first[index];
+        }
+        (mean, square)
+    };
+    Pass {
+        states: (likely.states.iter().enumerate())
+            .map(|(k, state)| mix(k, state))
+            .collect(),
+        innovations: likely.innovations.clone(),
+        log_likelihood: likely.log_likelihood,
+    }
+}
+
+/// Part of the highest speed below which a shaft comes to rest or leaves it: there the torque changes as it does in a spin-up.
+const CREEPING: f64 = 0.02;
+
+/// Time since the torque was lively last, s, at the middle of the steps: the clutch slipped, or the shaft crept.
+fn calm(input: &Samples, knots: Knots) -> Vec<f64> {
+    let from = (knots.lock.or(knots.engagement)).unwrap_or(f64::NEG_INFINITY);
+    let mut crept = f64::NEG_INFINITY;
+    (0..input.reading.len())
+        .map(|k| {
+            let time = input.first + k as f64 * input.interval;
+            let speed = input.speed.get(k).map_or(0.0, |speed| speed.abs());
+            if speed > 0.0 && speed < CREEPING * input.fastest {
+                crept = time;
+            }
+            (time - from.max(crept) - 0.5 * input.interval).max(0.0)
+        })
+        .collect()
 }
 
 /// Sensor and torque without disturbance: rates of the states.

@@ -4,7 +4,12 @@
 //! the reading. The torque is an integrated random walk whose intensity is high just after the engagement and decays to a
 //! lower one; at the engagement torque and rate may jump. Before it the shaft rests and the torque is zero by definition. Where
 //! the lock is known they may jump there too, and the intensity stays high until then.
+//! Where the shaft comes to rest or leaves it slowly, below a fiftieth of the highest speed, the intensity is high again.
 //! Intensities, their decay and the noise are those of the highest likelihood with wide priors.
+//!
+//! A disturbance that does not depend on speed, a run-out, is there at rest too, with the sensor settled under it: zero and
+//! c cos θ₀ + s sin θ₀ are one sum there, which the turning shaft takes apart. How a disturbance grows with speed is judged by the
+//! likelihood of the whole record. What it leaves open is in mean and band: those of all growths, weighed by their likelihood.
 //!
 //! A reading at the limit of its converter ([`Clipped`]) says only that the true one is at least there. What lies beyond is not
 //! guessed, and no torque is told there. Beside it the torque is computed once more with readings beyond the limit by twice what
@@ -13,8 +18,10 @@
 //! Source: physics of the sensor as in the module; unknown-input smoothing as by Lourens et al., Mech. Syst. Signal Process. 29
 //! (2012) 446 (from memory).
 
-use super::chain::{COSINE, Chain, Knots, Pass, RATE, SINE, Samples, TORQUE, ZERO};
+use super::blocks::Thin;
+use super::chain::{COSINE, Chain, Knots, Pass, RATE, SINE, Samples, TORQUE, ZERO, mixed};
 use super::{Sensor, Swing};
+use crate::normal::below;
 use crate::shaft::Shaft;
 use crate::state_space::{colour, correlation};
 use crate::uncertain::Uncertain;
@@ -46,7 +53,8 @@ pub struct Inversion<'a> {
     pub zero_wander: f64,
     /// Relative deviation of the sensor's calibration, linearity included, 1.
     pub scale_deviation: f64,
-    /// Power of the speed with which the disturbance grows: 2 for unbalance, 0 for a run-out; none to let the data choose.
+    /// Power of the speed with which the disturbance grows: 2 for unbalance, 0 for a run-out, which is there at rest too; none to
+    /// let the data choose.
     pub disturbance_power: Option<f64>,
 }
 
@@ -88,7 +96,7 @@ pub struct Torque {
     pub disturbance: Vec<f64>,
     /// Standard deviation of that amplitude.
     pub disturbance_deviation: Vec<f64>,
-    /// Power of the speed with which the disturbance grows, as given or chosen.
+    /// Power of the speed with which the disturbance grows, as given or the most likely one.
     pub disturbance_power: f64,
     /// Zero of the reading.
     pub zero: Uncertain,
@@ -101,6 +109,41 @@ pub struct Torque {
     /// What is not trustworthy.
     pub notes: Vec<String>,
 }
+
+impl Torque {
+    /// Widens the band by what swings in the torque: for a reading whose disturbance once a turn could not be taken out, because
+    /// the speed of the shaft is not known.
+    ///
+    /// What is added is the rms of the torque about its mean over half a second around each time, a turn at 13 rad/s. A torque
+    /// that itself changes within that time is told less well than it could be.
+    pub fn hold_what_swings(&mut self) {
+        let [first, second, ..] = self.time.as_slice() else {
+            return;
+        };
+        let half = (0.5 * ROUND / (second - first)) as usize;
+        let torque = &self.torque;
+        for (k, deviation) in self.deviation.iter_mut().enumerate() {
+            let around = &torque[k.saturating_sub(half)..(k + half + 1).min(torque.len())];
+            *deviation = deviation.hypot(scale_of(around));
+        }
+    }
+}
+
+/// Time over which what swings is judged, s.
+const ROUND: f64 = 0.5;
+
+/// Powers of the speed with which a disturbance may grow, an unbalance, a run-out and what lies between, each with its odds
+/// before the data speak: a third for the run-out, which alone is there at rest, and two thirds for what grows.
+const POWERS: [(f64, f64); 5] = [(2.0, 1.0), (1.5, 1.0), (1.0, 1.0), (0.5, 1.0), (0.0, 2.0)];
+
+/// Times that another power may be found likelier, each with intensities of its own.
+const ROUNDS: usize = 3;
+
+/// Probability of a power below which it is left out: so little weight would widen a band that still does not reach it.
+const NEGLIGIBLE: f64 = 0.05;
+
+/// Deviations of the engagement before it up to which it counts.
+const FARTHEST: f64 = 4.0;
 
 /// Deviation of the lock, as a part of the interval, below which it changes nothing.
 const NOTABLE: f64 = 0.05;
@@ -145,35 +188,47 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         None => (0, samples.reading.len().min(2000)),
     };
     let near = samples.part(from, to);
-    let free = input.disturbance_power.is_none() && input.shaft.is_some() && engagement.is_some();
+    let free = input.disturbance_power.is_none() && input.shaft.is_some();
     let mut power = input.disturbance_power.unwrap_or(2.0);
     let built = |power| Chain::new(near, swing, knots, power, spread);
+    let whole = |power| Chain::new(samples, swing, knots, power, spread);
     let mut part = built(power);
     let mut hyper = part.most_likely(part.guess(), 200);
-    let mut rivals = Vec::new();
-    if free {
-        rivals = [2.0, 1.0, 0.0]
-            .map(|power| (power, built(power)))
-            .into_iter()
-            .map(|(p, c)| (p, c.cost(&hyper), c))
+    // Growths of the disturbance and what the whole record costs with each, the most likely first.
+    let mut growths = vec![(power, 0.0)];
+    for _ in 0..if free { ROUNDS } else { 0 } {
+        growths = (POWERS.iter())
+            .map(|&(power, odds)| (power, whole(power).cost(&hyper) - odds.ln()))
             .collect();
-        rivals.sort_by(|a, b| a.1.total_cmp(&b.1));
-        let (best, _, likely) = rivals.remove(0);
-        if best != power {
-            (power, part) = (best, likely);
-            hyper = part.most_likely(hyper, 80);
+        growths.sort_by(|a, b| a.1.total_cmp(&b.1));
+        if growths[0].0 == power {
+            break;
         }
+        power = growths[0].0;
+        part = built(power);
+        hyper = part.most_likely(hyper, 80);
     }
     let lowest = part.cost(&hyper);
-    let chain = Chain::new(samples, swing, knots, power, spread);
-    let base = chain.smoothed(&hyper);
-    let mut variance: Vec<f64> = base.states.iter().map(|s| s.1[TORQUE]).collect();
-    let colour = colour(&base.innovations);
-    for v in &mut variance {
-        *v *= colour;
+    let chain = whole(power);
+    let likely = chain.smoothed(&hyper);
+    let colour = colour(&likely.innovations);
+    let likelihood = |cost: f64| (-(cost - growths[0].1) / colour).exp();
+    let sum: f64 = growths.iter().map(|g| likelihood(g.1)).sum();
+    let others: Vec<(f64, Pass)> = (growths.iter().skip(1))
+        .map(|&(power, cost)| (likelihood(cost) / sum, power))
+        .filter(|(weight, _)| *weight > NEGLIGIBLE)
+        .map(|(weight, power)| (weight, whole(power).smoothed(&hyper)))
+        .collect();
+    if !others.is_empty() && growths[..=others.len()].iter().any(|g| g.0 == 0.0) {
+        notes.push(
+            "the record does not tell whether the disturbance once a turn grows with speed or is there at rest too: mean and band hold both"
+                .to_string(),
+        );
     }
+    let base = mixed(&likely, &others);
+    let mut variance: Vec<f64> = base.states.iter().map(|s| colour * s.1[TORQUE]).collect();
     let mut widen = |other: &Pass, weight: f64| {
-        for ((sum, a), b) in variance.iter_mut().zip(&base.states).zip(&other.states) {
+        for ((sum, a), b) in variance.iter_mut().zip(&likely.states).zip(&other.states) {
             *sum += weight * ((b.0[TORQUE] - a.0[TORQUE]).powi(2) + b.1[TORQUE] - a.1[TORQUE]);
         }
     };
@@ -190,16 +245,6 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         let deviation = (1.0 / curvature.max(1.0)).sqrt();
         for by in [deviation, -deviation] {
             widen(&chain.smoothed(&moved(by)), 0.5);
-        }
-    }
-    // Other growths of the disturbance, by their likelihood.
-    for (other, cost, _) in &rivals {
-        let weight = 1.0 / (1.0 + (cost - lowest).clamp(-20.0, 20.0).exp());
-        if weight > 0.01 {
-            widen(
-                &Chain::new(samples, swing, knots, *other, spread).smoothed(&hyper),
-                weight,
-            );
         }
     }
     // What is known of sensor and engagement only to a deviation: the torque with it changed by one deviation.
@@ -246,15 +291,26 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         *v += (input.scale_deviation * state.0[TORQUE]).powi(2);
     }
     let noise = hyper[0].exp() * spread;
-    tell(input, &base, colour, engagement.is_some(), &mut notes);
+    tell(input, &likely, colour, engagement.is_some(), &mut notes);
     for (v, state) in variance.iter_mut().zip(&base.states) {
         *v = v.max(state.1[TORQUE]);
+    }
+    if let Some(engagement) = engagement.filter(|e| wider(*e)) {
+        // It may have engaged before: then the torque is there that follows it.
+        let behind = ((engagement.value - samples.first) / samples.interval) as usize + 1;
+        let first = &base.states[behind.min(base.states.len() - 1)];
+        let square = first.0[TORQUE].powi(2) + first.1[TORQUE];
+        for (k, v) in variance.iter_mut().enumerate().take(behind) {
+            let early = engagement.value - samples.first - k as f64 * samples.interval;
+            if early < FARTHEST * engagement.deviation {
+                *v = v.max(below(-early / engagement.deviation) * square);
+            }
+        }
     }
     let pick = |index: usize| base.states.iter().map(|s| s.0[index]).collect::<Vec<_>>();
     let mut deviation: Vec<f64> = variance.iter().map(|v| v.max(0.0).sqrt()).collect();
     let mut told = pick(TORQUE);
     let mut told_rate = pick(RATE);
-    let growth = |k: usize| chain.growth(k, power);
     let amplitude = |k: usize| base.states[k].0[COSINE].hypot(base.states[k].0[SINE]);
     let spread_of = |index: usize| {
         base.states
@@ -262,27 +318,25 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
             .map(|s| (colour * s.1[index]).max(0.0).sqrt())
             .collect::<Vec<_>>()
     };
-    let mut disturbance: Vec<f64> = (0..base.states.len())
-        .map(|k| growth(k) * amplitude(k))
-        .collect();
+    let mut disturbance: Vec<f64> = (0..base.states.len()).map(amplitude).collect();
     let mut disturbance_deviation: Vec<f64> = (0..base.states.len())
         .map(|k| {
             let variances = &base.states[k].1;
             let mean = 0.5 * colour * (variances[COSINE] + variances[SINE]);
-            growth(k) * mean.max(0.0).sqrt()
+            mean.max(0.0).sqrt()
         })
         .collect();
     let mut zero = base.states.first().map_or(input.zero, |s| {
         Uncertain::new(s.0[ZERO], (colour * s.1[ZERO]).max(0.0).sqrt())
     });
     let mut rate_deviation = spread_of(RATE);
-    if let Some(reading) = thin.beyond_limits(&base, noise) {
+    if let Some(reading) = thin.beyond_limits(&likely, noise) {
         let samples = Samples {
             reading: &reading,
             ..samples
         };
         let other = Chain::new(samples, swing, knots, power, spread).smoothed(&hyper);
-        let moved = |k: usize, index: usize| other.states[k].0[index] - base.states[k].0[index];
+        let moved = |k: usize, index: usize| other.states[k].0[index] - likely.states[k].0[index];
         let lost = f64::NAN;
         for k in 0..told.len() {
             let by = moved(k, TORQUE).abs();
@@ -295,7 +349,7 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
                 deviation[k] = deviation[k].hypot(by);
                 rate_deviation[k] = rate_deviation[k].hypot(moved(k, RATE));
             }
-            let by = growth(k) * moved(k, COSINE).hypot(moved(k, SINE));
+            let by = moved(k, COSINE).hypot(moved(k, SINE));
             if by > UNTOLD * disturbance_deviation[k] {
                 (disturbance[k], disturbance_deviation[k]) = (lost, lost);
             } else {
@@ -327,7 +381,7 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         zero,
         noise,
         calming: hyper[3].exp(),
-        log_likelihood: base.log_likelihood,
+        log_likelihood: likely.log_likelihood,
         notes,
     })
 }
@@ -386,126 +440,6 @@ fn refuse(input: &Inversion) -> Result<(), String> {
         return Err("the torque reading does not change".into());
     }
     Ok(())
-}
-
-/// The reading in blocks that are short for the sensor and for a spin-up, and the shaft at their middles.
-struct Thin {
-    first: f64,
-    interval: f64,
-    reading: Vec<f64>,
-    /// The limit at which a block holds a reading, and its side: 1 above, -1 below.
-    limits: Vec<Option<(f64, f64)>>,
-    angle: Vec<f64>,
-    speed: Vec<f64>,
-}
-
-/// Longest block, s: a twelfth of a spin-up of 25 ms.
-const BLOCK: f64 = 0.002;
-
-/// Blocks in a period of the sensor: means of blocks this short lose 0.4 % of a swing at its frequency.
-const IN_A_PERIOD: f64 = 20.0;
-
-/// Most blocks that are inverted at once.
-const MOST: usize = 100_000;
-
-impl Thin {
-    fn new(input: &Inversion) -> Result<Self, String> {
-        let longest = BLOCK.min(1.0 / (IN_A_PERIOD * input.sensor.frequency.value));
-        let block = ((longest / input.interval + 1e-6) as usize).max(1);
-        let count = input.reading.len() / block;
-        if count > MOST {
-            return Err(format!(
-                "the torque reading is too long to be inverted at once: {count} blocks, at most {MOST}"
-            ));
-        }
-        if count < 16 {
-            return Err(format!(
-                "the torque reading lasts for {count} blocks; at least 16 are needed"
-            ));
-        }
-        let interval = block as f64 * input.interval;
-        let first = input.first + 0.5 * (block - 1) as f64 * input.interval;
-        let mut reading: Vec<f64> = input
-            .reading
-            .chunks_exact(block)
-            .map(|part| part.iter().sum::<f64>() / block as f64)
-            .collect();
-        let mut limits = vec![None; count];
-        for part in input.clipped.iter().filter(|part| part.count > 0) {
-            let blocks = part.first / block..=(part.first + part.count - 1) / block;
-            for k in blocks.take_while(|k| *k < count) {
-                reading[k] = f64::NAN;
-                limits[k] = Some((part.limit, if part.above { 1.0 } else { -1.0 }));
-            }
-        }
-        let times = (0..count).map(|k| first + k as f64 * interval);
-        let (angle, speed) = match &input.shaft {
-            Some(shaft) => times
-                .map(|t| (shaft.angle_at(t), shaft.speed_at(t)))
-                .unzip(),
-            None => (Vec::new(), Vec::new()),
-        };
-        Ok(Self {
-            first,
-            interval,
-            reading,
-            limits,
-            angle,
-            speed,
-        })
-    }
-
-    /// The reading with what may lie beyond its limits; none where nothing is clipped.
-    ///
-    /// The true reading enters a stretch with a slope and leaves it with one: a parabola rises by a quarter of slope times
-    /// duration between them. Twice that, and three deviations of the noise, lie beyond the limit here; the whole span of the
-    /// record where that is less, or no slope is known.
-    fn beyond_limits(&self, expected: &Pass, noise: f64) -> Option<Vec<f64>> {
-        let known = self.reading.iter().filter(|v| v.is_finite());
-        let (low, high) = known.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| {
-            (l.min(v), h.max(v))
-        });
-        let mut moved = self.reading.clone();
-        let mut next = 0;
-        while let Some(first) = (next..moved.len()).find(|k| self.limits[*k].is_some()) {
-            let end = (first..moved.len())
-                .find(|k| self.limits[*k].is_none())
-                .unwrap_or(moved.len());
-            let step = |one: Option<usize>, other: Option<usize>| {
-                let at = |k: Option<usize>| self.reading.get(k?).copied();
-                (at(one)? - at(other)?).abs().into()
-            };
-            let slopes: [Option<f64>; 2] = [
-                step(first.checked_sub(1), first.checked_sub(2)),
-                step(Some(end), Some(end + 1)),
-            ];
-            let steepest = (slopes.iter().flatten().copied()).filter(|slope| slope.is_finite());
-            let excess = (steepest.reduce(f64::max))
-                .map_or(f64::INFINITY, |slope| 0.5 * slope * (end - first) as f64);
-            let excess = (excess + 3.0 * noise).min(high - low);
-            let stretch =
-                (self.limits[first..end].iter().flatten()).zip(&expected.states[first..end]);
-            for (value, (&(limit, side), (state, _))) in moved[first..end].iter_mut().zip(stretch) {
-                let bridge = state[0] + state[ZERO];
-                *value = side * (side * limit).max(side * bridge) + side * excess;
-            }
-            next = end;
-        }
-        (next > 0).then_some(moved)
-    }
-
-    fn samples<'a>(&'a self, input: &Inversion) -> Samples<'a> {
-        Samples {
-            first: self.first,
-            interval: self.interval,
-            reading: &self.reading,
-            angle: &self.angle,
-            speed: &self.speed,
-            fastest: self.speed.iter().fold(0.0, |top, v| top.max(v.abs())),
-            zero: input.zero,
-            zero_wander: input.zero_wander,
-        }
-    }
 }
 
 /// Deviations by which what clipped readings hide may move what is told.

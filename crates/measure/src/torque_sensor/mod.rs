@@ -13,14 +13,17 @@
 //! Not modelled: a second mode, play, a sensor whose damping depends on amplitude. Torque may be in any unit; it comes back in
 //! the unit of the reading.
 
+mod blocks;
 mod chain;
 mod design;
 mod inversion;
+mod line;
 mod response;
+mod swing;
 
 pub use design::{Design, DesignError, design_error};
 pub use inversion::{Clipped, Inversion, Torque, invert};
-pub use response::{FreeResponse, identify_free_response};
+pub use response::{Excitation, FreeResponse, identify_free_response};
 
 use crate::uncertain::Uncertain;
 

@@ -4,20 +4,41 @@
 //! y(t) = level + e^{-ζωt} (A cos ω_d t + B sin ω_d t),   ω_d = ω √(1 − ζ²)
 //! ```
 //!
+//! A tap leaves the level as it was, a step moves it; both end in this swing. What the record holds is found from it: the rest at
+//! its begin, where it ends, and the level to which the reading comes. After a step the swing begins at once, after a tap at the
+//! largest reading, where that leaves too much at the next extreme. A second event ends the fit; steady lines, as of the mains, are
+//! fitted beside the swing where they are seen in the second half, in which it is small.
+//!
 //! Level and amplitudes are solved for linearly inside a search over frequency and damping (variable projection); the covariance
 //! allows for correlated residuals.
+//!
+//! Does not model: a force that lasts, two modes, a line whose frequency changes.
 //! Source: Golub and Pereyra, SIAM J. Numer. Anal. 10 (1973) 413; Newey and West, Econometrica 55 (1987) 703 (both from memory).
 
 use super::Sensor;
-use crate::simplex;
+use super::line::{self, Line};
+use super::swing::{Data, Fit, damping_of};
 use crate::uncertain::Uncertain;
 use std::f64::consts::TAU;
+
+/// What set a sensor swinging.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Excitation {
+    /// A short force: the level is what it was.
+    Tap,
+    /// A load put on or taken off: the level has changed by this, unit of the reading.
+    Step(f64),
+    /// The record shows no rest before the swing.
+    Unknown,
+}
 
 /// Frequency and damping as a free response tells them.
 #[derive(Clone, Debug)]
 pub struct FreeResponse {
     /// The sensor.
     pub sensor: Sensor,
+    /// What set it swinging.
+    pub excitation: Excitation,
     /// Reading after the swing has died, unit of the reading.
     pub level: Uncertain,
     /// Amplitude of the swing at the start of the fit.
@@ -30,10 +51,72 @@ pub struct FreeResponse {
     pub notes: Vec<String>,
 }
 
+/// A swing fitted to the values from a start on.
+struct Found {
+    start: usize,
+    point: [f64; 2],
+    fit: Fit,
+    noise: f64,
+    count: usize,
+}
+
+impl Found {
+    fn of(reading: &[f64], interval: f64, start: usize) -> Result<Found, String> {
+        let values = reading.get(start..).unwrap_or(&[]);
+        let count = values.iter().filter(|v| v.is_finite()).count();
+        if count < 32 {
+            return Err(format!(
+                "{count} values follow the tap; at least 32 are needed"
+            ));
+        }
+        let data = Data { values, interval };
+        let (point, noise) = data.search()?;
+        let fit = fitted(&data, &point)?;
+        Ok(Found {
+            start,
+            point,
+            fit,
+            noise,
+            count,
+        })
+    }
+
+    fn amplitude(&self) -> f64 {
+        self.fit.linear[1].hypot(self.fit.linear[2])
+    }
+
+    fn left(&self) -> f64 {
+        (self.fit.squares / self.count as f64).sqrt()
+    }
+
+    /// Whether more is left than noise.
+    fn leaves_more(&self) -> bool {
+        self.left() > 2.0 * self.noise && self.left() > 0.02 * self.amplitude()
+    }
+}
+
+fn fitted(data: &Data, point: &[f64; 2]) -> Result<Fit, String> {
+    data.fit(point[0].exp(), damping_of(point[1]))
+        .ok_or_else(|| "the free response cannot be told from its level".into())
+}
+
+/// Part of the swing that may be left where tap or step were not told where to begin.
+const LEFT: f64 = 0.2;
+
+/// Damping ratio from which on a sensor hardly swings: a load that is let down slowly looks like one.
+const OVERDAMPED: f64 = 0.7;
+
+/// How much less the swing from the next extreme must leave to be the better one.
+const BETTER: f64 = 0.7;
+
+/// Steady lines that are looked for.
+const LINES: usize = 3;
+
 /// Finds frequency and damping of a sensor from a reading after a tap or a step.
 ///
 /// `interval` in s; `reading` in any unit, NaN where there is none. The fit begins at the index `start`, which must lie after
-/// the end of the tap's force; without it at the largest swing. The error says what is missing.
+/// the end of the force; without it where the swing begins, after a rest that shows the level before. The error says what is
+/// missing; where neither tap nor step is seen, that a start is needed.
 pub fn identify_free_response(
     reading: &[f64],
     interval: f64,
@@ -42,34 +125,107 @@ pub fn identify_free_response(
     if !(interval > 0.0 && interval.is_finite()) {
         return Err("the interval of the tap's reading must be positive and finite".into());
     }
-    let start = match start {
-        Some(start) => start,
-        None => largest_swing(reading),
+    let mut notes = Vec::new();
+    let rest = Rest::of(reading);
+    let mut found = match start {
+        Some(start) => Found::of(reading, interval, start)?,
+        None => {
+            let begin = begin(reading, rest.as_ref());
+            let first = Found::of(reading, interval, begin)?;
+            let next = (first.leaves_more())
+                .then(|| next_extreme(reading, begin))
+                .flatten()
+                .and_then(|next| Found::of(reading, interval, next).ok());
+            match next {
+                Some(next) if next.left() < BETTER * first.left() => next,
+                _ => first,
+            }
+        }
     };
-    let values = reading.get(start..).unwrap_or(&[]);
-    let seen = values.iter().filter(|v| v.is_finite()).count();
-    if seen < 32 {
-        return Err(format!(
-            "{seen} values follow the tap; at least 32 are needed"
+    // the record up to a second event
+    let mut end = reading.len();
+    let data = |end: usize| Data {
+        values: &reading[found.start..end],
+        interval,
+    };
+    let period = 1.0 / (found.point[0].exp() * interval);
+    if let Some(event) = second_event(
+        &data(end).residual(&found.point, &found.fit),
+        period,
+        found.amplitude(),
+    ) {
+        let until = found.start + event;
+        if let Ok(shorter) = Found::of(&reading[..until], interval, found.start) {
+            notes.push(format!(
+                "a second tap or step follows {:.3} s after the first: the record from there on is not used",
+                event as f64 * interval
+            ));
+            (found, end) = (shorter, until);
+        }
+    }
+    let early = rest.as_ref().filter(|_| start.is_none());
+    if let Some(rest) = early.filter(|rest| (rest.end as f64) + 3.0 * period < found.start as f64) {
+        notes.push(format!(
+            "the reading leaves its rest {:.3} s before the swing that is used: more than one tap or step, or a rest that drifts",
+            (found.start - rest.end) as f64 * interval
         ));
     }
-    let data = Data { values, interval };
-    let (point, level_of_noise) = data.search()?;
-    let fit = data
-        .fit(point[0].exp(), damping_of(point[1]))
-        .ok_or("the free response cannot be told from its level")?;
-    let covariance = data
-        .covariance(&point, &fit)
-        .ok_or("the free response does not determine frequency and damping")?;
-    let (frequency, damping) = (point[0].exp(), damping_of(point[1]));
-    let slope = damping * (1.0 - damping);
-    let amplitude = fit.linear[1].hypot(fit.linear[2]);
-    let residual = (fit.squares / seen as f64).sqrt();
-    let mut notes = Vec::new();
-    let length = values.len() as f64 * interval;
-    if residual > 0.2 * amplitude {
+    let raw = &reading[found.start..end];
+    let mut clean = raw.to_vec();
+    for line in take_lines_out(raw, &mut clean, interval, &mut found)? {
         notes.push(format!(
-            "the swing of {amplitude:.3} is hardly above what is left of {residual:.3}"
+            "a steady line at {:.2} Hz, {:.1} % of the swing, was taken out: mains, perhaps",
+            line.frequency,
+            100.0 * line.amplitude() / found.amplitude()
+        ));
+    }
+    let data = Data {
+        values: &clean,
+        interval,
+    };
+    let covariance = data
+        .covariance(&found.point, &found.fit)
+        .ok_or("the free response does not determine frequency and damping")?;
+    let (frequency, damping) = (found.point[0].exp(), damping_of(found.point[1]));
+    let slope = damping * (1.0 - damping);
+    let (amplitude, residual) = (found.amplitude(), found.left());
+    let level = Uncertain::new(found.fit.linear[0], covariance[2].sqrt());
+    let bent = data.drift(frequency, damping);
+    if start.is_none() {
+        let highest = (clean.iter().filter(|v| v.is_finite()))
+            .fold(0.0_f64, |top, v| top.max((v - level.value).abs()));
+        let uneven = residual > LEFT * amplitude && residual > 2.0 * found.noise && bent.is_none();
+        if uneven || amplitude > 3.0 * highest || damping > OVERDAMPED {
+            return Err(format!(
+                "neither a tap nor a step fits the reading: a swing of {frequency:.2} Hz, damped by {damping:.2}, leaves {:.0} % of itself; the time at which its force had ended is needed",
+                100.0 * residual / amplitude
+            ));
+        }
+    }
+    notes.extend(weak(&found, clean.len() as f64 * interval));
+    notes.extend(bent);
+    Ok(FreeResponse {
+        sensor: Sensor {
+            frequency: Uncertain::new(frequency, frequency * covariance[0].sqrt()),
+            damping_ratio: Uncertain::new(damping, slope * covariance[1].sqrt()),
+        },
+        excitation: rest.map_or(Excitation::Unknown, |rest| rest.changed(&level, amplitude)),
+        level,
+        amplitude,
+        residual,
+        start: found.start,
+        notes,
+    })
+}
+
+/// What a swing that was found is too weak for.
+fn weak(found: &Found, length: f64) -> Vec<String> {
+    let (frequency, damping) = (found.point[0].exp(), damping_of(found.point[1]));
+    let share = 100.0 * found.left() / found.amplitude();
+    let mut notes = Vec::new();
+    if share > 20.0 {
+        notes.push(format!(
+            "the swing is hardly above what is left, which is {share:.0} % of it"
         ));
     }
     if frequency * length < 3.0 {
@@ -81,47 +237,127 @@ pub fn identify_free_response(
     if length * TAU * frequency * damping < 1.0 {
         notes.push("the swing has not died within the record: level and damping are weak".into());
     }
-    if damping > 0.7 {
+    if damping > OVERDAMPED {
         notes.push(format!("a sensor damped by {damping:.2} hardly swings: frequency and damping cannot be told apart well"));
     }
-    if residual > 2.0 * level_of_noise && residual > 0.02 * amplitude {
+    if found.leaves_more() {
         notes.push(format!(
-            "the model leaves {residual:.3} where the noise is {level_of_noise:.3}: a second mode, or a force that had not ended"
+            "the model leaves {:.1} times the noise: a second mode, or a force that had not ended",
+            found.left() / found.noise
         ));
     }
-    if let Some(note) = data.drift(frequency, damping) {
-        notes.push(note);
+    notes
+}
+
+/// Fits steady lines and the swing in turns; the values without the lines are left in `clean`.
+fn take_lines_out(
+    raw: &[f64],
+    clean: &mut Vec<f64>,
+    interval: f64,
+    found: &mut Found,
+) -> Result<Vec<Line>, String> {
+    let mut lines: Vec<Line> = Vec::new();
+    while lines.len() < LINES {
+        let data = Data {
+            values: clean.as_slice(),
+            interval,
+        };
+        let residual = data.residual(&found.point, &found.fit);
+        let own = (found.point[0].exp(), damping_of(found.point[1]));
+        let Some(line) = line::strongest(&residual, interval, own) else {
+            break;
+        };
+        lines.push(line);
+        // The swing holds a little of the lines, and they of it.
+        for _ in 0..3 {
+            let data = Data {
+                values: clean.as_slice(),
+                interval,
+            };
+            let mut swingless = data.residual(&found.point, &found.fit);
+            for (value, (raw, clean)) in swingless.iter_mut().zip(raw.iter().zip(clean.iter())) {
+                *value += raw - clean;
+            }
+            line::fit(&mut lines, &swingless, interval);
+            for (k, (value, raw)) in clean.iter_mut().zip(raw).enumerate() {
+                let sum: f64 = lines.iter().map(|line| line.at(k as f64 * interval)).sum();
+                *value = raw - sum;
+            }
+            let data = Data {
+                values: clean.as_slice(),
+                interval,
+            };
+            found.point = data.refined(found.point);
+            found.fit = fitted(&data, &found.point)?;
+        }
     }
-    Ok(FreeResponse {
-        sensor: Sensor {
-            frequency: Uncertain::new(frequency, frequency * covariance[0].sqrt()),
-            damping_ratio: Uncertain::new(damping, slope * covariance[1].sqrt()),
-        },
-        level: Uncertain::new(fit.linear[0], covariance[2].sqrt()),
-        amplitude,
-        residual,
-        start,
-        notes,
-    })
+    Ok(lines)
 }
 
-/// Damping from the variable of the search, which runs over all numbers.
-fn damping_of(variable: f64) -> f64 {
-    (1.0 / (1.0 + (-variable).exp())).clamp(1e-6, 0.999)
+/// A rest at the begin of a record: where it ends, its level and that level's deviation.
+struct Rest {
+    end: usize,
+    level: Uncertain,
 }
 
-fn largest_swing(reading: &[f64]) -> usize {
-    let mut sorted: Vec<f64> = reading.iter().copied().filter(|v| v.is_finite()).collect();
-    sorted.sort_by(f64::total_cmp);
-    // The last quarter of the record shows the level.
+impl Rest {
+    /// None where the record does not begin with one that it leaves.
+    fn of(reading: &[f64]) -> Option<Rest> {
+        let first = reading.get(..(reading.len() / 50).max(16))?;
+        let seen: Vec<f64> = first.iter().copied().filter(|v| v.is_finite()).collect();
+        if seen.len() < 8 {
+            return None;
+        }
+        let count = seen.len() as f64;
+        let mean = seen.iter().sum::<f64>() / count;
+        let spread = (seen.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
+        let widest = seen
+            .iter()
+            .fold(0.0_f64, |top, v| top.max((v - mean).abs()));
+        let whole = (reading.iter().filter(|v| v.is_finite()))
+            .fold(0.0_f64, |top, v| top.max((v - mean).abs()));
+        // beyond the noise, what of it was seen, and a step of a coarse converter
+        let limit = (6.0 * spread).max(1.5 * widest).max(0.02 * whole);
+        let far = |k: usize| (reading[k] - mean).abs() > limit;
+        let end = (first.len()..reading.len().saturating_sub(1)).find(|&k| far(k) && far(k + 1))?;
+        // noise of such a short time is hardly ever white
+        Some(Rest {
+            end,
+            level: Uncertain::new(mean, 2.0 * spread / count.sqrt()),
+        })
+    }
+
+    fn changed(&self, level: &Uncertain, amplitude: f64) -> Excitation {
+        let change = level.value - self.level.value;
+        let deviation = level.deviation.hypot(self.level.deviation);
+        if change.abs() > 5.0 * deviation && change.abs() > 0.2 * amplitude {
+            Excitation::Step(change)
+        } else {
+            Excitation::Tap
+        }
+    }
+}
+
+/// Where a swing begins: the reading furthest from the level to which it comes, after the rest. After a step that is where the
+/// rest ends.
+fn begin(reading: &[f64], rest: Option<&Rest>) -> usize {
+    let after = rest.map_or(0, |rest| rest.end);
+    let level = last_level(reading);
+    furthest(reading, level, after..reading.len())
+}
+
+/// Mean of the last quarter of the values.
+fn last_level(reading: &[f64]) -> f64 {
     let tail = &reading[reading.len() - reading.len() / 4..];
-    let seen = tail.iter().filter(|v| v.is_finite());
-    let count = seen.clone().count();
-    let level = if count > 0 {
-        seen.sum::<f64>() / count as f64
+    let seen: Vec<f64> = tail.iter().copied().filter(|v| v.is_finite()).collect();
+    if seen.is_empty() {
+        0.0
     } else {
-        sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
-    };
+        seen.iter().sum::<f64>() / seen.len() as f64
+    }
+}
+
+fn furthest(reading: &[f64], level: f64, range: std::ops::Range<usize>) -> usize {
     let far = |v: f64| {
         if v.is_finite() {
             (v - level).abs()
@@ -129,268 +365,40 @@ fn largest_swing(reading: &[f64]) -> usize {
             0.0
         }
     };
-    (0..reading.len())
+    let start = range.start;
+    range
         .max_by(|&a, &b| far(reading[a]).total_cmp(&far(reading[b])))
-        .unwrap_or(0)
+        .unwrap_or(start)
 }
 
-struct Data<'a> {
-    values: &'a [f64],
-    interval: f64,
+/// The extreme on the other side of the level that follows a start.
+fn next_extreme(reading: &[f64], start: usize) -> Option<usize> {
+    let level = last_level(reading);
+    let side = (reading[start] - level).signum();
+    let other = |k: &usize| (reading[*k] - level) * side < 0.0;
+    let crossing = (start..reading.len()).find(other)?;
+    let back = (crossing..reading.len())
+        .find(|k| (reading[*k] - level) * side > 0.0)
+        .unwrap_or(reading.len());
+    Some(furthest(reading, level, crossing..back))
 }
 
-/// The linear part of a fit: level, cosine, sine.
-struct Fit {
-    linear: [f64; 3],
-    squares: f64,
-}
-
-impl Data<'_> {
-    /// Calls `each` with decay·cos, decay·sin and the value at every time that has one.
-    fn walk(&self, frequency: f64, damping: f64, mut each: impl FnMut(usize, f64, f64, f64)) {
-        let omega = TAU * frequency;
-        let decay = (-damping * omega * self.interval).exp();
-        let (sine, cosine) = (omega * (1.0 - damping * damping).sqrt() * self.interval).sin_cos();
-        let (mut c, mut s) = (1.0_f64, 0.0_f64);
-        for (k, &value) in self.values.iter().enumerate() {
-            if value.is_finite() {
-                each(k, c, s, value);
-            }
-            (c, s) = (
-                decay * (c * cosine - s * sine),
-                decay * (s * cosine + c * sine),
-            );
-            if c.abs() + s.abs() < 1e-100 {
-                (c, s) = (0.0, 0.0);
-            }
-        }
-    }
-
-    fn fit(&self, frequency: f64, damping: f64) -> Option<Fit> {
-        let mut a = [[0.0; 3]; 3];
-        let mut b = [0.0; 3];
-        let mut power = 0.0;
-        self.walk(frequency, damping, |_, c, s, value| {
-            a[0][0] += 1.0;
-            a[0][1] += c;
-            a[0][2] += s;
-            a[1][1] += c * c;
-            a[1][2] += c * s;
-            a[2][2] += s * s;
-            b[0] += value;
-            b[1] += c * value;
-            b[2] += s * value;
-            power += value * value;
-        });
-        a[1][0] = a[0][1];
-        a[2][0] = a[0][2];
-        a[2][1] = a[1][2];
-        let linear = solved(&a, &b)?;
-        let squares = power - (0..3).map(|i| linear[i] * b[i]).sum::<f64>();
-        Some(Fit {
-            linear,
-            squares: squares.max(0.0),
+/// Place at which the residual, quiet before, becomes loud: a second tap or step. `period` in values.
+fn second_event(residual: &[f64], period: f64, amplitude: f64) -> Option<usize> {
+    let block = (0.5 * period).max(8.0) as usize;
+    let loud: Vec<f64> = residual
+        .chunks_exact(block)
+        .map(|part| {
+            let seen = || part.iter().filter(|v| v.is_finite());
+            (seen().map(|v| v * v).sum::<f64>() / (seen().count() as f64).max(1.0)).sqrt()
         })
-    }
-
-    /// Logarithm of frequency and variable of damping of the best fit, and the noise seen in second differences.
-    fn search(&self) -> Result<([f64; 2], f64), String> {
-        let block = self.values.len().div_ceil(2048);
-        let coarse: Vec<f64> = self
-            .values
-            .chunks(block)
-            .map(|part| part.iter().sum::<f64>() / part.len() as f64)
-            .collect();
-        let thin = Data {
-            values: &coarse,
-            interval: self.interval * block as f64,
-        };
-        let (low, high) = (
-            0.7 / (self.values.len() as f64 * self.interval),
-            0.4 / thin.interval,
-        );
-        let mut best: Option<(f64, [f64; 2])> = None;
-        let mut frequency = low;
-        while frequency < high {
-            for damping in [0.003, 0.01, 0.03, 0.1, 0.2, 0.4, 0.65, 0.85_f64] {
-                let fit = thin
-                    .fit(frequency, damping)
-                    .filter(|f| f.squares.is_finite());
-                if let Some(fit) = fit
-                    && best.is_none_or(|(squares, _)| fit.squares < squares)
-                {
-                    best = Some((
-                        fit.squares,
-                        [frequency.ln(), (damping / (1.0 - damping)).ln()],
-                    ));
-                }
-            }
-            frequency *= 1.04;
-        }
-        let (_, start) = best.ok_or("no frequency fits the free response")?;
-        let (point, _) = simplex::lowest(start, [0.02, 0.3], 1e-12, 300, |p| {
-            self.fit(p[0].exp(), damping_of(p[1]))
-                .map_or(f64::INFINITY, |f| (f.squares.max(1e-300)).ln())
-        });
-        // Third differences let a slow swing pass by less than second ones; white noise has 20 times its variance in them.
-        let mut thirds: Vec<f64> = self
-            .values
-            .windows(4)
-            .map(|w| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).abs())
-            .filter(|v| v.is_finite())
-            .collect();
-        thirds.sort_by(f64::total_cmp);
-        let noise = thirds
-            .get(thirds.len() / 2)
-            .map_or(0.0, |v| v / 0.6745 / 20.0_f64.sqrt());
-        Ok((point, noise))
-    }
-
-    /// Variances of ln f, of the damping's variable and of the level, residuals correlated up to 15 values apart.
-    fn covariance(&self, point: &[f64; 2], fit: &Fit) -> Option<[f64; 3]> {
-        let [level, cosine, sine] = fit.linear;
-        let curve = |p: [f64; 2]| {
-            let mut values = Vec::with_capacity(self.values.len());
-            self.walk(p[0].exp(), damping_of(p[1]), |_, c, s, _| {
-                values.push((c, s))
-            });
-            values
-        };
-        let base = curve(*point);
-        let seen: Vec<f64> = self
-            .values
-            .iter()
-            .copied()
-            .filter(|v| v.is_finite())
-            .collect();
-        let residual: Vec<f64> = base
-            .iter()
-            .zip(&seen)
-            .map(|(&(c, s), v)| v - level - cosine * c - sine * s)
-            .collect();
-        let h = 1e-5;
-        let moved = [0, 1].map(|axis| {
-            let mut up = *point;
-            let mut down = *point;
-            up[axis] += h;
-            down[axis] -= h;
-            let (up, down) = (curve(up), curve(down));
-            up.iter()
-                .zip(&down)
-                .map(|(u, d)| (cosine * (u.0 - d.0) + sine * (u.1 - d.1)) / (2.0 * h))
-                .collect::<Vec<f64>>()
-        });
-        let rows: Vec<[f64; 5]> = (0..base.len())
-            .map(|k| [moved[0][k], moved[1][k], 1.0, base[k].0, base[k].1])
-            .collect();
-        let lags = 15.min(rows.len() / 8);
-        let count = rows.len() as f64;
-        let covary = |lag: usize| {
-            residual
-                .iter()
-                .zip(residual.iter().skip(lag))
-                .map(|(a, b)| a * b)
-                .sum::<f64>()
-                / (count - 5.0).max(1.0)
-        };
-        let mut normal = [[0.0; 5]; 5];
-        let mut meat = [[0.0; 5]; 5];
-        for lag in 0..=lags {
-            let weight = covary(lag) * (1.0 - lag as f64 / (lags + 1) as f64);
-            for (a, b) in rows.iter().zip(rows.iter().skip(lag)) {
-                for i in 0..5 {
-                    for j in 0..5 {
-                        let pair = a[i] * b[j];
-                        if lag == 0 {
-                            normal[i][j] += pair;
-                            meat[i][j] += weight * pair;
-                        } else {
-                            meat[i][j] += weight * (pair + a[j] * b[i]);
-                        }
-                    }
-                }
-            }
-        }
-        let mut variances = [0.0; 3];
-        for (index, variance) in variances.iter_mut().enumerate() {
-            let mut unit = [0.0; 5];
-            unit[index] = 1.0;
-            let row = solved(&normal, &unit)?;
-            let sum: f64 = (0..5)
-                .map(|i| (0..5).map(|j| row[i] * meat[i][j] * row[j]).sum::<f64>())
-                .sum();
-            let white = row[index] * covary(0);
-            // Negative correlation is not credited.
-            *variance = sum.max(white);
-            if !variance.is_finite() || *variance < 0.0 {
-                return None;
-            }
-        }
-        Some(variances)
-    }
-
-    /// Whether the large swings have another frequency than the small ones.
-    fn drift(&self, frequency: f64, damping: f64) -> Option<String> {
-        let split = (1.0 / (TAU * frequency * damping * self.interval)) as usize;
-        let period = 1.0 / (frequency * self.interval);
-        if split < 32 || self.values.len() < split + 32 || (split as f64) < 1.5 * period {
-            return None;
-        }
-        let end = (3 * split).min(self.values.len());
-        let start = [frequency.ln(), (damping / (1.0 - damping)).ln()];
-        let mut found = [(0.0, 0.0); 2];
-        for (part, values) in found
-            .iter_mut()
-            .zip([&self.values[..split], &self.values[split..end]])
-        {
-            let data = Data {
-                values,
-                interval: self.interval,
-            };
-            let (point, _) = simplex::lowest(start, [0.01, 0.1], 1e-10, 200, |p| {
-                data.fit(p[0].exp(), damping_of(p[1]))
-                    .map_or(f64::INFINITY, |f| (f.squares.max(1e-300)).ln())
-            });
-            let fit = data.fit(point[0].exp(), damping_of(point[1]))?;
-            *part = (point[0], data.covariance(&point, &fit)?[0]);
-        }
-        let difference = found[0].0 - found[1].0;
-        let deviation = (found[0].1 + found[1].1).sqrt();
-        (difference.abs() > 4.0 * deviation).then(|| {
-            format!(
-                "large swings have a frequency {:.2} % {} than small ones: the sensor is not linear",
-                100.0 * difference.abs(),
-                if difference > 0.0 { "higher" } else { "lower" }
-            )
-        })
-    }
-}
-
-/// Solution of a small symmetric system by elimination with pivots; none if it is singular.
-fn solved<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Option<[f64; N]> {
-    let (mut a, mut x) = (*a, *b);
-    let size = (0..N).map(|i| a[i][i].abs()).fold(0.0, f64::max);
-    for column in 0..N {
-        let pivot =
-            (column..N).max_by(|&i, &j| a[i][column].abs().total_cmp(&a[j][column].abs()))?;
-        let found = a[pivot][column].abs();
-        if found <= 1e-13 * size || found.is_nan() {
-            return None;
-        }
-        a.swap(column, pivot);
-        x.swap(column, pivot);
-        for row in column + 1..N {
-            let factor = a[row][column] / a[column][column];
-            let source = a[column];
-            for (value, from) in a[row].iter_mut().zip(&source) {
-                *value -= factor * from;
-            }
-            x[row] -= factor * x[column];
-        }
-    }
-    for row in (0..N).rev() {
-        let rest: f64 = (row + 1..N).map(|j| a[row][j] * x[j]).sum();
-        x[row] = (x[row] - rest) / a[row][row];
-    }
-    Some(x)
+        .collect();
+    let mut sorted = loud.clone();
+    sorted.sort_by(f64::total_cmp);
+    let usual = *sorted.get(sorted.len() / 2)?;
+    let quiet = loud.iter().position(|l| *l < 2.5 * usual)?;
+    let event =
+        (quiet..loud.len()).find(|&k| loud[k] > 6.0 * usual && loud[k] > 0.1 * amplitude)?;
+    // it may have begun in the block before
+    Some((event.saturating_sub(1)) * block)
 }

@@ -84,6 +84,38 @@ fn the_disturbance_turns_with_the_shaft_and_grows_with_its_square() {
 }
 
 #[test]
+fn a_run_out_is_there_at_rest_and_an_unbalance_is_not() {
+    let disturbance = Disturbance {
+        amplitude: 2e-3,
+        reference_speed: SPEED,
+        exponent: 0.0,
+        phase: 0.3,
+    };
+    for angle in [0.0, 1.0, 4.0] {
+        let at_rest = disturbance.moment(angle, 0.0);
+        assert!((at_rest - 2e-3 * (angle + 0.3_f64).cos()).abs() < 1e-15);
+        // and no jump where it begins to turn
+        assert_eq!(at_rest, disturbance.moment(angle, 1e-9));
+        for exponent in [1.0, 2.0] {
+            let grows = Disturbance {
+                exponent,
+                ..disturbance
+            };
+            assert_eq!(grows.moment(angle, 0.0), 0.0);
+        }
+    }
+    let mut c = concentric(
+        BearingConstants::Rolling(rolls()),
+        Program::ramp_and_hold(SPEED, 50.0, 5.0),
+    );
+    c.arm.disturbance = disturbance;
+    let run = run(c, 0.1, 1e-6);
+    let first = run.record.rows().next().expect("rows");
+    // settled before the start
+    assert_eq!(first.state[ARM], disturbance.moment(0.0, 0.0));
+}
+
+#[test]
 fn the_thermocouple_follows_the_bearing() {
     let c = concentric(
         BearingConstants::Rolling(rolls()),

@@ -239,8 +239,18 @@ fn sensor(
         }
         (Some(SensorSource::Tap { tap_start, .. }), Some(tap)) => {
             let start = tap_start.map(|start| (start / tap.interval).ceil() as usize);
-            let response = identify_free_response(&tap.values, tap.interval, start)
-                .map_err(|why| format!("the tap does not tell the sensor: {}, {why}", tap.name))?;
+            let response =
+                identify_free_response(&tap.values, tap.interval, start).map_err(|why| {
+                    let told = if start.is_none() {
+                        "; signals.torque.tap_start tells from where on the sensor swings freely"
+                    } else {
+                        ""
+                    };
+                    format!(
+                        "the tap does not tell the sensor: {}, {why}{told}",
+                        tap.name
+                    )
+                })?;
             notes.extend(response.notes.iter().map(|note| format!("tap: {note}")));
             Ok(Some(response.sensor))
         }
@@ -321,7 +331,14 @@ fn inverted(
             "{why}, and nothing that changes is left of the reading beside it"
         ));
     }
-    let torque = invert(&input)?;
+    let mut torque = invert(&input)?;
     notes.extend(torque.notes.iter().cloned());
+    if turning.is_none() && wish.disturbance != Disturbance::None {
+        torque.hold_what_swings();
+        notes.push(
+            "the band of the torque holds what swings in it within half a second: a disturbance once a turn may be a part of that"
+                .to_string(),
+        );
+    }
     Ok(torque)
 }

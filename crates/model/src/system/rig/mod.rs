@@ -160,14 +160,15 @@ pub struct Arm {
     pub disturbance: Disturbance,
 }
 
-/// A disturbance d = a (|Ω|/Ω_ref)^p cos(φ + ψ) that lateral vibration adds to the moment, φ the angle of the shaft.
+/// A disturbance d = a (|Ω|/Ω_ref)^p cos(φ + ψ) that lateral vibration adds to the moment, φ the angle of the shaft. With p = 0,
+/// a run-out, it is there at rest too: a cos(φ + ψ) at the angle where the shaft rests.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disturbance {
     /// Amplitude a at the reference speed, N m.
     pub amplitude: f64,
     /// Reference speed Ω_ref, rad/s.
     pub reference_speed: f64,
-    /// Exponent p of the speed; 2 for an unbalance well below its resonance.
+    /// Exponent p of the speed; 2 for an unbalance well below its resonance, 0 for a run-out.
     pub exponent: f64,
     /// Phase ψ, rad.
     pub phase: f64,
@@ -184,11 +185,18 @@ impl Disturbance {
     /// Its value at an angle (rad) and speed (rad/s) of the shaft, N m.
     #[inline]
     pub fn moment(&self, angle: f64, speed: f64) -> f64 {
-        if self.amplitude == 0.0 || speed == 0.0 {
+        // a run-out is there at rest too; what grows with speed is not
+        let growth = if self.exponent == 0.0 {
+            1.0
+        } else if speed == 0.0 {
+            0.0
+        } else {
+            Real::exp(self.exponent * Real::ln((speed / self.reference_speed).abs()))
+        };
+        if self.amplitude == 0.0 || growth == 0.0 {
             return 0.0;
         }
-        let ratio = Real::ln((speed / self.reference_speed).abs());
-        self.amplitude * Real::exp(self.exponent * ratio) * Real::sin_cos(angle + self.phase).1
+        self.amplitude * growth * Real::sin_cos(angle + self.phase).1
     }
 }
 
@@ -363,7 +371,8 @@ impl RigMachine {
     pub fn channel_name(&self, channel: usize) -> String {
         self.layout.channel_name(&self.constants.bearing, channel)
     }
-    /// The state at the start: the bearing settled under its load, its balls rolling with the shaft.
+    /// The state at the start: the bearing settled under its load, its balls rolling with the shaft, the arm settled under what
+    /// disturbs it where the shaft rests.
     pub fn start(&self) -> Vec<f64> {
         let c = &self.constants;
         let mut state = vec![0.0; self.layout.dimension()];
@@ -378,6 +387,9 @@ impl RigMachine {
         }
         state[layout::SHAFT + 1] = c.program.start.shaft_speed;
         state[layout::FLYWHEEL + 1] = c.program.start.flywheel_speed;
+        if c.program.start.shaft_speed == 0.0 {
+            state[layout::ARM] = c.arm.disturbance.moment(state[layout::SHAFT], 0.0);
+        }
         if let BearingConstants::Planar(bearing) = &c.bearing {
             bearing.roll(&mut state[own], c.program.start.shaft_speed);
         }
