@@ -122,7 +122,7 @@ fn identified(folder: &Path, more: &str) -> Outcome {
         "format = \"auxbear.scenario/1\"\nsystem = \"identify\"\n[identify]\n\
          coast_down = [\"coast_down/signals.toml\"]\nviscosity = \"100 mm^2/s\"\nexplanations.compare = false\n\
          [identify.rotor_friction]\nfile = \"drop.toml\"\nrotor_speed = \"{ROTOR_SPEED} rad/s\"\nradial_load = \"60 N\"\n\
-         load_deviation = 0.02\nbore_diameter = \"25 mm\"\ninertia = \"3.5e-4 kg m^2\"\n{more}\n\
+         load_deviation = 0.02\nbore_diameter = \"25 mm\"\nradial_air_clearance = \"0.05 mm\"\ninertia = \"3.5e-4 kg m^2\"\n{more}\n\
          [bearing]\nname = \"6005\"\n"
     );
     written(folder, "identify.toml", &text);

@@ -140,7 +140,7 @@ pub struct RotorFriction {
     pub points: Vec<FrictionPoint>,
     /// What is not trustworthy.
     pub notes: Vec<String>,
-    /// Parts of `points`, each within one turn of the rotor.
+    /// Parts of `points`, each of one turn of the rotor.
     windows: Vec<Window>,
     correlation_time: f64,
 }

@@ -1,10 +1,11 @@
 //! Means over whole turns of the rotor: what its unbalance swings averages out of them, and out of nothing shorter.
 //!
 //! ```text
-//!   window    the points of one turn; whole where they cover nine tenths of it
+//!   window    the points of one turn, each half a turn behind the one before; whole where they cover nine tenths of it
 //!   swing     root mean square of μ about a straight line over the turn
-//!   band      swing/(2π n) of n whole turns: a radian of phase by which the swing of one does not meet that of the next;
+//!   band      swing/(2π n) of n turns: a radian of phase by which the swing of one does not meet that of the next;
 //!             all of the swing where none is whole
+//!   n         (windows + 1)/2: half of each is in the next
 //! ```
 
 use super::FrictionPoint;
@@ -46,22 +47,31 @@ impl Window {
     }
 }
 
-/// Points by turns of the rotor, counted from the first.
+/// Points by turns of the rotor, counted from the first; where none is whole, one after another.
 ///
 /// - `places`: of each point, turns of the rotor until then, and the part of a turn that it stands for
 pub(super) fn windows(points: &[FrictionPoint], places: &[(f64, f64)]) -> Vec<Window> {
-    let begin = places.first().map_or(0.0, |place| place.0);
-    let turn = |k: usize| (places[k].0 - begin).floor();
-    let mut list = Vec::new();
-    let mut first = 0;
-    for k in 1..=points.len() {
-        if k < points.len() && turn(k) == turn(first) {
-            continue;
-        }
-        list.push(window(&points[first..k], &places[first..k]));
-        first = k;
+    let overlapping = stepped(points, places, 0.5);
+    match overlapping.iter().any(Window::whole) {
+        true => overlapping,
+        false => stepped(points, places, 1.0),
     }
-    list
+}
+
+/// Windows that begin so many turns apart.
+fn stepped(points: &[FrictionPoint], places: &[(f64, f64)], step: f64) -> Vec<Window> {
+    let (Some(begin), Some(end)) = (places.first(), places.last()) else {
+        return Vec::new();
+    };
+    let count = ((end.0 - begin.0) / step).floor() as usize + 1;
+    (0..count)
+        .filter_map(|k| {
+            let from = begin.0 + step * k as f64;
+            let first = places.partition_point(|place| place.0 < from);
+            let last = places.partition_point(|place| place.0 < from + 1.0);
+            (first < last).then(|| window(&points[first..last], &places[first..last]))
+        })
+        .collect()
 }
 
 fn window(points: &[FrictionPoint], places: &[(f64, f64)]) -> Window {
@@ -143,7 +153,12 @@ pub(super) fn mean(part: &[&Window], correlation_time: f64) -> FrictionPoint {
     };
     let count: f64 = of.iter().map(|window| window.count).sum();
     let mean = |f: &dyn Fn(&Window) -> f64| of.iter().map(|w| w.count * f(w)).sum::<f64>() / count;
-    let lasting: f64 = of.iter().map(|window| window.lasting).sum();
+    // half of a whole turn is in the next
+    let turns = match whole.len() {
+        0 => of.len() as f64,
+        some => 0.5 * (some as f64 + 1.0),
+    };
+    let lasting = turns * mean(&|w| w.lasting);
     let independent = if correlation_time > 0.0 {
         (lasting / correlation_time).clamp(1.0, count)
     } else {
@@ -153,7 +168,7 @@ pub(super) fn mean(part: &[&Window], correlation_time: f64) -> FrictionPoint {
     let swing = if whole.is_empty() {
         swing
     } else {
-        swing / (std::f64::consts::TAU * whole.len() as f64)
+        swing / (std::f64::consts::TAU * turns)
     };
     let shared = mean(&|w| w.shared);
     let slip = mean(&|w| w.slip);

@@ -113,6 +113,18 @@ function quickFigures(run, test) {
   return [figure(`${test.name}: speed and acceleration after the engagement, closely`, null, look("speed", "speed [rad/s]", SERIES_COLOURS.rotor), look("acceleration", "acceleration [rad/s²]", SERIES_COLOURS.race))];
 }
 
+// F over the spin-ups closely: its band is wide only there.
+function frictionClosely(run, tests) {
+  const until = Math.max(...tests.map((test) => numberOf(run, `${test.key}.dissipation_until`) || 0));
+  const rows = rowsUpTo(run, 2 * until);
+  const x = rows.map((row) => 1e3 * run.time[row]);
+  const series = tests.flatMap((test, index) => {
+    const of = (name) => rows.map((row) => (columnOf(run, `${test.key}.${name}`) || [])[row]);
+    return columnOf(run, `${test.key}.friction`) ? bandCurves(x, of("friction"), of("friction_deviation"), 1, test.name, LINE_COLOURS[index % LINE_COLOURS.length]) : [];
+  });
+  return until > 0 && series.length ? curves({ series, across: "time since the engagement [ms]", upright: "F [N]", height: 260 }) : null;
+}
+
 // The first part of a test closely, where its torque is decided.
 function closeFigure(run, test) {
   const rows = rowsUpTo(run, 0.6);
@@ -172,7 +184,7 @@ function lossFigures(run, runs) {
   const friction = tests.flatMap((test, index) => bandLines([run], `${test.key}.friction`, `${test.key}.friction_deviation`, 1, { label: `${test.name} [N]`, colour: LINE_COLOURS[index % LINE_COLOURS.length], width: 1.25 }));
   return [
     figure(shareOfRun(run, runs, "Beyond the steady moment"), "± is twice the standard deviation. Slip and skid: probability that it happened at any time that the signals tell of; a slip before about ten balls have passed is not seen. The spin of the balls is told by the torque alone and takes M to hold: a lubricant in another state than in the slow tests looks like skid.", table),
-    figure(shareOfRun(run, runs, "Friction F of the accelerated balls"), friction.length ? `Where the balls are known to roll, of tests that come to M; elsewhere t_O − M alone is known. No friction is negative: where F is, the lubricant or the sensor was in another state than in the slow tests. ${BAND_WORDS}` : null, friction.length ? timePlot({ series: friction, label: "F [N]", include: () => [0], height: 240 }) : notInThisRun("F: " + (quantityOf(run, "loss_map_friction").why || "nowhere are the balls known to roll"), run)),
+    figure(shareOfRun(run, runs, "Friction F of the accelerated balls"), friction.length ? `Where the balls are known to roll, of tests that come to M; elsewhere t_O − M alone is known. No friction is negative: where F is, the lubricant or the sensor was in another state than in the slow tests. ${BAND_WORDS}` : null, friction.length ? timePlot({ series: friction, label: "F [N]", include: () => [0], height: 240 }) : notInThisRun("F: " + (quantityOf(run, "loss_map_friction").why || "nowhere are the balls known to roll"), run), friction.length ? frictionClosely(run, tests) : null),
     mapFigure(run, runs),
     figure(shareOfRun(run, runs, "What the spin-up dissipated"), "From the engagement until 99 % of the largest speed: where a motor brings up the last per cent, most of it is steady running. ± is twice the standard deviation. The printed form has the factor 1 + 2s where none belongs.", energies),
   ];

@@ -80,9 +80,9 @@ impl TestFound {
     }
 }
 
-/// What a verdict names as the cause of t_O - M, where that is neither friction nor inertia of the balls.
-fn other_cause(verdict: &Verdict) -> Option<String> {
-    let Conclusion::Supported(explanation) = verdict.conclusion else {
+/// What a conclusion names as the cause of t_O - M, where that is neither friction nor inertia of the balls.
+fn other_cause(conclusion: &Conclusion) -> Option<String> {
+    let Conclusion::Supported(explanation) = conclusion else {
         return None;
     };
     match explanation {
@@ -219,7 +219,7 @@ impl Found {
                 None => explained(&tests, moment, &set, how),
             },
         };
-        let cause = verdict.as_ref().ok().and_then(other_cause);
+        let cause = (verdict.as_ref().ok()).and_then(|verdict| other_cause(&verdict.conclusion));
         for test in &mut tests {
             test.other_cause.clone_from(&cause);
         }
@@ -510,4 +510,25 @@ fn rubbed(
         ));
     }
     Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_explained_otherwise_is_not_friction_of_balls() {
+        for explanation in Explanation::ALL {
+            let cause = other_cause(&Conclusion::Supported(explanation));
+            let other = matches!(
+                explanation,
+                Explanation::Grease | Explanation::Sensor | Explanation::AnotherMoment
+            );
+            assert_eq!(cause.is_some(), other, "{}", explanation.name());
+            assert!(cause.is_none_or(|why| why.contains(explanation.name())));
+        }
+        let left = Conclusion::Undecided(Explanation::ALL.to_vec());
+        assert_eq!(other_cause(&left), None);
+        assert_eq!(other_cause(&Conclusion::NoneOfThese), None);
+    }
 }

@@ -24,11 +24,16 @@ pub enum RampError {
     NotPositive,
     /// The rig cannot be built.
     Refused(RigRefusal),
-    /// The clutch never locked.
+    /// The clutch never locked, however quickly it engaged.
     NeverLocks,
+    /// With the wanted acceleration the shaft does not come to the flywheel's speed before the test ends or the clutch is released.
+    TooSlow {
+        /// The smallest acceleration with which it was seen to, rad/s².
+        smallest: f64,
+    },
     /// The acceleration is out of reach.
     OutOfReach {
-        /// The acceleration that came nearest, rad/s².
+        /// The largest acceleration that was seen, or the nearest where it lies between those that were, rad/s².
         nearest: f64,
     },
 }
@@ -45,9 +50,13 @@ impl fmt::Display for RampError {
                 f,
                 "the clutch never locks: its capacity does not carry the shaft to the flywheel's speed"
             ),
+            RampError::TooSlow { smallest } => write!(
+                f,
+                "the shaft does not come to the flywheel's speed before the clutch is released or the search ends; the smallest acceleration with which it was seen to is {smallest:.3e} rad/s²"
+            ),
             RampError::OutOfReach { nearest } => write!(
                 f,
-                "no engagement gives the wanted acceleration; the nearest is {nearest:.4e} rad/s²: see the largest capacity of the clutch"
+                "no engagement gives the wanted acceleration; the nearest that was seen is {nearest:.3e} rad/s²: see the largest capacity of the clutch"
             ),
         }
     }
@@ -59,6 +68,10 @@ impl std::error::Error for RampError {}
 const FOUND: f64 = 1e-4;
 /// Runs of a search.
 const RUNS: usize = 25;
+/// Runs without a locking, each with 20 times the rate of the one before, after which the clutch is too weak.
+const TRIES: usize = 8;
+/// Rates that are looked at where the search fails, each e times the one before: from below the guess to above it.
+const SCAN: std::ops::RangeInclusive<i32> = -12..=4;
 
 /// The rise of the clutch's capacity (N m/s) with which the largest acceleration of the shaft in the test is the wanted one
 /// (rad/s²), to 0.01 %, the balls rolling. The test is the program of the rig, up to the first locking; the rate of its
@@ -84,20 +97,34 @@ pub fn engagement_ramp(
     }
     let inertia = rig.shaft.inertia + rig.bearing.set().inner_inertia();
     let duration = 2.0 * speed / acceleration;
-    let end = engaged_at + 10.0 * duration + 10.0;
+    // released again, it never locks later
+    let released = (rig.program.actions.iter())
+        .filter(|(time, action)| *time > engaged_at && matches!(action, Action::Disengage))
+        .map(|(time, _)| *time);
+    let end = released.fold(engaged_at + 10.0 * duration + 10.0, f64::min);
 
-    let mut rate = 0.5 * inertia * acceleration * acceleration / speed;
+    let guess = 0.5 * inertia * acceleration * acceleration / speed;
+    let mut rate = guess;
     let mut last: Option<(f64, f64)> = None;
-    let mut nearest = f64::INFINITY;
-    for _ in 0..RUNS {
-        let peak = peak_acceleration(&rig, rate, end)?;
+    let mut seen = Seen::default();
+    for run in 0..RUNS {
+        let Some(peak) = peak_acceleration(&rig, rate, end)? else {
+            if seen.locked.is_empty() && run + 1 >= TRIES {
+                return Err(RampError::NeverLocks);
+            }
+            seen.loose = seen.loose.max(rate);
+            rate = match seen.slowest() {
+                Some((locked, _)) => (rate * locked).sqrt(),
+                None => 20.0 * rate,
+            };
+            last = None;
+            continue;
+        };
         let off = (peak / acceleration).ln();
         if off.abs() < FOUND {
             return Ok(rate);
         }
-        if off.abs() < (nearest / acceleration).ln().abs() {
-            nearest = peak;
-        }
+        seen.locked.push((rate, peak));
         let here = (rate.ln(), off);
         // ½ by the formula above; a secant that leads far away is none
         let slope = match last {
@@ -105,13 +132,56 @@ pub fn engagement_ramp(
             _ => 0.5,
         };
         last = Some(here);
-        rate = (here.0 - (off / slope).clamp(-3.0, 3.0)).exp();
+        let next = (here.0 - (off / slope).clamp(-3.0, 3.0)).exp();
+        // slower than what never locks there is nothing
+        rate = if next > seen.loose {
+            next
+        } else {
+            (seen.loose * rate).sqrt()
+        };
     }
+    if let Some((_, smallest)) = seen.slowest()
+        && seen.loose > 0.0
+        && acceleration < smallest
+    {
+        return Err(RampError::TooSlow { smallest });
+    }
+    for step in SCAN {
+        let rate = guess * f64::from(step).exp();
+        if let Some(peak) = peak_acceleration(&rig, rate, end)? {
+            seen.locked.push((rate, peak));
+        }
+    }
+    let off = |peak: f64| (peak / acceleration).ln().abs();
+    let peaks = seen.locked.iter().map(|(_, peak)| *peak);
+    let nearest = peaks.fold(f64::NAN, |nearest: f64, peak| {
+        if off(peak) < off(nearest) || nearest.is_nan() {
+            peak
+        } else {
+            nearest
+        }
+    });
     Err(RampError::OutOfReach { nearest })
 }
 
-/// Largest acceleration of the shaft up to the locking, rad/s².
-fn peak_acceleration(rig: &RigConstants, rate: f64, end: f64) -> Result<f64, RampError> {
+/// What a search has seen.
+#[derive(Default)]
+struct Seen {
+    /// Largest rate with which the clutch never locked, N m/s; 0 where there was none.
+    loose: f64,
+    /// Rates with which it did, N m/s, and the largest acceleration of each, rad/s².
+    locked: Vec<(f64, f64)>,
+}
+
+impl Seen {
+    fn slowest(&self) -> Option<(f64, f64)> {
+        let rates = self.locked.iter().copied();
+        rates.min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+}
+
+/// Largest acceleration of the shaft up to the locking, rad/s²; none where the clutch does not lock.
+fn peak_acceleration(rig: &RigConstants, rate: f64, end: f64) -> Result<Option<f64>, RampError> {
     let mut rig = rig.clone();
     for (_, action) in &mut rig.program.actions {
         if let Action::Engage(by) = action {
@@ -134,8 +204,6 @@ fn peak_acceleration(rig: &RigConstants, rate: f64, end: f64) -> Result<f64, Ram
         step_limit: 1_000_000,
     };
     let run = until_locked(&machine, &settings, &mut record);
-    match run.ending.stop {
-        Stop::Halted(_) if run.mode.clutch == Clutch::Locked => Ok(record.acceleration.value),
-        _ => Err(RampError::NeverLocks),
-    }
+    let locked = matches!(run.ending.stop, Stop::Halted(_)) && run.mode.clutch == Clutch::Locked;
+    Ok(locked.then_some(record.acceleration.value))
 }
