@@ -1,8 +1,12 @@
 //! A measurement through its front: the made-up spin-up against the motion it was made from, and files that are wrong.
 
+#[path = "measurement_file/mod.rs"]
+mod measurement_file;
+
 use auxbear::scenario::{BuiltIn, Scenario};
 use auxbear::simulate::outcome::{Outcome, Value};
 use auxbear::simulate::{Options, build, run};
+use measurement_file::{TORQUE, problem, table};
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -223,36 +227,6 @@ fn the_resolved_file_runs_again() {
     fs::write(&copy, scenario.resolved.toml()).unwrap();
     let again = Scenario::read(&copy, &[], &BuiltIn).unwrap();
     assert_eq!(computed(&scenario).quantities, computed(&again).quantities);
-}
-
-/// The problem that a measurement file of this name and content makes.
-fn problem(name: &str, content: &str, more: &str) -> String {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join(name), content).unwrap();
-    let text = format!(
-        "format = \"auxbear.scenario/1\"\nsystem = \"signals\"\n[signals]\nfile = \"{name}\"\n{more}"
-    );
-    let file = folder.path().join("a.toml");
-    fs::write(&file, text).unwrap();
-    let scenario = Scenario::read(&file, &[], &BuiltIn).unwrap();
-    let never = AtomicBool::new(false);
-    let told = match build(&scenario, &Options::unwatched(&never)) {
-        Ok(_) => panic!("nothing is found wrong with {name}"),
-        Err(problem) => problem.to_string(),
-    };
-    told.replace(&format!("{}/", folder.path().display()), "")
-}
-
-const TORQUE: &str = "[signals.torque]\nchannel = \"torque\"\n";
-
-/// A table of 40 rows whose time is changed in one of them.
-fn table(unit: &str, change: &dyn Fn(usize) -> Option<&'static str>) -> String {
-    let mut text = format!("time,torque\ns,{unit}\n");
-    for row in 0..40 {
-        let time = change(row).map_or(format!("{:.3}", row as f64 * 0.001), str::to_string);
-        text.push_str(&format!("{time},{}\n", (row * 7) % 11));
-    }
-    text
 }
 
 #[test]
@@ -556,95 +530,6 @@ fn the_choice_of_a_sensor_is_shown() {
     };
     // 150 rad/s are 23.9 turns a second: an arm of 25 Hz swings with them, a softer and a stiffer one less
     assert!(at(25.0) > at(18.0) && at(25.0) > at(50.0), "{raw:?}");
-}
-
-/// Times without a unit are taken only as the scenario says: an instant of 3 is not three seconds by itself.
-#[test]
-fn times_without_a_unit_are_asked_for() {
-    let bare = table("N mm", &|_| None).replace("s,N mm\n", ",N mm\n");
-    assert_eq!(
-        problem("run.csv", &bare, TORQUE),
-        "error[AB0306]: a.toml:6: signals.torque.channel: found run.csv, times in channel \"time\" without a unit; their unit is needed: signals.time_unit = \"s\", or in the file, as in \"time [s]\""
-    );
-    let edges = "[signals.speed]\nchannel = \"time\"\nkind = \"edges\"\nstamp_deviation = \"1 us\"\nmarks_per_revolution = 60\n";
-    let told = problem("run.csv", &bare, edges);
-    assert!(
-        told.contains("AB0306") && told.contains("signals.time_unit"),
-        "{told}"
-    );
-    // 40 rows of 1 ms: with the key the clock is that of the unit
-    for (unit, rate) in [("s", 1e3), ("ms", 1e6)] {
-        let told = problem(
-            "run.csv",
-            &bare,
-            &format!("time_unit = \"{unit}\"\n{TORQUE}highest_frequency = \"1e9 Hz\"\n"),
-        );
-        let half = format!("to {} Hz is needed", 0.5 * rate);
-        assert!(told.contains(&half), "{told}");
-    }
-}
-
-/// An interval in the scenario beside a clock of the file is held against it.
-#[test]
-fn an_interval_that_contradicts_the_file_is_told() {
-    let told = problem(
-        "run.csv",
-        &table("N mm", &|_| None),
-        &format!("sample_interval = \"0.1 ms\"\n{TORQUE}"),
-    );
-    assert_eq!(
-        told,
-        "error[AB0305]: a.toml:5: signals.sample_interval: found run.csv, channel \"torque\", whose clock has an interval of 1000 us, beside 100 us here; leave signals.sample_interval away: the file tells the clock of its channels"
-    );
-    // the same interval is no contradiction
-    let same = problem(
-        "run.csv",
-        &table("N mm", &|_| None),
-        &format!("sample_interval = \"1 ms\"\n{TORQUE}highest_frequency = \"1e9 Hz\"\n"),
-    );
-    assert!(same.contains("highest_frequency"), "{same}");
-}
-
-#[test]
-fn two_channels_of_one_name_are_told() {
-    let told = problem(
-        "run.csv",
-        "time,torque,torque\ns,N mm,N mm\n0,1,2\n0.1,2,3\n0.2,3,4\n",
-        TORQUE,
-    );
-    assert!(
-        told.contains("2 channels \"torque\", the first two as numbers 2 and 3 of 3"),
-        "{told}"
-    );
-}
-
-/// A crash cut the file before the channel came: the message tells the cut.
-#[test]
-fn a_channel_that_a_cut_took_away_is_told_with_the_cut() {
-    let whole = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/data/spin_up.tdms");
-    let bytes = fs::read(whole).unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("a.toml");
-    fs::write(
-        &file,
-        format!("format = \"auxbear.scenario/1\"\nsystem = \"signals\"\n[signals]\nfile = \"cut.tdms\"\n{TORQUE}"),
-    )
-    .unwrap();
-    let mut told = Vec::new();
-    for part in [60, 200, 400, 800] {
-        fs::write(folder.path().join("cut.tdms"), &bytes[..part]).unwrap();
-        let scenario = Scenario::read(&file, &[], &BuiltIn).unwrap();
-        let never = AtomicBool::new(false);
-        if let Err(problem) = build(&scenario, &Options::unwatched(&never)) {
-            told.push(problem.to_string());
-        }
-    }
-    println!("{told:#?}");
-    assert!(!told.is_empty());
-    for text in told.iter().filter(|text| text.contains("AB0304")) {
-        assert!(text.contains("what was read of it: cut.tdms"), "{text}");
-    }
-    assert!(told.iter().any(|text| text.contains("AB0304")), "{told:?}");
 }
 
 /// A damping ratio that is wrong by ten changes the torque by half: one that stops every swing does not pass in silence.

@@ -109,7 +109,8 @@ fn held(truth: &Motion, speed: &Speed, from: f64, to: f64) -> ([f64; 2], [f64; 2
         let got = speed.at(time);
         let errors = [
             (got.speed - truth.of(&truth.speed, time)) / got.speed_uncertainty(),
-            (got.acceleration - truth.of(&truth.acceleration, time)) / got.acceleration_uncertainty(),
+            (got.acceleration - truth.of(&truth.acceleration, time))
+                / got.acceleration_uncertainty(),
         ];
         for i in 0..2 {
             inside[i] += f64::from(u8::from(errors[i].abs() < 2.0)) / LOOKS as f64;
@@ -124,7 +125,12 @@ fn report(name: &str, truth: &Motion, samples: &[f64]) {
         Err(why) => println!("{name}: REFUSED {why}"),
         Ok((pulses, speed)) => {
             let z = |(value, deviation): (f64, f64), truth: f64| {
-                format!("{:.5}±{:.1e} (z {:.1})", value, deviation, (value - truth) / deviation)
+                format!(
+                    "{:.5}±{:.1e} (z {:.1})",
+                    value,
+                    deviation,
+                    (value - truth) / deviation
+                )
             };
             let change = speed.change.as_ref();
             print!("{name}: {} pulses;", pulses.times.len());
@@ -134,7 +140,10 @@ fn report(name: &str, truth: &Motion, samples: &[f64]) {
                     print!(" lock {}", z(end, truth.lock));
                 }
             }
-            println!(" timing {:.2} angle {:.1e}", speed.timing_factor, speed.angle_noise);
+            println!(
+                " timing {:.2} angle {:.1e}",
+                speed.timing_factor, speed.angle_noise
+            );
             let (a, b) = (truth.lock - truth.engage, truth.stop - truth.release);
             for (phase, from, to) in [
                 ("change", truth.engage, truth.lock - 1e-4),
@@ -145,7 +154,13 @@ fn report(name: &str, truth: &Motion, samples: &[f64]) {
                 ("creep", truth.stop - 0.2 * b, truth.stop + 0.02),
             ] {
                 let (inside, worst) = held(truth, &speed, from, to);
-                print!("   {phase} {:.0}/{:.0}% ({:.1}/{:.1})", 100.0 * inside[0], 100.0 * inside[1], worst[0], worst[1]);
+                print!(
+                    "   {phase} {:.0}/{:.0}% ({:.1}/{:.1})",
+                    100.0 * inside[0],
+                    100.0 * inside[1],
+                    worst[0],
+                    worst[1]
+                );
             }
             println!();
             for note in &speed.notes {
@@ -165,21 +180,43 @@ fn edges_of(name: &str, truth: &Motion, samples: &[f64], seed: u64) {
         let off = (turned / TAU).round() * TAU - turned;
         let w = truth.of(&truth.speed, *t).max(1e-3);
         let error = -off / 60.0 / w;
-        let bin = if k < 6 { format!("first{k}") } else if k + 6 > e.times.len() { format!("last{}", e.times.len() - k) } else if *t < truth.lock { "change".into() } else if *t < truth.release { "hold".into() } else { format!("coast{:.0}", (w / 30.0).floor() * 30.0) };
-        match bins.iter_mut().find(|b| b.0 == bin) { Some(b) => b.1.push((error, *u)), None => bins.push((bin, vec![(error, *u)])) }
+        let bin = if k < 6 {
+            format!("first{k}")
+        } else if k + 6 > e.times.len() {
+            format!("last{}", e.times.len() - k)
+        } else if *t < truth.lock {
+            "change".into()
+        } else if *t < truth.release {
+            "hold".into()
+        } else {
+            format!("coast{:.0}", (w / 30.0).floor() * 30.0)
+        };
+        match bins.iter_mut().find(|b| b.0 == bin) {
+            Some(b) => b.1.push((error, *u)),
+            None => bins.push((bin, vec![(error, *u)])),
+        }
     }
     for (bin, all) in bins {
         let n = all.len() as f64;
         let mean = all.iter().map(|e| e.0).sum::<f64>() / n;
         let rms = (all.iter().map(|e| e.0.powi(2)).sum::<f64>() / n).sqrt();
         let z = (all.iter().map(|e| (e.0 / e.1).powi(2)).sum::<f64>() / n).sqrt();
-        println!("    {bin} n {n} mean {:.2} rms {:.2} us, stated {:.2} us, z {:.2}", 1e6 * mean, 1e6 * rms, 1e6 * all[all.len() / 2].1, z);
+        println!(
+            "    {bin} n {n} mean {:.2} rms {:.2} us, stated {:.2} us, z {:.2}",
+            1e6 * mean,
+            1e6 * rms,
+            1e6 * all[all.len() / 2].1,
+            z
+        );
     }
 }
 
 #[test]
 fn explore() {
-    let seeds: u64 = std::env::var("SEEDS").ok().and_then(|s| s.parse().ok()).unwrap_or(2);
+    let seeds: u64 = std::env::var("SEEDS")
+        .ok()
+        .and_then(|s| s.parse().ok())
+        .unwrap_or(2);
     let which = std::env::var("WHICH").unwrap_or_default();
     for seed in 0..seeds {
         let truth = motion(0.2 + 0.001 * seed as f64);
@@ -189,13 +226,36 @@ fn explore() {
         let mut all: Vec<(&str, Vec<f64>)> = vec![
             ("light", truth.seen(0.02, seed, |x, _, _| light(x))),
             ("sine", truth.seen(0.02, seed, |x, _, _| 5.0 * sine(x))),
-            ("vr", truth.seen(0.01, seed, |x, w, _| 5.0 * w / 150.0 * sine(x))),
-            ("vrnoisy", truth.seen(0.15, seed, |x, w, _| 5.0 * w / 150.0 * sine(x))),
-            ("vrsat", truth.seen(0.01, seed, |x, w, _| (20.0 * w / 150.0 * sine(x)).clamp(-5.0, 5.0))),
-            ("fade", truth.seen(0.02, seed, |x, _, t| light(x) * (1.0 - 0.7 * t / end))),
+            (
+                "vr",
+                truth.seen(0.01, seed, |x, w, _| 5.0 * w / 150.0 * sine(x)),
+            ),
+            (
+                "vrnoisy",
+                truth.seen(0.15, seed, |x, w, _| 5.0 * w / 150.0 * sine(x)),
+            ),
+            (
+                "vrsat",
+                truth.seen(0.01, seed, |x, w, _| {
+                    (20.0 * w / 150.0 * sine(x)).clamp(-5.0, 5.0)
+                }),
+            ),
+            (
+                "fade",
+                truth.seen(0.02, seed, |x, _, t| light(x) * (1.0 - 0.7 * t / end)),
+            ),
         ];
         let square = truth.seen(0.02, seed, |x, _, _| light(x));
-        for (name, from, length) in [("hold50", 0.8, 0.05), ("hold300", 0.8, 0.3), ("hold1000",0.5,1.0), ("coast60", 2.5, 0.06), ("coast300", 2.5, 0.3), ("release800", 1.5, 0.8), ("change5",0.212,0.005), ("dead", 0.9, 99.0)] {
+        for (name, from, length) in [
+            ("hold50", 0.8, 0.05),
+            ("hold300", 0.8, 0.3),
+            ("hold1000", 0.5, 1.0),
+            ("coast60", 2.5, 0.06),
+            ("coast300", 2.5, 0.3),
+            ("release800", 1.5, 0.8),
+            ("change5", 0.212, 0.005),
+            ("dead", 0.9, 99.0),
+        ] {
             for nan in [false, true] {
                 let mut samples = square.clone();
                 let a = (from * RATE) as usize;
@@ -203,12 +263,17 @@ fn explore() {
                 for k in a..b {
                     samples[k] = if nan { f64::NAN } else { square[k % 3000] };
                 }
-                all.push((Box::leak(format!("{name}{}", if nan {"n"} else {""}).into_boxed_str()), samples));
+                all.push((
+                    Box::leak(format!("{name}{}", if nan { "n" } else { "" }).into_boxed_str()),
+                    samples,
+                ));
             }
         }
         for (name, samples) in &all {
             if which.is_empty() || which.split(',').any(|w| name.contains(w)) {
-                if std::env::var("EDGES").is_ok() { edges_of(name, &truth, samples, seed); }
+                if std::env::var("EDGES").is_ok() {
+                    edges_of(name, &truth, samples, seed);
+                }
                 report(&format!("{name} {seed}"), &truth, samples);
             }
         }

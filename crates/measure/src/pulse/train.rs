@@ -421,9 +421,10 @@ fn silent(kept: &[usize], edges: &Edges, steps: &mut [i64], wheel: &Wheel) -> Ve
     let unwatched = |k: usize| {
         let next = edges.unwatched.partition_point(|u| u.1 <= time(k));
         let usual = (k > 0).then(|| time(k) - time(k - 1));
-        edges.unwatched.get(next).is_some_and(|u| {
-            u.0 < time(k + 1) && usual.is_none_or(|usual| u.1 - u.0 > 0.5 * usual)
-        })
+        edges
+            .unwatched
+            .get(next)
+            .is_some_and(|u| u.0 < time(k + 1) && usual.is_none_or(|usual| u.1 - u.0 > 0.5 * usual))
     };
     let reference = wheel.missing as i64 + 1;
     let is_gap: Vec<bool> = (0..steps.len())
