@@ -57,6 +57,7 @@ mod hypothesis;
 mod linear;
 mod next_test;
 mod noise;
+mod parameter;
 mod prior;
 mod proposal;
 mod record;
