@@ -183,7 +183,10 @@ pub fn edges(
         flank: settings.flank,
         watched: (first, first + interval * (samples.len() - 1) as f64),
         sample_interval: Some(interval),
-        unseen: levels.envelope().filter(|e| e.own_level).map_or(0.0, |e| e.unseen),
+        unseen: levels
+            .envelope()
+            .filter(|e| e.own_level)
+            .map_or(0.0, |e| e.unseen),
         unwatched: unwatched(first, interval, samples),
         notes,
     })
@@ -208,7 +211,9 @@ fn unwatched(first: f64, interval: f64, samples: &[f64]) -> Vec<(f64, f64)> {
 fn flips(samples: &[f64], levels: &Levels, part: Option<f64>) -> Vec<Flip> {
     let mut flips = Vec::new();
     let mut high: Option<bool> = None;
-    let (from, to) = levels.envelope().map_or((0, samples.len()), |e| (e.range.0, e.range.1 + 1));
+    let (from, to) = levels
+        .envelope()
+        .map_or((0, samples.len()), |e| (e.range.0, e.range.1 + 1));
     for (sample, &x) in samples.iter().enumerate().take(to).skip(from) {
         if !x.is_finite() {
             high = None;
@@ -266,7 +271,9 @@ fn middles(samples: &[f64], flips: &[Flip], levels: &Levels, fixed: bool) -> Vec
             let most = 0.2 * levels.span;
             Middle {
                 value: (0.5 * (before.0 + after.0)).clamp(rough - most, rough + most),
-                variance: 0.25 * levels.noise_at(flip.sample).powi(2) * (1.0 / before.1 + 1.0 / after.1),
+                variance: 0.25
+                    * levels.noise_at(flip.sample).powi(2)
+                    * (1.0 / before.1 + 1.0 / after.1),
             }
         })
         .collect();

@@ -71,7 +71,10 @@ fn over(a: &Side, b: &Side, length: f64) -> (f64, f64) {
     let fits = quadratic(&a.covariance, &before) + quadratic(&b.covariance, &after);
     let bend = (a.value[2] - b.value[2]) * length * length;
     let step = (b.value[1] - a.value[1] - 0.5 * length * (a.value[2] + b.value[2])) * length;
-    (mean, (fits + bend * bend / 720.0 + step * step / 12.0).sqrt())
+    (
+        mean,
+        (fits + bend * bend / 720.0 + step * step / 12.0).sqrt(),
+    )
 }
 
 fn quadratic(covariance: &[[f64; 3]; 3], row: &[f64; 3]) -> f64 {
@@ -170,7 +173,10 @@ fn polynomial<const N: usize>(points: &[(f64, f64)]) -> Option<([f64; N], [[f64;
     }
     let found: [f64; N] =
         std::array::from_fn(|i| (0..N).map(|j| square[i][j] * right[j]).sum::<f64>());
-    found.iter().all(|x| x.is_finite()).then_some((found, square))
+    found
+        .iter()
+        .all(|x| x.is_finite())
+        .then_some((found, square))
 }
 
 #[cfg(test)]

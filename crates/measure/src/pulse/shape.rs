@@ -46,12 +46,16 @@ pub(super) struct OverSpeed {
 impl OverSpeed {
     /// States what the noise leaves of places that a sample tells: the same noise is less of a signal that is larger.
     pub fn state(&self, found: &mut [Passing], rises: bool, levels: &Levels) {
-        let own: Vec<usize> = (0..found.len()).filter(|&k| found[k].rises == rises).collect();
+        let own: Vec<usize> = (0..found.len())
+            .filter(|&k| found[k].rises == rises)
+            .collect();
         for three in own.windows(3) {
             let interval = 0.5 * (found[three[2]].place - found[three[0]].place);
             let passing = &mut found[three[1]];
             if !passing.resolved && passing.spread < TOLD {
-                let height = levels.envelope().map_or(1.0, |e| e.at(passing.place as usize).1);
+                let height = levels
+                    .envelope()
+                    .map_or(1.0, |e| e.at(passing.place as usize).1);
                 let noise = levels.noise_at(passing.place as usize) * height;
                 let slope = self.steepness / (interval * interval);
                 passing.spread = (noise / slope).hypot(FINEST).min(passing.spread);
@@ -144,7 +148,11 @@ fn over_speed(samples: &[f64], own: &[&Passing], levels: &Levels, product: f64) 
             intervals[next.min(intervals.len() - 1)],
         );
         let part = ((sample - left.0) / (right.0 - left.0)).clamp(0.0, 1.0);
-        if part.is_finite() { left.1 + part * (right.1 - left.1) } else { left.1 }
+        if part.is_finite() {
+            left.1 + part * (right.1 - left.1)
+        } else {
+            left.1
+        }
     };
     let height = |sample: usize| levels.envelope().map_or(1.0, |e| e.at(sample).1);
     samples

@@ -95,11 +95,7 @@ impl Bridge {
             covariance: [
                 [angle, 0.0, 0.0],
                 [0.0, variance(weights) + speed * speed, 0.0],
-                [
-                    0.0,
-                    0.0,
-                    variance(slopes) + acceleration * acceleration,
-                ],
+                [0.0, 0.0, variance(slopes) + acceleration * acceleration],
             ],
         }
     }

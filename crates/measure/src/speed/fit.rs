@@ -62,7 +62,11 @@ pub(super) fn sight(data: &Data, wanted: &Transient) -> Option<Sight> {
     let mut rough: Vec<f64> = (from..to - 1).map(speed).collect();
     // Over a silence of the pickup nothing is seen of the speed.
     for k in (from..to - 1).filter(|&k| data.is_fresh(all[k + 1].time)) {
-        rough[k - from] = if k > from { rough[k - from - 1] } else { speed(k + 1) };
+        rough[k - from] = if k > from {
+            rough[k - from - 1]
+        } else {
+            speed(k + 1)
+        };
     }
     // The median of three: one odd interval is no change of speed.
     let speeds: Vec<f64> = (0..rough.len())

@@ -84,9 +84,7 @@ impl Data {
         let mut passages: Vec<Passage> = (0..pulses.times.len())
             .map(|k| Passage {
                 time: (pulses.times[k] - origin) / unit,
-                angle: (pulses.marks[k] - pulses.marks[0]) as f64 * nominal
-                    + error(k)
-                    - first,
+                angle: (pulses.marks[k] - pulses.marks[0]) as f64 * nominal + error(k) - first,
                 speed: 0.0,
                 spread: pulses.uncertainties[k] / unit,
                 left: left(k),
@@ -96,7 +94,11 @@ impl Data {
         for k in 0..passages.len() {
             let last = k + 1 == passages.len() || parted(k + 1);
             let (a, b) = (
-                &passages[if parted(k) && !last { k } else { k.saturating_sub(1) }],
+                &passages[if parted(k) && !last {
+                    k
+                } else {
+                    k.saturating_sub(1)
+                }],
                 &passages[if last { k } else { k + 1 }],
             );
             let speed = (b.angle - a.angle) / (b.time - a.time).max(1e-9);
@@ -139,7 +141,9 @@ impl Data {
 
     /// Whether a passage, by its instant, is the first one behind a silence.
     pub fn is_fresh(&self, time: f64) -> bool {
-        self.fresh.binary_search_by(|fresh| fresh.total_cmp(&time)).is_ok()
+        self.fresh
+            .binary_search_by(|fresh| fresh.total_cmp(&time))
+            .is_ok()
     }
 
     /// Seconds of an instant in units.

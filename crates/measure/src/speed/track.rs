@@ -12,11 +12,11 @@
 //! Source: Bierman, Factorization Methods for Discrete Sequential Estimation, 1977, chapter X (from memory).
 #![allow(clippy::needless_range_loop)] // rows and columns by number read like the formula
 
-use super::plan::moving;
 use super::matrix::{
     Matrix, Memory, N, Vector, advance, apply, carry, drift, gathered, minus, plus, product, root,
     taken_back, transposed,
 };
+use super::plan::moving;
 
 /// A mark that passes.
 #[derive(Clone, Copy, Debug)]

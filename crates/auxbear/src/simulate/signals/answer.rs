@@ -78,7 +78,9 @@ fn speed(list: &mut List, asked: &Asked, found: &Found) {
     ] {
         let value = match &shaft {
             Ok(shaft) => Value::List(shaft.speed.gaps().map(end).collect()),
-            Err(why) => Value::None { why: why.to_string() },
+            Err(why) => Value::None {
+                why: why.to_string(),
+            },
         };
         list.push(name, "s", value, &SILENT);
     }

@@ -3,7 +3,8 @@
 use super::Signal;
 use crate::scenario::{PickupFlank, PickupKind, SpeedSignal};
 use measure::pulse::{
-    EdgeSettings, Edges, Flank, Gap, Marks, Pitch, Pulses, Wheel, calibrate, check_marks, edges, number,
+    EdgeSettings, Edges, Flank, Gap, Marks, Pitch, Pulses, Wheel, calibrate, check_marks, edges,
+    number,
 };
 use measure::shaft::Shaft;
 use measure::speed::{Motion, Speed, SpeedSettings, Transient, smooth};
