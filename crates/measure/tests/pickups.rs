@@ -120,162 +120,204 @@ fn held(truth: &Motion, speed: &Speed, from: f64, to: f64) -> ([f64; 2], [f64; 2
     (inside, worst)
 }
 
-fn report(name: &str, truth: &Motion, samples: &[f64]) {
-    match found(samples) {
-        Err(why) => println!("{name}: REFUSED {why}"),
-        Ok((pulses, speed)) => {
-            let z = |(value, deviation): (f64, f64), truth: f64| {
-                format!(
-                    "{:.5}±{:.1e} (z {:.1})",
-                    value,
-                    deviation,
-                    (value - truth) / deviation
-                )
-            };
-            let change = speed.change.as_ref();
-            print!("{name}: {} pulses;", pulses.times.len());
-            if let Some(change) = change {
-                print!(" engage {}", z(change.engagement, truth.engage));
-                if let Some(end) = change.end {
-                    print!(" lock {}", z(end, truth.lock));
-                }
-            }
-            println!(
-                " timing {:.2} angle {:.1e}",
-                speed.timing_factor, speed.angle_noise
-            );
-            let (a, b) = (truth.lock - truth.engage, truth.stop - truth.release);
-            for (phase, from, to) in [
-                ("change", truth.engage, truth.lock - 1e-4),
-                ("settle", truth.lock + 1e-4, truth.lock + 3.0 * a),
-                ("hold", truth.lock + 3.0 * a, truth.release - 0.02),
-                ("corner", truth.release - 0.02, truth.release + 0.02),
-                ("coast", truth.release + 0.02, truth.stop - 0.2 * b),
-                ("creep", truth.stop - 0.2 * b, truth.stop + 0.02),
-            ] {
-                let (inside, worst) = held(truth, &speed, from, to);
-                print!(
-                    "   {phase} {:.0}/{:.0}% ({:.1}/{:.1})",
-                    100.0 * inside[0],
-                    100.0 * inside[1],
-                    worst[0],
-                    worst[1]
-                );
-            }
-            println!();
-            for note in &speed.notes {
-                println!("      - {note}");
+/// Errors of engagement and lock over their deviations.
+fn knots(truth: &Motion, speed: &Speed) -> [f64; 2] {
+    let change = speed.change.unwrap();
+    let of = |(value, deviation): (f64, f64), truth: f64| (value - truth) / deviation;
+    [
+        of(change.engagement, truth.engage),
+        of(change.end.unwrap(), truth.lock),
+    ]
+}
+
+fn sine(turned: f64) -> f64 {
+    turned.sin()
+}
+
+/// Light through slots, with flanks that take a twelfth of a mark.
+fn light(turned: f64) -> f64 {
+    5.0 / (1.0 + (-turned.sin() / 0.15).exp())
+}
+
+/// Mean shares over seeds in which the bands hold speed and acceleration in the spin-up, while running and while coasting, in per
+/// cent; and the largest error of the engagement over its deviation.
+fn shares(seeds: u64, seen: impl Fn(&Motion, u64) -> Vec<f64>) -> ([[f64; 2]; 3], f64) {
+    let (mut all, mut engaged) = ([[0.0; 2]; 3], 0.0f64);
+    for seed in 0..seeds {
+        let truth = motion(0.2 + 1e-3 * seed as f64);
+        let (pulses, speed) = found(&seen(&truth, seed)).unwrap();
+        // 4484 marks pass; the last ones of a pickup whose voltage is the speed's may drown.
+        assert!(pulses.times.len() >= 4470, "{}", pulses.times.len());
+        assert!(
+            pulses.gaps.is_empty() && pulses.repaired == 0.0,
+            "{:?}",
+            speed.notes
+        );
+        engaged = engaged.max(knots(&truth, &speed)[0].abs());
+        let braked = truth.stop - truth.release;
+        for (part, from, to) in [
+            (0, truth.engage, truth.lock - 1e-4),
+            (1, truth.lock + 0.08, truth.release - 0.02),
+            (2, truth.release + 0.02, truth.stop - 0.2 * braked),
+        ] {
+            let (inside, _) = held(&truth, &speed, from, to);
+            for (sum, inside) in all[part].iter_mut().zip(inside) {
+                *sum += 100.0 * inside / seeds as f64;
             }
         }
+    }
+    println!("{all:.0?}, engagement off by {engaged:.1} deviations at most");
+    (all, engaged)
+}
+
+/// Seeds here and, in release, in the figures of the guide.
+fn seeds() -> u64 {
+    let asked = std::env::var("PICKUP_SEEDS").ok();
+    asked.and_then(|seeds| seeds.parse().ok()).unwrap_or(3)
+}
+
+/// A mean over three records may be off by a sixth of what one of them is worth.
+fn holds(found: ([[f64; 2]; 3], f64)) {
+    let (shares, engaged) = found;
+    assert!(
+        shares.iter().flatten().all(|share| *share > 84.0),
+        "{shares:?}"
+    );
+    assert!(engaged < 3.0, "{engaged}");
+}
+
+#[test]
+fn a_magnetic_pickup_whose_voltage_is_the_speeds() {
+    holds(shares(seeds(), |truth, seed| {
+        truth.seen(0.01, seed, |x, w, _| 5.0 * w / 150.0 * sine(x))
+    }));
+}
+
+#[test]
+fn a_magnetic_pickup_that_is_cut_off() {
+    holds(shares(seeds(), |truth, seed| {
+        truth.seen(0.01, seed, |x, w, _| {
+            (20.0 * w / 150.0 * sine(x)).clamp(-5.0, 5.0)
+        })
+    }));
+}
+
+#[test]
+fn a_light_that_fades() {
+    holds(shares(seeds(), |truth, seed| {
+        let end = truth.end();
+        truth.seen(0.02, seed, |x, _, t| light(x) * (1.0 - 0.7 * t / end))
+    }));
+}
+
+#[test]
+fn a_sine_of_even_height() {
+    holds(shares(seeds(), |truth, seed| {
+        truth.seen(0.02, seed, |x, _, _| 5.0 * sine(x))
+    }));
+}
+
+#[test]
+fn first_pulses_that_drown_leave_the_engagement_open() {
+    for seed in 0..seeds() {
+        let truth = motion(0.2 + 1e-3 * seed as f64);
+        let samples = truth.seen(0.15, seed, |x, w, _| 5.0 * w / 150.0 * sine(x));
+        let (pulses, speed) = found(&samples).unwrap();
+        assert!(pulses.unseen > 0.3, "{}", pulses.unseen);
+        let told = speed
+            .notes
+            .iter()
+            .any(|note| note.contains("passed unseen before it"));
+        assert!(told, "{:?}", speed.notes);
+        let engagement = knots(&truth, &speed)[0];
+        assert!(engagement.abs() < 3.0, "{engagement}");
     }
 }
 
-fn edges_of(name: &str, truth: &Motion, samples: &[f64], seed: u64) {
-    let phase = Random::new(seed).between(0.0, TAU);
-    let e = edges(0.0, RATE.recip(), samples, &EdgeSettings::default()).unwrap();
-    println!("{name}: {} edges, unseen {:.2}", e.times.len(), e.unseen);
-    let mut bins: Vec<(String, Vec<(f64, f64)>)> = vec![];
-    for (k, (t, u)) in e.times.iter().zip(&e.uncertainties).enumerate() {
-        let turned = 60.0 * truth.of(&truth.angle, *t) + phase;
-        let off = (turned / TAU).round() * TAU - turned;
-        let w = truth.of(&truth.speed, *t).max(1e-3);
-        let error = -off / 60.0 / w;
-        let bin = if k < 6 {
-            format!("first{k}")
-        } else if k + 6 > e.times.len() {
-            format!("last{}", e.times.len() - k)
-        } else if *t < truth.lock {
-            "change".into()
-        } else if *t < truth.release {
-            "hold".into()
-        } else {
-            format!("coast{:.0}", (w / 30.0).floor() * 30.0)
-        };
-        match bins.iter_mut().find(|b| b.0 == bin) {
-            Some(b) => b.1.push((error, *u)),
-            None => bins.push((bin, vec![(error, *u)])),
+/// A record of slots and light that shows nothing for a time: no numbers, or the level at rest.
+fn silenced(samples: &[f64], from: f64, to: f64, rest: bool) -> Vec<f64> {
+    let within = |k: usize| (from..to).contains(&(k as f64 / RATE));
+    let at = |(k, x): (usize, &f64)| match (within(k), rest) {
+        (false, _) => *x,
+        (true, false) => f64::NAN,
+        (true, true) => samples[k % 3000],
+    };
+    samples.iter().enumerate().map(at).collect()
+}
+
+#[test]
+fn a_silent_pickup_is_told_and_harms_nothing_beside_it() {
+    let mut random = Random::new(3);
+    for seed in 0..seeds().div_ceil(3) {
+        let truth = motion(0.2 + 1e-3 * seed as f64);
+        let whole = truth.seen(0.02, seed, |x, _, _| light(x));
+        let (_, usual) = found(&whole).unwrap();
+        // Running at an even speed, coasting, and over the release.
+        for (from, length) in [(0.7, 0.05), (0.7, 0.3), (2.3, 0.06), (2.3, 0.3), (1.5, 0.8)] {
+            let from = from + 0.01 * random.uniform();
+            for rest in [false, true] {
+                let samples = silenced(&whole, from, from + length, rest);
+                let (pulses, speed) = found(&samples).unwrap();
+                let [gap] = pulses.gaps[..] else {
+                    panic!("{:?}", pulses.gaps);
+                };
+                assert!(gap.from < from && gap.from > from - 0.01, "{gap:?}");
+                assert!(
+                    gap.to > from + length && gap.to < from + length + 0.01,
+                    "{gap:?}"
+                );
+                let passed = truth.of(&truth.angle, gap.to) - truth.of(&truth.angle, gap.from);
+                let passed = 60.0 * passed / TAU;
+                let off = passed - gap.positions as f64;
+                match gap.sure {
+                    true => assert!(off.abs() < 0.2, "{gap:?}: {passed}"),
+                    false => assert!(off.abs() < 4.0 * gap.deviation + 0.5, "{gap:?}: {passed}"),
+                }
+                // Short ones at even running are sure.
+                assert!(gap.sure || length > 0.2 || from > 1.0, "{gap:?}");
+                let (inside, worst) = held(&truth, &speed, gap.from, gap.to);
+                assert!(
+                    inside.iter().all(|share| *share > 0.9),
+                    "{inside:?} {worst:?}"
+                );
+                for k in 0..=200 {
+                    let time = gap.from - 0.02 + (gap.to - gap.from + 0.04) * f64::from(k) / 200.0;
+                    let motion = speed.at(time);
+                    let error = motion.speed - truth.of(&truth.speed, time);
+                    // 0.8 s over a release at which the speed changes by 40 rad/s.
+                    let most = if length > 0.5 { 8.0 } else { 0.7 };
+                    assert!(error.abs() < most, "{error} at {time}, {gap:?}");
+                }
+                // What is far from the silence is as it was: a hundredth of what the whole record leaves open of the peak.
+                let (at, before) = (knots(&truth, &speed), knots(&truth, &usual));
+                assert!(at[0].abs() < 3.0, "{at:?} {before:?}");
+                let peak = |speed: &Speed| speed.at(truth.lock - 1e-3);
+                let (now, was) = (peak(&speed), peak(&usual));
+                let open = was.acceleration_uncertainty();
+                assert!((now.acceleration - was.acceleration).abs() < 3.0 * open.max(20.0));
+                assert!(now.acceleration_uncertainty() < 3.0 * open.max(20.0));
+            }
         }
-    }
-    for (bin, all) in bins {
-        let n = all.len() as f64;
-        let mean = all.iter().map(|e| e.0).sum::<f64>() / n;
-        let rms = (all.iter().map(|e| e.0.powi(2)).sum::<f64>() / n).sqrt();
-        let z = (all.iter().map(|e| (e.0 / e.1).powi(2)).sum::<f64>() / n).sqrt();
-        println!(
-            "    {bin} n {n} mean {:.2} rms {:.2} us, stated {:.2} us, z {:.2}",
-            1e6 * mean,
-            1e6 * rms,
-            1e6 * all[all.len() / 2].1,
-            z
-        );
     }
 }
 
 #[test]
-fn explore() {
-    let seeds: u64 = std::env::var("SEEDS")
-        .ok()
-        .and_then(|s| s.parse().ok())
-        .unwrap_or(2);
-    let which = std::env::var("WHICH").unwrap_or_default();
-    for seed in 0..seeds {
-        let truth = motion(0.2 + 0.001 * seed as f64);
-        let sine = |turned: f64| turned.sin();
-        let light = |turned: f64| 5.0 / (1.0 + (-turned.sin() / 0.15).exp());
-        let end = truth.end();
-        let mut all: Vec<(&str, Vec<f64>)> = vec![
-            ("light", truth.seen(0.02, seed, |x, _, _| light(x))),
-            ("sine", truth.seen(0.02, seed, |x, _, _| 5.0 * sine(x))),
-            (
-                "vr",
-                truth.seen(0.01, seed, |x, w, _| 5.0 * w / 150.0 * sine(x)),
-            ),
-            (
-                "vrnoisy",
-                truth.seen(0.15, seed, |x, w, _| 5.0 * w / 150.0 * sine(x)),
-            ),
-            (
-                "vrsat",
-                truth.seen(0.01, seed, |x, w, _| {
-                    (20.0 * w / 150.0 * sine(x)).clamp(-5.0, 5.0)
-                }),
-            ),
-            (
-                "fade",
-                truth.seen(0.02, seed, |x, _, t| light(x) * (1.0 - 0.7 * t / end)),
-            ),
-        ];
-        let square = truth.seen(0.02, seed, |x, _, _| light(x));
-        for (name, from, length) in [
-            ("hold50", 0.8, 0.05),
-            ("hold300", 0.8, 0.3),
-            ("hold1000", 0.5, 1.0),
-            ("coast60", 2.5, 0.06),
-            ("coast300", 2.5, 0.3),
-            ("release800", 1.5, 0.8),
-            ("change5", 0.212, 0.005),
-            ("dead", 0.9, 99.0),
-        ] {
-            for nan in [false, true] {
-                let mut samples = square.clone();
-                let a = (from * RATE) as usize;
-                let b = (((from + length) * RATE) as usize).min(samples.len());
-                for k in a..b {
-                    samples[k] = if nan { f64::NAN } else { square[k % 3000] };
-                }
-                all.push((
-                    Box::leak(format!("{name}{}", if nan { "n" } else { "" }).into_boxed_str()),
-                    samples,
-                ));
-            }
-        }
-        for (name, samples) in &all {
-            if which.is_empty() || which.split(',').any(|w| name.contains(w)) {
-                if std::env::var("EDGES").is_ok() {
-                    edges_of(name, &truth, samples, seed);
-                }
-                report(&format!("{name} {seed}"), &truth, samples);
-            }
-        }
-    }
+fn a_silence_within_the_change_is_refused_and_a_stuck_pickup_told() {
+    let truth = motion(0.2);
+    let whole = truth.seen(0.02, 1, |x, _, _| light(x));
+    let why = found(&silenced(&whole, 0.217, 0.22, false)).err().unwrap();
+    assert!(
+        why.contains("silent") && why.contains("quick change"),
+        "{why}"
+    );
+    let (_, speed) = found(&silenced(&whole, 0.9, 99.0, true)).unwrap();
+    let told = |text: &str| speed.notes.iter().any(|note| note.contains(text));
+    assert!(
+        told("no mark came after 0.89") && told("stuck"),
+        "{:?}",
+        speed.notes
+    );
+    // One that coasts to rest is not stuck.
+    let (_, speed) = found(&whole).unwrap();
+    assert!(speed.notes.is_empty(), "{:?}", speed.notes);
 }

@@ -142,7 +142,7 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
             "a part of the record with one start from rest: give where it begins or ends (from, to)",
         ));
     }
-    let kept = without_broken(kept, edges, wheel);
+    let kept = without_last(without_broken(kept, edges, wheel), edges);
     let mut steps = steps(&kept, &edges.times);
     let silent = silent(&kept, edges, &mut steps, wheel);
     notes.extend(silent.iter().map(told));
@@ -412,6 +412,21 @@ fn without_broken(kept: Vec<usize>, edges: &Edges, wheel: &Wheel) -> Vec<usize> 
         return kept;
     }
     left.into_iter().map(|k| kept[k]).collect()
+}
+
+/// Pulses without a last one that comes too early for an even train and is followed by silence: a pickup that sticks within a
+/// pulse makes a flank of its own.
+fn without_last(mut kept: Vec<usize>, edges: &Edges) -> Vec<usize> {
+    if let [.., a, b, c, d] = kept[..] {
+        let time = |k: usize| edges.times[k];
+        let (before, usual, own) = (time(b) - time(a), time(c) - time(b), time(d) - time(c));
+        let is_even = (before / usual - 1.0).abs() < 0.1;
+        let is_silent = edges.watched.1 - time(d) > LONG as f64 * usual;
+        if is_even && is_silent && own < 0.9 * usual {
+            kept.pop();
+        }
+    }
+    kept
 }
 
 /// Long silences and stretches without signal, with the positions that passed; `steps` follow them. The pulse of a gap is here
