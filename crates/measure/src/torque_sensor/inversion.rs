@@ -124,7 +124,7 @@ impl Torque {
         // Sums up to each value, about one of them so that rounding does no harm.
         let seen = || self.torque.iter().copied().filter(|t| t.is_finite());
         let about = seen().next().unwrap_or(0.0);
-        let mut sums = vec![(0.0, 0.0, 0.0)];
+        let mut sums = vec![(0.0_f64, 0.0_f64, 0.0_f64)];
         for torque in &self.torque {
             let (count, sum, squares) = sums[sums.len() - 1];
             let away = torque - about;
@@ -156,7 +156,7 @@ const POWERS: [(f64, f64); 5] = [(2.0, 1.0), (1.5, 1.0), (1.0, 1.0), (0.5, 1.0),
 const ROUNDS: usize = 3;
 
 /// Probability of a power below which it is left out: so little weight would widen a band that still does not reach it.
-const NEGLIGIBLE: f64 = 0.07;
+const NEGLIGIBLE: f64 = 0.08;
 
 /// Deviations of the engagement before it up to which it counts.
 const FARTHEST: f64 = 4.0;
