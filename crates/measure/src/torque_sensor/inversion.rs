@@ -121,10 +121,26 @@ impl Torque {
             return;
         };
         let half = (0.5 * ROUND / (second - first)) as usize;
-        let torque = &self.torque;
+        // Sums up to each value, about one of them so that rounding does no harm.
+        let seen = || self.torque.iter().copied().filter(|t| t.is_finite());
+        let about = seen().next().unwrap_or(0.0);
+        let mut sums = vec![(0.0_f64, 0.0_f64, 0.0_f64)];
+        for torque in &self.torque {
+            let (count, sum, squares) = sums[sums.len() - 1];
+            let away = torque - about;
+            sums.push(if away.is_finite() {
+                (count + 1.0, sum + away, squares + away * away)
+            } else {
+                (count, sum, squares)
+            });
+        }
         for (k, deviation) in self.deviation.iter_mut().enumerate() {
-            let around = &torque[k.saturating_sub(half)..(k + half + 1).min(torque.len())];
-            *deviation = deviation.hypot(scale_of(around));
+            let from = sums[k.saturating_sub(half)];
+            let to = sums[(k + half + 1).min(sums.len() - 1)];
+            let count = (to.0 - from.0).max(1.0);
+            let mean = (to.1 - from.1) / count;
+            let square = (to.2 - from.2) / count - mean * mean;
+            *deviation = deviation.hypot(square.max(0.0).sqrt());
         }
     }
 }
@@ -140,7 +156,7 @@ const POWERS: [(f64, f64); 5] = [(2.0, 1.0), (1.5, 1.0), (1.0, 1.0), (0.5, 1.0),
 const ROUNDS: usize = 3;
 
 /// Probability of a power below which it is left out: so little weight would widen a band that still does not reach it.
-const NEGLIGIBLE: f64 = 0.05;
+const NEGLIGIBLE: f64 = 0.08;
 
 /// Deviations of the engagement before it up to which it counts.
 const FARTHEST: f64 = 4.0;
