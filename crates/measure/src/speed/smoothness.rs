@@ -166,6 +166,7 @@ mod tests {
                 speed: 0.0,
             }),
             added: None,
+            fresh: None,
         };
         let mut covariance = [[0.0; N]; N];
         for (i, spread) in [1.0, 0.1, 0.01, 1e-3].into_iter().enumerate() {

@@ -164,7 +164,7 @@ fn rested(rig: &Rig, happened: &Happened) -> Option<f64> {
     let last = before.last()?;
     let turning = (before.iter()).rposition(|angle| (angle - last).abs() > STANDING)?;
     let stopped = angle.first + angle.interval * (turning + 1) as f64;
-    (stopped + angle.interval < engage_again_at).then(|| engage_again_at - stopped)
+    (stopped + angle.interval < engage_again_at).then_some(engage_again_at - stopped)
 }
 
 /// Angle within which a shaft counts as standing, rad: no mark of a pickup is as fine.
