@@ -5,8 +5,9 @@
 //!   data     means of F over the correlation time of the torque, where the balls are known to roll
 //!   errors   noise of the means with its correlation in time; zero of each test; M's band, by its covariance; masses, common to all
 //! ```
-//! Sizes of F0 and F1 and the length ℓ are those of the highest marginal likelihood on a grid, none smaller than the least error of
-//! a mean: data cannot tell that F is smaller than they can see. Where no data are the band returns to that size.
+//! Sizes of F0 and F1 and the length ℓ are those of the highest marginal likelihood on a grid, neither smaller than what the data
+//! leave of F0 or F1 at their best speed under the wide prior below: data cannot tell that F is smaller than they can see. Where no
+//! data are the band returns to that size.
 //!
 //! Whether F is *known* at a place is asked of the data, not of F: what the same data, with the same errors, leave of a prior that
 //! is wide and always the same.
@@ -154,10 +155,22 @@ impl LossMap {
             .sqrt();
         let level = level.max(floor);
         let undetermined = "the means of F do not determine a map";
-        let best = Self::sizes(&data, &errors, level, floor, high, most).ok_or(undetermined)?;
-        let factor = covered(&data, &errors, &best).ok_or(undetermined)?;
         let wide = wide(&data, steady, set.pocket_friction_arm(), high, most);
         let wide_factor = covered(&data, &errors, &wide).ok_or(undetermined)?;
+        let tried = |least: f64, level: f64| {
+            [0.03, 0.1, 0.3, 1.0, 3.0].map(|part| (part * level).max(least))
+        };
+        let constants = tried(
+            least_left(&data, &wide_factor, &wide, wide.constant, |_| 1.0),
+            level,
+        );
+        let proportionals = tried(
+            least_left(&data, &wide_factor, &wide, wide.proportional, |d| d.rate),
+            per(level, most),
+        );
+        let best =
+            Self::sizes(&data, &errors, constants, proportionals, high).ok_or(undetermined)?;
+        let factor = covered(&data, &errors, &best).ok_or(undetermined)?;
         let friction: Vec<f64> = data.iter().map(|d| d.friction).collect();
         if most - least < 0.2 * most {
             notes.push(format!(
@@ -176,31 +189,30 @@ impl LossMap {
         })
     }
 
-    /// The sizes of highest marginal likelihood.
+    /// The sizes of highest marginal likelihood among those that are tried, in rising order.
     ///
-    /// - `level`: root mean square of F, N
-    /// - `floor`: least error of a mean, N
-    /// - `high`, `most`: largest speed and |Ω̇|
+    /// - `high`: largest speed
     fn sizes(
         data: &[Datum],
         errors: &Matrix,
-        level: f64,
-        floor: f64,
+        constants: [f64; 5],
+        proportionals: [f64; 5],
         high: f64,
-        most: f64,
     ) -> Option<Sizes> {
         let friction: Vec<f64> = data.iter().map(|d| d.friction).collect();
-        let mut tried: Vec<f64> = [0.03, 0.1, 0.3, 1.0, 3.0]
-            .map(|part| (part * level).max(floor))
-            .to_vec();
-        tried.dedup();
+        let distinct = |list: [f64; 5]| {
+            let mut list = list.to_vec();
+            list.dedup();
+            list
+        };
+        let (constants, proportionals) = (distinct(constants), distinct(proportionals));
         let mut best: Option<(f64, Sizes)> = None;
         for length in LENGTHS {
-            for &constant in &tried {
-                for &proportional in &tried {
+            for &constant in &constants {
+                for &proportional in &proportionals {
                     let sizes = Sizes {
                         constant,
-                        proportional: per(proportional, most),
+                        proportional,
                         length: length * high,
                     };
                     let Some(factor) = covered(data, errors, &sizes) else {
@@ -292,6 +304,27 @@ fn wide(data: &[Datum], steady: &SteadyMoment, arm: f64, high: f64, most: f64) -
         proportional: per(size, most),
         length: LENGTHS[0] * high,
     }
+}
+
+/// The least that the data leave, under the wide prior, of F0 or F1 at any of their speeds.
+///
+/// - `size`: deviation of that part under the prior
+/// - `share`: what a datum holds of it
+fn least_left(
+    data: &[Datum],
+    factor: &Matrix,
+    wide: &Sizes,
+    size: f64,
+    share: impl Fn(&Datum) -> f64,
+) -> f64 {
+    let left = data.iter().map(|at| {
+        let row: Vec<f64> = (data.iter())
+            .map(|d| size * size * share(d) * wide.alike(at.speed, d.speed))
+            .collect();
+        let white = forward(factor, &row);
+        (size * size - dot(&white, &white)).max(0.0).sqrt()
+    });
+    left.fold(f64::INFINITY, f64::min)
 }
 
 /// Factor of the covariance of the data.

@@ -72,13 +72,14 @@ fn an_acceleration_beyond_the_clutch_is_out_of_reach() {
     assert_eq!(nothing, Err(RampError::NoEngagement));
     let weak = engagement_ramp(&rig(spin_up(1e-3)), 7200.0, SPEED);
     assert_eq!(weak, Err(RampError::NeverLocks));
-    // released after a second: a ramp of torque needs a peak of twice the mean, and of more where drag delays the start
+    // released after a second: a ramp of torque needs a peak of twice the mean, and of more where drag delays the start; the
+    // flywheel gives a little of its speed
     let mut short = spin_up(5.0);
     short.actions.push((1.0, Action::Disengage));
     for wanted in [1.0, 50.0] {
         match engagement_ramp(&rig(short.clone()), wanted, SPEED) {
             Err(RampError::TooSlow { smallest }) => {
-                assert!((2.0 * SPEED..6.0 * SPEED).contains(&smallest), "{smallest}");
+                assert!((1.8 * SPEED..6.0 * SPEED).contains(&smallest), "{smallest}");
             }
             other => panic!("{wanted}: {other:?}"),
         }

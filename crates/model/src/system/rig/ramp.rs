@@ -71,7 +71,7 @@ const RUNS: usize = 25;
 /// Runs without a locking, each with 20 times the rate of the one before, after which the clutch is too weak.
 const TRIES: usize = 8;
 /// Rates that are looked at where the search fails, each e times the one before: from below the guess to above it.
-const SCAN: std::ops::RangeInclusive<i32> = -12..=4;
+const SCAN: std::ops::RangeInclusive<i32> = -20..=4;
 
 /// The rise of the clutch's capacity (N m/s) with which the largest acceleration of the shaft in the test is the wanted one
 /// (rad/s²), to 0.01 %, the balls rolling. The test is the program of the rig, up to the first locking; the rate of its
