@@ -10,7 +10,7 @@
 //! | isothermal slip | balls and cage follow a limited traction; the cage stays behind, the missing inertia shows |
 //! | slip with heating | the same, traction and drag falling with the film's temperature |
 //! | sensor artefact | rolling, read with a drifting zero (it stays at rest), with creep, or too slowly |
-//! | another steady moment | rolling, with k (Ω/Ω0)^-e M(Ω): the slow tests had another bearing, load, temperature or scale |
+//! | another steady moment | rolling, with k M(Ω) and another part without speed dependence: the slow tests had another bearing, load, temperature or scale |
 //!
 //! ```text
 //!   p(y | E) = ∫ p(y | z, a) p(z | E) p(a) dz da      p(E | y) ∝ odds(E) p(y | E)
