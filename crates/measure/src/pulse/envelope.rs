@@ -137,7 +137,7 @@ struct Swing {
 fn turning_points(samples: &[f64], least: f64) -> Vec<(usize, f64)> {
     let mut turns: Vec<(usize, f64)> = Vec::new();
     // The highest and the lowest sample since the last turning point.
-    let (mut low, mut high): (Option<(usize, f64)>, Option<(usize, f64)>) = (None, None);
+    let (mut low, mut high) = (None::<(usize, f64)>, None::<(usize, f64)>);
     let mut rising: Option<bool> = None;
     for (k, &x) in samples.iter().enumerate().filter(|(_, x)| x.is_finite()) {
         if high.is_none_or(|high| x > high.1) {
