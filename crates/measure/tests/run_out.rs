@@ -132,14 +132,10 @@ impl Test {
 
 const PARTS: [&str; 4] = ["change", "hold", "coasting", "end"];
 
-/// Values inside two deviations, values, and sum of squared errors, by part; and zeros inside theirs.
-fn covered(
-    arm: f64,
-    power: f64,
-    seeds: std::ops::Range<u64>,
-    stated: bool,
-    until: f64,
-) -> ([(usize, usize, f64); 4], (usize, usize), Vec<f64>) {
+/// Values inside two deviations, values, and sum of squared errors, by part; zeros inside theirs, and how many; powers found.
+type Covered = ([(usize, usize, f64); 4], (usize, usize), Vec<f64>);
+
+fn covered(arm: f64, power: f64, seeds: std::ops::Range<u64>, stated: bool, until: f64) -> Covered {
     let mut parts = [(0, 0, 0.0); 4];
     let mut zeros = (0, 0);
     let mut powers = Vec::new();
@@ -164,7 +160,7 @@ fn covered(
     (parts, zeros, powers)
 }
 
-fn told(name: &str, (parts, zeros, powers): &([(usize, usize, f64); 4], (usize, usize), Vec<f64>)) {
+fn told(name: &str, (parts, zeros, powers): &Covered) {
     print!("{name}: ");
     for ((inside, count, squares), part) in parts.iter().zip(PARTS).filter(|(p, _)| p.1 > 0) {
         print!(
