@@ -108,6 +108,8 @@ pub struct Settings {
     pub inertia_deviation: f64,
     /// Deviation of the time by which the torque lags or is smoothed beyond what is stated, s.
     pub lag_deviation: f64,
+    /// Time by which the reading settles after a stop, s: before, no mean at rest counts.
+    pub settling_time: f64,
     /// Least excess settling time that makes a slow sensor an explanation, s.
     pub least_settling: f64,
     /// Points of the prior that are looked at first.
@@ -133,6 +135,7 @@ impl Default for Settings {
             level_deviation: 0.01,
             inertia_deviation: 0.1,
             lag_deviation: 0.01,
+            settling_time: 0.1,
             least_settling: 0.03,
             prior_points: 256,
             starts: 3,
@@ -160,6 +163,10 @@ impl Settings {
             ("inertia_deviation", deviation(self.inertia_deviation)),
             ("lag_deviation", deviation(self.lag_deviation)),
             ("least_settling", deviation(self.least_settling)),
+            (
+                "settling_time",
+                self.settling_time >= 0.0 && self.settling_time.is_finite(),
+            ),
             ("prior_points", (16..=100_000).contains(&self.prior_points)),
             ("starts", (1..=100).contains(&self.starts)),
             ("draws", (20..=1_000_000).contains(&self.draws)),

@@ -11,6 +11,8 @@
 //! ρ is 1 within a test and ½ between tests. The amplitude a is not known: a few values, equally probable, stand for
 //! it. The last term lets the size of an effect differ a little from test to test. Cage speeds have a covariance of
 //! their own. At rest no discrepancy is allowed: a shaft that stands transmits no moment that a model could miss.
+//! Means between rest and the lowest speed of the slow tests are left out, where M is not known, and those within the settling of the
+//! sensor after a stop.
 
 use super::hypothesis::{Bearing, Hypothesis, Prediction};
 use super::linear::{Cholesky, dot};
@@ -59,7 +61,10 @@ const NUGGET: f64 = 0.3;
 /// Part of the inertia moment that a smoothed torque misplaces in time, assumed.
 const SMEAR: f64 = 0.07;
 
-/// Error of M below the lowest speeds of a coast-down, over M; it fades with 3 % of the highest speed. Assumed.
+/// Mean speed over the lowest one of the slow tests below which a shaft counts as standing.
+const STANDING: f64 = 1e-3;
+
+/// Error of M near the lowest speeds of a coast-down, over M; it fades with 3 % of the highest speed. Assumed.
 const NEAR_REST: f64 = 0.3;
 
 impl Observed {
@@ -73,8 +78,22 @@ impl Observed {
             .enumerate()
             .map(|(place, (t, bin))| (place, t, bin))
             .collect();
+        // between rest and the lowest speed of the slow tests nothing is known of M, and where the shaft stops the torque falls at
+        // once, which no sensor and no smoothed torque follows
+        let lowest = bearing.steady.0.speed[0];
+        let stands = |bin: &Bin| bin.speed < STANDING * lowest;
+        let stopped: Vec<f64> = (tests.iter())
+            .map(|test| {
+                let moving = test.bins.iter().filter(|bin| !bin.before && !stands(bin));
+                moving.map(|bin| bin.to).fold(0.0, f64::max) + settings.settling_time
+            })
+            .collect();
+        let known = |test: usize, bin: &Bin| match stands(bin) {
+            true => bin.before || bin.from >= stopped[test],
+            false => bin.speed >= lowest,
+        };
         let with_torque: Vec<_> = (all.iter().copied())
-            .filter(|(_, _, bin)| bin.variance.is_finite())
+            .filter(|(_, test, bin)| bin.variance.is_finite() && known(*test, bin))
             .collect();
         let with_cage: Vec<_> = (all.iter().copied())
             .filter(|(_, _, bin)| bin.cage.is_some() && bin.speed > 0.1 * bearing.table.top_speed)

@@ -216,7 +216,7 @@ impl Found {
                     let why = || format!("M does not hold for these tests: {finding}");
                     (Err(why()), Err(why()))
                 }
-                None => explained(&tests, moment, &set, how),
+                None => explained(&tests, moment, &set, how, wish.settling_time),
             },
         };
         let cause = (verdict.as_ref().ok()).and_then(|verdict| other_cause(&verdict.conclusion));
@@ -414,10 +414,12 @@ fn explained(
     moment: &Moment,
     set: &RollingSet<f64>,
     how: crate::scenario::Explanations,
+    settling_time: f64,
 ) -> (Result<Verdict, String>, Result<Vec<Candidate>, String>) {
     let settings = explain::Settings {
         seed: how.seed,
         decision: how.decide_at,
+        settling_time,
         ..explain::Settings::default()
     };
     let foretelling = Foretelling {
