@@ -12,9 +12,13 @@ fn scenarios() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios")
 }
 
-fn simulated(scenario: &Scenario) -> Outcome {
+fn attempted(scenario: &Scenario) -> Outcome {
     let interrupt = AtomicBool::new(false);
-    let outcome = run(scenario, &Options::unwatched(&interrupt)).expect("it builds");
+    run(scenario, &Options::unwatched(&interrupt)).expect("it builds")
+}
+
+fn simulated(scenario: &Scenario) -> Outcome {
+    let outcome = attempted(scenario);
     assert!(outcome.stop.complete(), "{:?}", outcome.stop);
     outcome
 }
@@ -47,6 +51,11 @@ fn number(outcome: &Outcome, name: &str) -> f64 {
 
 /// The identification of what stands in `folder/runs`.
 fn identified(folder: &Path, tests: &[&str], more: &str) -> Outcome {
+    simulated(&identification(folder, tests, more))
+}
+
+/// What asks for it.
+fn identification(folder: &Path, tests: &[&str], more: &str) -> Scenario {
     let listed: Vec<String> = tests
         .iter()
         .map(|name| format!("\"runs/{name}/signals.toml\""))
@@ -59,7 +68,7 @@ fn identified(folder: &Path, tests: &[&str], more: &str) -> Outcome {
     );
     let path = folder.join("identify.toml");
     std::fs::write(&path, text).expect("a folder to write to");
-    simulated(&Scenario::read(&path, &[], &BuiltIn).expect("it is right"))
+    Scenario::read(&path, &[], &BuiltIn).expect("it is right")
 }
 
 #[test]
@@ -152,11 +161,13 @@ fn a_clipped_test_is_not_identified() {
     let folder = tempfile::tempdir().expect("a folder");
     into_runs(folder.path(), "rig_coast_down", &[]);
     into_runs(folder.path(), "rig_test_2", &["rig.arm.range=28 N mm"]);
-    let found = identified(
+    let found = attempted(&identification(
         folder.path(),
         &["rig_test_2"],
         "explanations.compare = false",
-    );
+    ));
+    // it is the only one
+    assert!(!found.stop.complete(), "{:?}", found.stop);
     let told = (found.warnings.iter()).find(|warning| warning.code == "AB1060");
     let told = &told.expect("it is told").text;
     assert!(
