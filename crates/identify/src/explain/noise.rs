@@ -11,7 +11,7 @@
 //! ρ is 1 within a test and ½ between tests. The amplitude a is not known: a few values, equally probable, stand for
 //! it. The last term lets the size of an effect differ a little from test to test. Cage speeds have a covariance of
 //! their own. At rest no discrepancy is allowed: a shaft that stands transmits no moment that a model could miss.
-//! Means between rest and the lowest speed of the slow tests are left out, where M is not known, and those within the settling of the
+//! Means between rest and the lowest speed of the slow tests (at most 5 % of the highest speed) are left out, where M is not known, and those within the settling of the
 //! sensor after a stop.
 
 use super::hypothesis::{Bearing, Hypothesis, Prediction};
@@ -61,6 +61,9 @@ const NUGGET: f64 = 0.3;
 /// Part of the inertia moment that a smoothed torque misplaces in time, assumed.
 const SMEAR: f64 = 0.07;
 
+/// Speed over the highest one above which M is carried on below the slow tests: a run-up through it takes milliseconds.
+const NEARLY_RESTS: f64 = 0.05;
+
 /// Mean speed over the lowest one of the slow tests below which a shaft counts as standing.
 const STANDING: f64 = 1e-3;
 
@@ -80,7 +83,7 @@ impl Observed {
             .collect();
         // between rest and the lowest speed of the slow tests nothing is known of M, and where the shaft stops the torque falls at
         // once, which no sensor and no smoothed torque follows
-        let lowest = bearing.steady.0.speed[0];
+        let lowest = bearing.steady.0.speed[0].min(NEARLY_RESTS * bearing.table.top_speed);
         let stands = |bin: &Bin| bin.speed < STANDING * lowest;
         let stopped: Vec<f64> = (tests.iter())
             .map(|test| {

@@ -1,6 +1,7 @@
 //! What is asked of a smoothed record: the motion at an instant, covariance between instants, paths at random.
 
-use super::track::{Belief, Track, mixed};
+use super::node::Belief;
+use super::track::{Track, mixed};
 use super::{Motion, Speed};
 use crate::pulse::Gap;
 

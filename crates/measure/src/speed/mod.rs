@@ -22,6 +22,7 @@ mod design;
 mod fit;
 mod lively;
 mod matrix;
+mod node;
 mod plan;
 mod search;
 mod smoothness;
@@ -34,11 +35,12 @@ use breakaway::Breakaway;
 use bridge::Bridge;
 pub use design::marks_needed;
 use matrix::N;
+use node::Belief;
 use plan::{Data, Plan};
 use smoothness::Smoothness;
 use stiffest::Stiffest;
 use stop::Stop;
-use track::{Belief, Track};
+use track::Track;
 
 /// Where a quick change of speed is looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]

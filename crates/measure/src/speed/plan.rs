@@ -1,7 +1,8 @@
 //! From pulses to the nodes of a track: noises, densities, knots.
 
 use super::matrix::{Memory, N};
-use super::track::{Belief, Fresh, Node, Pass, Sight, forward};
+use super::node::{Belief, Fresh, Node, Sight};
+use super::track::{Pass, forward};
 use crate::pulse::{Pitch, Pulses};
 
 /// A passage, in the units of the fit.

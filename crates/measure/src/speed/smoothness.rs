@@ -20,8 +20,9 @@
 //! **Does not model**: the first and the last fifth of a change, where knots leave more open than the density does: there the
 //! factor fades out.
 
+use super::node::Belief;
 use super::plan::Plan;
-use super::track::{Belief, Track, mixed};
+use super::track::{Track, mixed};
 
 /// How much stiffer the other fit is.
 const STIFFER: f64 = 10.0;
@@ -141,7 +142,7 @@ fn compared(tracks: &[(f64, Track)], stiffer: &[(f64, Track)], time: f64) -> [Co
 #[cfg(test)]
 mod tests {
     use super::super::matrix::{Memory, N};
-    use super::super::track::{Node, Sight};
+    use super::super::node::{Node, Sight};
     use super::*;
 
     /// Integral of a function over u from 0 to infinity, by the rule of trapezia over ln u.

@@ -16,68 +16,7 @@ use super::matrix::{
     Matrix, Memory, N, Vector, advance, apply, carry, drift, gathered, minus, plus, product, root,
     taken_back, transposed,
 };
-use super::plan::moving;
-
-/// A mark that passes.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sight {
-    pub angle: f64,
-    /// Variance of the angle.
-    pub variance: f64,
-    /// Rough speed: angle per error of the instant.
-    pub speed: f64,
-}
-
-impl Sight {
-    /// A column of a matrix as the pulse sees it: of the angle, plus the speed times that of the clock.
-    fn seen(&self, matrix: &Matrix) -> Vector {
-        std::array::from_fn(|i| matrix[i][0] + self.speed * matrix[i][4])
-    }
-
-    fn of(&self, x: &Vector) -> f64 {
-        x[0] + self.speed * x[4]
-    }
-}
-
-/// Something that happens at an instant.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Node {
-    /// Instant, in units of the track.
-    pub time: f64,
-    /// Density of the snap in the interval before it.
-    pub density: f64,
-    /// Where a mark passes.
-    pub pulse: Option<Sight>,
-    /// Variance added to each state, before the pulse.
-    pub added: Option<[f64; 4]>,
-    /// A motion that begins anew, before the pulse: what was before tells nothing of it.
-    pub fresh: Option<Fresh>,
-}
-
-/// A motion of which nearly nothing is known.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Fresh {
-    pub angle: f64,
-    /// Rough speed.
-    pub speed: f64,
-    /// Angle between marks.
-    pub pitch: f64,
-}
-
-impl Fresh {
-    fn belief(&self, memory: &Memory) -> Belief {
-        let mut belief = moving(self.angle, self.speed, self.pitch);
-        belief.covariance[4][4] = memory.spread * memory.spread;
-        belief
-    }
-}
-
-/// Mean and covariance of a state.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Belief {
-    pub mean: Vector,
-    pub covariance: Matrix,
-}
+use super::node::{Belief, Node};
 
 /// A filtered and smoothed record.
 #[derive(Clone, Debug)]
@@ -182,6 +121,9 @@ pub(super) fn forward(
         curvature,
     }
 }
+
+/// Nodes behind one at which nearly nothing is known, after which numbers are sound.
+const OPENING: usize = 4;
 
 impl Track {
     pub fn new(nodes: Vec<Node>, start: Belief, density: f64, memory: Memory) -> Track {
@@ -340,8 +282,32 @@ impl Track {
         })
     }
 
+    /// The instant by which some pulses have passed since nearly nothing was known, where an instant lies before it.
+    fn settled(&self, time: f64) -> Option<f64> {
+        let now = self.times.partition_point(|&t| t <= time).checked_sub(1)?;
+        let open = |k: usize| self.nodes[k].fresh.is_some() || (k == 0 && !self.rests());
+        let begin = (now.saturating_sub(OPENING)..=now)
+            .rev()
+            .find(|&k| open(k))?;
+        let settled = self.nodes[(begin + OPENING).min(self.nodes.len() - 1)].time;
+        (time < settled).then_some(settled)
+    }
+
     /// Belief at an instant not before the first node.
+    ///
+    /// Among the first pulses what was open and what they tell nearly cancel: there the motion is no better known than behind them.
     fn within(&self, time: f64) -> Belief {
+        let mut belief = self.smoothed(time);
+        if let Some(settled) = self.settled(time) {
+            let behind = self.smoothed(settled).covariance;
+            for (i, row) in belief.covariance.iter_mut().enumerate() {
+                row[i] = row[i].max(behind[i][i]);
+            }
+        }
+        belief
+    }
+
+    fn smoothed(&self, time: f64) -> Belief {
         let (belief, gradient, curvature) = self.around(time);
         let p = &belief.covariance;
         let shift = apply(p, &gradient);
@@ -513,6 +479,7 @@ pub(super) fn mixed(parts: impl Iterator<Item = (f64, Belief)> + Clone) -> Belie
 
 #[cfg(test)]
 mod tests {
+    use super::super::node::Sight;
     use super::*;
 
     /// Ten marks of an accelerated start, with noise of the angle.
