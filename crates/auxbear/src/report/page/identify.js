@@ -230,7 +230,7 @@ function identifyVerdict(run) {
     "div",
     { class: "tiles" },
     stateTile(run),
-    tile("Explanation", words.split(":")[0], [conclusion.why || words.split(": ")[1] || `probability ${percentText(probability, 3)}`]),
+    tile("Explanation", words.split(":")[0], [conclusion.why || words.split(": ")[1] || (words === "none of these" ? "the likeliest does not fit" : `probability ${percentText(probability, 3)}`)]),
     tile("Steady moment", typeof form.value === "string" ? FORMS[form.value] || form.value : "–", [form.why]),
     numberOf(run, "rotor_friction_coefficient") === null ? null : tile("Friction rotor/race", uncertainText(run, "rotor_friction_coefficient", ""), ["mean over the slips, ± twice the standard deviation"]),
     tile("Dissipated in the spin-ups", `${tests.length} ${tests.length === 1 ? "test" : "tests"}`, best),

@@ -437,6 +437,10 @@ fn explained(
         Ok(verdict) if matches!(verdict.conclusion, explain::Conclusion::Supported(_)) => {
             Err("the tests at hand decide".to_string())
         }
+        Ok(verdict) if verdict.conclusion == explain::Conclusion::NoneOfThese => Err(
+            "none of the explanations fits: what would decide between them is not what is asked"
+                .to_string(),
+        ),
         Ok(verdict) => explain::next_test(verdict, &measurements, curve, set, &priors, &settings)
             .map(|mut candidates| {
                 let all_see_the_cage = measurements.iter().all(|test| test.cage.is_some());

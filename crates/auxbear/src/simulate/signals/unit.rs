@@ -16,6 +16,9 @@ pub fn unit_of(text: &str, si: &str) -> Option<Unit> {
         ("mNm", "mN m"),
         ("kNm", "kN m"),
         ("sec", "s"),
+        ("m/s2", "m/s^2"),
+        ("m/s²", "m/s^2"),
+        ("m/sec2", "m/s^2"),
         ("°C", "degC"),
         ("deg C", "degC"),
         ("C", "degC"),
@@ -64,6 +67,7 @@ mod tests {
             assert_eq!(si_factor(text, "N m"), Some(1.0), "{text}");
         }
         assert_eq!(si_factor("Nmm", "N m"), Some(1e-3));
+        assert_eq!(si_factor("m/s2", "m/s^2"), Some(1.0));
         assert_eq!(si_factor("N", "N m"), None);
         assert_eq!(si_factor("", "N m"), None);
         assert_eq!(si_factor("ms", "s"), Some(1e-3));
