@@ -22,6 +22,7 @@ pub mod cage_speed;
 pub mod converter;
 pub mod file;
 mod kernel;
+mod linear;
 pub mod normal;
 pub mod order;
 pub mod pulse;

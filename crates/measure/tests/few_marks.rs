@@ -21,7 +21,7 @@ use std::f64::consts::TAU;
 
 use measure::pulse::{EdgeSettings, Pulses, Wheel, calibrate, edges, number};
 use measure::speed::{Speed, SpeedSettings, marks_needed, smooth};
-use synthetic::{Random, Truth, shaped};
+use synthetic::{Truth, optical, shaped};
 
 /// Samples per second of the pickup: one of four channels of a converter of 42 kHz.
 const RATE: f64 = 10_500.0;
@@ -35,31 +35,8 @@ const RAMP: Shape = (|x| x, 1.0 / 3.0);
 const EVEN: Shape = (|_| 1.0, 0.5);
 const BREAKS_AWAY: Shape = (|x| 0.2 + 0.8 * x, (0.1 + 0.8 / 6.0) / 0.6);
 
-/// What an optical pickup shows of a wheel whose marks are off by a hundredth of their pitch.
-fn pickup(truth: &Truth, seed: u64, marks: usize) -> Vec<f64> {
-    let mut random = Random::new(seed ^ 0x77);
-    let count = marks as f64;
-    let mut places: Vec<f64> = (0..marks)
-        .map(|k| k as f64 + 0.01 * random.normal())
-        .collect();
-    places.push(places[0] + count);
-    (0..(truth.end() * RATE) as usize)
-        .map(|k| {
-            let turned = truth.angle(k as f64 / RATE) / TAU * count;
-            let inside = turned - ((turned - places[0]) / count).floor() * count;
-            let after = places.partition_point(|place| *place <= inside);
-            let after = after.clamp(1, marks);
-            let (left, right) = (places[after - 1], places[after]);
-            let phase = TAU * (inside - left) / (right - left);
-            let volts = 2.5 * (1.0 + (6.0 * phase.cos()).tanh()) + 0.05 * random.normal();
-            let bit = 20.0 / 16384.0;
-            (volts / bit).round() * bit
-        })
-        .collect()
-}
-
 fn passages(truth: &Truth, seed: u64, marks: usize) -> Pulses {
-    let samples = pickup(truth, seed, marks);
+    let samples = optical(truth, seed, marks, RATE);
     let found = edges(0.0, RATE.recip(), &samples, &EdgeSettings::default()).unwrap();
     number(&found, &Wheel { marks, missing: 0 }).unwrap()
 }

@@ -14,6 +14,8 @@
 //!
 //! **Does not model**: a shaft that brakes and speeds up again in the gap, so that both edges look as if nothing had been.
 
+use crate::linear::inverse;
+
 /// Marks that did not come, in an interval between two that did.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
@@ -115,7 +117,7 @@ fn fitted(marks: &[(f64, f64)], noise: f64, weights: &[f64; 3]) -> Option<Side> 
     let reach = marks[marks.len() - 1].0 - edge;
     let points: Vec<(f64, f64)> = marks.iter().map(|m| ((m.0 - edge) / reach, m.1)).collect();
     // The passage at the edge itself may be that of a pickup that failed or came back.
-    let (three, inverse) = polynomial::<3>(&points[1..])?;
+    let (three, spread) = polynomial::<3>(&points[1..])?;
     let (four, _) = polynomial::<4>(&points[1..])?;
     let away: Vec<f64> = points[1..]
         .iter()
@@ -132,7 +134,7 @@ fn fitted(marks: &[(f64, f64)], noise: f64, weights: &[f64; 3]) -> Option<Side> 
     let scale = [1.0, reach.recip(), 2.0 / (reach * reach)];
     let value: [f64; 3] = std::array::from_fn(|i| three[i] * scale[i]);
     let mut covariance: [[f64; 3]; 3] = std::array::from_fn(|i| {
-        std::array::from_fn(|j| variance * inverse[i][j] * scale[i] * scale[j])
+        std::array::from_fn(|j| variance * spread[i][j] * scale[i] * scale[j])
     });
     let bend: f64 = (0..3)
         .map(|i| weights[i] * (four[i] - three[i]) * scale[i])
@@ -154,23 +156,7 @@ fn polynomial<const N: usize>(points: &[(f64, f64)]) -> Option<([f64; N], [[f64;
             }
         }
     }
-    let largest = square[0][0];
-    for p in 0..N {
-        let pivot = square[p][p];
-        if pivot.is_nan() || pivot <= 1e-13 * largest {
-            return None;
-        }
-        square[p][p] = 1.0;
-        square[p].iter_mut().for_each(|value| *value /= pivot);
-        let row = square[p];
-        for (_, line) in square.iter_mut().enumerate().filter(|(i, _)| *i != p) {
-            let factor = line[p];
-            line[p] = 0.0;
-            line.iter_mut()
-                .zip(&row)
-                .for_each(|(x, r)| *x -= factor * r);
-        }
-    }
+    let square = inverse(square, 1e-13)?;
     let found: [f64; N] =
         std::array::from_fn(|i| (0..N).map(|j| square[i][j] * right[j]).sum::<f64>());
     found

@@ -26,6 +26,11 @@ const ORDINARY: f64 = 1e-2;
 /// Independent values within a period, below which it may be a ripple of the speed: a sine has two.
 const RIPPLE: f64 = 2.2;
 
+/// Mean correlation below which most of a pattern is noise: few samples a mark, whose errors repeat with the sampling.
+const WEAK: f64 = 0.3;
+/// Deviations of the mean correlation over the lags of the stated number alone, from which on it shows by itself.
+const ITSELF: f64 = 6.0;
+
 /// Compares the marks per revolution that were stated with those that the wheel itself shows, where it does.
 ///
 /// Contradicted only where another number explains the pattern better than the stated one beyond chance. A wheel whose revolution
@@ -64,7 +69,10 @@ pub fn check_marks(pulses: &Pulses) -> Marks {
         let shown = seen
             .chance_of_parts(stated, found)
             .is_some_and(|chance| chance < usual);
-        own.is_none() || less(own, others) && !shown
+        // In a weak pattern chance makes parts unlike as it makes them alike: a number that stands out by itself is no wrong one.
+        let weak = others.is_some_and(|others| others.value < WEAK) && seen.stands_out(stated);
+        let itself = own.is_some_and(|own| own.value > ITSELF * own.deviation);
+        own.is_none() || less(own, others) && !shown && !(weak && itself)
     };
     if !contradicted {
         return match seen.stands_out(stated) {

@@ -19,6 +19,7 @@ mod edge;
 mod envelope;
 mod flank;
 mod gap;
+mod in_step;
 mod level;
 mod marks;
 mod period;

@@ -21,6 +21,7 @@
 //! lags alone prove nothing and are left out of all combs, so that at some speeds nothing is told.
 
 use super::{Pulses, median};
+use crate::linear::solved;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 use std::f64::consts::TAU;
@@ -428,32 +429,10 @@ fn without_sampling(pattern: &mut [f64], times: &[f64], gaps: &[f64], first: f64
     }
     let size: f64 = (0..SIZE).map(|i| square[i][i]).sum::<f64>() / SIZE as f64;
     (0..SIZE).for_each(|i| square[i][i] += 1e-6 * size + f64::MIN_POSITIVE);
-    let Some(amounts) = solved(square, right) else {
+    let Some(amounts) = solved(&square, &right) else {
         return;
     };
     for (k, value) in pattern.iter_mut().enumerate() {
         *value -= row(k).iter().zip(&amounts).map(|(w, a)| w * a).sum::<f64>();
     }
-}
-
-/// Solution of a positive definite system, by elimination.
-#[allow(clippy::needless_range_loop)] // two rows at a time
-fn solved<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N]) -> Option<[f64; N]> {
-    for p in 0..N {
-        if a[p][p] <= 0.0 || !a[p][p].is_finite() {
-            return None;
-        }
-        for i in p + 1..N {
-            let factor = a[i][p] / a[p][p];
-            for j in p..N {
-                a[i][j] -= factor * a[p][j];
-            }
-            b[i] -= factor * b[p];
-        }
-    }
-    for p in (0..N).rev() {
-        let known: f64 = (p + 1..N).map(|j| a[p][j] * b[j]).sum();
-        b[p] = (b[p] - known) / a[p][p];
-    }
-    Some(b)
 }

@@ -48,39 +48,22 @@ pub(super) fn sight(data: &Data, wanted: &Transient) -> Option<Sight> {
     if to < from + 4 {
         return None;
     }
-    let speed = |k: usize| (all[k + 1].angle - all[k].angle) / (all[k + 1].time - all[k].time);
     let interval = |k: usize| all[k + 1].time - all[k].time;
     let silence = all[0].time - data.watched.0;
     // At rest before: watched for long without a pulse, or intervals that shrink as from rest.
     let rests = from == 0
         && (silence > 2.0 * interval(0) || (silence < 1e-9 && interval(0) > 1.6 * interval(1)));
-    let mut rough: Vec<f64> = (from..to - 1).map(speed).collect();
-    // Over a silence of the pickup nothing is seen of the speed.
-    for k in (from..to - 1).filter(|&k| data.is_fresh(all[k + 1].time)) {
-        rough[k - from] = if k > from {
-            rough[k - from - 1]
-        } else {
-            speed(k + 1)
-        };
-    }
-    // The median of three: one odd interval is no change of speed.
-    let speeds: Vec<f64> = (0..rough.len())
-        .map(|k| {
-            let (a, b) = (
-                rough[k.saturating_sub(1)],
-                rough[(k + 1).min(rough.len() - 1)],
-            );
-            a.min(b).max(rough[k].min(a.max(b)))
-        })
-        .collect();
-    let (top, &high) = speeds
-        .iter()
-        .enumerate()
-        .max_by(|a, b| a.1.total_cmp(b.1))?;
+    let over = intervals(data);
+    let speeds = rough_speeds(data, from..to, over);
+    let steady = rough_speeds(data, from..to, 4 * over - 3);
+    let top_of =
+        |speeds: &[f64]| (0..speeds.len()).max_by(|&a, &b| speeds[a].total_cmp(&speeds[b]));
+    let top = top_of(&speeds)?;
+    let high = steady[top_of(&steady)?];
     let low = if rests {
         0.0
     } else {
-        speeds[..=top].iter().copied().fold(f64::INFINITY, f64::min)
+        steady[..=top].iter().copied().fold(f64::INFINITY, f64::min)
     };
     let change = high - low;
     if change < 0.3 * high {
@@ -126,6 +109,56 @@ pub(super) fn sight(data: &Data, wanted: &Transient) -> Option<Sight> {
         change,
         ends: after + 3 < n,
     })
+}
+
+/// Noise of a rough speed, as a part of it, that first sight bears: a quarter of what it looks at.
+const CLEAR: f64 = 0.01;
+/// Most intervals that a rough speed is taken over; a quick change has hardly more.
+const BLURRED: usize = 7;
+
+/// Intervals, an odd number of them, over which a speed is taken to see it clearly.
+fn intervals(data: &Data) -> usize {
+    let mut parts: Vec<f64> = (data.passages.iter())
+        .map(|p| p.spread * p.speed.abs() / data.pitch)
+        .collect();
+    // Some flanks are met by a sample; those that are not count.
+    let noise = std::f64::consts::SQRT_2 * crate::pulse::quantile(&mut parts, 0.9);
+    let needed = (noise / CLEAR).ceil().min(BLURRED as f64) as usize;
+    needed.max(1) | 1
+}
+
+/// Speed of each interval, over so many about it, with the median of three: one odd interval is no change of speed.
+fn rough_speeds(data: &Data, range: std::ops::Range<usize>, over: usize) -> Vec<f64> {
+    let all = &data.passages;
+    let (from, to) = (range.start, range.end);
+    let speed = |k: usize| {
+        let about = k.saturating_sub(over / 2).max(from)..(k + 1 + over / 2).min(to - 1);
+        // Nothing is seen across a silence of the pickup.
+        let parted = over > 1 && (about.clone()).any(|j| data.is_fresh(all[j + 1].time));
+        let (a, b) = match parted {
+            true => (k, k + 1),
+            false => (about.start, about.end),
+        };
+        (all[b].angle - all[a].angle) / (all[b].time - all[a].time)
+    };
+    let mut rough: Vec<f64> = (from..to - 1).map(speed).collect();
+    // Over a silence of the pickup nothing is seen of the speed.
+    for k in (from..to - 1).filter(|&k| data.is_fresh(all[k + 1].time)) {
+        rough[k - from] = if k > from {
+            rough[k - from - 1]
+        } else {
+            speed(k + 1)
+        };
+    }
+    (0..rough.len())
+        .map(|k| {
+            let (a, b) = (
+                rough[k.saturating_sub(1)],
+                rough[(k + 1).min(rough.len() - 1)],
+            );
+            a.min(b).max(rough[k].min(a.max(b)))
+        })
+        .collect()
 }
 
 /// Stretches of a part of the passages, at most three, spread over it.

@@ -158,6 +158,9 @@ pub struct Speed {
     pub notes: Vec<String>,
 }
 
+/// Part of the pulses that are in step with the sampling from which on it is told.
+const IN_STEP: f64 = 0.2;
+
 /// Fewest pulses that are smoothed at all.
 const FEWEST: usize = 6;
 
@@ -195,10 +198,10 @@ pub fn smooth(
     pitch: Option<&Pitch>,
     settings: &SpeedSettings,
 ) -> Result<Speed, Refusal> {
-    let n = pulses.times.len();
-    if n < FEWEST || pulses.marks.len() != n || pulses.uncertainties.len() != n {
+    let all = pulses.times.len();
+    if all < FEWEST || pulses.marks.len() != all || pulses.uncertainties.len() != all {
         return Err(Refusal::new(
-            format!("{n} pulses"),
+            format!("{all} pulses"),
             format!("at least {FEWEST} pulses"),
         ));
     }
@@ -212,6 +215,9 @@ pub fn smooth(
             "pulses as `number` gives them",
         ));
     }
+    let thinned = pulses.out_of_step();
+    let pulses = thinned.as_ref().unwrap_or(pulses);
+    let n = pulses.times.len();
     let mut data = Data::new(pulses, pitch);
     let sight = fit::sight(&data, &settings.transient);
     if let Some(sight) = &sight {
@@ -219,6 +225,12 @@ pub fn smooth(
         enough(&data, sight, settings)?;
     }
     let mut notes = pulses.notes.clone();
+    if (all - n) as f64 > IN_STEP * all as f64 {
+        notes.push(format!(
+            "{} of {all} pulses are left out: a mark takes a whole number of samples there, so that their errors are one error; another sampling rate, or another number of marks, would tell more",
+            all - n
+        ));
+    }
     let quiet_from = sight.map_or(0, |s| s.after.min(n));
     let (noise, density) = if n - quiet_from >= 12 {
         fit::quiet(&data, (quiet_from + (n - quiet_from) / 20).min(n)..n)

@@ -10,6 +10,7 @@
 //! **Does not model**: errors of the marks, and noise of the instants that is correlated.
 
 use super::Speed;
+use crate::linear::inverse;
 use crate::pulse::Pulses;
 
 /// Coefficients of the cubic.
@@ -47,7 +48,7 @@ impl Stiffest {
         Some(Stiffest {
             middle,
             half,
-            covariance: inverse(square)?,
+            covariance: inverse(square, 1e-12)?,
         })
     }
 
@@ -69,48 +70,4 @@ impl Stiffest {
 
 fn powers(x: f64) -> [f64; SIZE] {
     [1.0, x, x * x, x * x * x]
-}
-
-/// Inverse of a symmetric positive matrix, by elimination; none if it is not positive.
-fn inverse(mut a: [[f64; SIZE]; SIZE]) -> Option<[[f64; SIZE]; SIZE]> {
-    let largest = a[0][0];
-    for p in 0..SIZE {
-        let pivot = a[p][p];
-        if pivot.is_nan() || pivot <= 1e-12 * largest {
-            return None;
-        }
-        a[p][p] = 1.0;
-        a[p].iter_mut().for_each(|value| *value /= pivot);
-        let row = a[p];
-        for (_, line) in a.iter_mut().enumerate().filter(|(i, _)| *i != p) {
-            let factor = line[p];
-            line[p] = 0.0;
-            line.iter_mut()
-                .zip(&row)
-                .for_each(|(x, r)| *x -= factor * r);
-        }
-    }
-    Some(a)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_inverse_is_one() {
-        let a = [
-            [4.0, 1.0, 0.5, 0.0],
-            [1.0, 3.0, 0.2, 0.1],
-            [0.5, 0.2, 2.0, 0.3],
-            [0.0, 0.1, 0.3, 1.0],
-        ];
-        let b = inverse(a).unwrap();
-        for cell in 0..SIZE * SIZE {
-            let (i, j) = (cell / SIZE, cell % SIZE);
-            let product: f64 = (0..SIZE).map(|k| a[i][k] * b[k][j]).sum();
-            assert!((product - f64::from(u8::from(i == j))).abs() < 1e-14);
-        }
-        assert!(inverse([[1.0; SIZE]; SIZE]).is_none());
-    }
 }

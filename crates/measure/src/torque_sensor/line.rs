@@ -1,6 +1,6 @@
 //! Steady sinusoidal lines in what a swing leaves.
 
-use super::swing::solved;
+use crate::linear::solved;
 use crate::simplex;
 use std::f64::consts::TAU;
 

@@ -1,5 +1,6 @@
 //! The fit of a decaying swing about a level.
 
+use crate::linear::solved;
 use crate::simplex;
 use std::f64::consts::TAU;
 
@@ -258,33 +259,4 @@ impl Data<'_> {
             )
         })
     }
-}
-
-/// Solution of a small symmetric system by elimination with pivots; none if it is singular.
-pub(super) fn solved<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Option<[f64; N]> {
-    let (mut a, mut x) = (*a, *b);
-    let size = (0..N).map(|i| a[i][i].abs()).fold(0.0, f64::max);
-    for column in 0..N {
-        let pivot =
-            (column..N).max_by(|&i, &j| a[i][column].abs().total_cmp(&a[j][column].abs()))?;
-        let found = a[pivot][column].abs();
-        if found <= 1e-13 * size || found.is_nan() {
-            return None;
-        }
-        a.swap(column, pivot);
-        x.swap(column, pivot);
-        for row in column + 1..N {
-            let factor = a[row][column] / a[column][column];
-            let source = a[column];
-            for (value, from) in a[row].iter_mut().zip(&source) {
-                *value -= factor * from;
-            }
-            x[row] -= factor * x[column];
-        }
-    }
-    for row in (0..N).rev() {
-        let rest: f64 = (row + 1..N).map(|j| a[row][j] * x[j]).sum();
-        x[row] = (x[row] - rest) / a[row][row];
-    }
-    Some(x)
 }

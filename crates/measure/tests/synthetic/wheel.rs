@@ -230,6 +230,29 @@ pub fn pickup(truth: &Truth, seed: u64, marks: usize, rate: f64) -> Vec<f64> {
         .collect()
 }
 
+/// What an optical pickup shows of a wheel whose marks are off by a hundredth of their pitch, and whose flanks take a tenth.
+pub fn optical(truth: &Truth, seed: u64, marks: usize, rate: f64) -> Vec<f64> {
+    let mut random = Random::new(seed ^ 0x77);
+    let count = marks as f64;
+    let mut places: Vec<f64> = (0..marks)
+        .map(|k| k as f64 + 0.01 * random.normal())
+        .collect();
+    places.push(places[0] + count);
+    (0..(truth.end() * rate) as usize)
+        .map(|k| {
+            let turned = truth.angle(k as f64 / rate) / TAU * count;
+            let inside = turned - ((turned - places[0]) / count).floor() * count;
+            let after = places.partition_point(|place| *place <= inside);
+            let after = after.clamp(1, marks);
+            let (left, right) = (places[after - 1], places[after]);
+            let phase = TAU * (inside - left) / (right - left);
+            let volts = 2.5 * (1.0 + (6.0 * phase.cos()).tanh()) + 0.05 * random.normal();
+            let bit = 20.0 / 16384.0;
+            (volts / bit).round() * bit
+        })
+        .collect()
+}
+
 /// Time stamps of a counter with a clock of 10 MHz.
 pub fn stamps(truth: &Truth, seed: u64, marks: usize) -> Vec<f64> {
     let mut r = Random::new(seed ^ 0x1357_9bdf);
