@@ -8,9 +8,9 @@
 //!
 //! | marks, in the slip | rises evenly: speed, acceleration | is even | breaks away |
 //! |---|---|---|---|
-//! | 12, nine in 63 to 94 ms | 91.0, 94.3 % | 95.1, 96.9 % | 96.1, 96.3 % |
-//! | 24, twelve in 42 to 63 ms | 98.4, 99.0 % | 98.0, 98.1 % | 95.6, 96.4 % |
-//! | 60, nine in 13 to 19 ms | 98.2, 99.4 % | 94.8, 91.5 % | 87.4, 80.8 % |
+//! | 12, nine in 63 to 94 ms | 91.1, 93.8 % | 94.8, 96.7 % | 95.3, 95.4 % |
+//! | 24, twelve in 42 to 63 ms | 99.0, 98.5 % | 96.6, 97.6 % | 95.2, 95.2 % |
+//! | 60, nine in 13 to 19 ms | 97.7, 99.6 % | 96.5, 94.5 % | 84.4, 78.6 % |
 //!
 //! With seven of 12 or 24 marks it was 82 to 100 % each, with five 79 % of the acceleration where the torque breaks away: refused.
 
@@ -75,8 +75,9 @@ fn the_engagement_of_a_rising_torque_is_found_with_twelve_marks_in_the_slip() {
         assert!(off.abs() < 2.6e-3, "{seed}: {off} {change:?}");
         inside += usize::from(off.abs() < 2.0 * change.engagement.1);
     }
-    // One of four outside comes by chance in a sixth of all trials, two in a hundredth.
-    assert!(inside as u64 + 1 >= seeds(), "{inside}");
+    // One of four outside comes by chance in a sixth of all trials, two in a hundredth; of forty four in a tenth, six in a hundredth.
+    let outside = 1 + (seeds() - seeds().min(4)) / 9;
+    assert!(inside as u64 + outside >= seeds(), "{inside}");
 }
 
 #[test]

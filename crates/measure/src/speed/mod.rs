@@ -159,7 +159,7 @@ pub struct Speed {
 }
 
 /// Part of the pulses that are in step with the sampling from which on it is told.
-const IN_STEP: f64 = 0.2;
+const IN_STEP: f64 = 0.4;
 
 /// Fewest pulses that are smoothed at all.
 const FEWEST: usize = 6;
@@ -170,13 +170,13 @@ const FEWEST: usize = 6;
 /// eight, one whose acceleration is less certain than [`SpeedSettings::wanted`].
 ///
 /// Four hundred made-up spin-ups a case, from models other than this one (`tests/speed_coverage.rs`), to 150 rad/s: bands of
-/// two standard deviations hold the truth in 93 to 97.3 % of all instants; medians of the error of the peak acceleration and
+/// two standard deviations hold the truth in 93 to 97.7 % of all instants; medians of the error of the peak acceleration and
 /// of the root mean square error, as parts of the peak:
 ///
 /// | spin-up | marks | peak | rms |
 /// |---|---|---|---|
 /// | 25 ms, 11 500 rad/s², smooth | 60, sampled at 10 kHz, rising flanks | 0.5 % | 1.4 % |
-/// | | 60, both flanks | 0.3 % | 1.1 % |
+/// | | 60, both flanks | 0.4 % | 1.1 % |
 /// | | 360, stamped | 0.2 % | 0.5 % |
 /// | 40 ms, 7200 rad/s², smooth | 60, sampled | 0.4 % | 1.0 % |
 /// | 223 ms, 1300 rad/s², smooth | 12, sampled | 0.2 % | 0.8 % |
