@@ -232,3 +232,58 @@ fn a_window_that_is_no_spin_up_is_refused() {
         found.notes
     );
 }
+
+/// The exact loss where the error of the cage has so long a memory, and the part of its deviation that the cage makes.
+fn with_memory(test: &Measurement, correlation_time: f64, deviation: f64) -> (f64, f64) {
+    let found = |deviation: f64| {
+        let mut test = test.clone();
+        let cage = test.cage.as_mut().unwrap();
+        cage.deviation.iter_mut().for_each(|own| *own = deviation);
+        let memory = &mut cage.correlation_time;
+        memory.iter_mut().for_each(|own| *own = correlation_time);
+        let found = dissipation(&test, &set(), &EXACT, Some((0.2, 0.25))).unwrap();
+        found.exact.unwrap()
+    };
+    let (with, without) = (found(deviation), found(0.0));
+    let own = with.deviation.powi(2) - without.deviation.powi(2);
+    (with.value, own.max(0.0).sqrt())
+}
+
+#[test]
+fn an_error_that_the_whole_trace_of_the_cage_has_moves_the_loss_by_its_deviation() {
+    let (test, _) = quiet(0.025, true);
+    let (value, deviation) = with_memory(&test, 1e9, 0.5);
+    let mut shifted = test.clone();
+    let cage = shifted.cage.as_mut().unwrap();
+    cage.speed.iter_mut().for_each(|own| *own += 0.5);
+    let moved = with_memory(&shifted, 1e9, 0.5).0 - value;
+    assert!(moved.abs() > 1e-5, "{moved}");
+    // what is left is quadratic in the shift, and the spin of the balls
+    assert!(
+        (moved.abs() / deviation - 1.0).abs() < 0.05,
+        "{moved} {deviation}"
+    );
+}
+
+#[test]
+fn errors_of_the_cage_without_memory_scatter_the_loss_by_their_deviation() {
+    let (test, _) = quiet(0.025, true);
+    let (value, deviation) = with_memory(&test, 1e-9, 0.5);
+    let mut random = Random::new(77);
+    let count = 400;
+    let square: f64 = (0..count)
+        .map(|_| {
+            let mut scattered = test.clone();
+            let cage = scattered.cage.as_mut().unwrap();
+            let errors = cage.speed.iter_mut();
+            errors.for_each(|own| *own += 0.5 * random.normal());
+            (with_memory(&scattered, 1e-9, 0.5).0 - value).powi(2)
+        })
+        .sum();
+    let scatter = (square / f64::from(count)).sqrt();
+    // a standard deviation of 400 is known to 3.5 %: three times that, and a little for the spin of the balls
+    assert!(
+        (scatter / deviation - 1.0).abs() < 0.15,
+        "{scatter} {deviation}"
+    );
+}
