@@ -142,7 +142,7 @@ impl Machine<'_> {
             Built::Drop(drop, built) => drop::run(self.scenario, drop, built, options),
             Built::SpinUp(spin_up, built) => spin_up::run(self.scenario, spin_up, built, options),
             Built::Torque(asked) => torque::run(self.scenario, asked),
-            Built::Signals(asked) => signals::run(self.scenario, asked),
+            Built::Signals(asked) => signals::run(self.scenario, asked, options),
             Built::Identify(asked) => identify::run(self.scenario, asked, options),
             Built::Rig(rig, built) => rig::run(self.scenario, rig, built, options),
         };

@@ -4,6 +4,7 @@ use super::envelope::Envelope;
 use super::flank::{Passing, sharpen};
 use super::level::Levels;
 use super::shape::Shape;
+use super::spike;
 use super::{Edges, Flank, Refusal};
 
 /// How flanks are found.
@@ -40,10 +41,10 @@ const BENT: f64 = 3.0;
 /// Samples of a plateau, next to the flank, that tell its level, at most.
 const PLATEAU: usize = 64;
 
-struct Flip {
+pub(super) struct Flip {
     /// First sample beyond the hysteresis on the new side.
-    sample: usize,
-    rises: bool,
+    pub sample: usize,
+    pub rises: bool,
 }
 
 /// Finds the instants at which a sampled signal crosses the middle between its two levels.
@@ -118,6 +119,13 @@ pub fn edges(
         ));
     }
     let flips = flips(samples, &levels, part);
+    let (flips, spikes) = spike::without(flips);
+    notes.extend(spikes.map(|(count, sample)| {
+        format!(
+            "{count} spikes of a sample or two beside pulses many times as wide, the first at {:.6} s: left out",
+            first + interval * sample as f64
+        )
+    }));
     let middles = middles(samples, &flips, &levels, fixed);
     let mut found: Vec<Passing> = flips
         .iter()
@@ -311,15 +319,25 @@ fn among_neighbours(own: &[Middle], k: usize) -> f64 {
     mean + (here.value - mean) * apart / (apart + here.variance).max(1e-30)
 }
 
+/// Samples of a plateau up to which half of them are taken for its corners: their heights follow the place of the flank, and a
+/// middle that follows it too hides where it is.
+const CORNERS: usize = 6;
+
 /// Level of a plateau on one side of the middle, mean of the samples that are far from it, and their number.
 fn plateau(samples: &[f64], middle: f64, sign: f64) -> Option<(f64, f64)> {
-    let away = samples
+    let mut away: Vec<f64> = samples
         .iter()
         .map(|x| sign * (x - middle))
-        .filter(|x| x.is_finite());
-    let largest = away.clone().fold(0.0, f64::max);
+        .filter(|x| x.is_finite())
+        .collect();
+    away.sort_by(|a, b| b.total_cmp(a));
+    if away.len() <= CORNERS {
+        away.truncate((away.len() / 2).max(1));
+    }
+    let largest = *away.first()?;
     let (sum, count) = away
-        .filter(|&x| x >= 0.8 * largest)
+        .iter()
+        .filter(|&&x| x >= 0.8 * largest)
         .fold((0.0, 0usize), |(s, n), x| (s + x, n + 1));
     let count = count.max(1) as f64;
     (largest > 0.0).then(|| (middle + sign * sum / count, count))

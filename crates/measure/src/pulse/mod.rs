@@ -25,6 +25,7 @@ mod marks;
 mod period;
 mod pitch;
 mod shape;
+mod spike;
 mod train;
 
 use std::fmt;

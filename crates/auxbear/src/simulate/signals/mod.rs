@@ -24,11 +24,13 @@ pub(super) mod torque;
 mod unit;
 mod vibration;
 
+use super::Options;
 use super::outcome::{Outcome, Picture, Stop, Warning, Work};
 use super::warnings_shared::assumptions;
 use crate::problem::Problem;
 use crate::scenario::{CageKind, PickupKind, Scenario, SensorSource, Signals};
 use read::{Listed, Series, Source, Stamps};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// Channels that were read, and what is asked of them.
@@ -271,11 +273,11 @@ fn sampled<'a>(asked: &'a Asked) -> impl Iterator<Item = &'a Series> {
 }
 
 /// A vibration and slow runs, which need the shaft.
-fn more(asked: &Asked, found: &mut Found) {
+fn more(asked: &Asked, going: &dyn Fn() -> Result<(), String>, found: &mut Found) {
     let no_shaft = || Err("it needs the speed of the shaft".to_string());
     if let (Some(series), Some(wish)) = (&asked.vibration, &asked.signals.vibration) {
         let vibration = match &found.shaft {
-            Some(shaft) => vibration::Found::of(series, wish, shaft),
+            Some(shaft) => going().and_then(|()| vibration::Found::of(series, wish, shaft)),
             None => no_shaft(),
         };
         match vibration {
@@ -293,7 +295,8 @@ fn more(asked: &Asked, found: &mut Found) {
     let reading = asked.torque.as_ref().zip(faulty.as_ref());
     let reading = reading.map(|(series, faulty)| (series, faulty, found.torque.as_ref()));
     let steady = match &found.shaft {
-        Some(shaft) => steady::Found::of(wish, shaft, reading, asked.signals.torque.as_ref()),
+        Some(shaft) => going()
+            .and_then(|()| steady::Found::of(wish, shaft, reading, asked.signals.torque.as_ref())),
         None => Err("it needs the speed of the shaft".to_string()),
     };
     match steady {
@@ -305,8 +308,20 @@ fn more(asked: &Asked, found: &mut Found) {
     }
 }
 
+/// Why a part has no numbers where an interrupt came before it.
+const INTERRUPTED: &str = "interrupted";
+
 /// Computes what is asked for.
 pub(super) fn find(asked: &Asked) -> Found {
+    find_until(asked, &AtomicBool::new(false))
+}
+
+/// Computes what is asked for, part by part until an interrupt.
+fn find_until(asked: &Asked, interrupt: &AtomicBool) -> Found {
+    let going = || match interrupt.load(Ordering::Relaxed) {
+        true => Err(INTERRUPTED.to_string()),
+        false => Ok(()),
+    };
     let mut found = Found::default();
     found.warn("AB1040", "The file", &asked.notes);
     for series in sampled(asked) {
@@ -328,7 +343,7 @@ pub(super) fn find(asked: &Asked) -> Found {
         .as_ref()
         .map(|series| (series.first, series.last()));
     if let (Some(signal), Some(wish)) = (&asked.speed, &asked.signals.speed) {
-        match shaft::Found::of(signal, wish, watched) {
+        match going().and_then(|()| shaft::Found::of(signal, wish, watched)) {
             Ok(shaft) => {
                 if let Some(doubt) = &shaft.doubt {
                     found.warn(
@@ -346,13 +361,8 @@ pub(super) fn find(asked: &Asked) -> Found {
     if let (Some(series), Some(wish)) = (&asked.torque, &asked.signals.torque) {
         let faults = torque::faulty(series);
         found.warn("AB1041", &format!("Channel {}", series.name), &faults.told);
-        match torque::Found::of(
-            series,
-            &faults,
-            wish,
-            asked.tap.as_ref(),
-            found.shaft.as_ref(),
-        ) {
+        let (tap, shaft) = (asked.tap.as_ref(), found.shaft.as_ref());
+        match going().and_then(|()| torque::Found::of(series, &faults, wish, tap, shaft)) {
             Ok(torque) => {
                 found.warn("AB1043", "Torque", &torque.notes);
                 found.torque = Some(torque);
@@ -362,7 +372,7 @@ pub(super) fn find(asked: &Asked) -> Found {
     }
     if let (Some(signal), Some(wish)) = (&asked.cage, &asked.signals.cage) {
         let cage = match &found.shaft {
-            Some(shaft) => cage::Found::of(signal, wish, shaft),
+            Some(shaft) => going().and_then(|()| cage::Found::of(signal, wish, shaft)),
             None => Err("it needs the speed of the shaft".to_string()),
         };
         match cage {
@@ -380,7 +390,7 @@ pub(super) fn find(asked: &Asked) -> Found {
         }
     }
     found.temperature = asked.temperature.as_ref().map(temperature::Found::of);
-    more(asked, &mut found);
+    more(asked, &going, &mut found);
     let refused: Vec<Warning> = found
         .refused
         .iter()
@@ -402,9 +412,9 @@ pub(super) fn find(asked: &Asked) -> Found {
 }
 
 /// Computes what is asked for and names it.
-pub(super) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
+pub(super) fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outcome {
     let clock = Instant::now();
-    let mut found = find(asked);
+    let mut found = find_until(asked, options.interrupt);
     found.warnings.extend(assumed(scenario, asked));
     let history = history::columns(asked, &found);
     let end = history.first().and_then(|time| time.values.last().copied());
@@ -418,6 +428,11 @@ pub(super) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
         history,
         contacts: Vec::new(),
         stop: match found.refused.as_slice() {
+            refused if refused.iter().any(|(_, why)| why == INTERRUPTED) => Stop {
+                reason: "interrupted",
+                time: end.unwrap_or(0.0),
+                text: "Interrupted; what was found until then is kept.".to_string(),
+            },
             [] => Stop {
                 reason: "finished",
                 time: end.unwrap_or(0.0),

@@ -206,10 +206,11 @@ fn torques(
     }
 }
 
-/// First time, interval and speeds of whole turns around equal times: the errors of the marks drop out of them.
+/// First time, interval and speeds of whole turns at equal times: the errors of the marks drop out of them.
+///
+/// The mean speed of a turn is that of its middle in time, not in angle: where a turn takes long these are far apart.
 fn speeds(part: (f64, f64), shaft: &shaft::Found) -> Result<(f64, f64, Vec<f64>), String> {
-    let times = &shaft.pulses.times;
-    let marks = &shaft.pulses.marks;
+    let (times, marks) = (&shaft.pulses.times, &shaft.pulses.marks);
     let turn = shaft.pulses.positions as i64;
     let begin = times.partition_point(|t| *t < part.0);
     let end = times.partition_point(|t| *t <= part.1);
@@ -227,24 +228,101 @@ fn speeds(part: (f64, f64), shaft: &shaft::Found) -> Result<(f64, f64, Vec<f64>)
     let (from, to) = (times[begin], times[end - 1]);
     let count = (turns as usize).min(MOST);
     let interval = (to - from) / count as f64;
-    let speed = |time: f64| {
-        let middle = times.partition_point(|t| *t < time).min(times.len() - 1);
-        let low = marks.partition_point(|mark| *mark < marks[middle] - turn / 2);
-        let high = marks.partition_point(|mark| *mark < marks[low] + turn);
-        match (times.get(high), marks.get(high)) {
-            (Some(after), Some(mark)) if *mark == marks[low] + turn && low < high => {
-                std::f64::consts::TAU / (after - times[low])
+    let at = (0..count).map(|k| from + (k as f64 + 0.5) * interval);
+    let values = of_turns(times, marks, turn, at);
+    Ok((from + 0.5 * interval, interval, values))
+}
+
+/// Speeds at rising times, rad/s: a straight line between the middles of two neighbouring turns; not-a-number where marks are
+/// missing.
+///
+/// A speed that bends is off its mean over a time T by `Ω'' T²/24`, told by the turn before and the one after.
+fn of_turns(times: &[f64], marks: &[i64], turn: i64, at: impl Iterator<Item = f64>) -> Vec<f64> {
+    let at_mark = |mark: i64| {
+        let pulse = marks.partition_point(|own| *own < mark);
+        (marks.get(pulse) == Some(&mark)).then(|| times[pulse])
+    };
+    // Middle, length and mean speed of the turn from a mark on.
+    let mean = |mark: i64| -> Option<(f64, f64, f64)> {
+        let (from, to) = (at_mark(mark)?, at_mark(mark + turn)?);
+        let length = to - from;
+        Some((0.5 * (from + to), length, std::f64::consts::TAU / length))
+    };
+    let bend = |mark: i64| -> Option<f64> {
+        let (a, b, c) = (mean(mark - turn)?, mean(mark)?, mean(mark + turn)?);
+        let slope = |a: (f64, f64, f64), b: (f64, f64, f64)| (b.2 - a.2) / (b.0 - a.0);
+        Some(2.0 * (slope(b, c) - slope(a, b)) / (c.0 - a.0))
+    };
+    // Middle, length and speed there of each turn that is whole.
+    let turns: Vec<(f64, f64, f64)> = marks
+        .iter()
+        .filter_map(|&mark| {
+            let (middle, length, speed) = mean(mark)?;
+            // The last turn bends as the one before it.
+            let near = [mark, mark - turn, mark + turn].into_iter().find_map(bend);
+            let bent = near.unwrap_or(0.0) * length * length / 24.0;
+            Some((middle, length, speed - bent))
+        })
+        .collect();
+    at.map(|time| {
+        let next = turns.partition_point(|turn| turn.0 <= time);
+        let about = next
+            .checked_sub(1)
+            .and_then(|k| turns.get(k).zip(turns.get(next)));
+        match about {
+            // Farther apart there is a silence between them.
+            Some((before, after)) if after.0 - before.0 < 1.5 * before.1 => {
+                let part = (time - before.0) / (after.0 - before.0);
+                before.2 + part * (after.2 - before.2)
             }
             _ => f64::NAN,
         }
-    };
-    let values = (0..count).map(|k| speed(from + (k as f64 + 0.5) * interval));
-    Ok((from + 0.5 * interval, interval, values.collect()))
+    })
+    .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_speed_of_a_turn_is_that_of_its_middle_in_time() {
+        // Braked evenly from 12 to 6 rad/s in 6 s, with marks that are off: Ω = 12 - t.
+        let place = |mark: i64| f64::from(mark as i32) + 0.1 * f64::from((mark * 7 % 3) as i32);
+        let time = |angle: f64| 12.0 - (144.0 - 2.0 * angle).sqrt();
+        let marks: Vec<i64> = (0..50).collect();
+        let times: Vec<f64> = marks
+            .iter()
+            .map(|mark| time(place(*mark) * std::f64::consts::TAU / 6.0))
+            .collect();
+        let at: Vec<f64> = (1..=4).map(f64::from).collect();
+        let found = of_turns(&times, &marks, 6, at.iter().copied());
+        for (time, speed) in at.iter().zip(found) {
+            assert!((speed - (12.0 - time)).abs() < 1e-9, "{time}: {speed}");
+        }
+        // Beyond the middles of the first turn and the last one nothing is told, nor in a silence of a turn.
+        let silent: Vec<usize> = (0..50).filter(|k| !(20..26).contains(k)).collect();
+        let times: Vec<f64> = silent.iter().map(|&k| times[k]).collect();
+        let marks: Vec<i64> = silent.iter().map(|&k| k as i64).collect();
+        let outside = [0.1, times[20] - 0.1];
+        let found = of_turns(&times, &marks, 6, outside.into_iter());
+        assert!(found.iter().all(|speed| speed.is_nan()), "{found:?}");
+    }
+
+    #[test]
+    fn a_speed_that_bends_is_not_its_mean_over_a_turn() {
+        // Ω = 12 e^(-t/2): the mean of a second is 1 % above the speed in its middle.
+        let time = |angle: f64| -2.0 * (1.0 - angle / 24.0).ln();
+        let marks: Vec<i64> = (0..20).collect();
+        let times: Vec<f64> = marks
+            .iter()
+            .map(|mark| time(*mark as f64 * std::f64::consts::TAU / 6.0))
+            .collect();
+        let at = 1.2;
+        let truth = 12.0 * (-0.5f64 * at).exp();
+        let found = of_turns(&times, &marks, 6, std::iter::once(at))[0];
+        assert!((found / truth - 1.0).abs() < 1.5e-3, "{found} {truth}");
+    }
 
     #[test]
     fn an_inertia_that_cannot_be_is_refused() {

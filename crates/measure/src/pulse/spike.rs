@@ -1,0 +1,88 @@
+//! Spikes: pulses that no mark makes.
+//!
+//! ```text
+//!            ┌──────┐                         ┌─────┐
+//!       │    │      │   a sample or two       │     │      a mark as quick as that would have had neighbours as quick
+//! ──────┘────┘      └─────────────────────────┘     └──
+//! ```
+//! A shaft that turns passes neighbouring marks at nearly one speed, so that their pulses are nearly as wide as each other.
+//!
+//! **Does not model**: spikes beside pulses that are narrow themselves; what they do to the count is seen there ([`super::number`]).
+
+use super::edge::Flip;
+
+/// Widest spike, samples.
+const NARROW: usize = 2;
+/// Least width of the pulses beside it, samples.
+const WIDE: usize = 8;
+/// Largest part of the pulses that are spikes: more are marks of their own kind, as a thin one that tells the turn.
+const SELDOM: f64 = 0.01;
+/// Spikes that are always seldom.
+const FEW: usize = 3;
+
+/// The changes of level without those of spikes; how many spikes there were, and the sample of the first one.
+pub(super) fn without(flips: Vec<Flip>) -> (Vec<Flip>, Option<(usize, usize)>) {
+    // Width of what begins with a change of level; none where it does not end with one.
+    let width = |k: usize| {
+        let (begin, end) = (flips.get(k)?, flips.get(k + 1)?);
+        (begin.rises != end.rises).then(|| end.sample - begin.sample)
+    };
+    let beside = |k: usize| [k.checked_sub(2).and_then(width), width(k + 2)];
+    let spike = |k: usize| {
+        let known = || beside(k).into_iter().flatten();
+        width(k).is_some_and(|own| own <= NARROW)
+            && known().count() > 0
+            && known().all(|other| other >= WIDE)
+    };
+    let spikes: Vec<usize> = (0..flips.len()).filter(|&k| spike(k)).collect();
+    let most = (SELDOM * flips.len() as f64 / 2.0) as usize;
+    let Some(&first) = spikes.first().filter(|_| spikes.len() <= most.max(FEW)) else {
+        return (flips, None);
+    };
+    let (count, sample) = (spikes.len(), flips[first].sample);
+    let of_spike = |k: usize| {
+        let begins = |k: usize| spikes.binary_search(&k).is_ok();
+        begins(k) || k > 0 && begins(k - 1)
+    };
+    let kept = flips.into_iter().enumerate();
+    let kept = kept.filter(|(k, _)| !of_spike(*k)).map(|(_, flip)| flip);
+    (kept.collect(), Some((count, sample)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn flips(samples: &[usize]) -> Vec<Flip> {
+        let flip = |(k, &sample): (usize, &usize)| Flip {
+            sample,
+            rises: k % 2 == 0,
+        };
+        samples.iter().enumerate().map(flip).collect()
+    }
+
+    fn left(samples: &[usize]) -> Vec<usize> {
+        without(flips(samples)).0.iter().map(|f| f.sample).collect()
+    }
+
+    #[test]
+    fn a_spike_before_the_first_mark_and_one_within_a_pause_are_left_out() {
+        assert_eq!(left(&[100, 101, 300, 320, 340, 358]), [300, 320, 340, 358]);
+        assert_eq!(left(&[300, 320, 330, 331, 340, 358]), [300, 320, 340, 358]);
+    }
+
+    #[test]
+    fn a_dip_within_a_pulse_is_left_out() {
+        assert_eq!(left(&[300, 310, 312, 320, 340, 358]), [300, 320, 340, 358]);
+    }
+
+    #[test]
+    fn pulses_as_narrow_as_their_neighbours_are_marks() {
+        let quick = [300, 302, 305, 307, 310, 312];
+        assert_eq!(left(&quick), quick);
+        let thin: Vec<usize> = (0..100)
+            .flat_map(|k| [50 * k, 50 * k + if k % 10 == 0 { 2 } else { 20 }])
+            .collect();
+        assert_eq!(left(&thin), thin);
+    }
+}
