@@ -13,6 +13,8 @@ use super::edge::Flip;
 
 /// Widest spike, samples.
 const NARROW: usize = 2;
+/// Spikes in a row at most: quick marks are as narrow.
+const ROW: usize = 3;
 /// Least width of the pulses beside it, samples.
 const WIDE: usize = 8;
 /// Largest part of the pulses that are spikes: more are marks of their own kind, as a thin one that tells the turn.
@@ -27,9 +29,24 @@ pub(super) fn without(flips: Vec<Flip>) -> (Vec<Flip>, Option<(usize, usize)>) {
         let (begin, end) = (flips.get(k)?, flips.get(k + 1)?);
         (begin.rises != end.rises).then(|| end.sample - begin.sample)
     };
-    let beside = |k: usize| [k.checked_sub(2).and_then(width), width(k + 2)];
+    // The next pulse of the same kind that is no spike, to one side; 0 where there are too many in a row.
+    let beside = |k: usize, ahead: bool| {
+        let mut place = k;
+        for _ in 0..=ROW {
+            place = if ahead {
+                place + 2
+            } else {
+                place.checked_sub(2)?
+            };
+            match width(place)? {
+                own if own > NARROW => return Some(own),
+                _ => {}
+            }
+        }
+        Some(0)
+    };
     let spike = |k: usize| {
-        let known = || beside(k).into_iter().flatten();
+        let known = || [beside(k, false), beside(k, true)].into_iter().flatten();
         width(k).is_some_and(|own| own <= NARROW)
             && known().count() > 0
             && known().all(|other| other >= WIDE)
@@ -69,6 +86,8 @@ mod tests {
     fn a_spike_before_the_first_mark_and_one_within_a_pause_are_left_out() {
         assert_eq!(left(&[100, 101, 300, 320, 340, 358]), [300, 320, 340, 358]);
         assert_eq!(left(&[300, 320, 330, 331, 340, 358]), [300, 320, 340, 358]);
+        let three = [50, 51, 100, 101, 170, 171, 300, 320, 340, 358];
+        assert_eq!(left(&three), [300, 320, 340, 358]);
     }
 
     #[test]
@@ -80,6 +99,8 @@ mod tests {
     fn pulses_as_narrow_as_their_neighbours_are_marks() {
         let quick = [300, 302, 305, 307, 310, 312];
         assert_eq!(left(&quick), quick);
+        let quickly = [300, 320, 330, 332, 336, 338, 342, 344, 348, 350, 354, 356];
+        assert_eq!(left(&quickly), quickly);
         let thin: Vec<usize> = (0..100)
             .flat_map(|k| [50 * k, 50 * k + if k % 10 == 0 { 2 } else { 20 }])
             .collect();

@@ -86,6 +86,10 @@ impl Found {
                 notes.extend(curve.notes.iter().map(|note| format!("{name}: {note}")));
             }
         }
+        // Asked for by its inertia, and not there though the other curve is.
+        if let (Some(_), Err(why)) = (&wish.inertia, &inertial) {
+            notes.push(format!("by the slope of the speed: no curve: {why}"));
+        }
         let set = |first: &Result<SteadyCurve, String>, second: &Result<SteadyCurve, String>| match (
             first, second,
         ) {
