@@ -312,4 +312,32 @@ mod tests {
         let direct = momentum(&set(), set().cage_speed(FINAL), set().ball_spin(FINAL));
         assert!(near(energy.final_angular_momentum(), direct));
     }
+
+    #[test]
+    fn any_slip_at_the_end_lies_in_its_range() {
+        let set = set();
+        let energy = SpinUpEnergy {
+            set,
+            final_speed: FINAL,
+            outer_moment_work: 3.0,
+        };
+        let (least, largest) = energy.loss_range_of_any_slip();
+        for part in [0.0, 0.1, 0.3, 0.7, 1.0] {
+            let (cage, spin) = (part * set.cage_speed(FINAL), part * set.ball_spin(FINAL));
+            let (l, kinetic) = (momentum(&set, cage, spin), kinetic(&set, cage, spin));
+            // rolled up to that part of the speed and kept there, or spun up after the race
+            for path in [0.5 * part * FINAL * l, FINAL * l] {
+                let loss = spin_up_loss(energy.outer_moment_work, 0.0, path, kinetic);
+                assert!(
+                    (least..=largest * (1.0 + 1e-12)).contains(&loss),
+                    "{part} {loss}"
+                );
+                if part == 0.0 {
+                    assert_eq!(loss, least);
+                }
+            }
+        }
+        // rolling all the way lies above the least by the inertia term
+        assert!(energy.rolling_loss() - least - energy.inertia_term() < 1e-12 * largest);
+    }
 }

@@ -122,7 +122,7 @@ impl<'a> Grid<'a> {
             .knots
             .iter()
             .filter(|knot| left < **knot && **knot <= right);
-        match (between.next(), between.last()) {
+        match (between.next(), between.next_back()) {
             (Some(first), _) if time < *first => Source::Side(before, time - left),
             (Some(first), last) if time >= *last.unwrap_or(first) => {
                 Source::Side(next, time - right)
