@@ -256,25 +256,19 @@ fn inertia(
 
 fn outside(test: &Measurement, steady: &SteadyMoment, found: &mut Vec<Doubt>) {
     let top = test.fastest();
-    let turning: Vec<f64> = test
-        .speed
-        .iter()
-        .map(|speed| speed.abs())
-        .filter(|speed| *speed > 0.02 * top)
+    // by time: rows lie closer where the speed bends
+    let turning: Vec<(f64, f64)> = (test.speed.iter().zip(trapezoid(&test.time)))
+        .map(|(speed, weight)| (speed.abs(), weight))
+        .filter(|(speed, _)| *speed > 0.02 * top)
         .collect();
     let (low, high) = steady.range();
-    let gone = turning
-        .iter()
-        .filter(|speed| steady.without_scale(**speed).is_none())
-        .count();
-    let share = |count: usize| count as f64 / turning.len().max(1) as f64;
-    let part = share(gone);
-    let above = share(
-        turning
-            .iter()
-            .filter(|speed| **speed > ABOVE * high)
-            .count(),
-    );
+    let whole: f64 = turning.iter().map(|(_, weight)| weight).sum();
+    let share = |counts: &dyn Fn(f64) -> bool| {
+        let part = turning.iter().filter(|(speed, _)| counts(*speed));
+        part.map(|(_, weight)| weight).sum::<f64>() / whole.max(f64::MIN_POSITIVE)
+    };
+    let part = share(&|speed| steady.without_scale(speed).is_none());
+    let above = share(&|speed| speed > ABOVE * high);
     // a spin-up through the lowest speeds is not worth a word
     if part > 0.02 {
         found.push(Doubt::OutsideMoment {
@@ -286,56 +280,33 @@ fn outside(test: &Measurement, steady: &SteadyMoment, found: &mut Vec<Doubt>) {
     }
 }
 
-/// Where the cage settles.
+/// Where the cage settles in the hold; with another speed or load before or behind it slip is another, a count is not.
 fn cage(
     test: &Measurement,
     set: &RollingSet<f64>,
     settings: &DoubtSettings,
     found: &mut Vec<Doubt>,
 ) {
-    let Some(cage) = &test.cage else { return };
-    let top = test.fastest();
-    let mut ratios = Vec::new();
-    let mut deviations = Vec::new();
-    for ((&time, &own), &deviation) in cage.time.iter().zip(&cage.speed).zip(&cage.deviation) {
-        let Some(speed) = crate::series::between(&test.time, &test.speed, time) else {
-            continue;
-        };
-        let Some(rate) = crate::series::between(&test.time, &test.acceleration, time) else {
-            continue;
-        };
-        // after the spin-up, at speed, without quick changes
-        let late = test
-            .engagement
-            .is_none_or(|start| time > start + 0.5 * (test.time[test.time.len() - 1] - start));
-        if late && speed.abs() > 0.5 * top && rate.abs() < top / 0.1 {
-            let rolling = set.cage_speed(speed);
-            ratios.push(own / rolling);
-            deviations.push(deviation / rolling.abs());
-        }
-    }
-    if ratios.len() < 3 {
+    let (start, end) = held(test);
+    let middle = 0.5 * (start + end);
+    let Some(ratio) = cage_ratio(test, set, (middle, end)) else {
+        return;
+    };
+    let apart = |other: f64, deviation: f64| {
+        (ratio.value - other).abs() > 0.01_f64.max(APART * ratio.deviation.hypot(deviation))
+    };
+    if !apart(1.0, 0.0) {
         return;
     }
-    let middle = median(&ratios);
-    let spread = median(
-        &ratios
-            .iter()
-            .map(|r| (r - middle).abs())
-            .collect::<Vec<_>>(),
-    ) / 0.6745;
-    let ratio = Uncertain::new(middle, spread.max(median(&deviations)));
-    let away = |target: f64| (middle - target).abs();
-    if away(1.0) <= 0.01_f64.max(APART * ratio.deviation) {
-        return;
-    }
-    if let Some(stated) = settings.ball_count.filter(|count| *count > 0) {
-        let fits = (middle * f64::from(stated)).round();
+    let last = test.time.last().copied().unwrap_or(end);
+    let changes = [(start, middle), (end, last)]
+        .into_iter()
+        .filter_map(|part| cage_ratio(test, set, part))
+        .any(|other| apart(other.value, other.deviation));
+    if let Some(stated) = settings.ball_count.filter(|count| *count > 0 && !changes) {
+        let fits = (ratio.value * f64::from(stated)).round();
         let target = fits / f64::from(stated);
-        if (1.0..1000.0).contains(&fits)
-            && fits != f64::from(stated)
-            && away(target) <= 0.01_f64.max(APART * ratio.deviation)
-        {
+        if (1.0..1000.0).contains(&fits) && fits != f64::from(stated) && !apart(target, 0.0) {
             found.push(Doubt::WrongBallCount {
                 test: test.name.clone(),
                 stated,
@@ -351,6 +322,49 @@ fn cage(
     });
 }
 
+/// Speed of the cage over that of a rolling one between two times, s: the median where the shaft turns fast and without quick
+/// changes; none where that is fewer than three values.
+fn cage_ratio(
+    test: &Measurement,
+    set: &RollingSet<f64>,
+    (from, to): (f64, f64),
+) -> Option<Uncertain> {
+    let cage = test.cage.as_ref()?;
+    let top = test.fastest();
+    let (mut ratios, mut deviations) = (Vec::new(), Vec::new());
+    for ((&time, &own), &deviation) in cage.time.iter().zip(&cage.speed).zip(&cage.deviation) {
+        let of = |list: &[f64]| crate::series::between(&test.time, list, time);
+        let (Some(speed), Some(rate)) = (of(&test.speed), of(&test.acceleration)) else {
+            continue;
+        };
+        let inside = time >= from && time <= to;
+        if inside && speed.abs() > 0.5 * top && rate.abs() < top / 0.1 {
+            let rolling = set.cage_speed(speed);
+            ratios.push(own / rolling);
+            deviations.push(deviation / rolling.abs());
+        }
+    }
+    if ratios.len() < 3 {
+        return None;
+    }
+    let middle = median(&ratios);
+    let away: Vec<f64> = ratios.iter().map(|r| (r - middle).abs()).collect();
+    let spread = median(&away) / 0.6745;
+    Some(Uncertain::new(middle, spread.max(median(&deviations))))
+}
+
+/// Begin and end of the hold, s: from the end of the spin-up, or where there is none from the begin, for as long as the shaft turns
+/// within a twentieth of its largest speed.
+fn held(test: &Measurement) -> (f64, f64) {
+    let start = spin_up_window(test).map_or_else(|_| test.begin(), |(_, end)| end);
+    let top = test.fastest();
+    let end = (test.time.iter().zip(&test.speed))
+        .filter(|(time, speed)| **time >= start && speed.abs() >= 0.95 * top)
+        .map(|(time, _)| *time)
+        .fold(start, f64::max);
+    (start, end)
+}
+
 /// The steady speed after a spin-up: its duration, and what the torque does there.
 fn hold(
     test: &Measurement,
@@ -358,17 +372,10 @@ fn hold(
     settings: &DoubtSettings,
     found: &mut Vec<Doubt>,
 ) {
-    let Ok((_, start)) = spin_up_window(test) else {
+    if spin_up_window(test).is_err() {
         return;
-    };
-    let top = test.fastest();
-    let end = test
-        .time
-        .iter()
-        .zip(&test.speed)
-        .filter(|(time, speed)| **time >= start && speed.abs() >= 0.95 * top)
-        .map(|(time, _)| *time)
-        .fold(start, f64::max);
+    }
+    let (start, end) = held(test);
     let lasts = end - start;
     if lasts < settings.shortest_hold {
         found.push(Doubt::TooShort {

@@ -1,7 +1,7 @@
 //! One test put together from what its signals hold.
 //!
 //! ```text
-//!   speed from pulses, torque without its sensor's swing, cage ──▶ Measurement on the torque's times (every nth where they are many)
+//!   speed from pulses, torque without its sensor's swing, cage ──▶ Measurement on the torque's times, closer in a quick change
 //!
 //!   at rest          before an engagement from rest, and behind the last pulse where the next ones did not come: Ω = 0, Ω̇ = 0
 //!   zero at rest     the reading's mean once the arm has settled behind that last pulse
@@ -13,7 +13,10 @@
 //! **Does not model**: a shaft that turns on by less than a mark behind its last pulse, other than by its deviation; a zero that
 //! wanders between the test and the rest behind it.
 
+mod grid;
+
 use crate::measurement::{CageTrace, Measurement, spacing};
+use grid::Grid;
 use measure::cage_speed::CageSpeed;
 use measure::speed::{Motion, Speed};
 use measure::torque_sensor::Torque;
@@ -44,8 +47,6 @@ pub struct Signals<'a> {
     pub rest_before: Option<f64>,
 }
 
-/// Most times of a measurement: beyond, neighbours tell nothing new.
-const MOST_TIMES: usize = 20_000;
 /// Covariance of angle, speed and acceleration of a shaft that shows no pulse: 0.01 rad/s, 1 rad/s².
 const AT_REST: [[f64; 3]; 3] = [[1e-4, 0.0, 0.0], [0.0, 1e-4, 0.0], [0.0, 0.0, 1.0]];
 /// Least deviation of a torque over that of the zero or of the noise: a torque that is zero by definition is not more certain than
@@ -69,19 +70,16 @@ const FIRST_RISE: f64 = 0.25;
 /// does, see [`zero_at_rest`].
 pub fn measurement(signals: &Signals) -> Measurement {
     let torque = signals.torque;
-    let step = torque.time.len().div_ceil(MOST_TIMES).max(1);
-    let thinned = |list: &[f64]| list.iter().copied().step_by(step).collect::<Vec<f64>>();
-    let time = thinned(&torque.time);
+    let grid = Grid::of(torque, signals.speed);
     let change = signals.speed.change.filter(|change| change.from_rest);
     let last_pulse = signals.speed.range().1;
-    let stops = stops(signals, &time, last_pulse);
-    let motion = motions(signals, &time, stops.then_some(last_pulse));
-    let mut values = thinned(&torque.torque);
+    let stops = stops(signals, &grid.time, last_pulse);
+    let motion = motions(signals, &grid.time, stops.then_some(last_pulse));
+    let (mut values, mut torque_deviation) = grid.torques();
     let mut zero_deviation = torque.zero.deviation;
-    let mut torque_deviation = thinned(&torque.deviation);
     if change.is_none()
         && stops
-        && let Some(zero) = zero_at_rest(&time, &values, last_pulse + signals.settling_time)
+        && let Some(zero) = zero_at_rest(&grid.time, &values, last_pulse + signals.settling_time)
     {
         for (value, deviation) in values.iter_mut().zip(&mut torque_deviation) {
             *value -= zero.value;
@@ -108,13 +106,13 @@ pub fn measurement(signals: &Signals) -> Measurement {
         torque_deviation,
         zero_deviation,
         scale_deviation: signals.scale_deviation,
-        correlation_time: thinned(&correlation_time(torque)),
+        correlation_time: grid.values(&correlation_time(torque)),
         engagement: signals.speed.change.map(|change| change.engagement.0),
         engagement_deviation: change.map_or(0.0, |change| change.engagement.1),
         rest_before: signals.rest_before,
         cage: (signals.cage).map(|found| cage(found, change.map(|change| change.engagement.0))),
         temperature: None,
-        time,
+        time: grid.time,
     }
 }
 

@@ -12,7 +12,7 @@
 //! less F; memory from one time to the next beyond the integral.
 
 use crate::measurement::Measurement;
-use crate::moment::SteadyMoment;
+use crate::moment::{CARRIED_ON, SteadyMoment};
 use crate::series::{RunningVariance, between, trapezoid};
 use crate::slip::{self, SlipSettings, slip_at};
 use measure::normal::{below, density};
@@ -68,7 +68,7 @@ pub struct Skid {
 /// Formula: as on this page
 ///
 /// - `test`: a spin-up from rest with a cage signal
-/// - `steady`: M(Ω) at its load; below its smallest speed M is taken from there
+/// - `steady`: M(Ω) at its load; outside its speeds M is taken from the next of them, with half of it as deviation
 /// - `set`: balls and cage
 /// - `settings`: what counts as skid, prior of F
 ///
@@ -116,7 +116,10 @@ pub fn skid(
         let speed = test.speed[k];
         let time = test.time[k];
         let clamped = speed.abs().clamp(low, high).copysign(way);
-        let moment = steady.at(clamped).unwrap_or(Uncertain::exact(0.0));
+        let mut moment = steady.at(clamped).unwrap_or(Uncertain::exact(0.0));
+        if steady.without_scale(speed).is_none() {
+            moment.deviation = moment.deviation.hypot(CARRIED_ON * moment.value);
+        }
         // 2(1+s) T_O = (t_O - M)/arm
         push += weight * (test.torque[k] - moment.value) / arm;
         shared += weight
@@ -130,8 +133,8 @@ pub fn skid(
                 .mean_friction
                 .unwrap_or(0.1 * moment.value.abs() / arm);
         if k == first {
-            // the jump at the engagement lies somewhere within a step of the record
-            shared += weight * moment.value.abs() / arm;
+            // the jump at the engagement lies somewhere within a step of the record, or within its deviation
+            shared += weight.max(test.engagement_deviation) * moment.value.abs() / arm;
         }
         let variance = noise.add(age[k], weight * test.torque_noise(k) / arm);
         let Some(own) = between(&cage.time, &cage.speed, time) else {

@@ -207,6 +207,56 @@ fn a_cage_signal_of_the_wrong_ball_count() {
 }
 
 #[test]
+fn a_cage_that_skids_in_the_hold_is_not_miscounted() {
+    // 0.8 of rolling in the hold, as eight of ten balls would be, 0.9 while it runs down for longer than it was held
+    let mut skids = test(6);
+    let (end, down) = (skids.time[skids.time.len() - 1], 8.0);
+    let hold = skids.time.len();
+    for k in 1..8000 {
+        let time = 1e-3 * f64::from(k);
+        let left = 1.0 - time / down;
+        skids.time.push(end + time);
+        let speed = skids.speed[hold - 1] * left;
+        skids.speed.push(speed);
+        skids.acceleration.push(-skids.speed[hold - 1] / down);
+        for list in [
+            &mut skids.speed_deviation,
+            &mut skids.acceleration_deviation,
+            &mut skids.torque,
+            &mut skids.torque_deviation,
+            &mut skids.correlation_time,
+        ] {
+            list.push(list[hold - 1]);
+        }
+    }
+    let speeds: Vec<f64> = (skids.time.iter().zip(&skids.speed))
+        .map(|(time, speed)| set().cage_speed(*speed) * if *time > end { 0.9 } else { 0.8 })
+        .collect();
+    skids.cage = Some(CageTrace::independent(
+        skids.time.clone(),
+        speeds,
+        vec![0.25; skids.time.len()],
+    ));
+    let found = said(&[&skids], &curve(1.0), &told());
+    let cages: Vec<&Doubt> = (found.iter())
+        .filter(|doubt| doubt.finding().contains("cage settles"))
+        .collect();
+    let [Doubt::CageNeverRolls { ratio, .. }] = cages[..] else {
+        panic!("{found:?}")
+    };
+    assert!((ratio.value - 0.8).abs() < 0.01, "{ratio}");
+    // a constant ratio may be a count; beside a slip that is known it is none
+    let mut wrong = test(6);
+    let cage = wrong.cage.as_mut().unwrap();
+    cage.speed.iter_mut().for_each(|speed| *speed *= 0.8);
+    let found = said(&[&wrong], &curve(1.0), &told());
+    assert!(matches!(found[..], [Doubt::WrongBallCount { fits: 8, .. }]));
+    let beside = found[0].clone().beside_a_slip();
+    assert!(matches!(beside, Doubt::CageNeverRolls { .. }));
+    assert!(!beside.finding().contains("balls would make it roll"));
+}
+
+#[test]
 fn a_temperature_that_explains_everything() {
     // 20 % below M, and 10 K: 4.5 % a kelvin would take 26 % off M0
     let mut warm = test(7);

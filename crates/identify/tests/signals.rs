@@ -1,10 +1,13 @@
 //! A test put together from the pulses of a shaft and a torque without its sensor's swing.
 
+use identify::CageTrace;
 use identify::signals::{Signals, measurement};
+use identify::slip::{SlipSettings, cage_slip};
 use measure::pulse::{Edges, Wheel, number};
 use measure::speed::{Speed, SpeedSettings, Transient, smooth};
 use measure::torque_sensor::Torque;
 use measure::uncertain::Uncertain;
+use physics::rolling::RollingSet;
 use std::f64::consts::TAU;
 
 const MARKS: usize = 60;
@@ -122,4 +125,108 @@ fn many_times_are_thinned_alike() {
     assert_eq!(found.time.len(), 130_000_usize.div_ceil(7));
     assert!((found.time[1] - 7e-4).abs() < 1e-12);
     assert!(found.sound().is_ok());
+}
+
+/// Where a clutch engages, and where it locks, s.
+const ENGAGED: f64 = 1.0;
+const LOCKED: f64 = ENGAGED + 2.0 * 150.0 / 9000.0;
+
+/// From rest to 150 rad/s by an acceleration that rises evenly to 9000 rad/s², seen by 360 stamped marks.
+fn spin_up() -> (Speed, impl Fn(f64) -> f64) {
+    let length = LOCKED - ENGAGED;
+    let turned = 9000.0 / (6.0 * length) * length.powi(3);
+    let mark = TAU / 360.0;
+    let times: Vec<f64> = (1..)
+        .map(|k| f64::from(k) * mark)
+        .map(|angle| match angle < turned {
+            true => ENGAGED + (angle * 6.0 * length / 9000.0).cbrt(),
+            false => LOCKED + (angle - turned) / 150.0,
+        })
+        .take_while(|time| *time < 3.0)
+        .collect();
+    let edges = Edges::stamped(times, 1e-6, Some((0.0, 3.0))).unwrap();
+    let wheel = Wheel {
+        marks: 360,
+        missing: 0,
+    };
+    let speed = smooth(
+        &number(&edges, &wheel).unwrap(),
+        None,
+        &SpeedSettings::default(),
+    )
+    .unwrap();
+    let truth =
+        move |time: f64| 0.5 * 9000.0 / length * (time.clamp(ENGAGED, LOCKED) - ENGAGED).powi(2);
+    (speed, truth)
+}
+
+#[test]
+fn a_cage_that_rolls_at_the_lock_does_not_slip() {
+    let (speed, truth) = spin_up();
+    let change = speed.change.expect("a spin-up");
+    let (begin, lock) = (change.engagement.0, change.end.expect("it locks").0);
+    // rows 1.6 ms apart, as of a torque arm of 30 Hz; the torque falls from -10 to 25 N mm at the lock
+    let mut reading = torque(1.6e-3);
+    let count = reading.time.partition_point(|t| *t < 2.9);
+    for list in [
+        &mut reading.time,
+        &mut reading.torque,
+        &mut reading.deviation,
+        &mut reading.rate,
+        &mut reading.rate_deviation,
+    ] {
+        list.truncate(count);
+    }
+    for (k, time) in reading.time.iter().enumerate() {
+        let inside = *time > begin && *time < lock;
+        reading.rate[k] = if inside { -200.0e-3 } else { 0.0 };
+        reading.torque[k] = match *time {
+            t if t < begin => 0.0,
+            t if t < lock => -0.2 * (t - begin),
+            _ => 25e-3,
+        };
+    }
+    let found = measurement(&Signals {
+        fastest: 150.0,
+        ..signals(&speed, &reading)
+    });
+    assert!(found.sound().is_ok());
+    let line = |list: &[f64], time: f64| {
+        let next = found.time.partition_point(|t| *t <= time);
+        let share = (time - found.time[next - 1]) / (found.time[next] - found.time[next - 1]);
+        list[next - 1] + share * (list[next] - list[next - 1])
+    };
+    for k in 0..2000 {
+        let time = begin + 1e-3 + 5e-5 * f64::from(k);
+        let (own, deviation) = (line(&found.speed, time), line(&found.speed_deviation, time));
+        // half a deviation for the line, three for the pulses; a line over the lock is 3.6 rad/s off
+        assert!(
+            (own - truth(time)).abs() < 3.5 * deviation.max(0.01),
+            "{time}: {own}, not {}",
+            truth(time)
+        );
+    }
+    // on either side of the lock the torque is that of the side
+    for (by, expected) in [(-2e-4, -0.2 * (lock - begin)), (2e-4, 25e-3)] {
+        let own = line(&found.torque, lock + by);
+        assert!(
+            (own - expected).abs() < 0.1e-3,
+            "{by}: {own}, not {expected}"
+        );
+    }
+    let set = RollingSet {
+        inner_track_radius: 14.8e-3,
+        ball_ratio: 0.214,
+        balls_mass: 10.5e-3,
+        cage_mass: 8e-3,
+    };
+    let at: Vec<f64> = (1..30).map(|k| lock + 1e-3 * f64::from(k - 10)).collect();
+    let rolling = at.iter().map(|time| set.cage_speed(truth(*time))).collect();
+    let trace = CageTrace::independent(at.clone(), rolling, vec![0.05; at.len()]);
+    let test = identify::Measurement {
+        cage: Some(trace),
+        ..found
+    };
+    let slip = cage_slip(&test, &set, &SlipSettings::default()).unwrap();
+    assert!(slip.slipped.unwrap() < 1e-3, "{:?}", slip.slipped);
 }

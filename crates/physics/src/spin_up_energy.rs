@@ -16,9 +16,10 @@
 //! twice: t_O is a moment already. Without friction at all, rolling, it gives the negative loss -s J_O Ω0². The paper's
 //! sentence that rolling need only be a final condition is false: the path term depends on how the balls were spun up.
 //!
-//! Without a measured cage speed the loss of a spin-up is known within [`SpinUpEnergy::loss_range`] only.
+//! Without a measured cage speed the loss of a spin-up is known within [`SpinUpEnergy::loss_range`] only, and where the balls may
+//! still slip at the end within [`SpinUpEnergy::loss_range_of_any_slip`].
 //!
-//! Assumed: races concentric and fixed, start from rest, balls at rolling speed at the end. In a drop the races move:
+//! Assumed: races concentric and fixed, start from rest, balls at rolling speed at the end but for that last range. In a drop the races move:
 //! the energy ledger of the run counts there.
 
 use crate::rolling::RollingSet;
@@ -122,6 +123,21 @@ impl SpinUpEnergy {
             spin_up_loss(self.outer_moment_work, 0.0, least, kinetic),
             spin_up_loss(self.outer_moment_work, 0.0, largest, kinetic),
         )
+    }
+
+    /// Least and largest loss, J, when the cage speed was not measured and the balls may slip at the end.
+    ///
+    /// Formula: ∫t_O Ω dt (balls that were not spun up) … ∫t_O Ω dt + L0 Ω0 - ½ J_I Ω0² (spun up after the race)
+    ///
+    /// Balls and cage that end at a part x of rolling have L = x L0 and KE = ½ x² J_I Ω0². Their path term is ½ x² L0 Ω0 where they
+    /// rolled up to x Ω0 and kept that speed, x L0 Ω0 where they followed the race; so beyond ∫t_O Ω dt the loss is from
+    /// ½ x² J_O Ω0² to x L0 Ω0 - ½ x² J_I Ω0², and both rise with x.
+    ///
+    /// Source: [`spin_up_loss`] with any slip at the end.
+    /// Valid: as the bounds; spin and orbit that end at about the same part of rolling: balls that spin at a standing cage store up
+    /// to 0.2 N m_b (1+s) R² Ω0², by which the loss would be less.
+    pub fn loss_range_of_any_slip(&self) -> (f64, f64) {
+        (self.outer_moment_work, self.loss_range().1)
     }
 }
 
@@ -295,5 +311,33 @@ mod tests {
         assert!(near(energy.final_angular_momentum(), both * FINAL));
         let direct = momentum(&set(), set().cage_speed(FINAL), set().ball_spin(FINAL));
         assert!(near(energy.final_angular_momentum(), direct));
+    }
+
+    #[test]
+    fn any_slip_at_the_end_lies_in_its_range() {
+        let set = set();
+        let energy = SpinUpEnergy {
+            set,
+            final_speed: FINAL,
+            outer_moment_work: 3.0,
+        };
+        let (least, largest) = energy.loss_range_of_any_slip();
+        for part in [0.0, 0.1, 0.3, 0.7, 1.0] {
+            let (cage, spin) = (part * set.cage_speed(FINAL), part * set.ball_spin(FINAL));
+            let (l, kinetic) = (momentum(&set, cage, spin), kinetic(&set, cage, spin));
+            // rolled up to that part of the speed and kept there, or spun up after the race
+            for path in [0.5 * part * FINAL * l, FINAL * l] {
+                let loss = spin_up_loss(energy.outer_moment_work, 0.0, path, kinetic);
+                assert!(
+                    (least..=largest * (1.0 + 1e-12)).contains(&loss),
+                    "{part} {loss}"
+                );
+                if part == 0.0 {
+                    assert_eq!(loss, least);
+                }
+            }
+        }
+        // rolling all the way lies above the least by the inertia term
+        assert!(energy.rolling_loss() - least - energy.inertia_term() < 1e-12 * largest);
     }
 }

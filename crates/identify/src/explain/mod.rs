@@ -55,6 +55,7 @@ mod evidence;
 mod foretold;
 mod hypothesis;
 mod linear;
+mod means;
 mod next_test;
 mod noise;
 mod parameter;

@@ -16,8 +16,9 @@ use crate::{Measurement, SteadyMoment};
 
 use super::hypothesis::{Bearing, Hypothesis, Prediction};
 use super::linear::{Cholesky, dot, log_sum_exp};
+use super::means::CageMean;
 use super::noise::Observed;
-use super::record::{CageMean, LeastWidth, Past, Test};
+use super::record::{LeastWidth, Past, Test};
 use super::sampling::Random;
 use super::steady::Table;
 use super::{Priors, Refusal, Settings, Verdict, bearing};

@@ -5,18 +5,20 @@
 //! ```text
 //!   C = diag(σ²) + zero² (per test) + scale² y yᵀ + cov M(Ω,Ω') + level² M Mᵀ + inertia² jjᵀ, j = J_O Ω̇
 //!     + lag² l lᵀ, l = change of rolling torque over a mean by its width            smoothing by the torque's inversion
+//!     + diag(½ M(Ω_1) b)², b = part of a mean's time below the lowest speed Ω_1 of the slow tests, where M is carried on
 //!     + a² A Aᵀ ∘ K,   A = M + |j|,  K = ρ exp(-|Δln age|) exp(-|ΔΩ|/½Ω_max)       discrepancy
 //!     + scatter² Σ e_t e_tᵀ,  e_t = prediction of test t minus that of rolling balls
 //! ```
 //! ρ is 1 within a test and ½ between tests. The amplitude a is not known: a few values, equally probable, stand for
 //! it. The last term lets the size of an effect differ a little from test to test. Cage speeds have a covariance of
 //! their own. At rest no discrepancy is allowed: a shaft that stands transmits no moment that a model could miss.
-//! Means between rest and the lowest speed of the slow tests (at most 5 % of the highest speed) are left out, where M is not known, and those within the settling of the
+//! Means between rest and the lowest speed of the slow tests are left out, where M is not known, and those within the settling of the
 //! sensor after a stop.
 
 use super::hypothesis::{Bearing, Hypothesis, Prediction};
 use super::linear::{Cholesky, dot};
 use super::record::{Bin, Test};
+use crate::moment::CARRIED_ON;
 
 /// The data with the covariances of their errors.
 pub(crate) struct Observed {
@@ -61,9 +63,6 @@ const NUGGET: f64 = 0.3;
 /// Part of the inertia moment that a smoothed torque misplaces in time, assumed.
 const SMEAR: f64 = 0.07;
 
-/// Speed over the highest one above which M is carried on below the slow tests: a run-up through it takes milliseconds.
-const NEARLY_RESTS: f64 = 0.05;
-
 /// Mean speed over the lowest one of the slow tests below which a shaft counts as standing.
 const STANDING: f64 = 1e-3;
 
@@ -83,7 +82,7 @@ impl Observed {
             .collect();
         // between rest and the lowest speed of the slow tests nothing is known of M, and where the shaft stops the torque falls at
         // once, which no sensor and no smoothed torque follows
-        let lowest = bearing.steady.0.speed[0].min(NEARLY_RESTS * bearing.table.top_speed);
+        let lowest = bearing.table.lowest;
         let stands = |bin: &Bin| bin.speed < STANDING * lowest;
         let stopped: Vec<f64> = (tests.iter())
             .map(|test| {
@@ -292,6 +291,7 @@ fn torque_covariance(
     let inertia = bearing.set.outer_inertia();
     let (j, k) = (inertia * a.acceleration, inertia * b.acceleration);
     let (m, n) = (bearing.table.at(a.speed).0, bearing.table.at(b.speed).0);
+    let carried_on = CARRIED_ON * bearing.table.at(bearing.table.lowest).0;
     let scale = tests[test].scale_deviation * tests[other_test].scale_deviation;
     let mut sum = scale * a.torque * b.torque
         + bearing.steady.covariance_between(a.speed, b.speed)
@@ -306,6 +306,7 @@ fn torque_covariance(
         sum += tests[test].zero_deviation.powi(2);
         if std::ptr::eq(a, b) {
             sum += a.variance
+                + (carried_on * a.below).powi(2)
                 + (SMEAR * j).powi(2)
                 + (0.3 * settings.lag_deviation * a.steepness).powi(2)
                 + (NUGGET * amplitude * m).powi(2)

@@ -3,9 +3,10 @@
 //! Means lie closer where more happens: their width grows with the time since the engagement and, after the
 //! run-down, with the time since standstill; none spans a large change of speed.
 
-use crate::series::{RunningVariance, interpolate, trapezoid};
+use crate::series::interpolate;
 use crate::{CageTrace, Measurement};
 
+use super::means::{CageMean, cage_mean, torque_mean, zeroed};
 use super::steady::{Table, fading};
 
 /// One step of a prediction.
@@ -43,6 +44,8 @@ pub(crate) struct Bin {
     pub acceleration: f64,
     /// Change of the torque of rolling balls over it by its width, N m/s.
     pub steepness: f64,
+    /// Part of its time in which the shaft turns more slowly than in any slow test.
+    pub below: f64,
     /// Whether it lies before the engagement.
     pub before: bool,
     /// Mean torque, N m, and its variance without zero and scale.
@@ -50,18 +53,6 @@ pub(crate) struct Bin {
     pub variance: f64,
     /// Mean cage speed.
     pub cage: Option<CageMean>,
-}
-
-/// A mean of the cage speed over the part of a time that its signal covers.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct CageMean {
-    /// Times since the engagement, s.
-    pub from: f64,
-    pub to: f64,
-    /// rad/s.
-    pub speed: f64,
-    /// Its variance, (rad/s)².
-    pub variance: f64,
 }
 
 /// What happened to the bearing before a test, as far as it lasts.
@@ -226,11 +217,14 @@ impl Test {
             let count = ((to - from) / longest).ceil().max(2.0);
             let bin = test.bins.len();
             let duration = (to - from) / count;
-            let mut mean_speed = 0.0;
+            let (mut mean_speed, mut below) = (0.0, 0.0);
             for i in 0..count as usize {
                 let begin = from + i as f64 * duration;
                 let speeds = [0.0, 0.5, 1.0].map(|part| speed(begin + part * duration).max(0.0));
                 mean_speed += speeds[1] / count;
+                if speeds[1] < table.lowest {
+                    below += 1.0 / count;
+                }
                 test.steps.push(Step {
                     duration,
                     elapsed: begin + duration,
@@ -249,6 +243,7 @@ impl Test {
                 speed: mean_speed,
                 acceleration: (speed(to) - speed(from)) / (to - from),
                 steepness: (rolling(to) - rolling(from)) / (to - from),
+                below,
                 before: false,
                 torque: 0.0,
                 variance: 0.0,
@@ -298,6 +293,7 @@ impl Test {
                 },
                 acceleration: 0.0,
                 steepness: 0.0,
+                below: 0.0,
                 before: true,
                 torque,
                 variance,
@@ -347,73 +343,6 @@ fn engagement(measurement: &Measurement, top_speed: f64) -> f64 {
                 .unwrap_or(0);
             measurement.time[turning.saturating_sub(1)]
         })
-}
-
-/// Mean of the torque over some time, N m, and its variance without zero and scale; infinite without data.
-///
-/// - `age`: age of the noise at each time, correlation times
-fn torque_mean(measurement: &Measurement, age: &[f64], from: f64, to: f64) -> (f64, f64) {
-    let time = &measurement.time;
-    let inside = time.partition_point(|t| *t < from)..time.partition_point(|t| *t < to);
-    if inside.is_empty() || to <= from {
-        return (0.0, f64::INFINITY);
-    }
-    let count = inside.len() as f64;
-    let mut noise = RunningVariance::default();
-    let (mut torque, mut variance) = (0.0, 0.0);
-    for i in inside {
-        let (value, deviation) = (measurement.torque[i], measurement.torque_deviation[i]);
-        let shared =
-            measurement.zero_deviation.powi(2) + (measurement.scale_deviation * value).powi(2);
-        torque += value / count;
-        let own = (deviation * deviation - shared).max(0.01 * deviation * deviation);
-        variance = noise.add(age[i], own.sqrt() / count);
-    }
-    (torque, variance)
-}
-
-/// Whether the torque between two times is zero by definition, because the zero was taken there: its deviation is less than the
-/// zero's, and it tells nothing of how far the zero is off.
-fn zeroed(measurement: &Measurement, from: f64, to: f64) -> bool {
-    let time = &measurement.time;
-    let inside = time.partition_point(|t| *t < from)..time.partition_point(|t| *t < to);
-    let count = inside.len() as f64;
-    let square: f64 = (measurement.torque_deviation[inside].iter())
-        .map(|d| d * d)
-        .sum();
-    square < count * measurement.zero_deviation.powi(2)
-}
-
-/// Mean of the cage speed over the part of a time that its signal covers; none without a value in it.
-///
-/// Balls pass in unequal times: a mean of their values would be that of an accelerated cage's late, or a braked one's early speed.
-/// So it is the integral of the speed, straight between the values, over its time.
-///
-/// - `age`: of the cage's errors in correlation times
-fn cage_mean(cage: &CageTrace, age: &[f64], from: f64, to: f64) -> Option<CageMean> {
-    let inside = cage.time.partition_point(|t| *t < from)..cage.time.partition_point(|t| *t < to);
-    let (first, last) = (cage.time.first()?, cage.time.last()?);
-    let (from, to) = (from.max(*first), to.min(*last));
-    if inside.is_empty() || to <= from {
-        return None;
-    }
-    let mut time = vec![from];
-    time.extend(cage.time[inside].iter().filter(|t| **t > from && **t < to));
-    time.push(to);
-    let (mut speed, mut variance) = (0.0, 0.0);
-    let mut error = RunningVariance::default();
-    for (t, weight) in time.iter().zip(trapezoid(&time)) {
-        let share = weight / (to - from);
-        speed += share * interpolate(&cage.time, &cage.speed, *t);
-        let own = share * interpolate(&cage.time, &cage.deviation, *t);
-        variance = error.add(interpolate(&cage.time, age, *t), own);
-    }
-    Some(CageMean {
-        from,
-        to,
-        speed,
-        variance,
-    })
 }
 
 #[cfg(test)]

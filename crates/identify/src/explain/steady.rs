@@ -24,6 +24,8 @@ pub(crate) struct Table {
     pub reference: f64,
     /// That speed, rad/s.
     pub top_speed: f64,
+    /// Lowest speed of the slow tests, rad/s: below, the moment is carried on.
+    pub lowest: f64,
 }
 
 impl Continued<'_> {
@@ -84,6 +86,7 @@ impl Continued<'_> {
                 .collect(),
             reference: self.at(top_speed),
             top_speed,
+            lowest: self.0.speed[0],
         }
     }
 }

@@ -8,6 +8,7 @@
 
 use super::Loss;
 use crate::measurement::Measurement;
+use crate::series::trapezoid;
 use measure::uncertain::Uncertain;
 
 /// Time after the engagement from which on, and until when, the settled torque is taken, s.
@@ -20,19 +21,24 @@ const OFF: f64 = 3.0;
 impl Loss {
     /// Mean of t_O - M between two times, N m; none where it is known at none of them.
     ///
-    /// Formula: mean of the values, mean of their deviations
+    /// Formula: mean of the values over time, mean of their deviations
     ///
     /// - `from`, `to`: times, s, both included
     pub fn mean_excess(&self, from: f64, to: f64) -> Option<Uncertain> {
-        let inside = (self.points.iter()).filter(|p| p.time >= from && p.time <= to);
-        let values: Vec<Uncertain> = inside.filter_map(|p| p.excess).collect();
-        let count = values.len() as f64;
-        (!values.is_empty()).then(|| {
-            Uncertain::new(
-                values.iter().map(|u| u.value).sum::<f64>() / count,
-                values.iter().map(|u| u.deviation).sum::<f64>() / count,
-            )
-        })
+        // by time: rows lie closer where the speed bends
+        let time: Vec<f64> = self.points.iter().map(|point| point.time).collect();
+        let (mut whole, mut value, mut deviation) = (0.0, 0.0, 0.0);
+        for (point, weight) in self.points.iter().zip(trapezoid(&time)) {
+            if let Some(excess) = point
+                .excess
+                .filter(|_| point.time >= from && point.time <= to)
+            {
+                whole += weight;
+                value += weight * excess.value;
+                deviation += weight * excess.deviation;
+            }
+        }
+        (whole > 0.0).then(|| Uncertain::new(value / whole, deviation / whole))
     }
 
     /// t_O - M 0.2 to 0.4 s after the engagement, N m.

@@ -25,7 +25,7 @@ use super::{Loss, LossSettings, State, scale_part};
 use crate::dense::{Matrix, cholesky, dot, forward, log_determinant, solved, zeros};
 use crate::measurement::Measurement;
 use crate::moment::SteadyMoment;
-use crate::series::alike;
+use crate::series::{alike, trapezoid};
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 
@@ -349,6 +349,8 @@ fn means(
     let arm = set.pocket_friction_arm();
     let inertia = set.outer_inertia() / arm;
     let age = test.noise_age();
+    // by time: rows lie closer where the speed bends
+    let weights = trapezoid(&test.time);
     let top = test.speed.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
     let fastest = test
         .acceleration
@@ -375,10 +377,10 @@ fn means(
             }
             end += 1;
         }
-        let part = &loss.points[start..end];
-        let count = part.len() as f64;
+        let whole: f64 = weights[start..end].iter().sum();
         let sign = first.speed.signum();
-        let mean = |f: &dyn Fn(usize) -> f64| (start..end).map(f).sum::<f64>() / count;
+        let mean =
+            |f: &dyn Fn(usize) -> f64| (start..end).map(|k| weights[k] * f(k)).sum::<f64>() / whole;
         let friction = mean(&|k| loss.points[k].friction.map_or(0.0, |f| sign * f.value));
         // errors within a mean are taken as one: at most too wide
         let noise = mean(&|k| test.torque_noise(k)) / arm;

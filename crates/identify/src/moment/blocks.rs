@@ -2,6 +2,7 @@
 
 use super::MomentSettings;
 use crate::measurement::Measurement;
+use crate::series::trapezoid;
 use physics::rolling::RollingSet;
 use std::ops::Range;
 
@@ -71,6 +72,7 @@ impl Blocks {
         for (number, (test, taken)) in tests.iter().zip(&taken).enumerate() {
             let step = interval(test);
             let size = ((duration / step).round() as usize).max(1);
+            let weights = trapezoid(&test.time);
             let value = |k: usize| {
                 (test.torque[k] + inertia * test.acceleration[k]) * test.speed[k].signum()
             };
@@ -90,8 +92,9 @@ impl Blocks {
                 if run.len() / size >= 3 {
                     let first = blocks.x.len();
                     for part in run.chunks_exact(size) {
+                        let whole: f64 = part.iter().map(|&k| weights[k]).sum();
                         let mean = |f: &dyn Fn(usize) -> f64| {
-                            part.iter().map(|&k| f(k)).sum::<f64>() / size as f64
+                            part.iter().map(|&k| weights[k] * f(k)).sum::<f64>() / whole
                         };
                         blocks.x.push(mean(&|k| test.speed[k].abs()));
                         blocks.y.push(mean(&value));

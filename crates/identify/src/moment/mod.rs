@@ -142,6 +142,10 @@ impl Moment {
     }
 }
 
+/// Deviation of M outside the speeds at which it was measured, over M at the nearest of them, where it has to be carried on: it may
+/// be anything from none to twice that; assumed.
+pub(crate) const CARRIED_ON: f64 = 0.5;
+
 /// Loads that differ by less count as one, relative: dead weights are known better.
 pub(crate) const SAME_LOAD: f64 = 0.02;
 

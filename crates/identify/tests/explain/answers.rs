@@ -71,6 +71,35 @@ fn cut(mut campaign: Campaign) -> Campaign {
     campaign
 }
 
+#[test]
+fn below_the_slow_tests_nothing_speaks_against_rolling() {
+    // a coast-down that ends at 52 rad/s of 150: at 8 rad/s M is a fifth of it, and no datum of the slow tests tells it
+    for seed in 0..4 {
+        let mut campaign = campaign(Explanation::Rolling, seed);
+        let steady = &mut campaign.steady;
+        let known = steady.speed.partition_point(|speed| *speed < 50.0);
+        steady.speed.drain(..known);
+        steady.moment.drain(..known);
+        steady.covariance.drain(..known);
+        for row in &mut steady.covariance {
+            row.drain(..known);
+        }
+        let supported = Conclusion::Supported(Explanation::Rolling);
+        assert_eq!(judge(&campaign).conclusion, supported, "{seed}");
+        for test in &mut campaign.tests {
+            test.cage = None;
+        }
+        // without a cage signal the holds alone do not exclude a slip just below M
+        let conclusion = judge(&campaign).conclusion;
+        let first = match &conclusion {
+            Conclusion::Supported(one) => Some(one),
+            Conclusion::Undecided(left) => left.first(),
+            Conclusion::NoneOfThese => None,
+        };
+        assert_eq!(first, Some(&Explanation::Rolling), "{seed} {conclusion:?}");
+    }
+}
+
 fn ask(campaign: &Campaign, verdict: &Verdict) -> Vec<identify::explain::Candidate> {
     next_test(
         verdict,

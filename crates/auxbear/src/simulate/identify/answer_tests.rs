@@ -91,7 +91,7 @@ fn rolling_up(
 }
 
 fn energies(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
-    let found = test.dissipation.as_ref().map_err(Clone::clone);
+    let found = test.energy();
     let none = || "without a cage signal over the whole spin-up".to_string();
     uncertain(
         list,
@@ -115,7 +115,8 @@ fn energies(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
     list.number(
         &named("dissipation_until"),
         "s",
-        found.clone().map(|d| d.window.1 - test.measurement.begin()),
+        (test.dissipation.as_ref().map_err(Clone::clone))
+            .map(|d| d.window.1 - test.measurement.begin()),
         &UNTIL,
     );
     list.push(
@@ -190,7 +191,7 @@ const ROLLING_UP: Origin = Origin {
     valid: "compare it with the fall of the torque: balls that still speed up would need traction and drag to agree this closely",
 };
 const ENERGY: Origin = Origin {
-    law: "D = ∫t_O Ω dt + ∫Ω dL - Δ(KE + U) with a cage signal; (21) as printed, corrected; without a cage signal the corrected form where rolling is stated, else with the path term as an uncertainty",
+    law: "D = ∫t_O Ω dt + ∫Ω dL - Δ(KE + U) with a cage signal; (21) as printed, corrected; without a cage signal the corrected form where rolling is stated, else the middle of a range: of balls that roll at the end, or of any slip where the verdict does not exclude it",
     source: "the source paper, (21), and its correction; crates/identify/src/dissipation.rs",
     valid: "from the engagement until the final speed is reached",
 };

@@ -1,5 +1,6 @@
 //! What the estimators find in the tests, each with its own reason where it refuses.
 
+use super::consequence::{false_reading, other_cause, slip_is_open, slips};
 use super::read::{Asked, Test};
 use super::told::{Told, grouped};
 use crate::scenario::RotorFriction;
@@ -9,9 +10,7 @@ use crate::simulate::outcome::Warning;
 use crate::simulate::signals;
 use identify::dissipation::{Dissipation, dissipation};
 use identify::doubt::{ByTemperature, Doubt, DoubtSettings, doubts};
-use identify::explain::{
-    self, Candidate, Conclusion, Explanation, Foretelling, Priors, Verdict, foretold,
-};
+use identify::explain::{self, Candidate, Conclusion, Foretelling, Priors, Verdict, foretold};
 use identify::loss::{Loss, LossMap, LossSettings, Rolling, loss};
 use identify::moment::{Moment, MomentSettings, moment, same_load};
 use identify::rotor_friction::{self, Race, RubbingSpinUp};
@@ -47,6 +46,8 @@ pub(super) struct TestFound {
     pub rolling_stated: bool,
     /// What the verdict names as the cause of t_O - M, where that is not the balls.
     pub other_cause: Option<String>,
+    /// Why the reading is not the torque, where the verdict says so: no energy is read from it then.
+    pub false_reading: Option<String>,
 }
 
 impl TestFound {
@@ -69,28 +70,22 @@ impl TestFound {
         (self.off_the_moment()).or_else(|| self.other_cause.clone())
     }
 
+    /// The energies of its spin-up; where the reading is not the torque, why there are none.
+    pub fn energy(&self) -> Result<&Dissipation, String> {
+        match &self.false_reading {
+            Some(why) => Err(why.clone()),
+            None => self.dissipation.as_ref().map_err(Clone::clone),
+        }
+    }
+
     /// The best that is known of the energy of its spin-up, J: by the cage signal; else of balls that roll, where that is stated;
     /// else with the path term as an uncertainty.
     pub fn best_energy(&self) -> Result<Uncertain, String> {
-        let found = self.dissipation.as_ref().map_err(Clone::clone)?;
+        let found = self.energy()?;
         Ok(match (found.exact, self.rolling_stated) {
             (None, true) => found.corrected,
             _ => found.best(),
         })
-    }
-}
-
-/// What a conclusion names as the cause of t_O - M, where that is neither friction nor inertia of the balls.
-fn other_cause(conclusion: &Conclusion) -> Option<String> {
-    let Conclusion::Supported(explanation) = conclusion else {
-        return None;
-    };
-    match explanation {
-        Explanation::Grease | Explanation::Sensor | Explanation::AnotherMoment => Some(format!(
-            "the tests support \"{}\", by which t_O - M is not the friction and inertia of the balls alone",
-            explanation.name()
-        )),
-        Explanation::Rolling | Explanation::IsothermalSlip | Explanation::HeatedSlip => None,
     }
 }
 
@@ -188,12 +183,13 @@ impl Found {
                     .and_then(|curve| skid(&test, curve, &set, &SkidSettings::default())),
                 rolling_stated: wish.rolling_stated,
                 other_cause: None,
+                false_reading: None,
                 measurement: test,
             })
             .collect();
         let measurements: Vec<&Measurement> = tests.iter().map(|test| &test.measurement).collect();
         let doubts = doubted(asked, &measurements, curve.as_ref().ok().copied(), &set);
-        let doubts = doubts.unwrap_or_else(|why| {
+        let mut doubts = doubts.unwrap_or_else(|why| {
             unusable.push(("tests".to_string(), why));
             Vec::new()
         });
@@ -220,8 +216,19 @@ impl Found {
             },
         };
         let cause = (verdict.as_ref().ok()).and_then(|verdict| other_cause(&verdict.conclusion));
+        let conclusion = verdict.as_ref().ok().map(|verdict| &verdict.conclusion);
+        let reading = conclusion.and_then(false_reading);
+        // without a verdict nothing excludes slip, but a statement that they roll
+        let slip_is_open = !wish.rolling_stated && conclusion.is_none_or(slip_is_open);
         for test in &mut tests {
             test.other_cause.clone_from(&cause);
+            test.false_reading.clone_from(&reading);
+            if slip_is_open && let Ok(found) = &mut test.dissipation {
+                *found = found.clone().with_any_slip(&set);
+            }
+        }
+        if matches!(conclusion, Some(Conclusion::Supported(explanation)) if slips(*explanation)) {
+            doubts = doubts.into_iter().map(Doubt::beside_a_slip).collect();
         }
         let map = match &unused {
             Some(why) => Err(why.clone()),
@@ -516,25 +523,4 @@ fn rubbed(
         ));
     }
     Ok(found)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_explained_otherwise_is_not_friction_of_balls() {
-        for explanation in Explanation::ALL {
-            let cause = other_cause(&Conclusion::Supported(explanation));
-            let other = matches!(
-                explanation,
-                Explanation::Grease | Explanation::Sensor | Explanation::AnotherMoment
-            );
-            assert_eq!(cause.is_some(), other, "{}", explanation.name());
-            assert!(cause.is_none_or(|why| why.contains(explanation.name())));
-        }
-        let left = Conclusion::Undecided(Explanation::ALL.to_vec());
-        assert_eq!(other_cause(&left), None);
-        assert_eq!(other_cause(&Conclusion::NoneOfThese), None);
-    }
 }

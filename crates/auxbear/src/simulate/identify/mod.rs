@@ -8,12 +8,14 @@
 //! |---|---|
 //! | `read` | the signals files and their channels |
 //! | `found` | the estimators of the crate `identify`, each with its own reason where it refuses |
+//! | `consequence` | what follows from a verdict for the other results |
 //! | `told` | what to know of the tests, each line once |
 //! | `answer`, `answer_tests` | named results |
 //! | `history` | the tests over time since their engagement |
 
 mod answer;
 mod answer_tests;
+mod consequence;
 mod found;
 mod history;
 mod read;
