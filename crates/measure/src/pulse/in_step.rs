@@ -14,8 +14,10 @@ use super::Pulses;
 /// Smallest uncertainty of an instant that hides between two samples, in samples.
 const HIDES: f64 = 0.03;
 /// Samples a mark up to which a flank that a sample meets shares its error too: it lies where the shape learnt of it says, and the
-/// error of that is the same wherever a sample meets it. Two by two the others meet it elsewhere.
+/// error of that is the same wherever a sample meets it. Two by two the others meet it elsewhere, and in a short row soon.
 const SHORT: f64 = 10.0;
+/// Pulses of a row from which on it is long.
+const LONG: usize = 64;
 /// Least error of such a place, samples.
 const SHAPE: f64 = 0.02;
 /// Fewest pulses of a row. Where the shaft leaves the step sooner the errors have the mean of no error.
@@ -40,7 +42,11 @@ impl Pulses {
                 if seen[first] {
                     continue;
                 }
-                let row = self.row(first, together, interval, &kept);
+                let all = self.row(first, together, together == 1, interval, &kept);
+                let row = match all.len() >= LONG {
+                    true => all,
+                    false => self.row(first, together, false, interval, &kept),
+                };
                 row.iter().for_each(|&k| seen[k] = true);
                 if row.len() >= ROW {
                     row.iter().for_each(|&k| kept[k] = false);
@@ -65,13 +71,20 @@ impl Pulses {
         })
     }
 
-    /// Pulses from one on that hide between samples in the same place, so many marks apart.
-    fn row(&self, first: usize, together: usize, interval: f64, kept: &[bool]) -> Vec<usize> {
+    /// Pulses from one on that hide between samples in the same place, so many marks apart; also those that a sample meets.
+    fn row(
+        &self,
+        first: usize,
+        together: usize,
+        also_met: bool,
+        interval: f64,
+        kept: &[bool],
+    ) -> Vec<usize> {
         let step = |k: usize| {
             let next = (k + 1).min(kept.len() - 1).max(1);
             (self.times[next] - self.times[next - 1]) / interval
         };
-        let met = |k: usize| together == 1 && step(k) < SHORT;
+        let met = |k: usize| also_met && step(k) < SHORT;
         let shares = |k: usize| self.uncertainties[k] > HIDES * interval || met(k);
         let hides = |k: usize| kept[k] && shares(k);
         let mut row = vec![first];
