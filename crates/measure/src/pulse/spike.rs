@@ -29,25 +29,28 @@ pub(super) fn without(flips: Vec<Flip>) -> (Vec<Flip>, Option<(usize, usize)>) {
         let (begin, end) = (flips.get(k)?, flips.get(k + 1)?);
         (begin.rises != end.rises).then(|| end.sample - begin.sample)
     };
-    // The next pulse of the same kind that is no spike, to one side; 0 where there are too many in a row.
+    // How many as narrow stand in a row to one side, and the width of what comes behind them, where the record goes on.
     let beside = |k: usize, ahead: bool| {
         let mut place = k;
-        for _ in 0..=ROW {
-            place = if ahead {
-                place + 2
+        for narrow in 0..=ROW {
+            let next = if ahead {
+                Some(place + 2)
             } else {
-                place.checked_sub(2)?
+                place.checked_sub(2)
             };
-            match width(place)? {
-                own if own > NARROW => return Some(own),
-                _ => {}
+            match next.and_then(|next| Some((next, width(next)?))) {
+                Some((next, own)) if own <= NARROW => place = next,
+                Some((_, own)) => return (narrow, Some(own)),
+                None => return (narrow, None),
             }
         }
-        Some(0)
+        (ROW, None)
     };
     let spike = |k: usize| {
-        let known = || [beside(k, false), beside(k, true)].into_iter().flatten();
+        let [left, right] = [beside(k, false), beside(k, true)];
+        let known = || [left.1, right.1].into_iter().flatten();
         width(k).is_some_and(|own| own <= NARROW)
+            && left.0 + 1 + right.0 <= ROW
             && known().count() > 0
             && known().all(|other| other >= WIDE)
     };
