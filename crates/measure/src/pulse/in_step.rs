@@ -30,12 +30,13 @@ const WITHIN: f64 = 0.6;
 const MARKS: usize = 3;
 
 impl Pulses {
-    /// The pulses with few left of each row that is in step with the sampling; none where there is no such row.
-    pub(crate) fn out_of_step(&self) -> Option<Pulses> {
+    /// The pulses with few left of each row that is in step with the sampling, and the deviation that those of a row have besides
+    /// their own, s; none where there is no such row.
+    pub(crate) fn out_of_step(&self) -> Option<(Pulses, Vec<f64>)> {
         let interval = self.sample_interval?;
         let n = self.times.len();
         let mut kept = vec![true; n];
-        let mut uncertainties = self.uncertainties.clone();
+        let mut shared = vec![0.0; n];
         for together in 1..=MARKS {
             let mut seen = vec![false; n];
             for first in 0..n {
@@ -54,8 +55,9 @@ impl Pulses {
                     for part in 0..some {
                         let k = row[(2 * part + 1) * row.len() / (2 * some)];
                         kept[k] = true;
-                        let own = uncertainties[k].max(SHAPE * interval);
-                        uncertainties[k] = own * (some as f64).sqrt();
+                        let own = self.uncertainties[k];
+                        let all = own.max(SHAPE * interval) * (some as f64).sqrt();
+                        shared[k] = (all * all - own * own).sqrt();
                     }
                 }
             }
@@ -65,10 +67,8 @@ impl Pulses {
             (*first, *last) = (true, true);
         }
         let left: Vec<usize> = (0..n).filter(|&k| kept[k]).collect();
-        (left.len() < n).then(|| Pulses {
-            uncertainties: left.iter().map(|&k| uncertainties[k]).collect(),
-            ..self.only(&left)
-        })
+        let shared = left.iter().map(|&k| shared[k]).collect();
+        (left.len() < n).then(|| (self.only(&left), shared))
     }
 
     /// Pulses from one on that hide between samples in the same place, so many marks apart; also those that a sample meets.
@@ -162,12 +162,12 @@ mod tests {
     #[test]
     fn a_row_in_step_counts_as_one_pulse() {
         let all = train(322, 4.0, 0.15);
-        let left = all.out_of_step().unwrap();
+        let (left, shared) = all.out_of_step().unwrap();
         // The first and the last stay, and one of sixteen between.
         let inner = 1..left.times.len() - 1;
         assert_eq!(inner.len(), 21);
         let weight: f64 = inner
-            .map(|k| (0.15e-4 / left.uncertainties[k]).powi(2))
+            .map(|k| (0.15e-4 / left.uncertainties[k].hypot(shared[k])).powi(2))
             .sum();
         assert!((weight - 1.0).abs() < 1e-9, "{weight}");
         for (time, mark) in left.times.iter().zip(&left.marks) {

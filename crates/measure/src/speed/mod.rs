@@ -216,9 +216,13 @@ pub fn smooth(
         ));
     }
     let thinned = pulses.out_of_step();
-    let pulses = thinned.as_ref().unwrap_or(pulses);
+    let (pulses, shared) = match &thinned {
+        Some((left, shared)) => (left, shared.as_slice()),
+        None => (pulses, [].as_slice()),
+    };
     let n = pulses.times.len();
     let mut data = Data::new(pulses, pitch);
+    data.share(shared);
     let sight = fit::sight(&data, &settings.transient);
     if let Some(sight) = &sight {
         seen(pulses, &data, sight)?;

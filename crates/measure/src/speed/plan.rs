@@ -16,7 +16,7 @@ pub(super) struct Passage {
     pub speed: f64,
     /// Stated uncertainty of the instant.
     pub spread: f64,
-    /// Variance that the calibration of the mark leaves, rad².
+    /// Variance that the calibration of the mark leaves, and what pulses in step with the sampling share, rad².
     pub left: f64,
 }
 
@@ -127,6 +127,13 @@ impl Data {
                 .map(|gap| (pulses.times[gap.pulse] - origin) / unit)
                 .collect(),
             livelier: Vec::new(),
+        }
+    }
+
+    /// Adds what pulses in step with the sampling have in common, s. How they scatter says nothing of it.
+    pub fn share(&mut self, shared: &[f64]) {
+        for (passage, shared) in self.passages.iter_mut().zip(shared) {
+            passage.left += (shared / self.unit * passage.speed).powi(2);
         }
     }
 
