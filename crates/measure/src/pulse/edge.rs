@@ -122,7 +122,7 @@ pub fn edges(
     let (flips, spikes) = spike::without(flips);
     notes.extend(spikes.map(|(count, sample)| {
         format!(
-            "{count} spikes of a sample or two beside pulses many times as wide, the first at {:.6} s: left out",
+            "{count} spikes beside pulses many times as wide, the first at {:.6} s: left out",
             first + interval * sample as f64
         )
     }));
