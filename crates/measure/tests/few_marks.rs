@@ -153,3 +153,34 @@ fn eight_marks_and_more_hold_their_band() {
         "{speed} {acceleration}"
     );
 }
+
+#[test]
+fn a_change_that_began_before_the_record_is_not_dated() {
+    for seed in 0..seeds() {
+        let truth = shaped(seed, RAMP.0, REACHED, 0.0258, 0.5);
+        let whole = passages(&truth, seed, 60);
+        // The record begins behind two, four or six marks of the slip.
+        for missing in [2, 4, 6] {
+            let mut late = whole.clone();
+            late.times.drain(..missing);
+            late.uncertainties.drain(..missing);
+            late.marks.drain(..missing);
+            late.watched.0 = late.times[0];
+            let Ok(speed) = smooth(&late, None, &SpeedSettings::default()) else {
+                continue;
+            };
+            let Some(change) = speed.change else { continue };
+            let off = (change.engagement.0 - truth.engage).abs();
+            assert!(
+                off < 2.0 * change.engagement.1,
+                "{seed} {missing}: {change:?}"
+            );
+            let told = |note: &String| note.contains("may have begun before");
+            assert!(
+                change.from_rest || speed.notes.iter().any(told),
+                "{:?}",
+                speed.notes
+            );
+        }
+    }
+}

@@ -158,6 +158,9 @@ pub struct Speed {
     pub notes: Vec<String>,
 }
 
+/// Pulses before a quick change that show how the shaft turned before it.
+const QUIET_BEFORE: usize = 12;
+
 /// Part of the pulses that are in step with the sampling from which on it is told.
 const IN_STEP: f64 = 0.4;
 
@@ -253,7 +256,7 @@ pub fn smooth(
     };
     if let Some(sight) = &sight
         && !sight.rests
-        && sight.first >= 12
+        && sight.first >= QUIET_BEFORE
     {
         base.quiet[0] = fit::quiet(&data, 0..sight.first).1;
     }
@@ -355,6 +358,17 @@ pub fn smooth(
     if let (Some(change), Some(breakaway)) = (&mut speed.change, &speed.breakaway) {
         change.engagement.1 = change.engagement.1.hypot(breakaway.deviation);
     }
+    let open = speed.change.map(|change| since_rest(&speed, &change));
+    if let (Some(change), Some(sight), Some(open)) = (&mut speed.change, &sight, open)
+        && !change.from_rest
+        && sight.first < QUIET_BEFORE
+    {
+        change.engagement.1 = change.engagement.1.hypot(open);
+        speed.notes.push(format!(
+            "the speed changes quickly from mark {} of the record on: the change may have begun before, and when it began is not told; needed: a record that begins at rest, or some turns earlier",
+            sight.first + 1
+        ));
+    }
     if let Some(change) = speed.change {
         let (from, to) = (
             change.engagement.0,
@@ -400,6 +414,15 @@ const FEWEST_WITHIN: usize = 8;
 
 /// Usual intervals without a mark, at the speed of the last ones, after which a pickup is taken for stuck.
 const STUCK: f64 = 8.0;
+
+/// Time from rest to the end of a change whose beginning is not in the record, s, were its torque one that rises evenly: the
+/// speed goes with the square of time.
+fn since_rest(speed: &Speed, change: &Change) -> f64 {
+    const MOST: f64 = 0.9;
+    let end = change.end.map_or(speed.range().1, |end| end.0);
+    let begun = speed.at(change.engagement.0).speed / speed.at(end).speed;
+    (end - change.engagement.0) / (1.0 - begun.clamp(0.0, MOST).sqrt())
+}
 
 /// Says that marks end at a speed from which a shaft does not stop at once.
 fn fell_silent(pulses: &Pulses, speed: &Speed) -> Option<String> {
