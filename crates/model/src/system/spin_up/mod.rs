@@ -268,6 +268,9 @@ impl Machine for SpinUpMachine {
     fn dimension(&self) -> usize {
         self.layout.dimension()
     }
+    fn quadratures(&self) -> usize {
+        Layout::LEDGER
+    }
     fn probes(&self) -> usize {
         self.layout.probes()
     }
