@@ -317,9 +317,10 @@ mod tests {
             );
             assert!(near(exact, account.heat));
             assert!(near(account.work - kinetic_at_the_end(), account.heat));
-            // balls spun up after the race: the largest path term
-            assert!(near(account.path, energy.path_term_bounds().1));
-            assert!(near(energy.loss_range().1, account.heat));
+            // balls spun up after the race
+            assert!(near(account.path, energy.path_term_behind_the_race()));
+            let (least, largest) = energy.loss_range();
+            assert!((least..largest).contains(&account.heat));
             // both short forms miss half of L0 Ω0
             let missed = account.heat - energy.rolling_loss();
             assert!(near(missed, energy.path_term_bounds().0));
@@ -327,6 +328,55 @@ mod tests {
         // without a steady moment: skidding loses as much as it stores, ½ J_I Ω0²
         let lost = skidding(0.0).heat;
         assert!(near(lost, 0.5 * set().inner_inertia() * FINAL * FINAL));
+    }
+    #[test]
+    fn every_path_of_a_race_that_leads_its_balls_lies_within_the_bounds() {
+        // surface speeds of a ball over half of the final race's: x by its orbit, y by its spin; w the race's over its final one
+        let energy = Account::of(0.0, 0.0, 0.0, 0.0).energy;
+        let (least, largest) = energy.path_term_bounds();
+        let path_of = |places: &[(f64, f64, f64)]| {
+            let l = |x: f64, y: f64| {
+                let (cage, spin) = (energy.set.cage_speed(FINAL), energy.set.ball_spin(FINAL));
+                momentum(&energy.set, x * cage, y * spin)
+            };
+            let parts = places.windows(2).map(|part| {
+                let ((x, y, w), (nx, ny, nw)) = (part[0], part[1]);
+                0.5 * (w + nw) * FINAL * (l(nx, ny) - l(x, y))
+            });
+            parts.sum::<f64>()
+        };
+        // the bounds are reached: rolling, and balls that spin with the race and orbit last
+        assert!(near(path_of(&[(0.0, 0.0, 0.0), (1.0, 1.0, 1.0)]), least));
+        let spun = path_of(&[(0.0, 0.0, 0.0), (0.0, 2.0, 1.0), (1.0, 1.0, 1.0)]);
+        assert!(near(spun, largest));
+        let s = energy.set.ball_ratio;
+        let beyond = spun / energy.path_term_behind_the_race() - 1.0;
+        // 0.2 s/(0.5 + 0.3 s) of balls without a cage
+        assert!(beyond > 0.05 && beyond < 0.2 * s / (0.5 + 0.3 * s));
+        // steps of the race and of the balls in random order and size
+        let mut random = 0x9e37_79b9_u32;
+        let mut next = || {
+            random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(random >> 8) / f64::from(1 << 24)
+        };
+        let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
+        for _ in 0..2000 {
+            let lazy = next();
+            let mut places = vec![(0.0, 0.0, 0.0)];
+            let mut w: f64 = 0.0;
+            while w < 1.0 {
+                w = (w + 0.2 * next()).min(1.0);
+                let (x, _, _) = places[places.len() - 1];
+                // orbit and spin anywhere between rolling on the outer race and being dragged along by the inner one
+                let orbit = x + (w - x) * next() * lazy;
+                places.push((orbit, orbit + (2.0 * w - 2.0 * orbit) * next(), w));
+            }
+            places.push((1.0, 1.0, 1.0));
+            let path = path_of(&places);
+            assert!((least..=largest).contains(&path), "{path} {least} {largest}");
+            (low, high) = (low.min(path), high.max(path));
+        }
+        assert!(low < 1.2 * least && high > 0.9 * largest);
     }
     #[test]
     fn angular_momentum_is_that_of_both_inertias() {
