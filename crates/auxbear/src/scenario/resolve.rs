@@ -267,7 +267,9 @@ impl Values {
             Presence::DefaultWhen(condition, fallback, _) if self.holds(&condition) => {
                 self.fall_back(key, &fallback).map(Some)
             }
-            Presence::DefaultWhen(_, _, Otherwise::Optional(_)) => Ok(None),
+            Presence::DefaultWhen(_, _, Otherwise::Fallback(fallback)) => {
+                self.fall_back(key, &fallback).map(Some)
+            }
             Presence::DefaultWhen(condition, _, Otherwise::Required) => Err(Box::new(
                 self.missing(key)
                     .with_hint(format!("It has a default only with {}", condition.text())),
@@ -460,8 +462,7 @@ impl Values {
             }
             let absent = match table::presence(key, self.system) {
                 Presence::Derived(how) => Some(Provenance::Derived(how.to_string())),
-                Presence::Optional(meaning)
-                | Presence::DefaultWhen(_, _, Otherwise::Optional(meaning)) => {
+                Presence::Optional(meaning) => {
                     Some(Provenance::Default(format!("not given: {meaning}")))
                 }
                 _ => None,

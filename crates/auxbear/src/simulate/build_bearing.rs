@@ -5,7 +5,7 @@ use super::build_traction::{inlet_rolling, traction};
 use super::{Options, Phase};
 use crate::problem::{Code, Problem};
 use crate::scenario::{
-    AccelerationLoss as LossChoice, BallMaterial, Bearing, Fidelity, Guidance, Land, Moment,
+    AccelerationLoss as LossChoice, Bearing, Fidelity, Guidance, Land, Moment,
     Separation, UNNAMED,
 };
 use model::bearing::ball::BallConstants;
@@ -24,10 +24,9 @@ use model::system::spin_up::{
 };
 use model::table::Table;
 use number::Vec2;
-use physics::angular_contact::{preload_interference, radial_stiffness};
+use physics::angular_contact::{preload_interference, radial_stiffness, spin_inertia};
 use physics::hertz::{BallRace, Curvature, PointContact, Race};
-use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE, ball_mass, contact_modulus};
-use physics::rolling::RollingSet;
+use physics::materials::{BEARING_STEEL, contact_modulus};
 
 /// What a problem found after reading names as its place.
 pub(super) const SCENARIO: &str = UNNAMED;
@@ -58,16 +57,8 @@ impl BallContacts {
     }
 }
 
-/// Materials of the balls.
-pub(super) fn material(choice: BallMaterial) -> Material {
-    match choice {
-        BallMaterial::Steel => BEARING_STEEL,
-        BallMaterial::SiliconNitride => SILICON_NITRIDE,
-    }
-}
-
 pub(super) fn ball_contacts(bearing: &Bearing) -> Result<BallContacts, Box<Problem>> {
-    let ball = material(bearing.ball_material);
+    let ball = bearing.ball_material.data();
     let modulus = contact_modulus(ball, BEARING_STEEL);
     let contact = |race: Race, groove_curvature: f64| {
         let curvature = BallRace {
@@ -114,9 +105,7 @@ pub(super) fn ball_contacts(bearing: &Bearing) -> Result<BallContacts, Box<Probl
         modulus,
         inner_stiffness: bearing.inner_contact_stiffness.unwrap_or(inner.stiffness),
         outer_stiffness: bearing.outer_contact_stiffness.unwrap_or(outer.stiffness),
-        ball_mass: bearing
-            .ball_mass
-            .unwrap_or_else(|| ball_mass(bearing.ball_diameter, ball.density)),
+        ball_mass: bearing.mass_of_ball(),
         inner,
         outer,
     })
@@ -165,12 +154,6 @@ pub(super) fn bearing(
             lubricant: lubricant_state(bearing),
         }),
         Fidelity::Rolling => {
-            let set = RollingSet {
-                inner_track_radius: plane.inner_track,
-                ball_ratio: plane.contact_radius / plane.inner_track,
-                balls_mass: bearing.ball_count as f64 * contacts.ball_mass,
-                cage_mass: bearing.separation.cage_mass(),
-            };
             BearingConstants::Rolling(RollingConstants {
                 balls: bearing.ball_count,
                 ball: RollingBall {
@@ -182,7 +165,8 @@ pub(super) fn bearing(
                     inner_track_growth: growth,
                     mass_radius: contacts.ball_mass * 0.5 * bearing.pitch_diameter,
                 },
-                set,
+                set: bearing.rolling_set(),
+                cage_mass: bearing.separation.cage_mass(),
                 first_ball_angle: bearing.first_ball_angle,
                 moment: law,
                 axial_load: bearing.moment.axial_load(),
@@ -249,7 +233,7 @@ fn ball_constants(
     plane: &Plane,
     gravity: Vec2<f64>,
 ) -> BallConstants<f64> {
-    let radius = 0.5 * bearing.ball_diameter;
+    let cosine = bearing.contact_angle.cos();
     let pockets = match &bearing.separation {
         Separation::Cage(cage) => Pockets {
             gap: cage.pocket_gap,
@@ -266,11 +250,11 @@ fn ball_constants(
     };
     BallConstants {
         radius: plane.contact_radius,
-        ball_radius: radius,
-        load_per_radial_force: 1.0 / bearing.contact_angle.cos(),
+        ball_radius: 0.5 * bearing.ball_diameter,
+        load_per_radial_force: 1.0 / cosine,
         mass: contacts.ball_mass,
         inverse_mass: 1.0 / contacts.ball_mass,
-        inverse_inertia: 1.0 / (0.4 * contacts.ball_mass * radius * radius),
+        inverse_inertia: 1.0 / spin_inertia(contacts.ball_mass, plane.contact_radius),
         inner_track: plane.inner_track,
         inner_track_growth: bearing.inner_track_growth(),
         outer_track: plane.outer_track,
@@ -281,8 +265,8 @@ fn ball_constants(
         pocket_gap: pockets.gap,
         pocket_stiffness: pockets.stiffness,
         pocket_damping: pockets.damping,
-        pocket_friction: pockets.friction,
-        pocket_inverse_reference_speed: 1.0 / pockets.reference_speed,
+        pocket_friction: pockets.friction * cosine,
+        pocket_inverse_reference_speed: cosine / pockets.reference_speed,
         orbit_drag: bearing.drag.orbit,
         spin_drag: bearing.drag.spin,
         gravity,
@@ -314,12 +298,13 @@ fn separation(bearing: &Bearing, contacts: &BallContacts) -> SeparationConstants
     let cage = match &bearing.separation {
         Separation::Cage(cage) => cage,
         Separation::FullComplement(row) => {
+            let cosine = bearing.contact_angle.cos();
             return SeparationConstants::Neighbours(BallPair {
                 radius: 0.5 * bearing.ball_diameter,
                 stiffness: contacts.neighbour_stiffness,
                 damping_time: bearing.contact_damping_time,
-                friction: row.friction_coefficient,
-                inverse_reference_speed: 1.0 / row.friction_reference_speed,
+                friction: row.friction_coefficient * cosine,
+                inverse_reference_speed: cosine / row.friction_reference_speed,
             });
         }
     };

@@ -220,8 +220,8 @@ fn loads(list: &mut List, context: &Context) {
         loads: [record.largest_inner_load, record.largest_outer_load],
         cage: [record.largest_pocket_force, record.largest_land_force],
     };
-    let limit = context.spin_up.bearing.hertz_pressure_limit;
-    list.balls(&context.bearing(), &forces, limit, &end(context));
+    let bearing = &context.spin_up.bearing;
+    list.balls(&context.bearing(), &forces, bearing, &end(context));
 }
 
 fn energies(list: &mut List, context: &Context) {
@@ -243,7 +243,8 @@ fn energies(list: &mut List, context: &Context) {
     let premise = rolling_start_to_end(context);
     for (name, value) in [
         ("path_term_if_rolling", forms.least_path),
-        ("path_term_if_spun_up_after", forms.largest_path),
+        ("path_term_if_spun_up_after", forms.path_behind_the_race),
+        ("path_term_largest", forms.largest_path),
     ] {
         list.number(name, "J", premise.clone().map(|()| value), &PATH);
     }

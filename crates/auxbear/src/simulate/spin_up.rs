@@ -83,7 +83,7 @@ pub(super) fn run(
         members: Vec::new(),
         picture: Picture {
             clearance: None,
-            pressure_limit: spin_up.bearing.hertz_pressure_limit,
+            pressure_limit: Some(spin_up.bearing.hertz_pressure_limit),
             rolling_cage_ratio: built.machine.constants.bearing.rolling_cage_ratio(),
             balls: spin_up.bearing.ball_count,
         },

@@ -1,11 +1,12 @@
 //! Warnings that several systems give.
 
-use super::bearing_run::BearingRun;
+use super::bearing_run::{BearingRun, Pressures};
 use super::build_bearing::{ScaleOrigin, SteadyFinding};
 use super::outcome::{Quantity, Value, Warning};
-use crate::scenario::{BallMaterial, Bearing, BearingType, Fidelity, Moment, Scenario};
+use crate::scenario::{BallMaterial, Bearing, BearingType, Fidelity, Moment, Scenario, Separation};
 use physics::angular_contact::radial_load_that_unloads_a_ball;
 use physics::friction_range::OperatingPoint;
+use physics::hertz::rim_tension;
 
 /// Relative energy residual above which the run's tolerance is too loose.
 const LARGEST_RESIDUAL: f64 = 1e-6;
@@ -37,26 +38,66 @@ pub(super) fn speed_rating(bearing: &Bearing, speed: f64) -> Option<Warning> {
     })
 }
 
-/// A Hertz pressure above its limit, or no limit to compare with.
-pub(super) fn pressure(bearing: &Bearing, pressure: f64) -> Option<Warning> {
-    match bearing.hertz_pressure_limit {
-        Some(limit) if pressure > limit => Some(warning(
+/// Hertz pressures above the limits of what touches.
+pub(super) fn pressure(bearing: &Bearing, pressures: &Pressures) -> Vec<Warning> {
+    const DENTS: &str =
+        "permanent dents must be expected, and the elastic contact law is outside its range";
+    let mut list = Vec::new();
+    let (races, limit) = (pressures.races, bearing.hertz_pressure_limit);
+    if races > limit {
+        list.push(warning(
             "AB1002",
             format!(
-                "The peak Hertz pressure of {:.0} MPa exceeds the limit of {:.0} MPa: permanent dents must be \
-                 expected, and the elastic contact law is outside its range.",
+                "The peak Hertz pressure of {:.0} MPa exceeds the limit of {:.0} MPa: {DENTS}.",
+                races * 1e-6,
+                limit * 1e-6
+            ),
+        ));
+    }
+    if let Some((pressure, limit)) = pressures.of_neighbours(bearing)
+        && pressure > limit
+    {
+        let material = bearing.ball_material;
+        let harm = match material {
+            BallMaterial::Steel => DENTS.to_string(),
+            BallMaterial::SiliconNitride => format!(
+                "ceramic balls do not dent, they crack in rings where the tension at the rim of the contact, {:.0} MPa, exceeds \
+                 their strength",
+                rim_tension(pressure, material.data().poisson_ratio) * 1e-6
+            ),
+        };
+        list.push(warning(
+            "AB1070",
+            format!(
+                "Neighbouring balls press each other with {:.0} MPa, beyond their limit of {:.0} MPa: {harm}.",
                 pressure * 1e-6,
                 limit * 1e-6
             ),
-        )),
-        None => Some(warning(
-            "AB1003",
-            "No limit of the Hertz pressure is given; for silicon nitride balls it is yours to set \
-             (bearing.hertz_pressure_limit)."
-                .to_string(),
-        )),
-        Some(_) => None,
+        ));
     }
+    list
+}
+
+/// A cage whose mass and inertia do not belong to one body between the races.
+pub(super) fn cage_inertia(bearing: &Bearing) -> Option<Warning> {
+    let Separation::Cage(cage) = &bearing.separation else {
+        return None;
+    };
+    let gyration = (cage.inertia / cage.mass).sqrt();
+    let (pitch, ball) = (bearing.pitch_diameter, bearing.ball_diameter);
+    let (inner, outer) = (0.5 * (pitch - ball), 0.5 * (pitch + ball));
+    (!(inner..=outer).contains(&gyration)).then(|| {
+        warning(
+            "AB1071",
+            format!(
+                "bearing.cage_inertia and bearing.cage_mass contradict each other: together they are a ring of {:.1} mm radius, \
+                 and a cage lies between the races, from {:.1} to {:.1} mm. The cage turns with the inertia and moves with the mass.",
+                gyration * 1e3,
+                inner * 1e3,
+                outer * 1e3
+            ),
+        )
+    })
 }
 
 /// An energy ledger that does not close, where the run came to its end.

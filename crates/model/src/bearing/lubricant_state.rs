@@ -10,7 +10,8 @@
 //! ```
 //! The laws stand in [`lubricant_state`](physics::lubricant_state). D and F multiply what acts on a ball and on a ring in
 //! opposite directions alike, so every pair stays a pair and every heat stays not negative. P is made of heats that stand
-//! in the ledger already: Θ stores nothing mechanical, and neither energy nor momentum notices these states.
+//! in the ledger already: Θ stores nothing mechanical, and neither energy nor momentum notices these states. Of that heat the
+//! films keep C Θ̇; the rest, P - C Θ̇ = G Θ, flows into the bearing, on a rig into its node.
 //!
 //! Where the balls roll, no traction is computed: F has no effect. A bearing without a steady moment has no D.
 //!
@@ -81,6 +82,11 @@ impl LubricantConstants {
             && share(self.breakdown)
             && self.grease.is_none_or(|grease| grease.is_valid())
             && self.films.is_none_or(|films| films.is_valid())
+    }
+    /// Power that warms the films and stays there, W: C Θ̇ of the rates of its own states.
+    pub(super) fn kept_by_films<R: Real>(&self, rate: &[R]) -> R {
+        let capacity = self.films.map_or(0.0, |films| films.heat_capacity);
+        rate[FILM_RISE] * R::splat(capacity)
     }
     /// The lubricant in its own states.
     pub fn at(&self, state: &[f64]) -> LubricantAt {

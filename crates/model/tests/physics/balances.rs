@@ -125,7 +125,9 @@ fn spins(machine: &DropMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, f64, f
             if !matches!(b.separation, Separation::Neighbours(_)) {
                 list.push((b.cage_inertia, part.0[1], part.1[1]));
             }
-            let inertia = 0.4 * b.ball.mass * b.ball.ball_radius * b.ball.ball_radius;
+            // a ball that rolls turns by σ cos α about an axis across its line of contact: its energy and its share along z
+            let rolls = b.ball.radius / b.ball.ball_radius;
+            let inertia = 0.4 * b.ball.mass * (b.ball.ball_radius * rolls).powi(2);
             for j in 0..b.balls {
                 let (now, change) = (ball_of(machine, state, j), ball_of(machine, rate, j));
                 list.push((inertia, now.spin, change.spin));
@@ -458,7 +460,7 @@ fn rolling_balls_carry_the_angular_momentum_of_their_motion() {
     let cage_speed = 1.0 / (2.0 * (1.0 + s));
     let ball_spin = -1.0 / (2.0 * s);
     let balls_mass = p.balls as f64 * p.ball.mass;
-    let expected = (balls_mass + p.cage_mass) * (track + r).powi(2) * cage_speed
+    let expected = (balls_mass * (track + r).powi(2) + p.cage_inertia) * cage_speed
         + 0.4 * balls_mass * r * r * ball_spin;
     let_roll(&mut c);
     let machine = DropMachine::new(c);
@@ -521,9 +523,8 @@ fn moment_from_pocket(
     let (now, change) = (ball_of(machine, state, j), ball_of(machine, rate, j));
     let (r, mass) = (b.ball.radius, b.ball.mass);
     let mut force = (acceleration - b.ball.gravity) * mass;
-    let ball_radius = b.ball.ball_radius;
-    let mut moment =
-        0.4 * mass * ball_radius * ball_radius * change.spin + b.ball.spin_drag * now.spin;
+    // the plane's share of a ball that turns by σ cos α across its line of contact; r is the ball's times cos α
+    let mut moment = 0.4 * mass * r * r * change.spin + b.ball.spin_drag * now.spin;
     let grown = b.ball.inner_track_growth * motion.inner.spin * motion.inner.spin;
     let tangent = vec2(-now.azimuth.sin(), now.azimuth.cos());
     force += tangent * (b.ball.orbit_drag * velocity.dot(tangent));

@@ -88,6 +88,10 @@ pub fn machines() -> Vec<DropMachine> {
         separate(&mut c, separation);
         c
     });
+    let separated_at_an_angle = separated.clone().map(|mut c| {
+        tilt_contacts(planar(&mut c), 0.4);
+        c
+    });
     let mut worked = greased.clone();
     planar(&mut worked).lubricant = Some(lubricant());
     let mut worked_rolling = rolls.clone();
@@ -117,6 +121,7 @@ pub fn machines() -> Vec<DropMachine> {
     ]
     .into_iter()
     .chain(separated)
+    .chain(separated_at_an_angle)
     .chain([resisted, resisted_at_an_angle])
     .chain([worked, worked_rolling, warmed])
     .enumerate()

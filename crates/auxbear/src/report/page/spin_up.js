@@ -138,7 +138,6 @@ function outerRaceSection(runs) {
 
 // The verdict of a spin-up.
 function spinUpVerdict(run) {
-  const limit = run.summary.hertz_pressure_limit_Pa;
   const skid = quantityOf(run, "balls_skid");
   const skidText = typeof skid.value === "string" ? skid.value : "–";
   const capacity = numberOf(run, "traction_capacity");
@@ -161,13 +160,7 @@ function spinUpVerdict(run) {
       const mean = numberOf(run, "outer_race_mean_moment");
       return mean === null ? null : `${engineeringText(mean, "N m", 4)} in the mean of the last cage turns`;
     }),
-    quantityTile(
-      run,
-      "Peak Hertz pressure",
-      "peak_hertz_pressure",
-      (pressure) => pressureNote(run, pressure),
-      (pressure) => (isNumber(limit) ? verdictState(run, pressure > limit) : null),
-    ),
+    pressureTile(run),
     quantityTile(
       run,
       "Energy residual",
