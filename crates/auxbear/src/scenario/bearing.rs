@@ -8,6 +8,7 @@ use super::section::Section;
 use super::separation::Separation;
 use physics::lubricant::{LUBRICANTS, Lubricant};
 use physics::palmgren_factors::FactorType;
+use physics::skf_constants::SkfType;
 use std::f64::consts::PI;
 
 /// How the bearing is modelled.
@@ -49,6 +50,15 @@ impl BearingType {
             BearingType::AngularContact => FactorType::AngularContact,
             BearingType::AngularContactDoubleRow => FactorType::AngularContactDoubleRow,
             BearingType::FourPointContact => FactorType::FourPointContact,
+        }
+    }
+    /// The type as the SKF model knows it.
+    pub(super) fn skf_type(self) -> SkfType {
+        match self {
+            BearingType::DeepGroove => SkfType::DeepGroove,
+            BearingType::AngularContact => SkfType::AngularContactSingleRow,
+            BearingType::AngularContactDoubleRow => SkfType::AngularContactDoubleRow,
+            BearingType::FourPointContact => SkfType::FourPointContact,
         }
     }
 }
