@@ -162,6 +162,7 @@ mod tests {
             Friction::PalmgrenPrinted(PALMGREN),
             Friction::PalmgrenCombined(PalmgrenCombined {
                 law: PALMGREN,
+                radial_factor: -0.1,
                 axial_factor: 3.36,
                 static_radial_factor: 0.6,
                 static_axial_factor: 0.5,

@@ -32,7 +32,8 @@
 //! Even in every argument but the slip, odd in the slip, zero at zero slip, so passive. Finite for no load, no entrainment, no
 //! slip; the coefficient is at most Λ (1 - ξ) + μ_b ξ.
 //!
-//! Not modelled: spin of the ball about the normal, pressure and stress over the ellipse, elastic shear and squeeze of the film,
+//! Not modelled: differential (Heathcote) slip in the conforming groove, spin of the ball about the normal, pressure and stress
+//! over the ellipse, elastic shear and squeeze of the film,
 //! heat of the asperities, heating of the bodies themselves (the inlet temperature is an input).
 
 use crate::film::{EntrainedContact, FilmThickness, InletHeating, SLOWEST, logarithms};

@@ -18,7 +18,8 @@
 //! source has two formulas and so has this page.
 //!
 //! Not modelled: clearance and misalignment, freshly greased bearings (sliding 2 to 4 times higher for the first hours
-//! or days, after the source), V_M (read from a diagram of the source by the user).
+//! or days, after the source), V_M (read from a diagram of the source by the user), a moment at standstill: what starts the
+//! bearing is told by [`SkfMoment::starting_moment`] and acts in no run.
 
 use crate::friction::MomentParts;
 use crate::palmgren::{fading, viscosity_times_speed_mm2_s_rpm};

@@ -10,6 +10,7 @@ use physics::lubricant::{LUBRICANTS, Lubricant};
 use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE, ball_mass};
 use physics::palmgren_factors::FactorType;
 use physics::rolling::{RollingSet, ring_mass};
+use physics::skf_constants::SkfType;
 use std::f64::consts::PI;
 
 /// How the bearing is modelled.
@@ -51,6 +52,15 @@ impl BearingType {
             BearingType::AngularContact => FactorType::AngularContact,
             BearingType::AngularContactDoubleRow => FactorType::AngularContactDoubleRow,
             BearingType::FourPointContact => FactorType::FourPointContact,
+        }
+    }
+    /// The type as the SKF model knows it.
+    pub(super) fn skf_type(self) -> SkfType {
+        match self {
+            BearingType::DeepGroove => SkfType::DeepGroove,
+            BearingType::AngularContact => SkfType::AngularContactSingleRow,
+            BearingType::AngularContactDoubleRow => SkfType::AngularContactDoubleRow,
+            BearingType::FourPointContact => SkfType::FourPointContact,
         }
     }
 }

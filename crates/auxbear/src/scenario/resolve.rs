@@ -373,6 +373,12 @@ impl Values {
         })
     }
 
+    /// Where a value comes from, in one word; empty where there is none.
+    pub(super) fn mark(&self, path: &str) -> &'static str {
+        let known = self.known.get(path);
+        known.map_or("", |known| known.provenance.mark())
+    }
+
     /// A dimension of the bearing named, as the catalogue knows it.
     pub(super) fn dimension(&self, name: &str) -> Option<f64> {
         let mut values = self.record.as_ref()?.values.iter();

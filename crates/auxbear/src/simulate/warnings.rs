@@ -112,6 +112,7 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
     list.extend(shared::cage_inertia(bearing));
     list.extend(shared::rolling(bearing));
     list.extend(shared::no_moment(bearing));
+    list.extend(shared::moment(scenario, bearing));
     if bearing.drag.orbit != 0.0 || bearing.drag.spin != 0.0 || bearing.drag.cage != 0.0 {
         let text = match bearing.fidelity {
             Fidelity::Planar => {

@@ -3,10 +3,14 @@
 use super::bearing_run::{BearingRun, Pressures};
 use super::build_bearing::{ScaleOrigin, SteadyFinding};
 use super::outcome::{Quantity, Value, Warning};
-use crate::scenario::{BallMaterial, Bearing, BearingType, Fidelity, Moment, Scenario, Separation};
+use crate::scenario::{
+    BallMaterial, Bearing, BearingType, Fidelity, Moment, Provenance, RatedBearing, Scenario, Separation,
+};
 use physics::angular_contact::radial_load_that_unloads_a_ball;
+use physics::friction::Friction;
 use physics::friction_range::OperatingPoint;
 use physics::hertz::rim_tension;
+use std::f64::consts::PI;
 
 /// Relative energy residual above which the run's tolerance is too loose.
 const LARGEST_RESIDUAL: f64 = 1e-6;
@@ -15,6 +19,10 @@ const LARGEST_RESIDUAL: f64 = 1e-6;
 const UNREMARKABLE_SCALE: f64 = 0.05;
 /// Temperature rise of the films over which d ln ν/dT of an oil changes by a quarter, K.
 const WARMEST_FILMS: f64 = 20.0;
+/// Difference of two axial loads that rounding explains, as a share.
+const ROUNDED: f64 = 0.01;
+/// Unit of the drag variable in a message: the order of the diagram's values for low levels.
+const V_M: f64 = 1e-4;
 /// How near the moment of a steady run comes to the law's where traction suffices.
 const PROMISED_MOMENT: f64 = 0.01;
 
@@ -213,6 +221,67 @@ pub(super) fn law_range(bearing: &Bearing, speed: f64, load: f64) -> Vec<Warning
         )
     });
     texts.collect()
+}
+
+/// What the constants of a friction law take for granted of this bearing.
+pub(super) fn moment(scenario: &Scenario, bearing: &Bearing) -> Vec<Warning> {
+    let mut list = Vec::new();
+    let law = &bearing.moment;
+    let (preload, counted) = (bearing.axial_preload, law.axial_load());
+    let by_load = matches!(law, Moment::Palmgren { .. } | Moment::Skf { .. });
+    if by_load && preload > 0.0 && (counted.abs() - preload).abs() > ROUNDED * preload {
+        let printed = match law {
+            Moment::Palmgren { printed: true, .. } => ", whose printed form has none",
+            _ => "",
+        };
+        list.push(warning(
+            "AB1081",
+            format!(
+                "The friction law counts an axial load of {counted:.0} N{printed}, the contacts an axial preload of {preload:.0} N: \
+                 each holds where it is used."
+            ),
+        ));
+    }
+    list.extend(constants(scenario, law, &bearing.rated()));
+    list
+}
+
+/// The same of a bearing without contacts.
+pub(super) fn constants(scenario: &Scenario, law: &Moment, rated: &RatedBearing) -> Vec<Warning> {
+    let angle = scenario.resolved.get("bearing.moment.contact_angle");
+    let unknown = angle.and_then(|angle| match &angle.provenance {
+        Provenance::DefaultAssumed(why) if rated.kind != BearingType::DeepGroove => {
+            Some((angle, why))
+        }
+        _ => None,
+    });
+    let unknown = unknown.map(|(angle, why)| {
+        warning(
+            "AB1080",
+            format!(
+                "The contact angle of the bearing is not known, and the friction law depends on it: {why}; {} is taken.",
+                angle.text.as_deref().unwrap_or_default()
+            ),
+        )
+    });
+    unknown.into_iter().chain(bath(law, rated)).collect()
+}
+
+/// The SKF model in oil without the drag of the oil.
+pub(super) fn bath(law: &Moment, rated: &RatedBearing) -> Option<Warning> {
+    let Friction::Skf(dragged) = law.with_drag_variable(V_M)?.law(rated).ok()? else {
+        return None;
+    };
+    Some(warning(
+        "AB1082",
+        format!(
+            "The SKF model runs in an oil bath or jet without the drag of the oil: bearing.moment.drag_variable is 0. Each {V_M:e} of \
+             it is {:.3} N mm at 10 000 rpm, with the square of the speed.",
+            dragged
+                .intermediates(10_000.0 * PI / 30.0, 0.0, 0.0)
+                .drag_moment
+        ),
+    ))
 }
 
 /// Films that are thin or outside their law.

@@ -5,6 +5,7 @@ use auxbear::scenario::{
     BallMaterial, BearingRecord, BearingSource, Cage, Drop, Fidelity, Moment, NoBearings,
     Provenance, Scenario, Separation, Spin, System, SystemName, Traction, keys, keys_of, template,
 };
+use physics::palmgren_factors::FactorSource;
 use proptest::prelude::*;
 
 struct OneBearing;
@@ -274,6 +275,7 @@ fn choices_become_typed_values() {
             f1_exponent: 0.55,
             axial_load: 0.0,
             contact_angle: None,
+            equivalent_load: FactorSource::Timken,
         }
     );
     for hybrid in [

@@ -236,6 +236,7 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.moment.viscosity_points=[[\"40 degC\", \"100 mm^2/s\"], [\"100 degC\", \"11 mm^2/s\"]]",
         ],
         "bearing.moment.contact_angle"
+        | "bearing.moment.equivalent_load"
         | "bearing.moment.f0"
         | "bearing.moment.f1_factor"
         | "bearing.moment.f1_exponent"

@@ -27,7 +27,8 @@
 //! [`angular_contact`](physics::angular_contact).
 //!
 //! Assumes: motion in the plane; here the cage is centred on the outer race (else see [`pocket`](super::pocket)).
-//! Does not model: axial motion, tilt, gyroscopic moments, spin about the contact normal, squeeze of the film.
+//! Does not model: axial motion, tilt, gyroscopic moments, squeeze of the film; slip that differs over one contact: in the
+//! curved groove (Heathcote), and by spin about the normal, the larger of both at a contact angle.
 
 use crate::motion::Wrench;
 use number::{Gather, Mask, Real, Vec2, constants};
