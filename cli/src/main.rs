@@ -80,9 +80,8 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
         Command::Identify(wish) => return measured::perform(wish, SystemName::Identify),
         Command::Check { file, set } => {
             let scenario = Scenario::read(file, set, &BuiltIn)?;
-            let never = AtomicBool::new(false);
-            let machine = simulate::build(&scenario, &Options::unwatched(&never))?;
-            console::print(&machine.resolved().toml());
+            let machine = simulate::build(&scenario)?;
+            console::print(&scenario.resolved.toml());
             for warning in machine.warnings() {
                 console::tell(&format!("warning[{}]: {}", warning.code, warning.text));
             }

@@ -82,8 +82,8 @@ pub struct MomentShare {
     pub orbit_share: f64,
     /// Speed of rolling that regularises the load-dependent part, rad/s.
     pub reference_spin: f64,
-    /// Scale of the law; none where a steady run finds it.
-    pub scale: Option<f64>,
+    /// Scale of the law.
+    pub scale: f64,
 }
 
 /// Friction of the balls in their pockets while the race accelerates: forces in N, with the sign of the rotation.
@@ -309,7 +309,7 @@ impl MomentShare {
         MomentShare {
             orbit_share: moment.maybe("orbit_share").unwrap_or(0.5),
             reference_spin: moment.maybe("reference_spin").unwrap_or(1.0),
-            scale: moment.maybe("scale"),
+            scale: moment.number("scale"),
         }
     }
 }

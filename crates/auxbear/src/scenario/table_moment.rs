@@ -247,10 +247,10 @@ pub(super) const KEYS: &[Key] = &[
         "bearing.moment.scale",
         Kind::Coefficient,
         "1",
-        "Scale of the law: what balls lose by slip and in their pockets is in a measured moment already and must not count twice.",
+        "Factor on the law, for example of a bearing that was measured to have a share of it.",
     )
     .positive()
-    .derived("from a steady run at full speed and load, so that the whole loss there is that of the law")
+    .default("1", "the law as it stands")
     .when(SHARED)
     .only(MOVING),
     Key::new(

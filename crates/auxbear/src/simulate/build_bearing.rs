@@ -2,7 +2,6 @@
 
 use super::bearing_run::PressureFactors;
 use super::build_traction::{inlet_rolling, traction};
-use super::{Options, Phase};
 use crate::problem::{Code, Problem};
 use crate::scenario::{
     AccelerationLoss as LossChoice, Bearing, Fidelity, Guidance, Land, Moment,
@@ -18,9 +17,9 @@ use model::bearing::{
 };
 use model::contact::JournalContact;
 use model::system::spin_up::layout::{INNER, INNER_LOAD_SUM, STEADY_MOMENT};
-use model::system::spin_up::steady::{LEAST_CAPACITY, traction_capacity};
+use model::system::spin_up::capacity::{LEAST_CAPACITY, traction_capacity};
 use model::system::spin_up::{
-    Drive, InnerRace, Refusal, SpinUpConstants, SpinUpMachine, SteadyError, Watch, moment_scale,
+    Drive, InnerRace, Refusal, SpinUpConstants, SpinUpMachine,
 };
 use model::table::Table;
 use number::Vec2;
@@ -111,7 +110,7 @@ pub(super) fn ball_contacts(bearing: &Bearing) -> Result<BallContacts, Box<Probl
     })
 }
 
-/// The bearing, its steady moment not yet scaled.
+/// The bearing.
 pub(super) fn bearing(
     bearing: &Bearing,
     contacts: &BallContacts,
@@ -148,7 +147,7 @@ pub(super) fn bearing(
                 axial_load: bearing.moment.axial_load(),
                 orbit_share: bearing.moment_share.orbit_share,
                 reference_spin: bearing.moment_share.reference_spin,
-                scale: bearing.moment_share.scale.unwrap_or(1.0),
+                scale: bearing.moment_share.scale,
             }),
             inlet_rolling: inlet_rolling(bearing, contacts)?,
             lubricant: lubricant_state(bearing),
@@ -362,8 +361,7 @@ pub(super) fn table(rows: &[[f64; 2]]) -> Table {
     Table::through(points).unwrap_or_else(|_| Table::constant(f64::NAN))
 }
 
-/// A steady run of the bearing at one speed and load: what its friction moment would be, and whether the balls would
-/// roll.
+/// Whether traction can carry the friction moment at one speed and load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SteadyFinding {
     /// Speed of the inner race, rad/s.
@@ -374,27 +372,6 @@ pub struct SteadyFinding {
     pub moment: f64,
     /// Largest traction moment of the inner race over M.
     pub capacity: f64,
-    /// Scale of the law that the run uses; 1 in the rolling fidelity.
-    pub scale: f64,
-    /// Mean moment on the outer race in a steady run with this scale, N m, where one was computed.
-    pub steady_moment: Option<f64>,
-    /// Where the scale comes from, or why there is none.
-    pub origin: ScaleOrigin,
-}
-
-/// Where the scale of a friction moment comes from.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ScaleOrigin {
-    /// The balls roll: the law counts as it is.
-    NotNeeded,
-    /// The user.
-    Given,
-    /// A steady run at this speed and load.
-    SteadyRun,
-    /// The balls would skid, so that no steady run tells it: 1 is used.
-    Skidding,
-    /// There is none for this reason: 1 is used.
-    Unknown(String),
 }
 
 impl SteadyFinding {
@@ -404,7 +381,7 @@ impl SteadyFinding {
     }
 }
 
-/// Where a steady run is looked at.
+/// The speed and load that a bearing is meant to run at.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SteadyPoint {
     /// Speed of the inner race, rad/s.
@@ -413,80 +390,17 @@ pub(super) struct SteadyPoint {
     pub load: f64,
 }
 
-/// Looks at the bearing in a steady run and scales its moment, so that what the balls lose by slip and in their pockets
-/// does not count twice. None where there is no steady moment or no speed.
+/// Moment and traction capacity of a bearing that is pressed together at rest. None where there is no steady moment or
+/// no speed.
 pub(super) fn steady(
-    constants: &mut BearingConstants,
-    bearing: &Bearing,
-    race: &InnerRace<f64>,
-    at: SteadyPoint,
-    options: &Options,
-) -> Result<Option<SteadyFinding>, Box<Problem>> {
-    let SteadyPoint { speed, load } = at;
-    if bearing.moment == Moment::None || speed == 0.0 {
-        return Ok(None);
-    }
-    let mut finding = at_rest(constants, bearing, race, speed, load)?;
-    let BearingConstants::Planar(planar) = constants else {
-        finding.origin = ScaleOrigin::NotNeeded;
-        return Ok(Some(finding));
-    };
-    if let Some(scale) = bearing.moment_share.scale {
-        finding.scale = scale;
-        finding.origin = ScaleOrigin::Given;
-    } else if finding.skids() {
-        finding.origin = ScaleOrigin::Skidding;
-    } else if bearing
-        .static_load_rating
-        .is_some_and(|rating| load > rating)
-    {
-        // nothing rolls there: the search would take minutes
-        let why = "the radial load exceeds the static load rating".to_string();
-        finding.origin = ScaleOrigin::Unknown(why);
-    } else if race.centre_held {
-        finding.origin = ScaleOrigin::Unknown("the centre of the inner race is held".to_string());
-    } else {
-        let watch = Watch {
-            interrupt: options.interrupt,
-            progress: &|done, least| {
-                (options.progress)(Phase::SteadyRun, (done as f64 / least as f64).min(1.0));
-            },
-        };
-        match moment_scale(planar, race, speed, load, &watch) {
-            Ok(run) => {
-                finding.scale = run.scale;
-                finding.steady_moment = Some(run.outer_moment);
-                finding.capacity = run.capacity;
-                finding.origin = ScaleOrigin::SteadyRun;
-            }
-            Err(error @ SteadyError::ExplicitExceedsLaw { .. }) => {
-                return Err(Box::new(
-                    Problem::new(
-                        Code::LossExceedsLaw,
-                        SCENARIO,
-                        error.to_string(),
-                        "more moment is needed, or less loss in the pockets; bearing.moment.scale sets the share of the law by hand",
-                    )
-                    .on_key("bearing.moment"),
-                ));
-            }
-            Err(error) => finding.origin = ScaleOrigin::Unknown(error.to_string()),
-        }
-    }
-    if let Some(moment) = planar.moment.as_mut() {
-        moment.scale = finding.scale;
-    }
-    Ok(Some(finding))
-}
-
-/// Moment and traction capacity of a bearing that is pressed together at rest.
-fn at_rest(
     constants: &BearingConstants,
     bearing: &Bearing,
     race: &InnerRace<f64>,
-    speed: f64,
-    load: f64,
-) -> Result<SteadyFinding, Box<Problem>> {
+    SteadyPoint { speed, load }: SteadyPoint,
+) -> Result<Option<SteadyFinding>, Box<Problem>> {
+    if bearing.moment == Moment::None || speed == 0.0 {
+        return Ok(None);
+    }
     // a race that runs at its speed from the start, or nearly so where the balls cannot follow a step
     let drive = match constants {
         BearingConstants::Planar(_) => Drive::step(speed),
@@ -506,15 +420,12 @@ fn at_rest(
     let moment = probe[STEADY_MOMENT];
     let traction = traction(bearing, &ball_contacts(bearing)?)?;
     let capacity = traction_capacity(&traction, constants, speed, probe[INNER_LOAD_SUM]);
-    Ok(SteadyFinding {
+    Ok(Some(SteadyFinding {
         speed,
         load,
         moment,
         capacity: capacity / moment.abs(),
-        scale: 1.0,
-        steady_moment: None,
-        origin: ScaleOrigin::NotNeeded,
-    })
+    }))
 }
 
 /// A machine that the model refuses, told with the key that decides.

@@ -118,18 +118,6 @@ fn moments(list: &mut List, context: &Context) {
         steady.map(|steady| steady.capacity).ok_or_else(no_law),
         &CAPACITY,
     );
-    list.number(
-        "friction_moment_scale",
-        "1",
-        match (steady, context.spin_up.bearing.fidelity) {
-            (None, _) => Err(no_law()),
-            (Some(steady), Fidelity::Planar) => Ok(steady.scale),
-            (Some(_), Fidelity::Rolling) => {
-                Err("the balls roll: the law counts as it is".to_string())
-            }
-        },
-        &SCALE,
-    );
 }
 
 /// Means over the last turns of the cage at the final speed, or why there are none.
@@ -332,13 +320,8 @@ const MEAN_MOMENT: Origin = Origin {
 };
 const CAPACITY: Origin = Origin {
     law: "μ_max R ΣQ_i / M at full speed under the last load",
-    source: "crates/model/src/system/spin_up/steady.rs",
+    source: "crates/model/src/system/spin_up/capacity.rs",
     valid: "above 1.2 the balls roll in a steady run and t_I = t_O = M within 1 %; below they must skid",
-};
-const SCALE: Origin = Origin {
-    law: "λ: share of M that the lubricant is given, the rest being what balls lose by slip and in their pockets",
-    source: "crates/model/src/system/spin_up/steady.rs",
-    valid: "found at full speed under the last load and used at every speed",
 };
 const SLIP: Origin = Origin {
     law: "S = 1 - 2(1+s)ω_c/Ω, at the last instant, or as the mean over the later half of the cage turns at the final speed",

@@ -107,8 +107,6 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
     list.extend(shared::films(&run, bearing));
     list.extend(shared::film_rise(&run));
     list.extend(shared::skids(context.built.steady.as_ref()));
-    list.extend(shared::unscaled(context.built.steady.as_ref()));
-    list.extend(shared::scale(context.built.steady.as_ref()));
     list.extend(shared::cage_inertia(bearing));
     list.extend(shared::rolling(bearing));
     list.extend(shared::no_moment(bearing));

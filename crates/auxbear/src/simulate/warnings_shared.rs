@@ -1,7 +1,7 @@
 //! Warnings that several systems give.
 
 use super::bearing_run::{BearingRun, Pressures};
-use super::build_bearing::{ScaleOrigin, SteadyFinding};
+use super::build_bearing::SteadyFinding;
 use super::outcome::{Quantity, Value, Warning};
 use crate::scenario::{
     BallMaterial, Bearing, BearingType, Fidelity, Moment, Provenance, RatedBearing, Scenario, Separation,
@@ -15,16 +15,12 @@ use std::f64::consts::PI;
 /// Relative energy residual above which the run's tolerance is too loose.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
-/// Distance of the friction moment's scale from 1 that creep alone explains.
-const UNREMARKABLE_SCALE: f64 = 0.05;
 /// Temperature rise of the films over which d ln ν/dT of an oil changes by a quarter, K.
 const WARMEST_FILMS: f64 = 20.0;
 /// Difference of two axial loads that rounding explains, as a share.
 const ROUNDED: f64 = 0.01;
 /// Unit of the drag variable in a message: the order of the diagram's values for low levels.
 const V_M: f64 = 1e-4;
-/// How near the moment of a steady run comes to the law's where traction suffices.
-const PROMISED_MOMENT: f64 = 0.01;
 
 pub(super) fn warning(code: &'static str, text: String) -> Warning {
     Warning { code, text }
@@ -145,64 +141,6 @@ pub(super) fn skids(steady: Option<&SteadyFinding>) -> Option<Warning> {
             steady.moment.abs() * 1e3
         ),
     ))
-}
-
-/// A friction moment that counts in full although the balls lose energy besides.
-pub(super) fn unscaled(steady: Option<&SteadyFinding>) -> Option<Warning> {
-    match &steady?.origin {
-        ScaleOrigin::Unknown(why) => Some(warning(
-            "AB1021",
-            format!(
-                "The friction moment is not scaled for what the balls lose by slip and in their pockets ({why}): that \
-                 may count twice."
-            ),
-        )),
-        _ => None,
-    }
-}
-
-/// A scale of the friction moment that says something about the balls, and a steady moment that is not the law's.
-pub(super) fn scale(steady: Option<&SteadyFinding>) -> Vec<Warning> {
-    let Some(steady) = steady.filter(|steady| steady.origin == ScaleOrigin::SteadyRun) else {
-        return Vec::new();
-    };
-    let mut list = Vec::new();
-    if (steady.scale - 1.0).abs() > UNREMARKABLE_SCALE {
-        list.push(warning(
-            "AB1024",
-            format!(
-                "The friction moment enters the balls {:.3} times, so that a steady run at {:.0} rad/s under {:.0} N has \
-                 the moment of the law: {}.",
-                steady.scale,
-                steady.speed,
-                steady.load,
-                if steady.scale > 1.0 {
-                    "balls without load lose their spin and take less than their equal share"
-                } else {
-                    "slip, pockets and damping take the rest"
-                }
-            ),
-        ));
-    }
-    let off = |moment: f64| moment / steady.moment - 1.0;
-    if let Some(moment) = steady
-        .steady_moment
-        .filter(|moment| off(*moment).abs() > PROMISED_MOMENT)
-    {
-        list.push(warning(
-            "AB1025",
-            format!(
-                "The mean moment of a steady run at {:.0} rad/s under {:.0} N is {:.4} N mm, {:+.1} % from the {:.4} N mm \
-                 of the law.",
-                steady.speed,
-                steady.load,
-                moment.abs() * 1e3,
-                1e2 * off(moment),
-                steady.moment.abs() * 1e3
-            ),
-        ));
-    }
-    list
 }
 
 /// A friction law outside its range.

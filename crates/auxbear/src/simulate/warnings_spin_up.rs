@@ -38,8 +38,6 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
                 .to_string(),
         ));
     }
-    list.extend(shared::unscaled(context.built.steady.as_ref()));
-    list.extend(shared::scale(context.built.steady.as_ref()));
     if context.ending.time > 0.0
         && let Err(why) = rolling_start_to_end(context)
     {

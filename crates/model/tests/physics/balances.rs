@@ -304,7 +304,10 @@ fn steady_moment_on_outer_race(
     let load = push.length_squared().sqrt();
     let (drag, _) = lubricant_factors(&b.lubricant, part);
     let law = |speed: f64| moment.law.parts(speed, load, 0.0).with_drag(drag);
-    let outer_sum: f64 = reactions.iter().map(|reaction| reaction.outer_load).sum();
+    let inner_sum: f64 = reactions.iter().map(|reaction| reaction.inner_load).sum();
+    // what stands for no load: a tenth of what an equal share asks of the inner race
+    let at_speed = moment.law.parts(motion.inner.spin.abs().max(1.0), load, 0.0);
+    let idle = 0.1 * at_speed.sum() / (n * track);
     let mut on_race = 0.0;
     for (j, reaction) in reactions.iter().enumerate() {
         let [centre, velocity, _] = ball_centre(machine, state, rate, j);
@@ -313,13 +316,14 @@ fn steady_moment_on_outer_race(
         // speed past the outer race, times distance
         let turning = arm.cross(velocity - pair(state, OUTER + 2)) / (distance * distance);
         let spin = ball_of(machine, state, j).spin;
+        let share = (reaction.inner_load + idle) / (inner_sum + n * idle);
         let drag =
-            2.0 * moment.orbit_share / (n * track) * law(2.0 * (1.0 + s) * turning).speed_dependent;
-        let couple = 2.0 * s * (1.0 - moment.orbit_share) / n * law(2.0 * s * spin).speed_dependent;
-        let rolling = s / (1.0 + s) * law(1000.0).load_dependent * reaction.outer_load
-            / outer_sum.max(1e-30)
+            2.0 * moment.orbit_share / track * law(2.0 * (1.0 + s) * turning).speed_dependent;
+        let couple = 2.0 * s * (1.0 - moment.orbit_share) * law(2.0 * s * spin).speed_dependent;
+        let rolling = s / (1.0 + s)
+            * law(1000.0).load_dependent
             * (spin / moment.reference_spin).tanh();
-        on_race += moment.scale * (drag * distance + couple + rolling);
+        on_race += moment.scale * share * (drag * distance + couple + rolling);
     }
     on_race
 }

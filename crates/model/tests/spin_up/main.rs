@@ -10,6 +10,7 @@ mod balls;
 mod bistable;
 mod lanes;
 mod limits;
+mod plateaus;
 mod lubricant;
 mod rig;
 mod rolling;

@@ -17,7 +17,7 @@ mod warnings;
 use super::bearing_run::{BearingRun, Pressures};
 use super::ending::{settings, stop};
 use super::outcome::{Outcome, Picture, Work};
-use super::{Options, Phase, method};
+use super::{Options, method};
 use crate::scenario::{Rig, RigProgram, Scenario};
 use build::Built;
 use chain::{Happened, Sampled};
@@ -83,7 +83,7 @@ pub(super) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
         &settings(&rig.run),
         &mut record,
         options.interrupt,
-        &|done| (options.progress)(Phase::Run, done),
+        options.progress,
     );
     let seconds = clock.elapsed().as_secs_f64();
     let happened = happened(rig, &record);

@@ -65,8 +65,6 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     if context.ending.stop == solve::Stop::Finished {
         list.extend(shared::residual(quantities));
     }
-    list.extend(shared::unscaled(context.built.steady.as_ref()));
-    list.extend(shared::scale(context.built.steady.as_ref()));
     list.extend(shared::cage_inertia(bearing));
     list.extend(shared::rolling(bearing));
     list.extend(shared::no_moment(bearing));
