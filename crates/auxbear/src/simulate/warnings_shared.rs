@@ -4,7 +4,8 @@ use super::bearing_run::{BearingRun, Pressures};
 use super::build_bearing::SteadyFinding;
 use super::outcome::{Quantity, Value, Warning};
 use crate::scenario::{
-    BallMaterial, Bearing, BearingType, Fidelity, Moment, Provenance, RatedBearing, Scenario, Separation,
+    BallMaterial, Bearing, BearingType, Fidelity, Moment, Provenance, RatedBearing, Scenario,
+    Separation,
 };
 use physics::angular_contact::radial_load_that_unloads_a_ball;
 use physics::friction::Friction;
