@@ -373,7 +373,10 @@ mod tests {
             }
             places.push((1.0, 1.0, 1.0));
             let path = path_of(&places);
-            assert!((least..=largest).contains(&path), "{path} {least} {largest}");
+            assert!(
+                (least..=largest).contains(&path),
+                "{path} {least} {largest}"
+            );
             (low, high) = (low.min(path), high.max(path));
         }
         assert!(low < 1.2 * least && high > 0.9 * largest);

@@ -53,7 +53,9 @@ impl Pressures {
     }
     /// The largest share of a limit: each pressure by the limit of what touches there.
     pub fn share_of_limit(&self, bearing: &Bearing) -> f64 {
-        let neighbours = self.of_neighbours(bearing).map_or(0.0, |(p, limit)| p / limit);
+        let neighbours = self
+            .of_neighbours(bearing)
+            .map_or(0.0, |(p, limit)| p / limit);
         (self.races / bearing.hertz_pressure_limit).max(neighbours)
     }
 }

@@ -5,8 +5,7 @@ use super::build_traction::{inlet_rolling, traction};
 use super::{Options, Phase};
 use crate::problem::{Code, Problem};
 use crate::scenario::{
-    AccelerationLoss as LossChoice, Bearing, Fidelity, Guidance, Land, Moment,
-    Separation, UNNAMED,
+    AccelerationLoss as LossChoice, Bearing, Fidelity, Guidance, Land, Moment, Separation, UNNAMED,
 };
 use model::bearing::ball::BallConstants;
 use model::bearing::cage::{Land as CageLand, LandRace};
@@ -153,27 +152,24 @@ pub(super) fn bearing(
             inlet_rolling: inlet_rolling(bearing, contacts)?,
             lubricant: lubricant_state(bearing),
         }),
-        Fidelity::Rolling => {
-            BearingConstants::Rolling(RollingConstants {
-                balls: bearing.ball_count,
-                ball: RollingBall {
-                    series_stiffness: in_series(plane.inner_stiffness, plane.outer_stiffness),
-                    load_per_radial_force: 1.0 / bearing.contact_angle.cos(),
-                    damping_time: bearing.contact_damping_time,
-                    interference: plane.inner_track + 2.0 * plane.contact_radius
-                        - plane.outer_track,
-                    inner_track_growth: growth,
-                    mass_radius: contacts.ball_mass * 0.5 * bearing.pitch_diameter,
-                },
-                set: bearing.rolling_set(),
-                cage_mass: bearing.separation.cage_mass(),
-                first_ball_angle: bearing.first_ball_angle,
-                moment: law,
-                axial_load: bearing.moment.axial_load(),
-                loss: acceleration_loss(&bearing.acceleration_loss),
-                lubricant: lubricant_state(bearing),
-            })
-        }
+        Fidelity::Rolling => BearingConstants::Rolling(RollingConstants {
+            balls: bearing.ball_count,
+            ball: RollingBall {
+                series_stiffness: in_series(plane.inner_stiffness, plane.outer_stiffness),
+                load_per_radial_force: 1.0 / bearing.contact_angle.cos(),
+                damping_time: bearing.contact_damping_time,
+                interference: plane.inner_track + 2.0 * plane.contact_radius - plane.outer_track,
+                inner_track_growth: growth,
+                mass_radius: contacts.ball_mass * 0.5 * bearing.pitch_diameter,
+            },
+            set: bearing.rolling_set(),
+            cage_mass: bearing.separation.cage_mass(),
+            first_ball_angle: bearing.first_ball_angle,
+            moment: law,
+            axial_load: bearing.moment.axial_load(),
+            loss: acceleration_loss(&bearing.acceleration_loss),
+            lubricant: lubricant_state(bearing),
+        }),
     })
 }
 

@@ -107,7 +107,10 @@ fn both_fidelities_have_the_same_inertias_at_every_angle() {
         let inner = (0.35 * balls + 0.25 * 1e-3) * track * track;
         let outer = (0.15 * balls + 0.25 * 1e-3) * track * track * (1.0 + 2.0 * s);
         for (ours, wanted) in rolling.into_iter().zip([inner, outer]) {
-            assert!((ours / wanted - 1.0).abs() < 1e-4, "{degrees}°: {ours} {wanted}");
+            assert!(
+                (ours / wanted - 1.0).abs() < 1e-4,
+                "{degrees}°: {ours} {wanted}"
+            );
         }
     }
 }

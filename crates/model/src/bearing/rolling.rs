@@ -20,8 +20,7 @@ use super::ball::gather_group;
 use super::lubricant_state::{self, Lubricant, LubricantConstants};
 use super::steady_moment::SteadyMoment;
 use super::{
-    BallSums, BearingEnergy, BearingHeat, BearingReaction, PlanarConstants,
-    largest, seat, seats,
+    BallSums, BearingEnergy, BearingHeat, BearingReaction, PlanarConstants, largest, seat, seats,
 };
 use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, constants};

@@ -419,7 +419,6 @@ fn energy_changes_by_sources_less_heats() {
         for source in 0..SOURCES.len() {
             power.add(-rate[machine.layout().source(source)]);
         }
-        if power.rest() > 1e-7 { eprintln!("X {:?} {}", machine.constants.bearing.balls(), power.rest()); }
         errors.push(power.rest());
     });
     // a contact that opens within the difference of 4e-9 s breaks its order: all stay below 1e-6, nearly all far below

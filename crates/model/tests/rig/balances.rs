@@ -141,10 +141,16 @@ fn heat_that_films_keep_reaches_the_bearing_when_they_give_it() {
         let kept = in_films(run.end());
         let stored = 60.0 * run.end()[TEMPERATURE];
         // each part counts: the films were given twice what they keep before
-        assert!(kept > 0.02 * heat && given_off > 0.02 * heat, "{kept} {given_off} {heat}");
+        assert!(
+            kept > 0.02 * heat && given_off > 0.02 * heat,
+            "{kept} {given_off} {heat}"
+        );
         // trapezoids of a hundredth of the run
         let off = (stored + kept + given_off) / heat - 1.0;
-        assert!(off.abs() < 1e-4, "{off}: {stored} {kept} {given_off} {heat}");
+        assert!(
+            off.abs() < 1e-4,
+            "{off}: {stored} {kept} {given_off} {heat}"
+        );
     }
 }
 

@@ -346,5 +346,8 @@ fn the_tension_at_the_rim_is_that_of_point_loads() {
         }
     }
     // midpoint rule with a root at the edge of the disc: n^-1.5
-    assert!(relative(sum * at * at, rim_tension(1.0, nu)) < 1e-4, "{sum}");
+    assert!(
+        relative(sum * at * at, rim_tension(1.0, nu)) < 1e-4,
+        "{sum}"
+    );
 }
