@@ -191,7 +191,7 @@ impl Values {
             return Ok(());
         };
         // without the rounding of radians
-        let degrees = (angle.to_degrees() * 1e9).round() * 1e-9;
+        let degrees = (angle.to_degrees() * 1e9).round() / 1e9;
         if (least..=largest).contains(&degrees) {
             return Ok(());
         }
@@ -205,7 +205,7 @@ impl Values {
             self.place(blamed),
             format!("a contact angle of {degrees} deg"),
             format!(
-                "{least} to {largest} deg is needed, for which the constants of {of} are; else f0, f1_factor and f1_exponent by hand, or a measured curve"
+                "{least} to {largest} deg is needed, for which the constants of {of} are; else Palmgren's law with f0, f1_factor and f1_exponent by hand, or a measured curve"
             ),
         )))
     }

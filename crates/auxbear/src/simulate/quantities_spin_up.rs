@@ -354,9 +354,10 @@ const EXACT: Origin = Origin {
     valid: "any skidding; needs the speed of the cage, or the path term as an uncertainty",
 };
 const PATH: Origin = Origin {
-    law: "∫Ω dL of balls and cage: ½ L0 Ω0 where they roll all the way, L0 Ω0 where they are spun up after the race",
-    source: "crates/model/src/system/spin_up/ledger.rs",
-    valid: "the bounds: from rest, a race that only gains speed, balls that roll at the end",
+    law: "∫Ω dL of balls and cage: ½ L0 Ω0 where they roll all the way, L0 Ω0 where they are spun up after the race, \
+          ½ (1+s)(N m_b + m_c) R² Ω0² where they spin with the race and orbit last",
+    source: "crates/physics/src/spin_up_energy.rs",
+    valid: "the bounds: from rest, a race that only gains speed and leads its balls, balls that roll at the end",
 };
 const RESIDUAL: Origin = Origin {
     law: "what the ledger misses at the end, over max(heat, works); momentum over that of race, balls and cage at full speed",

@@ -6,7 +6,7 @@ use auxbear::simulate::outcome::Value;
 use auxbear::simulate::{Options, Outcome, run};
 use std::sync::atomic::AtomicBool;
 
-/// A race that gains speed evenly, its balls gripped well, their cage light and its pockets smooth.
+/// A race that gains speed evenly, its balls gripped well, the pockets smooth, tight and damped so that the cage does not rattle.
 const RAMP: &str = r#"
 format = "auxbear.scenario/1"
 system = "spin_up"
@@ -28,12 +28,15 @@ cage_mass = "1 g"
 
 [bearing.cage]
 pocket_friction_coefficient = 0
+pocket_gap = "1 um"
+pocket_damping = "1000 s/m"
 
 [bearing.traction]
-reference_speed = "0.005 m/s"
+reference_speed = "0.02 m/s"
 
 [run]
 duration = "50 ms"
+tolerance = 1e-5
 "#;
 
 fn ramp(sets: &[String]) -> Outcome {
@@ -89,7 +92,7 @@ fn both_fidelities_have_the_same_inertias_at_every_angle() {
             inertias(&ramp(&sets))
         });
         for (planar, rolling) in planar.into_iter().zip(rolling) {
-            // creep and the approach of the contacts: some 1e-4
+            // the approach of the contacts is 1e-4 of the radii
             assert!(
                 (planar / rolling - 1.0).abs() < 1e-3,
                 "{degrees}°: {planar} {rolling}"
@@ -127,9 +130,9 @@ fn the_corrected_energy_is_what_balls_that_roll_dissipate_at_every_angle() {
                 number(&outcome, "path_term_if_rolling"),
                 number(&outcome, "path_term_largest"),
             );
-            // the balls creep: measured below 1e-3 of what is turned over
+            // the approach of the contacts is 1e-4 of the radii
             assert!(
-                (corrected - lost).abs() < 1e-3 * path,
+                (corrected - lost).abs() < 3e-4 * path,
                 "{degrees}° {cage}: {corrected} {lost} {path}"
             );
             assert!(

@@ -135,7 +135,7 @@ fn other(kind: &str, angle: &str, more: &[&str]) -> Result<Scenario, String> {
         kind.as_str(),
         "bearing.static_load_rating=20 kN",
         "bearing.pitch_diameter=46 mm",
-        "bearing.name=6205",
+        "bearing.name=6206",
         "bearing.moment.viscosity=20 mm^2/s",
         "bearing.moment.lubrication=grease",
     ];
@@ -221,7 +221,7 @@ fn constants_for_another_contact_angle_are_refused() {
     let skf = |kind, angle| other(kind, angle, &["bearing.moment.law=skf"]);
     assert_eq!(
         palmgren("angular contact", "15 deg", "72B").unwrap_err(),
-        "error[AB0208]: a.toml, --set: bearing.contact_angle: found a contact angle of 15 deg; 35 to 45 deg is needed, for which the constants of series 72B are; else f0, f1_factor and f1_exponent by hand, or a measured curve"
+        "error[AB0208]: a.toml, --set: bearing.contact_angle: found a contact angle of 15 deg; 35 to 45 deg is needed, for which the constants of series 72B are; else Palmgren's law with f0, f1_factor and f1_exponent by hand, or a measured curve"
     );
     let told = skf("angular contact", "15 deg").unwrap_err();
     assert!(

@@ -47,7 +47,7 @@ fn ceramic_balls_that_meet_crack_by_a_limit_of_their_own() {
     let neighbours = number(&outcome, "peak_ball_ball_pressure");
     let share = number(&outcome, "hertz_pressure_share_of_limit");
     // 3 700 MPa/(1 - 2 0.26) = 4375 MPa, rounded
-    let limit = 4.4e9;
+    let limit: f64 = 4.4e9;
     assert!((limit / (3.0 * 700e6 / (1.0 - 2.0 * 0.26)) - 1.0).abs() < 0.01);
     assert_eq!(share, (races / 4.2e9).max(neighbours / limit));
     assert!(neighbours > limit && races < 4.2e9, "{neighbours} {races}");

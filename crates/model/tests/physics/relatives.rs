@@ -121,9 +121,9 @@ pub fn machines() -> Vec<DropMachine> {
     ]
     .into_iter()
     .chain(separated)
-    .chain(separated_at_an_angle)
     .chain([resisted, resisted_at_an_angle])
     .chain([worked, worked_rolling, warmed])
+    .chain(separated_at_an_angle)
     .enumerate()
     .map(|(i, constants)| DropMachine::with_levitation(constants, i % 2 == 0))
     .collect()

@@ -95,6 +95,7 @@ const PATH_TERMS = [
   ["path_term_if_rolling", "balls that roll all the way: ½ L₀ Ω₀", "quiet"],
   ["path_term", "this run: ∫ Ω dL", "rotor"],
   ["path_term_if_spun_up_after", "balls spun up after the race: L₀ Ω₀", "quiet"],
+  ["path_term_largest", "the largest: balls spin with the race, and orbit last", "quiet"],
 ];
 
 function signedBars(run, forms, reference) {
