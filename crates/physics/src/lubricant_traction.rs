@@ -447,9 +447,8 @@ impl<R: Real> LubricantTraction<R> {
         let sixth = (force * R::splat(1.0 / 6.0)).exp();
         let third = sixth.square();
         let heating = self.inlet.factor_of(magnitude, speed, third);
-        let elastic = self.film.elastic_central(speed, force).exp();
         let rigid = self.film.rigid_of(entrainment, load);
-        let thickness = heating * (elastic.square() + rigid.square()).sqrt();
+        let thickness = heating * (self.film.yielding(speed, force).exp()).max(rigid);
         let central_ratio = thickness.ln() - self.roughness_logarithm;
         let share = (-(self.share_factor * (self.share_exponent * central_ratio).exp())).exp();
         // A_r over Hertz's area, which is Q over its mean pressure
