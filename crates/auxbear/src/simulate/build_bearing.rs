@@ -16,11 +16,9 @@ use model::bearing::{
     Separation as SeparationConstants, SharedMoment, SteadyMoment,
 };
 use model::contact::JournalContact;
-use model::system::spin_up::layout::{INNER, INNER_LOAD_SUM, STEADY_MOMENT};
 use model::system::spin_up::capacity::{LEAST_CAPACITY, traction_capacity};
-use model::system::spin_up::{
-    Drive, InnerRace, Refusal, SpinUpConstants, SpinUpMachine,
-};
+use model::system::spin_up::layout::{INNER, INNER_LOAD_SUM, STEADY_MOMENT};
+use model::system::spin_up::{Drive, InnerRace, Refusal, SpinUpConstants, SpinUpMachine};
 use model::table::Table;
 use number::Vec2;
 use physics::angular_contact::{preload_interference, radial_stiffness};

@@ -93,11 +93,10 @@ enum Built<'a> {
 /// Builds the machine that the scenario describes; runs nothing.
 pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
     let system = match &scenario.system {
-        System::Drop(drop) => {
-            build::drop(drop).map(|built| Built::Drop(drop, Box::new(built)))
+        System::Drop(drop) => build::drop(drop).map(|built| Built::Drop(drop, Box::new(built))),
+        System::SpinUp(spin_up) => {
+            build_spin_up::spin_up(spin_up).map(|built| Built::SpinUp(spin_up, Box::new(built)))
         }
-        System::SpinUp(spin_up) => build_spin_up::spin_up(spin_up)
-            .map(|built| Built::SpinUp(spin_up, Box::new(built))),
         System::Torque(torque) => {
             torque::Asked::of(torque).map(|asked| Built::Torque(Box::new(asked)))
         }
@@ -107,9 +106,7 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
         System::Identify(identify) => {
             identify::Asked::of(identify).map(|asked| Built::Identify(Box::new(asked)))
         }
-        System::Rig(rig) => {
-            rig::build::rig(rig).map(|built| Built::Rig(rig, Box::new(built)))
-        }
+        System::Rig(rig) => rig::build::rig(rig).map(|built| Built::Rig(rig, Box::new(built))),
     };
     let system = system.map_err(|problem| scenario.locate(problem))?;
     Ok(Machine { scenario, system })

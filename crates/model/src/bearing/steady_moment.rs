@@ -174,18 +174,14 @@ impl<R: Real> MomentPairs<R> {
     /// What the balls share at this speed of the inner race against the outer, these loads, radial W, ΣQ_i, and a drag
     /// factor D of the lubricant.
     #[inline(always)]
-    pub fn share(
-        &self,
-        speed: R,
-        load: R,
-        inner_sum: R,
-        drag_factor: R,
-    ) -> PairsOfBall<'_, R> {
+    pub fn share(&self, speed: R, load: R, inner_sum: R, drag_factor: R) -> PairsOfBall<'_, R> {
         let limit = R::splat(LEAST_SPEED);
         let parts = (self.law).parts(speed.abs().max(limit), load, self.axial_load);
         let idle_load = self.idle_load * parts.sum();
         // without load and moment nothing is shared: the quotient is of zeros
-        let per_load = (inner_sum + self.balls * idle_load).max(R::splat(1e-30)).recip();
+        let per_load = (inner_sum + self.balls * idle_load)
+            .max(R::splat(1e-30))
+            .recip();
         let direction = speed.max(-limit).min(limit) * limit.recip();
         let drag = drag_factor.grouped();
         PairsOfBall {

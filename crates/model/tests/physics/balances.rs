@@ -304,7 +304,9 @@ fn steady_moment_on_outer_race(
     let law = |speed: f64| moment.law.parts(speed, load, 0.0).with_drag(drag);
     let inner_sum: f64 = reactions.iter().map(|reaction| reaction.inner_load).sum();
     // what stands for no load: a tenth of what an equal share asks of the inner race
-    let at_speed = moment.law.parts(motion.inner.spin.abs().max(1.0), load, 0.0);
+    let at_speed = moment
+        .law
+        .parts(motion.inner.spin.abs().max(1.0), load, 0.0);
     let idle = 0.1 * at_speed.sum() / (n * track);
     let mut on_race = 0.0;
     for (j, reaction) in reactions.iter().enumerate() {
@@ -318,9 +320,8 @@ fn steady_moment_on_outer_race(
         let drag =
             2.0 * moment.orbit_share / track * law(2.0 * (1.0 + s) * turning).speed_dependent;
         let couple = 2.0 * s * (1.0 - moment.orbit_share) * law(2.0 * s * spin).speed_dependent;
-        let rolling = s / (1.0 + s)
-            * law(1000.0).load_dependent
-            * (spin / moment.reference_spin).tanh();
+        let rolling =
+            s / (1.0 + s) * law(1000.0).load_dependent * (spin / moment.reference_spin).tanh();
         on_race += moment.scale * share * (drag * distance + couple + rolling);
     }
     on_race
