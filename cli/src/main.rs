@@ -15,12 +15,11 @@ use arguments::{Arguments, Command};
 use auxbear::problem::{Code, Problem};
 use auxbear::report::directory;
 use auxbear::scenario::{BuiltIn, Scenario, SystemName};
-use auxbear::simulate::{self, Options};
+use auxbear::simulate;
 use auxbear::validate::{self, Simulation};
 use clap::Parser;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::atomic::AtomicBool;
 
 /// How the command ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

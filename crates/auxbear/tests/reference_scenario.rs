@@ -1,11 +1,10 @@
 //! The shipped reference scenario builds the very machine of the reference cases: what a user writes reaches the model.
 
 use auxbear::scenario::{BuiltIn, Scenario, System};
-use auxbear::simulate::{Options, build};
+use auxbear::simulate::build;
 use model::bearing::BearingConstants;
 use physics::traction::Traction;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
 fn near(name: &str, ours: f64, reference: f64) {
     within(1e-9, name, ours, reference);
@@ -25,9 +24,7 @@ fn reference_drop_is_the_reference_machine() {
     let System::Drop(drop) = &scenario.system else {
         panic!("the reference is a drop");
     };
-    let interrupt = AtomicBool::new(false);
-    let options = Options::unwatched(&interrupt);
-    let built = build::drop(drop, &options).expect("it builds").constants;
+    let built = build::drop(drop).expect("it builds").constants;
     let m = &built.machine;
     near("speed", built.speed, 1_256.637_061_435_917_3);
     near("rotor mass", m.rotor.mass, 8.0);

@@ -17,11 +17,6 @@
 //!
 //! A bearing without this part has none of these states and pays nothing.
 //!
-//! The scale λ of the steady moment is found without this part, at D = F = 1, the law as it stands; D multiplies M0
-//! beside it. With p = 1 - λ the share of slip and pockets in M Ω, and m = (D M0 + M1)/M, a run at state D then
-//! dissipates (m + p (1 - m)) M Ω where m M Ω is meant: too much by p (1 - m)/m, a tenth of p at m = 0.9. Slip and pockets are
-//! not the lubricant's, so that D may not scale them.
-//!
 //! Assumes: one state for all contacts. Does not model: places; see the laws for the rest.
 
 use super::BearingHeat;
