@@ -270,6 +270,9 @@ impl FilmRegime {
         FilmRegime::PiezoviscousElastic,
     ];
     /// The field's word for it.
+    ///
+    /// Source: the names of the regimes in Hamrock and Dowson's charts.
+    /// Valid: always.
     pub fn name(self) -> &'static str {
         match self {
             FilmRegime::IsoviscousRigid => "isoviscous-rigid",
