@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use measure::pulse::{
-    EdgeSettings, Edges, Flank, Marks, Pulses, Wheel, calibrate, check_marks, edges, number, period,
+    EdgeSettings, Edges, Flank, Pulses, Wheel, calibrate, edges, number,
 };
 use measure::speed::{SpeedSettings, Transient, smooth};
 use proptest::prelude::*;
@@ -327,48 +327,6 @@ fn too_few_revolutions_are_not_calibrated() {
 }
 
 #[test]
-fn the_pattern_of_intervals_tells_the_marks_of_the_wheel() {
-    for (marks, seed) in [(60, 1), (36, 2), (100, 3)] {
-        let errors = synthetic::wheel(&mut Random::new(seed), marks, 1e-3, 0.0);
-        let pulses = coast(&errors, seed, 1e-6, 1.5);
-        assert_eq!(period(&pulses), Some(marks));
-        // What the user says does not matter: he may be wrong.
-        let wrong = number(&stamped(pulses.times.clone()), &FULL(50)).unwrap();
-        assert_eq!(period(&wrong), Some(marks));
-        assert_eq!(check_marks(&pulses), Marks::Shown);
-        let Marks::Contradicted(refusal) = check_marks(&wrong) else {
-            panic!("{marks}");
-        };
-        assert!(
-            refusal.found.contains(&format!("after {marks} pulses, 50")),
-            "{refusal}"
-        );
-    }
-    // A perfect wheel has no pattern.
-    let even = coast(&[0.0; 60], 9, 1e-6, 1.5);
-    assert_eq!(period(&even), None);
-    let Marks::Untold(why) = check_marks(&even) else {
-        panic!("an even wheel");
-    };
-    assert!(why.contains("noise of their instants"), "{why}");
-}
-
-#[test]
-fn sampled_pickups_do_not_mislead_about_the_marks() {
-    for seed in 0..20 {
-        let truth = synthetic::spin_up(seed, 150.0, 7200.0, 0.6);
-        let samples = synthetic::pickup(&truth, seed, 60, 1e4);
-        let found = edges(0.0, 1e-4, &samples, &EdgeSettings::default()).unwrap();
-        let pulses = number(&found, &FULL(60)).unwrap();
-        assert!(pulses.notes.is_empty(), "{seed}: {:?}", pulses.notes);
-        assert_eq!(check_marks(&pulses), Marks::Shown, "seed {seed}");
-        // The halves of one of these wheels look alike, by three deviations of chance: one in two hundred does.
-        let found = if seed == 6 { 30 } else { 60 };
-        assert_eq!(period(&pulses), Some(found), "seed {seed}");
-    }
-}
-
-#[test]
 fn times_that_do_not_increase_are_refused() {
     for times in [
         vec![0.0, 1.0, 1.0],
@@ -396,7 +354,6 @@ proptest! {
             && let Ok(pulses) = number(&found, &Wheel { marks, missing })
         {
             let pitch = calibrate(&pulses).ok();
-            let _ = period(&pulses);
             if let Ok(speed) = smooth(&pulses, pitch.as_ref(), &SpeedSettings::default()) {
                 let _ = speed.at(0.1);
             }

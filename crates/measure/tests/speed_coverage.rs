@@ -7,7 +7,12 @@ use measure::pulse::{EdgeSettings, Edges, Flank, Wheel, calibrate, edges, number
 use measure::speed::{Speed, SpeedSettings, smooth};
 use synthetic::{Truth, pickup, spin_up, stamps};
 
-const SEEDS: u64 = 400;
+/// Spin-ups a case; fewer in a look by `SPEED_COVERAGE_SEEDS`.
+fn seeds() -> u64 {
+    let asked = std::env::var("SPEED_COVERAGE_SEEDS").ok();
+    asked.and_then(|seeds| seeds.parse().ok()).unwrap_or(400)
+}
+
 /// Instants in a spin-up, and a quarter of its length after it, at which the band is asked.
 const POINTS: usize = 60;
 
@@ -99,7 +104,7 @@ fn covers(case: Case) {
         let case = &case;
         let work = |part| {
             move || {
-                (0..SEEDS)
+                (0..seeds())
                     .filter(|s| s % 2 == part)
                     .map(|s| score(case, s))
                     .collect::<Vec<_>>()

@@ -46,23 +46,14 @@ impl Breakaway {
         })
     }
 
-    /// Deviations of angle, speed and acceleration at an instant, s, that the pulses do not tell of, given the acceleration.
-    pub fn hidden(&self, time: f64, acceleration: impl FnOnce() -> f64) -> [f64; 3] {
-        let left = (self.first - time) / (self.first - self.engagement);
-        if time <= self.engagement - self.deviation || left <= 0.0 {
-            return [0.0; 3];
-        }
-        let hidden = self.deviation * left.min(1.0);
-        let gained = acceleration().abs().max(self.slope * hidden);
-        [0.0, gained * hidden, self.slope * hidden]
-    }
-
-    /// The motion at an instant with what is hidden of it.
+    /// The motion at an instant with the deviations of speed and acceleration that the pulses cannot show.
     pub fn applied(&self, mut motion: Motion) -> Motion {
-        let acceleration = motion.acceleration;
-        let hidden = self.hidden(motion.time, || acceleration);
-        for (i, deviation) in hidden.into_iter().enumerate() {
-            motion.covariance[i][i] += deviation * deviation;
+        let left = (self.first - motion.time) / (self.first - self.engagement);
+        if motion.time > self.engagement - self.deviation && left > 0.0 {
+            let hidden = self.deviation * left.min(1.0);
+            let gained = motion.acceleration.abs().max(self.slope * hidden);
+            motion.covariance[1][1] += (gained * hidden).powi(2);
+            motion.covariance[2][2] += (self.slope * hidden).powi(2);
         }
         motion
     }

@@ -84,7 +84,6 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
         watched: (-duration, times[n - 1]),
         sample_interval: None,
         gaps: Vec::new(),
-        unseen: 0.0,
         repaired: 0.0,
         notes: Vec::new(),
         times,

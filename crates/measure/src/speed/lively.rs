@@ -10,7 +10,8 @@
 
 use super::fit::{STRETCH, Sight};
 use super::plan::{Data, Head, Knot, Lively, Passage, Plan};
-use super::search::{smallest, spread};
+use super::search::spread;
+use crate::simplex::lowest;
 
 /// Passages beyond the lively part that take part in its fit.
 const BEYOND: usize = 40;
@@ -79,7 +80,7 @@ fn expected(density: f64, start: Knot, head: f64) -> f64 {
 /// A change is seen to end where nearly all of it has come; a torque that rises to the end has still a fiftieth of its way to
 /// go there. Where marks are few, that is seen some marks late, and each interval between two of them is a valley of its own:
 /// an acceleration that jumps is never likely to do so just at a mark.
-fn ends(data: &Data, sight: &Sight, length: f64) -> Vec<Vec<f64>> {
+pub(super) fn ends(data: &Data, sight: &Sight, length: f64) -> Vec<Vec<f64>> {
     const NEAR: [f64; 3] = [0.0, 0.01, 0.02];
     const EARLIER: usize = 6;
     const INTERVALS: usize = 7;
@@ -151,10 +152,10 @@ fn climbed(
     cost: impl Fn(&[f64; 3]) -> f64,
 ) -> ([f64; 3], f64) {
     const AGAIN: usize = 4;
-    let mut best = smallest(point, steps, calls, 0.1, &cost);
+    let mut best = lowest(point, steps, 0.1, calls, &cost);
     for _ in 0..AGAIN {
         let closer = [-1.5 * steps[0], 0.1 * steps[1], 0.1 * steps[2]];
-        let next = smallest(best.0, closer, calls / 2, 0.1, &cost);
+        let next = lowest(best.0, closer, 0.1, calls / 2, &cost);
         let gain = best.1 - next.1;
         if next.1 < best.1 {
             best = next;
@@ -310,7 +311,7 @@ pub(super) fn lively(
                 let points = valleys(sight, density, &ends, cost);
                 let short: Vec<_> = points
                     .iter()
-                    .map(|point| smallest(*point, steps, CLIMB / 4, 0.1, &cost))
+                    .map(|point| lowest(*point, steps, 0.1, CLIMB / 4, &cost))
                     .collect();
                 let tops = summits(short);
                 tops.iter().map(|top| from(&top.0, CLIMB)).collect()

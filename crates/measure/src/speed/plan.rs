@@ -40,9 +40,6 @@ pub(super) struct Data {
     pub livelier: Vec<Livelier>,
 }
 
-/// Largest part of the first pulse that is taken for hidden: the angle before it is 20 pitches then.
-const MOST_UNSEEN: f64 = 0.966;
-
 /// A stretch with a density of its own.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Livelier {
@@ -108,10 +105,7 @@ impl Data {
         let previous = (pulses.position(0) + pulses.positions - 1) % pulses.positions;
         let ahead = pitch.filter(|_| joined.contains(&0));
         let ahead = ahead.and_then(|p| p.errors.get(previous)).unwrap_or(&0.0);
-        // Pulses that grow with the speed show no mark before a part u of that at the first one. Where the torque rises evenly
-        // the angle goes with the speed's power of 3/2: θ_unseen = u^1.5 (θ_unseen + pitch).
-        let hidden = pulses.unseen.clamp(0.0, MOST_UNSEEN).powf(1.5);
-        let before = (nominal + first - ahead).max(0.1 * nominal) / (1.0 - hidden);
+        let before = (nominal + first - ahead).max(0.1 * nominal);
         Data {
             passages,
             origin,
@@ -219,7 +213,7 @@ impl Lively {
     /// an even acceleration jumps by its mean, one that rises or falls evenly has the jerk of twice the mean over the length.
     /// It does not follow the density: a clutch whose torque rises evenly is as quiet between its knots as it is loud at
     /// them.
-    fn added(&self, knot: Knot) -> [f64; 4] {
+    pub(super) fn added(&self, knot: Knot) -> [f64; 4] {
         let length = self.lock - self.engage;
         let acceleration = self.change / length;
         let jerk = (STEEPEST * acceleration / length).powi(2);
@@ -296,7 +290,7 @@ impl Plan {
         self.nodes_of(data, &data.passages[range])
     }
 
-    fn nodes_of(&self, data: &Data, passages: &[Passage]) -> (Vec<Node>, Belief) {
+    pub(super) fn nodes_of(&self, data: &Data, passages: &[Passage]) -> (Vec<Node>, Belief) {
         let mut nodes = Vec::with_capacity(passages.len() + 2);
         let mut knots: Vec<(f64, Option<[f64; 4]>)> = Vec::new();
         let first = passages[0];
@@ -380,7 +374,7 @@ impl Plan {
 
 /// What the logarithm of the likelihood gains where a state at the start, of mean zero and some variance, is known to be
 /// positive: twice the probability that it is, from all pulses.
-fn forward_only(pass: &Pass, variance: f64) -> f64 {
+pub(super) fn forward_only(pass: &Pass, variance: f64) -> f64 {
     let left = variance * (1.0 - variance * pass.curvature).max(1e-12);
     let z = variance * pass.slope / left.sqrt();
     // Far below, erfc is no number that has a logarithm.
