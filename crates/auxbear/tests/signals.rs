@@ -213,15 +213,9 @@ fn wrong_marks_show_beside_the_set_speed() {
         codes.contains(&"AB1044")
     };
     assert!(codes(&["set_speed=150 rad/s"]));
-    assert!(!codes(&[
-        "set_speed=150 rad/s",
-        "marks_per_revolution=60"
-    ]));
+    assert!(!codes(&["set_speed=150 rad/s", "marks_per_revolution=60"]));
     // 140 of 150: what a flywheel gives to the shaft. 120 is no flywheel.
-    assert!(!codes(&[
-        "set_speed=160 rad/s",
-        "marks_per_revolution=60"
-    ]));
+    assert!(!codes(&["set_speed=160 rad/s", "marks_per_revolution=60"]));
     assert!(codes(&["set_speed=190 rad/s", "marks_per_revolution=60"]));
     assert!(!codes(&[]));
 }

@@ -6,9 +6,7 @@ mod synthetic;
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-use measure::pulse::{
-    EdgeSettings, Edges, Flank, Pulses, Wheel, calibrate, edges, number,
-};
+use measure::pulse::{EdgeSettings, Edges, Flank, Pulses, Wheel, calibrate, edges, number};
 use measure::speed::{SpeedSettings, Transient, smooth};
 use proptest::prelude::*;
 use synthetic::Random;

@@ -263,9 +263,11 @@ fn equally_high(samples: &[f64], crossings: &[Crossing], noise: f64) -> Result<(
         .map(|pair| (pair[1] - pair[0]).abs())
         .collect();
     let local = |near: &[f64]| {
-        let (_, second) = near.iter().fold((0.0f64, 0.0f64), |(first, second), &height| {
-            (first.max(height), second.max(first.min(height)))
-        });
+        let (_, second) = near
+            .iter()
+            .fold((0.0f64, 0.0f64), |(first, second), &height| {
+                (first.max(height), second.max(first.min(height)))
+            });
         second
     };
     let (least, largest) = (heights.windows(2 * BESIDE + 1).map(local))
@@ -316,9 +318,7 @@ fn middles(samples: &[f64], crossings: &[Crossing], levels: &Levels, fixed: bool
             let most = 0.2 * levels.span;
             Middle {
                 value: (0.5 * (before.0 + after.0)).clamp(rough - most, rough + most),
-                variance: 0.25
-                    * levels.noise.powi(2)
-                    * (1.0 / before.1 + 1.0 / after.1),
+                variance: 0.25 * levels.noise.powi(2) * (1.0 / before.1 + 1.0 / after.1),
             }
         })
         .collect();

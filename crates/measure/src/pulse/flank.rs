@@ -312,7 +312,12 @@ fn surprise(square: f64, gross: f64) -> f64 {
 }
 
 /// The mean shape of passages, slow ones first of all: they show it in full.
-fn learn(samples: &[f64], found: &[Passing], training: &[(usize, f64)], scale: f64) -> Option<Shape> {
+fn learn(
+    samples: &[f64],
+    found: &[Passing],
+    training: &[(usize, f64)],
+    scale: f64,
+) -> Option<Shape> {
     let fastest = training.iter().map(|p| p.1).fold(1e-9, f64::max);
     let mut sums = [(0.0, 0.0); CELLS + 1];
     let mut seen = Vec::new();

@@ -79,7 +79,9 @@ pub(super) fn without(crossings: Vec<Crossing>) -> (Vec<Crossing>, Option<(usize
         begins(k) || k > 0 && begins(k - 1)
     };
     let kept = crossings.into_iter().enumerate();
-    let kept = kept.filter(|(k, _)| !of_spike(*k)).map(|(_, crossing)| crossing);
+    let kept = kept
+        .filter(|(k, _)| !of_spike(*k))
+        .map(|(_, crossing)| crossing);
     (kept.collect(), Some((count, sample)))
 }
 
@@ -96,7 +98,11 @@ mod tests {
     }
 
     fn left(samples: &[usize]) -> Vec<usize> {
-        without(crossings_at(samples)).0.iter().map(|f| f.sample).collect()
+        without(crossings_at(samples))
+            .0
+            .iter()
+            .map(|f| f.sample)
+            .collect()
     }
 
     /// Marks so far apart, in samples, with pulses half as wide.

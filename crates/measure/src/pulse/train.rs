@@ -472,10 +472,10 @@ fn silence(gap: &Gap) -> String {
     let passed = gap.positions - 1;
     match gap.sure {
         true => format!(
-            "the pickup is silent from {from:.6} s to {to:.6} s: {passed} marks passed unseen, and what is told in between follows from both sides"
+            "the pickup is silent from {from:.6} s to {to:.6} s: {passed} marks missed; speeds in between follow from both sides"
         ),
         false => format!(
-            "the pickup is silent from {from:.6} s to {to:.6} s: about {passed} marks passed unseen, how many is not sure; angles before and after do not join"
+            "the pickup is silent from {from:.6} s to {to:.6} s: about {passed} marks missed, count uncertain; do not compare angles across this gap"
         ),
     }
 }

@@ -1,4 +1,4 @@
-//! What is asked of a smoothed record: the motion at an instant.
+//! The motion at an instant of a smoothed record.
 
 use super::node::Belief;
 use super::track::mixed;
@@ -44,14 +44,14 @@ impl Speed {
         if let Some(bridge) = self.bridges.iter().find(|bridge| bridge.holds(seconds)) {
             return bridge.at(seconds);
         }
-        let motion = self.told(seconds);
+        let motion = self.from_pulses(seconds);
         let motion = self.stop.map_or(motion, |stop| stop.applied(motion));
         let hidden = self.breakaway.as_ref();
         hidden.map_or(motion, |breakaway| breakaway.applied(motion))
     }
 
-    /// The motion that the pulses alone tell of.
-    fn told(&self, seconds: f64) -> Motion {
+    /// The motion that follows from the pulses alone.
+    fn from_pulses(&self, seconds: f64) -> Motion {
         let time = (seconds - self.origin) / self.unit;
         let (belief, factors) = (self.belief(time), self.factors(time));
         let rate = self.unit.recip();
@@ -75,7 +75,11 @@ impl Speed {
             covariance: std::array::from_fn(|i| {
                 std::array::from_fn(|j| {
                     let wheel: f64 = wrong.iter().map(|w| w[i] * w[j]).sum();
-                    let known = if i == j { known[i][j].max(least(i)) } else { known[i][j] };
+                    let known = if i == j {
+                        known[i][j].max(least(i))
+                    } else {
+                        known[i][j]
+                    };
                     known + late[i] * late[j] + wheel
                 })
             }),

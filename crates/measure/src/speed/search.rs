@@ -26,7 +26,8 @@ pub(super) fn spread<const D: usize>(
         found.clear();
         let volume: f64 = (0..D).map(|k| triangle[k][k].ln()).sum();
         for k in 0..points {
-            let normal: [f64; D] = std::array::from_fn(|i| quantile(halton(k + 1 + round * points, HALTON_BASES[i])));
+            let normal: [f64; D] =
+                std::array::from_fn(|i| quantile(halton(k + 1 + round * points, HALTON_BASES[i])));
             let point: [f64; D] = std::array::from_fn(|i| {
                 centre[i] + (0..=i).map(|j| triangle[i][j] * normal[j]).sum::<f64>()
             });

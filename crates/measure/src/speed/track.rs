@@ -4,7 +4,7 @@
 //! state  x = [angle, speed, acceleration, jerk, e]   white noise of the density q in the snap
 //! e      error of the instants with a memory: first-order Markov process
 //! pulse  z = angle + speed e + noise of variance r
-//! knot   variance added to any state at an instant: what it was before tells less, or nothing, of what it is after
+//! knot   variance added to any state at an instant: what it was before says less, or nothing, of what it is after
 //! ```
 //! Forward: a Kalman filter. Backward: the adjoint recursion of Bryson and Frazier, which inverts no matrix, so that a
 //! start from rest with exactly known speed, and intervals of any length, do no harm.
@@ -27,8 +27,8 @@ pub(super) struct Track {
     /// After each node.
     filtered: Vec<Belief>,
     /// Adjoint just before each node: gradient and curvature of the misfit of all that follows.
-    pub(super) gradient: Vec<Vector>,
-    pub(super) curvature: Vec<Matrix>,
+    gradient: Vec<Vector>,
+    curvature: Vec<Matrix>,
     /// Density after the last node.
     density: f64,
     memory: Memory,
@@ -43,7 +43,7 @@ pub(super) struct Update {
     stiffness: f64,
 }
 
-/// What a pass forward tells of the start.
+/// What a pass forward says of the start.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
     /// Logarithm of the likelihood, up to a constant.
@@ -293,7 +293,7 @@ impl Track {
 
     /// Belief at an instant not before the first node.
     ///
-    /// Among the first pulses what was open and what they tell nearly cancel: there the motion is no better known than behind them.
+    /// Among the first pulses what was open and what they say nearly cancel: there the motion is no better known than behind them.
     fn within(&self, time: f64) -> Belief {
         let mut belief = self.smoothed(time);
         if let Some(settled) = self.settled(time) {
@@ -341,7 +341,7 @@ pub(super) fn mixed(parts: impl Iterator<Item = (f64, Belief)> + Clone) -> Belie
 
 #[cfg(test)]
 mod tests {
-    use super::super::node::Sight;
+    use super::super::node::Passed;
     use super::*;
 
     /// Ten marks of an accelerated start, with noise of the angle.
@@ -353,7 +353,7 @@ mod tests {
                 Node {
                     time,
                     density: 0.05,
-                    pulse: Some(Sight {
+                    pulse: Some(Passed {
                         angle: 0.5 * time * time + error,
                         variance: 1e-4,
                         speed: time,
