@@ -18,7 +18,7 @@ mod synthetic;
 
 use std::f64::consts::TAU;
 
-use measure::pulse::{EdgeSettings, Wheel, calibrate, edges, number};
+use measure::pulse::{Flank, Wheel, calibrate, edges, number};
 use measure::speed::{Change, Speed, SpeedSettings, smooth};
 use synthetic::{Truth, optical, shaped};
 
@@ -36,7 +36,7 @@ fn seeds() -> u64 {
 fn smoothed(truth: &Truth, seed: u64, samples: f64) -> Speed {
     let rate = samples * REACHED * MARKS as f64 / TAU;
     let signal = optical(truth, seed, MARKS, rate);
-    let found = edges(0.0, rate.recip(), &signal, &EdgeSettings::default()).unwrap();
+    let found = edges(0.0, rate.recip(), &signal, Flank::Rising).unwrap();
     let wheel = Wheel {
         marks: MARKS,
         missing: 0,

@@ -7,7 +7,7 @@ mod synthetic;
 mod made;
 
 use made::pulses;
-use measure::pulse::{EdgeSettings, Edges, Flank, Wheel, calibrate, edges, number};
+use measure::pulse::{Edges, Flank, Wheel, calibrate, edges, number};
 use measure::speed::{SpeedSettings, Transient, marks_needed, smooth};
 use synthetic::Random;
 
@@ -199,7 +199,7 @@ fn a_clutch_that_engages_on_a_turning_shaft() {
 fn the_shaft_rests_before_the_engagement() {
     let truth = synthetic::spin_up(8, 150.0, 1300.0, 0.3);
     let samples = synthetic::pickup(&truth, 8, 60, 1e4);
-    let found = edges(0.0, 1e-4, &samples, &EdgeSettings::default()).unwrap();
+    let found = edges(0.0, 1e-4, &samples, Flank::Rising).unwrap();
     let train = number(
         &found,
         &Wheel {
@@ -238,12 +238,11 @@ fn one_mark_cannot_see_a_short_spin_up_and_the_message_says_how_many_could() {
         },
     )
     .unwrap();
-    for (duration, wanted, least) in [(None, None, 4), (Some(0.025), Some(0.03), 20)] {
+    for (wanted, least) in [(None, 4), (Some(0.03), 20)] {
         let refusal = smooth(
             &train,
             None,
             &SpeedSettings {
-                duration,
                 wanted,
                 ..Default::default()
             },
@@ -361,16 +360,7 @@ fn few_pulses_and_odd_numbers_are_refused_or_survived() {
 fn ten_seconds_of_sixty_marks_are_smoothed() {
     let truth = synthetic::spin_up(6, 150.0, 7200.0, 9.85);
     let samples = synthetic::pickup(&truth, 6, 60, 1e4);
-    let found = edges(
-        0.0,
-        1e-4,
-        &samples,
-        &EdgeSettings {
-            flank: Flank::Rising,
-            ..Default::default()
-        },
-    )
-    .unwrap();
+    let found = edges(0.0, 1e-4, &samples, Flank::Rising).unwrap();
     let train = number(
         &found,
         &Wheel {

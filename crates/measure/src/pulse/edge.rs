@@ -5,29 +5,6 @@ use super::level::Levels;
 use super::spike;
 use super::{Edges, Flank, Refusal};
 
-/// How flanks are found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EdgeSettings {
-    /// Which flank marks the passage.
-    pub flank: Flank,
-    /// Low and high level in the unit of the signal; found from the signal where none are given.
-    pub levels: Option<(f64, f64)>,
-    /// How far beyond the middle the signal must go to count as the other level, as a part of the distance between the
-    /// levels, 0 to 0.45; from the noise where none is given.
-    pub hysteresis: Option<f64>,
-}
-
-impl Default for EdgeSettings {
-    /// Rising flanks, levels and hysteresis from the signal.
-    fn default() -> Self {
-        EdgeSettings {
-            flank: Flank::Rising,
-            levels: None,
-            hysteresis: None,
-        }
-    }
-}
-
 /// Samples on each side of a crossing that a straight line is laid through, at most.
 const REACH: usize = 24;
 /// Part of the height of a pulse, on each side of the middle, in which a flank is taken as straight.
@@ -51,12 +28,7 @@ pub(super) struct Crossing {
 /// the samples divided by the slope, and the error of interpolation: for a flank steeper than the sampling the interval
 /// divided by √12. Where the record holds slow passages, they tell the shape of a flank over the angle, and steep flanks are
 /// laid on that shape.
-pub fn edges(
-    first: f64,
-    interval: f64,
-    samples: &[f64],
-    settings: &EdgeSettings,
-) -> Result<Edges, Refusal> {
+pub fn edges(first: f64, interval: f64, samples: &[f64], flank: Flank) -> Result<Edges, Refusal> {
     if !(interval.is_finite() && interval > 0.0 && first.is_finite()) {
         return Err(Refusal::new(
             format!("sampling interval {interval} s from {first} s"),
@@ -69,28 +41,7 @@ pub fn edges(
             "a signal with pulses",
         ));
     }
-    let levels = match settings.levels {
-        Some((low, high)) if low < high && low.is_finite() && high.is_finite() => {
-            Levels::fixed(low, high, samples)
-        }
-        Some((low, high)) => {
-            return Err(Refusal::new(
-                format!("low level {low}, high level {high}"),
-                "a low level below the high one",
-            ));
-        }
-        None => Levels::find(samples)?,
-    };
-    let part = match settings.hysteresis {
-        Some(part) if (0.0..=0.45).contains(&part) => Some(part),
-        Some(part) => {
-            return Err(Refusal::new(
-                format!("hysteresis {part}"),
-                "a part of the pulse height from 0 to 0.45",
-            ));
-        }
-        None => None,
-    };
+    let levels = Levels::find(samples)?;
     let mut notes = Vec::new();
     let gaps = samples
         .windows(2)
@@ -101,7 +52,7 @@ pub fn edges(
             "the signal has {gaps} gaps; no flank is counted across a gap"
         ));
     }
-    let crossings = crossings(samples, &levels, part);
+    let crossings = crossings(samples, &levels);
     let (crossings, spikes) = spike::without(crossings);
     notes.extend(spikes.map(|(count, sample)| {
         format!(
@@ -109,11 +60,10 @@ pub fn edges(
             first + interval * sample as f64
         )
     }));
-    if settings.levels.is_none() {
-        two_levels(samples, &crossings, &levels)?;
-        equally_high(samples, &crossings, levels.noise)?;
-    }
-    let middles = middles(samples, &crossings, &levels, settings.levels.is_some());
+    let uneven = two_levels(samples, &crossings, &levels)
+        .and_then(|()| equally_high(samples, &crossings, levels.noise))
+        .err();
+    let middles = middles(samples, &crossings, &levels);
     let mut found: Vec<Passing> = crossings
         .iter()
         .zip(&middles)
@@ -129,7 +79,7 @@ pub fn edges(
         })
         .collect();
     found.sort_by(|a, b| a.place.total_cmp(&b.place));
-    let kinds: &[bool] = match settings.flank {
+    let kinds: &[bool] = match flank {
         Flank::Rising => &[true],
         Flank::Falling => &[false],
         Flank::Both | Flank::Centre => &[true, false],
@@ -141,7 +91,7 @@ pub fn edges(
     let found = found
         .iter()
         .map(|f| (first + f.place * interval, f.spread * interval, f.rises));
-    let chosen: Vec<(f64, f64, bool)> = match settings.flank {
+    let chosen: Vec<(f64, f64, bool)> = match flank {
         Flank::Rising => found.filter(|e| e.2).collect(),
         Flank::Falling => found.filter(|e| !e.2).collect(),
         Flank::Both => found.collect(),
@@ -168,10 +118,11 @@ pub fn edges(
         times: chosen.iter().map(|e| e.0).collect(),
         uncertainties: chosen.iter().map(|e| e.1).collect(),
         rises: chosen.iter().map(|e| e.2).collect(),
-        flank: settings.flank,
+        flank,
         watched: (first, first + interval * (samples.len() - 1) as f64),
         sample_interval: Some(interval),
         unwatched: unwatched(first, interval, samples),
+        uneven,
         notes,
     })
 }
@@ -192,10 +143,10 @@ fn unwatched(first: f64, interval: f64, samples: &[f64]) -> Vec<(f64, f64)> {
 }
 
 /// Changes between the levels, with hysteresis.
-fn crossings(samples: &[f64], levels: &Levels, part: Option<f64>) -> Vec<Crossing> {
+fn crossings(samples: &[f64], levels: &Levels) -> Vec<Crossing> {
     let mut crossings = Vec::new();
     let mut high: Option<bool> = None;
-    let margin = levels.span * part.unwrap_or((4.0 * levels.noise / levels.span).clamp(0.15, 0.4));
+    let margin = (4.0 * levels.noise).clamp(0.15 * levels.span, 0.4 * levels.span);
     for (sample, &x) in samples.iter().enumerate() {
         if !x.is_finite() {
             high = None;
@@ -287,7 +238,7 @@ fn equally_high(samples: &[f64], crossings: &[Crossing], noise: f64) -> Result<(
 /// The middle between the levels at every crossing: between the plateaus on its two sides, so that it follows a drift, and the
 /// height of each mark. Plateaus of few samples tell their level with noise, so that each middle is drawn to that of its
 /// neighbours as far as these differ by no more than noise.
-fn middles(samples: &[f64], crossings: &[Crossing], levels: &Levels, fixed: bool) -> Vec<f64> {
+fn middles(samples: &[f64], crossings: &[Crossing], levels: &Levels) -> Vec<f64> {
     let own: Vec<Middle> = crossings
         .iter()
         .enumerate()
@@ -297,9 +248,6 @@ fn middles(samples: &[f64], crossings: &[Crossing], levels: &Levels, fixed: bool
                 value: rough,
                 variance: f64::INFINITY,
             };
-            if fixed {
-                return unknown;
-            }
             let begin = k
                 .checked_sub(1)
                 .map_or(0, |last| crossings[last].sample)

@@ -148,6 +148,7 @@ mod tests {
             watched: (0.0, times[count - 1]),
             sample_interval: Some(interval),
             unwatched: Vec::new(),
+            uneven: None,
             notes: Vec::new(),
             times,
         };

@@ -25,16 +25,6 @@ impl Levels {
         self.middle[left] * (1.0 - part) + self.middle[right] * part
     }
 
-    /// Levels given by the user.
-    pub fn fixed(low: f64, high: f64, samples: &[f64]) -> Levels {
-        Levels {
-            block: samples.len().max(1),
-            middle: vec![0.5 * (low + high)],
-            span: high - low,
-            noise: noise(samples),
-        }
-    }
-
     /// Finds levels block by block: a block that holds both levels tells its own, the others take their neighbours'.
     ///
     /// So a slow drift by more than the height of a pulse does no harm, nor a duty far from one half.

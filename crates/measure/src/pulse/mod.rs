@@ -7,11 +7,11 @@
 //! | step | what it does | what it says when it cannot |
 //! |---|---|---|
 //! | [`edges`] | levels, threshold and hysteresis from the signal itself, crossing times between samples | no two levels in the signal |
-//! | [`number`] | counts marks: gaps are filled in the count as far as it is sure ([`Gap`]), doubled pulses are left out, each with a note | times that do not increase |
+//! | [`number`] | counts marks: gaps are filled in the count as far as it is sure ([`Gap`]), doubled pulses are left out, each with a note | times that do not increase, pulses without two levels or not equally high |
 //! | [`calibrate`] | angular error of every mark, from revolutions whose speed changes evenly | fewer than two even revolutions |
 //!
 //! **What it does not model**: an error of the wheel that changes with time or speed (loose discs, a lateral vibration of
-//! the shaft seen by one pickup); speed ripple locked to the revolution cannot be told from mark errors and is taken for such.
+//! the shaft seen by one pickup); speed ripple locked to the revolution looks like errors of the marks and is taken for them.
 
 mod edge;
 mod flank;
@@ -24,7 +24,7 @@ mod train;
 
 use std::fmt;
 
-pub use edge::{EdgeSettings, edges};
+pub use edge::edges;
 pub use gap::Gap;
 pub use pitch::{Pitch, calibrate};
 pub use train::{Pulses, Wheel, number};
@@ -59,6 +59,8 @@ pub struct Edges {
     pub sample_interval: Option<f64>,
     /// Intervals within that in which there is no signal, s, in order.
     pub unwatched: Vec<(f64, f64)>,
+    /// Why marks may be missing among them, so that [`number`] refuses: pulses without two levels, or not equally high.
+    pub uneven: Option<Refusal>,
     /// What was found wrong, and what was done about it.
     pub notes: Vec<String>,
 }
@@ -94,6 +96,7 @@ impl Edges {
             watched: (watched.0.min(first), watched.1.max(last)),
             sample_interval: None,
             unwatched: Vec::new(),
+            uneven: None,
             notes: Vec::new(),
         })
     }

@@ -83,6 +83,9 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
             "at least one mark per revolution",
         ));
     }
+    if let Some(why) = &edges.uneven {
+        return Err(why.clone());
+    }
     if edges.times.len() != edges.uncertainties.len() || edges.times.len() != edges.rises.len() {
         return Err(Refusal::new(
             format!(

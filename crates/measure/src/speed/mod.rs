@@ -61,8 +61,6 @@ pub struct SpeedSettings {
     /// Largest uncertainty of the acceleration in the quick change, root mean square over it, as a part of the peak;
     /// pulses that cannot carry it are refused. None: take what there is.
     pub wanted: Option<f64>,
-    /// How long the quick change lasts, s, where it is known: how many marks are needed follows from it when there are too few.
-    pub duration: Option<f64>,
     /// Standard uncertainty of a delay that all pulses have in common (pickup, filter), s. Pulses cannot show it.
     pub latency: f64,
     /// Standard uncertainty (root mean square) of an acceleration ripple once per revolution while the wheel was calibrated,
@@ -77,7 +75,6 @@ impl Default for SpeedSettings {
         SpeedSettings {
             transient: Transient::Auto,
             wanted: None,
-            duration: None,
             latency: 0.0,
             ripple: 0.0,
         }
@@ -120,8 +117,6 @@ pub struct Change {
     pub end: Option<(f64, f64)>,
     /// Whether the shaft rested before.
     pub from_rest: bool,
-    /// Probability that the acceleration jumps at the engagement, rather than its slope only.
-    pub jump: f64,
     /// Pulses between engagement and end.
     pub pulses: usize,
 }
@@ -152,8 +147,6 @@ pub struct Speed {
     pub change: Option<Change>,
     /// Factor on the stated uncertainty of the instants that the pulses themselves ask for.
     pub timing_factor: f64,
-    /// Standard deviation of the angle of a mark that does not depend on speed, rad.
-    pub angle_noise: f64,
     /// What was found, and what should not be trusted.
     pub notes: Vec<String>,
 }
@@ -300,7 +293,6 @@ pub fn smooth(
         }),
         change: None,
         timing_factor: noise.timing,
-        angle_noise: noise.angle,
         notes,
     };
     if let Some(guess) = &guess {
@@ -461,30 +453,19 @@ fn enough(data: &Data, guess: &fit::FirstGuess, settings: &SpeedSettings) -> Res
     }
     let change = guess.change / data.unit;
     // The change is over before the angle between two marks has passed at the new speed twice.
-    let longest = (2.0 * data.pitch / change).max((guess.lock - guess.engage) * data.unit);
-    let duration = settings.duration.filter(|d| *d > 0.0).unwrap_or(longest);
+    let duration = (2.0 * data.pitch / change).max((guess.lock - guess.engage) * data.unit);
     let wanted = settings.wanted.unwrap_or(0.1);
     let mut spreads: Vec<f64> = data.passages.iter().map(|p| p.spread * data.unit).collect();
     let timing = crate::pulse::median(&mut spreads);
     let marks = marks_needed(change, duration, timing, wanted);
-    let least = if settings.duration.is_some() {
-        ""
-    } else {
-        " or less"
-    };
     Err(Refusal::new(
         format!(
-            "the speed changes by {change:.1} rad/s in {:.1} ms{least}, in which {within} pulses came",
+            "the speed changes by {change:.1} rad/s in {:.1} ms or less, in which {within} pulses came",
             1e3 * duration
         ),
         match marks {
             Some(marks) => format!(
-                "{}{marks} marks per revolution for an acceleration within {:.0} % of its peak (there are {:.0})",
-                if settings.duration.is_some() {
-                    ""
-                } else {
-                    "at least "
-                },
+                "at least {marks} marks per revolution for an acceleration within {:.0} % of its peak (there are {:.0})",
                 100.0 * wanted,
                 std::f64::consts::TAU / data.pitch
             ),
@@ -577,16 +558,12 @@ fn summary(data: &Data, guess: &fit::FirstGuess, plans: &[(Plan, f64)]) -> Chang
         _ => 0.0,
     } * moments(&|l| f64::from(u8::from(l.head.is_some()))).0;
     let engage_spread = engage_spread.hypot(hidden);
-    let jump = moments(&|l| f64::from(u8::from(l.start == plan::Knot::Jump)))
-        .0
-        .clamp(0.0, 1.0);
     Change {
         engagement: (data.seconds(engage), engage_spread * data.unit),
         end: guess
             .ends
             .then_some((data.seconds(lock), lock_spread * data.unit)),
         from_rest: guess.rests,
-        jump,
         pulses: data
             .passages
             .iter()

@@ -2,9 +2,7 @@
 
 use super::Signal;
 use crate::scenario::{PickupFlank, PickupKind, SpeedSignal};
-use measure::pulse::{
-    EdgeSettings, Edges, Flank, Gap, Pitch, Pulses, Wheel, calibrate, edges, number,
-};
+use measure::pulse::{Edges, Flank, Gap, Pitch, Pulses, Wheel, calibrate, edges, number};
 use measure::shaft::Shaft;
 use measure::speed::{Motion, Speed, SpeedSettings, Transient, smooth};
 
@@ -185,14 +183,11 @@ fn passages(
             series.first,
             series.interval,
             &series.values,
-            &EdgeSettings {
-                flank: match flank {
-                    PickupFlank::Rising => Flank::Rising,
-                    PickupFlank::Falling => Flank::Falling,
-                    PickupFlank::Both => Flank::Both,
-                    PickupFlank::Centre => Flank::Centre,
-                },
-                ..EdgeSettings::default()
+            match flank {
+                PickupFlank::Rising => Flank::Rising,
+                PickupFlank::Falling => Flank::Falling,
+                PickupFlank::Both => Flank::Both,
+                PickupFlank::Centre => Flank::Centre,
             },
         ),
         (Signal::Stamped(stamps), PickupKind::Edges { stamp_deviation }) => Edges::stamped(
