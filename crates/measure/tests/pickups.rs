@@ -18,7 +18,6 @@ struct Motion {
     acceleration: Vec<f64>,
     engage: f64,
     lock: f64,
-    release: f64,
     stop: f64,
 }
 
@@ -33,7 +32,6 @@ fn motion(engage: f64) -> Motion {
         acceleration: Vec::new(),
         engage,
         lock,
-        release,
         stop: f64::INFINITY,
     };
     for k in 0.. {
