@@ -44,14 +44,14 @@ impl Speed {
         if let Some(bridge) = self.bridges.iter().find(|bridge| bridge.holds(seconds)) {
             return bridge.at(seconds);
         }
-        let motion = self.from_pulses(seconds);
+        let motion = self.between_pulses(seconds);
         let motion = self.stop.map_or(motion, |stop| stop.applied(motion));
         let hidden = self.breakaway.as_ref();
         hidden.map_or(motion, |breakaway| breakaway.applied(motion))
     }
 
     /// The motion that follows from the pulses alone.
-    fn from_pulses(&self, seconds: f64) -> Motion {
+    fn between_pulses(&self, seconds: f64) -> Motion {
         let time = (seconds - self.origin) / self.unit;
         let (belief, factors) = (self.belief(time), self.factors(time));
         let rate = self.unit.recip();

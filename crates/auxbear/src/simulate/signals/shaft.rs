@@ -69,7 +69,6 @@ impl Found {
             wanted: settings.wanted,
             latency: settings.delay_deviation,
             ripple: settings.ripple,
-            ..SpeedSettings::default()
         };
         let speed = smooth(&pulses, pitch.as_ref(), &smoothing).map_err(words)?;
         notes.splice(0..0, speed.notes.iter().cloned());
