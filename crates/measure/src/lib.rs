@@ -6,7 +6,7 @@
 //! | [`mod@file`] | the formats: from a file to a recording, and back |
 //! | [`pulse`] | pulse trains: edge times, numbering of the marks, calibration of the wheel |
 //! | [`speed`] | from numbered pulses to angle, speed and acceleration with covariance |
-//! | [`converter`] | steps, clipping, drop-outs |
+//! | [`converter`] | skew between channels, steps, clipping, drop-outs |
 //! | [`shaft`] | angle and speed of the shaft as the estimators below take them |
 //! | [`spectrum`] | spectra and spectrograms over time and over order |
 //! | [`order`] | amplitude and phase of orders at any speed; the signal without them |

@@ -23,23 +23,6 @@ pub fn beyond(value: f64, deviation: f64, limit: f64) -> f64 {
     }
 }
 
-/// Bases of a Halton sequence in several dimensions.
-pub const HALTON_BASES: [usize; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
-
-/// Number `index` of a Halton sequence: the digits of the index in the base, mirrored at the point, above 0 and below 1 for an
-/// index from 1 on.
-///
-/// Source: Halton, Numer. Math. 2 (1960) 84 (from memory).
-pub fn halton(index: usize, base: usize) -> f64 {
-    let (mut rest, mut weight, mut value) = (index, 1.0, 0.0);
-    while rest > 0 {
-        weight /= base as f64;
-        value += weight * (rest % base) as f64;
-        rest /= base;
-    }
-    value
-}
-
 /// Quantile of the standard normal distribution, relative error below 1.2e-9 (P. J. Acklam's fit, from memory).
 pub fn quantile(probability: f64) -> f64 {
     const A: [f64; 6] = [

@@ -18,7 +18,7 @@ mod synthetic;
 
 use std::f64::consts::TAU;
 
-use measure::pulse::{Flank, Wheel, calibrate, edges, number};
+use measure::pulse::{EdgeSettings, Marks, Wheel, calibrate, check_marks, edges, number};
 use measure::speed::{Change, Speed, SpeedSettings, smooth};
 use synthetic::{Truth, optical, shaped};
 
@@ -33,10 +33,10 @@ fn seeds() -> u64 {
         .unwrap_or(8)
 }
 
-fn smoothed(truth: &Truth, seed: u64, samples: f64) -> Speed {
+fn smoothed(truth: &Truth, seed: u64, samples: f64) -> (Speed, Marks) {
     let rate = samples * REACHED * MARKS as f64 / TAU;
     let signal = optical(truth, seed, MARKS, rate);
-    let found = edges(0.0, rate.recip(), &signal, Flank::Rising).unwrap();
+    let found = edges(0.0, rate.recip(), &signal, &EdgeSettings::default()).unwrap();
     let wheel = Wheel {
         marks: MARKS,
         missing: 0,
@@ -49,7 +49,8 @@ fn smoothed(truth: &Truth, seed: u64, samples: f64) -> Speed {
         ripple: 2.0,
         ..SpeedSettings::default()
     };
-    smooth(&pulses, Some(&pitch), &settings).unwrap()
+    let speed = smooth(&pulses, Some(&pitch), &settings).unwrap();
+    (speed, check_marks(&pulses))
 }
 
 /// What a case came to.
@@ -65,7 +66,8 @@ fn score(samples: f64) -> Score {
     let mut score = Score::default();
     for seed in 0..seeds() {
         let truth = shaped(seed, |x| x, REACHED, SLIP, 0.6);
-        let speed = smoothed(&truth, seed, samples);
+        let (speed, marks) = smoothed(&truth, seed, samples);
+        assert!(!matches!(marks, Marks::Contradicted(_)), "{marks:?}");
         let from = truth.lock + 0.1;
         for k in 0..100 {
             let time = from + (truth.end() - 0.02 - from) * k as f64 / 100.0;

@@ -3,7 +3,7 @@
 #[path = "synthetic/wheel.rs"]
 mod synthetic;
 
-use measure::pulse::{Flank, Pulses, Wheel, calibrate, edges, number};
+use measure::pulse::{EdgeSettings, Pulses, Wheel, calibrate, edges, number};
 use measure::speed::{Speed, SpeedSettings, smooth};
 use std::f64::consts::TAU;
 use synthetic::Random;
@@ -90,7 +90,7 @@ fn found(samples: &[f64]) -> Result<(Pulses, Speed), String> {
         marks: 60,
         missing: 0,
     };
-    let edges = edges(0.0, RATE.recip(), samples, Flank::Rising);
+    let edges = edges(0.0, RATE.recip(), samples, &EdgeSettings::default());
     let pulses = number(&edges.map_err(|why| why.to_string())?, &wheel);
     let pulses = pulses.map_err(|why| why.to_string())?;
     let pitch = calibrate(&pulses).ok();
@@ -137,28 +137,98 @@ fn light(turned: f64) -> f64 {
     5.0 / (1.0 + (-turned.sin() / 0.15).exp())
 }
 
+/// Mean shares over seeds in which the bands hold speed and acceleration in the spin-up, while running and while coasting, in per
+/// cent; and the largest error of the engagement over its deviation.
+fn shares(seeds: u64, seen: impl Fn(&Motion, u64) -> Vec<f64>) -> ([[f64; 2]; 3], f64) {
+    let (mut all, mut engaged) = ([[0.0; 2]; 3], 0.0f64);
+    for seed in 0..seeds {
+        let truth = motion(0.2 + 1e-3 * seed as f64);
+        let (pulses, speed) = found(&seen(&truth, seed)).unwrap();
+        // 4484 marks pass; the last ones of a pickup whose voltage is the speed's may drown.
+        assert!(pulses.times.len() >= 4470, "{}", pulses.times.len());
+        assert!(
+            pulses.gaps.is_empty() && pulses.repaired == 0.0,
+            "{:?}",
+            speed.notes
+        );
+        engaged = engaged.max(knots(&truth, &speed)[0].abs());
+        let braked = truth.stop - truth.release;
+        for (part, from, to) in [
+            (0, truth.engage, truth.lock - 1e-4),
+            (1, truth.lock + 0.08, truth.release - 0.02),
+            (2, truth.release + 0.02, truth.stop - 0.2 * braked),
+        ] {
+            let (inside, _) = held(&truth, &speed, from, to);
+            for (sum, inside) in all[part].iter_mut().zip(inside) {
+                *sum += 100.0 * inside / seeds as f64;
+            }
+        }
+    }
+    println!("{all:.0?}, engagement off by {engaged:.1} deviations at most");
+    (all, engaged)
+}
+
 /// Seeds here and, in release, in the figures of the guide.
 fn seeds() -> u64 {
     let asked = std::env::var("PICKUP_SEEDS").ok();
     asked.and_then(|seeds| seeds.parse().ok()).unwrap_or(3)
 }
 
+/// A mean over three records may be off by a sixth of what one of them is worth.
+fn holds(found: ([[f64; 2]; 3], f64)) {
+    let (shares, engaged) = found;
+    assert!(
+        shares.iter().flatten().all(|share| *share > 84.0),
+        "{shares:?}"
+    );
+    assert!(engaged < 3.0, "{engaged}");
+}
+
 #[test]
-fn pulses_without_two_levels_are_refused() {
-    type Seen = fn(f64, f64, f64) -> f64;
-    let kinds: [(&str, Seen); 4] = [
-        ("sine", |x, _, _| 5.0 * sine(x)),
-        ("magnetic", |x, w, _| 5.0 * w / 150.0 * sine(x)),
-        ("cut off", |x, w, _| {
+fn a_magnetic_pickup_whose_voltage_is_the_speeds() {
+    holds(shares(seeds(), |truth, seed| {
+        truth.seen(0.01, seed, |x, w, _| 5.0 * w / 150.0 * sine(x))
+    }));
+}
+
+#[test]
+fn a_magnetic_pickup_that_is_cut_off() {
+    holds(shares(seeds(), |truth, seed| {
+        truth.seen(0.01, seed, |x, w, _| {
             (20.0 * w / 150.0 * sine(x)).clamp(-5.0, 5.0)
-        }),
-        ("fading", |x, _, t| light(x) * (1.0 - 0.2 * t)),
-    ];
-    let truth = motion(0.2);
-    for (name, seen) in kinds {
-        let why = found(&truth.seen(0.01, 1, seen)).err();
-        let why = why.unwrap_or_else(|| panic!("{name} is read"));
-        assert!(why.contains("a comparator behind"), "{name}: {why}");
+        })
+    }));
+}
+
+#[test]
+fn a_light_that_fades() {
+    holds(shares(seeds(), |truth, seed| {
+        let end = truth.end();
+        truth.seen(0.02, seed, |x, _, t| light(x) * (1.0 - 0.7 * t / end))
+    }));
+}
+
+#[test]
+fn a_sine_of_even_height() {
+    holds(shares(seeds(), |truth, seed| {
+        truth.seen(0.02, seed, |x, _, _| 5.0 * sine(x))
+    }));
+}
+
+#[test]
+fn first_pulses_that_drown_leave_the_engagement_open() {
+    for seed in 0..seeds() {
+        let truth = motion(0.2 + 1e-3 * seed as f64);
+        let samples = truth.seen(0.15, seed, |x, w, _| 5.0 * w / 150.0 * sine(x));
+        let (pulses, speed) = found(&samples).unwrap();
+        assert!(pulses.unseen > 0.3, "{}", pulses.unseen);
+        let told = speed
+            .notes
+            .iter()
+            .any(|note| note.contains("passed unseen before it"));
+        assert!(told, "{:?}", speed.notes);
+        let engagement = knots(&truth, &speed)[0];
+        assert!(engagement.abs() < 3.0, "{engagement}");
     }
 }
 

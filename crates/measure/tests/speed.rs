@@ -7,7 +7,7 @@ mod synthetic;
 mod made;
 
 use made::pulses;
-use measure::pulse::{Edges, Flank, Wheel, calibrate, edges, number};
+use measure::pulse::{EdgeSettings, Edges, Flank, Wheel, calibrate, edges, number};
 use measure::speed::{SpeedSettings, Transient, marks_needed, smooth};
 use synthetic::Random;
 
@@ -196,10 +196,93 @@ fn a_clutch_that_engages_on_a_turning_shaft() {
 }
 
 #[test]
+fn covariances_fit_together_and_drawn_paths_follow_them() {
+    let truth = synthetic::spin_up(3, 150.0, 7200.0, 0.2);
+    let found = Edges::stamped(
+        synthetic::stamps(&truth, 3, 60),
+        5e-7,
+        Some((0.0, truth.end())),
+    )
+    .unwrap();
+    let train = number(
+        &found,
+        &Wheel {
+            marks: 60,
+            missing: 0,
+        },
+    )
+    .unwrap();
+    let settings = SpeedSettings {
+        latency: 2e-6,
+        ..Default::default()
+    };
+    let speed = smooth(&train, calibrate(&train).ok().as_ref(), &settings).unwrap();
+    let middle = 0.5 * (truth.engage + truth.lock);
+    let times = [middle, middle + 1e-3, middle + 4e-3];
+    for (k, &a) in times.iter().enumerate() {
+        // At one instant the covariance over time is that of the instant.
+        let (same, own) = (speed.covariance(a, a), speed.at(a).covariance);
+        for i in 0..3 {
+            for j in 0..3 {
+                let scale = (own[i][i] * own[j][j]).sqrt();
+                assert!(
+                    (same[i][j] - own[i][j]).abs() < 1e-6 * scale,
+                    "{i} {j} {} {}",
+                    same[i][j],
+                    own[i][j]
+                );
+            }
+        }
+        for &b in &times[k + 1..] {
+            let (there, back) = (speed.covariance(a, b), speed.covariance(b, a));
+            let correlation =
+                there[2][2] / (speed.at(a).covariance[2][2] * speed.at(b).covariance[2][2]).sqrt();
+            assert!(correlation.abs() <= 1.0);
+            assert_eq!(there[1][2], back[2][1]);
+        }
+    }
+    let mut random = Random::new(11);
+    let many = 3000;
+    let paths: Vec<Vec<[f64; 3]>> = (0..many)
+        .map(|_| {
+            let uniform = random.uniform();
+            speed.draw(&times, uniform, &mut || random.normal())
+        })
+        .collect();
+    for (a, &first) in times.iter().enumerate() {
+        for (b, &second) in times.iter().enumerate() {
+            let wanted = speed.covariance(first, second);
+            for i in 1..3 {
+                for j in 1..3 {
+                    let mean = |k: usize, i: usize| {
+                        paths.iter().map(|p| p[k][i]).sum::<f64>() / many as f64
+                    };
+                    let (x, y) = (mean(a, i), mean(b, j));
+                    let got = paths
+                        .iter()
+                        .map(|p| (p[a][i] - x) * (p[b][j] - y))
+                        .sum::<f64>()
+                        / many as f64;
+                    let scale = (speed.at(first).covariance[i][i]
+                        * speed.at(second).covariance[j][j])
+                        .sqrt();
+                    // Sampling: 1/√3000 = 0.018 of the scale, 0.026 for a variance; five times that.
+                    assert!(
+                        (got - wanted[i][j]).abs() < 0.13 * scale,
+                        "{a} {b} {i} {j}: {got} {}",
+                        wanted[i][j]
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn the_shaft_rests_before_the_engagement() {
     let truth = synthetic::spin_up(8, 150.0, 1300.0, 0.3);
     let samples = synthetic::pickup(&truth, 8, 60, 1e4);
-    let found = edges(0.0, 1e-4, &samples, Flank::Rising).unwrap();
+    let found = edges(0.0, 1e-4, &samples, &EdgeSettings::default()).unwrap();
     let train = number(
         &found,
         &Wheel {
@@ -238,11 +321,12 @@ fn one_mark_cannot_see_a_short_spin_up_and_the_message_says_how_many_could() {
         },
     )
     .unwrap();
-    for (wanted, least) in [(None, 4), (Some(0.03), 20)] {
+    for (duration, wanted, least) in [(None, None, 4), (Some(0.025), Some(0.03), 20)] {
         let refusal = smooth(
             &train,
             None,
             &SpeedSettings {
+                duration,
                 wanted,
                 ..Default::default()
             },
@@ -360,7 +444,16 @@ fn few_pulses_and_odd_numbers_are_refused_or_survived() {
 fn ten_seconds_of_sixty_marks_are_smoothed() {
     let truth = synthetic::spin_up(6, 150.0, 7200.0, 9.85);
     let samples = synthetic::pickup(&truth, 6, 60, 1e4);
-    let found = edges(0.0, 1e-4, &samples, Flank::Rising).unwrap();
+    let found = edges(
+        0.0,
+        1e-4,
+        &samples,
+        &EdgeSettings {
+            flank: Flank::Rising,
+            ..Default::default()
+        },
+    )
+    .unwrap();
     let train = number(
         &found,
         &Wheel {

@@ -3,16 +3,11 @@
 #[path = "synthetic/wheel.rs"]
 mod synthetic;
 
-use measure::pulse::{Edges, Flank, Wheel, calibrate, edges, number};
+use measure::pulse::{EdgeSettings, Edges, Flank, Wheel, calibrate, edges, number};
 use measure::speed::{Speed, SpeedSettings, smooth};
 use synthetic::{Truth, pickup, spin_up, stamps};
 
-/// Spin-ups a case; fewer in a look by `SPEED_COVERAGE_SEEDS`.
-fn seeds() -> u64 {
-    let asked = std::env::var("SPEED_COVERAGE_SEEDS").ok();
-    asked.and_then(|seeds| seeds.parse().ok()).unwrap_or(400)
-}
-
+const SEEDS: u64 = 400;
 /// Instants in a spin-up, and a quarter of its length after it, at which the band is asked.
 const POINTS: usize = 60;
 
@@ -37,8 +32,12 @@ fn estimate(case: &Case, truth: &Truth, seed: u64) -> Speed {
     let (found, latency) = match case.rate {
         Some(rate) => {
             let samples = pickup(truth, seed, case.marks, rate);
+            let settings = EdgeSettings {
+                flank: case.flank,
+                ..Default::default()
+            };
             // The data sheet of the pickup: some 10 µs, not corrected for.
-            (edges(0.0, 1.0 / rate, &samples, case.flank).unwrap(), 1e-5)
+            (edges(0.0, 1.0 / rate, &samples, &settings).unwrap(), 1e-5)
         }
         None => {
             let times = stamps(truth, seed, case.marks);
@@ -100,7 +99,7 @@ fn covers(case: Case) {
         let case = &case;
         let work = |part| {
             move || {
-                (0..seeds())
+                (0..SEEDS)
                     .filter(|s| s % 2 == part)
                     .map(|s| score(case, s))
                     .collect::<Vec<_>>()

@@ -4,7 +4,7 @@
 mod synthetic;
 
 use measure::cage_speed::{Line, QuickChange, from_pulses, from_vibration};
-use measure::converter::{Converter, faults};
+use measure::converter::{Converter, aligned, faults};
 use measure::order::orders;
 use measure::shaft::Shaft;
 use measure::spectrum::{
@@ -84,9 +84,16 @@ fn ten_seconds_are_quick() {
         speed_deviation: &[],
     };
     let mut sum = 0.0;
-    timed("faults of 6 channels", &mut sum, || {
-        for _ in 0..6 {
+    timed("skew and faults of 6 channels", &mut sum, || {
+        for channel in 0..6 {
             assert!(faults(&slow, Some(&converter)).is_empty());
+            assert_eq!(
+                aligned(&slow, interval, converter.delay(channel))
+                    .expect("aligned")
+                    .values
+                    .len(),
+                count
+            );
         }
     });
     let hann = |length| Segments {
@@ -249,6 +256,7 @@ fn nonsense_is_survived() {
         };
         answers += usize::from(order_spectrogram(&a, x, y, &shaft, &settings).is_ok());
         answers += usize::from(orders(&a, x, y, &shaft, &[1.0, number(r)], z).is_ok());
+        answers += usize::from(aligned(&a, x, y).is_ok());
         let converter = Converter {
             rate: x,
             channels: length,

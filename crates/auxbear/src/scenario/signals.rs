@@ -51,8 +51,6 @@ pub struct SpeedSignal {
     pub marks_per_revolution: usize,
     /// Marks left out.
     pub missing_marks: usize,
-    /// Speed to which the motor was set, rad/s.
-    pub set_speed: Option<f64>,
     /// Whether a quick change is looked for.
     pub quick_change: bool,
     /// Where it is looked for begins, s.
@@ -231,7 +229,6 @@ fn speed(values: &Values) -> Option<SpeedSignal> {
         },
         marks_per_revolution: speed.count("marks_per_revolution") as usize,
         missing_marks: speed.count("missing_marks") as usize,
-        set_speed: speed.maybe("set_speed"),
         quick_change: speed.word("quick_change") != "none",
         change_from: speed.maybe("change_from"),
         change_to: speed.maybe("change_to"),

@@ -140,14 +140,6 @@ pub(super) const KEYS: &[Key] = &[
     )
     .default("0", "a full wheel"),
     Key::new(
-        "signals.speed.set_speed",
-        Kind::Quantity("rad/s"),
-        "150 rad/s",
-        "Speed to which the motor was set, the largest one of the record: what is found is compared with it, so that a wrong number of marks shows.",
-    )
-    .positive()
-    .optional("the number of marks is not checked"),
-    Key::new(
         "signals.speed.flank",
         Kind::Word(&["rising", "falling", "both", "centre"]),
         "rising",

@@ -1,6 +1,6 @@
 //! Reproducible numbers: a quasi-random sequence, pseudo-random numbers.
 
-use measure::normal::{HALTON_BASES, halton, quantile};
+use measure::normal::quantile;
 
 /// Pseudo-random numbers from a seed alone: SplitMix64 (Steele, Lea, Flood 2014, from memory).
 #[derive(Clone, Debug)]
@@ -27,12 +27,19 @@ impl Random {
     }
 }
 
+const BASES: [u32; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
+
 /// Point `index` of Halton's sequence, shifted modulo 1, as standard normal coordinates; up to eight of them.
 pub(crate) fn quasi_normal(index: u32, shift: &[f64]) -> Vec<f64> {
-    (shift.iter().zip(HALTON_BASES))
+    (shift.iter().zip(BASES))
         .map(|(shift, base)| {
-            let value = (shift + halton(index as usize + 1, base)).fract();
-            quantile(value.clamp(1e-12, 1.0 - 1e-12))
+            let (mut value, mut weight, mut rest) = (*shift, 1.0, index + 1);
+            while rest > 0 {
+                weight /= f64::from(base);
+                value += weight * f64::from(rest % base);
+                rest /= base;
+            }
+            quantile(value.fract().clamp(1e-12, 1.0 - 1e-12))
         })
         .collect()
 }

@@ -1,20 +1,47 @@
 //! From samples to the instants of flanks.
 
+use super::envelope::Envelope;
 use super::flank::{Passing, sharpen};
 use super::level::Levels;
+use super::shape::Shape;
 use super::spike;
 use super::{Edges, Flank, Refusal};
+
+/// How flanks are found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgeSettings {
+    /// Which flank marks the passage.
+    pub flank: Flank,
+    /// Low and high level in the unit of the signal; found from the signal where none are given.
+    pub levels: Option<(f64, f64)>,
+    /// How far beyond the middle the signal must go to count as the other level, as a part of the distance between the
+    /// levels, 0 to 0.45; from the noise where none is given.
+    pub hysteresis: Option<f64>,
+}
+
+impl Default for EdgeSettings {
+    /// Rising flanks, levels and hysteresis from the signal.
+    fn default() -> Self {
+        EdgeSettings {
+            flank: Flank::Rising,
+            levels: None,
+            hysteresis: None,
+        }
+    }
+}
 
 /// Samples on each side of a crossing that a straight line is laid through, at most.
 const REACH: usize = 24;
 /// Part of the height of a pulse, on each side of the middle, in which a flank is taken as straight.
 const STRAIGHT: f64 = 0.3;
+/// Part of what a parabola corrects that may still be wrong.
+const LEFT: f64 = 0.3;
 /// Deviations of the crossing by which that of a parabola is elsewhere, from which on a flank is bent.
 const BENT: f64 = 3.0;
 /// Samples of a plateau, next to the flank, that tell its level, at most.
 const PLATEAU: usize = 64;
 
-pub(super) struct Crossing {
+pub(super) struct Flip {
     /// First sample beyond the hysteresis on the new side.
     pub sample: usize,
     pub rises: bool,
@@ -28,7 +55,12 @@ pub(super) struct Crossing {
 /// the samples divided by the slope, and the error of interpolation: for a flank steeper than the sampling the interval
 /// divided by √12. Where the record holds slow passages, they tell the shape of a flank over the angle, and steep flanks are
 /// laid on that shape.
-pub fn edges(first: f64, interval: f64, samples: &[f64], flank: Flank) -> Result<Edges, Refusal> {
+pub fn edges(
+    first: f64,
+    interval: f64,
+    samples: &[f64],
+    settings: &EdgeSettings,
+) -> Result<Edges, Refusal> {
     if !(interval.is_finite() && interval > 0.0 && first.is_finite()) {
         return Err(Refusal::new(
             format!("sampling interval {interval} s from {first} s"),
@@ -41,7 +73,41 @@ pub fn edges(first: f64, interval: f64, samples: &[f64], flank: Flank) -> Result
             "a signal with pulses",
         ));
     }
-    let levels = Levels::find(samples)?;
+    let levels = match settings.levels {
+        Some((low, high)) if low < high && low.is_finite() && high.is_finite() => {
+            Levels::fixed(low, high, samples)
+        }
+        Some((low, high)) => {
+            return Err(Refusal::new(
+                format!("low level {low}, high level {high}"),
+                "a low level below the high one",
+            ));
+        }
+        None => Levels::find(samples)?,
+    };
+    let evened = match settings.levels {
+        Some(_) => None,
+        None => Envelope::of(samples, levels.span, levels.noise),
+    };
+    let (levels, evened) = match evened {
+        Some(envelope) => {
+            let evened = envelope.evened(samples);
+            (Levels::evened(levels.noise, envelope), Some(evened))
+        }
+        None => (levels, None),
+    };
+    let samples = evened.as_deref().unwrap_or(samples);
+    let fixed = settings.levels.is_some() || levels.envelope().is_some_and(|e| e.own_level);
+    let part = match settings.hysteresis {
+        Some(part) if (0.0..=0.45).contains(&part) => Some(part),
+        Some(part) => {
+            return Err(Refusal::new(
+                format!("hysteresis {part}"),
+                "a part of the pulse height from 0 to 0.45",
+            ));
+        }
+        None => None,
+    };
     let mut notes = Vec::new();
     let gaps = samples
         .windows(2)
@@ -52,46 +118,50 @@ pub fn edges(first: f64, interval: f64, samples: &[f64], flank: Flank) -> Result
             "the signal has {gaps} gaps; no flank is counted across a gap"
         ));
     }
-    let crossings = crossings(samples, &levels);
-    let (crossings, spikes) = spike::without(crossings);
+    let flips = flips(samples, &levels, part);
+    let (flips, spikes) = spike::without(flips);
     notes.extend(spikes.map(|(count, sample)| {
         format!(
             "{count} spikes beside pulses many times as wide, the first at {:.6} s: left out",
             first + interval * sample as f64
         )
     }));
-    let uneven = two_levels(samples, &crossings, &levels)
-        .and_then(|()| equally_high(samples, &crossings, levels.noise))
-        .err();
-    let middles = middles(samples, &crossings, &levels);
-    let mut found: Vec<Passing> = crossings
+    let middles = middles(samples, &flips, &levels, fixed);
+    let mut found: Vec<Passing> = flips
         .iter()
         .zip(&middles)
-        .filter_map(|(crossing, &middle)| {
-            let (place, spread, resolved) = placed(samples, crossing, middle, &levels)?;
+        .filter_map(|(flip, &middle)| {
+            let (place, spread, resolved) = crossing(samples, flip, middle, &levels)?;
             Some(Passing {
                 place,
                 spread,
                 resolved,
-                rises: crossing.rises,
+                rises: flip.rises,
                 middle,
             })
         })
         .collect();
     found.sort_by(|a, b| a.place.total_cmp(&b.place));
-    let kinds: &[bool] = match flank {
+    let kinds: &[bool] = match settings.flank {
         Flank::Rising => &[true],
         Flank::Falling => &[false],
         Flank::Both | Flank::Centre => &[true, false],
     };
     for &rises in kinds {
-        sharpen(samples, &mut found, rises, &levels);
+        match Shape::of(samples, &found, rises, &levels) {
+            Shape::Same => sharpen(samples, &mut found, rises, &levels),
+            Shape::OverSpeed(over) => {
+                sharpen(&over.samples, &mut found, rises, &levels);
+                over.state(&mut found, rises, &levels);
+            }
+            Shape::None => {}
+        }
     }
     found.sort_by(|a, b| a.place.total_cmp(&b.place));
     let found = found
         .iter()
         .map(|f| (first + f.place * interval, f.spread * interval, f.rises));
-    let chosen: Vec<(f64, f64, bool)> = match flank {
+    let chosen: Vec<(f64, f64, bool)> = match settings.flank {
         Flank::Rising => found.filter(|e| e.2).collect(),
         Flank::Falling => found.filter(|e| !e.2).collect(),
         Flank::Both => found.collect(),
@@ -118,11 +188,14 @@ pub fn edges(first: f64, interval: f64, samples: &[f64], flank: Flank) -> Result
         times: chosen.iter().map(|e| e.0).collect(),
         uncertainties: chosen.iter().map(|e| e.1).collect(),
         rises: chosen.iter().map(|e| e.2).collect(),
-        flank,
+        flank: settings.flank,
         watched: (first, first + interval * (samples.len() - 1) as f64),
         sample_interval: Some(interval),
+        unseen: levels
+            .envelope()
+            .filter(|e| e.own_level)
+            .map_or(0.0, |e| e.unseen),
         unwatched: unwatched(first, interval, samples),
-        uneven,
         notes,
     })
 }
@@ -143,15 +216,19 @@ fn unwatched(first: f64, interval: f64, samples: &[f64]) -> Vec<(f64, f64)> {
 }
 
 /// Changes between the levels, with hysteresis.
-fn crossings(samples: &[f64], levels: &Levels) -> Vec<Crossing> {
-    let mut crossings = Vec::new();
+fn flips(samples: &[f64], levels: &Levels, part: Option<f64>) -> Vec<Flip> {
+    let mut flips = Vec::new();
     let mut high: Option<bool> = None;
-    let margin = (4.0 * levels.noise).clamp(0.15 * levels.span, 0.4 * levels.span);
-    for (sample, &x) in samples.iter().enumerate() {
+    let (from, to) = levels
+        .envelope()
+        .map_or((0, samples.len()), |e| (e.range.0, e.range.1 + 1));
+    for (sample, &x) in samples.iter().enumerate().take(to).skip(from) {
         if !x.is_finite() {
             high = None;
             continue;
         }
+        let noisy = || (4.0 * levels.noise_at(sample) / levels.span).clamp(0.15, 0.4);
+        let margin = levels.span * part.unwrap_or_else(noisy);
         let away = x - levels.middle(sample);
         let now = if away > margin {
             true
@@ -161,104 +238,40 @@ fn crossings(samples: &[f64], levels: &Levels) -> Vec<Crossing> {
             continue;
         };
         if high == Some(!now) {
-            crossings.push(Crossing { sample, rises: now });
+            flips.push(Flip { sample, rises: now });
         }
         high = Some(now);
     }
-    crossings
+    flips
 }
 
-/// Part of the samples within 0.3 heights of the middle, from which on a signal has no plateaus: 0.41 of a sine are, 0.13 of light
-/// through slots whose flanks take a tenth of a mark.
-const ON_ITS_WAY: f64 = 0.3;
-
-/// Refuses a signal without plateaus: where its middle lies would follow the speed.
-fn two_levels(samples: &[f64], crossings: &[Crossing], levels: &Levels) -> Result<(), Refusal> {
-    let (Some(first), Some(last)) = (crossings.first(), crossings.last()) else {
-        return Ok(());
-    };
-    let range = first.sample..last.sample;
-    let between = |k: &usize| (samples[*k] - levels.middle(*k)).abs() < 0.3 * levels.span;
-    let part = range.clone().filter(between).count() as f64 / range.len().max(1) as f64;
-    match part > ON_ITS_WAY {
-        true => Err(Refusal::new(
-            format!(
-                "the signal is between its levels for {:.0} % of the time",
-                100.0 * part
-            ),
-            "pulses with two levels: a comparator behind a pickup that gives a sine, or the instants of a counter",
-        )),
-        false => Ok(()),
-    }
-}
-
-/// Least height of pulses over the largest one at which they count as equally high.
-const EVEN: f64 = 0.7;
-/// Pulses to each side among which a local height is the second largest: neither one that is sampled beside its top counts, nor a
-/// spike.
-const BESIDE: usize = 4;
-/// Deviations of the noise by which the largest of some heights may be off.
-const BY_NOISE: f64 = 4.0;
-
-/// Refuses pulses that are not equally high: the lowest ones do not reach the hysteresis, and marks would be missed.
-fn equally_high(samples: &[f64], crossings: &[Crossing], noise: f64) -> Result<(), Refusal> {
-    let extreme = |pair: &[Crossing]| {
-        let between = samples[pair[0].sample..pair[1].sample].iter().copied();
-        match pair[0].rises {
-            true => between.fold(f64::NEG_INFINITY, f64::max),
-            false => between.fold(f64::INFINITY, f64::min),
-        }
-    };
-    let extremes: Vec<f64> = crossings.windows(2).map(extreme).collect();
-    let heights: Vec<f64> = (extremes.windows(2))
-        .map(|pair| (pair[1] - pair[0]).abs())
-        .collect();
-    let local = |near: &[f64]| {
-        let (_, second) = near
-            .iter()
-            .fold((0.0f64, 0.0f64), |(first, second), &height| {
-                (first.max(height), second.max(first.min(height)))
-            });
-        second
-    };
-    let (least, largest) = (heights.windows(2 * BESIDE + 1).map(local))
-        .fold((f64::INFINITY, 0.0f64), |(low, high), height| {
-            (low.min(height), high.max(height))
-        });
-    let open = BY_NOISE * noise;
-    match least + open < EVEN * (largest - open) {
-        true => Err(Refusal::new(
-            format!("pulses between {least:.3e} and {largest:.3e} high"),
-            "pulses of one height: a comparator behind a magnetic pickup or a light that fades, or the instants of a counter",
-        )),
-        false => Ok(()),
-    }
-}
-
-/// The middle between the levels at every crossing: between the plateaus on its two sides, so that it follows a drift, and the
+/// The middle between the levels at every flip: between the plateaus on its two sides, so that it follows a drift, and the
 /// height of each mark. Plateaus of few samples tell their level with noise, so that each middle is drawn to that of its
 /// neighbours as far as these differ by no more than noise.
-fn middles(samples: &[f64], crossings: &[Crossing], levels: &Levels) -> Vec<f64> {
-    let own: Vec<Middle> = crossings
+fn middles(samples: &[f64], flips: &[Flip], levels: &Levels, fixed: bool) -> Vec<f64> {
+    let own: Vec<Middle> = flips
         .iter()
         .enumerate()
-        .map(|(k, crossing)| {
-            let rough = levels.middle(crossing.sample);
+        .map(|(k, flip)| {
+            let rough = levels.middle(flip.sample);
             let unknown = Middle {
                 value: rough,
                 variance: f64::INFINITY,
             };
+            if fixed {
+                return unknown;
+            }
             let begin = k
                 .checked_sub(1)
-                .map_or(0, |last| crossings[last].sample)
-                .max(crossing.sample.saturating_sub(PLATEAU));
-            let end = crossings
+                .map_or(0, |last| flips[last].sample)
+                .max(flip.sample.saturating_sub(PLATEAU));
+            let end = flips
                 .get(k + 1)
                 .map_or(samples.len(), |next| next.sample)
-                .min(crossing.sample + PLATEAU);
-            let sign = if crossing.rises { 1.0 } else { -1.0 };
-            let before = plateau(&samples[begin..crossing.sample], rough, -sign);
-            let after = plateau(&samples[crossing.sample..end], rough, sign);
+                .min(flip.sample + PLATEAU);
+            let sign = if flip.rises { 1.0 } else { -1.0 };
+            let before = plateau(&samples[begin..flip.sample], rough, -sign);
+            let after = plateau(&samples[flip.sample..end], rough, sign);
             let (Some(before), Some(after)) = (before, after) else {
                 return unknown;
             };
@@ -266,7 +279,9 @@ fn middles(samples: &[f64], crossings: &[Crossing], levels: &Levels) -> Vec<f64>
             let most = 0.2 * levels.span;
             Middle {
                 value: (0.5 * (before.0 + after.0)).clamp(rough - most, rough + most),
-                variance: 0.25 * levels.noise.powi(2) * (1.0 / before.1 + 1.0 / after.1),
+                variance: 0.25
+                    * levels.noise_at(flip.sample).powi(2)
+                    * (1.0 / before.1 + 1.0 / after.1),
             }
         })
         .collect();
@@ -328,26 +343,26 @@ fn plateau(samples: &[f64], middle: f64, sign: f64) -> Option<(f64, f64)> {
     (largest > 0.0).then(|| (middle + sign * sum / count, count))
 }
 
-/// Where the signal passes the middle at a crossing, and the standard uncertainty of it, both in samples; and whether the flank
+/// Where the signal crosses the middle at a flip, and the standard uncertainty of it, both in samples; and whether the flank
 /// itself was seen, not only its two sides.
-fn placed(
+fn crossing(
     samples: &[f64],
-    crossing: &Crossing,
+    flip: &Flip,
     middle: f64,
     levels: &Levels,
 ) -> Option<(f64, f64, bool)> {
-    let sign = if crossing.rises { 1.0 } else { -1.0 };
+    let sign = if flip.rises { 1.0 } else { -1.0 };
     let height = |k: usize| sign * (samples[k] - middle);
-    // The last sample below the middle before the crossing.
-    let mut below = crossing.sample;
+    // The last sample below the middle before the flip.
+    let mut below = flip.sample;
     while height(below) > 0.0 {
         below = below.checked_sub(1)?;
         if !samples[below].is_finite() {
             return None;
         }
     }
-    if below == crossing.sample {
-        // The middle was moved beyond the crossing: go forward.
+    if below == flip.sample {
+        // The middle was moved beyond the flip: go forward.
         while samples
             .get(below + 1)
             .is_some_and(|&x| sign * (x - middle) <= 0.0)
@@ -359,6 +374,7 @@ fn placed(
         return None;
     }
     let limit = STRAIGHT * levels.span;
+    let noise_here = levels.noise_at(flip.sample);
     let mut from = below + 1;
     while from > 0
         && below + 1 - from < REACH
@@ -389,7 +405,7 @@ fn placed(
             let misfit = (from..to)
                 .map(|k| (height(k) - mean - slope * (k as f64 - centre)).powi(2))
                 .sum::<f64>();
-            let noise = levels.noise.max((misfit / (n - 2.0)).sqrt());
+            let noise = noise_here.max((misfit / (n - 2.0)).sqrt());
             let spread = noise / slope * (1.0 / n + away * away / square).sqrt();
             // A shaft that starts or stops on the flank bends it; by how much a parabola crosses elsewhere is open.
             let middle = square / n;
@@ -401,7 +417,15 @@ fn placed(
             }
             let shift = -along / fourth * (away * away - middle) / slope;
             let bent = shift.abs() > BENT * spread;
-            let spread = if bent { spread.hypot(shift) } else { spread };
+            // About a level of its own a signal is straight but for the motion: the parabola is right.
+            let (away, spread) = match levels.envelope().is_some_and(|e| e.own_level) {
+                true => {
+                    let own = noise_here / slope * (1.0 / n + middle * middle / fourth).sqrt();
+                    let left = if bent { LEFT * shift } else { 0.0 };
+                    (away + shift, own.hypot(left))
+                }
+                false => (away, if bent { spread.hypot(shift) } else { spread }),
+            };
             if away.abs() <= n {
                 return Some((centre + away, spread.max(1e-3), true));
             }
@@ -427,7 +451,7 @@ fn placed(
     let interpolation = 0.29 * (-1.2 * (width - 1.0).max(0.0)).exp();
     Some((
         below as f64 + place,
-        (levels.noise / slope).hypot(interpolation).max(1e-3),
+        (noise_here / slope).hypot(interpolation).max(1e-3),
         false,
     ))
 }

@@ -24,7 +24,7 @@ const HALF: f64 = 0.2;
 /// Rounds of learning the shape and laying the flanks on it.
 const ROUNDS: usize = 40;
 /// Passages that it is learnt from, at most.
-const TRAINING_FLANKS: usize = 600;
+const PUPILS: usize = 600;
 /// Cells of the shape.
 const CELLS: usize = 40;
 /// Passages needed to learn from.
@@ -130,24 +130,24 @@ pub(super) fn sharpen(samples: &[f64], found: &mut [Passing], rises: bool, level
         .collect();
     let sign = if rises { 1.0 } else { -1.0 };
     let scale = sign / levels.span;
-    let training = training_flanks(&own, &rates);
+    let pupils = pupils(&own, &rates);
     let before: Vec<(f64, f64)> = own
         .iter()
         .map(|&k| (found[k].place, found[k].spread))
         .collect();
     let mut last = None;
     for _ in 0..ROUNDS {
-        let Some(shape) = learn(samples, found, &training, scale) else {
+        let Some(shape) = learn(samples, found, &pupils, scale) else {
             break;
         };
         let mut moved = 0.0f64;
-        for &(k, rate) in &training {
+        for &(k, rate) in &pupils {
             if !found[k].resolved {
                 moved += lay(samples, &mut found[k], rate, scale, &shape).powi(2);
             }
         }
         last = Some(shape);
-        if moved < 1e-6 * training.len() as f64 {
+        if moved < 1e-6 * pupils.len() as f64 {
             break;
         }
     }
@@ -169,22 +169,22 @@ pub(super) fn sharpen(samples: &[f64], found: &mut [Passing], rises: bool, level
 
 /// Passages to learn from with their rates, in order: the slow ones show the shape in full, however few they are in a long
 /// record; others are taken from all over it.
-fn training_flanks(own: &[usize], rates: &[Option<f64>]) -> Vec<(usize, f64)> {
+fn pupils(own: &[usize], rates: &[Option<f64>]) -> Vec<(usize, f64)> {
     let steady: Vec<(usize, f64)> = own
         .iter()
         .zip(rates)
         .filter_map(|(&k, rate)| Some((k, (*rate)?)))
         .collect();
-    if steady.len() <= TRAINING_FLANKS {
+    if steady.len() <= PUPILS {
         return steady;
     }
     let mut slowest = steady.clone();
     slowest.sort_by(|a, b| a.1.total_cmp(&b.1));
-    slowest.truncate(TRAINING_FLANKS / 2);
-    let step = steady.len().div_ceil(TRAINING_FLANKS / 2);
+    slowest.truncate(PUPILS / 2);
+    let step = steady.len().div_ceil(PUPILS / 2);
     slowest.extend(steady.iter().step_by(step));
-    slowest.sort_by_key(|flank| flank.0);
-    slowest.dedup_by_key(|flank| flank.0);
+    slowest.sort_by_key(|pupil| pupil.0);
+    slowest.dedup_by_key(|pupil| pupil.0);
     slowest
 }
 
@@ -312,16 +312,11 @@ fn surprise(square: f64, gross: f64) -> f64 {
 }
 
 /// The mean shape of passages, slow ones first of all: they show it in full.
-fn learn(
-    samples: &[f64],
-    found: &[Passing],
-    training: &[(usize, f64)],
-    scale: f64,
-) -> Option<Shape> {
-    let fastest = training.iter().map(|p| p.1).fold(1e-9, f64::max);
+fn learn(samples: &[f64], found: &[Passing], pupils: &[(usize, f64)], scale: f64) -> Option<Shape> {
+    let fastest = pupils.iter().map(|p| p.1).fold(1e-9, f64::max);
     let mut sums = [(0.0, 0.0); CELLS + 1];
     let mut seen = Vec::new();
-    for &(k, rate) in training {
+    for &(k, rate) in pupils {
         let passing = &found[k];
         let weight = (fastest / rate).powi(4).min(1e4);
         let window = window(samples, passing.place, rate);
@@ -339,7 +334,7 @@ fn learn(
             }
         }
     }
-    if training.len() < FEWEST || sums.iter().any(|s| s.0 < 0.5) {
+    if pupils.len() < FEWEST || sums.iter().any(|s| s.0 < 0.5) {
         return None;
     }
     let mut heights: [f64; CELLS + 1] = std::array::from_fn(|k| sums[k].1 / sums[k].0);

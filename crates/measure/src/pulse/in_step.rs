@@ -76,7 +76,7 @@ impl Pulses {
         &self,
         first: usize,
         together: usize,
-        also_sampled: bool,
+        also_met: bool,
         interval: f64,
         kept: &[bool],
     ) -> Vec<usize> {
@@ -84,8 +84,8 @@ impl Pulses {
             let next = (k + 1).min(kept.len() - 1).max(1);
             (self.times[next] - self.times[next - 1]) / interval
         };
-        let sampled_on_flank = |k: usize| also_sampled && step(k) < SHORT;
-        let shares = |k: usize| self.uncertainties[k] > HIDES * interval || sampled_on_flank(k);
+        let met = |k: usize| also_met && step(k) < SHORT;
+        let shares = |k: usize| self.uncertainties[k] > HIDES * interval || met(k);
         let hides = |k: usize| kept[k] && shares(k);
         let mut row = vec![first];
         if !hides(first) {
@@ -147,8 +147,8 @@ mod tests {
             flank: Flank::Rising,
             watched: (0.0, times[count - 1]),
             sample_interval: Some(interval),
+            unseen: 0.0,
             unwatched: Vec::new(),
-            uneven: None,
             notes: Vec::new(),
             times,
         };

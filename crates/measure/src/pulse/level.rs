@@ -1,5 +1,6 @@
 //! The two levels of a pulse signal, from the signal itself.
 
+use super::envelope::Envelope;
 use super::{Refusal, median, quantile};
 
 /// Where a signal is high or low, over the samples.
@@ -12,6 +13,8 @@ pub(super) struct Levels {
     pub span: f64,
     /// Standard deviation of the noise of a sample.
     pub noise: f64,
+    /// Height of pulses before they were evened, where they were.
+    envelope: Option<Envelope>,
 }
 
 impl Levels {
@@ -23,6 +26,39 @@ impl Levels {
         let right = (left + 1).min(last);
         let part = (place - left as f64).clamp(0.0, 1.0);
         self.middle[left] * (1.0 - part) + self.middle[right] * part
+    }
+
+    /// Levels given by the user.
+    pub fn fixed(low: f64, high: f64, samples: &[f64]) -> Levels {
+        Levels {
+            block: samples.len().max(1),
+            middle: vec![0.5 * (low + high)],
+            span: high - low,
+            noise: noise(samples),
+            envelope: None,
+        }
+    }
+
+    /// Those of a signal that was evened, whose noise was as given.
+    pub fn evened(noise: f64, envelope: Envelope) -> Levels {
+        Levels {
+            block: usize::MAX,
+            middle: vec![0.0],
+            span: 1.0,
+            noise,
+            envelope: Some(envelope),
+        }
+    }
+
+    /// The height of pulses before they were evened, where they were.
+    pub fn envelope(&self) -> Option<&Envelope> {
+        self.envelope.as_ref()
+    }
+
+    /// Standard deviation of the noise of a sample.
+    pub fn noise_at(&self, sample: usize) -> f64 {
+        let height = self.envelope.as_ref().map_or(1.0, |e| e.at(sample).1);
+        self.noise / height
     }
 
     /// Finds levels block by block: a block that holds both levels tells its own, the others take their neighbours'.
@@ -63,6 +99,7 @@ impl Levels {
             middle: fill(extremes.len(), &known),
             span,
             noise,
+            envelope: None,
         })
     }
 }

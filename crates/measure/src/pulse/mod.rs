@@ -7,25 +7,33 @@
 //! | step | what it does | what it says when it cannot |
 //! |---|---|---|
 //! | [`edges`] | levels, threshold and hysteresis from the signal itself, crossing times between samples | no two levels in the signal |
-//! | [`number`] | counts marks: gaps are filled in the count as far as it is sure ([`Gap`]), doubled pulses are left out, each with a note | times that do not increase, pulses without two levels or not equally high |
+//! | [`number`] | counts marks: gaps are filled in the count as far as it is sure ([`Gap`]), doubled pulses are left out, each with a note | times that do not increase |
 //! | [`calibrate`] | angular error of every mark, from revolutions whose speed changes evenly | fewer than two even revolutions |
+//! | [`period`] | number of pulses after which the pattern of intervals repeats | no pattern above the noise |
+//! | [`check_marks`] | compares it with the marks that were stated | they differ, or why nothing can be told |
 //!
 //! **What it does not model**: an error of the wheel that changes with time or speed (loose discs, a lateral vibration of
-//! the shaft seen by one pickup); speed ripple locked to the revolution looks like errors of the marks and is taken for them.
+//! the shaft seen by one pickup); speed ripple locked to the revolution cannot be told from mark errors and is taken for such.
 
 mod edge;
+mod envelope;
 mod flank;
 mod gap;
 mod in_step;
 mod level;
+mod marks;
+mod period;
 mod pitch;
+mod shape;
 mod spike;
 mod train;
 
 use std::fmt;
 
-pub use edge::edges;
+pub use edge::{EdgeSettings, edges};
 pub use gap::Gap;
+pub use marks::{Marks, check_marks};
+pub use period::period;
 pub use pitch::{Pitch, calibrate};
 pub use train::{Pulses, Wheel, number};
 
@@ -57,10 +65,11 @@ pub struct Edges {
     pub watched: (f64, f64),
     /// Interval of the samples that the instants were found in, s; none where they were stamped.
     pub sample_interval: Option<f64>,
+    /// Height of the first pulse at which the noise would have hidden it, as a part of that height, where the height grows with
+    /// the speed; 0 where it does not.
+    pub unseen: f64,
     /// Intervals within that in which there is no signal, s, in order.
     pub unwatched: Vec<(f64, f64)>,
-    /// Why marks may be missing among them, so that [`number`] refuses: pulses without two levels, or not equally high.
-    pub uneven: Option<Refusal>,
     /// What was found wrong, and what was done about it.
     pub notes: Vec<String>,
 }
@@ -95,8 +104,8 @@ impl Edges {
             flank: Flank::Rising,
             watched: (watched.0.min(first), watched.1.max(last)),
             sample_interval: None,
+            unseen: 0.0,
             unwatched: Vec::new(),
-            uneven: None,
             notes: Vec::new(),
         })
     }

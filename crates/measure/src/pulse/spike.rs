@@ -10,7 +10,7 @@
 //!
 //! **Does not model**: spikes beside pulses that are narrow themselves; what they do to the count is seen there ([`super::number`]).
 
-use super::edge::Crossing;
+use super::edge::Flip;
 
 /// How many times as wide as a spike the pulses beside it are.
 const TIMES: usize = 4;
@@ -33,10 +33,10 @@ enum Beside {
 }
 
 /// The changes of level without those of spikes; how many spikes there were, and the sample of the first one.
-pub(super) fn without(crossings: Vec<Crossing>) -> (Vec<Crossing>, Option<(usize, usize)>) {
+pub(super) fn without(flips: Vec<Flip>) -> (Vec<Flip>, Option<(usize, usize)>) {
     // Width of what begins with a change of level; none where it does not end with one.
     let width = |k: usize| {
-        let (begin, end) = (crossings.get(k)?, crossings.get(k + 1)?);
+        let (begin, end) = (flips.get(k)?, flips.get(k + 1)?);
         (begin.rises != end.rises).then(|| end.sample - begin.sample)
     };
     let beside = |k: usize, own: usize, ahead: bool| {
@@ -60,7 +60,7 @@ pub(super) fn without(crossings: Vec<Crossing>) -> (Vec<Crossing>, Option<(usize
             sides.contains(&Beside::Wide) && !sides.contains(&Beside::Narrow)
         })
     };
-    let narrow: Vec<usize> = (0..crossings.len()).filter(|&k| spike(k)).collect();
+    let narrow: Vec<usize> = (0..flips.len()).filter(|&k| spike(k)).collect();
     // What a spike cuts off is narrow too: of two side by side the narrower one is the spike.
     let cut_off = |k: usize| {
         let narrower = |other: usize| {
@@ -69,19 +69,17 @@ pub(super) fn without(crossings: Vec<Crossing>) -> (Vec<Crossing>, Option<(usize
         k > 0 && narrower(k - 1) || narrower(k + 1)
     };
     let spikes: Vec<usize> = narrow.iter().copied().filter(|&k| !cut_off(k)).collect();
-    let most = (SELDOM * crossings.len() as f64 / 2.0) as usize;
+    let most = (SELDOM * flips.len() as f64 / 2.0) as usize;
     let Some(&first) = spikes.first().filter(|_| spikes.len() <= most.max(FEW)) else {
-        return (crossings, None);
+        return (flips, None);
     };
-    let (count, sample) = (spikes.len(), crossings[first].sample);
+    let (count, sample) = (spikes.len(), flips[first].sample);
     let of_spike = |k: usize| {
         let begins = |k: usize| spikes.binary_search(&k).is_ok();
         begins(k) || k > 0 && begins(k - 1)
     };
-    let kept = crossings.into_iter().enumerate();
-    let kept = kept
-        .filter(|(k, _)| !of_spike(*k))
-        .map(|(_, crossing)| crossing);
+    let kept = flips.into_iter().enumerate();
+    let kept = kept.filter(|(k, _)| !of_spike(*k)).map(|(_, flip)| flip);
     (kept.collect(), Some((count, sample)))
 }
 
@@ -89,20 +87,16 @@ pub(super) fn without(crossings: Vec<Crossing>) -> (Vec<Crossing>, Option<(usize
 mod tests {
     use super::*;
 
-    fn crossings_at(samples: &[usize]) -> Vec<Crossing> {
-        let crossing = |(k, &sample): (usize, &usize)| Crossing {
+    fn flips(samples: &[usize]) -> Vec<Flip> {
+        let flip = |(k, &sample): (usize, &usize)| Flip {
             sample,
             rises: k % 2 == 0,
         };
-        samples.iter().enumerate().map(crossing).collect()
+        samples.iter().enumerate().map(flip).collect()
     }
 
     fn left(samples: &[usize]) -> Vec<usize> {
-        without(crossings_at(samples))
-            .0
-            .iter()
-            .map(|f| f.sample)
-            .collect()
+        without(flips(samples)).0.iter().map(|f| f.sample).collect()
     }
 
     /// Marks so far apart, in samples, with pulses half as wide.

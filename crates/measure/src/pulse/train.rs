@@ -31,6 +31,8 @@ pub struct Pulses {
     pub sample_interval: Option<f64>,
     /// Intervals in which the pickup was silent though the shaft turned, in order.
     pub gaps: Vec<Gap>,
+    /// As [`Edges::unseen`].
+    pub unseen: f64,
     /// Pulses that were left out or had to be assumed, as a part of all.
     pub repaired: f64,
     /// What was found wrong, and what was done about it.
@@ -82,9 +84,6 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
             ),
             "at least one mark per revolution",
         ));
-    }
-    if let Some(why) = &edges.uneven {
-        return Err(why.clone());
     }
     if edges.times.len() != edges.uncertainties.len() || edges.times.len() != edges.rises.len() {
         return Err(Refusal::new(
@@ -146,7 +145,7 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
     let kept = without_last(without_broken(kept, edges, wheel), edges);
     let mut steps = steps(&kept, &edges.times);
     let silent = silent(&kept, edges, &mut steps, wheel);
-    notes.extend(silent.iter().map(silence));
+    notes.extend(silent.iter().map(told));
     let mut count = 0i64;
     let mut counts = vec![0i64];
     let (mut lost, mut repairs, mut first_lost) = (0usize, 0usize, None);
@@ -170,6 +169,13 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
     if let Some(time) = first_lost {
         notes.push(format!(
             "{lost} pulses missing, the first after {time:.6} s: counted as if they had come"
+        ));
+    }
+    if edges.unseen > HIDDEN {
+        notes.push(format!(
+            "the first pulse, at {:.6} s, is only {:.1} times as high as what the noise hides: marks may have passed unseen before it",
+            edges.times[kept[0]],
+            edges.unseen.recip()
         ));
     }
     let repaired = (repairs + extra.len()) as f64 / edges.times.len().max(1) as f64;
@@ -205,10 +211,14 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
         watched: edges.watched,
         sample_interval: edges.sample_interval,
         gaps,
+        unseen: edges.unseen,
         repaired,
         notes,
     })
 }
+
+/// Height at which the noise hides a pulse over that of the first one, from which on it is told.
+const HIDDEN: f64 = 0.3;
 
 /// Edges without those that split an interval; and those left out.
 fn without_doubles(main: &[usize], times: &[f64]) -> (Vec<usize>, Vec<usize>) {
@@ -470,15 +480,15 @@ fn silent(kept: &[usize], edges: &Edges, steps: &mut [i64], wheel: &Wheel) -> Ve
 }
 
 /// A gap in words.
-fn silence(gap: &Gap) -> String {
+fn told(gap: &Gap) -> String {
     let Gap { from, to, .. } = gap;
     let passed = gap.positions - 1;
     match gap.sure {
         true => format!(
-            "the pickup is silent from {from:.6} s to {to:.6} s: {passed} marks missed; speeds in between follow from both sides"
+            "the pickup is silent from {from:.6} s to {to:.6} s: {passed} marks passed unseen, and what is told in between follows from both sides"
         ),
         false => format!(
-            "the pickup is silent from {from:.6} s to {to:.6} s: about {passed} marks missed, count uncertain; do not compare angles across this gap"
+            "the pickup is silent from {from:.6} s to {to:.6} s: about {passed} marks passed unseen, how many is not sure; angles before and after do not join"
         ),
     }
 }

@@ -5,7 +5,7 @@
 //! deviation of t_e: δ;  of Ω: Ω̇ δ (1 - x);  of Ω̇: j δ (1 - x);   x = (t - t_e)/(t_1 - t_e) before the first mark t_1
 //! ```
 //! A clutch whose torque rises must first overcome what brakes the creeping shaft. Marks come later, from a motion that looks
-//! as if it had begun later. Where the same record shows the shaft come to rest, its last deceleration says how much: the
+//! as if it had begun later. Where the same record shows the shaft come to rest, its last deceleration tells how much: the
 //! rising acceleration j makes up for it within Ω̇_stop/j, and the engagement is anywhere within that time.
 //!
 //! **Does not model**: a brake at rest that is larger than that of the creeping shaft.
@@ -46,14 +46,23 @@ impl Breakaway {
         })
     }
 
-    /// The motion at an instant with the deviations of speed and acceleration that the pulses cannot show.
+    /// Deviations of angle, speed and acceleration at an instant, s, that the pulses do not tell of, given the acceleration.
+    pub fn hidden(&self, time: f64, acceleration: impl FnOnce() -> f64) -> [f64; 3] {
+        let left = (self.first - time) / (self.first - self.engagement);
+        if time <= self.engagement - self.deviation || left <= 0.0 {
+            return [0.0; 3];
+        }
+        let hidden = self.deviation * left.min(1.0);
+        let gained = acceleration().abs().max(self.slope * hidden);
+        [0.0, gained * hidden, self.slope * hidden]
+    }
+
+    /// The motion at an instant with what is hidden of it.
     pub fn applied(&self, mut motion: Motion) -> Motion {
-        let left = (self.first - motion.time) / (self.first - self.engagement);
-        if motion.time > self.engagement - self.deviation && left > 0.0 {
-            let hidden = self.deviation * left.min(1.0);
-            let gained = motion.acceleration.abs().max(self.slope * hidden);
-            motion.covariance[1][1] += (gained * hidden).powi(2);
-            motion.covariance[2][2] += (self.slope * hidden).powi(2);
+        let acceleration = motion.acceleration;
+        let hidden = self.hidden(motion.time, || acceleration);
+        for (i, deviation) in hidden.into_iter().enumerate() {
+            motion.covariance[i][i] += deviation * deviation;
         }
         motion
     }

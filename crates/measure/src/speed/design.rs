@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::matrix::Memory;
-use super::plan::{Data, Knot, Knots, Noise, Plan};
+use super::plan::{Data, Knot, Lively, Noise, Plan};
 use super::track::{Track, mixed};
 use crate::pulse::Pulses;
 
@@ -24,7 +24,7 @@ pub(super) fn offered(least: f64) -> Option<usize> {
 /// `change`: speed reached, rad/s; `duration`: time in which it is reached, s; `timing`: standard uncertainty of an instant,
 /// s; `wanted`: relative uncertainty. None where not even 2048 marks are enough, or an argument is not positive.
 ///
-/// From the smoother itself, for a bell-shaped acceleration `(1 - cos 2πt/T)/2` and exactly known mark angles; it
+/// The smoother itself is asked, for a bell-shaped acceleration `(1 - cos 2πt/T)/2` and exactly known mark angles; it
 /// promises no more than that. Enough pulses for a band come within the change of an acceleration that rises evenly too, in
 /// which the shaft turns by a third of what it would at the speed reached.
 pub fn marks_needed(change: f64, duration: f64, timing: f64, wanted: f64) -> Option<usize> {
@@ -84,6 +84,7 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
         watched: (-duration, times[n - 1]),
         sample_interval: None,
         gaps: Vec::new(),
+        unseen: 0.0,
         repaired: 0.0,
         notes: Vec::new(),
         times,
@@ -115,11 +116,11 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
                 memory,
             },
             quiet: [1e-9 * change * data.unit; 3],
-            knots: Some(Knots {
+            lively: Some(Lively {
                 engage,
                 lock: data.units(duration) + late * length,
                 change: change * data.unit,
-                transient_density: (3.0 * peak / length).powi(2) / length,
+                density: (3.0 * peak / length).powi(2) / length,
                 head: None,
                 start: Knot::Kink,
                 stop: Knot::Soft,

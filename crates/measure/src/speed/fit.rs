@@ -1,20 +1,20 @@
-//! Noises and densities from the pulses themselves, and a first guess of a quick change.
+//! Noises and densities from the pulses themselves, and a quick change at first sight.
 
 use super::Transient;
 use super::matrix::Memory;
-use super::plan::{Data, LocalDensity, Noise, Passage, Plan};
-use crate::simplex::lowest;
+use super::plan::{Data, Livelier, Noise, Passage, Plan};
+use super::search::smallest;
 
 /// Passages in one stretch of a quiet part whose likelihood is taken.
 pub(super) const STRETCH: usize = 80;
 
-/// Part of the change of speed that lies before its end. What follows may settle with a snap as large as that of the change
-/// itself; without this the change would end where it first calms down, with too few pulses to find its density from.
+/// Part of the change of speed that lies before its end. What follows may settle as lively as the change itself was; without
+/// this the change would end where it first calms down, and too few pulses would tell how lively it is.
 const MOST: f64 = 0.85;
 
-/// A first guess of a quick change.
+/// A lively part as it looks at first sight.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FirstGuess {
+pub(super) struct Sight {
     pub engage: f64,
     pub lock: f64,
     /// When most of the change has come: the end is not before.
@@ -31,7 +31,7 @@ pub(super) struct FirstGuess {
 }
 
 /// Looks for the steepest rise of speed.
-pub(super) fn first_guess(data: &Data, wanted: &Transient) -> Option<FirstGuess> {
+pub(super) fn sight(data: &Data, wanted: &Transient) -> Option<Sight> {
     let all = &data.passages;
     let n = all.len();
     let (from, to) = match *wanted {
@@ -99,7 +99,7 @@ pub(super) fn first_guess(data: &Data, wanted: &Transient) -> Option<FirstGuess>
     }
     let first = all.partition_point(|p| p.time <= engage);
     let after = all.partition_point(|p| p.time < lock);
-    Some(FirstGuess {
+    Some(Sight {
         engage,
         lock,
         most: all[from + most].time.min(lock),
@@ -111,7 +111,7 @@ pub(super) fn first_guess(data: &Data, wanted: &Transient) -> Option<FirstGuess>
     })
 }
 
-/// Noise of a rough speed, as a part of it, that a first guess bears: a quarter of what it looks for.
+/// Noise of a rough speed, as a part of it, that first sight bears: a quarter of what it looks at.
 const CLEAR: f64 = 0.01;
 /// Most intervals that a rough speed is taken over; a quick change has hardly more.
 const BLURRED: usize = 7;
@@ -203,7 +203,7 @@ pub(super) fn quiet(data: &Data, range: std::ops::Range<usize>) -> (Noise, f64) 
         let plan = Plan {
             noise: noise(x),
             quiet: [x[3].exp(); 3],
-            knots: None,
+            lively: None,
             settled: 0.0,
             rests: false,
         };
@@ -218,17 +218,17 @@ pub(super) fn quiet(data: &Data, range: std::ops::Range<usize>) -> (Noise, f64) 
         0.5 * belief - fit
     };
     // A density that changes the speed by a thousandth over a hundred intervals, to begin with.
-    let (best, _) = lowest(
+    let (best, _) = smallest(
         [0.0, -0.5, 1.5, (1e-12 * speed * speed).ln()],
         [0.5, 1.0, 1.0, 4.0],
-        0.1,
         160,
+        0.1,
         cost,
     );
     (noise(&best), best[3].exp())
 }
 
-/// Density of a long quiet part with noise that is known: neighbouring pulses show quick changes, far ones slow changes.
+/// Density of a long quiet part with noise that is known: neighbouring pulses tell quick changes, far ones slow changes.
 pub(super) fn calm(data: &Data, range: std::ops::Range<usize>, noise: Noise, first: f64) -> f64 {
     let sparse = |step: usize| -> Vec<Passage> {
         let count = (range.len() / step).min(STRETCH);
@@ -257,7 +257,7 @@ pub(super) fn calm(data: &Data, range: std::ops::Range<usize>, noise: Noise, fir
         let plan = Plan {
             noise,
             quiet: [x[0].exp(); 3],
-            knots: None,
+            lively: None,
             settled: 0.0,
             rests: false,
         };
@@ -266,10 +266,10 @@ pub(super) fn calm(data: &Data, range: std::ops::Range<usize>, noise: Noise, fir
             .map(|set| plan.likelihood_of(data, set))
             .sum::<f64>()
     };
-    lowest([first.ln()], [-3.0], 0.1, 25, cost).0[0].exp()
+    smallest([first.ln()], [-3.0], 25, 0.1, cost).0[0].exp()
 }
 
-/// Density of the stretch in which a quick change settles, with noise that is known.
+/// Density of the stretch in which a lively part settles, with noise that is known.
 pub(super) fn settling(
     data: &Data,
     range: std::ops::Range<usize>,
@@ -280,29 +280,29 @@ pub(super) fn settling(
         let plan = Plan {
             noise,
             quiet: [quiet * x[0].exp(); 3],
-            knots: None,
+            lively: None,
             settled: 0.0,
             rests: false,
         };
         -plan.likelihood(data, range.clone())
     };
-    let start = lowest([0.0], [4.0], 0.05, 12, cost).0;
-    quiet * lowest(start, [2.0], 0.05, 16, cost).0[0].max(0.0).exp()
+    let start = smallest([0.0], [4.0], 12, 0.05, cost).0;
+    quiet * smallest(start, [2.0], 16, 0.05, cost).0[0].max(0.0).exp()
 }
 
-/// Gain of the logarithm of the likelihood from which a stretch has a density of its own: of a
+/// Gain of the logarithm of the likelihood from which a stretch counts as livelier than its part of the record: of a
 /// hundred stretches that are not, one gains so much by chance.
 const NOTABLE: f64 = 4.0;
 
-/// Stretches behind the quick change, or anywhere where there is none, with a larger density than the part of the record they lie
+/// Stretches behind the quick change, or anywhere where there is none, that are livelier than the part of the record they lie
 /// in: a clutch that lets go, a brake, the corner at which a slow ramp ends, the last turns before a stop.
 ///
 /// Windows of 80 marks, of every fourth, every sixteenth and so on: what is quick shows in short ones, what is weak in long
 /// ones. They overlap by half, so that nothing happens between two of them; a part has the largest density of its windows.
-pub(super) fn local_densities(data: &Data, plan: &Plan) -> Vec<LocalDensity> {
+pub(super) fn livelier(data: &Data, plan: &Plan) -> Vec<Livelier> {
     const PART: usize = STRETCH / 2;
     const LONGER: usize = 4;
-    let quiet_from = plan.knots.map_or(f64::NEG_INFINITY, |knots| knots.lock);
+    let quiet_from = plan.lively.map_or(f64::NEG_INFINITY, |lively| lively.lock);
     let first = data.passages.partition_point(|p| p.time <= quiet_from);
     let all = &data.passages[first..];
     let mut densities = vec![0.0f64; all.len().div_ceil(PART)];
@@ -327,7 +327,7 @@ pub(super) fn local_densities(data: &Data, plan: &Plan) -> Vec<LocalDensity> {
     };
     (densities.iter().enumerate())
         .filter(|(_, density)| **density > 0.0)
-        .map(|(k, density)| LocalDensity {
+        .map(|(k, density)| Livelier {
             from: part(k).0,
             to: part(k).1,
             density: *density,
@@ -340,7 +340,7 @@ fn own_density(data: &Data, plan: &Plan, window: &[Passage], usual: f64) -> Opti
     let cost = |x: &[f64; 1]| {
         let alone = Plan {
             quiet: [x[0].exp(); 3],
-            knots: None,
+            lively: None,
             settled: 0.0,
             rests: false,
             ..*plan
@@ -353,5 +353,5 @@ fn own_density(data: &Data, plan: &Plan, window: &[Passage], usual: f64) -> Opti
         .into_iter()
         .fold((usual, here), |a, b| if b.1 < a.1 { b } else { a });
     let notable = here - best.1 > NOTABLE;
-    notable.then(|| lowest([best.0], [1.5], 0.1, 14, cost).0[0].exp())
+    notable.then(|| smallest([best.0], [1.5], 14, 0.1, cost).0[0].exp())
 }

@@ -1,11 +1,32 @@
 //! Vectors and matrices of angle, speed, acceleration, jerk, and the error of the clock.
 #![allow(clippy::needless_range_loop)] // rows and columns by number read like the formula
 
-use crate::state_space;
-
 pub(super) const N: usize = 5;
-pub(super) type Vector = state_space::Vector<N>;
-pub(super) type Matrix = state_space::Matrix<N>;
+pub(super) type Vector = [f64; N];
+pub(super) type Matrix = [[f64; N]; N];
+
+#[inline]
+pub(super) fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    let mut c = [[0.0; N]; N];
+    for (from, to) in a.iter().zip(&mut c) {
+        let mut row = [0.0; N];
+        for (x, other) in from.iter().zip(b) {
+            for (sum, y) in row.iter_mut().zip(other) {
+                *sum += x * y;
+            }
+        }
+        *to = row;
+    }
+    c
+}
+
+pub(super) fn transposed(a: &Matrix) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
+}
+
+pub(super) fn apply(a: &Matrix, x: &Vector) -> Vector {
+    std::array::from_fn(|i| (0..N).map(|j| a[i][j] * x[j]).sum())
+}
 
 pub(super) fn plus(a: &Matrix, b: &Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + b[i][j]))
@@ -150,4 +171,20 @@ pub(super) fn taken_back(g: &mut Vector, c: &mut Matrix, dt: f64, memory: &Memor
             c[j][i] = mean;
         }
     }
+}
+
+/// Lower triangle `l` with `l lᵀ = p` of a matrix that may be singular.
+pub(super) fn root(p: &Matrix) -> Matrix {
+    let mut l = [[0.0; N]; N];
+    for j in 0..N {
+        let pivot = p[j][j] - (0..j).map(|k| l[j][k] * l[j][k]).sum::<f64>();
+        if pivot <= 1e-14 * p[j][j].abs() {
+            continue;
+        }
+        l[j][j] = pivot.sqrt();
+        for i in j + 1..N {
+            l[i][j] = (p[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>()) / l[j][j];
+        }
+    }
+    l
 }

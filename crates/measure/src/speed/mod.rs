@@ -1,11 +1,11 @@
 //! Angle, speed and acceleration of a shaft from the pulses of its wheel.
 //!
 //! ```text
-//! pulses ─▶ quiet parts: noise and density by likelihood ─▶ knots: engagement and end, by likelihood
+//! pulses ─▶ quiet parts: noise and liveliness by likelihood ─▶ knots: engagement and end, by likelihood
 //!        ─▶ filter and smoother, averaged over what the likelihood leaves open ─▶ state and covariance at any instant
 //! ```
-//! The motion is a cubic of time whose snap is white noise: a spline of the seventh degree through the pulses, whose
-//! stiffness is chosen by maximum likelihood. A quick change of speed (a clutch that engages) has its own density between two knots,
+//! The motion is a cubic of time whose snap is white noise: a spline of the seventh degree through the pulses, as stiff as
+//! the pulses themselves ask for. A quick change of speed (a clutch that engages) has its own liveliness between two knots,
 //! at which acceleration and jerk may jump. From rest the speed is zero until the engagement, the angle is anywhere
 //! between two marks, and what jumps first drives the shaft forward. How softly a clutch began before its first marks is
 //! open: starts without a jump, with one of the jerk and with one of the acceleration are all carried along, and the
@@ -20,6 +20,7 @@ mod breakaway;
 mod bridge;
 mod design;
 mod fit;
+mod lively;
 mod matrix;
 mod node;
 mod plan;
@@ -28,7 +29,6 @@ mod smoothness;
 mod stiffest;
 mod stop;
 mod track;
-mod transient;
 
 use crate::pulse::{Gap, Pitch, Pulses, Refusal};
 use breakaway::Breakaway;
@@ -53,7 +53,7 @@ pub enum Transient {
     None,
 }
 
-/// How pulses are smoothed.
+/// What is asked of the pulses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpeedSettings {
     /// Where a quick change of speed is looked for.
@@ -61,10 +61,12 @@ pub struct SpeedSettings {
     /// Largest uncertainty of the acceleration in the quick change, root mean square over it, as a part of the peak;
     /// pulses that cannot carry it are refused. None: take what there is.
     pub wanted: Option<f64>,
+    /// How long the quick change lasts, s, where it is known: tells how many marks are needed when there are too few.
+    pub duration: Option<f64>,
     /// Standard uncertainty of a delay that all pulses have in common (pickup, filter), s. Pulses cannot show it.
     pub latency: f64,
     /// Standard uncertainty (root mean square) of an acceleration ripple once per revolution while the wheel was calibrated,
-    /// rad/s²: unbalance under gravity, a belt. It looks like an eccentric wheel. Without effect where no
+    /// rad/s²: unbalance under gravity, a belt. It cannot be told from an eccentric wheel. Without effect where no
     /// calibration is used.
     pub ripple: f64,
 }
@@ -75,6 +77,7 @@ impl Default for SpeedSettings {
         SpeedSettings {
             transient: Transient::Auto,
             wanted: None,
+            duration: None,
             latency: 0.0,
             ripple: 0.0,
         }
@@ -117,6 +120,8 @@ pub struct Change {
     pub end: Option<(f64, f64)>,
     /// Whether the shaft rested before.
     pub from_rest: bool,
+    /// Probability that the acceleration jumps at the engagement, rather than its slope only.
+    pub jump: f64,
     /// Pulses between engagement and end.
     pub pulses: usize,
 }
@@ -147,6 +152,8 @@ pub struct Speed {
     pub change: Option<Change>,
     /// Factor on the stated uncertainty of the instants that the pulses themselves ask for.
     pub timing_factor: f64,
+    /// Standard deviation of the angle of a mark that does not depend on speed, rad.
+    pub angle_noise: f64,
     /// What was found, and what should not be trusted.
     pub notes: Vec<String>,
 }
@@ -154,7 +161,7 @@ pub struct Speed {
 /// Pulses before a quick change that show how the shaft turned before it.
 const QUIET_BEFORE: usize = 12;
 
-/// Part of the pulses that are in step with the sampling from which on a note says so.
+/// Part of the pulses that are in step with the sampling from which on it is told.
 const IN_STEP: f64 = 0.4;
 
 /// Fewest pulses that are smoothed at all.
@@ -219,19 +226,19 @@ pub fn smooth(
     let n = pulses.times.len();
     let mut data = Data::new(pulses, pitch);
     data.share(shared);
-    let guess = fit::first_guess(&data, &settings.transient);
-    if let Some(guess) = &guess {
-        seen(pulses, &data, guess)?;
-        enough(&data, guess, settings)?;
+    let sight = fit::sight(&data, &settings.transient);
+    if let Some(sight) = &sight {
+        seen(pulses, &data, sight)?;
+        enough(&data, sight, settings)?;
     }
     let mut notes = pulses.notes.clone();
     if (all - n) as f64 > IN_STEP * all as f64 {
         notes.push(format!(
-            "{} of {all} pulses are left out: a mark takes a whole number of samples there, so that their errors are one error; use another sampling rate or another number of marks",
+            "{} of {all} pulses are left out: a mark takes a whole number of samples there, so that their errors are one error; another sampling rate, or another number of marks, would tell more",
             all - n
         ));
     }
-    let quiet_from = guess.map_or(0, |s| s.after.min(n));
+    let quiet_from = sight.map_or(0, |s| s.after.min(n));
     let (noise, density) = if n - quiet_from >= 12 {
         fit::quiet(&data, (quiet_from + (n - quiet_from) / 20).min(n)..n)
     } else {
@@ -243,23 +250,23 @@ pub fn smooth(
     let mut base = Plan {
         noise,
         quiet: [density; 3],
-        knots: None,
+        lively: None,
         settled: 0.0,
         rests: false,
     };
-    if let Some(guess) = &guess
-        && !guess.rests
-        && guess.first >= QUIET_BEFORE
+    if let Some(sight) = &sight
+        && !sight.rests
+        && sight.first >= QUIET_BEFORE
     {
-        base.quiet[0] = fit::quiet(&data, 0..guess.first).1;
+        base.quiet[0] = fit::quiet(&data, 0..sight.first).1;
     }
     // From here on nothing of a quick change is left.
     let mut calm_from = 0;
-    if let Some(guess) = &guess {
-        base.settled = guess.lock + 2.0 * (guess.lock - guess.engage);
+    if let Some(sight) = &sight {
+        base.settled = sight.lock + 2.0 * (sight.lock - sight.engage);
         calm_from = data.passages.partition_point(|p| p.time <= base.settled);
-        if calm_from >= guess.after + 8 {
-            let range = guess.after..calm_from.min(guess.after + 200);
+        if calm_from >= sight.after + 8 {
+            let range = sight.after..calm_from.min(sight.after + 200);
             base.quiet[1] = fit::settling(&data, range, noise, density);
         }
     }
@@ -293,13 +300,14 @@ pub fn smooth(
         }),
         change: None,
         timing_factor: noise.timing,
+        angle_noise: noise.angle,
         notes,
     };
-    if let Some(guess) = &guess {
-        let (plans, range) = transient::plans(&data, guess, &base);
+    if let Some(sight) = &sight {
+        let (plans, range) = lively::lively(&data, sight, &base);
         let Some((best, _)) = plans.first() else {
             return Err(Refusal::new(
-                "the start and the end of the quick change cannot be found".into(),
+                "the start and the end of the quick change cannot be told".into(),
                 "the window of one change of speed, with even running after it",
             ));
         };
@@ -316,20 +324,20 @@ pub fn smooth(
             .iter()
             .map(|(plan, weight)| (*weight, track(&smoothness::stiffer(plan))))
             .collect();
-        let begin = if guess.rests {
+        let begin = if sight.rests {
             f64::NEG_INFINITY
         } else {
             data.passages[range.start].time
         };
         let margin = if range.end < n { 5 } else { 1 };
         speed.window = (begin, data.passages[range.end - margin].time);
-        speed.smoothness = best.knots.map(|knots| {
-            let to = knots.lock.min(speed.window.1);
-            Smoothness::of(&speed.parts, &stiffer, (knots.engage, to))
+        speed.smoothness = best.lively.map(|lively| {
+            let to = lively.lock.min(speed.window.1);
+            Smoothness::of(&speed.parts, &stiffer, (lively.engage, to))
         });
-        speed.change = Some(summary(&data, guess, &plans));
+        speed.change = Some(summary(&data, sight, &plans));
     }
-    data.local_densities = fit::local_densities(&data, &base);
+    data.livelier = fit::livelier(&data, &base);
     let (nodes, start) = base.nodes(&data, 0..n);
     speed.base = Track::new(nodes, start, base.quiet[2], noise.memory);
     if !(speed.base.is_finite() && speed.parts.iter().all(|(_, track)| track.is_finite())) {
@@ -351,14 +359,14 @@ pub fn smooth(
         change.engagement.1 = change.engagement.1.hypot(breakaway.deviation);
     }
     let open = speed.change.map(|change| since_rest(&speed, &change));
-    if let (Some(change), Some(guess), Some(open)) = (&mut speed.change, &guess, open)
+    if let (Some(change), Some(sight), Some(open)) = (&mut speed.change, &sight, open)
         && !change.from_rest
-        && guess.first < QUIET_BEFORE
+        && sight.first < QUIET_BEFORE
     {
         change.engagement.1 = change.engagement.1.hypot(open);
         speed.notes.push(format!(
-            "the speed changes quickly from mark {} of the record on: the change may have begun before, so that its start is unknown; needed: a record that begins at rest, or some turns earlier",
-            guess.first + 1
+            "the speed changes quickly from mark {} of the record on: the change may have begun before, and when it began is not told; needed: a record that begins at rest, or some turns earlier",
+            sight.first + 1
         ));
     }
     if let Some(change) = speed.change {
@@ -399,7 +407,7 @@ const FEWEST_LOOKED_AT: usize = 4;
 /// Fewest pulses within a quick change whose answer is given.
 ///
 /// A change from rest has five unknowns at least: the angle at which it begins and the time, the acceleration and its slope,
-/// the end. Angle and speed behind it are known. What is left of n pulses, n - 3, gives the density of the change, and with it
+/// the end. Angle and speed behind it are known. What is left of n pulses, n - 3, tells how lively the change is, and with it
 /// the band: of a deviation from ν degrees of freedom a band of two holds nine tenths from ν = 5 on (Student: 0.898), which
 /// are eight pulses. `tests/few_marks.rs` shows that it does.
 const FEWEST_WITHIN: usize = 8;
@@ -423,15 +431,15 @@ fn fell_silent(pulses: &Pulses, speed: &Speed) -> Option<String> {
     let silent = pulses.watched.1 - last;
     (silent * rate > STUCK).then(|| {
         format!(
-            "no mark came after {last:.4} s, for {silent:.4} s, though the shaft turned at {:.1} rad/s: the pickup is stuck, its pulses sank into the noise, or the shaft stopped at once; the motion behind does not follow from the pulses",
+            "no mark came after {last:.4} s, for {silent:.4} s, though the shaft turned at {:.1} rad/s: the pickup is stuck, its pulses sank into the noise, or the shaft stopped at once; what is told behind does not follow from the pulses",
             rate * pulses.pitch()
         )
     })
 }
 
 /// Refuses a quick change in which the pickup was silent.
-fn seen(pulses: &Pulses, data: &Data, guess: &fit::FirstGuess) -> Result<(), Refusal> {
-    let (from, to) = (data.seconds(guess.engage), data.seconds(guess.lock));
+fn seen(pulses: &Pulses, data: &Data, sight: &fit::Sight) -> Result<(), Refusal> {
+    let (from, to) = (data.seconds(sight.engage), data.seconds(sight.lock));
     let within = |gap: &&Gap| gap.from < to && gap.to > from;
     match pulses.gaps.iter().find(within) {
         Some(gap) => Err(Refusal::new(
@@ -446,26 +454,37 @@ fn seen(pulses: &Pulses, data: &Data, guess: &fit::FirstGuess) -> Result<(), Ref
 }
 
 /// Refuses a quick change with too few pulses to see anything of it.
-fn enough(data: &Data, guess: &fit::FirstGuess, settings: &SpeedSettings) -> Result<(), Refusal> {
-    let within = guess.after.saturating_sub(guess.first);
+fn enough(data: &Data, sight: &fit::Sight, settings: &SpeedSettings) -> Result<(), Refusal> {
+    let within = sight.after.saturating_sub(sight.first);
     if within >= FEWEST_LOOKED_AT {
         return Ok(());
     }
-    let change = guess.change / data.unit;
+    let change = sight.change / data.unit;
     // The change is over before the angle between two marks has passed at the new speed twice.
-    let duration = (2.0 * data.pitch / change).max((guess.lock - guess.engage) * data.unit);
+    let longest = (2.0 * data.pitch / change).max((sight.lock - sight.engage) * data.unit);
+    let duration = settings.duration.filter(|d| *d > 0.0).unwrap_or(longest);
     let wanted = settings.wanted.unwrap_or(0.1);
     let mut spreads: Vec<f64> = data.passages.iter().map(|p| p.spread * data.unit).collect();
     let timing = crate::pulse::median(&mut spreads);
     let marks = marks_needed(change, duration, timing, wanted);
+    let least = if settings.duration.is_some() {
+        ""
+    } else {
+        " or less"
+    };
     Err(Refusal::new(
         format!(
-            "the speed changes by {change:.1} rad/s in {:.1} ms or less, in which {within} pulses came",
+            "the speed changes by {change:.1} rad/s in {:.1} ms{least}, in which {within} pulses came",
             1e3 * duration
         ),
         match marks {
             Some(marks) => format!(
-                "at least {marks} marks per revolution for an acceleration within {:.0} % of its peak (there are {:.0})",
+                "{}{marks} marks per revolution for an acceleration within {:.0} % of its peak (there are {:.0})",
+                if settings.duration.is_some() {
+                    ""
+                } else {
+                    "at least "
+                },
                 100.0 * wanted,
                 std::f64::consts::TAU / data.pitch
             ),
@@ -474,7 +493,7 @@ fn enough(data: &Data, guess: &fit::FirstGuess, settings: &SpeedSettings) -> Res
     ))
 }
 
-/// Refuses a quick change with too few pulses for a band.
+/// Refuses a quick change with too few pulses to tell its band.
 fn carried(
     speed: &Speed,
     change: &Change,
@@ -500,8 +519,8 @@ fn carried(
     };
     Err(Refusal::new(
         format!(
-            "the speed changes by {jump:.1} rad/s in {:.1} ms, in which {} pulses came: too few for an acceleration with a \
-             band",
+            "the speed changes by {jump:.1} rad/s in {:.1} ms, in which {} pulses came: too few to tell how it changes, and how \
+             well that is known",
             1e3 * (to - from),
             change.pulses
         ),
@@ -538,12 +557,12 @@ fn stated(pulses: &Pulses) -> f64 {
 }
 
 /// Instants of the knots from the plans that are left.
-fn summary(data: &Data, guess: &fit::FirstGuess, plans: &[(Plan, f64)]) -> Change {
-    let moments = |value: &dyn Fn(&plan::Knots) -> f64| {
+fn summary(data: &Data, sight: &fit::Sight, plans: &[(Plan, f64)]) -> Change {
+    let moments = |value: &dyn Fn(&plan::Lively) -> f64| {
         let known = || {
             plans
                 .iter()
-                .filter_map(|(plan, weight)| plan.knots.as_ref().map(|l| (value(l), *weight)))
+                .filter_map(|(plan, weight)| plan.lively.as_ref().map(|l| (value(l), *weight)))
         };
         let mean: f64 = known().map(|(x, w)| w * x).sum();
         let variance: f64 = known().map(|(x, w)| w * (x - mean).powi(2)).sum();
@@ -551,19 +570,23 @@ fn summary(data: &Data, guess: &fit::FirstGuess, plans: &[(Plan, f64)]) -> Chang
     };
     let (engage, engage_spread) = moments(&|l| l.engage);
     let (lock, lock_spread) = moments(&|l| l.lock);
-    // Where a start has a lag, nothing that came after the first marks shows what came before them.
+    // Where a start has a lag, what came before the first marks is told by nothing that came after them.
     let next = data.passages.partition_point(|p| p.time <= engage);
     let hidden = match data.passages.get(next + 1) {
-        Some(second) if guess.rests => 0.5 * (second.time - engage),
+        Some(second) if sight.rests => 0.5 * (second.time - engage),
         _ => 0.0,
     } * moments(&|l| f64::from(u8::from(l.head.is_some()))).0;
     let engage_spread = engage_spread.hypot(hidden);
+    let jump = moments(&|l| f64::from(u8::from(l.start == plan::Knot::Jump)))
+        .0
+        .clamp(0.0, 1.0);
     Change {
         engagement: (data.seconds(engage), engage_spread * data.unit),
-        end: guess
+        end: sight
             .ends
             .then_some((data.seconds(lock), lock_spread * data.unit)),
-        from_rest: guess.rests,
+        from_rest: sight.rests,
+        jump,
         pulses: data
             .passages
             .iter()

@@ -5,7 +5,7 @@ use super::plan::moving;
 
 /// A mark that passes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Passed {
+pub(super) struct Sight {
     pub angle: f64,
     /// Variance of the angle.
     pub variance: f64,
@@ -13,7 +13,7 @@ pub(super) struct Passed {
     pub speed: f64,
 }
 
-impl Passed {
+impl Sight {
     /// A column of a matrix as the pulse sees it: of the angle, plus the speed times that of the clock.
     pub(super) fn seen(&self, matrix: &Matrix) -> Vector {
         std::array::from_fn(|i| matrix[i][0] + self.speed * matrix[i][4])
@@ -32,10 +32,10 @@ pub(super) struct Node {
     /// Density of the snap in the interval before it.
     pub density: f64,
     /// Where a mark passes.
-    pub pulse: Option<Passed>,
+    pub pulse: Option<Sight>,
     /// Variance added to each state, before the pulse.
     pub added: Option<[f64; 4]>,
-    /// A motion that begins anew, before the pulse: it does not depend on what was before.
+    /// A motion that begins anew, before the pulse: what was before tells nothing of it.
     pub fresh: Option<Fresh>,
 }
 

@@ -1,7 +1,7 @@
 //! From pulses to the nodes of a track: noises, densities, knots.
 
 use super::matrix::{Memory, N};
-use super::node::{Belief, Fresh, Node, Passed};
+use super::node::{Belief, Fresh, Node, Sight};
 use super::track::{Pass, forward};
 use crate::pulse::{Pitch, Pulses};
 
@@ -36,13 +36,16 @@ pub(super) struct Data {
     pub calibrated: bool,
     /// Instants of the first passages behind a silence of the pickup; nothing is carried over to them.
     pub fresh: Vec<f64>,
-    /// Stretches with a larger density than the part of the record they lie in, side by side and in order.
-    pub local_densities: Vec<LocalDensity>,
+    /// Stretches that are livelier than the part of the record they lie in, side by side and in order.
+    pub livelier: Vec<Livelier>,
 }
+
+/// Largest part of the first pulse that is taken for hidden: the angle before it is 20 pitches then.
+const MOST_UNSEEN: f64 = 0.966;
 
 /// A stretch with a density of its own.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LocalDensity {
+pub(super) struct Livelier {
     pub from: f64,
     pub to: f64,
     pub density: f64,
@@ -105,7 +108,10 @@ impl Data {
         let previous = (pulses.position(0) + pulses.positions - 1) % pulses.positions;
         let ahead = pitch.filter(|_| joined.contains(&0));
         let ahead = ahead.and_then(|p| p.errors.get(previous)).unwrap_or(&0.0);
-        let before = (nominal + first - ahead).max(0.1 * nominal);
+        // Pulses that grow with the speed show no mark before a part u of that at the first one. Where the torque rises evenly
+        // the angle goes with the speed's power of 3/2: θ_unseen = u^1.5 (θ_unseen + pitch).
+        let hidden = pulses.unseen.clamp(0.0, MOST_UNSEEN).powf(1.5);
+        let before = (nominal + first - ahead).max(0.1 * nominal) / (1.0 - hidden);
         Data {
             passages,
             origin,
@@ -120,7 +126,7 @@ impl Data {
             fresh: (pulses.gaps.iter())
                 .map(|gap| (pulses.times[gap.pulse] - origin) / unit)
                 .collect(),
-            local_densities: Vec::new(),
+            livelier: Vec::new(),
         }
     }
 
@@ -131,13 +137,11 @@ impl Data {
         }
     }
 
-    /// Density of the stretch of its own that an instant lies in; 0 where there is none.
-    fn local_density_at(&self, time: f64) -> f64 {
-        let next = self
-            .local_densities
-            .partition_point(|stretch| stretch.to < time);
+    /// Density of the livelier stretch that an instant lies in; 0 where there is none.
+    fn livelier_at(&self, time: f64) -> f64 {
+        let next = self.livelier.partition_point(|stretch| stretch.to < time);
         let stretch = self
-            .local_densities
+            .livelier
             .get(next)
             .filter(|stretch| stretch.from <= time);
         stretch.map_or(0.0, |stretch| stretch.density)
@@ -183,7 +187,7 @@ impl Noise {
 /// What may jump at an instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Knot {
-    /// Nothing: only the density changes.
+    /// Nothing: only the liveliness changes.
     Soft,
     /// The jerk.
     Kink,
@@ -191,9 +195,9 @@ pub(super) enum Knot {
     Jump,
 }
 
-/// Two knots with a density of their own between them.
+/// Two knots with a lively motion between them.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Knots {
+pub(super) struct Lively {
     /// Engagement.
     pub engage: f64,
     /// End, where there is one.
@@ -201,8 +205,8 @@ pub(super) struct Knots {
     /// Change of speed between, in units.
     pub change: f64,
     /// Density of the snap between.
-    pub transient_density: f64,
-    /// A start with a larger density, where it has one.
+    pub density: f64,
+    /// A start that is livelier, where it is.
     pub head: Option<Head>,
     /// What may jump at the engagement.
     pub start: Knot,
@@ -210,7 +214,7 @@ pub(super) struct Knots {
     pub stop: Knot,
 }
 
-impl Knots {
+impl Lively {
     /// Variance that a knot adds to acceleration and jerk. Its size is that of a change of speed `change` within the length:
     /// an even acceleration jumps by its mean, one that rises or falls evenly has the jerk of twice the mean over the length.
     /// It does not follow the density: a clutch whose torque rises evenly is as quiet between its knots as it is loud at
@@ -226,7 +230,7 @@ impl Knots {
         }
     }
 
-    /// The same for the engagement: a start with a larger density than the whole change may reach the mean acceleration before the
+    /// The same for the engagement: a start that is livelier than the whole change may reach the mean acceleration before the
     /// first mark.
     fn started(&self) -> [f64; 4] {
         let mut added = self.added(self.start);
@@ -241,16 +245,16 @@ impl Knots {
     /// Density between the knots.
     fn density_at(&self, time: f64) -> f64 {
         let Some(head) = &self.head else {
-            return self.transient_density;
+            return self.density;
         };
         let acceleration = self.change / (self.lock - self.engage);
         let since = (time - self.engage).max(head.first);
-        self.transient_density
+        self.density
             .max(head.share * acceleration * acceleration / since.powi(3))
     }
 }
 
-/// A start with a larger density than the whole change, the more the shorter ago it was: after a time τ the acceleration a of
+/// A start that is livelier than the whole change, the more the shorter ago it was: after a time τ the acceleration a of
 /// the change wanders by the root of `share` while that time passes once more, which is a snap of the density
 /// `share a²/τ³`.
 #[derive(Clone, Copy, Debug)]
@@ -267,9 +271,9 @@ const STEEPEST: f64 = 4.0;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plan {
     pub noise: Noise,
-    /// Densities before the quick change, while it settles, and after that; the same where there is none.
+    /// Densities before the lively part, while it settles, and after that; the same where there is none.
     pub quiet: [f64; 3],
-    pub knots: Option<Knots>,
+    pub lively: Option<Lively>,
     /// When it has settled.
     pub settled: f64,
     /// Whether the shaft rests before the engagement.
@@ -279,9 +283,9 @@ pub(super) struct Plan {
 impl Plan {
     /// Density of the part of the record that an instant lies in.
     pub fn density(&self, time: f64) -> f64 {
-        match &self.knots {
-            Some(knots) if time > knots.engage && time <= knots.lock => knots.density_at(time),
-            Some(knots) if time <= knots.engage => self.quiet[0],
+        match &self.lively {
+            Some(lively) if time > lively.engage && time <= lively.lock => lively.density_at(time),
+            Some(lively) if time <= lively.engage => self.quiet[0],
             Some(_) if time <= self.settled => self.quiet[1],
             _ => self.quiet[2],
         }
@@ -294,30 +298,29 @@ impl Plan {
 
     fn nodes_of(&self, data: &Data, passages: &[Passage]) -> (Vec<Node>, Belief) {
         let mut nodes = Vec::with_capacity(passages.len() + 2);
-        let mut additions: Vec<(f64, Option<[f64; 4]>)> = Vec::new();
+        let mut knots: Vec<(f64, Option<[f64; 4]>)> = Vec::new();
         let first = passages[0];
         let mut start = moving(first.angle, first.speed, data.pitch);
         let clock = self.noise.memory.spread * self.noise.memory.spread;
-        if let Some(knots) = &self.knots {
-            if self.rests && knots.engage <= first.time {
-                start = resting(data, knots);
-                additions.push((knots.engage, None));
-            } else if knots.engage > first.time {
-                additions.push((knots.engage, Some(knots.started())));
+        if let Some(lively) = &self.lively {
+            if self.rests && lively.engage <= first.time {
+                start = resting(data, lively);
+                knots.push((lively.engage, None));
+            } else if lively.engage > first.time {
+                knots.push((lively.engage, Some(lively.started())));
             }
-            if knots.lock > first.time {
-                additions.push((knots.lock, Some(knots.added(knots.stop))));
+            if lively.lock > first.time {
+                knots.push((lively.lock, Some(lively.added(lively.stop))));
             }
         }
         start.covariance[4][4] = clock;
-        let density = |time: f64| self.density(time).max(data.local_density_at(time));
-        let mut additions = additions.into_iter().peekable();
+        let density = |time: f64| self.density(time).max(data.livelier_at(time));
+        let mut knots = knots.into_iter().peekable();
         let mut gaps = data.fresh.partition_point(|&time| time <= first.time);
         for passage in passages {
             let passed = data.fresh[gaps..].partition_point(|&time| time <= passage.time);
             gaps += passed;
-            while let Some((time, added)) = additions.next_if(|addition| addition.0 <= passage.time)
-            {
+            while let Some((time, added)) = knots.next_if(|knot| knot.0 <= passage.time) {
                 nodes.push(Node {
                     time,
                     density: density(time),
@@ -329,7 +332,7 @@ impl Plan {
             nodes.push(Node {
                 time: passage.time,
                 density: density(passage.time),
-                pulse: Some(Passed {
+                pulse: Some(Sight {
                     angle: passage.angle,
                     variance: self.noise.variance(passage),
                     speed: passage.speed,
@@ -367,7 +370,7 @@ impl Plan {
 
     /// The state that leads a motion from rest, where one does: what jumps first cannot turn the shaft back.
     fn leading(&self) -> Option<usize> {
-        match self.knots.filter(|_| self.rests)?.start {
+        match self.lively.filter(|_| self.rests)?.start {
             Knot::Soft => None,
             Knot::Kink => Some(3),
             Knot::Jump => Some(2),
@@ -401,8 +404,8 @@ pub(super) fn moving(angle: f64, speed: f64, pitch: f64) -> Belief {
 }
 
 /// Belief at the engagement from rest: no speed, an angle anywhere before the first mark.
-fn resting(data: &Data, knots: &Knots) -> Belief {
-    let added = knots.started();
+fn resting(data: &Data, lively: &Lively) -> Belief {
+    let added = lively.started();
     let mut covariance = [[0.0; N]; N];
     covariance[0][0] = data.before * data.before / 12.0;
     covariance[2][2] = added[2];

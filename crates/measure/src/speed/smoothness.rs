@@ -58,9 +58,9 @@ struct Compared {
 pub(super) fn stiffer(plan: &Plan) -> Plan {
     let mut plan = *plan;
     plan.quiet = plan.quiet.map(|density| density / STIFFER);
-    if let Some(knots) = &mut plan.knots {
-        knots.transient_density /= STIFFER;
-        if let Some(head) = &mut knots.head {
+    if let Some(lively) = &mut plan.lively {
+        lively.density /= STIFFER;
+        if let Some(head) = &mut lively.head {
             head.share /= STIFFER;
         }
     }
@@ -142,7 +142,7 @@ fn compared(tracks: &[(f64, Track)], stiffer: &[(f64, Track)], time: f64) -> [Co
 #[cfg(test)]
 mod tests {
     use super::super::matrix::{Memory, N};
-    use super::super::node::{Node, Passed};
+    use super::super::node::{Node, Sight};
     use super::*;
 
     /// Integral of a function over u from 0 to infinity, by the rule of trapezia over ln u.
@@ -161,7 +161,7 @@ mod tests {
         let node = |k: i32| Node {
             time: f64::from(k),
             density,
-            pulse: Some(Passed {
+            pulse: Some(Sight {
                 angle: 0.0,
                 variance,
                 speed: 0.0,

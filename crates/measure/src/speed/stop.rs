@@ -56,8 +56,31 @@ impl Stop {
         -self.last.acceleration
     }
 
-    /// The motion at an instant, s, given what the pulses alone say of it: what is unknown at the last mark fades as the shaft
-    /// comes to rest, but for the angle.
+    /// The instant that an instant's motion follows from, s: the last mark behind it; and how much is left of what was open
+    /// there of angle, speed and acceleration. It fades as the shaft comes to rest, but for the angle.
+    pub fn source(&self, time: f64) -> (f64, [f64; 3]) {
+        if time <= self.last.time {
+            return (time, [1.0; 3]);
+        }
+        let left = 1.0 - ((time - self.last.time) / self.length).min(1.0);
+        (self.last.time, [1.0, left, left])
+    }
+
+    /// Deviations of angle, speed and acceleration at an instant, s, that the pulses do not tell of.
+    pub fn hidden(&self, time: f64) -> [f64; 3] {
+        if time <= self.before {
+            return [0.0; 3];
+        }
+        let y = (time - self.before) / (self.last.time + self.length - self.before);
+        let behind = (1.0 - y).exp();
+        [
+            0.0,
+            self.last.speed / 12f64.sqrt() * (y * y).min(behind),
+            0.5 * self.last.acceleration.abs() * y.min(behind),
+        ]
+    }
+
+    /// The motion at an instant, s, given what the pulses alone say of it.
     pub fn applied(&self, mut motion: Motion) -> Motion {
         let since_last = motion.time - self.last.time;
         if motion.time <= self.before {
@@ -74,15 +97,16 @@ impl Stop {
             } else {
                 0.0
             };
-            let fades = [1.0, left, left];
-            motion.covariance = std::array::from_fn(|i| {
-                std::array::from_fn(|j| self.last.covariance[i][j] * fades[i] * fades[j])
-            });
+            let (_, fades) = self.source(motion.time);
+            for (i, fade) in fades.into_iter().enumerate() {
+                for (j, other) in fades.into_iter().enumerate() {
+                    motion.covariance[i][j] = self.last.covariance[i][j] * fade * other;
+                }
+            }
         }
-        let y = (motion.time - self.before) / (self.last.time + self.length - self.before);
-        let behind = (1.0 - y).exp();
-        motion.covariance[1][1] += (self.last.speed * (y * y).min(behind)).powi(2) / 12.0;
-        motion.covariance[2][2] += (0.5 * self.last.acceleration * y.min(behind)).powi(2);
+        for (i, deviation) in self.hidden(motion.time).into_iter().enumerate() {
+            motion.covariance[i][i] += deviation * deviation;
+        }
         motion
     }
 }

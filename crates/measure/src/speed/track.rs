@@ -4,7 +4,7 @@
 //! state  x = [angle, speed, acceleration, jerk, e]   white noise of the density q in the snap
 //! e      error of the instants with a memory: first-order Markov process
 //! pulse  z = angle + speed e + noise of variance r
-//! knot   variance added to any state at an instant: what it was before says less, or nothing, of what it is after
+//! knot   variance added to any state at an instant: what it was before tells less, or nothing, of what it is after
 //! ```
 //! Forward: a Kalman filter. Backward: the adjoint recursion of Bryson and Frazier, which inverts no matrix, so that a
 //! start from rest with exactly known speed, and intervals of any length, do no harm.
@@ -13,10 +13,10 @@
 #![allow(clippy::needless_range_loop)] // rows and columns by number read like the formula
 
 use super::matrix::{
-    Matrix, Memory, N, Vector, advance, carry, drift, gathered, minus, plus, taken_back,
+    Matrix, Memory, N, Vector, advance, apply, carry, drift, gathered, minus, plus, product, root,
+    taken_back, transposed,
 };
 use super::node::{Belief, Node};
-use crate::state_space::{applied, product, transposed};
 
 /// A filtered and smoothed record.
 #[derive(Clone, Debug)]
@@ -29,6 +29,7 @@ pub(super) struct Track {
     /// Adjoint just before each node: gradient and curvature of the misfit of all that follows.
     gradient: Vec<Vector>,
     curvature: Vec<Matrix>,
+    updates: Vec<Update>,
     /// Density after the last node.
     density: f64,
     memory: Memory,
@@ -43,7 +44,7 @@ pub(super) struct Update {
     stiffness: f64,
 }
 
-/// What a pass forward says of the start.
+/// What a pass forward tells of the start.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
     /// Logarithm of the likelihood, up to a constant.
@@ -143,7 +144,7 @@ impl Track {
                     stiffness,
                 } = updates[k];
                 let along = (0..N).map(|i| gain[i] * g[i]).sum::<f64>();
-                let across: Vector = applied(&c, &gain);
+                let across: Vector = apply(&c, &gain);
                 let twice = (0..N).map(|i| gain[i] * across[i]).sum::<f64>();
                 for (i, lever) in [(0, 1.0), (4, pulse.speed)] {
                     g[i] -= lever * (pull + along);
@@ -173,6 +174,7 @@ impl Track {
             filtered,
             gradient,
             curvature,
+            updates,
             density,
             memory,
         }
@@ -247,7 +249,7 @@ impl Track {
         let path = self.back(time - begin);
         let spread = product(&path, &product(&first.covariance, &transposed(&path)));
         Belief {
-            mean: applied(&path, &first.mean),
+            mean: apply(&path, &first.mean),
             covariance: plus(&spread, &self.lost(begin - time)),
         }
     }
@@ -293,7 +295,7 @@ impl Track {
 
     /// Belief at an instant not before the first node.
     ///
-    /// Among the first pulses what was open and what they say nearly cancel: there the motion is no better known than behind them.
+    /// Among the first pulses what was open and what they tell nearly cancel: there the motion is no better known than behind them.
     fn within(&self, time: f64) -> Belief {
         let mut belief = self.smoothed(time);
         if let Some(settled) = self.settled(time) {
@@ -308,12 +310,148 @@ impl Track {
     fn smoothed(&self, time: f64) -> Belief {
         let (belief, gradient, curvature) = self.around(time);
         let p = &belief.covariance;
-        let shift = applied(p, &gradient);
+        let shift = apply(p, &gradient);
         let shrink = product(p, &product(&curvature, p));
         Belief {
             mean: std::array::from_fn(|i| belief.mean[i] - shift[i]),
             covariance: minus(p, &shrink),
         }
+    }
+
+    /// Covariance of the states at two instants, the first one not after the second, from all pulses.
+    pub fn between(&self, first: f64, second: f64) -> Matrix {
+        let begin = self.begin();
+        if first >= begin {
+            return self.between_within(first, second);
+        }
+        if self.rests() {
+            // The angle at rest is the one at the start.
+            let both = self.between_within(begin, second.max(begin));
+            return std::array::from_fn(|i| {
+                std::array::from_fn(|j| {
+                    let moves = i == 0 && (j == 0 || second >= begin);
+                    if moves { both[i][j] } else { 0.0 }
+                })
+            });
+        }
+        if second < begin {
+            return product(&self.back(first - second), &self.at(second).covariance);
+        }
+        product(
+            &self.back(first - begin),
+            &self.between_within(begin, second),
+        )
+    }
+
+    /// The same for instants not before the first node.
+    fn between_within(&self, first: f64, second: f64) -> Matrix {
+        let (from, _, _) = self.around(first);
+        let (to, _, curvature) = self.around(second);
+        // How an error at the first instant is carried through forecasts and updates to the second.
+        let mut carried = drift(0.0, &self.memory);
+        let mut time = first;
+        let mut k = self.times.partition_point(|&t| t <= first);
+        while k < self.nodes.len() && self.nodes[k].time <= second {
+            carried = product(&drift(self.nodes[k].time - time, &self.memory), &carried);
+            time = self.nodes[k].time;
+            if self.nodes[k].fresh.is_some() {
+                carried = [[0.0; N]; N];
+            }
+            if let Some(pulse) = &self.nodes[k].pulse {
+                let gain = self.updates[k].gain;
+                let row: Vector =
+                    std::array::from_fn(|j| carried[0][j] + pulse.speed * carried[4][j]);
+                for i in 0..N {
+                    for j in 0..N {
+                        carried[i][j] -= gain[i] * row[j];
+                    }
+                }
+            }
+            k += 1;
+        }
+        carried = product(&drift(second - time, &self.memory), &carried);
+        let ahead = product(&from.covariance, &transposed(&carried));
+        let seen = product(&curvature, &to.covariance);
+        minus(&ahead, &product(&ahead, &seen))
+    }
+
+    /// A path drawn at random from the belief, at increasing instants.
+    ///
+    /// A motion and its pulses are made up from the model and smoothed like the measured ones; their error is added to the
+    /// smoothed measurement. Source: Durbin and Koopman, Biometrika 89, 2002 (from memory).
+    pub fn draw(&self, times: &[f64], normal: &mut dyn FnMut() -> f64) -> Vec<Vector> {
+        let mut shake = |p: &Matrix| -> Vector {
+            let noise: Vector = std::array::from_fn(|_| normal());
+            apply(&root(p), &noise)
+        };
+        let moved = shake(&self.start.covariance);
+        let mut x: Vector = std::array::from_fn(|i| self.start.mean[i] + moved[i]);
+        let mut made = self.nodes.clone();
+        let mut time = self.begin();
+        let (early, late) = times.split_at(times.partition_point(|t| *t < time));
+        let mut path = vec![[0.0; N]; early.len()];
+        let (mut later, mut before) = (x, time);
+        for (state, &t) in path.iter_mut().zip(early).rev() {
+            if self.rests() {
+                state[0] = x[0];
+                continue;
+            }
+            let noise = shake(&self.lost(before - t));
+            let free = apply(&self.back(t - before), &later);
+            *state = std::array::from_fn(|i| free[i] + noise[i]);
+            (later, before) = (*state, t);
+        }
+        let step =
+            |x: &mut Vector, dt: f64, density: f64, shake: &mut dyn FnMut(&Matrix) -> Vector| {
+                if dt > 0.0 {
+                    let noise = shake(&gathered(dt, density, &self.memory));
+                    let free = apply(&drift(dt, &self.memory), x);
+                    *x = std::array::from_fn(|i| free[i] + noise[i]);
+                }
+            };
+        let mut wanted = late.iter().peekable();
+        for node in &mut made {
+            while let Some(&&t) = wanted.peek()
+                && t < node.time
+            {
+                step(&mut x, t - time, node.density, &mut shake);
+                time = time.max(t);
+                path.push(x);
+                wanted.next();
+            }
+            step(&mut x, node.time - time, node.density, &mut shake);
+            time = node.time;
+            if let Some(added) = node.added {
+                let noise = shake(&std::array::from_fn(|i| {
+                    std::array::from_fn(|j| if i == j && i < 4 { added[i] } else { 0.0 })
+                }));
+                x = std::array::from_fn(|i| x[i] + noise[i]);
+            }
+            if let Some(fresh) = &node.fresh {
+                let belief = fresh.belief(&self.memory);
+                let noise = shake(&belief.covariance);
+                x = std::array::from_fn(|i| belief.mean[i] + noise[i]);
+            }
+            if let Some(pulse) = &mut node.pulse {
+                let mut only = [[0.0; N]; N];
+                only[0][0] = pulse.variance;
+                pulse.angle = pulse.of(&x) + shake(&only)[0];
+            }
+        }
+        for &t in wanted {
+            step(&mut x, t - time, self.density, &mut shake);
+            time = time.max(t);
+            path.push(x);
+        }
+        let again = Track::new(made, self.start, self.density, self.memory);
+        times
+            .iter()
+            .zip(path)
+            .map(|(&t, made)| {
+                let (measured, estimated) = (self.at(t).mean, again.at(t).mean);
+                std::array::from_fn(|i| measured[i] + made[i] - estimated[i])
+            })
+            .collect()
     }
 }
 
@@ -341,7 +479,7 @@ pub(super) fn mixed(parts: impl Iterator<Item = (f64, Belief)> + Clone) -> Belie
 
 #[cfg(test)]
 mod tests {
-    use super::super::node::Passed;
+    use super::super::node::Sight;
     use super::*;
 
     /// Ten marks of an accelerated start, with noise of the angle.
@@ -353,7 +491,7 @@ mod tests {
                 Node {
                     time,
                     density: 0.05,
-                    pulse: Some(Passed {
+                    pulse: Some(Sight {
                         angle: 0.5 * time * time + error,
                         variance: 1e-4,
                         speed: time,

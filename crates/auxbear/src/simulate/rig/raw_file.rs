@@ -112,9 +112,9 @@ fn signals(
         }
     }
     text.push_str(&format!(
-        "marks_per_revolution = {}\nset_speed = \"{} rad/s\"\n\n\
+        "marks_per_revolution = {}\n\n\
          [signals.torque]\nchannel = \"rig/torque\"\nsensor_frequency = \"{} Hz\"\ndamping_ratio = {}\nscale_deviation = {SCALE_DEVIATION}\nzero_deviation = \"{ZERO_DEVIATION} N m\"\n",
-        rig.pickup.marks, rig.speed, rig.arm.natural_frequency, rig.arm.damping_ratio,
+        rig.pickup.marks, rig.arm.natural_frequency, rig.arm.damping_ratio,
     ));
     if has("rig/ball_pass") {
         text.push_str(&format!(

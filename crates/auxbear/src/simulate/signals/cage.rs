@@ -4,7 +4,7 @@ use super::{Signal, shaft};
 use crate::scenario::{CageKind, CageSignal};
 use measure::cage_speed::{CageSpeed, Line, QuickChange, from_pulses, from_vibration};
 use measure::order::orders;
-use measure::pulse::{Flank, edges};
+use measure::pulse::{EdgeSettings, edges};
 use measure::uncertain::Uncertain;
 
 /// Orders of the shaft that are taken out of a vibration before a line is followed.
@@ -90,8 +90,13 @@ impl Found {
                 from_vibration(first, interval, rest, &turning, &line)
             }
             (Signal::Sampled(series), _) => {
-                let found = edges(series.first, series.interval, &series.values, Flank::Rising)
-                    .map_err(|refusal| refusal.to_string())?;
+                let found = edges(
+                    series.first,
+                    series.interval,
+                    &series.values,
+                    &EdgeSettings::default(),
+                )
+                .map_err(|refusal| refusal.to_string())?;
                 notes.extend(found.notes.iter().cloned());
                 from_pulses(&found.times, &turning, balls, ratio, change)
             }

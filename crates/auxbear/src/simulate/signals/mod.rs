@@ -345,8 +345,12 @@ fn find_until(asked: &Asked, interrupt: &AtomicBool) -> Found {
     if let (Some(signal), Some(wish)) = (&asked.speed, &asked.signals.speed) {
         match going().and_then(|()| shaft::Found::of(signal, wish, watched)) {
             Ok(shaft) => {
-                if let Some(odd) = shaft.odd_marks(wish) {
-                    found.warn("AB1044", "Marks per revolution", &[odd]);
+                if let Some(doubt) = &shaft.doubt {
+                    found.warn(
+                        "AB1044",
+                        "Marks per revolution",
+                        std::slice::from_ref(doubt),
+                    );
                 }
                 found.warn("AB1043", "Speed", &shaft.notes);
                 found.shaft = Some(shaft);

@@ -2,7 +2,10 @@
 
 use super::Signal;
 use crate::scenario::{PickupFlank, PickupKind, SpeedSignal};
-use measure::pulse::{Edges, Flank, Gap, Pitch, Pulses, Wheel, calibrate, edges, number};
+use measure::pulse::{
+    EdgeSettings, Edges, Flank, Gap, Marks, Pitch, Pulses, Wheel, calibrate, check_marks, edges,
+    number,
+};
 use measure::shaft::Shaft;
 use measure::speed::{Motion, Speed, SpeedSettings, Transient, smooth};
 
@@ -12,9 +15,6 @@ const LONGEST_INTERVAL: f64 = 1e-3;
 const SHORTEST_INTERVAL: f64 = 2e-4;
 /// Marks that would have passed behind the last one, had the shaft not stopped.
 pub(in crate::simulate) const SILENT_MARKS: f64 = 2.0;
-/// Part of the set speed by which the largest one may differ: a flywheel gives some per cent of its speed to the shaft, a belt
-/// slips by some, and marks that are counted twice or are half of what is stated are off by a half and more.
-const SET_SPEED: f64 = 0.15;
 /// Intervals of a record at which its largest values are looked for.
 const LOOKS: usize = 4000;
 
@@ -28,6 +28,8 @@ pub(in crate::simulate) struct Found {
     /// Where the largest speed is.
     pub fastest: Motion,
     pub notes: Vec<String>,
+    /// Why the marks per revolution may be wrong.
+    pub doubt: Option<String>,
     first: f64,
     interval: f64,
     angle: Vec<f64>,
@@ -39,18 +41,28 @@ impl Found {
     /// `watched`: time over which another channel was recorded, for instants that tell none of their own.
     pub(super) fn of(
         signal: &Signal,
-        settings: &SpeedSignal,
+        wish: &SpeedSignal,
         watched: Option<(f64, f64)>,
     ) -> Result<Found, String> {
         let words = |refusal: measure::pulse::Refusal| refusal.to_string();
-        let found = passages(signal, settings, watched)?;
+        let found = passages(signal, wish, watched)?;
         let wheel = Wheel {
-            marks: settings.marks_per_revolution,
-            missing: settings.missing_marks,
+            marks: wish.marks_per_revolution,
+            missing: wish.missing_marks,
         };
         let pulses = number(&found, &wheel).map_err(words)?;
+        // A warning, not a refusal: two wheels on one shaft, or a wheel with equal parts, show another number too.
         let mut notes = Vec::new();
-        let pitch = match settings.calibration {
+        let doubt = match check_marks(&pulses) {
+            Marks::Contradicted(why) => Some(words(why)),
+            // One mark or two have no pattern of their own.
+            Marks::Untold(why) if wish.marks_per_revolution > 2 => {
+                notes.push(format!("the number of marks could not be checked: {why}"));
+                None
+            }
+            Marks::Untold(_) | Marks::Shown => None,
+        };
+        let pitch = match wish.calibration {
             true => calibrate(&pulses)
                 .map_err(|why| {
                     notes.push(format!("the errors of the marks are not taken out: {why}"))
@@ -58,19 +70,20 @@ impl Found {
                 .ok(),
             false => None,
         };
-        let smoothing = SpeedSettings {
-            transient: match settings.quick_change {
-                true => match (settings.change_from, settings.change_to) {
+        let settings = SpeedSettings {
+            transient: match wish.quick_change {
+                true => match (wish.change_from, wish.change_to) {
                     (Some(from), Some(to)) => Transient::Within(from, to),
                     _ => Transient::Auto,
                 },
                 false => Transient::None,
             },
-            wanted: settings.wanted,
-            latency: settings.delay_deviation,
-            ripple: settings.ripple,
+            wanted: wish.wanted,
+            latency: wish.delay_deviation,
+            ripple: wish.ripple,
+            ..SpeedSettings::default()
         };
-        let speed = smooth(&pulses, pitch.as_ref(), &smoothing).map_err(words)?;
+        let speed = smooth(&pulses, pitch.as_ref(), &settings).map_err(words)?;
         notes.splice(0..0, speed.notes.iter().cloned());
         if let Some(odd) = pitch.as_ref().and_then(|pitch| pitch.odd) {
             notes.push(format!("mark {odd} from the first one seen is out of line with the others; it is allowed for"));
@@ -116,6 +129,7 @@ impl Found {
             peak,
             fastest,
             notes,
+            doubt,
             first,
             interval,
             angle,
@@ -124,19 +138,6 @@ impl Found {
             pulses,
             pitch,
             speed,
-        })
-    }
-
-    /// Why the marks per revolution may be wrong: the largest speed found is far from the one that was set.
-    pub(super) fn odd_marks(&self, settings: &SpeedSignal) -> Option<String> {
-        let set = settings.set_speed?;
-        let found = self.fastest.speed.abs();
-        let stated = settings.marks_per_revolution as f64;
-        let fits = (stated * found / set).round().max(1.0);
-        ((found / set - 1.0).abs() > SET_SPEED).then(|| {
-            format!(
-                "the largest speed is {found:.2} rad/s and {set:.2} rad/s was set (signals.speed.set_speed): with {fits} marks instead of {stated} they would agree"
-            )
         })
     }
 
@@ -174,19 +175,22 @@ impl Found {
 
 fn passages(
     signal: &Signal,
-    settings: &SpeedSignal,
+    wish: &SpeedSignal,
     watched: Option<(f64, f64)>,
 ) -> Result<Edges, String> {
-    let found = match (signal, settings.kind) {
+    let found = match (signal, wish.kind) {
         (Signal::Sampled(series), PickupKind::Analog { flank }) => edges(
             series.first,
             series.interval,
             &series.values,
-            match flank {
-                PickupFlank::Rising => Flank::Rising,
-                PickupFlank::Falling => Flank::Falling,
-                PickupFlank::Both => Flank::Both,
-                PickupFlank::Centre => Flank::Centre,
+            &EdgeSettings {
+                flank: match flank {
+                    PickupFlank::Rising => Flank::Rising,
+                    PickupFlank::Falling => Flank::Falling,
+                    PickupFlank::Both => Flank::Both,
+                    PickupFlank::Centre => Flank::Centre,
+                },
+                ..EdgeSettings::default()
             },
         ),
         (Signal::Stamped(stamps), PickupKind::Edges { stamp_deviation }) => Edges::stamped(

@@ -1,30 +1,29 @@
-//! Knots and density of a quick change by their likelihood.
+//! Knots and liveliness of a quick change by their likelihood.
 //!
 //! ```text
 //! scan       engagement × density for each interval between marks that the end may lie in
 //! climb      from the best of each a little, from the best of these to the top, for each start and each end
 //! weight     points about each summit, by likelihood and what was expected: what they leave open is averaged over
 //! ```
-//! The likelihood has many summits where marks are few: one for each interval of the end, a late engagement with a large
-//! density beside an early one with a small one. A summit that is missed is a wrong answer with a narrow band.
+//! The likelihood has many summits where marks are few: one for each interval of the end, a late engagement with a lively
+//! motion beside an early one that is silent. A summit that is missed is a wrong answer with a narrow band.
 
-use super::fit::{FirstGuess, STRETCH};
-use super::plan::{Data, Head, Knot, Knots, Passage, Plan};
-use super::search::spread;
-use crate::simplex::lowest;
+use super::fit::{STRETCH, Sight};
+use super::plan::{Data, Head, Knot, Lively, Passage, Plan};
+use super::search::{smallest, spread};
 
-/// Passages beyond the quick change that take part in its fit.
+/// Passages beyond the lively part that take part in its fit.
 const BEYOND: usize = 40;
 
 /// Fall of the logarithm of the likelihood at a width: that of two and a half standard deviations of a normal density.
 const STEEP: f64 = 3.0;
 
-/// Passages that the knots and the density are found from: all near the knots, some between where there are many.
-fn thinned(data: &Data, guess: &FirstGuess, range: std::ops::Range<usize>) -> Vec<Passage> {
+/// Passages that tell the knots and the density: all near the knots, some between where there are many.
+fn thinned(data: &Data, sight: &Sight, range: std::ops::Range<usize>) -> Vec<Passage> {
     const ALL: usize = 24;
     const BETWEEN: usize = 40;
     let inner =
-        (guess.first + ALL).min(guess.after)..guess.after.saturating_sub(ALL).max(guess.first);
+        (sight.first + ALL).min(sight.after)..sight.after.saturating_sub(ALL).max(sight.first);
     let step = inner.len().div_ceil(BETWEEN).max(1);
     range
         .filter(|k| !inner.contains(k) || (k - inner.start) % step == 0)
@@ -33,7 +32,7 @@ fn thinned(data: &Data, guess: &FirstGuess, range: std::ops::Range<usize>) -> Ve
 }
 
 /// Widths of a likelihood about its best along each parameter, from the widest ones: exact pulses leave much less open, and
-/// points that all lie far away would say nothing.
+/// points that all lie far away would tell nothing.
 fn widths(
     best: &[f64; 3],
     value: f64,
@@ -74,22 +73,22 @@ fn expected(density: f64, start: Knot, head: f64) -> f64 {
     start + lag - 0.5 * (density / NEARLY_FREE).powi(2)
 }
 
-/// Ends of a change, as parts of its length behind the first guess, at which the likelihood is looked at, valley by
+/// Ends of a change, as parts of its length behind the one at first sight, at which the likelihood is looked at, valley by
 /// valley.
 ///
 /// A change is seen to end where nearly all of it has come; a torque that rises to the end has still a fiftieth of its way to
 /// go there. Where marks are few, that is seen some marks late, and each interval between two of them is a valley of its own:
 /// an acceleration that jumps is never likely to do so just at a mark.
-fn ends(data: &Data, guess: &FirstGuess, length: f64) -> Vec<Vec<f64>> {
+fn ends(data: &Data, sight: &Sight, length: f64) -> Vec<Vec<f64>> {
     const NEAR: [f64; 3] = [0.0, 0.01, 0.02];
     const EARLIER: usize = 6;
     const INTERVALS: usize = 7;
-    let from = guess.after.saturating_sub(EARLIER);
+    let from = sight.after.saturating_sub(EARLIER);
     let middles = data.passages[from..]
         .windows(2)
-        .map(|pair| (0.5 * (pair[0].time + pair[1].time) - guess.lock) / length)
+        .map(|pair| (0.5 * (pair[0].time + pair[1].time) - sight.lock) / length)
         .take(INTERVALS)
-        .filter(|end| end.abs() > 2.0 * NEAR[1] && guess.lock + end * length > guess.most)
+        .filter(|end| end.abs() > 2.0 * NEAR[1] && sight.lock + end * length > sight.most)
         .map(|end| vec![end]);
     std::iter::once(NEAR.to_vec()).chain(middles).collect()
 }
@@ -98,13 +97,13 @@ fn ends(data: &Data, guess: &FirstGuess, length: f64) -> Vec<Vec<f64>> {
 /// density, and the best one far from it. A clutch that engages softly and one that grips late may both explain the same
 /// marks.
 fn valleys(
-    guess: &FirstGuess,
+    sight: &Sight,
     density: f64,
     ends: &[Vec<f64>],
     cost: impl Fn(&[f64; 3]) -> f64,
 ) -> Vec<[f64; 3]> {
     const DENSITY: [f64; 4] = [1.0, -2.0, -5.0, -9.0];
-    let places: &[f64] = if guess.rests {
+    let places: &[f64] = if sight.rests {
         &[
             -4.5, -3.5, -2.75, -2.25, -1.75, -1.25, -0.75, -0.25, 0.4, 1.1,
         ]
@@ -152,10 +151,10 @@ fn climbed(
     cost: impl Fn(&[f64; 3]) -> f64,
 ) -> ([f64; 3], f64) {
     const AGAIN: usize = 4;
-    let mut best = lowest(point, steps, 0.1, calls, &cost);
+    let mut best = smallest(point, steps, calls, 0.1, &cost);
     for _ in 0..AGAIN {
         let closer = [-1.5 * steps[0], 0.1 * steps[1], 0.1 * steps[2]];
-        let next = lowest(best.0, closer, 0.1, calls / 2, &cost);
+        let next = smallest(best.0, closer, calls / 2, 0.1, &cost);
         let gain = best.1 - next.1;
         if next.1 < best.1 {
             best = next;
@@ -193,7 +192,7 @@ fn thinner(mut parts: Vec<(Plan, f64)>) -> Vec<(Plan, f64)> {
         return parts;
     };
     let sum: f64 = parts.iter().map(|p| p.1).sum();
-    let engage = |plan: &Plan| plan.knots.map_or(0.0, |knots| knots.engage);
+    let engage = |plan: &Plan| plan.lively.map_or(0.0, |lively| lively.engage);
     parts.sort_by(|a, b| engage(&a.0).total_cmp(&engage(&b.0)));
     let mut kept = vec![(best, 0.0)];
     let mut reached = 0.0;
@@ -209,27 +208,27 @@ fn thinner(mut parts: Vec<(Plan, f64)>) -> Vec<(Plan, f64)> {
     kept
 }
 
-/// Whether a change has so many marks that its start may have a larger density than the whole: a motor that follows an even ramp with
+/// Whether a change has so many marks that its start may be livelier than the whole: a motor that follows an even ramp with
 /// a lag.
-pub(super) fn is_long(guess: &FirstGuess) -> bool {
-    guess.after.saturating_sub(guess.first) > 3 * STRETCH
+pub(super) fn is_long(sight: &Sight) -> bool {
+    sight.after.saturating_sub(sight.first) > 3 * STRETCH
 }
 
-/// Plans for the quick change with their weights, the best one first.
-pub(super) fn plans(
+/// Plans for the lively part with their weights, the best one first.
+pub(super) fn lively(
     data: &Data,
-    guess: &FirstGuess,
+    sight: &Sight,
     base: &Plan,
 ) -> (Vec<(Plan, f64)>, std::ops::Range<usize>) {
-    let from = if guess.rests {
+    let from = if sight.rests {
         0
     } else {
-        guess.first.saturating_sub(BEYOND)
+        sight.first.saturating_sub(BEYOND)
     };
-    let to = (guess.after + BEYOND).min(data.passages.len());
+    let to = (sight.after + BEYOND).min(data.passages.len());
     let range = from..to;
-    let length = (guess.lock - guess.engage).max(1.0);
-    let first = data.passages[guess.first.min(data.passages.len() - 1)].time;
+    let length = (sight.lock - sight.engage).max(1.0);
+    let first = data.passages[sight.first.min(data.passages.len() - 1)].time;
     let last = data.passages[data.passages.len() - 1].time;
     // Where nobody watched before the first pulse, the engagement may be some time before it.
     let earliest = if first - data.watched.0 > 1e-9 {
@@ -237,24 +236,24 @@ pub(super) fn plans(
     } else {
         first - 4.0 * length
     };
-    let latest = (guess.lock + length).min(data.passages[to - 1].time);
+    let latest = (sight.lock + length).min(data.passages[to - 1].time);
     let plan = |x: &[f64; 3], (start, stop, head): (Knot, Knot, f64)| -> Option<Plan> {
-        let engage = if guess.rests {
+        let engage = if sight.rests {
             first - length * x[1].exp()
         } else {
-            guess.engage + length * x[1]
+            sight.engage + length * x[1]
         };
-        let lock = guess.lock + length * x[2];
+        let lock = sight.lock + length * x[2];
         let inside = engage >= earliest
-            && lock > first.max(guess.most).max(engage)
-            && (lock < latest || !guess.ends)
+            && lock > first.max(sight.most).max(engage)
+            && (lock < latest || !sight.ends)
             && x[0].abs() < 200.0;
         (inside && x[1].abs() < 20.0 && x[2].abs() < 5.0).then(|| Plan {
-            knots: Some(Knots {
+            lively: Some(Lively {
                 engage,
-                lock: if guess.ends { lock } else { last + length },
-                change: guess.change,
-                transient_density: x[0].exp(),
+                lock: if sight.ends { lock } else { last + length },
+                change: sight.change,
+                density: x[0].exp(),
                 head: (head > 0.0).then_some(Head {
                     share: head,
                     first: first - engage,
@@ -262,13 +261,13 @@ pub(super) fn plans(
                 start,
                 stop,
             }),
-            rests: guess.rests,
+            rests: sight.rests,
             ..*base
         })
     };
-    let some = thinned(data, guess, range.clone());
+    let some = thinned(data, sight, range.clone());
     let mut parts: Vec<(Plan, f64)> = Vec::new();
-    let peak = 2.0 * guess.change / length;
+    let peak = 2.0 * sight.change / length;
     // A bell of this height and length has about this jerk, gathered over its length.
     let density = (3.0 * peak / length).powi(2) / length;
     let cost = |jumps| {
@@ -277,27 +276,27 @@ pub(super) fn plans(
             Some(plan) => {
                 let belief = expected(x[0] - density.ln(), jumps.0, jumps.2);
                 // Any time of the engagement is as likely as any other, not any logarithm of it.
-                let stretched = if guess.rests { x[1] } else { 0.0 };
+                let stretched = if sight.rests { x[1] } else { 0.0 };
                 -plan.likelihood_of(data, some) - belief - stretched
             }
             None => f64::INFINITY,
         }
     };
-    let stops: &[Knot] = if guess.ends {
+    let stops: &[Knot] = if sight.ends {
         &[Knot::Jump, Knot::Kink, Knot::Soft]
     } else {
         &[Knot::Soft]
     };
-    let heads: &[f64] = if is_long(guess) {
+    let heads: &[f64] = if is_long(sight) {
         &[0.0, 1e-3, 1e-2, 1e-1]
     } else {
         &[0.0]
     };
-    let ends = match guess.ends {
-        true => ends(data, guess, length),
+    let ends = match sight.ends {
+        true => ends(data, sight, length),
         false => vec![vec![0.0]],
     };
-    let steps = [2.0, if guess.rests { 0.2 } else { 0.05 }, 0.05];
+    let steps = [2.0, if sight.rests { 0.2 } else { 0.05 }, 0.05];
     let mut bests = Vec::new();
     for (start, head) in [Knot::Soft, Knot::Kink, Knot::Jump]
         .into_iter()
@@ -308,10 +307,10 @@ pub(super) fn plans(
             let cost = cost((start, stop, head));
             let from = |point: &[f64; 3], calls| climbed(*point, steps, calls, cost);
             let tops: Vec<_> = if warm.is_empty() {
-                let points = valleys(guess, density, &ends, cost);
+                let points = valleys(sight, density, &ends, cost);
                 let short: Vec<_> = points
                     .iter()
-                    .map(|point| lowest(*point, steps, 0.1, CLIMB / 4, &cost))
+                    .map(|point| smallest(*point, steps, CLIMB / 4, 0.1, &cost))
                     .collect();
                 let tops = summits(short);
                 tops.iter().map(|top| from(&top.0, CLIMB)).collect()
@@ -334,9 +333,9 @@ pub(super) fn plans(
             continue;
         }
         let cost = cost(jumps);
-        let widest = [2.0, if guess.rests { 0.6 } else { 0.05 }, 0.08];
-        let scale = widths(&best, value, widest, cost);
-        let (points, evidence) = spread(best, scale, 28, cost);
+        let widest = [2.0, if sight.rests { 0.6 } else { 0.05 }, 0.08];
+        let guess = widths(&best, value, widest, cost);
+        let (points, evidence) = spread(best, guess, 28, cost);
         for (x, weight) in points {
             if let Some(plan) = plan(&x, jumps)
                 && weight > 0.0
