@@ -18,6 +18,7 @@ struct Motion {
     acceleration: Vec<f64>,
     engage: f64,
     lock: f64,
+    release: f64,
     stop: f64,
 }
 
@@ -32,6 +33,7 @@ fn motion(engage: f64) -> Motion {
         acceleration: Vec::new(),
         engage,
         lock,
+        release,
         stop: f64::INFINITY,
     };
     for k in 0.. {
