@@ -21,6 +21,11 @@ const MOMENT: &[&str] = &[
     "bearing.moment.law=palmgren",
     "bearing.moment.f0=2",
     "bearing.moment.viscosity=30 mm^2/s",
+    "bearing.moment.f1_factor=0.0007",
+    "bearing.moment.f1_exponent=0.5",
+    "bearing.static_load_rating=6.55 kN",
+    "bearing.drag.orbit=0 N s/m",
+    "bearing.drag.spin=0 N m s",
 ];
 const STIFF: &[&str] = &[
     "bearing.traction.reference_speed=0.001 m/s",
