@@ -97,7 +97,9 @@ impl Program {
         command.current_dir(&self.root);
         let words = ["run", task.scenario, "--quiet", "--threads", "1", "--out"];
         command.args(words).arg(&self.out);
-        command.args(["--repeat", &task.count.to_string()]);
+        if task.count > 1 {
+            command.args(["--repeat", &task.count.to_string()]);
+        }
         for setting in task.settings {
             command.args(["--set", setting]);
         }
