@@ -14,8 +14,8 @@ mod torque;
 use arguments::{Arguments, Command};
 use auxbear::problem::{Code, Problem};
 use auxbear::report::directory;
+use auxbear::run;
 use auxbear::scenario::{BuiltIn, Scenario, SystemName};
-use auxbear::simulate;
 use auxbear::validate::{self, Simulation};
 use clap::Parser;
 use std::path::{Path, PathBuf};
@@ -65,7 +65,7 @@ fn main() -> ExitCode {
 fn measured_quietly() {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
-        if !simulate::panic_is_caught() {
+        if !panic_is_caught() {
             usual(panic);
         }
     }));
@@ -79,7 +79,7 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
         Command::Identify(wish) => return measured::perform(wish, SystemName::Identify),
         Command::Check { file, set } => {
             let scenario = Scenario::read(file, set, &BuiltIn)?;
-            let machine = simulate::build(&scenario)?;
+            let machine = auxbear::run::build(&scenario)?;
             console::print(&scenario.resolved.toml());
             for warning in machine.warnings() {
                 console::tell(&format!("warning[{}]: {}", warning.code, warning.text));

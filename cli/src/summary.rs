@@ -1,7 +1,7 @@
 //! What is printed after a run: where it is, the quantities most looked for, warnings, cost.
 
 use crate::{console, torque};
-use auxbear::simulate::outcome::{Outcome, Quantity, Value};
+use auxbear::result::outcome::{Outcome, Quantity, Value};
 use auxbear::units::number_text;
 use std::path::Path;
 

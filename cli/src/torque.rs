@@ -5,8 +5,8 @@ use crate::summary::four_digits;
 use crate::{Exit, console, run};
 use auxbear::problem::Problem;
 use auxbear::report::directory::free_path;
+use auxbear::result::outcome::{Outcome, Value};
 use auxbear::scenario::{BuiltIn, FORMAT, Scenario};
-use auxbear::simulate::outcome::{Outcome, Value};
 use auxbear::units;
 use std::path::Path;
 

@@ -2,8 +2,8 @@
 //!
 //! No number in it is infinite or not-a-number: such a quantity is `null` with the reason.
 
+use crate::result::outcome::{Contact, Outcome, Quantity, Spread, Value, Warning};
 use crate::scenario::{Provenance, ResolvedValue, Scenario};
-use crate::simulate::outcome::{Contact, Outcome, Quantity, Spread, Value, Warning};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 

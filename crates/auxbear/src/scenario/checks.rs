@@ -1,13 +1,13 @@
 //! Checks between values: each refuses what no simulation could mean.
 
-use super::bearing::{Bearing, Fidelity, Traction};
-use super::moment::{AccelerationLoss, Moment, RatedBearing};
-use super::resolve::Values;
-use super::run::Run;
-use super::system::System;
-use super::torque::Torque;
 use crate::catalogue::geometry::{Geometry, millimetres};
 use crate::problem::{Code, Place, Problem};
+use crate::scenario::bearing::moment::{AccelerationLoss, Moment, RatedBearing};
+use crate::scenario::bearing::{Bearing, Fidelity, Traction};
+use crate::scenario::resolve::Values;
+use crate::scenario::run::Run;
+use crate::scenario::system::System;
+use crate::scenario::torque::Torque;
 use physics::lubricant::LubricantError;
 use physics::traction::FourParameterTraction;
 
@@ -29,10 +29,10 @@ const MOST_CLEARANCE: f64 = 0.1;
 /// Balls that hold a race from all sides.
 const FEWEST_BALLS: usize = 3;
 
-pub(super) type Check = Result<(), Box<Problem>>;
+pub(crate) type Check = Result<(), Box<Problem>>;
 
 /// Refuses values that contradict each other.
-pub(super) fn check(system: &System, values: &Values, file: &str) -> Check {
+pub(crate) fn check(system: &System, values: &Values, file: &str) -> Check {
     let context = Context { values, file };
     match system {
         System::Drop(drop) => context.drop(drop),
@@ -45,7 +45,7 @@ pub(super) fn check(system: &System, values: &Values, file: &str) -> Check {
 }
 
 /// Refuses a law that there is no data for; the rating is that of the bearing.
-pub(super) fn check_law(
+pub(crate) fn check_law(
     moment: &Moment,
     rated: &RatedBearing,
     values: &Values,
@@ -55,13 +55,13 @@ pub(super) fn check_law(
 }
 
 /// What every check needs to tell a problem.
-pub(super) struct Context<'a> {
-    pub(super) values: &'a Values,
+pub(crate) struct Context<'a> {
+    pub(crate) values: &'a Values,
     file: &'a str,
 }
 
 impl Context<'_> {
-    pub(super) fn problem(
+    pub(crate) fn problem(
         &self,
         code: Code,
         path: &str,
@@ -74,7 +74,7 @@ impl Context<'_> {
     }
 
     /// The value as the file or catalogue writes it.
-    pub(super) fn text(&self, path: &str) -> String {
+    pub(crate) fn text(&self, path: &str) -> String {
         self.values.text(path).unwrap_or_default()
     }
 
@@ -87,7 +87,7 @@ impl Context<'_> {
     }
 
     /// Everything about a bearing that moves; the bore is that of the key named, the load whether any presses on it.
-    pub(super) fn bearing(
+    pub(crate) fn bearing(
         &self,
         bearing: &Bearing,
         bore: Option<(&str, f64)>,
@@ -109,7 +109,7 @@ impl Context<'_> {
     }
 
     /// The key that is most probably wrong: the first of an override, else the first of the file, else the first.
-    pub(super) fn blamed<'p>(&self, paths: &[&'p str]) -> &'p str {
+    pub(crate) fn blamed<'p>(&self, paths: &[&'p str]) -> &'p str {
         let places = |wanted: fn(Place) -> bool| {
             let mut paths = paths.iter().copied();
             paths.find(|path| wanted(self.values.place(path)))
@@ -120,7 +120,7 @@ impl Context<'_> {
     }
 
     /// Diameters, width and balls go together, also with what the catalogue knows of the bearing named.
-    pub(super) fn geometry(&self, count: usize, ball: f64, pitch: f64) -> Check {
+    pub(crate) fn geometry(&self, count: usize, ball: f64, pitch: f64) -> Check {
         let path = |key: &str| match key {
             "bore_diameter" => "bearing.moment.bore_diameter",
             "outer_diameter" => "bearing.moment.outer_diameter",
@@ -344,7 +344,7 @@ impl Context<'_> {
     }
 
     /// F must take energy out whatever the race does.
-    pub(super) fn acceleration_loss(&self, loss: &AccelerationLoss) -> Check {
+    pub(crate) fn acceleration_loss(&self, loss: &AccelerationLoss) -> Check {
         let below = |rows: &[[f64; 2]]| rows.iter().position(|row| row[1] < 0.0);
         let (path, row) = match loss {
             AccelerationLoss::None => return Ok(()),
@@ -387,7 +387,7 @@ impl Context<'_> {
         )))
     }
 
-    pub(super) fn output(&self, run: &Run, balls: usize) -> Check {
+    pub(crate) fn output(&self, run: &Run, balls: usize) -> Check {
         const INTERVAL: &str = "run.output_interval";
         const DURATION: &str = "run.duration";
         let path = self.blamed(&[INTERVAL, DURATION]);

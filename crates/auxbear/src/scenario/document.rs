@@ -1,10 +1,10 @@
 //! The text of a scenario as a list of keys and raw values, each with its place.
 
-use super::key::{Key, quoted};
-use super::meant;
-use super::system::SystemName;
-use super::table;
 use crate::problem::{Code, Place, Problem, did_you_mean};
+use crate::scenario::key::{Key, quoted};
+use crate::scenario::meant;
+use crate::scenario::system::SystemName;
+use crate::scenario::table;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
@@ -12,7 +12,7 @@ use toml::de::{DeTable, DeValue};
 
 /// A value as written, before it is known what it means.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Raw {
+pub(crate) enum Raw {
     /// A text in quotes, or a bare word of an override.
     Text(String),
     /// A whole number, as written.
@@ -31,7 +31,7 @@ pub(super) enum Raw {
 
 impl Raw {
     /// The value in words, for a message.
-    pub(super) fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         match self {
             Raw::Text(text) => format!("the text \"{text}\""),
             Raw::Integer(text, _) => format!("the number {text}"),
@@ -46,21 +46,21 @@ impl Raw {
 
 /// One given value.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Given {
-    pub(super) raw: Raw,
+pub(crate) struct Given {
+    pub(crate) raw: Raw,
     /// The value as typed in an override, before it was taken as TOML.
-    pub(super) typed: Option<String>,
-    pub(super) place: Place,
+    pub(crate) typed: Option<String>,
+    pub(crate) place: Place,
 }
 
 /// All given values by path; every path is a key of the table.
 #[derive(Clone, Debug)]
-pub(super) struct Document {
-    pub(super) file: String,
-    pub(super) system: SystemName,
-    pub(super) values: BTreeMap<&'static str, Given>,
+pub(crate) struct Document {
+    pub(crate) file: String,
+    pub(crate) system: SystemName,
+    pub(crate) values: BTreeMap<&'static str, Given>,
     /// Where each section of the text starts.
-    pub(super) sections: BTreeMap<&'static str, Place>,
+    pub(crate) sections: BTreeMap<&'static str, Place>,
 }
 
 /// One key or section of the text, before it is known whether it exists.
@@ -72,7 +72,7 @@ struct Entry {
 
 impl Document {
     /// Reads a text and the overrides; refuses what is no TOML and what is no key.
-    pub(super) fn read(text: &str, file: &str, sets: &[String]) -> Result<Document, Box<Problem>> {
+    pub(crate) fn read(text: &str, file: &str, sets: &[String]) -> Result<Document, Box<Problem>> {
         let root = DeTable::parse(text).map_err(|error| Problem::of_toml(&error, text, file))?;
         require_format(text, root.get_ref(), file)?;
         let mut document = Document {
@@ -346,7 +346,7 @@ fn raw(value: &DeValue<'_>) -> Raw {
 }
 
 /// The value of a text when it is TOML by itself.
-pub(super) fn as_toml(typed: &str) -> Option<Raw> {
+pub(crate) fn as_toml(typed: &str) -> Option<Raw> {
     let value = DeValue::parse(typed).ok()?;
     Some(raw(value.get_ref()))
 }

@@ -1,7 +1,7 @@
 //! Where in the file a problem stands that is found after reading, when the machine is built.
 
-use super::Scenario;
 use crate::problem::{Place, Problem};
+use crate::scenario::Scenario;
 use std::collections::BTreeMap;
 
 /// What a problem names as its file until the scenario is known in which it stands.
@@ -9,11 +9,11 @@ pub(crate) const UNNAMED: &str = "the scenario";
 
 /// The text of a scenario, as far as messages name it.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Text {
+pub(crate) struct Text {
     /// The file, as the user named it.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// Where its sections start.
-    pub(super) sections: BTreeMap<&'static str, Place>,
+    pub(crate) sections: BTreeMap<&'static str, Place>,
 }
 
 impl Scenario {

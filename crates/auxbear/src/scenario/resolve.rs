@@ -1,25 +1,25 @@
 //! From the table of keys and the given values to one value for every key.
 
-use super::bearing_source::{BearingRecord, BearingSource};
-use super::document::{Document, Given, Raw, as_toml};
-use super::key::{Condition, Fallback, Key, Kind, Otherwise, Presence, quoted};
-use super::provenance::Provenance;
-use super::read::POWER_TOLERANCE;
-use super::resolved::{Resolved, ResolvedValue};
-use super::system::SystemName;
-use super::table;
 use crate::problem::{Code, Place, Problem};
+use crate::scenario::bearing::source::{BearingRecord, BearingSource};
+use crate::scenario::document::{Document, Given, Raw, as_toml};
+use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Presence, quoted};
+use crate::scenario::provenance::Provenance;
+use crate::scenario::read::POWER_TOLERANCE;
+use crate::scenario::resolved::{Resolved, ResolvedValue};
+use crate::scenario::system::SystemName;
+use crate::scenario::table;
 use std::collections::BTreeMap;
 use units::{Quantity, Rational, parse_quantity};
 
 /// Key of the law of the friction moment, on which its constants depend.
-pub(super) const LAW: &str = "bearing.moment.law";
+pub(crate) const LAW: &str = "bearing.moment.law";
 /// Key of the laws that are compared with it.
-pub(super) const COMPARED_LAWS: &str = "torque.laws";
+pub(crate) const COMPARED_LAWS: &str = "torque.laws";
 
 /// A value that was read.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Value {
+pub(crate) enum Value {
     /// A quantity in SI or a bare number.
     Number(f64),
     /// A whole number, not negative.
@@ -41,7 +41,7 @@ pub(super) enum Value {
 }
 
 impl Value {
-    pub(super) fn number(&self) -> Option<f64> {
+    pub(crate) fn number(&self) -> Option<f64> {
         match self {
             Value::Number(value) => Some(*value),
             Value::Count(count) => Some(*count as f64),
@@ -58,18 +58,18 @@ impl Value {
 
 /// A value with everything known of it.
 #[derive(Clone, Debug)]
-pub(super) struct Known {
-    pub(super) value: Value,
-    pub(super) text: String,
-    pub(super) provenance: Provenance,
-    pub(super) place: Place,
+pub(crate) struct Known {
+    pub(crate) value: Value,
+    pub(crate) text: String,
+    pub(crate) provenance: Provenance,
+    pub(crate) place: Place,
     /// Whether the file says that the program filled it in.
-    pub(super) filled_in: bool,
+    pub(crate) filled_in: bool,
 }
 
 /// One value for every key that has one.
 #[derive(Debug)]
-pub(super) struct Values {
+pub(crate) struct Values {
     file: String,
     system: SystemName,
     known: BTreeMap<&'static str, Known>,
@@ -79,7 +79,7 @@ pub(super) struct Values {
 
 impl Values {
     /// Reads every given value and fills the rest from catalogue and defaults.
-    pub(super) fn resolve(
+    pub(crate) fn resolve(
         document: &Document,
         bearings: &dyn BearingSource,
     ) -> Result<Values, Box<Problem>> {
@@ -129,7 +129,7 @@ impl Values {
         Ok(values)
     }
 
-    pub(super) fn problem(
+    pub(crate) fn problem(
         &self,
         code: Code,
         path: &str,
@@ -143,7 +143,7 @@ impl Values {
     }
 
     /// The condition that keeps a key from having a meaning, followed to its root.
-    pub(super) fn unmet(&self, key: &Key) -> Option<Condition> {
+    pub(crate) fn unmet(&self, key: &Key) -> Option<Condition> {
         key.when.iter().find_map(|condition| {
             if let Some(parent) = table::keys().find(|other| other.path == condition.path) {
                 if !table::systems(parent).contains(&self.system) {
@@ -345,26 +345,26 @@ impl Values {
     }
 
     /// The file, as the user named it.
-    pub(super) fn file(&self) -> &str {
+    pub(crate) fn file(&self) -> &str {
         &self.file
     }
 
     /// The system of the file.
-    pub(super) fn system(&self) -> SystemName {
+    pub(crate) fn system(&self) -> SystemName {
         self.system
     }
 
-    pub(super) fn put(&mut self, path: &'static str, known: Known) {
+    pub(crate) fn put(&mut self, path: &'static str, known: Known) {
         self.known.insert(path, known);
     }
 
     /// Takes a value away that has no effect after all.
-    pub(super) fn take_away(&mut self, path: &str) {
+    pub(crate) fn take_away(&mut self, path: &str) {
         self.known.remove(path);
     }
 
     /// Whether a value was given, rather than filled in.
-    pub(super) fn is_given(&self, path: &str) -> bool {
+    pub(crate) fn is_given(&self, path: &str) -> bool {
         self.known.get(path).is_some_and(|known| {
             !matches!(
                 known.provenance,
@@ -374,36 +374,36 @@ impl Values {
     }
 
     /// Where a value comes from, in one word; empty where there is none.
-    pub(super) fn mark(&self, path: &str) -> &'static str {
+    pub(crate) fn mark(&self, path: &str) -> &'static str {
         let known = self.known.get(path);
         known.map_or("", |known| known.provenance.mark())
     }
 
     /// A dimension of the bearing named, as the catalogue knows it.
-    pub(super) fn dimension(&self, name: &str) -> Option<f64> {
+    pub(crate) fn dimension(&self, name: &str) -> Option<f64> {
         let mut values = self.record.as_ref()?.values.iter();
         values.find(|value| value.0 == name).map(|value| value.1)
     }
 
     /// Where a value was given.
-    pub(super) fn place(&self, path: &str) -> Place {
+    pub(crate) fn place(&self, path: &str) -> Place {
         self.known
             .get(path)
             .map_or(Place::Whole, |known| known.place)
     }
 
     /// The value as written.
-    pub(super) fn text(&self, path: &str) -> Option<String> {
+    pub(crate) fn text(&self, path: &str) -> Option<String> {
         self.known.get(path).map(|known| known.text.clone())
     }
 
     /// A number in SI, where there is one.
-    pub(super) fn number(&self, path: &str) -> Option<f64> {
+    pub(crate) fn number(&self, path: &str) -> Option<f64> {
         self.known.get(path).and_then(|known| known.value.number())
     }
 
     /// A word; empty where there is none.
-    pub(super) fn word(&self, path: &str) -> &'static str {
+    pub(crate) fn word(&self, path: &str) -> &'static str {
         match self.known.get(path).map(|known| &known.value) {
             Some(Value::Word(word)) => word,
             _ => "",
@@ -411,7 +411,7 @@ impl Values {
     }
 
     /// A switch; off where there is none.
-    pub(super) fn switch(&self, path: &str) -> bool {
+    pub(crate) fn switch(&self, path: &str) -> bool {
         matches!(
             self.known.get(path).map(|known| &known.value),
             Some(Value::Switch(true))
@@ -419,7 +419,7 @@ impl Values {
     }
 
     /// The rows of a table, where there is one.
-    pub(super) fn rows(&self, path: &str) -> Option<Vec<[f64; 2]>> {
+    pub(crate) fn rows(&self, path: &str) -> Option<Vec<[f64; 2]>> {
         match self.known.get(path).map(|known| &known.value) {
             Some(Value::Rows(rows)) => Some(rows.clone()),
             _ => None,
@@ -427,7 +427,7 @@ impl Values {
     }
 
     /// A list of quantities in SI; empty where there is none.
-    pub(super) fn numbers(&self, path: &str) -> Vec<f64> {
+    pub(crate) fn numbers(&self, path: &str) -> Vec<f64> {
         match self.known.get(path).map(|known| &known.value) {
             Some(Value::Numbers(list)) => list.clone(),
             _ => Vec::new(),
@@ -435,7 +435,7 @@ impl Values {
     }
 
     /// A list of words; empty where there is none.
-    pub(super) fn words(&self, path: &str) -> &[&'static str] {
+    pub(crate) fn words(&self, path: &str) -> &[&'static str] {
         match self.known.get(path).map(|known| &known.value) {
             Some(Value::Words(list)) => list,
             _ => &[],
@@ -443,7 +443,7 @@ impl Values {
     }
 
     /// A list of texts; empty where there is none.
-    pub(super) fn texts(&self, path: &str) -> &[String] {
+    pub(crate) fn texts(&self, path: &str) -> &[String] {
         match self.known.get(path).map(|known| &known.value) {
             Some(Value::Texts(list)) => list,
             _ => &[],
@@ -451,7 +451,7 @@ impl Values {
     }
 
     /// A whole number; 0 where there is none.
-    pub(super) fn count(&self, path: &str) -> u64 {
+    pub(crate) fn count(&self, path: &str) -> u64 {
         match self.known.get(path).map(|known| &known.value) {
             Some(Value::Count(count)) => *count,
             _ => 0,
@@ -459,7 +459,7 @@ impl Values {
     }
 
     /// The list of all values for people and for the resolved file.
-    pub(super) fn resolved(&self) -> Resolved {
+    pub(crate) fn resolved(&self) -> Resolved {
         let mut list = Vec::new();
         for key in table::keys_of(self.system) {
             let known = self.known.get(key.path);
@@ -509,7 +509,7 @@ fn order(place: Place) -> usize {
 }
 
 /// A value in SI as a text that reads back bit for bit.
-pub(super) fn quantity_text(key: &Key, value_si: f64) -> String {
+pub(crate) fn quantity_text(key: &Key, value_si: f64) -> String {
     match key.dimension() {
         Some(dimension) => Quantity {
             value_si,

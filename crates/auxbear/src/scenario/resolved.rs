@@ -1,9 +1,9 @@
 //! The resolved scenario: every value with its origin, and as a file that gives the same run.
 
-use super::key::{Key, quoted};
-use super::provenance::Provenance;
-use super::table;
 use crate::problem::Place;
+use crate::scenario::key::{Key, quoted};
+use crate::scenario::provenance::Provenance;
+use crate::scenario::table;
 
 /// One value of a resolved scenario.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! How long and how finely a system is simulated.
 
-use super::resolve::Values;
-use super::section::Section;
+use crate::scenario::resolve::Values;
+use crate::scenario::section::Section;
 
 /// The simulation.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +30,7 @@ pub enum Method {
 }
 
 impl Run {
-    pub(super) fn from_values(values: &Values) -> Run {
+    pub(crate) fn from_values(values: &Values) -> Run {
         let run = Section {
             values,
             path: "run",

@@ -13,11 +13,11 @@
 //! What an editor cannot know is left to `auxbear check`: dimensions of units, ranges of quantities, what the catalogue
 //! knows of a bearing, and every check between values. Nothing that the program accepts is refused by the schema.
 
-use super::key::{Condition, Key, Kind, Otherwise, Presence, Range};
-use super::read::FILLED_IN;
-use super::resolve::{COMPARED_LAWS, LAW};
-use super::system::SystemName;
-use super::table;
+use crate::scenario::key::{Condition, Key, Kind, Otherwise, Presence, Range};
+use crate::scenario::read::FILLED_IN;
+use crate::scenario::resolve::{COMPARED_LAWS, LAW};
+use crate::scenario::system::SystemName;
+use crate::scenario::table;
 use serde_json::{Map, Value, json};
 
 /// Dialect of the schema.
@@ -407,7 +407,7 @@ fn description(key: &Key, system: SystemName) -> String {
             letters.as_str()
         ));
     }
-    let default = |fallback: super::key::Fallback| {
+    let default = |fallback: crate::scenario::key::Fallback| {
         let mark = if fallback.assumed {
             "Assumed"
         } else {

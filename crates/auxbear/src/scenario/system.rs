@@ -1,11 +1,11 @@
 //! What a scenario may describe: one of several systems.
 
-use super::drop::Drop;
-use super::identify::Identify;
-use super::rig::Rig;
-use super::signals::Signals;
-use super::spin_up::SpinUp;
-use super::torque::Torque;
+use crate::scenario::drop::Drop;
+use crate::scenario::identify::Identify;
+use crate::scenario::rig::Rig;
+use crate::scenario::signals::Signals;
+use crate::scenario::spin_up::SpinUp;
+use crate::scenario::torque::Torque;
 
 /// Name of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,10 +35,10 @@ impl SystemName {
         SystemName::Identify,
     ];
     /// Their words, in the same order.
-    pub(super) const WORDS: &'static [&'static str] =
+    pub(crate) const WORDS: &'static [&'static str] =
         &["drop", "spin_up", "torque", "signals", "rig", "identify"];
     /// Words of systems that are planned, so that asking for one is no spelling mistake.
-    pub(super) const PLANNED: &'static [&'static str] = &["rotor"];
+    pub(crate) const PLANNED: &'static [&'static str] = &["rotor"];
 
     /// The word in a file: `spin_up`.
     pub fn word(self) -> &'static str {
@@ -52,7 +52,7 @@ impl SystemName {
     }
 
     /// Systems in words, for messages: `"drop" or "spin_up"`.
-    pub(super) fn list(systems: &[SystemName]) -> String {
+    pub(crate) fn list(systems: &[SystemName]) -> String {
         let words: Vec<String> = systems
             .iter()
             .map(|system| format!("\"{}\"", system.word()))

@@ -3,7 +3,7 @@
 use super::machine::ReferenceMachine;
 use super::reference::{DerivativePoint, DropReference};
 use super::simulator::{DerivativeAnswer, DropAnswer, ElasticBounce, FreeFall, Simulator};
-use crate::simulate::ensemble::{self, Finished, Member, Plan};
+use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
 use model::bearing::ball::{BallConstants, BallMotion, BallReaction};
 use model::bearing::{BearingConstants, PlanarConstants, Separation};
 use model::contact::JournalContact;

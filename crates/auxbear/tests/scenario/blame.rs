@@ -2,13 +2,13 @@
 
 use crate::files::read;
 use auxbear::problem::Problem;
+use auxbear::run::{self, Machine, Options};
 use auxbear::scenario::Scenario;
-use auxbear::simulate::{self, Machine, Options};
 use std::sync::atomic::AtomicBool;
 
 /// The machine of a scenario.
 fn built(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
-    simulate::build(scenario)
+    run::build(scenario)
 }
 
 /// Complete files; overrides change them.
@@ -326,7 +326,7 @@ fn an_axial_load_reaches_the_torque_of_a_bearing() {
         let scenario = read(text, sets).unwrap();
         let interrupt = AtomicBool::new(false);
         let options = Options::unwatched(&interrupt);
-        let outcome = simulate::run(&scenario, &options).unwrap();
+        let outcome = run::run(&scenario, &options).unwrap();
         let column = outcome
             .history
             .iter()

@@ -19,7 +19,7 @@ use rand_xoshiro::rand_core::SeedableRng;
 
 /// Values of something at equal times.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Sampled {
+pub(crate) struct Sampled {
     /// Time of the first, s.
     pub first: f64,
     /// Interval, s.
@@ -36,7 +36,7 @@ impl Sampled {
 
 /// What happened, at the times at which each channel is taken.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Happened {
+pub(crate) struct Happened {
     /// Angle of the shaft, rad.
     pub shaft_angle: Sampled,
     /// Speed of the shaft at the same times, rad/s.
@@ -53,7 +53,7 @@ pub(super) struct Happened {
 
 /// A channel of the raw file.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct RawChannel {
+pub(crate) struct RawChannel {
     /// Name with its group.
     pub name: &'static str,
     /// Unit.
@@ -69,12 +69,12 @@ pub(super) struct RawChannel {
 }
 
 /// Whether the pickup has a channel of the converter, or a counter.
-pub(super) fn analog(rig: &Rig) -> bool {
+pub(crate) fn analog(rig: &Rig) -> bool {
     matches!(rig.pickup.kind, RigPickupKind::Analog { .. })
 }
 
 /// When the shaft begins to move, s.
-pub(super) fn begin(rig: &Rig) -> f64 {
+pub(crate) fn begin(rig: &Rig) -> f64 {
     match rig.program {
         RigProgram::SpinUp { engage_at, .. } | RigProgram::RepeatAfterRest { engage_at, .. } => {
             engage_at
@@ -84,7 +84,7 @@ pub(super) fn begin(rig: &Rig) -> f64 {
 }
 
 /// Everything that the logger writes.
-pub(super) fn raw(rig: &Rig, happened: &Happened) -> Vec<RawChannel> {
+pub(crate) fn raw(rig: &Rig, happened: &Happened) -> Vec<RawChannel> {
     let mut converted = vec![torque(rig, happened)];
     converted.extend(ball_pass(rig, happened));
     converted.push(temperature(rig, happened));

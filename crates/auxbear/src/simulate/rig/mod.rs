@@ -14,11 +14,12 @@ mod quantities;
 mod raw_file;
 mod warnings;
 
-use super::bearing_run::{BearingRun, Pressures};
-use super::ending::{settings, stop};
-use super::outcome::{Outcome, Picture, Work};
-use super::{Options, method};
+use crate::options::Options;
+use crate::simulate::drop::method;
+use crate::result::outcome::{Outcome, Picture, Work};
 use crate::scenario::{Rig, RigProgram, Scenario};
+use crate::simulate::bearing::run::{BearingRun, Pressures};
+use crate::simulate::ending::{settings, stop};
 use build::Built;
 use chain::{Happened, Sampled};
 use model::system::rig::layout::{
@@ -67,7 +68,7 @@ impl<'a> Context<'a> {
 }
 
 /// Runs a test.
-pub(super) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> Outcome {
+pub(crate) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> Outcome {
     let machine = &built.machine;
     let clock = Instant::now();
     let taps = taps(rig);

@@ -1,9 +1,9 @@
 //! Every named result of a test on a rig with its law, source and valid range: what happened, not what was measured of it.
 
-use super::Context;
+use crate::result::list::{List, Origin, relative};
+use crate::result::outcome::{Quantity, Value};
 use crate::scenario::{Fidelity, RigProgram};
-use crate::simulate::list::{List, Origin, relative};
-use crate::simulate::outcome::{Quantity, Value};
+use crate::simulate::rig::Context;
 use model::system::rig::layout::{
     CAGE_SLIP, CAGE_SPEED, CLUTCH_HEAT, FLYWHEEL, HEATS, INNER_MOMENT, OUTER_MOMENT, SHAFT,
     STEADY_MOMENT,
@@ -13,7 +13,7 @@ const EQUATIONS: &str = "equations of motion, crates/model/src/system/rig/rate.r
 const LEDGER: &str = "energy ledger, crates/model/src/system/rig/ledger.rs";
 
 /// Names the results.
-pub(super) fn name(context: &Context) -> Vec<Quantity> {
+pub(crate) fn name(context: &Context) -> Vec<Quantity> {
     let mut list = List(Vec::new());
     engagement(&mut list, context);
     moments(&mut list, context);

@@ -1,9 +1,9 @@
 //! What the user should know before trusting the numbers of a test on a rig.
 
-use super::{Context, chain, taps};
+use crate::result::outcome::{Quantity, Warning};
 use crate::scenario::{Rig, Scenario};
-use crate::simulate::outcome::{Quantity, Warning};
-use crate::simulate::warnings_shared::{self as shared, warning};
+use crate::simulate::bearing::warnings::{self as shared, warning};
+use crate::simulate::rig::{Context, chain, taps};
 use model::system::rig::layout::SHAFT;
 use std::f64::consts::TAU;
 
@@ -14,7 +14,7 @@ const FEWEST_SAMPLES: f64 = 4.0;
 const MISSED: f64 = 0.01;
 
 /// All warnings of a run, the gravest first.
-pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]) -> Vec<Warning> {
+pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]) -> Vec<Warning> {
     let bearing = &context.rig.bearing;
     let mut list = Vec::new();
     let speeds = context.record.rows().map(|row| row.state[SHAFT + 1].abs());
