@@ -28,7 +28,7 @@ pub mod step;
 pub mod system;
 pub mod watch;
 
-pub use arrowhead::{Arrowhead, Shape};
+pub use arrowhead::{Arrowhead, BlockShape, Shape};
 pub use drive::{Ending, Flow, Observer, Settings, Stop, Work, run, run_implicit};
 pub use implicit::Linear;
 pub use step::Step;

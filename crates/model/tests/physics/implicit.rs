@@ -1,18 +1,17 @@
 //! Linearly implicit steps: the Jacobian is the derivative of the rate, and a drop is the same drop.
 
-use crate::machines::{planar, random_state, reference, separate, settings, tilt_contacts};
+use crate::machines::{BEARING, planar, random_state, reference, separate, settings, tilt_contacts};
 use model::bearing::Separation;
 use model::bearing::ball_states::CAGE_PLACE;
-use model::system::drop::layout::BEARING;
-use model::system::drop::linear::DropLinear;
-use model::system::drop::record::Record;
-use model::system::drop::{Drop, DropConstants, DropMachine};
+use model::system::machine::linear::MachineLinear;
+use model::system::machine::record::Record;
+use model::system::machine::{Machines, MachineConstants, RotorMachine};
 use physics::traction::{TanhTraction, Traction};
 use solve::{Arrowhead, Ending, Linear, Machine, Stop};
 use std::sync::atomic::AtomicBool;
 
 /// The reference machine with another reference speed of traction, m/s.
-fn with_reference_speed(reference_speed: f64) -> DropConstants {
+fn with_reference_speed(reference_speed: f64) -> MachineConstants {
     let mut constants = reference();
     planar(&mut constants).traction = Traction::Tanh(TanhTraction {
         maximum: 0.08,
@@ -62,7 +61,7 @@ fn whole<const M: usize, const COLUMNS: usize, const ROWS: usize>(
 fn the_jacobian_is_the_derivative_of_the_rate() {
     let mut random = crate::machines::Random(11);
     let (mut held, mut guided_by_balls, mut tilted) = (reference(), reference(), reference());
-    held.machine.inner_race_centre_held = true;
+    held.bearings[0].inner_race.centre_held = true;
     separate(&mut guided_by_balls, Separation::FreeCage(None));
     tilt_contacts(planar(&mut tilted), 0.4);
     planar(&mut tilted).ball.inner_track_growth = 5e-12;
@@ -71,10 +70,10 @@ fn the_jacobian_is_the_derivative_of_the_rate() {
         // forces on the centre of a free cage, and what its place does elsewhere, are taken explicitly
         let first = BEARING + CAGE_PLACE;
         let place = first..BEARING + planar(&mut constants).first_ball_state();
-        let machine = DropMachine::new(constants);
+        let machine = RotorMachine::new(constants);
         // what a growing race takes in is a product of sums over the balls, and nothing depends on it
         let growth = machine.layout().source(3);
-        let mut linear = DropLinear::of(&machine).expect("planar");
+        let mut linear = MachineLinear::of(&machine).expect("planar");
         let mut arrow = Arrowhead::new(linear.shape());
         let n = machine.dimension();
         let mode = machine.start_mode();
@@ -128,19 +127,19 @@ fn the_jacobian_is_the_derivative_of_the_rate() {
 
 /// A drop by explicit or by linearly implicit steps.
 fn drop(
-    constants: DropConstants,
+    constants: MachineConstants,
     end: f64,
     tolerance: f64,
     implicit: bool,
 ) -> (Record, Ending, f64) {
-    let machine = DropMachine::new(constants);
+    let machine = RotorMachine::new(constants);
     let start = machine.start();
     let mut record = Record::new(&machine, end, end / 10.0, false);
     let never = AtomicBool::new(false);
     let settings = settings(end, tolerance);
     let ending = if implicit {
-        let linear = DropLinear::of(&machine).expect("planar");
-        solve::run_implicit::<f64, Drop<f64>, _, _, _, _, _>(
+        let linear = MachineLinear::of(&machine).expect("planar");
+        solve::run_implicit::<f64, Machines<f64>, _, _, _, _, _>(
             &machine,
             linear,
             &start,
@@ -150,7 +149,7 @@ fn drop(
         )
     } else {
         let records = std::slice::from_mut(&mut record);
-        solve::run::<f64, Drop<f64>, _>(
+        solve::run::<f64, Machines<f64>, _>(
             &[&machine],
             std::slice::from_ref(&start),
             records,
@@ -170,9 +169,9 @@ fn an_implicit_drop_is_the_explicit_one() {
     // both converge to the same first impact, start of the second contact and spin-up time; late contacts are chaotic
     let (explicit, _, _) = drop(with_reference_speed(0.1), 0.03, 1e-6, false);
     let (implicit, ending, residual) = drop(with_reference_speed(0.1), 0.03, 1e-4, true);
-    let peak = |record: &Record| record.contacts[0].peak_force;
-    let second = |record: &Record| record.contacts[1].start;
-    let half = |record: &Record| record.inner_race_time_to_50_percent().expect("it is fast");
+    let peak = |record: &Record| record.bearings[0].contacts[0].peak_force;
+    let second = |record: &Record| record.bearings[0].contacts[1].start;
+    let half = |record: &Record| record.bearings[0].inner_race_time_to_50_percent().expect("it is fast");
     // measured 0.01 N, 0.1 µs and 2 µs; the time to half speed of perturbed starts spreads by 3 µs
     assert!((peak(&explicit) - peak(&implicit)).abs() < 0.1);
     assert!((second(&explicit) - second(&implicit)).abs() < 1e-6);
@@ -195,9 +194,9 @@ fn stiff_friction_costs_an_implicit_drop_little_more() {
     assert!(residual.abs() < 1e-6, "{residual}");
     // converged: 672.857 N with a tolerance of 1e-6 of the explicit method, in 226 000 steps to 0.03 s
     assert!(
-        (record.contacts[0].peak_force - 672.857).abs() < 0.1,
+        (record.bearings[0].contacts[0].peak_force - 672.857).abs() < 0.1,
         "{:?}",
-        record.contacts[0]
+        record.bearings[0].contacts[0]
     );
 }
 

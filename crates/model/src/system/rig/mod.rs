@@ -369,7 +369,7 @@ impl RigMachine {
     }
     /// Name of a channel of the state.
     pub fn channel_name(&self, channel: usize) -> String {
-        self.layout.channel_name(&self.constants.bearing, channel)
+        self.layout.channel_name(channel)
     }
     /// The state at the start: the bearing settled under its load, its balls rolling with the shaft, the arm settled under what
     /// disturbs it where the shaft rests.
@@ -448,7 +448,7 @@ impl Machine for Segment<'_> {
         self.rig.layout.dimension()
     }
     fn quadratures(&self) -> usize {
-        Layout::LEDGER
+        self.rig.layout.ledger_length()
     }
     fn probes(&self) -> usize {
         self.rig.layout.probes()

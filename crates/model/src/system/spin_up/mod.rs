@@ -207,7 +207,7 @@ impl SpinUpMachine {
         constants.check()?;
         let layout = Layout::of(&constants.bearing);
         Ok(SpinUpMachine {
-            one: SpinUp::of(&|_| &constants, layout),
+            one: SpinUp::of(&|_| &constants, layout.clone()),
             landings: constants.landings(),
             error_scale: layout.error_scale(&constants),
             layout,
@@ -277,7 +277,7 @@ impl Machine for SpinUpMachine {
         self.error_scale[channel]
     }
     fn channel_name(&self, channel: usize) -> String {
-        self.layout.channel_name(&self.constants.bearing, channel)
+        self.layout.channel_name(channel)
     }
     fn start_mode(&self) -> Mode<f64> {
         self.constants.mode(0.0)
@@ -315,7 +315,7 @@ impl<R: Real> Batch<R> for SpinUp<R> {
             assert!(other.layout == first.layout, "lanes share their layout");
             assert!(kind(other) == kind(first), "lanes share the kind of drive");
         }
-        SpinUp::of(&|lane| &machine(lane).constants, first.layout)
+        SpinUp::of(&|lane| &machine(lane).constants, first.layout.clone())
     }
     fn gather_mode(modes: &dyn Fn(usize) -> Mode<f64>) -> Mode<R> {
         let piece = |of: &dyn Fn(Mode<f64>) -> Piece<f64>| Piece {

@@ -1,14 +1,17 @@
-//! What is watched and kept of a drop.
+//! What is watched and kept of a machine.
 //!
 //! Contacts begin, end and peak on dense output, not on the steps. Rows are sampled at equal intervals and at the end.
 //! The rows are allocated before the run; only the list of contacts may grow during it.
 
-use super::DropMachine;
-use super::layout::{
-    BEARING, INNER, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
-    NORMAL_FORCE, NORMAL_FORCE_RATE, OUTER, PENETRATION, PENETRATION_SPEED, ROTOR,
+use super::RotorMachine;
+use super::layout::{ROTOR, ROTOR_CHANNELS};
+use super::rate::rotor_motion;
+use crate::auxiliary_bearing::BearingAt;
+use crate::auxiliary_bearing::probe::{
+    LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, NORMAL_FORCE,
+    NORMAL_FORCE_RATE, PENETRATION, PENETRATION_SPEED,
 };
-use super::rate::{race_motion, rotor_motion};
+use crate::bearing::BearingConstants;
 use crate::contact::ContactReaction;
 use crate::system::sampling::{Peak, Rise, Row, Rows};
 use number::Vec2;
@@ -31,6 +34,21 @@ pub struct Contact {
 /// Everything kept of one machine.
 #[derive(Clone, Debug)]
 pub struct Record {
+    /// Of each auxiliary bearing.
+    pub bearings: Vec<BearingRecord>,
+    /// Largest kinetic energy of the rotor's centre, J.
+    pub largest_translation: f64,
+    rows: Rows,
+    next_look: f64,
+    look_interval: f64,
+    limit_passed: bool,
+}
+
+/// Everything kept of one auxiliary bearing.
+#[derive(Clone, Debug)]
+pub struct BearingRecord {
+    at: BearingAt,
+    bearing: usize,
     /// Contacts in order.
     pub contacts: Vec<Contact>,
     /// Largest ball load at the inner race, N.
@@ -47,20 +65,14 @@ pub struct Record {
     pub rotor_displacement: Peak,
     /// Largest displacement of the outer race, m.
     pub mount_displacement: Peak,
-    /// Largest kinetic energy of the rotor's centre, J.
-    pub largest_translation: f64,
     /// Turns of the rotor about the inner race while it is out of the middle half of its clearance.
     pub whirl_turns: f64,
     rises: Vec<Rise>,
     /// The watched forces at the start of the last step, N, and its length, s.
     last_forces: ([f64; WATCHED.len()], f64),
-    rows: Rows,
     clearance: f64,
     whirl_angle: Option<f64>,
-    next_look: f64,
-    look_interval: f64,
     limits: Limits,
-    limit_passed: bool,
 }
 
 /// Where the equations stop being true.
@@ -92,18 +104,69 @@ const CONTACTS: usize = 4096;
 
 impl Record {
     /// A record for a run until `end`, with a row every `interval`, or without rows.
-    pub fn new(machine: &DropMachine, end: f64, interval: f64, keep_rows: bool) -> Self {
-        let constants = &machine.constants;
-        let speed = constants.speed;
-        let mut rises = vec![
-            Rise::through(INNER + 5, 0.5 * speed),
-            Rise::through(INNER + 5, 0.95 * speed),
-        ];
-        if machine.layout().ball_states {
-            let ratio = machine.rolling_cage_ratio();
-            rises.push(Rise::through(BEARING + 1, 0.95 * speed * ratio));
-        }
+    pub fn new(machine: &RotorMachine, end: f64, interval: f64, keep_rows: bool) -> Self {
+        let speed = machine.constants.speed;
+        let bearings = 0..machine.constants.bearings.len();
         Record {
+            bearings: bearings.map(|k| BearingRecord::new(machine, k)).collect(),
+            largest_translation: 0.0,
+            rows: Rows::new(machine, end, interval, keep_rows),
+            next_look: 0.0,
+            look_interval: 2.0 * std::f64::consts::PI / (WHIRL_POINTS * speed.abs().max(1.0)),
+            limit_passed: false,
+        }
+    }
+    /// Number of rows.
+    pub fn row_count(&self) -> usize {
+        self.rows.count()
+    }
+    /// The sampled rows.
+    pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+        self.rows.iter()
+    }
+    /// Adds the last state of a run as a row, where it is not one already.
+    pub fn finish(&mut self, machine: &RotorMachine, time: f64, state: &[f64]) {
+        let (_, probe) = machine.inspect(state);
+        self.rows.finish(&Row {
+            time,
+            state,
+            probe: &probe,
+            content: machine.content(state),
+        });
+    }
+
+    /// Follows the whirl, and the kinetic energy of the rotor's centre, at a few points of each turn.
+    fn rotor_of(&mut self, step: &mut Step<RotorMachine>) {
+        if step.end < self.next_look {
+            return;
+        }
+        self.next_look = step.end + self.look_interval;
+        let rotor = end_of_rotor(step);
+        let motion = rotor_motion(&rotor);
+        let (translation, _) = step.machine.constants.rotor.kinetic_energy(&motion);
+        self.largest_translation = self.largest_translation.max(translation);
+        for bearing in &mut self.bearings {
+            bearing.whirl_of(step, &rotor);
+        }
+    }
+}
+
+impl BearingRecord {
+    fn new(machine: &RotorMachine, bearing: usize) -> Self {
+        let speed = machine.constants.speed;
+        let part = &machine.constants.bearings[bearing];
+        let at = machine.layout().bearings[bearing];
+        let mut rises = vec![
+            Rise::through(at.inner + 5, 0.5 * speed),
+            Rise::through(at.inner + 5, 0.95 * speed),
+        ];
+        if matches!(part.bearing, BearingConstants::Planar(_)) {
+            let ratio = part.bearing.rolling_cage_ratio();
+            rises.push(Rise::through(at.bearing + 1, 0.95 * speed * ratio));
+        }
+        BearingRecord {
+            at,
+            bearing,
             contacts: Vec::with_capacity(CONTACTS),
             largest_inner_load: Peak::NONE,
             largest_outer_load: Peak::NONE,
@@ -112,20 +175,15 @@ impl Record {
             rotor_race_displacement: Peak::NONE,
             rotor_displacement: Peak::NONE,
             mount_displacement: Peak::NONE,
-            largest_translation: 0.0,
             whirl_turns: 0.0,
             rises,
             last_forces: ([0.0; WATCHED.len()], f64::INFINITY),
-            rows: Rows::new(machine, end, interval, keep_rows),
-            clearance: constants.machine.contact.radial_clearance,
+            clearance: part.contact.radial_clearance,
             whirl_angle: None,
-            next_look: 0.0,
-            look_interval: 2.0 * std::f64::consts::PI / (WHIRL_POINTS * speed.abs().max(1.0)),
             limits: Limits {
-                mount_displacement: 0.1 * machine.pitch_radius(),
-                penetration: 0.1 * constants.machine.contact.bore_radius,
+                mount_displacement: 0.1 * part.bearing.pitch_radius(),
+                penetration: 0.1 * part.contact.bore_radius,
             },
-            limit_passed: false,
         }
     }
 
@@ -150,30 +208,12 @@ impl Record {
         });
         peaks.reduce(|a, b| if b.value > a.value { b } else { a })
     }
-    /// Number of rows.
-    pub fn row_count(&self) -> usize {
-        self.rows.count()
-    }
-    /// The sampled rows.
-    pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        self.rows.iter()
-    }
-    /// Adds the last state of a run as a row, where it is not one already.
-    pub fn finish(&mut self, machine: &DropMachine, time: f64, state: &[f64]) {
-        let (_, probe) = machine.inspect(state);
-        self.rows.finish(&Row {
-            time,
-            state,
-            probe: &probe,
-            content: machine.content(state),
-        });
-    }
-
-    fn contacts_of(&mut self, step: &mut Step<DropMachine>) {
-        let (start, end) = (step.start_probe(PENETRATION), step.end_probe(PENETRATION));
+    fn contacts_of(&mut self, step: &mut Step<RotorMachine>) {
+        let (at, bearing) = (self.at, self.bearing);
+        let (start, end) = (step.start_probe(at.probe(PENETRATION)), step.end_probe(at.probe(PENETRATION)));
         let rates = (
-            step.start_probe(PENETRATION_SPEED),
-            step.end_probe(PENETRATION_SPEED),
+            step.start_probe(at.probe(PENETRATION_SPEED)),
+            step.end_probe(at.probe(PENETRATION_SPEED)),
         );
         let length = step.end - step.start;
         // the extremum of the penetration inside the step, where its rate changes sign
@@ -186,9 +226,9 @@ impl Record {
                 && middle + self.clearance + bulge > self.rotor_race_displacement.value;
             (flips || record).then(|| {
                 let theta = root(step, (0.0, rates.0), (1.0, rates.1), |step, theta| {
-                    contact_at(step, theta).penetration_speed
+                    contact_at(step, bearing, theta).penetration_speed
                 });
-                (theta, contact_at(step, theta).penetration)
+                (theta, contact_at(step, bearing, theta).penetration)
             })
         } else {
             None
@@ -203,7 +243,7 @@ impl Record {
         if end > 0.0 {
             let rotor = Vec2::new(step.end_state(ROTOR), step.end_state(ROTOR + 1));
             // nearer than this, the eccentric centre cannot be farther than ever before
-            let eccentricity = step.machine.constants.machine.rotor.eccentricity;
+            let eccentricity = step.machine.constants.rotor.eccentricity;
             let least = (self.rotor_displacement.value - eccentricity.abs()).max(0.0);
             if rotor.length_squared() >= least * least {
                 let centre = step.machine.rotor_centre(&end_of_rotor(step));
@@ -217,7 +257,7 @@ impl Record {
             self.contacts.push(Contact {
                 start: step.start,
                 end: None,
-                peak_force: step.start_probe(NORMAL_FORCE),
+                peak_force: step.start_probe(at.probe(NORMAL_FORCE)),
                 peak_time: step.start,
             });
         }
@@ -226,7 +266,7 @@ impl Record {
             let crosses = (from.1 > 0.0) != (to.1 > 0.0);
             let event = crosses.then(|| {
                 root(step, from, to, |step, theta| {
-                    contact_at(step, theta).penetration
+                    contact_at(step, bearing, theta).penetration
                 })
             });
             if let (Some(begin), true) = (event, to.1 > 0.0) {
@@ -248,7 +288,8 @@ impl Record {
     }
 
     /// The largest normal force between two fractions of a step raises the peak of the current contact.
-    fn force_peak(&mut self, step: &mut Step<DropMachine>, low: f64, high: f64) {
+    fn force_peak(&mut self, step: &mut Step<RotorMachine>, low: f64, high: f64) {
+        let (at, bearing) = (self.at, self.bearing);
         let Some(contact) = self.contacts.last_mut() else {
             return;
         };
@@ -257,19 +298,19 @@ impl Record {
             time: contact.peak_time,
         };
         if high == 1.0 {
-            peak.raise(step.end_probe(NORMAL_FORCE), step.end);
+            peak.raise(step.end_probe(at.probe(NORMAL_FORCE)), step.end);
         }
-        let force = (step.start_probe(NORMAL_FORCE), step.end_probe(NORMAL_FORCE));
+        let force = (step.start_probe(at.probe(NORMAL_FORCE)), step.end_probe(at.probe(NORMAL_FORCE)));
         let rate = (
-            step.start_probe(NORMAL_FORCE_RATE),
-            step.end_probe(NORMAL_FORCE_RATE),
+            step.start_probe(at.probe(NORMAL_FORCE_RATE)),
+            step.end_probe(at.probe(NORMAL_FORCE_RATE)),
         );
         let whole = low == 0.0 && high == 1.0;
         if whole && rate.0 > 0.0 && rate.1 < 0.0 {
             let bulge = 0.125 * (step.end - step.start) * (rate.0 - rate.1);
             if force.0.max(force.1) + 2.0 * bulge > peak.value {
                 let (theta, value) = maximum(step, 0.0, 1.0, |step, theta| {
-                    contact_at(step, theta).normal_force
+                    contact_at(step, bearing, theta).normal_force
                 });
                 peak.raise(value, step.time(theta));
             }
@@ -277,7 +318,7 @@ impl Record {
             // begin or end inside the step: a few points decide whether the peak is here too
             for i in 1..8 {
                 let theta = low + (high - low) * f64::from(i) / 8.0;
-                let value = contact_at(step, theta).normal_force;
+                let value = contact_at(step, bearing, theta).normal_force;
                 peak.raise(value, step.time(theta));
             }
         }
@@ -295,9 +336,10 @@ impl Record {
         ]
     }
 
-    fn forces_of(&mut self, step: &mut Step<DropMachine>) {
-        let start = WATCHED.map(|probe| step.start_probe(probe));
-        let end = WATCHED.map(|probe| step.end_probe(probe));
+    fn forces_of(&mut self, step: &mut Step<RotorMachine>) {
+        let at = self.at;
+        let start = WATCHED.map(|probe| step.start_probe(at.probe(probe)));
+        let end = WATCHED.map(|probe| step.end_probe(at.probe(probe)));
         let time = step.end;
         let length = step.end - step.start;
         let (last, last_length) = self.last_forces;
@@ -315,7 +357,7 @@ impl Record {
             for theta in [0.25, 0.5, 0.75] {
                 let time = step.time(theta);
                 let (_, probe) = step.evaluate(theta);
-                let values = WATCHED.map(|channel| probe[channel]);
+                let values = WATCHED.map(|kind| probe[at.probe(kind)]);
                 for (record, value) in self.forces().into_iter().zip(values) {
                     record.raise(value, time);
                 }
@@ -323,14 +365,15 @@ impl Record {
         }
     }
 
-    fn mount_of(&mut self, step: &mut Step<DropMachine>) {
-        let end = |k: usize| step.end_state(OUTER + k);
+    fn mount_of(&mut self, step: &mut Step<RotorMachine>) {
+        let outer = self.at.outer;
+        let end = |k: usize| step.end_state(outer + k);
         let square = end(0) * end(0) + end(1) * end(1);
         let record = self.mount_displacement.value;
         if square < (NEAR_RECORD * record).powi(2) {
             return;
         }
-        let start = |k: usize| step.start_state(OUTER + k);
+        let start = |k: usize| step.start_state(outer + k);
         let outward = (
             start(0) * start(2) + start(1) * start(3),
             end(0) * end(2) + end(1) * end(3),
@@ -340,37 +383,35 @@ impl Record {
             for i in 1..8 {
                 let theta = f64::from(i) / 8.0;
                 let time = step.time(theta);
-                let state = step.leading_state(theta, BEARING);
+                let state = step.leading_state(theta, outer + 2);
                 self.mount_displacement
-                    .raise(state[OUTER].hypot(state[OUTER + 1]), time);
+                    .raise(state[outer].hypot(state[outer + 1]), time);
             }
         }
     }
 
-    /// Follows the whirl, and the kinetic energy of the rotor's centre, at a few points of each turn.
-    fn rotor_of(&mut self, step: &mut Step<DropMachine>) {
-        if step.end < self.next_look {
-            return;
-        }
-        self.next_look = step.end + self.look_interval;
-        let gap = -step.end_probe(PENETRATION);
-        let constants = &step.machine.constants.machine;
-        let rotor = rotor_motion(&end_of_rotor(step));
-        let (translation, _) = constants.rotor.kinetic_energy(&rotor);
-        self.largest_translation = self.largest_translation.max(translation);
+    /// Follows the whirl of the rotor, whose channels are given, about the inner race.
+    fn whirl_of(&mut self, step: &Step<RotorMachine>, rotor: &[f64]) {
+        let gap = -step.end_probe(self.at.probe(PENETRATION));
         if gap > 0.5 * self.clearance {
             self.whirl_angle = None;
             return;
         }
-        let centre = constants.rotor.geometric_centre(&rotor);
-        let race = Vec2::new(step.end_state(INNER), step.end_state(INNER + 1));
-        let offset = centre.position - race;
+        let inner = self.at.inner;
+        let race = Vec2::new(step.end_state(inner), step.end_state(inner + 1));
+        let offset = step.machine.rotor_centre(rotor) - race;
         let angle = offset.y.atan2(offset.x);
         if let Some(last) = self.whirl_angle {
             let turn = (angle - last) / (2.0 * std::f64::consts::PI);
             self.whirl_turns += turn - turn.round();
         }
         self.whirl_angle = Some(angle);
+    }
+
+    /// True where the equations are not true any more.
+    fn too_far(&self, step: &Step<RotorMachine>) -> bool {
+        self.mount_displacement.value > self.limits.mount_displacement
+            || step.end_probe(self.at.probe(PENETRATION)) > self.limits.penetration
     }
 }
 
@@ -383,38 +424,38 @@ fn may_peak(last_slope: f64, slope: f64, length: f64, least: f64) -> bool {
 }
 
 /// The rotor's own channels at the end of a step.
-fn end_of_rotor(step: &Step<DropMachine>) -> [f64; INNER - ROTOR] {
-    let mut rotor = [0.0; INNER - ROTOR];
-    for (channel, value) in rotor.iter_mut().enumerate() {
-        *value = step.end_state(ROTOR + channel);
-    }
-    rotor
+fn end_of_rotor(step: &Step<RotorMachine>) -> [f64; ROTOR_CHANNELS] {
+    std::array::from_fn(|channel| step.end_state(ROTOR + channel))
 }
 
 /// The contact of rotor and race at a fraction of a step; inlined, so that nothing is computed but what is asked for.
 #[inline(always)]
-fn contact_at(step: &mut Step<DropMachine>, theta: f64) -> ContactReaction<f64> {
-    let machine = &step.machine.constants.machine;
-    let state = step.leading_state(theta, BEARING);
+fn contact_at(step: &mut Step<RotorMachine>, bearing: usize, theta: f64) -> ContactReaction<f64> {
+    let machine = step.machine;
+    let at = &machine.layout().bearings[bearing];
+    let state = step.leading_state(theta, at.outer + 4);
     let rotor = rotor_motion(state);
-    let centre = machine.rotor.geometric_centre(&rotor);
-    machine
-        .contact
-        .react(&centre, rotor.spin, &race_motion(state).inner)
+    let centre = machine.constants.rotor.geometric_centre(&rotor);
+    (machine.constants.bearings[bearing].contact).react(
+        &centre,
+        rotor.spin,
+        &at.motion(state).inner,
+    )
 }
 
-impl Observer<DropMachine> for Record {
-    fn step(&mut self, step: &mut Step<DropMachine>) -> Flow {
-        self.contacts_of(step);
-        self.forces_of(step);
-        for rise in &mut self.rises {
-            rise.watch(step);
+impl Observer<RotorMachine> for Record {
+    fn step(&mut self, step: &mut Step<RotorMachine>) -> Flow {
+        for bearing in &mut self.bearings {
+            bearing.contacts_of(step);
+            bearing.forces_of(step);
+            for rise in &mut bearing.rises {
+                rise.watch(step);
+            }
+            bearing.mount_of(step);
         }
-        self.mount_of(step);
         self.rotor_of(step);
-        self.rows.sample(step, DropMachine::content);
-        let too_far = self.mount_displacement.value > self.limits.mount_displacement
-            || step.end_probe(PENETRATION) > self.limits.penetration;
+        self.rows.sample(step, RotorMachine::content);
+        let too_far = self.bearings.iter().any(|bearing| bearing.too_far(step));
         if too_far && !self.limit_passed {
             self.limit_passed = true;
             return Flow::Halt(
@@ -425,33 +466,22 @@ impl Observer<DropMachine> for Record {
     }
 }
 
-impl DropMachine {
-    /// Cage speed per inner race speed when the balls roll.
-    pub fn rolling_cage_ratio(&self) -> f64 {
-        self.constants.bearing.rolling_cage_ratio()
-    }
-    /// Radius of the circle of the ball centres, m.
-    pub fn pitch_radius(&self) -> f64 {
-        self.constants.bearing.pitch_radius()
-    }
+impl RotorMachine {
     /// Position of the rotor's geometric centre, m.
     pub fn rotor_centre(&self, state: &[f64]) -> Vec2<f64> {
-        self.constants
-            .machine
-            .rotor
+        (self.constants.rotor)
             .geometric_centre(&rotor_motion(state))
             .position
     }
-    /// Cage speed at a state, rad/s.
-    pub fn cage_speed(&self, state: &[f64]) -> f64 {
-        let own = BEARING..self.layout().ledger();
-        self.constants
-            .bearing
-            .cage_speed(&race_motion(state), &state[own])
+    /// Cage speed of a bearing at a state, rad/s.
+    pub fn cage_speed(&self, bearing: usize, state: &[f64]) -> f64 {
+        let at = &self.layout().bearings[bearing];
+        (self.constants.bearings[bearing].bearing)
+            .cage_speed(&at.motion(state), &state[at.own()])
     }
-    /// Azimuth of a ball at a state, rad.
-    pub fn ball_azimuth(&self, state: &[f64], ball: usize) -> f64 {
-        let own = BEARING..self.layout().ledger();
-        self.constants.bearing.azimuth(&state[own], ball)
+    /// Azimuth of a ball of a bearing at a state, rad.
+    pub fn ball_azimuth(&self, bearing: usize, state: &[f64], ball: usize) -> f64 {
+        let at = &self.layout().bearings[bearing];
+        (self.constants.bearings[bearing].bearing).azimuth(&state[at.own()], ball)
     }
 }
