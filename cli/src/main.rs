@@ -14,7 +14,7 @@ mod torque;
 use arguments::{Arguments, Command};
 use auxbear::problem::{Code, Problem};
 use auxbear::report::directory;
-use auxbear::run;
+use auxbear::run::panic_is_caught;
 use auxbear::scenario::{BuiltIn, Scenario, SystemName};
 use auxbear::validate::{self, Simulation};
 use clap::Parser;

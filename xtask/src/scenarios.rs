@@ -1,5 +1,6 @@
 //! Guard: the built command reads and runs every shipped scenario, and its validation passes.
 
+use crate::golden;
 use crate::repository::{Outcome, Repository};
 use crate::toolchain::{cargo, quiet};
 use serde_json::Value;
@@ -40,7 +41,10 @@ pub fn check(repository: &Repository) -> Outcome {
             |error| vec![format!("no summary: {error}")],
             |text| faults_of(&text),
         );
-        findings.extend(faults.into_iter().map(|fault| format!("{file}: {fault}")));
+        let differences = summary_in(Path::new(&*out))
+            .map(|summary| golden::differences(repository, &name.to_string_lossy(), &summary));
+        let faults = faults.into_iter().chain(differences.unwrap_or_default());
+        findings.extend(faults.map(|fault| format!("{file}: {fault}")));
     }
     // Nothing depends on the folder any more; one that stays behind is no fault of the product.
     let _ = std::fs::remove_dir_all(&folder);
@@ -90,7 +94,34 @@ fn faults_of(summary: &str) -> Vec<String> {
     faults
 }
 
-fn build(repository: &Repository) -> Result<PathBuf, Vec<String>> {
+/// The summary in a run directory.
+fn summary_in(directory: &Path) -> Result<Value, String> {
+    let path = directory.join("summary.json");
+    let text =
+        std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+    serde_json::from_str(&text).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// Runs a shipped scenario and returns its summary.
+pub fn summary_of(
+    root: &Path,
+    program: &Path,
+    scenario: &str,
+    folder: &Path,
+) -> Result<Value, String> {
+    let file = format!("scenarios/{scenario}.toml");
+    let out = folder.join(scenario);
+    let run = ["run", &file, "--quiet", "--out", &out.to_string_lossy()];
+    let findings = call(root, program, &run);
+    if findings.is_empty() {
+        summary_in(&out)
+    } else {
+        Err(findings.join("\n"))
+    }
+}
+
+/// Builds the command as users do.
+pub fn build(repository: &Repository) -> Result<PathBuf, Vec<String>> {
     let output = cargo(repository)
         .args([
             "build",

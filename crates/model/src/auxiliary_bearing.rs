@@ -159,7 +159,10 @@ const OUTER: [&str; 4] = ["x", "y", "x_speed", "y_speed"];
 /// Adds the races of an auxiliary bearing to a layout: first channels of the inner and of the outer one.
 pub fn lay_races(layout: &mut Layout, name: &str) -> (usize, usize) {
     let named = |race: &str, names: &[&str]| -> Vec<String> {
-        names.iter().map(|n| format!("bearing.{race}.{n}")).collect()
+        names
+            .iter()
+            .map(|n| format!("bearing.{race}.{n}"))
+            .collect()
     };
     let inner = layout.block(name, named("inner_race", &INNER));
     let outer = layout.block(name, named("outer_race", &OUTER));
@@ -218,7 +221,12 @@ impl<R: Real> AuxiliaryBearing<R> {
 
     /// What the contact does to rotor and inner race.
     #[inline(always)]
-    pub fn contact(&self, centre: &GeometricCentre<R>, spin: R, inner: &Body<R>) -> ContactReaction<R> {
+    pub fn contact(
+        &self,
+        centre: &GeometricCentre<R>,
+        spin: R,
+        inner: &Body<R>,
+    ) -> ContactReaction<R> {
         self.contact.react(centre, spin, inner)
     }
 
@@ -236,7 +244,9 @@ impl<R: Real> AuxiliaryBearing<R> {
             &mut [][..]
         } else {
             // a short list has room for the watched probes alone
-            let end = probe.len().min(at.detail + bearing::DETAIL_PER_BALL * at.balls);
+            let end = probe
+                .len()
+                .min(at.detail + bearing::DETAIL_PER_BALL * at.balls);
             &mut probe[at.detail.min(end)..end]
         };
         (self.bearing).react(motion, &state[at.own()], &mut rate[at.own()], detail)

@@ -7,7 +7,7 @@ mod machines;
 
 use machines::{inlets, lubricant, oil, planar, reference, separate, separations, settings};
 use model::bearing::{BearingConstants, SharedMoment, SteadyMoment};
-use model::system::machine::{Machines, MachineConstants, RotorMachine};
+use model::system::machine::{MachineConstants, Machines, RotorMachine};
 use number::{Level, Real, Task};
 use physics::palmgren::Palmgren;
 use physics::traction::{DryTraction, FourParameterTraction, Traction};
@@ -98,11 +98,11 @@ fn variant(number: usize) -> MachineConstants {
     let mut constants = reference();
     constants.speed *= 1.0 - 0.07 * x;
     constants.unbalance_angle = 0.4 * x;
+    constants.rotor.mass *= 1.0 + 0.05 * x;
     let part = &mut constants.bearings[0];
-    machine.rotor.mass *= 1.0 + 0.05 * x;
-    machine.contact.radial_clearance *= 1.0 - 0.03 * x;
-    machine.contact.friction *= 1.0 + 0.1 * x;
-    machine.mount.stiffness *= 1.0 + 0.2 * x;
+    part.contact.radial_clearance *= 1.0 - 0.03 * x;
+    part.contact.friction *= 1.0 + 0.1 * x;
+    part.mount.stiffness *= 1.0 + 0.2 * x;
     if let BearingConstants::Planar(bearing) = &mut constants.bearings[0].bearing {
         bearing.ball.inner_stiffness *= 1.0 + 0.02 * x;
         bearing.ball.pocket_gap *= 1.0 - 0.05 * x;

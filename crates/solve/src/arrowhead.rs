@@ -158,7 +158,11 @@ impl<const M: usize, const COLUMNS: usize> Factors<M, COLUMNS> {
         for i in 0..p {
             border[i * p + i] += diagonal;
         }
-        let parts = self.blocks.iter_mut().zip(&jacobian.blocks).zip(&shape.blocks);
+        let parts = self
+            .blocks
+            .iter_mut()
+            .zip(&jacobian.blocks)
+            .zip(&shape.blocks);
         for ((factored, block), stands) in parts {
             let Some(inverse) = inverse(&block.own, diagonal) else {
                 return false;

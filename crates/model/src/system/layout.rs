@@ -130,16 +130,18 @@ impl Layout {
     }
     /// Name of a channel.
     pub fn channel_name(&self, channel: usize) -> String {
-        let named = |what: &str, entry: &Entry| of_part(&entry.part, &format!("{what}.{}", entry.kind));
+        let named =
+            |what: &str, entry: &Entry| of_part(&entry.part, &format!("{what}.{}", entry.kind));
         match channel {
             c if c < self.ledger() => self.names[c].clone(),
             c if c < self.source(0) => named("energy.heat", &self.heats[c - self.heat(0)]),
             c if c < self.angular_impulse() => {
                 named("energy.source", &self.sources[c - self.source(0)])
             }
-            c if c < self.work(0) => {
-                named("angular_momentum", &self.impulses[c - self.angular_impulse()])
-            }
+            c if c < self.work(0) => named(
+                "angular_momentum",
+                &self.impulses[c - self.angular_impulse()],
+            ),
             c => named("energy.work", &self.works[c - self.work(0)]),
         }
     }

@@ -4,6 +4,7 @@
 //! interference), 0.25 mm above its inner race, the outer race on a mount of 20 N/µm. The numbers are those of the
 //! reference drop of an independent implementation; 0.15 between rotor and race is arbitrary there and here.
 
+use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::bearing::ball::{BallConstants, BallMotion};
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::cage::{Land, LandRace};
@@ -17,7 +18,6 @@ use model::levitation::Levitation;
 use model::motion::Motion;
 use model::mount::Mount;
 use model::rotor::Rotor;
-use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::schedule::Schedule;
 use model::system::machine::layout::ROTOR;
 use model::system::machine::{MachineConstants, Machines, RotorMachine};

@@ -3,15 +3,18 @@
 //! What acts from outside is computed here a second time, from the sections of the model's pages; everything inside
 //! must cancel.
 
-use crate::machines::{BEARING, INNER, OUTER, Random, ball_of, bearing_part, let_roll, planar, race_motion, random_state, reference, vec2};
+use crate::machines::{
+    BEARING, INNER, OUTER, Random, ball_of, bearing_part, let_roll, planar, race_motion,
+    random_state, reference, vec2,
+};
 use crate::relatives::{lubricant_factors, machines};
+use model::auxiliary_bearing::probe::{COUNT as DETAIL, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD};
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::cage::LandRace;
 use model::bearing::{
     BearingConstants, PlanarConstants, Separation, SharedMoment, SteadyMoment, seat,
 };
 use model::system::machine::RotorMachine;
-use model::auxiliary_bearing::probe::{COUNT as DETAIL, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD};
 use model::system::machine::layout::ROTOR;
 use number::Vec2;
 use physics::traction::{SlipLaw, TanhTraction, Traction, TractionLaw};
@@ -442,7 +445,10 @@ fn contents_are_those_of_the_bodies() {
         // rounding of sums of a few tens of terms
         assert!((content.translation / translation - 1.0).abs() < 1e-13);
         assert!((content.spin / spin - 1.0).abs() < 1e-13);
-        if matches!(machine.constants.bearings[0].bearing, BearingConstants::Planar(_)) {
+        if matches!(
+            machine.constants.bearings[0].bearing,
+            BearingConstants::Planar(_)
+        ) {
             let orbits = bodies.iter().map(|(m, b)| m * b[0].cross(b[1]));
             let total: f64 = orbits.chain(turning.iter().map(|(i, w, _)| i * w)).sum();
             let size: f64 = turning.iter().map(|(i, w, _)| (i * w).abs()).sum();

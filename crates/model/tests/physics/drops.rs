@@ -1,9 +1,11 @@
 //! Whole drops: what closes, what is known in closed form, what a brake and a drive do.
 
-use crate::machines::{G, INNER, balance_mount, heat_of, let_roll, observe, planar, reference, run, settings, vec2};
+use crate::machines::{
+    G, INNER, balance_mount, heat_of, let_roll, observe, planar, reference, run, settings, vec2,
+};
 use model::auxiliary_bearing::probe::{NORMAL_FORCE, PENETRATION, PENETRATION_SPEED};
-use model::system::machine::layout::ROTOR;
 use model::schedule::Schedule;
+use model::system::machine::layout::ROTOR;
 use model::system::machine::{Event, MachineConstants, RotorMachine};
 use solve::{Flow, Observer, Step, watch};
 use std::f64::consts::PI;

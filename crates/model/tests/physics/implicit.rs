@@ -1,11 +1,13 @@
 //! Linearly implicit steps: the Jacobian is the derivative of the rate, and a drop is the same drop.
 
-use crate::machines::{BEARING, planar, random_state, reference, separate, settings, tilt_contacts};
+use crate::machines::{
+    BEARING, planar, random_state, reference, separate, settings, tilt_contacts,
+};
 use model::bearing::Separation;
 use model::bearing::ball_states::CAGE_PLACE;
 use model::system::machine::linear::MachineLinear;
 use model::system::machine::record::Record;
-use model::system::machine::{Machines, MachineConstants, RotorMachine};
+use model::system::machine::{MachineConstants, Machines, RotorMachine};
 use physics::traction::{TanhTraction, Traction};
 use solve::{Arrowhead, Ending, Linear, Machine, Stop};
 use std::sync::atomic::AtomicBool;
@@ -171,7 +173,11 @@ fn an_implicit_drop_is_the_explicit_one() {
     let (implicit, ending, residual) = drop(with_reference_speed(0.1), 0.03, 1e-4, true);
     let peak = |record: &Record| record.bearings[0].contacts[0].peak_force;
     let second = |record: &Record| record.bearings[0].contacts[1].start;
-    let half = |record: &Record| record.bearings[0].inner_race_time_to_50_percent().expect("it is fast");
+    let half = |record: &Record| {
+        record.bearings[0]
+            .inner_race_time_to_50_percent()
+            .expect("it is fast")
+    };
     // measured 0.01 N, 0.1 µs and 2 µs; the time to half speed of perturbed starts spreads by 3 µs
     assert!((peak(&explicit) - peak(&implicit)).abs() < 0.1);
     assert!((second(&explicit) - second(&implicit)).abs() < 1e-6);

@@ -3,8 +3,8 @@
 use crate::machines::{
     balance_mount, bearing_part, let_roll, planar, reference, run, settings, vec2,
 };
+use model::auxiliary_bearing::probe::COUNT as DETAIL;
 use model::bearing::BearingConstants;
-use model::auxiliary_bearing::probe::{COUNT as DETAIL};
 use model::system::machine::{MachineConstants, RotorMachine};
 use number::Vec2;
 use std::f64::consts::PI;

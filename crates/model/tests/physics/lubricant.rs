@@ -6,7 +6,7 @@ use model::bearing::lubricant_state::STATES;
 use model::bearing::{SharedMoment, SteadyMoment};
 use model::system::machine::linear::MachineLinear;
 use model::system::machine::record::Record;
-use model::system::machine::{Machines, MachineConstants, RotorMachine};
+use model::system::machine::{MachineConstants, Machines, RotorMachine};
 use solve::{Arrowhead, Ending, Linear, Machine, Stop};
 use std::sync::atomic::AtomicBool;
 

@@ -1,6 +1,9 @@
 //! A ball between races with oil: what its contacts are told, from points on the surfaces.
 
-use crate::machines::{BEARING, INNER, Random, ball_of, bearing_part, heat_of, inlets, oil, planar, race_motion, random_state, reference, vec2};
+use crate::machines::{
+    BEARING, INNER, Random, ball_of, bearing_part, heat_of, inlets, oil, planar, race_motion,
+    random_state, reference, vec2,
+};
 use crate::relatives::grease;
 use model::bearing::{BearingConstants, PlanarConstants, SharedMoment, SteadyMoment};
 use model::system::machine::RotorMachine;
@@ -122,5 +125,9 @@ fn a_steady_moment_holds_the_resistance_of_the_inlets() {
         bearing.inlet_rolling = Some(inlets());
     });
     assert_eq!(alone, both);
-    assert!(!machine.constants.bearings[0].bearing.may_make("inlet_rolling"));
+    assert!(
+        !machine.constants.bearings[0]
+            .bearing
+            .may_make("inlet_rolling")
+    );
 }

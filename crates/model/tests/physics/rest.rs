@@ -1,7 +1,7 @@
 //! Rest: what does not move stays.
 
 use crate::machines::{BEARING, INNER, ball_of, let_roll, planar, reference, weightless};
-use model::auxiliary_bearing::probe::{COUNT as DETAIL};
+use model::auxiliary_bearing::probe::COUNT as DETAIL;
 use model::system::machine::{MachineConstants, RotorMachine};
 use std::f64::consts::PI;
 

@@ -2,7 +2,8 @@
 
 use crate::machines::{
     INNER, OUTER, Random, ball_of, ball_pair, bearing_part, heat_of, land, let_roll, planar,
-    race_motion, random_state, reference, run, separate, separations, settings, tilt_contacts, vec2,
+    race_motion, random_state, reference, run, separate, separations, settings, tilt_contacts,
+    vec2,
 };
 use model::auxiliary_bearing::probe::{LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_POCKET_FORCE};
 use model::bearing::ball_states::CAGE_PLACE;
@@ -114,7 +115,10 @@ fn a_pocket_is_rubbed_along_the_line_of_contact() {
     let mut pressed = 0;
     for _ in 0..40 {
         let state = random_state(&machine, &mut random);
-        let (motion, part) = (race_motion(&machine, &state), bearing_part(&machine, &state));
+        let (motion, part) = (
+            race_motion(&machine, &state),
+            bearing_part(&machine, &state),
+        );
         for j in 0..bearing.balls {
             let reaction = bearing.ball_reaction(&motion, part, j);
             if reaction.pocket_force == 0.0 {

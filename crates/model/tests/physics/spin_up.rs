@@ -1,7 +1,10 @@
 //! Concentric spin-ups: equations (6) and (7) of the source paper from measured contact forces, and balls with ample
 //! grip against the bearing whose balls roll.
 
-use crate::machines::{INNER, ball_of, bearing_part, heat_of, let_roll, planar, race_motion, reference, run, settings, weightless};
+use crate::machines::{
+    INNER, ball_of, bearing_part, heat_of, let_roll, planar, race_motion, reference, run, settings,
+    weightless,
+};
 use model::bearing::{BearingConstants, PlanarConstants};
 use model::system::machine::{MachineConstants, RotorMachine};
 use physics::rolling::{Acceleration, RollingSet};
@@ -180,10 +183,10 @@ fn balls_with_ample_grip_equal_the_rolling_bearing() {
     let end = |constants: &MachineConstants| {
         let machine = RotorMachine::new(constants.clone());
         let state = run(&machine, &machine.start(), &settings(20e-3, 1e-5));
-        let cage = machine
-            .constants
-            .bearing
-            .cage_speed(&race_motion(&machine, &state), bearing_part(&machine, &state));
+        let cage = machine.constants.bearing.cage_speed(
+            &race_motion(&machine, &state),
+            bearing_part(&machine, &state),
+        );
         (state[INNER + 5], cage)
     };
     let (balls, rolling) = (end(&c), end(&rolls));

@@ -1,6 +1,9 @@
 //! Turning or mirroring the machine turns or mirrors the answer.
 
-use crate::machines::{BEARING, INNER, OUTER, balance_mount, ball_of, equal_steps, planar, reference, run, separate, separations, vec2};
+use crate::machines::{
+    BEARING, INNER, OUTER, balance_mount, ball_of, equal_steps, planar, reference, run, separate,
+    separations, vec2,
+};
 use model::bearing::ball::BallMotion;
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::{BearingConstants, Separation};

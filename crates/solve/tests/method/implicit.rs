@@ -2,7 +2,8 @@
 
 use crate::problems::{Alone, Blind, Problem, adaptive, equal_steps};
 use solve::{
-    Arrowhead, BlockShape, Ending, Flow, Linear, Observer, Settings, Shape, Step, Stop, run_implicit,
+    Arrowhead, BlockShape, Ending, Flow, Linear, Observer, Settings, Shape, Step, Stop,
+    run_implicit,
 };
 use std::sync::atomic::AtomicBool;
 

@@ -6,7 +6,7 @@ use crate::simulate::bearing::run::BearingRun;
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::{BearingConstants, LubricantAt, Separation};
 use model::system::energy::Balance;
-use model::system::layout::{Channels, Layout};
+use model::system::layout::{Entry, Layout};
 use model::system::sampling::Row;
 use physics::hertz::maximum_pressure;
 
@@ -251,37 +251,31 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Heats and works since an event ("release"). What this bearing cannot make has no column.
-    pub fn flows<S: Channels>(&mut self, since: &str, layout: &Layout<S>) {
-        let bearing = self.run.bearing;
-        for (i, heat) in S::HEATS.iter().enumerate() {
-            if !bearing.may_make(heat) {
-                continue;
+    /// Heats and works since an event ("release"). What a part's bearing cannot make has no column.
+    pub fn flows(
+        &mut self,
+        since: &str,
+        layout: &Layout,
+        bearing_of: impl Fn(&str) -> &'a BearingConstants,
+    ) {
+        let mut add = |what: &str, entry: &Entry, channel: usize| {
+            let meaning = format!("{what} since {since}: {}", entry.kind.replace('_', " "));
+            self.channel(&layout.channel_name(channel), "J", &meaning, channel);
+        };
+        for (i, heat) in layout.heats().iter().enumerate() {
+            if bearing_of(&heat.part).may_make(heat.kind) {
+                add("heat made", heat, layout.heat(i));
             }
-            let meaning = format!("heat made since {since}: {}", heat.replace('_', " "));
-            self.channel(
-                &format!("energy.heat.{heat}"),
-                "J",
-                &meaning,
-                layout.heat(i),
-            );
         }
-        for (i, source) in S::SOURCES.iter().enumerate() {
-            if *source == "inner_race_growth" && !bearing.grows() {
-                continue;
+        for (i, source) in layout.sources().iter().enumerate() {
+            if source.kind != "inner_race_growth" || bearing_of(&source.part).grows() {
+                add("work put in", source, layout.source(i));
             }
-            let meaning = format!("work put in since {since}: {}", source.replace('_', " "));
-            self.channel(
-                &format!("energy.source.{source}"),
-                "J",
-                &meaning,
-                layout.source(i),
-            );
         }
     }
 
     /// What the moment on the outer race tells of a spin-up; `body`, for short `name`, turns with the inner race.
-    pub fn outer_race_works<S: Channels>(&mut self, body: &str, name: &str, layout: &Layout<S>) {
+    pub fn outer_race_works(&mut self, body: &str, name: &str, layout: &Layout) {
         self.channel(
             "energy.outer_race.moment_work",
             "J",

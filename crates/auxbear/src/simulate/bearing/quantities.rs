@@ -4,19 +4,23 @@ use crate::result::list::{List, Origin};
 use crate::scenario::Bearing;
 use crate::simulate::bearing::run::{BearingRun, Pressures};
 use model::bearing::{BearingConstants, Separation};
-use model::system::layout::{Channels, Layout};
+use model::system::layout::Layout;
 use model::system::sampling::Peak;
 
 /// A state at the end of a run.
-pub(crate) struct End<'a, S> {
-    pub layout: &'a Layout<S>,
+pub(crate) struct End<'a> {
+    /// Name of the part whose bearing is meant.
+    pub part: &'a str,
+    pub layout: &'a Layout,
     pub state: &'a [f64],
 }
 
-impl<S: Channels> End<'_, S> {
+impl End<'_> {
     /// What a kind of heat has summed up, J.
     fn heat(&self, kind: &str) -> f64 {
-        self.layout.heat_of(self.state, kind).unwrap_or(0.0)
+        self.layout
+            .heat_of(self.state, self.part, kind)
+            .unwrap_or(0.0)
     }
     /// What the balls lost sliding on the inner and on the outer race, J.
     fn slips(&self) -> [f64; 2] {
@@ -88,12 +92,12 @@ impl List {
     }
 
     /// Loads, films, skids, lubricant and cage.
-    pub fn balls<S: Channels>(
+    pub fn balls(
         &mut self,
         run: &BearingRun,
         forces: &LargestForces,
         bearing: &Bearing,
-        end: &End<S>,
+        end: &End,
     ) {
         let pressures = (run.pressure_factors).pressures(forces.loads, forces.cage[0]);
         self.ball_loads(forces.loads, &pressures, bearing);
@@ -132,10 +136,10 @@ impl List {
         self.number(friction_name, "J", Ok(friction), &CAGE_FRICTION);
     }
 
-    /// What sliding of the rotor and of the balls took, and what was dissipated in all, J.
-    pub fn losses<S: Channels>(&mut self, end: &End<S>, dissipated: f64, origin: &Origin) {
+    /// What sliding of the rotor and of the balls took, J.
+    pub fn losses(&mut self, run: &BearingRun, end: &End, origin: &Origin) {
         let [inner, outer] = end.slips();
-        let slip = (end.layout.ball_states)
+        let slip = matches!(run.bearing, BearingConstants::Planar(_))
             .then_some(inner + outer)
             .ok_or_else(|| "balls do not slip in the rolling fidelity".to_string());
         for (name, value) in [
@@ -144,7 +148,6 @@ impl List {
                 Ok(end.heat("rotor_race_friction")),
             ),
             ("ball_slip_energy", slip),
-            ("dissipated_energy", Ok(dissipated)),
         ] {
             self.number(name, "J", value, origin);
         }
@@ -171,7 +174,7 @@ const CAGE_FORCE: Origin = Origin {
 };
 const CAGE_FRICTION: Origin = Origin {
     law: "time integral of friction force times sliding speed in pockets, at the land, or between balls",
-    source: "energy ledger, crates/model/src/system/drop/ledger.rs and spin_up/ledger.rs",
+    source: "energy ledger, crates/model/src/system/machine/ledger.rs and spin_up/ledger.rs",
     valid: "dry friction with the coefficients given",
 };
 const BALL_LOAD: Origin = Origin {

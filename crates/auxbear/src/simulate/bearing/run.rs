@@ -73,7 +73,7 @@ pub(crate) struct BearingRun<'a> {
     pub cage_forces: [usize; 2],
     pub pressure_factors: PressureFactors,
     /// Motion of the races in a state of the system.
-    pub motion: fn(&[f64]) -> Motion<f64>,
+    pub motion: Box<dyn Fn(&[f64]) -> Motion<f64> + 'a>,
     pub rows: Vec<Row<'a>>,
 }
 

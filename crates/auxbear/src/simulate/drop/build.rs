@@ -5,12 +5,14 @@ use crate::scenario::{Drop, Spin};
 use crate::simulate::bearing;
 use crate::simulate::bearing::build::{SteadyFinding, SteadyPoint};
 use crate::simulate::bearing::run::PressureFactors;
+use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::bearing::BearingConstants;
 use model::contact::JournalContact;
 use model::levitation::Levitation;
 use model::mount::Mount;
 use model::rotor::Rotor;
-use model::system::drop::{DropConstants, MachineConstants};
+use model::schedule::Schedule;
+use model::system::machine::{Event, MachineConstants};
 use model::system::spin_up::InnerRace;
 use number::Vec2;
 
@@ -18,7 +20,7 @@ use number::Vec2;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Built {
     /// Constants of the model.
-    pub constants: DropConstants,
+    pub constants: MachineConstants,
     /// Hertz pressure in the contacts of a ball.
     pub pressure_factors: PressureFactors,
     /// What traction can carry at full speed under the rotor's weight; none where the bearing has no steady moment.
@@ -59,7 +61,7 @@ fn gravity(drop: &Drop) -> Vec2<f64> {
 }
 
 /// The constants of a drop onto a bearing that is built already.
-pub fn constants(drop: &Drop, bearing: BearingConstants) -> DropConstants {
+pub fn constants(drop: &Drop, bearing: BearingConstants) -> MachineConstants {
     let share = 1.0 / f64::from(drop.rotor.planes);
     let gravity = gravity(drop);
     let mass = drop.rotor.mass * share;
@@ -67,21 +69,22 @@ pub fn constants(drop: &Drop, bearing: BearingConstants) -> DropConstants {
         Spin::Braked { torque, start } => (torque * share, start),
         Spin::Free | Spin::Held => (0.0, f64::INFINITY),
     };
-    let mut constants = DropConstants {
-        machine: MachineConstants {
-            rotor: Rotor {
-                mass,
-                polar_inertia: drop.rotor.polar_inertia * share,
-                eccentricity: drop.rotor.unbalance_eccentricity,
-                brake_torque,
-                spin_held: drop.rotor.spin == Spin::Held,
-            },
-            levitation: Levitation {
-                stiffness: drop.levitation.stiffness,
-                damping: drop.levitation.damping,
-                centre: Vec2::new(drop.levitation.offset_x, drop.levitation.offset_y),
-                carried: -(gravity * mass),
-            },
+    let mut constants = MachineConstants {
+        rotor: Rotor {
+            mass,
+            polar_inertia: drop.rotor.polar_inertia * share,
+            eccentricity: drop.rotor.unbalance_eccentricity,
+            brake_torque,
+            spin_held: drop.rotor.spin == Spin::Held,
+        },
+        levitation: Levitation {
+            stiffness: drop.levitation.stiffness,
+            damping: drop.levitation.damping,
+            centre: Vec2::new(drop.levitation.offset_x, drop.levitation.offset_y),
+            carried: -(gravity * mass),
+        },
+        bearings: vec![AuxiliaryBearingConstants {
+            name: String::new(),
             contact: JournalContact {
                 radial_clearance: drop.contact.radial_air_clearance,
                 bore_radius: 0.5 * drop.contact.bore_diameter,
@@ -91,23 +94,25 @@ pub fn constants(drop: &Drop, bearing: BearingConstants) -> DropConstants {
                 friction: drop.contact.friction_coefficient,
                 inverse_reference_speed: 1.0 / drop.contact.friction_reference_speed,
             },
+            inner_race: RaceConstants {
+                mass: drop.bearing.inner_race_mass,
+                inertia: drop.bearing.inner_race_inertia,
+                centre_held: drop.bearing.inner_race_centre_held,
+                torque: drop.bearing.inner_race_torque,
+            },
+            bearing,
+            outer_race_mass: drop.mount.moving_mass,
             mount: Mount {
                 stiffness: drop.mount.stiffness,
                 damping: drop.mount.damping,
                 free_position: Vec2::zero(),
             },
-            inner_race_mass: drop.bearing.inner_race_mass,
-            inner_race_inertia: drop.bearing.inner_race_inertia,
-            inner_race_centre_held: drop.bearing.inner_race_centre_held,
-            inner_race_torque: drop.bearing.inner_race_torque,
-            outer_race_mass: drop.mount.moving_mass,
-            gravity,
-        },
-        bearing,
+        }],
+        gravity,
         speed: drop.rotor.speed,
         unbalance_angle: drop.rotor.unbalance_angle,
-        brake_start,
+        schedule: Schedule::of([(brake_start, Event::Brake)]),
     };
-    constants.balance_mount();
+    constants.balance_mounts();
     constants
 }

@@ -3,9 +3,9 @@
 //! A member's result depends on its constants and its start alone, bit for bit: not on the lane, the company, the
 //! vector unit or the number of threads.
 
-use model::system::drop::linear::DropLinear;
-use model::system::drop::record::Record;
-use model::system::drop::{Drop, DropMachine};
+use model::system::machine::linear::MachineLinear;
+use model::system::machine::record::Record;
+use model::system::machine::{Machines, RotorMachine};
 use number::{Level, Real, Task};
 use rayon::prelude::*;
 use solve::{Ending, Flow, Observer, Settings, Step};
@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 #[derive(Clone, Debug)]
 pub struct Member {
     /// The machine.
-    pub machine: DropMachine,
+    pub machine: RotorMachine,
     /// Its state at the start.
     pub start: Vec<f64>,
     /// Whether its history is kept.
@@ -115,12 +115,12 @@ impl Task for Chunk<'_> {
             plan,
             report,
         } = self;
-        let machines: Vec<&DropMachine> = members.iter().map(|m| &m.machine).collect();
+        let machines: Vec<&RotorMachine> = members.iter().map(|m| &m.machine).collect();
         let starts: Vec<Vec<f64>> = members.iter().map(|m| m.start.clone()).collect();
         let mut watched: Vec<Watched> = (members.iter())
             .map(|member| Watched::of(member, plan, report))
             .collect();
-        let endings = solve::run::<R, Drop<R>, _>(
+        let endings = solve::run::<R, Machines<R>, _>(
             &machines,
             &starts,
             &mut watched,
@@ -148,8 +148,8 @@ impl Task for Implicit<'_> {
         let one = |member: &Member| {
             let mut watched = Watched::of(member, plan, report);
             // balls that roll have no friction to be stiff
-            let linear = DropLinear::of(&member.machine)?;
-            let ending = solve::run_implicit::<R, Drop<R>, _, _, _, _, _>(
+            let linear = MachineLinear::of(&member.machine)?;
+            let ending = solve::run_implicit::<R, Machines<R>, _, _, _, _, _>(
                 &member.machine,
                 linear,
                 &member.start,
@@ -208,8 +208,8 @@ impl<'a> Watched<'a> {
     }
 }
 
-impl Observer<DropMachine> for Watched<'_> {
-    fn step(&mut self, step: &mut Step<DropMachine>) -> Flow {
+impl Observer<RotorMachine> for Watched<'_> {
+    fn step(&mut self, step: &mut Step<RotorMachine>) -> Flow {
         let thousandths = (1000.0 * step.end / self.end) as u64;
         if thousandths > self.told {
             self.tell(thousandths);

@@ -11,6 +11,7 @@
 
 use crate::scenario::{Drop, Method};
 use crate::simulate::drop::build::Built;
+use model::auxiliary_bearing::AuxiliaryBearingConstants;
 use model::bearing::{BearingConstants, PlanarConstants};
 
 /// λ/ω above which linearly implicit steps are the quicker ones at equal error; measured on the reference drop with
@@ -23,21 +24,30 @@ pub(crate) const IMPLICIT: &str = "ROS34PW2, linearly implicit";
 
 /// True for linearly implicit steps.
 pub(crate) fn is_implicit(drop: &Drop, built: &Built) -> bool {
-    let BearingConstants::Planar(bearing) = &built.constants.bearing else {
+    let planar = |part: &'_ AuxiliaryBearingConstants| match &part.bearing {
+        BearingConstants::Planar(bearing) => Some(stiffness(drop, built, part, bearing)),
+        BearingConstants::Rolling(_) => None,
+    };
+    let parts = built.constants.bearings.iter();
+    let Some(stiffnesses) = parts.map(planar).collect::<Option<Vec<f64>>>() else {
         return false;
     };
     match drop.run.method {
         Method::Explicit => false,
         Method::Implicit => true,
-        Method::Auto => stiffness(drop, built, bearing) > STIFF,
+        Method::Auto => stiffnesses.into_iter().fold(0.0, f64::max) > STIFF,
     }
 }
 
-/// λ/ω in a first impact.
-fn stiffness(drop: &Drop, built: &Built, bearing: &PlanarConstants) -> f64 {
-    let machine = &built.constants.machine;
-    let fall = 2.0 * drop.gravity.acceleration * machine.contact.radial_clearance;
-    let force = (fall * machine.mount.stiffness * machine.rotor.mass).sqrt();
+/// λ/ω of an auxiliary bearing in a first impact.
+fn stiffness(
+    drop: &Drop,
+    built: &Built,
+    part: &AuxiliaryBearingConstants,
+    bearing: &PlanarConstants,
+) -> f64 {
+    let fall = 2.0 * drop.gravity.acceleration * part.contact.radial_clearance;
+    let force = (fall * part.mount.stiffness * built.constants.rotor.mass).sqrt();
     let load = 5.0 * force / bearing.balls as f64;
     let ball = &bearing.ball;
     let slope = bearing.traction.slope_at_rest(load, 0.0);

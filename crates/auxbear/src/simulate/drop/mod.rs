@@ -14,11 +14,9 @@ use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::drop::build::Built;
 use crate::simulate::drop::ensemble::{Finished, Member, Plan};
 use crate::simulate::ending::{settings, stop};
-use model::system::drop::DropMachine;
-use model::system::drop::layout::{
-    DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
-};
-use model::system::drop::rate::race_motion;
+use model::auxiliary_bearing::probe;
+use model::system::machine::RotorMachine;
+use model::system::machine::record::BearingRecord;
 use number::Vec2;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -29,21 +27,32 @@ use std::time::Instant;
 pub(crate) struct Context<'a> {
     pub drop: &'a Drop,
     pub built: &'a Built,
-    pub machine: &'a DropMachine,
+    pub machine: &'a RotorMachine,
     pub finished: &'a Finished,
     pub members: usize,
 }
 
 impl<'a> Context<'a> {
-    pub fn bearing(&self) -> BearingRun<'a> {
+    /// The names of the bearings; one without a name where it is the only one.
+    pub fn parts(&self) -> impl Iterator<Item = &'a str> {
+        let parts = self.machine.constants.bearings.iter();
+        parts.map(|part| part.name.as_str())
+    }
+    pub fn record(&self, bearing: usize) -> &'a BearingRecord {
+        &self.finished.record.bearings[bearing]
+    }
+    pub fn bearing(&self, bearing: usize) -> BearingRun<'a> {
+        let at = self.machine.layout().bearings[bearing];
         BearingRun {
-            bearing: &self.machine.constants.bearing,
-            states: self.machine.layout().bearing(),
-            detail: DETAIL,
-            largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
-            cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
+            bearing: &self.machine.constants.bearings[bearing].bearing,
+            states: at.own(),
+            detail: at.detail,
+            largest_loads: [probe::LARGEST_INNER_LOAD, probe::LARGEST_OUTER_LOAD]
+                .map(|kind| at.probe(kind)),
+            cage_forces: [probe::LARGEST_POCKET_FORCE, probe::LAND_FORCE]
+                .map(|kind| at.probe(kind)),
             pressure_factors: self.built.pressure_factors,
-            motion: race_motion,
+            motion: Box::new(move |state| at.motion(state)),
             rows: self.finished.record.rows().collect(),
         }
     }
@@ -51,7 +60,7 @@ impl<'a> Context<'a> {
 
 /// Runs a drop.
 pub(crate) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Options) -> Outcome {
-    let machine = DropMachine::new(built.constants.clone());
+    let machine = RotorMachine::new(built.constants.clone());
     let count = drop.repeat.count.max(1) as usize;
     let members: Vec<Member> = (0..count)
         .map(|k| member(&machine, drop, built, k))
@@ -116,7 +125,7 @@ pub(crate) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Opt
         picture: Picture {
             clearance: Some(drop.contact.radial_air_clearance),
             pressure_limit: Some(drop.bearing.hertz_pressure_limit),
-            rolling_cage_ratio: machine.rolling_cage_ratio(),
+            rolling_cage_ratio: machine.constants.bearings[0].bearing.rolling_cage_ratio(),
             balls: drop.bearing.ball_count,
         },
         files: Vec::new(),
@@ -124,7 +133,7 @@ pub(crate) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Opt
 }
 
 /// Member `k`: the machine and start given for 0, else changed by numbers that depend on (seed, k) alone.
-fn member(machine: &DropMachine, drop: &Drop, built: &Built, k: usize) -> Member {
+fn member(machine: &RotorMachine, drop: &Drop, built: &Built, k: usize) -> Member {
     if k == 0 {
         return Member {
             start: machine.start(),
@@ -140,12 +149,15 @@ fn member(machine: &DropMachine, drop: &Drop, built: &Built, k: usize) -> Member
         .collect();
     let machine = if drop.repeat.varies_the_machine() {
         let varied = varied(drop, &mut normal);
-        DropMachine::new(build::constants(&varied, built.constants.bearing.clone()))
+        RotorMachine::new(build::constants(
+            &varied,
+            built.constants.bearings[0].bearing.clone(),
+        ))
     } else {
         machine.clone()
     };
     let mut start = machine.start();
-    machine.perturb(&mut start, shift, &|ball| angles[ball]);
+    machine.perturb(&mut start, shift, &|_, ball| angles[ball]);
     Member {
         machine,
         start,
@@ -189,8 +201,7 @@ fn spread(members: &[Vec<(String, Option<f64>)>], name: &str) -> Option<Spread> 
 }
 
 fn contacts(finished: &Finished) -> Vec<Contact> {
-    finished
-        .record
+    finished.record.bearings[0]
         .contacts
         .iter()
         .map(|c| Contact {

@@ -4,21 +4,43 @@ use crate::result::list::{List, Origin, relative};
 use crate::result::outcome::{Quantity, Value};
 use crate::simulate::bearing::quantities::{End, LargestForces};
 use crate::simulate::drop::Context;
-use model::system::drop::layout::{INNER, ROTOR};
+use model::system::layout::of_part;
+use model::system::machine::layout::ROTOR;
 
 const EQUATIONS: &str =
-    "equations of motion, crates/model/src/system/drop/rate.rs and crates/model/src/bearing/";
+    "equations of motion, crates/model/src/system/machine/rate.rs and crates/model/src/bearing/";
 const CONTACT: &str = "Hunt-Crossley contact, crates/model/src/contact.rs";
 const EVENT: &str = "root on dense output of the time integration, crates/solve/src/watch.rs";
-const LEDGER: &str = "energy ledger, crates/model/src/system/drop/ledger.rs";
+const LEDGER: &str = "energy ledger, crates/model/src/system/machine/ledger.rs";
 
-/// Names the results of one member.
+/// Names the results of one member: those of each auxiliary bearing under its name, then those of the machine.
 pub(crate) fn name(context: &Context) -> Vec<Quantity> {
-    let record = &context.finished.record;
+    let ending = &context.finished.ending;
+    let state = &ending.state;
+    let mut list = List(Vec::new());
+    for (k, part) in context.parts().enumerate() {
+        let mut own = List(Vec::new());
+        of_bearing(context, k, part, &mut own);
+        list.0.extend(own.0.into_iter().map(|quantity| Quantity {
+            name: of_part(part, &quantity.name),
+            ..quantity
+        }));
+    }
+    list.number("rotor_final_speed", "rad/s", Ok(state[ROTOR + 5]), &SPEED);
+    let heat = context.machine.flows(state).heat;
+    list.number("dissipated_energy", "J", Ok(heat), &ENERGY);
+    let (energy, momentum) = residuals(context);
+    list.number("energy_residual", "1", energy, &RESIDUAL);
+    list.number("angular_momentum_residual", "1", momentum, &RESIDUAL);
+    list.ended_at(ending.time)
+}
+
+/// Names the results of one auxiliary bearing.
+fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
+    let record = context.record(k);
     let ending = &context.finished.ending;
     let machine = context.machine;
     let state = &ending.state;
-    let mut list = List(Vec::new());
     let no_contact = || "rotor and inner race never touched in this run".to_string();
 
     // contacts
@@ -74,15 +96,16 @@ pub(crate) fn name(context: &Context) -> Vec<Quantity> {
         ],
         &RISE,
     );
+    let race_speed = state[machine.layout().bearings[k].inner + 5];
     for (name, speed) in [
-        ("inner_race_final_speed", state[INNER + 5]),
-        ("cage_final_speed", machine.cage_speed(state)),
-        ("rotor_final_speed", state[ROTOR + 5]),
+        ("inner_race_final_speed", race_speed),
+        ("cage_final_speed", machine.cage_speed(k, state)),
     ] {
         list.number(name, "rad/s", Ok(speed), &SPEED);
     }
 
     let end = End {
+        part,
         layout: machine.layout(),
         state,
     };
@@ -90,7 +113,8 @@ pub(crate) fn name(context: &Context) -> Vec<Quantity> {
         loads: [record.largest_inner_load, record.largest_outer_load],
         cage: [record.largest_pocket_force, record.largest_land_force],
     };
-    list.balls(&context.bearing(), &forces, &context.drop.bearing, &end);
+    let run = context.bearing(k);
+    list.balls(&run, &forces, &context.drop.bearing, &end);
 
     // displacements and whirl
     list.number(
@@ -131,14 +155,8 @@ pub(crate) fn name(context: &Context) -> Vec<Quantity> {
         &WHIRL,
     );
     list.number("whirl_turns", "", Ok(turns), &WHIRL);
-
-    // energies
-    list.losses(&end, machine.flows(state).heat, &ENERGY);
-    let (energy, momentum) = residuals(context);
-    list.number("energy_residual", "1", energy, &RESIDUAL);
-    list.number("angular_momentum_residual", "1", momentum, &RESIDUAL);
+    list.losses(&run, &end, &ENERGY);
     list.mark_chaotic(&CHAOTIC);
-    list.ended_at(ending.time)
 }
 
 /// What is turned over must exceed this share of the kinetic energy at the start to be compared with.
@@ -162,7 +180,10 @@ fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, String>) {
         0.0
     };
     let constants = &machine.constants;
-    let momentum_scale = constants.machine.inner_race_inertia * constants.speed.abs();
+    let inertia: f64 = (constants.bearings.iter())
+        .map(|part| part.inner_race.inertia)
+        .sum();
+    let momentum_scale = inertia * constants.speed.abs();
     (
         relative(balance.energy_residual(), scale),
         relative(balance.angular_momentum_residual(), momentum_scale),
@@ -227,7 +248,7 @@ const WHIRL: Origin = Origin {
 const ENERGY: Origin = Origin {
     law: "time integral of friction force times sliding speed, and of every other loss",
     source: LEDGER,
-    valid: "heat of this plane's bearing; nothing is cooled or warmed by it",
+    valid: "heat of what is simulated: of identical planes that of one; nothing is cooled or warmed by it",
 };
 const RESIDUAL: Origin = Origin {
     law: "what the ledger misses at the end, over max(heat, works, largest kinetic energy of the rotor's centre); \

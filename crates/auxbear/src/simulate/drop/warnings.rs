@@ -6,7 +6,7 @@ use crate::simulate::bearing::run::Pressures;
 use crate::simulate::bearing::warnings::{self as shared, warning};
 use crate::simulate::drop::Context;
 use crate::simulate::drop::ensemble::Finished;
-use model::system::drop::layout::PENETRATION_SPEED;
+use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 
 /// Contacts after which pocket and bounce chaos shows in the later ones.
 const CHAOTIC_CONTACTS: usize = 10;
@@ -19,7 +19,8 @@ const LARGEST_DAMPING: f64 = 0.5;
 pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -> Vec<Warning> {
     let drop = context.drop;
     let bearing = &drop.bearing;
-    let record = &context.finished.record;
+    let record = context.record(0);
+    let at = context.machine.layout().bearings[0];
     let mut list = Vec::new();
 
     let turns = record.whirl_turns * context.machine.constants.speed.signum();
@@ -54,7 +55,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
     }
     let pressures = (members.iter())
         .map(|member| {
-            let record = &member.record;
+            let record = &member.record.bearings[0];
             let races = [record.largest_inner_load, record.largest_outer_load];
             (context.built.pressure_factors).pressures(races, record.largest_pocket_force)
         })
@@ -62,10 +63,9 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
     if let Some(pressures) = pressures {
         list.extend(shared::pressure(bearing, &pressures));
     }
-    let closing = record
-        .rows()
-        .filter(|row| row.probe[0] > 0.0)
-        .map(|row| row.probe[PENETRATION_SPEED].abs())
+    let closing = (context.finished.record.rows())
+        .filter(|row| row.probe[at.probe(PENETRATION)] > 0.0)
+        .map(|row| row.probe[at.probe(PENETRATION_SPEED)].abs())
         .fold(0.0, f64::max);
     if drop.contact.damping * closing > LARGEST_DAMPING {
         list.push(warning(
@@ -105,7 +105,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
             ),
         ));
     }
-    let run = context.bearing();
+    let run = context.bearing(0);
     list.extend(shared::films(&run, bearing));
     list.extend(shared::film_rise(&run));
     list.extend(shared::skids(context.built.steady.as_ref()));

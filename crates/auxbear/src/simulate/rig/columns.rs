@@ -95,7 +95,7 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
         table.channel("bearing.cage.angle", "rad", "angle of the cage", BEARING);
     }
     table.bearing();
-    table.flows("the start", layout);
+    table.flows("the start", layout, |_| run.bearing);
     table.outer_race_works("shaft", "shaft", layout);
     table.energies(|state| machine.balance(context.start, state));
     table.columns

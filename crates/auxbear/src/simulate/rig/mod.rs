@@ -15,10 +15,10 @@ mod raw_file;
 mod warnings;
 
 use crate::options::Options;
-use crate::simulate::drop::method;
 use crate::result::outcome::{Outcome, Picture, Work};
 use crate::scenario::{Rig, RigProgram, Scenario};
 use crate::simulate::bearing::run::{BearingRun, Pressures};
+use crate::simulate::drop::method;
 use crate::simulate::ending::{settings, stop};
 use build::Built;
 use chain::{Happened, Sampled};
@@ -61,7 +61,7 @@ impl<'a> Context<'a> {
             largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
             cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
             pressure_factors: self.built.pressure_factors,
-            motion: race_motion,
+            motion: Box::new(race_motion),
             rows: self.record.rows().collect(),
         }
     }

@@ -5,8 +5,7 @@ use crate::result::outcome::{Quantity, Value};
 use crate::scenario::{Fidelity, RigProgram};
 use crate::simulate::rig::Context;
 use model::system::rig::layout::{
-    CAGE_SLIP, CAGE_SPEED, CLUTCH_HEAT, FLYWHEEL, HEATS, INNER_MOMENT, OUTER_MOMENT, SHAFT,
-    STEADY_MOMENT,
+    CAGE_SLIP, CAGE_SPEED, CLUTCH_HEAT, FLYWHEEL, INNER_MOMENT, OUTER_MOMENT, SHAFT, STEADY_MOMENT,
 };
 
 const EQUATIONS: &str = "equations of motion, crates/model/src/system/rig/rate.rs";
@@ -141,10 +140,7 @@ fn energies(list: &mut List, context: &Context) {
         Ok(end[layout.heat(CLUTCH_HEAT)]),
         &ENERGY,
     );
-    let of_bearing = (0..HEATS.len())
-        .filter(|index| *index < CLUTCH_HEAT)
-        .map(|index| end[layout.heat(index)])
-        .sum();
+    let of_bearing = (0..CLUTCH_HEAT).map(|index| end[layout.heat(index)]).sum();
     list.number("bearing_dissipated_energy", "J", Ok(of_bearing), &ENERGY);
     list.number(
         "energy_residual",

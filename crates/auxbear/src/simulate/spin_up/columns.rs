@@ -46,7 +46,7 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
         }
     }
     table.bearing();
-    table.flows("the start", layout);
+    table.flows("the start", layout, |_| run.bearing);
     table.outer_race_works("inner race", "race", layout);
     table.energies(|state| machine.balance(context.start, state));
     table.columns

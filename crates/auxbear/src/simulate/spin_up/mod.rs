@@ -6,10 +6,10 @@ pub(crate) mod quantities;
 pub(crate) mod warnings;
 
 use crate::options::Options;
-use crate::simulate::drop::method;
 use crate::result::outcome::{Outcome, Picture, Work};
 use crate::scenario::{Scenario, SpinUp};
 use crate::simulate::bearing::run::BearingRun;
+use crate::simulate::drop::method;
 use crate::simulate::ending::{settings, stop};
 use crate::simulate::spin_up::build::Built;
 use model::system::spin_up::layout::{
@@ -42,7 +42,7 @@ impl<'a> Context<'a> {
             largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
             cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
             pressure_factors: self.built.pressure_factors,
-            motion: race_motion,
+            motion: Box::new(race_motion),
             rows: self.record.rows().collect(),
         }
     }

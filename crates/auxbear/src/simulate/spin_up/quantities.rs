@@ -6,7 +6,7 @@ use crate::scenario::{Drive, Fidelity};
 use crate::simulate::bearing::quantities::{End, LargestForces};
 use crate::simulate::spin_up::Context;
 use model::system::spin_up::layout::{
-    CAGE_SLIP, CAGE_SPEED, INNER, INNER_MOMENT, OUTER_MOMENT, ROTOR, STEADY_MOMENT, SpinUpChannels,
+    CAGE_SLIP, CAGE_SPEED, INNER, INNER_MOMENT, OUTER_MOMENT, ROTOR, STEADY_MOMENT,
 };
 use model::system::spin_up::record::LateMeans;
 
@@ -195,8 +195,9 @@ fn slip(list: &mut List, context: &Context) {
     );
 }
 
-fn end<'a>(context: &Context<'a>) -> End<'a, SpinUpChannels> {
+fn end<'a>(context: &'a Context<'a>) -> End<'a> {
     End {
+        part: "",
         layout: context.machine().layout(),
         state: &context.ending.state,
     }
@@ -217,7 +218,8 @@ fn energies(list: &mut List, context: &Context) {
     let (start, state) = (context.start, &context.ending.state);
     let balance = machine.balance(start, state);
     let heat = balance.heat();
-    list.losses(&end(context), heat, &ENERGY);
+    list.losses(&context.bearing(), &end(context), &ENERGY);
+    list.number("dissipated_energy", "J", Ok(heat), &ENERGY);
     let forms = machine.outer_race_energy(start, state);
     for (name, value, origin) in [
         ("bearing_dissipated_energy", forms.dissipated, &ENERGY),

@@ -60,7 +60,9 @@ impl Layout {
         let mut probes = parts.len() * probe::COUNT;
         let mut bearings = Vec::with_capacity(parts.len());
         for (k, part) in parts.iter().enumerate() {
-            let kinds = bearing::HEATS.into_iter().chain(auxiliary_bearing::OWN_HEATS);
+            let kinds = bearing::HEATS
+                .into_iter()
+                .chain(auxiliary_bearing::OWN_HEATS);
             let balls = part.bearing.balls();
             bearings.push(BearingAt {
                 inner: races[k].0,
@@ -114,7 +116,10 @@ impl Layout {
         let gravity = constants.gravity.length_squared().sqrt().max(LEAST_GRAVITY);
         let spin = constants.speed.abs().max(10.0);
         let mut scale = vec![0.0; self.dimension()];
-        let clearances = constants.bearings.iter().map(|part| part.contact.radial_clearance);
+        let clearances = constants
+            .bearings
+            .iter()
+            .map(|part| part.contact.radial_clearance);
         let smallest = clearances.fold(f64::INFINITY, f64::min);
         let fall = |clearance: f64| (2.0 * gravity * clearance).sqrt();
         let body = |scale: &mut [f64], body: usize, clearance: f64, turns: bool| {
@@ -134,8 +139,8 @@ impl Layout {
             body(&mut scale, at.outer, clearance, false);
             (part.bearing).error_scale(&mut scale[at.own()], spin, fall_speed);
             let inertia = part.inner_race.inertia;
-            let turned = 0.5 * inertia * spin * spin
-                + 0.5 * constants.rotor.mass * fall_speed * fall_speed;
+            let turned =
+                0.5 * inertia * spin * spin + 0.5 * constants.rotor.mass * fall_speed * fall_speed;
             let heats = self.heat(at.heat)..self.heat(at.heat + auxiliary_bearing::HEATS);
             scale[heats].fill(turned);
             scale[self.source(at.source)..self.source(at.source + 2)].fill(turned);

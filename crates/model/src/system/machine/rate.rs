@@ -54,8 +54,7 @@ impl<R: Real> Machines<R> {
         // what acts on the rotor
         let rotor = rotor_motion(state);
         let centre = self.rotor.geometric_centre(&rotor);
-        let levitation =
-            self.levitation.force(centre.position, centre.velocity) * mode.levitation;
+        let levitation = self.levitation.force(centre.position, centre.velocity) * mode.levitation;
         let contact = |k: usize| {
             let inner = layout.bearings[k].motion(state).inner;
             self.bearings[k].contact(&centre, rotor.spin, &inner)
@@ -77,7 +76,10 @@ impl<R: Real> Machines<R> {
         let (rotor_torque, spin_rate) = if self.rotor.spin_held {
             (-on_rotor.moment, zero)
         } else {
-            (brake, (on_rotor.moment + brake) * self.inverse_polar_inertia)
+            (
+                brake,
+                (on_rotor.moment + brake) * self.inverse_polar_inertia,
+            )
         };
         let acceleration = on_rotor.force * self.inverse_mass + self.gravity;
         write_body(rate, ROTOR, rotor.velocity, acceleration);
@@ -88,8 +90,8 @@ impl<R: Real> Machines<R> {
         debug_assert!(ROTOR_SOURCES.len() == 2);
 
         // auxiliary bearings; C = G + arm: its acceleration has the centripetal and the spin-up part of the eccentricity
-        let of_centre = acceleration + centre.arm.turned() * spin_rate
-            - centre.arm * rotor.spin.square();
+        let of_centre =
+            acceleration + centre.arm.turned() * spin_rate - centre.arm * rotor.spin.square();
         let mut impulse = rotor.position.cross(self.gravity) * self.rotor.mass;
         for (k, (part, at)) in self.bearings.iter().zip(&layout.bearings).enumerate() {
             let reaction = bearing(k, rate, probe);

@@ -210,7 +210,10 @@ impl BearingRecord {
     }
     fn contacts_of(&mut self, step: &mut Step<RotorMachine>) {
         let (at, bearing) = (self.at, self.bearing);
-        let (start, end) = (step.start_probe(at.probe(PENETRATION)), step.end_probe(at.probe(PENETRATION)));
+        let (start, end) = (
+            step.start_probe(at.probe(PENETRATION)),
+            step.end_probe(at.probe(PENETRATION)),
+        );
         let rates = (
             step.start_probe(at.probe(PENETRATION_SPEED)),
             step.end_probe(at.probe(PENETRATION_SPEED)),
@@ -300,7 +303,10 @@ impl BearingRecord {
         if high == 1.0 {
             peak.raise(step.end_probe(at.probe(NORMAL_FORCE)), step.end);
         }
-        let force = (step.start_probe(at.probe(NORMAL_FORCE)), step.end_probe(at.probe(NORMAL_FORCE)));
+        let force = (
+            step.start_probe(at.probe(NORMAL_FORCE)),
+            step.end_probe(at.probe(NORMAL_FORCE)),
+        );
         let rate = (
             step.start_probe(at.probe(NORMAL_FORCE_RATE)),
             step.end_probe(at.probe(NORMAL_FORCE_RATE)),
@@ -476,8 +482,7 @@ impl RotorMachine {
     /// Cage speed of a bearing at a state, rad/s.
     pub fn cage_speed(&self, bearing: usize, state: &[f64]) -> f64 {
         let at = &self.layout().bearings[bearing];
-        (self.constants.bearings[bearing].bearing)
-            .cage_speed(&at.motion(state), &state[at.own()])
+        (self.constants.bearings[bearing].bearing).cage_speed(&at.motion(state), &state[at.own()])
     }
     /// Azimuth of a ball of a bearing at a state, rad.
     pub fn ball_azimuth(&self, bearing: usize, state: &[f64], ball: usize) -> f64 {

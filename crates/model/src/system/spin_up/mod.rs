@@ -268,7 +268,7 @@ impl Machine for SpinUpMachine {
         self.layout.dimension()
     }
     fn quadratures(&self) -> usize {
-        Layout::LEDGER
+        self.layout.ledger_length()
     }
     fn probes(&self) -> usize {
         self.layout.probes()
