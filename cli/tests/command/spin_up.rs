@@ -140,6 +140,8 @@ operating_diametral_clearance = "-4 um"
 
 [bearing.moment]
 law = "palmgren"
+f0 = 2.0
+f1_factor = 0.0005
 f1_exponent = 0.5
 viscosity = "40 mm^2/s"
 "#;
@@ -147,7 +149,8 @@ viscosity = "40 mm^2/s"
     for command in ["run", "check"] {
         let mut words = vec![command, "lossy.toml"];
         words.extend(LOSSY);
-        let told = "error[AB0211]: lossy.toml, --set: bearing.acceleration_loss: found";
+        let told =
+            "error[AB0211]: lossy.toml, --set: bearing.acceleration_loss.per_acceleration: found";
         place.call(&words).refused(&[told]);
         assert_eq!(place.names(), ["lossy.toml"]);
     }

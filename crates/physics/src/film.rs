@@ -20,7 +20,7 @@
 //!
 //! - **Light and fast contacts are rigid**: their film is many times thicker than Hamrock and Dowson's, and falls with Q².
 //! - **The thickest counts**, as in the charts of regimes. Own solutions of Reynolds' equation between rigid bodies for Barus's
-//!   oil, from constant viscosity to where it has no solution any more (α_r = 42), are 8 % below to 10 % above the thicker of
+//!   oil, from constant viscosity to where it has no solution any more (α_r = 42), are 6 % below to 10 % above the thicker of
 //!   H_IR and H_VR. Where two films meet the true one is somewhat thicker than both. The older H_VR = 1.66 (G U)^(2/3) does not
 //!   fall with load: it is the bound at which rigid bodies carry any load, and above H_VE, 1.1 to 1.6 times, for all loaded bearings.
 //! - **The meeting is a kink**, not a jump: the thickness is continuous in load and speed, and so is traction.
@@ -270,6 +270,9 @@ impl FilmRegime {
         FilmRegime::PiezoviscousElastic,
     ];
     /// The field's word for it.
+    ///
+    /// Source: the names of the regimes in Hamrock and Dowson's charts.
+    /// Valid: always.
     pub fn name(self) -> &'static str {
         match self {
             FilmRegime::IsoviscousRigid => "isoviscous-rigid",

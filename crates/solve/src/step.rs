@@ -157,11 +157,11 @@ impl<M: Machine> Step<'_, M> {
                 *value = start + weight.change * (end - start) + (first * k1 + last * k4);
             }
             let sums = self.machine.dimension() - self.machine.quadratures();
-            for channel in sums..channels {
+            for (channel, value) in state.iter_mut().enumerate().skip(sums) {
                 let [start, k1, end, k4] = [0, 1, 2, 3].map(|k: usize| scratch.ends[k][channel]);
                 if k1 * k4 >= 0.0 {
                     let rates = [k1, k4].map(|rate| limited(rate, (end - start) / length));
-                    state[channel] = start
+                    *value = start
                         + weight.change * (end - start)
                         + (first * rates[0] + last * rates[1]);
                 }

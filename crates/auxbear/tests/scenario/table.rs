@@ -501,6 +501,13 @@ fn every_number_reaches_the_typed_scenario() {
             .iter()
             .any(|form| shown.contains(&format!("{name}{form}")))
                 || key.path == "drive.speed_history";
+            // where nothing moves the inertia counts as a mass on the circle of the ball centres
+            let counts_as_mass = ["Torque(", "Identify("]
+                .iter()
+                .any(|system| shown.starts_with(system));
+            if key.path == "bearing.cage_inertia" && counts_as_mass {
+                continue;
+            }
             // the typed cage and its land have names of their own
             let short = name.trim_start_matches("cage_").trim_start_matches("land_");
             let found = shown.contains(&format!("{name}: {si:?},"))

@@ -133,13 +133,13 @@ proptest! {
         let groups = contact.groups(0.04, 2.3e-8, v, q);
         let scale = contact.rolling_radius * supply;
         let rigid = rigid_film(groups, contact.radius_ratio);
-        let joint = |hard: f64, soft: f64| {
-            let elastic = hard.min(piezoviscous_rigid_film(groups, contact.ellipticity)).max(soft);
-            scale * (rigid / (1.0 + rigid)).hypot(elastic)
+        let stiff = piezoviscous_rigid_film(groups, contact.radius_ratio);
+        let thickest = |hard: f64, soft: f64| {
+            scale * (rigid / (1.0 + rigid)).max(stiff.max(hard).max(soft).min(1.0))
         };
         let k = contact.ellipticity;
-        let central = joint(central_film(groups, k), soft_central_film(groups, k));
-        let minimum = joint(minimum_film(groups, k), soft_minimum_film(groups, k));
+        let central = thickest(central_film(groups, k), soft_central_film(groups, k));
+        let minimum = thickest(minimum_film(groups, k), soft_minimum_film(groups, k));
         // logarithms up to 50: 50 rounding errors
         prop_assert!((film.central(-v, q) / central - 1.0).abs() < 1e-13);
         prop_assert!((film.minimum(v, q) / minimum - 1.0).abs() < 1e-13);
@@ -182,7 +182,7 @@ fn light_and_fast_contacts_have_the_film_of_rigid_bodies() {
     let contact = inner_6205();
     let film = warm_film(&contact);
     // Brewe, Hamrock, Taylor by hand: R_x 3.1513 mm, α_r 43.254, λ_b 0.98482, [0.131 atan 21.627 + 1.683]² = 3.54394,
-    // 128·43.254·0.96987·3.54394 (0.0325·v/Q)² R_x³ = 62.9 um at 10 m/s and 1 N; 2 % off by 1 + H, 1e-4 by the elastic film
+    // 128·43.254·0.96987·3.54394 (0.0325·v/Q)² R_x³ = 62.9 um at 10 m/s and 1 N; 2 % less by 1 + H
     for (v, q, formula) in [
         (10.0, 1.0, 62.91e-6),
         (3.0, 1.0, 5.662e-6),
@@ -211,7 +211,7 @@ fn a_film_falls_with_load_and_grows_with_speed_without_a_jump() {
             let q = 1e-3 * step.powi(i);
             for of in [FilmThickness::central, FilmThickness::minimum] {
                 let here = of(&film, v, q).ln();
-                // the powers of all regimes: Q^-2 to Q^0, v^0.64 to v^2, and none where R_x is the limit; 1e-9 is rounding
+                // the powers of all regimes, Q^-2 to Q^-0.067 and v^0.64 to v^2, and none where R_x is the limit; 1e-9 is rounding
                 let over_load = (of(&film, v, q * step).ln() - here) / step.ln();
                 let over_speed = (of(&film, v * step, q).ln() - here) / step.ln();
                 assert!(
@@ -230,9 +230,9 @@ fn a_film_falls_with_load_and_grows_with_speed_without_a_jump() {
 fn films_end_where_load_or_speed_does() {
     let contact = inner_6205();
     let film = warm_film(&contact);
-    // no load: a ball that is no longer near its race; elastic films grow slowly there, W^-0.22, and add 1e-4
+    // no load: a ball that is no longer near its race
     for q in [0.0, -1.0, 1e-8] {
-        assert!((film.central(10.0, q) / contact.rolling_radius - 1.0).abs() < 2e-4);
+        assert!((film.central(10.0, q) / contact.rolling_radius - 1.0).abs() < 1e-6);
     }
     // no entrainment
     for v in [0.0, 1e-12] {
@@ -247,7 +247,7 @@ fn every_regime_is_reached_and_is_the_one_that_sets_the_film() {
     let thin = FilmThickness::new(&contact, 1e-3, 1e-12, 1.0);
     let cases = [
         (&oil, 10.0, 1.0, FilmRegime::IsoviscousRigid),
-        (&oil, 25.0, 20.0, FilmRegime::PiezoviscousRigid),
+        (&oil, 10.0, 8.5, FilmRegime::PiezoviscousRigid),
         (&thin, 3.0, 100.0, FilmRegime::IsoviscousElastic),
         (&oil, 10.0, 500.0, FilmRegime::PiezoviscousElastic),
     ];
@@ -268,8 +268,9 @@ fn every_regime_is_reached_and_is_the_one_that_sets_the_film() {
 }
 #[test]
 fn the_chart_of_regimes_has_the_same_films() {
-    // Hamrock and Dowson 1979 in Ĥ = H (W/U)², g_V = G W³/U², g_E = W^(8/3)/U² (from memory): 1.66 g_V^(2/3),
-    // 8.70 g_E^0.67, 3.42 g_V^0.49 g_E^0.17. The last two are refits: within 10 % over loads from 20 to 2000 N.
+    // In Ĥ = H (W/U)², g_V = G W³/U², g_E = W^(8/3)/U² (Hamrock and Dowson 1979, Esfahanian and Hamrock 1991, from memory):
+    // 141 g_V^0.375 (1 - e^(-0.0387 α_r)), 8.70 g_E^0.67, 3.42 g_V^0.49 g_E^0.17. The last two are refits: within 10 % over
+    // loads from 20 to 2000 N.
     let contact = inner_6205();
     let k = contact.ellipticity;
     for q in [20.0, 200.0, 2000.0] {
@@ -277,11 +278,12 @@ fn the_chart_of_regimes_has_the_same_films() {
         let scale = (groups.load / groups.speed).powi(2);
         let viscous = groups.material * groups.load.powi(3) / groups.speed.powi(2);
         let elastic = groups.load.powf(8.0 / 3.0) / groups.speed.powi(2);
-        let stiff = 1.66 * viscous.powf(2.0 / 3.0) * (1.0 - (-0.68 * k).exp());
+        let across = contact.radius_ratio;
+        let stiff = 141.0 * viscous.powf(0.375) * (1.0 - (-0.0387 * across).exp());
         let soft = 8.70 * elastic.powf(0.67) * (1.0 - 0.85 * (-0.31 * k).exp());
         let hard = 3.42 * viscous.powf(0.49) * elastic.powf(0.17) * (1.0 - (-0.68 * k).exp());
         // one formula in two sets of groups
-        assert!((piezoviscous_rigid_film(groups, k) * scale / stiff - 1.0).abs() < 1e-12);
+        assert!((piezoviscous_rigid_film(groups, across) * scale / stiff - 1.0).abs() < 1e-12);
         assert!((soft_minimum_film(groups, k) * scale / soft - 1.0).abs() < 0.1);
         assert!((minimum_film(groups, k) * scale / hard - 1.0).abs() < 0.1);
     }

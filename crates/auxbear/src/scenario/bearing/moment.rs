@@ -309,7 +309,7 @@ impl MomentShare {
         MomentShare {
             orbit_share: moment.maybe("orbit_share").unwrap_or(0.5),
             reference_spin: moment.maybe("reference_spin").unwrap_or(1.0),
-            scale: moment.number("scale"),
+            scale: moment.maybe("scale").unwrap_or(1.0),
         }
     }
 }
