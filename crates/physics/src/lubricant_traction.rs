@@ -14,7 +14,7 @@
 //!
 //! - **Film.** One mean stress over the area A that carries the load, p̄ = Q/A; its force is τ A = (τ/p̄) Q.
 //! - **Area.** A = π a b + A_r: the Hertz ellipse and what rigid bodies shear, A_r = h_r ∫θ dA/h = 3π √(R_x R_y) h_r
-//!   arsinh(1/s), s = √(h_r/h_g), with 1/(s + 0.2) for arsinh(1/s). Between paraboloids ∫dx/h = π √(2 R_x/h(y)) along the
+//!   arsinh(1/s), s = √(h_r/h_g). Between paraboloids ∫dx/h = π √(2 R_x/h(y)) along the
 //!   rolling direction, of which the outlet, whose oil is torn into streamers of share θ, leaves 3/4; across, the integral
 //!   of 1/√h(y) ends at the shoulders of the groove, taken R_x from its middle, where the gap has opened by
 //!   h_g = R_x²/(2 R_y). Own solutions of Reynolds' equation agree within 2 %, and their pressure has 0.9 to 1.3 times this
@@ -285,14 +285,7 @@ impl LubricatedContact {
             stiffening_slope: equation.stiffening_slope,
             limiting: oil.limiting_coefficient,
             mean_pressure: hertz.pressure_factor * 2.0 / 3.0,
-            rigid_width: if std::env::var("XMODE").unwrap_or_default().contains('a') {
-                1e-12
-            } else {
-                1.0
-            } * 3.0
-                * PI
-                * radius
-                * radius_ratio.sqrt(),
+            rigid_width: 3.0 * PI * radius * radius_ratio.sqrt(),
             groove_gap: 0.5 * radius / radius_ratio,
             conduction: 1.0 / (8.0 * oil.conductivity),
             flash: 1.064 * along.sqrt() / effusivity,

@@ -136,6 +136,14 @@ impl<R: Real> Palmgren<R> {
     }
 }
 
+impl Palmgren<f64> {
+    /// Multiplies the moment: M0 goes with f0, M1 with z.
+    pub(crate) fn scale(&mut self, factor: f64) {
+        self.viscous_factor *= factor;
+        self.load_factor *= factor;
+    }
+}
+
 number::constants! {
     /// Palmgren's moment under radial and axial load.
     pub struct PalmgrenCombined {

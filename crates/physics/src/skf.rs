@@ -161,6 +161,24 @@ pub struct SkfIntermediates<R> {
     pub drag_moment: R,
 }
 
+impl SkfMoment<f64> {
+    /// Multiplies the moment: G_rr and G_sl go with the leading factors of the type.
+    pub(crate) fn scale(&mut self, factor: f64) {
+        match &mut self.contacts {
+            SkfContacts::DeepGroove(c) => [&mut c.r1, &mut c.s1].map(|x| *x *= factor),
+            SkfContacts::AngularContact(c) => [&mut c.r1, &mut c.s1].map(|x| *x *= factor),
+            SkfContacts::SphericalRoller(c) => {
+                for branch in [&mut c.r3, &mut c.s3] {
+                    *branch *= factor;
+                }
+                [&mut c.r1, &mut c.s1].map(|x| *x *= factor)
+            }
+        };
+        self.drag *= factor;
+        self.seal_moment *= factor;
+    }
+}
+
 impl<R: Real> SkfMoment<R> {
     /// The moment in its parts, N m, each with the sign of the speed.
     ///

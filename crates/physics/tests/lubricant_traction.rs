@@ -400,3 +400,17 @@ fn lanes_agree_with_the_scalar_bit_for_bit() {
         );
     }
 }
+
+#[test]
+fn lambda_is_the_least_film_over_the_roughness() {
+    let roughness = 0.1e-6;
+    let law = law(&FVA_3, roughness);
+    for (load, entrainment) in [(500.0, 5.0), (100.0, 20.0), (20.0, 1.0)] {
+        let state = law.state(1e-3, load, entrainment);
+        let film = state.lambda * roughness;
+        assert!((film / state.minimum_thickness - 1.0).abs() < 1e-12);
+        // Hamrock and Dowson: 2.69 (1 - 0.61 e^(-0.73 k)) to 3.63 (1 - e^(-0.68 k)), with U^0.01 and W^-0.006
+        let ratio = state.thickness / film;
+        assert!((1.1..1.4).contains(&ratio), "{load} N: {ratio}");
+    }
+}

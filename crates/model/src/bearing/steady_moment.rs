@@ -4,13 +4,13 @@
 //!   M = M0(Ω) + M1(W): the law's speed-dependent and load-dependent part.   s = r/R,  σ ball spin counter-clockwise
 //!   v_t ball past the outer ring along t, d = |b - c_o|;  all speeds against the outer ring
 //!
-//!   orbit drag       f   = λ w 2χ_o/R M0(2(1+s) v_t/d)               on the ball -f t, on the outer ring +f t at the ball
-//!   spin couple      m_s = λ w 2sχ_s M0(2sσ)                         on the ball -m_s, on the outer ring +m_s
-//!   rolling couples  m_i = λ w s/(1+s) M1 tanh((σ-Ω)/ω_r)            on the ball -m_i, on the inner race +m_i
-//!                    m_o = λ w s/(1+s) M1 tanh(σ/ω_r)                on the ball -m_o, on the outer ring +m_o
+//!   orbit drag       f   = w 2χ_o/R M0(2(1+s) v_t/d)               on the ball -f t, on the outer ring +f t at the ball
+//!   spin couple      m_s = w 2sχ_s M0(2sσ)                         on the ball -m_s, on the outer ring +m_s
+//!   rolling couples  m_i = w s/(1+s) M1 tanh((σ-Ω)/ω_r)            on the ball -m_i, on the inner race +m_i
+//!                    m_o = w s/(1+s) M1 tanh(σ/ω_r)                on the ball -m_o, on the outer ring +m_o
 //!   share            w   = (Q_i + q)/(ΣQ_i + N q),  q = κ M/(N R),  κ = 0.1;  Σw = 1
 //! ```
-//! The outer ring holds the lubricant. χ_o + χ_s = 1. W = |Σ Q_i n|. λ is the user's factor on the law, 1 as a rule. M0 is odd
+//! The outer ring holds the lubricant. χ_o + χ_s = 1. W = |Σ Q_i n|.  M0 is odd
 //! and w positive, so each pair opposes its motion and the heat f v_t + m_s σ + m_i (σ-Ω) + m_o σ is never negative.
 //!
 //! Why these arms. A ball that gains neither orbit nor spin needs T_i = ½[f + (m_i + m_o + m_s)/r] at the inner race, so its
@@ -59,15 +59,13 @@ pub struct SharedMoment {
     pub orbit_share: f64,
     /// Speed ω_r of rolling at which the rolling couples reach 76 %, rad/s; 1 rad/s serves.
     pub reference_spin: f64,
-    /// Scale λ of the law, the user's own; 1 as a rule.
-    pub scale: f64,
 }
 
 impl SharedMoment {
-    /// True where the share lies in 0 to 1 and scale and reference spin are positive.
+    /// True where the share lies in 0 to 1 and the reference spin is positive.
     pub fn is_valid(&self) -> bool {
         let share = |x: f64| (0.0..=1.0).contains(&x);
-        share(self.orbit_share) && self.scale > 0.0 && self.reference_spin > 0.0
+        share(self.orbit_share) && self.reference_spin > 0.0
     }
 }
 
@@ -79,7 +77,7 @@ pub(super) struct MomentPairs<R: Real> {
     /// The same, for several balls at a time.
     of_ball: SteadyMoment<R::Group>,
     axial_load: R,
-    /// λ s/(1+s).
+    /// s/(1+s).
     rolling_arm: R,
     /// N.
     balls: R,
@@ -91,11 +89,11 @@ pub(super) struct MomentPairs<R: Real> {
 number::constants! {
     /// What turns the law into forces and couples on a ball.
     pub struct Arms {
-        /// λ 2χ_o/R, 1/m.
+        /// 2χ_o/R, 1/m.
         orbit: R,
         /// 2(1+s).
         orbit_speed: R,
-        /// λ 2sχ_s.
+        /// 2sχ_s.
         spin: R,
         /// 2s.
         spin_speed: R,
@@ -138,9 +136,9 @@ impl<R: Real> MomentPairs<R> {
             let inner_track = geometry.inner_track;
             let s = geometry.ball_radius / inner_track;
             Arms {
-                orbit: m.scale * 2.0 * m.orbit_share / inner_track,
+                orbit: 2.0 * m.orbit_share / inner_track,
                 orbit_speed: 2.0 * (1.0 + s),
-                spin: m.scale * 2.0 * s * (1.0 - m.orbit_share),
+                spin: 2.0 * s * (1.0 - m.orbit_share),
                 spin_speed: 2.0 * s,
                 inverse_reference_spin: 1.0 / m.reference_spin,
             }
@@ -154,7 +152,7 @@ impl<R: Real> MomentPairs<R> {
             axial_load: R::from_lanes(|lane| moment(lane).axial_load),
             rolling_arm: R::from_lanes(|lane| {
                 let s = machine(lane).0.ball_radius / machine(lane).0.inner_track;
-                moment(lane).scale * s / (1.0 + s)
+                s / (1.0 + s)
             }),
             balls: R::from_lanes(|lane| machine(lane).0.balls as f64),
             idle_load: R::from_lanes(|lane| {
@@ -241,7 +239,7 @@ pub(super) struct PairsOfBall<'a, R: Real> {
     per_load: R::Group,
     /// q/(ΣQ_i + N q).
     idle_share: R::Group,
-    /// λ s/(1+s) M1, N m.
+    /// s/(1+s) M1, N m.
     rolling: R::Group,
     /// The law's moment M at this speed, load and drag factor, as if nothing else made friction, N m; below 1 rad/s proportional to
     /// the speed.

@@ -323,7 +323,7 @@ fn steady_moment_on_outer_race(
         let couple = 2.0 * s * (1.0 - moment.orbit_share) * law(2.0 * s * spin).speed_dependent;
         let rolling =
             s / (1.0 + s) * law(1000.0).load_dependent * (spin / moment.reference_spin).tanh();
-        on_race += moment.scale * share * (drag * distance + couple + rolling);
+        on_race += share * (drag * distance + couple + rolling);
     }
     on_race
 }

@@ -112,9 +112,13 @@ fn shares_of_the_moment_do_not_change_its_sum() {
 #[test]
 fn a_scale_is_the_user_s_own_factor() {
     let mut bearing = with_interference(0.0);
-    bearing.moment.as_mut().expect("greased").scale = 0.7;
+    let whole = plateau(&bearing, 300.0, 300.0);
+    let moment = bearing.moment.as_mut().expect("greased");
+    moment.law = moment.law.clone().scaled(0.7);
     let at = plateau(&bearing, 300.0, 300.0);
-    assert!((at.inner / 0.7 - 1.0).abs() < 0.01, "{at:?}");
+    // t_I over M, and M itself
+    assert!(gives_back_the_moment(&at, 0.01), "{at:?}");
+    assert!((at.moment / whole.moment - 0.7).abs() < 1e-3, "{at:?}");
 }
 
 #[test]

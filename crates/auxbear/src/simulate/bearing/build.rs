@@ -113,17 +113,21 @@ pub(crate) fn bearing(
     contacts: &BallContacts,
     gravity: Vec2<f64>,
 ) -> Result<BearingConstants, Box<Problem>> {
-    let law = bearing.moment.law(&bearing.rated()).map_err(|why| {
-        Box::new(
-            Problem::new(
-                Code::NoLawData,
-                SCENARIO,
-                why,
-                "a law that has constants for this bearing",
+    let law = bearing
+        .moment
+        .law(&bearing.rated())
+        .map_err(|why| {
+            Box::new(
+                Problem::new(
+                    Code::NoLawData,
+                    SCENARIO,
+                    why,
+                    "a law that has constants for this bearing",
+                )
+                .on_key("bearing.moment.law"),
             )
-            .on_key("bearing.moment.law"),
-        )
-    })?;
+        })?
+        .scaled(bearing.moment_share.scale);
     let plane = Plane::of(bearing, contacts);
     let growth = bearing.inner_track_growth();
     Ok(match bearing.fidelity {
@@ -144,7 +148,6 @@ pub(crate) fn bearing(
                 axial_load: bearing.moment.axial_load(),
                 orbit_share: bearing.moment_share.orbit_share,
                 reference_spin: bearing.moment_share.reference_spin,
-                scale: bearing.moment_share.scale,
             }),
             inlet_rolling: inlet_rolling(bearing, contacts)?,
             lubricant: lubricant_state(bearing),

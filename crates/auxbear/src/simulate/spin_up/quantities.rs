@@ -323,7 +323,7 @@ const MEAN_MOMENT: Origin = Origin {
 const CAPACITY: Origin = Origin {
     law: "μ_max R ΣQ_i / M at full speed under the last load",
     source: "crates/model/src/system/spin_up/capacity.rs",
-    valid: "above 1.2 the balls roll in a steady run and t_I = t_O = M within 1 %; below they must skid",
+    valid: "above 1.2 the balls roll in a steady run and t_I = t_O = M within 2 %; below they must skid",
 };
 const SLIP: Origin = Origin {
     law: "S = 1 - 2(1+s)ω_c/Ω, at the last instant, or as the mean over the later half of the cage turns at the final speed",
