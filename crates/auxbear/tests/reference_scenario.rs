@@ -1,7 +1,7 @@
 //! The shipped reference scenario builds the very machine of the reference cases: what a user writes reaches the model.
 
-use auxbear::simulate::drop::build;
 use auxbear::scenario::{BuiltIn, Scenario, System};
+use auxbear::simulate::drop::build;
 use model::bearing::{BearingConstants, PlanarConstants, Separation};
 use physics::traction::Traction;
 use std::path::Path;

@@ -33,14 +33,16 @@ pub(crate) mod system;
 pub(crate) mod table;
 pub(crate) mod template;
 pub(crate) mod torque;
+pub(crate) mod values;
 
 pub use bearing::fits::{Fits, Growth};
+pub use bearing::kind::{BallMaterial, BearingType, Fidelity};
 pub use bearing::lubricant::{Lubricant, LubricantViscosity};
 pub use bearing::lubricant_state::LubricantState;
 pub use bearing::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 pub use bearing::separation::{Cage, FullComplement, Guidance, Land, Separation};
 pub use bearing::source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
-pub use bearing::{BallMaterial, Bearing, BearingType, Drag, Fidelity, OilFilm, Traction};
+pub use bearing::{Bearing, Drag, OilFilm, Traction};
 pub use drop::{Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor, Spin};
 pub use identify::{Explanations, Identify, RotorFriction};
 pub(crate) use key::quoted;
@@ -60,7 +62,7 @@ pub use signals::{
     TorqueSignal,
 };
 pub use spin_up::{Course, Drive, SpeedCourse, SpinUp};
-pub use system::{System, SystemName};
+pub use system::SystemName;
 pub use table::{FORMAT, keys, keys_of, presence, sections, sections_of, systems};
 pub use template::template;
 pub use torque::{ComparedLaw, Torque};
@@ -72,6 +74,80 @@ use std::path::Path;
 
 /// Largest input file, bytes.
 const LARGEST_FILE: u64 = 10_000_000;
+
+/// What is simulated or computed: the one place in which the systems of a scenario meet.
+#[derive(Clone, Debug, PartialEq)]
+pub enum System {
+    /// A levitated rotor is released onto its auxiliary bearing.
+    Drop(Drop),
+    /// The inner race of a bearing is brought to speed.
+    SpinUp(SpinUp),
+    /// The torque of a bearing over speed, load and acceleration.
+    Torque(Torque),
+    /// What a measurement holds.
+    Signals(Signals),
+    /// A test on a rig.
+    Rig(Box<Rig>),
+    /// What measured tests tell.
+    Identify(Box<Identify>),
+}
+
+impl System {
+    /// Its name.
+    pub fn name(&self) -> SystemName {
+        match self {
+            System::Drop(_) => SystemName::Drop,
+            System::SpinUp(_) => SystemName::SpinUp,
+            System::Torque(_) => SystemName::Torque,
+            System::Signals(_) => SystemName::Signals,
+            System::Rig(_) => SystemName::Rig,
+            System::Identify(_) => SystemName::Identify,
+        }
+    }
+
+    /// The typed values of a document's system, checked.
+    fn of(
+        document: &document::Document,
+        values: &values::Values,
+        bearings: &dyn BearingSource,
+        file: &str,
+    ) -> Result<System, Box<Problem>> {
+        let context = checks::Context { values, file };
+        Ok(match document.system {
+            SystemName::Drop => {
+                let drop = Drop::from_values(values);
+                context.drop(&drop)?;
+                System::Drop(drop)
+            }
+            SystemName::SpinUp => {
+                let spin_up = SpinUp::from_values(values);
+                context.spin_up(&spin_up)?;
+                System::SpinUp(spin_up)
+            }
+            SystemName::Signals => {
+                let signals = Signals::from_values(values);
+                context.signals(&signals)?;
+                System::Signals(signals)
+            }
+            SystemName::Identify => {
+                let identify = Box::new(Identify::from_values(values));
+                context.identify(&identify)?;
+                System::Identify(identify)
+            }
+            SystemName::Rig => {
+                let rig = Box::new(Rig::from_values(values));
+                context.rig(&rig)?;
+                System::Rig(rig)
+            }
+            SystemName::Torque => {
+                let laws = torque::compared_laws(document, values, bearings);
+                let torque = Torque::from_values(values, laws)?;
+                context.torque(&torque)?;
+                System::Torque(torque)
+            }
+        })
+    }
+}
 
 /// A scenario that was read and checked. It does not change; to vary it, read it again with an override.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,18 +195,7 @@ impl Scenario {
         }
         let document = document::Document::read(text, name, sets)?;
         let values = resolve::Values::resolve(&document, bearings)?;
-        let system = match document.system {
-            SystemName::Drop => System::Drop(Drop::from_values(&values)),
-            SystemName::SpinUp => System::SpinUp(SpinUp::from_values(&values)),
-            SystemName::Signals => System::Signals(Signals::from_values(&values)),
-            SystemName::Identify => System::Identify(Box::new(Identify::from_values(&values))),
-            SystemName::Rig => System::Rig(Box::new(Rig::from_values(&values))),
-            SystemName::Torque => {
-                let laws = torque::compared_laws(&document, &values, bearings);
-                System::Torque(Torque::from_values(&values, laws)?)
-            }
-        };
-        checks::check(&system, &values, name)?;
+        let system = System::of(&document, &values, bearings, name)?;
         Ok(Scenario {
             format: FORMAT.to_string(),
             title: values.text("title"),
@@ -142,6 +207,11 @@ impl Scenario {
                 sections: document.sections,
             },
         })
+    }
+
+    /// The problem with the file and the line of its key: where the key stands, else where the section begins.
+    pub fn locate(&self, problem: Box<Problem>) -> Box<Problem> {
+        self.text.locate(&self.resolved, problem)
     }
 }
 

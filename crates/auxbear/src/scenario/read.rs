@@ -4,11 +4,8 @@ use crate::problem::{Code, Place, Problem, did_you_mean, question};
 use crate::scenario::document::{Given, Raw};
 use crate::scenario::key::{Key, Kind, article, quoted};
 use crate::scenario::provenance::Provenance;
-use crate::scenario::resolve::{Known, Value, Values};
+use crate::scenario::values::{Known, POWER_TOLERANCE, Value, Values};
 use units::{Dimension, ParseError, Rational, parse_quantity};
-
-/// How far the power in the unit of a contact stiffness may be from its exponent: decimals of 10/9 are accepted.
-pub(crate) const POWER_TOLERANCE: f64 = 1e-6;
 
 /// What a resolved file says of values that were not given.
 pub(crate) const FILLED_IN: [&str; 2] = ["default", "catalogue"];

@@ -4,7 +4,7 @@ use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::document::Raw;
 use crate::scenario::key::{Key, Kind, quoted};
 use crate::scenario::read_rows::cell;
-use crate::scenario::resolve::{Value, Values};
+use crate::scenario::values::{Value, Values};
 
 impl Values {
     /// Reads a list; a problem names the entry, counted from 1.

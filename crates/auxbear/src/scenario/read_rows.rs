@@ -4,7 +4,7 @@ use crate::problem::{Code, Place, Problem};
 use crate::scenario::document::Raw;
 use crate::scenario::key::{Key, quoted};
 use crate::scenario::read::{described, unreadable};
-use crate::scenario::resolve::{Value, Values};
+use crate::scenario::values::{Value, Values};
 use units::{Unit, parse_quantity};
 
 impl Values {

@@ -5,77 +5,12 @@ use crate::scenario::bearing::source::{BearingRecord, BearingSource};
 use crate::scenario::document::{Document, Given, Raw, as_toml};
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Presence, quoted};
 use crate::scenario::provenance::Provenance;
-use crate::scenario::read::POWER_TOLERANCE;
 use crate::scenario::resolved::{Resolved, ResolvedValue};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
+use crate::scenario::values::{COMPARED_LAWS, Known, LAW, POWER_TOLERANCE, Value, Values};
 use std::collections::BTreeMap;
-use units::{Quantity, Rational, parse_quantity};
-
-/// Key of the law of the friction moment, on which its constants depend.
-pub(crate) const LAW: &str = "bearing.moment.law";
-/// Key of the laws that are compared with it.
-pub(crate) const COMPARED_LAWS: &str = "torque.laws";
-
-/// A value that was read.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Value {
-    /// A quantity in SI or a bare number.
-    Number(f64),
-    /// A whole number, not negative.
-    Count(u64),
-    /// One of the words of the key.
-    Word(&'static str),
-    /// `true` or `false`.
-    Switch(bool),
-    /// Any text.
-    Text(String),
-    /// Rows of two quantities in SI.
-    Rows(Vec<[f64; 2]>),
-    /// Quantities in SI.
-    Numbers(Vec<f64>),
-    /// Words of the key.
-    Words(Vec<&'static str>),
-    /// Any texts.
-    Texts(Vec<String>),
-}
-
-impl Value {
-    pub(crate) fn number(&self) -> Option<f64> {
-        match self {
-            Value::Number(value) => Some(*value),
-            Value::Count(count) => Some(*count as f64),
-            Value::Word(_)
-            | Value::Switch(_)
-            | Value::Text(_)
-            | Value::Rows(_)
-            | Value::Numbers(_)
-            | Value::Words(_)
-            | Value::Texts(_) => None,
-        }
-    }
-}
-
-/// A value with everything known of it.
-#[derive(Clone, Debug)]
-pub(crate) struct Known {
-    pub(crate) value: Value,
-    pub(crate) text: String,
-    pub(crate) provenance: Provenance,
-    pub(crate) place: Place,
-    /// Whether the file says that the program filled it in.
-    pub(crate) filled_in: bool,
-}
-
-/// One value for every key that has one.
-#[derive(Debug)]
-pub(crate) struct Values {
-    file: String,
-    system: SystemName,
-    known: BTreeMap<&'static str, Known>,
-    /// What the catalogue knows of the bearing named.
-    record: Option<BearingRecord>,
-}
+use units::{Rational, parse_quantity};
 
 impl Values {
     /// Reads every given value and fills the rest from catalogue and defaults.
@@ -127,19 +62,6 @@ impl Values {
         values.derive()?;
         values.record = record;
         Ok(values)
-    }
-
-    pub(crate) fn problem(
-        &self,
-        code: Code,
-        path: &str,
-        place: Place,
-        found: impl Into<String>,
-        allowed: impl Into<String>,
-    ) -> Problem {
-        Problem::new(code, &self.file, found, allowed)
-            .at(place)
-            .on_key(path)
     }
 
     /// The condition that keeps a key from having a meaning, followed to its root.
@@ -344,120 +266,6 @@ impl Values {
         Ok(known)
     }
 
-    /// The file, as the user named it.
-    pub(crate) fn file(&self) -> &str {
-        &self.file
-    }
-
-    /// The system of the file.
-    pub(crate) fn system(&self) -> SystemName {
-        self.system
-    }
-
-    pub(crate) fn put(&mut self, path: &'static str, known: Known) {
-        self.known.insert(path, known);
-    }
-
-    /// Takes a value away that has no effect after all.
-    pub(crate) fn take_away(&mut self, path: &str) {
-        self.known.remove(path);
-    }
-
-    /// Whether a value was given, rather than filled in.
-    pub(crate) fn is_given(&self, path: &str) -> bool {
-        self.known.get(path).is_some_and(|known| {
-            !matches!(
-                known.provenance,
-                Provenance::Default(_) | Provenance::DefaultAssumed(_)
-            )
-        })
-    }
-
-    /// Where a value comes from, in one word; empty where there is none.
-    pub(crate) fn mark(&self, path: &str) -> &'static str {
-        let known = self.known.get(path);
-        known.map_or("", |known| known.provenance.mark())
-    }
-
-    /// A dimension of the bearing named, as the catalogue knows it.
-    pub(crate) fn dimension(&self, name: &str) -> Option<f64> {
-        let mut values = self.record.as_ref()?.values.iter();
-        values.find(|value| value.0 == name).map(|value| value.1)
-    }
-
-    /// Where a value was given.
-    pub(crate) fn place(&self, path: &str) -> Place {
-        self.known
-            .get(path)
-            .map_or(Place::Whole, |known| known.place)
-    }
-
-    /// The value as written.
-    pub(crate) fn text(&self, path: &str) -> Option<String> {
-        self.known.get(path).map(|known| known.text.clone())
-    }
-
-    /// A number in SI, where there is one.
-    pub(crate) fn number(&self, path: &str) -> Option<f64> {
-        self.known.get(path).and_then(|known| known.value.number())
-    }
-
-    /// A word; empty where there is none.
-    pub(crate) fn word(&self, path: &str) -> &'static str {
-        match self.known.get(path).map(|known| &known.value) {
-            Some(Value::Word(word)) => word,
-            _ => "",
-        }
-    }
-
-    /// A switch; off where there is none.
-    pub(crate) fn switch(&self, path: &str) -> bool {
-        matches!(
-            self.known.get(path).map(|known| &known.value),
-            Some(Value::Switch(true))
-        )
-    }
-
-    /// The rows of a table, where there is one.
-    pub(crate) fn rows(&self, path: &str) -> Option<Vec<[f64; 2]>> {
-        match self.known.get(path).map(|known| &known.value) {
-            Some(Value::Rows(rows)) => Some(rows.clone()),
-            _ => None,
-        }
-    }
-
-    /// A list of quantities in SI; empty where there is none.
-    pub(crate) fn numbers(&self, path: &str) -> Vec<f64> {
-        match self.known.get(path).map(|known| &known.value) {
-            Some(Value::Numbers(list)) => list.clone(),
-            _ => Vec::new(),
-        }
-    }
-
-    /// A list of words; empty where there is none.
-    pub(crate) fn words(&self, path: &str) -> &[&'static str] {
-        match self.known.get(path).map(|known| &known.value) {
-            Some(Value::Words(list)) => list,
-            _ => &[],
-        }
-    }
-
-    /// A list of texts; empty where there is none.
-    pub(crate) fn texts(&self, path: &str) -> &[String] {
-        match self.known.get(path).map(|known| &known.value) {
-            Some(Value::Texts(list)) => list,
-            _ => &[],
-        }
-    }
-
-    /// A whole number; 0 where there is none.
-    pub(crate) fn count(&self, path: &str) -> u64 {
-        match self.known.get(path).map(|known| &known.value) {
-            Some(Value::Count(count)) => *count,
-            _ => 0,
-        }
-    }
-
     /// The list of all values for people and for the resolved file.
     pub(crate) fn resolved(&self) -> Resolved {
         let mut list = Vec::new();
@@ -505,17 +313,5 @@ fn order(place: Place) -> usize {
         Place::Whole => 0,
         Place::Line { line, .. } => line,
         Place::Set => usize::MAX,
-    }
-}
-
-/// A value in SI as a text that reads back bit for bit.
-pub(crate) fn quantity_text(key: &Key, value_si: f64) -> String {
-    match key.dimension() {
-        Some(dimension) => Quantity {
-            value_si,
-            dimension,
-        }
-        .to_string(),
-        None => units::number_text(value_si),
     }
 }

@@ -1,7 +1,7 @@
 //! How long and how finely a system is simulated.
 
-use crate::scenario::resolve::Values;
 use crate::scenario::section::Section;
+use crate::scenario::values::Values;
 
 /// The simulation.
 #[derive(Clone, Debug, PartialEq)]

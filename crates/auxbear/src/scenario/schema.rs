@@ -15,9 +15,9 @@
 
 use crate::scenario::key::{Condition, Key, Kind, Otherwise, Presence, Range};
 use crate::scenario::read::FILLED_IN;
-use crate::scenario::resolve::{COMPARED_LAWS, LAW};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
+use crate::scenario::values::{COMPARED_LAWS, LAW};
 use serde_json::{Map, Value, json};
 
 /// Dialect of the schema.

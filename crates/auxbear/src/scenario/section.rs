@@ -1,6 +1,6 @@
 //! Typed values taken out of the resolved ones, section by section.
 
-use crate::scenario::resolve::Values;
+use crate::scenario::values::Values;
 
 /// Takes typed values out of the resolved ones.
 pub(crate) struct Section<'a> {

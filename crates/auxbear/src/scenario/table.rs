@@ -4,49 +4,48 @@
 //! Each system has some of the sections, and of a section all keys that name no other system.
 
 use crate::scenario::key::{Key, Kind, Presence, Range, Section};
-use crate::scenario::system::SystemName;
-use crate::scenario::{bearing, drop, identify, rig, signals, spin_up, torque};
+use crate::scenario::system::{MOVING, SystemName, WITH_BEARING};
 
 /// Format name of the scenario files that this version writes.
 pub const FORMAT: &str = "auxbear.scenario/1";
 
 /// All sections, in order.
 pub fn sections() -> impl Iterator<Item = &'static Section> {
-    drop::keys::SECTIONS
+    crate::scenario::drop::keys::SECTIONS
         .iter()
-        .chain(spin_up::keys::SECTIONS)
-        .chain(torque::keys::SECTIONS)
-        .chain(signals::keys::SECTIONS)
-        .chain(signals::keys_analysis::SECTIONS)
-        .chain(rig::keys::SECTIONS)
-        .chain(identify::keys::SECTIONS)
-        .chain(bearing::keys::SECTIONS)
-        .chain(bearing::keys_cage::SECTIONS)
-        .chain(bearing::keys::TRACTION_SECTIONS)
-        .chain(bearing::keys_moment::SECTIONS)
-        .chain(bearing::keys_lubricant_state::SECTIONS)
+        .chain(crate::scenario::spin_up::keys::SECTIONS)
+        .chain(crate::scenario::torque::keys::SECTIONS)
+        .chain(crate::scenario::signals::keys::SECTIONS)
+        .chain(crate::scenario::signals::keys_analysis::SECTIONS)
+        .chain(crate::scenario::rig::keys::SECTIONS)
+        .chain(crate::scenario::identify::keys::SECTIONS)
+        .chain(crate::scenario::bearing::keys::SECTIONS)
+        .chain(crate::scenario::bearing::keys_cage::SECTIONS)
+        .chain(crate::scenario::bearing::keys::TRACTION_SECTIONS)
+        .chain(crate::scenario::bearing::keys_moment::SECTIONS)
+        .chain(crate::scenario::bearing::keys_lubricant_state::SECTIONS)
         .chain(RUN_SECTIONS)
-        .chain(drop::keys::REPEAT_SECTIONS)
+        .chain(crate::scenario::drop::keys::REPEAT_SECTIONS)
 }
 
 /// All keys, in order.
 pub fn keys() -> impl Iterator<Item = &'static Key> {
     HEAD.iter()
-        .chain(drop::keys::KEYS)
-        .chain(spin_up::keys::KEYS)
-        .chain(torque::keys::KEYS)
-        .chain(signals::keys::KEYS)
-        .chain(signals::keys::TEMPERATURE)
-        .chain(rig::keys::KEYS)
-        .chain(identify::keys::KEYS)
-        .chain(signals::keys_analysis::KEYS)
-        .chain(bearing::keys::KEYS)
-        .chain(bearing::keys_cage::KEYS)
-        .chain(bearing::keys::TRACTION)
-        .chain(bearing::keys_moment::KEYS)
-        .chain(bearing::keys_lubricant_state::KEYS)
+        .chain(crate::scenario::drop::keys::KEYS)
+        .chain(crate::scenario::spin_up::keys::KEYS)
+        .chain(crate::scenario::torque::keys::KEYS)
+        .chain(crate::scenario::signals::keys::KEYS)
+        .chain(crate::scenario::signals::keys::TEMPERATURE)
+        .chain(crate::scenario::rig::keys::KEYS)
+        .chain(crate::scenario::identify::keys::KEYS)
+        .chain(crate::scenario::signals::keys_analysis::KEYS)
+        .chain(crate::scenario::bearing::keys::KEYS)
+        .chain(crate::scenario::bearing::keys_cage::KEYS)
+        .chain(crate::scenario::bearing::keys::TRACTION)
+        .chain(crate::scenario::bearing::keys_moment::KEYS)
+        .chain(crate::scenario::bearing::keys_lubricant_state::KEYS)
         .chain(RUN)
-        .chain(drop::keys::REPEAT)
+        .chain(crate::scenario::drop::keys::REPEAT)
 }
 
 /// The sections of a system, in order.
@@ -71,9 +70,9 @@ pub fn systems(key: &Key) -> &'static [SystemName] {
 /// What a system does without a key: mostly what all systems do.
 pub fn presence(key: &Key, system: SystemName) -> Presence {
     let own = match system {
-        SystemName::Torque => torque::keys::PRESENCES,
-        SystemName::SpinUp => spin_up::keys::PRESENCES,
-        SystemName::Rig => rig::keys::PRESENCES,
+        SystemName::Torque => crate::scenario::torque::keys::PRESENCES,
+        SystemName::SpinUp => crate::scenario::spin_up::keys::PRESENCES,
+        SystemName::Rig => crate::scenario::rig::keys::PRESENCES,
         SystemName::Drop | SystemName::Signals | SystemName::Identify => &[],
     };
     let own = own.iter().find(|(path, _)| *path == key.path);
@@ -83,40 +82,19 @@ pub fn presence(key: &Key, system: SystemName) -> Presence {
 /// Whether the starting file of a system gives a key that could stay away in a file of another bearing.
 pub(crate) fn starts_with(key: &Key, system: SystemName) -> bool {
     match system {
-        SystemName::Torque => torque::keys::GIVEN.contains(&key.path),
-        SystemName::Signals => signals::keys::GIVEN.contains(&key.path),
-        SystemName::Rig => rig::keys::GIVEN.contains(&key.path),
-        SystemName::Identify => identify::keys::GIVEN.contains(&key.path),
+        SystemName::Torque => crate::scenario::torque::keys::GIVEN.contains(&key.path),
+        SystemName::Signals => crate::scenario::signals::keys::GIVEN.contains(&key.path),
+        SystemName::Rig => crate::scenario::rig::keys::GIVEN.contains(&key.path),
+        SystemName::Identify => crate::scenario::identify::keys::GIVEN.contains(&key.path),
         SystemName::Drop | SystemName::SpinUp => false,
     }
 }
 
-/// Systems in which something moves.
-pub(crate) const MOVING: &[SystemName] = &[SystemName::Drop, SystemName::SpinUp, SystemName::Rig];
-
-/// Systems in which the inner race is a body of its own, not a part of a shaft.
-pub(crate) const FREE_RACE: &[SystemName] = &[SystemName::Drop, SystemName::SpinUp];
-
-/// Systems with a bearing.
-pub(crate) const WITH_BEARING: &[SystemName] = &[
-    SystemName::Drop,
-    SystemName::SpinUp,
-    SystemName::Torque,
-    SystemName::Rig,
-    SystemName::Identify,
-];
-
-/// Systems with a friction moment of a bearing.
-pub(crate) const WITH_MOMENT: &[SystemName] = &[
-    SystemName::Drop,
-    SystemName::SpinUp,
-    SystemName::Torque,
-    SystemName::Rig,
-];
-
 /// Keys that name files beside the scenario.
 pub(crate) fn names_files(key: &Key) -> bool {
-    let all = signals::keys::FILES.iter().chain(identify::keys::FILES);
+    let all = crate::scenario::signals::keys::FILES
+        .iter()
+        .chain(crate::scenario::identify::keys::FILES);
     all.into_iter().any(|path| *path == key.path)
 }
 

@@ -2,8 +2,9 @@
 
 use crate::catalogue::geometry::millimetres;
 use crate::problem::Code;
+use crate::scenario::bearing::Bearing;
+use crate::scenario::bearing::kind::Fidelity;
 use crate::scenario::bearing::separation::{Cage, Guidance, Separation};
-use crate::scenario::bearing::{Bearing, Fidelity};
 use crate::scenario::checks::{Check, Context};
 use physics::angular_contact::preload_interference;
 use std::f64::consts::PI;

@@ -1,14 +1,14 @@
 //! Values that follow from others.
 
 use crate::problem::{Code, Place, Problem};
-use crate::scenario::bearing::BearingType;
+use crate::scenario::bearing::kind::BearingType;
 use crate::scenario::bearing::lubricant::Lubricant;
 use crate::scenario::bearing::moment::equivalent_load_word;
 use crate::scenario::key::Key;
 use crate::scenario::provenance::Provenance;
-use crate::scenario::resolve::{COMPARED_LAWS, Known, LAW, Value, Values, quantity_text};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
+use crate::scenario::values::{COMPARED_LAWS, Known, LAW, Value, Values, quantity_text};
 use physics::hertz::{BallRace, PointContact, Race};
 use physics::materials::{BEARING_STEEL, SILICON_NITRIDE, ball_mass, contact_modulus};
 use physics::palmgren_factors::{FactorSource, Lubrication, palmgren_factors};

@@ -5,8 +5,8 @@ use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::bearing::source::{BearingRecord, BearingSource};
 use crate::scenario::document::{Document, Given, Raw};
 use crate::scenario::key::{Key, Kind, quoted};
-use crate::scenario::resolve::{Known, Value, Values, quantity_text};
 use crate::scenario::table;
+use crate::scenario::values::{Known, Value, Values, quantity_text};
 use std::path::{Path, PathBuf};
 
 /// Keys outside `[bearing]` that take a value of the rings.

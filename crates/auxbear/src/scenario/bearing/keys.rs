@@ -2,15 +2,14 @@
 
 use crate::scenario::bearing::OIL_NAMES;
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
-use crate::scenario::system::SystemName;
-use crate::scenario::table::{FREE_RACE, MOVING, WITH_MOMENT};
+use crate::scenario::system::{FREE_RACE, MOVING, SystemName, WITH_MOMENT};
 
 const DROP: &[SystemName] = &[SystemName::Drop];
 
 pub(crate) const SECTIONS: &[Section] = &[Section {
     path: "bearing",
     doc: "The auxiliary rolling bearing at one plane. What the catalogue knows of the bearing named need not be given; what is given here counts.",
-    systems: crate::scenario::table::WITH_BEARING,
+    systems: crate::scenario::system::WITH_BEARING,
 }];
 
 /// Sections of traction and drag, behind that of the cage.

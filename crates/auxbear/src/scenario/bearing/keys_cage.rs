@@ -2,7 +2,7 @@
 
 use crate::scenario::bearing::keys::{CAGE, STEEL_BALLS};
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Section};
-use crate::scenario::table::MOVING;
+use crate::scenario::system::MOVING;
 
 pub(crate) const SECTIONS: &[Section] = &[
     Section {

@@ -1,7 +1,7 @@
 //! The part of the table of keys that describes how the lubricant changes while the bearing turns and rests.
 
 use crate::scenario::key::{Condition, Key, Kind, Range, Section};
-use crate::scenario::table::MOVING;
+use crate::scenario::system::MOVING;
 
 pub(crate) const SECTIONS: &[Section] = &[Section {
     path: "bearing.lubricant_state",

@@ -8,7 +8,7 @@ pub(crate) const SECTIONS: &[Section] = &[
     Section {
         path: "bearing.moment",
         doc: "Steady friction moment of the bearing: what its inner race feels against a steady rotation.",
-        systems: crate::scenario::table::WITH_MOMENT,
+        systems: crate::scenario::system::WITH_MOMENT,
     },
     Section {
         path: "bearing.acceleration_loss",
@@ -60,7 +60,7 @@ const ROLLING: &[Condition] = &[Condition {
 }];
 
 /// A system without fidelities shows the share of the balls nowhere.
-const MOVING: &[SystemName] = crate::scenario::table::MOVING;
+const MOVING: &[SystemName] = crate::scenario::system::MOVING;
 
 pub(crate) const KEYS: &[Key] = &[
     Key::new(

@@ -1,7 +1,7 @@
 //! The slow state of the lubricant, as typed values in SI.
 
-use crate::scenario::resolve::Values;
 use crate::scenario::section::Section;
+use crate::scenario::values::Values;
 use physics::lubricant_state::{FilmHeating, Grease};
 use std::f64::consts::TAU;
 

@@ -1,5 +1,7 @@
 //! A bearing as typed values in SI.
 
+pub(crate) mod checks;
+pub(crate) mod checks_fits;
 pub(crate) mod checks_lubricant;
 pub(crate) mod checks_separation;
 pub(crate) mod derive;
@@ -9,6 +11,7 @@ pub(crate) mod keys;
 pub(crate) mod keys_cage;
 pub(crate) mod keys_lubricant_state;
 pub(crate) mod keys_moment;
+pub(crate) mod kind;
 pub(crate) mod lubricant;
 pub(crate) mod lubricant_state;
 pub(crate) mod moment;
@@ -16,92 +19,17 @@ pub(crate) mod separation;
 pub(crate) mod source;
 
 use crate::scenario::bearing::fits::{Fits, Growth};
+use crate::scenario::bearing::kind::{BallMaterial, BearingType, Fidelity};
 use crate::scenario::bearing::lubricant_state::LubricantState;
 use crate::scenario::bearing::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 use crate::scenario::bearing::separation::Separation;
-use crate::scenario::resolve::Values;
 use crate::scenario::section::Section;
+use crate::scenario::values::Values;
 use physics::lubricant::{LUBRICANTS, Lubricant};
-use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE, ball_mass};
-use physics::palmgren_factors::FactorType;
+use physics::materials::BEARING_STEEL;
+use physics::ring::outside_growth;
 use physics::rolling::{RollingSet, ring_mass};
-use physics::skf_constants::SkfType;
 use std::f64::consts::PI;
-
-/// How the bearing is modelled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fidelity {
-    /// Each ball and the cage move in the plane, with slip.
-    Planar,
-    /// Pure rolling.
-    Rolling,
-}
-
-/// Type of a bearing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BearingType {
-    /// Deep groove.
-    DeepGroove,
-    /// Angular contact, single row.
-    AngularContact,
-    /// Angular contact, double row.
-    AngularContactDoubleRow,
-    /// Four-point contact.
-    FourPointContact,
-}
-
-impl BearingType {
-    /// The type of a word of the table.
-    pub(crate) fn of(word: &str) -> BearingType {
-        match word {
-            "angular contact" => BearingType::AngularContact,
-            "angular contact double row" => BearingType::AngularContactDoubleRow,
-            "four-point contact" => BearingType::FourPointContact,
-            _ => BearingType::DeepGroove,
-        }
-    }
-    /// The type as the laws' tables know it.
-    pub(crate) fn factor_type(self) -> FactorType {
-        match self {
-            BearingType::DeepGroove => FactorType::DeepGroove,
-            BearingType::AngularContact => FactorType::AngularContact,
-            BearingType::AngularContactDoubleRow => FactorType::AngularContactDoubleRow,
-            BearingType::FourPointContact => FactorType::FourPointContact,
-        }
-    }
-    /// The type as the SKF model knows it.
-    pub(crate) fn skf_type(self) -> SkfType {
-        match self {
-            BearingType::DeepGroove => SkfType::DeepGroove,
-            BearingType::AngularContact => SkfType::AngularContactSingleRow,
-            BearingType::AngularContactDoubleRow => SkfType::AngularContactDoubleRow,
-            BearingType::FourPointContact => SkfType::FourPointContact,
-        }
-    }
-}
-
-/// Material of the balls.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BallMaterial {
-    /// Bearing steel.
-    Steel,
-    /// Silicon nitride: a hybrid bearing.
-    SiliconNitride,
-}
-
-impl BallMaterial {
-    /// Its constants.
-    pub fn data(self) -> Material {
-        match self {
-            BallMaterial::Steel => BEARING_STEEL,
-            BallMaterial::SiliconNitride => SILICON_NITRIDE,
-        }
-    }
-    /// Mass of a ball of this material, kg.
-    pub fn ball_mass(self, diameter: f64) -> f64 {
-        ball_mass(diameter, self.data().density)
-    }
-}
 
 /// The auxiliary bearing at one plane. What is `None` is not known, or is found when the
 /// machine is built.
@@ -391,5 +319,29 @@ impl Bearing {
             static_load_rating: self.static_load_rating,
             ball_material: self.ball_material,
         }
+    }
+
+    /// Growth of the inner track's radius with the square of its speed, m s².
+    pub fn inner_track_growth(&self) -> f64 {
+        let Some(fit) = self.fits.on_shaft(self.pitch_diameter - self.ball_diameter) else {
+            return 0.0;
+        };
+        let from = |inside: f64| outside_growth(BEARING_STEEL, inside, fit.outside_radius);
+        match self.inner_race_growth {
+            Growth::None => 0.0,
+            Growth::FreeRing => from(fit.joint_radius),
+            Growth::WithShaft => from(fit.bore_radius),
+        }
+    }
+
+    /// Speed at which an inner ring that is said to grow with its shaft leaves it, rad/s, where that is below a speed.
+    pub fn lifts_off_below(&self, speed: f64) -> Option<f64> {
+        if self.inner_race_growth != Growth::WithShaft {
+            return None;
+        }
+        let fit = self
+            .fits
+            .on_shaft(self.pitch_diameter - self.ball_diameter)?;
+        Some(fit.lift_off_speed()).filter(|lift_off| *lift_off < speed)
     }
 }

@@ -1,8 +1,8 @@
 //! The friction of a bearing as a whole, as typed values in SI.
 
-use crate::scenario::bearing::{BallMaterial, BearingType};
-use crate::scenario::resolve::Values;
+use crate::scenario::bearing::kind::{BallMaterial, BearingType};
 use crate::scenario::section::Section;
+use crate::scenario::values::Values;
 use physics::friction::Friction;
 use physics::moment_curve::MomentCurve;
 use physics::palmgren::{Palmgren, PalmgrenCombined};

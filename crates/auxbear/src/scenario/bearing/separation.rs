@@ -1,7 +1,7 @@
 //! What keeps the balls apart, as typed values in SI.
 
-use crate::scenario::resolve::{Value, Values};
 use crate::scenario::section::Section;
+use crate::scenario::values::{Value, Values};
 
 /// What keeps the balls apart.
 #[derive(Clone, Debug, PartialEq)]

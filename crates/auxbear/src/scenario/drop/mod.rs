@@ -4,9 +4,9 @@ pub(crate) mod checks;
 pub(crate) mod keys;
 
 use crate::scenario::bearing::{Bearing, bearing};
-use crate::scenario::resolve::Values;
 use crate::scenario::run::Run;
 use crate::scenario::section::Section;
+use crate::scenario::values::Values;
 
 /// A levitated rotor that is released onto its auxiliary bearing. All values are SI.
 #[derive(Clone, Debug, PartialEq)]

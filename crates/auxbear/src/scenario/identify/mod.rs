@@ -3,9 +3,10 @@
 pub(crate) mod checks;
 pub(crate) mod keys;
 
-use crate::scenario::bearing::{BallMaterial, ball_material, cage_ring_mass};
-use crate::scenario::resolve::Values;
+use crate::scenario::bearing::kind::BallMaterial;
+use crate::scenario::bearing::{ball_material, cage_ring_mass};
 use crate::scenario::section::Section;
+use crate::scenario::values::Values;
 use std::path::PathBuf;
 
 /// Tests of one bearing and what is asked of them. All values are SI.

@@ -1,7 +1,7 @@
 //! What more is asked of a measurement, as typed values in SI: its converter, a vibration, curves of slow runs.
 
-use crate::scenario::resolve::Values;
 use crate::scenario::section::Section;
+use crate::scenario::values::Values;
 
 /// The converter that took some channels.
 #[derive(Clone, Debug, PartialEq)]

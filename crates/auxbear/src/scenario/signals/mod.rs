@@ -5,9 +5,9 @@ pub(crate) mod checks;
 pub(crate) mod keys;
 pub(crate) mod keys_analysis;
 
-use crate::scenario::resolve::Values;
 use crate::scenario::section::Section;
 use crate::scenario::signals::analysis::{ConverterSignal, SteadySignal, VibrationSignal};
+use crate::scenario::values::Values;
 use std::path::PathBuf;
 
 /// A measurement and what is computed from it. All values are SI.

@@ -1,7 +1,7 @@
 //! Checks of a spin-up.
 
 use crate::problem::{Code, Place, Problem};
-use crate::scenario::bearing::Fidelity;
+use crate::scenario::bearing::kind::Fidelity;
 use crate::scenario::bearing::moment::AccelerationLoss;
 use crate::scenario::checks::{Check, Context};
 use crate::scenario::spin_up::{Course, Drive, SpeedCourse, SpinUp};

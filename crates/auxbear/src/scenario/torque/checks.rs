@@ -5,7 +5,15 @@ use crate::scenario::checks::{Check, Context};
 use crate::scenario::torque::Torque;
 
 impl Context<'_> {
-    pub(crate) fn torque_points(&self, torque: &Torque) -> Check {
+    pub(crate) fn torque(&self, torque: &Torque) -> Check {
+        let (ball, pitch) = (torque.ball_diameter, torque.pitch_diameter);
+        self.geometry(torque.ball_count, ball, pitch)?;
+        self.moment(&torque.moment, &torque.rated())?;
+        self.acceleration_loss(&torque.acceleration_loss)?;
+        self.torque_points(torque)
+    }
+
+    fn torque_points(&self, torque: &Torque) -> Check {
         if torque.speed_to <= torque.speed_from {
             let path = "torque.speed_to";
             return Err(Box::new(self.problem(

@@ -4,14 +4,15 @@ pub(crate) mod checks;
 pub(crate) mod keys;
 
 use crate::problem::{Code, Place, Problem};
+use crate::scenario::bearing::kind::{BallMaterial, BearingType};
 use crate::scenario::bearing::lubricant::{Lubricant, LubricantViscosity};
 use crate::scenario::bearing::moment::{AccelerationLoss, Moment, RatedBearing};
 use crate::scenario::bearing::source::BearingSource;
-use crate::scenario::bearing::{BallMaterial, BearingType, ball_material, cage_ring_mass};
-use crate::scenario::checks::check_law;
+use crate::scenario::bearing::{ball_material, cage_ring_mass};
+use crate::scenario::checks::Context;
 use crate::scenario::document::{Document, Given, Raw};
-use crate::scenario::resolve::{COMPARED_LAWS, LAW, Values};
 use crate::scenario::section::Section;
+use crate::scenario::values::{COMPARED_LAWS, LAW, Values};
 use physics::viscosity::Viscosity;
 
 /// A bearing whose torque is computed without motion. All values are SI.
@@ -212,6 +213,10 @@ fn moment_by(
         static_load_rating: bearing.maybe("static_load_rating"),
         ball_material: ball_material(&bearing),
     };
-    check_law(&moment, &rated, &values, &document.file)?;
+    let context = Context {
+        values: &values,
+        file: &document.file,
+    };
+    context.moment(&moment, &rated)?;
     Ok(moment)
 }
