@@ -64,11 +64,10 @@ pub fn machines() -> Vec<RotorMachine> {
     bearing.ball.orbit_drag = 0.0;
     bearing.ball.spin_drag = 0.0;
     bearing.moment = Some(SharedMoment {
-        law: SteadyMoment::Palmgren(grease()),
+        law: SteadyMoment::Palmgren(grease()).scaled(0.9),
         axial_load: 0.0,
         orbit_share: 0.3,
         reference_spin: 2.0,
-        scale: 0.9,
     });
     let mut grown = base();
     // 5 µm at 1000 rad/s
