@@ -34,6 +34,7 @@ pub(crate) mod table;
 pub(crate) mod template;
 pub(crate) mod torque;
 pub(crate) mod values;
+pub(crate) mod words;
 
 pub use bearing::fits::{Fits, Growth};
 pub use bearing::kind::{BallMaterial, BearingType, Fidelity};
@@ -113,7 +114,7 @@ impl System {
         file: &str,
     ) -> Result<System, Box<Problem>> {
         let context = checks::Context { values, file };
-        Ok(match document.system {
+        let system = match document.system {
             SystemName::Drop => {
                 let drop = Drop::from_values(values);
                 context.drop(&drop)?;
@@ -145,7 +146,9 @@ impl System {
                 context.torque(&torque)?;
                 System::Torque(torque)
             }
-        })
+        };
+        values.complete()?;
+        Ok(system)
     }
 }
 

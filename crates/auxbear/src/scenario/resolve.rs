@@ -9,6 +9,7 @@ use crate::scenario::resolved::{Resolved, ResolvedValue};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
 use crate::scenario::values::{COMPARED_LAWS, Known, LAW, POWER_TOLERANCE, Value, Values};
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use units::{Rational, parse_quantity};
 
@@ -23,6 +24,7 @@ impl Values {
             system: document.system,
             known: BTreeMap::new(),
             record: None,
+            lacking: RefCell::default(),
         };
         let own = values.own_catalogue(document)?;
         let bearings = own
@@ -245,7 +247,8 @@ impl Values {
         let raw = match key.kind {
             Kind::Count => Raw::Integer(fallback.text.to_string(), fallback.text.parse().ok()),
             Kind::Switch => Raw::Switch(fallback.text == "true"),
-            Kind::Coefficient => Raw::Float(fallback.text.parse().unwrap_or(f64::NAN)),
+            Kind::Coefficient => (fallback.text.parse())
+                .map_or_else(|_| Raw::Text(fallback.text.to_string()), Raw::Float),
             Kind::Quantities(_) | Kind::Words(_) | Kind::Texts => {
                 as_toml(fallback.text).unwrap_or(Raw::Text(fallback.text.to_string()))
             }

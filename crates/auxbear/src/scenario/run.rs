@@ -2,6 +2,7 @@
 
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
+use crate::scenario::words::words;
 
 /// The simulation.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,15 +19,16 @@ pub struct Run {
     pub method: Method,
 }
 
+words! {
 /// How steps are taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// By the stiffness of friction.
-    Auto,
+    Auto = "auto",
     /// Explicit.
-    Explicit,
+    Explicit = "explicit",
     /// Linearly implicit.
-    Implicit,
+    Implicit = "implicit",
+}
 }
 
 impl Run {
@@ -40,12 +42,8 @@ impl Run {
             tolerance: run.number("tolerance"),
             output_interval: run.number("output_interval"),
             largest_step: run.number("largest_step"),
-            method: match values.text("run.method").as_deref() {
-                Some("auto") => Method::Auto,
-                Some("implicit") => Method::Implicit,
-                // what has no choice takes explicit steps
-                _ => Method::Explicit,
-            },
+            // what has no choice takes explicit steps
+            method: run.chosen("method").unwrap_or(Method::Explicit),
         }
     }
 }

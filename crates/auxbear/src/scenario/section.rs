@@ -1,6 +1,7 @@
 //! Typed values taken out of the resolved ones, section by section.
 
 use crate::scenario::values::Values;
+use crate::scenario::words::Words;
 
 /// Takes typed values out of the resolved ones.
 pub(crate) struct Section<'a> {
@@ -17,15 +18,21 @@ impl Section<'_> {
         self.values.number(&self.path(name))
     }
 
-    /// A number that the table of keys guarantees; not-a-number would show a gap in that table, which the tests exclude.
+    /// A number that is needed; where there is none the scenario is refused for it, see [`Values::complete`].
     pub(crate) fn number(&self, name: &str) -> f64 {
         let value = self.maybe(name);
-        debug_assert!(value.is_some(), "{} has no value", self.path(name));
-        value.unwrap_or(f64::NAN)
+        value.unwrap_or_else(|| self.values.lack(&self.path(name), 0.0))
     }
 
-    pub(crate) fn word(&self, name: &str) -> &'static str {
-        self.values.word(&self.path(name))
+    /// A word that is needed; likewise.
+    pub(crate) fn choice<T: Words>(&self, name: &str) -> T {
+        let value = self.chosen(name);
+        value.unwrap_or_else(|| self.values.lack(&self.path(name), T::ALL[0]))
+    }
+
+    /// A word, where there is one.
+    pub(crate) fn chosen<T: Words>(&self, name: &str) -> Option<T> {
+        self.values.chosen(&self.path(name))
     }
 
     pub(crate) fn switch(&self, name: &str) -> bool {

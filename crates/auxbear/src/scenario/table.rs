@@ -4,7 +4,9 @@
 //! Each system has some of the sections, and of a section all keys that name no other system.
 
 use crate::scenario::key::{Key, Kind, Presence, Range, Section};
+use crate::scenario::run::Method;
 use crate::scenario::system::{MOVING, SystemName, WITH_BEARING};
+use crate::scenario::words::Words;
 
 /// Format name of the scenario files that this version writes.
 pub const FORMAT: &str = "auxbear.scenario/1";
@@ -185,7 +187,7 @@ const RUN: &[Key] = &[
     ),
     Key::new(
         "run.method",
-        Kind::Word(&["auto", "explicit", "implicit"]),
+        Kind::Word(Method::WORDS),
         "auto",
         "Time integration: explicit steps are bound by stability, implicit ones are not; auto takes implicit steps where sliding friction is too stiff for explicit ones.",
     )

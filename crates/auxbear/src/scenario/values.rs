@@ -5,6 +5,8 @@ use crate::scenario::bearing::source::BearingRecord;
 use crate::scenario::key::Key;
 use crate::scenario::provenance::Provenance;
 use crate::scenario::system::SystemName;
+use crate::scenario::words::Words;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use units::Quantity;
 
@@ -74,6 +76,8 @@ pub(crate) struct Values {
     pub(crate) known: BTreeMap<&'static str, Known>,
     /// What the catalogue knows of the bearing named.
     pub(crate) record: Option<BearingRecord>,
+    /// Keys that typed values needed and that have none.
+    pub(crate) lacking: RefCell<Vec<String>>,
 }
 
 impl Values {
@@ -146,6 +150,34 @@ impl Values {
     /// A number in SI, where there is one.
     pub(crate) fn number(&self, path: &str) -> Option<f64> {
         self.known.get(path).and_then(|known| known.value.number())
+    }
+
+    /// A word as its enum, where there is one.
+    pub(crate) fn chosen<T: Words>(&self, path: &str) -> Option<T> {
+        match self.known.get(path)?.value {
+            Value::Word(word) => T::of_word(word),
+            _ => None,
+        }
+    }
+
+    /// Remembers a key that is needed and has no value; `instead` stands for it until the scenario is refused.
+    pub(crate) fn lack<T>(&self, path: &str, instead: T) -> T {
+        self.lacking.borrow_mut().push(path.to_string());
+        instead
+    }
+
+    /// Refuses what lacks a value that is needed.
+    pub(crate) fn complete(&self) -> Result<(), Box<Problem>> {
+        match self.lacking.borrow().first() {
+            None => Ok(()),
+            Some(path) => Err(Box::new(self.problem(
+                Code::MissingKey,
+                path,
+                Place::Whole,
+                "no value",
+                "a value is needed",
+            ))),
+        }
     }
 
     /// A word; empty where there is none.

@@ -1,14 +1,15 @@
 //! Values that follow from others.
 
 use crate::problem::{Code, Place, Problem};
-use crate::scenario::bearing::kind::BearingType;
+use crate::scenario::bearing::kind::{BallMaterial, BearingType};
 use crate::scenario::bearing::lubricant::Lubricant;
-use crate::scenario::bearing::moment::equivalent_load_word;
+use crate::scenario::bearing::moment::{EquivalentLoad, Lubricated, MomentLaw};
 use crate::scenario::key::Key;
 use crate::scenario::provenance::Provenance;
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
 use crate::scenario::values::{COMPARED_LAWS, Known, LAW, Value, Values, quantity_text};
+use crate::scenario::words::Words;
 use physics::hertz::{BallRace, PointContact, Race};
 use physics::materials::{BEARING_STEEL, SILICON_NITRIDE, ball_mass, contact_modulus};
 use physics::palmgren_factors::{FactorSource, Lubrication, palmgren_factors};
@@ -77,20 +78,20 @@ impl Values {
         {
             self.put_derived(AXIAL_LOAD, Value::Number(preload), PRELOAD)?;
         }
-        match self.word("bearing.moment.law") {
-            "palmgren" | "palmgren printed" => {
+        match self.chosen(LAW).unwrap_or(MomentLaw::None) {
+            MomentLaw::None | MomentLaw::Measured => Ok(()),
+            MomentLaw::Palmgren | MomentLaw::PalmgrenPrinted => {
                 self.series()?;
                 self.palmgren_factors()?;
                 self.viscosity()
             }
-            "skf" => {
+            MomentLaw::Skf => {
                 self.series()?;
                 self.skf_lubrication()?;
-                let kind = BearingType::of(self.word("bearing.type")).skf_type();
+                let kind = self.bearing_type().skf_type();
                 self.contact_angle(kind.angles_deg(), "the SKF model")?;
                 self.viscosity()
             }
-            _ => Ok(()),
         }
     }
 
@@ -102,9 +103,9 @@ impl Values {
         ) else {
             return Ok(());
         };
-        let (material, named) = match self.word("bearing.ball_material") {
-            "silicon nitride" => (SILICON_NITRIDE, "silicon nitride"),
-            _ => (BEARING_STEEL, "bearing steel"),
+        let (material, named) = match self.chosen("bearing.ball_material") {
+            Some(BallMaterial::SiliconNitride) => (SILICON_NITRIDE, "silicon nitride"),
+            Some(BallMaterial::Steel) | None => (BEARING_STEEL, "bearing steel"),
         };
         if self.lacks(BALL_MASS) {
             let how = format!("ball_diameter and {} kg/m³ of {named}", material.density);
@@ -162,13 +163,13 @@ impl Values {
         if !self.lacks(CONTACT_ANGLE) {
             return Ok(());
         }
-        let by_angle = self.word(EQUIVALENT_LOAD) == equivalent_load_word(FactorSource::Timken);
+        let by_angle = self.chosen(EQUIVALENT_LOAD) == Some(EquivalentLoad::Timken);
         let (degrees, why) = match constants {
             Some([least, largest]) if !(by_angle && loaded) => (
                 0.5 * (least + largest),
                 format!("the constants of {of} are for {least} to {largest} deg"),
             ),
-            None if by_angle && loaded && self.word("bearing.type") == "deep groove" => (
+            None if by_angle && loaded && self.bearing_type() == BearingType::DeepGroove => (
                 DEEP_GROOVE_ANGLE,
                 "P1 = 3 F_a - 0.1 F_r of deep groove bearings (Harris, from memory)".to_string(),
             ),
@@ -210,6 +211,11 @@ impl Values {
         )))
     }
 
+    /// The type of the bearing; deep groove where nothing asks for it.
+    fn bearing_type(&self) -> BearingType {
+        (self.chosen("bearing.type")).unwrap_or(BearingType::DeepGroove)
+    }
+
     /// Whether a key of this system has neither a value nor an obstacle.
     pub(crate) fn lacks(&self, path: &str) -> bool {
         let key = table::keys_of(self.system()).find(|key| key.path == path);
@@ -218,7 +224,7 @@ impl Values {
 
     /// The series by the name of a deep groove bearing.
     fn series(&mut self) -> Done {
-        if self.word("bearing.type") != "deep groove" || !self.lacks(SERIES) {
+        if self.bearing_type() != BearingType::DeepGroove || !self.lacks(SERIES) {
             return Ok(());
         }
         match self.text("bearing.name").as_deref().and_then(series_of) {
@@ -253,15 +259,16 @@ impl Values {
                 _ => Ok(()),
             };
         };
-        let lubrication = match self.word(LUBRICATION) {
-            "grease" | "oil mist" => Lubrication::GreaseOrOilMist,
-            "low oil bath" | "oil jet" => Lubrication::OilBath,
-            "" => {
+        let lubrication = match self.chosen(LUBRICATION) {
+            Some(Lubricated::Grease | Lubricated::OilMist) => Lubrication::GreaseOrOilMist,
+            Some(Lubricated::LowOilBath | Lubricated::OilJet) => Lubrication::OilBath,
+            None => {
                 return Err(Box::new(
                     self.no_factor(missing, "bearing.moment.lubrication"),
                 ));
             }
-            other => {
+            Some(other @ (Lubricated::OilAndAir | Lubricated::OilBath)) => {
+                let other = other.as_word();
                 return Err(Box::new(self.problem(
                     Code::NoLawData,
                     LUBRICATION,
@@ -274,7 +281,7 @@ impl Values {
         let Some(series) = self.text(SERIES) else {
             return Err(Box::new(self.no_factor(missing, "bearing.moment.series")));
         };
-        let kind = BearingType::of(self.word("bearing.type")).factor_type();
+        let kind = self.bearing_type().factor_type();
         let factors = palmgren_factors(kind, &series, lubrication).map_err(|refusal| {
             Box::new(self.problem(
                 Code::NoLawData,
@@ -317,7 +324,7 @@ impl Values {
         }
         self.put_derived(
             EQUIVALENT_LOAD,
-            Value::Word(equivalent_load_word(source)),
+            Value::Word(EquivalentLoad::of(source).as_word()),
             how,
         )
     }
@@ -332,22 +339,28 @@ impl Values {
 
     fn skf_lubrication(&self) -> Done {
         let needed = "one of \"grease\", \"oil and air\", \"oil bath\", \"low oil bath\", \"oil jet\" is needed for the SKF model";
-        match self.word(LUBRICATION) {
-            "" => Err(Box::new(self.problem(
+        match self.chosen(LUBRICATION) {
+            None => Err(Box::new(self.problem(
                 Code::MissingKey,
                 LUBRICATION,
                 Place::Whole,
                 "no value",
                 needed,
             ))),
-            "oil mist" => Err(Box::new(self.problem(
+            Some(Lubricated::OilMist) => Err(Box::new(self.problem(
                 Code::NoLawData,
                 LUBRICATION,
                 self.place(LUBRICATION),
                 "\"oil mist\", which the SKF model does not have",
                 needed,
             ))),
-            _ => Ok(()),
+            Some(
+                Lubricated::Grease
+                | Lubricated::OilAndAir
+                | Lubricated::OilBath
+                | Lubricated::LowOilBath
+                | Lubricated::OilJet,
+            ) => Ok(()),
         }
     }
 

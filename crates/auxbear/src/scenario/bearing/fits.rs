@@ -4,6 +4,7 @@ use crate::problem::Code;
 use crate::scenario::checks::Check;
 use crate::scenario::section::Section;
 use crate::scenario::values::{Value, Values};
+use crate::scenario::words::words;
 use physics::materials::BEARING_STEEL;
 use physics::ring::PressFit;
 
@@ -34,15 +35,16 @@ pub struct Fits {
     pub housing_outer_diameter: Option<f64>,
 }
 
+words! {
 /// How the inner race grows with its speed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Growth {
     /// Not at all.
-    None,
+    None = "none",
     /// As a ring by itself.
-    FreeRing,
+    FreeRing = "free ring",
     /// Together with the shaft it is pressed on.
-    WithShaft,
+    WithShaft = "with shaft",
+}
 }
 
 impl Fits {
@@ -85,16 +87,6 @@ impl Fits {
             outside_radius: 0.5 * outside,
             interference: self.housing_interference,
         })
-    }
-}
-
-impl Growth {
-    pub(crate) fn of(word: &str) -> Self {
-        match word {
-            "free ring" => Growth::FreeRing,
-            "with shaft" => Growth::WithShaft,
-            _ => Growth::None,
-        }
     }
 }
 

@@ -1,8 +1,15 @@
 //! The part of the table of keys that describes the rolling bearing.
 
-use crate::scenario::bearing::OIL_NAMES;
+use crate::scenario::bearing::Oil;
+use crate::scenario::bearing::TractionLaw;
+use crate::scenario::bearing::fits::Growth;
+use crate::scenario::bearing::kind::BallMaterial;
+use crate::scenario::bearing::kind::BearingType;
+use crate::scenario::bearing::kind::Fidelity;
+use crate::scenario::bearing::separation::SeparationKind;
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
 use crate::scenario::system::{FREE_RACE, MOVING, SystemName, WITH_MOMENT};
+use crate::scenario::words::Words;
 
 const DROP: &[SystemName] = &[SystemName::Drop];
 
@@ -68,12 +75,7 @@ pub(crate) const KEYS: &[Key] = &[
     .optional("all dimensions stand in this file"),
     Key::new(
         "bearing.type",
-        Kind::Word(&[
-            "deep groove",
-            "angular contact",
-            "angular contact double row",
-            "four-point contact",
-        ]),
+        Kind::Word(BearingType::WORDS),
         "deep groove",
         "Type of the bearing: it chooses factors of the friction moment, and whether there is a contact angle.",
     )
@@ -81,7 +83,7 @@ pub(crate) const KEYS: &[Key] = &[
     .only(WITH_MOMENT),
     Key::new(
         "bearing.fidelity",
-        Kind::Word(&["planar", "rolling"]),
+        Kind::Word(Fidelity::WORDS),
         "planar",
         "How the bearing is modelled: planar moves each ball and the cage with slip; rolling assumes pure rolling and is far faster.",
     )
@@ -145,7 +147,7 @@ pub(crate) const KEYS: &[Key] = &[
     .only(MOVING),
     Key::new(
         "bearing.inner_race_growth",
-        Kind::Word(&["none", "free ring", "with shaft"]),
+        Kind::Word(Growth::WORDS),
         "none",
         "How the inner race grows with its speed: as a ring by itself, or together with the shaft or sleeve it is pressed on. Its radii are those of [bearing.fits].",
     )
@@ -171,7 +173,7 @@ pub(crate) const KEYS: &[Key] = &[
     .only(MOVING),
     Key::new(
         "bearing.ball_material",
-        Kind::Word(&["steel", "silicon nitride"]),
+        Kind::Word(BallMaterial::WORDS),
         "steel",
         "Material of the balls; the races are of bearing steel.",
     )
@@ -214,7 +216,7 @@ pub(crate) const KEYS: &[Key] = &[
     .only(MOVING),
     Key::new(
         "bearing.separation",
-        Kind::Word(&["cage", "full complement"]),
+        Kind::Word(SeparationKind::WORDS),
         "cage",
         "What keeps the balls apart: a cage, or, in a full complement, the next ball.",
     )
@@ -323,7 +325,7 @@ pub(crate) const KEYS: &[Key] = &[
 pub(crate) const TRACTION: &[Key] = &[
     Key::new(
         "bearing.traction.law",
-        Kind::Word(&["tanh", "four parameter", "dry", "lubricant"]),
+        Kind::Word(TractionLaw::WORDS),
         "tanh",
         "Traction law: tanh is maximum·tanh(u/reference_speed); four parameter is (A + B u)exp(-C u) + D; dry falls from static to kinetic friction; lubricant follows from the film of an oil.",
     )
@@ -404,7 +406,7 @@ pub(crate) const TRACTION: &[Key] = &[
     .when(TANH_OR_DRY),
     Key::new(
         "bearing.traction.oil",
-        Kind::Word(&OIL_NAMES),
+        Kind::Word(Oil::WORDS),
         "FVA 3",
         "Oil between balls and races: one whose viscosity under pressure was measured. FVA 3 is a paraffinic mineral oil, N100 a naphthenic one, PAO100 a polyalphaolefin; all ISO VG 100.",
     )

@@ -1,8 +1,10 @@
 //! The part of the table of keys that describes what keeps the balls apart, and how the rings sit.
 
 use crate::scenario::bearing::keys::{CAGE, STEEL_BALLS};
+use crate::scenario::bearing::separation::GuidanceKind;
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Section};
 use crate::scenario::system::MOVING;
+use crate::scenario::words::Words;
 
 pub(crate) const SECTIONS: &[Section] = &[
     Section {
@@ -136,7 +138,7 @@ pub(crate) const KEYS: &[Key] = &[
     .when(CAGE),
     Key::new(
         "bearing.cage.guidance",
-        Kind::Word(&["centred", "balls", "inner land", "outer land"]),
+        Kind::Word(GuidanceKind::WORDS),
         "centred",
         "What guides the cage: centred, its centre is that of the outer race and its mass moves with it; balls, its pockets alone; a land of the inner or outer ring.",
     )

@@ -1,7 +1,10 @@
 //! The part of the table of keys that describes how the lubricant changes while the bearing turns and rests.
 
+use crate::scenario::bearing::lubricant_state::StateKind;
+use crate::scenario::bearing::lubricant_state::StateStart;
 use crate::scenario::key::{Condition, Key, Kind, Range, Section};
 use crate::scenario::system::MOVING;
+use crate::scenario::words::Words;
 
 pub(crate) const SECTIONS: &[Section] = &[Section {
     path: "bearing.lubricant_state",
@@ -43,7 +46,7 @@ const GIVEN: &[Condition] = &[start(&["given"])];
 pub(crate) const KEYS: &[Key] = &[
     Key::new(
         "bearing.lubricant_state.kind",
-        Kind::Word(&["none", "grease", "films", "grease and films"]),
+        Kind::Word(StateKind::WORDS),
         "grease",
         "What changes: none; grease, which builds up over the way of the cage and breaks down over time; films, which warm by their own friction; or both.",
     )
@@ -90,7 +93,7 @@ pub(crate) const KEYS: &[Key] = &[
     .when(GREASE),
     Key::new(
         "bearing.lubricant_state.start",
-        Kind::Word(&["rested", "worked", "after rest", "given"]),
+        Kind::Word(StateStart::WORDS),
         "rested",
         "Grease at time 0: rested, fresh or long at rest; worked, built up and broken down; after rest, worked before a rest of rest_before; given, by initial_build_up and initial_breakdown.",
     )

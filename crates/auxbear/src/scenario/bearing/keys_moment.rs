@@ -1,8 +1,13 @@
 //! The part of the table of keys that describes the friction of the bearing as a whole.
 
-use crate::scenario::bearing::moment::EQUIVALENT_LOADS;
+use crate::scenario::bearing::moment::EquivalentLoad;
+use crate::scenario::bearing::moment::LossKind;
+use crate::scenario::bearing::moment::Lubricated;
+use crate::scenario::bearing::moment::MomentLaw;
+use crate::scenario::bearing::moment::OilKind;
 use crate::scenario::key::{Condition, Key, Kind, Range, Section};
 use crate::scenario::system::SystemName;
+use crate::scenario::words::Words;
 
 pub(crate) const SECTIONS: &[Section] = &[
     Section {
@@ -65,21 +70,14 @@ const MOVING: &[SystemName] = crate::scenario::system::MOVING;
 pub(crate) const KEYS: &[Key] = &[
     Key::new(
         "bearing.moment.law",
-        Kind::Word(&["none", "palmgren", "palmgren printed", "skf", "measured"]),
+        Kind::Word(MomentLaw::WORDS),
         "palmgren",
         "Law: palmgren, continuous and odd in speed; palmgren printed, with the steps of the source; skf, the model of the SKF catalogue; measured, a curve over speed.",
     )
     .default("none", "no moment unless one is asked for"),
     Key::new(
         "bearing.moment.lubrication",
-        Kind::Word(&[
-            "grease",
-            "oil mist",
-            "oil and air",
-            "oil bath",
-            "low oil bath",
-            "oil jet",
-        ]),
+        Kind::Word(Lubricated::WORDS),
         "grease",
         "Lubrication. A low oil bath reaches the centre of the lowest ball at most. Palmgren's tables have grease, oil mist, low oil bath and oil jet; the SKF model has all but oil mist.",
     )
@@ -166,7 +164,7 @@ pub(crate) const KEYS: &[Key] = &[
     .when(AXIAL),
     Key::new(
         "bearing.moment.equivalent_load",
-        Kind::Word(EQUIVALENT_LOADS),
+        Kind::Word(EquivalentLoad::WORDS),
         "schaeffler",
         "Form of the load P1 = max(F_r, X1 F_r + Y1 F_a) of Palmgren's M1, which belongs to f1: schaeffler, by the type of the bearing; timken, 0.9 cot(contact_angle) F_a - 0.1 F_r for all, which is that of Harris too.",
     )
@@ -192,7 +190,7 @@ pub(crate) const KEYS: &[Key] = &[
     .when(SKF),
     Key::new(
         "bearing.moment.oil",
-        Kind::Word(&["mineral", "synthetic", "transmission fluid"]),
+        Kind::Word(OilKind::WORDS),
         "mineral",
         "Kind of oil, also in a grease: it decides the sliding friction of a full film.",
     )
@@ -255,7 +253,7 @@ pub(crate) const KEYS: &[Key] = &[
     .only(MOVING),
     Key::new(
         "bearing.acceleration_loss.kind",
-        Kind::Word(&["none", "constant", "proportional", "over speed", "affine"]),
+        Kind::Word(LossKind::WORDS),
         "proportional",
         "F: none; constant, F0; proportional, F1 times the size of the acceleration; over speed, F0 over speed; affine, F0 + F1 |acceleration|, both over speed.",
     )

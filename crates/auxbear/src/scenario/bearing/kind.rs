@@ -1,41 +1,35 @@
 //! Kinds of a bearing: type, material of the balls, how it is modelled.
 
+use crate::scenario::words::words;
 use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE, ball_mass};
 use physics::palmgren_factors::FactorType;
 use physics::skf_constants::SkfType;
 
+words! {
 /// How the bearing is modelled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fidelity {
     /// Each ball and the cage move in the plane, with slip.
-    Planar,
+    Planar = "planar",
     /// Pure rolling.
-    Rolling,
+    Rolling = "rolling",
+}
 }
 
+words! {
 /// Type of a bearing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BearingType {
     /// Deep groove.
-    DeepGroove,
+    DeepGroove = "deep groove",
     /// Angular contact, single row.
-    AngularContact,
+    AngularContact = "angular contact",
     /// Angular contact, double row.
-    AngularContactDoubleRow,
+    AngularContactDoubleRow = "angular contact double row",
     /// Four-point contact.
-    FourPointContact,
+    FourPointContact = "four-point contact",
+}
 }
 
 impl BearingType {
-    /// The type of a word of the table.
-    pub(crate) fn of(word: &str) -> BearingType {
-        match word {
-            "angular contact" => BearingType::AngularContact,
-            "angular contact double row" => BearingType::AngularContactDoubleRow,
-            "four-point contact" => BearingType::FourPointContact,
-            _ => BearingType::DeepGroove,
-        }
-    }
     /// The type as the laws' tables know it.
     pub(crate) fn factor_type(self) -> FactorType {
         match self {
@@ -56,13 +50,14 @@ impl BearingType {
     }
 }
 
+words! {
 /// Material of the balls.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BallMaterial {
     /// Bearing steel.
-    Steel,
+    Steel = "steel",
     /// Silicon nitride: a hybrid bearing.
-    SiliconNitride,
+    SiliconNitride = "silicon nitride",
+}
 }
 
 impl BallMaterial {

@@ -2,8 +2,37 @@
 
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
+use crate::scenario::words::words;
 use physics::lubricant_state::{FilmHeating, Grease};
 use std::f64::consts::TAU;
+
+words! {
+    /// What of the lubricant changes, as a word.
+    pub(crate) enum StateKind {
+        /// Nothing.
+        None = "none",
+        /// Grease.
+        Grease = "grease",
+        /// Films that warm.
+        Films = "films",
+        /// Both.
+        GreaseAndFilms = "grease and films",
+    }
+}
+
+words! {
+    /// The grease at the start, as a word.
+    pub(crate) enum StateStart {
+        /// Rested for long.
+        Rested = "rested",
+        /// Worked for long.
+        Worked = "worked",
+        /// After a rest of a given time.
+        AfterRest = "after rest",
+        /// As given.
+        Given = "given",
+    }
+}
 
 /// How the lubricant changes while the bearing turns and rests.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,11 +54,11 @@ impl LubricantState {
             values,
             path: "bearing.lubricant_state",
         };
-        let (greased, filmed) = match state.word("kind") {
-            "grease" => (true, false),
-            "films" => (false, true),
-            "grease and films" => (true, true),
-            _ => return None,
+        let (greased, filmed) = match state.chosen("kind")? {
+            StateKind::None => return None,
+            StateKind::Grease => (true, false),
+            StateKind::Films => (false, true),
+            StateKind::GreaseAndFilms => (true, true),
         };
         let grease = greased.then(|| Grease {
             rested_factor: state.number("rested_factor"),
@@ -48,13 +77,13 @@ impl LubricantState {
         let (build_up, breakdown) = match (grease, state.maybe("rest_before")) {
             (None, _) => (0.0, 0.0),
             (Some(grease), Some(time)) => (grease.rested(time), grease.rested(time)),
-            (Some(_), None) => match state.word("start") {
-                "worked" => (1.0, 1.0),
-                "given" => (
+            (Some(_), None) => match state.choice("start") {
+                StateStart::Rested | StateStart::AfterRest => (0.0, 0.0),
+                StateStart::Worked => (1.0, 1.0),
+                StateStart::Given => (
                     state.number("initial_build_up"),
                     state.number("initial_breakdown"),
                 ),
-                _ => (0.0, 0.0),
             },
         };
         Some(LubricantState {

@@ -25,7 +25,8 @@ use crate::scenario::bearing::moment::{AccelerationLoss, Moment, MomentShare, Ra
 use crate::scenario::bearing::separation::Separation;
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
-use physics::lubricant::{LUBRICANTS, Lubricant};
+use crate::scenario::words::words;
+use physics::lubricant::{FVA_3, Lubricant, NAPHTHENIC_100, POLYALPHAOLEFIN_100};
 use physics::materials::BEARING_STEEL;
 use physics::ring::outside_growth;
 use physics::rolling::{RollingSet, ring_mass};
@@ -160,12 +161,40 @@ pub struct OilFilm {
     pub supply: f64,
 }
 
-/// Names of the oils in a scenario, in the order of [`LUBRICANTS`].
-pub(crate) const OIL_NAMES: [&str; LUBRICANTS.len()] = ["FVA 3", "N100", "PAO100"];
+words! {
+    /// Law of traction, as a word.
+    pub(crate) enum TractionLaw {
+        /// Hyperbolic tangent.
+        Tanh = "tanh",
+        /// Four parameters.
+        FourParameter = "four parameter",
+        /// Dry.
+        Dry = "dry",
+        /// From the film.
+        Lubricant = "lubricant",
+    }
+}
 
-fn oil(name: &str) -> Lubricant {
-    let place = OIL_NAMES.iter().position(|word| *word == name);
-    LUBRICANTS[place.unwrap_or(0)]
+words! {
+    /// Oils with data for films and traction, as words.
+    pub(crate) enum Oil {
+        /// FVA 3, mineral.
+        Fva3 = "FVA 3",
+        /// A naphthenic oil.
+        N100 = "N100",
+        /// A polyalphaolefin.
+        Pao100 = "PAO100",
+    }
+}
+
+impl Oil {
+    fn data(self) -> Lubricant {
+        match self {
+            Oil::Fva3 => FVA_3,
+            Oil::N100 => NAPHTHENIC_100,
+            Oil::Pao100 => POLYALPHAOLEFIN_100,
+        }
+    }
 }
 
 /// Drag of balls and cage to ground, to reproduce reference cases.
@@ -186,11 +215,8 @@ pub(crate) fn bearing(values: &Values) -> Bearing {
     let drag = section("bearing.drag");
     Bearing {
         name: values.text("bearing.name"),
-        kind: BearingType::of(bearing.word("type")),
-        fidelity: match bearing.word("fidelity") {
-            "rolling" => Fidelity::Rolling,
-            _ => Fidelity::Planar,
-        },
+        kind: bearing.choice("type"),
+        fidelity: bearing.choice("fidelity"),
         ball_count: bearing.count("ball_count") as usize,
         ball_diameter: bearing.number("ball_diameter"),
         pitch_diameter: bearing.number("pitch_diameter"),
@@ -198,7 +224,7 @@ pub(crate) fn bearing(values: &Values) -> Bearing {
         axial_preload: bearing.maybe("axial_preload").unwrap_or(0.0),
         operating_diametral_clearance: bearing.number("operating_diametral_clearance"),
         unmounted_diametral_clearance: bearing.maybe("unmounted_diametral_clearance"),
-        inner_race_growth: Growth::of(bearing.word("inner_race_growth")),
+        inner_race_growth: bearing.chosen("inner_race_growth").unwrap_or(Growth::None),
         inner_groove_curvature: bearing.number("inner_groove_curvature"),
         outer_groove_curvature: bearing.number("outer_groove_curvature"),
         ball_material: ball_material(&bearing),
@@ -236,28 +262,29 @@ pub(crate) fn cage_ring_mass(bearing: &Section<'_>) -> f64 {
 }
 
 pub(crate) fn ball_material(bearing: &Section<'_>) -> BallMaterial {
-    match bearing.word("ball_material") {
-        "silicon nitride" => BallMaterial::SiliconNitride,
-        _ => BallMaterial::Steel,
-    }
+    bearing.choice("ball_material")
 }
 
 fn traction(traction: &Section<'_>) -> Traction {
-    match traction.word("law") {
-        "four parameter" => Traction::FourParameter {
+    match traction.choice("law") {
+        TractionLaw::Tanh => Traction::Tanh {
+            maximum: traction.number("maximum"),
+            reference_speed: traction.number("reference_speed"),
+        },
+        TractionLaw::FourParameter => Traction::FourParameter {
             a: traction.number("a"),
             b: traction.number("b"),
             c: traction.number("c"),
             d: traction.number("d"),
         },
-        "dry" => Traction::Dry {
+        TractionLaw::Dry => Traction::Dry {
             kinetic_coefficient: traction.number("kinetic"),
             static_coefficient: traction.number("static"),
             decay_speed: traction.number("decay_speed"),
             reference_speed: traction.number("reference_speed"),
         },
-        "lubricant" => Traction::Lubricant(OilFilm {
-            oil: oil(traction.word("oil")),
+        TractionLaw::Lubricant => Traction::Lubricant(OilFilm {
+            oil: traction.choice::<Oil>("oil").data(),
             temperature: traction.number("oil_temperature"),
             conductivity: traction.maybe("oil_conductivity"),
             composite_roughness: traction.number("composite_roughness"),
@@ -265,10 +292,6 @@ fn traction(traction: &Section<'_>) -> Traction {
             boundary_reference_speed: traction.number("boundary_reference_speed"),
             supply: traction.number("supply"),
         }),
-        _ => Traction::Tanh {
-            maximum: traction.number("maximum"),
-            reference_speed: traction.number("reference_speed"),
-        },
     }
 }
 

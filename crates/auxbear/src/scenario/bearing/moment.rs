@@ -3,6 +3,7 @@
 use crate::scenario::bearing::kind::{BallMaterial, BearingType};
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
+use crate::scenario::words::words;
 use physics::friction::Friction;
 use physics::moment_curve::MomentCurve;
 use physics::palmgren::{Palmgren, PalmgrenCombined};
@@ -10,16 +11,92 @@ use physics::palmgren_factors::FactorSource;
 use physics::skf_constants::{SkfBearing, SkfLubricant, SkfOil, SkfSupply};
 use physics::static_load::static_load_factors;
 
-/// Words of the sources of P1.
-pub(crate) const EQUIVALENT_LOADS: &[&str] = &[SCHAEFFLER, TIMKEN];
-const SCHAEFFLER: &str = "schaeffler";
-const TIMKEN: &str = "timken";
+words! {
+    /// Law of the friction moment, as a word.
+    pub(crate) enum MomentLaw {
+        /// None.
+        None = "none",
+        /// Palmgren's, continuous.
+        Palmgren = "palmgren",
+        /// Palmgren's, as printed.
+        PalmgrenPrinted = "palmgren printed",
+        /// The SKF model.
+        Skf = "skf",
+        /// A measured curve.
+        Measured = "measured",
+    }
+}
 
-/// The word of a source of P1.
-pub(crate) fn equivalent_load_word(source: FactorSource) -> &'static str {
-    match source {
-        FactorSource::Schaeffler => SCHAEFFLER,
-        FactorSource::Timken => TIMKEN,
+words! {
+    /// How a bearing is lubricated, as a word.
+    pub(crate) enum Lubricated {
+        /// Grease.
+        Grease = "grease",
+        /// Oil mist.
+        OilMist = "oil mist",
+        /// Oil and air.
+        OilAndAir = "oil and air",
+        /// Oil bath.
+        OilBath = "oil bath",
+        /// Oil bath up to the lowest ball.
+        LowOilBath = "low oil bath",
+        /// Oil jet.
+        OilJet = "oil jet",
+    }
+}
+
+words! {
+    /// Kind of an oil in the SKF model, as a word.
+    pub(crate) enum OilKind {
+        /// Mineral.
+        Mineral = "mineral",
+        /// Synthetic.
+        Synthetic = "synthetic",
+        /// Transmission fluid.
+        TransmissionFluid = "transmission fluid",
+    }
+}
+
+words! {
+    /// Whose form of P1, as a word.
+    pub(crate) enum EquivalentLoad {
+        /// Schaeffler's.
+        Schaeffler = "schaeffler",
+        /// Timken's.
+        Timken = "timken",
+    }
+}
+
+words! {
+    /// Kind of the loss of accelerated balls, as a word.
+    pub(crate) enum LossKind {
+        /// None.
+        None = "none",
+        /// F0.
+        Constant = "constant",
+        /// F1 times the acceleration.
+        Proportional = "proportional",
+        /// F0 over speed.
+        OverSpeed = "over speed",
+        /// Both over speed.
+        Affine = "affine",
+    }
+}
+
+impl EquivalentLoad {
+    /// The form of a source.
+    pub(crate) fn of(source: FactorSource) -> Self {
+        match source {
+            FactorSource::Schaeffler => EquivalentLoad::Schaeffler,
+            FactorSource::Timken => EquivalentLoad::Timken,
+        }
+    }
+    /// The source of the form.
+    fn source(self) -> FactorSource {
+        match self {
+            EquivalentLoad::Schaeffler => FactorSource::Schaeffler,
+            EquivalentLoad::Timken => FactorSource::Timken,
+        }
     }
 }
 
@@ -134,46 +211,53 @@ impl Moment {
             values,
             path: "bearing.moment",
         };
-        match moment.word("law") {
-            law @ ("palmgren" | "palmgren printed") => Moment::Palmgren {
-                printed: law == "palmgren printed",
-                f0: moment.number("f0"),
-                viscosity: moment.number("viscosity"),
-                f1_factor: moment.number("f1_factor"),
-                f1_exponent: moment.number("f1_exponent"),
-                axial_load: match law {
-                    "palmgren" => moment.number("axial_load"),
-                    _ => 0.0,
-                },
-                contact_angle: moment.maybe("contact_angle").filter(|_| law == "palmgren"),
-                equivalent_load: match moment.word("equivalent_load") {
-                    SCHAEFFLER => FactorSource::Schaeffler,
-                    _ => FactorSource::Timken,
-                },
-            },
-            "skf" => Moment::Skf {
+        let law = moment.chosen("law").unwrap_or(MomentLaw::None);
+        match law {
+            MomentLaw::None => Moment::None,
+            MomentLaw::Palmgren | MomentLaw::PalmgrenPrinted => {
+                let printed = law == MomentLaw::PalmgrenPrinted;
+                Moment::Palmgren {
+                    printed,
+                    f0: moment.number("f0"),
+                    viscosity: moment.number("viscosity"),
+                    f1_factor: moment.number("f1_factor"),
+                    f1_exponent: moment.number("f1_exponent"),
+                    axial_load: if printed {
+                        0.0
+                    } else {
+                        moment.number("axial_load")
+                    },
+                    contact_angle: moment.maybe("contact_angle").filter(|_| !printed),
+                    // as printed there is no axial load, and P1 is the radial one
+                    equivalent_load: moment
+                        .chosen::<EquivalentLoad>("equivalent_load")
+                        .map_or(FactorSource::Timken, EquivalentLoad::source),
+                }
+            }
+            MomentLaw::Skf => Moment::Skf {
                 series: values.text("bearing.moment.series").unwrap_or_default(),
                 bore_diameter: moment.number("bore_diameter"),
                 outer_diameter: moment.number("outer_diameter"),
                 axial_load: moment.number("axial_load"),
                 viscosity: moment.number("viscosity"),
-                supply: match moment.word("lubrication") {
-                    "oil bath" => SkfSupply::OilBath,
-                    "low oil bath" | "oil jet" => SkfSupply::LowOilBathOrJet,
-                    _ => SkfSupply::GreaseOrOilAir,
+                supply: match moment.choice("lubrication") {
+                    Lubricated::Grease | Lubricated::OilMist | Lubricated::OilAndAir => {
+                        SkfSupply::GreaseOrOilAir
+                    }
+                    Lubricated::OilBath => SkfSupply::OilBath,
+                    Lubricated::LowOilBath | Lubricated::OilJet => SkfSupply::LowOilBathOrJet,
                 },
-                oil: match moment.word("oil") {
-                    "synthetic" => SkfOil::Synthetic,
-                    "transmission fluid" => SkfOil::Transmission,
-                    _ => SkfOil::Mineral,
+                oil: match moment.choice("oil") {
+                    OilKind::Mineral => SkfOil::Mineral,
+                    OilKind::Synthetic => SkfOil::Synthetic,
+                    OilKind::TransmissionFluid => SkfOil::Transmission,
                 },
                 drag_variable: moment.number("drag_variable"),
                 seal_moment: moment.number("seal_moment"),
             },
-            "measured" => Moment::Measured {
+            MomentLaw::Measured => Moment::Measured {
                 curve: moment.rows("curve").unwrap_or_default(),
             },
-            _ => Moment::None,
         }
     }
 
@@ -321,21 +405,21 @@ impl AccelerationLoss {
             path: "bearing.acceleration_loss",
         };
         let rows = |name| loss.rows(name).unwrap_or_default();
-        match loss.word("kind") {
-            "constant" => AccelerationLoss::Constant {
+        match loss.chosen("kind").unwrap_or(LossKind::None) {
+            LossKind::None => AccelerationLoss::None,
+            LossKind::Constant => AccelerationLoss::Constant {
                 force: loss.number("force"),
             },
-            "proportional" => AccelerationLoss::Proportional {
+            LossKind::Proportional => AccelerationLoss::Proportional {
                 per_acceleration: loss.number("per_acceleration"),
             },
-            "over speed" => AccelerationLoss::OverSpeed {
+            LossKind::OverSpeed => AccelerationLoss::OverSpeed {
                 force_over_speed: rows("force_over_speed"),
             },
-            "affine" => AccelerationLoss::Affine {
+            LossKind::Affine => AccelerationLoss::Affine {
                 force_over_speed: rows("force_over_speed"),
                 per_acceleration_over_speed: rows("per_acceleration_over_speed"),
             },
-            _ => AccelerationLoss::None,
         }
     }
 }

@@ -2,6 +2,31 @@
 
 use crate::scenario::section::Section;
 use crate::scenario::values::{Value, Values};
+use crate::scenario::words::words;
+
+words! {
+    /// What keeps the balls apart, as a word.
+    pub(crate) enum SeparationKind {
+        /// A cage.
+        Cage = "cage",
+        /// The next ball.
+        FullComplement = "full complement",
+    }
+}
+
+words! {
+    /// What guides a cage, as a word.
+    pub(crate) enum GuidanceKind {
+        /// It is centred.
+        Centred = "centred",
+        /// Its balls.
+        Balls = "balls",
+        /// A land of the inner ring.
+        InnerLand = "inner land",
+        /// A land of the outer ring.
+        OuterLand = "outer land",
+    }
+}
 
 /// What keeps the balls apart.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,7 +105,7 @@ impl Separation {
     pub(crate) fn from_values(values: &Values) -> Self {
         let section = |path| Section { values, path };
         let bearing = section("bearing");
-        if bearing.word("separation") == "full complement" {
+        if bearing.choice::<SeparationKind>("separation") == SeparationKind::FullComplement {
             let row = section("bearing.full_complement");
             return Separation::FullComplement(FullComplement {
                 friction_coefficient: row.number("friction_coefficient"),
@@ -106,11 +131,11 @@ impl Separation {
             pocket_damping: cage.number("pocket_damping"),
             pocket_friction_coefficient: cage.number("pocket_friction_coefficient"),
             pocket_friction_reference_speed: cage.number("pocket_friction_reference_speed"),
-            guidance: match cage.word("guidance") {
-                "balls" => Guidance::Balls,
-                "inner land" => Guidance::InnerLand(land()),
-                "outer land" => Guidance::OuterLand(land()),
-                _ => Guidance::Centred,
+            guidance: match cage.choice("guidance") {
+                GuidanceKind::Centred => Guidance::Centred,
+                GuidanceKind::Balls => Guidance::Balls,
+                GuidanceKind::InnerLand => Guidance::InnerLand(land()),
+                GuidanceKind::OuterLand => Guidance::OuterLand(land()),
             },
         })
     }
@@ -141,9 +166,11 @@ impl Values {
         if !self.lacks(LAND) {
             return Ok(());
         }
-        let (side, sign) = match self.word("bearing.cage.guidance") {
-            "inner land" => (-1.0, '-'),
-            _ => (1.0, '+'),
+        let (side, sign) = match self.chosen("bearing.cage.guidance") {
+            Some(GuidanceKind::InnerLand) => (-1.0, '-'),
+            Some(GuidanceKind::Centred | GuidanceKind::Balls | GuidanceKind::OuterLand) | None => {
+                (1.0, '+')
+            }
         };
         let how =
             format!("pitch_diameter {sign} {SHOULDER} ball_diameter: a usual shoulder, assumed");

@@ -1,7 +1,10 @@
 //! The part of the table of keys that describes the drop of a levitated rotor.
 
+use crate::scenario::drop::SpinKind;
+use crate::scenario::drop::UnbalanceAngle;
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
 use crate::scenario::system::SystemName;
+use crate::scenario::words::Words;
 
 /// The systems of this page.
 const DROP: &[SystemName] = &[SystemName::Drop];
@@ -88,7 +91,7 @@ pub(crate) const KEYS: &[Key] = &[
     ),
     Key::new(
         "rotor.spin",
-        Kind::Word(&["free", "braked", "held"]),
+        Kind::Word(SpinKind::WORDS),
         "free",
         "What happens to the spin after the release: free, braked by a torque, or held at its speed by a drive.",
     )
@@ -308,7 +311,7 @@ pub(crate) const REPEAT: &[Key] = &[
     ),
     Key::new(
         "repeat.unbalance_angle",
-        Kind::Word(&["as given", "random"]),
+        Kind::Word(UnbalanceAngle::WORDS),
         "random",
         "Direction of the unbalance at the release: a delevitation chooses no angle of the rotor.",
     )

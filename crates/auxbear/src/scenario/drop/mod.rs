@@ -7,6 +7,29 @@ use crate::scenario::bearing::{Bearing, bearing};
 use crate::scenario::run::Run;
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
+use crate::scenario::words::words;
+
+words! {
+    /// What becomes of the rotor's spin, as a word.
+    pub(crate) enum SpinKind {
+        /// Free.
+        Free = "free",
+        /// Braked.
+        Braked = "braked",
+        /// Held.
+        Held = "held",
+    }
+}
+
+words! {
+    /// Direction of the unbalance in repeated runs, as a word.
+    pub(crate) enum UnbalanceAngle {
+        /// As given.
+        AsGiven = "as given",
+        /// Random.
+        Random = "random",
+    }
+}
 
 /// A levitated rotor that is released onto its auxiliary bearing. All values are SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -185,7 +208,8 @@ impl Drop {
                 seed: repeat.count("seed"),
                 rotor_position_deviation: repeat.number("rotor_position_deviation"),
                 ball_angle_deviation: repeat.number("ball_angle_deviation"),
-                random_unbalance_angle: repeat.word("unbalance_angle") == "random",
+                random_unbalance_angle: repeat.choice::<UnbalanceAngle>("unbalance_angle")
+                    == UnbalanceAngle::Random,
                 friction_coefficient_deviation: repeat.number("friction_coefficient_deviation"),
                 mount_stiffness_deviation: repeat.number("mount_stiffness_deviation"),
                 radial_air_clearance_deviation: repeat.number("radial_air_clearance_deviation"),
@@ -201,13 +225,13 @@ fn rotor(rotor: &Section<'_>) -> Rotor {
         unbalance_eccentricity: rotor.number("unbalance_eccentricity"),
         unbalance_angle: rotor.number("unbalance_angle"),
         speed: rotor.number("speed"),
-        spin: match rotor.word("spin") {
-            "braked" => Spin::Braked {
+        spin: match rotor.choice("spin") {
+            SpinKind::Free => Spin::Free,
+            SpinKind::Held => Spin::Held,
+            SpinKind::Braked => Spin::Braked {
                 torque: rotor.number("brake_torque"),
                 start: rotor.number("brake_start"),
             },
-            "held" => Spin::Held,
-            _ => Spin::Free,
         },
         planes: rotor.count("planes") as u32,
         first_bending_frequency: rotor.maybe("first_bending_frequency"),

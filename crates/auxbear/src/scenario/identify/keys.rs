@@ -1,7 +1,9 @@
 //! The part of the table of keys that describes what measured tests are to tell of a bearing.
 
+use crate::scenario::identify::Rolling;
 use crate::scenario::key::{Key, Kind, Range, Section};
 use crate::scenario::system::SystemName;
+use crate::scenario::words::Words;
 
 /// The systems of this page.
 const IDENTIFY: &[SystemName] = &[SystemName::Identify];
@@ -56,7 +58,7 @@ pub(crate) const KEYS: &[Key] = &[
     .optional("95 % of the largest speed of the slowest test"),
     Key::new(
         "identify.rolling",
-        Kind::Word(&["shown by the cage", "stated"]),
+        Kind::Word(Rolling::WORDS),
         "shown by the cage",
         "Where the friction F of accelerated balls is computed: where the cage signal shows that the balls roll, or everywhere because rolling is stated.",
     )

@@ -7,7 +7,18 @@ use crate::scenario::bearing::kind::BallMaterial;
 use crate::scenario::bearing::{ball_material, cage_ring_mass};
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
+use crate::scenario::words::words;
 use std::path::PathBuf;
+
+words! {
+    /// Whether balls roll in the slow tests, as a word.
+    pub(crate) enum Rolling {
+        /// As the cage shows it.
+        ShownByTheCage = "shown by the cage",
+        /// As the user states it.
+        Stated = "stated",
+    }
+}
 
 /// Tests of one bearing and what is asked of them. All values are SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -117,7 +128,7 @@ impl Identify {
             tests: files("identify.tests"),
             radial_load: identify.maybe("radial_load"),
             analysed_speed: identify.maybe("analysed_speed"),
-            rolling_stated: identify.word("rolling") == "stated",
+            rolling_stated: identify.choice::<Rolling>("rolling") == Rolling::Stated,
             viscosity: identify.maybe("viscosity"),
             moment_per_kelvin: identify.number("moment_per_kelvin"),
             moment_per_kelvin_deviation: identify.number("moment_per_kelvin_deviation"),
@@ -135,15 +146,15 @@ impl Identify {
                 .text("identify.rotor_friction.file")
                 .map(|file| RotorFriction {
                     file: file.into(),
-                    rotor_speed: rotor.maybe("rotor_speed").unwrap_or(f64::NAN),
-                    radial_load: rotor.maybe("radial_load").unwrap_or(f64::NAN),
+                    rotor_speed: rotor.number("rotor_speed"),
+                    radial_load: rotor.number("radial_load"),
                     load_deviation: rotor.number("load_deviation"),
                     from: rotor.maybe("from"),
                     to: rotor.maybe("to"),
                     least_slip: rotor.number("least_slip"),
-                    bore_diameter: rotor.maybe("bore_diameter").unwrap_or(f64::NAN),
+                    bore_diameter: rotor.number("bore_diameter"),
                     radial_air_clearance: rotor.maybe("radial_air_clearance"),
-                    inertia: rotor.maybe("inertia").unwrap_or(f64::NAN),
+                    inertia: rotor.number("inertia"),
                     inertia_deviation: rotor.number("inertia_deviation"),
                 }),
         }

@@ -1,7 +1,14 @@
 //! The part of the table of keys that describes a test rig and what its logger writes.
 
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Presence, Range, Section};
+use crate::scenario::rig::Coasts;
+use crate::scenario::rig::Housing;
+use crate::scenario::rig::MotorAfter;
+use crate::scenario::rig::ProgramKind;
+use crate::scenario::rig::RawFormat;
+use crate::scenario::signals::PickupOutput;
 use crate::scenario::system::SystemName;
+use crate::scenario::words::Words;
 
 /// The systems of this page.
 const RIG: &[SystemName] = &[SystemName::Rig];
@@ -129,7 +136,7 @@ const WITH_BALL_PASS: &[Condition] = &[Condition {
 pub(crate) const KEYS: &[Key] = &[
     Key::new(
         "rig.program",
-        Kind::Word(&["spin-up", "coast-down", "ramp and hold", "repeat after rest"]),
+        Kind::Word(ProgramKind::WORDS),
         "spin-up",
         "What the test does: spin-up, the clutch joins the turning flywheel to the shaft at rest; coast-down, the shaft turns with rolling balls and is left alone; ramp and hold, the motor brings all up slowly; repeat after rest, two spin-ups with a rest between them.",
     ),
@@ -184,7 +191,7 @@ pub(crate) const KEYS: &[Key] = &[
     .when(REPEATS),
     Key::new(
         "rig.coasts",
-        Kind::Word(&["with the flywheel", "alone"]),
+        Kind::Word(Coasts::WORDS),
         "with the flywheel",
         "What coasts down: the shaft with the flywheel, for tens of seconds, or the shaft alone.",
     )
@@ -216,7 +223,7 @@ pub(crate) const KEYS: &[Key] = &[
     .assumed("0.5 N m s", "settles a flywheel of 0.05 kg m² within a few tenths of a second"),
     Key::new(
         "rig.motor.after_engagement",
-        Kind::Word(&["on", "off"]),
+        Kind::Word(MotorAfter::WORDS),
         "on",
         "Whether the motor stays on when the clutch has engaged.",
     )
@@ -289,7 +296,7 @@ pub(crate) const KEYS: &[Key] = &[
     .positive(),
     Key::new(
         "rig.load.housing",
-        Kind::Word(&["concentric", "hanging"]),
+        Kind::Word(Housing::WORDS),
         "concentric",
         "Whether the outer race is taken to stay in the middle, as the equations of the rig do, or hangs on the balls, free to move in the plane.",
     )
@@ -446,7 +453,7 @@ pub(crate) const KEYS: &[Key] = &[
     .default("0.01", "a printed wheel"),
     Key::new(
         "rig.pickup.kind",
-        Kind::Word(&["analog", "edges"]),
+        Kind::Word(PickupOutput::WORDS),
         "analog",
         "What the logger writes of it: analog, samples of its signal; edges, the instant of each mark by a counter.",
     )
@@ -496,7 +503,7 @@ pub(crate) const KEYS: &[Key] = &[
     .when(WITH_BALL_PASS),
     Key::new(
         "rig.logger.file",
-        Kind::Word(&["tdms", "csv", "parquet"]),
+        Kind::Word(RawFormat::WORDS),
         "tdms",
         "Format of the raw file.",
     )

@@ -6,7 +6,53 @@ pub(crate) mod keys;
 use crate::scenario::bearing::{Bearing, bearing};
 use crate::scenario::run::Run;
 use crate::scenario::section::Section;
+use crate::scenario::signals::PickupOutput;
 use crate::scenario::values::Values;
+use crate::scenario::words::words;
+
+words! {
+    /// Program of a rig, as a word.
+    pub(crate) enum ProgramKind {
+        /// Spin-up.
+        SpinUp = "spin-up",
+        /// Coast-down.
+        CoastDown = "coast-down",
+        /// Ramp and hold.
+        RampAndHold = "ramp and hold",
+        /// Two spin-ups with a rest between.
+        RepeatAfterRest = "repeat after rest",
+    }
+}
+
+words! {
+    /// What coasts, as a word.
+    pub(crate) enum Coasts {
+        /// Shaft and flywheel.
+        WithTheFlywheel = "with the flywheel",
+        /// The shaft alone.
+        Alone = "alone",
+    }
+}
+
+words! {
+    /// The motor after the engagement, as a word.
+    pub(crate) enum MotorAfter {
+        /// It stays on.
+        On = "on",
+        /// It is switched off.
+        Off = "off",
+    }
+}
+
+words! {
+    /// How the weight acts on the housing, as a word.
+    pub(crate) enum Housing {
+        /// Concentric.
+        Concentric = "concentric",
+        /// Hanging.
+        Hanging = "hanging",
+    }
+}
 
 /// A test on a rig. All values are SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -206,15 +252,16 @@ pub struct BallPass {
     pub noise: f64,
 }
 
+words! {
 /// Format of a raw file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RawFormat {
     /// TDMS.
-    Tdms,
+    Tdms = "tdms",
     /// Text in columns.
-    Csv,
+    Csv = "csv",
     /// Parquet.
-    Parquet,
+    Parquet = "parquet",
+}
 }
 
 /// The converter and its file.
@@ -267,9 +314,9 @@ impl Rig {
             },
             load: RigLoad {
                 radial_load: load.number("radial_load"),
-                hanging_mass: match load.word("housing") {
-                    "hanging" => Some(load.number("mass")),
-                    _ => None,
+                hanging_mass: match load.choice("housing") {
+                    Housing::Concentric => None,
+                    Housing::Hanging => Some(load.number("mass")),
                 },
             },
             arm: RigArm {
@@ -295,11 +342,7 @@ impl Rig {
             pickup: pickup(&section("rig.pickup")),
             ball_pass: ball_pass(&section("rig.ball_pass")),
             logger: Logger {
-                format: match logger.word("file") {
-                    "csv" => RawFormat::Csv,
-                    "parquet" => RawFormat::Parquet,
-                    _ => RawFormat::Tdms,
-                },
+                format: logger.choice("file"),
                 total_rate: logger.number("total_rate"),
                 bits: logger.count("bits") as u32,
                 seed: logger.count("seed"),
@@ -315,26 +358,27 @@ fn program(rig: &Section<'_>, motor: &Section<'_>, clutch: &Section<'_>) -> RigP
         Some(rate) => Engagement::Rate(rate),
         None => Engagement::PeakAcceleration(rig.number("peak_acceleration")),
     };
-    match rig.word("program") {
-        "coast-down" => RigProgram::CoastDown {
-            with_flywheel: rig.word("coasts") == "with the flywheel",
+    let motor_stays_on = || motor.choice::<MotorAfter>("after_engagement") == MotorAfter::On;
+    match rig.choice("program") {
+        ProgramKind::CoastDown => RigProgram::CoastDown {
+            with_flywheel: rig.choice::<Coasts>("coasts") == Coasts::WithTheFlywheel,
         },
-        "ramp and hold" => RigProgram::RampAndHold {
+        ProgramKind::RampAndHold => RigProgram::RampAndHold {
             acceleration: rig.number("acceleration"),
             release_at: rig.maybe("release_at"),
         },
-        "repeat after rest" => RigProgram::RepeatAfterRest {
+        ProgramKind::RepeatAfterRest => RigProgram::RepeatAfterRest {
             engagement: engagement(),
             engage_at: rig.number("engage_at"),
             release_at: rig.number("first_release_at"),
             engage_again_at: rig.number("engage_again_at"),
-            motor_stays_on: motor.word("after_engagement") == "on",
+            motor_stays_on: motor_stays_on(),
         },
-        _ => RigProgram::SpinUp {
+        ProgramKind::SpinUp => RigProgram::SpinUp {
             engagement: engagement(),
             engage_at: rig.number("engage_at"),
             release_at: rig.maybe("release_at"),
-            motor_stays_on: motor.word("after_engagement") == "on",
+            motor_stays_on: motor_stays_on(),
         },
     }
 }
@@ -343,11 +387,11 @@ fn pickup(section: &Section<'_>) -> RigPickup {
     RigPickup {
         marks: section.count("marks") as usize,
         mark_deviation: section.number("mark_deviation"),
-        kind: match section.word("kind") {
-            "edges" => RigPickupKind::Edges {
+        kind: match section.choice("kind") {
+            PickupOutput::Edges => RigPickupKind::Edges {
                 stamp_deviation: section.number("stamp_deviation"),
             },
-            _ => RigPickupKind::Analog {
+            PickupOutput::Analog => RigPickupKind::Analog {
                 noise: section.number("noise"),
             },
         },

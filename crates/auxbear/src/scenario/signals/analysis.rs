@@ -2,6 +2,7 @@
 
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
+use crate::scenario::words::words;
 
 /// The converter that took some channels.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,6 +49,20 @@ pub struct SteadySignal {
     pub points: usize,
     /// How the inertia is known; none where it is not.
     pub inertia: Option<InertiaSource>,
+}
+
+words! {
+    /// Where the inertia comes from, as a word.
+    pub(crate) enum InertiaFrom {
+        /// As given.
+        Given = "given",
+        /// A pendulum.
+        Pendulum = "pendulum",
+        /// Two strings.
+        Bifilar = "bifilar",
+        /// A known torque.
+        KnownTorque = "known torque",
+    }
 }
 
 /// How the inertia of what coasts is known; each value with its standard deviation in the same unit.
@@ -123,12 +138,14 @@ pub(crate) fn converter(values: &Values) -> Option<ConverterSignal> {
         path: "signals.converter",
     };
     let channels = values.texts("signals.converter.channels");
-    let highest = section.maybe("highest").unwrap_or(f64::NAN);
-    (!channels.is_empty()).then(|| ConverterSignal {
-        channels: channels.to_vec(),
-        lowest: section.maybe("lowest").unwrap_or(-highest),
-        highest,
-        bits: section.count("bits") as u32,
+    (!channels.is_empty()).then(|| {
+        let highest = section.number("highest");
+        ConverterSignal {
+            channels: channels.to_vec(),
+            lowest: section.maybe("lowest").unwrap_or(-highest),
+            highest,
+            bits: section.count("bits") as u32,
+        }
     })
 }
 
@@ -161,8 +178,8 @@ pub(crate) fn steady(values: &Values) -> Option<SteadySignal> {
         path: "signals.steady",
     };
     let number = |name: &str| section.number(name);
-    let inertia = match section.word("inertia_from") {
-        "pendulum" => Some(InertiaSource::Pendulum {
+    let inertia = match section.choice("inertia_from") {
+        InertiaFrom::Pendulum => Some(InertiaSource::Pendulum {
             test_mass: number("test_mass"),
             test_mass_deviation: number("test_mass_deviation"),
             test_arm: number("test_arm"),
@@ -172,7 +189,7 @@ pub(crate) fn steady(values: &Values) -> Option<SteadySignal> {
             test_amplitude: number("test_amplitude"),
             test_gravity: number("test_gravity"),
         }),
-        "bifilar" => Some(InertiaSource::Bifilar {
+        InertiaFrom::Bifilar => Some(InertiaSource::Bifilar {
             test_mass: number("test_mass"),
             test_mass_deviation: number("test_mass_deviation"),
             string_distance: number("string_distance"),
@@ -183,7 +200,7 @@ pub(crate) fn steady(values: &Values) -> Option<SteadySignal> {
             test_period_deviation: number("test_period_deviation"),
             test_gravity: number("test_gravity"),
         }),
-        "known torque" => Some(InertiaSource::KnownTorque {
+        InertiaFrom::KnownTorque => Some(InertiaSource::KnownTorque {
             test_torque: number("test_torque"),
             test_torque_deviation: number("test_torque_deviation"),
             acceleration_with: number("acceleration_with"),
@@ -191,7 +208,7 @@ pub(crate) fn steady(values: &Values) -> Option<SteadySignal> {
             acceleration_without: number("acceleration_without"),
             acceleration_without_deviation: number("acceleration_without_deviation"),
         }),
-        _ => section
+        InertiaFrom::Given => section
             .maybe("inertia")
             .map(|inertia| InertiaSource::Given {
                 inertia,
@@ -200,7 +217,7 @@ pub(crate) fn steady(values: &Values) -> Option<SteadySignal> {
     };
     Some(SteadySignal {
         from: section.maybe("from")?,
-        to: section.maybe("to").unwrap_or(f64::NAN),
+        to: section.number("to"),
         up_from: section.maybe("up_from"),
         up_to: section.maybe("up_to"),
         points: section.count("points") as usize,

@@ -1,7 +1,13 @@
 //! The part of the table of keys that describes what a measurement holds and what is computed from it.
 
 use crate::scenario::key::{Condition, Key, Kind, Range, Section};
+use crate::scenario::signals::Automatic;
+use crate::scenario::signals::CageOutput;
+use crate::scenario::signals::Disturbance;
+use crate::scenario::signals::PickupFlank;
+use crate::scenario::signals::PickupOutput;
 use crate::scenario::system::SystemName;
+use crate::scenario::words::Words;
 
 /// The systems of this page.
 const SIGNALS: &[SystemName] = &[SystemName::Signals];
@@ -119,7 +125,7 @@ pub(crate) const KEYS: &[Key] = &[
     .optional("no speed is computed"),
     Key::new(
         "signals.speed.kind",
-        Kind::Word(&["analog", "edges"]),
+        Kind::Word(PickupOutput::WORDS),
         "analog",
         "What the channel holds: analog, samples of the pickup's signal; edges, the instant of each mark.",
     )
@@ -141,7 +147,7 @@ pub(crate) const KEYS: &[Key] = &[
     .default("0", "a full wheel"),
     Key::new(
         "signals.speed.flank",
-        Kind::Word(&["rising", "falling", "both", "centre"]),
+        Kind::Word(PickupFlank::WORDS),
         "rising",
         "Which flank of a pulse marks the passage; centre is the middle between both.",
     )
@@ -157,7 +163,7 @@ pub(crate) const KEYS: &[Key] = &[
     .when(&[STAMPED]),
     Key::new(
         "signals.speed.quick_change",
-        Kind::Word(&["auto", "none"]),
+        Kind::Word(Automatic::WORDS),
         "auto",
         "Whether one quick change of speed, such as a clutch that engages, is looked for.",
     )
@@ -178,7 +184,7 @@ pub(crate) const KEYS: &[Key] = &[
     .optional("it is needed with signals.speed.change_from"),
     Key::new(
         "signals.speed.calibration",
-        Kind::Word(&["auto", "none"]),
+        Kind::Word(Automatic::WORDS),
         "auto",
         "Whether the errors of the marks are found from revolutions at even speed and taken out.",
     )
@@ -280,7 +286,7 @@ pub(crate) const KEYS: &[Key] = &[
     .optional("it is found from the rest before a tap or a step"),
     Key::new(
         "signals.torque.disturbance",
-        Kind::Word(&["auto", "unbalance", "run-out", "none"]),
+        Kind::Word(Disturbance::WORDS),
         "auto",
         "How the disturbance once a turn grows: with the square of the speed, not at all, as the data choose, or there is none. It needs the shaft's speed.",
     )
@@ -326,7 +332,7 @@ pub(crate) const KEYS: &[Key] = &[
     .optional("no cage speed is computed"),
     Key::new(
         "signals.cage.kind",
-        Kind::Word(&["passings", "edges", "vibration"]),
+        Kind::Word(CageOutput::WORDS),
         "passings",
         "What the channel holds: passings, samples of a sensor that sees each ball; edges, the instant of each passing; vibration, a signal with a line at ball pass.",
     )

@@ -1,7 +1,9 @@
 //! The part of the table of keys that asks more of a measurement: its converter, a vibration, curves of slow runs.
 
 use crate::scenario::key::{Condition, Key, Kind, Range, Section};
+use crate::scenario::signals::analysis::InertiaFrom;
 use crate::scenario::system::SystemName;
+use crate::scenario::words::Words;
 
 /// The systems of this page.
 const SIGNALS: &[SystemName] = &[SystemName::Signals];
@@ -180,7 +182,7 @@ pub(crate) const KEYS: &[Key] = &[
     .default("40", "more than a smooth curve needs"),
     Key::new(
         "signals.steady.inertia_from",
-        Kind::Word(&["given", "pendulum", "bifilar", "known torque"]),
+        Kind::Word(InertiaFrom::WORDS),
         "given",
         "How the inertia of all that coasts is known: given; from swinging about a knife edge; from turning on two strings; from the acceleration by a known torque.",
     )

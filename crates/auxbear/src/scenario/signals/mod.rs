@@ -8,6 +8,7 @@ pub(crate) mod keys_analysis;
 use crate::scenario::section::Section;
 use crate::scenario::signals::analysis::{ConverterSignal, SteadySignal, VibrationSignal};
 use crate::scenario::values::Values;
+use crate::scenario::words::words;
 use std::path::PathBuf;
 
 /// A measurement and what is computed from it. All values are SI.
@@ -72,6 +73,38 @@ pub struct SpeedSignal {
     pub wanted: Option<f64>,
 }
 
+words! {
+    /// What the channel of a pickup holds, as a word.
+    pub(crate) enum PickupOutput {
+        /// Samples.
+        Analog = "analog",
+        /// Instants.
+        Edges = "edges",
+    }
+}
+
+words! {
+    /// What the channel of a cage holds, as a word.
+    pub(crate) enum CageOutput {
+        /// Samples.
+        Passings = "passings",
+        /// Instants.
+        Edges = "edges",
+        /// A vibration.
+        Vibration = "vibration",
+    }
+}
+
+words! {
+    /// Whether something is done, as a word.
+    pub(crate) enum Automatic {
+        /// Where the data ask for it.
+        Auto = "auto",
+        /// Never.
+        None = "none",
+    }
+}
+
 /// What the channel of a pickup holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PickupKind {
@@ -87,17 +120,18 @@ pub enum PickupKind {
     },
 }
 
+words! {
 /// Which flank of a pulse marks the passage.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PickupFlank {
     /// From low to high.
-    Rising,
+    Rising = "rising",
     /// From high to low.
-    Falling,
+    Falling = "falling",
     /// Both.
-    Both,
+    Both = "both",
     /// The middle between both.
-    Centre,
+    Centre = "centre",
+}
 }
 
 /// A torque sensor.
@@ -146,17 +180,18 @@ pub enum SensorSource {
     },
 }
 
+words! {
 /// How the disturbance once a turn grows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Disturbance {
     /// As the data choose.
-    Auto,
+    Auto = "auto",
     /// With the square of the speed.
-    Unbalance,
+    Unbalance = "unbalance",
     /// Not with the speed.
-    RunOut,
+    RunOut = "run-out",
     /// There is none.
-    None,
+    None = "none",
+}
 }
 
 /// A sensor that shows the balls.
@@ -219,25 +254,20 @@ fn speed(values: &Values) -> Option<SpeedSignal> {
     };
     Some(SpeedSignal {
         channel: values.text("signals.speed.channel")?,
-        kind: match speed.word("kind") {
-            "edges" => PickupKind::Edges {
+        kind: match speed.choice("kind") {
+            PickupOutput::Edges => PickupKind::Edges {
                 stamp_deviation: speed.number("stamp_deviation"),
             },
-            _ => PickupKind::Analog {
-                flank: match speed.word("flank") {
-                    "falling" => PickupFlank::Falling,
-                    "both" => PickupFlank::Both,
-                    "centre" => PickupFlank::Centre,
-                    _ => PickupFlank::Rising,
-                },
+            PickupOutput::Analog => PickupKind::Analog {
+                flank: speed.choice("flank"),
             },
         },
         marks_per_revolution: speed.count("marks_per_revolution") as usize,
         missing_marks: speed.count("missing_marks") as usize,
-        quick_change: speed.word("quick_change") != "none",
+        quick_change: speed.choice::<Automatic>("quick_change") == Automatic::Auto,
         change_from: speed.maybe("change_from"),
         change_to: speed.maybe("change_to"),
-        calibration: speed.word("calibration") != "none",
+        calibration: speed.chosen::<Automatic>("calibration") != Some(Automatic::None),
         ripple: speed.number("ripple"),
         delay_deviation: speed.number("delay_deviation"),
         wanted: speed.maybe("wanted"),
@@ -264,7 +294,7 @@ fn torque(values: &Values) -> Option<TorqueSignal> {
         (None, Some(sensor_frequency)) => Some(SensorSource::Given {
             sensor_frequency,
             frequency_deviation: torque.number("frequency_deviation"),
-            damping_ratio: torque.maybe("damping_ratio").unwrap_or(f64::NAN),
+            damping_ratio: torque.number("damping_ratio"),
             damping_deviation: torque.number("damping_deviation"),
         }),
         (None, None) => None,
@@ -273,12 +303,7 @@ fn torque(values: &Values) -> Option<TorqueSignal> {
         channel,
         scale: torque.maybe("scale"),
         sensor,
-        disturbance: match torque.word("disturbance") {
-            "unbalance" => Disturbance::Unbalance,
-            "run-out" => Disturbance::RunOut,
-            "none" => Disturbance::None,
-            _ => Disturbance::Auto,
-        },
+        disturbance: torque.choice("disturbance"),
         scale_deviation: torque.number("scale_deviation"),
         zero_deviation: torque.maybe("zero_deviation"),
         design_until: torque.maybe("design_until"),
@@ -293,14 +318,14 @@ fn cage(values: &Values) -> Option<CageSignal> {
     };
     Some(CageSignal {
         channel: values.text("signals.cage.channel")?,
-        kind: match cage.word("kind") {
-            "edges" => CageKind::Edges,
-            "vibration" => CageKind::Vibration {
+        kind: match cage.choice("kind") {
+            CageOutput::Passings => CageKind::Passings,
+            CageOutput::Edges => CageKind::Edges,
+            CageOutput::Vibration => CageKind::Vibration {
                 highest_slip: cage.number("highest_slip"),
             },
-            _ => CageKind::Passings,
         },
         ball_count: cage.count("ball_count") as usize,
-        rolling_ratio: cage.maybe("rolling_ratio").unwrap_or(f64::NAN),
+        rolling_ratio: cage.number("rolling_ratio"),
     })
 }

@@ -1,7 +1,10 @@
 //! The part of the table of keys that describes what brings an inner race to speed.
 
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Presence, Section};
+use crate::scenario::spin_up::DriveKind;
+use crate::scenario::spin_up::RotorSpin;
 use crate::scenario::system::SystemName;
+use crate::scenario::words::Words;
 
 /// The systems of this page.
 const SPIN_UP: &[SystemName] = &[SystemName::SpinUp];
@@ -61,7 +64,7 @@ const FREE: Condition = Condition {
 pub(crate) const KEYS: &[Key] = &[
     Key::new(
         "drive.kind",
-        Kind::Word(&["sliding rotor", "torque", "speed"]),
+        Kind::Word(DriveKind::WORDS),
         "sliding rotor",
         "What turns the inner race: a rotor that slides in its bore, a torque, or a drive that gives it a speed.",
     ),
@@ -97,7 +100,7 @@ pub(crate) const KEYS: &[Key] = &[
     .when(SLIDING),
     Key::new(
         "drive.rotor_spin",
-        Kind::Word(&["held", "free"]),
+        Kind::Word(RotorSpin::WORDS),
         "held",
         "Whether the spin of the rotor is held by its drive, or free to fall as the rotor spends its energy.",
     )

@@ -7,6 +7,7 @@ use crate::scenario::bearing::{Bearing, bearing};
 use crate::scenario::run::Run;
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
+use crate::scenario::words::words;
 
 /// The inner race of a bearing is brought to speed while its outer race stands. All values are SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +31,28 @@ pub enum Course {
     Constant(f64),
     /// Rows of time, s, and value, straight between them and constant after the last.
     Table(Vec<[f64; 2]>),
+}
+
+words! {
+    /// What turns the inner race, as a word.
+    pub(crate) enum DriveKind {
+        /// A sliding rotor.
+        SlidingRotor = "sliding rotor",
+        /// A torque.
+        Torque = "torque",
+        /// A given speed.
+        Speed = "speed",
+    }
+}
+
+words! {
+    /// The spin of a sliding rotor, as a word.
+    pub(crate) enum RotorSpin {
+        /// Held.
+        Held = "held",
+        /// Free.
+        Free = "free",
+    }
 }
 
 /// What turns the inner race.
@@ -176,12 +199,12 @@ fn course(section: &Section<'_>, constant: &str, table: &str) -> Course {
 }
 
 fn drive(section: &Section<'_>) -> Drive {
-    match section.word("kind") {
-        "torque" => Drive::Torque {
+    match section.choice("kind") {
+        DriveKind::Torque => Drive::Torque {
             torque: course(section, "torque", "torque_history"),
             reference_speed: section.number("reference_speed"),
         },
-        "speed" => Drive::Speed(
+        DriveKind::Speed => Drive::Speed(
             match (section.rows("speed_history"), section.maybe("acceleration")) {
                 (Some(rows), _) => SpeedCourse::Table(rows),
                 (None, Some(acceleration)) => SpeedCourse::Ramp {
@@ -193,7 +216,7 @@ fn drive(section: &Section<'_>) -> Drive {
                 },
             },
         ),
-        _ => Drive::SlidingRotor {
+        DriveKind::SlidingRotor => Drive::SlidingRotor {
             rotor_speed: section.number("rotor_speed"),
             rotor_polar_inertia: section.maybe("rotor_polar_inertia"),
             bore_diameter: section.number("bore_diameter"),

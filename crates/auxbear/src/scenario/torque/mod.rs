@@ -88,7 +88,7 @@ impl Torque {
         };
         Ok(Torque {
             name: values.text("bearing.name"),
-            kind: BearingType::of(bearing.word("type")),
+            kind: bearing.choice("type"),
             ball_count: bearing.count("ball_count") as usize,
             ball_diameter: bearing.number("ball_diameter"),
             pitch_diameter: bearing.number("pitch_diameter"),
@@ -208,7 +208,7 @@ fn moment_by(
         path: "bearing",
     };
     let rated = RatedBearing {
-        kind: BearingType::of(bearing.word("type")),
+        kind: bearing.choice("type"),
         pitch_diameter: bearing.number("pitch_diameter"),
         static_load_rating: bearing.maybe("static_load_rating"),
         ball_material: ball_material(&bearing),
