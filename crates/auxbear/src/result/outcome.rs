@@ -226,3 +226,8 @@ mod tests {
         assert_eq!(Spread::of(vec![1.0]), None);
     }
 }
+
+/// A warning of a code in the book.
+pub(crate) fn warning(code: &'static str, text: String) -> Warning {
+    Warning { code, text }
+}

@@ -1,8 +1,8 @@
 //! What is known before a run: the warnings that `auxbear check` prints beside the values of the file.
 
+use crate::result::assumptions::speed_rating;
 use crate::result::outcome::Warning;
 use crate::run::{Built, Machine};
-use crate::simulate::bearing::warnings::speed_rating;
 
 impl Machine<'_> {
     /// What the user should know before the run.

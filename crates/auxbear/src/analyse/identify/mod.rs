@@ -22,9 +22,9 @@ mod read;
 mod told;
 
 use crate::options::Options;
+use crate::result::assumptions::assumptions;
 use crate::result::outcome::{Outcome, Picture, Stop, Warning, Work};
 use crate::scenario::Scenario;
-use crate::simulate::bearing::warnings::assumptions;
 use found::Found;
 pub(crate) use read::Asked;
 use std::time::Instant;

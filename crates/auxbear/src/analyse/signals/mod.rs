@@ -26,9 +26,9 @@ mod vibration;
 
 use crate::options::Options;
 use crate::problem::Problem;
+use crate::result::assumptions::assumptions;
 use crate::result::outcome::{Outcome, Picture, Stop, Warning, Work};
 use crate::scenario::{CageKind, PickupKind, Scenario, SensorSource, Signals};
-use crate::simulate::bearing::warnings::assumptions;
 use read::{Listed, Series, Source, Stamps};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;

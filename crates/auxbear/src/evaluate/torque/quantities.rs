@@ -1,6 +1,6 @@
 //! Every named result of a torque computation with its law, source and valid range.
 
-use crate::evaluate::torque::{Asked, Moments, law_of, name_of};
+use crate::evaluate::torque::asked::{Asked, Moments, law_of, name_of};
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Value};
 use physics::friction::{Friction, MomentParts};

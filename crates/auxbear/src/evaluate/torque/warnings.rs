@@ -1,9 +1,10 @@
 //! What the user should know before trusting the moments of a bearing.
 
-use crate::evaluate::torque::{Asked, law_of};
+use crate::evaluate::torque::asked::{Asked, law_of};
+use crate::result::assumptions::{assumptions, bath, constants};
 use crate::result::outcome::Warning;
+use crate::result::outcome::warning;
 use crate::scenario::{BearingType, Moment, Scenario};
-use crate::simulate::bearing::warnings::{assumptions, bath, constants, warning};
 use physics::friction::Friction;
 use physics::friction_range::{Departure, OperatingPoint};
 

@@ -4,7 +4,7 @@ use crate::problem::{Code, Problem};
 use crate::scenario::{
     AccelerationLoss as LossChoice, Bearing, Fidelity, Guidance, Land, Moment, Separation, UNNAMED,
 };
-use crate::simulate::bearing::run::PressureFactors;
+use crate::simulate::bearing::contacts::{BallContacts, SCENARIO};
 use crate::simulate::bearing::traction::{inlet_rolling, traction};
 use model::bearing::ball::BallConstants;
 use model::bearing::cage::{Land as CageLand, LandRace};
@@ -23,89 +23,6 @@ use number::Vec2;
 use physics::angular_contact::{preload_interference, radial_stiffness, spin_inertia};
 use physics::hertz::{BallRace, Curvature, PointContact, Race};
 use physics::materials::{BEARING_STEEL, contact_modulus};
-
-/// What a problem found after reading names as its place.
-pub(crate) const SCENARIO: &str = UNNAMED;
-
-/// The Hertz contacts of a ball, and its mass.
-pub(crate) struct BallContacts {
-    pub inner: PointContact,
-    pub outer: PointContact,
-    /// Sums of curvatures at the inner and the outer race.
-    pub curvatures: [Curvature; 2],
-    /// Contact modulus E*, Pa.
-    pub modulus: f64,
-    inner_stiffness: f64,
-    outer_stiffness: f64,
-    /// Stiffness of two neighbouring balls, N/m^1.5.
-    neighbour_stiffness: f64,
-    /// Pressure between them per cube root of the force, Pa/N^(1/3); none where a cage keeps them apart.
-    neighbour_pressure_factor: Option<f64>,
-    ball_mass: f64,
-}
-
-impl BallContacts {
-    pub fn pressure_factors(&self) -> PressureFactors {
-        PressureFactors {
-            races: [self.inner.pressure_factor, self.outer.pressure_factor],
-            neighbours: self.neighbour_pressure_factor,
-        }
-    }
-}
-
-pub(crate) fn ball_contacts(bearing: &Bearing) -> Result<BallContacts, Box<Problem>> {
-    let ball = bearing.ball_material.data();
-    let modulus = contact_modulus(ball, BEARING_STEEL);
-    let contact = |race: Race, groove_curvature: f64| {
-        let curvature = BallRace {
-            ball_diameter: bearing.ball_diameter,
-            pitch_diameter: bearing.pitch_diameter,
-            groove_curvature,
-            contact_angle: bearing.contact_angle,
-            race,
-        }
-        .curvature();
-        let contact = PointContact::new(curvature, modulus).map_err(|_| {
-            Box::new(
-                Problem::new(
-                    Code::BearingGeometry,
-                    SCENARIO,
-                    format!(
-                        "a groove curvature of {groove_curvature}, which gives no point contact"
-                    ),
-                    "a groove curvature above 0.5 and balls smaller than the pitch diameter",
-                )
-                .on_key("bearing"),
-            )
-        })?;
-        Ok::<_, Box<Problem>>((contact, curvature))
-    };
-    let (inner, inner_curvature) = contact(Race::Inner, bearing.inner_groove_curvature)?;
-    let (outer, outer_curvature) = contact(Race::Outer, bearing.outer_groove_curvature)?;
-    let sphere = 4.0 / bearing.ball_diameter;
-    let neighbours = PointContact::new(
-        Curvature {
-            axial: sphere,
-            rolling: sphere,
-        },
-        contact_modulus(ball, ball),
-    );
-    Ok(BallContacts {
-        // two spheres always make a point
-        neighbour_stiffness: neighbours.as_ref().map_or(0.0, |contact| contact.stiffness),
-        neighbour_pressure_factor: match &bearing.separation {
-            Separation::Cage(_) => None,
-            Separation::FullComplement(_) => neighbours.ok().map(|contact| contact.pressure_factor),
-        },
-        curvatures: [inner_curvature, outer_curvature],
-        modulus,
-        inner_stiffness: bearing.inner_contact_stiffness.unwrap_or(inner.stiffness),
-        outer_stiffness: bearing.outer_contact_stiffness.unwrap_or(outer.stiffness),
-        ball_mass: bearing.mass_of_ball(),
-        inner,
-        outer,
-    })
-}
 
 /// The bearing.
 pub(crate) fn bearing(
@@ -167,7 +84,7 @@ pub(crate) fn bearing(
             first_ball_angle: bearing.first_ball_angle,
             moment: law,
             axial_load: bearing.moment.axial_load(),
-            loss: acceleration_loss(&bearing.acceleration_loss),
+            loss: bearing.acceleration_loss.law(),
             lubricant: lubricant_state(bearing),
         }),
     })
@@ -329,119 +246,4 @@ fn separation(bearing: &Bearing, contacts: &BallContacts) -> SeparationConstants
         Guidance::InnerLand(land) => on(LandRace::Inner, land),
         Guidance::OuterLand(land) => on(LandRace::Outer, land),
     }
-}
-
-pub(crate) fn acceleration_loss(choice: &LossChoice) -> AccelerationLoss {
-    match choice {
-        LossChoice::None => AccelerationLoss::None,
-        LossChoice::Constant { force } => AccelerationLoss::Constant { force: *force },
-        LossChoice::Proportional { per_acceleration } => AccelerationLoss::Proportional {
-            per_acceleration: *per_acceleration,
-        },
-        LossChoice::OverSpeed { force_over_speed } => AccelerationLoss::OverSpeed {
-            force: table(force_over_speed),
-        },
-        LossChoice::Affine {
-            force_over_speed,
-            per_acceleration_over_speed,
-        } => AccelerationLoss::Affine {
-            force: table(force_over_speed),
-            per_acceleration: table(per_acceleration_over_speed),
-        },
-    }
-}
-
-/// Rows of a scenario, which rise, as a table of the model.
-pub(crate) fn table(rows: &[[f64; 2]]) -> Table {
-    let points = rows.iter().map(|row| (row[0], row[1])).collect();
-    // the scenario holds two rows at least and refuses rows that do not rise
-    Table::through(points).unwrap_or_else(|_| Table::constant(f64::NAN))
-}
-
-/// Whether traction can carry the friction moment at one speed and load.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SteadyFinding {
-    /// Speed of the inner race, rad/s.
-    pub speed: f64,
-    /// Radial load, N.
-    pub load: f64,
-    /// Moment M of the law, N m.
-    pub moment: f64,
-    /// Largest traction moment of the inner race over M.
-    pub capacity: f64,
-}
-
-impl SteadyFinding {
-    /// Whether traction does not suffice for the steady moment.
-    pub fn skids(&self) -> bool {
-        self.capacity < LEAST_CAPACITY
-    }
-}
-
-/// The speed and load that a bearing is meant to run at.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SteadyPoint {
-    /// Speed of the inner race, rad/s.
-    pub speed: f64,
-    /// Radial load, N.
-    pub load: f64,
-}
-
-/// Moment and traction capacity of a bearing that is pressed together at rest. None where there is no steady moment or
-/// no speed.
-pub(crate) fn steady(
-    constants: &BearingConstants,
-    bearing: &Bearing,
-    race: &InnerRace<f64>,
-    SteadyPoint { speed, load }: SteadyPoint,
-) -> Result<Option<SteadyFinding>, Box<Problem>> {
-    if bearing.moment == Moment::None || speed == 0.0 {
-        return Ok(None);
-    }
-    // a race that runs at its speed from the start, or nearly so where the balls cannot follow a step
-    let drive = match constants {
-        BearingConstants::Planar(_) => Drive::step(speed),
-        BearingConstants::Rolling(_) => Drive::Torque(Table::constant(0.0)),
-    };
-    let machine = SpinUpMachine::new(SpinUpConstants {
-        race: *race,
-        bearing: constants.clone().at_the_law(),
-        drive,
-        load: Table::constant(load),
-        target_speed: speed,
-    })
-    .map_err(refused)?;
-    let mut state = machine.start();
-    state[INNER + 5] = speed;
-    let (_, probe) = machine.inspect(0.0, &state);
-    let moment = probe[STEADY_MOMENT];
-    let traction = traction(bearing, &ball_contacts(bearing)?)?;
-    let capacity = traction_capacity(&traction, constants, speed, probe[INNER_LOAD_SUM]);
-    Ok(Some(SteadyFinding {
-        speed,
-        load,
-        moment,
-        capacity: capacity / moment.abs(),
-    }))
-}
-
-/// A machine that the model refuses, told with the key that decides.
-pub(crate) fn refused(refusal: Refusal) -> Box<Problem> {
-    let key = match refusal {
-        Refusal::DragToGround => "bearing.drag",
-        Refusal::LossCreatesEnergy | Refusal::LossExceedsInertia => "bearing.acceleration_loss",
-        Refusal::NegativeLoad => "drive.radial_load",
-        Refusal::StepOfRollingBalls => "drive.acceleration",
-        Refusal::MomentShare => "bearing.moment",
-        Refusal::LubricantState => "bearing.lubricant_state",
-    };
-    Box::new(
-        Problem::new(
-            Code::Impossible,
-            SCENARIO,
-            refusal.to_string(),
-            "a machine that can be computed is needed",
-        )
-        .on_key(key),
-    )
 }

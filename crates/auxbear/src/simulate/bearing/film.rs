@@ -1,10 +1,9 @@
 //! The films between balls and races, reported after a run from its rows.
 
 use crate::result::list::{List, Origin};
-use crate::result::outcome::{Value, Warning};
+use crate::result::outcome::{Value, Warning, warning};
 use crate::scenario::{Bearing, Traction as TractionChoice};
 use crate::simulate::bearing::run::BearingRun;
-use crate::simulate::bearing::warnings::warning;
 use model::bearing::{BearingConstants, PlanarConstants};
 use model::system::sampling::Row;
 use physics::film::FilmRegime;
@@ -76,6 +75,13 @@ impl<'a> Films<'a> {
             }
         }
         summary
+    }
+}
+
+impl BearingRun<'_> {
+    /// The films between balls and races, where traction is theirs.
+    pub fn films(&self) -> Option<Summary> {
+        Films::of(self).map(|films| films.summary())
     }
 }
 

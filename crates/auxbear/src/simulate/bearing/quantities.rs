@@ -2,7 +2,8 @@
 
 use crate::result::list::{List, Origin};
 use crate::scenario::Bearing;
-use crate::simulate::bearing::run::{BearingRun, Pressures};
+use crate::simulate::bearing::pressure::Pressures;
+use crate::simulate::bearing::run::BearingRun;
 use model::bearing::{BearingConstants, Separation};
 use model::system::layout::Layout;
 use model::system::sampling::Peak;

@@ -75,6 +75,13 @@ impl<'a> Skids<'a> {
     }
 }
 
+impl BearingRun<'_> {
+    /// Where the balls slide, where they may.
+    pub fn skids(&self) -> Option<Skidding> {
+        Skids::of(self).map(|skids| skids.summary())
+    }
+}
+
 impl Skidding {
     /// Skid shares and sliding works as results; `heats` are the ledger's sliding heats at both races, J.
     pub fn name(&self, list: &mut List, heats: [f64; 2]) {

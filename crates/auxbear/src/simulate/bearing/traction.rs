@@ -2,7 +2,7 @@
 
 use crate::problem::{Code, Problem};
 use crate::scenario::{BallMaterial, Bearing, OilFilm, Traction as TractionChoice};
-use crate::simulate::bearing::build::{BallContacts, SCENARIO};
+use crate::simulate::bearing::contacts::{BallContacts, SCENARIO};
 use physics::film::EntrainedContact;
 use physics::hertz::{Curvature, PointContact};
 use physics::inlet_rolling::ResistanceAtRaces;

@@ -1,12 +1,14 @@
 //! Warnings that several systems give.
 
-use crate::result::outcome::{Quantity, Value, Warning};
+use crate::result::assumptions::{assumptions, bath, constants};
+use crate::result::outcome::{Quantity, Value, Warning, warning};
 use crate::scenario::{
     BallMaterial, Bearing, BearingType, Fidelity, Moment, Provenance, RatedBearing, Scenario,
     Separation,
 };
-use crate::simulate::bearing::build::SteadyFinding;
-use crate::simulate::bearing::run::{BearingRun, Pressures};
+use crate::simulate::bearing::pressure::Pressures;
+use crate::simulate::bearing::run::BearingRun;
+use crate::simulate::bearing::steady::SteadyFinding;
 use physics::angular_contact::radial_load_that_unloads_a_ball;
 use physics::friction::Friction;
 use physics::friction_range::OperatingPoint;
@@ -20,28 +22,6 @@ const LARGEST_RESIDUAL: f64 = 1e-6;
 const WARMEST_FILMS: f64 = 20.0;
 /// Difference of two axial loads that rounding explains, as a share.
 const ROUNDED: f64 = 0.01;
-/// Unit of the drag variable in a message: the order of the diagram's values for low levels.
-const V_M: f64 = 1e-4;
-
-pub(crate) fn warning(code: &'static str, text: String) -> Warning {
-    Warning { code, text }
-}
-
-/// A speed beyond what the bearing stands in continuous running.
-pub(crate) fn speed_rating(bearing: &Bearing, speed: f64) -> Option<Warning> {
-    let limit = bearing.limiting_speed?;
-    let name = bearing.name.as_deref().unwrap_or("bearing like this");
-    (speed.abs() > limit).then(|| {
-        warning(
-            "AB1015",
-            format!(
-                "The speed is {:.1} times the limiting speed of a {name} ({:.0} rpm), which holds for continuous running.",
-                speed.abs() / limit,
-                limit * 30.0 / std::f64::consts::PI
-            ),
-        )
-    })
-}
 
 /// Hertz pressures above the limits of what touches.
 pub(crate) fn pressure(bearing: &Bearing, pressures: &Pressures) -> Vec<Warning> {
@@ -185,44 +165,6 @@ pub(crate) fn moment(scenario: &Scenario, bearing: &Bearing) -> Vec<Warning> {
     list
 }
 
-/// The same of a bearing without contacts.
-pub(crate) fn constants(scenario: &Scenario, law: &Moment, rated: &RatedBearing) -> Vec<Warning> {
-    let angle = scenario.resolved.get("bearing.moment.contact_angle");
-    let unknown = angle.and_then(|angle| match &angle.provenance {
-        Provenance::DefaultAssumed(why) if rated.kind != BearingType::DeepGroove => {
-            Some((angle, why))
-        }
-        _ => None,
-    });
-    let unknown = unknown.map(|(angle, why)| {
-        warning(
-            "AB1080",
-            format!(
-                "The contact angle of the bearing is not known, and the friction law depends on it: {why}; {} is taken.",
-                angle.text.as_deref().unwrap_or_default()
-            ),
-        )
-    });
-    unknown.into_iter().chain(bath(law, rated)).collect()
-}
-
-/// The SKF model in oil without the drag of the oil.
-pub(crate) fn bath(law: &Moment, rated: &RatedBearing) -> Option<Warning> {
-    let Friction::Skf(dragged) = law.with_drag_variable(V_M)?.law(rated).ok()? else {
-        return None;
-    };
-    Some(warning(
-        "AB1082",
-        format!(
-            "The SKF model runs in an oil bath or jet without the drag of the oil: bearing.moment.drag_variable is 0. Each {V_M:e} of \
-             it is {:.3} N mm at 10 000 rpm, with the square of the speed.",
-            dragged
-                .intermediates(10_000.0 * PI / 30.0, 0.0, 0.0)
-                .drag_moment
-        ),
-    ))
-}
-
 /// Films that are thin or outside their law.
 pub(crate) fn films(run: &BearingRun, bearing: &Bearing) -> Vec<Warning> {
     run.films()
@@ -345,20 +287,6 @@ pub(crate) fn assumed(scenario: &Scenario, bearing: &Bearing) -> Option<Warning>
         .map(|value| value.path)
         .collect();
     assumptions(&paths)
-}
-
-/// Names what is assumed.
-pub(crate) fn assumptions(paths: &[&str]) -> Option<Warning> {
-    (!paths.is_empty()).then(|| {
-        warning(
-            "AB1013",
-            format!(
-                "Assumed, not measured ({}): {}.",
-                paths.len(),
-                paths.join(", ")
-            ),
-        )
-    })
 }
 
 #[cfg(test)]

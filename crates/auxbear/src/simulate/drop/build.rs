@@ -3,8 +3,8 @@
 use crate::problem::Problem;
 use crate::scenario::{Drop, Spin};
 use crate::simulate::bearing;
-use crate::simulate::bearing::build::{SteadyFinding, SteadyPoint};
-use crate::simulate::bearing::run::PressureFactors;
+use crate::simulate::bearing::pressure::PressureFactors;
+use crate::simulate::bearing::steady::{SteadyFinding, SteadyPoint};
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::bearing::BearingConstants;
 use model::contact::JournalContact;
@@ -31,9 +31,9 @@ pub struct Built {
 pub fn drop(drop: &Drop) -> Result<Built, Box<Problem>> {
     let gravity = gravity(drop);
     let (sine, cosine) = drop.gravity.direction.sin_cos();
-    let contacts = bearing::build::ball_contacts(&drop.bearing)?;
+    let contacts = bearing::contacts::ball_contacts(&drop.bearing)?;
     let bearing = bearing::build::bearing(&drop.bearing, &contacts, gravity)?;
-    let steady = bearing::build::steady(
+    let steady = bearing::steady::steady(
         &bearing,
         &drop.bearing,
         &InnerRace {

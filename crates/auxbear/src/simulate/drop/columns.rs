@@ -3,7 +3,7 @@
 use crate::result::outcome::Column;
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::run::BearingRun;
-use crate::simulate::drop::Context;
+use crate::simulate::drop::context::Context;
 use model::auxiliary_bearing::probe::{FRICTION_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED};
 use model::system::layout::of_part;
 use model::system::machine::layout::ROTOR;

@@ -3,7 +3,7 @@
 use crate::result::list::{List, Origin, relative};
 use crate::result::outcome::{Quantity, Value};
 use crate::simulate::bearing::quantities::{End, LargestForces};
-use crate::simulate::drop::Context;
+use crate::simulate::drop::context::Context;
 use model::system::layout::of_part;
 use model::system::machine::layout::ROTOR;
 

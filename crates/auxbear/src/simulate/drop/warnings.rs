@@ -1,10 +1,11 @@
 //! What the user should know before trusting the numbers of a drop.
 
 use crate::result::outcome::Warning;
+use crate::result::outcome::warning;
 use crate::scenario::{Fidelity, Moment, Scenario};
-use crate::simulate::bearing::run::Pressures;
-use crate::simulate::bearing::warnings::{self as shared, warning};
-use crate::simulate::drop::Context;
+use crate::simulate::bearing::pressure::Pressures;
+use crate::simulate::bearing::warnings as shared;
+use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::Finished;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 

@@ -315,6 +315,31 @@ fn temperature(rig: &Rig, happened: &Happened) -> RawChannel {
     )
 }
 
+/// What the converter samples: the channels in turn. A counter sees the shaft as often as a channel would; its speed beside
+/// the angle tells what lies between.
+pub(crate) fn taps(rig: &Rig) -> Vec<Tap> {
+    let analog = chain::analog(rig);
+    let mut channels = Vec::new();
+    if analog {
+        channels.push(SHAFT);
+    }
+    channels.push(ARM);
+    if rig.ball_pass.is_some() {
+        channels.push(CAGE_ANGLE);
+    }
+    channels.push(THERMOCOUPLE);
+    let mut taps = multiplexed(&channels, rig.logger.total_rate);
+    if !analog {
+        let interval = taps[0].interval;
+        taps.extend([SHAFT, SHAFT + 1].map(|channel| Tap {
+            channel,
+            first: 0.0,
+            interval,
+        }));
+    }
+    taps
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,7 +2,7 @@
 
 use crate::result::outcome::Column;
 use crate::simulate::bearing::columns::Table;
-use crate::simulate::rig::Context;
+use crate::simulate::rig::context::Context;
 use model::bearing::BearingConstants;
 use model::system::rig::layout::{
     ARM, BEARING, FLYWHEEL, HOUSING, PROBES, SHAFT, TEMPERATURE, THERMOCOUPLE,

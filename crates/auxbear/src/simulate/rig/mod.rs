@@ -10,6 +10,7 @@
 pub mod build;
 mod chain;
 mod columns;
+mod context;
 mod quantities;
 mod raw_file;
 mod warnings;
@@ -17,9 +18,11 @@ mod warnings;
 use crate::options::Options;
 use crate::result::outcome::{Outcome, Picture, Work};
 use crate::scenario::{Rig, RigProgram, Scenario};
-use crate::simulate::bearing::run::{BearingRun, Pressures};
+use crate::simulate::bearing::pressure::Pressures;
+use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::drop::method;
 use crate::simulate::ending::{settings, stop};
+use crate::simulate::rig::context::Context;
 use build::Built;
 use chain::{Happened, Sampled};
 use model::system::rig::layout::{
@@ -33,45 +36,11 @@ use model::system::rig::{Record, Tap, simulate_told};
 use solve::Ending;
 use std::time::Instant;
 
-/// Everything the pages that name results need to know.
-struct Context<'a> {
-    rig: &'a Rig,
-    built: &'a Built,
-    start: &'a [f64],
-    record: &'a Record,
-    ending: &'a Ending,
-    mode: model::system::rig::Mode,
-    /// Values that the converter could not hold, with the channel's name.
-    clipped: Vec<(&'static str, usize)>,
-}
-
-impl<'a> Context<'a> {
-    /// Largest Hertz pressures.
-    fn pressures(&self) -> Pressures {
-        let record = self.record;
-        let races = [record.largest_inner_load, record.largest_outer_load];
-        (self.built.pressure_factors).pressures(races, record.largest_pocket_force)
-    }
-    fn bearing(&self) -> BearingRun<'a> {
-        let machine = &self.built.machine;
-        BearingRun {
-            bearing: &machine.constants.bearing,
-            states: machine.layout().bearing(),
-            detail: DETAIL,
-            largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
-            cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
-            pressure_factors: self.built.pressure_factors,
-            motion: Box::new(race_motion),
-            rows: self.record.rows().collect(),
-        }
-    }
-}
-
 /// Runs a test.
 pub(crate) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> Outcome {
     let machine = &built.machine;
     let clock = Instant::now();
-    let taps = taps(rig);
+    let taps = chain::taps(rig);
     let end = rig.run.duration;
     let keep = Keep {
         end,
@@ -130,31 +99,6 @@ pub(crate) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
         files: raw_file::files(rig, &title, raw, rolling_cage_ratio, rested(rig, &happened)),
         title,
     }
-}
-
-/// What the converter samples: the channels in turn. A counter sees the shaft as often as a channel would; its speed beside
-/// the angle tells what lies between.
-fn taps(rig: &Rig) -> Vec<Tap> {
-    let analog = chain::analog(rig);
-    let mut channels = Vec::new();
-    if analog {
-        channels.push(SHAFT);
-    }
-    channels.push(ARM);
-    if rig.ball_pass.is_some() {
-        channels.push(CAGE_ANGLE);
-    }
-    channels.push(THERMOCOUPLE);
-    let mut taps = multiplexed(&channels, rig.logger.total_rate);
-    if !analog {
-        let interval = taps[0].interval;
-        taps.extend([SHAFT, SHAFT + 1].map(|channel| Tap {
-            channel,
-            first: 0.0,
-            interval,
-        }));
-    }
-    taps
 }
 
 /// Time at rest before the second of two spin-ups, s; none of one spin-up, or where the shaft never came to rest.

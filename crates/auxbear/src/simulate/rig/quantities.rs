@@ -3,7 +3,7 @@
 use crate::result::list::{List, Origin, relative};
 use crate::result::outcome::{Quantity, Value};
 use crate::scenario::{Fidelity, RigProgram};
-use crate::simulate::rig::Context;
+use crate::simulate::rig::context::Context;
 use model::system::rig::layout::{
     CAGE_SLIP, CAGE_SPEED, CLUTCH_HEAT, FLYWHEEL, INNER_MOMENT, OUTER_MOMENT, SHAFT, STEADY_MOMENT,
 };

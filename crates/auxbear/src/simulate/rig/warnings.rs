@@ -1,9 +1,11 @@
 //! What the user should know before trusting the numbers of a test on a rig.
 
+use crate::result::outcome::warning;
 use crate::result::outcome::{Quantity, Warning};
 use crate::scenario::{Rig, Scenario};
-use crate::simulate::bearing::warnings::{self as shared, warning};
-use crate::simulate::rig::{Context, chain, taps};
+use crate::simulate::bearing::warnings as shared;
+use crate::simulate::rig::chain::{self, taps};
+use crate::simulate::rig::context::Context;
 use model::system::rig::layout::SHAFT;
 use std::f64::consts::TAU;
 

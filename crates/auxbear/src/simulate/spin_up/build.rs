@@ -1,10 +1,11 @@
 //! From a spin-up to the constants of the model.
 
 use crate::problem::Problem;
+use crate::scenario::bearing::moment::table;
 use crate::scenario::{Course, Drive as DriveChoice, SpeedCourse, SpinUp};
 use crate::simulate::bearing;
-use crate::simulate::bearing::build::{SteadyFinding, SteadyPoint, refused, table};
-use crate::simulate::bearing::run::PressureFactors;
+use crate::simulate::bearing::pressure::PressureFactors;
+use crate::simulate::bearing::steady::{SteadyFinding, SteadyPoint, refused};
 use model::system::spin_up::{Drive, InnerRace, SlidingRotor, SpinUpConstants, SpinUpMachine};
 use model::table::Table;
 use number::Vec2;
@@ -31,14 +32,14 @@ pub fn spin_up(spin_up: &SpinUp) -> Result<Built, Box<Problem>> {
         load_direction: Vec2::new(cosine, sine),
         gravity,
     };
-    let contacts = bearing::build::ball_contacts(&spin_up.bearing)?;
+    let contacts = bearing::contacts::ball_contacts(&spin_up.bearing)?;
     let bearing = bearing::build::bearing(&spin_up.bearing, &contacts, gravity)?;
     let target_speed = spin_up.target_speed();
     let at = SteadyPoint {
         speed: target_speed,
         load: spin_up.radial_load.at(spin_up.run.duration),
     };
-    let steady = bearing::build::steady(&bearing, &spin_up.bearing, &race, at)?;
+    let steady = bearing::steady::steady(&bearing, &spin_up.bearing, &race, at)?;
     let machine = SpinUpMachine::new(SpinUpConstants {
         race,
         bearing,

@@ -3,7 +3,7 @@
 use crate::result::outcome::Column;
 use crate::scenario::Drive;
 use crate::simulate::bearing::columns::Table;
-use crate::simulate::spin_up::Context;
+use crate::simulate::spin_up::context::Context;
 use model::system::spin_up::layout::{INNER, LARGEST_POCKET_FORCE, PROBES, ROTOR};
 
 /// What the probes of the model are, in their order.

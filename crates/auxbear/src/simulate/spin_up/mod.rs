@@ -2,6 +2,7 @@
 
 pub mod build;
 pub(crate) mod columns;
+pub(crate) mod context;
 pub(crate) mod quantities;
 pub(crate) mod warnings;
 
@@ -12,6 +13,7 @@ use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::drop::method;
 use crate::simulate::ending::{settings, stop};
 use crate::simulate::spin_up::build::Built;
+use crate::simulate::spin_up::context::Context;
 use model::system::spin_up::layout::{
     DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
 };
@@ -20,33 +22,6 @@ use model::system::spin_up::record::Record;
 use model::system::spin_up::{SpinUp as System, SpinUpMachine};
 use solve::{Ending, Flow, Observer, Step};
 use std::time::Instant;
-
-/// Everything the pages that name results need to know.
-pub(crate) struct Context<'a> {
-    pub spin_up: &'a SpinUp,
-    pub built: &'a Built,
-    pub start: &'a [f64],
-    pub record: &'a Record,
-    pub ending: &'a Ending,
-}
-
-impl<'a> Context<'a> {
-    pub fn machine(&self) -> &'a SpinUpMachine {
-        &self.built.machine
-    }
-    pub fn bearing(&self) -> BearingRun<'a> {
-        BearingRun {
-            bearing: &self.machine().constants.bearing,
-            states: self.machine().layout().bearing(),
-            detail: DETAIL,
-            largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
-            cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
-            pressure_factors: self.built.pressure_factors,
-            motion: Box::new(race_motion),
-            rows: self.record.rows().collect(),
-        }
-    }
-}
 
 /// Runs a spin-up.
 pub(crate) fn run(

@@ -4,7 +4,7 @@ use crate::result::list::{List, Origin, relative};
 use crate::result::outcome::{Quantity, Value};
 use crate::scenario::{Drive, Fidelity};
 use crate::simulate::bearing::quantities::{End, LargestForces};
-use crate::simulate::spin_up::Context;
+use crate::simulate::spin_up::context::Context;
 use model::system::spin_up::layout::{
     CAGE_SLIP, CAGE_SPEED, INNER, INNER_MOMENT, OUTER_MOMENT, ROTOR, STEADY_MOMENT,
 };

@@ -1,9 +1,10 @@
 //! What the user should know before trusting the numbers of a spin-up.
 
+use crate::result::outcome::warning;
 use crate::result::outcome::{Quantity, Warning};
 use crate::scenario::Scenario;
-use crate::simulate::bearing::warnings::{self as shared, warning};
-use crate::simulate::spin_up::Context;
+use crate::simulate::bearing::warnings as shared;
+use crate::simulate::spin_up::context::Context;
 use crate::simulate::spin_up::quantities::rolling_start_to_end;
 use model::system::spin_up::layout::{APPLIED_LOAD, INNER};
 
