@@ -197,7 +197,7 @@ impl Scenario {
             )));
         }
         let document = document::Document::read(text, name, sets)?;
-        let values = resolve::Values::resolve(&document, bearings)?;
+        let values = values::Values::resolve(&document, bearings)?;
         let system = System::of(&document, &values, bearings, name)?;
         Ok(Scenario {
             format: FORMAT.to_string(),

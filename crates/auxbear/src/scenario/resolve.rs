@@ -6,7 +6,6 @@ use crate::scenario::document::{Document, Given, Raw, as_toml};
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Presence, quoted};
 use crate::scenario::provenance::Provenance;
 use crate::scenario::resolved::{Resolved, ResolvedValue};
-use crate::scenario::system::SystemName;
 use crate::scenario::table;
 use crate::scenario::values::{COMPARED_LAWS, Known, LAW, POWER_TOLERANCE, Value, Values};
 use std::cell::RefCell;

@@ -359,7 +359,7 @@ fn measured(
 }
 
 /// What the estimators of the signals say.
-fn noted(test: &Test, found: &signals::Found) -> Vec<Told> {
+fn noted(test: &Test, found: &signals::found::Found) -> Vec<Told> {
     (found.warnings.iter())
         .map(|warning| Told::of(warning.code, &test.name, &warning.text))
         .collect()

@@ -1,6 +1,8 @@
 //! Every named result of a measurement with law, source and valid range.
 
-use crate::analyse::signals::{Asked, Found, median, torque};
+use crate::analyse::signals::asked::{Asked, median};
+use crate::analyse::signals::found::Found;
+use crate::analyse::signals::torque;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Value};
 use measure::pulse::Gap;

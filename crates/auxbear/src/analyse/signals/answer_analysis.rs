@@ -1,6 +1,8 @@
 //! Named results of a vibration, of slow runs and of the converter, with law, source and valid range.
 
-use crate::analyse::signals::{Asked, Found, vibration};
+use crate::analyse::signals::asked::Asked;
+use crate::analyse::signals::found::Found;
+use crate::analyse::signals::vibration;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::Value;
 use measure::steady_curve::{Difference, SteadyCurve};

@@ -1,6 +1,7 @@
 //! Speed and slip of the cage from what its balls show.
 
-use crate::analyse::signals::{Signal, shaft};
+use crate::analyse::signals::asked::Signal;
+use crate::analyse::signals::shaft;
 use crate::scenario::{CageKind, CageSignal};
 use measure::cage_speed::{CageSpeed, Line, QuickChange, from_pulses, from_vibration};
 use measure::order::orders;
@@ -192,11 +193,11 @@ impl Found {
         if slips.len() < 3 {
             return None;
         }
-        let middle = crate::analyse::signals::median(&slips);
+        let middle = crate::analyse::signals::asked::median(&slips);
         let away: Vec<f64> = slips.iter().map(|slip| (slip - middle).abs()).collect();
         // 0.6745: the median of the size of a normal error of deviation 1
-        let spread = (crate::analyse::signals::median(&away) / 0.6745)
-            .max(crate::analyse::signals::median(&deviations));
+        let spread = (crate::analyse::signals::asked::median(&away) / 0.6745)
+            .max(crate::analyse::signals::asked::median(&deviations));
         Some(Uncertain::new(middle, spread))
     }
 }

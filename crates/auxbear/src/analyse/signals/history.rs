@@ -1,6 +1,7 @@
 //! The history of a measurement: what was read beside what it means.
 
-use crate::analyse::signals::{Asked, Found, Signal};
+use crate::analyse::signals::asked::{Asked, Signal};
+use crate::analyse::signals::found::Found;
 use crate::result::outcome::Column;
 use measure::speed::Motion;
 

@@ -1,6 +1,6 @@
 //! Speed and acceleration of the shaft from the pulses of its pickup.
 
-use crate::analyse::signals::Signal;
+use crate::analyse::signals::asked::Signal;
 use crate::scenario::{PickupFlank, PickupKind, SpeedSignal};
 use measure::pulse::{
     EdgeSettings, Edges, Flank, Gap, Marks, Pitch, Pulses, Wheel, calibrate, check_marks, edges,
@@ -214,7 +214,7 @@ fn passages(
 
 /// A recorded time that holds all instants.
 fn around(
-    stamps: &crate::analyse::signals::Stamps,
+    stamps: &crate::analyse::signals::read::Stamps,
     watched: Option<(f64, f64)>,
 ) -> Option<(f64, f64)> {
     let (from, to) = watched?;

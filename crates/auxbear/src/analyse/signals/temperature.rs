@@ -1,6 +1,6 @@
 //! The temperature of the outer race.
 
-use crate::analyse::signals::Series;
+use crate::analyse::signals::read::Series;
 
 /// Length of the means, s: short against any thermocouple's lag, long enough to take its noise away.
 const MEAN: f64 = 0.05;

@@ -14,13 +14,11 @@ pub(crate) mod quantities;
 pub(crate) mod warnings;
 
 pub(crate) use crate::evaluate::torque::asked::Asked;
+use crate::evaluate::torque::asked::{Moments, law_of, name_of};
 use crate::result::outcome::{Column, Outcome, Picture, Stop, Work};
 
-use crate::problem::{Code, Problem};
-use crate::scenario::{Moment, Scenario, Torque, UNNAMED};
-use model::bearing::AccelerationLoss;
-use physics::friction::{Friction, MomentParts};
-use physics::rolling::RollingSet;
+use crate::scenario::Scenario;
+use physics::friction::MomentParts;
 use std::time::Instant;
 
 /// Computes the moments and names them.

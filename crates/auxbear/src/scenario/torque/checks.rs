@@ -9,7 +9,7 @@ impl Context<'_> {
         let (ball, pitch) = (torque.ball_diameter, torque.pitch_diameter);
         self.geometry(torque.ball_count, ball, pitch)?;
         self.moment(&torque.moment, &torque.rated())?;
-        self.torque.acceleration_loss.law()?;
+        self.acceleration_loss(&torque.acceleration_loss)?;
         self.torque_points(torque)
     }
 

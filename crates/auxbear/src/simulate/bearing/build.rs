@@ -1,9 +1,7 @@
 //! From a bearing of a scenario to the constants of the model.
 
 use crate::problem::{Code, Problem};
-use crate::scenario::{
-    AccelerationLoss as LossChoice, Bearing, Fidelity, Guidance, Land, Moment, Separation, UNNAMED,
-};
+use crate::scenario::{Bearing, Fidelity, Guidance, Land, Separation};
 use crate::simulate::bearing::contacts::{BallContacts, SCENARIO};
 use crate::simulate::bearing::traction::{inlet_rolling, traction};
 use model::bearing::ball::BallConstants;
@@ -11,18 +9,12 @@ use model::bearing::cage::{Land as CageLand, LandRace};
 use model::bearing::full_complement::BallPair;
 use model::bearing::rolling::RollingBall;
 use model::bearing::{
-    AccelerationLoss, BearingConstants, LubricantConstants, PlanarConstants, RollingConstants,
+    BearingConstants, LubricantConstants, PlanarConstants, RollingConstants,
     Separation as SeparationConstants, SharedMoment, SteadyMoment,
 };
 use model::contact::JournalContact;
-use model::system::spin_up::capacity::{LEAST_CAPACITY, traction_capacity};
-use model::system::spin_up::layout::{INNER, INNER_LOAD_SUM, STEADY_MOMENT};
-use model::system::spin_up::{Drive, InnerRace, Refusal, SpinUpConstants, SpinUpMachine};
-use model::table::Table;
 use number::Vec2;
 use physics::angular_contact::{preload_interference, radial_stiffness, spin_inertia};
-use physics::hertz::{BallRace, Curvature, PointContact, Race};
-use physics::materials::{BEARING_STEEL, contact_modulus};
 
 /// The bearing.
 pub(crate) fn bearing(

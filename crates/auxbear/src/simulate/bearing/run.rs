@@ -1,12 +1,9 @@
 //! The bearing of a run: what it is made of, and where it stands in the rows.
 
-use crate::scenario::Bearing;
-use crate::simulate::bearing::film::{self, Films};
-use crate::simulate::bearing::skid::{Skidding, Skids};
+use crate::simulate::bearing::pressure::PressureFactors;
 use model::bearing::BearingConstants;
 use model::motion::Motion;
-use model::system::sampling::{Peak, Row};
-use physics::hertz::maximum_pressure;
+use model::system::sampling::Row;
 use std::ops::Range;
 
 /// The bearing of a run.

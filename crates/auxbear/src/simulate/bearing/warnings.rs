@@ -1,19 +1,14 @@
 //! Warnings that several systems give.
 
-use crate::result::assumptions::{assumptions, bath, constants};
+use crate::result::assumptions::{assumptions, constants};
 use crate::result::outcome::{Quantity, Value, Warning, warning};
-use crate::scenario::{
-    BallMaterial, Bearing, BearingType, Fidelity, Moment, Provenance, RatedBearing, Scenario,
-    Separation,
-};
+use crate::scenario::{BallMaterial, Bearing, BearingType, Fidelity, Moment, Scenario, Separation};
 use crate::simulate::bearing::pressure::Pressures;
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::bearing::steady::SteadyFinding;
 use physics::angular_contact::radial_load_that_unloads_a_ball;
-use physics::friction::Friction;
 use physics::friction_range::OperatingPoint;
 use physics::hertz::rim_tension;
-use std::f64::consts::PI;
 
 /// Relative energy residual above which the run's tolerance is too loose.
 const LARGEST_RESIDUAL: f64 = 1e-6;

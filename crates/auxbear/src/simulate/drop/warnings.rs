@@ -1,5 +1,6 @@
 //! What the user should know before trusting the numbers of a drop.
 
+use crate::result::assumptions::speed_rating;
 use crate::result::outcome::Warning;
 use crate::result::outcome::warning;
 use crate::scenario::{Fidelity, Moment, Scenario};
@@ -35,7 +36,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
             ),
         ));
     }
-    list.extend(shared::speed_rating(bearing, drop.rotor.speed));
+    list.extend(speed_rating(bearing, drop.rotor.speed));
     list.extend(shared::lift_off(bearing, drop.rotor.speed));
     if let Some(bending) = drop.rotor.first_bending_frequency
         && BENDING_SHARE * bending < drop.rotor.speed.abs()

@@ -13,6 +13,9 @@
 
 use crate::scenario::{Rig, RigArm, RigPickupKind, RigProgram};
 use model::sensor::Marks;
+use model::system::rig::Tap;
+use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
+use model::system::rig::taps::multiplexed;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
@@ -318,7 +321,7 @@ fn temperature(rig: &Rig, happened: &Happened) -> RawChannel {
 /// What the converter samples: the channels in turn. A counter sees the shaft as often as a channel would; its speed beside
 /// the angle tells what lies between.
 pub(crate) fn taps(rig: &Rig) -> Vec<Tap> {
-    let analog = chain::analog(rig);
+    let analog = analog(rig);
     let mut channels = Vec::new();
     if analog {
         channels.push(SHAFT);

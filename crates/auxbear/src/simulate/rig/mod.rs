@@ -18,22 +18,14 @@ mod warnings;
 use crate::options::Options;
 use crate::result::outcome::{Outcome, Picture, Work};
 use crate::scenario::{Rig, RigProgram, Scenario};
-use crate::simulate::bearing::pressure::Pressures;
-use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::drop::method;
 use crate::simulate::ending::{settings, stop};
 use crate::simulate::rig::context::Context;
 use build::Built;
 use chain::{Happened, Sampled};
-use model::system::rig::layout::{
-    ARM, CAGE_ANGLE, DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD,
-    LARGEST_POCKET_FORCE, SHAFT, THERMOCOUPLE,
-};
-use model::system::rig::rate::race_motion;
+use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
 use model::system::rig::record::Keep;
-use model::system::rig::taps::multiplexed;
-use model::system::rig::{Record, Tap, simulate_told};
-use solve::Ending;
+use model::system::rig::{Record, simulate_told};
 use std::time::Instant;
 
 /// Runs a test.

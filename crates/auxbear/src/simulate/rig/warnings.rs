@@ -1,5 +1,6 @@
 //! What the user should know before trusting the numbers of a test on a rig.
 
+use crate::result::assumptions::speed_rating;
 use crate::result::outcome::warning;
 use crate::result::outcome::{Quantity, Warning};
 use crate::scenario::{Rig, Scenario};
@@ -55,7 +56,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
                 .to_string(),
         ));
     }
-    list.extend(shared::speed_rating(bearing, speed));
+    list.extend(speed_rating(bearing, speed));
     list.extend(shared::lift_off(bearing, speed));
     list.extend(shared::pressure(bearing, &context.pressures()));
     list.extend(shared::film_rise(&context.bearing()));

@@ -9,15 +9,10 @@ pub(crate) mod warnings;
 use crate::options::Options;
 use crate::result::outcome::{Outcome, Picture, Work};
 use crate::scenario::{Scenario, SpinUp};
-use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::drop::method;
 use crate::simulate::ending::{settings, stop};
 use crate::simulate::spin_up::build::Built;
 use crate::simulate::spin_up::context::Context;
-use model::system::spin_up::layout::{
-    DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
-};
-use model::system::spin_up::rate::race_motion;
 use model::system::spin_up::record::Record;
 use model::system::spin_up::{SpinUp as System, SpinUpMachine};
 use solve::{Ending, Flow, Observer, Step};

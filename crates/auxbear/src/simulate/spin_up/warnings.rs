@@ -1,5 +1,6 @@
 //! What the user should know before trusting the numbers of a spin-up.
 
+use crate::result::assumptions::speed_rating;
 use crate::result::outcome::warning;
 use crate::result::outcome::{Quantity, Warning};
 use crate::scenario::Scenario;
@@ -19,7 +20,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     let speed = largest(&|row| row.state[INNER + 5]);
     let load = largest(&|row| row.probe[APPLIED_LOAD]);
     list.extend(shared::skids(context.built.steady.as_ref()));
-    list.extend(shared::speed_rating(bearing, speed));
+    list.extend(speed_rating(bearing, speed));
     list.extend(shared::lift_off(bearing, speed));
     let (run, record) = (context.bearing(), context.record);
     let races = [record.largest_inner_load, record.largest_outer_load];
