@@ -97,7 +97,6 @@ fn at_forty_degrees(name: &str) -> PlanarConstants {
     let sets = [
         "bearing.type=angular contact",
         "bearing.contact_angle=40 deg",
-        "bearing.axial_preload=60 N",
     ]
     .map(str::to_string);
     let path = folder.join(name);
