@@ -231,7 +231,7 @@ mod tests {
             (self.change)(&mut answer);
             Ok(answer)
         }
-        fn drop(&self, _: &super::super::drops::DropReference) -> Result<DropAnswer, String> {
+        fn drop(&self, _: &super::super::simulator::DropReference) -> Result<DropAnswer, String> {
             Err("not asked".into())
         }
     }

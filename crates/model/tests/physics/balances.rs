@@ -74,10 +74,9 @@ fn ball_centre(machine: &RotorMachine, state: &[f64], rate: &[f64], j: usize) ->
 /// Bodies that translate: (mass, position, velocity, acceleration).
 fn centres(machine: &RotorMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, [Vec2<f64>; 3])> {
     let c = &machine.constants;
-    let m = &c.machine;
     let mut list: Vec<_> = [
-        (m.rotor.mass, ROTOR),
-        (m.inner_race_mass, INNER),
+        (c.rotor.mass, ROTOR),
+        (c.bearings[0].inner_race.mass, INNER),
         (c.bearings[0].outer_moving_mass(), OUTER),
     ]
     .map(|(mass, at)| {
@@ -110,10 +109,11 @@ fn cage_centre(machine: &RotorMachine, state: &[f64], rate: &[f64]) -> [Vec2<f64
 
 /// Bodies that spin: (inertia, spin, spin acceleration).
 fn spins(machine: &RotorMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, f64, f64)> {
-    let m = &machine.constants.machine;
+    let c = &machine.constants;
+    let race = c.bearings[0].inner_race.inertia;
     let mut list = vec![
-        (m.rotor.polar_inertia, state[ROTOR + 5], rate[ROTOR + 5]),
-        (m.inner_race_inertia, state[INNER + 5], rate[INNER + 5]),
+        (c.rotor.polar_inertia, state[ROTOR + 5], rate[ROTOR + 5]),
+        (race, state[INNER + 5], rate[INNER + 5]),
     ];
     match &machine.constants.bearings[0].bearing {
         BearingConstants::Rolling(b) => {
@@ -138,7 +138,7 @@ fn spins(machine: &RotorMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, f64, 
 
 /// Force of the levitation on the rotor, with the point where it acts.
 fn levitation(machine: &RotorMachine, state: &[f64]) -> (Vec2<f64>, Vec2<f64>) {
-    let m = &machine.constants.machine;
+    let m = &machine.constants;
     let (s, c) = state[ROTOR + 4].sin_cos();
     let e = m.rotor.eccentricity;
     let centre = pair(state, ROTOR) - vec2(c, s) * e;
@@ -333,7 +333,6 @@ fn angular_momentum_changes_by_outer_moments_alone() {
     let (mut worst, mut worst_ledger) = (0.0_f64, 0.0_f64);
     at_random_states(|machine, state, rate, _| {
         let c = &machine.constants;
-        let m = &c.machine;
         let mut change = Sum::default();
         for (mass, [position, _, acceleration]) in centres(machine, state, rate) {
             change.add(mass * position.cross(acceleration));
@@ -343,13 +342,13 @@ fn angular_momentum_changes_by_outer_moments_alone() {
         }
         let mut outer = Sum::default();
         for (mass, [position, ..]) in centres(machine, state, rate) {
-            outer.add(mass * position.cross(m.gravity));
+            outer.add(mass * position.cross(c.gravity));
         }
         let (force, at) = levitation(machine, state);
         outer.add(at.cross(force));
         outer.add(pair(state, OUTER).cross(mount(machine, state)));
-        outer.add(m.inner_race_torque);
-        outer.add(-m.rotor.brake_torque * state[ROTOR + 5].tanh());
+        outer.add(c.bearings[0].inner_race.torque);
+        outer.add(-c.rotor.brake_torque * state[ROTOR + 5].tanh());
         // the ground keeps the outer race from turning
         outer.add(-moment_on_outer_race(machine, state, rate));
         match &c.bearings[0].bearing {

@@ -34,7 +34,7 @@ fn largest_residuals(constants: &MachineConstants, tolerance: f64) -> (f64, f64)
     let mut largest = (0.0_f64, 0.0_f64);
     for member in 0..6 {
         let mut start = machine.start();
-        machine.perturb(&mut start, vec2(1e-9 * f64::from(member), 0.0), &|_| 0.0);
+        machine.perturb(&mut start, vec2(1e-9 * f64::from(member), 0.0), &|_, _| 0.0);
         let (energy, momentum) = residuals(&machine, &start, tolerance);
         largest = (largest.0.max(energy), largest.1.max(momentum));
     }

@@ -3,6 +3,7 @@
 use crate::machines::{
     BEARING, planar, random_state, reference, separate, settings, tilt_contacts,
 };
+use crate::several::{of_twins, twins};
 use model::bearing::Separation;
 use model::bearing::ball_states::CAGE_PLACE;
 use model::system::machine::linear::MachineLinear;
@@ -41,14 +42,14 @@ fn whole<const M: usize, const COLUMNS: usize, const ROWS: usize>(
         }
     }
     for (j, block) in s.blocks.iter().enumerate() {
-        for (i, row) in block.iter().enumerate() {
-            for (k, column) in block.iter().enumerate() {
+        for (i, row) in block.channels.iter().enumerate() {
+            for (k, column) in block.channels.iter().enumerate() {
                 all[row * dimension + column] = arrow.blocks[j].own[i][k];
             }
-            for (k, column) in s.columns.iter().enumerate() {
+            for (k, column) in block.columns.iter().enumerate() {
                 all[row * dimension + s.border[*column]] = arrow.blocks[j].right[i][k];
             }
-            for (k, place) in s.rows.iter().enumerate() {
+            for (k, place) in block.rows.iter().enumerate() {
                 all[s.border[*place] * dimension + row] = arrow.blocks[j].left[k][i];
             }
             for (k, target) in s.tail.clone().enumerate() {
@@ -57,6 +58,57 @@ fn whole<const M: usize, const COLUMNS: usize, const ROWS: usize>(
         }
     }
     all
+}
+
+/// Compares a Jacobian at a state with differences of the rate; `exempt` says of row and column what is taken explicitly.
+/// Returns how many entries were compared.
+fn compare(machine: &RotorMachine, state: &[f64], exempt: &dyn Fn(usize, usize) -> bool) -> usize {
+    let mut linear = MachineLinear::of(machine).expect("planar");
+    let mut arrow = Arrowhead::new(linear.shape());
+    let n = machine.dimension();
+    let mode = machine.start_mode();
+    linear.jacobian(&mode, 0.0, state, &mut arrow);
+    let ours = whole(&arrow, n);
+    let mut checked = 0;
+    for column in 0..machine.layout().ledger() {
+        let rate_at = |step: f64| {
+            let mut moved = state.to_vec();
+            moved[column] += step;
+            let mut rate = vec![0.0; n];
+            machine.rate(&mode, 0.0, &moved, &mut rate, &mut []);
+            rate
+        };
+        // differences to both sides and over half the length: where a corner of a contact force lies between,
+        // they disagree
+        let scale = machine.error_scale(column);
+        let here = rate_at(0.0);
+        let slopes = |step: f64| -> [Vec<f64>; 2] {
+            [step, -step].map(|step| {
+                let there = rate_at(step);
+                let pairs = there.iter().zip(&here);
+                pairs.map(|(there, here)| (there - here) / step).collect()
+            })
+        };
+        let (long, short) = (slopes(1e-6 * scale), slopes(5e-7 * scale));
+        for row in (0..n).filter(|row| !exempt(*row, column)) {
+            let size = machine.error_scale(row) / scale * 1e3;
+            let [coarse, fine] = [&long, &short].map(|s| 0.5 * (s[0][row] + s[1][row]));
+            let sides = (short[0][row] - short[1][row]).abs();
+            let apart = (coarse - fine).abs().max(1e-2 * sides);
+            if apart > 1e-5 * (fine.abs() + size) {
+                continue;
+            }
+            checked += 1;
+            let value = ours[row * n + column];
+            assert!(
+                (value - fine).abs() < 1e-4 * (fine.abs() + size),
+                "d {} / d {}: {value} instead of {fine}",
+                machine.channel_name(row),
+                machine.channel_name(column)
+            );
+        }
+    }
+    checked
 }
 
 #[test]
@@ -75,56 +127,29 @@ fn the_jacobian_is_the_derivative_of_the_rate() {
         let machine = RotorMachine::new(constants);
         // what a growing race takes in is a product of sums over the balls, and nothing depends on it
         let growth = machine.layout().source(3);
-        let mut linear = MachineLinear::of(&machine).expect("planar");
-        let mut arrow = Arrowhead::new(linear.shape());
+        let exempt = |row: usize, column: usize| {
+            place.contains(&row) || place.contains(&column) || row == growth
+        };
         let n = machine.dimension();
-        let mode = machine.start_mode();
-        let mut checked = 0;
-        for _ in 0..20 {
-            let state = random_state(&machine, &mut random);
-            linear.jacobian(&mode, 0.0, &state, &mut arrow);
-            let ours = whole(&arrow, n);
-            for column in (0..machine.layout().ledger()).filter(|c| !place.contains(c)) {
-                let rate_at = |step: f64| {
-                    let mut moved = state.clone();
-                    moved[column] += step;
-                    let mut rate = vec![0.0; n];
-                    machine.rate(&mode, 0.0, &moved, &mut rate, &mut []);
-                    rate
-                };
-                // differences to both sides and over half the length: where a corner of a contact force lies between,
-                // they disagree
-                let scale = machine.error_scale(column);
-                let here = rate_at(0.0);
-                let slopes = |step: f64| -> [Vec<f64>; 2] {
-                    [step, -step].map(|step| {
-                        let there = rate_at(step);
-                        let pairs = there.iter().zip(&here);
-                        pairs.map(|(there, here)| (there - here) / step).collect()
-                    })
-                };
-                let (long, short) = (slopes(1e-6 * scale), slopes(5e-7 * scale));
-                for row in (0..n).filter(|row| !place.contains(row) && *row != growth) {
-                    let size = machine.error_scale(row) / scale * 1e3;
-                    let [coarse, fine] = [&long, &short].map(|s| 0.5 * (s[0][row] + s[1][row]));
-                    let sides = (short[0][row] - short[1][row]).abs();
-                    let apart = (coarse - fine).abs().max(1e-2 * sides);
-                    if apart > 1e-5 * (fine.abs() + size) {
-                        continue;
-                    }
-                    checked += 1;
-                    let value = ours[row * n + column];
-                    assert!(
-                        (value - fine).abs() < 1e-4 * (fine.abs() + size),
-                        "d {} / d {}: {value} instead of {fine}",
-                        machine.channel_name(row),
-                        machine.channel_name(column)
-                    );
-                }
-            }
-        }
+        let checked: usize = (0..20)
+            .map(|_| compare(&machine, &random_state(&machine, &mut random), &exempt))
+            .sum();
         assert!(checked > 20 * n * n / 2, "{checked}");
     }
+}
+
+#[test]
+fn the_jacobian_of_several_bearings_is_the_derivative_of_the_rate() {
+    let mut random = crate::machines::Random(12);
+    let half = RotorMachine::new(reference());
+    let whole = twins(&half);
+    let n = whole.dimension();
+    let mut checked = 0;
+    for _ in 0..5 {
+        let state = of_twins(&whole, &half, &random_state(&half, &mut random));
+        checked += compare(&whole, &state, &|_, _| false);
+    }
+    assert!(checked > 5 * n * n / 2, "{checked}");
 }
 
 /// A drop by explicit or by linearly implicit steps.

@@ -83,7 +83,7 @@ fn ball_loads_balance_the_weight_and_share_it_by_statics() {
         let planar_machine = loaded(interference, direction);
         let mut rolls = planar_machine.clone();
         let_roll(&mut rolls);
-        let stiffness = match &rolls.bearing {
+        let stiffness = match &rolls.bearings[0].bearing {
             BearingConstants::Rolling(bearing) => bearing.ball.series_stiffness,
             BearingConstants::Planar(_) => panic!("the balls roll here"),
         };

@@ -94,8 +94,7 @@ fn the_jacobian_of_a_ball_between_warmed_films_is_that_of_its_weaker_traction() 
     let mut random = Random(3);
     let state = random_state(&machine, &mut random);
     let own = machine.layout().ledger() - STATES;
-    let at = machine
-        .constants
+    let at = machine.constants.bearings[0]
         .bearing
         .lubricant_at(&state[16..own + STATES]);
     let factor = at.expect("it has a state").traction_factor;

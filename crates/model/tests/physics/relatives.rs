@@ -52,7 +52,7 @@ pub fn machines() -> Vec<RotorMachine> {
     planar(&mut slanted).ball.gravity = gravity;
     let mut rolls = base();
     let_roll(&mut rolls);
-    if let BearingConstants::Rolling(bearing) = &mut rolls.bearing {
+    if let BearingConstants::Rolling(bearing) = &mut rolls.bearings[0].bearing {
         bearing.moment = SteadyMoment::Palmgren(grease());
         bearing.loss = AccelerationLoss::Proportional {
             per_acceleration: 2e-5,
@@ -74,7 +74,7 @@ pub fn machines() -> Vec<RotorMachine> {
     planar(&mut grown).ball.inner_track_growth = 5e-12;
     let mut grown_rolling = grown.clone();
     let_roll(&mut grown_rolling);
-    if let BearingConstants::Rolling(bearing) = &mut grown_rolling.bearing {
+    if let BearingConstants::Rolling(bearing) = &mut grown_rolling.bearings[0].bearing {
         bearing.moment = SteadyMoment::Palmgren(grease());
     }
     let mut tilted = base();
@@ -95,7 +95,7 @@ pub fn machines() -> Vec<RotorMachine> {
     let mut worked = greased.clone();
     planar(&mut worked).lubricant = Some(lubricant());
     let mut worked_rolling = rolls.clone();
-    if let BearingConstants::Rolling(bearing) = &mut worked_rolling.bearing {
+    if let BearingConstants::Rolling(bearing) = &mut worked_rolling.bearings[0].bearing {
         bearing.lubricant = Some(lubricant());
     }
     let mut warmed = resisted.clone();

@@ -104,7 +104,7 @@ fn a_pocket_is_rubbed_along_the_line_of_contact() {
     let mut c = reference();
     tilt_contacts(planar(&mut c), alpha);
     let plain = reference();
-    let BearingConstants::Planar(level) = &plain.bearing else {
+    let BearingConstants::Planar(level) = &plain.bearings[0].bearing else {
         panic!("planar")
     };
     let machine = RotorMachine::new(c);

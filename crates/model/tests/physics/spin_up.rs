@@ -183,7 +183,7 @@ fn balls_with_ample_grip_equal_the_rolling_bearing() {
     let end = |constants: &MachineConstants| {
         let machine = RotorMachine::new(constants.clone());
         let state = run(&machine, &machine.start(), &settings(20e-3, 1e-5));
-        let cage = machine.constants.bearing.cage_speed(
+        let cage = machine.constants.bearings[0].bearing.cage_speed(
             &race_motion(&machine, &state),
             bearing_part(&machine, &state),
         );

@@ -121,8 +121,6 @@ impl Linear<Problem, 1, 2, 1> for OfFallingMass {
             border: vec![0, 1],
             blocks: Vec::new(),
             tail: 2..3,
-            rows: [0],
-            columns: [0, 1],
         }
     }
     fn jacobian(&mut self, _mode: &f64, _time: f64, y: &[f64], into: &mut Arrowhead<1, 2, 1>) {

@@ -138,8 +138,8 @@ fn name(path: &Path) -> String {
 
 #[cfg(test)]
 mod tests {
+    use crate::run::build;
     use crate::scenario::{BuiltIn, Scenario};
-    use crate::simulate::drop::build;
 
     #[test]
     fn a_signals_file_that_is_missing_is_told_where_it_is_named() {
