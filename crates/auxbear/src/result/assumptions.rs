@@ -25,8 +25,13 @@ pub(crate) fn speed_rating(bearing: &Bearing, speed: f64) -> Option<Warning> {
 }
 
 /// The same of a bearing without contacts.
-pub(crate) fn constants(scenario: &Scenario, law: &Moment, rated: &RatedBearing) -> Vec<Warning> {
-    let angle = scenario.resolved.get("bearing.moment.contact_angle");
+pub(crate) fn constants(
+    scenario: &Scenario,
+    name: &str,
+    law: &Moment,
+    rated: &RatedBearing,
+) -> Vec<Warning> {
+    let angle = (scenario.resolved).of_bearing(name, "bearing.moment.contact_angle");
     let unknown = angle.and_then(|angle| match &angle.provenance {
         Provenance::DefaultAssumed(why) if rated.kind != BearingType::DeepGroove => {
             Some((angle, why))

@@ -21,8 +21,10 @@ pub struct Outcome {
     pub work: Work,
     /// Named results of each member, when repeated; member 0 is the unperturbed run.
     pub members: Vec<Vec<(String, Option<f64>)>>,
-    /// Numbers that only the pictures need.
-    pub picture: Picture,
+    /// What each of these members drew: paths with their values, as a file has them; empty where none varies the machine.
+    pub drawn: Vec<Vec<(String, String)>>,
+    /// Numbers that only the pictures need, of each bearing: one at least.
+    pub pictures: Vec<Picture>,
     /// Files that the run leaves beside its results.
     pub files: Vec<Attachment>,
 }
@@ -140,8 +142,10 @@ pub struct Column {
 }
 
 /// One contact of rotor and inner race.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Contact {
+    /// Name of the auxiliary bearing; empty where it is the only one.
+    pub bearing: String,
     /// Begin, s.
     pub start: f64,
     /// End, s; none where it lasts to the end of the run.
@@ -159,6 +163,11 @@ pub struct Warning {
     pub code: &'static str,
     /// One or two sentences.
     pub text: String,
+}
+
+/// A warning of a code in the book.
+pub(crate) fn warning(code: &'static str, text: String) -> Warning {
+    Warning { code, text }
 }
 
 /// How a run ended.
@@ -196,9 +205,11 @@ pub struct Work {
     pub method: Option<&'static str>,
 }
 
-/// Numbers that only the pictures need.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Numbers of a bearing that only the pictures need.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
+    /// Name of the bearing; empty where it is the only one.
+    pub bearing: String,
     /// Radius of the clearance circle, m; none where no rotor moves in the bore.
     pub clearance: Option<f64>,
     /// Limit of the Hertz pressure, Pa.
@@ -225,9 +236,4 @@ mod tests {
         assert!((two.quantiles[0] - 1.1).abs() < 1e-12 && two.quantiles[1] == 2.0);
         assert_eq!(Spread::of(vec![1.0]), None);
     }
-}
-
-/// A warning of a code in the book.
-pub(crate) fn warning(code: &'static str, text: String) -> Warning {
-    Warning { code, text }
 }

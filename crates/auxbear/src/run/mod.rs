@@ -24,7 +24,11 @@ pub struct Machine<'a> {
 
 /// The machine of each system.
 enum Built<'a> {
-    Drop(&'a Drop, Box<drop::build::Built>),
+    Drop(
+        &'a Drop,
+        Box<drop::build::Built>,
+        Vec<drop::members::Varied>,
+    ),
     SpinUp(&'a SpinUp, Box<spin_up::build::Built>),
     Torque(Box<torque::Asked<'a>>),
     Signals(Box<signals::Asked>),
@@ -35,7 +39,10 @@ enum Built<'a> {
 /// Builds the machine that the scenario describes; runs nothing.
 pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
     let system = match &scenario.system {
-        System::Drop(of) => drop::build::drop(of).map(|built| Built::Drop(of, Box::new(built))),
+        System::Drop(of) => drop::build::drop(of).and_then(|built| {
+            let varied = drop::members::varied(scenario, of)?;
+            Ok(Built::Drop(of, Box::new(built), varied))
+        }),
         System::SpinUp(of) => {
             spin_up::build::spin_up(of).map(|built| Built::SpinUp(of, Box::new(built)))
         }
@@ -54,7 +61,7 @@ impl Machine<'_> {
     /// Simulates it. A run that fails is an [`Outcome`] whose `stop` says where and why.
     pub fn run(&self, options: &Options) -> Outcome {
         let mut outcome = match &self.system {
-            Built::Drop(of, built) => drop::run(self.scenario, of, built, options),
+            Built::Drop(of, built, varied) => drop::run(self.scenario, of, built, varied, options),
             Built::SpinUp(of, built) => spin_up::run(self.scenario, of, built, options),
             Built::Torque(asked) => torque::run(self.scenario, asked),
             Built::Signals(asked) => signals::run(self.scenario, asked, options),

@@ -29,7 +29,7 @@ impl Context<'_> {
     ) -> Problem {
         Problem::new(code, self.file, found, allowed)
             .at(self.values.place(path))
-            .on_key(path)
+            .on_key(self.values.shown(path))
     }
 
     /// The value as the file or catalogue writes it.

@@ -13,7 +13,7 @@ pub(crate) struct Text {
     /// The file, as the user named it.
     pub(crate) name: String,
     /// Where its sections start.
-    pub(crate) sections: BTreeMap<&'static str, Place>,
+    pub(crate) sections: BTreeMap<String, Place>,
 }
 
 impl Text {
@@ -40,7 +40,7 @@ impl Text {
         // of a section, what an override changed is the nearest cause
         let inside = format!("{key}.");
         let mut values = resolved.values.iter();
-        if values.any(|value| value.path.starts_with(&inside) && value.place == Place::Set) {
+        if values.any(|value| value.shown().starts_with(&inside) && value.place == Place::Set) {
             return Place::Set;
         }
         let sections = std::iter::successors(Some(key), |path| {

@@ -27,6 +27,7 @@ pub(crate) mod rig;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod section;
+pub(crate) mod several;
 pub(crate) mod signals;
 pub(crate) mod spin_up;
 pub(crate) mod system;
@@ -34,6 +35,7 @@ pub(crate) mod table;
 pub(crate) mod template;
 pub(crate) mod torque;
 pub(crate) mod values;
+pub(crate) mod vary;
 pub(crate) mod words;
 
 pub use bearing::fits::{Fits, Growth};
@@ -44,7 +46,7 @@ pub use bearing::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 pub use bearing::separation::{Cage, FullComplement, Guidance, Land, Separation};
 pub use bearing::source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
 pub use bearing::{Bearing, Drag, OilFilm, Traction};
-pub use drop::{Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor, Spin};
+pub use drop::{AuxiliaryBearing, Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor, Spin};
 pub use identify::{Explanations, Identify, RotorFriction};
 pub(crate) use key::quoted;
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
@@ -67,6 +69,7 @@ pub use system::SystemName;
 pub use table::{FORMAT, keys, keys_of, presence, sections, sections_of, systems};
 pub use template::template;
 pub use torque::{ComparedLaw, Torque};
+pub use vary::{Distribution, Draws, Vary};
 
 use crate::problem::{Code, Problem};
 use std::fs::File;
@@ -106,18 +109,19 @@ impl System {
         }
     }
 
-    /// The typed values of a document's system, checked.
+    /// The typed values of a document's system, checked; several auxiliary bearings have values each.
     fn of(
         document: &document::Document,
-        values: &values::Values,
+        all: &[values::Values],
         bearings: &dyn BearingSource,
         file: &str,
     ) -> Result<System, Box<Problem>> {
+        let values = &all[0];
         let context = checks::Context { values, file };
         let system = match document.system {
             SystemName::Drop => {
-                let drop = Drop::from_values(values);
-                context.drop(&drop)?;
+                let drop = Drop::from_values(all);
+                context.drop(&drop, all)?;
                 System::Drop(drop)
             }
             SystemName::SpinUp => {
@@ -147,7 +151,7 @@ impl System {
                 System::Torque(torque)
             }
         };
-        values.complete()?;
+        all.iter().try_for_each(values::Values::complete)?;
         Ok(system)
     }
 }
@@ -165,8 +169,12 @@ pub struct Scenario {
     pub system: System,
     /// Every value with its origin.
     pub resolved: Resolved,
+    /// What repeated runs vary.
+    pub vary: Vec<Vary>,
     /// Where it was read.
     text: locate::Text,
+    /// What was read, to be read again with other values.
+    document: document::Document,
 }
 
 impl Scenario {
@@ -196,19 +204,49 @@ impl Scenario {
                 "a scenario is needed; auxbear new drop writes one to start from",
             )));
         }
-        let document = document::Document::read(text, name, sets)?;
-        let values = values::Values::resolve(&document, bearings)?;
-        let system = System::of(&document, &values, bearings, name)?;
+        Scenario::of(document::Document::read(text, name, sets)?, bearings)
+    }
+
+    /// The scenario with other values at these paths, each as an override has it. Bearings are those of the built-in
+    /// catalogue and of the file's own.
+    ///
+    /// # Errors
+    /// What an override of this value would be refused for.
+    pub fn with(&self, changes: &[(String, String)]) -> Result<Scenario, Box<Problem>> {
+        let mut document = self.document.clone();
+        for (path, value) in changes {
+            document.add_override(&format!("{path}={value}"))?;
+        }
+        Scenario::of(document, &BuiltIn)
+    }
+
+    /// Resolves and checks what was read.
+    fn of(
+        document: document::Document,
+        bearings: &dyn BearingSource,
+    ) -> Result<Scenario, Box<Problem>> {
+        let name = &document.file.clone();
+        let documents = document.of_each_bearing();
+        let values = (documents.iter())
+            .map(|document| values::Values::resolve(document, bearings))
+            .collect::<Result<Vec<_>, _>>()?;
+        let system = System::of(&documents[0], &values, bearings, name)?;
+        let vary = match &system {
+            System::Drop(drop) => vary::of_drop(&drop.repeat, &document.vary, &values)?,
+            _ => Vec::new(),
+        };
         Ok(Scenario {
             format: FORMAT.to_string(),
-            title: values.text("title"),
-            description: values.text("description"),
+            title: values[0].text("title"),
+            description: values[0].text("description"),
             system,
-            resolved: values.resolved(),
+            resolved: values::Values::resolved(&values).varied(&vary),
+            vary,
             text: locate::Text {
                 name: name.to_string(),
-                sections: document.sections,
+                sections: document.sections.clone(),
             },
+            document,
         })
     }
 

@@ -141,7 +141,7 @@ impl Values {
         }
     }
 
-    fn read_raw(
+    pub(crate) fn read_raw(
         &self,
         key: &Key,
         raw: &Raw,

@@ -6,6 +6,7 @@ use crate::scenario::document::{Document, Given, Raw, as_toml};
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Presence, quoted};
 use crate::scenario::provenance::Provenance;
 use crate::scenario::resolved::{Resolved, ResolvedValue};
+use crate::scenario::several;
 use crate::scenario::table;
 use crate::scenario::values::{COMPARED_LAWS, Known, LAW, POWER_TOLERANCE, Value, Values};
 use std::cell::RefCell;
@@ -21,6 +22,7 @@ impl Values {
         let mut values = Values {
             file: document.file.clone(),
             system: document.system,
+            bearing: document.bearing.clone(),
             known: BTreeMap::new(),
             record: None,
             lacking: RefCell::default(),
@@ -268,10 +270,23 @@ impl Values {
         Ok(known)
     }
 
-    /// The list of all values for people and for the resolved file.
-    pub(crate) fn resolved(&self) -> Resolved {
+    /// The list of all values for people and for the resolved file: those of the whole file, and behind them those of each of
+    /// several auxiliary bearings.
+    pub(crate) fn resolved(all: &[Values]) -> Resolved {
+        let whole = |path: &str| all[0].bearing.is_none() || !several::of_each_bearing(path);
+        let mut values = all[0].listed(whole);
+        if all[0].bearing.is_some() {
+            values.extend(
+                all.iter()
+                    .flat_map(|one| one.listed(several::of_each_bearing)),
+            );
+        }
+        Resolved::new(values)
+    }
+
+    fn listed(&self, wanted: impl Fn(&str) -> bool) -> Vec<ResolvedValue> {
         let mut list = Vec::new();
-        for key in table::keys_of(self.system) {
+        for key in table::keys_of(self.system).filter(|key| wanted(key.path)) {
             let known = self.known.get(key.path);
             if known.is_none() && self.unmet(key).is_some() {
                 continue;
@@ -288,6 +303,10 @@ impl Values {
             };
             list.push(ResolvedValue {
                 path: key.path,
+                bearing: self
+                    .bearing
+                    .clone()
+                    .filter(|_| several::of_each_bearing(key.path)),
                 text: known.map(|known| known.text.clone()),
                 value_si: known.and_then(|known| known.value.number()),
                 unit: self.si_unit(key),
@@ -295,7 +314,7 @@ impl Values {
                 place: known.map_or(Place::Whole, |known| known.place),
             });
         }
-        Resolved { values: list }
+        list
     }
 
     fn si_unit(&self, key: &Key) -> String {

@@ -4,6 +4,7 @@ use crate::problem::{Code, Place, Problem};
 use crate::scenario::bearing::source::BearingRecord;
 use crate::scenario::key::Key;
 use crate::scenario::provenance::Provenance;
+use crate::scenario::several;
 use crate::scenario::system::SystemName;
 use crate::scenario::words::Words;
 use std::cell::RefCell;
@@ -73,6 +74,8 @@ pub(crate) struct Known {
 pub(crate) struct Values {
     pub(crate) file: String,
     pub(crate) system: SystemName,
+    /// Name of the auxiliary bearing, where the file has several.
+    pub(crate) bearing: Option<String>,
     pub(crate) known: BTreeMap<&'static str, Known>,
     /// What the catalogue knows of the bearing named.
     pub(crate) record: Option<BearingRecord>,
@@ -91,7 +94,12 @@ impl Values {
     ) -> Problem {
         Problem::new(code, &self.file, found, allowed)
             .at(place)
-            .on_key(path)
+            .on_key(self.shown(path))
+    }
+
+    /// The path of a key as the file has it.
+    pub(crate) fn shown(&self, path: &str) -> String {
+        several::path_of(self.bearing.as_deref(), path)
     }
 
     /// The file, as the user named it.

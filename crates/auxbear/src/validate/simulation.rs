@@ -135,6 +135,7 @@ fn simulate(
     tolerance: f64,
 ) -> Result<Finished, String> {
     let member = Member {
+        kind: 0,
         start: start.unwrap_or_else(|| machine.start()),
         machine,
         keep_rows: false,

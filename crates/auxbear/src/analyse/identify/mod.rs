@@ -74,12 +74,14 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outc
             ..Work::default()
         },
         members: Vec::new(),
-        picture: Picture {
+        drawn: Vec::new(),
+        pictures: vec![Picture {
+            bearing: String::new(),
             clearance: None,
             pressure_limit: None,
             rolling_cage_ratio: found.set.cage_speed(1.0),
             balls: asked.identify.ball_count,
-        },
+        }],
         files: Vec::new(),
     }
 }

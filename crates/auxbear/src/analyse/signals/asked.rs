@@ -1,7 +1,7 @@
 //! What is asked of a measurement: its channels, read.
 
 use crate::analyse::signals::read::{self, Listed, Series, Source, Stamps};
-use crate::analyse::signals::{spectrum, vibration};
+use crate::analyse::signals::spectrum;
 use crate::problem::Problem;
 use crate::scenario::{CageKind, PickupKind, SensorSource, Signals};
 
@@ -100,7 +100,7 @@ impl Asked {
                     "signals.vibration.highest_frequency",
                     asked.highest_frequency,
                     &series,
-                    vibration::resolved(series.values.len(), series.interval),
+                    spectrum::resolved_over_time(series.values.len(), series.interval),
                 )?;
                 Some(series)
             }

@@ -232,7 +232,9 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outc
             ..Work::default()
         },
         members: Vec::new(),
-        picture: Picture {
+        drawn: Vec::new(),
+        pictures: vec![Picture {
+            bearing: String::new(),
             clearance: None,
             pressure_limit: None,
             rolling_cage_ratio: asked
@@ -245,7 +247,7 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outc
                 .cage
                 .as_ref()
                 .map_or(0, |cage| cage.ball_count),
-        },
+        }],
         files: Vec::new(),
     }
 }

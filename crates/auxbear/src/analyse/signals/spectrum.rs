@@ -18,6 +18,17 @@ const ROOM: f64 = 1.5;
 /// Segments without overlap that a record is cut into, at least.
 const SEGMENTS: usize = 4;
 
+/// Columns that are left where lines are made finer, at least.
+pub(crate) const FEWEST_COLUMNS: usize = 32;
+
+/// Values in a segment, at most.
+pub(crate) const LONGEST: usize = 1 << 16;
+
+/// Distance of two lines of the spectrogram over time at best, Hz.
+pub(crate) fn resolved_over_time(count: usize, interval: f64) -> f64 {
+    1.0 / ((count / FEWEST_COLUMNS).clamp(8, LONGEST) as f64 * interval)
+}
+
 /// Distance of two lines at best, Hz.
 pub(crate) fn resolved(count: usize, interval: f64) -> f64 {
     1.0 / ((count / SEGMENTS).max(8) as f64 * interval)

@@ -2,6 +2,7 @@
 
 use crate::analyse::signals::read::Series;
 use crate::analyse::signals::shaft;
+use crate::analyse::signals::spectrum::{FEWEST_COLUMNS, LONGEST};
 use crate::analyse::signals::unit::unit_in_si;
 use crate::scenario::VibrationSignal;
 use measure::order::{Orders, orders};
@@ -11,19 +12,10 @@ use measure::spectrum::{AngularSettings, Segments, Window, order_spectrogram, sp
 const COLUMNS: usize = 90;
 /// Rows of a picture, at most.
 const ROWS: usize = 96;
-/// Columns that are left where lines are made finer, at least.
-const FEWEST_COLUMNS: usize = 32;
-/// Values in a segment, at most.
-const LONGEST: usize = 1 << 16;
 /// Level that is shown as none, dB below the largest.
 const FLOOR: f64 = -80.0;
 /// Speed below which a spectrum over order is not taken, as a part of the largest.
 const SLOW: f64 = 0.05;
-
-/// Distance of two lines of the spectrogram over time at best, Hz.
-pub(crate) fn resolved(count: usize, interval: f64) -> f64 {
-    1.0 / ((count / FEWEST_COLUMNS).clamp(8, LONGEST) as f64 * interval)
-}
 
 /// Levels over two axes.
 pub(crate) struct Picture {

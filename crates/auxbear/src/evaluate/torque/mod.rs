@@ -49,12 +49,14 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
             ..Work::default()
         },
         members: Vec::new(),
-        picture: Picture {
+        drawn: Vec::new(),
+        pictures: vec![Picture {
+            bearing: String::new(),
             clearance: None,
             pressure_limit: None,
             rolling_cage_ratio: asked.set.cage_speed(1.0),
             balls: torque.ball_count,
-        },
+        }],
         files: Vec::new(),
     }
 }

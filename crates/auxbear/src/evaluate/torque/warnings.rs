@@ -20,7 +20,7 @@ pub(crate) fn of(scenario: &Scenario, asked: &Asked) -> Vec<Warning> {
         ));
     }
     list.extend(departures(asked, &asked.law, ""));
-    list.extend(constants(scenario, &torque.moment, &torque.rated()));
+    list.extend(constants(scenario, "", &torque.moment, &torque.rated()));
     for compared in &torque.laws {
         let law = compared.moment.clone();
         match law.and_then(|moment| law_of(torque, &moment)) {

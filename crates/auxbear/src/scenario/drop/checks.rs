@@ -4,24 +4,53 @@ use crate::catalogue::geometry::millimetres;
 use crate::problem::Code;
 use crate::scenario::bearing::separation::Separation;
 use crate::scenario::checks::{Check, Context};
-use crate::scenario::drop::Drop;
+use crate::scenario::drop::{AuxiliaryBearing, Drop};
+use crate::scenario::values::Values;
 use physics::unbalance::whirl;
 
 /// Standard deviations within which every perturbed start is taken to lie.
 const SPREAD: f64 = 6.0;
 
 impl Context<'_> {
-    pub(crate) fn drop(&self, drop: &Drop) -> Check {
-        let bore = drop.contact.bore_diameter;
-        self.bearing(&drop.bearing, Some(("contact.bore_diameter", bore)), true)?;
-        self.air_clearance(drop)?;
-        self.output(&drop.run, drop.bearing.ball_count)?;
-        self.perturbed_balls(drop)?;
-        self.levitated_orbit(drop)
+    pub(crate) fn drop(&self, drop: &Drop, all: &[Values]) -> Check {
+        self.planes(drop)?;
+        for (part, values) in drop.auxiliary_bearings.iter().zip(all) {
+            let own = Context {
+                values,
+                file: self.file,
+            };
+            let bore = part.contact.bore_diameter;
+            own.bearing(&part.bearing, Some(("contact.bore_diameter", bore)), true)?;
+            own.air_clearance(part)?;
+            own.perturbed_balls(drop, part)?;
+            own.levitated_orbit(drop, part)?;
+        }
+        let parts = drop.auxiliary_bearings.iter();
+        self.output(&drop.run, parts.map(|part| part.bearing.ball_count).sum())
     }
 
-    fn air_clearance(&self, drop: &Drop) -> Check {
-        let contact = &drop.contact;
+    /// Planes count bearings that are alike; bearings with names are counted by their names.
+    fn planes(&self, drop: &Drop) -> Check {
+        if drop.rotor.planes == 1 || drop.auxiliary_bearings.len() == 1 {
+            return Ok(());
+        }
+        Err(Box::new(
+            self.problem(
+                Code::Conflict,
+                "rotor.planes",
+                format!(
+                    "{} beside {} bearings in [[auxiliary_bearing]]",
+                    drop.rotor.planes,
+                    drop.auxiliary_bearings.len()
+                ),
+                "one of the two is needed: equal bearings by their number, others by their names"
+                    .to_string(),
+            ),
+        ))
+    }
+
+    fn air_clearance(&self, part: &AuxiliaryBearing) -> Check {
+        let contact = &part.contact;
         if contact.radial_air_clearance < 0.5 * contact.bore_diameter {
             return Ok(());
         }
@@ -37,8 +66,8 @@ impl Context<'_> {
     }
 
     /// A perturbed ball must stay in its pocket.
-    fn perturbed_balls(&self, drop: &Drop) -> Check {
-        let (repeat, bearing) = (&drop.repeat, &drop.bearing);
+    fn perturbed_balls(&self, drop: &Drop, part: &AuxiliaryBearing) -> Check {
+        let (repeat, bearing) = (&drop.repeat, &part.bearing);
         let shift = SPREAD * repeat.ball_angle_deviation * 0.5 * bearing.pitch_diameter;
         let (free, path) = match &bearing.separation {
             Separation::Cage(cage) => (cage.pocket_gap, "bearing.cage.pocket_gap"),
@@ -62,9 +91,9 @@ impl Context<'_> {
     }
 
     /// The geometric centre of the levitated rotor circles the centre of levitation; it must not touch before the release.
-    fn levitated_orbit(&self, drop: &Drop) -> Check {
+    fn levitated_orbit(&self, drop: &Drop, part: &AuxiliaryBearing) -> Check {
         let levitation = &drop.levitation;
-        let clearance = drop.contact.radial_air_clearance;
+        let clearance = part.contact.radial_air_clearance;
         let offset = levitation.offset_x.hypot(levitation.offset_y);
         let whirl = levitated_whirl_radius(drop);
         let repeat = &drop.repeat;
@@ -106,7 +135,7 @@ impl Context<'_> {
             return Ok(());
         }
         let rotor = &drop.rotor;
-        let share = rotor.mass / f64::from(rotor.planes);
+        let share = drop.share() * rotor.mass;
         let resonance = (levitation.stiffness / share).sqrt();
         let near = (0.7..1.4).contains(&(rotor.speed.abs() / resonance));
         let hint = near.then(|| {
@@ -142,7 +171,7 @@ fn levitated_whirl_radius(drop: &Drop) -> f64 {
     let (along, ahead) = whirl(
         levitation.stiffness,
         levitation.damping,
-        rotor.mass / f64::from(rotor.planes),
+        drop.share() * rotor.mass,
         rotor.speed,
         rotor.unbalance_eccentricity,
     );

@@ -31,7 +31,7 @@ words! {
     }
 }
 
-/// A levitated rotor that is released onto its auxiliary bearing. All values are SI.
+/// A levitated rotor that is released onto its auxiliary bearings. All values are SI.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drop {
     /// The rigid rotor.
@@ -40,16 +40,25 @@ pub struct Drop {
     pub gravity: Gravity,
     /// The magnetic bearing before the release.
     pub levitation: Levitation,
-    /// Contact of rotor and inner race.
-    pub contact: Contact,
-    /// Spring and damper between outer race and ground.
-    pub mount: Mount,
-    /// The auxiliary bearing.
-    pub bearing: Bearing,
+    /// The auxiliary bearings.
+    pub auxiliary_bearings: Vec<AuxiliaryBearing>,
     /// The simulation.
     pub run: Run,
     /// Repeated runs.
     pub repeat: Repeat,
+}
+
+/// An auxiliary bearing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AuxiliaryBearing {
+    /// Its name in the file; empty where the file tells no bearings apart.
+    pub name: String,
+    /// Contact of rotor and inner race.
+    pub contact: Contact,
+    /// Spring and damper between outer race and ground.
+    pub mount: Mount,
+    /// The bearing.
+    pub bearing: Bearing,
 }
 
 /// The rigid rotor as a whole, shared by all planes.
@@ -162,26 +171,18 @@ pub struct Repeat {
     pub radial_air_clearance_deviation: f64,
 }
 
-impl Repeat {
-    /// Whether the machines of the runs differ, and not their starts alone.
-    pub fn varies_the_machine(&self) -> bool {
-        self.random_unbalance_angle
-            || [
-                self.friction_coefficient_deviation,
-                self.mount_stiffness_deviation,
-                self.radial_air_clearance_deviation,
-            ]
-            .iter()
-            .any(|deviation| *deviation > 0.0)
-    }
-}
-
 impl Drop {
-    pub(crate) fn from_values(values: &Values) -> Drop {
+    /// What one auxiliary bearing carries of the rotor.
+    pub fn share(&self) -> f64 {
+        1.0 / (f64::from(self.rotor.planes) * self.auxiliary_bearings.len() as f64)
+    }
+
+    /// Of the values of each auxiliary bearing.
+    pub(crate) fn from_values(all: &[Values]) -> Drop {
+        let values = &all[0];
         let section = |path| Section { values, path };
         let gravity = section("gravity");
         let levitation = section("levitation");
-        let mount = section("mount");
         let repeat = section("repeat");
         Drop {
             rotor: rotor(&section("rotor")),
@@ -195,13 +196,7 @@ impl Drop {
                 offset_x: levitation.number("offset_x"),
                 offset_y: levitation.number("offset_y"),
             },
-            contact: contact(&section("contact")),
-            mount: Mount {
-                stiffness: mount.number("stiffness"),
-                damping: mount.number("damping"),
-                moving_mass: mount.number("moving_mass"),
-            },
-            bearing: bearing(values),
+            auxiliary_bearings: (all.iter()).map(auxiliary_bearing).collect(),
             run: Run::from_values(values),
             repeat: Repeat {
                 count: repeat.count("count") as u32,
@@ -215,6 +210,21 @@ impl Drop {
                 radial_air_clearance_deviation: repeat.number("radial_air_clearance_deviation"),
             },
         }
+    }
+}
+
+fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
+    let section = |path| Section { values, path };
+    let mount = section("mount");
+    AuxiliaryBearing {
+        name: values.bearing.clone().unwrap_or_default(),
+        contact: contact(&section("contact")),
+        mount: Mount {
+            stiffness: mount.number("stiffness"),
+            damping: mount.number("damping"),
+            moving_mass: mount.number("moving_mass"),
+        },
+        bearing: bearing(values),
     }
 }
 

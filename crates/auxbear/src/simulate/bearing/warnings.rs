@@ -138,7 +138,7 @@ pub(crate) fn law_range(bearing: &Bearing, speed: f64, load: f64) -> Vec<Warning
 }
 
 /// What the constants of a friction law take for granted of this bearing.
-pub(crate) fn moment(scenario: &Scenario, bearing: &Bearing) -> Vec<Warning> {
+pub(crate) fn moment(scenario: &Scenario, name: &str, bearing: &Bearing) -> Vec<Warning> {
     let mut list = Vec::new();
     let law = &bearing.moment;
     let (preload, counted) = (bearing.axial_preload, law.axial_load());
@@ -156,7 +156,7 @@ pub(crate) fn moment(scenario: &Scenario, bearing: &Bearing) -> Vec<Warning> {
             ),
         ));
     }
-    list.extend(constants(scenario, law, &bearing.rated()));
+    list.extend(constants(scenario, name, law, &bearing.rated()));
     list
 }
 
@@ -269,8 +269,12 @@ pub(crate) fn lift_off(bearing: &Bearing, speed: f64) -> Option<Warning> {
     ))
 }
 
-/// Everything that is assumed, in one line.
-pub(crate) fn assumed(scenario: &Scenario, bearing: &Bearing) -> Option<Warning> {
+/// Everything that is assumed of the whole file, or of one of several auxiliary bearings, in one line.
+pub(crate) fn assumed(
+    scenario: &Scenario,
+    name: Option<&str>,
+    bearing: &Bearing,
+) -> Option<Warning> {
     // what only skidding balls have
     let planar = ["bearing.cage.", "bearing.traction.", "bearing.drag."];
     let counts = |path: &str| {
@@ -278,6 +282,7 @@ pub(crate) fn assumed(scenario: &Scenario, bearing: &Bearing) -> Option<Warning>
     };
     let values = scenario.resolved.values.iter();
     let paths: Vec<&str> = values
+        .filter(|value| value.bearing.as_deref() == name)
         .filter(|value| value.provenance.mark() == "assumed" && counts(value.path))
         .map(|value| value.path)
         .collect();

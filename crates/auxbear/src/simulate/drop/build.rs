@@ -1,12 +1,12 @@
 //! From a drop to the constants of the model.
 
 use crate::problem::Problem;
-use crate::scenario::{Drop, Spin};
+use crate::scenario::several::path_of;
+use crate::scenario::{AuxiliaryBearing, Drop, Spin};
 use crate::simulate::bearing;
 use crate::simulate::bearing::pressure::PressureFactors;
 use crate::simulate::bearing::steady::{SteadyFinding, SteadyPoint};
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
-use model::bearing::BearingConstants;
 use model::contact::JournalContact;
 use model::levitation::Levitation;
 use model::mount::Mount;
@@ -21,38 +21,96 @@ use number::Vec2;
 pub struct Built {
     /// Constants of the model.
     pub constants: MachineConstants,
+    /// What the model does not hold of each auxiliary bearing.
+    pub bearings: Vec<BuiltBearing>,
+}
+
+/// What belongs to an auxiliary bearing besides the constants of the model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BuiltBearing {
     /// Hertz pressure in the contacts of a ball.
     pub pressure_factors: PressureFactors,
-    /// What traction can carry at full speed under the rotor's weight; none where the bearing has no steady moment.
+    /// What traction can carry at full speed under its share of the rotor's weight; none without a steady moment.
     pub steady: Option<SteadyFinding>,
 }
 
-/// Builds the constants of one plane of a drop: identical planes share the rotor equally.
+/// Builds the constants of a drop: identical planes share the rotor equally, so that one of them is computed.
 pub fn drop(drop: &Drop) -> Result<Built, Box<Problem>> {
+    let mut parts = Vec::new();
+    let mut bearings = Vec::new();
+    for part in &drop.auxiliary_bearings {
+        let (mut constants, built) = auxiliary_bearing(drop, part).map_err(|mut problem| {
+            let of = Some(part.name.as_str()).filter(|name| !name.is_empty());
+            problem.key = problem.key.map(|key| path_of(of, &key));
+            problem
+        })?;
+        // the results of an only bearing need no name
+        if drop.auxiliary_bearings.len() == 1 {
+            constants.name.clear();
+        }
+        parts.push(constants);
+        bearings.push(built);
+    }
+    Ok(Built {
+        constants: constants(drop, parts),
+        bearings,
+    })
+}
+
+fn auxiliary_bearing(
+    drop: &Drop,
+    part: &AuxiliaryBearing,
+) -> Result<(AuxiliaryBearingConstants, BuiltBearing), Box<Problem>> {
     let gravity = gravity(drop);
     let (sine, cosine) = drop.gravity.direction.sin_cos();
-    let contacts = bearing::contacts::ball_contacts(&drop.bearing)?;
-    let bearing = bearing::build::bearing(&drop.bearing, &contacts, gravity)?;
+    let contacts = bearing::contacts::ball_contacts(&part.bearing)?;
+    let constants = bearing::build::bearing(&part.bearing, &contacts, gravity)?;
     let steady = bearing::steady::steady(
-        &bearing,
-        &drop.bearing,
+        &constants,
+        &part.bearing,
         &InnerRace {
-            mass: drop.bearing.inner_race_mass,
-            inertia: drop.bearing.inner_race_inertia,
-            centre_held: drop.bearing.inner_race_centre_held,
+            mass: part.bearing.inner_race_mass,
+            inertia: part.bearing.inner_race_inertia,
+            centre_held: part.bearing.inner_race_centre_held,
             load_direction: Vec2::new(cosine, sine),
             gravity,
         },
         SteadyPoint {
             speed: drop.rotor.speed,
-            load: drop.rotor.mass / f64::from(drop.rotor.planes) * drop.gravity.acceleration,
+            load: drop.rotor.mass * drop.share() * drop.gravity.acceleration,
         },
     )?;
-    Ok(Built {
-        constants: constants(drop, bearing),
+    let built = BuiltBearing {
         pressure_factors: contacts.pressure_factors(),
         steady,
-    })
+    };
+    let contact = &part.contact;
+    let constants = AuxiliaryBearingConstants {
+        name: part.name.clone(),
+        contact: JournalContact {
+            radial_clearance: contact.radial_air_clearance,
+            bore_radius: 0.5 * contact.bore_diameter,
+            stiffness: contact.stiffness,
+            exponent: contact.exponent,
+            damping: contact.damping,
+            friction: contact.friction_coefficient,
+            inverse_reference_speed: 1.0 / contact.friction_reference_speed,
+        },
+        inner_race: RaceConstants {
+            mass: part.bearing.inner_race_mass,
+            inertia: part.bearing.inner_race_inertia,
+            centre_held: part.bearing.inner_race_centre_held,
+            torque: part.bearing.inner_race_torque,
+        },
+        bearing: constants,
+        outer_race_mass: part.mount.moving_mass,
+        mount: Mount {
+            stiffness: part.mount.stiffness,
+            damping: part.mount.damping,
+            free_position: Vec2::zero(),
+        },
+    };
+    Ok((constants, built))
 }
 
 fn gravity(drop: &Drop) -> Vec2<f64> {
@@ -60,9 +118,11 @@ fn gravity(drop: &Drop) -> Vec2<f64> {
     Vec2::new(cosine, sine) * drop.gravity.acceleration
 }
 
-/// The constants of a drop onto a bearing that is built already.
-pub fn constants(drop: &Drop, bearing: BearingConstants) -> MachineConstants {
+/// The constants of a drop onto auxiliary bearings that are built.
+fn constants(drop: &Drop, bearings: Vec<AuxiliaryBearingConstants>) -> MachineConstants {
+    // of planes that are alike one is computed, with its share of the rotor; bearings with names carry the whole of it
     let share = 1.0 / f64::from(drop.rotor.planes);
+    let each = bearings.len() as f64;
     let gravity = gravity(drop);
     let mass = drop.rotor.mass * share;
     let (brake_torque, brake_start) = match drop.rotor.spin {
@@ -77,37 +137,14 @@ pub fn constants(drop: &Drop, bearing: BearingConstants) -> MachineConstants {
             brake_torque,
             spin_held: drop.rotor.spin == Spin::Held,
         },
+        // a magnetic bearing stands beside each auxiliary one
         levitation: Levitation {
-            stiffness: drop.levitation.stiffness,
-            damping: drop.levitation.damping,
+            stiffness: drop.levitation.stiffness * each,
+            damping: drop.levitation.damping * each,
             centre: Vec2::new(drop.levitation.offset_x, drop.levitation.offset_y),
             carried: -(gravity * mass),
         },
-        bearings: vec![AuxiliaryBearingConstants {
-            name: String::new(),
-            contact: JournalContact {
-                radial_clearance: drop.contact.radial_air_clearance,
-                bore_radius: 0.5 * drop.contact.bore_diameter,
-                stiffness: drop.contact.stiffness,
-                exponent: drop.contact.exponent,
-                damping: drop.contact.damping,
-                friction: drop.contact.friction_coefficient,
-                inverse_reference_speed: 1.0 / drop.contact.friction_reference_speed,
-            },
-            inner_race: RaceConstants {
-                mass: drop.bearing.inner_race_mass,
-                inertia: drop.bearing.inner_race_inertia,
-                centre_held: drop.bearing.inner_race_centre_held,
-                torque: drop.bearing.inner_race_torque,
-            },
-            bearing,
-            outer_race_mass: drop.mount.moving_mass,
-            mount: Mount {
-                stiffness: drop.mount.stiffness,
-                damping: drop.mount.damping,
-                free_position: Vec2::zero(),
-            },
-        }],
+        bearings,
         gravity,
         speed: drop.rotor.speed,
         unbalance_angle: drop.rotor.unbalance_angle,

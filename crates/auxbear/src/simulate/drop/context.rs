@@ -1,6 +1,6 @@
 //! What the pages that name results need to know.
 
-use crate::scenario::Drop;
+use crate::scenario::{AuxiliaryBearing, Drop};
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::drop::build::Built;
 use crate::simulate::drop::ensemble::Finished;
@@ -23,6 +23,10 @@ impl<'a> Context<'a> {
         let parts = self.machine.constants.bearings.iter();
         parts.map(|part| part.name.as_str())
     }
+    /// What the scenario says of a bearing.
+    pub fn given(&self, bearing: usize) -> &'a AuxiliaryBearing {
+        &self.drop.auxiliary_bearings[bearing]
+    }
     pub fn record(&self, bearing: usize) -> &'a BearingRecord {
         &self.finished.record.bearings[bearing]
     }
@@ -36,7 +40,7 @@ impl<'a> Context<'a> {
                 .map(|kind| at.probe(kind)),
             cage_forces: [probe::LARGEST_POCKET_FORCE, probe::LAND_FORCE]
                 .map(|kind| at.probe(kind)),
-            pressure_factors: self.built.pressure_factors,
+            pressure_factors: self.built.bearings[bearing].pressure_factors,
             motion: Box::new(move |state| at.motion(state)),
             rows: self.finished.record.rows().collect(),
         }

@@ -20,6 +20,8 @@ pub struct Member {
     pub start: Vec<f64>,
     /// Whether its history is kept.
     pub keep_rows: bool,
+    /// Members of one kind have the same laws and the same states: lanes are for these alone.
+    pub kind: usize,
 }
 
 /// What came out of one member.
@@ -51,6 +53,33 @@ pub struct Plan<'a> {
 
 /// Runs all members; the results stand in their order.
 pub fn run(members: &[Member], plan: &Plan) -> Vec<Finished> {
+    let kinds = members.iter().map(|member| member.kind).max().unwrap_or(0) + 1;
+    if kinds == 1 {
+        return run_of_a_kind(members, plan);
+    }
+    let mut all: Vec<Option<Finished>> = members.iter().map(|_| None).collect();
+    let mut before = 0;
+    for kind in 0..kinds {
+        let places: Vec<usize> = (0..members.len())
+            .filter(|k| members[*k].kind == kind)
+            .collect();
+        let some: Vec<Member> = places.iter().map(|k| members[*k].clone()).collect();
+        let share = |done: f64| (before as f64 + done * some.len() as f64) / members.len() as f64;
+        let progress = |done: f64| (plan.progress)(share(done));
+        let plan = Plan {
+            progress: &progress,
+            ..*plan
+        };
+        for (place, finished) in places.iter().zip(run_of_a_kind(&some, &plan)) {
+            all[*place] = Some(finished);
+        }
+        before += some.len();
+    }
+    all.into_iter().flatten().collect()
+}
+
+/// Runs members that lanes may share.
+fn run_of_a_kind(members: &[Member], plan: &Plan) -> Vec<Finished> {
     let level = Level::detect();
     let done = AtomicU64::new(0);
     let report = Report {

@@ -4,6 +4,7 @@ pub mod build;
 pub(crate) mod columns;
 pub(crate) mod context;
 pub mod ensemble;
+pub(crate) mod members;
 pub(crate) mod method;
 pub(crate) mod quantities;
 pub(crate) mod warnings;
@@ -14,21 +15,20 @@ use crate::scenario::{Drop, Scenario};
 use crate::simulate::drop::build::Built;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{Finished, Member, Plan};
+use crate::simulate::drop::members::Varied;
 use crate::simulate::ending::{settings, stop};
-use model::system::machine::RotorMachine;
-use number::Vec2;
-use rand_distr::{Distribution, StandardNormal};
-use rand_xoshiro::Xoshiro256PlusPlus;
-use rand_xoshiro::rand_core::SeedableRng;
 use std::time::Instant;
 
 /// Runs a drop.
-pub(crate) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Options) -> Outcome {
-    let machine = RotorMachine::new(built.constants.clone());
+pub(crate) fn run(
+    scenario: &Scenario,
+    drop: &Drop,
+    built: &Built,
+    varied: &[Varied],
+    options: &Options,
+) -> Outcome {
     let count = drop.repeat.count.max(1) as usize;
-    let members: Vec<Member> = (0..count)
-        .map(|k| member(&machine, drop, built, k))
-        .collect();
+    let members: Vec<Member> = members::of(drop, built, varied);
     let implicit = method::is_implicit(drop, built);
     let clock = Instant::now();
     let finished = ensemble::run(
@@ -44,9 +44,13 @@ pub(crate) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Opt
     );
     let seconds = clock.elapsed().as_secs_f64();
 
+    let given = |k: usize| match k.checked_sub(1).and_then(|k| varied.get(k)) {
+        Some(varied) => (&varied.drop, &varied.built),
+        None => (drop, built),
+    };
     let context = |k: usize| Context {
-        drop,
-        built,
+        drop: given(k).0,
+        built: given(k).1,
         machine: &members[k].machine,
         finished: &finished[k],
         members: count,
@@ -54,10 +58,15 @@ pub(crate) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Opt
     let first = context(0);
     let mut named = quantities::name(&first);
     let mut table = Vec::new();
+    let mut drawn = Vec::new();
     if count > 1 {
         // a member that did not end as planned would pull every mean
-        table = (0..count)
-            .filter(|k| stop(&finished[*k].ending).complete())
+        let whole = || (0..count).filter(|k| stop(&finished[*k].ending).complete());
+        if !varied.is_empty() {
+            let draws = |k: usize| k.checked_sub(1).map(|k| varied[k].drawn.clone());
+            drawn = whole().map(|k| draws(k).unwrap_or_default()).collect();
+        }
+        table = whole()
             .map(|k| {
                 quantities::name(&context(k))
                     .into_iter()
@@ -81,79 +90,17 @@ pub(crate) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Opt
             .unwrap_or_else(|| "Drop of a levitated rotor".to_string()),
         quantities: named,
         history: columns::history(&first),
-        contacts: contacts(&finished[0]),
+        contacts: contacts(&first),
         warnings: warnings::of(scenario, &first, &finished),
         stop: worst_stop(&finished),
         work: work(&finished, seconds, implicit),
         members: table,
-        picture: Picture {
-            clearance: Some(drop.contact.radial_air_clearance),
-            pressure_limit: Some(drop.bearing.hertz_pressure_limit),
-            rolling_cage_ratio: machine.constants.bearings[0].bearing.rolling_cage_ratio(),
-            balls: drop.bearing.ball_count,
-        },
+        drawn,
+        pictures: (0..drop.auxiliary_bearings.len())
+            .map(|k| picture(&first, k))
+            .collect(),
         files: Vec::new(),
     }
-}
-
-/// Member `k`: the machine and start given for 0, else changed by numbers that depend on (seed, k) alone.
-fn member(machine: &RotorMachine, drop: &Drop, built: &Built, k: usize) -> Member {
-    if k == 0 {
-        return Member {
-            start: machine.start(),
-            machine: machine.clone(),
-            keep_rows: true,
-        };
-    }
-    let mut random = Xoshiro256PlusPlus::seed_from_u64(member_seed(drop.repeat.seed, k));
-    let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
-    let shift = Vec2::new(normal(), normal()) * drop.repeat.rotor_position_deviation;
-    let angles: Vec<f64> = (0..drop.bearing.ball_count)
-        .map(|_| normal() * drop.repeat.ball_angle_deviation)
-        .collect();
-    let machine = if drop.repeat.varies_the_machine() {
-        let varied = varied(drop, &mut normal);
-        RotorMachine::new(build::constants(
-            &varied,
-            built.constants.bearings[0].bearing.clone(),
-        ))
-    } else {
-        machine.clone()
-    };
-    let mut start = machine.start();
-    machine.perturb(&mut start, shift, &|_, ball| angles[ball]);
-    Member {
-        machine,
-        start,
-        keep_rows: false,
-    }
-}
-
-/// A machine of the same kind with other tolerances.
-fn varied(drop: &Drop, normal: &mut impl FnMut() -> f64) -> Drop {
-    let mut varied = drop.clone();
-    let repeat = &drop.repeat;
-    let mut factor = |deviation: f64| (deviation * normal()).exp();
-    varied.contact.friction_coefficient *= factor(repeat.friction_coefficient_deviation);
-    varied.mount.stiffness *= factor(repeat.mount_stiffness_deviation);
-    varied.contact.radial_air_clearance *= factor(repeat.radial_air_clearance_deviation);
-    // the direction of two normal numbers is uniform
-    let (x, y) = (normal(), normal());
-    if repeat.random_unbalance_angle {
-        varied.rotor.unbalance_angle = y.atan2(x);
-    }
-    varied
-}
-
-/// The seed of a member: (study seed, k) mixed so that neighbouring pairs share nothing.
-fn member_seed(seed: u64, k: usize) -> u64 {
-    // finaliser of SplitMix64, twice
-    let mix = |mut x: u64| {
-        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        x ^ (x >> 31)
-    };
-    mix(mix(seed.wrapping_add(0x9e37_79b9_7f4a_7c15)).wrapping_add(k as u64))
 }
 
 fn spread(members: &[Vec<(String, Option<f64>)>], name: &str) -> Option<Spread> {
@@ -164,17 +111,34 @@ fn spread(members: &[Vec<(String, Option<f64>)>], name: &str) -> Option<Spread> 
     Spread::of(values)
 }
 
-fn contacts(finished: &Finished) -> Vec<Contact> {
-    finished.record.bearings[0]
-        .contacts
-        .iter()
-        .map(|c| Contact {
-            start: c.start,
-            end: c.end,
-            peak_force: c.peak_force,
-            peak_time: c.peak_time,
+/// What pictures need of an auxiliary bearing.
+fn picture(context: &Context, k: usize) -> Picture {
+    let part = &context.machine.constants.bearings[k];
+    let given = context.given(k);
+    Picture {
+        bearing: part.name.clone(),
+        clearance: Some(given.contact.radial_air_clearance),
+        pressure_limit: Some(given.bearing.hertz_pressure_limit),
+        rolling_cage_ratio: part.bearing.rolling_cage_ratio(),
+        balls: given.bearing.ball_count,
+    }
+}
+
+/// The contacts of all auxiliary bearings, in order.
+fn contacts(context: &Context) -> Vec<Contact> {
+    let mut all: Vec<Contact> = (context.parts().enumerate())
+        .flat_map(|(k, name)| {
+            context.record(k).contacts.iter().map(move |c| Contact {
+                bearing: name.to_string(),
+                start: c.start,
+                end: c.end,
+                peak_force: c.peak_force,
+                peak_time: c.peak_time,
+            })
         })
-        .collect()
+        .collect();
+    all.sort_by(|a, b| a.start.total_cmp(&b.start));
+    all
 }
 
 /// The ending of the unperturbed run; if that is whole, of the first member that is not.

@@ -114,7 +114,7 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
         cage: [record.largest_pocket_force, record.largest_land_force],
     };
     let run = context.bearing(k);
-    list.balls(&run, &forces, &context.drop.bearing, &end);
+    list.balls(&run, &forces, &context.given(k).bearing, &end);
 
     // displacements and whirl
     list.number(

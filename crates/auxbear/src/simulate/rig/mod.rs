@@ -82,12 +82,14 @@ pub(crate) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
             method: Some(method::EXPLICIT),
         },
         members: Vec::new(),
-        picture: Picture {
+        drawn: Vec::new(),
+        pictures: vec![Picture {
+            bearing: String::new(),
             clearance: None,
             pressure_limit: Some(rig.bearing.hertz_pressure_limit),
             rolling_cage_ratio,
             balls: rig.bearing.ball_count,
-        },
+        }],
         files: raw_file::files(rig, &title, raw, rolling_cage_ratio, rested(rig, &happened)),
         title,
     }

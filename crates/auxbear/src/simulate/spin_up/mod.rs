@@ -57,12 +57,14 @@ pub(crate) fn run(
             method: Some(method::EXPLICIT),
         },
         members: Vec::new(),
-        picture: Picture {
+        drawn: Vec::new(),
+        pictures: vec![Picture {
+            bearing: String::new(),
             clearance: None,
             pressure_limit: Some(spin_up.bearing.hertz_pressure_limit),
             rolling_cage_ratio: built.machine.constants.bearing.rolling_cage_ratio(),
             balls: spin_up.bearing.ball_count,
-        },
+        }],
         files: Vec::new(),
     }
 }

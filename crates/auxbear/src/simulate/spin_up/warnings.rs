@@ -54,8 +54,8 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     list.extend(shared::cage_inertia(bearing));
     list.extend(shared::rolling(bearing));
     list.extend(shared::no_moment(bearing));
-    list.extend(shared::moment(scenario, bearing));
+    list.extend(shared::moment(scenario, "", bearing));
     list.extend(shared::kind(bearing));
-    list.extend(shared::assumed(scenario, bearing));
+    list.extend(shared::assumed(scenario, None, bearing));
     list
 }
