@@ -153,6 +153,9 @@ function spreadOrigin(run) {
   const by = [position && inputText(position.value), angle && inputText(angle.value)].filter(Boolean).join(" and ");
   const varied = ["friction_coefficient", "mount_stiffness", "radial_air_clearance"].filter((name) => Number((inputOf(run, `repeat.${name}_deviation`) || {}).value) > 0).map((name) => name.replaceAll("_", " "));
   if ((inputOf(run, "repeat.unbalance_angle") || {}).value === "random") varied.push("direction of the unbalance");
+  const drawn = list(run.summary.drawn).flatMap((draws) => Object.keys(draws || {}));
+  const known = ["contact.friction_coefficient", "mount.stiffness", "contact.radial_air_clearance", "rotor.unbalance_angle"];
+  varied.push(...new Set(drawn.filter((path) => !known.some((other) => path.endsWith(other)) || !varied.length)));
   if (varied.length) return `spread of machines that differ in ${varied.join(", ")}, and of starts perturbed by ${by} (see repeat.*)`;
   return `spread of starts perturbed by ${by || "tiny amounts"} (see repeat.*): shows numerical chaos, not tolerances of the machine`;
 }

@@ -12,7 +12,7 @@ function decodeColumn(column) {
   return { name: column.name, unit: column.unit, meaning: column.meaning, values };
 }
 
-function readRun(text, index, count) {
+function readRun(text) {
   const raw = JSON.parse(text);
   let summary = {};
   let summaryProblem = null;
@@ -24,13 +24,9 @@ function readRun(text, index, count) {
     summaryProblem = "summary.json cannot be read (" + problem.message + ")";
   }
   const columns = new Map(list(raw.columns).map((column) => [column.name, decodeColumn(column)]));
-  const letter = String.fromCharCode(65 + index);
   const name = raw.name || summary.title || raw.directory || "run";
   return {
-    letter,
     name,
-    label: count > 1 ? letter + " · " + name : name,
-    prefix: count > 1 ? letter + " " : "",
     directory: raw.directory,
     scenario: raw.scenario,
     summary,
@@ -38,16 +34,40 @@ function readRun(text, index, count) {
     columns,
     rows: raw.rows,
     rowsTotal: raw.rows_total,
-    colour: RUN_COLOURS[index % RUN_COLOURS.length],
     time: columns.has("time") ? columns.get("time").values : null,
     contacts: list(summary.contacts).filter((contact) => contact && isNumber(contact.start_s)),
     quantities: summary.quantities && typeof summary.quantities === "object" ? summary.quantities : {},
   };
 }
 
+// A run on several bearings as one run for each: what carries the bearing's name loses it, what carries another's is left out.
+function ofBearing(run, bearing, names) {
+  const start = `${bearing.name}.`;
+  const of = (entries) => entries.filter(([name]) => name.startsWith(start) || !names.some((other) => name.startsWith(`${other}.`))).map(([name, value]) => [name.startsWith(start) ? name.slice(start.length) : name, value]);
+  const section = `auxiliary_bearing.${start}`;
+  const inputs = list(run.summary.inputs).filter((input) => input && !(input.path.startsWith("auxiliary_bearing.") && !input.path.startsWith(section)));
+  const plain = inputs.map((input) => (input.path.startsWith(section) ? { ...input, path: input.path.slice(section.length) } : input));
+  return {
+    ...run,
+    name: `${run.name}, ${bearing.name}`,
+    columns: new Map(of([...run.columns]).map(([name, column]) => [name, { ...column, name }])),
+    contacts: run.contacts.filter((contact) => contact.auxiliary_bearing === bearing.name),
+    quantities: Object.fromEntries(of(Object.entries(run.quantities))),
+    summary: { ...run.summary, ...bearing, inputs: plain },
+  };
+}
+
 function readRuns() {
   const blocks = [...document.querySelectorAll("script.run")];
-  return blocks.map((block, index) => readRun(block.textContent, index, blocks.length));
+  const runs = blocks.map((block) => readRun(block.textContent)).flatMap((run) => {
+    const bearings = list(run.summary.auxiliary_bearings).filter((bearing) => bearing && bearing.name);
+    return bearings.length ? bearings.map((bearing) => ofBearing(run, bearing, bearings.map(({ name }) => name))) : [run];
+  });
+  return runs.map((run, index) => {
+    const letter = String.fromCharCode(65 + index);
+    const several = runs.length > 1;
+    return { ...run, letter, label: several ? letter + " · " + run.name : run.name, prefix: several ? letter + " " : "", colour: RUN_COLOURS[index % RUN_COLOURS.length] };
+  });
 }
 
 // The values of a column, or null when the run lacks it, its time or any number in it.
