@@ -3,6 +3,8 @@
 mod arguments;
 mod bearings;
 mod console;
+mod digits;
+mod exit;
 mod measured;
 mod progress;
 mod run;
@@ -10,6 +12,7 @@ mod schema;
 mod start;
 mod summary;
 mod torque;
+mod torque_tables;
 
 use arguments::{Arguments, Command};
 use auxbear::problem::{Code, Problem};
@@ -18,32 +21,9 @@ use auxbear::run::panic_is_caught;
 use auxbear::scenario::{BuiltIn, Scenario, SystemName};
 use auxbear::validate::{self, Simulation};
 use clap::Parser;
+use exit::Exit;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-
-/// How the command ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Exit {
-    /// All done.
-    Done,
-    /// The run failed, or results could not be kept; for `validate`, a case failed.
-    Failed,
-    /// The input is wrong.
-    WrongInput,
-    /// Interrupted; what was computed is kept.
-    Interrupted,
-}
-
-impl From<Exit> for ExitCode {
-    fn from(exit: Exit) -> ExitCode {
-        ExitCode::from(match exit {
-            Exit::Done => 0,
-            Exit::Failed => 1,
-            Exit::WrongInput => 2,
-            Exit::Interrupted => 130,
-        })
-    }
-}
 
 fn main() -> ExitCode {
     measured_quietly();

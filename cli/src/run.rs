@@ -1,8 +1,9 @@
 //! `auxbear run`.
 
 use crate::arguments::Run;
+use crate::exit::Exit;
 use crate::progress::Progress;
-use crate::{Exit, console, summary};
+use crate::{console, summary};
 use auxbear::problem::{Code, Problem};
 use auxbear::report::directory::{NewDirectory, free_path};
 use auxbear::result::outcome::Stop;

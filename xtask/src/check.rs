@@ -2,8 +2,8 @@
 
 use crate::repository::{Outcome, Repository};
 use crate::{
-    architecture, book, crate_directions, documentation, licences, module_order, scenarios,
-    source_text, toolchain,
+    architecture, book, circles, crate_directions, documentation, licences, module_order,
+    scenarios, source_text, toolchain,
 };
 use std::process::ExitCode;
 use std::time::Instant;
@@ -19,9 +19,10 @@ pub enum Extent {
 
 type Guard = (&'static str, fn(&Repository) -> Outcome);
 
-const FAST: [Guard; 8] = [
+const FAST: [Guard; 9] = [
     ("crate directions", crate_directions::check),
     ("module order", module_order::check),
+    ("no circles", circles::check),
     ("architecture page", architecture::check),
     ("book", book::check),
     ("documentation rules", documentation::check),

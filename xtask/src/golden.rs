@@ -5,7 +5,7 @@
 //! itself is a regression test, no validation.
 
 use crate::repository::Repository;
-use crate::scenarios;
+use crate::shipped;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 use std::process::ExitCode;
@@ -125,11 +125,11 @@ pub fn write() -> ExitCode {
 
 fn written() -> Result<(), String> {
     let repository = Repository::open()?;
-    let program = scenarios::build(&repository).map_err(|lines| lines.join("\n"))?;
+    let program = shipped::build(&repository).map_err(|lines| lines.join("\n"))?;
     let folder = std::env::temp_dir().join(format!("auxbear-golden-{}", std::process::id()));
     let mut golden = Map::new();
     for (name, _) in SCENARIOS {
-        let summary = scenarios::summary_of(&repository.root, &program, name, &folder)?;
+        let summary = shipped::summary_of(&repository.root, &program, name, &folder)?;
         let kept = kept(name, &summary).unwrap_or_default();
         golden.insert(name.to_owned(), kept);
     }

@@ -4,6 +4,7 @@ mod architecture;
 mod bench;
 mod book;
 mod check;
+mod circles;
 mod crate_directions;
 mod docs;
 mod documentation;
@@ -13,6 +14,7 @@ mod module_order;
 mod repository;
 mod rust_text;
 mod scenarios;
+mod shipped;
 mod source_text;
 mod toolchain;
 

@@ -9,7 +9,7 @@
 //!   probes       of each bearing, then the details of each
 //! ```
 
-use super::MachineConstants;
+use super::constants::MachineConstants;
 use crate::auxiliary_bearing::{self, BearingAt, lay_races, probe};
 use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
 use crate::system::layout;

@@ -22,6 +22,7 @@
 //! Assumes: a rotor that is a point with spin, so that all its bearings see the same motion. Bearings that are equal may be
 //! computed as one that carries its share of the rotor's mass, polar inertia and torques.
 
+pub mod constants;
 pub mod layout;
 pub mod ledger;
 pub mod linear;
@@ -29,39 +30,13 @@ pub mod rate;
 pub mod record;
 pub mod start;
 
-use crate::auxiliary_bearing::{AuxiliaryBearing, AuxiliaryBearingConstants};
+use crate::auxiliary_bearing::AuxiliaryBearing;
 use crate::levitation::Levitation;
 use crate::rotor::Rotor;
-use crate::schedule::Schedule;
+pub use constants::{Event, MachineConstants};
 use layout::Layout;
 use number::{Gather, Real, Vec2};
 use solve::{Batch, Machine};
-
-/// Constants of one machine.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MachineConstants {
-    /// The rotor, or its share of one of several equal bearings.
-    pub rotor: Rotor<f64>,
-    /// Levitation, active before release only.
-    pub levitation: Levitation<f64>,
-    /// The auxiliary bearings, one at least.
-    pub bearings: Vec<AuxiliaryBearingConstants>,
-    /// Gravity, m/s².
-    pub gravity: Vec2<f64>,
-    /// Spin of the rotor at release, rad/s.
-    pub speed: f64,
-    /// Angle of the unbalance at release, rad.
-    pub unbalance_angle: f64,
-    /// What happens, and when.
-    pub schedule: Schedule<Event>,
-}
-
-/// Something that happens at a known instant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Event {
-    /// The brake of the rotor comes on.
-    Brake,
-}
 
 /// Discrete facts of a machine: 1 for on, 0 for off.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,15 +119,6 @@ impl<R: Real> Machines<R> {
             inverse_mass: R::from_lanes(|lane| 1.0 / constants(lane).rotor.mass),
             inverse_polar_inertia: R::from_lanes(|lane| 1.0 / constants(lane).rotor.polar_inertia),
             layout,
-        }
-    }
-}
-
-impl MachineConstants {
-    /// Chooses where the springs of all mounts are free, so that each carries its bearing's weight.
-    pub fn balance_mounts(&mut self) {
-        for part in &mut self.bearings {
-            part.balance_mount(self.gravity);
         }
     }
 }

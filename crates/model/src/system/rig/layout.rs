@@ -14,7 +14,7 @@
 //! the balls.
 //! What a converter samples comes first: it is cheap to read between two steps ([`taps`](super::taps)).
 
-use super::RigConstants;
+use super::constants::RigConstants;
 use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
 use crate::system::layout;
 use crate::system::outer_race::WORKS;

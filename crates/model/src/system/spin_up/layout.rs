@@ -10,7 +10,7 @@
 //! The work `other` of [`WORKS`] is that of t_g Ω - (c_i × F)Ω + F·v_i and of the growth of the race: drags to the ground, weight,
 //! a race that moves or grows.
 
-use super::SpinUpConstants;
+use super::constants::SpinUpConstants;
 use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
 use crate::system::layout;
 use crate::system::outer_race::WORKS;
