@@ -2,6 +2,7 @@
 
 use std::io::Read;
 
+use super::checksum::fletcher32;
 use super::fields::Fields;
 
 /// One filter of a chunked dataset.
@@ -89,6 +90,10 @@ pub(super) fn undo(
             Filter::Shuffle { size } => unshuffle(&bytes, *size)?,
             Filter::Checksum => {
                 let kept = bytes.len().checked_sub(4)?;
+                let sum = fletcher32(&bytes[..kept]).to_le_bytes();
+                // Old writers on machines of the other byte order swapped the bytes in pairs.
+                let swapped = [sum[1], sum[0], sum[3], sum[2]];
+                (bytes[kept..] == sum || bytes[kept..] == swapped).then_some(())?;
                 bytes.truncate(kept);
                 bytes
             }
@@ -100,9 +105,9 @@ pub(super) fn undo(
 
 fn inflate(bytes: &[u8], size: usize) -> Option<Vec<u8>> {
     let mut out = Vec::new();
-    // A checksum may stand behind the values, so a few more bytes than they are taken.
+    // A checksum may stand behind the values; a byte more is wanted, so that the end of the stream is read and verified.
     flate2::read::ZlibDecoder::new(bytes)
-        .take(size as u64 + 4)
+        .take(size as u64 + 5)
         .read_to_end(&mut out)
         .ok()?;
     Some(out)

@@ -8,7 +8,8 @@
 //! | module | what it does |
 //! |---|---|
 //! | `fields` | numbers and texts of a piece of the file |
-//! | `storage` | superblock, addresses, bounds on what is read |
+//! | `checksum` | the sums over structure and over values |
+//! | `storage` | superblock, addresses, sums and bounds of what is read |
 //! | `header` | object headers of both versions |
 //! | `tree` | B-trees of both versions |
 //! | `heap` | local, global and fractal heaps |
@@ -30,6 +31,7 @@
 //! Source: The HDF Group, HDF5 File Format Specification Version 3.0 (from memory).
 
 mod attribute;
+mod checksum;
 mod chunks;
 mod dataset;
 mod datatype;
