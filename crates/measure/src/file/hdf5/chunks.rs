@@ -200,11 +200,11 @@ impl<S: Read + Seek> Storage<S> {
         let page = 1u64 << bits;
         let owner = Owner { at, offset_size: 0 };
         if count <= page {
-            let bytes = self.table_block(&owner, b"FADB", block, None, count * entry as u64)?;
+            let bytes = self.table_block(&owner, b"FADB", block, count * entry as u64)?;
             return table.fill(self, 0, &bytes);
         }
         let pages = count.div_ceil(page);
-        let bitmap = self.table_block(&owner, b"FADB", block, None, pages.div_ceil(8))?;
+        let bitmap = self.table_block(&owner, b"FADB", block, pages.div_ceil(8))?;
         let around = (6 + self.address_size) as u64 + bitmap.len() as u64 + 4;
         let mut address = block.saturating_add(around);
         for number in 0..pages {
@@ -260,7 +260,6 @@ impl<S: Read + Seek> Storage<S> {
                 at,
                 offset_size: most_bits.div_ceil(8) as usize,
             },
-            in_index,
             page: 1 << page_bits,
             count,
         };
@@ -271,7 +270,7 @@ impl<S: Read + Seek> Storage<S> {
         let direct = 2 * (pointers - 1);
         let above = u64::from(levels.saturating_sub(direct_levels));
         let size = in_index * entry + (direct + above) * self.address_size as u64;
-        let bytes = self.table_block(&blocks.owner, b"EAIB", block, None, size)?;
+        let bytes = self.table_block(&Owner { at, offset_size: 0 }, b"EAIB", block, size)?;
         let own = (in_index * entry) as usize;
         table.fill(self, 0, &bytes[..own])?;
         let mut fields = self.fields(&bytes[own..]);
@@ -298,8 +297,7 @@ impl<S: Read + Seek> Storage<S> {
                 if let Some(address) = address {
                     let bitmaps = here.saturating_mul(pages);
                     let size = bitmaps.saturating_add(here * self.address_size as u64);
-                    let start = position - in_index;
-                    let bytes = self.table_block(&blocks.owner, b"EASB", address, Some(start), size)?;
+                    let bytes = self.table_block(&blocks.owner, b"EASB", address, size)?;
                     let (bitmaps, addresses) = bytes.split_at(bitmaps as usize);
                     let mut fields = self.fields(addresses);
                     for block in 0..here {
@@ -329,15 +327,13 @@ impl<S: Read + Seek> Storage<S> {
             return Ok(());
         };
         let entry = table.entry as u64;
-        // Blocks count from behind the elements of the index block.
-        let start = Some(position - blocks.in_index);
         let owner = &blocks.owner;
         if length <= blocks.page {
-            let bytes = self.table_block(owner, b"EADB", address, start, length * entry)?;
+            let bytes = self.table_block(owner, b"EADB", address, length * entry)?;
             let here = length.min(blocks.count - position) * entry;
             return table.fill(self, position, &bytes[..here as usize]);
         }
-        self.table_block(owner, b"EADB", address, start, 0)?;
+        self.table_block(owner, b"EADB", address, 0)?;
         let around = (6 + self.address_size + owner.offset_size + 4) as u64;
         let first = address.saturating_add(around);
         for number in 0..length / blocks.page {
@@ -356,26 +352,23 @@ impl<S: Read + Seek> Storage<S> {
         Ok(())
     }
 
-    /// What stands in a block of a table behind its head, of `size` bytes: the block carries its signature, the address
-    /// of the table, where it tells one its offset, and behind all a checksum.
+    /// The `size` bytes behind the head of a block, which carries its signature, the address of its table and an offset,
+    /// and behind them the checksum of all.
     fn table_block(
         &mut self,
         owner: &Owner,
         signature: &[u8; 4],
         address: u64,
-        offset: Option<u64>,
         size: u64,
     ) -> Result<Vec<u8>, FileError> {
-        let offset_size = if offset.is_some() { owner.offset_size } else { 0 };
-        let head = 6 + self.address_size + offset_size;
+        let head = 6 + self.address_size + owner.offset_size;
         let bytes = self.sealed(address, size.saturating_add(head as u64), WHAT)?;
         let mut fields = self.fields(&bytes);
         let belongs = (|| {
             fields.expect(signature)?;
             fields.expect(&[0])?;
             fields.skip(1)?;
-            (fields.address()?? == owner.at).then_some(())?;
-            (fields.whole(offset_size)? == offset.unwrap_or(0)).then_some(())
+            (fields.address()?? == owner.at).then_some(())
         })();
         belongs.ok_or_else(|| self.damaged(address, WHAT))?;
         Ok(bytes[head..].to_vec())
@@ -385,16 +378,15 @@ impl<S: Read + Seek> Storage<S> {
 /// Sizes that all blocks of an extensible array share.
 struct Blocks {
     owner: Owner,
-    in_index: u64,
     page: u64,
     count: u64,
 }
 
-/// The table to which a block belongs.
+/// What the head of a block tells of the table to which it belongs.
 struct Owner {
-    /// Address of its header.
+    /// Address of the header of the table.
     at: u64,
-    /// Bytes of an offset in its blocks.
+    /// Bytes of the offset of the block.
     offset_size: usize,
 }
 

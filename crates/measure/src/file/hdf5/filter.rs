@@ -12,7 +12,7 @@ pub(super) enum Filter {
     Deflate,
     /// Bytes of equal rank together.
     Shuffle { size: usize },
-    /// A checksum of four bytes behind.
+    /// Fletcher32: a checksum of four bytes behind.
     Checksum,
     /// LZF of h5py.
     Lzf,
@@ -171,6 +171,21 @@ mod tests {
         let back = unshuffle(&shuffled, 2).unwrap();
         assert_eq!(back, [1, 0x10, 2, 0x20, 3, 0x30, 9]);
         assert_eq!(unshuffle(&[7], 8).unwrap(), [7]);
+    }
+
+    #[test]
+    fn a_stream_with_a_wrong_checksum_or_end_is_refused() {
+        use std::io::Write;
+        let mut packer = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::fast());
+        packer.write_all(&[7; 100]).unwrap();
+        let packed = packer.finish().unwrap();
+        let undone = |bytes: &[u8]| undo(&[Filter::Deflate], 0, bytes.to_vec(), 100);
+        assert_eq!(undone(&packed).unwrap(), [7; 100]);
+        let end = packed.len() - 1;
+        assert_eq!(undone(&packed[..end]), None);
+        let mut changed = packed;
+        changed[end] ^= 1;
+        assert_eq!(undone(&changed), None);
     }
 
     #[test]

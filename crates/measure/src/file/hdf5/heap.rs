@@ -247,7 +247,10 @@ impl<S: Read + Seek> Storage<S> {
         if heap.rows == 0 {
             // A heap with a single block has one of the smallest size.
             let size = heap.start_size;
-            return Ok(Some((self.block(heap, root, 0, BlockKind::Direct(size))?, 0)));
+            return Ok(Some((
+                self.block(heap, root, 0, BlockKind::Direct(size))?,
+                0,
+            )));
         }
         let (mut address, mut start, mut rows) = (root, 0u64, heap.rows);
         // Each level of indirect blocks has fewer rows than the one above.

@@ -108,7 +108,10 @@ pub(super) fn survey<S: Read + Seek>(
             } else if depth < DEEPEST {
                 below.push((format!("{name}/"), address, depth + 1));
             } else {
-                found.note(&name, format!("stands below {DEEPEST} groups; it is left out"));
+                found.note(
+                    &name,
+                    format!("stands below {DEEPEST} groups; it is left out"),
+                );
             }
         }
         groups.extend(below.into_iter().rev());
