@@ -46,7 +46,7 @@ function quantityTile(run, title, name, note, state) {
 function stateTile(run) {
   const stop = run.summary.stop || {};
   const complete = run.summary.complete === true;
-  const time = isNumber(stop.time_s) && !isTorque(run) ? engineeringText(stop.time_s, "s", 4) : "";
+  const time = isNumber(stop.time_s) && systemOf(run).time ? engineeringText(stop.time_s, "s", 4) : "";
   const reason = stop.text || stop.reason || run.summaryProblem || "the summary does not say";
   return tile("Run", complete ? "complete" : "not complete", [[time, reason].filter(Boolean).join(": ")], verdictState(run, !complete));
 }
@@ -189,8 +189,9 @@ function header(runs) {
     const key = single ? null : element("span", { class: "swatch", style: "background:" + run.colour });
     const origin = spreadOrigin(run);
     const about = element("p", { class: "subtitle" }, key, single ? null : element("strong", {}, run.label + "  "), facts.filter(Boolean).join(" · "));
-    const line = isIdentify(run) ? identifyLine(run) : isRig(run) ? rigLine(run) : isSignals(run) ? signalsLine(run) : isTorque(run) ? torqueLine(run) : isSpinUp(run) ? spinUpLine(run) : machineLine(run);
-    parts.push(single ? [line, about] : [about, line], isIdentify(run) ? identifyVerdict(run) : isRig(run) ? rigVerdict(run) : isSignals(run) ? signalsVerdict(run) : isTorque(run) ? torqueVerdict(run) : isSpinUp(run) ? spinUpVerdict(run) : verdict(run), origin ? element("p", { class: "small" }, "Large numbers: the unperturbed run. Below them: " + origin + ".") : null);
+    const own = systemOf(run);
+    const line = own.line(run);
+    parts.push(single ? [line, about] : [about, line], own.verdict(run), origin ? element("p", { class: "small" }, "Large numbers: the unperturbed run. Below them: " + origin + ".") : null);
   }
   parts.push(warningBox(runs));
   return element("header", {}, parts);

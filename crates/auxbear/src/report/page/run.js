@@ -1,5 +1,31 @@
 // The runs as the page received them, and safe access to what may be absent.
 
+// What each system shows, registered by its own script: the line and the tiles of the header; the words of its time axis, null
+// where nothing depends on time; sections, each with its place among those of all systems: [place, build, runs that have it].
+const SYSTEMS = {};
+
+function register(system, parts) {
+  SYSTEMS[system] = parts;
+}
+
+function systemOf(run) {
+  return SYSTEMS[run.summary.system] || SYSTEMS.drop;
+}
+
+// Sections that systems share stand once, with the runs of all of them.
+function sectionsOf(runs) {
+  const found = new Map();
+  for (const parts of Object.values(SYSTEMS)) {
+    const own = runs.filter((run) => systemOf(run) === parts);
+    for (const [place, build, some] of own.length ? parts.sections(own) : []) {
+      if (!found.has(build)) found.set(build, { place, runs: new Set() });
+      for (const run of some) found.get(build).runs.add(run);
+    }
+  }
+  const inOrder = [...found].sort(([, one], [, other]) => one.place - other.place);
+  return inOrder.map(([build, { runs: some }]) => [build, runs.filter((run) => some.has(run))]);
+}
+
 function decodeColumn(column) {
   const bytes = Uint8Array.from(atob(column.data), (letter) => letter.charCodeAt(0));
   const view = new DataView(bytes.buffer);
