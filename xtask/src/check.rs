@@ -3,7 +3,7 @@
 use crate::repository::{Outcome, Repository};
 use crate::{
     architecture, book, circles, crate_directions, documentation, licences, module_order,
-    scenarios, source_text, toolchain,
+    scenarios, source_text, toolchain, validation_cases,
 };
 use std::process::ExitCode;
 use std::time::Instant;
@@ -19,10 +19,11 @@ pub enum Extent {
 
 type Guard = (&'static str, fn(&Repository) -> Outcome);
 
-const FAST: [Guard; 9] = [
+const FAST: [Guard; 10] = [
     ("crate directions", crate_directions::check),
     ("module order", module_order::check),
     ("no circles", circles::check),
+    ("reference cases", validation_cases::check),
     ("architecture page", architecture::check),
     ("book", book::check),
     ("documentation rules", documentation::check),

@@ -17,6 +17,7 @@ mod scenarios;
 mod shipped;
 mod source_text;
 mod toolchain;
+mod validation_cases;
 
 use std::process::ExitCode;
 
