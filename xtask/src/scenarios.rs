@@ -111,13 +111,4 @@ mod tests {
         assert!(faults_of("{\"system\": \"torque\", \"complete\": true}").is_empty());
         assert_eq!(faults_of("half").len(), 1);
     }
-    #[test]
-    fn the_program_is_found_among_the_messages() {
-        let messages = "{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"auxbear\",\"kind\":[\"lib\"]},\"executable\":null}\n{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"auxbear\",\"kind\":[\"bin\"]},\"executable\":\"target/release/auxbear\"}\n{\"reason\":\"build-finished\"}\n";
-        assert_eq!(
-            executable(messages),
-            Some(PathBuf::from("target/release/auxbear"))
-        );
-        assert_eq!(executable("{\"reason\":\"build-finished\"}"), None);
-    }
 }

@@ -70,3 +70,18 @@ pub fn call(folder: &Path, program: &Path, words: &[&str]) -> Vec<String> {
         .map(|line| format!("auxbear {}: {line}", words[..words.len().min(2)].join(" ")))
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_program_is_found_among_the_messages() {
+        let messages = "{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"auxbear\",\"kind\":[\"lib\"]},\"executable\":null}\n{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"auxbear\",\"kind\":[\"bin\"]},\"executable\":\"target/release/auxbear\"}\n{\"reason\":\"build-finished\"}\n";
+        assert_eq!(
+            executable(messages),
+            Some(PathBuf::from("target/release/auxbear"))
+        );
+        assert_eq!(executable("{\"reason\":\"build-finished\"}"), None);
+    }
+}

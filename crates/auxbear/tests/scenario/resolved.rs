@@ -239,8 +239,9 @@ fn choices_become_typed_values() {
             "bearing.traction.c=5 s/m",
             "bearing.traction.d=0.07",
         ])
-        .bearing
-        .traction,
+        .auxiliary_bearings[0]
+            .bearing
+            .traction,
         Traction::FourParameter {
             a: -0.07,
             b: 0.35,
@@ -255,8 +256,9 @@ fn choices_become_typed_values() {
             "bearing.traction.static=0.2",
             "bearing.traction.decay_speed=0.5 m/s",
         ])
-        .bearing
-        .traction,
+        .auxiliary_bearings[0]
+            .bearing
+            .traction,
         Traction::Dry {
             kinetic_coefficient: 0.1,
             static_coefficient: 0.2,
@@ -272,7 +274,9 @@ fn choices_become_typed_values() {
         "bearing.moment.f1_factor=9e-4",
         "bearing.moment.f1_exponent=0.55",
     ])
-    .bearing;
+    .auxiliary_bearings[0]
+        .bearing
+        .clone();
     assert_eq!(rolling.fidelity, Fidelity::Rolling);
     assert_eq!(
         rolling.moment,
@@ -291,19 +295,23 @@ fn choices_become_typed_values() {
         "bearing.ball_material=silicon nitride",
         "bearing.name=6005 hybrid",
     ] {
-        let hybrid = drop(&[hybrid]).bearing;
+        let hybrid = drop(&[hybrid]).auxiliary_bearings[0].bearing.clone();
         assert_eq!(hybrid.ball_material, BallMaterial::SiliconNitride);
         // its steel races dent at the limit for steel, which is assumed
         assert_eq!(hybrid.hertz_pressure_limit, 4.2e9);
     }
     // A linear contact, a power with decimals, and the same power as a fraction.
-    let linear = drop(&["contact.exponent=1", "contact.stiffness=2e7 N/m"]).contact;
+    let linear = drop(&["contact.exponent=1", "contact.stiffness=2e7 N/m"]).auxiliary_bearings[0]
+        .contact
+        .clone();
     assert_eq!((linear.exponent, linear.stiffness), (1.0, 2e7));
     let decimals = drop(&[
         "contact.exponent=1.1111111111111112",
         "contact.stiffness=6e8 N/m^1.111111",
     ])
-    .contact;
+    .auxiliary_bearings[0]
+        .contact
+        .clone();
     assert_eq!((decimals.exponent, decimals.stiffness), (10.0 / 9.0, 6e8));
 }
 

@@ -1,6 +1,5 @@
 //! Several auxiliary bearings in a file, and values that repeated runs vary.
 
-use crate::files::read_from;
 use auxbear::result::outcome::Value;
 use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::{BuiltIn, Distribution, Scenario, System};
@@ -50,7 +49,8 @@ name = "other_end"
 "#;
 
 fn read(text: &str, sets: &[&str]) -> Result<Scenario, Box<auxbear::problem::Problem>> {
-    read_from(&BuiltIn, "two.toml", text, sets)
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_string()).collect();
+    Scenario::parse(text, "two.toml", &sets, &BuiltIn)
 }
 
 fn outcome(text: &str, sets: &[&str]) -> Outcome {
