@@ -21,7 +21,7 @@ type Module = Vec<String>;
 pub fn check(repository: &Repository) -> Outcome {
     let mut findings = Vec::new();
     let mut seen = 0;
-    let roots: BTreeSet<String> = (repository.below("", ".rs").into_iter())
+    let roots: BTreeSet<String> = (repository.below("", ".rs"))
         .filter_map(|file| Some(format!("{}src/", file.split_once("src/")?.0)))
         .collect();
     for root in &roots {

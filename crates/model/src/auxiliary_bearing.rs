@@ -193,6 +193,19 @@ pub struct AtNode<R> {
     pub contact: ContactReaction<R>,
 }
 
+/// Where the rates and probes of an auxiliary bearing are written.
+#[derive(Debug)]
+pub struct Outlet<'a, R> {
+    /// Channel of its first heat.
+    pub heat: usize,
+    /// Channel of its first source.
+    pub source: usize,
+    /// Rates of the machine.
+    pub rate: &'a mut [R],
+    /// Probes of the machine; empty where nobody looks.
+    pub probe: &'a mut [R],
+}
+
 /// Moments about the origin from outside an auxiliary bearing, N m, in the order in which they are added.
 #[derive(Clone, Copy, Debug)]
 pub struct External<R> {
@@ -262,10 +275,14 @@ impl<R: Real> AuxiliaryBearing<R> {
         gravity: Vec2<R>,
         motion: &Motion<R>,
         bearing: &BearingReaction<R>,
-        (heat, source): (usize, usize),
-        rate: &mut [R],
-        probe: &mut [R],
+        into: Outlet<'_, R>,
     ) -> External<R> {
+        let Outlet {
+            heat,
+            source,
+            rate,
+            probe,
+        } = into;
         let zero = R::zero();
         let contact = &node.contact;
         let race = &self.inner_race;

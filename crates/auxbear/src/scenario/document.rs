@@ -229,6 +229,11 @@ impl Document {
             return Err(Box::new(problem.at(place).on_key(VARY)));
         };
         collect(text, table, "", &mut self.vary);
+        // as they stand in the text: what is drawn first depends on it
+        self.vary.sort_by_key(|(_, _, place)| match *place {
+            Place::Line { line, column } => (line, column),
+            Place::Whole | Place::Set => (0, 0),
+        });
         Ok(())
     }
 

@@ -80,6 +80,7 @@ use std::path::Path;
 const LARGEST_FILE: u64 = 10_000_000;
 
 /// What is simulated or computed: the one place in which the systems of a scenario meet.
+#[allow(clippy::large_enum_variant)] // one of them stands in memory at a time
 #[derive(Clone, Debug, PartialEq)]
 pub enum System {
     /// A levitated rotor is released onto its auxiliary bearing.

@@ -99,7 +99,7 @@ fn add_bearings(root: &mut Value, system: SystemName) {
     for key in table::keys_of(system).filter(|key| of_each_bearing(key.path)) {
         properties(&mut one, key.section()).insert(key.name().to_string(), value(key, system));
     }
-    let name = json!({ "type": "string", "pattern": r"^[\p{L}\p{N}_-]+$", "description": "Its name: results carry it." });
+    let name = json!({ "type": "string", "pattern": r"^[^\s.]+$", "description": "Its name: results carry it." });
     properties(&mut one, "").insert("name".to_string(), name);
     one["required"] = json!(["name"]);
     let list = json!({

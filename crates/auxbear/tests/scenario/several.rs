@@ -123,7 +123,8 @@ fn two_equal_bearings_with_names_are_two_planes() {
 #[test]
 fn what_stands_below_a_name_counts_before_what_stands_for_all() {
     let text = format!(
-        "{HEAD}{TWINS}\n[auxiliary_bearing.bearing]\nname = \"6004\"\n[auxiliary_bearing.mount]\nstiffness = \"4e7 N/m\"\n"
+        "{HEAD}{TWINS}\n[auxiliary_bearing.bearing]\nname = \"6004\"\n[auxiliary_bearing.mount]\nstiffness = \"4e7 N/m\"\n\
+         [auxiliary_bearing.contact]\nbore_diameter = \"20 mm\"\n"
     );
     let scenario = read(
         &text,

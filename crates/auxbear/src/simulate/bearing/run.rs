@@ -6,6 +6,9 @@ use model::motion::Motion;
 use model::system::sampling::Row;
 use std::ops::Range;
 
+/// Motion of the races in a state of a system.
+pub(crate) type MotionAt<'a> = Box<dyn Fn(&[f64]) -> Motion<f64> + 'a>;
+
 /// The bearing of a run.
 pub(crate) struct BearingRun<'a> {
     pub bearing: &'a BearingConstants,
@@ -19,7 +22,7 @@ pub(crate) struct BearingRun<'a> {
     pub cage_forces: [usize; 2],
     pub pressure_factors: PressureFactors,
     /// Motion of the races in a state of the system.
-    pub motion: Box<dyn Fn(&[f64]) -> Motion<f64> + 'a>,
+    pub motion: MotionAt<'a>,
     pub rows: Vec<Row<'a>>,
 }
 

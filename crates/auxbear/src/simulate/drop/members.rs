@@ -36,7 +36,7 @@ pub(crate) fn varied(scenario: &Scenario, drop: &Drop) -> Result<Vec<Varied>, Bo
             let drawn: Vec<_> = (scenario.vary.iter())
                 .flat_map(|vary| vary.draw(&mut random))
                 .collect();
-            let blame = |problem: Box<Problem>| member_problem(k, &drawn, problem);
+            let blame = |problem: Box<Problem>| member_problem(k, &drawn, *problem);
             let member = scenario.with(&drawn).map_err(blame)?;
             let System::Drop(of) = &member.system else {
                 unreachable!("no value that is varied changes the system");
@@ -67,7 +67,7 @@ fn kind_of(scenario: &Scenario) -> Vec<(String, Option<String>)> {
 }
 
 /// What is wrong with a member, with what it drew.
-fn member_problem(k: usize, drawn: &[(String, String)], mut problem: Box<Problem>) -> Box<Problem> {
+fn member_problem(k: usize, drawn: &[(String, String)], mut problem: Problem) -> Box<Problem> {
     let draws: Vec<String> = (drawn.iter())
         .map(|(path, value)| format!("{path} = {value}"))
         .collect();

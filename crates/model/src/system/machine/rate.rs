@@ -2,7 +2,7 @@
 
 use super::layout::{ROTOR, ROTOR_CHANNELS, ROTOR_SOURCES};
 use super::{Machines, Mode};
-use crate::auxiliary_bearing::{AtNode, write_body};
+use crate::auxiliary_bearing::{AtNode, Outlet, write_body};
 use crate::bearing::BearingReaction;
 use crate::motion::Wrench;
 use crate::rotor::RotorMotion;
@@ -106,9 +106,12 @@ impl<R: Real> Machines<R> {
                 self.gravity,
                 &at.motion(state),
                 &reaction,
-                (layout.heat(at.heat), layout.source(at.source)),
-                rate,
-                probe,
+                Outlet {
+                    heat: layout.heat(at.heat),
+                    source: layout.source(at.source),
+                    rate: &mut *rate,
+                    probe: &mut *probe,
+                },
             );
             for moment in external.weights {
                 impulse += moment;
