@@ -420,3 +420,23 @@ fn a_load_above_the_static_rating_is_told_before_the_run() {
     assert_eq!(codes(DROP, &["rotor.mass=680 kg"]), ["AB1029"]);
     assert!(codes(DROP, &["rotor.mass=680 kg", "rotor.planes=2"]).is_empty());
 }
+
+#[test]
+fn a_signals_file_that_is_missing_is_told_where_it_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("identify.toml");
+    let text = "format = \"auxbear.scenario/1\"\nsystem = \"identify\"\n[identify]\n\
+                coast_down = [\"slow.toml\"]\n[bearing]\nname = \"6005\"\n";
+    std::fs::write(&path, text).expect("a folder to write to");
+    let scenario = auxbear::scenario::Scenario::read(&path, &[], &auxbear::scenario::BuiltIn)
+        .expect("it is right");
+    let problem = auxbear::run::build(&scenario).err();
+    let told = problem.expect("a file is missing").to_string();
+    for part in [
+        "error[AB0001]",
+        "identify.toml:4: identify.coast_down",
+        "slow.toml",
+    ] {
+        assert!(told.contains(part), "{told}");
+    }
+}

@@ -19,7 +19,6 @@ use model::system::machine::layout::ROTOR;
 use number::Vec2;
 use physics::traction::{SlipLaw, TanhTraction, Traction, TractionLaw};
 
-/// States tried for each machine.
 const STATES: u32 = 300;
 
 /// Calls with every machine, at many states: (machine, state, rate, probe).

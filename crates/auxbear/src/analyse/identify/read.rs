@@ -135,28 +135,3 @@ fn name(path: &Path) -> String {
         _ => stem,
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::run::build;
-    use crate::scenario::{BuiltIn, Scenario};
-
-    #[test]
-    fn a_signals_file_that_is_missing_is_told_where_it_is_named() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("identify.toml");
-        let text = "format = \"auxbear.scenario/1\"\nsystem = \"identify\"\n[identify]\n\
-                    coast_down = [\"slow.toml\"]\n[bearing]\nname = \"6005\"\n";
-        std::fs::write(&path, text).expect("a folder to write to");
-        let scenario = Scenario::read(&path, &[], &BuiltIn).expect("it is right");
-        let problem = build(&scenario).err();
-        let told = problem.expect("a file is missing").to_string();
-        for part in [
-            "error[AB0001]",
-            "identify.toml:4: identify.coast_down",
-            "slow.toml",
-        ] {
-            assert!(told.contains(part), "{told}");
-        }
-    }
-}
