@@ -137,7 +137,7 @@ function machineLine(run) {
   const facts = [
     mass && `rotor ${mass}`,
     speed && (radians ? numberText((Number(radians[1]) * 30) / Math.PI, 6) + " rpm" : speed),
-    bearing && bearing + (planes ? ` × ${planes} ${planes === "1" ? "plane" : "planes"}` : ""),
+    bearing && bearing + (planes && !run.summary.name ? ` × ${planes} ${planes === "1" ? "plane" : "planes"}` : ""),
     clearance && `radial air clearance ${clearance}${assumed("contact.radial_air_clearance")}`,
     friction && `friction coefficient ${friction}${assumed("contact.friction_coefficient")}`,
     fidelity && `${fidelity} fidelity`,
@@ -174,16 +174,21 @@ function warningBox(runs) {
   }
   if (!found.size) return null;
   const who = ({ letters }) => {
-    if (runs.length === 1) return null;
+    if (ofOneRun(runs)) return null;
     return element("strong", {}, letters.length === runs.length ? "all runs: " : (letters.length > 1 ? "runs " : "run ") + letters.join(", ") + ": ");
   };
   const items = [...found.values()].map((warning) => element("li", {}, warning.code ? element("code", {}, warning.code) : null, " ", who(warning), warning.text));
   return element("div", { class: "warnings" }, element("strong", {}, "Warnings"), element("ul", {}, items));
 }
 
+// Whether all are the bearings of one run.
+function ofOneRun(runs) {
+  return runs.every((run) => run.directory === runs[0].directory);
+}
+
 function header(runs) {
   const single = runs.length === 1 ? runs[0] : null;
-  const parts = [element("h1", {}, single ? single.summary.title || single.name : "Comparison of " + runs.length + " runs")];
+  const parts = [element("h1", {}, ofOneRun(runs) ? runs[0].summary.title || runs[0].name : "Comparison of " + runs.length + " runs")];
   for (const run of runs) {
     const facts = [run.summary.system, run.directory, run.summary.version && "auxbear " + run.summary.version];
     const key = single ? null : element("span", { class: "swatch", style: "background:" + run.colour });
