@@ -188,7 +188,10 @@ fn paths(code: &str, handed_on: bool) -> Vec<Vec<String>> {
 fn expand(text: &str, before: &mut Vec<String>, found: &mut Vec<Vec<String>>) {
     let text = text.trim();
     let (head, group) = match text.split_once('{') {
-        Some((head, group)) => (head, Some(group.trim_end().trim_end_matches('}'))),
+        Some((head, group)) => (
+            head,
+            Some(group.trim_end().strip_suffix('}').unwrap_or(group)),
+        ),
         None => (text.split(" as ").next().unwrap_or(text), None),
     };
     let length = before.len();

@@ -38,8 +38,8 @@ pub struct Vary {
 #[derive(Clone, Debug, PartialEq)]
 struct Target {
     path: String,
-    /// Its value as given, SI; not-a-number where it is no number.
-    base: f64,
+    /// Its value as given, SI, where it is a number.
+    base: Option<f64>,
     /// Dimension of the text that is written; none of a bare number.
     dimension: Option<Dimension>,
 }
@@ -98,7 +98,11 @@ impl Vary {
         };
         let targets = self.targets.iter();
         targets
-            .map(|target| (target.path.clone(), target.text(draw(target.base))))
+            .map(|target| {
+                // a value without a base is drawn without one
+                let base = target.base.unwrap_or_default();
+                (target.path.clone(), target.text(draw(base)))
+            })
             .collect()
     }
 
@@ -216,7 +220,7 @@ fn target(key: &Key, values: &Values) -> Option<Target> {
     };
     Some(Target {
         path: path_of(values.bearing.as_deref(), key.path),
-        base: values.number(key.path).unwrap_or(f64::NAN),
+        base: values.number(key.path),
         dimension,
     })
 }
@@ -352,7 +356,7 @@ fn one(path: &str, raw: &Raw, place: Place, all: &[Values]) -> Result<Vary, Box<
         distribution,
         Distribution::Lognormal(_) | Distribution::Normal(_)
     );
-    let targets = targets.filter(|list| !relative || list.iter().all(|t| t.base.is_finite()));
+    let targets = targets.filter(|list| !relative || list.iter().all(|t| t.base.is_some()));
     match targets {
         Some(targets) => Ok(Vary {
             path: path.to_string(),
