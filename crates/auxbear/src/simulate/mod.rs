@@ -3,7 +3,7 @@
 //! | folder | subject |
 //! |---|---|
 //! | [`bearing`] | the bearing of every system: its constants, results, columns, warnings |
-//! | [`drop`] | a rotor falls onto its auxiliary bearing |
+//! | [`mod@drop`] | a rotor falls onto its auxiliary bearing |
 //! | [`spin_up`] | the inner race is brought to speed |
 //! | [`rig`] | a test on a rig, and what its logger would have written |
 //! | `ending` | settings of the integration, and how a run ended |

@@ -4,8 +4,9 @@ use super::layout::{ROTOR, ROTOR_CHANNELS, ROTOR_SOURCES};
 use super::{Machines, Mode};
 use crate::auxiliary_bearing::{AtNode, Outlet, write_body};
 use crate::bearing::BearingReaction;
+use crate::contact::ContactReaction;
 use crate::motion::Wrench;
-use crate::rotor::RotorMotion;
+use crate::rotor::{GeometricCentre, RotorMotion};
 use number::{Mask, Real, Vec2};
 
 /// Motion of the rotor in a state.
@@ -38,6 +39,20 @@ impl<R: Real> Machines<R> {
         });
     }
 
+    /// What the rotor does at a bearing. Not a closure: one that is called more than once is compiled without the vector
+    /// unit's instructions.
+    #[inline(always)]
+    fn contact(
+        &self,
+        k: usize,
+        state: &[R],
+        centre: &GeometricCentre<R>,
+        spin: R,
+    ) -> ContactReaction<R> {
+        let inner = self.layout.bearings[k].motion(state).inner;
+        self.bearings[k].contact(centre, spin, &inner)
+    }
+
     /// The rates of rotor, races and ledger, and the probes where asked, under what `bearing` says that each bearing does.
     #[inline(always)]
     pub(super) fn accelerate(
@@ -55,15 +70,11 @@ impl<R: Real> Machines<R> {
         let rotor = rotor_motion(state);
         let centre = self.rotor.geometric_centre(&rotor);
         let levitation = self.levitation.force(centre.position, centre.velocity) * mode.levitation;
-        let contact = |k: usize| {
-            let inner = layout.bearings[k].motion(state).inner;
-            self.bearings[k].contact(&centre, rotor.spin, &inner)
-        };
         let mut on_rotor = Wrench::planar(levitation, centre.arm.cross(levitation));
-        let first = contact(0);
+        let first = self.contact(0, state, &centre, rotor.spin);
         on_rotor += first.on_journal;
         for k in 1..self.bearings.len() {
-            on_rotor += contact(k).on_journal;
+            on_rotor += self.contact(k, state, &centre, rotor.spin).on_journal;
         }
         let braking = mode.brake.greater(zero);
         let brake = if braking.any() {
@@ -98,7 +109,11 @@ impl<R: Real> Machines<R> {
             let node = AtNode {
                 centre,
                 acceleration: of_centre,
-                contact: if k == 0 { first } else { contact(k) },
+                contact: if k == 0 {
+                    first
+                } else {
+                    self.contact(k, state, &centre, rotor.spin)
+                },
             };
             let external = part.accelerate(
                 at,

@@ -21,7 +21,7 @@
 //! paper's equations. Then the load reaches the law of the steady moment and the sliding rotor, not the balls.
 //!
 //! Assumes: the rotor follows the race where it translates; what carries the load takes the reaction of its friction.
-//! Does not model: the rotor's own vibration (see [`drop`](super::drop)), clutch, shaft and torque arm.
+//! Does not model: the rotor's own vibration (see [`machine`](super::machine)), clutch, shaft and torque arm.
 
 pub mod capacity;
 pub mod constants;
