@@ -3,6 +3,8 @@
 mod arguments;
 mod bearings;
 mod console;
+mod digits;
+mod exit;
 mod measured;
 mod progress;
 mod run;
@@ -10,40 +12,18 @@ mod schema;
 mod start;
 mod summary;
 mod torque;
+mod torque_tables;
 
 use arguments::{Arguments, Command};
 use auxbear::problem::{Code, Problem};
 use auxbear::report::directory;
+use auxbear::run::panic_is_caught;
 use auxbear::scenario::{BuiltIn, Scenario, SystemName};
-use auxbear::simulate;
 use auxbear::validate::{self, Simulation};
 use clap::Parser;
+use exit::Exit;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-
-/// How the command ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Exit {
-    /// All done.
-    Done,
-    /// The run failed, or results could not be kept; for `validate`, a case failed.
-    Failed,
-    /// The input is wrong.
-    WrongInput,
-    /// Interrupted; what was computed is kept.
-    Interrupted,
-}
-
-impl From<Exit> for ExitCode {
-    fn from(exit: Exit) -> ExitCode {
-        ExitCode::from(match exit {
-            Exit::Done => 0,
-            Exit::Failed => 1,
-            Exit::WrongInput => 2,
-            Exit::Interrupted => 130,
-        })
-    }
-}
 
 fn main() -> ExitCode {
     measured_quietly();
@@ -65,7 +45,7 @@ fn main() -> ExitCode {
 fn measured_quietly() {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
-        if !simulate::panic_is_caught() {
+        if !panic_is_caught() {
             usual(panic);
         }
     }));
@@ -79,7 +59,7 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
         Command::Identify(wish) => return measured::perform(wish, SystemName::Identify),
         Command::Check { file, set } => {
             let scenario = Scenario::read(file, set, &BuiltIn)?;
-            let machine = simulate::build(&scenario)?;
+            let machine = auxbear::run::build(&scenario)?;
             console::print(&scenario.resolved.toml());
             for warning in machine.warnings() {
                 console::tell(&format!("warning[{}]: {}", warning.code, warning.text));

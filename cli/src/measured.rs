@@ -1,7 +1,8 @@
 //! `auxbear signals` and `auxbear identify`: what measurements tell, by a file of their own system.
 
 use crate::arguments::Measured;
-use crate::{Exit, run};
+use crate::exit::Exit;
+use crate::run;
 use auxbear::problem::{Code, Problem};
 use auxbear::report::directory::free_path;
 use auxbear::scenario::{BuiltIn, Scenario, SystemName};

@@ -1,13 +1,14 @@
 //! `auxbear run`.
 
 use crate::arguments::Run;
+use crate::exit::Exit;
 use crate::progress::Progress;
-use crate::{Exit, console, summary};
+use crate::{console, summary};
 use auxbear::problem::{Code, Problem};
 use auxbear::report::directory::{NewDirectory, free_path};
+use auxbear::result::outcome::Stop;
+use auxbear::run::Options;
 use auxbear::scenario::{BuiltIn, Scenario};
-use auxbear::simulate::outcome::Stop;
-use auxbear::simulate::{self, Options};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -60,7 +61,7 @@ pub fn execute(
         interrupt: &INTERRUPT,
         progress: &|fraction| progress.show(fraction),
     };
-    let machine = simulate::build(scenario).inspect_err(|_| progress.end())?;
+    let machine = auxbear::run::build(scenario).inspect_err(|_| progress.end())?;
     let directory = NewDirectory::reserve(path).inspect_err(|_| progress.end())?;
     if let Ok(mut partial) = PARTIAL.lock() {
         *partial = Some(directory.partial().to_path_buf());

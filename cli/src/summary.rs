@@ -1,8 +1,8 @@
 //! What is printed after a run: where it is, the quantities most looked for, warnings, cost.
 
-use crate::{console, torque};
-use auxbear::simulate::outcome::{Outcome, Quantity, Value};
-use auxbear::units::number_text;
+use crate::digits::four_digits;
+use crate::{console, torque_tables};
+use auxbear::result::outcome::{Outcome, Quantity, Value};
 use std::path::Path;
 
 /// The quantities most looked for in a drop; those a run does not have say why in the report.
@@ -105,17 +105,27 @@ const UNITS: &[(&str, &[(&str, f64)])] = &[
 pub fn text(path: &Path, outcome: &Outcome) -> String {
     let mut rows = Vec::new();
     let names = match outcome.system {
-        "torque" => return torque::text(path, outcome),
+        "torque" => return torque_tables::text(path, outcome),
         "spin_up" => OF_SPIN_UP,
         "signals" => OF_SIGNALS,
         "rig" => OF_RIG,
         "identify" => OF_IDENTIFY,
         _ => OF_DROP,
     };
+    let pictures = outcome.pictures.iter();
+    let bearings: Vec<&str> = pictures.map(|picture| picture.bearing.as_str()).collect();
     for &name in names {
-        let mut known = outcome.quantities.iter();
-        if let Some(quantity) = known.find(|q| q.name == name && !not_asked_for(q)) {
-            rows.push([format!("  {}", name.replace('_', " ")), value(quantity)]);
+        // of several bearings each has the result under its name; of the whole machine there is one
+        for bearing in &bearings {
+            let of = |q: &&Quantity| match q.name.strip_prefix(bearing) {
+                Some(rest) if !bearing.is_empty() => rest.strip_prefix('.') == Some(name),
+                _ => q.name == name && *bearing == bearings[0],
+            };
+            let mut known = outcome.quantities.iter();
+            if let Some(quantity) = known.find(|q| of(q) && !not_asked_for(q)) {
+                let name = quantity.name.replace(['_', '.'], " ");
+                rows.push([format!("  {name}"), value(quantity)]);
+            }
         }
     }
     for quantity in &outcome.quantities {
@@ -199,16 +209,6 @@ fn readable(si: f64, unit: &str) -> String {
         "" | "1" => number,
         unit => format!("{number} {unit}"),
     }
-}
-
-/// A number to four digits.
-pub fn four_digits(value: f64) -> String {
-    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
-    // A count is a whole number and keeps all its digits.
-    if value == value.trunc() && value.abs() < 1e9 {
-        return format!("{value}");
-    }
-    number_text(rounded)
 }
 
 #[cfg(test)]

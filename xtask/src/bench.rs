@@ -8,7 +8,7 @@ mod program;
 
 use crate::repository::Repository;
 use page::{Page, signed, three};
-use peer::{CVODE, Peer, SCIPY};
+use peer::{CVODE, Peer, SCIPY, number};
 pub use program::build;
 use program::{Program, Task};
 use serde_json::Value;
@@ -365,12 +365,6 @@ fn quantity(answer: &Value, key: &str) -> Result<f64, String> {
     };
     let deeper = format!("/quantities/{name}/value{entry}");
     number(answer, &deeper).or_else(|_| number(answer, &format!("/{key}")))
-}
-
-/// The number at a JSON pointer.
-fn number(all: &Value, pointer: &str) -> Result<f64, String> {
-    let value = all.pointer(pointer).and_then(Value::as_f64);
-    value.ok_or_else(|| format!("no number at {pointer}"))
 }
 
 /// The count in the answer of `perf stat -x,`: the field before the name of the event.

@@ -2,8 +2,8 @@
 
 use crate::repository::{Outcome, Repository};
 use crate::{
-    architecture, book, crate_directions, documentation, licences, module_order, scenarios,
-    source_text, toolchain,
+    architecture, book, circles, crate_directions, documentation, licences, module_order,
+    scenarios, source_text, toolchain, validation_cases,
 };
 use std::process::ExitCode;
 use std::time::Instant;
@@ -19,9 +19,11 @@ pub enum Extent {
 
 type Guard = (&'static str, fn(&Repository) -> Outcome);
 
-const FAST: [Guard; 8] = [
+const FAST: [Guard; 10] = [
     ("crate directions", crate_directions::check),
     ("module order", module_order::check),
+    ("no circles", circles::check),
+    ("reference cases", validation_cases::check),
     ("architecture page", architecture::check),
     ("book", book::check),
     ("documentation rules", documentation::check),

@@ -4,16 +4,20 @@ mod architecture;
 mod bench;
 mod book;
 mod check;
+mod circles;
 mod crate_directions;
 mod docs;
 mod documentation;
+mod golden;
 mod licences;
 mod module_order;
 mod repository;
 mod rust_text;
 mod scenarios;
+mod shipped;
 mod source_text;
 mod toolchain;
+mod validation_cases;
 
 use std::process::ExitCode;
 
@@ -26,6 +30,7 @@ cargo xtask bench --against COMMIT
                             this tree beside a commit, built beside it, in turns; minutes (benchmarks/README.md)
 cargo xtask docs            writes the book's page of validation from auxbear validate
 cargo xtask docs PROGRAM    the same with a command that is built already
+cargo xtask golden          writes the golden values of six scenarios, xtask/golden.json
 cargo xtask help            this text
 ";
 
@@ -40,6 +45,7 @@ fn main() -> ExitCode {
         ["bench", program] => bench::run(Some(program)),
         ["docs"] => docs::run(None),
         ["docs", program] => docs::run(Some(program)),
+        ["golden"] => golden::write(),
         ["help" | "--help" | "-h"] => {
             print!("{HELP}");
             ExitCode::SUCCESS

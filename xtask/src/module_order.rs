@@ -6,13 +6,16 @@ use crate::rust_text::{code_only, is_word};
 const SOURCE: &str = "crates/auxbear/src/";
 
 /// The modules in their order; each may use those to its left.
-const ORDER: [&str; 8] = [
+const ORDER: [&str; 11] = [
     "problem",
     "catalogue",
     "scenario",
+    "options",
+    "result",
     "simulate",
-    "identify",
-    "study",
+    "analyse",
+    "evaluate",
+    "run",
     "report",
     "validate",
 ];
@@ -146,7 +149,7 @@ mod tests {
         assert_eq!(
             lines(
                 "scenario.rs",
-                "use crate::{\n    problem::{Code, Problem},\n    study,\n};"
+                "use crate::{\n    problem::{Code, Problem},\n    run,\n};"
             ),
             [1]
         );

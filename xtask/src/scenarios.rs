@@ -1,10 +1,10 @@
 //! Guard: the built command reads and runs every shipped scenario, and its validation passes.
 
+use crate::golden;
 use crate::repository::{Outcome, Repository};
-use crate::toolchain::{cargo, quiet};
+use crate::shipped::{build, call, summary_in};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::Path;
 
 /// Builds the command as users do, then runs it on every file of `scenarios/`.
 pub fn check(repository: &Repository) -> Outcome {
@@ -40,7 +40,10 @@ pub fn check(repository: &Repository) -> Outcome {
             |error| vec![format!("no summary: {error}")],
             |text| faults_of(&text),
         );
-        findings.extend(faults.into_iter().map(|fault| format!("{file}: {fault}")));
+        let differences = summary_in(Path::new(&*out))
+            .map(|summary| golden::differences(repository, &name.to_string_lossy(), &summary));
+        let faults = faults.into_iter().chain(differences.unwrap_or_default());
+        findings.extend(faults.map(|fault| format!("{file}: {fault}")));
     }
     // Nothing depends on the folder any more; one that stays behind is no fault of the product.
     let _ = std::fs::remove_dir_all(&folder);
@@ -90,44 +93,6 @@ fn faults_of(summary: &str) -> Vec<String> {
     faults
 }
 
-fn build(repository: &Repository) -> Result<PathBuf, Vec<String>> {
-    let output = cargo(repository)
-        .args([
-            "build",
-            "--quiet",
-            "--release",
-            "--locked",
-            "--message-format",
-            "json-render-diagnostics",
-        ])
-        .output()
-        .map_err(|error| vec![format!("cargo could not be started: {error}")])?;
-    if !output.status.success() {
-        let printed = String::from_utf8_lossy(&output.stderr);
-        return Err(printed.lines().map(str::to_owned).collect());
-    }
-    executable(&String::from_utf8_lossy(&output.stdout))
-        .ok_or_else(|| vec!["the build made no program named auxbear".to_owned()])
-}
-
-/// The program `auxbear` among cargo's messages, one JSON object a line.
-fn executable(messages: &str) -> Option<PathBuf> {
-    messages
-        .lines()
-        .filter_map(|line| serde_json::from_str::<Value>(line).ok())
-        .filter(|message| message["target"]["name"] == "auxbear")
-        .find_map(|message| message["executable"].as_str().map(PathBuf::from))
-}
-
-fn call(folder: &Path, program: &Path, words: &[&str]) -> Vec<String> {
-    let outcome = quiet(Command::new(program).args(words).current_dir(folder));
-    outcome
-        .findings
-        .into_iter()
-        .map(|line| format!("auxbear {}: {line}", words[..words.len().min(2)].join(" ")))
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -145,14 +110,5 @@ mod tests {
         assert_eq!(faults_of("{}").len(), 2);
         assert!(faults_of("{\"system\": \"torque\", \"complete\": true}").is_empty());
         assert_eq!(faults_of("half").len(), 1);
-    }
-    #[test]
-    fn the_program_is_found_among_the_messages() {
-        let messages = "{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"auxbear\",\"kind\":[\"lib\"]},\"executable\":null}\n{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"auxbear\",\"kind\":[\"bin\"]},\"executable\":\"target/release/auxbear\"}\n{\"reason\":\"build-finished\"}\n";
-        assert_eq!(
-            executable(messages),
-            Some(PathBuf::from("target/release/auxbear"))
-        );
-        assert_eq!(executable("{\"reason\":\"build-finished\"}"), None);
     }
 }

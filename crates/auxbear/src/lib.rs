@@ -1,11 +1,11 @@
 //! What happens when a magnetically levitated rotor falls onto its auxiliary rolling bearings.
 //!
-//! A [`scenario::Scenario`] is read and checked, [`simulate::run`] computes it, and the results are plain data
-//! ([`simulate::Outcome`]) that [`report`] writes and draws and [`validate`] holds against published numbers.
+//! A [`scenario::Scenario`] is read and checked, [`run::run`] computes it, and the results are plain data
+//! ([`result::outcome::Outcome`]) that [`report`] writes and draws and [`validate`] holds against published numbers.
 //!
 //! ```
 //! use auxbear::scenario::{BuiltIn, Scenario, template};
-//! use auxbear::simulate::{Options, run};
+//! use auxbear::run::{Options, run};
 //! use std::sync::atomic::AtomicBool;
 //!
 //! let text = template("drop").unwrap();
@@ -15,12 +15,17 @@
 //! assert!(outcome.stop.complete());
 //! ```
 //!
-//! Modules, each using only those before it: [`problem`], [`catalogue`], [`scenario`], [`simulate`], [`report`],
-//! [`validate`].
+//! Modules, each using only those before it: [`problem`], [`catalogue`], [`scenario`], [`options`], [`result`], then
+//! [`simulate`], [`analyse`] and [`evaluate`] side by side, [`mod@run`], [`report`], [`validate`].
 
+pub mod analyse;
 pub mod catalogue;
+pub mod evaluate;
+pub mod options;
 pub mod problem;
 pub mod report;
+pub mod result;
+pub mod run;
 pub mod scenario;
 pub mod simulate;
 pub mod validate;

@@ -5,8 +5,8 @@
 //! magnitude can be compared: a cage that is guided by the inner land of an angular contact bearing of that bore must stay
 //! below, and well above nothing.
 
+use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
-use auxbear::simulate::{Options, run};
 use std::sync::atomic::AtomicBool;
 
 const FILE: &str = r#"

@@ -1,8 +1,8 @@
 //! Which steps a drop takes, and that threads change nothing.
 
+use auxbear::result::outcome::Value;
+use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::{BuiltIn, Scenario, template};
-use auxbear::simulate::outcome::Value;
-use auxbear::simulate::{Options, Outcome, run};
 use std::sync::atomic::AtomicBool;
 
 /// A drop of the starting file, until after its first impact.

@@ -1,8 +1,8 @@
 //! Machines at the ends of what a file may say: each run is finite and closes its energy, or is refused with a message.
 
+use auxbear::result::outcome::Value;
+use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario, template};
-use auxbear::simulate::outcome::Value;
-use auxbear::simulate::{Options, run};
 use std::sync::atomic::AtomicBool;
 
 /// Relative energy residual of a drop of the starting file with these changes; none where it is refused.

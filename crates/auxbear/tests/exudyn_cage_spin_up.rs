@@ -2,8 +2,8 @@
 //!
 //! The numbers are what `validation/exudyn/cage_spin_up.py` printed with version 1.13.6; the package is not needed here.
 
+use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
-use auxbear::simulate::{Options, run};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;

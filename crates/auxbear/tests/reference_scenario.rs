@@ -1,7 +1,7 @@
 //! The shipped reference scenario builds the very machine of the reference cases: what a user writes reaches the model.
 
 use auxbear::scenario::{BuiltIn, Scenario, System};
-use auxbear::simulate::build;
+use auxbear::simulate::drop::build;
 use model::bearing::{BearingConstants, PlanarConstants, Separation};
 use physics::traction::Traction;
 use std::path::Path;
@@ -25,33 +25,33 @@ fn reference_drop_is_the_reference_machine() {
         panic!("the reference is a drop");
     };
     let built = build::drop(drop).expect("it builds").constants;
-    let m = &built.machine;
+    let part = &built.bearings[0];
     near("speed", built.speed, 1_256.637_061_435_917_3);
-    near("rotor mass", m.rotor.mass, 8.0);
-    near("rotor inertia", m.rotor.polar_inertia, 0.01);
-    near("eccentricity", m.rotor.eccentricity, 5e-6);
-    near("clearance", m.contact.radial_clearance, 0.25e-3);
-    near("bore radius", m.contact.bore_radius, 0.0125);
-    near("contact stiffness", m.contact.stiffness, 5e8);
-    near("contact exponent", m.contact.exponent, 10.0 / 9.0);
-    near("contact damping", m.contact.damping, 0.5);
-    near("friction", m.contact.friction, 0.15);
-    near("1/u0r", m.contact.inverse_reference_speed, 20.0);
-    near("inner race mass", m.inner_race_mass, 0.0204);
-    near("inner race inertia", m.inner_race_inertia, 3.9e-6);
-    near("outer race mass", m.outer_race_mass, 0.15);
-    near("mount stiffness", m.mount.stiffness, 2e7);
-    near("mount damping", m.mount.damping, 5e3);
-    near("levitation stiffness", m.levitation.stiffness, 1e6);
-    near("levitation damping", m.levitation.damping, 1e3);
-    near("gravity", m.gravity.y, -9.81);
+    near("rotor mass", built.rotor.mass, 8.0);
+    near("rotor inertia", built.rotor.polar_inertia, 0.01);
+    near("eccentricity", built.rotor.eccentricity, 5e-6);
+    near("clearance", part.contact.radial_clearance, 0.25e-3);
+    near("bore radius", part.contact.bore_radius, 0.0125);
+    near("contact stiffness", part.contact.stiffness, 5e8);
+    near("contact exponent", part.contact.exponent, 10.0 / 9.0);
+    near("contact damping", part.contact.damping, 0.5);
+    near("friction", part.contact.friction, 0.15);
+    near("1/u0r", part.contact.inverse_reference_speed, 20.0);
+    near("inner race mass", part.inner_race.mass, 0.0204);
+    near("inner race inertia", part.inner_race.inertia, 3.9e-6);
+    near("outer race mass", part.outer_race_mass, 0.15);
+    near("mount stiffness", part.mount.stiffness, 2e7);
+    near("mount damping", part.mount.damping, 5e3);
+    near("levitation stiffness", built.levitation.stiffness, 1e6);
+    near("levitation damping", built.levitation.damping, 1e3);
+    near("gravity", built.gravity.y, -9.81);
     // (0.15 + 0.005 + 10·0.00105242 + 0.0204)·9.81/2e7
     near(
         "free mount",
-        m.mount.free_position.y,
+        part.mount.free_position.y,
         (0.15 + 0.005 + 10.0 * 0.001_052_420_877_679_688_1 + 0.0204) * 9.81 / 2e7,
     );
-    let BearingConstants::Planar(bearing) = &built.bearing else {
+    let BearingConstants::Planar(bearing) = &part.bearing else {
         panic!("the reference is planar");
     };
     let ball = &bearing.ball;
@@ -104,7 +104,8 @@ fn at_forty_degrees(name: &str) -> PlanarConstants {
     let System::Drop(drop) = &scenario.system else {
         panic!("a drop");
     };
-    match build::drop(drop).expect("it builds").constants.bearing {
+    let built = build::drop(drop).expect("it builds").constants;
+    match built.bearings.into_iter().next().expect("one").bearing {
         BearingConstants::Planar(bearing) => bearing,
         BearingConstants::Rolling(_) => panic!("planar"),
     }

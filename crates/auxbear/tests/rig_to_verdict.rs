@@ -1,9 +1,9 @@
 //! A rig is simulated, its logger's raw files are written, read and identified: end to end.
 
 use auxbear::report::directory;
+use auxbear::result::outcome::{Attached, Value};
+use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::{BuiltIn, Scenario};
-use auxbear::simulate::outcome::{Attached, Value};
-use auxbear::simulate::{Options, Outcome, run};
 use measure::file;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;

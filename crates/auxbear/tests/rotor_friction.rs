@@ -1,9 +1,9 @@
 //! The sliding friction of a dropped rotor: the drop is simulated, its race read by marks, the file identified.
 
 use auxbear::report::directory;
+use auxbear::result::outcome::Value;
+use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::{BuiltIn, Scenario};
-use auxbear::simulate::outcome::Value;
-use auxbear::simulate::{Options, Outcome, run};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::Path;

@@ -3,9 +3,9 @@
 #[path = "measurement_file/mod.rs"]
 mod measurement_file;
 
+use auxbear::result::outcome::{Outcome, Value};
+use auxbear::run::{Options, build, run};
 use auxbear::scenario::{BuiltIn, Scenario};
-use auxbear::simulate::outcome::{Outcome, Value};
-use auxbear::simulate::{Options, build, run};
 use measurement_file::{TORQUE, problem, table};
 use std::fs;
 use std::path::Path;

@@ -1,8 +1,8 @@
 //! More of a measurement through its front: converter, vibration, steady curves, a window for the quick change.
 
+use auxbear::result::outcome::{Outcome, Value};
+use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
-use auxbear::simulate::outcome::{Outcome, Value};
-use auxbear::simulate::{Options, run};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::fs;

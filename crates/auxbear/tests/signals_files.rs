@@ -3,8 +3,8 @@
 #[path = "measurement_file/mod.rs"]
 mod measurement_file;
 
+use auxbear::run::build;
 use auxbear::scenario::{BuiltIn, Scenario};
-use auxbear::simulate::build;
 use measurement_file::{TORQUE, problem, table};
 use std::fs;
 use std::path::Path;

@@ -1,8 +1,8 @@
 //! The moments of a bearing without motion: the magnitudes of the source paper, comparisons, and what is refused.
 
+use auxbear::result::outcome::{Outcome, Value};
+use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
-use auxbear::simulate::outcome::{Outcome, Value};
-use auxbear::simulate::{Options, run};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 

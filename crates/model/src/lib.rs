@@ -7,12 +7,14 @@
 //! Frame: ground, x to the right, y up; angles and spins counter-clockwise.
 //! n points from a race centre to a ball or rotor centre, t is n turned by +90°.
 
+pub mod auxiliary_bearing;
 pub mod bearing;
 pub mod contact;
 pub mod levitation;
 pub mod motion;
 pub mod mount;
 pub mod rotor;
+pub mod schedule;
 pub mod sensor;
 pub mod system;
 pub mod table;

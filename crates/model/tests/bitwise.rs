@@ -7,7 +7,7 @@ mod machines;
 
 use machines::{inlets, lubricant, oil, planar, reference, separate, separations, settings};
 use model::bearing::{BearingConstants, SharedMoment, SteadyMoment};
-use model::system::drop::{Drop, DropConstants, DropMachine};
+use model::system::machine::{MachineConstants, Machines, RotorMachine};
 use number::{Level, Real, Task};
 use physics::palmgren::Palmgren;
 use physics::traction::{DryTraction, FourParameterTraction, Traction};
@@ -17,8 +17,8 @@ use std::sync::atomic::AtomicBool;
 /// Every accepted step: its end, and the state and probes in its middle, from dense output.
 #[derive(Default)]
 struct Bits(Vec<u64>);
-impl Observer<DropMachine> for Bits {
-    fn step(&mut self, step: &mut Step<DropMachine>) -> Flow {
+impl Observer<RotorMachine> for Bits {
+    fn step(&mut self, step: &mut Step<RotorMachine>) -> Flow {
         self.0.push(step.end.to_bits());
         if self.0.len().is_multiple_of(50) {
             let (state, probes) = step.evaluate(0.5);
@@ -30,16 +30,16 @@ impl Observer<DropMachine> for Bits {
 }
 
 /// A run of machines side by side: how each ended, and the bits of what was seen on the way.
-struct Side<'a>(&'a [DropMachine], f64);
+struct Side<'a>(&'a [RotorMachine], f64);
 impl Task for Side<'_> {
     type Output = Vec<(Ending, Vec<u64>)>;
     fn run<R: Real>(self) -> Self::Output {
         let Side(machines, end) = self;
-        let starts: Vec<_> = machines.iter().map(DropMachine::start).collect();
+        let starts: Vec<_> = machines.iter().map(RotorMachine::start).collect();
         let machines: Vec<_> = machines.iter().collect();
         let mut seen: Vec<_> = machines.iter().map(|_| Bits::default()).collect();
         let never = AtomicBool::new(false);
-        let endings = solve::run::<R, Drop<R>, _>(
+        let endings = solve::run::<R, Machines<R>, _>(
             &machines,
             &starts,
             &mut seen,
@@ -55,8 +55,8 @@ impl Task for Side<'_> {
 
 /// Asserts that each machine ends alone at every level as it does without a vector unit, and on the lane it has
 /// among the others.
-fn same_bits(machines: &[DropMachine], end: f64) {
-    let alone = |level: Level, machine: &DropMachine| {
+fn same_bits(machines: &[RotorMachine], end: f64) {
+    let alone = |level: Level, machine: &RotorMachine| {
         let mut runs = level.run_one(Side(std::slice::from_ref(machine), end));
         runs.remove(0)
     };
@@ -93,17 +93,17 @@ fn assert_equal(ours: &(Ending, Vec<u64>), expected: &(Ending, Vec<u64>), place:
 }
 
 /// The reference machine with one more change for each number: lanes that differ in everything a lane may differ in.
-fn variant(number: usize) -> DropConstants {
+fn variant(number: usize) -> MachineConstants {
     let x = number as f64;
     let mut constants = reference();
     constants.speed *= 1.0 - 0.07 * x;
     constants.unbalance_angle = 0.4 * x;
-    let machine = &mut constants.machine;
-    machine.rotor.mass *= 1.0 + 0.05 * x;
-    machine.contact.radial_clearance *= 1.0 - 0.03 * x;
-    machine.contact.friction *= 1.0 + 0.1 * x;
-    machine.mount.stiffness *= 1.0 + 0.2 * x;
-    if let BearingConstants::Planar(bearing) = &mut constants.bearing {
+    constants.rotor.mass *= 1.0 + 0.05 * x;
+    let part = &mut constants.bearings[0];
+    part.contact.radial_clearance *= 1.0 - 0.03 * x;
+    part.contact.friction *= 1.0 + 0.1 * x;
+    part.mount.stiffness *= 1.0 + 0.2 * x;
+    if let BearingConstants::Planar(bearing) = &mut constants.bearings[0].bearing {
         bearing.ball.inner_stiffness *= 1.0 + 0.02 * x;
         bearing.ball.pocket_gap *= 1.0 - 0.05 * x;
     }
@@ -112,12 +112,12 @@ fn variant(number: usize) -> DropConstants {
 
 #[test]
 fn the_reference_drop_has_the_same_bits_everywhere() {
-    same_bits(&[DropMachine::new(reference())], 0.02);
+    same_bits(&[RotorMachine::new(reference())], 0.02);
 }
 
 #[test]
 fn machines_side_by_side_do_not_touch_each_other() {
-    let machines: Vec<_> = (0..8).map(|i| DropMachine::new(variant(i))).collect();
+    let machines: Vec<_> = (0..8).map(|i| RotorMachine::new(variant(i))).collect();
     let spread: Vec<_> = machines.iter().map(|m| m.start()[1]).collect();
     assert!(spread.windows(2).all(|pair| pair[0] != pair[1]));
     same_bits(&machines, 0.01);
@@ -131,7 +131,7 @@ fn whatever_keeps_the_balls_apart_has_the_same_bits() {
             .map(|i| {
                 let mut constants = variant(i % 5);
                 separate(&mut constants, separation.clone());
-                DropMachine::new(constants)
+                RotorMachine::new(constants)
             })
             .collect();
         same_bits(&machines, 0.008);
@@ -165,7 +165,7 @@ fn a_lubricant_that_changes_has_the_same_bits() {
                 orbit_share: 0.5,
                 reference_spin: 1.0,
             });
-            DropMachine::new(constants)
+            RotorMachine::new(constants)
         })
         .collect();
     same_bits(&machines, 0.004);
@@ -203,12 +203,12 @@ fn any_number_of_balls_and_any_traction_law_has_the_same_bits() {
     // fewer than a group, a group, one more, several groups
     for (balls, law) in [3, 8, 9, 19].into_iter().zip(laws.into_iter().cycle()) {
         let mut constants = reference();
-        if let BearingConstants::Planar(bearing) = &mut constants.bearing {
+        if let BearingConstants::Planar(bearing) = &mut constants.bearings[0].bearing {
             bearing.balls = balls;
             bearing.traction = law;
             bearing.inlet_rolling = Some(inlets());
         }
-        let machine = DropMachine::new(constants);
+        let machine = RotorMachine::new(constants);
         assert!(machine.dimension() > 5 * balls);
         same_bits(&[machine], 0.008);
     }

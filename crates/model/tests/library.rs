@@ -8,10 +8,9 @@
 mod machines;
 
 use differential_equations::prelude::{IVP, ImplicitRungeKutta, Matrix, ODE};
-use machines::{Blind, heat_of, planar, reference, settings};
-use model::system::drop::layout::INNER;
-use model::system::drop::linear::DropLinear;
-use model::system::drop::{Drop, DropMachine};
+use machines::{Blind, INNER, heat_of, planar, reference, settings};
+use model::system::machine::linear::MachineLinear;
+use model::system::machine::{Machines, RotorMachine};
 use physics::traction::{TanhTraction, Traction};
 use solve::{Machine, Settings, Stop};
 use std::sync::atomic::AtomicBool;
@@ -24,7 +23,7 @@ type Channels = [f64; CHANNELS];
 
 /// A machine as the library sees it: each state by its distance from the start over the magnitude that matters in it.
 struct Scaled<'a> {
-    machine: &'a DropMachine,
+    machine: &'a RotorMachine,
     start: &'a [f64],
     scale: Vec<f64>,
 }
@@ -63,10 +62,10 @@ impl ODE<f64, Channels> for Scaled<'_> {
 }
 
 /// The end of a run by linearly implicit steps.
-fn by_our_steps(machine: &DropMachine, start: &[f64], settings: &Settings) -> Vec<f64> {
-    let ending = solve::run_implicit::<f64, Drop<f64>, _, _, _, _, _>(
+fn by_our_steps(machine: &RotorMachine, start: &[f64], settings: &Settings) -> Vec<f64> {
+    let ending = solve::run_implicit::<f64, Machines<f64>, _, _, _, _, _>(
         machine,
-        DropLinear::of(machine).expect("planar"),
+        MachineLinear::of(machine).expect("planar"),
         start,
         &mut Blind,
         settings,
@@ -78,7 +77,7 @@ fn by_our_steps(machine: &DropMachine, start: &[f64], settings: &Settings) -> Ve
 }
 
 /// The end of the same run by the library, with the steps it took.
-fn by_the_library(machine: &DropMachine, start: &[f64], end: f64, tolerance: f64) -> Vec<f64> {
+fn by_the_library(machine: &RotorMachine, start: &[f64], end: f64, tolerance: f64) -> Vec<f64> {
     let scale = (0..machine.dimension())
         .map(|i| machine.error_scale(i))
         .collect();
@@ -116,7 +115,7 @@ fn a_library_meets_the_same_end_of_the_first_impact() {
         maximum: 0.08,
         inverse_reference_speed: 1.0 / 0.001,
     });
-    let machine = DropMachine::new(constants);
+    let machine = RotorMachine::new(constants);
     let before = by_our_steps(&machine, &machine.start(), &settings(7.0e-3, 1e-5));
     const END: f64 = 0.9e-3;
     let library = by_the_library(&machine, &before, END, 1e-9);

@@ -26,7 +26,7 @@
 
 use crate::film::{EntrainedContact, InletHeating, logarithms};
 use crate::hertz::{PointContact, carlson_rd, carlson_rf};
-use crate::traction::SlidingContact;
+use crate::sliding_contact::SlidingContact;
 use number::{Real, constants};
 
 constants! {

@@ -13,7 +13,7 @@
 //! Not modelled: warming (ν is given), churning of an oil bath, seals, running-in, a moment at standstill, the factor 2 to 5
 //! on f0 of a freshly greased bearing.
 
-use crate::friction::MomentParts;
+use crate::moment_parts::MomentParts;
 use crate::power::power_from_zero;
 use number::Real;
 use std::f64::consts::PI;

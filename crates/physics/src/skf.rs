@@ -21,7 +21,7 @@
 //! or days, after the source), V_M (read from a diagram of the source by the user), a moment at standstill: what starts the
 //! bearing is told by [`SkfMoment::starting_moment`] and acts in no run.
 
-use crate::friction::MomentParts;
+use crate::moment_parts::MomentParts;
 use crate::palmgren::{fading, viscosity_times_speed_mm2_s_rpm};
 use crate::power::power_from_zero;
 use number::{Gather, Real};

@@ -7,18 +7,8 @@
 //! Not modelled: slip that differs over the contact: in the curved groove (Heathcote), and by spin about the normal.
 
 use crate::lubricant_traction::LubricantTraction;
+pub use crate::sliding_contact::SlidingContact;
 use number::{Gather, Real, constants};
-
-/// A loaded contact of a ball and a race, as its traction sees it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SlidingContact<R> {
-    /// u: slip, race surface less ball surface, m/s.
-    pub slip: R,
-    /// Q: load, N.
-    pub load: R,
-    /// v: entrainment, mean of both surface speeds seen from the contact, m/s; its sign has no effect.
-    pub entrainment: R,
-}
 
 /// A traction law of a ball between two races.
 pub trait TractionLaw<R: Real> {

@@ -7,8 +7,9 @@
 //!                                                                            │ left_1 left_2 …  corner  │
 //!   (c I - J) u = r,  c = 1/(h γ)                                            └ tail_1 tail_2 …  tail_b  ┘
 //! ```
-//! Blocks act on ROWS rows of the border, and depend on COLUMNS of its columns: only those are kept. Each block is
-//! eliminated by itself, so the cost is linear in their number:
+//! Each block acts on ROWS rows of the border, and depends on COLUMNS of its columns, which it names: only those are kept, so that
+//! blocks of one group may act on other bodies than those of the next. Each block is eliminated by itself, so the cost is linear
+//! in their number:
 //!
 //! ```text
 //!   M_j = c I - own_j      X_j = M_j⁻¹ right_j      z_j = M_j⁻¹ r_j
@@ -23,13 +24,20 @@ use std::ops::Range;
 pub struct Shape<const M: usize, const COLUMNS: usize, const ROWS: usize> {
     /// Channels of the border, in its order.
     pub border: Vec<usize>,
-    /// Channels of each block, in its order.
-    pub blocks: Vec<[usize; M]>,
+    /// The blocks.
+    pub blocks: Vec<BlockShape<M, COLUMNS, ROWS>>,
     /// Channels of the tail.
     pub tail: Range<usize>,
-    /// Border rows, by their place in `border`, that blocks act on.
+}
+
+/// Where a block stands in a state, and which part of the border it touches.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BlockShape<const M: usize, const COLUMNS: usize, const ROWS: usize> {
+    /// Its channels, in its order.
+    pub channels: [usize; M],
+    /// Border rows, by their place in the border, that it acts on.
     pub rows: [usize; ROWS],
-    /// Border columns, by their place in `border`, that blocks depend on.
+    /// Border columns, by their place in the border, that it depends on.
     pub columns: [usize; COLUMNS],
 }
 
@@ -92,8 +100,8 @@ impl<const M: usize, const COLUMNS: usize, const ROWS: usize> Arrowhead<M, COLUM
         for (column, channel) in columns.zip(&shape.border) {
             add(column, vector[*channel]);
         }
-        for (block, channels) in self.blocks.iter().zip(&shape.blocks) {
-            for (column, channel) in block.tail.iter().zip(channels) {
+        for (block, stands) in self.blocks.iter().zip(&shape.blocks) {
+            for (column, channel) in block.tail.iter().zip(&stands.channels) {
                 add(column, vector[*channel]);
             }
         }
@@ -150,7 +158,12 @@ impl<const M: usize, const COLUMNS: usize> Factors<M, COLUMNS> {
         for i in 0..p {
             border[i * p + i] += diagonal;
         }
-        for (factored, block) in self.blocks.iter_mut().zip(&jacobian.blocks) {
+        let parts = self
+            .blocks
+            .iter_mut()
+            .zip(&jacobian.blocks)
+            .zip(&shape.blocks);
+        for ((factored, block), stands) in parts {
             let Some(inverse) = inverse(&block.own, diagonal) else {
                 return false;
             };
@@ -162,7 +175,7 @@ impl<const M: usize, const COLUMNS: usize> Factors<M, COLUMNS> {
                     }
                 }
             }
-            for (place, left) in shape.rows.iter().zip(&block.left) {
+            for (place, left) in stands.rows.iter().zip(&block.left) {
                 let mut product = [0.0; COLUMNS];
                 for (weight, through) in left.iter().zip(&through) {
                     for (value, through) in product.iter_mut().zip(through) {
@@ -170,7 +183,7 @@ impl<const M: usize, const COLUMNS: usize> Factors<M, COLUMNS> {
                     }
                 }
                 let into = &mut border[place * p..(place + 1) * p];
-                for (column, value) in shape.columns.iter().zip(product) {
+                for (column, value) in stands.columns.iter().zip(product) {
                     into[*column] -= value;
                 }
             }
@@ -192,19 +205,19 @@ impl<const M: usize, const COLUMNS: usize> Factors<M, COLUMNS> {
             *value = side[*channel];
         }
         let parts = self.blocks.iter().zip(&jacobian.blocks).zip(&shape.blocks);
-        for ((factored, block), channels) in parts {
+        for ((factored, block), stands) in parts {
             let mut given = [0.0; M];
-            for (value, channel) in given.iter_mut().zip(channels) {
+            for (value, channel) in given.iter_mut().zip(&stands.channels) {
                 *value = side[*channel];
             }
             let mut alone = [0.0; M];
             for (value, row) in alone.iter_mut().zip(&factored.inverse) {
                 *value = dot(row, &given);
             }
-            for (place, left) in shape.rows.iter().zip(&block.left) {
+            for (place, left) in stands.rows.iter().zip(&block.left) {
                 self.side[*place] += dot(left, &alone);
             }
-            for (value, channel) in alone.iter().zip(channels) {
+            for (value, channel) in alone.iter().zip(&stands.channels) {
                 side[*channel] = *value;
             }
         }
@@ -212,12 +225,12 @@ impl<const M: usize, const COLUMNS: usize> Factors<M, COLUMNS> {
         for (value, channel) in self.side.iter().zip(&shape.border) {
             side[*channel] = *value;
         }
-        let mut seen = [0.0; COLUMNS];
-        for (value, place) in seen.iter_mut().zip(&shape.columns) {
-            *value = self.side[*place];
-        }
-        for (factored, channels) in self.blocks.iter().zip(&shape.blocks) {
-            for (channel, row) in channels.iter().zip(&factored.through) {
+        for (factored, stands) in self.blocks.iter().zip(&shape.blocks) {
+            let mut seen = [0.0; COLUMNS];
+            for (value, place) in seen.iter_mut().zip(&stands.columns) {
+                *value = self.side[*place];
+            }
+            for (channel, row) in stands.channels.iter().zip(&factored.through) {
                 side[*channel] += dot(row, &seen);
             }
         }
@@ -353,10 +366,19 @@ mod tests {
     fn arrow(seed: &mut u64) -> Arrowhead<3, 3, 2> {
         let mut arrow = Arrowhead::new(Shape {
             border: vec![0, 1, 2, 9],
-            blocks: vec![[3, 5, 7], [4, 6, 8]],
+            blocks: vec![
+                BlockShape {
+                    channels: [3, 5, 7],
+                    rows: [1, 3],
+                    columns: [0, 2, 3],
+                },
+                BlockShape {
+                    channels: [4, 6, 8],
+                    rows: [0, 2],
+                    columns: [3, 1, 0],
+                },
+            ],
             tail: 10..12,
-            rows: [1, 3],
-            columns: [0, 2, 3],
         });
         let mut fill = |list: &mut [f64]| list.iter_mut().for_each(|value| *value = noise(seed));
         fill(&mut arrow.corner);
@@ -380,14 +402,14 @@ mod tests {
             }
         }
         for (j, block) in s.blocks.iter().enumerate() {
-            for (i, row) in block.iter().enumerate() {
-                for (k, column) in block.iter().enumerate() {
+            for (i, row) in block.channels.iter().enumerate() {
+                for (k, column) in block.channels.iter().enumerate() {
                     all[row * 12 + column] = arrow.blocks[j].own[i][k];
                 }
-                for (k, column) in s.columns.iter().enumerate() {
+                for (k, column) in block.columns.iter().enumerate() {
                     all[row * 12 + s.border[*column]] = arrow.blocks[j].right[i][k];
                 }
-                for (k, target) in s.rows.iter().enumerate() {
+                for (k, target) in block.rows.iter().enumerate() {
                     all[s.border[*target] * 12 + row] = arrow.blocks[j].left[k][i];
                 }
                 for k in 0..2 {

@@ -1,9 +1,11 @@
 //! The loop: per-lane step control, landed instants, endings.
 
-use crate::attempt::{Advance, Explicit, Judgement, Workspace};
+use crate::attempt::{Advance, Explicit};
 use crate::implicit::{Implicit, Linear};
+use crate::method::{Method, Place};
 use crate::step::{LaneOf, Scratch, Step};
 use crate::system::{Batch, Machine};
+use crate::workspace::{Judgement, Workspace};
 use number::{Mask, Real};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -167,24 +169,6 @@ where
     );
     // one machine, one ending
     endings.remove(0)
-}
-
-/// How steps are taken.
-pub(crate) trait Method<R: Real, B: Batch<R>> {
-    /// Evaluations of the right-hand side in a step.
-    const EVALUATIONS: u64;
-    /// Rates and probes at the start of the first step, or after a jump.
-    fn begin(&mut self, step: Place<R, B>, work: &mut Workspace<R>);
-    /// A step from the start in the workspace: the state, rates and probes at its end, and what its error says.
-    fn attempt(&mut self, step: Place<R, B>, work: &mut Workspace<R>) -> Judgement<R>;
-}
-
-/// What a step is taken of.
-pub(crate) struct Place<'a, R: Real, B: Batch<R>> {
-    pub batch: &'a B,
-    pub mode: &'a B::Mode,
-    /// The modes of the single machines.
-    pub modes: &'a dyn Fn(usize) -> <B::Machine as Machine>::Mode,
 }
 
 fn integrate<R, B, O, M>(

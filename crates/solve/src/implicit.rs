@@ -2,10 +2,10 @@
 //! [`arrowhead`](crate::arrowhead).
 
 use crate::arrowhead::{Arrowhead, Factors, Shape};
-use crate::attempt::{Judgement, Workspace};
-use crate::drive::{Method, Place};
+use crate::method::{Method, Place};
 use crate::rosenbrock::{Coefficients, EMBEDDED, GAMMA, STAGES, STEP};
 use crate::system::{Batch, Machine};
+use crate::workspace::{Judgement, Workspace};
 use number::{Real, Vectorized};
 
 /// Tells the Jacobian of a machine's rate, with blocks of `M` channels that depend on `COLUMNS` channels of the border and

@@ -8,7 +8,7 @@
 //! |---|---|
 //! | what a problem is | [`system`] |
 //! | the method: Bogacki-Shampine 3(2) with dense output | [`bogacki_shampine`] |
-//! | one attempted step of all lanes | [`attempt`] |
+//! | one attempted step of all lanes | [`attempt`]; what it works with: [`workspace`] |
 //! | the method for stiff problems: ROS34PW2, linearly implicit | [`rosenbrock`] |
 //! | its Jacobian, and the linear systems of its stages | [`arrowhead`] |
 //! | one linearly implicit step of one machine | [`implicit`] |
@@ -23,12 +23,14 @@ pub mod attempt;
 pub mod bogacki_shampine;
 pub mod drive;
 pub mod implicit;
+pub(crate) mod method;
 pub mod rosenbrock;
 pub mod step;
 pub mod system;
 pub mod watch;
+pub mod workspace;
 
-pub use arrowhead::{Arrowhead, Shape};
+pub use arrowhead::{Arrowhead, BlockShape, Shape};
 pub use drive::{Ending, Flow, Observer, Settings, Stop, Work, run, run_implicit};
 pub use implicit::Linear;
 pub use step::Step;

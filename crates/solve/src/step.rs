@@ -1,8 +1,8 @@
 //! One accepted step of one lane, as an observer sees it.
 
-use crate::attempt::Workspace;
 use crate::bogacki_shampine::dense_weights;
 use crate::system::Machine;
+use crate::workspace::Workspace;
 use number::Real;
 
 /// An accepted step of one machine, with its dense output.

@@ -55,7 +55,7 @@ impl Peer {
                 return Err(String::from_utf8_lossy(&output.stderr).into_owned());
             }
             answer = serde_json::from_slice(&output.stdout).map_err(|error| error.to_string())?;
-            seconds.push(super::number(&answer, "/cpu_seconds")?);
+            seconds.push(number(&answer, "/cpu_seconds")?);
         }
         answer["cpu_seconds"] = median(seconds).into();
         Ok(answer)
@@ -70,4 +70,10 @@ impl Peer {
             .collect();
         versions.join(", ")
     }
+}
+
+/// The number at a JSON pointer.
+pub fn number(all: &Value, pointer: &str) -> Result<f64, String> {
+    let value = all.pointer(pointer).and_then(Value::as_f64);
+    value.ok_or_else(|| format!("no number at {pointer}"))
 }

@@ -1,8 +1,8 @@
 //! Refuses a bearing whose numbers contradict each other.
 
 use super::complete::mass_of_ball;
+use super::draft::{Draft, Read, Reader};
 use super::geometry::{Geometry, digits, millimetres};
-use super::read::{Draft, Read, Reader};
 use crate::problem::{Code, Problem};
 
 /// Static load rating over Z D² cos α, N/m²: makers' values lie between 6e6 (spindle bearings with open grooves) and

@@ -11,8 +11,8 @@
 //! Spindle bearings have counterbored shoulders, so both their rings together are lighter than the two [`Ring`]s. Where
 //! the maker gives the mass of the bearing, the inner race has its share of what balls and cage leave.
 
+use super::bearing::{Bearing, Datum, Mark, Value};
 use super::ring::Ring;
-use super::{Bearing, Datum, Mark, Value};
 use physics::materials::{BEARING_STEEL, SILICON_NITRIDE, ball_mass};
 
 /// Shoulder below the pitch circle over ball diameter. Of the 62 deep groove bearings with SKF's d1, the mean is 0.61

@@ -1,8 +1,9 @@
 //! Families: common values, columns, and one row for each bearing.
 
+use super::bearing::{Mark, Value};
+use super::draft::{Draft, Read, Reader};
 use super::key::Key;
-use super::read::{Draft, Read, Reader, draft, in_order, kind};
-use super::{Mark, Value};
+use super::read::{draft, in_order, kind};
 use crate::problem::{Code, did_you_mean};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};

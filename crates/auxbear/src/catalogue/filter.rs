@@ -1,8 +1,8 @@
 //! Which bearings a list shows.
 
-use super::Bearing;
+use super::bearing::Bearing;
+use super::draft::{Read, Reader};
 use super::key::{self, Kind};
-use super::read::{Read, Reader};
 use crate::problem::{Code, Place, Problem, did_you_mean};
 use std::collections::BTreeMap;
 use units::Dimension;

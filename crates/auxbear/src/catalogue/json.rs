@@ -1,7 +1,7 @@
 //! Bearings as JSON.
 
+use super::bearing::{Bearing, Datum, Origin};
 use super::key::{self, Kind};
-use super::{Bearing, Datum, Origin};
 use serde_json::{Map, Value as Json, json};
 
 /// The bearings as one JSON text:

@@ -1,28 +1,13 @@
 //! From the text of a file of bearings to bearings.
 
+use super::bearing::{Bearing, FORMAT, Origin};
+use super::draft::{Draft, Read, Reader};
 use super::key::{self, KEYS, Key};
-use super::{Bearing, FORMAT, Origin, check, complete};
+use super::{check, complete};
 use crate::problem::{Code, Place, Problem, did_you_mean};
 use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
-
-pub(super) type Read<T> = Result<T, Box<Problem>>;
-
-/// A file while it is read.
-pub(super) struct Reader<'a> {
-    pub(super) text: &'a str,
-    pub(super) file: &'a str,
-    pub(super) built_in: bool,
-    pub(super) sources: BTreeMap<String, String>,
-}
-
-/// A bearing while it is read: its values, and where each stands in the file.
-pub(super) struct Draft {
-    pub(super) bearing: Bearing,
-    pub(super) start: usize,
-    pub(super) starts: Vec<(&'static str, usize)>,
-}
 
 /// Reads all bearings of a text.
 pub(super) fn read(text: &str, file: &str, built_in: bool) -> Read<Vec<Bearing>> {

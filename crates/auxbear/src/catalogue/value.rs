@@ -1,8 +1,9 @@
 //! From one value of the file to a value of the kind that its key takes, with its mark.
 
+use super::bearing::{Datum, Mark, Value};
+use super::draft::{Read, Reader};
 use super::key::{Key, Kind};
-use super::read::{Read, Reader, in_order, kind};
-use super::{Datum, Mark, Value};
+use super::read::{in_order, kind};
 use crate::problem::{Code, did_you_mean, question};
 use toml::de::{DeTable, DeValue};
 use units::{Dimension, ParseError, parse_quantity};

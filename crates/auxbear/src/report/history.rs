@@ -5,7 +5,7 @@
 //! written as an empty cell and read back as not-a-number.
 
 use super::page::PageColumn;
-use crate::simulate::outcome::Column;
+use crate::result::outcome::Column;
 use measure::file::parquet::arrow_schema::{self, Field};
 use parquet::basic::{Compression, Encoding, Repetition, Type as Physical};
 use parquet::column::reader::ColumnReader;

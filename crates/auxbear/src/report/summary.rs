@@ -2,8 +2,8 @@
 //!
 //! No number in it is infinite or not-a-number: such a quantity is `null` with the reason.
 
+use crate::result::outcome::{Contact, Outcome, Picture, Quantity, Spread, Value, Warning};
 use crate::scenario::{Provenance, ResolvedValue, Scenario};
-use crate::simulate::outcome::{Contact, Outcome, Quantity, Spread, Value, Warning};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
@@ -38,10 +38,21 @@ pub(super) fn json(scenario: &Scenario, outcome: &Outcome) -> Result<String, ser
         contacts: outcome.contacts.iter().map(contact).collect(),
         inputs: scenario.resolved.values.iter().map(input).collect(),
         members: members.collect(),
-        clearance_radius_m: outcome.picture.clearance.and_then(finite),
-        hertz_pressure_limit_pa: outcome.picture.pressure_limit.and_then(finite),
-        rolling_cage_ratio: finite(outcome.picture.rolling_cage_ratio),
-        ball_count: outcome.picture.balls,
+        drawn: (outcome.drawn.iter())
+            .map(|draws| {
+                let draws = draws.iter();
+                Named(
+                    draws
+                        .map(|(path, value)| (path.as_str(), value.as_str()))
+                        .collect(),
+                )
+            })
+            .collect(),
+        first: drawn(&outcome.pictures[0]),
+        auxiliary_bearings: match outcome.pictures.as_slice() {
+            [_] => Vec::new(),
+            several => several.iter().map(drawn).collect(),
+        },
         work: Work {
             members: outcome.work.members,
             steps: outcome.work.steps,
@@ -83,12 +94,28 @@ struct Summary<'a> {
     inputs: Vec<Input<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     members: Vec<Named<'a, Option<f64>>>,
+    /// What each of these members drew.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    drawn: Vec<Named<'a, &'a str>>,
+    /// Of the first bearing.
+    #[serde(flatten)]
+    first: Drawn<'a>,
+    /// Of each bearing, where there are several.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    auxiliary_bearings: Vec<Drawn<'a>>,
+    work: Work,
+}
+
+/// What pictures need of a bearing.
+#[derive(Serialize)]
+struct Drawn<'a> {
+    #[serde(rename = "name", skip_serializing_if = "str::is_empty")]
+    bearing: &'a str,
     clearance_radius_m: Option<f64>,
     #[serde(rename = "hertz_pressure_limit_Pa")]
     hertz_pressure_limit_pa: Option<f64>,
     rolling_cage_ratio: Option<f64>,
     ball_count: usize,
-    work: Work,
 }
 
 #[derive(Serialize)]
@@ -142,6 +169,8 @@ struct Message<'a> {
 
 #[derive(Serialize)]
 struct Touch {
+    #[serde(skip_serializing_if = "String::is_empty")]
+    auxiliary_bearing: String,
     start_s: Option<f64>,
     end_s: Option<f64>,
     #[serde(rename = "peak_force_N")]
@@ -151,7 +180,7 @@ struct Touch {
 
 #[derive(Serialize)]
 struct Input<'a> {
-    path: &'static str,
+    path: String,
     value: &'a str,
     mark: &'static str,
     note: String,
@@ -165,6 +194,16 @@ struct Work {
     rate_calls: u64,
     wall_s: Option<f64>,
     method: Option<&'static str>,
+}
+
+fn drawn(picture: &Picture) -> Drawn<'_> {
+    Drawn {
+        bearing: &picture.bearing,
+        clearance_radius_m: picture.clearance.and_then(finite),
+        hertz_pressure_limit_pa: picture.pressure_limit.and_then(finite),
+        rolling_cage_ratio: finite(picture.rolling_cage_ratio),
+        ball_count: picture.balls,
+    }
 }
 
 fn finite(value: f64) -> Option<f64> {
@@ -220,6 +259,7 @@ fn warning(warning: &Warning) -> Message<'_> {
 
 fn contact(contact: &Contact) -> Touch {
     Touch {
+        auxiliary_bearing: contact.bearing.clone(),
         start_s: finite(contact.start),
         end_s: contact.end.and_then(finite),
         peak_force: finite(contact.peak_force),
@@ -234,7 +274,7 @@ fn input(value: &ResolvedValue) -> Input<'_> {
         (None, _) => "not given",
     };
     Input {
-        path: value.path,
+        path: value.shown(),
         value: text,
         mark: value.provenance.mark(),
         note: value.provenance.note(),

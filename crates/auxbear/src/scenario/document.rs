@@ -1,10 +1,11 @@
 //! The text of a scenario as a list of keys and raw values, each with its place.
 
-use super::key::{Key, quoted};
-use super::meant;
-use super::system::SystemName;
-use super::table;
 use crate::problem::{Code, Place, Problem, did_you_mean};
+use crate::scenario::key::{Key, quoted};
+use crate::scenario::meant;
+use crate::scenario::several::{self, AUXILIARY_BEARING, VARY};
+use crate::scenario::system::SystemName;
+use crate::scenario::table;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
@@ -12,7 +13,7 @@ use toml::de::{DeTable, DeValue};
 
 /// A value as written, before it is known what it means.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Raw {
+pub(crate) enum Raw {
     /// A text in quotes, or a bare word of an override.
     Text(String),
     /// A whole number, as written.
@@ -31,7 +32,7 @@ pub(super) enum Raw {
 
 impl Raw {
     /// The value in words, for a message.
-    pub(super) fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         match self {
             Raw::Text(text) => format!("the text \"{text}\""),
             Raw::Integer(text, _) => format!("the number {text}"),
@@ -46,21 +47,34 @@ impl Raw {
 
 /// One given value.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Given {
-    pub(super) raw: Raw,
+pub(crate) struct Given {
+    pub(crate) raw: Raw,
     /// The value as typed in an override, before it was taken as TOML.
-    pub(super) typed: Option<String>,
-    pub(super) place: Place,
+    pub(crate) typed: Option<String>,
+    pub(crate) place: Place,
 }
 
 /// All given values by path; every path is a key of the table.
-#[derive(Clone, Debug)]
-pub(super) struct Document {
-    pub(super) file: String,
-    pub(super) system: SystemName,
-    pub(super) values: BTreeMap<&'static str, Given>,
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Document {
+    pub(crate) file: String,
+    pub(crate) system: SystemName,
+    pub(crate) values: BTreeMap<&'static str, Given>,
     /// Where each section of the text starts.
-    pub(super) sections: BTreeMap<&'static str, Place>,
+    pub(crate) sections: BTreeMap<String, Place>,
+    /// The auxiliary bearing that it is of, where the file tells several apart.
+    pub(crate) bearing: Option<String>,
+    /// What the file gives of each of several auxiliary bearings alone.
+    own: Vec<Own>,
+    /// What repeated runs vary: path, distribution, place.
+    pub(crate) vary: Vec<(String, Raw, Place)>,
+}
+
+/// An auxiliary bearing of several: its name, and the values that it alone has.
+#[derive(Clone, Debug, PartialEq)]
+struct Own {
+    name: String,
+    values: BTreeMap<&'static str, Given>,
 }
 
 /// One key or section of the text, before it is known whether it exists.
@@ -72,7 +86,7 @@ struct Entry {
 
 impl Document {
     /// Reads a text and the overrides; refuses what is no TOML and what is no key.
-    pub(super) fn read(text: &str, file: &str, sets: &[String]) -> Result<Document, Box<Problem>> {
+    pub(crate) fn read(text: &str, file: &str, sets: &[String]) -> Result<Document, Box<Problem>> {
         let root = DeTable::parse(text).map_err(|error| Problem::of_toml(&error, text, file))?;
         require_format(text, root.get_ref(), file)?;
         let mut document = Document {
@@ -80,6 +94,9 @@ impl Document {
             system: find_system(text, root.get_ref(), file, sets)?,
             values: BTreeMap::new(),
             sections: BTreeMap::new(),
+            bearing: None,
+            own: Vec::new(),
+            vary: Vec::new(),
         };
         let mut entries = Vec::new();
         flatten(root.get_ref(), &[], &mut entries);
@@ -88,13 +105,179 @@ impl Document {
             let place = Place::of_offset(text, entry.start);
             document.add(&entry.path, entry.raw, None, place)?;
         }
+        if let Some((key, value)) = root.get_ref().get_key_value(AUXILIARY_BEARING) {
+            document.add_bearings(text, key.span().start, value.get_ref())?;
+        }
+        if let Some((key, value)) = root.get_ref().get_key_value(VARY) {
+            document.add_varied(text, key.span().start, value.get_ref())?;
+        }
         for set in sets {
             document.add_override(set)?;
         }
         Ok(document)
     }
 
-    fn add_override(&mut self, set: &str) -> Result<(), Box<Problem>> {
+    /// One document for each auxiliary bearing, with what the file gives for all and what it gives for that one; the document
+    /// itself where the file does not tell several apart.
+    pub(crate) fn of_each_bearing(&self) -> Vec<Document> {
+        if self.own.is_empty() {
+            return vec![self.clone()];
+        }
+        let of = |own: &Own| {
+            let mut document = self.clone();
+            document.bearing = Some(own.name.clone());
+            let values = own
+                .values
+                .iter()
+                .map(|(path, given)| (*path, given.clone()));
+            document.values.extend(values);
+            document.own.clear();
+            document
+        };
+        self.own.iter().map(of).collect()
+    }
+
+    /// Reads the array of tables of several auxiliary bearings.
+    fn add_bearings(
+        &mut self,
+        text: &str,
+        start: usize,
+        value: &DeValue<'_>,
+    ) -> Result<(), Box<Problem>> {
+        let problem = |code, start, found: String, allowed: &str| {
+            Problem::new(code, &self.file, found, allowed)
+                .at(Place::of_offset(text, start))
+                .on_key(AUXILIARY_BEARING)
+        };
+        if self.system != SystemName::Drop {
+            let found = "a section that has no effect".to_string();
+            let allowed = "it is used only with system = \"drop\"";
+            return Err(Box::new(problem(Code::UnusedKey, start, found, allowed)));
+        }
+        let DeValue::Array(list) = value else {
+            let found = raw(value).text();
+            return Err(Box::new(problem(Code::WrongType, start, found, TABLES)));
+        };
+        let mut all = Vec::new();
+        for item in list.iter() {
+            let start = item.span().start;
+            let DeValue::Table(table) = item.get_ref() else {
+                let found = raw(item.get_ref()).text();
+                return Err(Box::new(problem(Code::WrongType, start, found, TABLES)));
+            };
+            let Some((key, name)) = table.get_key_value("name") else {
+                let found = "an auxiliary bearing without a name".to_string();
+                return Err(Box::new(problem(Code::MissingKey, start, found, NAME)));
+            };
+            let at = key.span().start;
+            let name = match name.get_ref() {
+                DeValue::String(name) if is_name(name) => name.to_string(),
+                DeValue::String(name) => {
+                    return Err(Box::new(problem(Code::UnknownWord, at, quoted(name), NAME)));
+                }
+                other => {
+                    return Err(Box::new(problem(
+                        Code::WrongType,
+                        at,
+                        raw(other).text(),
+                        NAME,
+                    )));
+                }
+            };
+            if all.iter().any(|(other, _): &(String, _)| *other == name) {
+                let found = format!("the name {} twice", quoted(&name));
+                return Err(Box::new(problem(Code::Conflict, at, found, NAME)));
+            }
+            let mut entries = Vec::new();
+            flatten(table, &[], &mut entries);
+            entries.retain(|entry| entry.path != ["name"]);
+            entries.sort_by_key(|entry| entry.start);
+            all.push((name, entries));
+        }
+        for (name, entries) in all {
+            let mut document = Document {
+                bearing: Some(name.clone()),
+                values: BTreeMap::new(),
+                ..self.clone()
+            };
+            for entry in entries {
+                let place = Place::of_offset(text, entry.start);
+                document.add(&entry.path, entry.raw, None, place)?;
+            }
+            self.sections.append(&mut document.sections);
+            self.own.push(Own {
+                name,
+                values: document.values,
+            });
+        }
+        Ok(())
+    }
+
+    /// Reads what repeated runs vary; a path may stand in quotes or as nested tables.
+    fn add_varied(
+        &mut self,
+        text: &str,
+        start: usize,
+        value: &DeValue<'_>,
+    ) -> Result<(), Box<Problem>> {
+        let place = Place::of_offset(text, start);
+        self.only_drops_vary(place)?;
+        let DeValue::Table(table) = value else {
+            let found = raw(value).text();
+            let allowed = format!("a section [{VARY}] of paths and distributions is needed");
+            let problem = Problem::new(Code::WrongType, &self.file, found, allowed);
+            return Err(Box::new(problem.at(place).on_key(VARY)));
+        };
+        collect(text, table, "", &mut self.vary);
+        // as they stand in the text: what is drawn first depends on it
+        self.vary.sort_by_key(|(_, _, place)| match *place {
+            Place::Line { line, column } => (line, column),
+            Place::Whole | Place::Set => (0, 0),
+        });
+        Ok(())
+    }
+
+    fn only_drops_vary(&self, place: Place) -> Result<(), Box<Problem>> {
+        if self.system == SystemName::Drop {
+            return Ok(());
+        }
+        let problem = Problem::new(
+            Code::UnusedKey,
+            &self.file,
+            "a section that has no effect",
+            "it is used only with system = \"drop\", whose runs are repeated",
+        );
+        Err(Box::new(problem.at(place).on_key(VARY)))
+    }
+
+    /// An override of a value that one auxiliary bearing has: its path behind `auxiliary_bearing.NAME`.
+    fn add_to_bearing(
+        &mut self,
+        path: &[String],
+        raw: Raw,
+        typed: String,
+    ) -> Result<(), Box<Problem>> {
+        let named = path.get(1).map_or("", String::as_str);
+        let Some(place) = self.own.iter().position(|own| own.name == named) else {
+            let names: Vec<String> = self.own.iter().map(|own| quoted(&own.name)).collect();
+            let allowed = match names.as_slice() {
+                [] => "the file does not tell several auxiliary bearings apart".to_string(),
+                names => format!("one of {} is needed", names.join(", ")),
+            };
+            let problem = Problem::new(Code::UnknownKey, &self.file, quoted(named), allowed);
+            return Err(Box::new(problem.at(Place::Set).on_key(path.join("."))));
+        };
+        let mut document = Document {
+            bearing: Some(named.to_string()),
+            values: std::mem::take(&mut self.own[place].values),
+            ..self.clone()
+        };
+        let added = document.add(&path[2..], Some(raw), Some(typed), Place::Set);
+        self.own[place].values = document.values;
+        added
+    }
+
+    pub(crate) fn add_override(&mut self, set: &str) -> Result<(), Box<Problem>> {
         let unreadable = |found: String| {
             Box::new(
                 Problem::new(
@@ -118,6 +301,15 @@ impl Document {
             return Err(unreadable(format!("\"{set}\"")));
         }
         let raw = as_toml(typed).unwrap_or_else(|| Raw::Text(typed.to_string()));
+        if path[0] == VARY {
+            let path = path[1..].join(".").replace('"', "");
+            self.vary.retain(|(other, ..)| *other != path);
+            self.vary.push((path, raw, Place::Set));
+            return self.only_drops_vary(Place::Set);
+        }
+        if path[0] == AUXILIARY_BEARING {
+            return self.add_to_bearing(&path, raw, typed.to_string());
+        }
         self.add(&path, Some(raw), Some(typed.to_string()), Place::Set)
     }
 
@@ -130,11 +322,24 @@ impl Document {
     ) -> Result<(), Box<Problem>> {
         let dotted = path.join(".");
         let section = table::sections().find(|section| section.path == dotted);
+        let bearing = self.bearing.as_deref();
+        let shown = match bearing {
+            // what no auxiliary bearing has is told under its name all the same
+            Some(name) => format!("{AUXILIARY_BEARING}.{name}.{dotted}"),
+            None => dotted.clone(),
+        };
         let problem = |code, found: String, allowed: String| {
             Problem::new(code, &self.file, found, allowed)
                 .at(place)
-                .on_key(&dotted)
+                .on_key(&shown)
         };
+        if bearing.is_some() && !several::of_each_bearing(&dotted) {
+            return Err(Box::new(problem(
+                Code::UnknownKey,
+                "what no auxiliary bearing has of its own".to_string(),
+                "name, and sections contact, mount and bearing, are possible".to_string(),
+            )));
+        }
         let elsewhere = |what: &str, systems: &[SystemName]| {
             problem(
                 Code::UnusedKey,
@@ -152,7 +357,7 @@ impl Document {
             }
             return match raw {
                 None => {
-                    self.sections.insert(section.path, place);
+                    self.sections.insert(shown, place);
                     Ok(())
                 }
                 Some(raw) => Err(Box::new(problem(
@@ -194,6 +399,36 @@ impl Document {
             }
         }
     }
+}
+
+const TABLES: &str = "one table [[auxiliary_bearing]] for each is needed";
+const NAME: &str = "name = \"drive_end\" is needed: letters, digits, _ and -, each name once";
+
+/// Lists paths with what stands there, down to tables whose values are no tables.
+fn collect(text: &str, table: &DeTable<'_>, before: &str, list: &mut Vec<(String, Raw, Place)>) {
+    for (key, value) in table {
+        let path = match before {
+            "" => key.get_ref().to_string(),
+            _ => format!("{before}.{}", key.get_ref()),
+        };
+        match value.get_ref() {
+            DeValue::Table(inner)
+                if !inner.is_empty()
+                    && inner
+                        .iter()
+                        .all(|(_, v)| matches!(v.get_ref(), DeValue::Table(_))) =>
+            {
+                collect(text, inner, &path, list);
+            }
+            other => list.push((path, raw(other), Place::of_offset(text, key.span().start))),
+        }
+    }
+}
+
+/// Whether a name can stand before results: no dots, no blanks.
+fn is_name(name: &str) -> bool {
+    let allowed = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
+    !name.is_empty() && name.chars().all(allowed)
 }
 
 /// The format comes first: a file of another format would fail on its keys with misleading words.
@@ -285,6 +520,9 @@ fn flatten(table: &DeTable<'_>, prefix: &[String], entries: &mut Vec<Entry>) {
         let mut path = prefix.to_vec();
         path.push(key.get_ref().to_string());
         let dotted = path.join(".");
+        if dotted == AUXILIARY_BEARING || dotted == VARY {
+            continue;
+        }
         let Range { start, .. } = key.span();
         match value.get_ref() {
             DeValue::Table(inner) if table::keys().any(|key| key.path == dotted) => {
@@ -346,7 +584,7 @@ fn raw(value: &DeValue<'_>) -> Raw {
 }
 
 /// The value of a text when it is TOML by itself.
-pub(super) fn as_toml(typed: &str) -> Option<Raw> {
+pub(crate) fn as_toml(typed: &str) -> Option<Raw> {
     let value = DeValue::parse(typed).ok()?;
     Some(raw(value.get_ref()))
 }

@@ -3,7 +3,7 @@
 //! The table of all keys (`table.rs`) is made of these. Reading, messages, the resolved file and the starting file all
 //! come from that one table.
 
-use super::system::SystemName;
+use crate::scenario::system::SystemName;
 use units::{Dimension, Unit};
 
 /// What kind of value a key takes.
@@ -136,7 +136,7 @@ pub struct Section {
 }
 
 impl Key {
-    pub(super) const fn new(
+    pub(crate) const fn new(
         path: &'static str,
         kind: Kind,
         example: &'static str,
@@ -155,20 +155,20 @@ impl Key {
         }
     }
 
-    pub(super) const fn only(mut self, systems: &'static [SystemName]) -> Key {
+    pub(crate) const fn only(mut self, systems: &'static [SystemName]) -> Key {
         self.systems = Some(systems);
         self
     }
 
-    pub(super) const fn positive(self) -> Key {
+    pub(crate) const fn positive(self) -> Key {
         self.within(Range::Positive)
     }
 
-    pub(super) const fn not_negative(self) -> Key {
+    pub(crate) const fn not_negative(self) -> Key {
         self.within(Range::NotNegative)
     }
 
-    pub(super) const fn within(mut self, range: Range) -> Key {
+    pub(crate) const fn within(mut self, range: Range) -> Key {
         self.range = range;
         self
     }
@@ -178,19 +178,19 @@ impl Key {
         self
     }
 
-    pub(super) const fn catalogued(self) -> Key {
+    pub(crate) const fn catalogued(self) -> Key {
         self.present(Presence::FromBearing)
     }
 
-    pub(super) const fn optional(self, meaning: &'static str) -> Key {
+    pub(crate) const fn optional(self, meaning: &'static str) -> Key {
         self.present(Presence::Optional(meaning))
     }
 
-    pub(super) const fn derived(self, how: &'static str) -> Key {
+    pub(crate) const fn derived(self, how: &'static str) -> Key {
         self.present(Presence::Derived(how))
     }
 
-    pub(super) const fn default(self, text: &'static str, reason: &'static str) -> Key {
+    pub(crate) const fn default(self, text: &'static str, reason: &'static str) -> Key {
         self.present(Presence::Default(Fallback {
             text,
             reason,
@@ -198,7 +198,7 @@ impl Key {
         }))
     }
 
-    pub(super) const fn assumed(self, text: &'static str, reason: &'static str) -> Key {
+    pub(crate) const fn assumed(self, text: &'static str, reason: &'static str) -> Key {
         self.present(Presence::Default(Fallback {
             text,
             reason,
@@ -206,7 +206,7 @@ impl Key {
         }))
     }
 
-    pub(super) const fn default_when(
+    pub(crate) const fn default_when(
         self,
         condition: Condition,
         fallback: Fallback,
@@ -215,12 +215,12 @@ impl Key {
         self.present(Presence::DefaultWhen(condition, fallback, otherwise))
     }
 
-    pub(super) const fn when(mut self, conditions: &'static [Condition]) -> Key {
+    pub(crate) const fn when(mut self, conditions: &'static [Condition]) -> Key {
         self.when = conditions;
         self
     }
 
-    pub(super) const fn excludes(mut self, other: &'static str) -> Key {
+    pub(crate) const fn excludes(mut self, other: &'static str) -> Key {
         self.excludes = Some(other);
         self
     }
@@ -374,7 +374,7 @@ impl Condition {
 }
 
 /// `a` or `an`.
-pub(super) fn article(noun: &str) -> &'static str {
+pub(crate) fn article(noun: &str) -> &'static str {
     if noun.starts_with(['a', 'e', 'i', 'o']) {
         "an"
     } else {

@@ -1,7 +1,7 @@
 //! Where in the file a problem stands that is found after reading, when the machine is built.
 
-use super::Scenario;
 use crate::problem::{Place, Problem};
+use crate::scenario::resolved::Resolved;
 use std::collections::BTreeMap;
 
 /// What a problem names as its file until the scenario is known in which it stands.
@@ -9,49 +9,44 @@ pub(crate) const UNNAMED: &str = "the scenario";
 
 /// The text of a scenario, as far as messages name it.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Text {
+pub(crate) struct Text {
     /// The file, as the user named it.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// Where its sections start.
-    pub(super) sections: BTreeMap<&'static str, Place>,
+    pub(crate) sections: BTreeMap<String, Place>,
 }
 
-impl Scenario {
+impl Text {
     /// The problem with the file and the line of its key: where the key stands, else where the section begins.
-    pub fn locate(&self, mut problem: Box<Problem>) -> Box<Problem> {
+    pub(crate) fn locate(&self, resolved: &Resolved, mut problem: Box<Problem>) -> Box<Problem> {
         // what names a file already is wrong in that one
         if problem.file != UNNAMED {
             return problem;
         }
-        problem.file.clone_from(&self.text.name);
+        problem.file.clone_from(&self.name);
         if let Some(key) = &problem.key
             && problem.place == Place::Whole
         {
-            problem.place = self.place_of(key);
+            problem.place = self.place_of(resolved, key);
         }
         problem
     }
 
-    fn place_of(&self, key: &str) -> Place {
+    fn place_of(&self, resolved: &Resolved, key: &str) -> Place {
         let given = |place: &Place| *place != Place::Whole;
-        if let Some(place) = self
-            .resolved
-            .get(key)
-            .map(|value| value.place)
-            .filter(given)
-        {
+        if let Some(place) = resolved.get(key).map(|value| value.place).filter(given) {
             return place;
         }
         // of a section, what an override changed is the nearest cause
         let inside = format!("{key}.");
-        let mut values = self.resolved.values.iter();
-        if values.any(|value| value.path.starts_with(&inside) && value.place == Place::Set) {
+        let mut values = resolved.values.iter();
+        if values.any(|value| value.shown().starts_with(&inside) && value.place == Place::Set) {
             return Place::Set;
         }
         let sections = std::iter::successors(Some(key), |path| {
             path.rsplit_once('.').map(|(section, _)| section)
         });
-        let mut places = sections.filter_map(|section| self.text.sections.get(section));
+        let mut places = sections.filter_map(|section| self.sections.get(section));
         places.next().copied().unwrap_or_default()
     }
 }

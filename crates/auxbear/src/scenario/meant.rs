@@ -1,16 +1,16 @@
 //! What an unknown key was probably meant to be, and what may stand in its place.
 
-use super::key::Key;
-use super::system::SystemName;
-use super::table;
 use crate::problem::question;
+use crate::scenario::key::Key;
+use crate::scenario::system::SystemName;
+use crate::scenario::table;
 use units::nearest_names;
 
 /// Most names of a section that a message lists.
 const MOST_NAMES: usize = 12;
 
 /// What may stand where the unknown key stands.
-pub(super) fn allowed_near(path: &[String], system: SystemName) -> String {
+pub(crate) fn allowed_near(path: &[String], system: SystemName) -> String {
     let section = path[..path.len() - 1].join(".");
     let names: Vec<&str> = if section.is_empty() {
         let keys = table::keys_of(system).filter(|key| key.section().is_empty());
@@ -49,7 +49,7 @@ pub(super) fn allowed_near(path: &[String], system: SystemName) -> String {
 }
 
 /// What an unknown key was probably meant to be.
-pub(super) fn meant(path: &[String], system: SystemName) -> Option<String> {
+pub(crate) fn meant(path: &[String], system: SystemName) -> Option<String> {
     let name = path.last()?;
     if let Some(hint) = confused(name, system) {
         return Some(hint.to_string());
@@ -103,7 +103,7 @@ const COUNTERPARTS: [(&str, &str); 4] = [
 ];
 
 /// The keys of a system that stand for a key of another one, or bear its name.
-pub(super) fn namesake(path: &[String], system: SystemName) -> Option<String> {
+pub(crate) fn namesake(path: &[String], system: SystemName) -> Option<String> {
     if path.first().is_some_and(|section| section == "repeat") {
         return Some(REPEATED.to_string());
     }

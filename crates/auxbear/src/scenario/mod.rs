@@ -9,70 +9,48 @@
 //!                  ──drop, spin_up, torque, signals, rig, identify──▶ typed SI values  ──checks──▶ Scenario
 //! ```
 
-mod bearing;
-mod bearing_source;
-mod checks;
-mod checks_drop;
-mod checks_identify;
-mod checks_lubricant;
-mod checks_rig;
-mod checks_separation;
-mod checks_signals;
-mod checks_spin_up;
-mod checks_torque;
-mod derive;
-mod document;
-mod drop;
-mod fits;
-mod from_catalogue;
-mod identify;
-mod key;
-mod locate;
-mod lubricant;
-mod lubricant_state;
-mod meant;
-mod moment;
-mod provenance;
-mod read;
-mod read_lists;
-mod read_rows;
-mod resolve;
-mod resolved;
-mod rig;
-mod run;
-mod schema;
-mod section;
-mod separation;
-mod signal_analysis;
-mod signals;
-mod spin_up;
-mod system;
-mod table;
-mod table_bearing;
-mod table_cage;
-mod table_drive;
-mod table_drop;
-mod table_identify;
-mod table_lubricant_state;
-mod table_moment;
-mod table_rig;
-mod table_signal_analysis;
-mod table_signals;
-mod table_torque;
-mod template;
-mod torque;
+pub(crate) mod bearing;
+pub(crate) mod checks;
+pub(crate) mod document;
+pub(crate) mod drop;
+pub(crate) mod identify;
+pub(crate) mod key;
+pub(crate) mod locate;
+pub(crate) mod meant;
+pub(crate) mod provenance;
+pub(crate) mod read;
+pub(crate) mod read_lists;
+pub(crate) mod read_rows;
+pub(crate) mod resolve;
+pub(crate) mod resolved;
+pub(crate) mod rig;
+pub(crate) mod run;
+pub(crate) mod schema;
+pub(crate) mod section;
+pub(crate) mod several;
+pub(crate) mod signals;
+pub(crate) mod spin_up;
+pub(crate) mod system;
+pub(crate) mod table;
+pub(crate) mod template;
+pub(crate) mod torque;
+pub(crate) mod values;
+pub(crate) mod vary;
+pub(crate) mod words;
 
-pub use bearing::{BallMaterial, Bearing, BearingType, Drag, Fidelity, OilFilm, Traction};
-pub use bearing_source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
-pub use drop::{Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor, Spin};
-pub use fits::{Fits, Growth};
+pub use bearing::fits::{Fits, Growth};
+pub use bearing::kind::{BallMaterial, BearingType, Fidelity};
+pub use bearing::lubricant::{Lubricant, LubricantViscosity};
+pub use bearing::lubricant_state::LubricantState;
+pub use bearing::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
+pub use bearing::separation::{Cage, FullComplement, Guidance, Land, Separation};
+pub use bearing::source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
+pub use bearing::{Bearing, Drag, OilFilm, Traction};
+pub use drop::{AuxiliaryBearing, Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor, Spin};
 pub use identify::{Explanations, Identify, RotorFriction};
 pub(crate) use key::quoted;
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
 pub(crate) use locate::UNNAMED;
-pub use lubricant::{Lubricant, LubricantViscosity};
-pub use lubricant_state::LubricantState;
-pub use moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 pub use provenance::Provenance;
 pub use resolved::{Resolved, ResolvedValue};
 pub use rig::{
@@ -81,17 +59,17 @@ pub use rig::{
 };
 pub use run::{Method, Run};
 pub use schema::schema;
-pub use separation::{Cage, FullComplement, Guidance, Land, Separation};
-pub use signal_analysis::{ConverterSignal, InertiaSource, SteadySignal, VibrationSignal};
+pub use signals::analysis::{ConverterSignal, InertiaSource, SteadySignal, VibrationSignal};
 pub use signals::{
     CageKind, CageSignal, Disturbance, PickupFlank, PickupKind, SensorSource, Signals, SpeedSignal,
     TorqueSignal,
 };
 pub use spin_up::{Course, Drive, SpeedCourse, SpinUp};
-pub use system::{System, SystemName};
+pub use system::SystemName;
 pub use table::{FORMAT, keys, keys_of, presence, sections, sections_of, systems};
 pub use template::template;
 pub use torque::{ComparedLaw, Torque};
+pub use vary::{Distribution, Draws, Vary};
 
 use crate::problem::{Code, Problem};
 use std::fs::File;
@@ -100,6 +78,84 @@ use std::path::Path;
 
 /// Largest input file, bytes.
 const LARGEST_FILE: u64 = 10_000_000;
+
+/// What is simulated or computed: the one place in which the systems of a scenario meet.
+#[allow(clippy::large_enum_variant)] // one of them stands in memory at a time
+#[derive(Clone, Debug, PartialEq)]
+pub enum System {
+    /// A levitated rotor is released onto its auxiliary bearing.
+    Drop(Drop),
+    /// The inner race of a bearing is brought to speed.
+    SpinUp(SpinUp),
+    /// The torque of a bearing over speed, load and acceleration.
+    Torque(Torque),
+    /// What a measurement holds.
+    Signals(Signals),
+    /// A test on a rig.
+    Rig(Box<Rig>),
+    /// What measured tests tell.
+    Identify(Box<Identify>),
+}
+
+impl System {
+    /// Its name.
+    pub fn name(&self) -> SystemName {
+        match self {
+            System::Drop(_) => SystemName::Drop,
+            System::SpinUp(_) => SystemName::SpinUp,
+            System::Torque(_) => SystemName::Torque,
+            System::Signals(_) => SystemName::Signals,
+            System::Rig(_) => SystemName::Rig,
+            System::Identify(_) => SystemName::Identify,
+        }
+    }
+
+    /// The typed values of a document's system, checked; several auxiliary bearings have values each.
+    fn of(
+        document: &document::Document,
+        all: &[values::Values],
+        bearings: &dyn BearingSource,
+        file: &str,
+    ) -> Result<System, Box<Problem>> {
+        let values = &all[0];
+        let context = checks::Context { values, file };
+        let system = match document.system {
+            SystemName::Drop => {
+                let drop = Drop::from_values(all);
+                context.drop(&drop, all)?;
+                System::Drop(drop)
+            }
+            SystemName::SpinUp => {
+                let spin_up = SpinUp::from_values(values);
+                context.spin_up(&spin_up)?;
+                System::SpinUp(spin_up)
+            }
+            SystemName::Signals => {
+                let signals = Signals::from_values(values);
+                context.signals(&signals)?;
+                System::Signals(signals)
+            }
+            SystemName::Identify => {
+                let identify = Box::new(Identify::from_values(values));
+                context.identify(&identify)?;
+                System::Identify(identify)
+            }
+            SystemName::Rig => {
+                let rig = Box::new(Rig::from_values(values));
+                context.rig(&rig)?;
+                System::Rig(rig)
+            }
+            SystemName::Torque => {
+                let laws = torque::compared_laws(document, values, bearings);
+                let torque = Torque::from_values(values, laws)?;
+                context.torque(&torque)?;
+                System::Torque(torque)
+            }
+        };
+        all.iter().try_for_each(values::Values::complete)?;
+        Ok(system)
+    }
+}
 
 /// A scenario that was read and checked. It does not change; to vary it, read it again with an override.
 #[derive(Clone, Debug, PartialEq)]
@@ -114,8 +170,12 @@ pub struct Scenario {
     pub system: System,
     /// Every value with its origin.
     pub resolved: Resolved,
+    /// What repeated runs vary.
+    pub vary: Vec<Vary>,
     /// Where it was read.
     text: locate::Text,
+    /// What was read, to be read again with other values.
+    document: document::Document,
 }
 
 impl Scenario {
@@ -145,31 +205,55 @@ impl Scenario {
                 "a scenario is needed; auxbear new drop writes one to start from",
             )));
         }
-        let document = document::Document::read(text, name, sets)?;
-        let values = resolve::Values::resolve(&document, bearings)?;
-        let system = match document.system {
-            SystemName::Drop => System::Drop(Drop::from_values(&values)),
-            SystemName::SpinUp => System::SpinUp(SpinUp::from_values(&values)),
-            SystemName::Signals => System::Signals(Signals::from_values(&values)),
-            SystemName::Identify => System::Identify(Box::new(Identify::from_values(&values))),
-            SystemName::Rig => System::Rig(Box::new(Rig::from_values(&values))),
-            SystemName::Torque => {
-                let laws = torque::compared_laws(&document, &values, bearings);
-                System::Torque(Torque::from_values(&values, laws)?)
-            }
+        Scenario::of(document::Document::read(text, name, sets)?, bearings)
+    }
+
+    /// The scenario with other values at these paths, each as an override has it. Bearings are those of the built-in
+    /// catalogue and of the file's own.
+    ///
+    /// # Errors
+    /// What an override of this value would be refused for.
+    pub fn with(&self, changes: &[(String, String)]) -> Result<Scenario, Box<Problem>> {
+        let mut document = self.document.clone();
+        for (path, value) in changes {
+            document.add_override(&format!("{path}={value}"))?;
+        }
+        Scenario::of(document, &BuiltIn)
+    }
+
+    /// Resolves and checks what was read.
+    fn of(
+        document: document::Document,
+        bearings: &dyn BearingSource,
+    ) -> Result<Scenario, Box<Problem>> {
+        let name = &document.file.clone();
+        let documents = document.of_each_bearing();
+        let values = (documents.iter())
+            .map(|document| values::Values::resolve(document, bearings))
+            .collect::<Result<Vec<_>, _>>()?;
+        let system = System::of(&documents[0], &values, bearings, name)?;
+        let vary = match &system {
+            System::Drop(drop) => vary::of_drop(&drop.repeat, &document.vary, &values)?,
+            _ => Vec::new(),
         };
-        checks::check(&system, &values, name)?;
         Ok(Scenario {
             format: FORMAT.to_string(),
-            title: values.text("title"),
-            description: values.text("description"),
+            title: values[0].text("title"),
+            description: values[0].text("description"),
             system,
-            resolved: values.resolved(),
+            resolved: values::Values::resolved(&values).varied(&vary),
+            vary,
             text: locate::Text {
                 name: name.to_string(),
-                sections: document.sections,
+                sections: document.sections.clone(),
             },
+            document,
         })
+    }
+
+    /// The problem with the file and the line of its key: where the key stands, else where the section begins.
+    pub fn locate(&self, problem: Box<Problem>) -> Box<Problem> {
+        self.text.locate(&self.resolved, problem)
     }
 }
 

@@ -1,17 +1,14 @@
 //! From one raw value to a value of the kind that its key takes.
 
-use super::document::{Given, Raw};
-use super::key::{Key, Kind, article, quoted};
-use super::provenance::Provenance;
-use super::resolve::{Known, Value, Values};
 use crate::problem::{Code, Place, Problem, did_you_mean, question};
+use crate::scenario::document::{Given, Raw};
+use crate::scenario::key::{Key, Kind, article, quoted};
+use crate::scenario::provenance::Provenance;
+use crate::scenario::values::{Known, POWER_TOLERANCE, Value, Values};
 use units::{Dimension, ParseError, Rational, parse_quantity};
 
-/// How far the power in the unit of a contact stiffness may be from its exponent: decimals of 10/9 are accepted.
-pub(super) const POWER_TOLERANCE: f64 = 1e-6;
-
 /// What a resolved file says of values that were not given.
-pub(super) const FILLED_IN: [&str; 2] = ["default", "catalogue"];
+pub(crate) const FILLED_IN: [&str; 2] = ["default", "catalogue"];
 
 /// A value without the table around it.
 struct Unwrapped<'a> {
@@ -22,7 +19,7 @@ struct Unwrapped<'a> {
 
 impl Values {
     /// Reads one given value.
-    pub(super) fn read(&self, key: &Key, given: &Given) -> Result<Known, Box<Problem>> {
+    pub(crate) fn read(&self, key: &Key, given: &Given) -> Result<Known, Box<Problem>> {
         let Unwrapped {
             raw,
             provenance,
@@ -144,7 +141,7 @@ impl Values {
         }
     }
 
-    fn read_raw(
+    pub(crate) fn read_raw(
         &self,
         key: &Key,
         raw: &Raw,
@@ -260,7 +257,7 @@ impl Values {
 }
 
 /// A dimension in words: `a length`.
-pub(super) fn described(dimension: Dimension) -> String {
+pub(crate) fn described(dimension: Dimension) -> String {
     match dimension.name() {
         Some(name) => format!("{} {name}", article(name)),
         None => format!("in {}", dimension.si_unit()),
@@ -268,7 +265,7 @@ pub(super) fn described(dimension: Dimension) -> String {
 }
 
 /// What is wrong with the text of a quantity. A near unit is a hint of its own, not the middle of the message.
-pub(super) fn unreadable(error: &ParseError) -> (Code, String, Option<String>) {
+pub(crate) fn unreadable(error: &ParseError) -> (Code, String, Option<String>) {
     let code = match error {
         ParseError::MissingUnit { .. } => Code::BareNumber,
         ParseError::OutOfRange { .. } | ParseError::NotFinite { .. } => Code::OutOfRange,

@@ -1,14 +1,14 @@
 //! Lists: several values of one kind; a single one needs no brackets.
 
-use super::document::Raw;
-use super::key::{Key, Kind, quoted};
-use super::read_rows::cell;
-use super::resolve::{Value, Values};
 use crate::problem::{Code, Place, Problem, did_you_mean};
+use crate::scenario::document::Raw;
+use crate::scenario::key::{Key, Kind, quoted};
+use crate::scenario::read_rows::cell;
+use crate::scenario::values::{Value, Values};
 
 impl Values {
     /// Reads a list; a problem names the entry, counted from 1.
-    pub(super) fn read_list(
+    pub(crate) fn read_list(
         &self,
         key: &Key,
         raw: &Raw,

@@ -1,15 +1,15 @@
 //! Tables: rows of two quantities, of which the first rises.
 
-use super::document::Raw;
-use super::key::{Key, quoted};
-use super::read::{described, unreadable};
-use super::resolve::{Value, Values};
 use crate::problem::{Code, Place, Problem};
+use crate::scenario::document::Raw;
+use crate::scenario::key::{Key, quoted};
+use crate::scenario::read::{described, unreadable};
+use crate::scenario::values::{Value, Values};
 use units::{Unit, parse_quantity};
 
 impl Values {
     /// Reads the rows of a table; a problem names the row, counted from 1.
-    pub(super) fn read_rows(
+    pub(crate) fn read_rows(
         &self,
         key: &Key,
         units: [&str; 2],
@@ -91,7 +91,7 @@ impl Values {
 }
 
 /// One quantity of a row, in SI and as written; else code, what was found and a hint.
-pub(super) fn cell<'a>(
+pub(crate) fn cell<'a>(
     raw: &'a Raw,
     unit: &str,
 ) -> Result<(f64, &'a str), (Code, String, Option<String>)> {

@@ -1,93 +1,31 @@
 //! From the table of keys and the given values to one value for every key.
 
-use super::bearing_source::{BearingRecord, BearingSource};
-use super::document::{Document, Given, Raw, as_toml};
-use super::key::{Condition, Fallback, Key, Kind, Otherwise, Presence, quoted};
-use super::provenance::Provenance;
-use super::read::POWER_TOLERANCE;
-use super::resolved::{Resolved, ResolvedValue};
-use super::system::SystemName;
-use super::table;
 use crate::problem::{Code, Place, Problem};
+use crate::scenario::bearing::source::{BearingRecord, BearingSource};
+use crate::scenario::document::{Document, Given, Raw, as_toml};
+use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Presence, quoted};
+use crate::scenario::provenance::Provenance;
+use crate::scenario::resolved::{Resolved, ResolvedValue};
+use crate::scenario::several;
+use crate::scenario::table;
+use crate::scenario::values::{COMPARED_LAWS, Known, LAW, POWER_TOLERANCE, Value, Values};
+use std::cell::RefCell;
 use std::collections::BTreeMap;
-use units::{Quantity, Rational, parse_quantity};
-
-/// Key of the law of the friction moment, on which its constants depend.
-pub(super) const LAW: &str = "bearing.moment.law";
-/// Key of the laws that are compared with it.
-pub(super) const COMPARED_LAWS: &str = "torque.laws";
-
-/// A value that was read.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Value {
-    /// A quantity in SI or a bare number.
-    Number(f64),
-    /// A whole number, not negative.
-    Count(u64),
-    /// One of the words of the key.
-    Word(&'static str),
-    /// `true` or `false`.
-    Switch(bool),
-    /// Any text.
-    Text(String),
-    /// Rows of two quantities in SI.
-    Rows(Vec<[f64; 2]>),
-    /// Quantities in SI.
-    Numbers(Vec<f64>),
-    /// Words of the key.
-    Words(Vec<&'static str>),
-    /// Any texts.
-    Texts(Vec<String>),
-}
-
-impl Value {
-    pub(super) fn number(&self) -> Option<f64> {
-        match self {
-            Value::Number(value) => Some(*value),
-            Value::Count(count) => Some(*count as f64),
-            Value::Word(_)
-            | Value::Switch(_)
-            | Value::Text(_)
-            | Value::Rows(_)
-            | Value::Numbers(_)
-            | Value::Words(_)
-            | Value::Texts(_) => None,
-        }
-    }
-}
-
-/// A value with everything known of it.
-#[derive(Clone, Debug)]
-pub(super) struct Known {
-    pub(super) value: Value,
-    pub(super) text: String,
-    pub(super) provenance: Provenance,
-    pub(super) place: Place,
-    /// Whether the file says that the program filled it in.
-    pub(super) filled_in: bool,
-}
-
-/// One value for every key that has one.
-#[derive(Debug)]
-pub(super) struct Values {
-    file: String,
-    system: SystemName,
-    known: BTreeMap<&'static str, Known>,
-    /// What the catalogue knows of the bearing named.
-    record: Option<BearingRecord>,
-}
+use units::{Rational, parse_quantity};
 
 impl Values {
     /// Reads every given value and fills the rest from catalogue and defaults.
-    pub(super) fn resolve(
+    pub(crate) fn resolve(
         document: &Document,
         bearings: &dyn BearingSource,
     ) -> Result<Values, Box<Problem>> {
         let mut values = Values {
             file: document.file.clone(),
             system: document.system,
+            bearing: document.bearing.clone(),
             known: BTreeMap::new(),
             record: None,
+            lacking: RefCell::default(),
         };
         let own = values.own_catalogue(document)?;
         let bearings = own
@@ -129,21 +67,8 @@ impl Values {
         Ok(values)
     }
 
-    pub(super) fn problem(
-        &self,
-        code: Code,
-        path: &str,
-        place: Place,
-        found: impl Into<String>,
-        allowed: impl Into<String>,
-    ) -> Problem {
-        Problem::new(code, &self.file, found, allowed)
-            .at(place)
-            .on_key(path)
-    }
-
     /// The condition that keeps a key from having a meaning, followed to its root.
-    pub(super) fn unmet(&self, key: &Key) -> Option<Condition> {
+    pub(crate) fn unmet(&self, key: &Key) -> Option<Condition> {
         key.when.iter().find_map(|condition| {
             if let Some(parent) = table::keys().find(|other| other.path == condition.path) {
                 if !table::systems(parent).contains(&self.system) {
@@ -323,7 +248,8 @@ impl Values {
         let raw = match key.kind {
             Kind::Count => Raw::Integer(fallback.text.to_string(), fallback.text.parse().ok()),
             Kind::Switch => Raw::Switch(fallback.text == "true"),
-            Kind::Coefficient => Raw::Float(fallback.text.parse().unwrap_or(f64::NAN)),
+            Kind::Coefficient => (fallback.text.parse())
+                .map_or_else(|_| Raw::Text(fallback.text.to_string()), Raw::Float),
             Kind::Quantities(_) | Kind::Words(_) | Kind::Texts => {
                 as_toml(fallback.text).unwrap_or(Raw::Text(fallback.text.to_string()))
             }
@@ -344,124 +270,23 @@ impl Values {
         Ok(known)
     }
 
-    /// The file, as the user named it.
-    pub(super) fn file(&self) -> &str {
-        &self.file
-    }
-
-    /// The system of the file.
-    pub(super) fn system(&self) -> SystemName {
-        self.system
-    }
-
-    pub(super) fn put(&mut self, path: &'static str, known: Known) {
-        self.known.insert(path, known);
-    }
-
-    /// Takes a value away that has no effect after all.
-    pub(super) fn take_away(&mut self, path: &str) {
-        self.known.remove(path);
-    }
-
-    /// Whether a value was given, rather than filled in.
-    pub(super) fn is_given(&self, path: &str) -> bool {
-        self.known.get(path).is_some_and(|known| {
-            !matches!(
-                known.provenance,
-                Provenance::Default(_) | Provenance::DefaultAssumed(_)
-            )
-        })
-    }
-
-    /// Where a value comes from, in one word; empty where there is none.
-    pub(super) fn mark(&self, path: &str) -> &'static str {
-        let known = self.known.get(path);
-        known.map_or("", |known| known.provenance.mark())
-    }
-
-    /// A dimension of the bearing named, as the catalogue knows it.
-    pub(super) fn dimension(&self, name: &str) -> Option<f64> {
-        let mut values = self.record.as_ref()?.values.iter();
-        values.find(|value| value.0 == name).map(|value| value.1)
-    }
-
-    /// Where a value was given.
-    pub(super) fn place(&self, path: &str) -> Place {
-        self.known
-            .get(path)
-            .map_or(Place::Whole, |known| known.place)
-    }
-
-    /// The value as written.
-    pub(super) fn text(&self, path: &str) -> Option<String> {
-        self.known.get(path).map(|known| known.text.clone())
-    }
-
-    /// A number in SI, where there is one.
-    pub(super) fn number(&self, path: &str) -> Option<f64> {
-        self.known.get(path).and_then(|known| known.value.number())
-    }
-
-    /// A word; empty where there is none.
-    pub(super) fn word(&self, path: &str) -> &'static str {
-        match self.known.get(path).map(|known| &known.value) {
-            Some(Value::Word(word)) => word,
-            _ => "",
+    /// The list of all values for people and for the resolved file: those of the whole file, and behind them those of each of
+    /// several auxiliary bearings.
+    pub(crate) fn resolved(all: &[Values]) -> Resolved {
+        let whole = |path: &str| all[0].bearing.is_none() || !several::of_each_bearing(path);
+        let mut values = all[0].listed(whole);
+        if all[0].bearing.is_some() {
+            values.extend(
+                all.iter()
+                    .flat_map(|one| one.listed(several::of_each_bearing)),
+            );
         }
+        Resolved::new(values)
     }
 
-    /// A switch; off where there is none.
-    pub(super) fn switch(&self, path: &str) -> bool {
-        matches!(
-            self.known.get(path).map(|known| &known.value),
-            Some(Value::Switch(true))
-        )
-    }
-
-    /// The rows of a table, where there is one.
-    pub(super) fn rows(&self, path: &str) -> Option<Vec<[f64; 2]>> {
-        match self.known.get(path).map(|known| &known.value) {
-            Some(Value::Rows(rows)) => Some(rows.clone()),
-            _ => None,
-        }
-    }
-
-    /// A list of quantities in SI; empty where there is none.
-    pub(super) fn numbers(&self, path: &str) -> Vec<f64> {
-        match self.known.get(path).map(|known| &known.value) {
-            Some(Value::Numbers(list)) => list.clone(),
-            _ => Vec::new(),
-        }
-    }
-
-    /// A list of words; empty where there is none.
-    pub(super) fn words(&self, path: &str) -> &[&'static str] {
-        match self.known.get(path).map(|known| &known.value) {
-            Some(Value::Words(list)) => list,
-            _ => &[],
-        }
-    }
-
-    /// A list of texts; empty where there is none.
-    pub(super) fn texts(&self, path: &str) -> &[String] {
-        match self.known.get(path).map(|known| &known.value) {
-            Some(Value::Texts(list)) => list,
-            _ => &[],
-        }
-    }
-
-    /// A whole number; 0 where there is none.
-    pub(super) fn count(&self, path: &str) -> u64 {
-        match self.known.get(path).map(|known| &known.value) {
-            Some(Value::Count(count)) => *count,
-            _ => 0,
-        }
-    }
-
-    /// The list of all values for people and for the resolved file.
-    pub(super) fn resolved(&self) -> Resolved {
+    fn listed(&self, wanted: impl Fn(&str) -> bool) -> Vec<ResolvedValue> {
         let mut list = Vec::new();
-        for key in table::keys_of(self.system) {
+        for key in table::keys_of(self.system).filter(|key| wanted(key.path)) {
             let known = self.known.get(key.path);
             if known.is_none() && self.unmet(key).is_some() {
                 continue;
@@ -478,6 +303,10 @@ impl Values {
             };
             list.push(ResolvedValue {
                 path: key.path,
+                bearing: self
+                    .bearing
+                    .clone()
+                    .filter(|_| several::of_each_bearing(key.path)),
                 text: known.map(|known| known.text.clone()),
                 value_si: known.and_then(|known| known.value.number()),
                 unit: self.si_unit(key),
@@ -485,7 +314,7 @@ impl Values {
                 place: known.map_or(Place::Whole, |known| known.place),
             });
         }
-        Resolved { values: list }
+        list
     }
 
     fn si_unit(&self, key: &Key) -> String {
@@ -505,17 +334,5 @@ fn order(place: Place) -> usize {
         Place::Whole => 0,
         Place::Line { line, .. } => line,
         Place::Set => usize::MAX,
-    }
-}
-
-/// A value in SI as a text that reads back bit for bit.
-pub(super) fn quantity_text(key: &Key, value_si: f64) -> String {
-    match key.dimension() {
-        Some(dimension) => Quantity {
-            value_si,
-            dimension,
-        }
-        .to_string(),
-        None => units::number_text(value_si),
     }
 }

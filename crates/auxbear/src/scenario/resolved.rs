@@ -1,15 +1,19 @@
 //! The resolved scenario: every value with its origin, and as a file that gives the same run.
 
-use super::key::{Key, quoted};
-use super::provenance::Provenance;
-use super::table;
 use crate::problem::Place;
+use crate::scenario::key::{Key, Kind, quoted};
+use crate::scenario::provenance::Provenance;
+use crate::scenario::several::{self, AUXILIARY_BEARING, VARY};
+use crate::scenario::table;
+use crate::scenario::vary::Vary;
 
 /// One value of a resolved scenario.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResolvedValue {
     /// Dotted path of the key.
     pub path: &'static str,
+    /// Name of the auxiliary bearing that it belongs to, where there are several.
+    pub bearing: Option<String>,
     /// The value as written, with its unit; `None` for what is not given or is derived when the run starts.
     pub text: Option<String>,
     /// The value in SI, where it is a number.
@@ -22,17 +26,50 @@ pub struct ResolvedValue {
     pub place: Place,
 }
 
+impl ResolvedValue {
+    /// Whether machines that differ in it are of different kinds: a word, a switch, a text, a count, or whether it is given.
+    pub(crate) fn is_of_kind(&self) -> bool {
+        let counted =
+            || table::keys().any(|key| key.path == self.path && matches!(key.kind, Kind::Count));
+        !self.path.starts_with("repeat.") && (self.value_si.is_none() || counted())
+    }
+    /// The path as the file has it: `auxiliary_bearing.drive_end.bearing.name`.
+    pub fn shown(&self) -> String {
+        several::path_of(self.bearing.as_deref(), self.path)
+    }
+}
+
 /// All values of a scenario, in the order of the table of keys.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resolved {
     /// The values.
     pub values: Vec<ResolvedValue>,
+    /// What `[vary]` says, a line each.
+    vary: Vec<String>,
 }
 
 impl Resolved {
-    /// The value of a key.
+    pub(crate) fn new(values: Vec<ResolvedValue>) -> Resolved {
+        let vary = Vec::new();
+        Resolved { values, vary }
+    }
+    /// The same with what repeated runs vary; what the keys of `[repeat]` say stands there.
+    pub(crate) fn varied(mut self, vary: &[Vary]) -> Resolved {
+        let own = vary.iter().filter(|one| !one.by_repeat);
+        self.vary = own.map(Vary::toml).collect();
+        self
+    }
+    /// The value of a key, of the first where several auxiliary bearings have it.
     pub fn get(&self, path: &str) -> Option<&ResolvedValue> {
         self.values.iter().find(|value| value.path == path)
+    }
+
+    /// The value of a key of an auxiliary bearing; its name is empty where it is the only one.
+    pub fn of_bearing(&self, bearing: &str, path: &str) -> Option<&ResolvedValue> {
+        let of = |value: &&ResolvedValue| {
+            value.path == path && value.bearing.as_ref().is_none_or(|name| name == bearing)
+        };
+        self.values.iter().find(of)
     }
 
     /// The scenario file with every value written out. Reading it gives the same numbers bit for bit.
@@ -43,16 +80,33 @@ impl Resolved {
         let mut out =
             String::from("# Resolved scenario: every value of the run and where it comes from.\n");
         let mut section = "";
+        let mut bearing = None;
         for value in &self.values {
+            if value.bearing != bearing {
+                bearing.clone_from(&value.bearing);
+                section = "";
+                if let Some(name) = &bearing {
+                    out.push_str(&format!(
+                        "\n[[{AUXILIARY_BEARING}]]\nname = {}\n",
+                        quoted(name)
+                    ));
+                }
+            }
             let Some(key) = table::keys().find(|key| key.path == value.path) else {
                 continue;
             };
             if key.section() != section {
                 section = key.section();
-                out.push_str(&format!("\n[{section}]\n"));
+                let of = bearing
+                    .as_ref()
+                    .map_or(String::new(), |_| format!("{AUXILIARY_BEARING}."));
+                out.push_str(&format!("\n[{of}{section}]\n"));
             }
             out.push_str(&line(key, value));
             out.push('\n');
+        }
+        if !self.vary.is_empty() {
+            out.push_str(&format!("\n[{VARY}]\n{}\n", self.vary.join("\n")));
         }
         out
     }

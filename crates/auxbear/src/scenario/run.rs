@@ -1,7 +1,8 @@
 //! How long and how finely a system is simulated.
 
-use super::resolve::Values;
-use super::section::Section;
+use crate::scenario::section::Section;
+use crate::scenario::values::Values;
+use crate::scenario::words::words;
 
 /// The simulation.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,19 +19,20 @@ pub struct Run {
     pub method: Method,
 }
 
+words! {
 /// How steps are taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// By the stiffness of friction.
-    Auto,
+    Auto = "auto",
     /// Explicit.
-    Explicit,
+    Explicit = "explicit",
     /// Linearly implicit.
-    Implicit,
+    Implicit = "implicit",
+}
 }
 
 impl Run {
-    pub(super) fn from_values(values: &Values) -> Run {
+    pub(crate) fn from_values(values: &Values) -> Run {
         let run = Section {
             values,
             path: "run",
@@ -40,12 +42,8 @@ impl Run {
             tolerance: run.number("tolerance"),
             output_interval: run.number("output_interval"),
             largest_step: run.number("largest_step"),
-            method: match values.text("run.method").as_deref() {
-                Some("auto") => Method::Auto,
-                Some("implicit") => Method::Implicit,
-                // what has no choice takes explicit steps
-                _ => Method::Explicit,
-            },
+            // what has no choice takes explicit steps
+            method: run.chosen("method").unwrap_or(Method::Explicit),
         }
     }
 }

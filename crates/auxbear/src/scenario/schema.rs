@@ -13,11 +13,12 @@
 //! What an editor cannot know is left to `auxbear check`: dimensions of units, ranges of quantities, what the catalogue
 //! knows of a bearing, and every check between values. Nothing that the program accepts is refused by the schema.
 
-use super::key::{Condition, Key, Kind, Otherwise, Presence, Range};
-use super::read::FILLED_IN;
-use super::resolve::{COMPARED_LAWS, LAW};
-use super::system::SystemName;
-use super::table;
+use crate::scenario::key::{Condition, Key, Kind, Otherwise, Presence, Range};
+use crate::scenario::read::FILLED_IN;
+use crate::scenario::several::{AUXILIARY_BEARING, VARY, of_each_bearing};
+use crate::scenario::system::SystemName;
+use crate::scenario::table;
+use crate::scenario::values::{COMPARED_LAWS, LAW};
 use serde_json::{Map, Value, json};
 
 /// Dialect of the schema.
@@ -48,22 +49,70 @@ fn root(system: SystemName) -> Value {
         properties(&mut root, key.section()).insert(key.name().to_string(), value(key, system));
     }
     let mut rules = exclusions(system);
-    rules.extend(from_bearing(system));
-    rules.extend(conditional(system));
+    // what each of several auxiliary bearings may have of its own needs not stand in the head of the file
+    let mut single = Vec::new();
+    single.extend(from_bearing(system));
+    let (of_bearing, of_file) = conditional(system, &|key| several(system, key));
+    single.extend(of_bearing);
+    rules.extend(of_file);
+    let mut needed = json!({});
     for key in table::keys_of(system) {
         let required = table::presence(key, system) == Presence::Required;
         if !required || !conditions(key, system).is_empty() {
             continue;
         }
+        let own = several(system, key);
         match stand_ins(key, system).as_slice() {
+            [] if own => require(&mut needed, key.path),
             [] => require(&mut root, key.path),
+            others if own => single.push(one_of_them(key, others)),
             others => rules.push(one_of_them(key, others)),
         }
+    }
+    if system == SystemName::Drop {
+        add_bearings(&mut root, system);
+        single.push(needed);
+        rules.push(
+            json!({ "if": { "not": given(AUXILIARY_BEARING) }, "then": { "allOf": single } }),
+        );
+    } else {
+        rules.append(&mut single);
     }
     root["$schema"] = json!(DIALECT);
     root["title"] = json!(format!("auxbear {}", system.word()));
     root["allOf"] = json!(rules);
     root
+}
+
+/// Whether a key may belong to one of several auxiliary bearings.
+fn several(system: SystemName, key: &Key) -> bool {
+    system == SystemName::Drop && of_each_bearing(key.path)
+}
+
+/// The array of several auxiliary bearings, and what repeated runs vary.
+fn add_bearings(root: &mut Value, system: SystemName) {
+    let mut one = object("An auxiliary bearing that differs from the others: what it alone has.");
+    for section in table::sections_of(system).filter(|section| of_each_bearing(section.path)) {
+        let (parent, name) = section.path.rsplit_once('.').unwrap_or(("", section.path));
+        properties(&mut one, parent).insert(name.to_string(), object(section.doc));
+    }
+    for key in table::keys_of(system).filter(|key| of_each_bearing(key.path)) {
+        properties(&mut one, key.section()).insert(key.name().to_string(), value(key, system));
+    }
+    let name = json!({ "type": "string", "pattern": r"^[^\s.]+$", "description": "Its name: results carry it." });
+    properties(&mut one, "").insert("name".to_string(), name);
+    one["required"] = json!(["name"]);
+    let list = json!({
+        "type": "array",
+        "items": one,
+        "description": "Auxiliary bearings that differ. Sections contact, mount and bearing in the head of the file hold for all of them.",
+    });
+    properties(root, "").insert(AUXILIARY_BEARING.to_string(), list);
+    let vary = json!({
+        "type": "object",
+        "description": "What repeated runs vary: dotted paths in quotes, each with one of lognormal, normal, uniform, triangular, choice.",
+    });
+    properties(root, "").insert(VARY.to_string(), vary);
 }
 
 /// A table that knows all its keys.
@@ -180,8 +229,9 @@ fn conditions(key: &Key, system: SystemName) -> Vec<Condition> {
     key.when.iter().filter(choice).copied().collect()
 }
 
-/// Keys that have a meaning only with other values: one rule for all keys of the same conditions.
-fn conditional(system: SystemName) -> Vec<Value> {
+/// Keys that have a meaning only with other values: one rule for all keys of the same conditions. First the rules of those of
+/// which `own` holds.
+fn conditional(system: SystemName, own: &dyn Fn(&Key) -> bool) -> (Vec<Value>, Vec<Value>) {
     let mut groups: Vec<(Vec<Condition>, Vec<&Key>)> = Vec::new();
     for key in table::keys_of(system) {
         let conditions = conditions(key, system);
@@ -228,7 +278,11 @@ fn conditional(system: SystemName) -> Vec<Value> {
             ],
         }
     };
-    groups.iter().flat_map(rule).collect()
+    let (of, others): (Vec<_>, Vec<_>) = groups.into_iter().partition(|group| own(group.1[0]));
+    (
+        of.iter().flat_map(rule).collect(),
+        others.iter().flat_map(rule).collect(),
+    )
 }
 
 /// That a condition on the law holds for a law that is compared.
@@ -407,7 +461,7 @@ fn description(key: &Key, system: SystemName) -> String {
             letters.as_str()
         ));
     }
-    let default = |fallback: super::key::Fallback| {
+    let default = |fallback: crate::scenario::key::Fallback| {
         let mark = if fallback.assumed {
             "Assumed"
         } else {

@@ -1,11 +1,12 @@
 //! Typed values taken out of the resolved ones, section by section.
 
-use super::resolve::Values;
+use crate::scenario::values::Values;
+use crate::scenario::words::Words;
 
 /// Takes typed values out of the resolved ones.
-pub(super) struct Section<'a> {
-    pub(super) values: &'a Values,
-    pub(super) path: &'static str,
+pub(crate) struct Section<'a> {
+    pub(crate) values: &'a Values,
+    pub(crate) path: &'static str,
 }
 
 impl Section<'_> {
@@ -13,31 +14,37 @@ impl Section<'_> {
         format!("{}.{name}", self.path)
     }
 
-    pub(super) fn maybe(&self, name: &str) -> Option<f64> {
+    pub(crate) fn maybe(&self, name: &str) -> Option<f64> {
         self.values.number(&self.path(name))
     }
 
-    /// A number that the table of keys guarantees; not-a-number would show a gap in that table, which the tests exclude.
-    pub(super) fn number(&self, name: &str) -> f64 {
+    /// A number that is needed; where there is none the scenario is refused for it, see [`Values::complete`].
+    pub(crate) fn number(&self, name: &str) -> f64 {
         let value = self.maybe(name);
-        debug_assert!(value.is_some(), "{} has no value", self.path(name));
-        value.unwrap_or(f64::NAN)
+        value.unwrap_or_else(|| self.values.lack(&self.path(name), 0.0))
     }
 
-    pub(super) fn word(&self, name: &str) -> &'static str {
-        self.values.word(&self.path(name))
+    /// A word that is needed; likewise.
+    pub(crate) fn choice<T: Words>(&self, name: &str) -> T {
+        let value = self.chosen(name);
+        value.unwrap_or_else(|| self.values.lack(&self.path(name), T::ALL[0]))
     }
 
-    pub(super) fn switch(&self, name: &str) -> bool {
+    /// A word, where there is one.
+    pub(crate) fn chosen<T: Words>(&self, name: &str) -> Option<T> {
+        self.values.chosen(&self.path(name))
+    }
+
+    pub(crate) fn switch(&self, name: &str) -> bool {
         self.values.switch(&self.path(name))
     }
 
     /// The rows of a table; none where it is not given.
-    pub(super) fn rows(&self, name: &str) -> Option<Vec<[f64; 2]>> {
+    pub(crate) fn rows(&self, name: &str) -> Option<Vec<[f64; 2]>> {
         self.values.rows(&self.path(name))
     }
 
-    pub(super) fn count(&self, name: &str) -> u64 {
+    pub(crate) fn count(&self, name: &str) -> u64 {
         self.values.count(&self.path(name))
     }
 }

@@ -1,11 +1,4 @@
-//! What a scenario may describe: one of several systems.
-
-use super::drop::Drop;
-use super::identify::Identify;
-use super::rig::Rig;
-use super::signals::Signals;
-use super::spin_up::SpinUp;
-use super::torque::Torque;
+//! Names of the systems, and groups of them that share keys.
 
 /// Name of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,10 +28,10 @@ impl SystemName {
         SystemName::Identify,
     ];
     /// Their words, in the same order.
-    pub(super) const WORDS: &'static [&'static str] =
+    pub(crate) const WORDS: &'static [&'static str] =
         &["drop", "spin_up", "torque", "signals", "rig", "identify"];
     /// Words of systems that are planned, so that asking for one is no spelling mistake.
-    pub(super) const PLANNED: &'static [&'static str] = &["rotor"];
+    pub(crate) const PLANNED: &'static [&'static str] = &["rotor"];
 
     /// The word in a file: `spin_up`.
     pub fn word(self) -> &'static str {
@@ -52,7 +45,7 @@ impl SystemName {
     }
 
     /// Systems in words, for messages: `"drop" or "spin_up"`.
-    pub(super) fn list(systems: &[SystemName]) -> String {
+    pub(crate) fn list(systems: &[SystemName]) -> String {
         let words: Vec<String> = systems
             .iter()
             .map(|system| format!("\"{}\"", system.word()))
@@ -61,33 +54,25 @@ impl SystemName {
     }
 }
 
-/// What is simulated or computed.
-#[derive(Clone, Debug, PartialEq)]
-pub enum System {
-    /// A levitated rotor is released onto its auxiliary bearing.
-    Drop(Drop),
-    /// The inner race of a bearing is brought to speed.
-    SpinUp(SpinUp),
-    /// The torque of a bearing over speed, load and acceleration.
-    Torque(Torque),
-    /// What a measurement holds.
-    Signals(Signals),
-    /// A test on a rig.
-    Rig(Box<Rig>),
-    /// What measured tests tell.
-    Identify(Box<Identify>),
-}
+/// Systems in which something moves.
+pub(crate) const MOVING: &[SystemName] = &[SystemName::Drop, SystemName::SpinUp, SystemName::Rig];
 
-impl System {
-    /// Its name.
-    pub fn name(&self) -> SystemName {
-        match self {
-            System::Drop(_) => SystemName::Drop,
-            System::SpinUp(_) => SystemName::SpinUp,
-            System::Torque(_) => SystemName::Torque,
-            System::Signals(_) => SystemName::Signals,
-            System::Rig(_) => SystemName::Rig,
-            System::Identify(_) => SystemName::Identify,
-        }
-    }
-}
+/// Systems in which the inner race is a body of its own, not a part of a shaft.
+pub(crate) const FREE_RACE: &[SystemName] = &[SystemName::Drop, SystemName::SpinUp];
+
+/// Systems with a bearing.
+pub(crate) const WITH_BEARING: &[SystemName] = &[
+    SystemName::Drop,
+    SystemName::SpinUp,
+    SystemName::Torque,
+    SystemName::Rig,
+    SystemName::Identify,
+];
+
+/// Systems with a friction moment of a bearing.
+pub(crate) const WITH_MOMENT: &[SystemName] = &[
+    SystemName::Drop,
+    SystemName::SpinUp,
+    SystemName::Torque,
+    SystemName::Rig,
+];

@@ -3,53 +3,51 @@
 //! The order is the order of the resolved file and of the starting file. A key that another one depends on stands before it.
 //! Each system has some of the sections, and of a section all keys that name no other system.
 
-use super::key::{Key, Kind, Presence, Range, Section};
-use super::system::SystemName;
-use super::{
-    table_bearing, table_cage, table_drive, table_drop, table_identify, table_lubricant_state,
-    table_moment, table_rig, table_signal_analysis, table_signals, table_torque,
-};
+use crate::scenario::key::{Key, Kind, Presence, Range, Section};
+use crate::scenario::run::Method;
+use crate::scenario::system::{MOVING, SystemName, WITH_BEARING};
+use crate::scenario::words::Words;
 
 /// Format name of the scenario files that this version writes.
 pub const FORMAT: &str = "auxbear.scenario/1";
 
 /// All sections, in order.
 pub fn sections() -> impl Iterator<Item = &'static Section> {
-    table_drop::SECTIONS
+    crate::scenario::drop::keys::SECTIONS
         .iter()
-        .chain(table_drive::SECTIONS)
-        .chain(table_torque::SECTIONS)
-        .chain(table_signals::SECTIONS)
-        .chain(table_signal_analysis::SECTIONS)
-        .chain(table_rig::SECTIONS)
-        .chain(table_identify::SECTIONS)
-        .chain(table_bearing::SECTIONS)
-        .chain(table_cage::SECTIONS)
-        .chain(table_bearing::TRACTION_SECTIONS)
-        .chain(table_moment::SECTIONS)
-        .chain(table_lubricant_state::SECTIONS)
+        .chain(crate::scenario::spin_up::keys::SECTIONS)
+        .chain(crate::scenario::torque::keys::SECTIONS)
+        .chain(crate::scenario::signals::keys::SECTIONS)
+        .chain(crate::scenario::signals::keys_analysis::SECTIONS)
+        .chain(crate::scenario::rig::keys::SECTIONS)
+        .chain(crate::scenario::identify::keys::SECTIONS)
+        .chain(crate::scenario::bearing::keys::SECTIONS)
+        .chain(crate::scenario::bearing::keys_cage::SECTIONS)
+        .chain(crate::scenario::bearing::keys::TRACTION_SECTIONS)
+        .chain(crate::scenario::bearing::keys_moment::SECTIONS)
+        .chain(crate::scenario::bearing::keys_lubricant_state::SECTIONS)
         .chain(RUN_SECTIONS)
-        .chain(table_drop::REPEAT_SECTIONS)
+        .chain(crate::scenario::drop::keys::REPEAT_SECTIONS)
 }
 
 /// All keys, in order.
 pub fn keys() -> impl Iterator<Item = &'static Key> {
     HEAD.iter()
-        .chain(table_drop::KEYS)
-        .chain(table_drive::KEYS)
-        .chain(table_torque::KEYS)
-        .chain(table_signals::KEYS)
-        .chain(table_signals::TEMPERATURE)
-        .chain(table_rig::KEYS)
-        .chain(table_identify::KEYS)
-        .chain(table_signal_analysis::KEYS)
-        .chain(table_bearing::KEYS)
-        .chain(table_cage::KEYS)
-        .chain(table_bearing::TRACTION)
-        .chain(table_moment::KEYS)
-        .chain(table_lubricant_state::KEYS)
+        .chain(crate::scenario::drop::keys::KEYS)
+        .chain(crate::scenario::spin_up::keys::KEYS)
+        .chain(crate::scenario::torque::keys::KEYS)
+        .chain(crate::scenario::signals::keys::KEYS)
+        .chain(crate::scenario::signals::keys::TEMPERATURE)
+        .chain(crate::scenario::rig::keys::KEYS)
+        .chain(crate::scenario::identify::keys::KEYS)
+        .chain(crate::scenario::signals::keys_analysis::KEYS)
+        .chain(crate::scenario::bearing::keys::KEYS)
+        .chain(crate::scenario::bearing::keys_cage::KEYS)
+        .chain(crate::scenario::bearing::keys::TRACTION)
+        .chain(crate::scenario::bearing::keys_moment::KEYS)
+        .chain(crate::scenario::bearing::keys_lubricant_state::KEYS)
         .chain(RUN)
-        .chain(table_drop::REPEAT)
+        .chain(crate::scenario::drop::keys::REPEAT)
 }
 
 /// The sections of a system, in order.
@@ -74,9 +72,9 @@ pub fn systems(key: &Key) -> &'static [SystemName] {
 /// What a system does without a key: mostly what all systems do.
 pub fn presence(key: &Key, system: SystemName) -> Presence {
     let own = match system {
-        SystemName::Torque => table_torque::PRESENCES,
-        SystemName::SpinUp => table_drive::PRESENCES,
-        SystemName::Rig => table_rig::PRESENCES,
+        SystemName::Torque => crate::scenario::torque::keys::PRESENCES,
+        SystemName::SpinUp => crate::scenario::spin_up::keys::PRESENCES,
+        SystemName::Rig => crate::scenario::rig::keys::PRESENCES,
         SystemName::Drop | SystemName::Signals | SystemName::Identify => &[],
     };
     let own = own.iter().find(|(path, _)| *path == key.path);
@@ -84,42 +82,21 @@ pub fn presence(key: &Key, system: SystemName) -> Presence {
 }
 
 /// Whether the starting file of a system gives a key that could stay away in a file of another bearing.
-pub(super) fn starts_with(key: &Key, system: SystemName) -> bool {
+pub(crate) fn starts_with(key: &Key, system: SystemName) -> bool {
     match system {
-        SystemName::Torque => table_torque::GIVEN.contains(&key.path),
-        SystemName::Signals => table_signals::GIVEN.contains(&key.path),
-        SystemName::Rig => table_rig::GIVEN.contains(&key.path),
-        SystemName::Identify => table_identify::GIVEN.contains(&key.path),
+        SystemName::Torque => crate::scenario::torque::keys::GIVEN.contains(&key.path),
+        SystemName::Signals => crate::scenario::signals::keys::GIVEN.contains(&key.path),
+        SystemName::Rig => crate::scenario::rig::keys::GIVEN.contains(&key.path),
+        SystemName::Identify => crate::scenario::identify::keys::GIVEN.contains(&key.path),
         SystemName::Drop | SystemName::SpinUp => false,
     }
 }
 
-/// Systems in which something moves.
-pub(super) const MOVING: &[SystemName] = &[SystemName::Drop, SystemName::SpinUp, SystemName::Rig];
-
-/// Systems in which the inner race is a body of its own, not a part of a shaft.
-pub(super) const FREE_RACE: &[SystemName] = &[SystemName::Drop, SystemName::SpinUp];
-
-/// Systems with a bearing.
-pub(super) const WITH_BEARING: &[SystemName] = &[
-    SystemName::Drop,
-    SystemName::SpinUp,
-    SystemName::Torque,
-    SystemName::Rig,
-    SystemName::Identify,
-];
-
-/// Systems with a friction moment of a bearing.
-pub(super) const WITH_MOMENT: &[SystemName] = &[
-    SystemName::Drop,
-    SystemName::SpinUp,
-    SystemName::Torque,
-    SystemName::Rig,
-];
-
 /// Keys that name files beside the scenario.
-pub(super) fn names_files(key: &Key) -> bool {
-    let all = table_signals::FILES.iter().chain(table_identify::FILES);
+pub(crate) fn names_files(key: &Key) -> bool {
+    let all = crate::scenario::signals::keys::FILES
+        .iter()
+        .chain(crate::scenario::identify::keys::FILES);
     all.into_iter().any(|path| *path == key.path)
 }
 
@@ -210,7 +187,7 @@ const RUN: &[Key] = &[
     ),
     Key::new(
         "run.method",
-        Kind::Word(&["auto", "explicit", "implicit"]),
+        Kind::Word(Method::WORDS),
         "auto",
         "Time integration: explicit steps are bound by stability, implicit ones are not; auto takes implicit steps where sliding friction is too stiff for explicit ones.",
     )

@@ -1,8 +1,8 @@
 //! The commented starting file, written from the table of keys.
 
-use super::key::{Condition, Key, Otherwise, Presence};
-use super::system::SystemName;
-use super::table;
+use crate::scenario::key::{Condition, Key, Otherwise, Presence};
+use crate::scenario::system::SystemName;
+use crate::scenario::table;
 
 /// Width of a comment line.
 const WIDTH: usize = 100;

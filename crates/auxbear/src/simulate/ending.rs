@@ -1,6 +1,6 @@
 //! How finely a run is integrated, and how it ended.
 
-use super::outcome::Stop;
+use crate::result::outcome::Stop;
 use crate::scenario::Run;
 use solve::{Ending, Settings};
 
@@ -10,7 +10,7 @@ const FIRST_STEP: f64 = 1e-8;
 const STEP_LIMIT: u64 = 20_000_000;
 
 /// Settings of the integration of a system.
-pub(super) fn settings(run: &Run) -> Settings {
+pub(crate) fn settings(run: &Run) -> Settings {
     Settings {
         start: 0.0,
         end: run.duration,
@@ -32,7 +32,7 @@ fn instant(time: f64) -> String {
 }
 
 /// How a run ended, in words.
-pub(super) fn stop(ending: &Ending) -> Stop {
+pub(crate) fn stop(ending: &Ending) -> Stop {
     let time = ending.time;
     let (reason, text) = match &ending.stop {
         solve::Stop::Finished => ("finished", "The whole duration was computed.".to_string()),

@@ -22,12 +22,12 @@
 //! The kinds, their inputs and their quantities stand in [`kinds`]. Unknown keys, missing inputs and
 //! wrong dimensions make the case fail with the reason: a case that cannot be compared must not look well.
 
+use super::inputs::{Computed, Inputs, Raw, amount};
 use super::kinds;
 use super::report::{Row, Tolerance};
 use super::simulator::Simulator;
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use units::{Dimension, parse_quantity};
 
 /// Name and version of the format.
 pub const FORMAT: &str = "auxbear.case/1";
@@ -62,117 +62,6 @@ struct Expected {
     value: Raw,
     tolerance: Raw,
     reason: String,
-}
-
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(untagged)]
-enum Raw {
-    Number(f64),
-    Text(String),
-}
-
-/// The inputs of a case: each is taken once, so that what is left over is unknown.
-pub struct Inputs {
-    values: BTreeMap<String, Raw>,
-}
-
-impl Inputs {
-    /// A quantity in SI, if it is given.
-    pub fn maybe_quantity(
-        &mut self,
-        key: &str,
-        dimension: Dimension,
-    ) -> Result<Option<f64>, String> {
-        let Some(raw) = self.values.remove(key) else {
-            return Ok(None);
-        };
-        let Raw::Text(text) = raw else {
-            return Err(format!(
-                "inputs.{key}: a quantity with a unit is needed, in {}",
-                dimension.si_unit()
-            ));
-        };
-        let quantity = parse_quantity(&text).map_err(|error| format!("inputs.{key}: {error}"))?;
-        if quantity.dimension != dimension {
-            return Err(format!(
-                "inputs.{key}: found \"{text}\", a quantity in {} is needed",
-                dimension.si_unit()
-            ));
-        }
-        Ok(Some(quantity.value_si))
-    }
-    /// A quantity in SI.
-    pub fn quantity(&mut self, key: &str, dimension: Dimension) -> Result<f64, String> {
-        self.maybe_quantity(key, dimension)?
-            .ok_or_else(|| missing(key))
-    }
-    /// A ratio or count, if it is given.
-    pub fn maybe_number(&mut self, key: &str) -> Result<Option<f64>, String> {
-        match self.values.remove(key) {
-            None => Ok(None),
-            Some(Raw::Number(number)) => Ok(Some(number)),
-            Some(Raw::Text(text)) => Err(format!(
-                "inputs.{key}: found \"{text}\", a number is needed"
-            )),
-        }
-    }
-    /// A ratio or count.
-    pub fn number(&mut self, key: &str) -> Result<f64, String> {
-        self.maybe_number(key)?.ok_or_else(|| missing(key))
-    }
-    /// A whole number from 1.
-    pub fn count(&mut self, key: &str) -> Result<usize, String> {
-        let number = self.number(key)?;
-        if (1.0..1e6).contains(&number) && number.fract() == 0.0 {
-            Ok(number as usize)
-        } else {
-            Err(format!(
-                "inputs.{key}: found {number}, a whole number from 1 is needed"
-            ))
-        }
-    }
-    /// Any text.
-    pub fn text(&mut self, key: &str) -> Result<String, String> {
-        match self.values.remove(key) {
-            Some(Raw::Text(text)) => Ok(text),
-            Some(Raw::Number(number)) => Err(format!(
-                "inputs.{key}: found {number}, a text in quotes is needed"
-            )),
-            None => Err(missing(key)),
-        }
-    }
-    /// One of the words allowed.
-    pub fn word(&mut self, key: &str, allowed: &[&str]) -> Result<String, String> {
-        match self.values.remove(key) {
-            Some(Raw::Text(text)) if allowed.contains(&text.as_str()) => Ok(text),
-            Some(_) => Err(format!(
-                "inputs.{key}: one of {} is needed",
-                allowed.join(", ")
-            )),
-            None => Err(missing(key)),
-        }
-    }
-    /// Refuses what was not taken.
-    fn finish(self) -> Result<(), String> {
-        match self.values.keys().next() {
-            None => Ok(()),
-            Some(key) => Err(format!("inputs.{key}: unknown for this kind")),
-        }
-    }
-}
-
-fn missing(key: &str) -> String {
-    format!("inputs.{key} is missing")
-}
-
-/// What a kind computed under one name.
-pub struct Computed {
-    /// Name of the quantity.
-    pub quantity: &'static str,
-    /// Its dimension.
-    pub dimension: Dimension,
-    /// Its value in SI, or why it could not be computed.
-    pub value: Result<f64, String>,
 }
 
 /// Rows of a case file of this format.
@@ -242,31 +131,6 @@ fn row(expected: Expected, computed: &[Computed]) -> Result<Row, String> {
             ..Row::not_run(why.clone()).of(name.clone(), unit)
         },
     })
-}
-
-/// (number as written, unit as written, SI value of the unit).
-fn amount(raw: &Raw, dimension: Dimension) -> Result<(f64, String, f64), String> {
-    match raw {
-        Raw::Number(number) if dimension == Dimension::NONE => Ok((*number, String::new(), 1.0)),
-        Raw::Number(_) => Err(format!("a quantity in {} is needed", dimension.si_unit())),
-        Raw::Text(text) => {
-            let quantity = parse_quantity(text).map_err(|error| error.to_string())?;
-            if quantity.dimension != dimension {
-                return Err(format!(
-                    "found \"{text}\", a quantity in {} is needed",
-                    dimension.si_unit()
-                ));
-            }
-            let unit = text
-                .trim()
-                .trim_start_matches(|c: char| !c.is_whitespace())
-                .trim();
-            let factor = parse_quantity(&format!("1 {unit}"))
-                .map_err(|error| error.to_string())?
-                .value_si;
-            Ok((quantity.value_si / factor, unit.to_string(), factor))
-        }
-    }
 }
 
 #[cfg(test)]

@@ -3,36 +3,10 @@
 //! Accepted is |x - mean| ≤ 5 sd + 1e-4 |mean|, for the two displacements also 3e-4 |mean|, since the reference takes
 //! them on a grid of 50 µs. `null` in the reference means that the event must not happen.
 
-use super::machine::ReferenceMachine;
-use super::reference::{never, part};
+use super::compare::{never, part};
 use super::report::{Row, Tolerance};
-use super::simulator::{DropAnswer, Simulator};
-use serde::Deserialize;
+use super::simulator::{DropAnswer, DropReference, Simulator};
 use serde_json::Value;
-use std::collections::BTreeMap;
-
-/// A drop as the reference file describes it.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-pub struct DropReference {
-    /// The machine; its levitation vanishes at the release.
-    pub params: ReferenceMachine,
-    /// Rotor speed at the release, rad/s.
-    #[serde(rename = "Om")]
-    pub rotor_speed: f64,
-    /// Duration, s.
-    #[serde(rename = "T")]
-    pub duration: f64,
-    /// State at the release, then the energy accounts; layout as in the derivative points.
-    pub y0: Vec<f64>,
-    /// Means over the ensemble.
-    pub mean: BTreeMap<String, Option<f64>>,
-    /// Standard deviations over the ensemble.
-    pub sd: BTreeMap<String, Option<f64>>,
-    /// Means of the first contact start times, s.
-    pub t_on_mean: Vec<f64>,
-    /// Their standard deviations, s.
-    pub t_on_sd: Vec<f64>,
-}
 
 type Pick = fn(&DropAnswer) -> Option<f64>;
 

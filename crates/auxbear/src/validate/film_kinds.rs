@@ -6,8 +6,7 @@
 //!
 //! The film is steady and isothermal: neither squeeze nor heating of the inlet.
 
-use super::case::{Computed, Inputs};
-use super::kinds::{BallOnRace, ball_on_race, law, positive};
+use super::inputs::{BallOnRace, Computed, Inputs, ball_on_race, law, positive};
 use physics::film::{EntrainedContact, FilmThickness, lambda_ratio};
 use units::Dimension;
 

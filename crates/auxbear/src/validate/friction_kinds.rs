@@ -6,8 +6,7 @@
 //! | `palmgren_factors` | `type` ("deep_groove", "angular_contact", "angular_contact_double_row", "four_point_contact"), `series`, `lubrication` ("grease_or_oil_mist", "oil_bath") | `viscous_factor`, `load_factor`, `load_exponent` |
 //! | `oil_viscosity` | `first_temperature`, `first_viscosity`, `second_temperature`, `second_viscosity`, `temperature` | `viscosity` |
 
-use super::case::{Computed, Inputs};
-use super::kinds::{law, length, positive};
+use super::inputs::{Computed, Inputs, law, length, positive};
 use physics::palmgren_factors::{FactorType, Lubrication, palmgren_factors};
 use physics::skf_constants::{SkfBearing, SkfLubricant, SkfOil, SkfSupply, SkfType};
 use physics::viscosity::Viscosity;

@@ -11,12 +11,11 @@
 //! | `free_fall` | `clearance`, `gravity` | `time_to_first_contact` (simulated), `closed_form_time` |
 //! | `elastic_bounce` | `mass`, `stiffness`, `clearance`, `gravity` | `peak_contact_force` (simulated), `closed_form_force` |
 
-use super::case::{Computed, Inputs};
+use super::inputs::{Computed, Inputs, ball_on_race, law, length, positive};
 use super::simulator::{ElasticBounce, FreeFall, Simulator};
 use super::{film_kinds, friction_kinds};
-use physics::hertz::{BallRace, Curvature, PointContact, Race, maximum_pressure};
+use physics::hertz::{PointContact, maximum_pressure};
 use physics::kinematics::BallSet;
-use physics::materials::{BEARING_STEEL, Material, contact_modulus};
 use physics::palmgren::{
     load_friction_factor, load_moment, printed_viscous_moment, viscous_moment,
 };
@@ -57,116 +56,6 @@ pub fn compute(
         _ => return Ok(None),
     }
     .map(Some)
-}
-
-pub(super) fn law(quantity: &'static str, dimension: Dimension, value: f64) -> Computed {
-    Computed {
-        quantity,
-        dimension,
-        value: Ok(value),
-    }
-}
-
-pub(super) fn positive(key: &str, value: f64) -> Result<f64, String> {
-    if value > 0.0 {
-        Ok(value)
-    } else {
-        Err(format!("inputs.{key}: must be positive"))
-    }
-}
-
-pub(super) fn length(inputs: &mut Inputs, key: &str) -> Result<f64, String> {
-    positive(key, inputs.quantity(key, Dimension::LENGTH)?)
-}
-
-fn either<T>(first: (&str, Option<T>), second: (&str, Option<T>)) -> Result<(), String> {
-    match (first.1.is_some(), second.1.is_some()) {
-        (true, false) | (false, true) => Ok(()),
-        _ => Err(format!(
-            "inputs: either {} or {} is needed",
-            first.0, second.0
-        )),
-    }
-}
-
-/// A ball on a race, as inputs describe it.
-pub(super) struct BallOnRace {
-    /// Sums of principal curvatures, 1/m.
-    pub curvature: Curvature,
-    /// E*, Pa.
-    pub modulus: f64,
-    /// Poisson ratio of the race.
-    pub poisson_ratio: f64,
-    /// Load, N.
-    pub load: f64,
-    /// Ball diameter, m.
-    pub ball_diameter: f64,
-    /// Pitch diameter, m, where the race is described by it.
-    pub pitch_diameter: Option<f64>,
-    /// Contact angle, rad.
-    pub contact_angle: f64,
-}
-
-pub(super) fn ball_on_race(inputs: &mut Inputs) -> Result<BallOnRace, String> {
-    let load = positive("load", inputs.quantity("load", Dimension::FORCE)?)?;
-    let ball_diameter = length(inputs, "ball_diameter")?;
-    let race = match inputs.word("race", &["inner", "outer"])?.as_str() {
-        "inner" => Race::Inner,
-        _ => Race::Outer,
-    };
-    let ratio = inputs.maybe_number("groove_curvature")?;
-    let radius = inputs.maybe_quantity("groove_radius", Dimension::LENGTH)?;
-    either(("groove_curvature", ratio), ("groove_radius", radius))?;
-    let groove_curvature = ratio
-        .or(radius.map(|r| r / ball_diameter))
-        .unwrap_or(f64::NAN);
-    let pitch = inputs.maybe_quantity("pitch_diameter", Dimension::LENGTH)?;
-    let race_radius = inputs.maybe_quantity("race_radius", Dimension::LENGTH)?;
-    either(("pitch_diameter", pitch), ("race_radius", race_radius))?;
-    let contact_angle = inputs
-        .maybe_quantity("contact_angle", Dimension::ANGLE)?
-        .unwrap_or(0.0);
-    let geometry = BallRace {
-        ball_diameter,
-        pitch_diameter: pitch.unwrap_or(f64::INFINITY),
-        groove_curvature,
-        contact_angle,
-        race,
-    };
-    let mut curvature = geometry.curvature();
-    if let Some(radius) = race_radius {
-        let track = match race {
-            Race::Inner => 1.0 / radius,
-            Race::Outer => -1.0 / radius,
-        };
-        curvature = Curvature {
-            rolling: 2.0 / ball_diameter + track,
-            ..curvature
-        };
-    }
-    let race_material = Material {
-        young_modulus: inputs.quantity("young_modulus", Dimension::PRESSURE)?,
-        poisson_ratio: inputs.number("poisson_ratio")?,
-        ..BEARING_STEEL
-    };
-    let ball_material = Material {
-        young_modulus: inputs
-            .maybe_quantity("ball_young_modulus", Dimension::PRESSURE)?
-            .unwrap_or(race_material.young_modulus),
-        poisson_ratio: inputs
-            .maybe_number("ball_poisson_ratio")?
-            .unwrap_or(race_material.poisson_ratio),
-        ..BEARING_STEEL
-    };
-    Ok(BallOnRace {
-        curvature,
-        modulus: contact_modulus(ball_material, race_material),
-        poisson_ratio: race_material.poisson_ratio,
-        load,
-        ball_diameter,
-        pitch_diameter: pitch,
-        contact_angle,
-    })
 }
 
 fn hertz_point_contact(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {

@@ -7,10 +7,12 @@
 //! Laws are computed here. Whole simulations are asked of a [`Simulator`].
 
 pub mod case;
+mod inputs;
 pub mod kinds;
 pub mod report;
 pub mod simulator;
 
+mod compare;
 mod drops;
 mod film_kinds;
 mod friction_kinds;

@@ -4,10 +4,9 @@
 //! cage φ ω, then per ball ρ ρ̇ θ θ̇ σ; 12 energy accounts follow. The files accept
 //! |dy - ref| ≤ 1e-9 max(|ref|, 1e-3 max |dy| of the same variable class): the deviation of a row is that quotient.
 
-use super::machine::ReferenceMachine;
-use super::reference::{Worst, part};
+use super::compare::{Worst, part};
 use super::report::{Row, Tolerance};
-use super::simulator::{DerivativeAnswer, Simulator};
+use super::simulator::{DerivativeAnswer, DerivativePoint, Simulator};
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -20,26 +19,6 @@ struct File {
     #[serde(default)]
     global_cols: Vec<String>,
     quadratures: Vec<String>,
-}
-
-/// One state of a machine with everything that the reference computed for it.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-pub struct DerivativePoint {
-    /// The machine.
-    pub params: ReferenceMachine,
-    /// The state, then the energy accounts.
-    pub y: Vec<f64>,
-    /// Reference rates of both.
-    pub dy: Vec<f64>,
-    /// Reference values per ball, columns as in the file's `per_ball_cols`.
-    pub per_ball: Vec<Vec<f64>>,
-    /// Reference global values, columns as in the file's `global_cols`.
-    #[serde(default)]
-    pub globals: Vec<f64>,
-    /// Reference kinetic energy, J.
-    pub kinetic: f64,
-    /// Reference potential energy, J.
-    pub potential: f64,
 }
 
 /// Rows of a file: per quantity the worst of all points.
@@ -252,7 +231,7 @@ mod tests {
             (self.change)(&mut answer);
             Ok(answer)
         }
-        fn drop(&self, _: &super::super::drops::DropReference) -> Result<DropAnswer, String> {
+        fn drop(&self, _: &super::super::simulator::DropReference) -> Result<DropAnswer, String> {
             Err("not asked".into())
         }
     }

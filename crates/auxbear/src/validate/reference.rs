@@ -5,6 +5,7 @@
 //! and drops go to the [`Simulator`] and are compared in `points.rs` and `drops.rs`.
 //! A file with hundreds of numbers becomes one row per quantity: the one that deviates most.
 
+use super::compare::{Worst, never, part};
 use super::report::{Row, Tolerance};
 use super::simulator::Simulator;
 use super::{drops, points};
@@ -15,8 +16,7 @@ use physics::rolling::{RollingSet, spin_up_time};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-pub use drops::DropReference;
-pub use points::DerivativePoint;
+pub use super::simulator::{DerivativePoint, DropReference};
 
 /// Rows of a reference file; `None` when the keys are those of no known file.
 pub fn rows(value: &Value, simulator: &dyn Simulator) -> Option<Vec<Row>> {
@@ -41,54 +41,6 @@ fn first_row_has(top: &Map<String, Value>, key: &str) -> bool {
         .as_array()
         .and_then(|rows| rows.first())
         .is_some_and(|row| row.get(key).is_some())
-}
-
-/// Reads a part of a reference file.
-pub(super) fn part<T: for<'de> Deserialize<'de>>(value: &Value) -> Result<T, String> {
-    T::deserialize(value).map_err(|error| error.to_string())
-}
-
-/// Keeps, of many comparisons under one name, the one that deviates most against its tolerance.
-#[derive(Default)]
-pub(super) struct Worst {
-    rows: Vec<(Row, usize)>,
-}
-
-impl Worst {
-    /// Adds a comparison.
-    pub(super) fn add(&mut self, row: Row) {
-        let excess = |row: &Row| match (row.deviation, row.tolerance) {
-            (Some(deviation), _) if deviation.is_nan() => f64::INFINITY,
-            (Some(0.0), _) => 0.0,
-            (Some(deviation), Some(tolerance)) => deviation / tolerance,
-            _ => 0.0,
-        };
-        match self
-            .rows
-            .iter_mut()
-            .find(|(known, _)| known.quantity == row.quantity)
-        {
-            None => self.rows.push((row, 1)),
-            Some((known, count)) => {
-                *count += 1;
-                if excess(&row) > excess(known) {
-                    *known = row;
-                }
-            }
-        }
-    }
-    /// The worst of each name, with how many there were.
-    pub(super) fn into_rows(self) -> Vec<Row> {
-        self.rows
-            .into_iter()
-            .map(|(mut row, count)| {
-                if count > 1 {
-                    row.why = format!("worst of {count}: {}", row.why);
-                }
-                row
-            })
-            .collect()
-    }
 }
 
 #[derive(Deserialize)]
@@ -378,26 +330,4 @@ fn rolling(value: &Value) -> Result<Vec<Row>, String> {
         });
     }
     Ok(rows)
-}
-
-/// A comparison where at least one side says that the event does not happen.
-pub(super) fn never(
-    quantity: impl Into<String>,
-    unit: &str,
-    reference: Option<f64>,
-    ours: Option<f64>,
-) -> Row {
-    let row = Row {
-        reference,
-        ours,
-        ..Row::wrong("happens on one side only").of(quantity, unit)
-    };
-    match (reference, ours) {
-        (None, None) => Row {
-            verdict: super::report::Verdict::Pass,
-            why: "must not happen, and does not".into(),
-            ..row
-        },
-        _ => row,
-    }
 }

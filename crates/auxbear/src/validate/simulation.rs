@@ -3,18 +3,19 @@
 use super::machine::ReferenceMachine;
 use super::reference::{DerivativePoint, DropReference};
 use super::simulator::{DerivativeAnswer, DropAnswer, ElasticBounce, FreeFall, Simulator};
-use crate::simulate::ensemble::{self, Finished, Member, Plan};
+use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
+use model::auxiliary_bearing::probe::{FRICTION_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED};
+use model::auxiliary_bearing::{AuxiliaryBearingConstants, BearingAt, RaceConstants};
 use model::bearing::ball::{BallConstants, BallMotion, BallReaction};
 use model::bearing::{BearingConstants, PlanarConstants, Separation};
 use model::contact::JournalContact;
 use model::levitation::Levitation;
 use model::mount::Mount;
 use model::rotor::Rotor;
-use model::system::drop::layout::{
-    BEARING, FRICTION_FORCE, INNER, NORMAL_FORCE, PENETRATION, ROTOR, SLIP_SPEED,
-};
-use model::system::drop::rate::{race_motion, rotor_motion};
-use model::system::drop::{DropConstants, DropMachine, MachineConstants};
+use model::schedule::Schedule;
+use model::system::machine::layout::ROTOR;
+use model::system::machine::rate::rotor_motion;
+use model::system::machine::{MachineConstants, RotorMachine};
 use number::Vec2;
 use physics::traction::{FourParameterTraction, TanhTraction, Traction};
 use solve::Settings;
@@ -34,8 +35,7 @@ impl Simulator for Simulation {
         let machine = falling_machine(1.0, 1e7, case.clearance, case.gravity);
         let fall = (2.0 * case.clearance / case.gravity).sqrt();
         let finished = simulate(machine, None, 1.1 * fall, CLOSED_FORM_TOLERANCE)?;
-        finished
-            .record
+        finished.record.bearings[0]
             .contacts
             .first()
             .map(|contact| contact.start)
@@ -52,8 +52,7 @@ impl Simulator for Simulation {
             fall + 1.2 * half_period,
             CLOSED_FORM_TOLERANCE,
         )?;
-        finished
-            .record
+        finished.record.bearings[0]
             .peak_contact_force()
             .map(|peak| peak.value)
             .ok_or_else(|| "the rotor never touched".to_string())
@@ -62,16 +61,16 @@ impl Simulator for Simulation {
     fn derivative(&self, point: &DerivativePoint) -> Result<DerivativeAnswer, String> {
         let machine = &point.params;
         let levitated = machine.levitation_stiffness > 0.0;
-        let drop = DropMachine::with_levitation(constants(machine, 0.0)?, levitated);
+        let drop = RotorMachine::with_levitation(constants(machine, 0.0)?, levitated);
         let state = state(&drop, &point.y);
         let (rate, probe) = drop.inspect(&state);
         let layout = drop.layout();
 
         let mut rates = reference_order(&drop, &rate);
         let rotor = rotor_motion(&state);
-        let centre = drop.constants.machine.rotor.geometric_centre(&rotor);
+        let centre = drop.constants.rotor.geometric_centre(&rotor);
         let levitation = if levitated { 1.0 } else { 0.0 };
-        let heat = |name: &str| layout.heat_of(&rate, name).unwrap_or(f64::NAN);
+        let heat = |name: &str| layout.heat_of(&rate, "", name).unwrap_or(f64::NAN);
         rates.extend([
             heat("inner_contact_damping"),
             heat("outer_contact_damping"),
@@ -88,7 +87,7 @@ impl Simulator for Simulation {
         ]);
 
         let content = drop.content(&state);
-        let held = drop.constants.machine.levitation.energy(centre.position);
+        let held = drop.constants.levitation.energy(centre.position);
         Ok(DerivativeAnswer {
             rates,
             per_ball: per_ball(&drop, &state),
@@ -99,12 +98,12 @@ impl Simulator for Simulation {
     }
 
     fn drop(&self, reference: &DropReference) -> Result<DropAnswer, String> {
-        let machine = DropMachine::new(constants(&reference.params, reference.rotor_speed)?);
+        let machine = RotorMachine::new(constants(&reference.params, reference.rotor_speed)?);
         let start = state(&machine, &reference.y0);
-        let layout = *machine.layout();
+        let layout = machine.layout().clone();
         let finished = simulate(machine.clone(), Some(start), reference.duration, TOLERANCE)?;
-        let (record, end) = (&finished.record, &finished.ending.state);
-        let heat = |name: &str| layout.heat_of(end, name).unwrap_or(f64::NAN);
+        let (record, end) = (&finished.record.bearings[0], &finished.ending.state);
+        let heat = |name: &str| layout.heat_of(end, "", name).unwrap_or(f64::NAN);
         Ok(DropAnswer {
             first_impact_force: record.contacts.first().map(|contact| contact.peak_force),
             peak_contact_force: record.peak_contact_force().map(|peak| peak.value),
@@ -115,8 +114,8 @@ impl Simulator for Simulation {
             rotor_race_friction_energy: Some(heat("rotor_race_friction")),
             ball_slip_energy: Some(heat("inner_ball_slip") + heat("outer_ball_slip")),
             dissipated_energy: Some(machine.flows(end).heat),
-            inner_race_final_speed: Some(end[INNER + 5]),
-            cage_final_speed: Some(machine.cage_speed(end)),
+            inner_race_final_speed: Some(end[layout.bearings[0].inner + 5]),
+            cage_final_speed: Some(machine.cage_speed(0, end)),
             rotor_final_speed: Some(end[ROTOR + 5]),
             max_rotor_race_displacement: Some(record.rotor_race_displacement.value),
             max_mount_displacement: Some(record.mount_displacement.value),
@@ -130,12 +129,13 @@ impl Simulator for Simulation {
 }
 
 fn simulate(
-    machine: DropMachine,
+    machine: RotorMachine,
     start: Option<Vec<f64>>,
     duration: f64,
     tolerance: f64,
 ) -> Result<Finished, String> {
     let member = Member {
+        kind: 0,
         start: start.unwrap_or_else(|| machine.start()),
         machine,
         keep_rows: false,
@@ -169,7 +169,7 @@ fn simulate(
 }
 
 /// A rotor without spin, unbalance and friction above a race whose centre is held, on a linear contact.
-fn falling_machine(mass: f64, stiffness: f64, clearance: f64, gravity: f64) -> DropMachine {
+fn falling_machine(mass: f64, stiffness: f64, clearance: f64, gravity: f64) -> RotorMachine {
     let gravity = Vec2::new(0.0, -gravity);
     let (ball_mass, radius) = (1e-3, 3e-3);
     let bearing = PlanarConstants {
@@ -210,21 +210,22 @@ fn falling_machine(mass: f64, stiffness: f64, clearance: f64, gravity: f64) -> D
         inlet_rolling: None,
         lubricant: None,
     };
-    let mut constants = DropConstants {
-        machine: MachineConstants {
-            rotor: Rotor {
-                mass,
-                polar_inertia: 1e-2,
-                eccentricity: 0.0,
-                brake_torque: 0.0,
-                spin_held: false,
-            },
-            levitation: Levitation {
-                stiffness: 1e6,
-                damping: 0.0,
-                centre: Vec2::zero(),
-                carried: Vec2::zero(),
-            },
+    let mut constants = MachineConstants {
+        rotor: Rotor {
+            mass,
+            polar_inertia: 1e-2,
+            eccentricity: 0.0,
+            brake_torque: 0.0,
+            spin_held: false,
+        },
+        levitation: Levitation {
+            stiffness: 1e6,
+            damping: 0.0,
+            centre: Vec2::zero(),
+            carried: Vec2::zero(),
+        },
+        bearings: vec![AuxiliaryBearingConstants {
+            name: String::new(),
             contact: JournalContact {
                 radial_clearance: clearance,
                 bore_radius: 12.5e-3 + clearance,
@@ -234,29 +235,31 @@ fn falling_machine(mass: f64, stiffness: f64, clearance: f64, gravity: f64) -> D
                 friction: 0.0,
                 inverse_reference_speed: 10.0,
             },
+            inner_race: RaceConstants {
+                mass: 0.02,
+                inertia: 4e-6,
+                centre_held: true,
+                torque: 0.0,
+            },
+            bearing: BearingConstants::Planar(bearing),
+            outer_race_mass: 0.15,
             mount: Mount {
                 stiffness: 1e8,
                 damping: 0.0,
                 free_position: Vec2::zero(),
             },
-            inner_race_mass: 0.02,
-            inner_race_inertia: 4e-6,
-            inner_race_centre_held: true,
-            inner_race_torque: 0.0,
-            outer_race_mass: 0.15,
-            gravity,
-        },
-        bearing: BearingConstants::Planar(bearing),
+        }],
+        gravity,
         speed: 0.0,
         unbalance_angle: 0.0,
-        brake_start: f64::INFINITY,
+        schedule: Schedule::default(),
     };
-    constants.balance_mount();
-    DropMachine::new(constants)
+    constants.balance_mounts();
+    RotorMachine::new(constants)
 }
 
 /// The machine of a reference file.
-fn constants(machine: &ReferenceMachine, speed: f64) -> Result<DropConstants, String> {
+fn constants(machine: &ReferenceMachine, speed: f64) -> Result<MachineConstants, String> {
     if machine.has_rotor != 1 {
         return Err("a machine without a rotor is no drop".to_string());
     }
@@ -275,21 +278,22 @@ fn constants(machine: &ReferenceMachine, speed: f64) -> Result<DropConstants, St
         other => return Err(format!("traction law {other} is not known")),
     };
     let radius = machine.ball_radius;
-    let mut constants = DropConstants {
-        machine: MachineConstants {
-            rotor: Rotor {
-                mass: machine.rotor_mass,
-                polar_inertia: machine.rotor_inertia,
-                eccentricity: machine.unbalance_eccentricity,
-                brake_torque: 0.0,
-                spin_held: false,
-            },
-            levitation: Levitation {
-                stiffness: machine.levitation_stiffness,
-                damping: machine.levitation_damping,
-                centre: Vec2::zero(),
-                carried: -(gravity * machine.rotor_mass),
-            },
+    let mut constants = MachineConstants {
+        rotor: Rotor {
+            mass: machine.rotor_mass,
+            polar_inertia: machine.rotor_inertia,
+            eccentricity: machine.unbalance_eccentricity,
+            brake_torque: 0.0,
+            spin_held: false,
+        },
+        levitation: Levitation {
+            stiffness: machine.levitation_stiffness,
+            damping: machine.levitation_damping,
+            centre: Vec2::zero(),
+            carried: -(gravity * machine.rotor_mass),
+        },
+        bearings: vec![AuxiliaryBearingConstants {
+            name: String::new(),
             contact: JournalContact {
                 radial_clearance: machine.radial_air_clearance,
                 bore_radius: machine.bore_radius,
@@ -299,79 +303,86 @@ fn constants(machine: &ReferenceMachine, speed: f64) -> Result<DropConstants, St
                 friction: machine.contact_friction_coefficient,
                 inverse_reference_speed: 1.0 / machine.contact_friction_reference_speed,
             },
+            inner_race: RaceConstants {
+                mass: machine.inner_race_mass,
+                inertia: machine.inner_race_inertia,
+                centre_held: machine.inner_race_centre_held == 1,
+                torque: machine.inner_race_torque,
+            },
+            bearing: BearingConstants::Planar(PlanarConstants {
+                balls: machine.ball_count,
+                ball: BallConstants {
+                    radius,
+                    ball_radius: radius,
+                    load_per_radial_force: 1.0,
+                    mass: machine.ball_mass,
+                    inverse_mass: 1.0 / machine.ball_mass,
+                    inverse_inertia: 1.0 / (0.4 * machine.ball_mass * radius * radius),
+                    inner_track: machine.inner_track_radius,
+                    inner_track_growth: 0.0,
+                    outer_track: machine.outer_track_radius,
+                    inner_stiffness: machine.inner_contact_stiffness,
+                    outer_stiffness: machine.outer_contact_stiffness,
+                    damping_time: machine.contact_damping_time,
+                    pocket_radius: machine.pocket_radius,
+                    pocket_gap: machine.pocket_gap,
+                    pocket_stiffness: machine.pocket_stiffness,
+                    pocket_damping: machine.pocket_damping,
+                    pocket_friction: machine.pocket_friction_coefficient,
+                    pocket_inverse_reference_speed: 1.0 / machine.pocket_friction_reference_speed,
+                    orbit_drag: machine.orbit_drag,
+                    spin_drag: machine.spin_drag,
+                    gravity,
+                },
+                traction,
+                separation: Separation::CentredCage,
+                cage_mass: machine.cage_mass,
+                cage_inertia: machine.cage_inertia,
+                cage_drag: machine.cage_drag,
+                first_ball_angle: 0.0,
+                moment: None,
+                inlet_rolling: None,
+                lubricant: None,
+            }),
+            outer_race_mass: machine.outer_race_mass,
             mount: Mount {
                 stiffness: machine.mount_stiffness,
                 damping: machine.mount_damping,
                 free_position: Vec2::zero(),
             },
-            inner_race_mass: machine.inner_race_mass,
-            inner_race_inertia: machine.inner_race_inertia,
-            inner_race_centre_held: machine.inner_race_centre_held == 1,
-            inner_race_torque: machine.inner_race_torque,
-            outer_race_mass: machine.outer_race_mass,
-            gravity,
-        },
-        bearing: BearingConstants::Planar(PlanarConstants {
-            balls: machine.ball_count,
-            ball: BallConstants {
-                radius,
-                ball_radius: radius,
-                load_per_radial_force: 1.0,
-                mass: machine.ball_mass,
-                inverse_mass: 1.0 / machine.ball_mass,
-                inverse_inertia: 1.0 / (0.4 * machine.ball_mass * radius * radius),
-                inner_track: machine.inner_track_radius,
-                inner_track_growth: 0.0,
-                outer_track: machine.outer_track_radius,
-                inner_stiffness: machine.inner_contact_stiffness,
-                outer_stiffness: machine.outer_contact_stiffness,
-                damping_time: machine.contact_damping_time,
-                pocket_radius: machine.pocket_radius,
-                pocket_gap: machine.pocket_gap,
-                pocket_stiffness: machine.pocket_stiffness,
-                pocket_damping: machine.pocket_damping,
-                pocket_friction: machine.pocket_friction_coefficient,
-                pocket_inverse_reference_speed: 1.0 / machine.pocket_friction_reference_speed,
-                orbit_drag: machine.orbit_drag,
-                spin_drag: machine.spin_drag,
-                gravity,
-            },
-            traction,
-            separation: Separation::CentredCage,
-            cage_mass: machine.cage_mass,
-            cage_inertia: machine.cage_inertia,
-            cage_drag: machine.cage_drag,
-            first_ball_angle: 0.0,
-            moment: None,
-            inlet_rolling: None,
-            lubricant: None,
-        }),
+        }],
+        gravity,
         speed,
         unbalance_angle: 0.0,
-        brake_start: f64::INFINITY,
+        schedule: Schedule::default(),
     };
-    constants.balance_mount();
+    constants.balance_mounts();
     Ok(constants)
 }
 
 /// First ball channel of the reference files.
 const REFERENCE_BALLS: usize = 18;
 
-fn planar(machine: &DropMachine) -> &PlanarConstants {
-    match &machine.constants.bearing {
+/// Where the only bearing stands.
+fn at(machine: &RotorMachine) -> &BearingAt {
+    &machine.layout().bearings[0]
+}
+
+fn planar(machine: &RotorMachine) -> &PlanarConstants {
+    match &machine.constants.bearings[0].bearing {
         BearingConstants::Planar(bearing) => bearing,
         BearingConstants::Rolling(_) => unreachable!("reference machines are planar"),
     }
 }
 
 /// A state of the reference files in our layout; the ledger starts at zero.
-fn state(machine: &DropMachine, reference: &[f64]) -> Vec<f64> {
+fn state(machine: &RotorMachine, reference: &[f64]) -> Vec<f64> {
     let layout = machine.layout();
     let mut state = vec![0.0; layout.ledger()];
     state[..REFERENCE_BALLS].copy_from_slice(&reference[..REFERENCE_BALLS]);
     for (ball, values) in reference[REFERENCE_BALLS..]
         .chunks_exact(5)
-        .take(layout.balls)
+        .take(at(machine).balls)
         .enumerate()
     {
         let motion = BallMotion {
@@ -381,30 +392,30 @@ fn state(machine: &DropMachine, reference: &[f64]) -> Vec<f64> {
             orbit_speed: values[3],
             spin: values[4],
         };
-        planar(machine).set_motion(&mut state[BEARING..], ball, &motion);
+        planar(machine).set_motion(&mut state[at(machine).bearing..], ball, &motion);
     }
     state.resize(layout.dimension(), 0.0);
     state
 }
 
 /// Our rates in the order of the reference files, without their accounts.
-fn reference_order(machine: &DropMachine, rate: &[f64]) -> Vec<f64> {
+fn reference_order(machine: &RotorMachine, rate: &[f64]) -> Vec<f64> {
     let mut out = rate[..REFERENCE_BALLS].to_vec();
-    for ball in 0..machine.layout().balls {
-        let m = planar(machine).motion(&rate[BEARING..], ball);
+    for ball in 0..at(machine).balls {
+        let m = planar(machine).motion(&rate[at(machine).bearing..], ball);
         out.extend([m.radius, m.radial_speed, m.azimuth, m.orbit_speed, m.spin]);
     }
     out
 }
 
-fn reactions(machine: &DropMachine, state: &[f64]) -> Vec<BallReaction<f64>> {
-    let own = &state[BEARING..machine.layout().ledger()];
-    (0..machine.layout().balls)
-        .map(|ball| planar(machine).ball_reaction(&race_motion(state), own, ball))
+fn reactions(machine: &RotorMachine, state: &[f64]) -> Vec<BallReaction<f64>> {
+    let own = &state[at(machine).own()];
+    (0..at(machine).balls)
+        .map(|ball| planar(machine).ball_reaction(&at(machine).motion(state), own, ball))
         .collect()
 }
 
-fn per_ball(machine: &DropMachine, state: &[f64]) -> Vec<Vec<f64>> {
+fn per_ball(machine: &RotorMachine, state: &[f64]) -> Vec<Vec<f64>> {
     let ball = &planar(machine).ball;
     reactions(machine, state)
         .iter()
@@ -430,16 +441,15 @@ fn per_ball(machine: &DropMachine, state: &[f64]) -> Vec<Vec<f64>> {
         .collect()
 }
 
-fn globals(machine: &DropMachine, state: &[f64], probe: &[f64]) -> Vec<f64> {
-    let constants = &machine.constants.machine;
+fn globals(machine: &RotorMachine, state: &[f64], probe: &[f64]) -> Vec<f64> {
+    let constants = &machine.constants;
+    let part = &constants.bearings[0];
     let rotor = rotor_motion(state);
-    let races = race_motion(state);
+    let races = at(machine).motion(state);
     let centre = constants.rotor.geometric_centre(&rotor);
-    let contact = constants.contact.react(&centre, rotor.spin, &races.inner);
+    let contact = part.contact.react(&centre, rotor.spin, &races.inner);
     let balls = reactions(machine, state);
-    let mount = constants
-        .mount
-        .force(races.outer.position, races.outer.velocity);
+    let mount = part.mount.force(races.outer.position, races.outer.velocity);
     vec![
         probe[NORMAL_FORCE],
         probe[FRICTION_FORCE],

@@ -1,6 +1,51 @@
 //! What validation asks of the simulation.
 
-use super::reference::{DerivativePoint, DropReference};
+use super::machine::ReferenceMachine;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// A drop as the reference file describes it.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+pub struct DropReference {
+    /// The machine; its levitation vanishes at the release.
+    pub params: ReferenceMachine,
+    /// Rotor speed at the release, rad/s.
+    #[serde(rename = "Om")]
+    pub rotor_speed: f64,
+    /// Duration, s.
+    #[serde(rename = "T")]
+    pub duration: f64,
+    /// State at the release, then the energy accounts; layout as in the derivative points.
+    pub y0: Vec<f64>,
+    /// Means over the ensemble.
+    pub mean: BTreeMap<String, Option<f64>>,
+    /// Standard deviations over the ensemble.
+    pub sd: BTreeMap<String, Option<f64>>,
+    /// Means of the first contact start times, s.
+    pub t_on_mean: Vec<f64>,
+    /// Their standard deviations, s.
+    pub t_on_sd: Vec<f64>,
+}
+
+/// One state of a machine with everything that the reference computed for it.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+pub struct DerivativePoint {
+    /// The machine.
+    pub params: ReferenceMachine,
+    /// The state, then the energy accounts.
+    pub y: Vec<f64>,
+    /// Reference rates of both.
+    pub dy: Vec<f64>,
+    /// Reference values per ball, columns as in the file's `per_ball_cols`.
+    pub per_ball: Vec<Vec<f64>>,
+    /// Reference global values, columns as in the file's `global_cols`.
+    #[serde(default)]
+    pub globals: Vec<f64>,
+    /// Reference kinetic energy, J.
+    pub kinetic: f64,
+    /// Reference potential energy, J.
+    pub potential: f64,
+}
 
 /// Free fall of a rotor from rest, centred, without unbalance and without friction.
 #[derive(Clone, Copy, Debug, PartialEq)]

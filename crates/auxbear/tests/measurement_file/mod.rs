@@ -1,7 +1,7 @@
 //! Measurement files that are wrong, and what is said of them.
 
+use auxbear::run::build;
 use auxbear::scenario::{BuiltIn, Scenario};
-use auxbear::simulate::build;
 use std::fs;
 
 /// The problem that a measurement file of this name and content makes.

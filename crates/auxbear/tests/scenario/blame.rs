@@ -2,13 +2,13 @@
 
 use crate::files::read;
 use auxbear::problem::Problem;
+use auxbear::run::{self, Machine, Options};
 use auxbear::scenario::Scenario;
-use auxbear::simulate::{self, Machine, Options};
 use std::sync::atomic::AtomicBool;
 
 /// The machine of a scenario.
 fn built(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
-    simulate::build(scenario)
+    run::build(scenario)
 }
 
 /// Complete files; overrides change them.
@@ -324,7 +324,7 @@ fn an_axial_load_reaches_the_torque_of_a_bearing() {
         let scenario = read(text, sets).unwrap();
         let interrupt = AtomicBool::new(false);
         let options = Options::unwatched(&interrupt);
-        let outcome = simulate::run(&scenario, &options).unwrap();
+        let outcome = run::run(&scenario, &options).unwrap();
         let column = outcome
             .history
             .iter()
@@ -419,4 +419,24 @@ fn a_load_above_the_static_rating_is_told_before_the_run() {
     assert!(codes(DROP, &["rotor.mass=660 kg"]).is_empty());
     assert_eq!(codes(DROP, &["rotor.mass=680 kg"]), ["AB1029"]);
     assert!(codes(DROP, &["rotor.mass=680 kg", "rotor.planes=2"]).is_empty());
+}
+
+#[test]
+fn a_signals_file_that_is_missing_is_told_where_it_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("identify.toml");
+    let text = "format = \"auxbear.scenario/1\"\nsystem = \"identify\"\n[identify]\n\
+                coast_down = [\"slow.toml\"]\n[bearing]\nname = \"6005\"\n";
+    std::fs::write(&path, text).expect("a folder to write to");
+    let scenario = auxbear::scenario::Scenario::read(&path, &[], &auxbear::scenario::BuiltIn)
+        .expect("it is right");
+    let problem = auxbear::run::build(&scenario).err();
+    let told = problem.expect("a file is missing").to_string();
+    for part in [
+        "error[AB0001]",
+        "identify.toml:4: identify.coast_down",
+        "slow.toml",
+    ] {
+        assert!(told.contains(part), "{told}");
+    }
 }

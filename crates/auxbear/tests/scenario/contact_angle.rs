@@ -1,9 +1,9 @@
 //! Balls at a contact angle: both fidelities are one bearing, and its energy by the outer race closes.
 
 use crate::files::read_from;
+use auxbear::result::outcome::Value;
+use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::BuiltIn;
-use auxbear::simulate::outcome::Value;
-use auxbear::simulate::{Options, Outcome, run};
 use std::sync::atomic::AtomicBool;
 
 /// A race that gains speed evenly, its balls gripped well, the pockets smooth, tight and damped so that the cage does not rattle.

@@ -2,8 +2,8 @@
 //! user's own catalogue.
 
 use crate::files::{self, SPIN_UP, read};
+use auxbear::run::{self, Options};
 use auxbear::scenario::{AccelerationLoss, BuiltIn, Moment, Scenario, SpinUp, System};
-use auxbear::simulate::{self, Options};
 use physics::palmgren_factors::FactorSource;
 use std::fs;
 use std::sync::atomic::AtomicBool;
@@ -278,7 +278,7 @@ fn the_preload_of_a_bearing_reaches_its_friction_law() {
     let run = |more: &[&str]| {
         let scenario = read(&spindle, &with(&by_hand, more)).unwrap();
         let interrupt = AtomicBool::new(false);
-        let outcome = simulate::run(&scenario, &Options::unwatched(&interrupt)).unwrap();
+        let outcome = run::run(&scenario, &Options::unwatched(&interrupt)).unwrap();
         let warned = outcome
             .warnings
             .iter()
@@ -324,7 +324,7 @@ fn the_preload_of_a_bearing_reaches_its_friction_law() {
     );
     let scenario = read(&spindle, &printed).unwrap();
     let interrupt = AtomicBool::new(false);
-    let outcome = simulate::run(&scenario, &Options::unwatched(&interrupt)).unwrap();
+    let outcome = run::run(&scenario, &Options::unwatched(&interrupt)).unwrap();
     let warned = outcome
         .warnings
         .iter()

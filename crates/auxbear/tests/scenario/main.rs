@@ -11,6 +11,7 @@ mod lubricant_state;
 mod pressure_limits;
 mod resolved;
 mod schema;
+mod several;
 mod spin_up;
 mod spin_up_runs;
 mod table;

@@ -1,8 +1,8 @@
 //! Each Hertz pressure is compared with the limit of what touches there, and results and warnings agree.
 
+use auxbear::result::outcome::Value;
+use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::{BuiltIn, Scenario};
-use auxbear::simulate::outcome::Value;
-use auxbear::simulate::{Options, Outcome, run};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 

@@ -104,7 +104,7 @@ fn assert_reads_back(scenario: &Scenario) -> Scenario {
 
 /// The cage of a drop's bearing.
 fn cage(drop: &Drop) -> &Cage {
-    match &drop.bearing.separation {
+    match &drop.auxiliary_bearings[0].bearing.separation {
         Separation::Cage(cage) => cage,
         Separation::FullComplement(_) => panic!("there is a cage"),
     }
@@ -120,19 +120,28 @@ fn a_short_file_is_filled_and_reads_back_bit_for_bit() {
     // 40 g mm on 8 kg is 5 µm; one rounding of the division.
     assert!((drop.rotor.unbalance_eccentricity - 5e-6).abs() < 1e-20);
     assert_eq!(cage(drop).mass, 0.006);
-    assert_eq!(drop.bearing.ball_count, 10);
-    assert_eq!(drop.bearing.inner_groove_curvature, 0.515);
-    assert_eq!(drop.bearing.outer_groove_curvature, 0.53);
-    assert_eq!(drop.contact.bore_diameter, 0.025);
-    assert_eq!(drop.contact.exponent, 10.0 / 9.0);
+    assert_eq!(drop.auxiliary_bearings[0].bearing.ball_count, 10);
+    assert_eq!(
+        drop.auxiliary_bearings[0].bearing.inner_groove_curvature,
+        0.515
+    );
+    assert_eq!(
+        drop.auxiliary_bearings[0].bearing.outer_groove_curvature,
+        0.53
+    );
+    assert_eq!(drop.auxiliary_bearings[0].contact.bore_diameter, 0.025);
+    assert_eq!(drop.auxiliary_bearings[0].contact.exponent, 10.0 / 9.0);
     assert_eq!(drop.gravity.direction, -std::f64::consts::FRAC_PI_2);
     // 6 g on a radius of 18 mm: 1.944e-6 kg m², two roundings.
     assert!((cage(drop).inertia / 1.944e-6 - 1.0).abs() < 1e-15);
-    assert_eq!(drop.bearing.hertz_pressure_limit, 4.2e9);
+    assert_eq!(
+        drop.auxiliary_bearings[0].bearing.hertz_pressure_limit,
+        4.2e9
+    );
     // π/6 (6.35 mm)³ of 7850 kg/m³
-    assert!((drop.bearing.ball_mass.unwrap() / 1.0524e-3 - 1.0).abs() < 0.01);
+    assert!((drop.auxiliary_bearings[0].bearing.ball_mass.unwrap() / 1.0524e-3 - 1.0).abs() < 0.01);
     assert_eq!(drop.rotor.spin, Spin::Free);
-    assert_eq!(drop.bearing.moment, Moment::None);
+    assert_eq!(drop.auxiliary_bearings[0].bearing.moment, Moment::None);
 
     let again = assert_reads_back(&scenario);
     assert_eq!(
@@ -230,8 +239,9 @@ fn choices_become_typed_values() {
             "bearing.traction.c=5 s/m",
             "bearing.traction.d=0.07",
         ])
-        .bearing
-        .traction,
+        .auxiliary_bearings[0]
+            .bearing
+            .traction,
         Traction::FourParameter {
             a: -0.07,
             b: 0.35,
@@ -246,8 +256,9 @@ fn choices_become_typed_values() {
             "bearing.traction.static=0.2",
             "bearing.traction.decay_speed=0.5 m/s",
         ])
-        .bearing
-        .traction,
+        .auxiliary_bearings[0]
+            .bearing
+            .traction,
         Traction::Dry {
             kinetic_coefficient: 0.1,
             static_coefficient: 0.2,
@@ -263,7 +274,9 @@ fn choices_become_typed_values() {
         "bearing.moment.f1_factor=9e-4",
         "bearing.moment.f1_exponent=0.55",
     ])
-    .bearing;
+    .auxiliary_bearings[0]
+        .bearing
+        .clone();
     assert_eq!(rolling.fidelity, Fidelity::Rolling);
     assert_eq!(
         rolling.moment,
@@ -282,19 +295,23 @@ fn choices_become_typed_values() {
         "bearing.ball_material=silicon nitride",
         "bearing.name=6005 hybrid",
     ] {
-        let hybrid = drop(&[hybrid]).bearing;
+        let hybrid = drop(&[hybrid]).auxiliary_bearings[0].bearing.clone();
         assert_eq!(hybrid.ball_material, BallMaterial::SiliconNitride);
         // its steel races dent at the limit for steel, which is assumed
         assert_eq!(hybrid.hertz_pressure_limit, 4.2e9);
     }
     // A linear contact, a power with decimals, and the same power as a fraction.
-    let linear = drop(&["contact.exponent=1", "contact.stiffness=2e7 N/m"]).contact;
+    let linear = drop(&["contact.exponent=1", "contact.stiffness=2e7 N/m"]).auxiliary_bearings[0]
+        .contact
+        .clone();
     assert_eq!((linear.exponent, linear.stiffness), (1.0, 2e7));
     let decimals = drop(&[
         "contact.exponent=1.1111111111111112",
         "contact.stiffness=6e8 N/m^1.111111",
     ])
-    .contact;
+    .auxiliary_bearings[0]
+        .contact
+        .clone();
     assert_eq!((decimals.exponent, decimals.stiffness), (10.0 / 9.0, 6e8));
 }
 

@@ -1,8 +1,8 @@
 //! The shipped spin-ups say what they are shipped for.
 
+use auxbear::result::outcome::Value;
+use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::{BuiltIn, Scenario};
-use auxbear::simulate::outcome::Value;
-use auxbear::simulate::{Options, Outcome, run};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 

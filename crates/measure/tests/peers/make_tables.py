@@ -80,6 +80,21 @@ def hdf5(path, libver):
                 d.attrs[f"attribute {k:02}"] = k
 
 
+def links(path):
+    """Two hundred links in one group, so that heap and tree have more than one level; links out of the file and to nothing.
+    Chunks with a sum and no packing, so that nothing else shows a changed value."""
+    with h5py.File(path, "w", libver="latest") as f:
+        f["force"] = wave(20)
+        f.create_dataset("summed", data=ramp(96).astype("f8"), chunks=(32,), fletcher32=True)
+        many = f.create_group("many")
+        for k in range(200):
+            many[f"alias {k:03}"] = h5py.SoftLink("/force")
+        f["elsewhere"] = h5py.ExternalLink("other.h5", "/force")
+        f["nowhere"] = h5py.SoftLink("/many/force")
+        f["/".join(["deep"] * 40 + ["speed"])] = ramp(20)
+        f["/".join(["below"] * 70 + ["speed"])] = ramp(20)
+
+
 def mat73(path):
     n = 300
     with h5py.File(path, "w", userblock_size=512) as f:
@@ -167,6 +182,7 @@ def main():
     out.mkdir(parents=True, exist_ok=True)
     hdf5(out / "old.h5", "earliest")
     hdf5(out / "new.h5", "latest")
+    links(out / "links.h5")
     mat73(out / "v73.mat")
     mat5(out / "packed.mat", True)
     mat5(out / "plain.mat", False)

@@ -1,147 +1,175 @@
-//! Where everything stands in the state of a system, and among its probes.
+//! Where everything stands in the state of a system: named blocks, then the ledger.
 //!
 //! ```text
-//!   bodies    each system's own
-//!   bearing   its own states
+//!   blocks    bodies and the states of the parts, each under its name
 //!   ledger    heats, works of the sources, external angular impulses, works by the moments on the races
-//!
-//!   probes    each system's own, then the bearing's detail
 //! ```
+//! A layout is built once for each machine. Systems keep where their blocks start in a struct of indices beside it. Heats, sources
+//! and names carry the name of their part; a part without a name, as the only bearing of a machine, has no prefix.
 
-use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
-use std::marker::PhantomData;
+use crate::bearing::BearingConstants;
 use std::ops::Range;
 
-/// What a system has besides the states of its bearing: names in the order of their channels.
-pub trait Channels: Copy {
-    /// Channels of the bodies.
-    const BODIES: &'static [&'static str];
-    /// Kinds of heat: those of the bearing, then the system's own. Names as in results.
-    const HEATS: &'static [&'static str];
-    /// Kinds of source.
-    const SOURCES: &'static [&'static str];
-    /// External angular impulses: that of the system first.
-    const IMPULSES: &'static [&'static str] = &["impulse"];
-    /// Works by the moments on the races; none where they are not kept.
-    const WORKS: &'static [&'static str] = &[];
-    /// Number of probes before the detail.
-    const PROBES: usize;
+/// One kind of heat, source, impulse or work of one part.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Name of the part, empty for the machine as a whole and for an only part.
+    pub part: String,
+    /// Kind, as in results.
+    pub kind: &'static str,
 }
 
-/// The kinds of heat of a bearing, then a system's own: `ALL` of them.
-pub const fn heats_and<const OWN: usize, const ALL: usize>(
-    own: [&'static str; OWN],
-) -> [&'static str; ALL] {
-    let of_bearing = bearing::HEATS.len();
-    assert!(ALL == of_bearing + OWN);
-    let mut all = [""; ALL];
-    let mut i = 0;
-    while i < ALL {
-        all[i] = if i < of_bearing {
-            bearing::HEATS[i]
-        } else {
-            own[i - of_bearing]
-        };
-        i += 1;
+/// A name with its part before it: `drive_end.first_impact_force`, without a part the name alone.
+pub fn of_part(part: &str, name: &str) -> String {
+    if part.is_empty() {
+        name.to_string()
+    } else {
+        format!("{part}.{name}")
     }
-    all
 }
 
-/// Sizes of the state of a system.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Layout<S> {
-    /// Number of balls.
-    pub balls: usize,
-    /// Number of the bearing's own states.
-    pub bearing_states: usize,
-    /// True where the balls have states of their own.
-    pub ball_states: bool,
-    system: PhantomData<S>,
+/// Named blocks of a state, and the ledger behind them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Layout {
+    /// Names of the channels before the ledger.
+    names: Vec<String>,
+    heats: Vec<Entry>,
+    sources: Vec<Entry>,
+    impulses: Vec<Entry>,
+    works: Vec<Entry>,
 }
 
-impl<S: Channels> Layout<S> {
-    /// Channels of the ledger.
-    pub const LEDGER: usize =
-        S::HEATS.len() + S::SOURCES.len() + S::IMPULSES.len() + S::WORKS.len();
-
-    /// The layout of a system with a bearing.
-    pub fn of(bearing: &BearingConstants) -> Self {
-        Layout {
-            balls: bearing.balls(),
-            bearing_states: bearing.states(),
-            ball_states: matches!(bearing, BearingConstants::Planar(_)),
-            system: PhantomData,
-        }
+impl Layout {
+    /// Adds a block of channels with these names after a part's; returns where it stands.
+    pub fn block(&mut self, part: &str, names: impl IntoIterator<Item = String>) -> Range<usize> {
+        let start = self.names.len();
+        self.names
+            .extend(names.into_iter().map(|name| of_part(part, &name)));
+        start..self.names.len()
     }
-    /// Channels of the bearing.
-    #[inline(always)]
-    pub fn bearing(&self) -> Range<usize> {
-        S::BODIES.len()..self.ledger()
+    /// Adds the states of a bearing; returns where they stand.
+    pub fn bearing(&mut self, part: &str, bearing: &BearingConstants) -> Range<usize> {
+        let states = (0..bearing.states()).map(|state| bearing.state_name(state));
+        self.block(part, states.map(|name| format!("bearing.{name}")))
+    }
+    /// Adds kinds of heat of a part; returns the place of the first among all heats.
+    pub fn heats_of(&mut self, part: &str, kinds: impl IntoIterator<Item = &'static str>) -> usize {
+        add(&mut self.heats, part, kinds)
+    }
+    /// Adds sources of a part; returns the place of the first among all sources.
+    pub fn sources_of(
+        &mut self,
+        part: &str,
+        kinds: impl IntoIterator<Item = &'static str>,
+    ) -> usize {
+        add(&mut self.sources, part, kinds)
+    }
+    /// Adds external angular impulses: that of the system first.
+    pub fn impulses_of(&mut self, part: &str, kinds: impl IntoIterator<Item = &'static str>) {
+        add(&mut self.impulses, part, kinds);
+    }
+    /// Adds works by the moments on the races.
+    pub fn works_of(&mut self, part: &str, kinds: impl IntoIterator<Item = &'static str>) {
+        add(&mut self.works, part, kinds);
+    }
+
+    /// Kinds of heat, in the order of their channels.
+    pub fn heats(&self) -> &[Entry] {
+        &self.heats
+    }
+    /// Kinds of source, in the order of their channels.
+    pub fn sources(&self) -> &[Entry] {
+        &self.sources
     }
     /// First channel of the ledger.
     #[inline(always)]
     pub fn ledger(&self) -> usize {
-        S::BODIES.len() + self.bearing_states
+        self.names.len()
+    }
+    /// Number of channels of the ledger.
+    pub fn ledger_length(&self) -> usize {
+        self.heats.len() + self.sources.len() + self.impulses.len() + self.works.len()
     }
     /// Number of channels.
     #[inline(always)]
     pub fn dimension(&self) -> usize {
-        self.ledger() + Self::LEDGER
+        self.ledger() + self.ledger_length()
     }
-    /// Number of probes.
-    pub fn probes(&self) -> usize {
-        S::PROBES + DETAIL_PER_BALL * self.balls
-    }
-    /// Number of probes down to the loads of the balls.
-    pub fn probes_with_loads(&self) -> usize {
-        S::PROBES + 2 * self.balls
-    }
-    /// Channel of a heat by its place among the system's.
+    /// Channel of a heat by its place among all.
     #[inline(always)]
     pub fn heat(&self, index: usize) -> usize {
         self.ledger() + index
     }
-    /// What a kind of heat has summed up in a state, J, or its rate, W; none where the system knows no such kind.
-    pub fn heat_of(&self, state: &[f64], kind: &str) -> Option<f64> {
-        let index = S::HEATS.iter().position(|heat| *heat == kind)?;
-        Some(state[self.heat(index)])
+    /// What a kind of heat of a part has summed up in a state, J, or its rate, W; none where there is no such heat.
+    pub fn heat_of(&self, state: &[f64], part: &str, kind: &str) -> Option<f64> {
+        let is = |heat: &Entry| heat.part == part && heat.kind == kind;
+        Some(state[self.heat(self.heats.iter().position(is)?)])
     }
-    /// Channel of the work of a source by its place among the system's.
+    /// Channel of the work of a source by its place among all.
     #[inline(always)]
     pub fn source(&self, index: usize) -> usize {
-        self.heat(S::HEATS.len()) + index
+        self.heat(self.heats.len()) + index
     }
     /// Channel of the external angular impulse of the system.
     #[inline(always)]
     pub fn angular_impulse(&self) -> usize {
-        self.source(S::SOURCES.len())
+        self.source(self.sources.len())
     }
     /// Channels of the heats, of the works of the sources, and of the external angular impulse of the system.
     pub fn flows(&self) -> Range<usize> {
         self.heat(0)..self.angular_impulse() + 1
     }
-    /// Channel of a work by the moments on the races, by its place among the system's.
+    /// Channel of a work by the moments on the races, by its place among all.
     #[inline(always)]
     pub fn work(&self, index: usize) -> usize {
-        self.angular_impulse() + S::IMPULSES.len() + index
+        self.angular_impulse() + self.impulses.len() + index
     }
-
+    /// Channel of a name; none where there is no such channel.
+    pub fn channel(&self, name: &str) -> Option<usize> {
+        (0..self.dimension()).find(|channel| self.channel_name(*channel) == name)
+    }
     /// Name of a channel.
-    pub fn channel_name(&self, bearing: &BearingConstants, channel: usize) -> String {
+    pub fn channel_name(&self, channel: usize) -> String {
+        let named =
+            |what: &str, entry: &Entry| of_part(&entry.part, &format!("{what}.{}", entry.kind));
         match channel {
-            c if c < S::BODIES.len() => S::BODIES[c].to_string(),
-            c if c < self.ledger() => {
-                format!("bearing.{}", bearing.state_name(c - S::BODIES.len()))
-            }
-            c if c < self.source(0) => format!("energy.heat.{}", S::HEATS[c - self.heat(0)]),
+            c if c < self.ledger() => self.names[c].clone(),
+            c if c < self.source(0) => named("energy.heat", &self.heats[c - self.heat(0)]),
             c if c < self.angular_impulse() => {
-                format!("energy.source.{}", S::SOURCES[c - self.source(0)])
+                named("energy.source", &self.sources[c - self.source(0)])
             }
-            c if c < self.work(0) => {
-                let impulse = S::IMPULSES[c - self.angular_impulse()];
-                format!("angular_momentum.{impulse}")
-            }
-            c => format!("energy.work.{}", S::WORKS[c - self.work(0)]),
+            c if c < self.work(0) => named(
+                "angular_momentum",
+                &self.impulses[c - self.angular_impulse()],
+            ),
+            c => named("energy.work", &self.works[c - self.work(0)]),
         }
     }
+    /// A state of this layout with what another one holds under the same names; what it does not hold keeps its value.
+    ///
+    /// This is how one phase of a run hands its state and ledger on to the next.
+    pub fn take_over(&self, into: &mut [f64], from: &Layout, state: &[f64]) {
+        if self == from {
+            into.copy_from_slice(state);
+            return;
+        }
+        for (channel, value) in into.iter_mut().enumerate() {
+            if let Some(there) = from.channel(&self.channel_name(channel)) {
+                *value = state[there];
+            }
+        }
+    }
+}
+
+fn add(
+    entries: &mut Vec<Entry>,
+    part: &str,
+    kinds: impl IntoIterator<Item = &'static str>,
+) -> usize {
+    let first = entries.len();
+    entries.extend(kinds.into_iter().map(|kind| Entry {
+        part: part.to_string(),
+        kind,
+    }));
+    first
 }

@@ -1,9 +1,9 @@
 //! Systems: one readable page each.
 
 pub mod cage_turns;
-pub mod drop;
 pub mod energy;
 pub mod layout;
+pub mod machine;
 pub mod outer_race;
 pub mod refusal;
 pub mod rig;

@@ -12,7 +12,7 @@
 //! the moments, so the exact form is a check and not an identity. Where a race moves, the work `other`
 //! carries its part.
 
-use super::layout::{Channels, Layout};
+use super::layout::Layout;
 use crate::bearing::{self, BearingEnergy};
 use physics::rolling::RollingSet;
 use physics::spin_up_energy::{SpinUpEnergy, spin_up_loss};
@@ -54,8 +54,8 @@ impl OuterRaceEnergy {
     ///
     /// The printed and the corrected form and the bounds of the path term take the balls to have been at rest at the
     /// start and to roll at the end.
-    pub fn between<S: Channels>(
-        layout: &Layout<S>,
+    pub fn between(
+        layout: &Layout,
         set: RollingSet<f64>,
         final_speed: f64,
         stored: impl Fn(&[f64]) -> BearingEnergy,

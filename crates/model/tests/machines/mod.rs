@@ -4,6 +4,7 @@
 //! interference), 0.25 mm above its inner race, the outer race on a mount of 20 N/µm. The numbers are those of the
 //! reference drop of an independent implementation; 0.15 between rotor and race is arbitrary there and here.
 
+use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::bearing::ball::{BallConstants, BallMotion};
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::cage::{Land, LandRace};
@@ -14,10 +15,12 @@ use model::bearing::{
 };
 use model::contact::JournalContact;
 use model::levitation::Levitation;
+use model::motion::Motion;
 use model::mount::Mount;
 use model::rotor::Rotor;
-use model::system::drop::layout::{BEARING, INNER, OUTER, ROTOR};
-use model::system::drop::{Drop, DropConstants, DropMachine, MachineConstants};
+use model::schedule::Schedule;
+use model::system::machine::layout::ROTOR;
+use model::system::machine::{MachineConstants, Machines, RotorMachine};
 use number::Vec2;
 use physics::angular_contact::spin_inertia;
 use physics::film::EntrainedContact;
@@ -32,6 +35,18 @@ use physics::traction::{LubricatedRaces, TanhTraction, Traction};
 use solve::{Ending, Flow, Observer, Settings, Step};
 use std::f64::consts::PI;
 use std::sync::atomic::AtomicBool;
+
+/// First channel of the inner race of a machine's first bearing.
+pub const INNER: usize = 6;
+/// First channel of the outer race of a machine's only bearing.
+pub const OUTER: usize = 12;
+/// First channel of a machine's only bearing.
+pub const BEARING: usize = 16;
+
+/// Motion of both races of a machine's first bearing.
+pub fn race_motion(machine: &RotorMachine, state: &[f64]) -> Motion<f64> {
+    machine.layout().bearings[0].motion(state)
+}
 
 /// Gravity, m/s².
 pub const G: f64 = 9.81;
@@ -146,7 +161,7 @@ pub fn separations() -> [Separation<f64>; 4] {
 }
 
 /// Gives a machine what keeps its balls apart; without a cage the circle is filled with balls.
-pub fn separate(constants: &mut DropConstants, separation: Separation<f64>) {
+pub fn separate(constants: &mut MachineConstants, separation: Separation<f64>) {
     let bearing = planar(constants);
     if let Separation::Neighbours(pair) = &separation {
         // 17 balls leave 0.26 mm between neighbours
@@ -254,24 +269,25 @@ pub fn rolling_bearing(planar: &PlanarConstants) -> RollingConstants {
 }
 
 /// The reference machine.
-pub fn reference() -> DropConstants {
+pub fn reference() -> MachineConstants {
     let bearing = planar_bearing();
     let rotor_mass = 8.0;
-    let mut constants = DropConstants {
-        machine: MachineConstants {
-            rotor: Rotor {
-                mass: rotor_mass,
-                polar_inertia: 0.01,
-                eccentricity: 5e-6,
-                brake_torque: 0.0,
-                spin_held: false,
-            },
-            levitation: Levitation {
-                stiffness: 1e6,
-                damping: 1e3,
-                centre: vec2(0.0, 0.0),
-                carried: vec2(0.0, rotor_mass * G),
-            },
+    let mut constants = MachineConstants {
+        rotor: Rotor {
+            mass: rotor_mass,
+            polar_inertia: 0.01,
+            eccentricity: 5e-6,
+            brake_torque: 0.0,
+            spin_held: false,
+        },
+        levitation: Levitation {
+            stiffness: 1e6,
+            damping: 1e3,
+            centre: vec2(0.0, 0.0),
+            carried: vec2(0.0, rotor_mass * G),
+        },
+        bearings: vec![AuxiliaryBearingConstants {
+            name: String::new(),
             contact: JournalContact {
                 radial_clearance: 0.25e-3,
                 bore_radius: 12.5e-3,
@@ -281,74 +297,76 @@ pub fn reference() -> DropConstants {
                 friction: 0.15,
                 inverse_reference_speed: 1.0 / 0.05,
             },
+            inner_race: RaceConstants {
+                mass: 20.4e-3,
+                inertia: 3.9e-6,
+                centre_held: false,
+                torque: 0.0,
+            },
+            bearing: BearingConstants::Planar(bearing),
+            outer_race_mass: 0.15,
             mount: Mount {
                 stiffness: 2e7,
                 damping: 5e3,
                 free_position: vec2(0.0, 0.0),
             },
-            inner_race_mass: 20.4e-3,
-            inner_race_inertia: 3.9e-6,
-            inner_race_centre_held: false,
-            inner_race_torque: 0.0,
-            outer_race_mass: 0.15,
-            gravity: vec2(0.0, -G),
-        },
-        bearing: BearingConstants::Planar(bearing),
+        }],
+        gravity: vec2(0.0, -G),
         speed: 400.0 * PI,
         unbalance_angle: 0.0,
-        brake_start: f64::INFINITY,
+        schedule: Schedule::default(),
     };
     balance_mount(&mut constants);
     constants
 }
 
 /// Sets the free position of the mount so that the weight of the bearing is balanced at zero.
-pub fn balance_mount(constants: &mut DropConstants) {
-    let m = &constants.machine;
-    let mut mass = constants.outer_moving_mass() + constants.bearing.free_mass();
-    if !m.inner_race_centre_held {
-        mass += m.inner_race_mass;
+pub fn balance_mount(constants: &mut MachineConstants) {
+    let gravity = constants.gravity;
+    let part = &mut constants.bearings[0];
+    let mut mass = part.outer_moving_mass() + part.bearing.free_mass();
+    if !part.inner_race.centre_held {
+        mass += part.inner_race.mass;
     }
-    let sag = m.gravity * (mass / m.mount.stiffness);
-    constants.machine.mount.free_position = -sag;
+    part.mount.free_position = -(gravity * (mass / part.mount.stiffness));
 }
 
 /// The planar bearing of a machine.
-pub fn planar(constants: &mut DropConstants) -> &mut PlanarConstants {
-    match &mut constants.bearing {
+pub fn planar(constants: &mut MachineConstants) -> &mut PlanarConstants {
+    match &mut constants.bearings[0].bearing {
         BearingConstants::Planar(bearing) => bearing,
         BearingConstants::Rolling(_) => panic!("the bearing is planar here"),
     }
 }
 
 /// Gives a machine the rolling bearing that corresponds to its planar one.
-pub fn let_roll(constants: &mut DropConstants) {
-    constants.bearing = BearingConstants::Rolling(rolling_bearing(planar(constants)));
+pub fn let_roll(constants: &mut MachineConstants) {
+    constants.bearings[0].bearing = BearingConstants::Rolling(rolling_bearing(planar(constants)));
     balance_mount(constants);
 }
 
 /// What a kind of heat has summed up in a state.
-pub fn heat_of(machine: &DropMachine, state: &[f64], kind: &str) -> f64 {
-    let heat = machine.layout().heat_of(state, kind);
+pub fn heat_of(machine: &RotorMachine, state: &[f64], kind: &str) -> f64 {
+    let heat = machine.layout().heat_of(state, "", kind);
     heat.expect("a kind of heat")
 }
 
 /// Removes gravity from a machine, and the weight that the levitation carries.
-pub fn weightless(constants: &mut DropConstants) {
-    constants.machine.gravity = vec2(0.0, 0.0);
-    constants.machine.levitation.carried = vec2(0.0, 0.0);
+pub fn weightless(constants: &mut MachineConstants) {
+    constants.gravity = vec2(0.0, 0.0);
+    constants.levitation.carried = vec2(0.0, 0.0);
     planar(constants).ball.gravity = vec2(0.0, 0.0);
     balance_mount(constants);
 }
 
 /// The states of the bearing within the state of a machine, or their rates within its rate.
-pub fn bearing_part<'a>(machine: &DropMachine, state: &'a [f64]) -> &'a [f64] {
+pub fn bearing_part<'a>(machine: &RotorMachine, state: &'a [f64]) -> &'a [f64] {
     &state[BEARING..machine.layout().ledger()]
 }
 
 /// One ball within the state of a machine. Of a rate it gives the derivatives of the same quantities.
-pub fn ball_of(machine: &DropMachine, state: &[f64], ball: usize) -> BallMotion<f64> {
-    match &machine.constants.bearing {
+pub fn ball_of(machine: &RotorMachine, state: &[f64], ball: usize) -> BallMotion<f64> {
+    match &machine.constants.bearings[0].bearing {
         BearingConstants::Planar(bearing) => bearing.motion(bearing_part(machine, state), ball),
         BearingConstants::Rolling(_) => panic!("the bearing is planar here"),
     }
@@ -379,20 +397,20 @@ pub fn equal_steps(end: f64, length: f64) -> Settings {
 /// Watches nothing.
 pub struct Blind;
 
-impl Observer<DropMachine> for Blind {
-    fn step(&mut self, _step: &mut Step<DropMachine>) -> Flow {
+impl Observer<RotorMachine> for Blind {
+    fn step(&mut self, _step: &mut Step<RotorMachine>) -> Flow {
         Flow::Continue
     }
 }
 
 /// Runs a machine from a state under an observer; it must finish.
-pub fn observe<O: Observer<DropMachine>>(
-    machine: &DropMachine,
+pub fn observe<O: Observer<RotorMachine>>(
+    machine: &RotorMachine,
     start: &[f64],
     settings: &Settings,
     observer: &mut O,
 ) -> Ending {
-    let ending = solve::run::<f64, Drop<f64>, O>(
+    let ending = solve::run::<f64, Machines<f64>, O>(
         &[machine],
         &[start.to_vec()],
         std::slice::from_mut(observer),
@@ -406,7 +424,7 @@ pub fn observe<O: Observer<DropMachine>>(
 }
 
 /// Runs a machine from a state; returns the last state.
-pub fn run(machine: &DropMachine, start: &[f64], settings: &Settings) -> Vec<f64> {
+pub fn run(machine: &RotorMachine, start: &[f64], settings: &Settings) -> Vec<f64> {
     observe(machine, start, settings, &mut Blind).state
 }
 
@@ -427,7 +445,7 @@ impl Random {
 }
 
 /// A state in which anything may touch anything: half of the contacts are closed, slips have both signs.
-pub fn random_state(machine: &DropMachine, random: &mut Random) -> Vec<f64> {
+pub fn random_state(machine: &RotorMachine, random: &mut Random) -> Vec<f64> {
     let c = &machine.constants;
     let mut state = machine.start();
     let mut body = |at: usize, position: f64, speed: f64| {
@@ -436,7 +454,7 @@ pub fn random_state(machine: &DropMachine, random: &mut Random) -> Vec<f64> {
             state[channel + 2] = random.within(speed);
         }
     };
-    let held = c.machine.inner_race_centre_held;
+    let held = c.bearings[0].inner_race.centre_held;
     body(
         INNER,
         if held { 0.0 } else { 1e-5 },
@@ -450,14 +468,14 @@ pub fn random_state(machine: &DropMachine, random: &mut Random) -> Vec<f64> {
     state[INNER + 4] = random.within(7.0);
     state[INNER + 5] = random.within(1500.0);
     // the geometric centre on either side of contact
-    let distance = c.machine.contact.radial_clearance + random.within(2e-5);
+    let distance = c.bearings[0].contact.radial_clearance + random.within(2e-5);
     let (sine, cosine) = random.within(PI).sin_cos();
-    let e = c.machine.rotor.eccentricity;
+    let e = c.rotor.eccentricity;
     state[ROTOR] = state[INNER] + distance * cosine + e * angle.cos();
     state[ROTOR + 1] = state[INNER + 1] + distance * sine + e * angle.sin();
 
     let own = BEARING..machine.layout().ledger();
-    match &c.bearing {
+    match &c.bearings[0].bearing {
         BearingConstants::Rolling(_) => state[own.start] = random.within(7.0),
         BearingConstants::Planar(bearing) => {
             let (cage_angle, cage_speed) = (random.within(7.0), random.within(600.0));
@@ -487,7 +505,7 @@ pub fn random_state(machine: &DropMachine, random: &mut Random) -> Vec<f64> {
             }
         }
     }
-    if c.bearing.lubricant().is_some() {
+    if c.bearings[0].bearing.lubricant().is_some() {
         let part = &mut state[BEARING..machine.layout().ledger()];
         let first = part.len() - lubricant_state::STATES;
         let share = |random: &mut Random| 0.5 + random.within(0.5);

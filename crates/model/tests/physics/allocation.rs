@@ -2,11 +2,11 @@
 
 use crate::counting::ALLOCATIONS;
 use crate::machines::{reference, run, settings};
-use model::system::drop::DropMachine;
+use model::system::machine::RotorMachine;
 
 #[test]
 fn a_drop_ten_times_longer_allocates_no_more() {
-    let machine = DropMachine::new(reference());
+    let machine = RotorMachine::new(reference());
     let start = machine.start();
     let count = |end: f64| {
         let before = ALLOCATIONS.get();

@@ -4,27 +4,25 @@
 //! must cancel.
 
 use crate::machines::{
-    Random, ball_of, bearing_part, let_roll, planar, random_state, reference, vec2,
+    BEARING, INNER, OUTER, Random, ball_of, bearing_part, let_roll, planar, race_motion,
+    random_state, reference, vec2,
 };
 use crate::relatives::{lubricant_factors, machines};
+use model::auxiliary_bearing::probe::{COUNT as DETAIL, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD};
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::cage::LandRace;
 use model::bearing::{
     BearingConstants, PlanarConstants, Separation, SharedMoment, SteadyMoment, seat,
 };
-use model::system::drop::DropMachine;
-use model::system::drop::layout::{
-    BEARING, DETAIL, HEATS, INNER, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, OUTER, ROTOR, SOURCES,
-};
-use model::system::drop::rate::race_motion;
+use model::system::machine::RotorMachine;
+use model::system::machine::layout::ROTOR;
 use number::Vec2;
 use physics::traction::{SlipLaw, TanhTraction, Traction, TractionLaw};
 
-/// States tried for each machine.
 const STATES: u32 = 300;
 
 /// Calls with every machine, at many states: (machine, state, rate, probe).
-fn at_random_states(mut check: impl FnMut(&DropMachine, &[f64], &[f64], &[f64])) {
+fn at_random_states(mut check: impl FnMut(&RotorMachine, &[f64], &[f64], &[f64])) {
     for (number, machine) in machines().iter().enumerate() {
         // the ninth meets the states of the first, from which it differs by its traction law alone
         let mut random = Random((number % 8) as u64);
@@ -59,7 +57,7 @@ impl Sum {
 }
 
 /// Centre of a ball with its speed and acceleration, Cartesian.
-fn ball_centre(machine: &DropMachine, state: &[f64], rate: &[f64], j: usize) -> [Vec2<f64>; 3] {
+fn ball_centre(machine: &RotorMachine, state: &[f64], rate: &[f64], j: usize) -> [Vec2<f64>; 3] {
     let (now, change) = (ball_of(machine, state, j), ball_of(machine, rate, j));
     let (s, c) = now.azimuth.sin_cos();
     let (e_r, e_t) = (vec2(c, s), vec2(-s, c));
@@ -73,13 +71,12 @@ fn ball_centre(machine: &DropMachine, state: &[f64], rate: &[f64], j: usize) -> 
 }
 
 /// Bodies that translate: (mass, position, velocity, acceleration).
-fn centres(machine: &DropMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, [Vec2<f64>; 3])> {
+fn centres(machine: &RotorMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, [Vec2<f64>; 3])> {
     let c = &machine.constants;
-    let m = &c.machine;
     let mut list: Vec<_> = [
-        (m.rotor.mass, ROTOR),
-        (m.inner_race_mass, INNER),
-        (c.outer_moving_mass(), OUTER),
+        (c.rotor.mass, ROTOR),
+        (c.bearings[0].inner_race.mass, INNER),
+        (c.bearings[0].outer_moving_mass(), OUTER),
     ]
     .map(|(mass, at)| {
         (
@@ -88,7 +85,7 @@ fn centres(machine: &DropMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, [Vec
         )
     })
     .to_vec();
-    if let BearingConstants::Planar(bearing) = &c.bearing {
+    if let BearingConstants::Planar(bearing) = &c.bearings[0].bearing {
         for j in 0..bearing.balls {
             list.push((bearing.ball.mass, ball_centre(machine, state, rate, j)));
         }
@@ -100,7 +97,7 @@ fn centres(machine: &DropMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, [Vec
 }
 
 /// Centre of a free cage with its speed and acceleration.
-fn cage_centre(machine: &DropMachine, state: &[f64], rate: &[f64]) -> [Vec2<f64>; 3] {
+fn cage_centre(machine: &RotorMachine, state: &[f64], rate: &[f64]) -> [Vec2<f64>; 3] {
     let (now, change) = (bearing_part(machine, state), bearing_part(machine, rate));
     [
         pair(now, CAGE_PLACE),
@@ -110,13 +107,14 @@ fn cage_centre(machine: &DropMachine, state: &[f64], rate: &[f64]) -> [Vec2<f64>
 }
 
 /// Bodies that spin: (inertia, spin, spin acceleration).
-fn spins(machine: &DropMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, f64, f64)> {
-    let m = &machine.constants.machine;
+fn spins(machine: &RotorMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, f64, f64)> {
+    let c = &machine.constants;
+    let race = c.bearings[0].inner_race.inertia;
     let mut list = vec![
-        (m.rotor.polar_inertia, state[ROTOR + 5], rate[ROTOR + 5]),
-        (m.inner_race_inertia, state[INNER + 5], rate[INNER + 5]),
+        (c.rotor.polar_inertia, state[ROTOR + 5], rate[ROTOR + 5]),
+        (race, state[INNER + 5], rate[INNER + 5]),
     ];
-    match &machine.constants.bearing {
+    match &machine.constants.bearings[0].bearing {
         BearingConstants::Rolling(b) => {
             list.push((b.set.inner_inertia(), state[INNER + 5], rate[INNER + 5]));
         }
@@ -138,8 +136,8 @@ fn spins(machine: &DropMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, f64, f
 }
 
 /// Force of the levitation on the rotor, with the point where it acts.
-fn levitation(machine: &DropMachine, state: &[f64]) -> (Vec2<f64>, Vec2<f64>) {
-    let m = &machine.constants.machine;
+fn levitation(machine: &RotorMachine, state: &[f64]) -> (Vec2<f64>, Vec2<f64>) {
+    let m = &machine.constants;
     let (s, c) = state[ROTOR + 4].sin_cos();
     let e = m.rotor.eccentricity;
     let centre = pair(state, ROTOR) - vec2(c, s) * e;
@@ -150,8 +148,8 @@ fn levitation(machine: &DropMachine, state: &[f64]) -> (Vec2<f64>, Vec2<f64>) {
     (force * on, centre)
 }
 
-fn mount(machine: &DropMachine, state: &[f64]) -> Vec2<f64> {
-    let mount = &machine.constants.machine.mount;
+fn mount(machine: &RotorMachine, state: &[f64]) -> Vec2<f64> {
+    let mount = &machine.constants.bearings[0].mount;
     let stretch = pair(state, OUTER) - mount.free_position;
     -(stretch * mount.stiffness + pair(state, OUTER + 2) * mount.damping)
 }
@@ -161,7 +159,7 @@ fn momentum_changes_by_outer_forces_alone() {
     let mut worst = 0.0_f64;
     at_random_states(|machine, state, rate, _| {
         let c = &machine.constants;
-        if c.machine.inner_race_centre_held {
+        if c.bearings[0].inner_race.centre_held {
             return;
         }
         let (mut x, mut y) = (Sum::default(), Sum::default());
@@ -171,11 +169,11 @@ fn momentum_changes_by_outer_forces_alone() {
         };
         for (mass, [_, _, acceleration]) in centres(machine, state, rate) {
             add(acceleration * mass);
-            add(c.machine.gravity * -mass);
+            add(c.gravity * -mass);
         }
         add(-levitation(machine, state).0);
         add(-mount(machine, state));
-        if let BearingConstants::Planar(bearing) = &c.bearing {
+        if let BearingConstants::Planar(bearing) = &c.bearings[0].bearing {
             for j in 0..bearing.balls {
                 let ball = ball_of(machine, state, j);
                 let (s, co) = ball.azimuth.sin_cos();
@@ -191,8 +189,8 @@ fn momentum_changes_by_outer_forces_alone() {
 
 /// Moment that the bearing exerts on the outer race about its centre: the traction of the balls on their true arms; of
 /// rolling balls the friction moment, the outer race's share of what turns them, and what speeds them up.
-fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f64 {
-    match &machine.constants.bearing {
+fn moment_on_outer_race(machine: &RotorMachine, state: &[f64], rate: &[f64]) -> f64 {
+    match &machine.constants.bearings[0].bearing {
         BearingConstants::Rolling(b) => {
             let (_, probe) = machine.inspect(state);
             let mut push = vec2(0.0, 0.0);
@@ -216,7 +214,7 @@ fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f
                 - b.set.outer_inertia() * rate[INNER + 5]
         }
         BearingConstants::Planar(b) => {
-            let motion = race_motion(state);
+            let motion = race_motion(machine, state);
             let part = bearing_part(machine, state);
             let (_, warmed) = lubricant_factors(&b.lubricant, part);
             let steady = (b.moment.as_ref()).map_or(0.0, |moment| {
@@ -242,11 +240,11 @@ fn moment_on_outer_race(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f
 
 /// What the oil in the inlets does to the outer race: the opposite of the couples that slow the balls. Contacts at an angle
 /// show the plane the cosine of their rolling, and of its couple.
-fn inlet_couples_on_outer_race(machine: &DropMachine, state: &[f64], b: &PlanarConstants) -> f64 {
+fn inlet_couples_on_outer_race(machine: &RotorMachine, state: &[f64], b: &PlanarConstants) -> f64 {
     let Some(inlets) = &b.inlet_rolling else {
         return 0.0;
     };
-    let motion = race_motion(state);
+    let motion = race_motion(machine, state);
     let cosine = 1.0 / b.ball.load_per_radial_force;
     (0..b.balls)
         .map(|j| {
@@ -259,7 +257,7 @@ fn inlet_couples_on_outer_race(machine: &DropMachine, state: &[f64], b: &PlanarC
 }
 
 /// Friction of a cage that rides in the outer race, about that race's centre.
-fn land_moment_on_outer_race(machine: &DropMachine, state: &[f64], b: &PlanarConstants) -> f64 {
+fn land_moment_on_outer_race(machine: &RotorMachine, state: &[f64], b: &PlanarConstants) -> f64 {
     let Separation::FreeCage(Some(land)) = &b.separation else {
         return 0.0;
     };
@@ -282,13 +280,13 @@ fn land_moment_on_outer_race(machine: &DropMachine, state: &[f64], b: &PlanarCon
 /// What the pairs of the steady moment do to the outer race about its centre: drag on the orbit at the balls' distance,
 /// couples against their spin.
 fn steady_moment_on_outer_race(
-    machine: &DropMachine,
+    machine: &RotorMachine,
     state: &[f64],
     rate: &[f64],
     b: &PlanarConstants,
     moment: &SharedMoment,
 ) -> f64 {
-    let motion = race_motion(state);
+    let motion = race_motion(machine, state);
     let part = bearing_part(machine, state);
     let (n, r, track) = (b.balls as f64, b.ball.radius, b.ball.inner_track);
     let s = r / track;
@@ -334,7 +332,6 @@ fn angular_momentum_changes_by_outer_moments_alone() {
     let (mut worst, mut worst_ledger) = (0.0_f64, 0.0_f64);
     at_random_states(|machine, state, rate, _| {
         let c = &machine.constants;
-        let m = &c.machine;
         let mut change = Sum::default();
         for (mass, [position, _, acceleration]) in centres(machine, state, rate) {
             change.add(mass * position.cross(acceleration));
@@ -344,16 +341,16 @@ fn angular_momentum_changes_by_outer_moments_alone() {
         }
         let mut outer = Sum::default();
         for (mass, [position, ..]) in centres(machine, state, rate) {
-            outer.add(mass * position.cross(m.gravity));
+            outer.add(mass * position.cross(c.gravity));
         }
         let (force, at) = levitation(machine, state);
         outer.add(at.cross(force));
         outer.add(pair(state, OUTER).cross(mount(machine, state)));
-        outer.add(m.inner_race_torque);
-        outer.add(-m.rotor.brake_torque * state[ROTOR + 5].tanh());
+        outer.add(c.bearings[0].inner_race.torque);
+        outer.add(-c.rotor.brake_torque * state[ROTOR + 5].tanh());
         // the ground keeps the outer race from turning
         outer.add(-moment_on_outer_race(machine, state, rate));
-        match &c.bearing {
+        match &c.bearings[0].bearing {
             BearingConstants::Rolling(b) => {
                 // the angular momentum of the balls that the inner race does not feel
                 change.add(b.set.outer_inertia() * rate[INNER + 5]);
@@ -378,21 +375,21 @@ fn angular_momentum_changes_by_outer_moments_alone() {
 
 #[test]
 fn every_loss_is_passive() {
-    let mut seen = [0; HEATS.len()];
+    let mut seen = std::collections::BTreeMap::new();
     at_random_states(|machine, _, rate, _| {
-        for (kind, name) in HEATS.iter().enumerate() {
-            let heat = rate[machine.layout().heat(kind)];
-            assert!(heat >= 0.0, "{name} {heat}");
-            seen[kind] += u32::from(heat > 0.0);
+        for (index, entry) in machine.layout().heats().iter().enumerate() {
+            let heat = rate[machine.layout().heat(index)];
+            assert!(heat >= 0.0, "{} {heat}", entry.kind);
+            *seen.entry(entry.kind).or_insert(0) += u32::from(heat > 0.0);
         }
     });
-    for (name, count) in HEATS.iter().zip(seen) {
+    for (name, count) in seen {
         assert!(count > 100, "{name} was at work {count} times");
     }
 }
 
 /// d/dt of the potential: its directional derivative along the rate, by central differences of order four.
-fn potential_rate(machine: &DropMachine, state: &[f64], rate: &[f64]) -> f64 {
+fn potential_rate(machine: &RotorMachine, state: &[f64], rate: &[f64]) -> f64 {
     // motions of 1e-9 m against approaches of 1e-6 m: truncation near 1e-12, rounding near 1e-11
     const H: f64 = 2e-9;
     let at = |steps: f64| {
@@ -418,10 +415,10 @@ fn energy_changes_by_sources_less_heats() {
             power.add(inertia * spin * acceleration);
         }
         power.add(potential_rate(machine, state, rate));
-        for kind in 0..HEATS.len() {
+        for kind in 0..machine.layout().heats().len() {
             power.add(rate[machine.layout().heat(kind)]);
         }
-        for source in 0..SOURCES.len() {
+        for source in 0..machine.layout().sources().len() {
             power.add(-rate[machine.layout().source(source)]);
         }
         errors.push(power.rest());
@@ -446,7 +443,10 @@ fn contents_are_those_of_the_bodies() {
         // rounding of sums of a few tens of terms
         assert!((content.translation / translation - 1.0).abs() < 1e-13);
         assert!((content.spin / spin - 1.0).abs() < 1e-13);
-        if matches!(machine.constants.bearing, BearingConstants::Planar(_)) {
+        if matches!(
+            machine.constants.bearings[0].bearing,
+            BearingConstants::Planar(_)
+        ) {
             let orbits = bodies.iter().map(|(m, b)| m * b[0].cross(b[1]));
             let total: f64 = orbits.chain(turning.iter().map(|(i, w, _)| i * w)).sum();
             let size: f64 = turning.iter().map(|(i, w, _)| (i * w).abs()).sum();
@@ -468,11 +468,11 @@ fn rolling_balls_carry_the_angular_momentum_of_their_motion() {
     let expected = (balls_mass * (track + r).powi(2) + p.cage_inertia) * cage_speed
         + 0.4 * balls_mass * r * r * ball_spin;
     let_roll(&mut c);
-    let machine = DropMachine::new(c);
+    let machine = RotorMachine::new(c);
     let mut state = machine.start();
     let at_rest = machine.content(&state).angular_momentum;
     state[INNER + 5] = 1000.0;
-    let race = machine.constants.machine.inner_race_inertia * 1000.0;
+    let race = machine.constants.bearings[0].inner_race.inertia * 1000.0;
     let balls = machine.content(&state).angular_momentum - at_rest - race;
     // the difference of two momenta a thousand times larger
     assert!((balls / (1000.0 * expected) - 1.0).abs() < 1e-11, "{balls}");
@@ -482,7 +482,7 @@ fn rolling_balls_carry_the_angular_momentum_of_their_motion() {
 fn pocket_and_cage_answer_each_other() {
     let (mut worst, mut pressed) = (0.0_f64, 0);
     at_random_states(|machine, state, rate, _| {
-        let BearingConstants::Planar(b) = &machine.constants.bearing else {
+        let BearingConstants::Planar(b) = &machine.constants.bearings[0].bearing else {
             return;
         };
         let Traction::Tanh(law) = &b.traction else {
@@ -491,7 +491,7 @@ fn pocket_and_cage_answer_each_other() {
         if b.moment.is_some() || b.separation != Separation::CentredCage {
             return;
         }
-        let motion = race_motion(state);
+        let motion = race_motion(machine, state);
         let part = bearing_part(machine, state);
         // what the cage receives, from its own acceleration
         let cage = b.cage_inertia * bearing_part(machine, rate)[1] + b.cage_drag * part[1];
@@ -513,16 +513,16 @@ fn pocket_and_cage_answer_each_other() {
 /// Moment about the outer race's centre that a ball receives from its pocket: what its motion needs beyond races,
 /// drag and weight. With the size of what it is the rest of.
 fn moment_from_pocket(
-    machine: &DropMachine,
+    machine: &RotorMachine,
     state: &[f64],
     rate: &[f64],
     j: usize,
     law: &TanhTraction<f64>,
 ) -> (f64, f64) {
-    let BearingConstants::Planar(b) = &machine.constants.bearing else {
+    let BearingConstants::Planar(b) = &machine.constants.bearings[0].bearing else {
         panic!("the bearing is planar here")
     };
-    let motion = race_motion(state);
+    let motion = race_motion(machine, state);
     let reaction = b.ball_reaction(&motion, bearing_part(machine, state), j);
     let [centre, velocity, acceleration] = ball_centre(machine, state, rate, j);
     let (now, change) = (ball_of(machine, state, j), ball_of(machine, rate, j));
@@ -568,13 +568,13 @@ fn moment_from_pocket(
 #[test]
 fn detail_and_probes_are_those_of_the_balls() {
     at_random_states(|machine, state, _, probe| {
-        let BearingConstants::Planar(b) = &machine.constants.bearing else {
+        let BearingConstants::Planar(b) = &machine.constants.bearings[0].bearing else {
             return;
         };
         if b.separation != Separation::CentredCage {
             return;
         }
-        let motion = race_motion(state);
+        let motion = race_motion(machine, state);
         let part = &state[BEARING..machine.layout().ledger()];
         let (mut inner, mut outer) = (0.0_f64, 0.0_f64);
         for j in 0..b.balls {

@@ -1,16 +1,18 @@
 //! Whole drops: what closes, what is known in closed form, what a brake and a drive do.
 
 use crate::machines::{
-    G, balance_mount, heat_of, let_roll, observe, planar, reference, run, settings, vec2,
+    G, INNER, balance_mount, heat_of, let_roll, observe, planar, reference, run, settings, vec2,
 };
-use model::system::drop::layout::{INNER, NORMAL_FORCE, PENETRATION, PENETRATION_SPEED, ROTOR};
-use model::system::drop::{DropConstants, DropMachine};
+use model::auxiliary_bearing::probe::{NORMAL_FORCE, PENETRATION, PENETRATION_SPEED};
+use model::schedule::Schedule;
+use model::system::machine::layout::ROTOR;
+use model::system::machine::{Event, MachineConstants, RotorMachine};
 use solve::{Flow, Observer, Step, watch};
 use std::f64::consts::PI;
 
 /// Residuals of a run: of the energy, relative to what flowed or moved; of the angular momentum, relative to what the
 /// inner race received.
-fn residuals(machine: &DropMachine, start: &[f64], tolerance: f64) -> (f64, f64) {
+fn residuals(machine: &RotorMachine, start: &[f64], tolerance: f64) -> (f64, f64) {
     let state = run(machine, start, &settings(TWO_IMPACTS, tolerance));
     let (before, after) = (machine.content(start), machine.content(&state));
     let flows = machine.flows(&state);
@@ -18,7 +20,7 @@ fn residuals(machine: &DropMachine, start: &[f64], tolerance: f64) -> (f64, f64)
     let size = flows.heat.max(flows.work_size).max(after.translation);
     assert!(flows.heat > 0.1, "the drop has made heat: {}", flows.heat);
     let momentum = after.angular_momentum - before.angular_momentum - flows.angular_impulse;
-    let race = machine.constants.machine.inner_race_inertia * state[INNER + 5];
+    let race = machine.constants.bearings[0].inner_race.inertia * state[INNER + 5];
     ((energy / size).abs(), (momentum / race).abs())
 }
 
@@ -27,12 +29,12 @@ const TWO_IMPACTS: f64 = 0.018;
 
 /// The largest residuals of six drops that start a few nanometres apart: where steps meet the corners of contact forces
 /// is chance, and with it the residual of one drop.
-fn largest_residuals(constants: &DropConstants, tolerance: f64) -> (f64, f64) {
-    let machine = DropMachine::new(constants.clone());
+fn largest_residuals(constants: &MachineConstants, tolerance: f64) -> (f64, f64) {
+    let machine = RotorMachine::new(constants.clone());
     let mut largest = (0.0_f64, 0.0_f64);
     for member in 0..6 {
         let mut start = machine.start();
-        machine.perturb(&mut start, vec2(1e-9 * f64::from(member), 0.0), &|_| 0.0);
+        machine.perturb(&mut start, vec2(1e-9 * f64::from(member), 0.0), &|_, _| 0.0);
         let (energy, momentum) = residuals(&machine, &start, tolerance);
         largest = (largest.0.max(energy), largest.1.max(momentum));
     }
@@ -42,7 +44,7 @@ fn largest_residuals(constants: &DropConstants, tolerance: f64) -> (f64, f64) {
 #[test]
 fn energy_and_angular_momentum_close() {
     let mut held = reference();
-    held.machine.rotor.spin_held = true;
+    held.rotor.spin_held = true;
     for constants in [reference(), held] {
         // measured rms of 16 drops: 9e-7, 2.3e-7 and 3e-8, the largest twice that
         let residuals = [1e-4, 1e-5, 1e-6].map(|t| largest_residuals(&constants, t));
@@ -62,7 +64,7 @@ fn energy_and_angular_momentum_close() {
 fn energy_and_angular_momentum_close_when_the_balls_roll() {
     let mut c = reference();
     let_roll(&mut c);
-    let machine = DropMachine::new(c);
+    let machine = RotorMachine::new(c);
     for (tolerance, energy_bound) in [(1e-4, 1e-6), (1e-6, 1e-7)] {
         let (energy, momentum) = residuals(&machine, &machine.start(), tolerance);
         assert!(
@@ -73,9 +75,9 @@ fn energy_and_angular_momentum_close_when_the_balls_roll() {
 }
 
 /// A rotor without unbalance, levitated at rest in the middle.
-fn balanced() -> DropConstants {
+fn balanced() -> MachineConstants {
     let mut c = reference();
-    c.machine.rotor.eccentricity = 0.0;
+    c.rotor.eccentricity = 0.0;
     c
 }
 
@@ -86,8 +88,8 @@ struct Impact {
     peak: f64,
 }
 
-impl Observer<DropMachine> for Impact {
-    fn step(&mut self, step: &mut Step<DropMachine>) -> Flow {
+impl Observer<RotorMachine> for Impact {
+    fn step(&mut self, step: &mut Step<RotorMachine>) -> Flow {
         let opens = step.start_probe(PENETRATION) <= 0.0 && step.end_probe(PENETRATION) > 0.0;
         if opens && self.begin.is_none() {
             let theta = watch::crossing(step, PENETRATION, 0.0, 1.0);
@@ -111,7 +113,7 @@ impl Observer<DropMachine> for Impact {
 #[test]
 fn a_rotor_falls_freely_through_the_clearance() {
     // √(2·0.25 mm/g) = 7.13921 ms; the race gives way by its own weight, some nanometres of 0.07 m/s
-    let machine = DropMachine::new(balanced());
+    let machine = RotorMachine::new(balanced());
     let mut impact = Impact::default();
     observe(
         &machine,
@@ -128,10 +130,10 @@ fn a_rotor_falls_freely_through_the_clearance() {
 }
 
 /// A linear contact without losses on a held race.
-fn elastic() -> DropConstants {
+fn elastic() -> MachineConstants {
     let mut c = balanced();
-    c.machine.inner_race_centre_held = true;
-    let contact = &mut c.machine.contact;
+    c.bearings[0].inner_race.centre_held = true;
+    let contact = &mut c.bearings[0].contact;
     contact.exponent = 1.0;
     contact.stiffness = 2e7;
     contact.damping = 0.0;
@@ -142,7 +144,7 @@ fn elastic() -> DropConstants {
 
 #[test]
 fn an_elastic_bounce_peaks_at_its_closed_form_and_returns_all_energy() {
-    let machine = DropMachine::new(elastic());
+    let machine = RotorMachine::new(elastic());
     let mut impact = Impact::default();
     let end = observe(
         &machine,
@@ -173,8 +175,8 @@ struct Lands {
     seen: bool,
 }
 
-impl Observer<DropMachine> for Lands {
-    fn step(&mut self, step: &mut Step<DropMachine>) -> Flow {
+impl Observer<RotorMachine> for Lands {
+    fn step(&mut self, step: &mut Step<RotorMachine>) -> Flow {
         self.seen |= step.end == self.instant;
         assert_eq!(step.mode.brake == 1.0, step.start >= self.instant);
         Flow::Continue
@@ -184,9 +186,9 @@ impl Observer<DropMachine> for Lands {
 #[test]
 fn a_brake_comes_on_at_its_instant_and_takes_its_work_from_the_spin() {
     let mut c = reference();
-    c.brake_start = 1e-3 / 3.0;
-    c.machine.rotor.brake_torque = 5.0;
-    let machine = DropMachine::new(c);
+    c.schedule = Schedule::of([(1e-3 / 3.0, Event::Brake)]);
+    c.rotor.brake_torque = 5.0;
+    let machine = RotorMachine::new(c);
     let start = machine.start();
     let mut lands = Lands {
         instant: 1e-3 / 3.0,
@@ -210,10 +212,10 @@ fn a_brake_comes_on_at_its_instant_and_takes_its_work_from_the_spin() {
 #[test]
 fn a_brake_stops_and_does_not_reverse() {
     let mut c = reference();
-    c.brake_start = 0.0;
+    c.schedule = Schedule::of([(0.0, Event::Brake)]);
     c.speed = 20.0;
-    c.machine.rotor.brake_torque = 200.0;
-    let machine = DropMachine::new(c);
+    c.rotor.brake_torque = 200.0;
+    let machine = RotorMachine::new(c);
     let end = run(&machine, &machine.start(), &settings(5e-3, 1e-6));
     // at rest within the fading of the brake: 20 000 rad/s² against 1 rad/s
     assert!(
@@ -226,8 +228,8 @@ fn a_brake_stops_and_does_not_reverse() {
 #[test]
 fn a_held_spin_stays_and_its_drive_pays_the_friction() {
     let mut c = reference();
-    c.machine.rotor.spin_held = true;
-    let machine = DropMachine::new(c);
+    c.rotor.spin_held = true;
+    let machine = RotorMachine::new(c);
     let start = machine.start();
     let end = run(&machine, &start, &settings(TWO_IMPACTS, 1e-4));
     assert_eq!(end[ROTOR + 5], start[ROTOR + 5]);
@@ -241,12 +243,12 @@ fn a_held_spin_stays_and_its_drive_pays_the_friction() {
 fn without_friction_nothing_is_spun_up() {
     // without unbalance the machine is the mirror image of itself, and no moment can arise
     let mut c = balanced();
-    c.machine.contact.friction = 0.0;
+    c.bearings[0].contact.friction = 0.0;
     planar(&mut c).first_ball_angle = 0.5 * PI;
     let mut rolls = c.clone();
     let_roll(&mut rolls);
     for constants in [c, rolls] {
-        let machine = DropMachine::new(constants);
+        let machine = RotorMachine::new(constants);
         let end = run(&machine, &machine.start(), &settings(TWO_IMPACTS, 1e-4));
         assert_eq!(end[ROTOR + 5], machine.constants.speed);
         // rounding: a ball at 90° is not quite above the middle
@@ -258,8 +260,8 @@ fn without_friction_nothing_is_spun_up() {
 fn friction_spins_up_the_race_and_oblique_impacts_do_not() {
     let speed = |friction: f64| {
         let mut c = reference();
-        c.machine.contact.friction = friction;
-        let machine = DropMachine::new(c);
+        c.bearings[0].contact.friction = friction;
+        let machine = RotorMachine::new(c);
         run(&machine, &machine.start(), &settings(TWO_IMPACTS, 1e-4))[INNER + 5]
     };
     // measured 497 and 7e-4 rad/s: with unbalance the balls pass on some sideways motion
@@ -272,7 +274,7 @@ fn the_race_turns_with_the_rotor() {
     for speed in [400.0 * PI, -400.0 * PI] {
         let mut c = reference();
         c.speed = speed;
-        let machine = DropMachine::new(c);
+        let machine = RotorMachine::new(c);
         let start = machine.start();
         let end = run(&machine, &start, &settings(10e-3, 1e-4));
         assert!(
@@ -290,14 +292,14 @@ fn the_race_turns_with_the_rotor() {
 fn a_levitated_orbit_is_steady() {
     let mut c = reference();
     // the carried weight and the damping act at C, not at G: a drive takes their moment
-    c.machine.rotor.spin_held = true;
-    c.machine.levitation.centre = vec2(20e-6, -30e-6);
+    c.rotor.spin_held = true;
+    c.levitation.centre = vec2(20e-6, -30e-6);
     c.unbalance_angle = 0.7;
-    let machine = DropMachine::with_levitation(c, true);
+    let machine = RotorMachine::with_levitation(c, true);
     let start = machine.start();
     let (rate, _) = machine.inspect(&start);
     let spin = machine.constants.speed;
-    let centre = machine.constants.machine.levitation.centre;
+    let centre = machine.constants.levitation.centre;
     let size = spin * spin * 5e-6;
     for (axis, middle) in [centre.x, centre.y].into_iter().enumerate() {
         let centripetal = -spin * spin * (start[ROTOR + axis] - middle);

@@ -3,9 +3,9 @@
 use crate::machines::{
     balance_mount, bearing_part, let_roll, planar, reference, run, settings, vec2,
 };
+use model::auxiliary_bearing::probe::COUNT as DETAIL;
 use model::bearing::BearingConstants;
-use model::system::drop::layout::DETAIL;
-use model::system::drop::{DropConstants, DropMachine};
+use model::system::machine::{MachineConstants, RotorMachine};
 use number::Vec2;
 use std::f64::consts::PI;
 
@@ -13,20 +13,20 @@ use std::f64::consts::PI;
 const LOAD: f64 = 500.0;
 
 /// A machine at rest whose inner race carries a load of the given direction and nothing else has weight: a heavy race.
-fn loaded(interference: f64, direction: f64) -> DropConstants {
+fn loaded(interference: f64, direction: f64) -> MachineConstants {
     let mut c = reference();
     c.speed = 0.0;
-    c.machine.rotor.eccentricity = 0.0;
+    c.rotor.eccentricity = 0.0;
     let bearing = planar(&mut c);
     bearing.ball.gravity = vec2(0.0, 0.0);
     bearing.ball.outer_track = bearing.ball.inner_track + 2.0 * bearing.ball.radius - interference;
     // damping for a quick rest, without which a static answer would take long
     bearing.ball.damping_time = 1e-4;
-    c.machine.inner_race_mass = 2.0;
+    c.bearings[0].inner_race.mass = 2.0;
     let (s, co) = direction.sin_cos();
-    c.machine.gravity = vec2(co, s) * (LOAD / c.machine.inner_race_mass);
+    c.gravity = vec2(co, s) * (LOAD / c.bearings[0].inner_race.mass);
     // the rotor falls without ever reaching the race
-    c.machine.contact.radial_clearance = 1.0;
+    c.bearings[0].contact.radial_clearance = 1.0;
     balance_mount(&mut c);
     c
 }
@@ -59,8 +59,8 @@ fn statics(azimuths: &[f64], stiffness: f64, interference: f64, load: Vec2<f64>)
 }
 
 /// Azimuths and inner loads of the balls of a machine that has come to rest, and the force they carry.
-fn rest(c: DropConstants) -> (Vec<f64>, Vec<f64>, Vec2<f64>) {
-    let machine = DropMachine::new(c);
+fn rest(c: MachineConstants) -> (Vec<f64>, Vec<f64>, Vec2<f64>) {
+    let machine = RotorMachine::new(c);
     // both resonances, race on balls and bearing on mount, decay faster than e^(-900 t); the tolerance allows errors of
     // 25 pm a step, 2 mN
     let state = run(&machine, &machine.start(), &settings(18e-3, 1e-7));
@@ -68,7 +68,7 @@ fn rest(c: DropConstants) -> (Vec<f64>, Vec<f64>, Vec2<f64>) {
     let loads = probe[DETAIL..DETAIL + 10].to_vec();
     let own = bearing_part(&machine, &state);
     let azimuths: Vec<f64> = (0..10)
-        .map(|j| machine.constants.bearing.azimuth(own, j))
+        .map(|j| machine.constants.bearings[0].bearing.azimuth(own, j))
         .collect();
     let mut sum = vec2(0.0, 0.0);
     for (azimuth, load) in azimuths.iter().zip(&loads) {
@@ -83,7 +83,7 @@ fn ball_loads_balance_the_weight_and_share_it_by_statics() {
         let planar_machine = loaded(interference, direction);
         let mut rolls = planar_machine.clone();
         let_roll(&mut rolls);
-        let stiffness = match &rolls.bearing {
+        let stiffness = match &rolls.bearings[0].bearing {
             BearingConstants::Rolling(bearing) => bearing.ball.series_stiffness,
             BearingConstants::Planar(_) => panic!("the balls roll here"),
         };

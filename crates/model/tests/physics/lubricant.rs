@@ -4,14 +4,14 @@ use crate::machines::{Random, lubricant, planar, random_state, reference, settin
 use crate::relatives::grease;
 use model::bearing::lubricant_state::STATES;
 use model::bearing::{SharedMoment, SteadyMoment};
-use model::system::drop::linear::DropLinear;
-use model::system::drop::record::Record;
-use model::system::drop::{Drop, DropConstants, DropMachine};
+use model::system::machine::linear::MachineLinear;
+use model::system::machine::record::Record;
+use model::system::machine::{MachineConstants, Machines, RotorMachine};
 use solve::{Arrowhead, Ending, Linear, Machine, Stop};
 use std::sync::atomic::AtomicBool;
 
 /// The reference machine with a grease whose films warm within milliseconds.
-fn warming() -> DropConstants {
+fn warming() -> MachineConstants {
     let mut constants = reference();
     let bearing = planar(&mut constants);
     bearing.ball.orbit_drag = 0.0;
@@ -28,11 +28,11 @@ fn warming() -> DropConstants {
     constants
 }
 
-fn implicit(machine: &DropMachine, end: f64, tolerance: f64) -> (Ending, Record) {
+fn implicit(machine: &RotorMachine, end: f64, tolerance: f64) -> (Ending, Record) {
     let mut record = Record::new(machine, end, 1e-3, false);
-    let ending = solve::run_implicit::<f64, Drop<f64>, _, _, _, _, _>(
+    let ending = solve::run_implicit::<f64, Machines<f64>, _, _, _, _, _>(
         machine,
-        DropLinear::of(machine).expect("planar"),
+        MachineLinear::of(machine).expect("planar"),
         &machine.start(),
         &mut record,
         &settings(end, tolerance),
@@ -42,9 +42,9 @@ fn implicit(machine: &DropMachine, end: f64, tolerance: f64) -> (Ending, Record)
     (ending, record)
 }
 
-fn explicit(machine: &DropMachine, end: f64, tolerance: f64) -> (Ending, Record) {
+fn explicit(machine: &RotorMachine, end: f64, tolerance: f64) -> (Ending, Record) {
     let mut record = Record::new(machine, end, 1e-3, false);
-    let ending = solve::run::<f64, Drop<f64>, _>(
+    let ending = solve::run::<f64, Machines<f64>, _>(
         &[machine],
         &[machine.start()],
         std::slice::from_mut(&mut record),
@@ -58,7 +58,7 @@ fn explicit(machine: &DropMachine, end: f64, tolerance: f64) -> (Ending, Record)
 
 #[test]
 fn implicit_steps_change_the_lubricant_as_explicit_ones_do() {
-    let machine = DropMachine::new(warming());
+    let machine = RotorMachine::new(warming());
     // past the first contact, while the race gains speed
     let end = 0.015;
     let (ours, record) = implicit(&machine, end, 1e-4);
@@ -76,7 +76,7 @@ fn implicit_steps_change_the_lubricant_as_explicit_ones_do() {
             "{ours_at:?} {expected_at:?}"
         );
     }
-    let peak = |record: &Record| record.contacts[0].peak_force;
+    let peak = |record: &Record| record.bearings[0].contacts[0].peak_force;
     assert!((peak(&record) - peak(&other)).abs() < 0.1);
     for ending in [&ours, &expected] {
         let balance = machine.balance(&machine.start(), &ending.state);
@@ -90,12 +90,11 @@ fn the_jacobian_of_a_ball_between_warmed_films_is_that_of_its_weaker_traction() 
     // 1/u0 and μ_max stand in ∂/∂spin of the traction alone: a factor F on μ is the law with F μ_max
     let mut warmed = warming();
     planar(&mut warmed).moment = None;
-    let machine = DropMachine::new(warmed);
+    let machine = RotorMachine::new(warmed);
     let mut random = Random(3);
     let state = random_state(&machine, &mut random);
     let own = machine.layout().ledger() - STATES;
-    let at = machine
-        .constants
+    let at = machine.constants.bearings[0]
         .bearing
         .lubricant_at(&state[16..own + STATES]);
     let factor = at.expect("it has a state").traction_factor;
@@ -106,11 +105,11 @@ fn the_jacobian_of_a_ball_between_warmed_films_is_that_of_its_weaker_traction() 
     if let physics::traction::Traction::Tanh(law) = &mut bearing.traction {
         law.maximum *= factor;
     }
-    let weaker = DropMachine::new(weaker);
+    let weaker = RotorMachine::new(weaker);
     let mut short = state[..own].to_vec();
     short.extend_from_slice(&state[own + STATES..]);
-    let jacobian = |machine: &DropMachine, state: &[f64]| {
-        let mut linear = DropLinear::of(machine).expect("planar");
+    let jacobian = |machine: &RotorMachine, state: &[f64]| {
+        let mut linear = MachineLinear::of(machine).expect("planar");
         let mut arrow = Arrowhead::new(linear.shape());
         linear.jacobian(&machine.start_mode(), 0.0, state, &mut arrow);
         arrow

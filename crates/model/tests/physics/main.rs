@@ -15,5 +15,6 @@ mod oil;
 mod relatives;
 mod rest;
 mod separation;
+mod several;
 mod spin_up;
 mod symmetry;

@@ -1,13 +1,12 @@
 //! A ball between races with oil: what its contacts are told, from points on the surfaces.
 
 use crate::machines::{
-    Random, ball_of, bearing_part, heat_of, inlets, oil, planar, random_state, reference, vec2,
+    BEARING, INNER, Random, ball_of, bearing_part, heat_of, inlets, oil, planar, race_motion,
+    random_state, reference, vec2,
 };
 use crate::relatives::grease;
 use model::bearing::{BearingConstants, PlanarConstants, SharedMoment, SteadyMoment};
-use model::system::drop::DropMachine;
-use model::system::drop::layout::{BEARING, INNER};
-use model::system::drop::rate::race_motion;
+use model::system::machine::RotorMachine;
 use number::Vec2;
 
 /// Speed of a point at an arm from a centre of a body that turns.
@@ -19,14 +18,14 @@ fn surface(velocity: Vec2<f64>, spin: f64, arm: Vec2<f64>) -> Vec2<f64> {
 fn entrainment_is_the_mean_of_both_surface_speeds() {
     let mut c = reference();
     planar(&mut c).traction = oil();
-    let machine = DropMachine::new(c);
-    let BearingConstants::Planar(b) = &machine.constants.bearing else {
+    let machine = RotorMachine::new(c);
+    let BearingConstants::Planar(b) = &machine.constants.bearings[0].bearing else {
         panic!("the bearing is planar here");
     };
     let mut random = Random(5);
     for _ in 0..50 {
         let state = random_state(&machine, &mut random);
-        let motion = race_motion(&state);
+        let motion = race_motion(&machine, &state);
         for j in 0..b.balls {
             let ball = ball_of(&machine, &state, j);
             let (sine, cosine) = ball.azimuth.sin_cos();
@@ -64,13 +63,13 @@ fn entrainment_is_the_mean_of_both_surface_speeds() {
 }
 
 /// The reference machine in oil whose bearing rolls at 1000 rad/s, with or without the resistance of the inlets, and its rate.
-fn rolling_in_oil(change: impl Fn(&mut PlanarConstants)) -> (DropMachine, Vec<f64>, Vec<f64>) {
+fn rolling_in_oil(change: impl Fn(&mut PlanarConstants)) -> (RotorMachine, Vec<f64>, Vec<f64>) {
     let mut c = reference();
     planar(&mut c).traction = oil();
     change(planar(&mut c));
-    let machine = DropMachine::new(c);
+    let machine = RotorMachine::new(c);
     let mut state = machine.start();
-    let BearingConstants::Planar(b) = &machine.constants.bearing else {
+    let BearingConstants::Planar(b) = &machine.constants.bearings[0].bearing else {
         panic!("the bearing is planar here");
     };
     state[INNER + 5] = 1000.0;
@@ -83,10 +82,10 @@ fn rolling_in_oil(change: impl Fn(&mut PlanarConstants)) -> (DropMachine, Vec<f6
 fn oil_in_the_inlets_resists_rolling() {
     let (_, _, free) = rolling_in_oil(|_| ());
     let (machine, state, rate) = rolling_in_oil(|bearing| bearing.inlet_rolling = Some(inlets()));
-    let BearingConstants::Planar(b) = &machine.constants.bearing else {
+    let BearingConstants::Planar(b) = &machine.constants.bearings[0].bearing else {
         panic!("the bearing is planar here");
     };
-    let (motion, law) = (race_motion(&state), inlets());
+    let (motion, law) = (race_motion(&machine, &state), inlets());
     let mut expected = 0.0;
     for j in 0..b.balls {
         let r = b.ball_reaction(&motion, bearing_part(&machine, &state), j);
@@ -125,5 +124,9 @@ fn a_steady_moment_holds_the_resistance_of_the_inlets() {
         bearing.inlet_rolling = Some(inlets());
     });
     assert_eq!(alone, both);
-    assert!(!machine.constants.bearing.may_make("inlet_rolling"));
+    assert!(
+        !machine.constants.bearings[0]
+            .bearing
+            .may_make("inlet_rolling")
+    );
 }

@@ -7,20 +7,21 @@ use crate::machines::{
 use model::bearing::{
     AccelerationLoss, BearingConstants, LubricantConstants, Separation, SharedMoment, SteadyMoment,
 };
-use model::system::drop::DropMachine;
+use model::schedule::Schedule;
+use model::system::machine::{Event, RotorMachine};
 use physics::palmgren::Palmgren;
 use physics::traction::{DryTraction, FourParameterTraction, Traction};
 
 /// The reference machine and its relatives: other traction laws, oil, oil that resists rolling, a brake, a drive, levitation, a
 /// held race, seven balls, balls that roll, cages free to move, no cage, a race that grows, contacts at an angle, a grease
 /// that builds up between films that warm.
-pub fn machines() -> Vec<DropMachine> {
+pub fn machines() -> Vec<RotorMachine> {
     let base = || {
         let mut c = reference();
         planar(&mut c).cage_drag = 1e-6;
-        c.machine.inner_race_torque = 0.01;
-        c.machine.rotor.brake_torque = 0.3;
-        c.brake_start = 0.0;
+        c.bearings[0].inner_race.torque = 0.01;
+        c.rotor.brake_torque = 0.3;
+        c.schedule = Schedule::of([(0.0, Event::Brake)]);
         c
     };
     let mut peaked = base();
@@ -43,15 +44,15 @@ pub fn machines() -> Vec<DropMachine> {
     planar(&mut seven).balls = 7;
     balance_mount(&mut seven);
     let mut held = base();
-    held.machine.inner_race_centre_held = true;
+    held.bearings[0].inner_race.centre_held = true;
     balance_mount(&mut held);
     let mut slanted = base();
     let gravity = vec2(3.0, -7.0);
-    slanted.machine.gravity = gravity;
+    slanted.gravity = gravity;
     planar(&mut slanted).ball.gravity = gravity;
     let mut rolls = base();
     let_roll(&mut rolls);
-    if let BearingConstants::Rolling(bearing) = &mut rolls.bearing {
+    if let BearingConstants::Rolling(bearing) = &mut rolls.bearings[0].bearing {
         bearing.moment = SteadyMoment::Palmgren(grease());
         bearing.loss = AccelerationLoss::Proportional {
             per_acceleration: 2e-5,
@@ -73,7 +74,7 @@ pub fn machines() -> Vec<DropMachine> {
     planar(&mut grown).ball.inner_track_growth = 5e-12;
     let mut grown_rolling = grown.clone();
     let_roll(&mut grown_rolling);
-    if let BearingConstants::Rolling(bearing) = &mut grown_rolling.bearing {
+    if let BearingConstants::Rolling(bearing) = &mut grown_rolling.bearings[0].bearing {
         bearing.moment = SteadyMoment::Palmgren(grease());
     }
     let mut tilted = base();
@@ -94,7 +95,7 @@ pub fn machines() -> Vec<DropMachine> {
     let mut worked = greased.clone();
     planar(&mut worked).lubricant = Some(lubricant());
     let mut worked_rolling = rolls.clone();
-    if let BearingConstants::Rolling(bearing) = &mut worked_rolling.bearing {
+    if let BearingConstants::Rolling(bearing) = &mut worked_rolling.bearings[0].bearing {
         bearing.lubricant = Some(lubricant());
     }
     let mut warmed = resisted.clone();
@@ -124,7 +125,7 @@ pub fn machines() -> Vec<DropMachine> {
     .chain([worked, worked_rolling, warmed])
     .chain(separated_at_an_angle)
     .enumerate()
-    .map(|(i, constants)| DropMachine::with_levitation(constants, i % 2 == 0))
+    .map(|(i, constants)| RotorMachine::with_levitation(constants, i % 2 == 0))
     .collect()
 }
 

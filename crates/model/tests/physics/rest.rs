@@ -1,17 +1,17 @@
 //! Rest: what does not move stays.
 
-use crate::machines::{ball_of, let_roll, planar, reference, weightless};
-use model::system::drop::layout::{BEARING, DETAIL, INNER};
-use model::system::drop::{DropConstants, DropMachine};
+use crate::machines::{BEARING, INNER, ball_of, let_roll, planar, reference, weightless};
+use model::auxiliary_bearing::probe::COUNT as DETAIL;
+use model::system::machine::{MachineConstants, RotorMachine};
 use std::f64::consts::PI;
 
 /// Largest ball load at rest and largest accelerations of balls: radial, orbit, spin.
-fn at_rest(constants: DropConstants) -> (f64, [f64; 3]) {
-    let machine = DropMachine::new(constants);
+fn at_rest(constants: MachineConstants) -> (f64, [f64; 3]) {
+    let machine = RotorMachine::new(constants);
     let state = machine.start();
     let (rate, probe) = machine.inspect(&state);
     let mut largest = [0.0_f64; 3];
-    let balls = machine.layout().balls;
+    let balls = machine.layout().bearings[0].balls;
     for j in 0..balls {
         let a = ball_of(&machine, &rate, j);
         for (most, value) in largest
@@ -80,7 +80,7 @@ fn a_rolling_bearing_at_rest_does_not_turn_or_push() {
     let mut c = reference();
     weightless(&mut c);
     let_roll(&mut c);
-    let machine = DropMachine::new(c);
+    let machine = RotorMachine::new(c);
     let (rate, _) = machine.inspect(&machine.start());
     assert_eq!(rate[BEARING], 0.0);
     // preloads of ten balls cancel: rounding of 35 N over 20 g

@@ -1,25 +1,23 @@
 //! What keeps the balls apart: cages free to move, lands, full complements.
 
 use crate::machines::{
-    Random, ball_of, ball_pair, bearing_part, heat_of, land, let_roll, planar, random_state,
-    reference, run, separate, separations, settings, tilt_contacts, vec2,
+    INNER, OUTER, Random, ball_of, ball_pair, bearing_part, heat_of, land, let_roll, planar,
+    race_motion, random_state, reference, run, separate, separations, settings, tilt_contacts,
+    vec2,
 };
+use model::auxiliary_bearing::probe::{LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_POCKET_FORCE};
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::cage::LandRace;
 use model::bearing::{BearingConstants, Separation};
-use model::system::drop::layout::{
-    INNER, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_POCKET_FORCE, OUTER,
-};
-use model::system::drop::rate::race_motion;
-use model::system::drop::{DropConstants, DropMachine};
+use model::system::machine::{MachineConstants, RotorMachine};
 
 /// The drop through its first impact and what follows: most of the spin-up.
 const END: f64 = 25e-3;
 
-fn machine_with(separation: Separation<f64>) -> DropMachine {
+fn machine_with(separation: Separation<f64>) -> RotorMachine {
     let mut c = reference();
     separate(&mut c, separation);
-    DropMachine::new(c)
+    RotorMachine::new(c)
 }
 
 #[test]
@@ -29,7 +27,7 @@ fn energy_and_angular_momentum_close_in_a_drop() {
         let start = machine.start();
         let end = run(&machine, &start, &settings(END, 1e-4));
         let balance = machine.balance(&start, &end);
-        let spin = machine.constants.machine.inner_race_inertia * end[INNER + 5];
+        let spin = machine.constants.bearings[0].inner_race.inertia * end[INNER + 5];
         assert!(end[INNER + 5] > 500.0, "the race was spun up");
         let residual = balance.energy_residual() / balance.heat();
         assert!(residual.abs() < 1e-6, "{residual}");
@@ -66,7 +64,7 @@ fn a_cage_that_rides_on_its_balls_stays_within_its_pockets() {
     bearing.ball.outer_track += 10e-6;
     let gap = bearing.ball.pocket_gap;
     separate(&mut c, Separation::FreeCage(None));
-    let machine = DropMachine::new(c);
+    let machine = RotorMachine::new(c);
     let start = machine.start();
     let end = run(&machine, &start, &settings(60e-3, 1e-4));
     assert!(end[INNER + 5] > 1000.0, "the race was spun up");
@@ -85,8 +83,8 @@ fn balls_that_roll_at_an_angle_carry_what_balls_by_themselves_do() {
     tilt_contacts(planar(&mut c), 0.6);
     let mut rolls = c.clone();
     let_roll(&mut rolls);
-    let load = |constants: DropConstants| {
-        let machine = DropMachine::new(constants);
+    let load = |constants: MachineConstants| {
+        let machine = RotorMachine::new(constants);
         let (_, probe) = machine.inspect(&machine.start());
         probe[LARGEST_INNER_LOAD]
     };
@@ -106,18 +104,21 @@ fn a_pocket_is_rubbed_along_the_line_of_contact() {
     let mut c = reference();
     tilt_contacts(planar(&mut c), alpha);
     let plain = reference();
-    let BearingConstants::Planar(level) = &plain.bearing else {
+    let BearingConstants::Planar(level) = &plain.bearings[0].bearing else {
         panic!("planar")
     };
-    let machine = DropMachine::new(c);
-    let BearingConstants::Planar(bearing) = &machine.constants.bearing else {
+    let machine = RotorMachine::new(c);
+    let BearingConstants::Planar(bearing) = &machine.constants.bearings[0].bearing else {
         panic!("planar")
     };
     let mut random = Random(7);
     let mut pressed = 0;
     for _ in 0..40 {
         let state = random_state(&machine, &mut random);
-        let (motion, part) = (race_motion(&state), bearing_part(&machine, &state));
+        let (motion, part) = (
+            race_motion(&machine, &state),
+            bearing_part(&machine, &state),
+        );
         for j in 0..bearing.balls {
             let reaction = bearing.ball_reaction(&motion, part, j);
             if reaction.pocket_force == 0.0 {
@@ -154,10 +155,10 @@ fn a_pocket_is_rubbed_along_the_line_of_contact() {
 #[test]
 fn a_land_without_clearance_is_a_centred_cage() {
     // frictionless pockets and land; the land holds the cage's centre at the outer race's
-    let smooth = |mut c: DropConstants| {
+    let smooth = |mut c: MachineConstants| {
         let bearing = planar(&mut c);
         bearing.ball.pocket_friction = 0.0;
-        let machine = DropMachine::new(c);
+        let machine = RotorMachine::new(c);
         let end = run(&machine, &machine.start(), &settings(13e-3, 1e-5));
         (end[INNER + 5], bearing_part(&machine, &end)[1])
     };
@@ -188,11 +189,11 @@ fn a_cage_at_rest_lies_on_its_land_with_its_weight() {
         Separation::FreeCage(Some(land(LandRace::Outer, 0.05e-3))),
     );
     // the rotor stays up, pockets are wide, nothing turns
-    c.machine.rotor.eccentricity = 0.0;
+    c.rotor.eccentricity = 0.0;
     planar(&mut c).ball.pocket_gap = 1e-3;
     c.speed = 0.0;
     let weight = planar(&mut c).cage_mass * 9.81;
-    let machine = DropMachine::with_levitation(c, true);
+    let machine = RotorMachine::with_levitation(c, true);
     // strong damping by its land, 0.3 s to settle
     let end = run(&machine, &machine.start(), &settings(0.5, 1e-3));
     let (_, probe) = machine.inspect(&end);
@@ -217,7 +218,7 @@ fn balls_without_a_cage_run_against_each_other() {
     assert!(heat_of(&machine, &end, "ball_ball_friction") > 0.0);
     assert!(heat_of(&machine, &end, "ball_ball_damping") > 0.0);
     assert_eq!(heat_of(&machine, &end, "pocket_friction"), 0.0);
-    let BearingConstants::Planar(bearing) = &machine.constants.bearing else {
+    let BearingConstants::Planar(bearing) = &machine.constants.bearings[0].bearing else {
         panic!("planar")
     };
     // none has passed another, and the mean stands where a cage would

@@ -2,23 +2,22 @@
 //! grip against the bearing whose balls roll.
 
 use crate::machines::{
-    ball_of, bearing_part, heat_of, let_roll, planar, reference, run, settings, weightless,
+    INNER, ball_of, bearing_part, heat_of, let_roll, planar, race_motion, reference, run, settings,
+    weightless,
 };
 use model::bearing::{BearingConstants, PlanarConstants};
-use model::system::drop::layout::INNER;
-use model::system::drop::rate::race_motion;
-use model::system::drop::{DropConstants, DropMachine};
+use model::system::machine::{MachineConstants, RotorMachine};
 use physics::rolling::{Acceleration, RollingSet};
 use physics::traction::{TanhTraction, Traction, TractionLaw};
 
 /// A driven bearing without gravity, its inner race held in the middle, the rotor out of touch.
-fn driven(torque: f64) -> DropConstants {
+fn driven(torque: f64) -> MachineConstants {
     let mut c = reference();
     weightless(&mut c);
     c.speed = 0.0;
-    c.machine.rotor.eccentricity = 0.0;
-    c.machine.inner_race_centre_held = true;
-    c.machine.inner_race_torque = torque;
+    c.rotor.eccentricity = 0.0;
+    c.bearings[0].inner_race.centre_held = true;
+    c.bearings[0].inner_race.torque = torque;
     let bearing = planar(&mut c);
     bearing.ball.orbit_drag = 0.0;
     bearing.ball.spin_drag = 0.0;
@@ -53,17 +52,17 @@ struct Measured {
     pocket_friction: f64,
 }
 
-fn planar_of(machine: &DropMachine) -> &PlanarConstants {
-    match &machine.constants.bearing {
+fn planar_of(machine: &RotorMachine) -> &PlanarConstants {
+    match &machine.constants.bearings[0].bearing {
         BearingConstants::Planar(bearing) => bearing,
         BearingConstants::Rolling(_) => panic!("the bearing is planar here"),
     }
 }
 
-fn measure(machine: &DropMachine, state: &[f64]) -> Measured {
+fn measure(machine: &RotorMachine, state: &[f64]) -> Measured {
     let b = planar_of(machine);
     let (rate, _) = machine.inspect(state);
-    let motion = race_motion(state);
+    let motion = race_motion(machine, state);
     let cage = (
         bearing_part(machine, state)[1],
         bearing_part(machine, &rate)[1],
@@ -134,7 +133,7 @@ fn spin_up(factor: f64) -> Measured {
     load_balls(bearing, factor, 24.0);
     bearing.ball.pocket_gap = 1e-6;
     bearing.ball.pocket_damping = 1e4;
-    let machine = DropMachine::new(c);
+    let machine = RotorMachine::new(c);
     measure(
         &machine,
         &run(&machine, &machine.start(), &settings(3e-3, 1e-7)),
@@ -181,13 +180,13 @@ fn balls_with_ample_grip_equal_the_rolling_bearing() {
     });
     let mut rolls = c.clone();
     let_roll(&mut rolls);
-    let end = |constants: &DropConstants| {
-        let machine = DropMachine::new(constants.clone());
+    let end = |constants: &MachineConstants| {
+        let machine = RotorMachine::new(constants.clone());
         let state = run(&machine, &machine.start(), &settings(20e-3, 1e-5));
-        let cage = machine
-            .constants
-            .bearing
-            .cage_speed(&race_motion(&state), bearing_part(&machine, &state));
+        let cage = machine.constants.bearings[0].bearing.cage_speed(
+            &race_motion(&machine, &state),
+            bearing_part(&machine, &state),
+        );
         (state[INNER + 5], cage)
     };
     let (balls, rolling) = (end(&c), end(&rolls));
@@ -201,7 +200,7 @@ fn balls_with_ample_grip_equal_the_rolling_bearing() {
         "{balls:?} {rolling:?}"
     );
     // without the balls the race would be faster by a fifth: they do take part
-    let alone = 0.03 * 20e-3 / c.machine.inner_race_inertia;
+    let alone = 0.03 * 20e-3 / c.bearings[0].inner_race.inertia;
     assert!(rolling.0 < 0.85 * alone);
 }
 
@@ -222,8 +221,8 @@ fn a_drop_on_balls_with_ample_grip_is_a_drop_on_rolling_balls() {
     });
     let mut rolls = c.clone();
     let_roll(&mut rolls);
-    let end = |constants: &DropConstants| {
-        let machine = DropMachine::new(constants.clone());
+    let end = |constants: &MachineConstants| {
+        let machine = RotorMachine::new(constants.clone());
         let state = run(&machine, &machine.start(), &settings(20e-3, 1e-4));
         let heat = heat_of(&machine, &state, "rotor_race_friction");
         (state[INNER + 5], heat)

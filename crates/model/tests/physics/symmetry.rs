@@ -1,13 +1,14 @@
 //! Turning or mirroring the machine turns or mirrors the answer.
 
 use crate::machines::{
-    balance_mount, ball_of, equal_steps, planar, reference, run, separate, separations, vec2,
+    BEARING, INNER, OUTER, balance_mount, ball_of, equal_steps, planar, reference, run, separate,
+    separations, vec2,
 };
 use model::bearing::ball::BallMotion;
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::{BearingConstants, Separation};
-use model::system::drop::layout::{BEARING, INNER, OUTER, ROTOR};
-use model::system::drop::{DropConstants, DropMachine};
+use model::system::machine::layout::ROTOR;
+use model::system::machine::{MachineConstants, RotorMachine};
 use number::Vec2;
 use std::f64::consts::PI;
 
@@ -48,12 +49,12 @@ impl Change {
         }
     }
 
-    fn constants(self, constants: &DropConstants) -> DropConstants {
+    fn constants(self, constants: &MachineConstants) -> MachineConstants {
         let mut c = constants.clone();
-        c.machine.gravity = self.vector(c.machine.gravity);
-        c.machine.levitation.carried = self.vector(c.machine.levitation.carried);
-        c.machine.levitation.centre = self.vector(c.machine.levitation.centre);
-        c.machine.inner_race_torque = self.spin(c.machine.inner_race_torque);
+        c.gravity = self.vector(c.gravity);
+        c.levitation.carried = self.vector(c.levitation.carried);
+        c.levitation.centre = self.vector(c.levitation.centre);
+        c.bearings[0].inner_race.torque = self.spin(c.bearings[0].inner_race.torque);
         c.speed = self.spin(c.speed);
         c.unbalance_angle = self.azimuth(c.unbalance_angle);
         let bearing = planar(&mut c);
@@ -64,7 +65,7 @@ impl Change {
     }
 
     /// Everything that can be seen of a state, as it appears after the change.
-    fn view(self, machine: &DropMachine, state: &[f64]) -> Vec<(&'static str, f64)> {
+    fn view(self, machine: &RotorMachine, state: &[f64]) -> Vec<(&'static str, f64)> {
         let mut seen = Vec::new();
         for (kind, at) in [
             ("position", ROTOR),
@@ -80,7 +81,7 @@ impl Change {
             seen.push(("spin", self.spin(state[at])));
         }
         seen.push(("angle", self.azimuth(state[ROTOR + 4]).sin()));
-        if let BearingConstants::Planar(bearing) = &machine.constants.bearing
+        if let BearingConstants::Planar(bearing) = &machine.constants.bearings[0].bearing
             && let Separation::FreeCage(_) = bearing.separation
         {
             let at = BEARING + CAGE_PLACE;
@@ -89,7 +90,7 @@ impl Change {
             seen.extend([("cage place", place.x), ("cage place", place.y)]);
             seen.extend([("velocity", speed.x), ("velocity", speed.y)]);
         }
-        let balls = machine.layout().balls;
+        let balls = machine.layout().bearings[0].balls;
         for j in 0..balls {
             let BallMotion {
                 radius,
@@ -116,13 +117,13 @@ impl Change {
 }
 
 /// The reference machine, off its symmetric position, falling into contact at once.
-fn tilted() -> DropConstants {
+fn tilted() -> MachineConstants {
     let mut c = reference();
     let g = vec2(2.0, -9.6);
-    c.machine.gravity = g;
-    c.machine.levitation.carried = -(g * c.machine.rotor.mass);
-    c.machine.levitation.centre = vec2(0.05e-3, -0.235e-3);
-    c.machine.inner_race_torque = 0.01;
+    c.gravity = g;
+    c.levitation.carried = -(g * c.rotor.mass);
+    c.levitation.centre = vec2(0.05e-3, -0.235e-3);
+    c.bearings[0].inner_race.torque = 0.01;
     c.unbalance_angle = 0.4;
     let bearing = planar(&mut c);
     bearing.ball.gravity = g;
@@ -133,9 +134,9 @@ fn tilted() -> DropConstants {
 
 /// Largest difference between the changed answer and the answer of the changed machine, in each kind of quantity
 /// relative to its largest value.
-fn difference(change: Change, constants: &DropConstants) -> f64 {
-    let original = DropMachine::new(constants.clone());
-    let changed = DropMachine::new(change.constants(constants));
+fn difference(change: Change, constants: &MachineConstants) -> f64 {
+    let original = RotorMachine::new(constants.clone());
+    let changed = RotorMachine::new(change.constants(constants));
     // Equal steps: step control looks at components, and other steps would be other errors.
     let settings = equal_steps(4e-3, 5e-7);
     let last = run(&original, &original.start(), &settings);
@@ -195,9 +196,9 @@ fn the_answer_depends_on_the_direction_of_gravity() {
     // the two tests above could not fail if the views saw nothing
     let constants = tilted();
     let mut other = constants.clone();
-    other.machine.gravity = vec2(2.001, -9.6);
+    other.gravity = vec2(2.001, -9.6);
     let settings = equal_steps(4e-3, 5e-7);
-    let (a, b) = (DropMachine::new(constants), DropMachine::new(other));
+    let (a, b) = (RotorMachine::new(constants), RotorMachine::new(other));
     let (seen_a, seen_b) = (
         run(&a, &a.start(), &settings),
         run(&b, &b.start(), &settings),

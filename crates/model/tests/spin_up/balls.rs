@@ -148,7 +148,7 @@ fn a_mirrored_machine_gives_a_mirrored_answer() {
         let settings = crate::machines::equal_steps(4e-3, 5e-7);
         let mut record = model::system::spin_up::record::Record::new(&machine, 4e-3, 1e-3, false);
         let end = crate::rig::observe(&machine, &start, &settings, &mut record).state;
-        let layout = *machine.layout();
+        let layout = machine.layout().clone();
         [
             // places by the size of the displacement, a rounding of which rings at 41 kHz
             1.0 + sign * end[INNER] * 1e5,

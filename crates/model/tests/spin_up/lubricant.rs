@@ -153,7 +153,7 @@ fn films_warm_by_the_heat_of_the_ledger_and_store_nothing() {
         let run = run(constants, 0.1, 1e-6);
         let films = lubricant().films.expect("they warm");
         let heat = |kind: &str| {
-            let heat = run.machine.layout().heat_of(&run.end, kind);
+            let heat = run.machine.layout().heat_of(&run.end, "", kind);
             heat.expect("a heat")
         };
         let made = heat("inner_ball_slip") + heat("outer_ball_slip") + heat("steady_moment");

@@ -1,7 +1,10 @@
 //! The linearly implicit method: order with an exact and with a poor Jacobian, stiffness, the tail.
 
 use crate::problems::{Alone, Blind, Problem, adaptive, equal_steps};
-use solve::{Arrowhead, Ending, Flow, Linear, Observer, Settings, Shape, Step, Stop, run_implicit};
+use solve::{
+    Arrowhead, BlockShape, Ending, Flow, Linear, Observer, Settings, Shape, Step, Stop,
+    run_implicit,
+};
 use std::sync::atomic::AtomicBool;
 
 /// ẋ = v, v̇ = k ((1 - x²) v - x), and Q = ∫v² on which nothing depends. State x, k, v, Q.
@@ -24,10 +27,12 @@ impl Linear<Problem, 1, 2, 1> for ByHand {
     fn shape(&self) -> Shape<1, 2, 1> {
         Shape {
             border: vec![0, 1],
-            blocks: vec![[2]],
+            blocks: vec![BlockShape {
+                channels: [2],
+                rows: [0],
+                columns: [0, 1],
+            }],
             tail: 3..4,
-            rows: [0],
-            columns: [0, 1],
         }
     }
     fn jacobian(&mut self, _mode: &f64, _time: f64, y: &[f64], into: &mut Arrowhead<1, 2, 1>) {
@@ -116,8 +121,6 @@ impl Linear<Problem, 1, 2, 1> for OfFallingMass {
             border: vec![0, 1],
             blocks: Vec::new(),
             tail: 2..3,
-            rows: [0],
-            columns: [0, 1],
         }
     }
     fn jacobian(&mut self, _mode: &f64, _time: f64, y: &[f64], into: &mut Arrowhead<1, 2, 1>) {

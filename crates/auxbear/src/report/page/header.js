@@ -46,7 +46,7 @@ function quantityTile(run, title, name, note, state) {
 function stateTile(run) {
   const stop = run.summary.stop || {};
   const complete = run.summary.complete === true;
-  const time = isNumber(stop.time_s) && !isTorque(run) ? engineeringText(stop.time_s, "s", 4) : "";
+  const time = isNumber(stop.time_s) && systemOf(run).time ? engineeringText(stop.time_s, "s", 4) : "";
   const reason = stop.text || stop.reason || run.summaryProblem || "the summary does not say";
   return tile("Run", complete ? "complete" : "not complete", [[time, reason].filter(Boolean).join(": ")], verdictState(run, !complete));
 }
@@ -137,7 +137,7 @@ function machineLine(run) {
   const facts = [
     mass && `rotor ${mass}`,
     speed && (radians ? numberText((Number(radians[1]) * 30) / Math.PI, 6) + " rpm" : speed),
-    bearing && bearing + (planes ? ` × ${planes} ${planes === "1" ? "plane" : "planes"}` : ""),
+    bearing && bearing + (planes && !run.summary.name ? ` × ${planes} ${planes === "1" ? "plane" : "planes"}` : ""),
     clearance && `radial air clearance ${clearance}${assumed("contact.radial_air_clearance")}`,
     friction && `friction coefficient ${friction}${assumed("contact.friction_coefficient")}`,
     fidelity && `${fidelity} fidelity`,
@@ -153,6 +153,9 @@ function spreadOrigin(run) {
   const by = [position && inputText(position.value), angle && inputText(angle.value)].filter(Boolean).join(" and ");
   const varied = ["friction_coefficient", "mount_stiffness", "radial_air_clearance"].filter((name) => Number((inputOf(run, `repeat.${name}_deviation`) || {}).value) > 0).map((name) => name.replaceAll("_", " "));
   if ((inputOf(run, "repeat.unbalance_angle") || {}).value === "random") varied.push("direction of the unbalance");
+  const drawn = list(run.summary.drawn).flatMap((draws) => Object.keys(draws || {}));
+  const known = ["contact.friction_coefficient", "mount.stiffness", "contact.radial_air_clearance", "rotor.unbalance_angle"];
+  varied.push(...new Set(drawn.filter((path) => !known.some((other) => path.endsWith(other)) || !varied.length)));
   if (varied.length) return `spread of machines that differ in ${varied.join(", ")}, and of starts perturbed by ${by} (see repeat.*)`;
   return `spread of starts perturbed by ${by || "tiny amounts"} (see repeat.*): shows numerical chaos, not tolerances of the machine`;
 }
@@ -171,23 +174,29 @@ function warningBox(runs) {
   }
   if (!found.size) return null;
   const who = ({ letters }) => {
-    if (runs.length === 1) return null;
+    if (ofOneRun(runs)) return null;
     return element("strong", {}, letters.length === runs.length ? "all runs: " : (letters.length > 1 ? "runs " : "run ") + letters.join(", ") + ": ");
   };
   const items = [...found.values()].map((warning) => element("li", {}, warning.code ? element("code", {}, warning.code) : null, " ", who(warning), warning.text));
   return element("div", { class: "warnings" }, element("strong", {}, "Warnings"), element("ul", {}, items));
 }
 
+// Whether all are the bearings of one run.
+function ofOneRun(runs) {
+  return runs.every((run) => run.directory === runs[0].directory);
+}
+
 function header(runs) {
   const single = runs.length === 1 ? runs[0] : null;
-  const parts = [element("h1", {}, single ? single.summary.title || single.name : "Comparison of " + runs.length + " runs")];
+  const parts = [element("h1", {}, ofOneRun(runs) ? runs[0].summary.title || runs[0].name : "Comparison of " + runs.length + " runs")];
   for (const run of runs) {
     const facts = [run.summary.system, run.directory, run.summary.version && "auxbear " + run.summary.version];
     const key = single ? null : element("span", { class: "swatch", style: "background:" + run.colour });
     const origin = spreadOrigin(run);
     const about = element("p", { class: "subtitle" }, key, single ? null : element("strong", {}, run.label + "  "), facts.filter(Boolean).join(" · "));
-    const line = isIdentify(run) ? identifyLine(run) : isRig(run) ? rigLine(run) : isSignals(run) ? signalsLine(run) : isTorque(run) ? torqueLine(run) : isSpinUp(run) ? spinUpLine(run) : machineLine(run);
-    parts.push(single ? [line, about] : [about, line], isIdentify(run) ? identifyVerdict(run) : isRig(run) ? rigVerdict(run) : isSignals(run) ? signalsVerdict(run) : isTorque(run) ? torqueVerdict(run) : isSpinUp(run) ? spinUpVerdict(run) : verdict(run), origin ? element("p", { class: "small" }, "Large numbers: the unperturbed run. Below them: " + origin + ".") : null);
+    const own = systemOf(run);
+    const line = own.line(run);
+    parts.push(single ? [line, about] : [about, line], own.verdict(run), origin ? element("p", { class: "small" }, "Large numbers: the unperturbed run. Below them: " + origin + ".") : null);
   }
   parts.push(warningBox(runs));
   return element("header", {}, parts);

@@ -1,10 +1,6 @@
 // The pictures of an identification, in the layout of the source paper's Figs 7 to 10: torque over speed from the slow tests,
 // then speed, acceleration and torque of each test with the steady torque laid over, with bands; and the verdict.
 
-function isIdentify(run) {
-  return run.summary.system === "identify";
-}
-
 const EXPLANATIONS = ["rolling", "rolling with a grease state", "isothermal slip", "slip with heating", "sensor artefact", "another steady moment"];
 
 // A probability; what is hardly possible is not told to its last digit.
@@ -242,8 +238,13 @@ function identifyLine(run) {
   return element("p", { class: "machine" }, `bearing ${input ? inputText(input.value) : "without a name"} · time 0 is the engagement of each test`);
 }
 
-function identifySections(runs) {
-  if (!runs.length) return [];
-  const rubbed = runs.filter((run) => listOf(run, "rotor_friction_slips").length);
-  return [[explanationSection, runs], [steadyMomentSection, runs], [testSection, runs], [lossSection, runs], ...(rubbed.length ? [[rotorFrictionSection, rubbed]] : [])];
-}
+register("identify", {
+  line: identifyLine,
+  verdict: identifyVerdict,
+  time: "time since the engagement",
+  facts: false,
+  sections: (runs) => {
+    const rubbed = runs.filter((run) => listOf(run, "rotor_friction_slips").length);
+    return [[35, explanationSection, runs], [36, steadyMomentSection, runs], [37, testSection, runs], [38, lossSection, runs], [39, rotorFrictionSection, rubbed]].filter(([, , part]) => part.length);
+  },
+});

@@ -343,3 +343,11 @@ function orbitSection(runs) {
   const figures = runs.map((run) => orbitFigure(run, runs));
   return section("orbit", "Orbit", element("div", { class: "columns" }, figures, single ? contactTable(runs[0]) : null));
 }
+
+register("drop", {
+  line: machineLine,
+  verdict,
+  time: "time since release",
+  facts: true,
+  sections: (runs) => [[10, orbitSection, runs], [11, contactSection, runs], [50, speedSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs]],
+});

@@ -1,9 +1,5 @@
 // The pictures of a test on a rig: what happened, beside what its arm indicated.
 
-function isRig(run) {
-  return run.summary.system === "rig";
-}
-
 function rigMarks(runs) {
   return instantMarks(runs.flatMap((run) => [["engagement_time", "engaged"], ["clutch_lock_time", "locked"]].map(([name, words]) => ({ instant: numberOf(run, name), words: run.prefix + words, colour: runs.length > 1 ? run.colour : SERIES_COLOURS.quiet }))));
 }
@@ -108,6 +104,10 @@ function rigLine(run) {
   return element("p", { class: "machine" }, facts.filter(Boolean).join(" · "));
 }
 
-function rigSections(runs) {
-  return runs.length ? [[rigSpeedSection, runs], [rigTorqueSection, runs], [rigWarmthSection, runs]] : [];
-}
+register("rig", {
+  line: rigLine,
+  verdict: rigVerdict,
+  time: "time since the start",
+  facts: true,
+  sections: (runs) => [[40, rigSpeedSection, runs], [41, rigTorqueSection, runs], [42, rigWarmthSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs]],
+});

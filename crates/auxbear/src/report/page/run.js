@@ -1,5 +1,31 @@
 // The runs as the page received them, and safe access to what may be absent.
 
+// What each system shows, registered by its own script: the line and the tiles of the header; the words of its time axis, null
+// where nothing depends on time; sections, each with its place among those of all systems: [place, build, runs that have it].
+const SYSTEMS = {};
+
+function register(system, parts) {
+  SYSTEMS[system] = parts;
+}
+
+function systemOf(run) {
+  return SYSTEMS[run.summary.system] || SYSTEMS.drop;
+}
+
+// Sections that systems share stand once, with the runs of all of them.
+function sectionsOf(runs) {
+  const found = new Map();
+  for (const parts of Object.values(SYSTEMS)) {
+    const own = runs.filter((run) => systemOf(run) === parts);
+    for (const [place, build, some] of own.length ? parts.sections(own) : []) {
+      if (!found.has(build)) found.set(build, { place, runs: new Set() });
+      for (const run of some) found.get(build).runs.add(run);
+    }
+  }
+  const inOrder = [...found].sort(([, one], [, other]) => one.place - other.place);
+  return inOrder.map(([build, { runs: some }]) => [build, runs.filter((run) => some.has(run))]);
+}
+
 function decodeColumn(column) {
   const bytes = Uint8Array.from(atob(column.data), (letter) => letter.charCodeAt(0));
   const view = new DataView(bytes.buffer);
@@ -12,7 +38,7 @@ function decodeColumn(column) {
   return { name: column.name, unit: column.unit, meaning: column.meaning, values };
 }
 
-function readRun(text, index, count) {
+function readRun(text) {
   const raw = JSON.parse(text);
   let summary = {};
   let summaryProblem = null;
@@ -24,13 +50,9 @@ function readRun(text, index, count) {
     summaryProblem = "summary.json cannot be read (" + problem.message + ")";
   }
   const columns = new Map(list(raw.columns).map((column) => [column.name, decodeColumn(column)]));
-  const letter = String.fromCharCode(65 + index);
   const name = raw.name || summary.title || raw.directory || "run";
   return {
-    letter,
     name,
-    label: count > 1 ? letter + " · " + name : name,
-    prefix: count > 1 ? letter + " " : "",
     directory: raw.directory,
     scenario: raw.scenario,
     summary,
@@ -38,16 +60,40 @@ function readRun(text, index, count) {
     columns,
     rows: raw.rows,
     rowsTotal: raw.rows_total,
-    colour: RUN_COLOURS[index % RUN_COLOURS.length],
     time: columns.has("time") ? columns.get("time").values : null,
     contacts: list(summary.contacts).filter((contact) => contact && isNumber(contact.start_s)),
     quantities: summary.quantities && typeof summary.quantities === "object" ? summary.quantities : {},
   };
 }
 
+// A run on several bearings as one run for each: what carries the bearing's name loses it, what carries another's is left out.
+function ofBearing(run, bearing, names) {
+  const start = `${bearing.name}.`;
+  const of = (entries) => entries.filter(([name]) => name.startsWith(start) || !names.some((other) => name.startsWith(`${other}.`))).map(([name, value]) => [name.startsWith(start) ? name.slice(start.length) : name, value]);
+  const section = `auxiliary_bearing.${start}`;
+  const inputs = list(run.summary.inputs).filter((input) => input && !(input.path.startsWith("auxiliary_bearing.") && !input.path.startsWith(section)));
+  const plain = inputs.map((input) => (input.path.startsWith(section) ? { ...input, path: input.path.slice(section.length) } : input));
+  return {
+    ...run,
+    name: `${run.name}, ${bearing.name}`,
+    columns: new Map(of([...run.columns]).map(([name, column]) => [name, { ...column, name }])),
+    contacts: run.contacts.filter((contact) => contact.auxiliary_bearing === bearing.name),
+    quantities: Object.fromEntries(of(Object.entries(run.quantities))),
+    summary: { ...run.summary, ...bearing, inputs: plain },
+  };
+}
+
 function readRuns() {
   const blocks = [...document.querySelectorAll("script.run")];
-  return blocks.map((block, index) => readRun(block.textContent, index, blocks.length));
+  const runs = blocks.map((block) => readRun(block.textContent)).flatMap((run) => {
+    const bearings = list(run.summary.auxiliary_bearings).filter((bearing) => bearing && bearing.name);
+    return bearings.length ? bearings.map((bearing) => ofBearing(run, bearing, bearings.map(({ name }) => name))) : [run];
+  });
+  return runs.map((run, index) => {
+    const letter = String.fromCharCode(65 + index);
+    const several = runs.length > 1;
+    return { ...run, letter, label: several ? letter + " · " + run.name : run.name, prefix: several ? letter + " " : "", colour: RUN_COLOURS[index % RUN_COLOURS.length] };
+  });
 }
 
 // The values of a column, or null when the run lacks it, its time or any number in it.

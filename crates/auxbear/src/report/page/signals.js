@@ -1,9 +1,5 @@
 // The pictures of a measurement: what was read beside what it means, each with the band that holds it in 95 % of cases.
 
-function isSignals(run) {
-  return run.summary.system === "signals";
-}
-
 const BAND = 2;
 const BAND_WORDS = "Pale lines: twice the standard deviation to both sides.";
 
@@ -255,19 +251,6 @@ function trustSection(runs) {
 }
 
 // The sections of measurements; what no run asked for has no section.
-function signalSections(runs) {
-  if (!runs.length) return [];
-  const asked = (section) => runs.filter((run) => String((inputOf(run, `signals.${section}.channel`) || { value: "not given" }).value) !== "not given");
-  return [
-    [shaftSection, asked("speed")],
-    [measuredTorqueSection, asked("torque")],
-    [cageSection, asked("cage")],
-    [vibrationSection, asked("vibration")],
-    [steadySection, runs.filter((run) => String((inputOf(run, "signals.steady.from") || { value: "not given" }).value) !== "not given")],
-    [trustSection, runs],
-  ].filter(([, part]) => part.length);
-}
-
 function signalsVerdict(run) {
   const asked = (section) => String((inputOf(run, `signals.${section}.channel`) || { value: "not given" }).value) !== "not given";
   const [slip, deviation] = [quantityOf(run, "median_cage_slip"), numberOf(run, "median_cage_slip_deviation")];
@@ -287,3 +270,22 @@ function signalsLine(run) {
   const file = inputOf(run, "signals.file");
   return file ? element("p", { class: "machine" }, "measurement: " + String(file.value).split(/[\\/]/).pop()) : null;
 }
+
+register("signals", {
+  line: signalsLine,
+  verdict: signalsVerdict,
+  time: "time on the clock of the file",
+  facts: false,
+  sections: (runs) => {
+    const given = (path) => runs.filter((run) => String((inputOf(run, path) || { value: "not given" }).value) !== "not given");
+    const asked = (section) => given(`signals.${section}.channel`);
+    return [
+      [30, shaftSection, asked("speed")],
+      [31, measuredTorqueSection, asked("torque")],
+      [32, cageSection, asked("cage")],
+      [33, vibrationSection, asked("vibration")],
+      [34, steadySection, given("signals.steady.from")],
+      [34.5, trustSection, runs],
+    ].filter(([, , part]) => part.length);
+  },
+});

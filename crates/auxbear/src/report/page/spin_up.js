@@ -194,3 +194,11 @@ function spinUpLine(run) {
   ].filter(Boolean);
   return element("p", { class: "machine" }, facts.join(" · "));
 }
+
+register("spin_up", {
+  line: spinUpLine,
+  verdict: spinUpVerdict,
+  time: "time since the start",
+  facts: true,
+  sections: (runs) => [[50, speedSection, runs], [55, momentSection, runs], [56, slipSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [70, outerRaceSection, runs], [80, energySection, runs]],
+});

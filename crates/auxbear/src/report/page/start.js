@@ -32,32 +32,15 @@ function start() {
     return;
   }
   timeline.span(runs);
-  // Each system has its own pictures; a page of both kinds of run shows both, each with its own runs.
-  const torques = runs.filter(isTorque);
-  const measured = runs.filter(isSignals);
-  const rigs = runs.filter(isRig);
-  const identified = runs.filter(isIdentify);
-  const moving = runs.filter((run) => !isTorque(run) && !isSignals(run) && !isIdentify(run));
-  const drops = moving.filter((run) => !isSpinUp(run) && !isRig(run));
-  const raced = moving.filter((run) => !isRig(run));
-  const spinUps = runs.filter(isSpinUp);
   const builders = [
     ...(runs.length > 1 ? [[differenceSection, runs]] : []),
-    ...(drops.length ? [[orbitSection, drops], [contactSection, drops]] : []),
-    ...torqueSections(torques),
-    ...signalSections(measured),
-    ...identifySections(identified),
-    ...rigSections(rigs),
-    ...(raced.length ? [[speedSection, raced]] : []),
-    ...(spinUps.length ? [[momentSection, spinUps], [slipSection, spinUps]] : []),
-    ...(moving.length ? [[mapSection, moving], [pressureSection, moving]] : []),
-    ...(spinUps.length ? [[outerRaceSection, spinUps]] : []),
-    ...(moving.length ? [[energySection, moving]] : []),
-    ...[quantitySection, inputSection].map((build) => [build, runs]),
-    ...(moving.length ? [[factSection, moving]] : []),
+    ...sectionsOf(runs),
+    [quantitySection, runs],
+    [inputSection, runs],
+    ...[runs.filter((run) => systemOf(run).facts)].filter((some) => some.length).map((some) => [factSection, some]),
   ];
   const sections = builders.map(([build, some]) => guarded(build, some));
-  main.append(guarded(header, runs), navigation(sections, moving.length + measured.length + identified.length > 0), ...sections);
+  main.append(guarded(header, runs), navigation(sections, runs.some((run) => systemOf(run).time)), ...sections);
   redrawAll();
   let waiting = false;
   window.addEventListener("resize", () => {

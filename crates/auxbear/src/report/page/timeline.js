@@ -14,9 +14,8 @@ const timeline = {
   listeners: [],
   words: "time since release",
   span(runs) {
-    if (runs.every(isIdentify)) this.words = "time since the engagement";
-    if (runs.every((run) => isSpinUp(run) || isRig(run))) this.words = "time since the start";
-    if (runs.every(isSignals)) this.words = "time on the clock of the file";
+    const words = new Set(runs.map((run) => systemOf(run).time).filter(Boolean));
+    if (words.size === 1) [this.words] = words;
     const times = runs.filter((run) => run.time && run.time.length > 1).map((run) => run.time);
     if (!times.length) return;
     this.first = Math.min(...times.map((time) => time[0]));

@@ -1,10 +1,6 @@
 // The pictures of a torque computation: moments over speed, acceleration and load, laws and lubricants side by side.
 // Nothing depends on time here, so these pictures have axes of their own and are drawn as SVG.
 
-function isTorque(run) {
-  return run.summary.system === "torque";
-}
-
 const LINE_COLOURS = ["#1f5fa8", "#c2571a", "#2f8f5b", "#8a4fae", "#8a7410", "#b0306a"];
 const ZERO_CELSIUS = 273.15;
 
@@ -219,17 +215,6 @@ function torqueLubricantSection(runs) {
   return section("lubricants", "Lubricants", runs.map((run) => lubricantFigures(run, runs)));
 }
 
-// The sections of torque runs; what a run does not compare has no section.
-function torqueSections(runs) {
-  const some = (known) => runs.filter((run) => known(run).length);
-  return [
-    [torqueMomentSection, runs],
-    [torqueLoadSection, runs],
-    [torqueLawSection, some(comparedLaws)],
-    [torqueLubricantSection, some(lubricantsOf)],
-  ].filter(([, part]) => part.length);
-}
-
 // The verdict of a torque computation.
 function torqueVerdict(run) {
   const accelerations = listOf(run, "accelerations");
@@ -264,3 +249,14 @@ function torqueLine(run) {
   ].filter(Boolean);
   return element("p", { class: "machine" }, facts.join(" · "));
 }
+
+register("torque", {
+  line: torqueLine,
+  verdict: torqueVerdict,
+  time: null,
+  facts: false,
+  sections: (runs) => {
+    const some = (known) => runs.filter((run) => known(run).length);
+    return [[20, torqueMomentSection, runs], [21, torqueLoadSection, runs], [22, torqueLawSection, some(comparedLaws)], [23, torqueLubricantSection, some(lubricantsOf)]].filter(([, , part]) => part.length);
+  },
+});

@@ -2,8 +2,10 @@
 
 use crate::problem::{Code, Problem};
 use crate::scenario::{Engagement as EngagementChoice, Rig, RigProgram};
-use crate::simulate::bearing_run::PressureFactors;
-use crate::simulate::build_bearing::{self, SCENARIO, SteadyFinding, SteadyPoint};
+use crate::simulate::bearing;
+use crate::simulate::bearing::contacts::SCENARIO;
+use crate::simulate::bearing::pressure::PressureFactors;
+use crate::simulate::bearing::steady::{SteadyFinding, SteadyPoint};
 use model::system::rig::{
     Action, Arm, Disturbance, Drag, Engagement, Flywheel, HeatNode, Housing, Motor, Program,
     RigConstants, RigMachine, Shaft, engagement_ramp,
@@ -29,9 +31,9 @@ pub struct Built {
 }
 
 /// Builds the machine of a test. The weight of the balls is left out: it is a thousandth of any load.
-pub(in crate::simulate) fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
-    let contacts = build_bearing::ball_contacts(&rig.bearing)?;
-    let bearing = build_bearing::bearing(&rig.bearing, &contacts, Vec2::zero())?;
+pub(crate) fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
+    let contacts = bearing::contacts::ball_contacts(&rig.bearing)?;
+    let bearing = bearing::build::bearing(&rig.bearing, &contacts, Vec2::zero())?;
     let down = Vec2::new(0.0, -1.0);
     let centre_held = rig.load.hanging_mass.is_none();
     // the ring that is free to move is the outer one here; to the balls it is the same turned round
@@ -46,7 +48,7 @@ pub(in crate::simulate) fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
         speed: rig.speed,
         load: rig.load.radial_load,
     };
-    let steady = build_bearing::steady(&bearing, &rig.bearing, &race, at)?;
+    let steady = bearing::steady::steady(&bearing, &rig.bearing, &race, at)?;
     let arm = &rig.arm;
     let mut constants = RigConstants {
         flywheel: Flywheel {

@@ -13,13 +13,16 @@
 
 use crate::scenario::{Rig, RigArm, RigPickupKind, RigProgram};
 use model::sensor::Marks;
+use model::system::rig::Tap;
+use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
+use model::system::rig::taps::multiplexed;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
 /// Values of something at equal times.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Sampled {
+pub(crate) struct Sampled {
     /// Time of the first, s.
     pub first: f64,
     /// Interval, s.
@@ -36,7 +39,7 @@ impl Sampled {
 
 /// What happened, at the times at which each channel is taken.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Happened {
+pub(crate) struct Happened {
     /// Angle of the shaft, rad.
     pub shaft_angle: Sampled,
     /// Speed of the shaft at the same times, rad/s.
@@ -53,7 +56,7 @@ pub(super) struct Happened {
 
 /// A channel of the raw file.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct RawChannel {
+pub(crate) struct RawChannel {
     /// Name with its group.
     pub name: &'static str,
     /// Unit.
@@ -69,12 +72,12 @@ pub(super) struct RawChannel {
 }
 
 /// Whether the pickup has a channel of the converter, or a counter.
-pub(super) fn analog(rig: &Rig) -> bool {
+pub(crate) fn analog(rig: &Rig) -> bool {
     matches!(rig.pickup.kind, RigPickupKind::Analog { .. })
 }
 
 /// When the shaft begins to move, s.
-pub(super) fn begin(rig: &Rig) -> f64 {
+pub(crate) fn begin(rig: &Rig) -> f64 {
     match rig.program {
         RigProgram::SpinUp { engage_at, .. } | RigProgram::RepeatAfterRest { engage_at, .. } => {
             engage_at
@@ -84,7 +87,7 @@ pub(super) fn begin(rig: &Rig) -> f64 {
 }
 
 /// Everything that the logger writes.
-pub(super) fn raw(rig: &Rig, happened: &Happened) -> Vec<RawChannel> {
+pub(crate) fn raw(rig: &Rig, happened: &Happened) -> Vec<RawChannel> {
     let mut converted = vec![torque(rig, happened)];
     converted.extend(ball_pass(rig, happened));
     converted.push(temperature(rig, happened));
@@ -313,6 +316,31 @@ fn temperature(rig: &Rig, happened: &Happened) -> RawChannel {
         Converter::over(COLDEST, HOTTEST, rig.logger.bits),
         |_, rise| node.ambient + rise + node.noise * noise(),
     )
+}
+
+/// What the converter samples: the channels in turn. A counter sees the shaft as often as a channel would; its speed beside
+/// the angle tells what lies between.
+pub(crate) fn taps(rig: &Rig) -> Vec<Tap> {
+    let analog = analog(rig);
+    let mut channels = Vec::new();
+    if analog {
+        channels.push(SHAFT);
+    }
+    channels.push(ARM);
+    if rig.ball_pass.is_some() {
+        channels.push(CAGE_ANGLE);
+    }
+    channels.push(THERMOCOUPLE);
+    let mut taps = multiplexed(&channels, rig.logger.total_rate);
+    if !analog {
+        let interval = taps[0].interval;
+        taps.extend([SHAFT, SHAFT + 1].map(|channel| Tap {
+            channel,
+            first: 0.0,
+            interval,
+        }));
+    }
+    taps
 }
 
 #[cfg(test)]

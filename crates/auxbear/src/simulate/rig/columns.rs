@@ -1,8 +1,8 @@
 //! The history of a test on a rig as columns: what happened, not what the logger saw.
 
-use super::Context;
-use crate::simulate::columns_shared::Table;
-use crate::simulate::outcome::Column;
+use crate::result::outcome::Column;
+use crate::simulate::bearing::columns::Table;
+use crate::simulate::rig::context::Context;
 use model::bearing::BearingConstants;
 use model::system::rig::layout::{
     ARM, BEARING, FLYWHEEL, HOUSING, PROBES, SHAFT, TEMPERATURE, THERMOCOUPLE,
@@ -35,7 +35,7 @@ const MEANINGS: [&str; PROBES.len()] = [
 ];
 
 /// All columns; `time` first.
-pub(super) fn history(context: &Context) -> Vec<Column> {
+pub(crate) fn history(context: &Context) -> Vec<Column> {
     let machine = &context.built.machine;
     let layout = machine.layout();
     let run = context.bearing();
@@ -95,7 +95,7 @@ pub(super) fn history(context: &Context) -> Vec<Column> {
         table.channel("bearing.cage.angle", "rad", "angle of the cage", BEARING);
     }
     table.bearing();
-    table.flows("the start", layout);
+    table.flows("the start", layout, |_| run.bearing);
     table.outer_race_works("shaft", "shaft", layout);
     table.energies(|state| machine.balance(context.start, state));
     table.columns

@@ -10,67 +10,29 @@
 pub mod build;
 mod chain;
 mod columns;
+mod context;
 mod quantities;
 mod raw_file;
 mod warnings;
 
-use super::bearing_run::{BearingRun, Pressures};
-use super::ending::{settings, stop};
-use super::outcome::{Outcome, Picture, Work};
-use super::{Options, method};
+use crate::options::Options;
+use crate::result::outcome::{Outcome, Picture, Work};
 use crate::scenario::{Rig, RigProgram, Scenario};
+use crate::simulate::drop::method;
+use crate::simulate::ending::{settings, stop};
+use crate::simulate::rig::context::Context;
 use build::Built;
 use chain::{Happened, Sampled};
-use model::system::rig::layout::{
-    ARM, CAGE_ANGLE, DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD,
-    LARGEST_POCKET_FORCE, SHAFT, THERMOCOUPLE,
-};
-use model::system::rig::rate::race_motion;
+use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
 use model::system::rig::record::Keep;
-use model::system::rig::taps::multiplexed;
-use model::system::rig::{Record, Tap, simulate_told};
-use solve::Ending;
+use model::system::rig::{Record, simulate_told};
 use std::time::Instant;
 
-/// Everything the pages that name results need to know.
-struct Context<'a> {
-    rig: &'a Rig,
-    built: &'a Built,
-    start: &'a [f64],
-    record: &'a Record,
-    ending: &'a Ending,
-    mode: model::system::rig::Mode,
-    /// Values that the converter could not hold, with the channel's name.
-    clipped: Vec<(&'static str, usize)>,
-}
-
-impl<'a> Context<'a> {
-    /// Largest Hertz pressures.
-    fn pressures(&self) -> Pressures {
-        let record = self.record;
-        let races = [record.largest_inner_load, record.largest_outer_load];
-        (self.built.pressure_factors).pressures(races, record.largest_pocket_force)
-    }
-    fn bearing(&self) -> BearingRun<'a> {
-        let machine = &self.built.machine;
-        BearingRun {
-            bearing: &machine.constants.bearing,
-            states: machine.layout().bearing(),
-            detail: DETAIL,
-            largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
-            cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
-            pressure_factors: self.built.pressure_factors,
-            motion: race_motion,
-            rows: self.record.rows().collect(),
-        }
-    }
-}
-
 /// Runs a test.
-pub(super) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> Outcome {
+pub(crate) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> Outcome {
     let machine = &built.machine;
     let clock = Instant::now();
-    let taps = taps(rig);
+    let taps = chain::taps(rig);
     let end = rig.run.duration;
     let keep = Keep {
         end,
@@ -120,40 +82,17 @@ pub(super) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
             method: Some(method::EXPLICIT),
         },
         members: Vec::new(),
-        picture: Picture {
+        drawn: Vec::new(),
+        pictures: vec![Picture {
+            bearing: String::new(),
             clearance: None,
             pressure_limit: Some(rig.bearing.hertz_pressure_limit),
             rolling_cage_ratio,
             balls: rig.bearing.ball_count,
-        },
+        }],
         files: raw_file::files(rig, &title, raw, rolling_cage_ratio, rested(rig, &happened)),
         title,
     }
-}
-
-/// What the converter samples: the channels in turn. A counter sees the shaft as often as a channel would; its speed beside
-/// the angle tells what lies between.
-fn taps(rig: &Rig) -> Vec<Tap> {
-    let analog = chain::analog(rig);
-    let mut channels = Vec::new();
-    if analog {
-        channels.push(SHAFT);
-    }
-    channels.push(ARM);
-    if rig.ball_pass.is_some() {
-        channels.push(CAGE_ANGLE);
-    }
-    channels.push(THERMOCOUPLE);
-    let mut taps = multiplexed(&channels, rig.logger.total_rate);
-    if !analog {
-        let interval = taps[0].interval;
-        taps.extend([SHAFT, SHAFT + 1].map(|channel| Tap {
-            channel,
-            first: 0.0,
-            interval,
-        }));
-    }
-    taps
 }
 
 /// Time at rest before the second of two spin-ups, s; none of one spin-up, or where the shaft never came to rest.

@@ -1,19 +1,18 @@
 //! Every named result of a test on a rig with its law, source and valid range: what happened, not what was measured of it.
 
-use super::Context;
+use crate::result::list::{List, Origin, relative};
+use crate::result::outcome::{Quantity, Value};
 use crate::scenario::{Fidelity, RigProgram};
-use crate::simulate::list::{List, Origin, relative};
-use crate::simulate::outcome::{Quantity, Value};
+use crate::simulate::rig::context::Context;
 use model::system::rig::layout::{
-    CAGE_SLIP, CAGE_SPEED, CLUTCH_HEAT, FLYWHEEL, HEATS, INNER_MOMENT, OUTER_MOMENT, SHAFT,
-    STEADY_MOMENT,
+    CAGE_SLIP, CAGE_SPEED, CLUTCH_HEAT, FLYWHEEL, INNER_MOMENT, OUTER_MOMENT, SHAFT, STEADY_MOMENT,
 };
 
 const EQUATIONS: &str = "equations of motion, crates/model/src/system/rig/rate.rs";
 const LEDGER: &str = "energy ledger, crates/model/src/system/rig/ledger.rs";
 
 /// Names the results.
-pub(super) fn name(context: &Context) -> Vec<Quantity> {
+pub(crate) fn name(context: &Context) -> Vec<Quantity> {
     let mut list = List(Vec::new());
     engagement(&mut list, context);
     moments(&mut list, context);
@@ -141,10 +140,7 @@ fn energies(list: &mut List, context: &Context) {
         Ok(end[layout.heat(CLUTCH_HEAT)]),
         &ENERGY,
     );
-    let of_bearing = (0..HEATS.len())
-        .filter(|index| *index < CLUTCH_HEAT)
-        .map(|index| end[layout.heat(index)])
-        .sum();
+    let of_bearing = (0..CLUTCH_HEAT).map(|index| end[layout.heat(index)]).sum();
     list.number("bearing_dissipated_energy", "J", Ok(of_bearing), &ENERGY);
     list.number(
         "energy_residual",

@@ -1,8 +1,8 @@
 //! The raw file of a test, as a laboratory's logger leaves it, and the file that tells `auxbear signals` what it holds.
 
-use super::chain::RawChannel;
+use crate::result::outcome::{Attached, Attachment};
 use crate::scenario::{RawFormat, Rig, RigPickupKind, RigProgram};
-use crate::simulate::outcome::{Attached, Attachment};
+use crate::simulate::rig::chain::RawChannel;
 use measure::recording::{Channel, Clock};
 
 /// Name of the file that tells what the channels are.
@@ -23,7 +23,7 @@ fn name(format: RawFormat) -> &'static str {
 }
 
 /// The raw file and its description.
-pub(super) fn files(
+pub(crate) fn files(
     rig: &Rig,
     title: &str,
     raw: Vec<RawChannel>,

@@ -1,9 +1,12 @@
 //! What the user should know before trusting the numbers of a test on a rig.
 
-use super::{Context, chain, taps};
+use crate::result::assumptions::speed_rating;
+use crate::result::outcome::warning;
+use crate::result::outcome::{Quantity, Warning};
 use crate::scenario::{Rig, Scenario};
-use crate::simulate::outcome::{Quantity, Warning};
-use crate::simulate::warnings_shared::{self as shared, warning};
+use crate::simulate::bearing::warnings as shared;
+use crate::simulate::rig::chain::{self, taps};
+use crate::simulate::rig::context::Context;
 use model::system::rig::layout::SHAFT;
 use std::f64::consts::TAU;
 
@@ -14,7 +17,7 @@ const FEWEST_SAMPLES: f64 = 4.0;
 const MISSED: f64 = 0.01;
 
 /// All warnings of a run, the gravest first.
-pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]) -> Vec<Warning> {
+pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]) -> Vec<Warning> {
     let bearing = &context.rig.bearing;
     let mut list = Vec::new();
     let speeds = context.record.rows().map(|row| row.state[SHAFT + 1].abs());
@@ -53,7 +56,7 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
                 .to_string(),
         ));
     }
-    list.extend(shared::speed_rating(bearing, speed));
+    list.extend(speed_rating(bearing, speed));
     list.extend(shared::lift_off(bearing, speed));
     list.extend(shared::pressure(bearing, &context.pressures()));
     list.extend(shared::film_rise(&context.bearing()));
@@ -68,9 +71,9 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     list.extend(shared::cage_inertia(bearing));
     list.extend(shared::rolling(bearing));
     list.extend(shared::no_moment(bearing));
-    list.extend(shared::moment(scenario, bearing));
+    list.extend(shared::moment(scenario, "", bearing));
     list.extend(shared::kind(bearing));
-    list.extend(shared::assumed(scenario, bearing));
+    list.extend(shared::assumed(scenario, None, bearing));
     list
 }
 

@@ -69,24 +69,27 @@ impl Dataspace {
 }
 
 impl<S: Read + Seek> Storage<S> {
-    /// The attributes of an object that are numbers or texts; of several values the first.
-    pub fn attributes(&mut self, messages: &[Message]) -> Result<Vec<Property>, FileError> {
-        let mut found = Vec::new();
+    /// The attributes of an object that are numbers or texts, of several values the first; and whether all could be read.
+    pub fn attributes(&mut self, messages: &[Message]) -> (Vec<Property>, bool) {
+        let (mut found, mut whole) = (Vec::new(), true);
         let mut bodies: Vec<Vec<u8>> = Vec::new();
         for message in messages {
-            if message.kind == kind::ATTRIBUTE {
-                bodies.push(self.body(message)?);
-            } else if message.kind == kind::ATTRIBUTE_INFO {
-                bodies.extend(self.dense_attributes(&message.body)?);
-            }
+            let here = match message.kind {
+                kind::ATTRIBUTE => self.body(message).map(|body| vec![body]),
+                kind::ATTRIBUTE_INFO => self.dense_attributes(&message.body),
+                _ => continue,
+            };
+            whole &= here.is_ok();
+            bodies.extend(here.unwrap_or_default());
         }
         for body in bodies.iter().take(MOST) {
             // One attribute that cannot be read is no reason to lose the object.
-            if let Some(property) = self.attribute(body) {
-                found.push(property);
+            match self.attribute(body) {
+                Some(property) => found.extend(property),
+                None => whole = false,
             }
         }
-        Ok(found)
+        (found, whole)
     }
 
     /// The bodies of attributes that stand in a heap of their own.
@@ -101,16 +104,18 @@ impl<S: Read + Seek> Storage<S> {
         let Some((Some(heap), Some(names))) = places else {
             return Ok(Vec::new());
         };
-        let heap = self.fractal_heap(heap)?;
+        let mut heap = self.fractal_heap(heap)?;
         let mut bodies = Vec::new();
         for record in self.new_tree(names)?.iter().take(MOST) {
             let id = record.get(..8).unwrap_or(record);
-            bodies.push(self.heap_object(&heap, id)?);
+            bodies.push(self.heap_object(&mut heap, id)?);
         }
         Ok(bodies)
     }
 
-    fn attribute(&mut self, body: &[u8]) -> Option<Property> {
+    /// The attribute of a message, where it is a number or a text; none where it is damaged.
+    #[allow(clippy::option_option)] // the outer one is whether it could be read
+    fn attribute(&mut self, body: &[u8]) -> Option<Option<Property>> {
         let mut fields = self.fields(body);
         let version = fields.u8()?;
         let flags = fields.u8()?;
@@ -139,11 +144,13 @@ impl<S: Read + Seek> Storage<S> {
         };
         let datatype = Datatype::read(&self.body(&message).ok()?)?;
         let dataspace = Dataspace::read(self.fields(dataspace))?;
-        if dataspace.count()? == 0 {
-            return None;
+        let count = usize::try_from(dataspace.count()?).ok()?;
+        if count == 0 || matches!(datatype.kind, Kind::Compound(_) | Kind::Other(_)) {
+            return Some(None);
         }
+        data.get(..datatype.size.checked_mul(count)?)?;
         let value = self.value(&datatype, &data)?;
-        Some(Property { name, value })
+        Some(Some(Property { name, value }))
     }
 
     /// The first value of these bytes, where it is a number or a text.
@@ -163,6 +170,9 @@ impl<S: Read + Seek> Storage<S> {
             Kind::LongText => {
                 let mut fields = self.fields(bytes);
                 let length = fields.u32()? as usize;
+                if length == 0 {
+                    return Some(Value::Text(String::new()));
+                }
                 let address = fields.address()??;
                 let index = fields.u32()?;
                 let text = self.global_object(address, index).ok()?;

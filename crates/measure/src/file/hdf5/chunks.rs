@@ -179,7 +179,7 @@ impl<S: Read + Seek> Storage<S> {
 
     fn fixed_array(&mut self, at: u64, table: &mut Table) -> Result<(), FileError> {
         let size = 8 + self.length_size + self.address_size;
-        let head = self.piece(at, size as u64, WHAT)?;
+        let head = self.sealed(at, size as u64, WHAT)?;
         let mut fields = self.fields(&head);
         let parsed = (|| {
             fields.expect(b"FAHD\0")?;
@@ -198,20 +198,20 @@ impl<S: Read + Seek> Storage<S> {
         };
         table.entry = entry;
         let page = 1u64 << bits;
-        let head_size = 6 + self.address_size as u64;
-        let first = block.saturating_add(head_size);
+        let owner = Owner { at, offset_size: 0 };
         if count <= page {
-            let bytes = self.piece(first, count * entry as u64, WHAT)?;
+            let bytes = self.table_block(&owner, b"FADB", block, count * entry as u64)?;
             return table.fill(self, 0, &bytes);
         }
         let pages = count.div_ceil(page);
-        let bitmap = self.piece(first, pages.div_ceil(8), WHAT)?;
-        let mut address = first + bitmap.len() as u64 + 4;
+        let bitmap = self.table_block(&owner, b"FADB", block, pages.div_ceil(8))?;
+        let around = (6 + self.address_size) as u64 + bitmap.len() as u64 + 4;
+        let mut address = block.saturating_add(around);
         for number in 0..pages {
             let here = page.min(count - number * page);
             let byte = bitmap.get((number / 8) as usize).copied().unwrap_or(0);
             if byte & 0x80 >> (number % 8) != 0 {
-                let bytes = self.piece(address, here * entry as u64, WHAT)?;
+                let bytes = self.sealed(address, here * entry as u64, WHAT)?;
                 table.fill(self, number * page, &bytes)?;
             }
             address = address.saturating_add(page * entry as u64 + 4);
@@ -221,7 +221,7 @@ impl<S: Read + Seek> Storage<S> {
 
     fn extensible_array(&mut self, at: u64, table: &mut Table) -> Result<(), FileError> {
         let size = 12 + 6 * self.length_size + self.address_size;
-        let head = self.piece(at, size as u64, WHAT)?;
+        let head = self.sealed(at, size as u64, WHAT)?;
         let mut fields = self.fields(&head);
         let parsed = (|| {
             fields.expect(b"EAHD\0")?;
@@ -256,8 +256,10 @@ impl<S: Read + Seek> Storage<S> {
             return Ok(());
         };
         let blocks = Blocks {
-            head: (6 + self.address_size) as u64,
-            offset_size: u64::from(most_bits.div_ceil(8)),
+            owner: Owner {
+                at,
+                offset_size: most_bits.div_ceil(8) as usize,
+            },
             page: 1 << page_bits,
             count,
         };
@@ -268,7 +270,7 @@ impl<S: Read + Seek> Storage<S> {
         let direct = 2 * (pointers - 1);
         let above = u64::from(levels.saturating_sub(direct_levels));
         let size = in_index * entry + (direct + above) * self.address_size as u64;
-        let bytes = self.piece(block.saturating_add(blocks.head), size, WHAT)?;
+        let bytes = self.table_block(&Owner { at, offset_size: 0 }, b"EAIB", block, size)?;
         let own = (in_index * entry) as usize;
         table.fill(self, 0, &bytes[..own])?;
         let mut fields = self.fields(&bytes[own..]);
@@ -293,10 +295,9 @@ impl<S: Read + Seek> Storage<S> {
                     0
                 };
                 if let Some(address) = address {
-                    let before = blocks.head + blocks.offset_size;
                     let bitmaps = here.saturating_mul(pages);
                     let size = bitmaps.saturating_add(here * self.address_size as u64);
-                    let bytes = self.piece(address.saturating_add(before), size, WHAT)?;
+                    let bytes = self.table_block(&blocks.owner, b"EASB", address, size)?;
                     let (bitmaps, addresses) = bytes.split_at(bitmaps as usize);
                     let mut fields = self.fields(addresses);
                     for block in 0..here {
@@ -325,13 +326,16 @@ impl<S: Read + Seek> Storage<S> {
         let Some(address) = address.filter(|_| position < blocks.count) else {
             return Ok(());
         };
-        let first = address.saturating_add(blocks.head + blocks.offset_size);
         let entry = table.entry as u64;
+        let owner = &blocks.owner;
         if length <= blocks.page {
-            let here = length.min(blocks.count - position);
-            let bytes = self.piece(first, here * entry, WHAT)?;
-            return table.fill(self, position, &bytes);
+            let bytes = self.table_block(owner, b"EADB", address, length * entry)?;
+            let here = length.min(blocks.count - position) * entry;
+            return table.fill(self, position, &bytes[..here as usize]);
         }
+        self.table_block(owner, b"EADB", address, 0)?;
+        let around = (6 + self.address_size + owner.offset_size + 4) as u64;
+        let first = address.saturating_add(around);
         for number in 0..length / blocks.page {
             let start = position + number * blocks.page;
             if start >= blocks.count {
@@ -339,22 +343,51 @@ impl<S: Read + Seek> Storage<S> {
             }
             let byte = bitmap.get((number / 8) as usize).copied().unwrap_or(0);
             if byte & 0x80 >> (number % 8) != 0 {
-                let at = 4 + number * (blocks.page * entry + 4);
-                let here = blocks.page.min(blocks.count - start);
-                let bytes = self.piece(first.saturating_add(at), here * entry, WHAT)?;
-                table.fill(self, start, &bytes)?;
+                let at = first.saturating_add(number * (blocks.page * entry + 4));
+                let bytes = self.sealed(at, blocks.page * entry, WHAT)?;
+                let here = blocks.page.min(blocks.count - start) * entry;
+                table.fill(self, start, &bytes[..here as usize])?;
             }
         }
         Ok(())
+    }
+
+    /// The `size` bytes behind the head of a block, which carries its signature, the address of its table and an offset,
+    /// and behind them the checksum of all.
+    fn table_block(
+        &mut self,
+        owner: &Owner,
+        signature: &[u8; 4],
+        address: u64,
+        size: u64,
+    ) -> Result<Vec<u8>, FileError> {
+        let head = 6 + self.address_size + owner.offset_size;
+        let bytes = self.sealed(address, size.saturating_add(head as u64), WHAT)?;
+        let mut fields = self.fields(&bytes);
+        let belongs = (|| {
+            fields.expect(signature)?;
+            fields.expect(&[0])?;
+            fields.skip(1)?;
+            (fields.address()?? == owner.at).then_some(())
+        })();
+        belongs.ok_or_else(|| self.damaged(address, WHAT))?;
+        Ok(bytes[head..].to_vec())
     }
 }
 
 /// Sizes that all blocks of an extensible array share.
 struct Blocks {
-    head: u64,
-    offset_size: u64,
+    owner: Owner,
     page: u64,
     count: u64,
+}
+
+/// What the head of a block tells of the table to which it belongs.
+struct Owner {
+    /// Address of the header of the table.
+    at: u64,
+    /// Bytes of the offset of the block.
+    offset_size: usize,
 }
 
 /// A table of chunks that is being read.

@@ -2,6 +2,7 @@
 
 use std::io::Read;
 
+use super::checksum::fletcher32;
 use super::fields::Fields;
 
 /// One filter of a chunked dataset.
@@ -11,7 +12,7 @@ pub(super) enum Filter {
     Deflate,
     /// Bytes of equal rank together.
     Shuffle { size: usize },
-    /// A checksum of four bytes behind.
+    /// Fletcher32: a checksum of four bytes behind.
     Checksum,
     /// LZF of h5py.
     Lzf,
@@ -89,6 +90,10 @@ pub(super) fn undo(
             Filter::Shuffle { size } => unshuffle(&bytes, *size)?,
             Filter::Checksum => {
                 let kept = bytes.len().checked_sub(4)?;
+                let sum = fletcher32(&bytes[..kept]).to_le_bytes();
+                // Old writers on machines of the other byte order swapped the bytes in pairs.
+                let swapped = [sum[1], sum[0], sum[3], sum[2]];
+                (bytes[kept..] == sum || bytes[kept..] == swapped).then_some(())?;
                 bytes.truncate(kept);
                 bytes
             }
@@ -100,9 +105,9 @@ pub(super) fn undo(
 
 fn inflate(bytes: &[u8], size: usize) -> Option<Vec<u8>> {
     let mut out = Vec::new();
-    // A checksum may stand behind the values, so a few more bytes than they are taken.
+    // A checksum may stand behind the values; a byte more is wanted, so that the end of the stream is read and verified.
     flate2::read::ZlibDecoder::new(bytes)
-        .take(size as u64 + 4)
+        .take(size as u64 + 5)
         .read_to_end(&mut out)
         .ok()?;
     Some(out)
@@ -166,6 +171,21 @@ mod tests {
         let back = unshuffle(&shuffled, 2).unwrap();
         assert_eq!(back, [1, 0x10, 2, 0x20, 3, 0x30, 9]);
         assert_eq!(unshuffle(&[7], 8).unwrap(), [7]);
+    }
+
+    #[test]
+    fn a_stream_with_a_wrong_checksum_or_end_is_refused() {
+        use std::io::Write;
+        let mut packer = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::fast());
+        packer.write_all(&[7; 100]).unwrap();
+        let packed = packer.finish().unwrap();
+        let undone = |bytes: &[u8]| undo(&[Filter::Deflate], 0, bytes.to_vec(), 100);
+        assert_eq!(undone(&packed).unwrap(), [7; 100]);
+        let end = packed.len() - 1;
+        assert_eq!(undone(&packed[..end]), None);
+        let mut changed = packed;
+        changed[end] ^= 1;
+        assert_eq!(undone(&changed), None);
     }
 
     #[test]

@@ -40,48 +40,56 @@ impl<S: Read + Seek> Storage<S> {
         const WHAT: &str = "an object header";
         let head = self.start_of(address, 48, WHAT)?;
         let mut messages = Vec::new();
-        // Pieces of the header: address and size of the messages, and how each message is laid out.
-        let mut pieces: Vec<(u64, u64)> = Vec::new();
         let mut fields = self.fields(&head);
-        let layout = if head.starts_with(b"OHDR") {
-            let parsed = (|| {
+        let first = if head.starts_with(b"OHDR") {
+            (|| {
                 fields.skip(4)?;
                 (fields.u8()? == 2).then_some(())?;
                 let flags = fields.u8()?;
                 fields.skip(if flags & 0x20 != 0 { 16 } else { 0 })?;
                 fields.skip(if flags & 0x10 != 0 { 4 } else { 0 })?;
                 let size = fields.whole(1 << (flags & 3))?;
-                pieces.push((address.checked_add(fields.at() as u64)?, size));
-                Some(Layout::New {
-                    ordered: flags & 0x04 != 0,
-                })
-            })();
-            parsed.ok_or_else(|| self.damaged(address, WHAT))?
+                let ordered = flags & 0x04 != 0;
+                let size = size.checked_add(fields.at() as u64)?;
+                Some((Layout::New { ordered }, (address, size, fields.at()), None))
+            })()
         } else {
-            let parsed = (|| {
+            (|| {
                 (fields.u8()? == 1).then_some(())?;
-                fields.skip(7)?;
+                fields.skip(1)?;
+                let told = fields.u16()?;
+                fields.skip(4)?;
                 let size = u64::from(fields.u32()?);
-                pieces.push((address.checked_add(16)?, size));
-                Some(Layout::Old)
-            })();
-            parsed.ok_or_else(|| self.damaged(address, WHAT))?
+                Some((Layout::Old, (address.checked_add(16)?, size, 0), Some(told)))
+            })()
         };
-        while let Some((at, size)) = pieces.pop() {
-            let bytes = self.piece(at, size, WHAT)?;
+        let (layout, first, told) = first.ok_or_else(|| self.damaged(address, WHAT))?;
+        // Pieces of the header: address, size, and the bytes of it before the messages.
+        let mut pieces = vec![first];
+        // All messages are at least as many as those of the first piece.
+        let mut spare = told.map_or(usize::MAX, usize::from);
+        while let Some((at, size, before)) = pieces.pop() {
+            let bytes = match layout {
+                Layout::Old => self.piece(at, size, WHAT)?,
+                Layout::New { .. } => self.sealed(at, size, WHAT)?,
+            };
             let mut fields = self.fields(&bytes);
-            while let Some(message) = layout.next(&mut fields) {
+            let begin = if at == address { b"OHDR" } else { b"OCHK" };
+            if fields.skip(before).is_none() || (before > 0 && !bytes.starts_with(begin)) {
+                return Err(self.damaged(at, WHAT));
+            }
+            while fields.left() >= layout.head() {
+                let message = layout.next(&mut fields).filter(|_| spare > 0);
+                let message = message.ok_or_else(|| self.damaged(at, WHAT))?;
+                spare -= 1;
                 if message.kind == kind::CONTINUATION {
                     let mut place = self.fields(&message.body);
-                    let (Some(Some(at)), Some(size)) = (place.address(), place.length()) else {
-                        return Err(self.damaged(at, WHAT));
-                    };
-                    // Signature before and checksum after the messages.
-                    let (before, around) = match layout {
-                        Layout::Old => (0, 0),
-                        Layout::New { .. } => (4, 8),
-                    };
-                    pieces.push((at.saturating_add(before), size.saturating_sub(around)));
+                    let next = (|| match (layout, place.address()??, place.length()?) {
+                        (Layout::Old, at, size) => Some((at, size, 0)),
+                        // A signature stands before the messages and a checksum behind them.
+                        (Layout::New { .. }, at, size) => Some((at, size.checked_sub(4)?, 4)),
+                    })();
+                    pieces.push(next.ok_or_else(|| self.damaged(at, WHAT))?);
                 } else if message.kind != 0 {
                     messages.push(message);
                 }
@@ -89,6 +97,11 @@ impl<S: Read + Seek> Storage<S> {
                     return Err(self.damaged(at, WHAT));
                 }
             }
+            // Only the newer form leaves a gap, of less than a message has before its body.
+            if told.is_some() && fields.left() > 0 {
+                return Err(self.damaged(at, WHAT));
+            }
+            spare = usize::MAX;
         }
         Ok(messages)
     }
@@ -131,11 +144,20 @@ enum Layout {
 }
 
 impl Layout {
+    /// Bytes of a message before its body.
+    fn head(self) -> usize {
+        match self {
+            Layout::Old => 8,
+            Layout::New { ordered } => 4 + if ordered { 2 } else { 0 },
+        }
+    }
+
     fn next(self, fields: &mut super::fields::Fields) -> Option<Message> {
         let (kind, size, flags) = match self {
             Layout::Old => {
                 let (kind, size, flags) = (fields.u16()?, fields.u16()?, fields.u8()?);
                 fields.skip(3)?;
+                size.is_multiple_of(8).then_some(())?;
                 (kind, size, flags)
             }
             Layout::New { ordered } => {

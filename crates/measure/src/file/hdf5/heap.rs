@@ -1,5 +1,6 @@
 //! Heaps: where names, texts of variable length and the links and attributes of large objects stand.
 
+use std::collections::HashMap;
 use std::io::{Read, Seek};
 
 use super::storage::Storage;
@@ -18,7 +19,19 @@ pub(super) struct FractalHeap {
     largest_direct: u64,
     root: Option<u64>,
     rows: u32,
-    block_head: u64,
+    /// Whether direct blocks carry a checksum.
+    summed: bool,
+    /// Blocks that were read, by their addresses.
+    blocks: HashMap<u64, Vec<u8>>,
+}
+
+/// The two kinds of blocks of a fractal heap.
+#[derive(Clone, Copy)]
+enum BlockKind {
+    /// Objects, in so many bytes.
+    Direct(u64),
+    /// So many rows of addresses of blocks.
+    Indirect(u32),
 }
 
 impl<S: Read + Seek> Storage<S> {
@@ -127,8 +140,8 @@ impl<S: Read + Seek> Storage<S> {
                 && largest_direct <= 1 << 32
                 && offset_size <= 8
                 && rows <= 64;
-            let checksum = if flags & 2 != 0 { 4 } else { 0 };
-            plain.then(|| FractalHeap {
+            let end = fields.at();
+            let heap = plain.then(|| FractalHeap {
                 address,
                 offset_size,
                 length_size: super::fields::size_of(largest_direct)
@@ -138,14 +151,18 @@ impl<S: Read + Seek> Storage<S> {
                 largest_direct,
                 root,
                 rows,
-                block_head: (5 + self.address_size + offset_size + checksum) as u64,
-            })
+                summed: flags & 2 != 0,
+                blocks: HashMap::new(),
+            })?;
+            Some((heap, end))
         })();
-        heap.ok_or_else(|| self.damaged(address, WHAT))
+        let (heap, end) = heap.ok_or_else(|| self.damaged(address, WHAT))?;
+        self.verify(address, &bytes, end, WHAT)?;
+        Ok(heap)
     }
 
     /// The object of a fractal heap with this identifier.
-    pub fn heap_object(&mut self, heap: &FractalHeap, id: &[u8]) -> Result<Vec<u8>, FileError> {
+    pub fn heap_object(&mut self, heap: &mut FractalHeap, id: &[u8]) -> Result<Vec<u8>, FileError> {
         const WHAT: &str = "an object of a fractal heap";
         let mut fields = self.fields(id);
         let place = (|| {
@@ -165,28 +182,75 @@ impl<S: Read + Seek> Storage<S> {
             Some(Err(tiny)) => return Ok(tiny),
             None => return Err(self.damaged(heap.address, WHAT)),
         };
-        let block = self.block_of(heap, offset)?;
-        let Some((block, start)) = block.filter(|_| length <= LONGEST) else {
-            return Err(self.damaged(heap.address, WHAT));
-        };
-        let inside = offset - start;
-        if inside < heap.block_head {
-            return Err(self.damaged(block, WHAT));
-        }
-        self.piece(block.saturating_add(inside), length, WHAT)
+        let address = heap.address;
+        let head = 5 + self.address_size + heap.offset_size + if heap.summed { 4 } else { 0 };
+        let block = self.block_of(heap, offset)?.and_then(|(block, start)| {
+            let inside = usize::try_from(offset - start).ok()?;
+            let end = inside.checked_add(usize::try_from(length).ok()?)?;
+            block.get(inside..end).filter(|_| inside >= head)
+        });
+        let object = block.map(<[u8]>::to_vec);
+        object.ok_or_else(|| self.damaged(address, WHAT))
     }
 
-    /// Address of the direct block in which an offset lies, and the offset at which the block begins.
-    fn block_of(
+    /// A block of a fractal heap that begins at an offset of it; its checksum, where it carries one, was verified.
+    fn block<'a>(
         &mut self,
-        heap: &FractalHeap,
+        heap: &'a mut FractalHeap,
+        address: u64,
+        start: u64,
+        kind: BlockKind,
+    ) -> Result<&'a [u8], FileError> {
+        const WHAT: &str = "a block of a fractal heap";
+        let head = 5 + self.address_size + heap.offset_size;
+        if !heap.blocks.contains_key(&address) {
+            let (signature, mut bytes) = match kind {
+                BlockKind::Direct(size) => (b"FHDB", self.piece(address, size, WHAT)?),
+                BlockKind::Indirect(rows) => {
+                    let entries = u64::from(rows) * heap.width * self.address_size as u64;
+                    (b"FHIB", self.sealed(address, head as u64 + entries, WHAT)?)
+                }
+            };
+            if heap.summed && matches!(kind, BlockKind::Direct(_)) {
+                // The sum is taken with zeros in its own place.
+                let Some(told) = bytes.get_mut(head..head + 4) else {
+                    return Err(self.damaged(address, WHAT));
+                };
+                let told = std::mem::take(<&mut [u8; 4]>::try_from(told).expect("four bytes"));
+                let end = bytes.len();
+                bytes.extend(told);
+                self.verify(address, &bytes, end, WHAT)?;
+                bytes.truncate(end);
+            }
+            let mut fields = self.fields(&bytes);
+            let belongs = (|| {
+                fields.expect(signature)?;
+                fields.expect(&[0])?;
+                (fields.address()?? == heap.address).then_some(())?;
+                (fields.whole(heap.offset_size)? == start).then_some(())
+            })();
+            belongs.ok_or_else(|| self.damaged(address, WHAT))?;
+            heap.blocks.insert(address, bytes);
+        }
+        Ok(&heap.blocks[&address])
+    }
+
+    /// The direct block in which an offset lies, and the offset at which the block begins.
+    fn block_of<'a>(
+        &mut self,
+        heap: &'a mut FractalHeap,
         offset: u64,
-    ) -> Result<Option<(u64, u64)>, FileError> {
+    ) -> Result<Option<(&'a [u8], u64)>, FileError> {
         let Some(root) = heap.root else {
             return Ok(None);
         };
         if heap.rows == 0 {
-            return Ok((offset < heap.largest_direct).then_some((root, 0)));
+            // A heap with a single block has one of the smallest size.
+            let size = heap.start_size;
+            return Ok(Some((
+                self.block(heap, root, 0, BlockKind::Direct(size))?,
+                0,
+            )));
         }
         let (mut address, mut start, mut rows) = (root, 0u64, heap.rows);
         // Each level of indirect blocks has fewer rows than the one above.
@@ -214,19 +278,17 @@ impl<S: Read + Seek> Storage<S> {
                 return Ok(None);
             }
             let entry = u64::from(row) * heap.width + column;
-            let at = (5 + self.address_size + heap.offset_size) as u64
-                + entry * self.address_size as u64;
-            let bytes = self.piece(
-                address.saturating_add(at),
-                self.address_size as u64,
-                "a fractal heap",
-            )?;
-            let Some(Some(child)) = self.fields(&bytes).address() else {
+            let head = 5 + self.address_size + heap.offset_size;
+            let at = head + entry as usize * self.address_size;
+            let block = self.block(heap, address, start, BlockKind::Indirect(rows))?;
+            let bytes = block.get(at..).unwrap_or(&[]);
+            let Some(Some(child)) = self.fields(bytes).address() else {
                 return Ok(None);
             };
             let child_start = row_start + column * size;
             if row < direct_rows {
-                return Ok(Some((child, child_start)));
+                let block = self.block(heap, child, child_start, BlockKind::Direct(size))?;
+                return Ok(Some((block, child_start)));
             }
             let whole_row = heap.start_size.saturating_mul(heap.width);
             let below = (size / whole_row).max(1).ilog2() + 1;

@@ -2,6 +2,7 @@
 
 use std::io::{Read, Seek};
 
+use super::checksum::lookup3;
 use super::fields::Fields;
 use crate::file::source::Source;
 use crate::recording::FileError;
@@ -90,6 +91,35 @@ impl<S: Read + Seek> Storage<S> {
             .map_err(|_| self.damaged(address, what))
     }
 
+    /// The bytes of a piece behind which its checksum stands.
+    pub fn sealed(&mut self, address: u64, count: u64, what: &str) -> Result<Vec<u8>, FileError> {
+        let mut bytes = self.piece(address, count.saturating_add(4), what)?;
+        let end = bytes.len() - 4;
+        self.verify(address, &bytes, end, what)?;
+        bytes.truncate(end);
+        Ok(bytes)
+    }
+
+    /// An error where the bytes before `end` do not match the checksum that stands there.
+    pub fn verify(
+        &self,
+        address: u64,
+        bytes: &[u8],
+        end: usize,
+        what: &str,
+    ) -> Result<(), FileError> {
+        let told = bytes.get(end..).and_then(|rest| rest.first_chunk());
+        match told {
+            None => Err(self.damaged(address, what)),
+            Some(told) if lookup3(&bytes[..end]) == u32::from_le_bytes(*told) => Ok(()),
+            Some(_) => {
+                let at = self.base.saturating_add(address);
+                let found = format!("{what} does not match its checksum");
+                Err(self.source.error(at, found, ""))
+            }
+        }
+    }
+
     /// The bytes of a piece whose size is known only after its start: as many as there are, up to `most`.
     pub fn start_of(&mut self, address: u64, most: u64, what: &str) -> Result<Vec<u8>, FileError> {
         let at = self.base.saturating_add(address);
@@ -129,7 +159,9 @@ fn superblock(bytes: &[u8]) -> Option<(usize, usize, u64, u64, Option<u64>)> {
             let base = fields.address()??;
             let _extension = fields.address()?;
             let end = fields.address()?;
-            Some((address, length, base, fields.address()??, end))
+            let root = fields.address()??;
+            let whole = &bytes[..version.at() + fields.at()];
+            (fields.u32()? == lookup3(whole)).then_some((address, length, base, root, end))
         }
         _ => None,
     }

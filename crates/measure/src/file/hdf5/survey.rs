@@ -5,13 +5,14 @@ use std::io::{Read, Seek};
 
 use super::dataset::{self, Dataset, Line, Place, Unreadable};
 use super::datatype::{Datatype, Kind};
-use super::header::kind;
+use super::group::Target;
+use super::header::{Message, kind};
 use super::storage::Storage;
 use crate::file::clock;
 use crate::recording::{Channel, Clock, FileError, Note, Property, Value};
 
 /// Deepest group that is looked into.
-const DEEPEST: usize = 16;
+const DEEPEST: usize = 64;
 /// Most objects that are looked at.
 const MOST_OBJECTS: usize = 1 << 16;
 /// Most channels of one dataset.
@@ -51,6 +52,7 @@ pub(super) fn survey<S: Read + Seek>(
     // The root must be readable: without it nothing of the file is.
     storage.messages(storage.root)?;
     let mut groups = vec![(String::new(), storage.root, 0)];
+    let (mut paths, mut links) = (HashSet::new(), Vec::new());
     let mut objects = 0;
     while let Some((prefix, address, depth)) = groups.pop() {
         if !seen.insert(address) {
@@ -63,14 +65,14 @@ pub(super) fn survey<S: Read + Seek>(
                 continue;
             }
         };
-        let attributes = storage.attributes(&messages).unwrap_or_default();
+        let attributes = found.attributes(storage, &prefix, &messages);
         found.take_properties(&prefix, attributes);
         let (members, error) = storage.members(&messages);
         if let Some(error) = error {
             found.note(&prefix, left_out(&error));
         }
         let mut below = Vec::new();
-        for (name, address) in members {
+        for (name, target) in members {
             objects += 1;
             if objects > MOST_OBJECTS {
                 found.note("", format!("only {MOST_OBJECTS} objects were looked at"));
@@ -80,6 +82,18 @@ pub(super) fn survey<S: Read + Seek>(
                 continue;
             }
             let name = format!("{prefix}{name}");
+            let address = match target {
+                Target::Object(address) => address,
+                Target::Path(path) => {
+                    links.push((name, prefix.clone(), path));
+                    continue;
+                }
+                Target::Outside(place) => {
+                    found.note(&name, format!("leads to {place}; it is left out"));
+                    continue;
+                }
+            };
+            paths.insert(name.clone());
             let messages = match storage.messages(address) {
                 Ok(messages) => messages,
                 Err(error) => {
@@ -93,9 +107,24 @@ pub(super) fn survey<S: Read + Seek>(
                 }
             } else if depth < DEEPEST {
                 below.push((format!("{name}/"), address, depth + 1));
+            } else {
+                found.note(
+                    &name,
+                    format!("stands below {DEEPEST} groups; it is left out"),
+                );
             }
         }
         groups.extend(below.into_iter().rev());
+    }
+    // What a soft link leads to is read under its own name.
+    for (name, prefix, path) in links {
+        let whole = match path.strip_prefix('/') {
+            Some(path) => path.to_string(),
+            None => format!("{prefix}{path}"),
+        };
+        if !paths.contains(whole.trim_end_matches('/')) {
+            found.note(&name, format!("leads to {path}, which is not there"));
+        }
     }
     Ok(found)
 }
@@ -122,6 +151,21 @@ impl Found {
         });
     }
 
+    /// The attributes of an object that can be read.
+    fn attributes<S: Read + Seek>(
+        &mut self,
+        storage: &mut Storage<S>,
+        name: &str,
+        messages: &[Message],
+    ) -> Vec<Property> {
+        let (attributes, whole) = storage.attributes(messages);
+        if !whole {
+            let text = "attributes of it are damaged or cut off; they are left out";
+            self.note(name, text.to_string());
+        }
+        attributes
+    }
+
     fn take_properties(&mut self, prefix: &str, properties: Vec<Property>) {
         let told = properties
             .into_iter()
@@ -136,10 +180,10 @@ impl Found {
         &mut self,
         storage: &mut Storage<S>,
         name: String,
-        messages: &[super::header::Message],
+        messages: &[Message],
         matlab: bool,
     ) {
-        let attributes = storage.attributes(messages).unwrap_or_default();
+        let attributes = self.attributes(storage, &name, messages);
         let text = |key: &str| {
             attributes
                 .iter()

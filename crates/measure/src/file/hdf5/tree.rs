@@ -72,7 +72,7 @@ impl<S: Read + Seek> Storage<S> {
     pub fn new_tree(&mut self, address: u64) -> Result<Vec<Vec<u8>>, FileError> {
         const WHAT: &str = "a B-tree of version 2";
         let size = 22 + self.address_size + self.length_size;
-        let head = self.piece(address, size as u64, WHAT)?;
+        let head = self.sealed(address, size as u64 - 4, WHAT)?;
         let mut fields = self.fields(&head);
         let parsed = (|| {
             fields.expect(b"BTHD\0")?;
@@ -137,6 +137,7 @@ impl<S: Read + Seek> Storage<S> {
             if parsed.is_none() {
                 return Err(self.damaged(address, WHAT));
             }
+            self.verify(address, &bytes, fields.at(), WHAT)?;
             below.extend(children);
         }
         Ok(records)

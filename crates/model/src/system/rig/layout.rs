@@ -14,10 +14,11 @@
 //! the balls.
 //! What a converter samples comes first: it is cheap to read between two steps ([`taps`](super::taps)).
 
-use super::RigConstants;
-use crate::bearing;
-use crate::system::layout::{self, Channels, heats_and};
+use super::constants::RigConstants;
+use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
+use crate::system::layout;
 use crate::system::outer_race::WORKS;
+use std::ops::{Deref, Range};
 
 /// First channel of the shaft: angle, speed.
 pub const SHAFT: usize = 0;
@@ -36,14 +37,15 @@ pub const BEARING: usize = 12;
 /// Channel of the angle of the cage, rad.
 pub const CAGE_ANGLE: usize = BEARING;
 
-/// Kinds of heat, in the order of their channels: those of the bearing, then the rig's. Names as in results.
-pub const HEATS: [&str; bearing::HEATS.len() + 3] =
-    heats_and(["clutch", "belt", "support_bearings"]);
-/// Index of the heat of the clutch among [`HEATS`].
+/// Kinds of heat besides those of the bearing.
+const OWN_HEATS: [&str; 3] = ["clutch", "belt", "support_bearings"];
+/// Number of kinds of heat: those of the bearing, then the rig's.
+pub const HEATS: usize = bearing::HEATS.len() + OWN_HEATS.len();
+/// Index of the heat of the clutch among all.
 pub const CLUTCH_HEAT: usize = bearing::HEATS.len();
-/// Index of the heat of belt and flywheel bearings among [`HEATS`].
+/// Index of the heat of belt and flywheel bearings among all.
 pub const BELT_HEAT: usize = CLUTCH_HEAT + 1;
-/// Index of the heat of the support bearings among [`HEATS`].
+/// Index of the heat of the support bearings among all.
 pub const SUPPORT_HEAT: usize = CLUTCH_HEAT + 2;
 /// Kinds of source, in the order of their channels.
 pub const SOURCES: [&str; 3] = ["motor", "weight", "inner_race_growth"];
@@ -137,23 +139,51 @@ const BODIES: [&str; BEARING] = [
     "housing.y_speed",
 ];
 
-/// What a rig has besides the states of its bearing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RigChannels;
-
-impl Channels for RigChannels {
-    const BODIES: &'static [&'static str] = &BODIES;
-    const HEATS: &'static [&'static str] = &HEATS;
-    const SOURCES: &'static [&'static str] = &SOURCES;
-    const IMPULSES: &'static [&'static str] = &["impulse", "bearing_impulse"];
-    const WORKS: &'static [&'static str] = &WORKS;
-    const PROBES: usize = DETAIL;
+/// The layout of a rig: the bodies stand first, then its bearing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Layout {
+    channels: layout::Layout,
+    own: Range<usize>,
+    /// Number of balls.
+    pub balls: usize,
 }
 
-/// Sizes of a rig's state.
-pub type Layout = layout::Layout<RigChannels>;
+impl Deref for Layout {
+    type Target = layout::Layout;
+    fn deref(&self) -> &layout::Layout {
+        &self.channels
+    }
+}
 
 impl Layout {
+    /// The layout of a rig with a test bearing.
+    pub fn of(bearing: &BearingConstants) -> Self {
+        let mut channels = layout::Layout::default();
+        channels.block("", BODIES.map(String::from));
+        let own = channels.bearing("", bearing);
+        channels.heats_of("", bearing::HEATS.into_iter().chain(OWN_HEATS));
+        channels.sources_of("", SOURCES);
+        channels.impulses_of("", ["impulse", "bearing_impulse"]);
+        channels.works_of("", WORKS);
+        Layout {
+            channels,
+            own,
+            balls: bearing.balls(),
+        }
+    }
+    /// Channels of the bearing.
+    #[inline(always)]
+    pub fn bearing(&self) -> Range<usize> {
+        self.own.clone()
+    }
+    /// Number of probes.
+    pub fn probes(&self) -> usize {
+        DETAIL + DETAIL_PER_BALL * self.balls
+    }
+    /// Number of probes down to the loads of the balls.
+    pub fn probes_with_loads(&self) -> usize {
+        DETAIL + 2 * self.balls
+    }
     /// Channel of the external angular impulse of balls and cage.
     #[inline(always)]
     pub fn bearing_impulse(&self) -> usize {

@@ -50,7 +50,7 @@ impl RigMachine {
 
     /// What the ledger channels of a state have summed up.
     pub fn flows(&self, state: &[f64]) -> Flows {
-        Flows::of(&state[self.layout.flows()], HEATS.len())
+        Flows::of(&state[self.layout.flows()], HEATS)
     }
 
     /// What must close between two states, of the whole rig.

@@ -160,7 +160,7 @@ impl RigMachine {
         );
 
         // ledger
-        let mut heats = [0.0; HEATS.len()];
+        let mut heats = [0.0; HEATS];
         for (heat, kind) in heats.iter_mut().zip(bearing.heat.kinds()) {
             *heat = plain(kind);
         }

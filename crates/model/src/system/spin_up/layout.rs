@@ -10,10 +10,11 @@
 //! The work `other` of [`WORKS`] is that of t_g Ω - (c_i × F)Ω + F·v_i and of the growth of the race: drags to the ground, weight,
 //! a race that moves or grows.
 
-use super::SpinUpConstants;
-use crate::bearing;
-use crate::system::layout::{self, Channels, heats_and};
+use super::constants::SpinUpConstants;
+use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
+use crate::system::layout;
 use crate::system::outer_race::WORKS;
+use std::ops::{Deref, Range};
 
 /// First channel of the inner race.
 pub const INNER: usize = 0;
@@ -22,8 +23,10 @@ pub const ROTOR: usize = 6;
 /// First channel of the bearing.
 pub const BEARING: usize = 8;
 
-/// Kinds of heat, in the order of their channels: those of the bearing, then the sliding rotor's. Names as in results.
-pub const HEATS: [&str; bearing::HEATS.len() + 1] = heats_and(["rotor_race_friction"]);
+/// Kinds of heat besides those of the bearing.
+const OWN_HEATS: [&str; 1] = ["rotor_race_friction"];
+/// Number of kinds of heat: those of the bearing, then the sliding rotor's.
+pub const HEATS: usize = bearing::HEATS.len() + OWN_HEATS.len();
 /// Kinds of source, in the order of their channels.
 pub const SOURCES: [&str; 4] = [
     "radial_load",
@@ -99,22 +102,48 @@ const BODIES: [&str; BEARING] = [
     "rotor.speed",
 ];
 
-/// What a spin-up has besides the states of its bearing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SpinUpChannels;
-
-impl Channels for SpinUpChannels {
-    const BODIES: &'static [&'static str] = &BODIES;
-    const HEATS: &'static [&'static str] = &HEATS;
-    const SOURCES: &'static [&'static str] = &SOURCES;
-    const WORKS: &'static [&'static str] = &WORKS;
-    const PROBES: usize = DETAIL;
+/// The layout of a spin-up: the bodies stand first, then its bearing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Layout {
+    channels: layout::Layout,
+    own: Range<usize>,
+    /// Number of balls.
+    pub balls: usize,
 }
 
-/// Sizes of a spin-up's state.
-pub type Layout = layout::Layout<SpinUpChannels>;
+impl Deref for Layout {
+    type Target = layout::Layout;
+    fn deref(&self) -> &layout::Layout {
+        &self.channels
+    }
+}
 
 impl Layout {
+    /// The layout of a spin-up of a bearing.
+    pub fn of(bearing: &BearingConstants) -> Self {
+        let mut channels = layout::Layout::default();
+        channels.block("", BODIES.map(String::from));
+        let own = channels.bearing("", bearing);
+        channels.heats_of("", bearing::HEATS.into_iter().chain(OWN_HEATS));
+        channels.sources_of("", SOURCES);
+        channels.impulses_of("", ["impulse"]);
+        channels.works_of("", WORKS);
+        Layout {
+            channels,
+            own,
+            balls: bearing.balls(),
+        }
+    }
+    /// Channels of the bearing.
+    #[inline(always)]
+    pub fn bearing(&self) -> Range<usize> {
+        self.own.clone()
+    }
+    /// Number of probes.
+    pub fn probes(&self) -> usize {
+        DETAIL + DETAIL_PER_BALL * self.balls
+    }
+
     /// The magnitude that matters in each channel: a tolerance of 1e-6 allows errors of one millionth of it a step.
     ///
     /// Places of race and balls by a ten-thousandth of the ball, speeds of centres by a thousandth of the speed of the

@@ -54,7 +54,7 @@ impl SpinUpMachine {
 
     /// What the ledger channels of a state have summed up.
     pub fn flows(&self, state: &[f64]) -> Flows {
-        Flows::of(&state[self.layout().flows()], HEATS.len())
+        Flows::of(&state[self.layout().flows()], HEATS)
     }
     /// What must close between two states.
     pub fn balance(&self, start: &[f64], end: &[f64]) -> Balance {

@@ -157,7 +157,7 @@ impl<R: Real> SpinUp<R> {
 
         // ledger
         let of_bearing = bearing.heat.kinds();
-        let mut heats = [zero; HEATS.len()];
+        let mut heats = [zero; HEATS];
         let (kinds, rest) = heats.split_at_mut(of_bearing.len());
         kinds.copy_from_slice(&of_bearing);
         kinds[POCKET_FRICTION] += bearing.loss_heat(speed, acceleration);

@@ -1,0 +1,213 @@
+//! Named results of a vibration, of slow runs and of the converter, with law, source and valid range.
+
+use crate::analyse::signals::asked::Asked;
+use crate::analyse::signals::found::Found;
+use crate::analyse::signals::vibration;
+use crate::result::list::{List, Origin};
+use crate::result::outcome::Value;
+use measure::steady_curve::{Difference, SteadyCurve};
+
+/// Names the results.
+pub(crate) fn name(list: &mut List, asked: &Asked, found: &Found) {
+    converter(list, found);
+    vibration(list, asked, found);
+    steady(list, asked, found);
+}
+
+fn listed(values: Result<Vec<f64>, String>) -> Value {
+    match values {
+        Ok(values) => Value::List(values),
+        Err(why) => Value::None { why },
+    }
+}
+
+fn converter(list: &mut List, found: &Found) {
+    let why = || match found.converted.is_empty() {
+        true => Err("signals.converter.channels names no channel that is looked at".to_string()),
+        false => Ok(&found.converted),
+    };
+    let clipped = why().map(|all| all.iter().map(|one| one.clipped as f64).sum());
+    list.number("converter_clipped_values", "", clipped, &CONVERTER);
+    let share = why().map(|all| all.iter().map(|one| one.rounding_share).fold(0.0, f64::max));
+    list.number("converter_rounding_share_of_noise", "1", share, &CONVERTER);
+}
+
+fn vibration(list: &mut List, asked: &Asked, found: &Found) {
+    let part = found
+        .vibration
+        .as_ref()
+        .ok_or_else(|| found.why("vibration", asked.vibration.is_some()));
+    let orders = part.as_ref().map_err(|why| why.clone()).and_then(|part| {
+        part.orders
+            .as_ref()
+            .ok_or_else(|| "signals.vibration.orders is not given".to_string())
+    });
+    let unit = part.as_ref().map_or("1", |part| part.unit);
+    let of = |value: &dyn Fn(&measure::order::Order) -> f64| {
+        orders
+            .as_ref()
+            .map(|found| found.orders.iter().map(value).collect::<Vec<f64>>())
+            .map_err(|why| why.clone())
+    };
+    list.push("vibration_orders", "1", listed(of(&|o| o.order)), &ORDERS);
+    let middle = |mut values: Vec<f64>| {
+        values.retain(|value| value.is_finite());
+        values.sort_by(f64::total_cmp);
+        values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+    };
+    list.push(
+        "vibration_order_amplitudes",
+        unit,
+        listed(of(&|o| middle(o.amplitude()))),
+        &ORDERS,
+    );
+    type Side = fn(&vibration::Found) -> &Result<vibration::Picture, String>;
+    let sides: [(&str, &str, &'static str, Side); 2] = [
+        ("vibration_spectrogram", "frequencies", "Hz", |p| {
+            &p.over_time
+        }),
+        ("vibration_order_spectrogram", "orders", "1", |p| {
+            &p.over_order
+        }),
+    ];
+    for (name, upright, upright_unit, side) in sides {
+        let picture = part
+            .as_ref()
+            .map_err(|why| why.clone())
+            .and_then(|part| side(part).as_ref().map_err(|why| why.clone()));
+        let of = |value: fn(&vibration::Picture) -> &Vec<f64>| {
+            listed(
+                picture
+                    .as_ref()
+                    .map(|p| value(p).clone())
+                    .map_err(|why| why.clone()),
+            )
+        };
+        list.push(&format!("{name}_times"), "s", of(|p| &p.time), &SPECTROGRAM);
+        list.push(
+            &format!("{name}_{upright}"),
+            upright_unit,
+            of(|p| &p.upright),
+            &SPECTROGRAM,
+        );
+        list.push(
+            &format!("{name}_levels"),
+            "1",
+            of(|p| &p.levels),
+            &SPECTROGRAM,
+        );
+    }
+}
+
+fn steady(list: &mut List, asked: &Asked, found: &Found) {
+    let part = || {
+        found
+            .steady
+            .as_ref()
+            .ok_or_else(|| match asked.signals.steady {
+                Some(_) => found.why("steady", true),
+                None => "signals.steady.from is not given".to_string(),
+            })
+    };
+    let inertia = || part().and_then(|part| part.inertia.clone());
+    list.number(
+        "steady_inertia",
+        "kg m^2",
+        inertia().map(|i| i.value),
+        &INERTIA,
+    );
+    list.number(
+        "steady_inertia_deviation",
+        "kg m^2",
+        inertia().map(|i| i.deviation),
+        &INERTIA,
+    );
+    list.push(
+        "steady_speeds",
+        "rad/s",
+        listed(part().map(|p| p.speed.clone())),
+        &STEADY,
+    );
+    type Curve = fn(&crate::analyse::signals::steady::Found) -> &Result<SteadyCurve, String>;
+    let curves: [(&str, Curve); 3] = [
+        ("direct", |p| &p.direct),
+        ("inertial", |p| &p.inertial),
+        ("up", |p| &p.up),
+    ];
+    for (name, curve) in curves {
+        let curve = || part().and_then(|p| curve(p).as_ref().map_err(|why| why.clone()));
+        let (torque, deviation) = (
+            curve().map(|c| c.torque.clone()),
+            curve().map(SteadyCurve::whole_deviation),
+        );
+        list.push(
+            &format!("steady_{name}_torques"),
+            "N m",
+            listed(torque),
+            &STEADY,
+        );
+        list.push(
+            &format!("steady_{name}_deviations"),
+            "N m",
+            listed(deviation),
+            &STEADY,
+        );
+    }
+    type Pair = fn(&crate::analyse::signals::steady::Found) -> &Result<Difference, String>;
+    let pairs: [(&str, Pair); 2] = [
+        ("direct_less_inertial", |p| &p.direct_less_inertial),
+        ("up_less_down", |p| &p.up_less_down),
+    ];
+    for (name, pair) in pairs {
+        let pair = || part().and_then(|p| pair(p).as_ref().map_err(|why| why.clone()));
+        list.number(
+            &format!("steady_{name}"),
+            "N m",
+            pair().map(|d| d.mean.value),
+            &COMPARED,
+        );
+        list.number(
+            &format!("steady_{name}_deviation"),
+            "N m",
+            pair().map(|d| d.mean.deviation),
+            &COMPARED,
+        );
+        list.number(
+            &format!("steady_{name}_chance"),
+            "1",
+            pair().map(|d| d.chance),
+            &COMPARED,
+        );
+    }
+}
+
+const CONVERTER: Origin = Origin {
+    law: "values at the limits of the range; rounding noise step/√12 over the noise of the channel, largest of all channels",
+    source: "crates/measure/src/converter.rs; noise: median of fourth differences",
+    valid: "equal steps of the converter; a signal that is smooth from value to value but for its noise",
+};
+const ORDERS: Origin = Origin {
+    law: "signal = mean + Σ (a cos kθ + b sin kθ) + rest, a and b smooth; amplitude √(a² + b²), peak; median over time",
+    source: "Vold and Leuridan 1993, crates/measure/src/order",
+    valid: "amplitudes that change slower than the bandwidth; orders above twice the bandwidth",
+};
+const SPECTROGRAM: Origin = Origin {
+    law: "amplitude of Hann segments, in whole dB below the largest (20 log10 of the ratio), column after column; -80 and less is -80",
+    source: "crates/measure/src/spectrum",
+    valid: "a picture: the largest of neighbouring lines and segments stands for them",
+};
+const INERTIA: Origin = Origin {
+    law: "as given; m g a T²/4π² - m a² (pendulum); m g d² T²/16π² l (two strings); ΔM/(α₁ - α₀) (known torque)",
+    source: "crates/measure/src/steady_curve/inertia.rs",
+    valid: "small swings, light damping; everything that coasts takes part",
+};
+const STEADY: Origin = Origin {
+    law: "direct: smooth curve through torque over speed; inertial: -I dΩ/dt of a smooth curve through the speed of whole turns; deviation: standard, of the inertia included",
+    source: "crates/measure/src/steady_curve; bands in crates/measure/tests/steady_curve.rs",
+    valid: "one passage over the speeds; inertial: all that brakes what coasts, other bearings and air included",
+};
+const COMPARED: Origin = Origin {
+    law: "mean difference over the common speeds; chance of so large a difference between equal curves",
+    source: "crates/measure/src/steady_curve/compare.rs",
+    valid: "independent errors of the two curves",
+};

@@ -1,0 +1,192 @@
+//! What is asked of a measurement: its channels, read.
+
+use crate::analyse::signals::read::{self, Listed, Series, Source, Stamps};
+use crate::analyse::signals::spectrum;
+use crate::problem::Problem;
+use crate::scenario::{CageKind, PickupKind, SensorSource, Signals};
+
+/// Channels that were read, and what is asked of them.
+pub(crate) struct Asked {
+    pub signals: Signals,
+    pub listed: Vec<Listed>,
+    pub notes: Vec<String>,
+    pub speed: Option<Signal>,
+    pub torque: Option<Series>,
+    pub tap: Option<Series>,
+    pub cage: Option<Signal>,
+    pub temperature: Option<Series>,
+    pub vibration: Option<Series>,
+}
+
+/// What a channel holds.
+pub(crate) enum Signal {
+    Sampled(Series),
+    Stamped(Stamps),
+}
+
+impl Asked {
+    /// Reads what is asked for; refuses what is not there or not what it should be.
+    pub fn of(signals: &Signals) -> Result<Asked, Box<Problem>> {
+        let mut source = Source::open(&signals.file, "signals.file", signals)?;
+        let listed = source.listed();
+        let speed = match &signals.speed {
+            Some(speed) => {
+                let key = "signals.speed.channel";
+                Some(match speed.kind {
+                    PickupKind::Analog { .. } => {
+                        Signal::Sampled(source.passings(key, &speed.channel)?)
+                    }
+                    PickupKind::Edges { .. } => {
+                        Signal::Stamped(source.stamps(key, &speed.channel)?)
+                    }
+                })
+            }
+            None => None,
+        };
+        let mut torque = None;
+        let mut tap = None;
+        let mut notes = Vec::new();
+        let mut tap_source = None;
+        if let Some(asked) = &signals.torque {
+            let key = "signals.torque.channel";
+            let series = in_newton_metres(&mut source, key, &asked.channel, asked.scale, false)?;
+            source.reaches(
+                "signals.torque.highest_frequency",
+                asked.highest_frequency,
+                &series,
+                spectrum::resolved(series.values.len(), series.interval),
+            )?;
+            torque = Some(series);
+            if let Some(SensorSource::Tap {
+                tap_file,
+                tap_channel,
+                ..
+            }) = &asked.sensor
+            {
+                let mut other = Source::open(tap_file, "signals.torque.tap_file", signals)?;
+                let key = other.key();
+                let series = other.series(key, tap_channel, true)?;
+                notes = other.notes();
+                tap_source = Some(other);
+                tap = Some(series);
+            }
+        }
+        let cage = match &signals.cage {
+            Some(cage) => {
+                let key = "signals.cage.channel";
+                Some(match cage.kind {
+                    CageKind::Edges => Signal::Stamped(source.stamps(key, &cage.channel)?),
+                    _ => Signal::Sampled(source.passings(key, &cage.channel)?),
+                })
+            }
+            None => None,
+        };
+        let temperature = match &signals.temperature {
+            Some(name) => {
+                let key = "signals.temperature.channel";
+                let mut series = source.series(key, name, false)?;
+                let unit = source.temperature_unit(key, &series)?;
+                for value in &mut series.values {
+                    *value = unit.to_si(*value);
+                }
+                Some(series)
+            }
+            None => None,
+        };
+        let vibration = match &signals.vibration {
+            Some(asked) => {
+                let series = source.series("signals.vibration.channel", &asked.channel, false)?;
+                source.reaches(
+                    "signals.vibration.highest_frequency",
+                    asked.highest_frequency,
+                    &series,
+                    spectrum::resolved_over_time(series.values.len(), series.interval),
+                )?;
+                Some(series)
+            }
+            None => None,
+        };
+        if let Some(converter) = &signals.converter {
+            source.has("signals.converter.channels", &converter.channels)?;
+        }
+        source.interval_holds(tap_source.as_ref())?;
+        let mut all = source.notes();
+        all.append(&mut notes);
+        Ok(Asked {
+            signals: signals.clone(),
+            listed,
+            notes: all,
+            speed,
+            torque,
+            tap,
+            cage,
+            temperature,
+            vibration,
+        })
+    }
+
+    /// Where a part comes from: channel and file, as in "channel \"torque\" of run.tdms".
+    pub(crate) fn place(&self, part: &str) -> String {
+        let asked = &self.signals;
+        let channel = match part {
+            "speed" => asked.speed.as_ref().map(|one| &one.channel),
+            "torque" => asked.torque.as_ref().map(|one| &one.channel),
+            "cage" => asked.cage.as_ref().map(|one| &one.channel),
+            "vibration" => asked.vibration.as_ref().map(|one| &one.channel),
+            _ => None,
+        };
+        let file = read::short(&asked.file);
+        match channel {
+            Some(channel) => format!("channel \"{channel}\" of {file}"),
+            None => file,
+        }
+    }
+}
+
+/// The middle of the values that are numbers; not-a-number where there is none.
+pub(crate) fn median(values: &[f64]) -> f64 {
+    let mut known: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+    known.sort_by(f64::total_cmp);
+    known.get(known.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+pub(crate) fn in_newton_metres(
+    source: &mut Source,
+    key: &'static str,
+    name: &str,
+    scale: Option<f64>,
+    whole: bool,
+) -> Result<Series, Box<Problem>> {
+    let mut series = source.series(key, name, whole)?;
+    let factor = source.torque_factor(key, &series.unit, name, scale)?;
+    for value in &mut series.values {
+        *value *= factor;
+    }
+    if let Some(converter) = &mut series.converter {
+        converter.lowest *= factor;
+        converter.highest *= factor;
+    }
+    Ok(series)
+}
+
+/// The channels that were read as samples.
+pub(crate) fn sampled<'a>(asked: &'a Asked) -> impl Iterator<Item = &'a Series> {
+    let of = |signal: &'a Option<Signal>| match signal {
+        Some(Signal::Sampled(series)) => Some(series),
+        _ => None,
+    };
+    let all = [
+        of(&asked.speed),
+        asked.torque.as_ref(),
+        of(&asked.cage),
+        asked.vibration.as_ref(),
+    ];
+    all.into_iter().flatten()
+}
+
+/// A text that begins a sentence.
+pub(crate) fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+    first.into_iter().chain(letters).collect()
+}

@@ -1,0 +1,517 @@
+//! The channels that are asked for, read from a measurement file and brought to one clock in s.
+
+mod clock;
+
+use crate::analyse::signals::unit::{no_signal, si_factor, unit_of};
+use crate::problem::{Code, Problem, did_you_mean};
+use crate::scenario::{Signals, UNNAMED};
+use measure::converter::Converter;
+use measure::file;
+use measure::recording::{Channel, Clock, Content, FileError, Instant, Recording};
+use std::path::Path;
+use units::Unit;
+
+/// Most values that are taken from a channel: 400 MB.
+const MOST_VALUES: u64 = 50_000_000;
+/// Lines that a spectrum needs to show anything.
+const FEWEST_LINES: f64 = 4.0;
+/// Part by which an interval in the scenario may differ from that of the file, as where a rate is written down with three digits.
+const ROUNDED: f64 = 1e-3;
+
+/// Values of a channel at equal intervals.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Name as in the file.
+    pub name: String,
+    /// Unit as in the file; may be empty.
+    pub unit: String,
+    /// Time of the first value, s.
+    pub first: f64,
+    /// Interval, s.
+    pub interval: f64,
+    /// Values in the unit of the file; not-a-number where there is none.
+    pub values: Vec<f64>,
+    /// The converter that took them, in the same unit, where it is known.
+    pub converter: Option<Converter>,
+}
+
+impl Series {
+    /// Time of the last value, s.
+    pub fn last(&self) -> f64 {
+        self.first + self.values.len().saturating_sub(1) as f64 * self.interval
+    }
+
+    /// Time of a value, s.
+    pub fn time(&self, index: usize) -> f64 {
+        self.first + index as f64 * self.interval
+    }
+}
+
+/// Instants in a channel, s, in order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stamps {
+    /// The instants.
+    pub times: Vec<f64>,
+    /// Values of the channel that were none.
+    pub missing: usize,
+}
+
+/// What the file says of one of its channels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Listed {
+    /// Name.
+    pub name: String,
+    /// Unit.
+    pub unit: String,
+    /// Number of values.
+    pub count: u64,
+    /// Values a second, where the clock is even.
+    pub rate: Option<f64>,
+}
+
+/// A measurement file that is open.
+pub struct Source<'a> {
+    recording: Box<dyn Recording>,
+    signals: &'a Signals,
+    /// The key that names the file.
+    key: &'static str,
+    name: String,
+    /// Whether the interval of the scenario was taken for a channel.
+    interval_taken: bool,
+    /// A channel whose own clock has another interval than the scenario, and that, s.
+    contradicted: Option<(String, f64)>,
+}
+
+impl<'a> Source<'a> {
+    /// Opens a file; `key` names it in the scenario.
+    pub fn open(
+        path: &Path,
+        key: &'static str,
+        signals: &'a Signals,
+    ) -> Result<Source<'a>, Box<Problem>> {
+        let recording = file::open(path).map_err(|error| of_file(&error, key))?;
+        let name = short(path);
+        Ok(Source {
+            recording,
+            signals,
+            key,
+            name,
+            interval_taken: false,
+            contradicted: None,
+        })
+    }
+
+    /// The channels as the file lists them.
+    pub fn listed(&self) -> Vec<Listed> {
+        let channels = self.recording.channels().iter();
+        channels
+            .map(|channel| Listed {
+                name: channel.name.clone(),
+                unit: channel.unit.clone(),
+                count: channel.count,
+                rate: match channel.clock {
+                    Clock::Uniform { interval, .. } => Some(1.0 / interval),
+                    _ => None,
+                },
+            })
+            .collect()
+    }
+
+    /// What was wrong with the file as far as it was read.
+    pub fn notes(&self) -> Vec<String> {
+        let notes = self.recording.notes().iter();
+        notes
+            .map(|note| match &note.channel {
+                Some(channel) => format!("{}, channel {channel}: {}", self.name, note.text),
+                None => format!("{}: {}", self.name, note.text),
+            })
+            .collect()
+    }
+
+    fn problem(
+        &self,
+        code: Code,
+        key: &str,
+        found: String,
+        needed: impl Into<String>,
+    ) -> Box<Problem> {
+        let found = format!("{}, {found}", self.name);
+        Box::new(Problem::new(code, UNNAMED, found, needed).on_key(key))
+    }
+
+    fn channel(&self, key: &str, name: &str) -> Result<(usize, Channel), Box<Problem>> {
+        let channels = self.recording.channels();
+        let alike = || (0..channels.len()).filter(|k| channels[*k].name == name);
+        if let (Some(first), Some(second)) = (alike().next(), alike().nth(1)) {
+            let found = format!(
+                "which has {} channels \"{name}\", the first two as numbers {} and {} of {}",
+                alike().count(),
+                first + 1,
+                second + 1,
+                channels.len()
+            );
+            let needed =
+                "a name that only one channel has is needed: rename the others in the file";
+            return Err(self.problem(Code::UnknownChannel, key, found, needed));
+        }
+        let exact = alike().next();
+        // a name without its group, where only one channel has it
+        let mut ends = channels.iter().enumerate().filter(|(_, channel)| {
+            let end = channel.name.strip_suffix(name);
+            end.is_some_and(|start| start.ends_with('/'))
+        });
+        let only = match (ends.next(), ends.next()) {
+            (Some((index, _)), None) => Some(index),
+            _ => None,
+        };
+        let Some(index) = exact.or(only) else {
+            let names = || channels.iter().map(|channel| channel.name.as_str());
+            let mut known: Vec<String> =
+                names().take(12).map(|name| format!("\"{name}\"")).collect();
+            if channels.len() > known.len() {
+                known.push(format!("{} more", channels.len() - known.len()));
+            }
+            let needed = match known.len() {
+                0 => "a file with channels is needed".to_string(),
+                _ => format!("it has the channels {}", known.join(", ")),
+            };
+            let found = format!("which has no channel \"{name}\"{}", self.unread());
+            let problem = self.problem(Code::UnknownChannel, key, found, needed);
+            return Err(Box::new(problem.with_hint(did_you_mean(name, names()))));
+        };
+        let channel = channels[index].clone();
+        let found = match (channel.content, channel.count) {
+            (Content::Text, _) => "whose values are texts",
+            (_, 0) => "which holds no values",
+            _ => return Ok((index, channel)),
+        };
+        let found = format!("channel \"{name}\", {found}{}", self.unread());
+        Err(self.problem(
+            Code::UnknownChannel,
+            key,
+            found,
+            "a channel of numbers is needed",
+        ))
+    }
+
+    /// What the reader found wrong with the file, for a message that misses something; a file cut by a crash tells it here.
+    fn unread(&self) -> String {
+        let notes = self.notes();
+        let more = match notes.len() {
+            0..=2 => String::new(),
+            all => format!("; and {} more", all - 2),
+        };
+        match notes.as_slice() {
+            [] => String::new(),
+            some => {
+                let first: Vec<&str> = some.iter().take(2).map(String::as_str).collect();
+                format!(" (what was read of it: {}{more})", first.join("; "))
+            }
+        }
+    }
+
+    /// Seconds from the earliest start of the file to that of a channel, and its delay by the converter: columns of times are
+    /// no turn of it.
+    fn offset(&self, index: usize, channel: &Channel) -> f64 {
+        let all = self.recording.channels();
+        let is_clock = |k: usize| all.iter().any(|c| c.clock == Clock::Channel(k));
+        let times = |k: usize, c: &Channel| {
+            c.content == Content::Time || si_factor(&c.unit, "s").is_some() || is_clock(k)
+        };
+        let before = all.iter().enumerate().take(index);
+        let turn = before.filter(|(k, c)| !times(*k, c)).count();
+        self.start(channel) + turn as f64 * self.signals.channel_delay
+    }
+
+    /// Seconds from the earliest start of the file to that of a channel.
+    fn start(&self, channel: &Channel) -> f64 {
+        let starts = self.recording.channels().iter().filter_map(|c| c.start);
+        let earlier = |a: Instant, b: Instant| {
+            if (a.seconds, a.fraction) <= (b.seconds, b.fraction) {
+                a
+            } else {
+                b
+            }
+        };
+        match (channel.start, starts.reduce(earlier)) {
+            (Some(own), Some(first)) => {
+                own.seconds.saturating_sub(first.seconds) as f64 + own.fraction - first.fraction
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// The values of a channel at equal times, within the part that is looked at; all of it where `whole`.
+    pub fn series(
+        &mut self,
+        key: &'static str,
+        name: &str,
+        whole: bool,
+    ) -> Result<Series, Box<Problem>> {
+        let (index, channel) = self.channel(key, name)?;
+        let (first, interval) = match (&channel.clock, self.signals.sample_interval) {
+            (Clock::Uniform { first, interval }, _) => (*first, *interval),
+            (Clock::Channel(clock), _) => self.even_clock(key, name, *clock)?,
+            (Clock::Unknown, Some(interval)) => {
+                self.interval_taken = true;
+                (0.0, interval)
+            }
+            (Clock::Unknown, None) => {
+                return Err(self.problem(
+                    Code::ChannelClock,
+                    key,
+                    format!("channel \"{name}\", of which the file tells no clock"),
+                    "signals.sample_interval is needed with it, e.g. \"0.1 ms\"",
+                ));
+            }
+        };
+        if let Some(told) = self.signals.sample_interval
+            && (interval / told - 1.0).abs() > ROUNDED
+        {
+            self.contradicted
+                .get_or_insert((channel.name.clone(), interval));
+        }
+        let first = first + self.offset(index, &channel);
+        let (begin, end) = if whole {
+            (0, channel.count)
+        } else {
+            self.part(first, interval, channel.count)
+        };
+        let count = end.saturating_sub(begin);
+        if count == 0 {
+            let found = format!(
+                "channel \"{name}\", which has no value there: it runs from {first:.6} s to {:.6} s",
+                first + channel.count.saturating_sub(1) as f64 * interval
+            );
+            return Err(self.problem(
+                Code::ChannelClock,
+                key,
+                found,
+                "signals.from and signals.to must leave some of it",
+            ));
+        }
+        if count > MOST_VALUES {
+            let found = format!("channel \"{name}\" with {count} values");
+            let needed = format!(
+                "at most {MOST_VALUES} are taken at once: give signals.from and signals.to"
+            );
+            return Err(self.problem(Code::TooManyRows, key, found, needed));
+        }
+        let values = self.read(key, index, begin, count as usize)?;
+        let converter = self.converter(&channel.name, interval);
+        Ok(Series {
+            converter,
+            name: channel.name,
+            unit: channel.unit,
+            first: first + begin as f64 * interval,
+            interval,
+            values,
+        })
+    }
+
+    /// The converter of a channel, where one is told.
+    fn converter(&self, name: &str, interval: f64) -> Option<Converter> {
+        let told = self.signals.converter.as_ref()?;
+        let meant = |known: &String| {
+            let end = name.strip_suffix(known.as_str());
+            end.is_some_and(|start| start.is_empty() || start.ends_with('/'))
+        };
+        told.channels.iter().any(meant).then(|| Converter {
+            rate: 1.0 / interval,
+            channels: 1,
+            lowest: told.lowest,
+            highest: told.highest,
+            bits: told.bits,
+        })
+    }
+
+    /// Refuses names of channels that the file does not have.
+    pub fn has(&self, key: &str, names: &[String]) -> Result<(), Box<Problem>> {
+        names
+            .iter()
+            .try_for_each(|name| self.channel(key, name).map(|_| ()))
+    }
+
+    /// Refuses a highest frequency of a spectrum that the samples do not reach, or below which they have no lines.
+    ///
+    /// - `resolved`: distance of two lines at best, Hz
+    pub fn reaches(
+        &self,
+        key: &'static str,
+        highest: Option<f64>,
+        series: &Series,
+        resolved: f64,
+    ) -> Result<(), Box<Problem>> {
+        let half = 0.5 / series.interval;
+        let least = FEWEST_LINES * resolved;
+        match highest {
+            // Clocks are read with their rounding.
+            Some(highest) if highest > half * (1.0 + 1e-6) || highest < least.min(half) => {
+                let text = |value: f64| units::number_text(value);
+                Err(self.problem(
+                    Code::OutOfRange,
+                    key,
+                    format!("{} Hz", text(highest)),
+                    format!(
+                        "from {} to {} Hz is needed: {FEWEST_LINES} lines as fine as the record has them, and half of the sampling rate of channel \"{}\"",
+                        text((least * 1e3).ceil() / 1e3),
+                        text((half * 1e6).round() / 1e6),
+                        series.name
+                    ),
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The values of a channel in which passing marks or balls are looked for; refuses what is another quantity by its unit.
+    pub fn passings(&mut self, key: &'static str, name: &str) -> Result<Series, Box<Problem>> {
+        let series = self.series(key, name, false)?;
+        match no_signal(&series.unit) {
+            Some(quantity) => Err(self.problem(
+                Code::ChannelUnit,
+                key,
+                format!(
+                    "channel \"{}\" in \"{}\", a {quantity}",
+                    series.name,
+                    series.unit.trim()
+                ),
+                "the signal of a sensor that sees each of them pass is needed, e.g. in V",
+            )),
+            None => Ok(series),
+        }
+    }
+
+    /// The instants in a channel, within the part that is looked at.
+    pub fn stamps(&mut self, key: &'static str, name: &str) -> Result<Stamps, Box<Problem>> {
+        let (index, channel) = self.channel(key, name)?;
+        if channel.count > MOST_VALUES {
+            let found = format!("channel \"{name}\" with {} values", channel.count);
+            let needed = format!("at most {MOST_VALUES} instants are taken");
+            return Err(self.problem(Code::TooManyRows, key, found, needed));
+        }
+        let seconds = match channel.content {
+            Content::Time => 1.0,
+            _ => self.seconds(key, &channel)?,
+        };
+        // A counter takes its stamps when they come.
+        let offset = self.start(&channel);
+        let read = self.read(key, index, 0, channel.count as usize)?;
+        let known: Vec<f64> = read
+            .iter()
+            .filter(|v| v.is_finite())
+            .map(|v| v * seconds + offset)
+            .collect();
+        if let Some(at) = known.windows(2).position(|pair| pair[1] <= pair[0]) {
+            return Err(self.backwards(key, name, at + 1, known[at], known[at + 1]));
+        }
+        let inside = |t: &f64| {
+            self.signals.from.is_none_or(|from| *t >= from)
+                && self.signals.to.is_none_or(|to| *t <= to)
+        };
+        Ok(Stamps {
+            missing: read.len() - known.len(),
+            times: known.iter().copied().filter(inside).collect(),
+        })
+    }
+
+    /// First index and the one behind the last of the values that are looked at.
+    fn part(&self, first: f64, interval: f64, count: u64) -> (u64, u64) {
+        // a cast of a float is cut at the ends of the integer
+        let place = |time: f64| ((time - first) / interval).ceil().max(0.0) as u64;
+        let begin = self.signals.from.map_or(0, place).min(count);
+        let end = self
+            .signals
+            .to
+            .map_or(count, |to| place(to).saturating_add(1))
+            .min(count);
+        (begin, end)
+    }
+
+    fn read(
+        &mut self,
+        key: &'static str,
+        channel: usize,
+        first: u64,
+        count: usize,
+    ) -> Result<Vec<f64>, Box<Problem>> {
+        let mut values = vec![f64::NAN; count];
+        let got = self
+            .recording
+            .read(channel, first, &mut values)
+            .map_err(|error| of_file(&error, key))?;
+        values.truncate(got);
+        Ok(values)
+    }
+
+    /// The factor from the unit of a torque channel to N m.
+    pub fn torque_factor(
+        &self,
+        key: &'static str,
+        unit: &str,
+        name: &str,
+        scale: Option<f64>,
+    ) -> Result<f64, Box<Problem>> {
+        let own = si_factor(unit, "N m");
+        match (own, scale) {
+            (Some(own), Some(scale)) if (own / scale - 1.0).abs() > 1e-9 => Err(self.problem(
+                Code::ChannelUnit,
+                "signals.torque.scale",
+                format!("channel \"{name}\" in \"{unit}\""),
+                "the unit of the file and this scale contradict each other: leave the scale away, or correct it",
+            )),
+            (_, Some(scale)) => Ok(scale),
+            (Some(own), None) => Ok(own),
+            (None, None) => Err(self.problem(
+                Code::ChannelUnit,
+                key,
+                match unit.trim() {
+                    "" => format!("channel \"{name}\" without a unit"),
+                    unit => format!("channel \"{name}\" in \"{unit}\""),
+                },
+                "a unit of torque is needed: tell what one unit of the channel is, e.g. signals.torque.scale = \"1 N mm\"",
+            )),
+        }
+    }
+
+    /// The unit of a channel that must be a temperature.
+    pub fn temperature_unit(
+        &self,
+        key: &'static str,
+        series: &Series,
+    ) -> Result<Unit, Box<Problem>> {
+        unit_of(&series.unit, "K").ok_or_else(|| {
+            self.problem(
+                Code::ChannelUnit,
+                key,
+                format!("channel \"{}\" in \"{}\"", series.name, series.unit.trim()),
+                "a unit of temperature is needed, K or degC",
+            )
+        })
+    }
+
+    /// The key that names the file.
+    pub fn key(&self) -> &'static str {
+        self.key
+    }
+}
+
+/// What a reader refuses, as a problem of the scenario.
+fn of_file(error: &FileError, key: &str) -> Box<Problem> {
+    let place = match error.place.as_str() {
+        "" => String::new(),
+        place => format!(", {place}"),
+    };
+    let found = format!("{}{place}, which {}", short(&error.path), error.found);
+    let needed = match error.needed.as_str() {
+        "" => "a measurement file that can be read is needed",
+        needed => needed,
+    };
+    Box::new(Problem::new(Code::MeasurementUnreadable, UNNAMED, found, needed).on_key(key))
+}
+
+/// The name of a file without its folders, for messages.
+pub fn short(path: &Path) -> String {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    name.to_string_lossy().into_owned()
+}

@@ -1,0 +1,3 @@
+//! Laws evaluated without motion.
+
+pub mod torque;

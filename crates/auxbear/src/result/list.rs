@@ -1,0 +1,70 @@
+//! Named results: how they are collected, and what each tells of its origin.
+
+use crate::result::outcome::{Quantity, Value};
+
+/// Law, source and valid range of a kind of result.
+pub(crate) struct Origin {
+    pub law: &'static str,
+    pub source: &'static str,
+    pub valid: &'static str,
+}
+
+/// Named results in their order.
+pub(crate) struct List(pub Vec<Quantity>);
+
+impl List {
+    pub fn push(&mut self, name: &str, unit: &'static str, value: Value, origin: &Origin) {
+        self.0.push(Quantity {
+            name: name.to_string(),
+            value,
+            unit,
+            law: origin.law,
+            source: origin.source,
+            valid: origin.valid,
+            chaotic: false,
+            spread: None,
+        });
+    }
+    /// Marks what tiny changes of the start change much.
+    pub fn mark_chaotic(&mut self, names: &[&str]) {
+        for quantity in &mut self.0 {
+            quantity.chaotic |= names.contains(&quantity.name.as_str());
+        }
+    }
+    /// The results of a run that ended at an instant, s: none has a value where it ended before its first step.
+    pub fn ended_at(mut self, time: f64) -> Vec<Quantity> {
+        if time == 0.0 {
+            for quantity in &mut self.0 {
+                quantity.value = Value::None {
+                    why: "the run ended before its first step".to_string(),
+                };
+            }
+        }
+        self.0
+    }
+    pub fn number(
+        &mut self,
+        name: &str,
+        unit: &'static str,
+        value: Result<f64, String>,
+        origin: &Origin,
+    ) {
+        let value = match value {
+            Ok(value) if value.is_finite() => Value::Number(value),
+            Ok(value) => Value::None {
+                why: format!("the run ended with {value} here"),
+            },
+            Err(why) => Value::None { why },
+        };
+        self.push(name, unit, value, origin);
+    }
+}
+
+/// A residual over what it is compared with.
+pub(crate) fn relative(residual: f64, scale: f64) -> Result<f64, String> {
+    if scale > 0.0 {
+        Ok(residual / scale)
+    } else {
+        Err("nothing turned, moved or was dissipated that it could be compared with".to_string())
+    }
+}

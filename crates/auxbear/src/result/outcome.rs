@@ -1,0 +1,239 @@
+//! What a simulation hands over: quantities, history, contacts, warnings. Plain data, SI.
+
+/// Everything known after a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// Name of the system, e.g. `drop`.
+    pub system: &'static str,
+    /// Title of the scenario, or a plain one.
+    pub title: String,
+    /// Named results, in the order of the report.
+    pub quantities: Vec<Quantity>,
+    /// Time histories: columns of equal length, `time` first.
+    pub history: Vec<Column>,
+    /// Contacts of rotor and inner race, in order.
+    pub contacts: Vec<Contact>,
+    /// What the user should know before trusting the numbers.
+    pub warnings: Vec<Warning>,
+    /// How the run ended.
+    pub stop: Stop,
+    /// What it took.
+    pub work: Work,
+    /// Named results of each member, when repeated; member 0 is the unperturbed run.
+    pub members: Vec<Vec<(String, Option<f64>)>>,
+    /// What each of these members drew: paths with their values, as a file has them; empty where none varies the machine.
+    pub drawn: Vec<Vec<(String, String)>>,
+    /// Numbers that only the pictures need, of each bearing: one at least.
+    pub pictures: Vec<Picture>,
+    /// Files that the run leaves beside its results.
+    pub files: Vec<Attachment>,
+}
+
+/// A file that a run leaves beside its results.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attachment {
+    /// Name in the run directory.
+    pub name: String,
+    /// What stands in it.
+    pub content: Attached,
+}
+
+/// What stands in a file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Attached {
+    /// A text.
+    Text(String),
+    /// Channels of a measurement with their values; the name of the file tells the format.
+    Recording(Vec<(measure::recording::Channel, Vec<f64>)>),
+}
+
+/// A named result.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quantity {
+    /// Name, e.g. `first_impact_force`.
+    pub name: String,
+    /// Its value.
+    pub value: Value,
+    /// SI unit; empty for text and counts.
+    pub unit: &'static str,
+    /// The law or definition it comes from.
+    pub law: &'static str,
+    /// Source of that law.
+    pub source: &'static str,
+    /// Where it is valid.
+    pub valid: &'static str,
+    /// True where tiny changes of the start change it much: a single run tells an example, an ensemble its distribution.
+    pub chaotic: bool,
+    /// Spread over the members, when repeated.
+    pub spread: Option<Spread>,
+}
+
+/// A result in one of its kinds.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// A list of numbers.
+    List(Vec<f64>),
+    /// A word.
+    Text(String),
+    /// It does not exist in this run, and why.
+    None {
+        /// The reason.
+        why: String,
+    },
+}
+
+/// Mean and spread over members in which the quantity exists.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// Number of members in which it exists.
+    pub members: usize,
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation of the sample.
+    pub standard_deviation: f64,
+    /// Smallest.
+    pub smallest: f64,
+    /// Largest.
+    pub largest: f64,
+    /// Quantiles at 5, 50 and 95 %, between the sorted members on straight lines.
+    pub quantiles: [f64; 3],
+}
+
+impl Spread {
+    /// Of the values of members; none of fewer than two.
+    pub fn of(mut values: Vec<f64>) -> Option<Self> {
+        if values.len() < 2 {
+            return None;
+        }
+        values.sort_by(f64::total_cmp);
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let square = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
+        let quantile = |share: f64| {
+            let place = share * (count - 1.0);
+            let below = place as usize;
+            let above = (below + 1).min(values.len() - 1);
+            values[below] + (place - below as f64) * (values[above] - values[below])
+        };
+        Some(Spread {
+            members: values.len(),
+            mean,
+            standard_deviation: (square / (count - 1.0)).sqrt(),
+            smallest: quantile(0.0),
+            largest: quantile(1.0),
+            quantiles: [0.05, 0.5, 0.95].map(quantile),
+        })
+    }
+}
+
+/// One column of a history.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Channel name, e.g. `bearing.inner_race.speed`.
+    pub name: String,
+    /// SI unit, `1` for a ratio.
+    pub unit: &'static str,
+    /// What it is, in words.
+    pub meaning: String,
+    /// The values.
+    pub values: Vec<f64>,
+}
+
+/// One contact of rotor and inner race.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact {
+    /// Name of the auxiliary bearing; empty where it is the only one.
+    pub bearing: String,
+    /// Begin, s.
+    pub start: f64,
+    /// End, s; none where it lasts to the end of the run.
+    pub end: Option<f64>,
+    /// Largest normal force, N.
+    pub peak_force: f64,
+    /// Its instant, s.
+    pub peak_time: f64,
+}
+
+/// Something the user should know.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// Stable code, e.g. `AB1001`.
+    pub code: &'static str,
+    /// One or two sentences.
+    pub text: String,
+}
+
+/// A warning of a code in the book.
+pub(crate) fn warning(code: &'static str, text: String) -> Warning {
+    Warning { code, text }
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stop {
+    /// `finished`, `interrupted`, `diverged`, `step limit` or `left the model`.
+    pub reason: &'static str,
+    /// Time of the last state, s.
+    pub time: f64,
+    /// One sentence.
+    pub text: String,
+}
+
+impl Stop {
+    /// True where the whole run was computed.
+    pub fn complete(&self) -> bool {
+        self.reason == "finished"
+    }
+}
+
+/// Work of a run, all members together.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Work {
+    /// Machines simulated.
+    pub members: usize,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+    /// Evaluations of the right-hand side.
+    pub rate_calls: u64,
+    /// Wall-clock time, s.
+    pub seconds: f64,
+    /// Method of the time integration; none where nothing moves.
+    pub method: Option<&'static str>,
+}
+
+/// Numbers of a bearing that only the pictures need.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Name of the bearing; empty where it is the only one.
+    pub bearing: String,
+    /// Radius of the clearance circle, m; none where no rotor moves in the bore.
+    pub clearance: Option<f64>,
+    /// Limit of the Hertz pressure, Pa.
+    pub pressure_limit: Option<f64>,
+    /// Cage speed per inner race speed when the balls roll.
+    pub rolling_cage_ratio: f64,
+    /// Number of balls.
+    pub balls: usize,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spread_has_the_quantiles_of_its_members() {
+        let spread = Spread::of((0..=20).rev().map(f64::from).collect()).unwrap();
+        assert_eq!((spread.members, spread.mean), (21, 10.0));
+        assert_eq!((spread.smallest, spread.largest), (0.0, 20.0));
+        assert_eq!(spread.quantiles, [1.0, 10.0, 19.0]);
+        // of 0 to 20: Σ(i - 10)² = 770, over 20
+        assert!((spread.standard_deviation - 38.5_f64.sqrt()).abs() < 1e-12);
+        let two = Spread::of(vec![3.0, 1.0]).unwrap();
+        assert!((two.quantiles[0] - 1.1).abs() < 1e-12 && two.quantiles[1] == 2.0);
+        assert_eq!(Spread::of(vec![1.0]), None);
+    }
+}

@@ -1,0 +1,60 @@
+//! What is known before a run: the warnings that `auxbear check` prints beside the values of the file.
+
+use crate::result::assumptions::speed_rating;
+use crate::result::outcome::{Warning, warning};
+use crate::run::{Built, Machine};
+use crate::scenario::Bearing;
+
+impl Machine<'_> {
+    /// What the user should know before the run.
+    pub fn warnings(&self) -> Vec<Warning> {
+        match &self.system {
+            Built::Drop(drop, ..) => {
+                let load = drop.rotor.mass * drop.gravity.acceleration * drop.share();
+                let parts = drop.auxiliary_bearings.iter();
+                parts
+                    .flat_map(|part| of_bearing(&part.name, &part.bearing, load, drop.rotor.speed))
+                    .collect()
+            }
+            Built::SpinUp(spin_up, _) => {
+                let load = spin_up.radial_load.largest_until(spin_up.run.duration);
+                of_bearing("", &spin_up.bearing, load, spin_up.target_speed())
+            }
+            Built::Torque(asked) => {
+                let load = asked.torque.loads.iter().copied().fold(0.0, f64::max);
+                above_the_rating(asked.torque.static_load_rating, load)
+                    .into_iter()
+                    .collect()
+            }
+            Built::Rig(rig, _) => of_bearing("", &rig.bearing, rig.load.radial_load, rig.speed),
+            Built::Signals(_) | Built::Identify(_) => Vec::new(),
+        }
+    }
+}
+
+/// Load and speed beyond what a bearing stands.
+fn of_bearing(name: &str, bearing: &Bearing, load: f64, speed: f64) -> Vec<Warning> {
+    let load = above_the_rating(bearing.static_load_rating, load);
+    let mut list: Vec<Warning> = load
+        .into_iter()
+        .chain(speed_rating(bearing, speed))
+        .collect();
+    if !name.is_empty() {
+        for warning in &mut list {
+            warning.text = format!("{name}: {}", warning.text);
+        }
+    }
+    list
+}
+
+fn above_the_rating(rating: Option<f64>, load: f64) -> Option<Warning> {
+    let rating = rating.filter(|rating| load > *rating)?;
+    Some(warning(
+        "AB1029",
+        format!(
+            "The static radial load of {load:.0} N is {:.1} times the static load rating of {rating:.0} N: permanent \
+             dents must be expected, and the laws of contact and friction are outside their range.",
+            load / rating
+        ),
+    ))
+}

@@ -1,0 +1,86 @@
+//! From a scenario to results: the one place that knows every system.
+//!
+//! ```text
+//!   scenario ──build──▶ machine ──run──▶ outcome
+//! ```
+//! `simulate` integrates motions, `analyse` reads measurements, `evaluate` computes laws without motion.
+
+mod before;
+
+use crate::analyse::{identify, signals};
+use crate::evaluate::torque;
+pub use crate::options::Options;
+use crate::problem::Problem;
+pub use crate::result::outcome::{self, Outcome};
+use crate::scenario::{Drop, Rig, Scenario, SpinUp, System};
+use crate::simulate::{drop, rig, spin_up};
+pub use measure::file::parquet::panic_is_caught;
+
+/// A scenario with its machine: what could be wrong with the input has been told.
+pub struct Machine<'a> {
+    scenario: &'a Scenario,
+    system: Built<'a>,
+}
+
+/// The machine of each system.
+enum Built<'a> {
+    Drop(
+        &'a Drop,
+        Box<drop::build::Built>,
+        Vec<drop::members::Varied>,
+    ),
+    SpinUp(&'a SpinUp, Box<spin_up::build::Built>),
+    Torque(Box<torque::Asked<'a>>),
+    Signals(Box<signals::Asked>),
+    Rig(&'a Rig, Box<rig::build::Built>),
+    Identify(Box<identify::Asked<'a>>),
+}
+
+/// Builds the machine that the scenario describes; runs nothing.
+pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
+    let system = match &scenario.system {
+        System::Drop(of) => drop::build::drop(of).and_then(|built| {
+            let varied = drop::members::varied(scenario, of)?;
+            Ok(Built::Drop(of, Box::new(built), varied))
+        }),
+        System::SpinUp(of) => {
+            spin_up::build::spin_up(of).map(|built| Built::SpinUp(of, Box::new(built)))
+        }
+        System::Torque(of) => torque::Asked::of(of).map(|asked| Built::Torque(Box::new(asked))),
+        System::Signals(of) => signals::Asked::of(of).map(|asked| Built::Signals(Box::new(asked))),
+        System::Identify(of) => {
+            identify::Asked::of(of).map(|asked| Built::Identify(Box::new(asked)))
+        }
+        System::Rig(of) => rig::build::rig(of).map(|built| Built::Rig(of, Box::new(built))),
+    };
+    let system = system.map_err(|problem| scenario.locate(problem))?;
+    Ok(Machine { scenario, system })
+}
+
+impl Machine<'_> {
+    /// Simulates it. A run that fails is an [`Outcome`] whose `stop` says where and why.
+    pub fn run(&self, options: &Options) -> Outcome {
+        let mut outcome = match &self.system {
+            Built::Drop(of, built, varied) => drop::run(self.scenario, of, built, varied, options),
+            Built::SpinUp(of, built) => spin_up::run(self.scenario, of, built, options),
+            Built::Torque(asked) => torque::run(self.scenario, asked),
+            Built::Signals(asked) => signals::run(self.scenario, asked, options),
+            Built::Identify(asked) => identify::run(self.scenario, asked, options),
+            Built::Rig(of, built) => rig::run(self.scenario, of, built, options),
+        };
+        let mut before = self.warnings();
+        before.retain(|warning| {
+            outcome
+                .warnings
+                .iter()
+                .all(|told| told.code != warning.code)
+        });
+        outcome.warnings.splice(0..0, before);
+        outcome
+    }
+}
+
+/// Builds and simulates what the scenario describes.
+pub fn run(scenario: &Scenario, options: &Options) -> Result<Outcome, Box<Problem>> {
+    Ok(build(scenario)?.run(options))
+}

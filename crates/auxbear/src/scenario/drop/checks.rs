@@ -1,0 +1,179 @@
+//! Checks of a drop.
+
+use crate::catalogue::geometry::millimetres;
+use crate::problem::Code;
+use crate::scenario::bearing::separation::Separation;
+use crate::scenario::checks::{Check, Context};
+use crate::scenario::drop::{AuxiliaryBearing, Drop};
+use crate::scenario::values::Values;
+use physics::unbalance::whirl;
+
+/// Standard deviations within which every perturbed start is taken to lie.
+const SPREAD: f64 = 6.0;
+
+impl Context<'_> {
+    pub(crate) fn drop(&self, drop: &Drop, all: &[Values]) -> Check {
+        self.planes(drop)?;
+        for (part, values) in drop.auxiliary_bearings.iter().zip(all) {
+            let own = Context {
+                values,
+                file: self.file,
+            };
+            let bore = part.contact.bore_diameter;
+            own.bearing(&part.bearing, Some(("contact.bore_diameter", bore)), true)?;
+            own.air_clearance(part)?;
+            own.perturbed_balls(drop, part)?;
+            own.levitated_orbit(drop, part)?;
+        }
+        let parts = drop.auxiliary_bearings.iter();
+        self.output(&drop.run, parts.map(|part| part.bearing.ball_count).sum())
+    }
+
+    /// Planes count bearings that are alike; bearings with names are counted by their names.
+    fn planes(&self, drop: &Drop) -> Check {
+        if drop.rotor.planes == 1 || drop.auxiliary_bearings.len() == 1 {
+            return Ok(());
+        }
+        Err(Box::new(
+            self.problem(
+                Code::Conflict,
+                "rotor.planes",
+                format!(
+                    "{} beside {} bearings in [[auxiliary_bearing]]",
+                    drop.rotor.planes,
+                    drop.auxiliary_bearings.len()
+                ),
+                "one of the two is needed: equal bearings by their number, others by their names"
+                    .to_string(),
+            ),
+        ))
+    }
+
+    fn air_clearance(&self, part: &AuxiliaryBearing) -> Check {
+        let contact = &part.contact;
+        if contact.radial_air_clearance < 0.5 * contact.bore_diameter {
+            return Ok(());
+        }
+        Err(Box::new(self.problem(
+            Code::ClearanceTooLarge,
+            "contact.radial_air_clearance",
+            self.text("contact.radial_air_clearance"),
+            format!(
+                "less than half of contact.bore_diameter = {} is needed",
+                self.text("contact.bore_diameter")
+            ),
+        )))
+    }
+
+    /// A perturbed ball must stay in its pocket.
+    fn perturbed_balls(&self, drop: &Drop, part: &AuxiliaryBearing) -> Check {
+        let (repeat, bearing) = (&drop.repeat, &part.bearing);
+        let shift = SPREAD * repeat.ball_angle_deviation * 0.5 * bearing.pitch_diameter;
+        let (free, path) = match &bearing.separation {
+            Separation::Cage(cage) => (cage.pocket_gap, "bearing.cage.pocket_gap"),
+            Separation::FullComplement(_) => {
+                (0.5 * bearing.gap_between_balls(), "bearing.ball_count")
+            }
+        };
+        if repeat.count < 2 || shift <= free {
+            return Ok(());
+        }
+        Err(Box::new(self.problem(
+            Code::OutOfRange,
+            "repeat.ball_angle_deviation",
+            self.text("repeat.ball_angle_deviation"),
+            format!(
+                "at most a sixth of the {} that {path} = {} leaves a ball along the pitch circle is needed",
+                millimetres(free),
+                self.text(path)
+            ),
+        )))
+    }
+
+    /// The geometric centre of the levitated rotor circles the centre of levitation; it must not touch before the release.
+    fn levitated_orbit(&self, drop: &Drop, part: &AuxiliaryBearing) -> Check {
+        let levitation = &drop.levitation;
+        let clearance = part.contact.radial_air_clearance;
+        let offset = levitation.offset_x.hypot(levitation.offset_y);
+        let whirl = levitated_whirl_radius(drop);
+        let repeat = &drop.repeat;
+        let (spread, narrowest) = if repeat.count > 1 {
+            let narrowing = (-SPREAD * repeat.radial_air_clearance_deviation).exp();
+            (
+                SPREAD * repeat.rotor_position_deviation,
+                narrowing * clearance,
+            )
+        } else {
+            (0.0, clearance)
+        };
+        if offset + whirl < clearance && offset + whirl >= narrowest {
+            let path = "repeat.radial_air_clearance_deviation";
+            return Err(Box::new(self.problem(
+                Code::ContactAtStart,
+                path,
+                self.text(path),
+                format!(
+                    "less is needed: six deviations leave {}, and the levitated rotor takes {} of it",
+                    millimetres(narrowest),
+                    millimetres(offset + whirl)
+                ),
+            )));
+        }
+        if offset + whirl < clearance && offset + whirl + spread >= clearance {
+            return Err(Box::new(self.problem(
+                Code::ContactAtStart,
+                "repeat.rotor_position_deviation",
+                self.text("repeat.rotor_position_deviation"),
+                format!(
+                    "less than a sixth of the {} that the levitated rotor leaves free is needed, so that no perturbed \
+                     start touches",
+                    millimetres(clearance - offset - whirl)
+                ),
+            )));
+        }
+        if offset + whirl < clearance {
+            return Ok(());
+        }
+        let rotor = &drop.rotor;
+        let share = drop.share() * rotor.mass;
+        let resonance = (levitation.stiffness / share).sqrt();
+        let near = (0.7..1.4).contains(&(rotor.speed.abs() / resonance));
+        let hint = near.then(|| {
+            format!(
+                "The levitation is near resonance: its natural frequency is {:.4e} rad/s and the speed {:.4e} rad/s",
+                resonance,
+                rotor.speed.abs()
+            )
+        });
+        Err(Box::new(
+            self.problem(
+                Code::ContactAtStart,
+                "contact.radial_air_clearance",
+                format!(
+                    "a levitated rotor that reaches {} from the bearing centre (offset {}, whirl by unbalance {})",
+                    millimetres(offset + whirl),
+                    millimetres(offset),
+                    millimetres(whirl)
+                ),
+                format!(
+                    "less than the radial air clearance {} is needed, so that nothing touches before the drop",
+                    self.text("contact.radial_air_clearance")
+                ),
+            )
+            .with_hint(hint),
+        ))
+    }
+}
+
+/// Radius of the whirl of the levitated rotor's geometric centre at one plane, m.
+fn levitated_whirl_radius(drop: &Drop) -> f64 {
+    let (rotor, levitation) = (&drop.rotor, &drop.levitation);
+    let (along, ahead) = whirl(
+        levitation.stiffness,
+        levitation.damping,
+        drop.share() * rotor.mass,
+        rotor.speed,
+        rotor.unbalance_eccentricity,
+    );
+    along.hypot(ahead)
+}

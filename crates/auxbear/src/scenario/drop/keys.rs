@@ -1,0 +1,343 @@
+//! The part of the table of keys that describes the drop of a levitated rotor.
+
+use crate::scenario::drop::SpinKind;
+use crate::scenario::drop::UnbalanceAngle;
+use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
+use crate::scenario::system::SystemName;
+use crate::scenario::words::Words;
+
+/// The systems of this page.
+const DROP: &[SystemName] = &[SystemName::Drop];
+
+pub(crate) const SECTIONS: &[Section] = &[
+    Section {
+        path: "rotor",
+        doc: "The rigid rotor. Angles and speeds count counter-clockwise, x points right and y up.",
+        systems: DROP,
+    },
+    Section {
+        path: "gravity",
+        doc: "Weight of the rotor.",
+        systems: DROP,
+    },
+    Section {
+        path: "levitation",
+        doc: "The magnetic bearing at one plane while it is on: a linear spring and damper that also carries the weight. It is switched off at time 0.",
+        systems: DROP,
+    },
+    Section {
+        path: "contact",
+        doc: "Contact of the rotor with the bore of the inner race.",
+        systems: DROP,
+    },
+    Section {
+        path: "mount",
+        doc: "The spring and damper between outer race and ground, equal in all directions.",
+        systems: DROP,
+    },
+];
+
+/// Repetition stands at the end of a file.
+pub(crate) const REPEAT_SECTIONS: &[Section] = &[Section {
+    path: "repeat",
+    doc: "Repeated runs from slightly different starts: what differs between them is chaos, not physics. With deviations of the machine they tell what its tolerances do.",
+    systems: DROP,
+}];
+
+const BRAKED: Condition = Condition {
+    path: "rotor.spin",
+    values: &["braked"],
+    reason: "",
+};
+
+pub(crate) const KEYS: &[Key] = &[
+    Key::new("rotor.mass", Kind::Quantity("kg"), "8 kg", "Mass of the whole rotor.").positive(),
+    Key::new(
+        "rotor.polar_inertia",
+        Kind::Quantity("kg m^2"),
+        "0.01 kg m^2",
+        "Moment of inertia of the whole rotor about its axis.",
+    )
+    .positive(),
+    Key::new(
+        "rotor.unbalance",
+        Kind::Quantity("kg m"),
+        "40 g mm",
+        "Unbalance of the whole rotor: mass times eccentricity. Give this or the eccentricity.",
+    )
+    .not_negative()
+    .optional("rotor.unbalance_eccentricity counts")
+    .excludes("rotor.unbalance_eccentricity"),
+    Key::new(
+        "rotor.unbalance_eccentricity",
+        Kind::Quantity("m"),
+        "5 um",
+        "Distance of the centre of mass from the geometric centre.",
+    )
+    .not_negative()
+    .default("0 m", "a balanced rotor"),
+    Key::new(
+        "rotor.unbalance_angle",
+        Kind::Quantity("rad"),
+        "30 deg",
+        "Direction of the unbalance at the release, from x.",
+    )
+    .default("0 rad", "the unbalance points along x at the release"),
+    Key::new(
+        "rotor.speed",
+        Kind::Quantity("rad/s"),
+        "12000 rpm",
+        "Spin of the rotor at the release; the sign is the direction, counter-clockwise positive.",
+    ),
+    Key::new(
+        "rotor.spin",
+        Kind::Word(SpinKind::WORDS),
+        "free",
+        "What happens to the spin after the release: free, braked by a torque, or held at its speed by a drive.",
+    )
+    .default("free", "neither drive nor brake acts after the release"),
+    Key::new(
+        "rotor.brake_torque",
+        Kind::Quantity("N m"),
+        "2 N m",
+        "Size of the braking torque; it acts against the spin until the rotor stands.",
+    )
+    .not_negative()
+    .when(&[BRAKED]),
+    Key::new(
+        "rotor.brake_start",
+        Kind::Quantity("s"),
+        "0.1 s",
+        "Time from the release to the start of braking.",
+    )
+    .not_negative()
+    .default("0 s", "braking starts at the release")
+    .when(&[BRAKED]),
+    Key::new(
+        "rotor.planes",
+        Kind::Count,
+        "2",
+        "Number of identical auxiliary bearings that share the rotor. The motion is taken as parallel, so one plane with its share of mass and inertia is simulated.",
+    )
+    .within(Range::FromTo(1.0, 4.0))
+    .default("1", "one auxiliary bearing carries the whole rotor"),
+    Key::new(
+        "rotor.first_bending_frequency",
+        Kind::Quantity("rad/s"),
+        "655 rad/s",
+        "First free-free bending natural frequency at rest. A run whose speed is near or above it warns that a rigid rotor is indicative only.",
+    )
+    .positive()
+    .optional("no warning about bending can be given"),
+    Key::new(
+        "gravity.acceleration",
+        Kind::Quantity("m/s^2"),
+        "9.81 m/s^2",
+        "Acceleration of gravity in the plane of the bearing; 0 for a vertical shaft.",
+    )
+    .not_negative()
+    .default("9.81 m/s^2", "usual rounded value near sea level"),
+    Key::new(
+        "gravity.direction",
+        Kind::Quantity("rad"),
+        "-90 deg",
+        "Direction of gravity, from x.",
+    )
+    .default("-90 deg", "downwards"),
+    Key::new(
+        "levitation.stiffness",
+        Kind::Quantity("N/m"),
+        "1e6 N/m",
+        "Stiffness of the levitation at one plane.",
+    )
+    .positive(),
+    Key::new(
+        "levitation.damping",
+        Kind::Quantity("N s/m"),
+        "1000 N s/m",
+        "Damping of the levitation at one plane.",
+    )
+    .not_negative(),
+    Key::new(
+        "levitation.offset_x",
+        Kind::Quantity("m"),
+        "0.02 mm",
+        "Centre of levitation from the centre of the auxiliary bearing, along x.",
+    )
+    .default("0 m", "levitated in the centre of the auxiliary bearing"),
+    Key::new(
+        "levitation.offset_y",
+        Kind::Quantity("m"),
+        "-0.02 mm",
+        "Centre of levitation from the centre of the auxiliary bearing, along y.",
+    )
+    .default("0 m", "levitated in the centre of the auxiliary bearing"),
+    Key::new(
+        "contact.radial_air_clearance",
+        Kind::Quantity("m"),
+        "0.25 mm",
+        "Radial air gap between rotor and inner race when they are concentric: half the difference of the diameters.",
+    )
+    .positive(),
+    Key::new(
+        "contact.bore_diameter",
+        Kind::Quantity("m"),
+        "25 mm",
+        "Diameter of the bore that the rotor drops into: of the inner race or of the sleeve in it.",
+    )
+    .positive()
+    .catalogued(),
+    Key::new(
+        "contact.exponent",
+        Kind::Exponent,
+        "10/9",
+        "Exponent n of the contact force F = k dⁿ(1 + a ḋ) over the penetration d.",
+    )
+    .within(Range::FromTo(1.0, 2.0))
+    .assumed(
+        "10/9",
+        "flat line contact of two cylinders; a journal in a bore is conformal",
+    ),
+    Key::new(
+        "contact.stiffness",
+        Kind::ContactStiffness {
+            exponent: "contact.exponent",
+        },
+        "5e8 N/m^(10/9)",
+        "Stiffness k of the contact force F = k dⁿ(1 + a ḋ).",
+    )
+    .positive()
+    .default_when(
+        Condition {
+            path: "contact.exponent",
+            values: &["10/9"],
+            reason: "",
+        },
+        Fallback {
+            text: "5e8 N/m^(10/9)",
+            reason: "order of magnitude of a hard steel contact, not derived from the geometry",
+            assumed: true,
+        },
+        Otherwise::Required,
+    ),
+    Key::new(
+        "contact.damping",
+        Kind::Quantity("s/m"),
+        "0.5 s/m",
+        "Hunt-Crossley damping a of the contact force F = k dⁿ(1 + a ḋ).",
+    )
+    .not_negative()
+    .assumed("0.5 s/m", "not measured; small impact loss of hard steel"),
+    Key::new(
+        "contact.friction_coefficient",
+        Kind::Coefficient,
+        "0.15",
+        "Coefficient of sliding friction between rotor and inner race.",
+    )
+    .not_negative()
+    .assumed("0.15", "arbitrary; it decides the spin-up time, so give the value of the pair"),
+    Key::new(
+        "contact.friction_reference_speed",
+        Kind::Quantity("m/s"),
+        "0.05 m/s",
+        "Slip speed that regularises the friction: its coefficient is multiplied by tanh(slip speed / reference speed).",
+    )
+    .positive()
+    .default(
+        "0.05 m/s",
+        "numerical regularisation: small against the sliding speeds of a drop",
+    ),
+    Key::new(
+        "mount.stiffness",
+        Kind::Quantity("N/m"),
+        "2e7 N/m",
+        "Radial stiffness between outer race and ground.",
+    )
+    .positive(),
+    Key::new(
+        "mount.damping",
+        Kind::Quantity("N s/m"),
+        "5000 N s/m",
+        "Radial damping between outer race and ground.",
+    )
+    .not_negative(),
+    Key::new(
+        "mount.moving_mass",
+        Kind::Quantity("kg"),
+        "0.15 kg",
+        "Mass that moves with the outer race: the race itself and its housing or sleeve.",
+    )
+    .positive(),
+];
+
+pub(crate) const REPEAT: &[Key] = &[
+    Key::new(
+        "repeat.count",
+        Kind::Count,
+        "16",
+        "Number of runs; the first is the undisturbed one.",
+    )
+    .within(Range::FromTo(1.0, 100_000.0))
+    .default("1", "one undisturbed run"),
+    Key::new(
+        "repeat.seed",
+        Kind::Count,
+        "1",
+        "Seed of the random starts; the same seed gives the same numbers.",
+    )
+    .not_negative()
+    .default("1", "any number serves"),
+    Key::new(
+        "repeat.rotor_position_deviation",
+        Kind::Quantity("m"),
+        "1e-10 m",
+        "Standard deviation of the rotor position at the release.",
+    )
+    .not_negative()
+    .default(
+        "1e-10 m",
+        "far below any tolerance of manufacture: it shows chaos only",
+    ),
+    Key::new(
+        "repeat.ball_angle_deviation",
+        Kind::Quantity("rad"),
+        "1e-9 rad",
+        "Standard deviation of the angle of each ball at the release.",
+    )
+    .not_negative()
+    .default(
+        "1e-9 rad",
+        "far below any tolerance of manufacture: it shows chaos only",
+    ),
+    Key::new(
+        "repeat.unbalance_angle",
+        Kind::Word(UnbalanceAngle::WORDS),
+        "random",
+        "Direction of the unbalance at the release: a delevitation chooses no angle of the rotor.",
+    )
+    .default("as given", "rotor.unbalance_angle counts"),
+    Key::new(
+        "repeat.friction_coefficient_deviation",
+        Kind::Coefficient,
+        "0.2",
+        "Standard deviation of the natural logarithm of contact.friction_coefficient: 0.2 is about 20 %.",
+    )
+    .within(Range::FromTo(0.0, 2.0))
+    .default("0.0", "all runs have the friction given"),
+    Key::new(
+        "repeat.mount_stiffness_deviation",
+        Kind::Coefficient,
+        "0.1",
+        "Standard deviation of the natural logarithm of mount.stiffness.",
+    )
+    .within(Range::FromTo(0.0, 2.0))
+    .default("0.0", "all runs have the mount given"),
+    Key::new(
+        "repeat.radial_air_clearance_deviation",
+        Kind::Coefficient,
+        "0.05",
+        "Standard deviation of the natural logarithm of contact.radial_air_clearance.",
+    )
+    .within(Range::FromTo(0.0, 0.5))
+    .default("0.0", "all runs have the clearance given"),
+];

@@ -1,0 +1,261 @@
+//! A drop as typed values in SI: what a simulation is built from.
+
+pub(crate) mod checks;
+pub(crate) mod keys;
+
+use crate::scenario::bearing::{Bearing, bearing};
+use crate::scenario::run::Run;
+use crate::scenario::section::Section;
+use crate::scenario::values::Values;
+use crate::scenario::words::words;
+
+words! {
+    /// What becomes of the rotor's spin, as a word.
+    pub(crate) enum SpinKind {
+        /// Free.
+        Free = "free",
+        /// Braked.
+        Braked = "braked",
+        /// Held.
+        Held = "held",
+    }
+}
+
+words! {
+    /// Direction of the unbalance in repeated runs, as a word.
+    pub(crate) enum UnbalanceAngle {
+        /// As given.
+        AsGiven = "as given",
+        /// Random.
+        Random = "random",
+    }
+}
+
+/// A levitated rotor that is released onto its auxiliary bearings. All values are SI.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drop {
+    /// The rigid rotor.
+    pub rotor: Rotor,
+    /// Weight.
+    pub gravity: Gravity,
+    /// The magnetic bearing before the release.
+    pub levitation: Levitation,
+    /// The auxiliary bearings.
+    pub auxiliary_bearings: Vec<AuxiliaryBearing>,
+    /// The simulation.
+    pub run: Run,
+    /// Repeated runs.
+    pub repeat: Repeat,
+}
+
+/// An auxiliary bearing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AuxiliaryBearing {
+    /// Its name in the file; empty where the file tells no bearings apart.
+    pub name: String,
+    /// Contact of rotor and inner race.
+    pub contact: Contact,
+    /// Spring and damper between outer race and ground.
+    pub mount: Mount,
+    /// The bearing.
+    pub bearing: Bearing,
+}
+
+/// The rigid rotor as a whole, shared by all planes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rotor {
+    /// Mass of the whole rotor, kg.
+    pub mass: f64,
+    /// Moment of inertia of the whole rotor about its axis, kg m².
+    pub polar_inertia: f64,
+    /// Distance of the centre of mass from the geometric centre, m.
+    pub unbalance_eccentricity: f64,
+    /// Direction of the unbalance at the release, rad from x.
+    pub unbalance_angle: f64,
+    /// Spin at the release, rad/s, counter-clockwise positive.
+    pub speed: f64,
+    /// What happens to the spin after the release.
+    pub spin: Spin,
+    /// Number of identical auxiliary bearings that share the rotor.
+    pub planes: u32,
+    /// First free-free bending natural frequency, rad/s.
+    pub first_bending_frequency: Option<f64>,
+}
+
+/// What happens to the spin of the rotor after the release.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spin {
+    /// Neither drive nor brake.
+    Free,
+    /// A torque of this size against the spin until the rotor stands.
+    Braked {
+        /// Size of the torque on the whole rotor, N m.
+        torque: f64,
+        /// Start of braking after the release, s.
+        start: f64,
+    },
+    /// Held at the speed of the release.
+    Held,
+}
+
+/// Weight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gravity {
+    /// Acceleration, m/s².
+    pub acceleration: f64,
+    /// Direction, rad from x.
+    pub direction: f64,
+}
+
+/// The magnetic bearing at one plane while it is on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Levitation {
+    /// Stiffness, N/m.
+    pub stiffness: f64,
+    /// Damping, N s/m.
+    pub damping: f64,
+    /// Centre of levitation along x, m.
+    pub offset_x: f64,
+    /// Centre of levitation along y, m.
+    pub offset_y: f64,
+}
+
+/// Contact of rotor and inner race: F = k dⁿ(1 + a ḋ).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact {
+    /// Radial air gap when concentric, m.
+    pub radial_air_clearance: f64,
+    /// Diameter of the bore, m.
+    pub bore_diameter: f64,
+    /// Stiffness k, N/mⁿ.
+    pub stiffness: f64,
+    /// Exponent n.
+    pub exponent: f64,
+    /// Hunt-Crossley damping a, s/m.
+    pub damping: f64,
+    /// Coefficient of sliding friction.
+    pub friction_coefficient: f64,
+    /// Slip speed that regularises the friction, m/s.
+    pub friction_reference_speed: f64,
+}
+
+/// Spring and damper between outer race and ground.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mount {
+    /// Stiffness, N/m.
+    pub stiffness: f64,
+    /// Damping, N s/m.
+    pub damping: f64,
+    /// Mass of the outer race with what moves with it, kg.
+    pub moving_mass: f64,
+}
+
+/// Repeated runs from perturbed starts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Repeat {
+    /// Number of runs.
+    pub count: u32,
+    /// Seed of the study.
+    pub seed: u64,
+    /// Standard deviation of the rotor position, m.
+    pub rotor_position_deviation: f64,
+    /// Standard deviation of each ball angle, rad.
+    pub ball_angle_deviation: f64,
+    /// Whether the unbalance points anywhere at the release.
+    pub random_unbalance_angle: bool,
+    /// Standard deviation of the logarithm of the friction coefficient of rotor and race.
+    pub friction_coefficient_deviation: f64,
+    /// Standard deviation of the logarithm of the mount's stiffness.
+    pub mount_stiffness_deviation: f64,
+    /// Standard deviation of the logarithm of the radial air clearance.
+    pub radial_air_clearance_deviation: f64,
+}
+
+impl Drop {
+    /// What one auxiliary bearing carries of the rotor.
+    pub fn share(&self) -> f64 {
+        1.0 / (f64::from(self.rotor.planes) * self.auxiliary_bearings.len() as f64)
+    }
+
+    /// Of the values of each auxiliary bearing.
+    pub(crate) fn from_values(all: &[Values]) -> Drop {
+        let values = &all[0];
+        let section = |path| Section { values, path };
+        let gravity = section("gravity");
+        let levitation = section("levitation");
+        let repeat = section("repeat");
+        Drop {
+            rotor: rotor(&section("rotor")),
+            gravity: Gravity {
+                acceleration: gravity.number("acceleration"),
+                direction: gravity.number("direction"),
+            },
+            levitation: Levitation {
+                stiffness: levitation.number("stiffness"),
+                damping: levitation.number("damping"),
+                offset_x: levitation.number("offset_x"),
+                offset_y: levitation.number("offset_y"),
+            },
+            auxiliary_bearings: (all.iter()).map(auxiliary_bearing).collect(),
+            run: Run::from_values(values),
+            repeat: Repeat {
+                count: repeat.count("count") as u32,
+                seed: repeat.count("seed"),
+                rotor_position_deviation: repeat.number("rotor_position_deviation"),
+                ball_angle_deviation: repeat.number("ball_angle_deviation"),
+                random_unbalance_angle: repeat.choice::<UnbalanceAngle>("unbalance_angle")
+                    == UnbalanceAngle::Random,
+                friction_coefficient_deviation: repeat.number("friction_coefficient_deviation"),
+                mount_stiffness_deviation: repeat.number("mount_stiffness_deviation"),
+                radial_air_clearance_deviation: repeat.number("radial_air_clearance_deviation"),
+            },
+        }
+    }
+}
+
+fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
+    let section = |path| Section { values, path };
+    let mount = section("mount");
+    AuxiliaryBearing {
+        name: values.bearing.clone().unwrap_or_default(),
+        contact: contact(&section("contact")),
+        mount: Mount {
+            stiffness: mount.number("stiffness"),
+            damping: mount.number("damping"),
+            moving_mass: mount.number("moving_mass"),
+        },
+        bearing: bearing(values),
+    }
+}
+
+fn rotor(rotor: &Section<'_>) -> Rotor {
+    Rotor {
+        mass: rotor.number("mass"),
+        polar_inertia: rotor.number("polar_inertia"),
+        unbalance_eccentricity: rotor.number("unbalance_eccentricity"),
+        unbalance_angle: rotor.number("unbalance_angle"),
+        speed: rotor.number("speed"),
+        spin: match rotor.choice("spin") {
+            SpinKind::Free => Spin::Free,
+            SpinKind::Held => Spin::Held,
+            SpinKind::Braked => Spin::Braked {
+                torque: rotor.number("brake_torque"),
+                start: rotor.number("brake_start"),
+            },
+        },
+        planes: rotor.count("planes") as u32,
+        first_bending_frequency: rotor.maybe("first_bending_frequency"),
+    }
+}
+
+fn contact(contact: &Section<'_>) -> Contact {
+    Contact {
+        radial_air_clearance: contact.number("radial_air_clearance"),
+        bore_diameter: contact.number("bore_diameter"),
+        stiffness: contact.number("stiffness"),
+        exponent: contact.number("exponent"),
+        damping: contact.number("damping"),
+        friction_coefficient: contact.number("friction_coefficient"),
+        friction_reference_speed: contact.number("friction_reference_speed"),
+    }
+}

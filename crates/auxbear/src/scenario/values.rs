@@ -1,0 +1,258 @@
+//! One value for every key that has one, with everything known of it.
+
+use crate::problem::{Code, Place, Problem};
+use crate::scenario::bearing::source::BearingRecord;
+use crate::scenario::key::Key;
+use crate::scenario::provenance::Provenance;
+use crate::scenario::several;
+use crate::scenario::system::SystemName;
+use crate::scenario::words::Words;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use units::Quantity;
+
+/// How far the power in the unit of a contact stiffness may be from its exponent: decimals of 10/9 are accepted.
+pub(crate) const POWER_TOLERANCE: f64 = 1e-6;
+
+/// Key of the law of the friction moment, on which its constants depend.
+pub(crate) const LAW: &str = "bearing.moment.law";
+/// Key of the laws that are compared with it.
+pub(crate) const COMPARED_LAWS: &str = "torque.laws";
+
+/// A value that was read.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Value {
+    /// A quantity in SI or a bare number.
+    Number(f64),
+    /// A whole number, not negative.
+    Count(u64),
+    /// One of the words of the key.
+    Word(&'static str),
+    /// `true` or `false`.
+    Switch(bool),
+    /// Any text.
+    Text(String),
+    /// Rows of two quantities in SI.
+    Rows(Vec<[f64; 2]>),
+    /// Quantities in SI.
+    Numbers(Vec<f64>),
+    /// Words of the key.
+    Words(Vec<&'static str>),
+    /// Any texts.
+    Texts(Vec<String>),
+}
+
+impl Value {
+    pub(crate) fn number(&self) -> Option<f64> {
+        match self {
+            Value::Number(value) => Some(*value),
+            Value::Count(count) => Some(*count as f64),
+            Value::Word(_)
+            | Value::Switch(_)
+            | Value::Text(_)
+            | Value::Rows(_)
+            | Value::Numbers(_)
+            | Value::Words(_)
+            | Value::Texts(_) => None,
+        }
+    }
+}
+
+/// A value with everything known of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Known {
+    pub(crate) value: Value,
+    pub(crate) text: String,
+    pub(crate) provenance: Provenance,
+    pub(crate) place: Place,
+    /// Whether the file says that the program filled it in.
+    pub(crate) filled_in: bool,
+}
+
+/// One value for every key that has one.
+#[derive(Debug)]
+pub(crate) struct Values {
+    pub(crate) file: String,
+    pub(crate) system: SystemName,
+    /// Name of the auxiliary bearing, where the file has several.
+    pub(crate) bearing: Option<String>,
+    pub(crate) known: BTreeMap<&'static str, Known>,
+    /// What the catalogue knows of the bearing named.
+    pub(crate) record: Option<BearingRecord>,
+    /// Keys that typed values needed and that have none.
+    pub(crate) lacking: RefCell<Vec<String>>,
+}
+
+impl Values {
+    pub(crate) fn problem(
+        &self,
+        code: Code,
+        path: &str,
+        place: Place,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Problem {
+        Problem::new(code, &self.file, found, allowed)
+            .at(place)
+            .on_key(self.shown(path))
+    }
+
+    /// The path of a key as the file has it.
+    pub(crate) fn shown(&self, path: &str) -> String {
+        several::path_of(self.bearing.as_deref(), path)
+    }
+
+    /// The file, as the user named it.
+    pub(crate) fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// The system of the file.
+    pub(crate) fn system(&self) -> SystemName {
+        self.system
+    }
+
+    pub(crate) fn put(&mut self, path: &'static str, known: Known) {
+        self.known.insert(path, known);
+    }
+
+    /// Takes a value away that has no effect after all.
+    pub(crate) fn take_away(&mut self, path: &str) {
+        self.known.remove(path);
+    }
+
+    /// Whether a value was given, rather than filled in.
+    pub(crate) fn is_given(&self, path: &str) -> bool {
+        self.known.get(path).is_some_and(|known| {
+            !matches!(
+                known.provenance,
+                Provenance::Default(_) | Provenance::DefaultAssumed(_)
+            )
+        })
+    }
+
+    /// Where a value comes from, in one word; empty where there is none.
+    pub(crate) fn mark(&self, path: &str) -> &'static str {
+        let known = self.known.get(path);
+        known.map_or("", |known| known.provenance.mark())
+    }
+
+    /// A dimension of the bearing named, as the catalogue knows it.
+    pub(crate) fn dimension(&self, name: &str) -> Option<f64> {
+        let mut values = self.record.as_ref()?.values.iter();
+        values.find(|value| value.0 == name).map(|value| value.1)
+    }
+
+    /// Where a value was given.
+    pub(crate) fn place(&self, path: &str) -> Place {
+        self.known
+            .get(path)
+            .map_or(Place::Whole, |known| known.place)
+    }
+
+    /// The value as written.
+    pub(crate) fn text(&self, path: &str) -> Option<String> {
+        self.known.get(path).map(|known| known.text.clone())
+    }
+
+    /// A number in SI, where there is one.
+    pub(crate) fn number(&self, path: &str) -> Option<f64> {
+        self.known.get(path).and_then(|known| known.value.number())
+    }
+
+    /// A word as its enum, where there is one.
+    pub(crate) fn chosen<T: Words>(&self, path: &str) -> Option<T> {
+        match self.known.get(path)?.value {
+            Value::Word(word) => T::of_word(word),
+            _ => None,
+        }
+    }
+
+    /// Remembers a key that is needed and has no value; `instead` stands for it until the scenario is refused.
+    pub(crate) fn lack<T>(&self, path: &str, instead: T) -> T {
+        self.lacking.borrow_mut().push(path.to_string());
+        instead
+    }
+
+    /// Refuses what lacks a value that is needed.
+    pub(crate) fn complete(&self) -> Result<(), Box<Problem>> {
+        match self.lacking.borrow().first() {
+            None => Ok(()),
+            Some(path) => Err(Box::new(self.problem(
+                Code::MissingKey,
+                path,
+                Place::Whole,
+                "no value",
+                "a value is needed",
+            ))),
+        }
+    }
+
+    /// A word; empty where there is none.
+    pub(crate) fn word(&self, path: &str) -> &'static str {
+        match self.known.get(path).map(|known| &known.value) {
+            Some(Value::Word(word)) => word,
+            _ => "",
+        }
+    }
+
+    /// A switch; off where there is none.
+    pub(crate) fn switch(&self, path: &str) -> bool {
+        matches!(
+            self.known.get(path).map(|known| &known.value),
+            Some(Value::Switch(true))
+        )
+    }
+
+    /// The rows of a table, where there is one.
+    pub(crate) fn rows(&self, path: &str) -> Option<Vec<[f64; 2]>> {
+        match self.known.get(path).map(|known| &known.value) {
+            Some(Value::Rows(rows)) => Some(rows.clone()),
+            _ => None,
+        }
+    }
+
+    /// A list of quantities in SI; empty where there is none.
+    pub(crate) fn numbers(&self, path: &str) -> Vec<f64> {
+        match self.known.get(path).map(|known| &known.value) {
+            Some(Value::Numbers(list)) => list.clone(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// A list of words; empty where there is none.
+    pub(crate) fn words(&self, path: &str) -> &[&'static str] {
+        match self.known.get(path).map(|known| &known.value) {
+            Some(Value::Words(list)) => list,
+            _ => &[],
+        }
+    }
+
+    /// A list of texts; empty where there is none.
+    pub(crate) fn texts(&self, path: &str) -> &[String] {
+        match self.known.get(path).map(|known| &known.value) {
+            Some(Value::Texts(list)) => list,
+            _ => &[],
+        }
+    }
+
+    /// A whole number; 0 where there is none.
+    pub(crate) fn count(&self, path: &str) -> u64 {
+        match self.known.get(path).map(|known| &known.value) {
+            Some(Value::Count(count)) => *count,
+            _ => 0,
+        }
+    }
+}
+
+/// A value in SI as a text that reads back bit for bit.
+pub(crate) fn quantity_text(key: &Key, value_si: f64) -> String {
+    match key.dimension() {
+        Some(dimension) => Quantity {
+            value_si,
+            dimension,
+        }
+        .to_string(),
+        None => units::number_text(value_si),
+    }
+}

@@ -1,0 +1,403 @@
+//! Values that repeated runs vary: `[vary]`, and the deviations of `[repeat]` in the same words.
+//!
+//! ```toml
+//! [vary]
+//! "contact.friction_coefficient" = { lognormal = 0.2 }           # times e^(0.2 z)
+//! "rotor.speed" = { normal = "100 rpm" }                         # plus z times
+//! "mount.stiffness" = { uniform = ["1e7 N/m", "3e7 N/m"] }
+//! "mount.damping" = { triangular = ["2e3 N s/m", "5e3 N s/m", "6e3 N s/m"] }
+//! "bearing.name" = { choice = ["6005", "6205"] }
+//! ```
+//! z is a standard normal number. A path names any key of the file; of several auxiliary bearings `contact.…` is that of
+//! all, `auxiliary_bearing.drive_end.contact.…` that of one. Every drawn value is read and checked like an override.
+
+use crate::problem::{Code, Place, Problem};
+use crate::scenario::document::Raw;
+use crate::scenario::drop::Repeat;
+use crate::scenario::key::{Key, Kind, quoted};
+use crate::scenario::several::{AUXILIARY_BEARING, VARY, of_each_bearing, path_of};
+use crate::scenario::table;
+use crate::scenario::values::Values;
+use std::f64::consts::TAU;
+use units::{Dimension, Quantity, parse_quantity};
+
+/// A value of the file that repeated runs draw.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vary {
+    /// Dotted path, as the file has it.
+    pub path: String,
+    /// What is drawn.
+    pub distribution: Distribution,
+    /// Whether a key of `[repeat]` says so.
+    pub(crate) by_repeat: bool,
+    /// Where it is drawn: one path, or that of each of several auxiliary bearings.
+    targets: Vec<Target>,
+}
+
+/// A key that takes a drawn value.
+#[derive(Clone, Debug, PartialEq)]
+struct Target {
+    path: String,
+    /// Its value as given, SI, where it is a number.
+    base: Option<f64>,
+    /// Dimension of the text that is written; none of a bare number.
+    dimension: Option<Dimension>,
+}
+
+/// How a value is drawn; numbers in SI.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Distribution {
+    /// Times e^(deviation z).
+    Lognormal(f64),
+    /// Plus deviation z.
+    Normal(f64),
+    /// Evenly between two values.
+    Uniform(f64, f64),
+    /// Between the first and the last value, most often near the middle one.
+    Triangular(f64, f64, f64),
+    /// One of these texts.
+    Choice(Vec<String>),
+}
+
+/// Random numbers that a value is drawn by.
+pub trait Draws {
+    /// A standard normal number.
+    fn normal(&mut self) -> f64;
+    /// A number from 0 to 1.
+    fn uniform(&mut self) -> f64;
+}
+
+impl Vary {
+    /// Draws a value: paths with their new values, as an override has them.
+    pub fn draw(&self, random: &mut dyn Draws) -> Vec<(String, String)> {
+        let draw: Box<dyn Fn(f64) -> f64> = match &self.distribution {
+            Distribution::Choice(texts) => {
+                let place = (random.uniform() * texts.len() as f64) as usize;
+                let text = &texts[place.min(texts.len() - 1)];
+                let targets = self.targets.iter();
+                return targets
+                    .map(|target| (target.path.clone(), text.clone()))
+                    .collect();
+            }
+            Distribution::Lognormal(deviation) => {
+                let factor = (deviation * random.normal()).exp();
+                Box::new(move |base| base * factor)
+            }
+            Distribution::Normal(deviation) => {
+                let shift = deviation * random.normal();
+                Box::new(move |base| base + shift)
+            }
+            Distribution::Uniform(low, high) => {
+                let value = low + (high - low) * random.uniform();
+                Box::new(move |_| value)
+            }
+            Distribution::Triangular(low, middle, high) => {
+                let value = triangular(*low, *middle, *high, random.uniform());
+                Box::new(move |_| value)
+            }
+        };
+        let targets = self.targets.iter();
+        targets
+            .map(|target| {
+                // a value without a base is drawn without one
+                let base = target.base.unwrap_or_default();
+                (target.path.clone(), target.text(draw(base)))
+            })
+            .collect()
+    }
+
+    /// The value as a file has it.
+    pub(crate) fn toml(&self) -> String {
+        let text = |value: &f64| {
+            let dimension = self.targets[0].dimension;
+            match dimension {
+                Some(dimension) => quoted(
+                    &Quantity {
+                        value_si: *value,
+                        dimension,
+                    }
+                    .to_string(),
+                ),
+                None => units::number_text(*value),
+            }
+        };
+        let list = |values: &[&f64]| {
+            let texts: Vec<String> = values.iter().map(|value| text(value)).collect();
+            texts.join(", ")
+        };
+        let distribution = match &self.distribution {
+            Distribution::Lognormal(value) => format!("lognormal = {}", units::number_text(*value)),
+            Distribution::Normal(value) => format!("normal = {}", text(value)),
+            Distribution::Uniform(low, high) => format!("uniform = [{}]", list(&[low, high])),
+            Distribution::Triangular(low, middle, high) => {
+                format!("triangular = [{}]", list(&[low, middle, high]))
+            }
+            Distribution::Choice(texts) => {
+                let texts: Vec<String> = texts.iter().map(|text| quoted(text)).collect();
+                format!("choice = [{}]", texts.join(", "))
+            }
+        };
+        format!("{} = {{ {distribution} }}", quoted(&self.path))
+    }
+}
+
+impl Target {
+    fn text(&self, value: f64) -> String {
+        match self.dimension {
+            Some(dimension) => Quantity {
+                value_si: value,
+                dimension,
+            }
+            .to_string(),
+            None => units::number_text(value),
+        }
+    }
+}
+
+/// The value below which the share `u` of a triangular distribution lies.
+fn triangular(low: f64, middle: f64, high: f64, u: f64) -> f64 {
+    let width = high - low;
+    if width <= 0.0 {
+        return middle;
+    }
+    if u * width < middle - low {
+        low + (u * width * (middle - low)).sqrt()
+    } else {
+        high - ((1.0 - u) * width * (high - middle)).sqrt()
+    }
+}
+
+/// What the runs of a drop vary of the machine: what the keys of `[repeat]` say, then what `[vary]` says; `all` are the
+/// values of each auxiliary bearing.
+pub(crate) fn of_drop(
+    repeat: &Repeat,
+    entries: &[(String, Raw, Place)],
+    all: &[Values],
+) -> Result<Vec<Vary>, Box<Problem>> {
+    let deviations = [
+        (
+            "contact.friction_coefficient",
+            repeat.friction_coefficient_deviation,
+        ),
+        ("mount.stiffness", repeat.mount_stiffness_deviation),
+        (
+            "contact.radial_air_clearance",
+            repeat.radial_air_clearance_deviation,
+        ),
+    ];
+    let mut list: Vec<Vary> = (deviations.into_iter())
+        .filter(|(_, deviation)| *deviation > 0.0)
+        .filter_map(|(path, deviation)| by_repeat(path, Distribution::Lognormal(deviation), all))
+        .collect();
+    if repeat.random_unbalance_angle {
+        let anywhere = Distribution::Uniform(0.0, TAU);
+        list.extend(by_repeat("rotor.unbalance_angle", anywhere, &all[..1]));
+    }
+    for (path, raw, place) in entries {
+        list.push(one(path, raw, *place, all)?);
+    }
+    Ok(list)
+}
+
+fn by_repeat(path: &str, distribution: Distribution, all: &[Values]) -> Option<Vary> {
+    let key = table::keys().find(|key| key.path == path)?;
+    let targets: Option<Vec<_>> = all.iter().map(|values| target(key, values)).collect();
+    Some(Vary {
+        path: path.to_string(),
+        distribution,
+        by_repeat: true,
+        targets: targets?,
+    })
+}
+
+fn target(key: &Key, values: &Values) -> Option<Target> {
+    let dimension = match key.kind {
+        Kind::Quantity(_) | Kind::ContactStiffness { .. } => {
+            let text = values.text(key.path)?;
+            Some(parse_quantity(&text).ok()?.dimension)
+        }
+        _ => None,
+    };
+    Some(Target {
+        path: path_of(values.bearing.as_deref(), key.path),
+        base: values.number(key.path),
+        dimension,
+    })
+}
+
+const WORDS: &str = "one of lognormal, normal, uniform, triangular, choice is needed, e.g. { lognormal = 0.2 }, { uniform = [\"1 mm\", \"2 mm\"] }";
+
+fn one(path: &str, raw: &Raw, place: Place, all: &[Values]) -> Result<Vary, Box<Problem>> {
+    let shown = format!("{VARY}.{path}");
+    let problem = |code, found: String, allowed: &str| {
+        Box::new(
+            Problem::new(code, all[0].file(), found, allowed)
+                .at(place)
+                .on_key(&shown),
+        )
+    };
+    let (of, plain) = match path.strip_prefix(AUXILIARY_BEARING) {
+        Some(rest) => {
+            let rest = rest.strip_prefix('.').unwrap_or(rest);
+            let (name, plain) = rest.split_once('.').unwrap_or((rest, ""));
+            let of = all.iter().filter(|v| v.bearing.as_deref() == Some(name));
+            (of.collect::<Vec<_>>(), plain)
+        }
+        None if of_each_bearing(path) => (all.iter().collect(), path),
+        None => (vec![&all[0]], path),
+    };
+    let system = all[0].system();
+    let key = table::keys_of(system).find(|key| key.path == plain);
+    let (Some(key), false) = (key, of.is_empty()) else {
+        let found = format!("{}, which is no key of this file", quoted(path));
+        return Err(problem(
+            Code::UnknownKey,
+            found,
+            "the dotted path of a key is needed",
+        ));
+    };
+    if ["format", "system", "title", "description", "catalogue"].contains(&plain)
+        || ["run.", "repeat."]
+            .iter()
+            .any(|section| plain.starts_with(section))
+    {
+        let found = format!("{}, which is no property of the machine", quoted(path));
+        return Err(problem(
+            Code::UnusedKey,
+            found,
+            "the path of a value of the machine is needed",
+        ));
+    }
+    let Raw::Table(parts) = raw else {
+        return Err(problem(Code::WrongType, raw.text(), WORDS));
+    };
+    let [(word, given)] = parts.as_slice() else {
+        return Err(problem(Code::WrongType, raw.text(), WORDS));
+    };
+    let number = |raw: &Raw| -> Result<f64, Box<Problem>> {
+        let (value, _) = (of[0].read_raw(key, raw, place)).map_err(|mut wrong| {
+            wrong.key = Some(shown.clone());
+            wrong
+        })?;
+        let number = value.number().filter(|number| number.is_finite());
+        number.ok_or_else(|| problem(Code::WrongType, raw.text(), "a number is needed"))
+    };
+    let numbers = |count: usize| -> Result<Vec<f64>, Box<Problem>> {
+        let needed = format!("a list of {count} values, rising, is needed");
+        let Raw::List(list) = given else {
+            return Err(problem(Code::WrongType, given.text(), &needed));
+        };
+        let values = list.iter().map(number).collect::<Result<Vec<_>, _>>()?;
+        let rising = values.windows(2).all(|pair| pair[0] <= pair[1]);
+        if values.len() != count || !rising {
+            let found = format!("{} values", values.len());
+            return Err(problem(Code::OutOfRange, found, &needed));
+        }
+        Ok(values)
+    };
+    let distribution = match word.as_str() {
+        "lognormal" => match given {
+            Raw::Float(deviation) if *deviation >= 0.0 => Distribution::Lognormal(*deviation),
+            Raw::Integer(_, Some(deviation)) if *deviation >= 0 => {
+                Distribution::Lognormal(*deviation as f64)
+            }
+            other => {
+                let allowed =
+                    "the standard deviation of the logarithm is needed, a bare number not below 0";
+                return Err(problem(Code::WrongType, other.text(), allowed));
+            }
+        },
+        "normal" => {
+            let celsius =
+                matches!(given, Raw::Text(text) if text.contains("deg")) && key.unit() == "K";
+            if celsius {
+                let allowed = "a difference of temperatures in K is needed";
+                return Err(problem(Code::WrongType, given.text(), allowed));
+            }
+            Distribution::Normal(number(given)?)
+        }
+        "uniform" => {
+            let values = numbers(2)?;
+            Distribution::Uniform(values[0], values[1])
+        }
+        "triangular" => {
+            let values = numbers(3)?;
+            Distribution::Triangular(values[0], values[1], values[2])
+        }
+        "choice" => {
+            let Raw::List(list) = given else {
+                let allowed = "a list of values is needed";
+                return Err(problem(Code::WrongType, given.text(), allowed));
+            };
+            let texts: Option<Vec<String>> = list.iter().map(override_text).collect();
+            match texts.filter(|texts| !texts.is_empty()) {
+                Some(texts) => Distribution::Choice(texts),
+                None => {
+                    let allowed = "a list of texts, numbers or switches is needed";
+                    return Err(problem(Code::WrongType, given.text(), allowed));
+                }
+            }
+        }
+        other => {
+            return Err(problem(Code::UnknownWord, quoted(other), WORDS));
+        }
+    };
+    let continuous = !matches!(distribution, Distribution::Choice(_));
+    let numeric = matches!(
+        key.kind,
+        Kind::Quantity(_) | Kind::ContactStiffness { .. } | Kind::Coefficient | Kind::Exponent
+    );
+    if continuous && !numeric {
+        let found = format!("{word} of a value that is no real number");
+        return Err(problem(Code::WrongType, found, "choice = [...] is needed"));
+    }
+    let targets: Option<Vec<Target>> = of.iter().map(|values| target(key, values)).collect();
+    let relative = matches!(
+        distribution,
+        Distribution::Lognormal(_) | Distribution::Normal(_)
+    );
+    let targets = targets.filter(|list| !relative || list.iter().all(|t| t.base.is_some()));
+    match targets {
+        Some(targets) => Ok(Vary {
+            path: path.to_string(),
+            distribution,
+            by_repeat: false,
+            targets,
+        }),
+        None => Err(problem(
+            Code::MissingKey,
+            format!("{} has no value in this file", quoted(path)),
+            "a value to begin with is needed",
+        )),
+    }
+}
+
+/// A value as an override has it.
+fn override_text(raw: &Raw) -> Option<String> {
+    match raw {
+        Raw::Text(text) => Some(text.clone()),
+        Raw::Integer(text, _) => Some(text.clone()),
+        Raw::Float(value) => Some(units::number_text(*value)),
+        Raw::Switch(value) => Some(value.to_string()),
+        Raw::Table(_) | Raw::List(_) | Raw::Other(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::triangular;
+
+    #[test]
+    fn a_triangular_distribution_has_its_corners_and_its_mean() {
+        let at = |u: f64| triangular(1.0, 2.0, 5.0, u);
+        assert_eq!((at(0.0), at(1.0)), (1.0, 5.0));
+        // a quarter lies below the middle one
+        assert!((at(0.25) - 2.0).abs() < 1e-12);
+        let count = 100_000;
+        let mean: f64 = (0..count)
+            .map(|k| at((f64::from(k) + 0.5) / f64::from(count)))
+            .sum();
+        assert!((mean / f64::from(count) - 8.0 / 3.0).abs() < 1e-6);
+        assert_eq!(triangular(3.0, 3.0, 3.0, 0.4), 3.0);
+    }
+}

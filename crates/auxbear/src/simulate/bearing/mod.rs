@@ -1,0 +1,13 @@
+//! The bearing of a simulation.
+
+pub mod build;
+pub(crate) mod columns;
+pub mod contacts;
+pub(crate) mod film;
+pub mod pressure;
+pub(crate) mod quantities;
+pub(crate) mod run;
+pub(crate) mod skid;
+pub mod steady;
+pub(crate) mod traction;
+pub(crate) mod warnings;

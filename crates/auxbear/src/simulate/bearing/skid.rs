@@ -1,0 +1,114 @@
+//! Where balls slide on their races, told after a run from its rows.
+
+use crate::result::list::{List, Origin};
+use crate::result::outcome::Value;
+use crate::simulate::bearing::run::BearingRun;
+use model::bearing::{BearingConstants, PlanarConstants};
+
+/// Slip from which a loaded contact skids, as a share of the rolling speed of its race's surface.
+const SKIDS: f64 = 0.05;
+/// Speed of the race, over its largest in the rows, below which nothing is judged.
+const HARDLY_TURNS: f64 = 0.05;
+
+/// The ball contacts of a run.
+pub(crate) struct Skids<'a> {
+    run: &'a BearingRun<'a>,
+    bearing: &'a PlanarConstants,
+}
+
+/// What the rows tell: of the inner race, then of the outer one.
+pub(crate) struct Skidding {
+    judged: usize,
+    skids: [usize; 2],
+    /// Sliding power summed over time by ball, J: trapezoids between the rows.
+    work: [Vec<f64>; 2],
+}
+
+impl<'a> Skids<'a> {
+    /// None where balls roll always.
+    pub fn of(run: &'a BearingRun<'a>) -> Option<Skids<'a>> {
+        match run.bearing {
+            BearingConstants::Planar(bearing) => Some(Skids { run, bearing }),
+            BearingConstants::Rolling(_) => None,
+        }
+    }
+
+    /// What all rows came to.
+    pub fn summary(&self) -> Skidding {
+        let least = HARDLY_TURNS * self.run.fastest();
+        let mut found = Skidding {
+            judged: 0,
+            skids: [0; 2],
+            work: [(); 2].map(|()| vec![0.0; self.bearing.balls]),
+        };
+        let mut before: Option<(f64, Vec<[f64; 2]>)> = None;
+        for row in &self.run.rows {
+            let motion = (self.run.motion)(row.state);
+            let own = self.run.own(row.state);
+            let turns = self.run.speed(row) > least;
+            let mut powers = Vec::with_capacity(self.bearing.balls);
+            for ball in 0..self.bearing.balls {
+                let r = self.bearing.ball_reaction(&motion, own, ball);
+                powers.push([
+                    r.inner_traction * r.inner_slip,
+                    r.outer_traction * r.outer_slip,
+                ]);
+                if turns && r.inner_load > 0.0 && r.outer_load > 0.0 {
+                    // what rolling balls carry past the contact: half the speed of the race's surface
+                    let surface = 0.5 * motion.inner.spin.abs() * self.bearing.ball.inner_track;
+                    found.judged += 1;
+                    found.skids[0] += usize::from(r.inner_slip.abs() > SKIDS * surface);
+                    found.skids[1] += usize::from(r.outer_slip.abs() > SKIDS * surface);
+                }
+            }
+            if let Some((time, last)) = &before {
+                let half = 0.5 * (row.time - time);
+                for (ball, (then, now)) in last.iter().zip(&powers).enumerate() {
+                    for race in 0..2 {
+                        found.work[race][ball] += half * (then[race] + now[race]);
+                    }
+                }
+            }
+            before = Some((row.time, powers));
+        }
+        found
+    }
+}
+
+impl BearingRun<'_> {
+    /// Where the balls slide, where they may.
+    pub fn skids(&self) -> Option<Skidding> {
+        Skids::of(self).map(|skids| skids.summary())
+    }
+}
+
+impl Skidding {
+    /// Skid shares and sliding works as results; `heats` are the ledger's sliding heats at both races, J.
+    pub fn name(&self, list: &mut List, heats: [f64; 2]) {
+        for (race, side) in ["inner", "outer"].into_iter().enumerate() {
+            let none = || "no ball carried load at both races while the race turned".to_string();
+            let share = (self.judged > 0)
+                .then(|| self.skids[race] as f64 / self.judged as f64)
+                .ok_or_else(none);
+            list.number(&format!("{side}_skid_share"), "1", share, &SHARE);
+            // rows tell how the ledger's heat is shared among the balls
+            let sum: f64 = self.work[race].iter().sum();
+            let scale = if sum > 0.0 { heats[race] / sum } else { 0.0 };
+            let by_ball = self.work[race].iter().map(|work| scale * work).collect();
+            let name = format!("{side}_sliding_work_by_ball");
+            list.push(&name, "J", Value::List(by_ball), &WORK);
+        }
+    }
+}
+
+const SHARE: Origin = Origin {
+    law: "share of the contacts of loaded balls, in the rows of the history with a turning race, whose slip exceeds 5 % of the \
+          rolling speed Ω R/2",
+    source: "definition; slips of crates/model/src/bearing/ball.rs",
+    valid: "as fine as run.output_interval",
+};
+const WORK: Origin = Origin {
+    law: "time integral of traction times slip at each ball: the ledger's heat of the race, shared as in the rows",
+    source: "energy ledger, and crates/model/src/bearing/ball.rs in the rows",
+    valid: "the sum is exact, its split as fine as run.output_interval",
+};

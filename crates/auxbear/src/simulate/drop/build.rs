@@ -1,0 +1,155 @@
+//! From a drop to the constants of the model.
+
+use crate::problem::Problem;
+use crate::scenario::several::path_of;
+use crate::scenario::{AuxiliaryBearing, Drop, Spin};
+use crate::simulate::bearing;
+use crate::simulate::bearing::pressure::PressureFactors;
+use crate::simulate::bearing::steady::{SteadyFinding, SteadyPoint};
+use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
+use model::contact::JournalContact;
+use model::levitation::Levitation;
+use model::mount::Mount;
+use model::rotor::Rotor;
+use model::schedule::Schedule;
+use model::system::machine::{Event, MachineConstants};
+use model::system::spin_up::InnerRace;
+use number::Vec2;
+
+/// A drop ready to be simulated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Built {
+    /// Constants of the model.
+    pub constants: MachineConstants,
+    /// What the model does not hold of each auxiliary bearing.
+    pub bearings: Vec<BuiltBearing>,
+}
+
+/// What belongs to an auxiliary bearing besides the constants of the model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BuiltBearing {
+    /// Hertz pressure in the contacts of a ball.
+    pub pressure_factors: PressureFactors,
+    /// What traction can carry at full speed under its share of the rotor's weight; none without a steady moment.
+    pub steady: Option<SteadyFinding>,
+}
+
+/// Builds the constants of a drop: identical planes share the rotor equally, so that one of them is computed.
+pub fn drop(drop: &Drop) -> Result<Built, Box<Problem>> {
+    let mut parts = Vec::new();
+    let mut bearings = Vec::new();
+    for part in &drop.auxiliary_bearings {
+        let (mut constants, built) = auxiliary_bearing(drop, part).map_err(|mut problem| {
+            let of = Some(part.name.as_str()).filter(|name| !name.is_empty());
+            problem.key = problem.key.map(|key| path_of(of, &key));
+            problem
+        })?;
+        // the results of an only bearing need no name
+        if drop.auxiliary_bearings.len() == 1 {
+            constants.name.clear();
+        }
+        parts.push(constants);
+        bearings.push(built);
+    }
+    Ok(Built {
+        constants: constants(drop, parts),
+        bearings,
+    })
+}
+
+fn auxiliary_bearing(
+    drop: &Drop,
+    part: &AuxiliaryBearing,
+) -> Result<(AuxiliaryBearingConstants, BuiltBearing), Box<Problem>> {
+    let gravity = gravity(drop);
+    let (sine, cosine) = drop.gravity.direction.sin_cos();
+    let contacts = bearing::contacts::ball_contacts(&part.bearing)?;
+    let constants = bearing::build::bearing(&part.bearing, &contacts, gravity)?;
+    let steady = bearing::steady::steady(
+        &constants,
+        &part.bearing,
+        &InnerRace {
+            mass: part.bearing.inner_race_mass,
+            inertia: part.bearing.inner_race_inertia,
+            centre_held: part.bearing.inner_race_centre_held,
+            load_direction: Vec2::new(cosine, sine),
+            gravity,
+        },
+        SteadyPoint {
+            speed: drop.rotor.speed,
+            load: drop.rotor.mass * drop.share() * drop.gravity.acceleration,
+        },
+    )?;
+    let built = BuiltBearing {
+        pressure_factors: contacts.pressure_factors(),
+        steady,
+    };
+    let contact = &part.contact;
+    let constants = AuxiliaryBearingConstants {
+        name: part.name.clone(),
+        contact: JournalContact {
+            radial_clearance: contact.radial_air_clearance,
+            bore_radius: 0.5 * contact.bore_diameter,
+            stiffness: contact.stiffness,
+            exponent: contact.exponent,
+            damping: contact.damping,
+            friction: contact.friction_coefficient,
+            inverse_reference_speed: 1.0 / contact.friction_reference_speed,
+        },
+        inner_race: RaceConstants {
+            mass: part.bearing.inner_race_mass,
+            inertia: part.bearing.inner_race_inertia,
+            centre_held: part.bearing.inner_race_centre_held,
+            torque: part.bearing.inner_race_torque,
+        },
+        bearing: constants,
+        outer_race_mass: part.mount.moving_mass,
+        mount: Mount {
+            stiffness: part.mount.stiffness,
+            damping: part.mount.damping,
+            free_position: Vec2::zero(),
+        },
+    };
+    Ok((constants, built))
+}
+
+fn gravity(drop: &Drop) -> Vec2<f64> {
+    let (sine, cosine) = drop.gravity.direction.sin_cos();
+    Vec2::new(cosine, sine) * drop.gravity.acceleration
+}
+
+/// The constants of a drop onto auxiliary bearings that are built.
+fn constants(drop: &Drop, bearings: Vec<AuxiliaryBearingConstants>) -> MachineConstants {
+    // of planes that are alike one is computed, with its share of the rotor; bearings with names carry the whole of it
+    let share = 1.0 / f64::from(drop.rotor.planes);
+    let each = bearings.len() as f64;
+    let gravity = gravity(drop);
+    let mass = drop.rotor.mass * share;
+    let (brake_torque, brake_start) = match drop.rotor.spin {
+        Spin::Braked { torque, start } => (torque * share, start),
+        Spin::Free | Spin::Held => (0.0, f64::INFINITY),
+    };
+    let mut constants = MachineConstants {
+        rotor: Rotor {
+            mass,
+            polar_inertia: drop.rotor.polar_inertia * share,
+            eccentricity: drop.rotor.unbalance_eccentricity,
+            brake_torque,
+            spin_held: drop.rotor.spin == Spin::Held,
+        },
+        // a magnetic bearing stands beside each auxiliary one
+        levitation: Levitation {
+            stiffness: drop.levitation.stiffness * each,
+            damping: drop.levitation.damping * each,
+            centre: Vec2::new(drop.levitation.offset_x, drop.levitation.offset_y),
+            carried: -(gravity * mass),
+        },
+        bearings,
+        gravity,
+        speed: drop.rotor.speed,
+        unbalance_angle: drop.rotor.unbalance_angle,
+        schedule: Schedule::of([(brake_start, Event::Brake)]),
+    };
+    constants.balance_mounts();
+    constants
+}

@@ -1,0 +1,110 @@
+//! The history of a drop as columns.
+
+use crate::result::outcome::Column;
+use crate::simulate::bearing::columns::Table;
+use crate::simulate::bearing::run::BearingRun;
+use crate::simulate::drop::context::Context;
+use model::auxiliary_bearing::probe::{FRICTION_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED};
+use model::system::layout::of_part;
+use model::system::machine::layout::ROTOR;
+use model::system::sampling::Row;
+
+/// All columns; `time` first.
+pub(crate) fn history(context: &Context) -> Vec<Column> {
+    let machine = context.machine;
+    let runs: Vec<_> = (context.parts().enumerate())
+        .map(|(k, _)| context.bearing(k))
+        .collect();
+    let mut columns = of_rotor(context, &runs[0]);
+    for (k, (part, run)) in context.parts().zip(&runs).enumerate() {
+        columns.extend(
+            of_bearing(context, k, run)
+                .into_iter()
+                .map(|column| Column {
+                    name: of_part(part, &column.name),
+                    ..column
+                }),
+        );
+    }
+    let start = &context.finished.start;
+    let mut table = Table::over(&runs[0]);
+    table.flows("release", machine.layout(), |part| {
+        let k = context.parts().position(|name| name == part);
+        runs[k.unwrap_or(0)].bearing
+    });
+    table.energies(|state| machine.balance(start, state));
+    columns.extend(table.columns);
+    columns
+}
+
+/// Columns of the rotor; any bearing has the rows.
+fn of_rotor(context: &Context, run: &BearingRun) -> Vec<Column> {
+    let mut table = Table::over(run);
+    table.add("time", "s", "time since release", |row| row.time);
+    let centre = |row: &Row| context.machine.rotor_centre(row.state);
+    table.add(
+        "rotor.x",
+        "m",
+        "rotor centre at the bearing plane, to the right",
+        |row| centre(row).x,
+    );
+    table.add(
+        "rotor.y",
+        "m",
+        "rotor centre at the bearing plane, upwards",
+        |row| centre(row).y,
+    );
+    table.channel("rotor.speed", "rad/s", "spin of the rotor", ROTOR + 5);
+    table.columns
+}
+
+/// Columns of one auxiliary bearing.
+fn of_bearing(context: &Context, k: usize, run: &BearingRun) -> Vec<Column> {
+    let at = context.machine.layout().bearings[k];
+    let mut table = Table::over(run);
+    table.inner_race(at.inner);
+    table.channel(
+        "bearing.outer_race.x",
+        "m",
+        "outer race centre, to the right",
+        at.outer,
+    );
+    table.channel(
+        "bearing.outer_race.y",
+        "m",
+        "outer race centre, upwards",
+        at.outer + 1,
+    );
+    table.add(
+        "bearing.cage.speed",
+        "rad/s",
+        "spin of the cage; without one the mean orbit speed of the balls",
+        |row| context.machine.cage_speed(k, row.state),
+    );
+    table.probe(
+        "bearing.contact.force",
+        "N",
+        "normal force of rotor and inner race",
+        at.probe(NORMAL_FORCE),
+    );
+    table.probe(
+        "bearing.contact.friction_force",
+        "N",
+        "friction force on the rotor, positive along t (counter-clockwise about the race)",
+        at.probe(FRICTION_FORCE),
+    );
+    table.probe(
+        "bearing.contact.penetration",
+        "m",
+        "penetration of rotor and inner race; negative is the remaining gap",
+        at.probe(PENETRATION),
+    );
+    table.probe(
+        "bearing.contact.slip_speed",
+        "m/s",
+        "sliding speed of the surfaces, inner race less rotor",
+        at.probe(SLIP_SPEED),
+    );
+    table.bearing();
+    table.columns
+}

@@ -1,0 +1,249 @@
+//! Many machines: in lanes of the vector unit, and in threads.
+//!
+//! A member's result depends on its constants and its start alone, bit for bit: not on the lane, the company, the
+//! vector unit or the number of threads.
+
+use model::system::machine::linear::MachineLinear;
+use model::system::machine::record::Record;
+use model::system::machine::{Machines, RotorMachine};
+use number::{Level, Real, Task};
+use rayon::prelude::*;
+use solve::{Ending, Flow, Observer, Settings, Step};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+/// One machine with its start.
+#[derive(Clone, Debug)]
+pub struct Member {
+    /// The machine.
+    pub machine: RotorMachine,
+    /// Its state at the start.
+    pub start: Vec<f64>,
+    /// Whether its history is kept.
+    pub keep_rows: bool,
+    /// Members of one kind have the same laws and the same states: lanes are for these alone.
+    pub kind: usize,
+}
+
+/// What came out of one member.
+#[derive(Clone, Debug)]
+pub struct Finished {
+    /// The state at the start.
+    pub start: Vec<f64>,
+    /// What was watched and kept.
+    pub record: Record,
+    /// How it ended.
+    pub ending: Ending,
+}
+
+/// How to run the members.
+pub struct Plan<'a> {
+    /// Of the integration.
+    pub settings: Settings,
+    /// True for linearly implicit steps, machine by machine; needs balls with states of their own.
+    pub implicit: bool,
+    /// Time between rows, s.
+    pub interval: f64,
+    /// Number of threads; all cores if none.
+    pub threads: Option<usize>,
+    /// Stops everything when true.
+    pub interrupt: &'a AtomicBool,
+    /// Told the fraction done.
+    pub progress: &'a (dyn Fn(f64) + Sync),
+}
+
+/// Runs all members; the results stand in their order.
+pub fn run(members: &[Member], plan: &Plan) -> Vec<Finished> {
+    let kinds = members.iter().map(|member| member.kind).max().unwrap_or(0) + 1;
+    if kinds == 1 {
+        return run_of_a_kind(members, plan);
+    }
+    let mut all: Vec<Option<Finished>> = members.iter().map(|_| None).collect();
+    let mut before = 0;
+    for kind in 0..kinds {
+        let places: Vec<usize> = (0..members.len())
+            .filter(|k| members[*k].kind == kind)
+            .collect();
+        let some: Vec<Member> = places.iter().map(|k| members[*k].clone()).collect();
+        let share = |done: f64| (before as f64 + done * some.len() as f64) / members.len() as f64;
+        let progress = |done: f64| (plan.progress)(share(done));
+        let plan = Plan {
+            progress: &progress,
+            ..*plan
+        };
+        for (place, finished) in places.iter().zip(run_of_a_kind(&some, &plan)) {
+            all[*place] = Some(finished);
+        }
+        before += some.len();
+    }
+    all.into_iter().flatten().collect()
+}
+
+/// Runs members that lanes may share.
+fn run_of_a_kind(members: &[Member], plan: &Plan) -> Vec<Finished> {
+    let level = Level::detect();
+    let done = AtomicU64::new(0);
+    let report = Report {
+        done: &done,
+        members: members.len(),
+        progress: plan.progress,
+    };
+    let chunk = |members: &[Member]| {
+        let task = Chunk {
+            members,
+            plan,
+            report: &report,
+        };
+        if plan.implicit {
+            level.run_one(Implicit(task))
+        } else if members.len() == 1 {
+            level.run_one(task)
+        } else {
+            level.run_many(task)
+        }
+    };
+    let threads = plan.threads.unwrap_or_else(rayon::current_num_threads);
+    let together = if plan.implicit {
+        1
+    } else {
+        together(members.len(), level.lanes(), threads)
+    };
+    let all = || -> Vec<Finished> { members.par_chunks(together).flat_map_iter(chunk).collect() };
+    match plan.threads {
+        _ if members.len() <= together => chunk(members),
+        None => all(),
+        Some(threads) => match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+            Ok(pool) => pool.install(all),
+            // the machine refuses more threads: the shared pool gives the same numbers
+            Err(_) => all(),
+        },
+    }
+}
+
+/// Most members a lane takes one after the other: their records stand in memory together.
+const MOST_TURNS: usize = 8;
+
+/// Members that a thread takes at a time: so many that lanes which are free early find another one, so few that all threads
+/// have something to do.
+fn together(members: usize, lanes: usize, threads: usize) -> usize {
+    let turns = members / (lanes * threads.max(1));
+    lanes * turns.clamp(1, MOST_TURNS)
+}
+
+/// The members that share the lanes of a vector register: each lane takes the next one when it is free.
+struct Chunk<'a> {
+    members: &'a [Member],
+    plan: &'a Plan<'a>,
+    report: &'a Report<'a>,
+}
+
+impl Task for Chunk<'_> {
+    type Output = Vec<Finished>;
+    fn run<R: Real>(self) -> Vec<Finished> {
+        let Chunk {
+            members,
+            plan,
+            report,
+        } = self;
+        let machines: Vec<&RotorMachine> = members.iter().map(|m| &m.machine).collect();
+        let starts: Vec<Vec<f64>> = members.iter().map(|m| m.start.clone()).collect();
+        let mut watched: Vec<Watched> = (members.iter())
+            .map(|member| Watched::of(member, plan, report))
+            .collect();
+        let endings = solve::run::<R, Machines<R>, _>(
+            &machines,
+            &starts,
+            &mut watched,
+            &plan.settings,
+            plan.interrupt,
+        );
+        let parts = watched.into_iter().zip(endings).zip(members);
+        parts
+            .map(|((watched, ending), member)| watched.finish(ending, member))
+            .collect()
+    }
+}
+
+/// The same members, one after the other by linearly implicit steps.
+struct Implicit<'a>(Chunk<'a>);
+
+impl Task for Implicit<'_> {
+    type Output = Vec<Finished>;
+    fn run<R: Real>(self) -> Vec<Finished> {
+        let Chunk {
+            members,
+            plan,
+            report,
+        } = self.0;
+        let one = |member: &Member| {
+            let mut watched = Watched::of(member, plan, report);
+            // balls that roll have no friction to be stiff
+            let linear = MachineLinear::of(&member.machine)?;
+            let ending = solve::run_implicit::<R, Machines<R>, _, _, _, _, _>(
+                &member.machine,
+                linear,
+                &member.start,
+                &mut watched,
+                &plan.settings,
+                plan.interrupt,
+            );
+            Some(watched.finish(ending, member))
+        };
+        members.iter().filter_map(one).collect()
+    }
+}
+
+/// Adds up the thousandths of all members.
+struct Report<'a> {
+    done: &'a AtomicU64,
+    members: usize,
+    progress: &'a (dyn Fn(f64) + Sync),
+}
+
+/// A record that also reports progress.
+struct Watched<'a> {
+    record: Record,
+    report: &'a Report<'a>,
+    told: u64,
+    end: f64,
+}
+
+impl<'a> Watched<'a> {
+    fn of(member: &Member, plan: &Plan, report: &'a Report<'a>) -> Self {
+        let end = plan.settings.end;
+        Watched {
+            record: Record::new(&member.machine, end, plan.interval, member.keep_rows),
+            report,
+            told: 0,
+            end,
+        }
+    }
+    fn finish(self, ending: Ending, member: &Member) -> Finished {
+        if ending.stop == solve::Stop::Finished {
+            self.tell(1000);
+        }
+        let mut record = self.record;
+        record.finish(&member.machine, ending.time, &ending.state);
+        Finished {
+            start: member.start.clone(),
+            record,
+            ending,
+        }
+    }
+    /// Tells that this member stands at so many thousandths.
+    fn tell(&self, thousandths: u64) {
+        let more = thousandths.saturating_sub(self.told);
+        let done = self.report.done.fetch_add(more, Ordering::Relaxed) + more;
+        (self.report.progress)(done as f64 / (1000 * self.report.members) as f64);
+    }
+}
+
+impl Observer<RotorMachine> for Watched<'_> {
+    fn step(&mut self, step: &mut Step<RotorMachine>) -> Flow {
+        let thousandths = (1000.0 * step.end / self.end) as u64;
+        if thousandths > self.told {
+            self.tell(thousandths);
+            self.told = thousandths;
+        }
+        self.record.step(step)
+    }
+}

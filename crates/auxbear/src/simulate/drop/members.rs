@@ -1,0 +1,150 @@
+//! The members of a repeated drop: perturbed starts, and machines that differ.
+
+use crate::problem::{Place, Problem};
+use crate::scenario::{Draws, Drop, Scenario, System};
+use crate::simulate::drop::build::{self, Built};
+use crate::simulate::drop::ensemble::Member;
+use model::bearing::BearingConstants;
+use model::system::machine::RotorMachine;
+use number::Vec2;
+use rand_distr::{Distribution, StandardNormal};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
+/// A member whose machine differs from the one given.
+pub(crate) struct Varied {
+    /// What it drew: paths with their values.
+    pub drawn: Vec<(String, String)>,
+    /// Its scenario.
+    pub drop: Drop,
+    /// Its machine.
+    pub built: Built,
+    /// What its lanes must share: words, counts and switches of its file.
+    kind: usize,
+}
+
+/// The machines of members 1, 2, … where they differ; none where starts alone do.
+pub(crate) fn varied(scenario: &Scenario, drop: &Drop) -> Result<Vec<Varied>, Box<Problem>> {
+    let count = drop.repeat.count.max(1) as usize;
+    if scenario.vary.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut kinds = vec![kind_of(scenario)];
+    (1..count)
+        .map(|k| {
+            let mut random = Random::of(drop.repeat.seed ^ MACHINES, k);
+            let drawn: Vec<_> = (scenario.vary.iter())
+                .flat_map(|vary| vary.draw(&mut random))
+                .collect();
+            let blame = |problem: Box<Problem>| member_problem(k, &drawn, *problem);
+            let member = scenario.with(&drawn).map_err(blame)?;
+            let System::Drop(of) = &member.system else {
+                unreachable!("no value that is varied changes the system");
+            };
+            let built = build::drop(of).map_err(blame)?;
+            let kind = kind_of(&member);
+            let known = kinds.iter().position(|known| *known == kind);
+            Ok(Varied {
+                kind: known.unwrap_or_else(|| {
+                    kinds.push(kind);
+                    kinds.len() - 1
+                }),
+                drop: of.clone(),
+                drawn,
+                built,
+            })
+        })
+        .collect()
+}
+
+/// Values that are no real numbers: machines that share them have the same laws and the same states.
+fn kind_of(scenario: &Scenario) -> Vec<(String, Option<String>)> {
+    let values = scenario.resolved.values.iter();
+    values
+        .filter(|value| value.is_of_kind())
+        .map(|value| (value.shown(), value.text.clone()))
+        .collect()
+}
+
+/// What is wrong with a member, with what it drew.
+fn member_problem(k: usize, drawn: &[(String, String)], mut problem: Problem) -> Box<Problem> {
+    let draws: Vec<String> = (drawn.iter())
+        .map(|(path, value)| format!("{path} = {value}"))
+        .collect();
+    problem.found = format!("{} in member {k} of the repetition", problem.found);
+    problem.place = Place::Whole;
+    Box::new(problem.with_hint(format!("It drew {}", draws.join(", "))))
+}
+
+/// All members: the machine and start given, then others by numbers that depend on (seed, k) alone.
+pub(crate) fn of(drop: &Drop, built: &Built, varied: &[Varied]) -> Vec<Member> {
+    let count = drop.repeat.count.max(1) as usize;
+    let given = RotorMachine::new(built.constants.clone());
+    (0..count)
+        .map(|k| {
+            let other = k.checked_sub(1).and_then(|k| varied.get(k));
+            let machine = match other {
+                Some(varied) => RotorMachine::new(varied.built.constants.clone()),
+                None => given.clone(),
+            };
+            let mut start = machine.start();
+            if k > 0 {
+                perturb(drop, &machine, &mut start, k);
+            }
+            Member {
+                kind: other.map_or(0, |varied| varied.kind),
+                machine,
+                start,
+                keep_rows: k == 0,
+            }
+        })
+        .collect()
+}
+
+/// Moves the rotor and every ball a little.
+fn perturb(drop: &Drop, machine: &RotorMachine, start: &mut [f64], k: usize) {
+    let mut random = Random::of(drop.repeat.seed, k);
+    let mut normal = || random.normal();
+    let shift = Vec2::new(normal(), normal()) * drop.repeat.rotor_position_deviation;
+    let angles: Vec<Vec<f64>> = (machine.constants.bearings.iter())
+        .map(|part| {
+            let balls = match &part.bearing {
+                BearingConstants::Planar(bearing) => bearing.balls,
+                BearingConstants::Rolling(_) => 0,
+            };
+            (0..balls)
+                .map(|_| normal() * drop.repeat.ball_angle_deviation)
+                .collect()
+        })
+        .collect();
+    machine.perturb(start, shift, &|bearing, ball| angles[bearing][ball]);
+}
+
+/// Keeps the numbers of machines apart from those of starts.
+const MACHINES: u64 = 0x5851_f42d_4c95_7f2d;
+
+/// The random numbers of a member.
+struct Random(Xoshiro256PlusPlus);
+
+impl Random {
+    /// (seed, k) mixed so that neighbouring pairs share nothing.
+    fn of(seed: u64, k: usize) -> Self {
+        // finaliser of SplitMix64, twice
+        let mix = |mut x: u64| {
+            x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            x ^ (x >> 31)
+        };
+        let mixed = mix(mix(seed.wrapping_add(0x9e37_79b9_7f4a_7c15)).wrapping_add(k as u64));
+        Random(Xoshiro256PlusPlus::seed_from_u64(mixed))
+    }
+}
+
+impl Draws for Random {
+    fn normal(&mut self) -> f64 {
+        StandardNormal.sample(&mut self.0)
+    }
+    fn uniform(&mut self) -> f64 {
+        (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}

@@ -1,0 +1,59 @@
+//! Which steps a drop takes: explicit or linearly implicit.
+//!
+//! ```text
+//!   friction rate    λ = 5 μ'(0) Q/m_b          a ball between two loaded races: its slip decays like e^(-λt)
+//!   radial mode      ω = √(K_r/m_b)             K_r = 1.5 (K_i^(2/3) + K_o^(2/3)) Q^(1/3): what any step must follow
+//! ```
+//! Explicit steps are bound by λ, where it is large against ω; linearly implicit ones are not, and cost several times more.
+//! Q is the largest ball load of a first impact, 5 F/N (Stribeck) of the radial force F = v √(k m): the rotor has fallen through its
+//! clearance and is stopped by the mount. Where the slope depends on rolling, it is that of balls that do not roll yet:
+//! the largest.
+
+use crate::scenario::{Drop, Method};
+use crate::simulate::drop::build::Built;
+use model::auxiliary_bearing::AuxiliaryBearingConstants;
+use model::bearing::{BearingConstants, PlanarConstants};
+
+/// λ/ω above which linearly implicit steps are the quicker ones at equal error; measured on the reference drop with
+/// reference speeds of traction from 0.1 to 0.001 m/s.
+const STIFF: f64 = 60.0;
+
+/// Names of the methods, for people.
+pub(crate) const EXPLICIT: &str = "Bogacki-Shampine 3(2), explicit";
+pub(crate) const IMPLICIT: &str = "ROS34PW2, linearly implicit";
+
+/// True for linearly implicit steps.
+pub(crate) fn is_implicit(drop: &Drop, built: &Built) -> bool {
+    let planar = |part: &'_ AuxiliaryBearingConstants| match &part.bearing {
+        BearingConstants::Planar(bearing) => Some(stiffness(drop, built, part, bearing)),
+        BearingConstants::Rolling(_) => None,
+    };
+    let parts = built.constants.bearings.iter();
+    let Some(stiffnesses) = parts.map(planar).collect::<Option<Vec<f64>>>() else {
+        return false;
+    };
+    match drop.run.method {
+        Method::Explicit => false,
+        Method::Implicit => true,
+        Method::Auto => stiffnesses.into_iter().fold(0.0, f64::max) > STIFF,
+    }
+}
+
+/// λ/ω of an auxiliary bearing in a first impact.
+fn stiffness(
+    drop: &Drop,
+    built: &Built,
+    part: &AuxiliaryBearingConstants,
+    bearing: &PlanarConstants,
+) -> f64 {
+    let fall = 2.0 * drop.gravity.acceleration * part.contact.radial_clearance;
+    let force = (fall * part.mount.stiffness * built.constants.rotor.mass).sqrt();
+    let load = 5.0 * force / bearing.balls as f64;
+    let ball = &bearing.ball;
+    let slope = bearing.traction.slope_at_rest(load, 0.0);
+    let rate = 5.0 * slope * load / ball.mass;
+    let stiffness = |hertz: f64| 1.5 * hertz.powf(2.0 / 3.0) * load.cbrt();
+    let mode =
+        ((stiffness(ball.inner_stiffness) + stiffness(ball.outer_stiffness)) / ball.mass).sqrt();
+    rate / mode
+}

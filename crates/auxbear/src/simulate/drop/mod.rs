@@ -1,0 +1,189 @@
+//! Runs a drop and names what came out.
+
+pub mod build;
+pub(crate) mod columns;
+pub(crate) mod context;
+pub mod ensemble;
+pub(crate) mod members;
+pub(crate) mod method;
+pub(crate) mod quantities;
+pub(crate) mod warnings;
+
+use crate::options::Options;
+use crate::result::outcome::{Contact, Outcome, Picture, Spread, Stop, Value, Work};
+use crate::scenario::{Drop, Scenario};
+use crate::simulate::drop::build::Built;
+use crate::simulate::drop::context::Context;
+use crate::simulate::drop::ensemble::{Finished, Member, Plan};
+use crate::simulate::drop::members::Varied;
+use crate::simulate::ending::{settings, stop};
+use std::time::Instant;
+
+/// Runs a drop.
+pub(crate) fn run(
+    scenario: &Scenario,
+    drop: &Drop,
+    built: &Built,
+    varied: &[Varied],
+    options: &Options,
+) -> Outcome {
+    let count = drop.repeat.count.max(1) as usize;
+    let members: Vec<Member> = members::of(drop, built, varied);
+    let implicit = method::is_implicit(drop, built);
+    let clock = Instant::now();
+    let finished = ensemble::run(
+        &members,
+        &Plan {
+            settings: settings(&drop.run),
+            implicit,
+            interval: drop.run.output_interval,
+            threads: options.threads,
+            interrupt: options.interrupt,
+            progress: options.progress,
+        },
+    );
+    let seconds = clock.elapsed().as_secs_f64();
+
+    let given = |k: usize| match k.checked_sub(1).and_then(|k| varied.get(k)) {
+        Some(varied) => (&varied.drop, &varied.built),
+        None => (drop, built),
+    };
+    let context = |k: usize| Context {
+        drop: given(k).0,
+        built: given(k).1,
+        machine: &members[k].machine,
+        finished: &finished[k],
+        members: count,
+    };
+    let first = context(0);
+    let mut named = quantities::name(&first);
+    let mut table = Vec::new();
+    let mut drawn = Vec::new();
+    if count > 1 {
+        // a member that did not end as planned would pull every mean
+        let whole = || (0..count).filter(|k| stop(&finished[*k].ending).complete());
+        if !varied.is_empty() {
+            let draws = |k: usize| k.checked_sub(1).map(|k| varied[k].drawn.clone());
+            drawn = whole().map(|k| draws(k).unwrap_or_default()).collect();
+        }
+        table = whole()
+            .map(|k| {
+                quantities::name(&context(k))
+                    .into_iter()
+                    .filter_map(|q| match q.value {
+                        Value::Number(value) => Some((q.name, Some(value))),
+                        Value::None { .. } => Some((q.name, None)),
+                        Value::List(_) | Value::Text(_) => None,
+                    })
+                    .collect()
+            })
+            .collect();
+        for quantity in &mut named {
+            quantity.spread = spread(&table, &quantity.name);
+        }
+    }
+    Outcome {
+        system: "drop",
+        title: scenario
+            .title
+            .clone()
+            .unwrap_or_else(|| "Drop of a levitated rotor".to_string()),
+        quantities: named,
+        history: columns::history(&first),
+        contacts: contacts(&first),
+        warnings: warnings::of(scenario, &first, &finished),
+        stop: worst_stop(&finished),
+        work: work(&finished, seconds, implicit),
+        members: table,
+        drawn,
+        pictures: (0..drop.auxiliary_bearings.len())
+            .map(|k| picture(&first, k))
+            .collect(),
+        files: Vec::new(),
+    }
+}
+
+fn spread(members: &[Vec<(String, Option<f64>)>], name: &str) -> Option<Spread> {
+    let values: Vec<f64> = members
+        .iter()
+        .filter_map(|member| member.iter().find(|(n, _)| n == name)?.1)
+        .collect();
+    Spread::of(values)
+}
+
+/// What pictures need of an auxiliary bearing.
+fn picture(context: &Context, k: usize) -> Picture {
+    let part = &context.machine.constants.bearings[k];
+    let given = context.given(k);
+    Picture {
+        bearing: part.name.clone(),
+        clearance: Some(given.contact.radial_air_clearance),
+        pressure_limit: Some(given.bearing.hertz_pressure_limit),
+        rolling_cage_ratio: part.bearing.rolling_cage_ratio(),
+        balls: given.bearing.ball_count,
+    }
+}
+
+/// The contacts of all auxiliary bearings, in order.
+fn contacts(context: &Context) -> Vec<Contact> {
+    let mut all: Vec<Contact> = (context.parts().enumerate())
+        .flat_map(|(k, name)| {
+            context.record(k).contacts.iter().map(move |c| Contact {
+                bearing: name.to_string(),
+                start: c.start,
+                end: c.end,
+                peak_force: c.peak_force,
+                peak_time: c.peak_time,
+            })
+        })
+        .collect();
+    all.sort_by(|a, b| a.start.total_cmp(&b.start));
+    all
+}
+
+/// The ending of the unperturbed run; if that is whole, of the first member that is not.
+fn worst_stop(finished: &[Finished]) -> Stop {
+    let first = stop(&finished[0].ending);
+    if !first.complete() {
+        return first;
+    }
+    match finished
+        .iter()
+        .map(|member| stop(&member.ending))
+        .enumerate()
+        .find(|(_, s)| !s.complete())
+    {
+        Some((k, mut stop)) => {
+            let whole = finished
+                .iter()
+                .filter(|member| self::stop(&member.ending).complete());
+            stop.text = format!(
+                "Member {k} of the repetition: {} {} of {} members are whole; only these enter the spread.",
+                stop.text,
+                whole.count(),
+                finished.len()
+            );
+            stop
+        }
+        None => first,
+    }
+}
+
+fn work(finished: &[Finished], seconds: f64, implicit: bool) -> Work {
+    let mut work = Work {
+        members: finished.len(),
+        seconds,
+        method: Some(if implicit {
+            method::IMPLICIT
+        } else {
+            method::EXPLICIT
+        }),
+        ..Work::default()
+    };
+    for member in finished {
+        work.steps += member.ending.work.accepted;
+        work.rejected += member.ending.work.rejected;
+        work.rate_calls += member.ending.work.rate_calls;
+    }
+    work
+}

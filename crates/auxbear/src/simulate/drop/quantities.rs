@@ -1,0 +1,258 @@
+//! Every named result of a drop with its law, source and valid range.
+
+use crate::result::list::{List, Origin, relative};
+use crate::result::outcome::{Quantity, Value};
+use crate::simulate::bearing::quantities::{End, LargestForces};
+use crate::simulate::drop::context::Context;
+use model::system::layout::of_part;
+use model::system::machine::layout::ROTOR;
+
+const EQUATIONS: &str =
+    "equations of motion, crates/model/src/system/machine/rate.rs and crates/model/src/bearing/";
+const CONTACT: &str = "Hunt-Crossley contact, crates/model/src/contact.rs";
+const EVENT: &str = "root on dense output of the time integration, crates/solve/src/watch.rs";
+const LEDGER: &str = "energy ledger, crates/model/src/system/machine/ledger.rs";
+
+/// Names the results of one member: those of each auxiliary bearing under its name, then those of the machine.
+pub(crate) fn name(context: &Context) -> Vec<Quantity> {
+    let ending = &context.finished.ending;
+    let state = &ending.state;
+    let mut list = List(Vec::new());
+    for (k, part) in context.parts().enumerate() {
+        let mut own = List(Vec::new());
+        of_bearing(context, k, part, &mut own);
+        list.0.extend(own.0.into_iter().map(|quantity| Quantity {
+            name: of_part(part, &quantity.name),
+            ..quantity
+        }));
+    }
+    list.number("rotor_final_speed", "rad/s", Ok(state[ROTOR + 5]), &SPEED);
+    let heat = context.machine.flows(state).heat;
+    list.number("dissipated_energy", "J", Ok(heat), &ENERGY);
+    let (energy, momentum) = residuals(context);
+    list.number("energy_residual", "1", energy, &RESIDUAL);
+    list.number("angular_momentum_residual", "1", momentum, &RESIDUAL);
+    list.ended_at(ending.time)
+}
+
+/// Names the results of one auxiliary bearing.
+fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
+    let record = context.record(k);
+    let ending = &context.finished.ending;
+    let machine = context.machine;
+    let state = &ending.state;
+    let no_contact = || "rotor and inner race never touched in this run".to_string();
+
+    // contacts
+    let first = record.contacts.first();
+    list.number(
+        "time_to_first_contact",
+        "s",
+        first.map(|c| c.start).ok_or_else(no_contact),
+        &FIRST_CONTACT,
+    );
+    list.number(
+        "first_impact_force",
+        "N",
+        first.map(|c| c.peak_force).ok_or_else(no_contact),
+        &CONTACT_FORCE,
+    );
+    list.number(
+        "peak_contact_force",
+        "N",
+        record
+            .peak_contact_force()
+            .map(|p| p.value)
+            .ok_or_else(no_contact),
+        &CONTACT_FORCE,
+    );
+    list.number(
+        "contact_count",
+        "",
+        Ok(record.contacts.len() as f64),
+        &CONTACT_COUNT,
+    );
+    let starts = record.contacts.iter().map(|c| c.start).collect();
+    list.push(
+        "contact_start_times",
+        "s",
+        Value::List(starts),
+        &CONTACT_COUNT,
+    );
+
+    // speeds
+    let never = |what: &str| format!("{what} was not reached by {:.4e} s", ending.time);
+    list.rises(
+        "inner_race",
+        [
+            record.inner_race_time_to_50_percent(),
+            record.inner_race_time_to_95_percent(),
+            record.cage_time_to_95_percent(),
+        ],
+        [
+            never("half of the rotor's release speed"),
+            never("95 % of the rotor's release speed"),
+            never("95 % of the rolling cage speed of the rotor's release speed"),
+        ],
+        &RISE,
+    );
+    let race_speed = state[machine.layout().bearings[k].inner + 5];
+    for (name, speed) in [
+        ("inner_race_final_speed", race_speed),
+        ("cage_final_speed", machine.cage_speed(k, state)),
+    ] {
+        list.number(name, "rad/s", Ok(speed), &SPEED);
+    }
+
+    let end = End {
+        part,
+        layout: machine.layout(),
+        state,
+    };
+    let forces = LargestForces {
+        loads: [record.largest_inner_load, record.largest_outer_load],
+        cage: [record.largest_pocket_force, record.largest_land_force],
+    };
+    let run = context.bearing(k);
+    list.balls(&run, &forces, &context.given(k).bearing, &end);
+
+    // displacements and whirl
+    list.number(
+        "max_rotor_race_displacement",
+        "m",
+        Ok(record.rotor_race_displacement.value),
+        &DISPLACEMENT,
+    );
+    list.number(
+        "max_rotor_displacement",
+        "m",
+        if record.contacts.is_empty() {
+            Err(no_contact())
+        } else {
+            Ok(record.rotor_displacement.value)
+        },
+        &ROTOR_DISPLACEMENT,
+    );
+    list.number(
+        "max_mount_displacement",
+        "m",
+        Ok(record.mount_displacement.value),
+        &MOUNT_DISPLACEMENT,
+    );
+    let turns = record.whirl_turns;
+    let forward = turns * machine.constants.speed.signum() > 0.0;
+    let direction = if turns.abs() < 1.0 {
+        "none"
+    } else if forward {
+        "forward"
+    } else {
+        "backward"
+    };
+    list.push(
+        "whirl_direction",
+        "",
+        Value::Text(direction.to_string()),
+        &WHIRL,
+    );
+    list.number("whirl_turns", "", Ok(turns), &WHIRL);
+    list.losses(&run, &end, &ENERGY);
+    list.mark_chaotic(&CHAOTIC);
+}
+
+/// What is turned over must exceed this share of the kinetic energy at the start to be compared with.
+const ROUNDING: f64 = 1e-12;
+
+/// Largest residuals of the run, relative: (energy, angular momentum).
+fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, String>) {
+    let machine = context.machine;
+    let record = &context.finished.record;
+    let ending = &context.finished.ending;
+    let start = &context.finished.start;
+    let balance = machine.balance(start, &ending.state);
+    let scale = (balance.heat())
+        .max(balance.end.1.work_size)
+        .max(record.largest_translation);
+    // rounding of the spins is not compared with nothing
+    let stored = machine.content(start);
+    let scale = if scale > ROUNDING * (stored.translation + stored.spin) {
+        scale
+    } else {
+        0.0
+    };
+    let constants = &machine.constants;
+    let inertia: f64 = (constants.bearings.iter())
+        .map(|part| part.inner_race.inertia)
+        .sum();
+    let momentum_scale = inertia * constants.speed.abs();
+    (
+        relative(balance.energy_residual(), scale),
+        relative(balance.angular_momentum_residual(), momentum_scale),
+    )
+}
+
+/// Results of late contacts: first impacts, spin-up times and energies are reproducible, these are not.
+const CHAOTIC: [&str; 6] = [
+    "peak_contact_force",
+    "contact_count",
+    "contact_start_times",
+    "peak_ball_load",
+    "peak_hertz_pressure",
+    "hertz_pressure_share_of_limit",
+];
+
+const FIRST_CONTACT: Origin = Origin {
+    law: "gap d = |C - c_i| - c0 closes; gravity and the levitated orbit's speed at release",
+    source: EVENT,
+    valid: "sudden, total loss of levitation at t = 0; rigid rotor",
+};
+const CONTACT_FORCE: Origin = Origin {
+    law: "N = max(0, k dⁿ(1 + a ḋ)), largest of each contact",
+    source: CONTACT,
+    valid: "stiffness, exponent and damping of the landing surfaces as given; late impacts are chaotic: repeat the run",
+};
+const CONTACT_COUNT: Origin = Origin {
+    law: "begins of contact, d = 0 rising; one that lasts to the end is included",
+    source: EVENT,
+    valid: "late contacts are chaotic: repeat the run",
+};
+const RISE: Origin = Origin {
+    law: "first instant at which the speed reaches the level; levels refer to the rotor's speed at release",
+    source: EQUATIONS,
+    valid: "constant friction coefficient between rotor and race; friction of the bearing only as its fidelity has it",
+};
+const SPEED: Origin = Origin {
+    law: "angular momentum of each body about its axis",
+    source: EQUATIONS,
+    valid: "coasting is as true as the friction of the bearing: bearing.moment, ball by ball also slip and oil in the inlets",
+};
+const DISPLACEMENT: Origin = Origin {
+    law: "largest |C - c_i|, where its rate changes sign",
+    source: EVENT,
+    valid: "below a tenth of the bearing's size",
+};
+const MOUNT_DISPLACEMENT: Origin = Origin {
+    law: "largest |c_o|, at the steps and, near the record, on dense output between them",
+    source: EQUATIONS,
+    valid: "linear mount; below a tenth of the bearing's size",
+};
+const ROTOR_DISPLACEMENT: Origin = Origin {
+    law: "largest distance of the rotor centre from the origin, while in contact, at the steps",
+    source: EVENT,
+    valid: "compare it with seals and other air gaps at this plane; rigid rotor",
+};
+const WHIRL: Origin = Origin {
+    law: "net turns of the rotor about the inner race while outside half its clearance; below one turn: none",
+    source: "definition",
+    valid: "rigid rotor; backward whirl of flexible rotors needs the flexible model",
+};
+const ENERGY: Origin = Origin {
+    law: "time integral of friction force times sliding speed, and of every other loss",
+    source: LEDGER,
+    valid: "heat of what is simulated: of identical planes that of one; nothing is cooled or warmed by it",
+};
+const RESIDUAL: Origin = Origin {
+    law: "what the ledger misses at the end, over max(heat, works, largest kinetic energy of the rotor's centre); \
+          momentum over that of the inner race at the release speed",
+    source: LEDGER,
+    valid: "a measure of the integration error; it falls with run.tolerance",
+};

@@ -1,0 +1,46 @@
+//! What the pages that name results need to know.
+
+use crate::scenario::Rig;
+use crate::simulate::bearing::pressure::Pressures;
+use crate::simulate::bearing::run::BearingRun;
+use crate::simulate::rig::build::Built;
+use model::system::rig::Record;
+use model::system::rig::layout::{
+    DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
+};
+use model::system::rig::rate::race_motion;
+use solve::Ending;
+
+/// Everything the pages that name results need to know.
+pub(crate) struct Context<'a> {
+    pub rig: &'a Rig,
+    pub built: &'a Built,
+    pub start: &'a [f64],
+    pub record: &'a Record,
+    pub ending: &'a Ending,
+    pub mode: model::system::rig::Mode,
+    /// Values that the converter could not hold, with the channel's name.
+    pub clipped: Vec<(&'static str, usize)>,
+}
+
+impl<'a> Context<'a> {
+    /// Largest Hertz pressures.
+    pub fn pressures(&self) -> Pressures {
+        let record = self.record;
+        let races = [record.largest_inner_load, record.largest_outer_load];
+        (self.built.pressure_factors).pressures(races, record.largest_pocket_force)
+    }
+    pub fn bearing(&self) -> BearingRun<'a> {
+        let machine = &self.built.machine;
+        BearingRun {
+            bearing: &machine.constants.bearing,
+            states: machine.layout().bearing(),
+            detail: DETAIL,
+            largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
+            cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
+            pressure_factors: self.built.pressure_factors,
+            motion: Box::new(race_motion),
+            rows: self.record.rows().collect(),
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! What the pages that name results need to know.
+
+use crate::scenario::SpinUp;
+use crate::simulate::bearing::run::BearingRun;
+use crate::simulate::spin_up::build::Built;
+use model::system::spin_up::SpinUpMachine;
+use model::system::spin_up::layout::{
+    DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
+};
+use model::system::spin_up::rate::race_motion;
+use model::system::spin_up::record::Record;
+use solve::Ending;
+
+/// Everything the pages that name results need to know.
+pub(crate) struct Context<'a> {
+    pub spin_up: &'a SpinUp,
+    pub built: &'a Built,
+    pub start: &'a [f64],
+    pub record: &'a Record,
+    pub ending: &'a Ending,
+}
+
+impl<'a> Context<'a> {
+    pub fn machine(&self) -> &'a SpinUpMachine {
+        &self.built.machine
+    }
+    pub fn bearing(&self) -> BearingRun<'a> {
+        BearingRun {
+            bearing: &self.machine().constants.bearing,
+            states: self.machine().layout().bearing(),
+            detail: DETAIL,
+            largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
+            cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
+            pressure_factors: self.built.pressure_factors,
+            motion: Box::new(race_motion),
+            rows: self.record.rows().collect(),
+        }
+    }
+}

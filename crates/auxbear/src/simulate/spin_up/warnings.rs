@@ -1,0 +1,61 @@
+//! What the user should know before trusting the numbers of a spin-up.
+
+use crate::result::assumptions::speed_rating;
+use crate::result::outcome::warning;
+use crate::result::outcome::{Quantity, Warning};
+use crate::scenario::Scenario;
+use crate::simulate::bearing::warnings as shared;
+use crate::simulate::spin_up::context::Context;
+use crate::simulate::spin_up::quantities::rolling_start_to_end;
+use model::system::spin_up::layout::{APPLIED_LOAD, INNER};
+
+/// All warnings of a run, the gravest first.
+pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]) -> Vec<Warning> {
+    let bearing = &context.spin_up.bearing;
+    let mut list = Vec::new();
+    let largest = |value: &dyn Fn(&model::system::sampling::Row) -> f64| {
+        let rows = context.record.rows();
+        rows.map(|row| value(&row).abs()).fold(0.0, f64::max)
+    };
+    let speed = largest(&|row| row.state[INNER + 5]);
+    let load = largest(&|row| row.probe[APPLIED_LOAD]);
+    list.extend(shared::skids(context.built.steady.as_ref()));
+    list.extend(speed_rating(bearing, speed));
+    list.extend(shared::lift_off(bearing, speed));
+    let (run, record) = (context.bearing(), context.record);
+    let races = [record.largest_inner_load, record.largest_outer_load];
+    let pressures = (run.pressure_factors).pressures(races, record.largest_pocket_force);
+    list.extend(shared::pressure(bearing, &pressures));
+    list.extend(shared::films(&run, bearing));
+    list.extend(shared::law_range(bearing, speed, load));
+    list.extend(shared::film_rise(&run));
+    if context.ending.stop == solve::Stop::Finished {
+        list.extend(shared::residual(quantities));
+    }
+    if bearing.inner_race_centre_held && load > 0.0 {
+        list.push(warning(
+            "AB1020",
+            "The centre of the inner race is held (the concentric rig): the radial load reaches the rotor's friction and \
+             the friction law, not the balls, which carry their preload alone."
+                .to_string(),
+        ));
+    }
+    if context.ending.time > 0.0
+        && let Err(why) = rolling_start_to_end(context)
+    {
+        list.push(warning(
+            "AB1026",
+            format!(
+                "The corrected form of (21) does not hold in this run: {why}. The exact form does; the bounds of the path \
+                 term are left out."
+            ),
+        ));
+    }
+    list.extend(shared::cage_inertia(bearing));
+    list.extend(shared::rolling(bearing));
+    list.extend(shared::no_moment(bearing));
+    list.extend(shared::moment(scenario, "", bearing));
+    list.extend(shared::kind(bearing));
+    list.extend(shared::assumed(scenario, None, bearing));
+    list
+}

@@ -1,0 +1,385 @@
+//! An auxiliary bearing: contact, inner race, bearing, outer race, mount as one part.
+//!
+//! ```text
+//!   node of the rotor C ──(contact: clearance c0, N, friction)── inner race c_i, φ_i ── drive torque
+//!                                                                  │ bearing: balls, cage
+//!                                     ground ──/\/\/── mount ──  outer race c_o
+//!
+//!   m_i c̈_i = contact + bearing + m_i g           or held
+//!   (I_i + J) φ̈_i = contact + bearing + drive     J: what balls and cage add, where they have no states
+//!   m_o c̈_o = bearing + mount + m_o g             does not turn: the ground takes t_O
+//! ```
+//! The motion of a node of the rotor in, the wrench on that node out. States: those of both races and of the bearing, where
+//! [`BearingAt`] says.
+//!
+//! Assumes: the outer race does not turn. Does not model: tilt and axial motion of the races, a sleeve that slips on its race.
+
+use crate::bearing::{self, Bearing, BearingConstants, BearingReaction, POCKET_FRICTION};
+use crate::contact::{ContactReaction, JournalContact};
+use crate::motion::{Body, Motion};
+use crate::mount::Mount;
+use crate::rotor::GeometricCentre;
+use crate::system::layout::Layout;
+use number::{Gather, Real, Vec2, constants};
+use std::ops::Range;
+
+constants! {
+    /// The inner race with its sleeve.
+    pub struct RaceConstants {
+        /// Mass, kg.
+        mass: R,
+        /// Polar inertia, kg m².
+        inertia: R,
+        /// True where its centre is held; it may still turn.
+        centre_held: bool,
+        /// Torque of a drive on it, N m.
+        torque: R,
+    }
+}
+
+/// Constants of one auxiliary bearing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AuxiliaryBearingConstants {
+    /// Its name; empty where it is the only one.
+    pub name: String,
+    /// Rotor against inner race.
+    pub contact: JournalContact<f64>,
+    /// Inner race and sleeve.
+    pub inner_race: RaceConstants<f64>,
+    /// The bearing.
+    pub bearing: BearingConstants,
+    /// Mass of the outer race with its housing, kg.
+    pub outer_race_mass: f64,
+    /// Mount of the outer race.
+    pub mount: Mount<f64>,
+}
+
+impl AuxiliaryBearingConstants {
+    /// Mass that translates with the outer race, kg.
+    pub fn outer_moving_mass(&self) -> f64 {
+        self.outer_race_mass + self.bearing.mass_with_outer_race()
+    }
+    /// Chooses where the mount's spring is free so that it carries the bearing's weight with the outer race at the
+    /// origin. The weight of an inner race whose centre is held rests elsewhere.
+    pub fn balance_mount(&mut self, gravity: Vec2<f64>) {
+        let inner = if self.inner_race.centre_held {
+            0.0
+        } else {
+            self.inner_race.mass
+        };
+        let mass = self.outer_moving_mass() + self.bearing.free_mass() + inner;
+        self.mount.free_position = -(gravity * (mass / self.mount.stiffness));
+    }
+}
+
+/// Kinds of heat of an auxiliary bearing besides those of its bearing.
+pub const OWN_HEATS: [&str; 3] = ["mount_damping", "rotor_race_damping", "rotor_race_friction"];
+/// Number of kinds of heat of an auxiliary bearing.
+pub const HEATS: usize = bearing::HEATS.len() + OWN_HEATS.len();
+/// Kinds of source of an auxiliary bearing.
+pub const SOURCES: [&str; 2] = ["inner_race_torque", "inner_race_growth"];
+
+/// Probes of an auxiliary bearing besides the detail of its balls, by their place among them.
+pub mod probe {
+    /// Penetration of the rotor/race contact, m.
+    pub const PENETRATION: usize = 0;
+    /// Its rate, m/s.
+    pub const PENETRATION_SPEED: usize = 1;
+    /// Normal force, N.
+    pub const NORMAL_FORCE: usize = 2;
+    /// Its rate, N/s.
+    pub const NORMAL_FORCE_RATE: usize = 3;
+    /// Friction force on the rotor along t, N.
+    pub const FRICTION_FORCE: usize = 4;
+    /// Sliding speed, race less rotor, m/s.
+    pub const SLIP_SPEED: usize = 5;
+    /// Largest ball load at the inner race, N.
+    pub const LARGEST_INNER_LOAD: usize = 6;
+    /// Largest ball load at the outer race, N.
+    pub const LARGEST_OUTER_LOAD: usize = 7;
+    /// Largest force between a ball and its pocket, or between two balls without a cage, N.
+    pub const LARGEST_POCKET_FORCE: usize = 8;
+    /// Force between cage and land, N.
+    pub const LAND_FORCE: usize = 9;
+    /// Number of them.
+    pub const COUNT: usize = 10;
+}
+
+/// Where an auxiliary bearing stands in the state, in the ledger and among the probes of its machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BearingAt {
+    /// First channel of the inner race: x y, ẋ ẏ, φ_i, ω_i.
+    pub inner: usize,
+    /// First channel of the outer race: x y, ẋ ẏ.
+    pub outer: usize,
+    /// First channel of the bearing's own states, the angle of its cage.
+    pub bearing: usize,
+    /// Number of these.
+    pub bearing_states: usize,
+    /// Number of balls.
+    pub balls: usize,
+    /// First of its heats among all.
+    pub heat: usize,
+    /// First of its sources among all.
+    pub source: usize,
+    /// First of its probes.
+    pub probe: usize,
+    /// First probe of the detail of its balls.
+    pub detail: usize,
+}
+
+impl BearingAt {
+    /// Channels of the bearing's own states.
+    #[inline(always)]
+    pub fn own(&self) -> Range<usize> {
+        self.bearing..self.bearing + self.bearing_states
+    }
+    /// Probe of a kind of [`probe`].
+    #[inline(always)]
+    pub fn probe(&self, kind: usize) -> usize {
+        self.probe + kind
+    }
+    /// Motion of both races in a state; the outer race does not turn.
+    #[inline(always)]
+    pub fn motion<R: Real>(&self, state: &[R]) -> Motion<R> {
+        let (i, o) = (self.inner, self.outer);
+        let pair = |at: usize| Vec2::new(state[at], state[at + 1]);
+        Motion {
+            inner: Body::planar(pair(i), pair(i + 2), state[i + 4], state[i + 5]),
+            outer: Body::planar(pair(o), pair(o + 2), R::zero(), R::zero()),
+        }
+    }
+}
+
+/// Names of the channels of an inner race.
+const INNER: [&str; 6] = ["x", "y", "x_speed", "y_speed", "angle", "speed"];
+/// Names of the channels of an outer race.
+const OUTER: [&str; 4] = ["x", "y", "x_speed", "y_speed"];
+
+/// Adds the races of an auxiliary bearing to a layout: first channels of the inner and of the outer one.
+pub fn lay_races(layout: &mut Layout, name: &str) -> (usize, usize) {
+    let named = |race: &str, names: &[&str]| -> Vec<String> {
+        names
+            .iter()
+            .map(|n| format!("bearing.{race}.{n}"))
+            .collect()
+    };
+    let inner = layout.block(name, named("inner_race", &INNER));
+    let outer = layout.block(name, named("outer_race", &OUTER));
+    (inner.start, outer.start)
+}
+
+/// An auxiliary bearing over `R`.
+#[derive(Clone, Debug)]
+pub struct AuxiliaryBearing<R: Real> {
+    contact: JournalContact<R>,
+    inner_race: RaceConstants<R>,
+    bearing: Bearing<R>,
+    mount: Mount<R>,
+    outer_moving_mass: R,
+    /// Reciprocals, because a division costs as much as ten products.
+    inverse_inner_mass: R,
+    inverse_outer_mass: R,
+}
+
+/// What the rotor does at the node, besides its motion.
+#[derive(Clone, Copy, Debug)]
+pub struct AtNode<R> {
+    /// The node.
+    pub centre: GeometricCentre<R>,
+    /// Its acceleration, m/s²; only the probes see it.
+    pub acceleration: Vec2<R>,
+    /// What the contact does at this motion.
+    pub contact: ContactReaction<R>,
+}
+
+/// Where the rates and probes of an auxiliary bearing are written.
+#[derive(Debug)]
+pub struct Outlet<'a, R> {
+    /// Channel of its first heat.
+    pub heat: usize,
+    /// Channel of its first source.
+    pub source: usize,
+    /// Rates of the machine.
+    pub rate: &'a mut [R],
+    /// Probes of the machine; empty where nobody looks.
+    pub probe: &'a mut [R],
+}
+
+/// Moments about the origin from outside an auxiliary bearing, N m, in the order in which they are added.
+#[derive(Clone, Copy, Debug)]
+pub struct External<R> {
+    /// Weights of both races.
+    pub weights: [R; 2],
+    /// Drive torque, what holds the centre of the inner race, mount, balls and cage, and less t_O.
+    pub others: [R; 5],
+}
+
+impl<R: Real> AuxiliaryBearing<R> {
+    /// One auxiliary bearing per lane.
+    pub fn gather<'a>(constants: &dyn Fn(usize) -> &'a AuxiliaryBearingConstants) -> Self {
+        let lanes = |of: &dyn Fn(&AuxiliaryBearingConstants) -> f64| {
+            R::from_lanes(|lane| of(constants(lane)))
+        };
+        AuxiliaryBearing {
+            contact: Gather::<R>::gather(&|lane| &constants(lane).contact),
+            inner_race: Gather::<R>::gather(&|lane| &constants(lane).inner_race),
+            bearing: Bearing::gather(&|lane| &constants(lane).bearing),
+            mount: Gather::<R>::gather(&|lane| &constants(lane).mount),
+            outer_moving_mass: lanes(&|c| c.outer_moving_mass()),
+            inverse_inner_mass: lanes(&|c| 1.0 / c.inner_race.mass),
+            inverse_outer_mass: lanes(&|c| 1.0 / c.outer_moving_mass()),
+        }
+    }
+
+    /// What the contact does to rotor and inner race.
+    #[inline(always)]
+    pub fn contact(
+        &self,
+        centre: &GeometricCentre<R>,
+        spin: R,
+        inner: &Body<R>,
+    ) -> ContactReaction<R> {
+        self.contact.react(centre, spin, inner)
+    }
+
+    /// What the bearing does between its races; writes the rates of its own states and the detail of its balls.
+    #[inline(always)]
+    pub fn bearing(
+        &self,
+        at: &BearingAt,
+        motion: &Motion<R>,
+        state: &[R],
+        rate: &mut [R],
+        probe: &mut [R],
+    ) -> BearingReaction<R> {
+        let detail = if probe.is_empty() {
+            &mut [][..]
+        } else {
+            // a short list has room for the watched probes alone
+            let end = probe
+                .len()
+                .min(at.detail + bearing::DETAIL_PER_BALL * at.balls);
+            &mut probe[at.detail.min(end)..end]
+        };
+        (self.bearing).react(motion, &state[at.own()], &mut rate[at.own()], detail)
+    }
+
+    /// Writes the rates of both races and of the ledger's heats and sources, and the probes where asked; returns the
+    /// moments from outside.
+    #[inline(always)]
+    pub fn accelerate(
+        &self,
+        at: &BearingAt,
+        node: &AtNode<R>,
+        gravity: Vec2<R>,
+        motion: &Motion<R>,
+        bearing: &BearingReaction<R>,
+        into: Outlet<'_, R>,
+    ) -> External<R> {
+        let Outlet {
+            heat,
+            source,
+            rate,
+            probe,
+        } = into;
+        let zero = R::zero();
+        let contact = &node.contact;
+        let race = &self.inner_race;
+        let (inner, outer) = (&motion.inner, &motion.outer);
+        let mount = self.mount.force(outer.position, outer.velocity);
+
+        // inner race
+        let inner_force = contact.on_bore.force + bearing.on_inner.force + gravity * race.mass;
+        let inner_acceleration = if race.centre_held {
+            Vec2::zero()
+        } else {
+            inner_force * self.inverse_inner_mass
+        };
+        let inner_moment = contact.on_bore.moment + bearing.on_inner.moment + race.torque;
+        let bearing = (*bearing).with_loss(inner.spin, inner_moment);
+        let inner_spin_rate = inner_moment / (race.inertia + bearing.inner_inertia);
+        write_body(rate, at.inner, inner.velocity, inner_acceleration);
+        rate[at.inner + 4] = inner.spin;
+        rate[at.inner + 5] = inner_spin_rate;
+
+        // outer race: the ground holds its spin
+        let outer_force = bearing.on_outer.force + mount + gravity * self.outer_moving_mass;
+        write_body(
+            rate,
+            at.outer,
+            outer.velocity,
+            outer_force * self.inverse_outer_mass,
+        );
+        let outer_moment = bearing.on_outer.moment - bearing.outer_inertia * inner_spin_rate;
+
+        // ledger
+        let of_bearing = bearing.heat.kinds();
+        let mut heats = [zero; HEATS];
+        let (kinds, rest) = heats.split_at_mut(of_bearing.len());
+        kinds.copy_from_slice(&of_bearing);
+        kinds[POCKET_FRICTION] += bearing.loss_heat(inner.spin, inner_spin_rate);
+        rest.copy_from_slice(&[
+            self.mount.heat(outer.velocity),
+            contact.damping_heat,
+            contact.friction_heat,
+        ]);
+        rate[heat..heat + HEATS].copy_from_slice(&heats);
+        rate[source] = race.torque * inner.spin;
+        rate[source + 1] = bearing.growth_impulse * inner_spin_rate;
+
+        if !probe.is_empty() {
+            let values: [R; probe::COUNT] = [
+                contact.penetration,
+                contact.penetration_speed,
+                contact.normal_force,
+                self.contact.force_rate(
+                    contact,
+                    &node.centre,
+                    inner,
+                    node.acceleration - inner_acceleration,
+                ),
+                contact.friction_force,
+                contact.slip_speed,
+                bearing.largest_inner_load,
+                bearing.largest_outer_load,
+                bearing.largest_pocket_force,
+                bearing.land_force,
+            ];
+            probe[at.probe..at.probe + probe::COUNT].copy_from_slice(&values);
+        }
+        let weight_moment = |position: Vec2<R>, mass: R| position.cross(gravity) * mass;
+        let hold = if race.centre_held {
+            // the force that holds the centre is the opposite of everything else on the race
+            -inner.position.cross(inner_force)
+        } else {
+            zero
+        };
+        External {
+            weights: [
+                weight_moment(inner.position, race.mass),
+                weight_moment(outer.position, self.outer_moving_mass),
+            ],
+            others: [
+                race.torque,
+                hold,
+                outer.position.cross(mount),
+                bearing.external_moment,
+                -outer_moment,
+            ],
+        }
+    }
+}
+
+#[inline(always)]
+pub(crate) fn write_body<R: Real>(
+    rate: &mut [R],
+    body: usize,
+    velocity: Vec2<R>,
+    acceleration: Vec2<R>,
+) {
+    rate[body] = velocity.x;
+    rate[body + 1] = velocity.y;
+    rate[body + 2] = acceleration.x;
+    rate[body + 3] = acceleration.y;
+}

@@ -1,0 +1,75 @@
+//! Energies and angular momentum of a machine, and what must close.
+//!
+//! At all times: works of the sources = change of (kinetic + potential) + heats, and
+//! change of angular momentum about the origin = external angular impulse.
+
+use super::RotorMachine;
+use super::rate::rotor_motion;
+use crate::system::energy::{Balance, Content, Flows};
+use number::Vec2;
+use solve::Machine;
+
+impl RotorMachine {
+    /// Energies and angular momentum at a state. The levitation is a source: it stores nothing.
+    pub fn content(&self, state: &[f64]) -> Content {
+        let c = &self.constants;
+        let rotor = rotor_motion(state);
+        let centre = c.rotor.geometric_centre(&rotor);
+        let (translation, spin) = c.rotor.kinetic_energy(&rotor);
+        let half_square = |mass: f64, speed: Vec2<f64>| 0.5 * mass * speed.length_squared();
+        let weight = |mass: f64, position: Vec2<f64>| -mass * c.gravity.dot(position);
+        let mut content = Content {
+            translation,
+            spin,
+            potential: 0.0,
+            angular_momentum: c.rotor.mass * rotor.position.cross(rotor.velocity)
+                + c.rotor.polar_inertia * rotor.spin,
+        };
+        let parts = self.layout().bearings.iter().zip(&c.bearings);
+        for (k, (at, part)) in parts.enumerate() {
+            let races = at.motion(state);
+            let (inner, outer) = (&races.inner, &races.outer);
+            let (race, outer_mass) = (&part.inner_race, part.outer_moving_mass());
+            let contact = part.contact.react(&centre, rotor.spin, inner);
+            let bearing = part.bearing.energy(&races, &state[at.own()]);
+            content.translation += half_square(race.mass, inner.velocity);
+            content.translation += half_square(outer_mass, outer.velocity);
+            content.translation += bearing.translation;
+            content.spin += 0.5 * race.inertia * inner.spin * inner.spin;
+            content.spin += bearing.spin;
+            content.potential += part.contact.energy(&contact);
+            content.potential += part.mount.energy(outer.position);
+            if k == 0 {
+                content.potential += weight(c.rotor.mass, rotor.position);
+            }
+            if !race.centre_held {
+                content.potential += weight(race.mass, inner.position);
+            }
+            content.potential += weight(outer_mass, outer.position);
+            content.potential += bearing.elastic;
+            content.potential += bearing.weight;
+            content.angular_momentum += race.mass * inner.position.cross(inner.velocity);
+            content.angular_momentum += race.inertia * inner.spin;
+            content.angular_momentum += outer_mass * outer.position.cross(outer.velocity);
+            content.angular_momentum += bearing.angular_momentum;
+        }
+        content
+    }
+
+    /// What the ledger channels of a state have summed up.
+    pub fn flows(&self, state: &[f64]) -> Flows {
+        Flows::of(&state[self.layout().flows()], self.layout().heats().len())
+    }
+    /// What must close between two states.
+    pub fn balance(&self, start: &[f64], end: &[f64]) -> Balance {
+        Balance::between(start, end, |state| (self.content(state), self.flows(state)))
+    }
+
+    /// The rate of change of a state, for inspection: (rate, probes).
+    pub fn inspect(&self, state: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let mut rate = vec![0.0; self.dimension()];
+        let mut probe = vec![0.0; self.probes()];
+        self.rate(&self.start_mode(), 0.0, state, &mut rate, &mut probe);
+        (rate, probe)
+    }
+}

@@ -1,0 +1,202 @@
+//! A levitated rotor falls onto its auxiliary bearings.
+//!
+//! ```text
+//!        rotor G, φ ──(levitation, until t = 0)
+//!          │ ... at each auxiliary bearing:
+//!          │ contact: clearance c0, N, friction
+//!        inner race c_i, φ_i ── drive torque
+//!          │ bearing: balls, cage
+//!        outer race c_o ──/\/\/── ground        does not turn: the ground takes t_O
+//! ```
+//! | page | subject |
+//! |---|---|
+//! | [`layout`] | where everything stands in the state |
+//! | [`rate`] | the equations of motion |
+//! | [`start`] | the levitated state at release |
+//! | [`ledger`] | energies, momentum, what closes |
+//! | [`linear`] | the Jacobian, for linearly implicit steps |
+//! | [`record`] | what is watched and kept of a run |
+//!
+//! The auxiliary bearing is a part: [`auxiliary_bearing`](crate::auxiliary_bearing).
+//!
+//! Assumes: a rotor that is a point with spin, so that all its bearings see the same motion. Bearings that are equal may be
+//! computed as one that carries its share of the rotor's mass, polar inertia and torques.
+
+pub mod constants;
+pub mod layout;
+pub mod ledger;
+pub mod linear;
+pub mod rate;
+pub mod record;
+pub mod start;
+
+use crate::auxiliary_bearing::AuxiliaryBearing;
+use crate::levitation::Levitation;
+use crate::rotor::Rotor;
+pub use constants::{Event, MachineConstants};
+use layout::Layout;
+use number::{Gather, Real, Vec2};
+use solve::{Batch, Machine};
+
+/// Discrete facts of a machine: 1 for on, 0 for off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mode<R> {
+    /// Levitation.
+    pub levitation: R,
+    /// Brake of the rotor.
+    pub brake: R,
+}
+
+impl Mode<f64> {
+    /// What an event switches.
+    fn happen(&mut self, event: Event) {
+        match event {
+            Event::Brake => self.brake = 1.0,
+        }
+    }
+}
+
+/// One machine, ready to run.
+#[derive(Clone, Debug)]
+pub struct RotorMachine {
+    /// Its constants.
+    pub constants: MachineConstants,
+    layout: Layout,
+    one: Machines<f64>,
+    error_scale: Vec<f64>,
+    levitated: bool,
+}
+
+/// The system over `R`.
+#[derive(Clone, Debug)]
+pub struct Machines<R: Real> {
+    rotor: Rotor<R>,
+    levitation: Levitation<R>,
+    gravity: Vec2<R>,
+    bearings: Vec<AuxiliaryBearing<R>>,
+    /// Reciprocals, because a division costs as much as ten products.
+    inverse_mass: R,
+    inverse_polar_inertia: R,
+    layout: Layout,
+}
+
+impl RotorMachine {
+    /// A machine whose levitation has just been lost.
+    pub fn new(constants: MachineConstants) -> Self {
+        Self::with_levitation(constants, false)
+    }
+    /// A machine, levitated or not.
+    ///
+    /// # Panics
+    /// When it has no auxiliary bearing.
+    pub fn with_levitation(constants: MachineConstants, levitated: bool) -> Self {
+        assert!(!constants.bearings.is_empty(), "a machine has a bearing");
+        let layout = Layout::of(&constants);
+        RotorMachine {
+            one: Machines::of(&|_| &constants, layout.clone()),
+            error_scale: layout.error_scale(&constants),
+            layout,
+            levitated,
+            constants,
+        }
+    }
+    /// Where everything stands in the state.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+}
+
+impl<R: Real> Machines<R> {
+    fn of<'a>(constants: &dyn Fn(usize) -> &'a MachineConstants, layout: Layout) -> Self {
+        let bearings = 0..constants(0).bearings.len();
+        Machines {
+            rotor: Gather::<R>::gather(&|lane| &constants(lane).rotor),
+            levitation: Gather::<R>::gather(&|lane| &constants(lane).levitation),
+            gravity: Gather::<R>::gather(&|lane| &constants(lane).gravity),
+            bearings: bearings
+                .map(|k| AuxiliaryBearing::gather(&|lane| &constants(lane).bearings[k]))
+                .collect(),
+            inverse_mass: R::from_lanes(|lane| 1.0 / constants(lane).rotor.mass),
+            inverse_polar_inertia: R::from_lanes(|lane| 1.0 / constants(lane).rotor.polar_inertia),
+            layout,
+        }
+    }
+}
+
+impl Machine for RotorMachine {
+    type Mode = Mode<f64>;
+
+    fn dimension(&self) -> usize {
+        self.layout.dimension()
+    }
+    fn quadratures(&self) -> usize {
+        self.layout.ledger_length()
+    }
+    fn probes(&self) -> usize {
+        self.layout.probes()
+    }
+    fn watched_probes(&self) -> usize {
+        self.layout.watched_probes()
+    }
+    fn watched_channels(&self) -> usize {
+        self.layout.watched_channels()
+    }
+    fn error_scale(&self, channel: usize) -> f64 {
+        self.error_scale[channel]
+    }
+    fn channel_name(&self, channel: usize) -> String {
+        self.layout.channel_name(channel)
+    }
+    fn start_mode(&self) -> Mode<f64> {
+        let mut mode = Mode {
+            levitation: f64::from(u8::from(self.levitated)),
+            brake: 0.0,
+        };
+        for event in self.constants.schedule.at_the_start() {
+            mode.happen(event);
+        }
+        mode
+    }
+    fn landings(&self) -> &[f64] {
+        self.constants.schedule.instants()
+    }
+    fn transition(&self, landing: usize, mode: &mut Mode<f64>, _state: &mut [f64]) {
+        mode.happen(self.constants.schedule.event(landing));
+    }
+    fn rate(
+        &self,
+        mode: &Mode<f64>,
+        _time: f64,
+        state: &[f64],
+        rate: &mut [f64],
+        probe: &mut [f64],
+    ) {
+        self.one.rate_of_change(mode, state, rate, probe);
+    }
+}
+
+impl<R: Real> Batch<R> for Machines<R> {
+    type Machine = RotorMachine;
+    type Mode = Mode<R>;
+
+    fn gather<'a>(machine: &dyn Fn(usize) -> &'a RotorMachine) -> Self
+    where
+        RotorMachine: 'a,
+    {
+        let layout = &machine(0).layout;
+        for lane in 1..R::LANES {
+            assert!(machine(lane).layout == *layout, "lanes share their layout");
+        }
+        Machines::of(&|lane| &machine(lane).constants, layout.clone())
+    }
+    fn gather_mode(modes: &dyn Fn(usize) -> Mode<f64>) -> Mode<R> {
+        Mode {
+            levitation: R::from_lanes(|lane| modes(lane).levitation),
+            brake: R::from_lanes(|lane| modes(lane).brake),
+        }
+    }
+    #[inline(always)]
+    fn rate(&self, mode: &Mode<R>, _time: R, state: &[R], rate: &mut [R], probe: &mut [R]) {
+        self.rate_of_change(mode, state, rate, probe);
+    }
+}

@@ -1,0 +1,156 @@
+//! Golden values: what six shipped scenarios gave last time, in `xtask/golden.json`. Compared with 1e-9, the work exactly; a
+//! change that is meant is written by `cargo xtask golden`, and its difference is reviewed.
+//!
+//! Only what is reproducible is kept: first impacts, times of the spin-up, energies of smooth runs. The program compared with
+//! itself is a regression test, no validation.
+
+use crate::repository::Repository;
+use crate::shipped;
+use serde_json::{Map, Value, json};
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Where the values stand.
+const FILE: &str = "xtask/golden.json";
+
+/// Largest relative difference: the last digits that another compiler may round in another way.
+const TOLERANCE: f64 = 1e-9;
+
+/// Quantities of a drop that tiny changes of the start do not change much.
+const DROP: &[&str] = &[
+    "time_to_first_contact",
+    "first_impact_force",
+    "inner_race_time_to_50_percent",
+    "inner_race_time_to_95_percent",
+];
+/// Quantities of a spin-up.
+const SPIN_UP: &[&str] = &[
+    "inner_race_time_to_95_percent",
+    "inner_race_mean_moment",
+    "outer_race_mean_moment",
+    "dissipated_energy",
+];
+
+/// The scenarios, and what is compared of each.
+const SCENARIOS: [(&str, &[&str]); 6] = [
+    ("reference_drop", DROP),
+    ("oil_lubricated_drop", DROP),
+    ("full_complement_drop", DROP),
+    ("spin_up_6005", SPIN_UP),
+    ("spin_up_rolling", SPIN_UP),
+    (
+        "rig_test_2",
+        &["peak_acceleration", "clutch_heat", "dissipated_energy"],
+    ),
+];
+
+/// Counts of work that must be the same.
+const WORK: [&str; 3] = ["steps", "rejected", "rate_calls"];
+
+/// What a summary holds of a scenario's golden values; none where the scenario has none.
+fn kept(scenario: &str, summary: &Value) -> Option<Value> {
+    let (_, names) = SCENARIOS.iter().find(|(name, _)| *name == scenario)?;
+    let quantities: Map<String, Value> = names
+        .iter()
+        .map(|name| {
+            (
+                name.to_string(),
+                summary["quantities"][name]["value"].clone(),
+            )
+        })
+        .filter(|(_, value)| !value.is_null())
+        .collect();
+    let work: Map<String, Value> = WORK
+        .iter()
+        .map(|count| (count.to_string(), summary["work"][count].clone()))
+        .collect();
+    Some(json!({ "quantities": quantities, "work": work }))
+}
+
+/// Differences of a scenario's run from its golden values.
+pub fn differences(repository: &Repository, scenario: &str, summary: &Value) -> Vec<String> {
+    let Some(found) = kept(scenario, summary) else {
+        return Vec::new();
+    };
+    let golden = repository.text(FILE).unwrap_or_default();
+    let Ok(golden) = serde_json::from_str::<Value>(&golden) else {
+        return vec![format!("{FILE} is no JSON: cargo xtask golden writes it")];
+    };
+    compare(&golden[scenario], &found)
+}
+
+fn compare(golden: &Value, found: &Value) -> Vec<String> {
+    let mut differences = Vec::new();
+    for (group, tolerance) in [("quantities", TOLERANCE), ("work", 0.0)] {
+        let (was, is) = (golden[group].as_object(), found[group].as_object());
+        let (Some(was), Some(is)) = (was, is) else {
+            return vec![format!(
+                "no golden values in {FILE}: cargo xtask golden writes them"
+            )];
+        };
+        let names = was
+            .keys()
+            .chain(is.keys().filter(|name| !was.contains_key(*name)));
+        for name in names {
+            let number = |map: &Map<String, Value>| map.get(name).and_then(Value::as_f64);
+            let same = match (number(was), number(is)) {
+                (Some(was), Some(is)) => (was - is).abs() <= tolerance * was.abs(),
+                _ => false,
+            };
+            if !same {
+                let text = |map: &Map<String, Value>| {
+                    map.get(name).map_or("nothing".to_owned(), Value::to_string)
+                };
+                differences.push(format!(
+                    "{name} was {} and is {}; where that is meant, cargo xtask golden writes it",
+                    text(was),
+                    text(is)
+                ));
+            }
+        }
+    }
+    differences
+}
+
+/// Runs the scenarios and writes their golden values.
+pub fn write() -> ExitCode {
+    match written() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn written() -> Result<(), String> {
+    let repository = Repository::open()?;
+    let program = shipped::build(&repository).map_err(|lines| lines.join("\n"))?;
+    let folder = std::env::temp_dir().join(format!("auxbear-golden-{}", std::process::id()));
+    let mut golden = Map::new();
+    for (name, _) in SCENARIOS {
+        let summary = shipped::summary_of(&repository.root, &program, name, &folder)?;
+        let kept = kept(name, &summary).unwrap_or_default();
+        golden.insert(name.to_owned(), kept);
+    }
+    let _ = std::fs::remove_dir_all(&folder);
+    let text = serde_json::to_string_pretty(&golden).map_err(|error| error.to_string())?;
+    let path = Path::new(&repository.root).join(FILE);
+    std::fs::write(path, text + "\n").map_err(|error| format!("{FILE}: {error}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_changed_value_and_a_changed_count_are_found() {
+        let golden = json!({ "quantities": { "a": 1.0 }, "work": { "steps": 10 } });
+        assert!(compare(&golden, &golden).is_empty());
+        let other = json!({ "quantities": { "a": 1.0 + 1e-8 }, "work": { "steps": 11 } });
+        assert_eq!(compare(&golden, &other).len(), 2);
+        let missing = json!({ "quantities": {}, "work": { "steps": 10 } });
+        assert_eq!(compare(&golden, &missing).len(), 1);
+        assert_eq!(compare(&Value::Null, &golden).len(), 1);
+    }
+}
