@@ -5,7 +5,7 @@ mod tables;
 use measure::file::hdf5::Hdf5;
 use measure::recording::{FileError, Recording};
 use std::io::Cursor;
-use tables::{all, bytes, ramp, ramps, waves};
+use tables::{all, bytes, channel, ramp, ramps, waves};
 
 fn open(bytes: Vec<u8>) -> Result<Hdf5<Cursor<Vec<u8>>>, FileError> {
     Hdf5::from_source(Cursor::new(bytes), "damaged.h5".as_ref())
@@ -155,4 +155,9 @@ fn links_that_lead_nowhere_and_deep_groups_are_noted() {
     }
     // The two hundred links to a channel that is there are none of them.
     assert_eq!(told.len(), 3, "{told:?}");
+    assert_eq!(
+        channel(&file, "force"),
+        0,
+        "a group before the groups below it"
+    );
 }
