@@ -145,20 +145,6 @@ impl Layout {
             c => named("energy.work", &self.works[c - self.work(0)]),
         }
     }
-    /// A state of this layout with what another one holds under the same names; what it does not hold keeps its value.
-    ///
-    /// This is how one phase of a run hands its state and ledger on to the next.
-    pub fn take_over(&self, into: &mut [f64], from: &Layout, state: &[f64]) {
-        if self == from {
-            into.copy_from_slice(state);
-            return;
-        }
-        for (channel, value) in into.iter_mut().enumerate() {
-            if let Some(there) = from.channel(&self.channel_name(channel)) {
-                *value = state[there];
-            }
-        }
-    }
 }
 
 fn add(
