@@ -5,7 +5,7 @@ use physics::rolling::RollingSet;
 
 use super::parameter::share_range;
 use super::prior::Priors;
-use super::record::{Past, Step, Test};
+use super::record::{Past, Step, Trial};
 use super::slip::{Slip, load_moment_factor};
 use super::steady::{Continued, Table};
 use super::{Explanation, Settings};
@@ -126,7 +126,7 @@ impl Hypothesis {
     }
 
     /// Predicted means at standard normal coordinates.
-    pub fn predict(self, coordinates: &[f64], tests: &[Test], bearing: &Bearing) -> Prediction {
+    pub fn predict(self, coordinates: &[f64], tests: &[Trial], bearing: &Bearing) -> Prediction {
         let values = self.values(coordinates, bearing);
         let mut prediction = Prediction {
             torque: Vec::new(),
@@ -145,7 +145,7 @@ impl Hypothesis {
                     film,
                     ..test.past
                 };
-                Test {
+                Trial {
                     past,
                     ..test.clone()
                 }
@@ -205,7 +205,7 @@ impl Hypothesis {
     }
 
     /// Means of torque and cage speed of one test, and how much traction softened in it.
-    fn run(self, values: &[f64], test: &Test, bearing: &Bearing) -> (Vec<f64>, Vec<f64>, f64) {
+    fn run(self, values: &[f64], test: &Trial, bearing: &Bearing) -> (Vec<f64>, Vec<f64>, f64) {
         let reference = bearing.table.reference;
         let rolls =
             || test.cage_means((test.steps.iter()).map(|s| bearing.set.cage_speed(s.middle_speed)));
@@ -302,7 +302,7 @@ fn another_moment(values: &[f64], step: &Step, table: &Table) -> f64 {
     let (ratio, at_half) = (values[0], values[1]);
     let reference = table.reference;
     let half = table.at(0.5 * table.top_speed).0;
-    // of a flat curve the parts are not told apart
+    // of a flat curve the parts cannot be distinguished
     let growth = (reference - half).max(0.1 * reference);
     let shifted = ratio * (at_half - 1.0) * half / growth;
     (ratio * step.steady + shifted * (reference * step.fading - step.steady)).max(0.0)
@@ -311,7 +311,7 @@ fn another_moment(values: &[f64], step: &Step, table: &Table) -> f64 {
 /// t_O of rolling balls along the steps, N m: M - J_O Ω̇.
 ///
 /// - `load_share`: share of M that grows with the load, where the load is another one
-fn rolling_torque(test: &Test, bearing: &Bearing, load_share: f64) -> impl Iterator<Item = f64> {
+fn rolling_torque(test: &Trial, bearing: &Bearing, load_share: f64) -> impl Iterator<Item = f64> {
     let inertia = bearing.set.outer_inertia();
     // without an explanation that knows the share, the middle of the prior
     let share = if load_share < 1.0 {
@@ -325,7 +325,7 @@ fn rolling_torque(test: &Test, bearing: &Bearing, load_share: f64) -> impl Itera
 }
 
 /// The smaller of the largest changes of a mean torque that build-up and breakdown make, N m.
-fn smaller_effect(form: Hypothesis, values: &[f64], test: &Test, bearing: &Bearing) -> f64 {
+fn smaller_effect(form: Hypothesis, values: &[f64], test: &Trial, bearing: &Bearing) -> f64 {
     let load_moment = (1.0 - values[0]) * bearing.table.reference;
     let grease = form.grease(values, bearing);
     let torque = |grease: Grease<f64>| {
@@ -356,7 +356,7 @@ fn smaller_effect(form: Hypothesis, values: &[f64], test: &Test, bearing: &Beari
 /// [`lubricant_state`](physics::lubricant_state) at the speed of the step.
 fn grease_factor(
     grease: Grease<f64>,
-    test: &Test,
+    test: &Trial,
     set: &RollingSet<f64>,
 ) -> impl Iterator<Item = f64> {
     let mut breakdown = test.past.left;
@@ -378,7 +378,7 @@ mod tests {
     use super::*;
 
     /// A bearing with a flat curve of 20 N mm, and a test that holds 150 rad/s for 4 s and then rests.
-    fn with_test(check: impl Fn(&Bearing, &Test)) {
+    fn with_test(check: impl Fn(&Bearing, &Trial)) {
         let steady = known(vec![1.0, 150.0], vec![20e-3, 20e-3]);
         let set = RollingSet {
             inner_track_radius: 14.8e-3,
@@ -390,7 +390,7 @@ mod tests {
             |t: f64| 150.0 * (t / 0.02).clamp(0.0, 1.0) * (1.0 - (t - 4.0) / 0.5).clamp(0.0, 1.0);
         let (priors, settings) = (Priors::default(), Settings::default());
         let bearing = Bearing::new(&steady, 150.0, &set, &priors, &settings, false);
-        let test = Test::planned(
+        let test = Trial::planned(
             &speed,
             6.0,
             &LeastWidth::even(0.02),
@@ -476,7 +476,7 @@ mod tests {
                     < 1e-9
             );
             let after = |rest: f64| {
-                let test = Test {
+                let test = Trial {
                     rest_before: Some(rest),
                     ..test.clone()
                 };

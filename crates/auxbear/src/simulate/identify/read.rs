@@ -5,7 +5,7 @@ use crate::problem::{Code, Problem};
 use crate::scenario::{BuiltIn, Identify, Scenario, Signals, System, UNNAMED};
 use std::path::Path;
 
-/// One test as its signals file tells it, its channels read.
+/// One test as its signals file describes it, its channels read.
 pub struct Test {
     /// Name for people: that of the file, or of its folder where the file is called signals.toml.
     pub name: String,
@@ -152,13 +152,13 @@ mod tests {
         let scenario = Scenario::read(&path, &[], &BuiltIn).expect("it is right");
         let interrupt = AtomicBool::new(false);
         let problem = build(&scenario, &Options::unwatched(&interrupt)).err();
-        let told = problem.expect("a file is missing").to_string();
+        let text = problem.expect("a file is missing").to_string();
         for part in [
             "error[AB0001]",
             "identify.toml:4: identify.coast_down",
             "slow.toml",
         ] {
-            assert!(told.contains(part), "{told}");
+            assert!(text.contains(part), "{text}");
         }
     }
 }
