@@ -77,6 +77,9 @@ impl Data {
     }
 }
 
+/// Weight of a point of the grid below which it is left out.
+const LEAST_WEIGHT: f64 = 1e-6;
+
 /// What the data say of one form.
 pub(crate) struct Posterior {
     /// Logarithm of the probability density of the data.
@@ -200,25 +203,32 @@ pub(crate) fn weighed(
         return None;
     }
     let tried = (CORRELATIONS.len() * noises.len() * precisions.len()) as f64;
-    let total: f64 = points.iter().map(|p| (p.log_weight - top).exp()).sum();
-    let points: Vec<(f64, Point)> = points
-        .into_iter()
-        .map(|point| ((point.log_weight - top).exp() / total, point))
-        .filter(|(weight, _)| *weight > 1e-6)
+    let weight = |point: &Point| (point.log_weight - top).exp();
+    let total: f64 = points.iter().map(weight).sum();
+    points.retain(|point| weight(point) > LEAST_WEIGHT * total);
+    // what is left out must not be missing from the mean, nor its square from the covariance
+    let kept: f64 = points.iter().map(weight).sum();
+    let points: Vec<(f64, Point)> = (points.into_iter())
+        .map(|point| (weight(&point) / kept, point))
         .collect();
     // Mean and covariance over the grid, the noise wider by a factor.
     let drawn = |wide: f64| {
-        let mut mean = DVector::zeros(size);
-        let mut square = DMatrix::zeros(size, size);
-        for (weight, point) in &points {
+        let own = points.iter().map(|(weight, point)| {
             let white = &whitened[point.correlation];
             let (matrix, right) = system(white, wide * point.noise, &precisions[point.precision]);
             let factor = Factor::of(matrix)?;
-            let own = factor.solved(&right);
-            square += (factor.inverse() + &own * own.transpose()) * *weight;
-            mean += own * *weight;
+            Some((*weight, factor.solved(&right), factor.inverse()))
+        });
+        let own: Vec<_> = own.collect::<Option<_>>()?;
+        let mut mean = DVector::zeros(size);
+        for (weight, at, _) in &own {
+            mean += at * *weight;
         }
-        let covariance = square - &mean * mean.transpose();
+        let mut covariance = DMatrix::zeros(size, size);
+        for (weight, at, around) in &own {
+            let apart = at - &mean;
+            covariance += (around + &apart * apart.transpose()) * *weight;
+        }
         Some((mean, covariance))
     };
     let over = |f: &dyn Fn(&Point) -> f64| points.iter().map(|(w, p)| w * f(p)).sum::<f64>();
@@ -262,5 +272,46 @@ fn colour(residual: &[f64], stretches: &[Range<usize>], correlation: f64) -> f64
         (1.0 + 2.0 * weighted / square).max(1.0)
     } else {
         1.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values about 1000 that scatter by 0.7, as one stretch or as two.
+    fn scattered(stretches: &[Range<usize>]) -> Data {
+        let y: Vec<f64> = (0..100)
+            .map(|k| 1000.0 + (f64::from(k * k) * 12.9898).sin())
+            .collect();
+        Data {
+            x: vec![0.0; y.len()],
+            y,
+            stretches: stretches.to_vec(),
+        }
+    }
+
+    #[test]
+    fn points_of_the_grid_that_are_left_out_do_not_widen_the_band() {
+        let one = DMatrix::from_element(100, 1, 1.0);
+        for stretches in [vec![0..100], vec![0..60, 60..100]] {
+            let data = scattered(&stretches);
+            let found = weighed(&data, &one, &[DMatrix::from_element(1, 1, 1e-12)]).unwrap();
+            let mean = data.y.iter().sum::<f64>() / 100.0;
+            let deviation = found.covariance[(0, 0)].sqrt();
+            assert!((found.mean[0] - mean).abs() < 0.05, "{}", found.mean[0]);
+            // 0.7/√100, and up to twice that where some correlation is possible; a part of 1e-5 of 1000² would be 3
+            assert!((0.06..0.15).contains(&deviation), "{deviation}");
+            assert!((found.noise / 0.7 - 1.0).abs() < 0.2 && found.correlation < 0.3);
+        }
+    }
+
+    #[test]
+    fn a_stretch_of_two_means_is_left_out() {
+        let mut data = Data::default();
+        let (x, y) = ([1.0, 3.0, 5.0, 7.0, 9.0, 11.0, 13.0], [2.0; 7]);
+        assert_eq!(data.add(&x[..5], &y[..5], &[1.0; 5], 2), 0);
+        assert_eq!(data.add(&x, &y, &[1.0, 3.0, 1.0, 1.0, 1.0, 1.0, 1.0], 2), 6);
+        assert_eq!((data.x, data.stretches), (vec![2.5, 6.0, 10.0], vec![0..3]));
     }
 }
