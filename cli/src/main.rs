@@ -15,12 +15,11 @@ use arguments::{Arguments, Command};
 use auxbear::problem::{Code, Problem};
 use auxbear::report::directory;
 use auxbear::scenario::{BuiltIn, Scenario, SystemName};
-use auxbear::simulate::{self, Options};
+use auxbear::simulate;
 use auxbear::validate::{self, Simulation};
 use clap::Parser;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::atomic::AtomicBool;
 
 /// How the command ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,9 +79,8 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
         Command::Identify(wish) => return measured::perform(wish, SystemName::Identify),
         Command::Check { file, set } => {
             let scenario = Scenario::read(file, set, &BuiltIn)?;
-            let never = AtomicBool::new(false);
-            let machine = simulate::build(&scenario, &Options::unwatched(&never))?;
-            console::print(&machine.resolved().toml());
+            let machine = simulate::build(&scenario)?;
+            console::print(&scenario.resolved.toml());
             for warning in machine.warnings() {
                 console::tell(&format!("warning[{}]: {}", warning.code, warning.text));
             }

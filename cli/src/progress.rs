@@ -1,7 +1,6 @@
 //! How far a run is: a bar on a terminal, a few lines in a log, nothing when quiet.
 
 use crate::console;
-use auxbear::simulate::Phase;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::Mutex;
@@ -17,9 +16,8 @@ pub enum Progress {
     Lines(Mutex<Lines>),
 }
 
-/// What was told in a log: a line each 10 % of a phase, and none sooner than a second after the last.
+/// What was told in a log: a line each 10 %, and none sooner than a second after the last.
 pub struct Lines {
-    phase: Phase,
     tenths: u32,
     last: Instant,
 }
@@ -32,22 +30,20 @@ impl Progress {
         }
         if !std::io::stderr().is_terminal() {
             return Progress::Lines(Mutex::new(Lines {
-                phase: Phase::SteadyRun,
                 tenths: 0,
                 last: Instant::now(),
             }));
         }
         let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::stderr());
-        let style = ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} % {eta:>5}");
+        let style = ProgressStyle::with_template("run {wide_bar} {percent:>3} % {eta:>5}");
         Progress::Bar(bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())))
     }
 
-    /// Shows a fraction of a phase, from any thread.
-    pub fn show(&self, phase: Phase, fraction: f64) {
+    /// Shows the fraction done, from any thread.
+    pub fn show(&self, fraction: f64) {
         match self {
             Progress::Quiet => {}
             Progress::Bar(bar) => {
-                bar.set_message(phase.name());
                 bar.set_position((1000.0 * fraction) as u64);
             }
             Progress::Lines(lines) => {
@@ -55,14 +51,10 @@ impl Progress {
                 let Ok(mut lines) = lines.lock() else {
                     return;
                 };
-                if phase != lines.phase {
-                    lines.phase = phase;
-                    lines.tenths = 0;
-                }
                 if tenths > lines.tenths && lines.last.elapsed() >= PAUSE {
                     lines.tenths = tenths;
                     lines.last = Instant::now();
-                    console::tell(&format!("{}: {} %", phase.name(), 10 * tenths));
+                    console::tell(&format!("run: {} %", 10 * tenths));
                 }
             }
         }

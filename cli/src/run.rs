@@ -58,9 +58,9 @@ pub fn execute(
     let options = Options {
         threads: threads.map(usize::from),
         interrupt: &INTERRUPT,
-        progress: &|phase, fraction| progress.show(phase, fraction),
+        progress: &|fraction| progress.show(fraction),
     };
-    let machine = simulate::build(scenario, &options).inspect_err(|_| progress.end())?;
+    let machine = simulate::build(scenario).inspect_err(|_| progress.end())?;
     let directory = NewDirectory::reserve(path).inspect_err(|_| progress.end())?;
     if let Ok(mut partial) = PARTIAL.lock() {
         *partial = Some(directory.partial().to_path_buf());

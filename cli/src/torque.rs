@@ -85,6 +85,10 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
     let found = Found(outcome);
     let mut text = format!("{}\n{}\n", outcome.title, found.place());
     text.push_str(&format!("\n{}", console::table(&found.accelerations())));
+    if let Some(Value::Number(_)) = found.value("starting_moment") {
+        let moment = found.number("starting_moment", "N mm");
+        text.push_str(&format!("at rest {moment} N mm to start\n"));
+    }
     if found.list("loads").len() > 1 {
         text.push_str(&format!("\n{}", console::table(&found.loads())));
     }

@@ -1,14 +1,16 @@
 //! `cargo xtask bench`: the reference drop beside what a user would write instead, in CPU time. Nothing is judged.
 
+pub mod against;
 mod clock;
 mod page;
 mod peer;
+mod program;
 
 use crate::repository::Repository;
-use crate::toolchain::{cargo, quiet};
-use clock::{median, timed};
 use page::{Page, signed, three};
 use peer::{CVODE, Peer, SCIPY};
+pub use program::build;
+use program::{Program, Task};
 use serde_json::Value;
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
@@ -33,9 +35,6 @@ const CVODE_STIFF_TOLERANCE: &str = "3e-5";
 const SCIPY_TOLERANCE: &str = "5e-4";
 const BALLS: [usize; 4] = [7, 10, 20, 40];
 const LANE_RUNS: usize = 32;
-/// CPU time of children comes in steps of 10 ms: a block of runs this long, s, makes that one percent.
-const BLOCK: f64 = 1.0;
-const BLOCKS: usize = 5;
 const PEER_RUNS: usize = 3;
 
 /// The reproducible quantities: heading, where summary and peers have it, factor to the unit of the heading.
@@ -66,20 +65,16 @@ fn measure(program: Option<&str>) -> Result<(), String> {
         None => build(&repository)?,
     };
     let mut bench = Bench {
+        program: Program::new(&repository.root, program),
         root: repository.root,
-        program,
-        out: std::env::temp_dir().join(format!("auxbear-bench-{}", std::process::id())),
         page: Page::default(),
         peers: Vec::new(),
     };
-    let told =
-        clock::children_seconds().map_or("Wall time, as CPU time is not told", |_| "CPU time");
     bench.page.line("# Measured");
     bench.page.line("");
     bench.page.line("Written by `cargo xtask bench`; what is compared, and why at these tolerances: [README.md](README.md).");
     bench.page.line("");
-    let machine = format!("{}. {told}.", clock::machine());
-    bench.page.line(&machine);
+    bench.page.line(&clock::machine());
     for peer in [CVODE, SCIPY] {
         match peer.missing() {
             None => bench.peers.push(peer),
@@ -93,29 +88,13 @@ fn measure(program: Option<&str>) -> Result<(), String> {
     bench.stiff_traction()?;
     bench.number_of_balls()?;
     bench.instructions()?;
-    let _ = std::fs::remove_dir_all(&bench.out);
     let path = bench.root.join(RESULTS);
     std::fs::write(&path, bench.page.text()).map_err(|error| format!("{RESULTS}: {error}"))
 }
 
-/// The release build of the command; it lies beside the build of this tool.
-pub fn build(repository: &Repository) -> Result<PathBuf, String> {
-    let outcome = quiet(cargo(repository).args(["build", "--quiet", "--release", "--locked"]));
-    let own = std::env::current_exe().map_err(|error| error.to_string())?;
-    let name = format!("auxbear{}", std::env::consts::EXE_SUFFIX);
-    let program = own
-        .ancestors()
-        .nth(2)
-        .map(|target| target.join("release").join(name));
-    program
-        .filter(|path| outcome.findings.is_empty() && path.is_file())
-        .ok_or_else(|| format!("no program was built\n{}", outcome.findings.join("\n")))
-}
-
 struct Bench {
     root: PathBuf,
-    program: PathBuf,
-    out: PathBuf,
+    program: Program,
     page: Page,
     peers: Vec<Peer>,
 }
@@ -198,10 +177,15 @@ impl Bench {
                 format!("bearing.ball_count={balls}"),
                 format!("bearing.pitch_diameter={pitch} mm"),
             ];
-            let alone = self.cost(ANY_BALLS, &settings, 1)?;
-            let calls = self.rate_calls()?;
-            let lanes = self.cost(ANY_BALLS, &settings, LANE_RUNS)?;
-            let lane_calls = self.rate_calls()? / LANE_RUNS as f64;
+            let task = |count| Task {
+                scenario: ANY_BALLS,
+                settings: &settings,
+                count,
+            };
+            let alone = self.program.cost(task(1))?;
+            let calls = self.program.rate_calls()?;
+            let lanes = self.program.cost(task(LANE_RUNS))?;
+            let lane_calls = self.program.rate_calls()? / LANE_RUNS as f64;
             self.page.row(&[
                 balls.to_string(),
                 pitch.to_string(),
@@ -222,8 +206,9 @@ impl Bench {
         for count in [1, LANE_RUNS] {
             let mut counter = Command::new("perf");
             counter.args(["stat", "-x,", "-e", "instructions:u", "--"]);
-            counter.arg(&self.program);
-            self.arguments(&mut counter, DROP, &settings, count);
+            counter.arg(self.program.path());
+            self.program
+                .arguments(&mut counter, drop_of(&settings, count));
             let counted = counter
                 .output()
                 .ok()
@@ -232,7 +217,7 @@ impl Bench {
                 self.page.line("Not counted: `perf stat -e instructions:u` is absent or the machine does not count.");
                 return Ok(());
             };
-            let each = instructions / self.rate_calls()?;
+            let each = instructions / self.program.rate_calls()?;
             self.page.line(&format!(
                 "- {count} drops, whole process over right-hand sides of one lane: {each:.0}"
             ));
@@ -247,8 +232,8 @@ impl Bench {
         settings: &[String],
         others: &[(usize, Value)],
     ) -> Result<(), String> {
-        let alone = self.cost(DROP, settings, 1)?;
-        let lanes = self.cost(DROP, settings, LANE_RUNS)?;
+        let alone = self.program.cost(drop_of(settings, 1))?;
+        let lanes = self.program.cost(drop_of(settings, LANE_RUNS))?;
         let mut lines = vec![
             Line {
                 name: "auxbear, alone".to_owned(),
@@ -340,54 +325,18 @@ impl Bench {
         self.peers[index].run(&self.root, &words, runs)
     }
 
-    /// CPU seconds of one drop, the whole process with its files: the median of several blocks of runs.
-    fn cost(&self, scenario: &str, settings: &[String], count: usize) -> Result<f64, String> {
-        let simulate = || self.simulate(scenario, settings, count);
-        let runs = (BLOCK / timed(simulate)?.max(0.01)).ceil() as usize;
-        let blocks: Result<Vec<f64>, String> = (0..BLOCKS)
-            .map(|_| timed(|| (0..runs).try_for_each(|_| simulate())))
-            .collect();
-        Ok(median(blocks?) / (runs * count) as f64)
-    }
-
-    fn simulate(&self, scenario: &str, settings: &[String], count: usize) -> Result<(), String> {
-        let mut command = Command::new(&self.program);
-        self.arguments(&mut command, scenario, settings, count);
-        let outcome = quiet(&mut command);
-        if outcome.findings.is_empty() {
-            Ok(())
-        } else {
-            Err(outcome.findings.join("\n"))
-        }
-    }
-
-    fn arguments(&self, command: &mut Command, scenario: &str, settings: &[String], count: usize) {
-        // absent before the first run; the command never writes over a folder
-        let _ = std::fs::remove_dir_all(&self.out);
-        command.current_dir(&self.root);
-        command.args(["run", scenario, "--quiet", "--threads", "1", "--out"]);
-        command.arg(&self.out);
-        command.args(["--repeat", &count.to_string()]);
-        for setting in settings {
-            command.args(["--set", setting]);
-        }
-    }
-
     fn summary_of(&self, settings: &[String]) -> Result<Value, String> {
-        self.simulate(DROP, settings, 1)?;
-        self.summary()
+        self.program.simulate(drop_of(settings, 1))?;
+        self.program.summary()
     }
+}
 
-    /// The summary of the last run.
-    fn summary(&self) -> Result<Value, String> {
-        let text = std::fs::read_to_string(self.out.join("summary.json"));
-        let text = text.map_err(|error| format!("summary.json: {error}"))?;
-        serde_json::from_str(&text).map_err(|error| error.to_string())
-    }
-
-    fn rate_calls(&self) -> Result<f64, String> {
-        let calls = self.summary()?["work"]["rate_calls"].as_f64();
-        calls.ok_or_else(|| "no right-hand sides were counted".to_owned())
+/// So many reference drops.
+fn drop_of(settings: &[String], count: usize) -> Task<'_> {
+    Task {
+        scenario: DROP,
+        settings,
+        count,
     }
 }
 

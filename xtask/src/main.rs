@@ -22,6 +22,8 @@ cargo xtask check           all guards, then all tests; exit status 1 on any fin
 cargo xtask check --fast    the guards that build nothing of the product
 cargo xtask bench           the reference drop beside CVODE and SciPy, in CPU time (benchmarks/README.md); minutes
 cargo xtask bench PROGRAM   the same with a command that is built already
+cargo xtask bench --against COMMIT
+                            this tree beside a commit, built beside it, in turns; minutes (benchmarks/README.md)
 cargo xtask docs            writes the book's page of validation from auxbear validate
 cargo xtask docs PROGRAM    the same with a command that is built already
 cargo xtask help            this text
@@ -34,6 +36,7 @@ fn main() -> ExitCode {
         ["check"] => check::run(check::Extent::Full),
         ["check", "--fast"] => check::run(check::Extent::Fast),
         ["bench"] => bench::run(None),
+        ["bench", "--against", commit] => bench::against::run(commit),
         ["bench", program] => bench::run(Some(program)),
         ["docs"] => docs::run(None),
         ["docs", program] => docs::run(Some(program)),

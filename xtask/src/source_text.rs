@@ -34,6 +34,9 @@ const MACHINE_WORDS: [&str; 2] = [concat!("registry", " host"), concat!("replace
 /// Data beside the checkout: only tests and validation may look there, and say so when it is absent.
 const OUTSIDE: &str = concat!("../", "shared");
 
+/// What the environment says: no number of a library may depend on it.
+const ENVIRONMENT: &str = concat!("env", "::var");
+
 /// Names that say nothing about what a module holds.
 const EMPTY_NAMES: [&str; 8] = [
     "common", "helper", "helpers", "manager", "managers", "misc", "util", "utils",
@@ -77,6 +80,7 @@ fn scan(file: &str, text: &str) -> Vec<String> {
     let may_look_outside = file
         .split('/')
         .any(|part| part == "tests" || part.starts_with("validat"));
+    let library = file.starts_with("crates/") && file.contains("/src/");
     for (number, line) in text.lines().enumerate() {
         let mut report = |what: String| findings.push(format!("{file}:{}: {what}", number + 1));
         if file.ends_with(".rs") {
@@ -89,6 +93,11 @@ fn scan(file: &str, text: &str) -> Vec<String> {
         }
         for word in MACHINE_WORDS.iter().filter(|word| line.contains(**word)) {
             report(format!("a setting of one machine: {word}"));
+        }
+        if library && line.contains(ENVIRONMENT) {
+            report(format!(
+                "a result would depend on the environment: {ENVIRONMENT}"
+            ));
         }
         if line.contains(OUTSIDE) && !may_look_outside {
             report(format!("looks outside the repository: {OUTSIDE}"));
@@ -127,6 +136,14 @@ mod tests {
         assert_eq!(scan("a.css", &"x\n".repeat(600)), Vec::<String>::new());
         assert_eq!(scan("a.css", &"x\n".repeat(601)).len(), 1);
         assert_eq!(scan("a.json", &"x\n".repeat(601)), Vec::<String>::new());
+    }
+
+    #[test]
+    fn a_library_that_asks_the_environment_is_found() {
+        let text = format!("let a = std::{ENVIRONMENT}(\"A\");");
+        assert_eq!(scan("crates/physics/src/film.rs", &text).len(), 1);
+        assert_eq!(scan("crates/physics/tests/film.rs", &text).len(), 0);
+        assert_eq!(scan("xtask/src/main.rs", &text).len(), 0);
     }
 
     #[test]

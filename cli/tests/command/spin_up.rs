@@ -113,16 +113,14 @@ fn what_a_spin_up_does_not_have_is_refused() {
     assert!(page.contains("spin_up"));
 }
 
-/// Words that give a bearing whose pockets lose more than its friction law says in all.
-const LOSSY: [&str; 8] = [
+/// Words that give a bearing whose balls lose so much that a braked race would have no answer.
+const LOSSY: [&str; 6] = [
     "--set",
-    "bearing.moment.f0=0.002",
+    "bearing.fidelity=rolling",
     "--set",
-    "bearing.cage.pocket_friction_coefficient=0.5",
+    "bearing.acceleration_loss.kind=proportional",
     "--set",
-    "bearing.cage.pocket_gap=0 m",
-    "--set",
-    "bearing.moment.f1_factor=0",
+    "bearing.acceleration_loss.per_acceleration=1 N s^2/rad",
 ];
 
 #[test]
@@ -132,9 +130,9 @@ fn a_machine_that_cannot_be_built_leaves_nothing_behind() {
 system = "spin_up"
 
 [drive]
-kind = "speed"
+kind = "sliding rotor"
 radial_load = "100 N"
-final_speed = "1000 rad/s"
+rotor_speed = "1000 rad/s"
 
 [bearing]
 name = "6005"
@@ -142,6 +140,8 @@ operating_diametral_clearance = "-4 um"
 
 [bearing.moment]
 law = "palmgren"
+f0 = 2.0
+f1_factor = 0.0005
 f1_exponent = 0.5
 viscosity = "40 mm^2/s"
 "#;
@@ -149,7 +149,8 @@ viscosity = "40 mm^2/s"
     for command in ["run", "check"] {
         let mut words = vec![command, "lossy.toml"];
         words.extend(LOSSY);
-        let told = "error[AB0210]: lossy.toml, --set: bearing.moment: found slip";
+        let told =
+            "error[AB0211]: lossy.toml, --set: bearing.acceleration_loss.per_acceleration: found";
         place.call(&words).refused(&[told]);
         assert_eq!(place.names(), ["lossy.toml"]);
     }

@@ -66,8 +66,6 @@ pub enum Code {
     NoLawData,
     /// AB0209
     CreatesEnergy,
-    /// AB0210
-    LossExceedsLaw,
     /// AB0211
     Impossible,
     /// AB0301
@@ -272,12 +270,6 @@ impl Code {
             "AB0209",
             "Loss that would create energy",
             "A loss must take energy out of the bearing whatever its speed and acceleration; this one would put some in.",
-        ),
-        (
-            Code::LossExceedsLaw,
-            "AB0210",
-            "Losses beyond the friction law",
-            "What the balls lose by slip and in their pockets alone is more than the steady friction moment says in all.",
         ),
         (
             Code::Impossible,

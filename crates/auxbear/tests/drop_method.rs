@@ -1,6 +1,7 @@
 //! Which steps a drop takes, and that threads change nothing.
 
 use auxbear::scenario::{BuiltIn, Scenario, template};
+use auxbear::simulate::outcome::Value;
 use auxbear::simulate::{Options, Outcome, run};
 use std::sync::atomic::AtomicBool;
 
@@ -89,4 +90,69 @@ fn tolerances_of_the_machine_spread_what_they_should() {
     assert!(still.standard_deviation < 1e-5 * still.mean, "{still:?}");
     let [low, median, high] = spread(&varied, "first_impact_force").quantiles;
     assert!(low < 0.95 * median && high > 1.05 * median);
+}
+
+/// Air clearances, mm, from 0.25 to 0.31: some of 200, or as many as AUXBEAR_CLEARANCES says. Those between are of the 200
+/// at which an implicit step once passed over the first impact, or lie where it did in another machine.
+fn clearances() -> Vec<f64> {
+    let count = std::env::var("AUXBEAR_CLEARANCES").ok();
+    let count = count.and_then(|count| count.parse().ok()).unwrap_or(9);
+    let even = |k: usize| 0.25 + 0.06 * k as f64 / (count.max(2) - 1) as f64;
+    let passed_over = [123, 124, 125, 126, 127].map(|k| 0.25 + 0.06 * f64::from(k) / 199.0);
+    let elsewhere = [0.2970, 0.2975, 0.2980, 0.2985];
+    (0..count)
+        .map(even)
+        .chain(passed_over)
+        .chain(elsewhere)
+        .collect()
+}
+
+#[test]
+fn the_first_impact_is_met_wherever_it_lies_in_an_implicit_step() {
+    let text = include_str!("../../../scenarios/reference_drop.toml");
+    let drop = |clearance: f64, sets: &[&str]| {
+        let mut all = vec![
+            String::from("run.duration=8.5 ms"),
+            String::from("run.output_interval=0.02 ms"),
+            String::from("bearing.traction.reference_speed=5 mm/s"),
+            format!("contact.radial_air_clearance={clearance} mm"),
+        ];
+        all.extend(sets.iter().map(|set| (*set).to_string()));
+        let scenario = Scenario::parse(text, "drop.toml", &all, &BuiltIn).expect("it is right");
+        let interrupt = AtomicBool::new(false);
+        run(&scenario, &Options::unwatched(&interrupt)).expect("it builds")
+    };
+    let value = |outcome: &Outcome, name: &str| {
+        let quantity = outcome.quantities.iter().find(|q| q.name == name);
+        match quantity.map(|quantity| &quantity.value) {
+            Some(Value::Number(value)) => *value,
+            other => panic!("{name}: {other:?}"),
+        }
+    };
+    for clearance in clearances() {
+        let ours = drop(clearance, &[]);
+        assert!(method(&ours).contains("implicit"));
+        let residual = value(&ours, "energy_residual");
+        assert!(residual.abs() < 1e-6, "{clearance}: {residual}");
+        let heats = (ours.history.iter()).filter(|column| column.name.starts_with("energy.heat."));
+        for heat in heats {
+            let end = heat.values.last().expect("rows");
+            let fall = heat
+                .values
+                .windows(2)
+                .map(|two| two[0] - two[1])
+                .fold(0.0, f64::max);
+            assert!(
+                fall <= 1e-6 * end,
+                "{clearance}: {} falls by {fall} J of {end}",
+                heat.name
+            );
+        }
+        let explicit = drop(clearance, &["run.method=explicit", "run.tolerance=1e-5"]);
+        let [ours, theirs] = [&ours, &explicit].map(|run| value(run, "first_impact_force"));
+        assert!(
+            (ours / theirs - 1.0).abs() < 1e-3,
+            "{clearance}: {ours} {theirs}"
+        );
+    }
 }

@@ -1,11 +1,10 @@
 //! The shipped reference scenario builds the very machine of the reference cases: what a user writes reaches the model.
 
 use auxbear::scenario::{BuiltIn, Scenario, System};
-use auxbear::simulate::{Options, build};
-use model::bearing::BearingConstants;
+use auxbear::simulate::build;
+use model::bearing::{BearingConstants, PlanarConstants, Separation};
 use physics::traction::Traction;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
 fn near(name: &str, ours: f64, reference: f64) {
     within(1e-9, name, ours, reference);
@@ -25,9 +24,7 @@ fn reference_drop_is_the_reference_machine() {
     let System::Drop(drop) = &scenario.system else {
         panic!("the reference is a drop");
     };
-    let interrupt = AtomicBool::new(false);
-    let options = Options::unwatched(&interrupt);
-    let built = build::drop(drop, &options).expect("it builds").constants;
+    let built = build::drop(drop).expect("it builds").constants;
     let m = &built.machine;
     near("speed", built.speed, 1_256.637_061_435_917_3);
     near("rotor mass", m.rotor.mass, 8.0);
@@ -92,4 +89,45 @@ fn reference_drop_is_the_reference_machine() {
     };
     near("maximum traction", traction.maximum, 0.07);
     near("1/u0", traction.inverse_reference_speed, 10.0);
+}
+
+/// A shipped scenario with balls at 40°, built.
+fn at_forty_degrees(name: &str) -> PlanarConstants {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
+    let sets = [
+        "bearing.type=angular contact",
+        "bearing.contact_angle=40 deg",
+    ]
+    .map(str::to_string);
+    let path = folder.join(name);
+    let scenario = Scenario::read(&path, &sets, &BuiltIn).expect("it is right");
+    let System::Drop(drop) = &scenario.system else {
+        panic!("a drop");
+    };
+    match build::drop(drop).expect("it builds").constants.bearing {
+        BearingConstants::Planar(bearing) => bearing,
+        BearingConstants::Rolling(_) => panic!("planar"),
+    }
+}
+
+#[test]
+fn friction_across_the_line_of_contact_counts_its_cosine() {
+    let cosine = 40_f64.to_radians().cos();
+    // pocket: 0.05 and 0.1 m/s, neighbours: 0.1 and 0.1 m/s by default
+    let ball = at_forty_degrees("angular_contact_drop.toml").ball;
+    near("pocket friction", ball.pocket_friction, 0.05 * cosine);
+    near("1/u0c", ball.pocket_inverse_reference_speed, 10.0 * cosine);
+    near("contact radius", ball.radius, ball.ball_radius * cosine);
+    near(
+        "spin inertia",
+        1.0 / ball.inverse_inertia,
+        0.4 * ball.mass * ball.radius * ball.radius,
+    );
+    let Separation::Neighbours(pair) = at_forty_degrees("full_complement_drop.toml").separation
+    else {
+        panic!("no cage");
+    };
+    near("radius", pair.radius, 3.175e-3);
+    near("neighbour friction", pair.friction, 0.1 * cosine);
+    near("1/u0n", pair.inverse_reference_speed, 10.0 * cosine);
 }

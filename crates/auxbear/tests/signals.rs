@@ -437,8 +437,7 @@ fn a_spectrum_of_the_torque_ends_where_it_holds_something() {
     for asked in ["0.01 Hz", "251 Hz"] {
         let set = format!("signals.torque.highest_frequency={asked}");
         let scenario = Scenario::read(&file, &[set], &BuiltIn).unwrap();
-        let never = AtomicBool::new(false);
-        let told = match build(&scenario, &Options::unwatched(&never)) {
+        let told = match build(&scenario) {
             Ok(_) => panic!("{asked} is taken"),
             Err(problem) => problem.to_string(),
         };

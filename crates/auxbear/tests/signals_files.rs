@@ -4,11 +4,10 @@
 mod measurement_file;
 
 use auxbear::scenario::{BuiltIn, Scenario};
-use auxbear::simulate::{Options, build};
+use auxbear::simulate::build;
 use measurement_file::{TORQUE, problem, table};
 use std::fs;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
 /// Times without a unit are taken only as the scenario says: an instant of 3 is not three seconds by itself.
 #[test]
@@ -86,8 +85,7 @@ fn a_channel_that_a_cut_took_away_is_told_with_the_cut() {
     for part in [60, 200, 400, 800] {
         fs::write(folder.path().join("cut.tdms"), &bytes[..part]).unwrap();
         let scenario = Scenario::read(&file, &[], &BuiltIn).unwrap();
-        let never = AtomicBool::new(false);
-        if let Err(problem) = build(&scenario, &Options::unwatched(&never)) {
+        if let Err(problem) = build(&scenario) {
             told.push(problem.to_string());
         }
     }

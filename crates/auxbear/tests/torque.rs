@@ -344,3 +344,58 @@ fn what_has_no_effect_or_no_meaning_is_an_error() {
         refused(sets, parts);
     }
 }
+
+#[test]
+fn an_unknown_contact_angle_and_a_bath_without_drag_are_said() {
+    const ANGULAR: [&str; 5] = [
+        "bearing.type=angular contact",
+        "bearing.moment.law=skf",
+        "bearing.moment.lubrication=oil bath",
+        "bearing.moment.viscosity=20 mm^2/s",
+        "torque.speed_to=100 rad/s",
+    ];
+    let warned = |more: &[&str]| {
+        let outcome = plain(&[&ANGULAR[..], more].concat());
+        let found = outcome.warnings.iter();
+        let found = found.filter(|w| ["AB1080", "AB1082"].contains(&w.code));
+        found.map(|w| w.text.clone()).collect::<Vec<_>>()
+    };
+    let [angle, bath] = &warned(&[])[..] else {
+        panic!("two warnings were expected");
+    };
+    assert!(angle.contains("35 to 45 deg; 40 deg is taken"), "{angle}");
+    // by hand: V_M 4.4 (25 + 47)/(47 - 25) 1e-12·36⁵·10 000² = 1e-4·8.7071e4 = 8.7071 N mm
+    assert!(bath.contains("1e-4 of it is 8.707 N mm"), "{bath}");
+    let known = [
+        "bearing.moment.contact_angle=40 deg",
+        "bearing.moment.drag_variable=1e-4",
+    ];
+    assert_eq!(warned(&known), [""; 0]);
+    let grease = ["bearing.moment.lubrication=grease"];
+    assert_eq!(warned(&[&known[..1], &grease].concat()), [""; 0]);
+    // also of a law that is compared
+    let outcome = plain(&[
+        "torque.laws=[\"palmgren\", \"skf\"]",
+        "bearing.moment.lubrication=low oil bath",
+    ]);
+    assert!(outcome.warnings.iter().any(|w| w.code == "AB1082"));
+    // a table of Palmgren's factors, whose bearings are of 40 degrees
+    let outcome = plain(&[
+        "bearing.type=angular contact",
+        "bearing.moment.series=72B",
+        "bearing.moment.axial_load=100 N",
+    ]);
+    assert!(outcome.warnings.iter().any(|w| w.code == "AB1080"));
+}
+
+#[test]
+fn the_moment_that_starts_a_bearing_is_reported() {
+    let skf = [
+        "bearing.moment.law=skf",
+        "bearing.moment.seal_moment=2 N mm",
+        "torque.loads=[\"500 N\"]",
+    ];
+    // by hand: G_sl = 3.73e-3·36^-0.26·500^(5/3) = 46.276, times 0.15, and the seals
+    near(number(&plain(&skf), "starting_moment"), 8.9414e-3, 1e-4);
+    assert!(why(&plain(&[]), "starting_moment").contains("SKF"));
+}

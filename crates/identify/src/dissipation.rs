@@ -4,7 +4,7 @@
 //!   printed (21)  D = (1+2s) ∫t_O Ω dt + ½ J_O Ω0²        counts the moment of the outer race (1+2s) times
 //!   corrected     D =        ∫t_O Ω dt + ½ J_O Ω0²        balls roll all the way
 //!   exact         D =        ∫t_O Ω dt + ∫Ω dL - Δ(KE)    any slip; L and KE from the measured cage speed
-//!   no cage       ∫Ω dL anywhere from ½ L0 Ω0 to L0 Ω0:   a range, of balls that roll at the end
+//!   no cage       ∫Ω dL anywhere between its bounds:      a range, of balls that roll at the end
 //!   any slip      from ∫t_O Ω dt, balls not spun up, to the largest of that range
 //! ```
 //! The spin of the balls is not measured: in L and KE it lies between the two values of a ball that grips at least one race,
@@ -47,7 +47,7 @@ pub struct Dissipation {
     /// Least loss without a cage signal, J: that of balls that roll all the way; of balls that were not spun up where they may slip
     /// at the end, see [`Dissipation::with_any_slip`].
     pub least: Uncertain,
-    /// Largest loss without a cage signal, J: balls spun up after the race.
+    /// Largest loss without a cage signal, J: balls that spin with the race and orbit last.
     pub largest: Uncertain,
     /// The loss without a cage signal, J: the middle of the range, the range counting as evenly likely.
     pub without_cage: Uncertain,
@@ -209,7 +209,11 @@ pub fn dissipation(
     let printed = shifted(energy.printed_loss(), factor, inertia_deviation);
     let corrected = shifted(energy.rolling_loss(), 1.0, inertia_deviation);
     let (low, high) = energy.loss_range();
-    let both = set_deviation.outer_inertia(set) + 0.5 * set_deviation.inner_inertia(set);
+    // beyond the least the largest has ½ (J_I + J_O) Ω0² and the spin 0.2 s N m_b R² Ω0²
+    let spin = 0.2 * set.ball_ratio * set.balls_mass * set.inner_track_radius.powi(2);
+    let both = set_deviation.outer_inertia(set)
+        + 0.5 * set_deviation.inner_inertia(set)
+        + set_deviation.balls_mass * spin;
     let largest_deviation =
         (both * final_speed.powi(2)).hypot(relative_speed * (high - work.value));
     let least = shifted(low, 1.0, inertia_deviation);

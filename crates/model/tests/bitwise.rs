@@ -164,7 +164,6 @@ fn a_lubricant_that_changes_has_the_same_bits() {
                 axial_load: 0.0,
                 orbit_share: 0.5,
                 reference_spin: 1.0,
-                scale: 1.0,
             });
             DropMachine::new(constants)
         })

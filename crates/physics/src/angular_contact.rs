@@ -4,7 +4,18 @@
 //!   α contact angle from the radial plane, held by an axial preload F_a
 //!   contacts stand at r cos α from the ball's centre; a radial approach δ_r closes them by δ_r cos α, and only the part
 //!   Q cos α of the contact load Q acts in the plane
+//!
+//!   a rolling ball turns by ω_b about an axis across its line of contact; its surface runs with ω_b r = σ r cos α at the
+//!   contacts, σ its spin as the plane sees it, so ω_b = σ cos α
+//!   energy ½·⅖ m r² ω_b², its share of the bearing's angular momentum ⅖ m r² ω_b cos α: both those of ⅖ m (r cos α)² at σ
+//!
+//!   a wall across the track, of a pocket or of the next ball, is rubbed along the line of contact with ω_b r = σ r cos α.
+//!   Of the friction F there the plane sees F cos α, across the wall; its couple r F about the ball's axis is r F cos α on σ:
+//!   the plane's force on the full arm r. Its slip u, taken with the arm r, rubs with u cos α: power F cos α · u = F · u cos α
 //! ```
+//! So in the plane every friction coefficient and every slip of such a wall counts cos α of itself, force and couple are a pair
+//! as without an angle, and energy and angular momentum close. Left out is what rubs across the line of contact: it would turn the ball
+//! about that line.
 
 /// Radial stiffness of a contact at an angle, N/m^1.5.
 ///
@@ -16,6 +27,18 @@
 /// Valid: an axial preload keeps α; below 90°.
 pub fn radial_stiffness(stiffness: f64, contact_angle: f64) -> f64 {
     stiffness * contact_angle.cos().powf(2.5)
+}
+
+/// Inertia of a ball's spin as the plane sees it, kg m².
+///
+/// Formula: I_b = ⅖ m (r cos α)²
+///
+/// - `mass` m of the ball, kg; `contact_radius` r cos α, m
+///
+/// Source: derived on this module's page.
+/// Valid: no spin about the contact normal, no gyroscopic moment.
+pub fn spin_inertia(mass: f64, contact_radius: f64) -> f64 {
+    0.4 * mass * contact_radius * contact_radius
 }
 
 /// Radial interference that stands for an axial preload, m.

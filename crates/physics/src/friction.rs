@@ -115,6 +115,28 @@ impl<R: Real> Friction<R> {
     }
 }
 
+impl Friction<f64> {
+    /// The law with its moment multiplied, for a bearing that was measured to have a share of it.
+    ///
+    /// Formula: λ M
+    ///
+    /// - `factor`: λ, positive
+    ///
+    /// Source: every law is proportional to some of its constants.
+    /// Valid: always.
+    #[must_use]
+    pub fn scaled(mut self, factor: f64) -> Self {
+        match &mut self {
+            Friction::None => {}
+            Friction::Palmgren(law) | Friction::PalmgrenPrinted(law) => law.scale(factor),
+            Friction::PalmgrenCombined(combined) => combined.law.scale(factor),
+            Friction::Skf(law) => law.scale(factor),
+            Friction::Curve(law) => law.scale(factor),
+        }
+        self
+    }
+}
+
 impl<R: Real> Gather<R> for Friction<f64> {
     type Out = Friction<R>;
     fn gather<'a>(machine: &dyn Fn(usize) -> &'a Self) -> Friction<R>
@@ -162,6 +184,7 @@ mod tests {
             Friction::PalmgrenPrinted(PALMGREN),
             Friction::PalmgrenCombined(PalmgrenCombined {
                 law: PALMGREN,
+                radial_factor: -0.1,
                 axial_factor: 3.36,
                 static_radial_factor: 0.6,
                 static_axial_factor: 0.5,
@@ -206,6 +229,27 @@ mod tests {
         let idle = skf.parts(150.0, 0.0, 0.0);
         assert_eq!((idle.speed_dependent, idle.load_dependent), (0.0, 2e-3));
         assert_eq!(curve.parts(20.0, 80.0, 0.0).load_dependent, 0.0);
+    }
+    #[test]
+    fn a_scaled_law_has_both_parts_scaled() {
+        for law in laws() {
+            let scaled = law.clone().scaled(0.7);
+            for (speed, radial, axial) in [(150.0, 80.0, 0.0), (-900.0, 500.0, 200.0)] {
+                let (is, was) = (
+                    scaled.parts(speed, radial, axial),
+                    law.parts(speed, radial, axial),
+                );
+                for (is, was) in [
+                    (is.speed_dependent, was.speed_dependent),
+                    (is.load_dependent, was.load_dependent),
+                ] {
+                    assert!(
+                        (is - 0.7 * was).abs() <= 1e-14 * was.abs(),
+                        "{law:?} {is} {was}"
+                    );
+                }
+            }
+        }
     }
     #[test]
     fn laws_of_one_bearing_agree_in_size() {

@@ -229,6 +229,7 @@ mod tests {
     fn combined_palmgren_counts_the_static_equivalent_load() {
         let law = Friction::PalmgrenCombined(PalmgrenCombined {
             law: PALMGREN,
+            radial_factor: -0.1,
             axial_factor: 3.36,
             static_radial_factor: 0.6,
             static_axial_factor: 0.5,

@@ -381,5 +381,20 @@ pub fn maximum_pressure<R: Real>(factor: R, load: R) -> R {
     R::select(loaded, factor * root, R::zero())
 }
 
+/// Largest tension of a circular contact, Pa: along the radius, on the surface, at the rim.
+///
+/// Formula: σ = (1 - 2ν) p_max/3; farther out it falls with the square of the distance
+///
+/// - `pressure`: p_max, Pa
+/// - `poisson_ratio`: ν of the body looked into
+///
+/// Brittle bodies crack there in rings.
+///
+/// Source: M. T. Huber 1904 (K. L. Johnson, Contact Mechanics, 1985, section 3.4, from memory); tested against a sum of point loads.
+/// Valid: a circular contact without friction; friction adds tension at the trailing rim.
+pub fn rim_tension(pressure: f64, poisson_ratio: f64) -> f64 {
+    (1.0 - 2.0 * poisson_ratio) * pressure / 3.0
+}
+
 #[cfg(test)]
 mod tests;

@@ -117,6 +117,20 @@ impl fmt::Display for CurveError {
 impl std::error::Error for CurveError {}
 
 impl MomentCurve<f64> {
+    /// Multiplies the moment.
+    pub(crate) fn scale(&mut self, factor: f64) {
+        for piece in &mut self.pieces {
+            for coefficient in [
+                &mut piece.value,
+                &mut piece.first,
+                &mut piece.second,
+                &mut piece.third,
+            ] {
+                *coefficient *= factor;
+            }
+        }
+    }
+
     /// The curve through measured points (speed in rad/s, moment in N m).
     ///
     /// Formula: cubic Hermite pieces; slope at an inner point the weighted harmonic mean of its neighbouring secants,

@@ -3,8 +3,8 @@
 //! | maker | type | series |
 //! |---|---|---|
 //! | Schaeffler | deep groove | 618, 160, 60, 619, 622-2RSR, 623-2RSR, 62, 63, 64, 42B, 43B |
-//! | | angular contact | 70B, 718B, 72B, 73B; double row 30B |
-//! | | four-point contact | QJ2, QJ3 |
+//! | | angular contact | 70B, 718B, 72B, 73B (40°); double row 30B, 32B, 33B, 38B (25° or 30°) |
+//! | | four-point contact | QJ2, QJ3 (35°) |
 //! | Timken | deep groove (dimension series) | 18, 28, 38, 39, 00, 02, 03, 04 |
 //! | | angular contact, 22° < α ≤ 45° | 02, 03; double row or paired 32, 33 |
 //! | | four-point contact | 02, 03 |
@@ -12,6 +12,16 @@
 //! The makers disagree: Schaeffler's f1 grows with load, Timken's does not. Timken does not tell the lubrication its f0
 //! is for; they equal Schaeffler's for an oil bath. A freshly greased bearing has 2 to 5 times Schaeffler's f0, an oil
 //! level above the centre of the lowest ball up to 3 times (both after Schaeffler).
+//!
+//! f1 belongs to the load P1 = max(F_r, X1 F_r + Y1 F_a) of the same source:
+//!
+//! | maker | type | X1 | Y1 |
+//! |---|---|---|---|
+//! | Schaeffler | deep groove | -0.1 | 3.3 |
+//! | | angular contact, single row | -0.1 | 1 |
+//! | | angular contact, double row or paired | -0.1 | 1.4 |
+//! | | four-point contact | 3.6 | 1.5 |
+//! | Timken | all | -0.1 | 0.9 cot α |
 
 use std::fmt;
 
@@ -75,6 +85,8 @@ pub struct FactorRow {
     pub load_factor: f64,
     /// y; 0 where f1 is one number.
     pub load_exponent: f64,
+    /// Least and largest contact angle of the bearings it is for, degrees; none where the source has none.
+    pub angles_deg: Option<[f64; 2]>,
 }
 
 /// The factors of one bearing.
@@ -88,6 +100,8 @@ pub struct PalmgrenFactors {
     pub load_exponent: f64,
     /// Source.
     pub source: FactorSource,
+    /// Least and largest contact angle of the bearings they are for, degrees; none where the source has none.
+    pub angles_deg: Option<[f64; 2]>,
     /// Whether the source tells that f0 is for this lubrication.
     pub lubrication_told: bool,
 }
@@ -119,9 +133,39 @@ impl FactorSource {
     pub fn citation(self) -> &'static str {
         match self {
             FactorSource::Schaeffler => {
-                "Schaeffler (INA/FAG), Rolling bearings, catalogue HR 1, June 2006, pp. 56-59"
+                "Schaeffler (INA/FAG), Rolling bearings, catalogue HR 1, June 2006, pp. 56-60"
             }
             FactorSource::Timken => "Timken Engineering Manual, table 114, p. 184",
+        }
+    }
+
+    /// X1 of the load P1 = max(F_r, X1 F_r + Y1 F_a) that goes with the f1 of this source.
+    ///
+    /// - `kind`: type
+    ///
+    /// Source: Schaeffler HR 1 (2006) p. 60; Timken Engineering Manual, table 114 (there F_β).
+    /// Valid: the f1 of this source alone.
+    pub fn radial_factor(self, kind: FactorType) -> f64 {
+        match (self, kind) {
+            (FactorSource::Schaeffler, FourPointContact) => 3.6,
+            _ => -0.1,
+        }
+    }
+
+    /// Y1 of the same load; none where it needs the contact angle, which is not known.
+    ///
+    /// - `kind`: type
+    /// - `contact_angle`: under load α, rad
+    ///
+    /// Source: as [`FactorSource::radial_factor`].
+    /// Valid: the f1 of this source alone; α > 0.
+    pub fn axial_factor(self, kind: FactorType, contact_angle: Option<f64>) -> Option<f64> {
+        match (self, kind) {
+            (FactorSource::Timken, _) => contact_angle.map(|angle| 0.9 / angle.tan()),
+            (FactorSource::Schaeffler, DeepGroove) => Some(3.3),
+            (FactorSource::Schaeffler, AngularContact) => Some(1.0),
+            (FactorSource::Schaeffler, AngularContactDoubleRow) => Some(1.4),
+            (FactorSource::Schaeffler, FourPointContact) => Some(1.5),
         }
     }
 }
@@ -186,6 +230,12 @@ const fn schaeffler(
         },
         load_factor,
         load_exponent,
+        angles_deg: match kind {
+            DeepGroove => None,
+            AngularContact => Some([35.0, 45.0]),
+            AngularContactDoubleRow => Some([20.0, 35.0]),
+            FourPointContact => Some([30.0, 40.0]),
+        },
     }
 }
 
@@ -197,14 +247,19 @@ const fn timken(kind: FactorType, series: &'static str, f0: f64, f1: f64) -> Fac
         viscous_factor: ViscousFactor::LubricationNotTold(f0),
         load_factor: f1,
         load_exponent: 0.0,
+        angles_deg: match kind {
+            DeepGroove | FourPointContact => None,
+            AngularContact | AngularContactDoubleRow => Some([22.0, 45.0]),
+        },
     }
 }
 
 use FactorType::{AngularContact, AngularContactDoubleRow, DeepGroove, FourPointContact};
 
-/// All rows, as printed. Merged cells of the source were resolved by the order of its rows.
+/// All rows, as printed. Merged cells of the source were resolved by the order of its rows. The contact angles of
+/// Schaeffler's rows are the nominal ones of the series (Schaeffler, chapters of the types, from memory), 5° either way.
 #[rustfmt::skip]
-pub const FACTORS: [FactorRow; 32] = [
+pub const FACTORS: [FactorRow; 35] = [
     schaeffler(DeepGroove, "618",      1.1, Some(1.7), 0.0005, 0.5),
     schaeffler(DeepGroove, "160",      1.1, Some(1.7), 0.0007, 0.5),
     schaeffler(DeepGroove, "60",       1.1, Some(1.7), 0.0007, 0.5),
@@ -221,6 +276,9 @@ pub const FACTORS: [FactorRow; 32] = [
     schaeffler(AngularContact, "72B",  1.3, Some(2.0), 0.001, 0.33),
     schaeffler(AngularContact, "73B",  2.0, Some(3.0), 0.001, 0.33),
     schaeffler(AngularContactDoubleRow, "30B", 2.3, Some(3.5), 0.001, 0.33),
+    schaeffler(AngularContactDoubleRow, "32B", 2.3, Some(3.5), 0.001, 0.33),
+    schaeffler(AngularContactDoubleRow, "38B", 2.3, Some(3.5), 0.001, 0.33),
+    schaeffler(AngularContactDoubleRow, "33B", 4.0, Some(6.0), 0.001, 0.33),
     schaeffler(FourPointContact, "QJ2", 2.7, Some(4.0), 0.001, 0.33),
     schaeffler(FourPointContact, "QJ3", 2.7, Some(4.0), 0.001, 0.33),
     timken(DeepGroove, "18", 1.7, 0.00010),
@@ -280,6 +338,7 @@ pub fn palmgren_factors(
         load_factor: row.load_factor,
         load_exponent: row.load_exponent,
         source: row.source,
+        angles_deg: row.angles_deg,
         lubrication_told,
     })
 }
@@ -344,6 +403,9 @@ mod tests {
             (AngularContact, "72B", 1.3, 2.0),
             (AngularContact, "73B", 2.0, 3.0),
             (AngularContactDoubleRow, "30B", 2.3, 3.5),
+            (AngularContactDoubleRow, "32B", 2.3, 3.5),
+            (AngularContactDoubleRow, "38B", 2.3, 3.5),
+            (AngularContactDoubleRow, "33B", 4.0, 6.0),
             (FourPointContact, "QJ2", 2.7, 4.0),
             (FourPointContact, "QJ3", 2.7, 4.0),
         ] {
@@ -367,6 +429,33 @@ mod tests {
                 "{series}"
             );
         }
+    }
+    /// The four forms of HR 1 p. 60 and that of Timken's table, under 500 N radial and 1000 N axial load.
+    #[test]
+    fn the_load_belongs_to_its_source_and_type() {
+        let load = |source: FactorSource, kind, radial: f64, axial: f64| {
+            let angle = Some(40_f64.to_radians());
+            let factor = source.axial_factor(kind, angle).unwrap();
+            radial.max(source.radial_factor(kind) * radial + factor * axial)
+        };
+        let schaeffler = |kind| load(FactorSource::Schaeffler, kind, 500.0, 1000.0);
+        for (kind, newton) in [
+            (DeepGroove, 3250.0),
+            (AngularContact, 950.0),
+            (AngularContactDoubleRow, 1350.0),
+            (FourPointContact, 3300.0),
+        ] {
+            assert!((schaeffler(kind) - newton).abs() < 1e-9, "{kind}");
+        }
+        // 0.9·1.191754·1000 - 50
+        let timken = load(FactorSource::Timken, AngularContact, 500.0, 1000.0);
+        assert!((timken - 1022.578).abs() < 1e-3, "{timken}");
+        // a radial load alone: itself, but 3.6 times of it in a four-point bearing after Schaeffler
+        let alone = |source, kind| load(source, kind, 500.0, 0.0);
+        assert_eq!(alone(FactorSource::Schaeffler, AngularContact), 500.0);
+        assert_eq!(alone(FactorSource::Schaeffler, FourPointContact), 1800.0);
+        assert_eq!(alone(FactorSource::Timken, FourPointContact), 500.0);
+        assert_eq!(FactorSource::Timken.axial_factor(DeepGroove, None), None);
     }
     #[test]
     fn a_series_names_one_row() {

@@ -33,7 +33,7 @@ number::constants! {
         ball_ratio: R,
         /// Mass of all balls N m_b, kg.
         balls_mass: R,
-        /// Mass of the cage m_c, kg.
+        /// Mass of the cage m_c as a thin ring at the pitch circle, kg: of any other cage its [`ring_mass`].
         cage_mass: R,
     }
 }
@@ -46,6 +46,19 @@ number::constants! {
         /// Rate of cage speed ω̇_c, rad/s².
         cage: R,
     }
+}
+
+/// Mass of the thin ring at the pitch circle that turns as a cage does, kg: all that the rolling forms know of a cage.
+///
+/// Formula: m_c = I_c/(R (1+s))²
+///
+/// - `inertia`: moment of inertia of the cage I_c, kg m²
+/// - `pitch_radius`: R (1+s), m
+///
+/// Source: definition; m_c enters (6) to (21) only where the cage turns.
+/// Valid: positive radii.
+pub fn ring_mass(inertia: f64, pitch_radius: f64) -> f64 {
+    inertia / (pitch_radius * pitch_radius)
 }
 
 impl<R: Real> RollingSet<R> {

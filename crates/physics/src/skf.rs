@@ -18,7 +18,8 @@
 //! source has two formulas and so has this page.
 //!
 //! Not modelled: clearance and misalignment, freshly greased bearings (sliding 2 to 4 times higher for the first hours
-//! or days, after the source), V_M (read from a diagram of the source by the user).
+//! or days, after the source), V_M (read from a diagram of the source by the user), a moment at standstill: what starts the
+//! bearing is told by [`SkfMoment::starting_moment`] and acts in no run.
 
 use crate::friction::MomentParts;
 use crate::palmgren::{fading, viscosity_times_speed_mm2_s_rpm};
@@ -158,6 +159,24 @@ pub struct SkfIntermediates<R> {
     pub sliding_moment: R,
     /// M_drag, N mm.
     pub drag_moment: R,
+}
+
+impl SkfMoment<f64> {
+    /// Multiplies the moment: G_rr and G_sl go with the leading factors of the type.
+    pub(crate) fn scale(&mut self, factor: f64) {
+        match &mut self.contacts {
+            SkfContacts::DeepGroove(c) => [&mut c.r1, &mut c.s1].map(|x| *x *= factor),
+            SkfContacts::AngularContact(c) => [&mut c.r1, &mut c.s1].map(|x| *x *= factor),
+            SkfContacts::SphericalRoller(c) => {
+                for branch in [&mut c.r3, &mut c.s3] {
+                    *branch *= factor;
+                }
+                [&mut c.r1, &mut c.s1].map(|x| *x *= factor)
+            }
+        };
+        self.drag *= factor;
+        self.seal_moment *= factor;
+    }
 }
 
 impl<R: Real> SkfMoment<R> {

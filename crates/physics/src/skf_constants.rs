@@ -3,11 +3,12 @@
 //! | type | series |
 //! |---|---|
 //! | deep groove | 2, 3, 42, 43, 60, 630, 62, 622, 63, 623, 64, 160, 161, 617, 618, 628, 637, 638, 619, 639 |
-//! | angular contact (single, double row), four-point contact | all |
+//! | angular contact, single row of 40°, double row of 30°; four-point contact of 35° | all |
 //! | spherical roller | 213 E, 222 E, 222, 223, 223 E, 230, 231, 232, 238, 239, 240, 241, 248, 249 |
 //!
 //! Refused: every other type, ceramic balls outside angular contact bearings, seals outside the table.
 //! The variable V_M of the drag in an oil bath stands in a diagram of the source and is the user's to read.
+//! Spindle bearings of 15° to 25° have no constants here: the load factors hold the contact angle of their type.
 //!
 //! All of it after the SKF General Catalogue (edition 6000, 2006), chapter Friction, pp. 88-105.
 
@@ -408,6 +409,21 @@ impl SkfBearing<'_> {
             2.0
         } else {
             1.0
+        }
+    }
+}
+
+impl SkfType {
+    /// Least and largest contact angle of the bearings that the constants are for, degrees; none where they do not hold one.
+    ///
+    /// Source: the catalogue's chapters of the types (40°, 30° and 35°, from memory), 5° either way.
+    /// Valid: the bearings of that catalogue.
+    pub fn angles_deg(self) -> Option<[f64; 2]> {
+        match self {
+            SkfType::AngularContactSingleRow => Some([35.0, 45.0]),
+            SkfType::AngularContactDoubleRow => Some([25.0, 35.0]),
+            SkfType::FourPointContact => Some([30.0, 40.0]),
+            _ => None,
         }
     }
 }

@@ -9,9 +9,16 @@
 //!   rolling throughout   L = (J_I + J_O) Ω, KE = ½ J_I Ω²:  D = ∫t_O Ω dt + ½ J_O Ω0²
 //!   as (21) is printed                                      D = (1+2s) ∫t_O Ω dt + ½ J_O Ω0²
 //!
-//!   path term   ∫Ω dL = ½ L0 Ω0 when the balls roll all the way … L0 Ω0 when they follow a race already at Ω0
+//!   path term   ∫Ω dL = ½ L0 Ω0 when the balls roll all the way, L0 Ω0 when they follow a race already at Ω0,
+//!               L0 Ω0 + 0.2 s N m_b R² Ω0² when they first spin with the race, the cage at rest, and orbit last
 //!   L0 = (J_I + J_O) Ω0 = R² Ω0 [N m_b (½ + 0.3 s) + ½ m_c (1+s)]
 //! ```
+//! In parts ∫Ω dL = L0 Ω0 - ∫L dΩ: what L is on the way decides. The spin of the balls counts negative in L, so balls that spin
+//! before they orbit have L < 0 while Ω rises, and their path term is larger than L0 Ω0. With ω_c ≥ 0 and an inner race whose
+//! surface is not overtaken, s ω_b + (1+s) ω_c ≤ Ω, L is least at ω_c = 0, ω_b = Ω/s. Where no ball spins more slowly than it
+//! would roll on the outer race, s ω_b ≥ (1+s) ω_c besides, L is largest when both are equal and Ω is no more than they need: rolling.
+//! Balls that the inner race drives obey that: its traction gives their surface 5/2 times the speed by spin that it gives by orbit.
+//!
 //! J_I and J_O are those of [`RollingSet`]. The factor 1+2s of the printed form counts the moment of the outer race
 //! twice: t_O is a moment already. Without friction at all, rolling, it gives the negative loss -s J_O Ω0². The paper's
 //! sentence that rolling need only be a final condition is false: the path term depends on how the balls were spun up.
@@ -99,15 +106,32 @@ impl SpinUpEnergy {
             * (self.set.balls_mass * (0.5 + 0.3 * s) + 0.5 * self.set.cage_mass * (1.0 + s))
     }
 
+    /// Path term ∫Ω dL of balls that follow a race already at its final speed, J; half of it when they roll all the way.
+    ///
+    /// Formula: L0 Ω0
+    ///
+    /// Source: ∫Ω dL with Ω = Ω0 throughout; L ∝ Ω for the half.
+    /// Valid: rolling at the end.
+    pub fn path_term_behind_the_race(&self) -> f64 {
+        self.final_angular_momentum() * self.final_speed
+    }
+
     /// Least and largest path term ∫Ω dL, J.
     ///
-    /// Formula: ½ L0 Ω0 (rolling all the way) … L0 Ω0 (balls spun up after the race)
+    /// Formula: ½ L0 Ω0 (rolling all the way) … L0 Ω0 + 0.2 s N m_b R² Ω0² = ½ (1+s)(N m_b + m_c) R² Ω0² (balls that spin with the
+    /// race, the cage at rest, until it has its speed)
     ///
-    /// Source: ∫Ω dL with Ω and L rising; integral mean of a race that leads its balls.
-    /// Valid: speed and angular momentum that only rise, balls that never lead the rolling speed.
+    /// Source: ∫Ω dL = L0 Ω0 - ∫L dΩ with the least and the largest L at each Ω; derived on this module's page.
+    /// Valid: a speed that only rises, rolling at the end; on the way ω_c ≥ 0, an inner race that is not overtaken, and balls that spin
+    /// no more slowly than they would roll on the outer race. Balls that the cage carries without spin fall short of the least by
+    /// up to 0.1 s N m_b R² Ω0².
     pub fn path_term_bounds(&self) -> (f64, f64) {
-        let largest = self.final_angular_momentum() * self.final_speed;
-        (0.5 * largest, largest)
+        let (s, r) = (self.set.ball_ratio, self.set.inner_track_radius);
+        let orbit = 0.5 * (1.0 + s) * (self.set.balls_mass + self.set.cage_mass);
+        (
+            0.5 * self.path_term_behind_the_race(),
+            orbit * (r * self.final_speed).powi(2),
+        )
     }
 
     /// Least and largest loss, J, when the cage speed was not measured.
@@ -127,11 +151,11 @@ impl SpinUpEnergy {
 
     /// Least and largest loss, J, when the cage speed was not measured and the balls may slip at the end.
     ///
-    /// Formula: ∫t_O Ω dt (balls that were not spun up) … ∫t_O Ω dt + L0 Ω0 - ½ J_I Ω0² (spun up after the race)
+    /// Formula: ∫t_O Ω dt (balls that were not spun up) … the largest of [`SpinUpEnergy::loss_range`]
     ///
     /// Balls and cage that end at a part x of rolling have L = x L0 and KE = ½ x² J_I Ω0². Their path term is ½ x² L0 Ω0 where they
-    /// rolled up to x Ω0 and kept that speed, x L0 Ω0 where they followed the race; so beyond ∫t_O Ω dt the loss is from
-    /// ½ x² J_O Ω0² to x L0 Ω0 - ½ x² J_I Ω0², and both rise with x.
+    /// rolled up to x Ω0 and kept that speed, x L0 Ω0 + 0.2 s N m_b R² Ω0² at most; so beyond ∫t_O Ω dt the loss is from
+    /// ½ x² J_O Ω0² to x L0 Ω0 + 0.2 s N m_b R² Ω0² - ½ x² J_I Ω0², and both rise with x.
     ///
     /// Source: [`spin_up_loss`] with any slip at the end.
     /// Valid: as the bounds; spin and orbit that end at about the same part of rolling: balls that spin at a standing cage store up
@@ -293,9 +317,10 @@ mod tests {
             );
             assert!(near(exact, account.heat));
             assert!(near(account.work - kinetic_at_the_end(), account.heat));
-            // balls spun up after the race: the largest path term
-            assert!(near(account.path, energy.path_term_bounds().1));
-            assert!(near(energy.loss_range().1, account.heat));
+            // balls spun up after the race
+            assert!(near(account.path, energy.path_term_behind_the_race()));
+            let (least, largest) = energy.loss_range();
+            assert!((least..largest).contains(&account.heat));
             // both short forms miss half of L0 Ω0
             let missed = account.heat - energy.rolling_loss();
             assert!(near(missed, energy.path_term_bounds().0));
@@ -303,6 +328,58 @@ mod tests {
         // without a steady moment: skidding loses as much as it stores, ½ J_I Ω0²
         let lost = skidding(0.0).heat;
         assert!(near(lost, 0.5 * set().inner_inertia() * FINAL * FINAL));
+    }
+    #[test]
+    fn every_path_of_a_race_that_leads_its_balls_lies_within_the_bounds() {
+        // surface speeds of a ball over half of the final race's: x by its orbit, y by its spin; w the race's over its final one
+        let energy = Account::of(0.0, 0.0, 0.0, 0.0).energy;
+        let (least, largest) = energy.path_term_bounds();
+        let path_of = |places: &[(f64, f64, f64)]| {
+            let l = |x: f64, y: f64| {
+                let (cage, spin) = (energy.set.cage_speed(FINAL), energy.set.ball_spin(FINAL));
+                momentum(&energy.set, x * cage, y * spin)
+            };
+            let parts = places.windows(2).map(|part| {
+                let ((x, y, w), (nx, ny, nw)) = (part[0], part[1]);
+                0.5 * (w + nw) * FINAL * (l(nx, ny) - l(x, y))
+            });
+            parts.sum::<f64>()
+        };
+        // the bounds are reached: rolling, and balls that spin with the race and orbit last
+        assert!(near(path_of(&[(0.0, 0.0, 0.0), (1.0, 1.0, 1.0)]), least));
+        let spun = path_of(&[(0.0, 0.0, 0.0), (0.0, 2.0, 1.0), (1.0, 1.0, 1.0)]);
+        assert!(near(spun, largest));
+        let s = energy.set.ball_ratio;
+        let beyond = spun / energy.path_term_behind_the_race() - 1.0;
+        // 0.2 s/(0.5 + 0.3 s) of balls without a cage
+        assert!(beyond > 0.05 && beyond < 0.2 * s / (0.5 + 0.3 * s));
+        // steps of the race and of the balls in random order and size
+        let mut random = 0x9e37_79b9_u32;
+        let mut next = || {
+            random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(random >> 8) / f64::from(1 << 24)
+        };
+        let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
+        for _ in 0..2000 {
+            let lazy = next();
+            let mut places = vec![(0.0, 0.0, 0.0)];
+            let mut w: f64 = 0.0;
+            while w < 1.0 {
+                w = (w + 0.2 * next()).min(1.0);
+                let (x, _, _) = places[places.len() - 1];
+                // orbit and spin anywhere between rolling on the outer race and being dragged along by the inner one
+                let orbit = x + (w - x) * next() * lazy;
+                places.push((orbit, orbit + (2.0 * w - 2.0 * orbit) * next(), w));
+            }
+            places.push((1.0, 1.0, 1.0));
+            let path = path_of(&places);
+            assert!(
+                (least..=largest).contains(&path),
+                "{path} {least} {largest}"
+            );
+            (low, high) = (low.min(path), high.max(path));
+        }
+        assert!(low < 1.2 * least && high > 0.9 * largest);
     }
     #[test]
     fn angular_momentum_is_that_of_both_inertias() {

@@ -3,6 +3,8 @@
 //! Every law is odd in the slip u, so friction always opposes sliding and only makes heat.
 //! The friction force is μ(u) Q along the slip, Q the ball load. Assumed curves know the slip alone ([`SlipLaw`]); a
 //! lubricated contact asks for load and entrainment too, and differs between the races.
+//!
+//! Not modelled: slip that differs over the contact: in the curved groove (Heathcote), and by spin about the normal.
 
 use crate::lubricant_traction::LubricantTraction;
 use number::{Gather, Real, constants};

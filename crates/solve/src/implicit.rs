@@ -184,7 +184,11 @@ where
             probe: &mut work.next_probe,
         });
         work.next_seen.take(&work.next, &work.next_probe);
-        Judgement::of(R::splat(self.error(work)), work.last_logarithm)
+        let mut error = self.error(work);
+        if error <= 1.0 {
+            error = error.max(self.unseen(h, active, work));
+        }
+        Judgement::of(R::splat(error), work.last_logarithm)
     }
 }
 
@@ -205,6 +209,45 @@ impl<R: Real, L, const M: usize, const COLUMNS: usize, const ROWS: usize>
             tail.iter_mut().for_each(|value| *value *= h);
             weigh(of_others, &self.stages, 0, others);
         }
+        // two of the weights are negative: a sum of what no stage saw negative does not fall all the same
+        let [a, b, c, d] = self.stages.each_ref().map(|stage| &stage[active..]);
+        for (i, change) in self.sums[0][active..].iter_mut().enumerate() {
+            let (low, high) = (
+                a[i].min(b[i]).min(c[i].min(d[i])),
+                a[i].max(b[i]).max(c[i].max(d[i])),
+            );
+            if (low >= 0.0 && *change < 0.0) || (high <= 0.0 && *change > 0.0) {
+                *change = 0.0;
+            }
+        }
+    }
+
+    /// What the stages did not see and the rate at the end shows: relative to what is allowed where it forbids the step,
+    /// else zero. See [`rosenbrock`](crate::rosenbrock).
+    fn unseen(&mut self, h: f64, active: usize, work: &Workspace<R>) -> f64 {
+        let [a, b, c, last] = &self.stages;
+        let [wa, wb, wc, _] = self.coefficients.side[STAGES - 1].map(|weight| weight / h);
+        let diagonal = 1.0 / (h * GAMMA);
+        let side = &mut self.sums[1];
+        for (i, side) in side[..active].iter_mut().enumerate() {
+            let stage = diagonal * last[i] - (wa * a[i] + wb * b[i] + wc * c[i]);
+            *side = work.last[i].lane(0) - stage;
+        }
+        let largest = |correction: &[f64], factor: f64| {
+            (correction[..active].iter().zip(&work.inverse_error))
+                .map(|(value, inverse)| (factor * value * inverse.lane(0)).abs())
+                .fold(0.0, f64::max)
+        };
+        if largest(side, h * GAMMA) <= 1.0 {
+            return 0.0;
+        }
+        R::vectorized(Solve {
+            factors: &mut self.factors,
+            jacobian: &self.jacobian,
+            side,
+        });
+        let correction = largest(side, 1.0);
+        if correction > 1.0 { correction } else { 0.0 }
     }
     /// Largest error over the channels, each relative to what is allowed there; infinite where any is not a number.
     fn error(&self, work: &Workspace<R>) -> f64 {

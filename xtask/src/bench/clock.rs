@@ -29,7 +29,8 @@ pub fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// Processor, vector unit, number of cores, load of the last minute, date: what a table of times is worth nothing without.
+/// Processor, vector unit, number of cores, load of the last minute, date, kind of time: what a table of times is worth
+/// nothing without.
 pub fn machine() -> String {
     let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let processor = model_name(&cpuinfo).unwrap_or(std::env::consts::ARCH);
@@ -37,8 +38,9 @@ pub fn machine() -> String {
     let load = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
     let load = load.split_whitespace().next().unwrap_or("unknown");
     let today = date(std::time::SystemTime::now());
+    let kind = children_seconds().map_or("Wall time, as CPU time is not told", |_| "CPU time");
     format!(
-        "{processor}, {}, {cores} cores, load {load} before; {today}",
+        "{processor}, {}, {cores} cores, load {load} before; {today}. {kind}.",
         level()
     )
 }

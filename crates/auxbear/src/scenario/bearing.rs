@@ -7,7 +7,10 @@ use super::resolve::Values;
 use super::section::Section;
 use super::separation::Separation;
 use physics::lubricant::{LUBRICANTS, Lubricant};
+use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE, ball_mass};
 use physics::palmgren_factors::FactorType;
+use physics::rolling::{RollingSet, ring_mass};
+use physics::skf_constants::SkfType;
 use std::f64::consts::PI;
 
 /// How the bearing is modelled.
@@ -51,6 +54,15 @@ impl BearingType {
             BearingType::FourPointContact => FactorType::FourPointContact,
         }
     }
+    /// The type as the SKF model knows it.
+    pub(super) fn skf_type(self) -> SkfType {
+        match self {
+            BearingType::DeepGroove => SkfType::DeepGroove,
+            BearingType::AngularContact => SkfType::AngularContactSingleRow,
+            BearingType::AngularContactDoubleRow => SkfType::AngularContactDoubleRow,
+            BearingType::FourPointContact => SkfType::FourPointContact,
+        }
+    }
 }
 
 /// Material of the balls.
@@ -60,6 +72,20 @@ pub enum BallMaterial {
     Steel,
     /// Silicon nitride: a hybrid bearing.
     SiliconNitride,
+}
+
+impl BallMaterial {
+    /// Its constants.
+    pub fn data(self) -> Material {
+        match self {
+            BallMaterial::Steel => BEARING_STEEL,
+            BallMaterial::SiliconNitride => SILICON_NITRIDE,
+        }
+    }
+    /// Mass of a ball of this material, kg.
+    pub fn ball_mass(self, diameter: f64) -> f64 {
+        ball_mass(diameter, self.data().density)
+    }
 }
 
 /// The auxiliary bearing at one plane. What is `None` is not known, or is found when the
@@ -116,8 +142,8 @@ pub struct Bearing {
     pub inner_race_torque: f64,
     /// Angle of the first ball at the release, rad from x.
     pub first_ball_angle: f64,
-    /// Contact pressure that the report compares with, Pa.
-    pub hertz_pressure_limit: Option<f64>,
+    /// Contact pressure of balls and races that results are compared with, Pa.
+    pub hertz_pressure_limit: f64,
     /// What keeps the balls apart.
     pub separation: Separation,
     /// How the rings sit.
@@ -244,7 +270,7 @@ pub(super) fn bearing(values: &Values) -> Bearing {
         inner_race_centre_held: bearing.switch("inner_race_centre_held"),
         inner_race_torque: bearing.maybe("inner_race_torque").unwrap_or(0.0),
         first_ball_angle: bearing.number("first_ball_angle"),
-        hertz_pressure_limit: bearing.maybe("hertz_pressure_limit"),
+        hertz_pressure_limit: bearing.number("hertz_pressure_limit"),
         separation: Separation::from_values(values),
         fits: Fits::from_values(values),
         traction: traction(&section("bearing.traction")),
@@ -258,6 +284,12 @@ pub(super) fn bearing(values: &Values) -> Bearing {
         acceleration_loss: AccelerationLoss::from_values(values),
         lubricant_state: LubricantState::from_values(values),
     }
+}
+
+/// Mass of the ring at the pitch circle that turns as the cage does, kg; 0 where no cage is known.
+pub(super) fn cage_ring_mass(bearing: &Section<'_>) -> f64 {
+    let radius = 0.5 * bearing.number("pitch_diameter");
+    (bearing.maybe("cage_inertia")).map_or(0.0, |inertia| ring_mass(inertia, radius))
 }
 
 pub(super) fn ball_material(bearing: &Section<'_>) -> BallMaterial {
@@ -305,6 +337,31 @@ impl Bearing {
     /// Radius of the inner track at rest where the plane meets it, m.
     pub fn inner_track_radius(&self) -> f64 {
         0.5 * self.pitch_diameter - self.contact_radius()
+    }
+    /// Mass of one ball, kg.
+    pub fn mass_of_ball(&self) -> f64 {
+        self.ball_mass
+            .unwrap_or_else(|| self.ball_material.ball_mass(self.ball_diameter))
+    }
+    /// Masses and radii of balls and cage, as they turn.
+    pub fn rolling_set(&self) -> RollingSet<f64> {
+        let track = self.inner_track_radius();
+        RollingSet {
+            inner_track_radius: track,
+            ball_ratio: self.contact_radius() / track,
+            balls_mass: self.ball_count as f64 * self.mass_of_ball(),
+            cage_mass: match &self.separation {
+                Separation::Cage(cage) => ring_mass(cage.inertia, 0.5 * self.pitch_diameter),
+                Separation::FullComplement(_) => 0.0,
+            },
+        }
+    }
+    /// Contact pressure of neighbouring balls that results are compared with, Pa; none where a cage keeps them apart.
+    pub fn neighbour_pressure_limit(&self) -> Option<f64> {
+        match &self.separation {
+            Separation::Cage(_) => None,
+            Separation::FullComplement(row) => Some(row.hertz_pressure_limit),
+        }
     }
     /// What neighbouring balls leave between each other on the pitch circle, along the chord, m; below zero they do not fit.
     pub fn gap_between_balls(&self) -> f64 {

@@ -1,12 +1,10 @@
 //! Checks of a spin-up.
 
-use super::bearing::{BallMaterial, Bearing, Fidelity};
+use super::bearing::Fidelity;
 use super::checks::{Check, Context};
 use super::moment::AccelerationLoss;
 use super::spin_up::{Course, Drive, SpeedCourse, SpinUp};
 use crate::problem::{Code, Place, Problem};
-use physics::materials::{BEARING_STEEL, SILICON_NITRIDE, ball_mass};
-use physics::rolling::RollingSet;
 
 impl Context<'_> {
     pub(super) fn spin_up(&self, spin_up: &SpinUp) -> Check {
@@ -143,7 +141,7 @@ impl Context<'_> {
         if matches!(spin_up.drive, Drive::Speed(_)) {
             return Ok(());
         }
-        let set = rolling_set(&spin_up.bearing);
+        let set = spin_up.bearing.rolling_set();
         let most =
             (spin_up.bearing.inner_race_inertia + set.inner_inertia()) / set.pocket_friction_arm();
         if largest < most {
@@ -157,21 +155,5 @@ impl Context<'_> {
                 "less than {most:.3e} N s^2/rad is needed, the inertia of race, balls and cage over the arm of F: beyond, a race that slows down would be pushed on by its own loss"
             ),
         )))
-    }
-}
-
-/// Masses and radii of balls and cage.
-fn rolling_set(bearing: &Bearing) -> RollingSet<f64> {
-    let density = match bearing.ball_material {
-        BallMaterial::Steel => BEARING_STEEL.density,
-        BallMaterial::SiliconNitride => SILICON_NITRIDE.density,
-    };
-    let ball = (bearing.ball_mass).unwrap_or_else(|| ball_mass(bearing.ball_diameter, density));
-    let track = bearing.inner_track_radius();
-    RollingSet {
-        inner_track_radius: track,
-        ball_ratio: bearing.contact_radius() / track,
-        balls_mass: bearing.ball_count as f64 * ball,
-        cage_mass: bearing.separation.cage_mass(),
     }
 }

@@ -3,14 +3,15 @@
 use super::bearing::BearingType;
 use super::key::Key;
 use super::lubricant::Lubricant;
+use super::moment::equivalent_load_word;
 use super::provenance::Provenance;
-use super::resolve::{COMPARED_LAWS, Known, Value, Values, quantity_text};
+use super::resolve::{COMPARED_LAWS, Known, LAW, Value, Values, quantity_text};
 use super::system::SystemName;
 use super::table;
 use crate::problem::{Code, Place, Problem};
 use physics::hertz::{BallRace, PointContact, Race};
 use physics::materials::{BEARING_STEEL, SILICON_NITRIDE, ball_mass, contact_modulus};
-use physics::palmgren_factors::{Lubrication, palmgren_factors};
+use physics::palmgren_factors::{FactorSource, Lubrication, palmgren_factors};
 use physics::viscosity::Viscosity;
 
 const F0: &str = "bearing.moment.f0";
@@ -23,6 +24,9 @@ const VISCOSITY_POINTS: &str = "bearing.moment.viscosity_points";
 const LUBRICANTS: &str = "torque.lubricants";
 const AXIAL_LOAD: &str = "bearing.moment.axial_load";
 const CONTACT_ANGLE: &str = "bearing.moment.contact_angle";
+const EQUIVALENT_LOAD: &str = "bearing.moment.equivalent_load";
+const PRELOAD: &str = "bearing.axial_preload";
+const ANGLE: &str = "bearing.contact_angle";
 const BALL_MASS: &str = "bearing.ball_mass";
 
 /// Contact angle of a deep groove bearing under axial load, degrees: 0.9 cot(16.7 degrees) = 3.
@@ -67,7 +71,12 @@ impl Values {
         if self.system() == SystemName::Torque {
             self.torque()?;
         }
-        self.contact_angle()?;
+        if let Some(preload) = self.number(PRELOAD)
+            && self.number(AXIAL_LOAD).is_some()
+            && !self.is_given(AXIAL_LOAD)
+        {
+            self.put_derived(AXIAL_LOAD, Value::Number(preload), PRELOAD)?;
+        }
         match self.word("bearing.moment.law") {
             "palmgren" | "palmgren printed" => {
                 self.series()?;
@@ -77,6 +86,8 @@ impl Values {
             "skf" => {
                 self.series()?;
                 self.skf_lubrication()?;
+                let kind = BearingType::of(self.word("bearing.type")).skf_type();
+                self.contact_angle(kind.angles_deg(), "the SKF model")?;
                 self.viscosity()
             }
             _ => Ok(()),
@@ -133,30 +144,70 @@ impl Values {
         Ok(())
     }
 
-    /// The contact angle of the law: that of the bearing, or the one that a deep groove bearing takes under axial load, which
-    /// no catalogue tells.
-    fn contact_angle(&mut self) -> Done {
+    /// The contact angle of the law: that of the bearing, else the middle of those that its constants are for, else what a deep
+    /// groove bearing takes under axial load, which no catalogue tells. Constants for other angles are refused.
+    fn contact_angle(&mut self, constants: Option<[f64; 2]>, of: &str) -> Done {
+        self.refuse_angle(ANGLE, constants, of)?;
         let loaded = self.number(AXIAL_LOAD).is_some_and(|load| load != 0.0);
-        if !loaded || !self.lacks(CONTACT_ANGLE) {
+        // what the file says of the bearing counts before its catalogue
+        let catalogued = self.mark(CONTACT_ANGLE) == "catalogue";
+        if let Some(angle) = self.number(ANGLE)
+            && (loaded || constants.is_some())
+            && (self.lacks(CONTACT_ANGLE) || catalogued)
+            && self.number(CONTACT_ANGLE) != Some(angle)
+        {
+            self.put_derived(CONTACT_ANGLE, Value::Number(angle), ANGLE)?;
+        }
+        self.refuse_angle(CONTACT_ANGLE, constants, of)?;
+        if !self.lacks(CONTACT_ANGLE) {
             return Ok(());
         }
-        if let Some(angle) = self.number("bearing.contact_angle") {
-            return self.put_derived(CONTACT_ANGLE, Value::Number(angle), "bearing.contact_angle");
-        }
-        if self.word("bearing.type") != "deep groove" {
-            return Ok(());
-        }
-        let known = Known {
-            value: Value::Number(DEEP_GROOVE_ANGLE.to_radians()),
-            text: format!("{DEEP_GROOVE_ANGLE} deg"),
-            provenance: Provenance::DefaultAssumed(
+        let by_angle = self.word(EQUIVALENT_LOAD) == equivalent_load_word(FactorSource::Timken);
+        let (degrees, why) = match constants {
+            Some([least, largest]) if !(by_angle && loaded) => (
+                0.5 * (least + largest),
+                format!("the constants of {of} are for {least} to {largest} deg"),
+            ),
+            None if by_angle && loaded && self.word("bearing.type") == "deep groove" => (
+                DEEP_GROOVE_ANGLE,
                 "P1 = 3 F_a - 0.1 F_r of deep groove bearings (Harris, from memory)".to_string(),
             ),
+            _ => return Ok(()),
+        };
+        let known = Known {
+            value: Value::Number(degrees.to_radians()),
+            text: format!("{degrees} deg"),
+            provenance: Provenance::DefaultAssumed(why),
             place: Place::Whole,
             filled_in: false,
         };
         self.put(CONTACT_ANGLE, known);
         Ok(())
+    }
+
+    /// Refuses a contact angle that the constants of a law are not for.
+    fn refuse_angle(&self, path: &'static str, constants: Option<[f64; 2]>, of: &str) -> Done {
+        let (Some([least, largest]), Some(angle)) = (constants, self.number(path)) else {
+            return Ok(());
+        };
+        // without the rounding of radians
+        let degrees = (angle.to_degrees() * 1e9).round() / 1e9;
+        if (least..=largest).contains(&degrees) {
+            return Ok(());
+        }
+        let mut chosen = [path, SERIES, LAW].into_iter();
+        let blamed = chosen
+            .find(|path| self.place(path) != Place::Whole)
+            .unwrap_or(path);
+        Err(Box::new(self.problem(
+            Code::NoLawData,
+            blamed,
+            self.place(blamed),
+            format!("a contact angle of {degrees} deg"),
+            format!(
+                "{least} to {largest} deg is needed, for which the constants of {of} are; else Palmgren's law with f0, f1_factor and f1_exponent by hand, or a measured curve"
+            ),
+        )))
     }
 
     /// Whether a key of this system has neither a value nor an obstacle.
@@ -185,6 +236,8 @@ impl Values {
             .into_iter()
             .find(|path| self.lacks(path))
         else {
+            self.equivalent_load(FactorSource::Timken, "f1 is given by hand")?;
+            self.contact_angle(None, "")?;
             let wanted = !self.words(COMPARED_LAWS).is_empty();
             if !self.is_given(LUBRICATION) {
                 self.take_away(LUBRICATION);
@@ -240,6 +293,11 @@ impl Values {
             "series {series}, {kind}: {}{told}",
             factors.source.citation()
         );
+        match self.lacks(F1_FACTOR) {
+            true => self.equivalent_load(factors.source, &how)?,
+            false => self.equivalent_load(FactorSource::Timken, "f1 is given by hand")?,
+        }
+        self.contact_angle(factors.angles_deg, &format!("series {series}"))?;
         for (path, value) in [
             (F0, factors.viscous_factor),
             (F1_FACTOR, factors.load_factor),
@@ -250,6 +308,18 @@ impl Values {
             }
         }
         Ok(())
+    }
+
+    /// The form of P1, which belongs to the source of f1.
+    fn equivalent_load(&mut self, source: FactorSource, how: &str) -> Done {
+        if !self.lacks(EQUIVALENT_LOAD) {
+            return Ok(());
+        }
+        self.put_derived(
+            EQUIVALENT_LOAD,
+            Value::Word(equivalent_load_word(source)),
+            how,
+        )
     }
 
     fn no_factor(&self, path: &str, other: &str) -> Problem {
@@ -407,6 +477,7 @@ impl Values {
         let text = match &value {
             Value::Number(number) => quantity_text(key, *number),
             Value::Text(text) => text.clone(),
+            Value::Word(word) => word.to_string(),
             _ => String::new(),
         };
         if value

@@ -1,6 +1,6 @@
 //! What measured tests are to tell of a bearing, as typed values in SI.
 
-use super::bearing::{BallMaterial, ball_material};
+use super::bearing::{BallMaterial, ball_material, cage_ring_mass};
 use super::resolve::Values;
 use super::section::Section;
 use std::path::PathBuf;
@@ -20,7 +20,7 @@ pub struct Identify {
     pub ball_material: BallMaterial,
     /// Mass of one ball, kg; derived from diameter and material where it is `None`.
     pub ball_mass: Option<f64>,
-    /// Mass of the cage, kg; 0 where there is none.
+    /// Mass of the cage as a ring at the pitch circle, kg; 0 where there is none.
     pub cage_mass: f64,
     /// Signals files of slow tests.
     pub coast_downs: Vec<PathBuf>,
@@ -108,7 +108,7 @@ impl Identify {
             pitch_diameter: bearing.number("pitch_diameter"),
             ball_material: ball_material(&bearing),
             ball_mass: bearing.maybe("ball_mass"),
-            cage_mass: bearing.maybe("cage_mass").unwrap_or(0.0),
+            cage_mass: cage_ring_mass(&bearing),
             coast_downs: files("identify.coast_down"),
             tests: files("identify.tests"),
             radial_load: identify.maybe("radial_load"),

@@ -75,8 +75,8 @@ pub enum Presence {
 pub enum Otherwise {
     /// The key must be given.
     Required,
-    /// The key may stay away; the text says what that means.
-    Optional(&'static str),
+    /// Another default.
+    Fallback(Fallback),
 }
 
 /// A default value.

@@ -6,8 +6,22 @@ use super::section::Section;
 use physics::friction::Friction;
 use physics::moment_curve::MomentCurve;
 use physics::palmgren::{Palmgren, PalmgrenCombined};
-use physics::skf_constants::{SkfBearing, SkfLubricant, SkfOil, SkfSupply, SkfType};
+use physics::palmgren_factors::FactorSource;
+use physics::skf_constants::{SkfBearing, SkfLubricant, SkfOil, SkfSupply};
 use physics::static_load::static_load_factors;
+
+/// Words of the sources of P1.
+pub(super) const EQUIVALENT_LOADS: &[&str] = &[SCHAEFFLER, TIMKEN];
+const SCHAEFFLER: &str = "schaeffler";
+const TIMKEN: &str = "timken";
+
+/// The word of a source of P1.
+pub(super) fn equivalent_load_word(source: FactorSource) -> &'static str {
+    match source {
+        FactorSource::Schaeffler => SCHAEFFLER,
+        FactorSource::Timken => TIMKEN,
+    }
+}
 
 /// Steady friction moment.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,8 +42,10 @@ pub enum Moment {
         f1_exponent: f64,
         /// Axial load, N; the printed form has none.
         axial_load: f64,
-        /// Contact angle under load, rad; none without axial load.
+        /// Contact angle under load, rad, where it is known.
         contact_angle: Option<f64>,
+        /// Whose form of the load P1 goes with f1; the printed form has P1 = W.
+        equivalent_load: FactorSource,
     },
     /// The SKF model.
     Skf {
@@ -66,8 +82,8 @@ pub struct MomentShare {
     pub orbit_share: f64,
     /// Speed of rolling that regularises the load-dependent part, rad/s.
     pub reference_spin: f64,
-    /// Scale of the law; none where a steady run finds it.
-    pub scale: Option<f64>,
+    /// Scale of the law.
+    pub scale: f64,
 }
 
 /// Friction of the balls in their pockets while the race accelerates: forces in N, with the sign of the rotation.
@@ -130,6 +146,10 @@ impl Moment {
                     _ => 0.0,
                 },
                 contact_angle: moment.maybe("contact_angle").filter(|_| law == "palmgren"),
+                equivalent_load: match moment.word("equivalent_load") {
+                    SCHAEFFLER => FactorSource::Schaeffler,
+                    _ => FactorSource::Timken,
+                },
             },
             "skf" => Moment::Skf {
                 series: values.text("bearing.moment.series").unwrap_or_default(),
@@ -169,6 +189,7 @@ impl Moment {
                 f1_exponent,
                 axial_load,
                 contact_angle,
+                equivalent_load,
             } => {
                 let law = Palmgren {
                     viscous_factor: *f0,
@@ -183,15 +204,19 @@ impl Moment {
                 if *printed {
                     return Ok(Friction::PalmgrenPrinted(law));
                 }
-                if *axial_load == 0.0 {
+                let kind = bearing.kind.factor_type();
+                let radial_factor = equivalent_load.radial_factor(kind);
+                if *axial_load == 0.0 && radial_factor <= 1.0 {
                     return Ok(Friction::Palmgren(law));
                 }
-                let angle = contact_angle.ok_or("no contact angle under axial load is given")?;
-                let (radial, axial) = static_load_factors(bearing.kind.factor_type(), angle)
-                    .map_err(|why| why.to_string())?;
+                let (radial, axial) =
+                    static_load_factors(kind, *contact_angle).map_err(|why| why.to_string())?;
                 Ok(Friction::PalmgrenCombined(PalmgrenCombined {
                     law,
-                    axial_factor: 0.9 / angle.tan(),
+                    radial_factor,
+                    axial_factor: equivalent_load
+                        .axial_factor(kind, *contact_angle)
+                        .ok_or("no contact angle under axial load is given")?,
                     static_radial_factor: radial,
                     static_axial_factor: axial,
                 }))
@@ -207,12 +232,7 @@ impl Moment {
                 seal_moment,
                 ..
             } => SkfBearing {
-                kind: match bearing.kind {
-                    BearingType::DeepGroove => SkfType::DeepGroove,
-                    BearingType::AngularContact => SkfType::AngularContactSingleRow,
-                    BearingType::AngularContactDoubleRow => SkfType::AngularContactDoubleRow,
-                    BearingType::FourPointContact => SkfType::FourPointContact,
-                },
+                kind: bearing.kind.skf_type(),
                 series,
                 bore: *bore_diameter,
                 outer_diameter: *outer_diameter,
@@ -256,6 +276,20 @@ impl Moment {
         moment
     }
 
+    /// The SKF model with a drag of its oil; none where it has one already, or no bath or jet of oil.
+    pub fn with_drag_variable(&self, variable: f64) -> Option<Moment> {
+        let mut moment = self.clone();
+        match &mut moment {
+            Moment::Skf {
+                supply: SkfSupply::OilBath | SkfSupply::LowOilBathOrJet,
+                drag_variable,
+                ..
+            } if *drag_variable == 0.0 => *drag_variable = variable,
+            _ => return None,
+        }
+        Some(moment)
+    }
+
     /// Axial load that the law sees, N.
     pub fn axial_load(&self) -> f64 {
         match self {
@@ -275,7 +309,7 @@ impl MomentShare {
         MomentShare {
             orbit_share: moment.maybe("orbit_share").unwrap_or(0.5),
             reference_spin: moment.maybe("reference_spin").unwrap_or(1.0),
-            scale: moment.maybe("scale"),
+            scale: moment.maybe("scale").unwrap_or(1.0),
         }
     }
 }

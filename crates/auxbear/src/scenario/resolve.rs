@@ -267,7 +267,9 @@ impl Values {
             Presence::DefaultWhen(condition, fallback, _) if self.holds(&condition) => {
                 self.fall_back(key, &fallback).map(Some)
             }
-            Presence::DefaultWhen(_, _, Otherwise::Optional(_)) => Ok(None),
+            Presence::DefaultWhen(_, _, Otherwise::Fallback(fallback)) => {
+                self.fall_back(key, &fallback).map(Some)
+            }
             Presence::DefaultWhen(condition, _, Otherwise::Required) => Err(Box::new(
                 self.missing(key)
                     .with_hint(format!("It has a default only with {}", condition.text())),
@@ -371,6 +373,12 @@ impl Values {
         })
     }
 
+    /// Where a value comes from, in one word; empty where there is none.
+    pub(super) fn mark(&self, path: &str) -> &'static str {
+        let known = self.known.get(path);
+        known.map_or("", |known| known.provenance.mark())
+    }
+
     /// A dimension of the bearing named, as the catalogue knows it.
     pub(super) fn dimension(&self, name: &str) -> Option<f64> {
         let mut values = self.record.as_ref()?.values.iter();
@@ -460,8 +468,7 @@ impl Values {
             }
             let absent = match table::presence(key, self.system) {
                 Presence::Derived(how) => Some(Provenance::Derived(how.to_string())),
-                Presence::Optional(meaning)
-                | Presence::DefaultWhen(_, _, Otherwise::Optional(meaning)) => {
+                Presence::Optional(meaning) => {
                     Some(Provenance::Default(format!("not given: {meaning}")))
                 }
                 _ => None,

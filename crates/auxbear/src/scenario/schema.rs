@@ -425,8 +425,8 @@ fn description(key: &Key, system: SystemName) -> String {
         Presence::Default(fallback) => words.push_str(&format!(" {}.", default(fallback))),
         Presence::DefaultWhen(condition, fallback, otherwise) => {
             let rest = match otherwise {
-                Otherwise::Required => "required otherwise",
-                Otherwise::Optional(meaning) => meaning,
+                Otherwise::Required => "required otherwise".to_string(),
+                Otherwise::Fallback(fallback) => format!("otherwise {}", default(fallback)),
             };
             words.push_str(&format!(
                 " With {}: {}; {rest}.",

@@ -72,6 +72,8 @@ pub struct FullComplement {
     pub friction_coefficient: f64,
     /// Slip speed that regularises it, m/s.
     pub friction_reference_speed: f64,
+    /// Contact pressure of neighbours that results are compared with, Pa.
+    pub hertz_pressure_limit: f64,
 }
 
 impl Separation {
@@ -83,6 +85,7 @@ impl Separation {
             return Separation::FullComplement(FullComplement {
                 friction_coefficient: row.number("friction_coefficient"),
                 friction_reference_speed: row.number("friction_reference_speed"),
+                hertz_pressure_limit: row.number("hertz_pressure_limit"),
             });
         }
         let cage = section("bearing.cage");

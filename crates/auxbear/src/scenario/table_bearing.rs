@@ -27,9 +27,7 @@ pub(super) const TRACTION_SECTIONS: &[Section] = &[
     },
 ];
 
-const SILICON_NITRIDE_LIMIT: &str = "no limit is known for hybrid bearings; none is compared";
-
-const STEEL_BALLS: Condition = Condition {
+pub(super) const STEEL_BALLS: Condition = Condition {
     path: "bearing.ball_material",
     values: &["steel"],
     reason: "",
@@ -235,12 +233,11 @@ pub(super) const KEYS: &[Key] = &[
         "bearing.cage_inertia",
         Kind::Quantity("kg m^2"),
         "1.62e-6 kg m^2",
-        "Moment of inertia of the cage about the axis.",
+        "Moment of inertia of the cage about the axis: what turns; its mass is what its centre moves.",
     )
     .positive()
     .derived("cage_mass (pitch_diameter/2)^2: a thin ring at the pitch circle")
-    .when(CAGE)
-    .only(MOVING),
+    .when(CAGE),
     Key::new(
         "bearing.ball_mass",
         Kind::Quantity("kg"),
@@ -304,7 +301,7 @@ pub(super) const KEYS: &[Key] = &[
         "bearing.hertz_pressure_limit",
         Kind::Quantity("Pa"),
         "4200 MPa",
-        "Contact pressure that the report compares with.",
+        "Contact pressure of balls and races that results are compared with.",
     )
     .positive()
     .default_when(
@@ -314,7 +311,11 @@ pub(super) const KEYS: &[Key] = &[
             reason: "static limit for ball bearings of steel, ISO 76",
             assumed: false,
         },
-        Otherwise::Optional(SILICON_NITRIDE_LIMIT),
+        Otherwise::Fallback(Fallback {
+            text: "4200 MPa",
+            reason: "the steel races of a hybrid bearing dent first: the static limit for steel",
+            assumed: true,
+        }),
     )
     .only(MOVING),
 ];

@@ -1,8 +1,8 @@
 //! The part of the table of keys that describes what keeps the balls apart, and how the rings sit.
 
-use super::key::{Condition, Key, Kind, Section};
+use super::key::{Condition, Fallback, Key, Kind, Otherwise, Section};
 use super::table::MOVING;
-use super::table_bearing::CAGE;
+use super::table_bearing::{CAGE, STEEL_BALLS};
 
 pub(super) const SECTIONS: &[Section] = &[
     Section {
@@ -212,5 +212,26 @@ pub(super) const KEYS: &[Key] = &[
     )
     .positive()
     .default("0.1 m/s", "numerical regularisation: small against the surface speed of a ball")
+    .when(FULL_COMPLEMENT),
+    Key::new(
+        "bearing.full_complement.hertz_pressure_limit",
+        Kind::Quantity("Pa"),
+        "4200 MPa",
+        "Contact pressure of neighbouring balls that results are compared with.",
+    )
+    .positive()
+    .default_when(
+        STEEL_BALLS,
+        Fallback {
+            text: "4200 MPa",
+            reason: "balls of the steel that the static limit for ball bearings holds for",
+            assumed: true,
+        },
+        Otherwise::Fallback(Fallback {
+            text: "4400 MPa",
+            reason: "ceramic balls crack in rings where the tension at the rim, (1 - 2ν)/3 of the pressure, reaches their bending strength: 700 MPa, from memory",
+            assumed: true,
+        }),
+    )
     .when(FULL_COMPLEMENT),
 ];

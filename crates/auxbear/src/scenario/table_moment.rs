@@ -1,6 +1,7 @@
 //! The part of the table of keys that describes the friction of the bearing as a whole.
 
 use super::key::{Condition, Key, Kind, Range, Section};
+use super::moment::EQUIVALENT_LOADS;
 use super::system::SystemName;
 
 pub(super) const SECTIONS: &[Section] = &[
@@ -150,7 +151,7 @@ pub(super) const KEYS: &[Key] = &[
         "bearing.moment.axial_load",
         Kind::Quantity("N"),
         "400 N",
-        "Axial load that the law sees, constant; its sign has no effect. It reaches the friction moment alone: motion is computed in the plane.",
+        "Axial load that the law sees, constant; its sign has no effect. It reaches the friction moment alone: motion is computed in the plane. Where it is not given an axial preload of the bearing counts.",
     )
     .default("0 N", "a purely radial load")
     .when(AXIAL),
@@ -158,10 +159,18 @@ pub(super) const KEYS: &[Key] = &[
         "bearing.moment.contact_angle",
         Kind::Quantity("rad"),
         "25 deg",
-        "Contact angle under load, by which an axial load makes friction: P1 = 0.9 cot(angle) F_a - 0.1 F_r.",
+        "Contact angle under load: it chooses P0 of Palmgren's law, and P1 in the form of Timken. Constants of tables hold for one angle; other bearings are refused.",
     )
     .positive()
-    .optional("a deep groove bearing under axial load is taken to have 16.7 deg; without axial load it has no effect")
+    .optional("that of the bearing; else the middle of those that the constants are for; a deep groove bearing needs none, or is taken to have 16.7 deg")
+    .when(AXIAL),
+    Key::new(
+        "bearing.moment.equivalent_load",
+        Kind::Word(EQUIVALENT_LOADS),
+        "schaeffler",
+        "Form of the load P1 = max(F_r, X1 F_r + Y1 F_a) of Palmgren's M1, which belongs to f1: schaeffler, by the type of the bearing; timken, 0.9 cot(contact_angle) F_a - 0.1 F_r for all, which is that of Harris too.",
+    )
+    .derived("the source of f1; timken where f1 is given by hand")
     .when(&[law(&["palmgren"])]),
     Key::new(
         "bearing.moment.bore_diameter",
@@ -196,7 +205,7 @@ pub(super) const KEYS: &[Key] = &[
         "Variable V_M of the drag in an oil bath or jet, read from the diagram of the SKF catalogue.",
     )
     .not_negative()
-    .default("0", "no drag of an oil bath is computed")
+    .default("0", "no drag of an oil bath or jet is computed, and the run warns")
     .when(SKF),
     Key::new(
         "bearing.moment.seal_moment",
@@ -238,10 +247,10 @@ pub(super) const KEYS: &[Key] = &[
         "bearing.moment.scale",
         Kind::Coefficient,
         "1",
-        "Scale of the law: what balls lose by slip and in their pockets is in a measured moment already and must not count twice.",
+        "Factor on the law, for example of a bearing that was measured to have a share of it.",
     )
     .positive()
-    .derived("from a steady run at full speed and load, so that the whole loss there is that of the law")
+    .default("1", "the law as it stands")
     .when(SHARED)
     .only(MOVING),
     Key::new(

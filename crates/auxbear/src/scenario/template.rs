@@ -98,8 +98,10 @@ fn describe(out: &mut String, key: &Key, system: SystemName) {
                 "default"
             };
             let rest = match otherwise {
-                Otherwise::Required => "required otherwise",
-                Otherwise::Optional(meaning) => meaning,
+                Otherwise::Required => "required otherwise".to_string(),
+                Otherwise::Fallback(fallback) => {
+                    format!("otherwise {}: {}", fallback.text, fallback.reason)
+                }
             };
             doc.push_str(&format!(" Default with {}; {rest}.", condition.text()));
             (

@@ -1,6 +1,6 @@
 //! The torque of a bearing over speed, load and acceleration, as typed values in SI.
 
-use super::bearing::{BallMaterial, BearingType, ball_material};
+use super::bearing::{BallMaterial, BearingType, ball_material, cage_ring_mass};
 use super::bearing_source::BearingSource;
 use super::checks::check_law;
 use super::document::{Document, Given, Raw};
@@ -30,7 +30,7 @@ pub struct Torque {
     pub static_load_rating: Option<f64>,
     /// Limiting speed in continuous running, rad/s.
     pub limiting_speed: Option<f64>,
-    /// Mass of the cage, kg.
+    /// Mass of the cage as a ring at the pitch circle, kg; 0 where there is none.
     pub cage_mass: f64,
     /// Mass of one ball, kg; derived from diameter and material where it is `None`.
     pub ball_mass: Option<f64>,
@@ -91,7 +91,7 @@ impl Torque {
             ball_material: ball_material(&bearing),
             static_load_rating: bearing.maybe("static_load_rating"),
             limiting_speed: bearing.maybe("limiting_speed"),
-            cage_mass: bearing.maybe("cage_mass").unwrap_or(0.0),
+            cage_mass: cage_ring_mass(&bearing),
             ball_mass: bearing.maybe("ball_mass"),
             moment: Moment::from_values(values),
             acceleration_loss: AccelerationLoss::from_values(values),

@@ -2,9 +2,10 @@
 
 use super::film::{self, Films};
 use super::skid::{Skidding, Skids};
+use crate::scenario::Bearing;
 use model::bearing::BearingConstants;
 use model::motion::Motion;
-use model::system::sampling::Row;
+use model::system::sampling::{Peak, Row};
 use physics::hertz::maximum_pressure;
 use std::ops::Range;
 
@@ -18,10 +19,44 @@ pub struct PressureFactors {
 }
 
 impl PressureFactors {
-    /// The larger pressure of the loads at the inner and the outer race, N.
-    pub fn at_races(&self, loads: [f64; 2]) -> f64 {
+    /// The pressures under the largest loads at the inner and the outer race and between balls, N.
+    pub fn pressures(&self, races: [Peak; 2], neighbours: Peak) -> Pressures {
         let [inner, outer] = self.races;
-        maximum_pressure(inner, loads[0]).max(maximum_pressure(outer, loads[1]))
+        let of = |factor: f64, load: Peak| maximum_pressure(factor, load.value);
+        Pressures {
+            races: of(inner, races[0]).max(of(outer, races[1])),
+            neighbours: self.neighbours.map(|factor| of(factor, neighbours)),
+        }
+    }
+}
+
+/// Largest Hertz pressures by what touches the balls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pressures {
+    /// Of balls and races, Pa.
+    pub races: f64,
+    /// Of neighbouring balls, Pa; none where a cage keeps them apart.
+    pub neighbours: Option<f64>,
+}
+
+impl Pressures {
+    /// The larger of each.
+    pub fn or(self, other: Pressures) -> Pressures {
+        Pressures {
+            races: self.races.max(other.races),
+            neighbours: (self.neighbours.zip(other.neighbours)).map(|(own, other)| own.max(other)),
+        }
+    }
+    /// Between neighbouring balls, with its limit, Pa.
+    pub fn of_neighbours(&self, bearing: &Bearing) -> Option<(f64, f64)> {
+        self.neighbours.zip(bearing.neighbour_pressure_limit())
+    }
+    /// The largest share of a limit: each pressure by the limit of what touches there.
+    pub fn share_of_limit(&self, bearing: &Bearing) -> f64 {
+        let neighbours = self
+            .of_neighbours(bearing)
+            .map_or(0.0, |(p, limit)| p / limit);
+        (self.races / bearing.hertz_pressure_limit).max(neighbours)
     }
 }
 

@@ -1,34 +1,10 @@
-//! What is known before a run: what `auxbear check` tells besides the values of the file.
+//! What is known before a run: the warnings that `auxbear check` prints beside the values of the file.
 
-use super::build_bearing::{ScaleOrigin, SteadyFinding};
 use super::outcome::Warning;
 use super::warnings_shared::speed_rating;
 use super::{Built, Machine};
-use crate::scenario::{Provenance, Resolved};
-
-/// Key of the scale of the friction moment, which a steady run finds.
-const SCALE: &str = "bearing.moment.scale";
 
 impl Machine<'_> {
-    /// Every value of the scenario, with what the machine adds to it.
-    pub fn resolved(&self) -> Resolved {
-        let mut resolved = self.scenario.resolved.clone();
-        let mut values = resolved.values.iter_mut();
-        let scale = values.find(|value| value.path == SCALE && value.text.is_none());
-        if let (Some(value), Some(steady)) = (scale, self.steady()) {
-            let how = match &steady.origin {
-                ScaleOrigin::NotNeeded | ScaleOrigin::Given => return resolved,
-                ScaleOrigin::SteadyRun => "from a steady run at full speed and load".to_string(),
-                ScaleOrigin::Skidding => "the balls would skid in a steady run".to_string(),
-                ScaleOrigin::Unknown(why) => why.clone(),
-            };
-            value.text = Some(crate::units::number_text(steady.scale));
-            value.value_si = Some(steady.scale);
-            value.provenance = Provenance::Derived(how);
-        }
-        resolved
-    }
-
     /// What the user should know before the run.
     pub fn warnings(&self) -> Vec<Warning> {
         let (rating, load) = match &self.system {
@@ -63,14 +39,5 @@ impl Machine<'_> {
             Built::Torque(_) | Built::Signals(_) | Built::Identify(_) => None,
         };
         warning.into_iter().chain(rated).collect()
-    }
-
-    fn steady(&self) -> Option<&SteadyFinding> {
-        match &self.system {
-            Built::Drop(_, built) => built.steady.as_ref(),
-            Built::SpinUp(_, built) => built.steady.as_ref(),
-            Built::Rig(_, built) => built.steady.as_ref(),
-            Built::Torque(_) | Built::Signals(_) | Built::Identify(_) => None,
-        }
     }
 }

@@ -1,6 +1,5 @@
 //! From a drop to the constants of the model.
 
-use super::Options;
 use super::bearing_run::PressureFactors;
 use super::build_bearing::{self, SteadyFinding, SteadyPoint};
 use crate::problem::Problem;
@@ -21,18 +20,18 @@ pub struct Built {
     pub constants: DropConstants,
     /// Hertz pressure in the contacts of a ball.
     pub pressure_factors: PressureFactors,
-    /// A steady run under the rotor's weight; none where the bearing has no steady moment.
+    /// What traction can carry at full speed under the rotor's weight; none where the bearing has no steady moment.
     pub steady: Option<SteadyFinding>,
 }
 
 /// Builds the constants of one plane of a drop: identical planes share the rotor equally.
-pub fn drop(drop: &Drop, options: &Options) -> Result<Built, Box<Problem>> {
+pub fn drop(drop: &Drop) -> Result<Built, Box<Problem>> {
     let gravity = gravity(drop);
     let (sine, cosine) = drop.gravity.direction.sin_cos();
     let contacts = build_bearing::ball_contacts(&drop.bearing)?;
-    let mut bearing = build_bearing::bearing(&drop.bearing, &contacts, gravity)?;
+    let bearing = build_bearing::bearing(&drop.bearing, &contacts, gravity)?;
     let steady = build_bearing::steady(
-        &mut bearing,
+        &bearing,
         &drop.bearing,
         &InnerRace {
             mass: drop.bearing.inner_race_mass,
@@ -45,7 +44,6 @@ pub fn drop(drop: &Drop, options: &Options) -> Result<Built, Box<Problem>> {
             speed: drop.rotor.speed,
             load: drop.rotor.mass / f64::from(drop.rotor.planes) * drop.gravity.acceleration,
         },
-        options,
     )?;
     Ok(Built {
         constants: constants(drop, bearing),

@@ -2,11 +2,9 @@
 
 use super::bearing_run::PressureFactors;
 use super::build_traction::{inlet_rolling, traction};
-use super::{Options, Phase};
 use crate::problem::{Code, Problem};
 use crate::scenario::{
-    AccelerationLoss as LossChoice, BallMaterial, Bearing, Fidelity, Guidance, Land, Moment,
-    Separation, UNNAMED,
+    AccelerationLoss as LossChoice, Bearing, Fidelity, Guidance, Land, Moment, Separation, UNNAMED,
 };
 use model::bearing::ball::BallConstants;
 use model::bearing::cage::{Land as CageLand, LandRace};
@@ -17,17 +15,14 @@ use model::bearing::{
     Separation as SeparationConstants, SharedMoment, SteadyMoment,
 };
 use model::contact::JournalContact;
+use model::system::spin_up::capacity::{LEAST_CAPACITY, traction_capacity};
 use model::system::spin_up::layout::{INNER, INNER_LOAD_SUM, STEADY_MOMENT};
-use model::system::spin_up::steady::{LEAST_CAPACITY, traction_capacity};
-use model::system::spin_up::{
-    Drive, InnerRace, Refusal, SpinUpConstants, SpinUpMachine, SteadyError, Watch, moment_scale,
-};
+use model::system::spin_up::{Drive, InnerRace, Refusal, SpinUpConstants, SpinUpMachine};
 use model::table::Table;
 use number::Vec2;
-use physics::angular_contact::{preload_interference, radial_stiffness};
+use physics::angular_contact::{preload_interference, radial_stiffness, spin_inertia};
 use physics::hertz::{BallRace, Curvature, PointContact, Race};
-use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE, ball_mass, contact_modulus};
-use physics::rolling::RollingSet;
+use physics::materials::{BEARING_STEEL, contact_modulus};
 
 /// What a problem found after reading names as its place.
 pub(super) const SCENARIO: &str = UNNAMED;
@@ -58,16 +53,8 @@ impl BallContacts {
     }
 }
 
-/// Materials of the balls.
-pub(super) fn material(choice: BallMaterial) -> Material {
-    match choice {
-        BallMaterial::Steel => BEARING_STEEL,
-        BallMaterial::SiliconNitride => SILICON_NITRIDE,
-    }
-}
-
 pub(super) fn ball_contacts(bearing: &Bearing) -> Result<BallContacts, Box<Problem>> {
-    let ball = material(bearing.ball_material);
+    let ball = bearing.ball_material.data();
     let modulus = contact_modulus(ball, BEARING_STEEL);
     let contact = |race: Race, groove_curvature: f64| {
         let curvature = BallRace {
@@ -114,31 +101,33 @@ pub(super) fn ball_contacts(bearing: &Bearing) -> Result<BallContacts, Box<Probl
         modulus,
         inner_stiffness: bearing.inner_contact_stiffness.unwrap_or(inner.stiffness),
         outer_stiffness: bearing.outer_contact_stiffness.unwrap_or(outer.stiffness),
-        ball_mass: bearing
-            .ball_mass
-            .unwrap_or_else(|| ball_mass(bearing.ball_diameter, ball.density)),
+        ball_mass: bearing.mass_of_ball(),
         inner,
         outer,
     })
 }
 
-/// The bearing, its steady moment not yet scaled.
+/// The bearing.
 pub(super) fn bearing(
     bearing: &Bearing,
     contacts: &BallContacts,
     gravity: Vec2<f64>,
 ) -> Result<BearingConstants, Box<Problem>> {
-    let law = bearing.moment.law(&bearing.rated()).map_err(|why| {
-        Box::new(
-            Problem::new(
-                Code::NoLawData,
-                SCENARIO,
-                why,
-                "a law that has constants for this bearing",
+    let law = bearing
+        .moment
+        .law(&bearing.rated())
+        .map_err(|why| {
+            Box::new(
+                Problem::new(
+                    Code::NoLawData,
+                    SCENARIO,
+                    why,
+                    "a law that has constants for this bearing",
+                )
+                .on_key("bearing.moment.law"),
             )
-            .on_key("bearing.moment.law"),
-        )
-    })?;
+        })?
+        .scaled(bearing.moment_share.scale);
     let plane = Plane::of(bearing, contacts);
     let growth = bearing.inner_track_growth();
     Ok(match bearing.fidelity {
@@ -159,37 +148,28 @@ pub(super) fn bearing(
                 axial_load: bearing.moment.axial_load(),
                 orbit_share: bearing.moment_share.orbit_share,
                 reference_spin: bearing.moment_share.reference_spin,
-                scale: bearing.moment_share.scale.unwrap_or(1.0),
             }),
             inlet_rolling: inlet_rolling(bearing, contacts)?,
             lubricant: lubricant_state(bearing),
         }),
-        Fidelity::Rolling => {
-            let set = RollingSet {
-                inner_track_radius: plane.inner_track,
-                ball_ratio: plane.contact_radius / plane.inner_track,
-                balls_mass: bearing.ball_count as f64 * contacts.ball_mass,
-                cage_mass: bearing.separation.cage_mass(),
-            };
-            BearingConstants::Rolling(RollingConstants {
-                balls: bearing.ball_count,
-                ball: RollingBall {
-                    series_stiffness: in_series(plane.inner_stiffness, plane.outer_stiffness),
-                    load_per_radial_force: 1.0 / bearing.contact_angle.cos(),
-                    damping_time: bearing.contact_damping_time,
-                    interference: plane.inner_track + 2.0 * plane.contact_radius
-                        - plane.outer_track,
-                    inner_track_growth: growth,
-                    mass_radius: contacts.ball_mass * 0.5 * bearing.pitch_diameter,
-                },
-                set,
-                first_ball_angle: bearing.first_ball_angle,
-                moment: law,
-                axial_load: bearing.moment.axial_load(),
-                loss: acceleration_loss(&bearing.acceleration_loss),
-                lubricant: lubricant_state(bearing),
-            })
-        }
+        Fidelity::Rolling => BearingConstants::Rolling(RollingConstants {
+            balls: bearing.ball_count,
+            ball: RollingBall {
+                series_stiffness: in_series(plane.inner_stiffness, plane.outer_stiffness),
+                load_per_radial_force: 1.0 / bearing.contact_angle.cos(),
+                damping_time: bearing.contact_damping_time,
+                interference: plane.inner_track + 2.0 * plane.contact_radius - plane.outer_track,
+                inner_track_growth: growth,
+                mass_radius: contacts.ball_mass * 0.5 * bearing.pitch_diameter,
+            },
+            set: bearing.rolling_set(),
+            cage_mass: bearing.separation.cage_mass(),
+            first_ball_angle: bearing.first_ball_angle,
+            moment: law,
+            axial_load: bearing.moment.axial_load(),
+            loss: acceleration_loss(&bearing.acceleration_loss),
+            lubricant: lubricant_state(bearing),
+        }),
     })
 }
 
@@ -249,7 +229,7 @@ fn ball_constants(
     plane: &Plane,
     gravity: Vec2<f64>,
 ) -> BallConstants<f64> {
-    let radius = 0.5 * bearing.ball_diameter;
+    let cosine = bearing.contact_angle.cos();
     let pockets = match &bearing.separation {
         Separation::Cage(cage) => Pockets {
             gap: cage.pocket_gap,
@@ -266,11 +246,11 @@ fn ball_constants(
     };
     BallConstants {
         radius: plane.contact_radius,
-        ball_radius: radius,
-        load_per_radial_force: 1.0 / bearing.contact_angle.cos(),
+        ball_radius: 0.5 * bearing.ball_diameter,
+        load_per_radial_force: 1.0 / cosine,
         mass: contacts.ball_mass,
         inverse_mass: 1.0 / contacts.ball_mass,
-        inverse_inertia: 1.0 / (0.4 * contacts.ball_mass * radius * radius),
+        inverse_inertia: 1.0 / spin_inertia(contacts.ball_mass, plane.contact_radius),
         inner_track: plane.inner_track,
         inner_track_growth: bearing.inner_track_growth(),
         outer_track: plane.outer_track,
@@ -281,8 +261,8 @@ fn ball_constants(
         pocket_gap: pockets.gap,
         pocket_stiffness: pockets.stiffness,
         pocket_damping: pockets.damping,
-        pocket_friction: pockets.friction,
-        pocket_inverse_reference_speed: 1.0 / pockets.reference_speed,
+        pocket_friction: pockets.friction * cosine,
+        pocket_inverse_reference_speed: cosine / pockets.reference_speed,
         orbit_drag: bearing.drag.orbit,
         spin_drag: bearing.drag.spin,
         gravity,
@@ -314,12 +294,13 @@ fn separation(bearing: &Bearing, contacts: &BallContacts) -> SeparationConstants
     let cage = match &bearing.separation {
         Separation::Cage(cage) => cage,
         Separation::FullComplement(row) => {
+            let cosine = bearing.contact_angle.cos();
             return SeparationConstants::Neighbours(BallPair {
                 radius: 0.5 * bearing.ball_diameter,
                 stiffness: contacts.neighbour_stiffness,
                 damping_time: bearing.contact_damping_time,
-                friction: row.friction_coefficient,
-                inverse_reference_speed: 1.0 / row.friction_reference_speed,
+                friction: row.friction_coefficient * cosine,
+                inverse_reference_speed: cosine / row.friction_reference_speed,
             });
         }
     };
@@ -377,8 +358,7 @@ pub(super) fn table(rows: &[[f64; 2]]) -> Table {
     Table::through(points).unwrap_or_else(|_| Table::constant(f64::NAN))
 }
 
-/// A steady run of the bearing at one speed and load: what its friction moment would be, and whether the balls would
-/// roll.
+/// Whether traction can carry the friction moment at one speed and load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SteadyFinding {
     /// Speed of the inner race, rad/s.
@@ -389,27 +369,6 @@ pub struct SteadyFinding {
     pub moment: f64,
     /// Largest traction moment of the inner race over M.
     pub capacity: f64,
-    /// Scale of the law that the run uses; 1 in the rolling fidelity.
-    pub scale: f64,
-    /// Mean moment on the outer race in a steady run with this scale, N m, where one was computed.
-    pub steady_moment: Option<f64>,
-    /// Where the scale comes from, or why there is none.
-    pub origin: ScaleOrigin,
-}
-
-/// Where the scale of a friction moment comes from.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ScaleOrigin {
-    /// The balls roll: the law counts as it is.
-    NotNeeded,
-    /// The user.
-    Given,
-    /// A steady run at this speed and load.
-    SteadyRun,
-    /// The balls would skid, so that no steady run tells it: 1 is used.
-    Skidding,
-    /// There is none for this reason: 1 is used.
-    Unknown(String),
 }
 
 impl SteadyFinding {
@@ -419,7 +378,7 @@ impl SteadyFinding {
     }
 }
 
-/// Where a steady run is looked at.
+/// The speed and load that a bearing is meant to run at.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SteadyPoint {
     /// Speed of the inner race, rad/s.
@@ -428,80 +387,17 @@ pub(super) struct SteadyPoint {
     pub load: f64,
 }
 
-/// Looks at the bearing in a steady run and scales its moment, so that what the balls lose by slip and in their pockets
-/// does not count twice. None where there is no steady moment or no speed.
+/// Moment and traction capacity of a bearing that is pressed together at rest. None where there is no steady moment or
+/// no speed.
 pub(super) fn steady(
-    constants: &mut BearingConstants,
-    bearing: &Bearing,
-    race: &InnerRace<f64>,
-    at: SteadyPoint,
-    options: &Options,
-) -> Result<Option<SteadyFinding>, Box<Problem>> {
-    let SteadyPoint { speed, load } = at;
-    if bearing.moment == Moment::None || speed == 0.0 {
-        return Ok(None);
-    }
-    let mut finding = at_rest(constants, bearing, race, speed, load)?;
-    let BearingConstants::Planar(planar) = constants else {
-        finding.origin = ScaleOrigin::NotNeeded;
-        return Ok(Some(finding));
-    };
-    if let Some(scale) = bearing.moment_share.scale {
-        finding.scale = scale;
-        finding.origin = ScaleOrigin::Given;
-    } else if finding.skids() {
-        finding.origin = ScaleOrigin::Skidding;
-    } else if bearing
-        .static_load_rating
-        .is_some_and(|rating| load > rating)
-    {
-        // nothing rolls there: the search would take minutes
-        let why = "the radial load exceeds the static load rating".to_string();
-        finding.origin = ScaleOrigin::Unknown(why);
-    } else if race.centre_held {
-        finding.origin = ScaleOrigin::Unknown("the centre of the inner race is held".to_string());
-    } else {
-        let watch = Watch {
-            interrupt: options.interrupt,
-            progress: &|done, least| {
-                (options.progress)(Phase::SteadyRun, (done as f64 / least as f64).min(1.0));
-            },
-        };
-        match moment_scale(planar, race, speed, load, &watch) {
-            Ok(run) => {
-                finding.scale = run.scale;
-                finding.steady_moment = Some(run.outer_moment);
-                finding.capacity = run.capacity;
-                finding.origin = ScaleOrigin::SteadyRun;
-            }
-            Err(error @ SteadyError::ExplicitExceedsLaw { .. }) => {
-                return Err(Box::new(
-                    Problem::new(
-                        Code::LossExceedsLaw,
-                        SCENARIO,
-                        error.to_string(),
-                        "more moment is needed, or less loss in the pockets; bearing.moment.scale sets the share of the law by hand",
-                    )
-                    .on_key("bearing.moment"),
-                ));
-            }
-            Err(error) => finding.origin = ScaleOrigin::Unknown(error.to_string()),
-        }
-    }
-    if let Some(moment) = planar.moment.as_mut() {
-        moment.scale = finding.scale;
-    }
-    Ok(Some(finding))
-}
-
-/// Moment and traction capacity of a bearing that is pressed together at rest.
-fn at_rest(
     constants: &BearingConstants,
     bearing: &Bearing,
     race: &InnerRace<f64>,
-    speed: f64,
-    load: f64,
-) -> Result<SteadyFinding, Box<Problem>> {
+    SteadyPoint { speed, load }: SteadyPoint,
+) -> Result<Option<SteadyFinding>, Box<Problem>> {
+    if bearing.moment == Moment::None || speed == 0.0 {
+        return Ok(None);
+    }
     // a race that runs at its speed from the start, or nearly so where the balls cannot follow a step
     let drive = match constants {
         BearingConstants::Planar(_) => Drive::step(speed),
@@ -521,15 +417,12 @@ fn at_rest(
     let moment = probe[STEADY_MOMENT];
     let traction = traction(bearing, &ball_contacts(bearing)?)?;
     let capacity = traction_capacity(&traction, constants, speed, probe[INNER_LOAD_SUM]);
-    Ok(SteadyFinding {
+    Ok(Some(SteadyFinding {
         speed,
         load,
         moment,
         capacity: capacity / moment.abs(),
-        scale: 1.0,
-        steady_moment: None,
-        origin: ScaleOrigin::NotNeeded,
-    })
+    }))
 }
 
 /// A machine that the model refuses, told with the key that decides.

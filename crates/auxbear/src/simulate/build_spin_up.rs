@@ -1,6 +1,5 @@
 //! From a spin-up to the constants of the model.
 
-use super::Options;
 use super::bearing_run::PressureFactors;
 use super::build_bearing::{self, SteadyFinding, SteadyPoint, refused, table};
 use crate::problem::Problem;
@@ -16,12 +15,12 @@ pub struct Built {
     pub machine: SpinUpMachine,
     /// Hertz pressure in the contacts of a ball.
     pub pressure_factors: PressureFactors,
-    /// A steady run at the target speed under the last load; none where the bearing has no steady moment.
+    /// What traction can carry at the target speed under the last load; none where the bearing has no steady moment.
     pub steady: Option<SteadyFinding>,
 }
 
 /// Builds the machine of a spin-up. The weight of the balls is left out: it is a thousandth of any load.
-pub fn spin_up(spin_up: &SpinUp, options: &Options) -> Result<Built, Box<Problem>> {
+pub fn spin_up(spin_up: &SpinUp) -> Result<Built, Box<Problem>> {
     let (sine, cosine) = spin_up.load_direction.sin_cos();
     let gravity = Vec2::zero();
     let race = InnerRace {
@@ -32,13 +31,13 @@ pub fn spin_up(spin_up: &SpinUp, options: &Options) -> Result<Built, Box<Problem
         gravity,
     };
     let contacts = build_bearing::ball_contacts(&spin_up.bearing)?;
-    let mut bearing = build_bearing::bearing(&spin_up.bearing, &contacts, gravity)?;
+    let bearing = build_bearing::bearing(&spin_up.bearing, &contacts, gravity)?;
     let target_speed = spin_up.target_speed();
     let at = SteadyPoint {
         speed: target_speed,
         load: spin_up.radial_load.at(spin_up.run.duration),
     };
-    let steady = build_bearing::steady(&mut bearing, &spin_up.bearing, &race, at, options)?;
+    let steady = build_bearing::steady(&bearing, &spin_up.bearing, &race, at)?;
     let machine = SpinUpMachine::new(SpinUpConstants {
         race,
         bearing,

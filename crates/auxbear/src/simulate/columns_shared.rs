@@ -232,7 +232,7 @@ impl<'a> Table<'a> {
                         &format!(
                             "central thickness of the oil film at the {side} race; 0 where the ball carries no load"
                         ),
-                        |row| films.at(row, ball)[race].map_or(0.0, |film| film.thickness),
+                        |row| films.at(row, ball)[race].as_ref().map_or(0.0, |film| film.state.thickness),
                     );
                 }
             }

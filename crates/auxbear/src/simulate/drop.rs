@@ -108,7 +108,7 @@ pub(super) fn run(scenario: &Scenario, drop: &Drop, built: &Built, options: &Opt
         members: table,
         picture: Picture {
             clearance: Some(drop.contact.radial_air_clearance),
-            pressure_limit: drop.bearing.hertz_pressure_limit,
+            pressure_limit: Some(drop.bearing.hertz_pressure_limit),
             rolling_cage_ratio: machine.rolling_cage_ratio(),
             balls: drop.bearing.ball_count,
         },

@@ -3,7 +3,6 @@
 //! A member's result depends on its constants and its start alone, bit for bit: not on the lane, the company, the
 //! vector unit or the number of threads.
 
-use super::Phase;
 use model::system::drop::linear::DropLinear;
 use model::system::drop::record::Record;
 use model::system::drop::{Drop, DropMachine};
@@ -47,7 +46,7 @@ pub struct Plan<'a> {
     /// Stops everything when true.
     pub interrupt: &'a AtomicBool,
     /// Told the fraction done.
-    pub progress: &'a (dyn Fn(Phase, f64) + Sync),
+    pub progress: &'a (dyn Fn(f64) + Sync),
 }
 
 /// Runs all members; the results stand in their order.
@@ -168,7 +167,7 @@ impl Task for Implicit<'_> {
 struct Report<'a> {
     done: &'a AtomicU64,
     members: usize,
-    progress: &'a (dyn Fn(Phase, f64) + Sync),
+    progress: &'a (dyn Fn(f64) + Sync),
 }
 
 /// A record that also reports progress.
@@ -205,10 +204,7 @@ impl<'a> Watched<'a> {
     fn tell(&self, thousandths: u64) {
         let more = thousandths.saturating_sub(self.told);
         let done = self.report.done.fetch_add(more, Ordering::Relaxed) + more;
-        (self.report.progress)(
-            Phase::Run,
-            done as f64 / (1000 * self.report.members) as f64,
-        );
+        (self.report.progress)(done as f64 / (1000 * self.report.members) as f64);
     }
 }
 

@@ -1,18 +1,19 @@
-//! The films between balls and races, told after a run from its rows.
+//! The films between balls and races, reported after a run from its rows.
 
 use super::bearing_run::BearingRun;
 use super::list::{List, Origin};
-use super::outcome::Warning;
+use super::outcome::{Value, Warning};
 use super::warnings_shared::warning;
 use crate::scenario::{Bearing, Traction as TractionChoice};
 use model::bearing::{BearingConstants, PlanarConstants};
 use model::system::sampling::Row;
+use physics::film::FilmRegime;
 use physics::lubricant::HIGHEST_PRESSURE;
 use physics::lubricant_traction::ContactState;
 use physics::traction::{LubricatedRaces, Traction};
 use physics::viscosity::ICE_POINT;
 
-/// λ below which asperities carry much of the load.
+/// λ = h_min/σ below which asperities carry much of the load.
 const MIXED: f64 = 1.0;
 /// Share of loaded contacts in rows above which a mixed film is worth a warning.
 const MOSTLY: f64 = 0.5;
@@ -20,6 +21,14 @@ const MOSTLY: f64 = 0.5;
 const FAST: f64 = 0.5;
 /// Temperature rise of a film up to which the law's stress is within 1.3 %, K.
 const HOTTEST: f64 = 200.0;
+
+/// The film of a loaded contact.
+pub(super) struct Film {
+    /// The contact under its law.
+    pub state: ContactState<f64>,
+    load: f64,
+    regime: FilmRegime,
+}
 
 /// The films of a bearing whose traction is that of its oil.
 pub(super) struct Films<'a> {
@@ -41,12 +50,17 @@ impl<'a> Films<'a> {
     }
 
     /// Films of a ball at the inner and the outer race; none where it carries no load.
-    pub fn at(&self, row: &Row, ball: usize) -> [Option<ContactState<f64>>; 2] {
+    pub fn at(&self, row: &Row, ball: usize) -> [Option<Film>; 2] {
         let motion = (self.run.motion)(row.state);
         let reaction = (self.bearing).ball_reaction(&motion, self.run.own(row.state), ball);
         let [inner, outer] = reaction.contacts();
-        [(&self.law.inner, inner), (&self.law.outer, outer)]
-            .map(|(law, at)| (at.load > 0.0).then(|| law.state(at.slip, at.load, at.entrainment)))
+        [(&self.law.inner, inner), (&self.law.outer, outer)].map(|(law, at)| {
+            (at.load > 0.0).then(|| Film {
+                state: law.state(at.slip, at.load, at.entrainment),
+                load: at.load,
+                regime: law.film.regime(at.entrainment, at.load),
+            })
+        })
     }
 
     /// What all loaded contacts came to in the rows in which the race turns fast.
@@ -54,11 +68,11 @@ impl<'a> Films<'a> {
         let least = FAST * self.run.fastest();
         let mut summary = Summary::default();
         for row in (self.run.rows.iter()).filter(|row| self.run.speed(row) >= least) {
-            for state in (0..self.bearing.balls)
+            for film in (0..self.bearing.balls)
                 .flat_map(|ball| self.at(row, ball))
                 .flatten()
             {
-                summary.add(&state);
+                summary.add(&film);
             }
         }
         summary
@@ -70,7 +84,12 @@ impl<'a> Films<'a> {
 pub(super) struct Summary {
     contacts: usize,
     mixed: usize,
+    /// Contacts in each of [`FilmRegime::ALL`].
+    regimes: [usize; 4],
+    /// Load and regime of the heaviest contact.
+    heaviest: Option<(f64, FilmRegime)>,
     thickness: f64,
+    central: f64,
     lambda: f64,
     temperature_rise: f64,
     pressure: f64,
@@ -81,7 +100,10 @@ impl Default for Summary {
         Summary {
             contacts: 0,
             mixed: 0,
+            regimes: [0; 4],
+            heaviest: None,
             thickness: f64::INFINITY,
+            central: f64::INFINITY,
             lambda: f64::INFINITY,
             temperature_rise: 0.0,
             pressure: 0.0,
@@ -90,33 +112,48 @@ impl Default for Summary {
 }
 
 impl Summary {
-    fn add(&mut self, state: &ContactState<f64>) {
+    fn add(&mut self, film: &Film) {
+        let state = &film.state;
         self.contacts += 1;
         self.mixed += usize::from(state.lambda < MIXED);
-        self.thickness = self.thickness.min(state.thickness);
+        for (count, regime) in self.regimes.iter_mut().zip(FilmRegime::ALL) {
+            *count += usize::from(film.regime == regime);
+        }
+        if self.heaviest.is_none_or(|(load, _)| film.load > load) {
+            self.heaviest = Some((film.load, film.regime));
+        }
+        self.thickness = self.thickness.min(state.minimum_thickness);
+        self.central = self.central.min(state.thickness);
         self.lambda = self.lambda.min(state.lambda);
         self.temperature_rise = self.temperature_rise.max(state.temperature_rise);
         self.pressure = self.pressure.max(1.5 * state.mean_pressure);
     }
 
-    /// Share of the loaded contacts in rows whose film is mixed.
-    fn mixed_share(&self) -> f64 {
-        self.mixed as f64 / self.contacts as f64
+    /// Share of the loaded contacts in rows.
+    fn share(&self, count: usize) -> f64 {
+        count as f64 / self.contacts as f64
     }
 
     /// The films as results.
     pub fn name(&self, list: &mut List) {
-        let loaded = |value: f64| {
-            let none = || "no ball carried load in any row".to_string();
-            (self.contacts > 0).then_some(value).ok_or_else(none)
+        let none = || "no ball carried load in any row".to_string();
+        let mut number = |name: &str, unit, value: f64| {
+            let value = (self.contacts > 0).then_some(value).ok_or_else(none);
+            list.number(name, unit, value, &FILM);
         };
-        for (name, unit, value) in [
-            ("smallest_film_thickness", "m", self.thickness),
-            ("smallest_lambda_ratio", "1", self.lambda),
-            ("mixed_film_share", "1", self.mixed_share()),
-        ] {
-            list.number(name, unit, loaded(value), &FILM);
+        number("smallest_film_thickness", "m", self.thickness);
+        number("smallest_central_film_thickness", "m", self.central);
+        number("smallest_lambda_ratio", "1", self.lambda);
+        number("mixed_film_share", "1", self.share(self.mixed));
+        for (count, regime) in self.regimes.into_iter().zip(FilmRegime::ALL) {
+            let name = format!("{}_film_share", regime.name().replace('-', "_"));
+            number(&name, "1", self.share(count));
         }
+        let heaviest = self.heaviest.map_or_else(
+            || Value::None { why: none() },
+            |(_, regime)| Value::Text(regime.name().to_string()),
+        );
+        list.push("film_regime_of_heaviest_contact", "", heaviest, &FILM);
     }
 
     /// Films that are thin, and laws outside their range.
@@ -125,13 +162,13 @@ impl Summary {
         let TractionChoice::Lubricant(film) = bearing.traction else {
             return list;
         };
-        if self.contacts > 0 && self.mixed_share() > MOSTLY {
+        if self.contacts > 0 && self.share(self.mixed) > MOSTLY {
             list.push(warning(
                 "AB1030",
                 format!(
-                    "In {:.0} % of the rows' loaded contacts the oil film is thinner than the roughness (lambda below 1): \
+                    "In {:.0} % of the rows' loaded contacts the oil film is thinner at its minimum than the roughness (lambda below 1): \
                      traction is mostly boundary friction, whose coefficient is bearing.traction.boundary_friction_coefficient.",
-                    1e2 * self.mixed_share()
+                    1e2 * self.share(self.mixed)
                 ),
             ));
         }
@@ -167,8 +204,10 @@ impl Summary {
 }
 
 const FILM: Origin = Origin {
-    law: "central film of Hamrock and Dowson with inlet shear heating, crates/physics/src/film.rs; loaded contacts in \
-          those rows of the history in which the race turns at half its fastest speed or more",
-    source: "B. J. Hamrock, D. Dowson, J. Lubr. Technol. 99 (1977) 264",
-    valid: "films that follow load and speed at once: near zero where a ball does not roll; a race that starts has none yet",
+    law: "minimum or central film of elliptical contacts in four regimes with inlet shear heating, crates/physics/src/film.rs; \
+          loaded contacts in those rows of the history in which the race turns at half its fastest speed or more; lambda is \
+          the minimum film over the composite roughness",
+    source: "B. J. Hamrock, D. Dowson, J. Lubr. Technol. 99 (1977) 264; D. E. Brewe, B. J. Hamrock, C. M. Taylor, \
+             J. Lubr. Technol. 101 (1979) 231",
+    valid: "flooded films that follow load and speed at once: near zero where a ball does not roll; a race that starts has none yet",
 };

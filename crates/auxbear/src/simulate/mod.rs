@@ -59,8 +59,8 @@ pub struct Options<'a> {
     pub threads: Option<usize>,
     /// Set to true, it stops the run at the next opportunity; what was computed is kept.
     pub interrupt: &'a AtomicBool,
-    /// Told what is being computed and the fraction of it done, from 0 to 1, from any thread.
-    pub progress: &'a (dyn Fn(Phase, f64) + Sync),
+    /// Called with the fraction of the run done, from 0 to 1, from any thread.
+    pub progress: &'a (dyn Fn(f64) + Sync),
 }
 
 impl<'a> Options<'a> {
@@ -69,26 +69,7 @@ impl<'a> Options<'a> {
         Options {
             threads: None,
             interrupt,
-            progress: &|_, _| {},
-        }
-    }
-}
-
-/// What a caller waits for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Phase {
-    /// The steady run that tells the share of the friction moment. It may last longer than foreseen.
-    SteadyRun,
-    /// The run itself.
-    Run,
-}
-
-impl Phase {
-    /// For people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Phase::SteadyRun => "steady run for the friction moment",
-            Phase::Run => "run",
+            progress: &|_| {},
         }
     }
 }
@@ -109,15 +90,13 @@ enum Built<'a> {
     Identify(Box<identify::Asked<'a>>),
 }
 
-/// Builds the machine that the scenario describes; runs nothing but the steady run that scales a friction moment, which
-/// the options can follow and end.
-pub fn build<'a>(scenario: &'a Scenario, options: &Options) -> Result<Machine<'a>, Box<Problem>> {
+/// Builds the machine that the scenario describes; runs nothing.
+pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
     let system = match &scenario.system {
-        System::Drop(drop) => {
-            build::drop(drop, options).map(|built| Built::Drop(drop, Box::new(built)))
+        System::Drop(drop) => build::drop(drop).map(|built| Built::Drop(drop, Box::new(built))),
+        System::SpinUp(spin_up) => {
+            build_spin_up::spin_up(spin_up).map(|built| Built::SpinUp(spin_up, Box::new(built)))
         }
-        System::SpinUp(spin_up) => build_spin_up::spin_up(spin_up, options)
-            .map(|built| Built::SpinUp(spin_up, Box::new(built))),
         System::Torque(torque) => {
             torque::Asked::of(torque).map(|asked| Built::Torque(Box::new(asked)))
         }
@@ -127,9 +106,7 @@ pub fn build<'a>(scenario: &'a Scenario, options: &Options) -> Result<Machine<'a
         System::Identify(identify) => {
             identify::Asked::of(identify).map(|asked| Built::Identify(Box::new(asked)))
         }
-        System::Rig(rig) => {
-            rig::build::rig(rig, options).map(|built| Built::Rig(rig, Box::new(built)))
-        }
+        System::Rig(rig) => rig::build::rig(rig).map(|built| Built::Rig(rig, Box::new(built))),
     };
     let system = system.map_err(|problem| scenario.locate(problem))?;
     Ok(Machine { scenario, system })
@@ -160,5 +137,5 @@ impl Machine<'_> {
 
 /// Builds and simulates what the scenario describes.
 pub fn run(scenario: &Scenario, options: &Options) -> Result<Outcome, Box<Problem>> {
-    Ok(build(scenario, options)?.run(options))
+    Ok(build(scenario)?.run(options))
 }

@@ -90,8 +90,7 @@ pub(super) fn name(context: &Context) -> Vec<Quantity> {
         loads: [record.largest_inner_load, record.largest_outer_load],
         cage: [record.largest_pocket_force, record.largest_land_force],
     };
-    let limit = context.drop.bearing.hertz_pressure_limit;
-    list.balls(&context.bearing(), &forces, limit, &end);
+    list.balls(&context.bearing(), &forces, &context.drop.bearing, &end);
 
     // displacements and whirl
     list.number(

@@ -1,11 +1,11 @@
 //! Results that several systems have: first rises, ball loads, lubricant, cage, heats.
 
-use super::bearing_run::BearingRun;
+use super::bearing_run::{BearingRun, Pressures};
 use super::list::{List, Origin};
+use crate::scenario::Bearing;
 use model::bearing::{BearingConstants, Separation};
 use model::system::layout::{Channels, Layout};
 use model::system::sampling::Peak;
-use physics::hertz::maximum_pressure;
 
 /// A state at the end of a run.
 pub(super) struct End<'a, S> {
@@ -52,23 +52,19 @@ impl List {
         }
     }
 
-    /// Largest ball load and Hertz pressure by the largest loads at the inner and the outer race, N; the limit of the pressure,
-    /// Pa.
-    pub fn ball_loads(&mut self, run: &BearingRun, loads: [Peak; 2], limit: Option<f64>) {
-        let loads = loads.map(|load| load.value);
-        let pressure = run.pressure_factors.at_races(loads);
-        self.number(
-            "peak_ball_load",
-            "N",
-            Ok(loads[0].max(loads[1])),
-            &BALL_LOAD,
-        );
-        self.number("peak_hertz_pressure", "Pa", Ok(pressure), &PRESSURE);
-        let share = limit.map(|limit| pressure / limit).ok_or_else(|| {
-            "no limit is given: for hybrid bearings bearing.hertz_pressure_limit is yours to set"
-                .to_string()
-        });
-        self.number("hertz_pressure_share_of_limit", "1", share, &PRESSURE);
+    /// Largest ball load and Hertz pressures, against the limits of the bearing.
+    pub fn ball_loads(&mut self, loads: [Peak; 2], pressures: &Pressures, bearing: &Bearing) {
+        let load = loads[0].value.max(loads[1].value);
+        self.number("peak_ball_load", "N", Ok(load), &BALL_LOAD);
+        let mut pressure = |name: &str, unit: &'static str, value: f64| {
+            self.number(name, unit, Ok(value), &PRESSURE);
+        };
+        pressure("peak_hertz_pressure", "Pa", pressures.races);
+        if let Some(neighbours) = pressures.neighbours {
+            pressure("peak_ball_ball_pressure", "Pa", neighbours);
+        }
+        let share = pressures.share_of_limit(bearing);
+        pressure("hertz_pressure_share_of_limit", "1", share);
     }
 
     /// What the lubricant came to in a state at the end; nothing where it has no state.
@@ -96,10 +92,11 @@ impl List {
         &mut self,
         run: &BearingRun,
         forces: &LargestForces,
-        limit: Option<f64>,
+        bearing: &Bearing,
         end: &End<S>,
     ) {
-        self.ball_loads(run, forces.loads, limit);
+        let pressures = (run.pressure_factors).pressures(forces.loads, forces.cage[0]);
+        self.ball_loads(forces.loads, &pressures, bearing);
         if let Some(films) = run.films() {
             films.name(self);
         }
@@ -122,10 +119,6 @@ impl List {
         let friction_name = match &planar.separation {
             Separation::Neighbours(_) => {
                 self.number("peak_ball_ball_force", "N", Ok(pocket), &CAGE_FORCE);
-                if let Some(factor) = run.pressure_factors.neighbours {
-                    let pressure = maximum_pressure(factor, pocket);
-                    self.number("peak_ball_ball_pressure", "Pa", Ok(pressure), &PRESSURE);
-                }
                 "ball_ball_friction_energy"
             }
             Separation::CentredCage | Separation::FreeCage(_) => {
@@ -189,6 +182,6 @@ const BALL_LOAD: Origin = Origin {
 };
 const PRESSURE: Origin = Origin {
     law: "p_max = 3Q/(2πab) of the largest ball load, exact elliptic integrals",
-    source: "Hertz 1881, crates/physics/src/hertz.rs; static limit 4200 MPa for steel balls: ISO 76",
+    source: "Hertz 1881, crates/physics/src/hertz.rs; the share is the largest of both kinds of contact, each by its own limit: bearing.hertz_pressure_limit, bearing.full_complement.hertz_pressure_limit",
     valid: "elastic contact, groove curvatures as given",
 };

@@ -118,18 +118,6 @@ fn moments(list: &mut List, context: &Context) {
         steady.map(|steady| steady.capacity).ok_or_else(no_law),
         &CAPACITY,
     );
-    list.number(
-        "friction_moment_scale",
-        "1",
-        match (steady, context.spin_up.bearing.fidelity) {
-            (None, _) => Err(no_law()),
-            (Some(steady), Fidelity::Planar) => Ok(steady.scale),
-            (Some(_), Fidelity::Rolling) => {
-                Err("the balls roll: the law counts as it is".to_string())
-            }
-        },
-        &SCALE,
-    );
 }
 
 /// Means over the last turns of the cage at the final speed, or why there are none.
@@ -220,8 +208,8 @@ fn loads(list: &mut List, context: &Context) {
         loads: [record.largest_inner_load, record.largest_outer_load],
         cage: [record.largest_pocket_force, record.largest_land_force],
     };
-    let limit = context.spin_up.bearing.hertz_pressure_limit;
-    list.balls(&context.bearing(), &forces, limit, &end(context));
+    let bearing = &context.spin_up.bearing;
+    list.balls(&context.bearing(), &forces, bearing, &end(context));
 }
 
 fn energies(list: &mut List, context: &Context) {
@@ -243,7 +231,8 @@ fn energies(list: &mut List, context: &Context) {
     let premise = rolling_start_to_end(context);
     for (name, value) in [
         ("path_term_if_rolling", forms.least_path),
-        ("path_term_if_spun_up_after", forms.largest_path),
+        ("path_term_if_spun_up_after", forms.path_behind_the_race),
+        ("path_term_largest", forms.largest_path),
     ] {
         list.number(name, "J", premise.clone().map(|()| value), &PATH);
     }
@@ -331,13 +320,8 @@ const MEAN_MOMENT: Origin = Origin {
 };
 const CAPACITY: Origin = Origin {
     law: "μ_max R ΣQ_i / M at full speed under the last load",
-    source: "crates/model/src/system/spin_up/steady.rs",
-    valid: "above 1.2 the balls roll in a steady run and t_I = t_O = M within 1 %; below they must skid",
-};
-const SCALE: Origin = Origin {
-    law: "λ: share of M that the lubricant is given, the rest being what balls lose by slip and in their pockets",
-    source: "crates/model/src/system/spin_up/steady.rs",
-    valid: "found at full speed under the last load and used at every speed",
+    source: "crates/model/src/system/spin_up/capacity.rs",
+    valid: "above 1.2 the balls roll in a steady run and t_I = t_O = M within 2 %; below they must skid",
 };
 const SLIP: Origin = Origin {
     law: "S = 1 - 2(1+s)ω_c/Ω, at the last instant, or as the mean over the later half of the cage turns at the final speed",
@@ -370,9 +354,10 @@ const EXACT: Origin = Origin {
     valid: "any skidding; needs the speed of the cage, or the path term as an uncertainty",
 };
 const PATH: Origin = Origin {
-    law: "∫Ω dL of balls and cage: ½ L0 Ω0 where they roll all the way, L0 Ω0 where they are spun up after the race",
-    source: "crates/model/src/system/spin_up/ledger.rs",
-    valid: "the bounds: from rest, a race that only gains speed, balls that roll at the end",
+    law: "∫Ω dL of balls and cage: ½ L0 Ω0 where they roll all the way, L0 Ω0 where they are spun up after the race, \
+          ½ (1+s)(N m_b + m_c) R² Ω0² where they spin with the race and orbit last",
+    source: "crates/physics/src/spin_up_energy.rs",
+    valid: "the bounds: from rest, a race that only gains speed and leads its balls, balls that roll at the end",
 };
 const RESIDUAL: Origin = Origin {
     law: "what the ledger misses at the end, over max(heat, works); momentum over that of race, balls and cage at full speed",

@@ -43,6 +43,13 @@ fn place(list: &mut List, asked: &Asked) {
 fn steady(list: &mut List, asked: &Asked) {
     let parts = asked.friction(&asked.law, asked.torque.speed, asked.load());
     parts_of(list, "", Ok(parts));
+    let starting = match &asked.law {
+        Friction::Skf(law) => {
+            Ok(law.starting_moment(asked.load(), asked.torque.moment.axial_load()))
+        }
+        _ => Err("only the SKF model knows a moment at standstill".to_string()),
+    };
+    list.number("starting_moment", "N m", starting, &STARTING);
     for (name, unit, value, origin) in [
         (
             "inner_race_set_inertia",
@@ -201,6 +208,11 @@ const FRICTION: Origin = Origin {
     law: "M = M0 + M1 by bearing.moment.law, or by the law named",
     source: "the page of the law in crates/physics/src",
     valid: "where the law holds; a warning tells where it is left",
+};
+const STARTING: Origin = Origin {
+    law: "M_start = G_sl μ_bl + M_seal",
+    source: "SKF General Catalogue (edition 6000), p. 103",
+    valid: "20 to 30 °C; it acts in no run: every law fades to 0 at rest",
 };
 const INNER_INERTIA: Origin = Origin {
     law: "J_I Ω̇, J_I = (7/20 N m_b + ¼ m_c) R²",

@@ -4,7 +4,7 @@ use super::bearing_run::BearingRun;
 use super::build_spin_up::Built;
 use super::ending::{settings, stop};
 use super::outcome::{Outcome, Picture, Work};
-use super::{Options, Phase, columns_spin_up, method, quantities_spin_up, warnings_spin_up};
+use super::{Options, columns_spin_up, method, quantities_spin_up, warnings_spin_up};
 use crate::scenario::{Scenario, SpinUp};
 use model::system::spin_up::layout::{
     DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
@@ -83,7 +83,7 @@ pub(super) fn run(
         members: Vec::new(),
         picture: Picture {
             clearance: None,
-            pressure_limit: spin_up.bearing.hertz_pressure_limit,
+            pressure_limit: Some(spin_up.bearing.hertz_pressure_limit),
             rolling_cage_ratio: built.machine.constants.bearing.rolling_cage_ratio(),
             balls: spin_up.bearing.ball_count,
         },
@@ -124,7 +124,7 @@ fn integrate(
 /// A record that also reports progress.
 struct Watched<'a> {
     record: Record,
-    progress: &'a (dyn Fn(Phase, f64) + Sync),
+    progress: &'a (dyn Fn(f64) + Sync),
     told: u64,
     end: f64,
 }
@@ -133,7 +133,7 @@ impl Observer<SpinUpMachine> for Watched<'_> {
     fn step(&mut self, step: &mut Step<SpinUpMachine>) -> Flow {
         let thousandths = (1000.0 * step.end / self.end) as u64;
         if thousandths > self.told {
-            (self.progress)(Phase::Run, thousandths as f64 * 1e-3);
+            (self.progress)(thousandths as f64 * 1e-3);
             self.told = thousandths;
         }
         self.record.step(step)

@@ -9,14 +9,13 @@
 //!
 //! Not modelled: balls that skid (then neither race feels these moments), a radial load shared unevenly by balls.
 
-use super::build_bearing::{acceleration_loss, material};
+use super::build_bearing::acceleration_loss;
 use super::outcome::{Column, Outcome, Picture, Stop, Work};
 use super::{quantities_torque, warnings_torque};
 use crate::problem::{Code, Problem};
 use crate::scenario::{Moment, Scenario, Torque, UNNAMED};
 use model::bearing::AccelerationLoss;
 use physics::friction::{Friction, MomentParts};
-use physics::materials::ball_mass;
 use physics::rolling::RollingSet;
 use std::time::Instant;
 
@@ -56,9 +55,8 @@ impl Asked<'_> {
     pub fn of(torque: &Torque) -> Result<Asked<'_>, Box<Problem>> {
         let radius = 0.5 * torque.ball_diameter;
         let inner_track_radius = 0.5 * torque.pitch_diameter - radius;
-        let ball = torque.ball_mass.unwrap_or_else(|| {
-            ball_mass(torque.ball_diameter, material(torque.ball_material).density)
-        });
+        let ball = (torque.ball_mass)
+            .unwrap_or_else(|| torque.ball_material.ball_mass(torque.ball_diameter));
         let law = law_of(torque, &torque.moment).map_err(|why| {
             Box::new(
                 Problem::new(

@@ -1,12 +1,12 @@
 //! What the user should know before trusting the numbers of a drop.
 
+use super::bearing_run::Pressures;
 use super::drop::Context;
 use super::ensemble::Finished;
 use super::outcome::Warning;
 use super::warnings_shared::{self as shared, warning};
 use crate::scenario::{Fidelity, Moment, Scenario};
 use model::system::drop::layout::PENETRATION_SPEED;
-use physics::hertz::maximum_pressure;
 
 /// Contacts after which pocket and bounce chaos shows in the later ones.
 const CHAOTIC_CONTACTS: usize = 10;
@@ -52,17 +52,16 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
             ),
         ));
     }
-    let factors = &context.built.pressure_factors;
-    let pressure = members.iter().fold(0.0, |largest: f64, member| {
-        let record = &member.record;
-        let loads = [record.largest_inner_load, record.largest_outer_load];
-        largest
-            .max(factors.at_races(loads.map(|load| load.value)))
-            .max(factors.neighbours.map_or(0.0, |factor| {
-                maximum_pressure(factor, record.largest_pocket_force.value)
-            }))
-    });
-    list.extend(shared::pressure(bearing, pressure));
+    let pressures = (members.iter())
+        .map(|member| {
+            let record = &member.record;
+            let races = [record.largest_inner_load, record.largest_outer_load];
+            (context.built.pressure_factors).pressures(races, record.largest_pocket_force)
+        })
+        .reduce(Pressures::or);
+    if let Some(pressures) = pressures {
+        list.extend(shared::pressure(bearing, &pressures));
+    }
     let closing = record
         .rows()
         .filter(|row| row.probe[0] > 0.0)
@@ -108,10 +107,10 @@ pub(super) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
     list.extend(shared::films(&run, bearing));
     list.extend(shared::film_rise(&run));
     list.extend(shared::skids(context.built.steady.as_ref()));
-    list.extend(shared::unscaled(context.built.steady.as_ref()));
-    list.extend(shared::scale(context.built.steady.as_ref()));
+    list.extend(shared::cage_inertia(bearing));
     list.extend(shared::rolling(bearing));
     list.extend(shared::no_moment(bearing));
+    list.extend(shared::moment(scenario, bearing));
     if bearing.drag.orbit != 0.0 || bearing.drag.spin != 0.0 || bearing.drag.cage != 0.0 {
         let text = match bearing.fidelity {
             Fidelity::Planar => {

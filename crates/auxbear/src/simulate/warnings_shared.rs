@@ -1,21 +1,27 @@
 //! Warnings that several systems give.
 
-use super::bearing_run::BearingRun;
-use super::build_bearing::{ScaleOrigin, SteadyFinding};
+use super::bearing_run::{BearingRun, Pressures};
+use super::build_bearing::SteadyFinding;
 use super::outcome::{Quantity, Value, Warning};
-use crate::scenario::{BallMaterial, Bearing, BearingType, Fidelity, Moment, Scenario};
+use crate::scenario::{
+    BallMaterial, Bearing, BearingType, Fidelity, Moment, Provenance, RatedBearing, Scenario,
+    Separation,
+};
 use physics::angular_contact::radial_load_that_unloads_a_ball;
+use physics::friction::Friction;
 use physics::friction_range::OperatingPoint;
+use physics::hertz::rim_tension;
+use std::f64::consts::PI;
 
 /// Relative energy residual above which the run's tolerance is too loose.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
-/// Distance of the friction moment's scale from 1 that creep alone explains.
-const UNREMARKABLE_SCALE: f64 = 0.05;
 /// Temperature rise of the films over which d ln ν/dT of an oil changes by a quarter, K.
 const WARMEST_FILMS: f64 = 20.0;
-/// How near the moment of a steady run comes to the law's where traction suffices.
-const PROMISED_MOMENT: f64 = 0.01;
+/// Difference of two axial loads that rounding explains, as a share.
+const ROUNDED: f64 = 0.01;
+/// Unit of the drag variable in a message: the order of the diagram's values for low levels.
+const V_M: f64 = 1e-4;
 
 pub(super) fn warning(code: &'static str, text: String) -> Warning {
     Warning { code, text }
@@ -37,26 +43,66 @@ pub(super) fn speed_rating(bearing: &Bearing, speed: f64) -> Option<Warning> {
     })
 }
 
-/// A Hertz pressure above its limit, or no limit to compare with.
-pub(super) fn pressure(bearing: &Bearing, pressure: f64) -> Option<Warning> {
-    match bearing.hertz_pressure_limit {
-        Some(limit) if pressure > limit => Some(warning(
+/// Hertz pressures above the limits of what touches.
+pub(super) fn pressure(bearing: &Bearing, pressures: &Pressures) -> Vec<Warning> {
+    const DENTS: &str =
+        "permanent dents must be expected, and the elastic contact law is outside its range";
+    let mut list = Vec::new();
+    let (races, limit) = (pressures.races, bearing.hertz_pressure_limit);
+    if races > limit {
+        list.push(warning(
             "AB1002",
             format!(
-                "The peak Hertz pressure of {:.0} MPa exceeds the limit of {:.0} MPa: permanent dents must be \
-                 expected, and the elastic contact law is outside its range.",
+                "The peak Hertz pressure of {:.0} MPa exceeds the limit of {:.0} MPa: {DENTS}.",
+                races * 1e-6,
+                limit * 1e-6
+            ),
+        ));
+    }
+    if let Some((pressure, limit)) = pressures.of_neighbours(bearing)
+        && pressure > limit
+    {
+        let material = bearing.ball_material;
+        let harm = match material {
+            BallMaterial::Steel => DENTS.to_string(),
+            BallMaterial::SiliconNitride => format!(
+                "ceramic balls do not dent, they crack in rings where the tension at the rim of the contact, {:.0} MPa, exceeds \
+                 their strength",
+                rim_tension(pressure, material.data().poisson_ratio) * 1e-6
+            ),
+        };
+        list.push(warning(
+            "AB1070",
+            format!(
+                "Neighbouring balls press each other with {:.0} MPa, beyond their limit of {:.0} MPa: {harm}.",
                 pressure * 1e-6,
                 limit * 1e-6
             ),
-        )),
-        None => Some(warning(
-            "AB1003",
-            "No limit of the Hertz pressure is given; for silicon nitride balls it is yours to set \
-             (bearing.hertz_pressure_limit)."
-                .to_string(),
-        )),
-        Some(_) => None,
+        ));
     }
+    list
+}
+
+/// A cage whose mass and inertia do not belong to one body between the races.
+pub(super) fn cage_inertia(bearing: &Bearing) -> Option<Warning> {
+    let Separation::Cage(cage) = &bearing.separation else {
+        return None;
+    };
+    let gyration = (cage.inertia / cage.mass).sqrt();
+    let (pitch, ball) = (bearing.pitch_diameter, bearing.ball_diameter);
+    let (inner, outer) = (0.5 * (pitch - ball), 0.5 * (pitch + ball));
+    (!(inner..=outer).contains(&gyration)).then(|| {
+        warning(
+            "AB1071",
+            format!(
+                "bearing.cage_inertia and bearing.cage_mass contradict each other: together they are a ring of {:.1} mm radius, \
+                 and a cage lies between the races, from {:.1} to {:.1} mm. The cage turns with the inertia and moves with the mass.",
+                gyration * 1e3,
+                inner * 1e3,
+                outer * 1e3
+            ),
+        )
+    })
 }
 
 /// An energy ledger that does not close, where the run came to its end.
@@ -98,64 +144,6 @@ pub(super) fn skids(steady: Option<&SteadyFinding>) -> Option<Warning> {
     ))
 }
 
-/// A friction moment that counts in full although the balls lose energy besides.
-pub(super) fn unscaled(steady: Option<&SteadyFinding>) -> Option<Warning> {
-    match &steady?.origin {
-        ScaleOrigin::Unknown(why) => Some(warning(
-            "AB1021",
-            format!(
-                "The friction moment is not scaled for what the balls lose by slip and in their pockets ({why}): that \
-                 may count twice."
-            ),
-        )),
-        _ => None,
-    }
-}
-
-/// A scale of the friction moment that says something about the balls, and a steady moment that is not the law's.
-pub(super) fn scale(steady: Option<&SteadyFinding>) -> Vec<Warning> {
-    let Some(steady) = steady.filter(|steady| steady.origin == ScaleOrigin::SteadyRun) else {
-        return Vec::new();
-    };
-    let mut list = Vec::new();
-    if (steady.scale - 1.0).abs() > UNREMARKABLE_SCALE {
-        list.push(warning(
-            "AB1024",
-            format!(
-                "The friction moment enters the balls {:.3} times, so that a steady run at {:.0} rad/s under {:.0} N has \
-                 the moment of the law: {}.",
-                steady.scale,
-                steady.speed,
-                steady.load,
-                if steady.scale > 1.0 {
-                    "balls without load lose their spin and take less than their equal share"
-                } else {
-                    "slip, pockets and damping take the rest"
-                }
-            ),
-        ));
-    }
-    let off = |moment: f64| moment / steady.moment - 1.0;
-    if let Some(moment) = steady
-        .steady_moment
-        .filter(|moment| off(*moment).abs() > PROMISED_MOMENT)
-    {
-        list.push(warning(
-            "AB1025",
-            format!(
-                "The mean moment of a steady run at {:.0} rad/s under {:.0} N is {:.4} N mm, {:+.1} % from the {:.4} N mm \
-                 of the law.",
-                steady.speed,
-                steady.load,
-                moment.abs() * 1e3,
-                1e2 * off(moment),
-                steady.moment.abs() * 1e3
-            ),
-        ));
-    }
-    list
-}
-
 /// A friction law outside its range.
 pub(super) fn law_range(bearing: &Bearing, speed: f64, load: f64) -> Vec<Warning> {
     let at = OperatingPoint {
@@ -172,6 +160,67 @@ pub(super) fn law_range(bearing: &Bearing, speed: f64, load: f64) -> Vec<Warning
         )
     });
     texts.collect()
+}
+
+/// What the constants of a friction law take for granted of this bearing.
+pub(super) fn moment(scenario: &Scenario, bearing: &Bearing) -> Vec<Warning> {
+    let mut list = Vec::new();
+    let law = &bearing.moment;
+    let (preload, counted) = (bearing.axial_preload, law.axial_load());
+    let by_load = matches!(law, Moment::Palmgren { .. } | Moment::Skf { .. });
+    if by_load && preload > 0.0 && (counted.abs() - preload).abs() > ROUNDED * preload {
+        let printed = match law {
+            Moment::Palmgren { printed: true, .. } => ", whose printed form has none",
+            _ => "",
+        };
+        list.push(warning(
+            "AB1081",
+            format!(
+                "The friction law counts an axial load of {counted:.0} N{printed}, the contacts an axial preload of {preload:.0} N: \
+                 each holds where it is used."
+            ),
+        ));
+    }
+    list.extend(constants(scenario, law, &bearing.rated()));
+    list
+}
+
+/// The same of a bearing without contacts.
+pub(super) fn constants(scenario: &Scenario, law: &Moment, rated: &RatedBearing) -> Vec<Warning> {
+    let angle = scenario.resolved.get("bearing.moment.contact_angle");
+    let unknown = angle.and_then(|angle| match &angle.provenance {
+        Provenance::DefaultAssumed(why) if rated.kind != BearingType::DeepGroove => {
+            Some((angle, why))
+        }
+        _ => None,
+    });
+    let unknown = unknown.map(|(angle, why)| {
+        warning(
+            "AB1080",
+            format!(
+                "The contact angle of the bearing is not known, and the friction law depends on it: {why}; {} is taken.",
+                angle.text.as_deref().unwrap_or_default()
+            ),
+        )
+    });
+    unknown.into_iter().chain(bath(law, rated)).collect()
+}
+
+/// The SKF model in oil without the drag of the oil.
+pub(super) fn bath(law: &Moment, rated: &RatedBearing) -> Option<Warning> {
+    let Friction::Skf(dragged) = law.with_drag_variable(V_M)?.law(rated).ok()? else {
+        return None;
+    };
+    Some(warning(
+        "AB1082",
+        format!(
+            "The SKF model runs in an oil bath or jet without the drag of the oil: bearing.moment.drag_variable is 0. Each {V_M:e} of \
+             it is {:.3} N mm at 10 000 rpm, with the square of the speed.",
+            dragged
+                .intermediates(10_000.0 * PI / 30.0, 0.0, 0.0)
+                .drag_moment
+        ),
+    ))
 }
 
 /// Films that are thin or outside their law.

@@ -20,14 +20,10 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     list.extend(shared::skids(context.built.steady.as_ref()));
     list.extend(shared::speed_rating(bearing, speed));
     list.extend(shared::lift_off(bearing, speed));
-    if let Some(pressure) = shared::number(quantities, "peak_hertz_pressure") {
-        let neighbours = shared::number(quantities, "peak_ball_ball_pressure");
-        list.extend(shared::pressure(
-            bearing,
-            pressure.max(neighbours.unwrap_or(0.0)),
-        ));
-    }
-    let run = context.bearing();
+    let (run, record) = (context.bearing(), context.record);
+    let races = [record.largest_inner_load, record.largest_outer_load];
+    let pressures = (run.pressure_factors).pressures(races, record.largest_pocket_force);
+    list.extend(shared::pressure(bearing, &pressures));
     list.extend(shared::films(&run, bearing));
     list.extend(shared::law_range(bearing, speed, load));
     list.extend(shared::film_rise(&run));
@@ -42,8 +38,6 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
                 .to_string(),
         ));
     }
-    list.extend(shared::unscaled(context.built.steady.as_ref()));
-    list.extend(shared::scale(context.built.steady.as_ref()));
     if context.ending.time > 0.0
         && let Err(why) = rolling_start_to_end(context)
     {
@@ -55,8 +49,10 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
             ),
         ));
     }
+    list.extend(shared::cage_inertia(bearing));
     list.extend(shared::rolling(bearing));
     list.extend(shared::no_moment(bearing));
+    list.extend(shared::moment(scenario, bearing));
     list.extend(shared::kind(bearing));
     list.extend(shared::assumed(scenario, bearing));
     list

@@ -2,7 +2,7 @@
 
 use super::outcome::Warning;
 use super::torque::{Asked, law_of};
-use super::warnings_shared::{assumptions, warning};
+use super::warnings_shared::{assumptions, bath, constants, warning};
 use crate::scenario::{BearingType, Moment, Scenario};
 use physics::friction::Friction;
 use physics::friction_range::{Departure, OperatingPoint};
@@ -19,10 +19,13 @@ pub(super) fn of(scenario: &Scenario, asked: &Asked) -> Vec<Warning> {
         ));
     }
     list.extend(departures(asked, &asked.law, ""));
+    list.extend(constants(scenario, &torque.moment, &torque.rated()));
     for compared in &torque.laws {
         let law = compared.moment.clone();
         match law.and_then(|moment| law_of(torque, &moment)) {
             Ok(law) if law != asked.law => {
+                let moment = compared.moment.as_ref().ok();
+                list.extend(moment.and_then(|moment| bath(moment, &torque.rated())));
                 list.extend(departures(asked, &law, &format!(" ({})", compared.law)));
             }
             Ok(_) => {}

@@ -155,7 +155,7 @@ fn simulate(
             interval: duration,
             threads: None,
             interrupt: &AtomicBool::new(false),
-            progress: &|_, _| {},
+            progress: &|_| {},
         },
     );
     match finished.pop() {

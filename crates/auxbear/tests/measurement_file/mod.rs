@@ -1,9 +1,8 @@
 //! Measurement files that are wrong, and what is said of them.
 
 use auxbear::scenario::{BuiltIn, Scenario};
-use auxbear::simulate::{Options, build};
+use auxbear::simulate::build;
 use std::fs;
-use std::sync::atomic::AtomicBool;
 
 /// The problem that a measurement file of this name and content makes.
 pub fn problem(name: &str, content: &str, more: &str) -> String {
@@ -15,8 +14,7 @@ pub fn problem(name: &str, content: &str, more: &str) -> String {
     let file = folder.path().join("a.toml");
     fs::write(&file, text).unwrap();
     let scenario = Scenario::read(&file, &[], &BuiltIn).unwrap();
-    let never = AtomicBool::new(false);
-    let told = match build(&scenario, &Options::unwatched(&never)) {
+    let told = match build(&scenario) {
         Ok(_) => panic!("nothing is found wrong with {name}"),
         Err(problem) => problem.to_string(),
     };

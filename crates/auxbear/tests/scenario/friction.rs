@@ -3,7 +3,10 @@
 
 use crate::files::{self, SPIN_UP, read};
 use auxbear::scenario::{AccelerationLoss, BuiltIn, Moment, Scenario, SpinUp, System};
+use auxbear::simulate::{self, Options};
+use physics::palmgren_factors::FactorSource;
 use std::fs;
+use std::sync::atomic::AtomicBool;
 
 /// Ball by ball: a name that the catalogue has, and a friction law with everything it needs.
 const PALMGREN: [&str; 3] = [
@@ -48,6 +51,7 @@ fn factors_come_from_the_tables() {
             f1_exponent: 0.5,
             axial_load: 0.0,
             contact_angle: None,
+            equivalent_load: FactorSource::Schaeffler,
         }
     );
     let resolved = scenario(&PALMGREN).unwrap().resolved;
@@ -121,6 +125,211 @@ fn factors_that_no_table_has_are_refused() {
         )),
         "error[AB0107]: a.toml: bearing.moment.f0: found no value; a bare number not below 0 is needed, e.g. 2. With bearing.moment.series it is taken from the tables"
     );
+}
+
+/// A bearing of another type and angle, with C0 20 kN and a pitch diameter of 46 mm.
+fn other(kind: &str, angle: &str, more: &[&str]) -> Result<Scenario, String> {
+    let angular = format!("bearing.contact_angle={angle}");
+    let kind = format!("bearing.type={kind}");
+    let common = [
+        kind.as_str(),
+        "bearing.static_load_rating=20 kN",
+        "bearing.pitch_diameter=46 mm",
+        "bearing.name=6206",
+        "bearing.moment.viscosity=20 mm^2/s",
+        "bearing.moment.lubrication=grease",
+    ];
+    let mut sets = with(&common, more);
+    if !angle.is_empty() {
+        sets.push(&angular);
+    }
+    scenario(&sets)
+}
+
+/// M1 at 100 rad/s, N mm.
+fn load_moment(scenario: Result<Scenario, String>, radial: f64) -> f64 {
+    let bearing = files::spin_up(scenario.unwrap_or_else(|problem| panic!("{problem}"))).bearing;
+    let law = bearing.moment.law(&bearing.rated()).unwrap();
+    let parts = law.parts(100.0, radial, bearing.moment.axial_load());
+    1e3 * parts.load_dependent
+}
+
+#[test]
+fn the_load_of_m1_belongs_to_the_source_of_its_factor() {
+    let of = |kind, angle, series: &str, more: &[&str]| {
+        let series = format!("bearing.moment.series={series}");
+        let sets = with(&["bearing.moment.law=palmgren", &series], more);
+        load_moment(other(kind, angle, &sets), 500.0)
+    };
+    let axial = ["bearing.moment.axial_load=1000 N"];
+    // by hand, C0 20 kN, d_m 46 mm, 500 N radial and 1000 N axial load but for the first, f1 = z (P0/C0)^y:
+    for (ours, newton_millimetres) in [
+        // QJ2, radial alone: P1 3.6·500 N, P0 500 N
+        (of("four-point contact", "", "QJ2", &[]), 24.510),
+        // QJ2: P1 1.5·1000 + 3.6·500 = 3300 N, P0 500 + 0.58·1000 = 1080 N
+        (of("four-point contact", "", "QJ2", &axial), 57.938),
+        // 72B at 40 deg: P1 1000 - 50 = 950 N, P0 0.5·500 + 0.26·1000 = 510 N
+        (of("angular contact", "40 deg", "72B", &axial), 13.021),
+        // 32B at 25 deg: P1 1400 - 50 = 1350 N, P0 500 + 0.76·1000 = 1260 N
+        (
+            of("angular contact double row", "25 deg", "32B", &axial),
+            24.939,
+        ),
+        // 62: P1 3300 - 50 = 3250 N, P0 0.6·500 + 0.5·1000 = 800 N, z 0.0009, y 0.5
+        (of("deep groove", "", "62", &axial), 26.910),
+        // Timken's 02 at 40 deg: P1 0.9·1.191754·1000 - 50 = 1022.578 N, f1 0.00025
+        (of("angular contact", "40 deg", "02", &axial), 11.760),
+        // 72B in the form of Timken
+        (
+            of(
+                "angular contact",
+                "40 deg",
+                "72B",
+                &with(&axial, &["bearing.moment.equivalent_load=timken"]),
+            ),
+            14.016,
+        ),
+    ] {
+        // printed to five digits
+        assert!(
+            (ours / newton_millimetres - 1.0).abs() < 1e-4,
+            "{ours} {newton_millimetres}"
+        );
+    }
+    let by_hand = spin_up(&[
+        "bearing.moment.law=palmgren",
+        "bearing.moment.f0=2",
+        "bearing.moment.f1_factor=9e-4",
+        "bearing.moment.f1_exponent=0.5",
+        "bearing.moment.viscosity=100 mm^2/s",
+    ]);
+    assert!(matches!(
+        by_hand.bearing.moment,
+        Moment::Palmgren {
+            equivalent_load: FactorSource::Timken,
+            ..
+        }
+    ));
+}
+
+#[test]
+fn constants_for_another_contact_angle_are_refused() {
+    let palmgren = |kind, angle, series: &str| {
+        let series = format!("bearing.moment.series={series}");
+        other(kind, angle, &["bearing.moment.law=palmgren", &series])
+    };
+    let skf = |kind, angle| other(kind, angle, &["bearing.moment.law=skf"]);
+    assert_eq!(
+        palmgren("angular contact", "15 deg", "72B").unwrap_err(),
+        "error[AB0208]: a.toml, --set: bearing.contact_angle: found a contact angle of 15 deg; 35 to 45 deg is needed, for which the constants of series 72B are; else Palmgren's law with f0, f1_factor and f1_exponent by hand, or a measured curve"
+    );
+    let told = skf("angular contact", "15 deg").unwrap_err();
+    assert!(
+        told.contains("AB0208") && told.contains("the constants of the SKF model"),
+        "{told}"
+    );
+    for (accepted, scenario) in [
+        (true, palmgren("angular contact", "35 deg", "72B")),
+        (true, palmgren("angular contact", "45 deg", "72B")),
+        (false, palmgren("angular contact", "34.9 deg", "72B")),
+        (false, palmgren("angular contact", "15 deg", "02")),
+        (true, palmgren("angular contact", "25 deg", "02")),
+        (
+            true,
+            palmgren("angular contact double row", "30 deg", "33B"),
+        ),
+        (
+            false,
+            palmgren("angular contact double row", "40 deg", "33B"),
+        ),
+        (true, skf("angular contact", "40 deg")),
+        (false, skf("angular contact", "25 deg")),
+        (true, skf("angular contact double row", "30 deg")),
+        (false, skf("angular contact double row", "40 deg")),
+        (true, skf("four-point contact", "")),
+    ] {
+        assert_eq!(scenario.is_ok(), accepted, "{:?}", scenario.err());
+    }
+    // a given angle under load is looked at too, and the file counts before the catalogue
+    let spindle = SPIN_UP.replace("6005", "SNFA EX 25");
+    let sets = |more| with(&with(&PALMGREN, &["bearing.moment.series=70B"]), more);
+    let told = read(&spindle, &sets(&[])).unwrap_err();
+    assert!(told.contains("found a contact angle of 15 deg"), "{told}");
+    read(&spindle, &sets(&["bearing.contact_angle=40 deg"])).unwrap();
+    let load = [
+        "bearing.contact_angle=40 deg",
+        "bearing.moment.contact_angle=30 deg",
+    ];
+    assert!(read(&spindle, &sets(&load)).unwrap_err().contains("30 deg"));
+}
+
+#[test]
+fn the_preload_of_a_bearing_reaches_its_friction_law() {
+    let by_hand = [
+        "bearing.moment.law=palmgren",
+        "bearing.moment.f0=1.3",
+        "bearing.moment.f1_factor=1e-3",
+        "bearing.moment.f1_exponent=0.33",
+        "bearing.moment.viscosity=20 mm^2/s",
+        "bearing.moment.scale=1",
+        "run.duration=0.1 ms",
+    ];
+    let spindle = SPIN_UP.replace("6005", "SNFA EX 25");
+    let run = |more: &[&str]| {
+        let scenario = read(&spindle, &with(&by_hand, more)).unwrap();
+        let interrupt = AtomicBool::new(false);
+        let outcome = simulate::run(&scenario, &Options::unwatched(&interrupt)).unwrap();
+        let warned = outcome
+            .warnings
+            .iter()
+            .find(|warning| warning.code == "AB1081");
+        let bearing = files::spin_up(scenario).bearing;
+        (
+            bearing.moment.axial_load(),
+            warned.map(|warning| warning.text.clone()),
+        )
+    };
+    assert_eq!(run(&[]), (0.0, None));
+    assert_eq!(run(&["bearing.axial_preload=200 N"]), (200.0, None));
+    // what is given wins; a difference is said
+    let (counted, warned) = run(&[
+        "bearing.axial_preload=200 N",
+        "bearing.moment.axial_load=50 N",
+    ]);
+    assert_eq!(counted, 50.0);
+    let warned = warned.unwrap();
+    assert!(
+        warned.contains("50 N") && warned.contains("200 N"),
+        "{warned}"
+    );
+    let same = run(&[
+        "bearing.axial_preload=200 N",
+        "bearing.moment.axial_load=-200 N",
+    ]);
+    assert_eq!(same, (-200.0, None));
+    // by hand: P1 = 0.9 cot 15°·200 - 8 = 663.8 N, P0 = 0.5·80 + 0.46·200 = 132 N
+    let scenario = read(&spindle, &with(&by_hand, &["bearing.axial_preload=200 N"])).unwrap();
+    let bearing = files::spin_up(scenario.clone()).bearing;
+    let rating = bearing.static_load_rating.unwrap();
+    let expected = 1e-3 * (132.0 / rating).powf(0.33) * 663.77 * bearing.pitch_diameter * 1e3;
+    let ours = load_moment(Ok(scenario), 80.0);
+    assert!((ours / expected - 1.0).abs() < 1e-4, "{ours} {expected}");
+    // the printed form has no axial load
+    let printed = with(
+        &by_hand[1..],
+        &[
+            "bearing.moment.law=palmgren printed",
+            "bearing.axial_preload=200 N",
+        ],
+    );
+    let scenario = read(&spindle, &printed).unwrap();
+    let interrupt = AtomicBool::new(false);
+    let outcome = simulate::run(&scenario, &Options::unwatched(&interrupt)).unwrap();
+    let warned = outcome
+        .warnings
+        .iter()
+        .find(|warning| warning.code == "AB1081");
+    assert!(warned.unwrap().text.contains("whose printed form has none"));
 }
 
 #[test]

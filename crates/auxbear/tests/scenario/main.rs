@@ -3,10 +3,12 @@
 mod bad_file;
 mod bad_input;
 mod blame;
+mod contact_angle;
 mod files;
 mod friction;
 mod lubricant;
 mod lubricant_state;
+mod pressure_limits;
 mod resolved;
 mod schema;
 mod spin_up;

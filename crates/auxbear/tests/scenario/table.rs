@@ -236,6 +236,7 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.moment.viscosity_points=[[\"40 degC\", \"100 mm^2/s\"], [\"100 degC\", \"11 mm^2/s\"]]",
         ],
         "bearing.moment.contact_angle"
+        | "bearing.moment.equivalent_load"
         | "bearing.moment.f0"
         | "bearing.moment.f1_factor"
         | "bearing.moment.f1_exponent"
@@ -500,6 +501,13 @@ fn every_number_reaches_the_typed_scenario() {
             .iter()
             .any(|form| shown.contains(&format!("{name}{form}")))
                 || key.path == "drive.speed_history";
+            // where nothing moves the inertia counts as a mass on the circle of the ball centres
+            let counts_as_mass = ["Torque(", "Identify("]
+                .iter()
+                .any(|system| shown.starts_with(system));
+            if key.path == "bearing.cage_inertia" && counts_as_mass {
+                continue;
+            }
             // the typed cage and its land have names of their own
             let short = name.trim_start_matches("cage_").trim_start_matches("land_");
             let found = shown.contains(&format!("{name}: {si:?},"))

@@ -22,10 +22,13 @@
 //! R_i = R_i0 + kΩ²: the inner race grows with its own speed.
 //!
 //! Contacts at an angle α, held by an axial preload, are computed in the plane: r is then the ball radius times cos α, K the
-//! radial stiffness, Q the radial part of the contact load. Traction and results take the contact load, Q/cos α.
+//! radial stiffness, Q the radial part of the contact load. Traction and results take the contact load, Q/cos α. The spin has the
+//! inertia ⅖ m (r cos α)²; walls keep the arm r, their friction and its slip count cos α of themselves:
+//! [`angular_contact`](physics::angular_contact).
 //!
 //! Assumes: motion in the plane; here the cage is centred on the outer race (else see [`pocket`](super::pocket)).
-//! Does not model: axial motion, tilt, gyroscopic moments, spin about the contact normal, squeeze of the film.
+//! Does not model: axial motion, tilt, gyroscopic moments, squeeze of the film; slip that differs over one contact: in the
+//! curved groove (Heathcote), and by spin about the normal, the larger of both at a contact angle.
 
 use crate::motion::Wrench;
 use number::{Gather, Mask, Real, Vec2, constants};
@@ -45,7 +48,7 @@ constants! {
         mass: R,
         /// 1/mass, 1/kg.
         inverse_mass: R,
-        /// 1/(moment of inertia), 1/(kg m²).
+        /// 1/(inertia of the spin in the plane), 1/(kg m²).
         inverse_inertia: R,
         /// Radius of the inner track at rest R_i0, m.
         inner_track: R,
@@ -67,9 +70,9 @@ constants! {
         pocket_stiffness: R,
         /// Pocket damping, s/m.
         pocket_damping: R,
-        /// Pocket friction coefficient.
+        /// Pocket friction coefficient, times cos α.
         pocket_friction: R,
-        /// Inverse of the reference speed of pocket friction, s/m.
+        /// Inverse of the reference speed of pocket friction, s/m, times cos α.
         pocket_inverse_reference_speed: R,
         /// Drag to ground on the orbit speed, N s/m.
         orbit_drag: R,

@@ -24,9 +24,9 @@ constants! {
         stiffness: R,
         /// Contact damping time β, s.
         damping_time: R,
-        /// Friction coefficient μ.
+        /// Friction coefficient μ; with contacts at an angle α times cos α.
         friction: R,
-        /// 1/u0, s/m.
+        /// 1/u0, s/m; with contacts at an angle α times cos α.
         inverse_reference_speed: R,
     }
 }

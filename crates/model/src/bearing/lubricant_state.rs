@@ -10,16 +10,12 @@
 //! ```
 //! The laws stand in [`lubricant_state`](physics::lubricant_state). D and F multiply what acts on a ball and on a ring in
 //! opposite directions alike, so every pair stays a pair and every heat stays not negative. P is made of heats that stand
-//! in the ledger already: Θ stores nothing mechanical, and neither energy nor momentum notices these states.
+//! in the ledger already: Θ stores nothing mechanical, and neither energy nor momentum notices these states. Of that heat the
+//! films keep C Θ̇; the rest, P - C Θ̇ = G Θ, flows into the bearing, on a rig into its node.
 //!
 //! Where the balls roll, no traction is computed: F has no effect. A bearing without a steady moment has no D.
 //!
 //! A bearing without this part has none of these states and pays nothing.
-//!
-//! The scale λ of the steady moment is found without this part, at D = F = 1, the law as it stands; D multiplies M0
-//! beside it. With p = 1 - λ the share of slip and pockets in M Ω, and m = (D M0 + M1)/M, a run at state D then
-//! dissipates (m + p (1 - m)) M Ω where m M Ω is meant: too much by p (1 - m)/m, a tenth of p at m = 0.9. Slip and pockets are
-//! not the lubricant's, so that D may not scale them.
 //!
 //! Assumes: one state for all contacts. Does not model: places; see the laws for the rest.
 
@@ -81,6 +77,11 @@ impl LubricantConstants {
             && share(self.breakdown)
             && self.grease.is_none_or(|grease| grease.is_valid())
             && self.films.is_none_or(|films| films.is_valid())
+    }
+    /// Power that warms the films and stays there, W: C Θ̇ of the rates of its own states.
+    pub(super) fn kept_by_films<R: Real>(&self, rate: &[R]) -> R {
+        let capacity = self.films.map_or(0.0, |films| films.heat_capacity);
+        rate[FILM_RISE] * R::splat(capacity)
     }
     /// The lubricant in its own states.
     pub fn at(&self, state: &[f64]) -> LubricantAt {

@@ -335,7 +335,7 @@ impl BearingConstants {
     /// Mass that moves with the outer race, kg: the cage, and the balls where they have no states.
     pub fn mass_with_outer_race(&self) -> f64 {
         match self {
-            BearingConstants::Rolling(bearing) => bearing.set.balls_mass + bearing.set.cage_mass,
+            BearingConstants::Rolling(bearing) => bearing.set.balls_mass + bearing.cage_mass,
             BearingConstants::Planar(bearing) => bearing.mass_of_cage() - bearing.free_cage_mass(),
         }
     }
@@ -352,16 +352,13 @@ impl BearingConstants {
     pub fn set(&self) -> RollingSet<f64> {
         match self {
             BearingConstants::Rolling(bearing) => bearing.set,
-            BearingConstants::Planar(bearing) => {
-                let ball = &bearing.ball;
-                RollingSet {
-                    inner_track_radius: ball.inner_track,
-                    ball_ratio: ball.radius / ball.inner_track,
-                    balls_mass: bearing.balls as f64 * ball.mass,
-                    cage_mass: bearing.mass_of_cage(),
-                }
-            }
+            BearingConstants::Planar(bearing) => bearing.set(),
         }
+    }
+    /// Power that the contact films keep at the rates of the bearing's states, W: C Θ̇, which other nodes have yet to receive.
+    pub fn kept_by_films<R: Real>(&self, rate: &[R]) -> R {
+        let own = &rate[self.lubricant_states()..];
+        (self.lubricant()).map_or(R::zero(), |lubricant| lubricant.kept_by_films(own))
     }
     /// Radius of the circle of the ball centres, m.
     pub fn pitch_radius(&self) -> f64 {

@@ -12,7 +12,7 @@
 //! bearing friction moment. That is [`steady_moment`], and excludes it; without it the oil of lubricated
 //! contacts resists rolling by [`inlet_couples`].
 //!
-//! Does not model: squeeze of the film, heat.
+//! Does not model: what a ball leaves out ([`ball`](super::ball)), films in pockets and lands, heat.
 
 use super::ball::{
     BallConstants, BallDistances, BallMotion, PocketMotion, RaceMotion, gather_group,

@@ -11,6 +11,7 @@ use super::{BearingEnergy, seat};
 use crate::motion::Motion;
 use number::Real;
 use physics::inlet_rolling::ResistanceAtRaces;
+use physics::rolling::{RollingSet, ring_mass};
 use physics::traction::Traction;
 
 /// Constants of one planar bearing.
@@ -24,9 +25,9 @@ pub struct PlanarConstants {
     pub traction: Traction<f64>,
     /// What keeps the balls apart.
     pub separation: Separation<f64>,
-    /// Cage mass, kg; without meaning where there is no cage.
+    /// Cage mass, kg, which its centre moves; without meaning where there is no cage.
     pub cage_mass: f64,
-    /// Cage moment of inertia, kg m²; without meaning where there is no cage.
+    /// Cage moment of inertia, kg m², which alone counts where it turns; without meaning where there is no cage.
     pub cage_inertia: f64,
     /// Drag of the cage to ground, N m s.
     pub cage_drag: f64,
@@ -101,6 +102,21 @@ impl PlanarConstants {
         match self.separation {
             Separation::Neighbours(_) => 0.0,
             Separation::CentredCage | Separation::FreeCage(_) => self.cage_mass,
+        }
+    }
+    /// Masses and radii of balls and cage.
+    pub(super) fn set(&self) -> RollingSet<f64> {
+        let ball = &self.ball;
+        RollingSet {
+            inner_track_radius: ball.inner_track,
+            ball_ratio: ball.radius / ball.inner_track,
+            balls_mass: self.balls as f64 * ball.mass,
+            cage_mass: match self.separation {
+                Separation::Neighbours(_) => 0.0,
+                Separation::CentredCage | Separation::FreeCage(_) => {
+                    ring_mass(self.cage_inertia, ball.inner_track + ball.radius)
+                }
+            },
         }
     }
     pub(super) fn rest(&self, state: &mut [f64]) {

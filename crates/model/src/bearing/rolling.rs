@@ -20,8 +20,7 @@ use super::ball::gather_group;
 use super::lubricant_state::{self, Lubricant, LubricantConstants};
 use super::steady_moment::SteadyMoment;
 use super::{
-    BallSums, BearingConstants, BearingEnergy, BearingHeat, BearingReaction, PlanarConstants,
-    largest, seat, seats,
+    BallSums, BearingEnergy, BearingHeat, BearingReaction, PlanarConstants, largest, seat, seats,
 };
 use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, constants};
@@ -56,8 +55,10 @@ pub struct RollingConstants {
     pub balls: usize,
     /// The ball.
     pub ball: RollingBall<f64>,
-    /// Masses and radii of balls and cage.
+    /// Masses and radii of balls and cage, as they turn.
     pub set: RollingSet<f64>,
+    /// Mass of the cage, kg, as its centre moves with the outer race.
+    pub cage_mass: f64,
     /// Azimuth of ball 1 at the start, rad.
     pub first_ball_angle: f64,
     /// The steady friction moment M.
@@ -239,7 +240,6 @@ impl RollingConstants {
     /// The bearing whose balls roll that corresponds to one computed ball by ball: contacts in series, the law of its
     /// steady moment as a whole, no loss in the pockets.
     pub fn of(planar: &PlanarConstants) -> Self {
-        let set = BearingConstants::Planar(planar.clone()).set();
         let ball = &planar.ball;
         let soft = |stiffness: f64| stiffness.powf(-2.0 / 3.0);
         let series = soft(ball.inner_stiffness) + soft(ball.outer_stiffness);
@@ -253,7 +253,8 @@ impl RollingConstants {
                 inner_track_growth: ball.inner_track_growth,
                 mass_radius: ball.mass * (ball.inner_track + ball.radius),
             },
-            set,
+            set: planar.set(),
+            cage_mass: planar.mass_of_cage(),
             first_ball_angle: planar.first_ball_angle,
             moment: match &planar.moment {
                 Some(shared) => shared.law.clone(),

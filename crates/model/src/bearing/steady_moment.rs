@@ -4,25 +4,32 @@
 //!   M = M0(Ω) + M1(W): the law's speed-dependent and load-dependent part.   s = r/R,  σ ball spin counter-clockwise
 //!   v_t ball past the outer ring along t, d = |b - c_o|;  all speeds against the outer ring
 //!
-//!   orbit drag       f   = λ 2χ_o/(N R) M0(2(1+s) v_t/d)             on the ball -f t, on the outer ring +f t at the ball
-//!   spin couple      m_s = λ 2sχ_s/N M0(2sσ)                         on the ball -m_s, on the outer ring +m_s
-//!   rolling couples  m_i = λ s/(1+s) M1 Q_i/ΣQ_i tanh((σ-Ω)/ω_r)     on the ball -m_i, on the inner race +m_i
-//!                    m_o = λ s/(1+s) M1 Q_o/ΣQ_o tanh(σ/ω_r)         on the ball -m_o, on the outer ring +m_o
+//!   orbit drag       f   = w 2χ_o/R M0(2(1+s) v_t/d)               on the ball -f t, on the outer ring +f t at the ball
+//!   spin couple      m_s = w 2sχ_s M0(2sσ)                         on the ball -m_s, on the outer ring +m_s
+//!   rolling couples  m_i = w s/(1+s) M1 tanh((σ-Ω)/ω_r)            on the ball -m_i, on the inner race +m_i
+//!                    m_o = w s/(1+s) M1 tanh(σ/ω_r)                on the ball -m_o, on the outer ring +m_o
+//!   share            w   = (Q_i + q)/(ΣQ_i + N q),  q = κ M/(N R),  κ = 0.1;  Σw = 1
 //! ```
-//! The outer ring holds the lubricant. χ_o + χ_s = 1. W = |Σ Q_i n|. M0 is odd, so each pair opposes its motion and the
-//! heat f v_t + m_s σ + m_i (σ-Ω) + m_o σ is never negative.
+//! The outer ring holds the lubricant. χ_o + χ_s = 1. W = |Σ Q_i n|.  M0 is odd
+//! and w positive, so each pair opposes its motion and the heat f v_t + m_s σ + m_i (σ-Ω) + m_o σ is never negative.
 //!
-//! Why these arms. In a steady run the balls roll: v_t/d = Ω/(2(1+s)), σ = -Ω/(2s). The pairs then take the powers
-//! χ_o M0 Ω, χ_s M0 Ω, M1 Ω (1+2s)/(2(1+s)) and M1 Ω/(2(1+s)): together M Ω, so statics gives t_I = t_O = M.
-//! A drag to the ground could not: the outer ring would not feel it.
+//! Why these arms. A ball that gains neither orbit nor spin needs T_i = ½[f + (m_i + m_o + m_s)/r] at the inner race, so its
+//! share of t_I is ½R f + (m_o + m_s)/(2s) + m_i (1+2s)/(2s): with rolling balls, |v_t|/d = Ω/(2(1+s)) and |σ| = Ω/(2s), the sum
+//! is M Σw = M, and t_O = t_I. Creep takes its power out of that of the pairs, whose balls turn a little more slowly: it
+//! does not count twice. A drag to the ground could not do so: the outer ring would not feel it.
+//!
+//! Why this share. Only a ball pressed on the inner race can be turned against its pairs. With equal shares the unloaded balls
+//! lose their spin, their M0 fades, and t_I falls below M by up to a quarter at low speed. With w ∝ Q_i every pressed ball
+//! needs the same fraction of its traction, T_i/(μ Q_i) = M/(μ R ΣQ_i): all roll, or all skid. A bearing without load
+//! shares equally, as does one whose balls are loaded alike.
 //!
 //! A lubricant with a slow state multiplies M0 by its drag factor D, in all three places at once: see
 //! [`lubricant_state`](super::lubricant_state).
 //!
-//! What the balls lose otherwise (creep, pockets) is in a measured M already: λ takes it out, see
-//! [`moment_scale`](crate::system::spin_up::moment_scale).
+//! What balls lose in pockets, on a land and on each other while they accelerate adds to M, as the loss F of the source paper
+//! does. In a steady run pressed balls push the others through the cage with next to nothing, and what is left of it is small.
 //!
-//! Assumes: χ_o (½ where nothing is known), and that all balls share M0 equally whatever their load.
+//! Assumes: χ_o (½ where nothing is known), and that M is shared by the load.
 //! Does not model: drag on the cage and its lands; the flow that carries lubricant around; the moment at standstill.
 
 use super::ball_states::{add, load_ball, race, split, split_mut};
@@ -36,6 +43,11 @@ pub use physics::friction::Friction as SteadyMoment;
 /// couples, not of the race, and the laws fade at a tenth of this.
 const LEAST_SPEED: f64 = 1.0;
 
+/// κ: a ball with less load than q = κ M/(N R) counts as not pressed; to carry an equal share there traction would need a
+/// coefficient of 1/κ. Wherever a bearing can roll, R ΣQ_i > M/μ, its balls without load take N q/ΣQ_i < κ μ of M: 1 % and less.
+/// It keeps shares smooth where loads begin, and equal where there are none.
+const IDLE_LOAD: f64 = 0.1;
+
 /// Constants of the steady moment of a bearing computed ball by ball.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SharedMoment {
@@ -47,15 +59,13 @@ pub struct SharedMoment {
     pub orbit_share: f64,
     /// Speed ω_r of rolling at which the rolling couples reach 76 %, rad/s; 1 rad/s serves.
     pub reference_spin: f64,
-    /// Scale λ of the law: 1 less what the bearing loses otherwise.
-    pub scale: f64,
 }
 
 impl SharedMoment {
-    /// True where the share lies in 0 to 1 and scale and reference spin are positive.
+    /// True where the share lies in 0 to 1 and the reference spin is positive.
     pub fn is_valid(&self) -> bool {
         let share = |x: f64| (0.0..=1.0).contains(&x);
-        share(self.orbit_share) && self.scale > 0.0 && self.reference_spin > 0.0
+        share(self.orbit_share) && self.reference_spin > 0.0
     }
 }
 
@@ -67,19 +77,23 @@ pub(super) struct MomentPairs<R: Real> {
     /// The same, for several balls at a time.
     of_ball: SteadyMoment<R::Group>,
     axial_load: R,
-    /// λ s/(1+s).
+    /// s/(1+s).
     rolling_arm: R,
+    /// N.
+    balls: R,
+    /// κ/(N R), 1/m.
+    idle_load: R,
     arms: Arms<R::Group>,
 }
 
 number::constants! {
     /// What turns the law into forces and couples on a ball.
     pub struct Arms {
-        /// λ 2χ_o/(N R), 1/m.
+        /// 2χ_o/R, 1/m.
         orbit: R,
         /// 2(1+s).
         orbit_speed: R,
-        /// λ 2sχ_s/N.
+        /// 2sχ_s.
         spin: R,
         /// 2s.
         spin_speed: R,
@@ -118,19 +132,13 @@ impl<R: Real> MomentPairs<R> {
         }
         let moment = |lane: usize| present(lane).expect("lanes share it");
         let arms = |lane: usize| {
-            let (
-                Geometry {
-                    balls,
-                    ball_radius,
-                    inner_track,
-                },
-                m,
-            ) = (machine(lane).0, moment(lane));
-            let (n, s) = (balls as f64, ball_radius / inner_track);
+            let (geometry, m) = (machine(lane).0, moment(lane));
+            let inner_track = geometry.inner_track;
+            let s = geometry.ball_radius / inner_track;
             Arms {
-                orbit: m.scale * 2.0 * m.orbit_share / (n * inner_track),
+                orbit: 2.0 * m.orbit_share / inner_track,
                 orbit_speed: 2.0 * (1.0 + s),
-                spin: m.scale * 2.0 * s * (1.0 - m.orbit_share) / n,
+                spin: 2.0 * s * (1.0 - m.orbit_share),
                 spin_speed: 2.0 * s,
                 inverse_reference_spin: 1.0 / m.reference_spin,
             }
@@ -144,7 +152,12 @@ impl<R: Real> MomentPairs<R> {
             axial_load: R::from_lanes(|lane| moment(lane).axial_load),
             rolling_arm: R::from_lanes(|lane| {
                 let s = machine(lane).0.ball_radius / machine(lane).0.inner_track;
-                moment(lane).scale * s / (1.0 + s)
+                s / (1.0 + s)
+            }),
+            balls: R::from_lanes(|lane| machine(lane).0.balls as f64),
+            idle_load: R::from_lanes(|lane| {
+                let geometry = machine(lane).0;
+                IDLE_LOAD / (geometry.balls as f64 * geometry.inner_track)
             }),
             arms: Arms {
                 orbit: part(&|arms| arms.orbit),
@@ -156,22 +169,17 @@ impl<R: Real> MomentPairs<R> {
         })
     }
 
-    /// What the balls share at this speed of the inner race against the outer, these loads, radial W, ΣQ_i, ΣQ_o, and a
-    /// drag factor D of the lubricant.
+    /// What the balls share at this speed of the inner race against the outer, these loads, radial W, ΣQ_i, and a drag
+    /// factor D of the lubricant.
     #[inline(always)]
-    pub fn share(
-        &self,
-        speed: R,
-        load: R,
-        inner_sum: R,
-        outer_sum: R,
-        drag_factor: R,
-    ) -> PairsOfBall<'_, R> {
-        // without any load nothing is shared: the quotient is of zeros
-        let least = R::splat(1e-30);
+    pub fn share(&self, speed: R, load: R, inner_sum: R, drag_factor: R) -> PairsOfBall<'_, R> {
         let limit = R::splat(LEAST_SPEED);
         let parts = (self.law).parts(speed.abs().max(limit), load, self.axial_load);
-        let couple = self.rolling_arm * parts.load_dependent;
+        let idle_load = self.idle_load * parts.sum();
+        // without load and moment nothing is shared: the quotient is of zeros
+        let per_load = (inner_sum + self.balls * idle_load)
+            .max(R::splat(1e-30))
+            .recip();
         let direction = speed.max(-limit).min(limit) * limit.recip();
         let drag = drag_factor.grouped();
         PairsOfBall {
@@ -183,8 +191,9 @@ impl<R: Real> MomentPairs<R> {
             },
             load: load.grouped(),
             axial_load: self.axial_load.grouped(),
-            inner_couple: (couple / inner_sum.max(least)).grouped(),
-            outer_couple: (couple / outer_sum.max(least)).grouped(),
+            per_load: per_load.grouped(),
+            idle_share: (idle_load * per_load).grouped(),
+            rolling: (self.rolling_arm * parts.load_dependent).grouped(),
             moment: parts.with_drag(drag_factor).sum() * direction,
         }
     }
@@ -203,8 +212,6 @@ pub(super) struct BallPlace<R> {
     pub on_outer: R,
     /// Load at the inner race, N.
     pub inner_load: R,
-    /// Load at the outer race, N.
-    pub outer_load: R,
 }
 
 /// The pairs of one ball, each against the motion.
@@ -228,10 +235,12 @@ pub(super) struct PairsOfBall<'a, R: Real> {
     arms: Arms<R::Group>,
     load: R::Group,
     axial_load: R::Group,
-    /// λ s/(1+s) M1/ΣQ_i, m.
-    inner_couple: R::Group,
-    /// λ s/(1+s) M1/ΣQ_o, m.
-    outer_couple: R::Group,
+    /// 1/(ΣQ_i + N q), 1/N.
+    per_load: R::Group,
+    /// q/(ΣQ_i + N q).
+    idle_share: R::Group,
+    /// s/(1+s) M1, N m.
+    rolling: R::Group,
     /// The law's moment M at this speed, load and drag factor, as if nothing else made friction, N m; below 1 rad/s proportional to
     /// the speed.
     pub moment: R,
@@ -252,11 +261,12 @@ impl<R: Real> PairsOfBall<'_, R> {
             let parts = self.law.parts(*value, self.load, self.axial_load);
             *value = parts.speed_dependent;
         }
-        let orbit_drag = a.orbit * m0[0];
+        let share = ball.inner_load * self.per_load + self.idle_share;
+        let orbit_drag = share * a.orbit * m0[0];
         let (rolls_inner, rolls_outer) = (ball.on_inner * a.inverse_reference_spin)
             .tanh_pair(ball.on_outer * a.inverse_reference_spin);
-        let inner_couple = self.inner_couple * ball.inner_load * rolls_inner;
-        let outer_couple = self.outer_couple * ball.outer_load * rolls_outer + a.spin * m0[1];
+        let inner_couple = share * self.rolling * rolls_inner;
+        let outer_couple = share * (self.rolling * rolls_outer + a.spin * m0[1]);
         BallPairs {
             orbit_drag,
             inner_couple,
@@ -284,9 +294,9 @@ impl<R: Real> Planar<R> {
         } = task;
         let n = self.balls;
         let speed = motion.inner.spin - motion.outer.spin;
-        let [x, y, inner_sum, outer_sum] = self.loads(motion, state);
+        let [x, y, inner_sum] = self.loads(motion, state);
         let load = Vec2::new(x, y).length_squared().sqrt() + held_load;
-        let shared = pairs.share(speed, load, inner_sum, outer_sum, drag_factor);
+        let shared = pairs.share(speed, load, inner_sum, drag_factor);
 
         let lists = split(state, self.first, n);
         let [_, d_radial_speed, _, d_orbit_speed, d_spin] = split_mut(rate, self.first, n);
@@ -306,7 +316,6 @@ impl<R: Real> Planar<R> {
                 on_inner: ball.spin - inner.spin,
                 on_outer: ball.spin - outer.spin,
                 inner_load: place.inner.normal.force,
-                outer_load: place.outer.normal.force,
             });
             let force = t * p.orbit_drag;
             let slowing = force * self.ball.inverse_mass;
@@ -334,22 +343,22 @@ impl<R: Real> Planar<R> {
         reaction.steady_moment = shared.moment;
     }
 
-    /// Loads of all balls: ΣQ_i n (two components), ΣQ_i, ΣQ_o, N.
+    /// Loads of all balls at the inner race: ΣQ_i n (two components), ΣQ_i, N.
     #[inline(always)]
-    fn loads(&self, motion: &Motion<R>, state: &[R]) -> [R; 4] {
+    fn loads(&self, motion: &Motion<R>, state: &[R]) -> [R; 3] {
         let n = self.balls;
         let lists = split(state, self.first, n);
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
-        let mut sums = BallSums::<R, 4>::new(n);
+        let mut sums = BallSums::<R, 3>::new(n);
         let mut from = 0;
         while from < n {
             let ball = load_ball(&lists, from);
             let between =
                 self.ball
                     .between(&inner, &outer, &ball, &distances(&inner, &outer, &ball));
-            let (inner_load, outer_load) = (between.inner.normal.force, between.outer.normal.force);
+            let inner_load = between.inner.normal.force;
             let push = between.inner.n * inner_load;
-            sums.add(from, &[push.x, push.y, inner_load, outer_load]);
+            sums.add(from, &[push.x, push.y, inner_load]);
             from += R::GROUP;
         }
         sums.total()

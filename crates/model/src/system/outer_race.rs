@@ -5,7 +5,7 @@
 //!   printed (21)    (1+2s) ∫ t_O Ω dt + ½ J_O Ω0²                             J_O = (1+2s)(3/20 N m_b + ¼ m_c) R²
 //!   corrected              ∫ t_O Ω dt + ½ J_O Ω0²                             balls that roll all the way
 //!   exact                  ∫ (t_O + t_g) Ω dt + ∫ Ω dL - Δ(KE + U)            any skidding, races concentric and fixed
-//!   path term              ∫ Ω dL, from ½ L0 Ω0 (rolling) to L0 Ω0 (balls spun up after the race)
+//!   path term              ∫ Ω dL: ½ L0 Ω0 (rolling), L0 Ω0 (balls spun up after the race), a little more (spin first, orbit last)
 //! ```
 //! The laws stand in [`spin_up_energy`](physics::spin_up_energy).
 //! L: angular momentum of balls and cage, L0 when they roll at Ω0. dL/dt is taken from the rates of the states, not from
@@ -40,9 +40,11 @@ pub struct OuterRaceEnergy {
     pub exact: f64,
     /// The path term ∫Ω dL as it was.
     pub path: f64,
-    /// The path term of balls that roll all the way, ½ L0 Ω0.
+    /// The path term of balls that roll all the way, ½ L0 Ω0: the least.
     pub least_path: f64,
     /// The path term of balls spun up after the race, L0 Ω0.
+    pub path_behind_the_race: f64,
+    /// The largest path term: balls that spin with the race while the cage is at rest.
     pub largest_path: f64,
 }
 
@@ -85,6 +87,7 @@ impl OuterRaceEnergy {
             ),
             path,
             least_path,
+            path_behind_the_race: by_outer_race.path_term_behind_the_race(),
             largest_path,
         }
     }

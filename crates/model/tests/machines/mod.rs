@@ -19,6 +19,7 @@ use model::rotor::Rotor;
 use model::system::drop::layout::{BEARING, INNER, OUTER, ROTOR};
 use model::system::drop::{Drop, DropConstants, DropMachine, MachineConstants};
 use number::Vec2;
+use physics::angular_contact::spin_inertia;
 use physics::film::EntrainedContact;
 use physics::hertz::{BallRace, PointContact, Race};
 use physics::inlet_rolling::ResistanceAtRaces;
@@ -169,6 +170,13 @@ pub fn tilt_contacts(bearing: &mut PlanarConstants, contact_angle: f64) {
     b.inner_stiffness *= cosine.powf(2.5);
     b.outer_stiffness *= cosine.powf(2.5);
     b.load_per_radial_force = 1.0 / cosine;
+    b.inverse_inertia = 1.0 / spin_inertia(b.mass, b.radius);
+    b.pocket_friction *= cosine;
+    b.pocket_inverse_reference_speed *= cosine;
+    if let Separation::Neighbours(pair) = &mut bearing.separation {
+        pair.friction *= cosine;
+        pair.inverse_reference_speed *= cosine;
+    }
 }
 
 /// A contact of this bearing in a mineral oil at 60 °C.
@@ -218,11 +226,12 @@ pub fn rolling_bearing(planar: &PlanarConstants) -> RollingConstants {
     let ball = &planar.ball;
     let soft = |stiffness: f64| stiffness.powf(-2.0 / 3.0);
     let balls_mass = planar.balls as f64 * ball.mass;
+    let pitch = ball.inner_track + ball.radius;
     let set = RollingSet {
         inner_track_radius: ball.inner_track,
         ball_ratio: ball.radius / ball.inner_track,
         balls_mass,
-        cage_mass: planar.cage_mass,
+        cage_mass: planar.cage_inertia / (pitch * pitch),
     };
     RollingConstants {
         balls: planar.balls,
@@ -235,6 +244,7 @@ pub fn rolling_bearing(planar: &PlanarConstants) -> RollingConstants {
             mass_radius: ball.mass * (ball.inner_track + ball.radius),
         },
         set,
+        cage_mass: planar.cage_mass,
         first_ball_angle: planar.first_ball_angle,
         moment: SteadyMoment::None,
         axial_load: 0.0,

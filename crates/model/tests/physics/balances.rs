@@ -125,7 +125,9 @@ fn spins(machine: &DropMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, f64, f
             if !matches!(b.separation, Separation::Neighbours(_)) {
                 list.push((b.cage_inertia, part.0[1], part.1[1]));
             }
-            let inertia = 0.4 * b.ball.mass * b.ball.ball_radius * b.ball.ball_radius;
+            // a ball that rolls turns by σ cos α about an axis across its line of contact: its energy and its share along z
+            let rolls = b.ball.radius / b.ball.ball_radius;
+            let inertia = 0.4 * b.ball.mass * (b.ball.ball_radius * rolls).powi(2);
             for j in 0..b.balls {
                 let (now, change) = (ball_of(machine, state, j), ball_of(machine, rate, j));
                 list.push((inertia, now.spin, change.spin));
@@ -302,7 +304,12 @@ fn steady_moment_on_outer_race(
     let load = push.length_squared().sqrt();
     let (drag, _) = lubricant_factors(&b.lubricant, part);
     let law = |speed: f64| moment.law.parts(speed, load, 0.0).with_drag(drag);
-    let outer_sum: f64 = reactions.iter().map(|reaction| reaction.outer_load).sum();
+    let inner_sum: f64 = reactions.iter().map(|reaction| reaction.inner_load).sum();
+    // what stands for no load: a tenth of what an equal share asks of the inner race
+    let at_speed = moment
+        .law
+        .parts(motion.inner.spin.abs().max(1.0), load, 0.0);
+    let idle = 0.1 * at_speed.sum() / (n * track);
     let mut on_race = 0.0;
     for (j, reaction) in reactions.iter().enumerate() {
         let [centre, velocity, _] = ball_centre(machine, state, rate, j);
@@ -311,13 +318,13 @@ fn steady_moment_on_outer_race(
         // speed past the outer race, times distance
         let turning = arm.cross(velocity - pair(state, OUTER + 2)) / (distance * distance);
         let spin = ball_of(machine, state, j).spin;
+        let share = (reaction.inner_load + idle) / (inner_sum + n * idle);
         let drag =
-            2.0 * moment.orbit_share / (n * track) * law(2.0 * (1.0 + s) * turning).speed_dependent;
-        let couple = 2.0 * s * (1.0 - moment.orbit_share) / n * law(2.0 * s * spin).speed_dependent;
-        let rolling = s / (1.0 + s) * law(1000.0).load_dependent * reaction.outer_load
-            / outer_sum.max(1e-30)
-            * (spin / moment.reference_spin).tanh();
-        on_race += moment.scale * (drag * distance + couple + rolling);
+            2.0 * moment.orbit_share / track * law(2.0 * (1.0 + s) * turning).speed_dependent;
+        let couple = 2.0 * s * (1.0 - moment.orbit_share) * law(2.0 * s * spin).speed_dependent;
+        let rolling =
+            s / (1.0 + s) * law(1000.0).load_dependent * (spin / moment.reference_spin).tanh();
+        on_race += share * (drag * distance + couple + rolling);
     }
     on_race
 }
@@ -458,7 +465,7 @@ fn rolling_balls_carry_the_angular_momentum_of_their_motion() {
     let cage_speed = 1.0 / (2.0 * (1.0 + s));
     let ball_spin = -1.0 / (2.0 * s);
     let balls_mass = p.balls as f64 * p.ball.mass;
-    let expected = (balls_mass + p.cage_mass) * (track + r).powi(2) * cage_speed
+    let expected = (balls_mass * (track + r).powi(2) + p.cage_inertia) * cage_speed
         + 0.4 * balls_mass * r * r * ball_spin;
     let_roll(&mut c);
     let machine = DropMachine::new(c);
@@ -521,9 +528,8 @@ fn moment_from_pocket(
     let (now, change) = (ball_of(machine, state, j), ball_of(machine, rate, j));
     let (r, mass) = (b.ball.radius, b.ball.mass);
     let mut force = (acceleration - b.ball.gravity) * mass;
-    let ball_radius = b.ball.ball_radius;
-    let mut moment =
-        0.4 * mass * ball_radius * ball_radius * change.spin + b.ball.spin_drag * now.spin;
+    // the plane's share of a ball that turns by σ cos α across its line of contact; r is the ball's times cos α
+    let mut moment = 0.4 * mass * r * r * change.spin + b.ball.spin_drag * now.spin;
     let grown = b.ball.inner_track_growth * motion.inner.spin * motion.inner.spin;
     let tangent = vec2(-now.azimuth.sin(), now.azimuth.cos());
     force += tangent * (b.ball.orbit_drag * velocity.dot(tangent));

@@ -21,7 +21,6 @@ fn warming() -> DropConstants {
         axial_load: 0.0,
         orbit_share: 0.5,
         reference_spin: 1.0,
-        scale: 1.0,
     });
     let mut slow = lubricant();
     slow.films.as_mut().expect("they warm").heat_capacity = 0.01;

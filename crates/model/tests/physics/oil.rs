@@ -117,7 +117,6 @@ fn a_steady_moment_holds_the_resistance_of_the_inlets() {
             axial_load: 0.0,
             orbit_share: 0.5,
             reference_spin: 1.0,
-            scale: 1.0,
         });
     };
     let (_, _, alone) = rolling_in_oil(greased);

@@ -63,11 +63,10 @@ pub fn machines() -> Vec<DropMachine> {
     bearing.ball.orbit_drag = 0.0;
     bearing.ball.spin_drag = 0.0;
     bearing.moment = Some(SharedMoment {
-        law: SteadyMoment::Palmgren(grease()),
+        law: SteadyMoment::Palmgren(grease()).scaled(0.9),
         axial_load: 0.0,
         orbit_share: 0.3,
         reference_spin: 2.0,
-        scale: 0.9,
     });
     let mut grown = base();
     // 5 µm at 1000 rad/s
@@ -86,6 +85,10 @@ pub fn machines() -> Vec<DropMachine> {
     let separated = separations().map(|separation| {
         let mut c = base();
         separate(&mut c, separation);
+        c
+    });
+    let separated_at_an_angle = separated.clone().map(|mut c| {
+        tilt_contacts(planar(&mut c), 0.4);
         c
     });
     let mut worked = greased.clone();
@@ -119,6 +122,7 @@ pub fn machines() -> Vec<DropMachine> {
     .chain(separated)
     .chain([resisted, resisted_at_an_angle])
     .chain([worked, worked_rolling, warmed])
+    .chain(separated_at_an_angle)
     .enumerate()
     .map(|(i, constants)| DropMachine::with_levitation(constants, i % 2 == 0))
     .collect()

@@ -1,8 +1,8 @@
 //! What keeps the balls apart: cages free to move, lands, full complements.
 
 use crate::machines::{
-    ball_of, ball_pair, bearing_part, heat_of, land, let_roll, planar, reference, run, separate,
-    separations, settings, tilt_contacts,
+    Random, ball_of, ball_pair, bearing_part, heat_of, land, let_roll, planar, random_state,
+    reference, run, separate, separations, settings, tilt_contacts, vec2,
 };
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::cage::LandRace;
@@ -10,6 +10,7 @@ use model::bearing::{BearingConstants, Separation};
 use model::system::drop::layout::{
     INNER, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_POCKET_FORCE, OUTER,
 };
+use model::system::drop::rate::race_motion;
 use model::system::drop::{DropConstants, DropMachine};
 
 /// The drop through its first impact and what follows: most of the spin-up.
@@ -95,6 +96,59 @@ fn balls_that_roll_at_an_angle_carry_what_balls_by_themselves_do() {
         rolling > 1.0 && (planar / rolling - 1.0).abs() < 1e-9,
         "{planar} {rolling}"
     );
+}
+
+#[test]
+fn a_pocket_is_rubbed_along_the_line_of_contact() {
+    // in space: the ball turns by σ cos α about an axis across its line of contact, the wall stands across the track
+    let alpha = 0.5_f64;
+    let (sine, cosine) = alpha.sin_cos();
+    let mut c = reference();
+    tilt_contacts(planar(&mut c), alpha);
+    let plain = reference();
+    let BearingConstants::Planar(level) = &plain.bearing else {
+        panic!("planar")
+    };
+    let machine = DropMachine::new(c);
+    let BearingConstants::Planar(bearing) = &machine.constants.bearing else {
+        panic!("planar")
+    };
+    let mut random = Random(7);
+    let mut pressed = 0;
+    for _ in 0..40 {
+        let state = random_state(&machine, &mut random);
+        let (motion, part) = (race_motion(&state), bearing_part(&machine, &state));
+        for j in 0..bearing.balls {
+            let reaction = bearing.ball_reaction(&motion, part, j);
+            if reaction.pocket_force == 0.0 {
+                continue;
+            }
+            pressed += 1;
+            let ball = ball_of(&machine, &state, j);
+            let e = vec2(ball.azimuth.cos(), ball.azimuth.sin());
+            let past = e * ball.radial_speed + e.turned() * (ball.radius * ball.orbit_speed)
+                - motion.outer.velocity;
+            let from_outer = e * ball.radius - motion.outer.position;
+            let n = from_outer * (1.0 / from_outer.length_squared().sqrt());
+            // towards the wall r s t: its place, and the ball's rotation in the directions n and z
+            let reach = reaction.pocket_side * bearing.ball.ball_radius;
+            let rotation = (ball.spin * cosine * sine, ball.spin * cosine * cosine);
+            // ω × (reach t) with n × t = z and z × t = -n
+            let surface = (past.dot(n) - reach * rotation.1, reach * rotation.0);
+            let wall = -reach * part[1];
+            // the line of contact: n cos α - z sin α
+            let u = (surface.0 - wall) * cosine - surface.1 * sine;
+            let friction = level.ball.pocket_friction
+                * (u * level.ball.pocket_inverse_reference_speed).tanh()
+                * reaction.pocket_force;
+            // rounding
+            let off = reaction.pocket_friction + friction * cosine;
+            assert!(off.abs() < 1e-12 * reaction.pocket_force, "{off}");
+            let heat = reaction.heat.pocket_sliding - friction * u;
+            assert!(heat.abs() < 1e-11 * reaction.pocket_force, "{heat}");
+        }
+    }
+    assert!(pressed > 100, "{pressed}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::bench::{Finished, LOAD, SPEED, balls, concentric, fidelities, rig, run};
 use crate::machines::{settings, vec2};
-use model::bearing::BearingConstants;
+use model::bearing::{BearingConstants, LubricantConstants};
 use model::system::rig::layout::{
     BEARING_HEAT, HEATS, HOUSING, INNER_MOMENT, MOMENTUM_RATE, OUTER_MOMENT, SHAFT, TEMPERATURE,
 };
@@ -10,6 +10,7 @@ use model::system::rig::record::Keep;
 use model::system::rig::simulate::simulate_on;
 use model::system::rig::{Engagement, Program, Record, RigConstants, RigMachine};
 use number::Level;
+use physics::lubricant_state::FilmHeating;
 use solve::Stop;
 use std::sync::atomic::AtomicBool;
 
@@ -100,6 +101,56 @@ fn the_bearing_warms_by_its_own_heat() {
         assert!(heat > 0.0);
         let last = run.record.rows().next_back().expect("rows");
         assert!(last.probe[BEARING_HEAT] > 0.0);
+    }
+}
+
+#[test]
+fn heat_that_films_keep_reaches_the_bearing_when_they_give_it() {
+    let films = FilmHeating {
+        heat_capacity: 2.0,
+        conductance: 20.0,
+        drag_coefficient: 0.03,
+        traction_coefficient: 0.02,
+    };
+    for bearing in fidelities() {
+        let mut c = concentric(bearing, quick());
+        c.heat.conductance = 30.0;
+        let lubricant = Some(LubricantConstants {
+            grease: None,
+            films: Some(films),
+            build_up: 1.0,
+            breakdown: 0.0,
+        });
+        match &mut c.bearing {
+            BearingConstants::Rolling(bearing) => bearing.lubricant = lubricant,
+            BearingConstants::Planar(bearing) => bearing.lubricant = lubricant,
+        }
+        let run = run(c, 0.3, 1e-6);
+        let heat: f64 = (0..model::bearing::HEATS.len()).map(|k| run.heat(k)).sum();
+        let in_films = |state: &[f64]| {
+            let own = &state[run.machine.layout().bearing()];
+            let at = run.machine.constants.bearing.lubricant_at(own);
+            films.heat_capacity * at.expect("it has a state").film_temperature_rise
+        };
+        let rows: Vec<(f64, f64)> = (run.record.rows())
+            .map(|row| (row.time, row.state[TEMPERATURE]))
+            .collect();
+        let given_off: f64 = (rows.windows(2))
+            .map(|pair| 0.5 * (pair[1].1 + pair[0].1) * (pair[1].0 - pair[0].0) * 30.0)
+            .sum();
+        let kept = in_films(run.end());
+        let stored = 60.0 * run.end()[TEMPERATURE];
+        // each part counts: the films were given twice what they keep before
+        assert!(
+            kept > 0.02 * heat && given_off > 0.02 * heat,
+            "{kept} {given_off} {heat}"
+        );
+        // trapezoids of a hundredth of the run
+        let off = (stored + kept + given_off) / heat - 1.0;
+        assert!(
+            off.abs() < 1e-4,
+            "{off}: {stored} {kept} {given_off} {heat}"
+        );
     }
 }
 

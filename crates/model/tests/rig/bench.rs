@@ -39,7 +39,6 @@ pub fn balls() -> PlanarConstants {
         axial_load: 0.0,
         orbit_share: 0.5,
         reference_spin: 1.0,
-        scale: 1.0,
     });
     bearing
 }

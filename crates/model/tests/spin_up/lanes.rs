@@ -89,7 +89,7 @@ fn greased_balls_under_a_sliding_rotor_have_the_same_bits_everywhere() {
             let mut bearing = greased_bearing();
             if let Some(moment) = &mut bearing.moment {
                 moment.orbit_share = 0.3 + 0.05 * x;
-                moment.scale = 1.0 - 0.02 * x;
+                moment.law = moment.law.clone().scaled(1.0 - 0.02 * x);
             }
             let rotor = SlidingRotor {
                 bore_radius: 12.5e-3,

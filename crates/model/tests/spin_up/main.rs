@@ -11,6 +11,7 @@ mod bistable;
 mod lanes;
 mod limits;
 mod lubricant;
+mod plateaus;
 mod rig;
 mod rolling;
 mod steady;

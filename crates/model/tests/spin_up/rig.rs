@@ -58,7 +58,6 @@ pub fn shared(law: SteadyMoment<f64>) -> SharedMoment {
         axial_load: 0.0,
         orbit_share: 0.5,
         reference_spin: 1.0,
-        scale: 1.0,
     }
 }
 

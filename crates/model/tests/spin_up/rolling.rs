@@ -185,7 +185,8 @@ fn rolling_balls_fulfil_the_corrected_energy_form_and_not_the_printed_one() {
         "{energy:?}"
     );
     assert!((energy.printed / true_loss - 1.0).abs() > 0.2, "{energy:?}");
-    assert_eq!(energy.largest_path, 2.0 * energy.least_path);
+    assert_eq!(energy.path_behind_the_race, 2.0 * energy.least_path);
+    assert!(energy.largest_path > energy.path_behind_the_race);
 }
 
 #[test]

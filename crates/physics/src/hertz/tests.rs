@@ -327,3 +327,27 @@ fn published_example_ball_in_the_race_of_ugural() {
     assert!(relative(contact.semi_major(1500.0), 2.101e-3) < 5e-3);
     assert!(relative(contact.semi_minor(1500.0), 0.156e-3) < 5e-3);
 }
+
+#[test]
+fn the_tension_at_the_rim_is_that_of_point_loads() {
+    // Boussinesq on the surface: a point load P stresses by ±(1 - 2ν) P/(2πR²) along and across R. Summed over Hertz's pressure
+    // √(1 - ρ²) at 1.5 radii, where the tension is 1/1.5² of that at the rim.
+    let (nu, n, at) = (0.26, 400, 1.5);
+    let mut sum = 0.0;
+    for i in 0..n {
+        let rho = (f64::from(i) + 0.5) / f64::from(n);
+        for j in 0..n {
+            let (sine, cosine) = (2.0 * PI * (f64::from(j) + 0.5) / f64::from(n)).sin_cos();
+            let (x, y) = (at - rho * cosine, rho * sine);
+            let square = x * x + y * y;
+            let along = (x * x - y * y) / square;
+            let load = (1.0 - rho * rho).sqrt() * rho * 2.0 * PI / f64::from(n * n);
+            sum += (1.0 - 2.0 * nu) * load * along / (2.0 * PI * square);
+        }
+    }
+    // midpoint rule with a root at the edge of the disc: n^-1.5
+    assert!(
+        relative(sum * at * at, rim_tension(1.0, nu)) < 1e-4,
+        "{sum}"
+    );
+}

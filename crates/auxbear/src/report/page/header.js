@@ -62,7 +62,12 @@ function pressureNote(run, pressure) {
   const limit = run.summary.hertz_pressure_limit_Pa;
   if (!isNumber(limit)) return "no limit is given for these balls";
   const where = pressure <= limit ? "below" : "ABOVE";
-  return `${where} the limit of ${engineeringText(limit, "Pa", 4)} (${percentText(pressure / limit)} of it)`;
+  const races = `${where} the limit of ${engineeringText(limit, "Pa", 4)} (${percentText(pressure / limit)} of it)`;
+  const neighbours = numberOf(run, "peak_ball_ball_pressure");
+  if (neighbours === null) return races;
+  const share = numberOf(run, "hertz_pressure_share_of_limit");
+  const apart = share > pressure / limit ? `, ${percentText(share)} of their limit` : "";
+  return `${races}; between balls ${engineeringText(neighbours, "Pa", 4)}${apart}`;
 }
 
 function spinUpNote(run) {
@@ -87,20 +92,20 @@ function displacementTile(run) {
   return quantityTile(run, "Largest rotor displacement", "max_rotor_displacement", () => "of its centre from the origin" + beside);
 }
 
+// Each pressure counts by the limit of what touches there; the share is the largest.
+function pressureTile(run) {
+  const share = numberOf(run, "hertz_pressure_share_of_limit");
+  const state = share === null ? null : verdictState(run, share > 1);
+  return quantityTile(run, "Peak Hertz pressure", "peak_hertz_pressure", (pressure) => pressureNote(run, pressure), () => state);
+}
+
 function verdict(run) {
-  const limit = run.summary.hertz_pressure_limit_Pa;
   return element(
     "div",
     { class: "tiles" },
     stateTile(run),
     quantityTile(run, "Peak contact force", "peak_contact_force", () => forceNote(run)),
-    quantityTile(
-      run,
-      "Peak Hertz pressure",
-      "peak_hertz_pressure",
-      (pressure) => pressureNote(run, pressure),
-      (pressure) => (isNumber(limit) ? verdictState(run, pressure > limit) : null),
-    ),
+    pressureTile(run),
     quantityTile(run, "Inner race at 95 % speed", "inner_race_time_to_95_percent", () => spinUpNote(run)),
     whirlTile(run),
     displacementTile(run),

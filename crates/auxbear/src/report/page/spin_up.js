@@ -95,6 +95,7 @@ const PATH_TERMS = [
   ["path_term_if_rolling", "balls that roll all the way: ½ L₀ Ω₀", "quiet"],
   ["path_term", "this run: ∫ Ω dL", "rotor"],
   ["path_term_if_spun_up_after", "balls spun up after the race: L₀ Ω₀", "quiet"],
+  ["path_term_largest", "the largest: balls spin with the race, and orbit last", "quiet"],
 ];
 
 function signedBars(run, forms, reference) {
@@ -138,7 +139,6 @@ function outerRaceSection(runs) {
 
 // The verdict of a spin-up.
 function spinUpVerdict(run) {
-  const limit = run.summary.hertz_pressure_limit_Pa;
   const skid = quantityOf(run, "balls_skid");
   const skidText = typeof skid.value === "string" ? skid.value : "–";
   const capacity = numberOf(run, "traction_capacity");
@@ -161,13 +161,7 @@ function spinUpVerdict(run) {
       const mean = numberOf(run, "outer_race_mean_moment");
       return mean === null ? null : `${engineeringText(mean, "N m", 4)} in the mean of the last cage turns`;
     }),
-    quantityTile(
-      run,
-      "Peak Hertz pressure",
-      "peak_hertz_pressure",
-      (pressure) => pressureNote(run, pressure),
-      (pressure) => (isNumber(limit) ? verdictState(run, pressure > limit) : null),
-    ),
+    pressureTile(run),
     quantityTile(
       run,
       "Energy residual",

@@ -5,7 +5,6 @@ use super::notes::{Note, grouped};
 use super::read::{Asked, Test};
 use crate::scenario::RotorFriction;
 use crate::simulate::Options;
-use crate::simulate::build_bearing::material;
 use crate::simulate::outcome::Warning;
 use crate::simulate::signals;
 use identify::data_checks::{ByTemperature, CheckSettings, Doubt, doubts};
@@ -21,7 +20,6 @@ use identify::skid::{Skid, SkidSettings, skid};
 use identify::slip::{CageSlip, SlipSettings, cage_slip};
 use identify::{Measurement, SetDeviation};
 use measure::uncertain::Uncertain;
-use physics::materials::ball_mass;
 use physics::rolling::RollingSet;
 use std::sync::atomic::Ordering;
 
@@ -311,12 +309,8 @@ fn all_unused<T>(found: &[T], asked: &[Test], unusable: &[(String, String)]) -> 
 /// Masses and radii of balls and cage.
 fn rolling_set(asked: &Asked) -> RollingSet<f64> {
     let bearing = asked.identify;
-    let ball = bearing.ball_mass.unwrap_or_else(|| {
-        ball_mass(
-            bearing.ball_diameter,
-            material(bearing.ball_material).density,
-        )
-    });
+    let ball = (bearing.ball_mass)
+        .unwrap_or_else(|| bearing.ball_material.ball_mass(bearing.ball_diameter));
     let track = 0.5 * (bearing.pitch_diameter - bearing.ball_diameter);
     RollingSet {
         inner_track_radius: track,

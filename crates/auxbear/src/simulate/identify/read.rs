@@ -139,8 +139,7 @@ fn name(path: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use crate::scenario::{BuiltIn, Scenario};
-    use crate::simulate::{Options, build};
-    use std::sync::atomic::AtomicBool;
+    use crate::simulate::build;
 
     #[test]
     fn a_signals_file_that_is_missing_is_told_where_it_is_named() {
@@ -150,8 +149,7 @@ mod tests {
                     coast_down = [\"slow.toml\"]\n[bearing]\nname = \"6005\"\n";
         std::fs::write(&path, text).expect("a folder to write to");
         let scenario = Scenario::read(&path, &[], &BuiltIn).expect("it is right");
-        let interrupt = AtomicBool::new(false);
-        let problem = build(&scenario, &Options::unwatched(&interrupt)).err();
+        let problem = build(&scenario).err();
         let text = problem.expect("a file is missing").to_string();
         for part in [
             "error[AB0001]",

@@ -2,7 +2,6 @@
 
 use crate::problem::{Code, Problem};
 use crate::scenario::{Engagement as EngagementChoice, Rig, RigProgram};
-use crate::simulate::Options;
 use crate::simulate::bearing_run::PressureFactors;
 use crate::simulate::build_bearing::{self, SCENARIO, SteadyFinding, SteadyPoint};
 use model::system::rig::{
@@ -25,14 +24,14 @@ pub struct Built {
     pub torque_rate: Option<f64>,
     /// Hertz pressure in the contacts of a ball.
     pub pressure_factors: PressureFactors,
-    /// A steady run at the speed of the test; none where the bearing has no steady moment.
+    /// What traction can carry at the speed of the test; none where the bearing has no steady moment.
     pub steady: Option<SteadyFinding>,
 }
 
 /// Builds the machine of a test. The weight of the balls is left out: it is a thousandth of any load.
-pub(in crate::simulate) fn rig(rig: &Rig, options: &Options) -> Result<Built, Box<Problem>> {
+pub(in crate::simulate) fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
     let contacts = build_bearing::ball_contacts(&rig.bearing)?;
-    let mut bearing = build_bearing::bearing(&rig.bearing, &contacts, Vec2::zero())?;
+    let bearing = build_bearing::bearing(&rig.bearing, &contacts, Vec2::zero())?;
     let down = Vec2::new(0.0, -1.0);
     let centre_held = rig.load.hanging_mass.is_none();
     // the ring that is free to move is the outer one here; to the balls it is the same turned round
@@ -47,7 +46,7 @@ pub(in crate::simulate) fn rig(rig: &Rig, options: &Options) -> Result<Built, Bo
         speed: rig.speed,
         load: rig.load.radial_load,
     };
-    let steady = build_bearing::steady(&mut bearing, &rig.bearing, &race, at, options)?;
+    let steady = build_bearing::steady(&bearing, &rig.bearing, &race, at)?;
     let arm = &rig.arm;
     let mut constants = RigConstants {
         flywheel: Flywheel {

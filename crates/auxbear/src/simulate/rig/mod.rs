@@ -14,10 +14,10 @@ mod quantities;
 mod raw_file;
 mod warnings;
 
-use super::bearing_run::BearingRun;
+use super::bearing_run::{BearingRun, Pressures};
 use super::ending::{settings, stop};
 use super::outcome::{Outcome, Picture, Work};
-use super::{Options, Phase, method};
+use super::{Options, method};
 use crate::scenario::{Rig, RigProgram, Scenario};
 use build::Built;
 use chain::{Happened, Sampled};
@@ -45,6 +45,12 @@ struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
+    /// Largest Hertz pressures.
+    fn pressures(&self) -> Pressures {
+        let record = self.record;
+        let races = [record.largest_inner_load, record.largest_outer_load];
+        (self.built.pressure_factors).pressures(races, record.largest_pocket_force)
+    }
     fn bearing(&self) -> BearingRun<'a> {
         let machine = &self.built.machine;
         BearingRun {
@@ -77,7 +83,7 @@ pub(super) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
         &settings(&rig.run),
         &mut record,
         options.interrupt,
-        &|done| (options.progress)(Phase::Run, done),
+        options.progress,
     );
     let seconds = clock.elapsed().as_secs_f64();
     let happened = happened(rig, &record);
@@ -116,7 +122,7 @@ pub(super) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
         members: Vec::new(),
         picture: Picture {
             clearance: None,
-            pressure_limit: rig.bearing.hertz_pressure_limit,
+            pressure_limit: Some(rig.bearing.hertz_pressure_limit),
             rolling_cage_ratio,
             balls: rig.bearing.ball_count,
         },

@@ -125,7 +125,7 @@ fn moments(list: &mut List, context: &Context) {
 fn loads(list: &mut List, context: &Context) {
     let (run, record) = (context.bearing(), context.record);
     let loads = [record.largest_inner_load, record.largest_outer_load];
-    list.ball_loads(&run, loads, context.rig.bearing.hertz_pressure_limit);
+    list.ball_loads(loads, &context.pressures(), &context.rig.bearing);
     list.lubricant(&run, &context.ending.state);
 }
 

@@ -55,9 +55,7 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     }
     list.extend(shared::speed_rating(bearing, speed));
     list.extend(shared::lift_off(bearing, speed));
-    if let Some(pressure) = shared::number(quantities, "peak_hertz_pressure") {
-        list.extend(shared::pressure(bearing, pressure));
-    }
+    list.extend(shared::pressure(bearing, &context.pressures()));
     list.extend(shared::film_rise(&context.bearing()));
     list.extend(shared::law_range(
         bearing,
@@ -67,10 +65,10 @@ pub(super) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     if context.ending.stop == solve::Stop::Finished {
         list.extend(shared::residual(quantities));
     }
-    list.extend(shared::unscaled(context.built.steady.as_ref()));
-    list.extend(shared::scale(context.built.steady.as_ref()));
+    list.extend(shared::cage_inertia(bearing));
     list.extend(shared::rolling(bearing));
     list.extend(shared::no_moment(bearing));
+    list.extend(shared::moment(scenario, bearing));
     list.extend(shared::kind(bearing));
     list.extend(shared::assumed(scenario, bearing));
     list

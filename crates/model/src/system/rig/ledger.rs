@@ -7,7 +7,7 @@
 //!   rig             motor - belt - support - t_O + c_o × W + weights of balls
 //!   balls and cage  t_I - t_O - t_g + weights + c_o × F_o
 //! ```
-//! The arm takes t_O as a pure couple. The temperature counts apart: C ΔT = heats of the bearing - ∫G T dt.
+//! The arm takes t_O as a pure couple. The temperatures count apart: C ΔT + C_f ΔΘ = heats of the bearing - ∫G T dt.
 
 use super::layout::{FLYWHEEL, HEATS, SHAFT};
 use super::rate::race_motion;

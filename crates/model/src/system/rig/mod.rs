@@ -10,7 +10,7 @@
 //!   I_f ω̇_f = motor - belt - T                  motor = clamp(gain (ω_set(t) - ω_f), ± limit)
 //!   I_s Ω̇   = T - support - t_I                 T: open 0; slipping ± T_c(t); locked: whatever keeps ω_f = Ω
 //!   ÿ + 2ζω_n ẏ + ω_n² (y - t_O - d) = 0         d = a (|Ω|/Ω_ref)^p cos(φ + ψ)
-//!   C Ṫ = heats of the bearing - G T             τ Ṫ_m = T - T_m           rises above the surroundings
+//!   C Ṫ = heats of the bearing - C_f Θ̇ - G T     τ Ṫ_m = T - T_m           rises above the surroundings; films keep C_f Θ̇
 //! ```
 //! | page | subject |
 //! |---|---|

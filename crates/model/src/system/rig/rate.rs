@@ -7,7 +7,7 @@
 //!
 //!   m c̈_o = W + bearing + m' g       or held        m with, m' only what moves with the outer race besides the housing
 //!   ÿ = ω_n² (t_O + d - y) - 2ζω_n ẏ
-//!   C Ṫ = P - G T,  Ṫ_m = (T - T_m)/τ                P: heats of the bearing
+//!   C Ṫ = P - C_f Θ̇ - G T,  Ṫ_m = (T - T_m)/τ        P: heats of the bearing; films that warm keep C_f Θ̇ of them
 //! ```
 //! Heats are ≥ 0: T (ω_f - Ω), drags times speeds, those of the bearing. Sources: the motor, the weight, the growth of the
 //! inner race. What balls and cage receive: t_I - t_O - t_g + weights + c_o × F_o, F_o of the outer race on them; the inner
@@ -197,6 +197,7 @@ impl RigMachine {
             layout.bearing_impulse(),
             inner_moment - outer_moment + eccentric,
         );
+        let kept = plain(c.bearing.kept_by_films(&rate[own.clone()]));
         let momentum = plain(of_bearing.angular_momentum_rate(
             &state[own.clone()],
             &rate[own.clone()],
@@ -215,7 +216,7 @@ impl RigMachine {
         let heat = &c.heat;
         put(
             TEMPERATURE,
-            (bearing_heat - heat.conductance * at(TEMPERATURE)) / heat.capacity,
+            (bearing_heat - kept - heat.conductance * at(TEMPERATURE)) / heat.capacity,
         );
         put(
             THERMOCOUPLE,

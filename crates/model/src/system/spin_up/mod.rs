@@ -15,7 +15,7 @@
 //! | [`rate`] | the equations of motion |
 //! | [`ledger`] | energies, momentum, what closes; the energy by the outer race, (21) |
 //! | [`record`] | what is watched and kept of a run |
-//! | [`steady`] | a steady run: its moments, λ, whether the balls can roll at all |
+//! | [`capacity`] | whether traction can turn the balls against the steady moment |
 //!
 //! The inner race may move in the plane under its load and weight, or be held in the middle: the concentric rig of the
 //! paper's equations. Then the load reaches the law of the steady moment and the sliding rotor, not the balls.
@@ -23,11 +23,11 @@
 //! Assumes: the rotor follows the race where it translates; what carries the load takes the reaction of its friction.
 //! Does not model: the rotor's own vibration (see [`drop`](super::drop)), clutch, shaft and torque arm.
 
+pub mod capacity;
 pub mod layout;
 pub mod ledger;
 pub mod rate;
 pub mod record;
-pub mod steady;
 
 use super::refusal;
 pub use super::refusal::Refusal;
@@ -36,7 +36,6 @@ use crate::table::{Piece, Table};
 use layout::Layout;
 use number::{Gather, Real, Vec2, constants};
 use solve::{Batch, Machine};
-pub use steady::{SteadyError, SteadyRun, Watch, moment_scale, steady_run};
 
 /// Constants of one machine.
 #[derive(Clone, Debug, PartialEq)]
@@ -267,6 +266,9 @@ impl Machine for SpinUpMachine {
 
     fn dimension(&self) -> usize {
         self.layout.dimension()
+    }
+    fn quadratures(&self) -> usize {
+        Layout::LEDGER
     }
     fn probes(&self) -> usize {
         self.layout.probes()
