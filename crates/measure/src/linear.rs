@@ -27,6 +27,13 @@ pub(crate) fn solved<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Option<
     Some(factor.solve(&SVector::from(*b)).into())
 }
 
+/// Lower triangle L with L Lᵀ = A; none where the matrix is not positive.
+pub(crate) fn lower<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
+    let factor = SMatrix::<f64, N, N>::from(*a).cholesky()?;
+    // nalgebra's arrays are by columns
+    Some(factor.l().transpose().into())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -59,5 +66,14 @@ mod tests {
         }
         assert!(solved(&[[1.0, 2.0], [2.0, 1.0]], &[1.0, 1.0]).is_none());
         assert!(solved(&[[1.0, 2.0], [2.0, 4.0]], &[1.0, 1.0]).is_none());
+    }
+
+    #[test]
+    fn a_triangle_is_by_rows() {
+        let a = [[4.0, 2.0, -2.0], [2.0, 10.0, 0.5], [-2.0, 0.5, 2.25]];
+        // by hand
+        let expected = [[2.0, 0.0, 0.0], [1.0, 3.0, 0.0], [-1.0, 0.5, 1.0]];
+        assert_eq!(lower(&a), Some(expected));
+        assert_eq!(lower(&[[1.0, 2.0], [2.0, 4.0]]), None);
     }
 }
