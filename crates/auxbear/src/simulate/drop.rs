@@ -7,15 +7,13 @@ use super::ensemble::{self, Finished, Member, Plan};
 use super::outcome::{Contact, Outcome, Picture, Spread, Stop, Value, Work};
 use super::{Options, columns, method, quantities, warnings};
 use crate::scenario::{Drop, Scenario};
+use measure::random::Random;
 use model::system::drop::DropMachine;
 use model::system::drop::layout::{
     DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
 };
 use model::system::drop::rate::race_motion;
 use number::Vec2;
-use rand_distr::{Distribution, StandardNormal};
-use rand_xoshiro::Xoshiro256PlusPlus;
-use rand_xoshiro::rand_core::SeedableRng;
 use std::time::Instant;
 
 /// Everything the pages that name results need to know.
@@ -125,8 +123,8 @@ fn member(machine: &DropMachine, drop: &Drop, built: &Built, k: usize) -> Member
             keep_rows: true,
         };
     }
-    let mut random = Xoshiro256PlusPlus::seed_from_u64(member_seed(drop.repeat.seed, k));
-    let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
+    let mut random = Random::new(member_seed(drop.repeat.seed, k));
+    let mut normal = || random.normal();
     let shift = Vec2::new(normal(), normal()) * drop.repeat.rotor_position_deviation;
     let angles: Vec<f64> = (0..drop.bearing.ball_count)
         .map(|_| normal() * drop.repeat.ball_angle_deviation)
