@@ -510,7 +510,7 @@ fn fit(
         let share = (log - total).exp();
         let all = residual + square(best);
         fit.chi_squared += share * all;
-        fit.probability += share * squares_above(all, count);
+        fit.probability += share * squares_above(all, count as f64);
     }
     // shares sum to 1 but for rounding
     fit.probability = fit.probability.min(1.0);

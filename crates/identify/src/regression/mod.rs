@@ -4,12 +4,12 @@
 //!   y = X θ + e,   θ ~ N(0, P⁻¹),   e_k = ρ e_{k-1} + σ √(1-ρ²) ε_k      within a stretch of record
 //!   ln p(y | ρ, σ, P) = -½ [n ln 2πσ² + ln|R| + yᵀR⁻¹y/σ² - bᵀA⁻¹b + ln|A| - ln|P|],  A = XᵀR⁻¹X/σ² + P, b = XᵀR⁻¹y/σ²
 //! ```
-//! Summed over a grid of ρ (level from 0 to 0.98), σ (level in its logarithm) and, for a spline, smoothness P.
+//! Summed over a grid of ρ (from 0 to 0.98, artanh ρ normal about 0.3), σ (level in its logarithm) and, for a spline, smoothness P.
 //! Source: Bayesian linear regression; the inverse of R is that of a first-order autoregression.
 
 pub(crate) mod spline;
 
-use crate::algebra::{Factor, dot};
+use crate::algebra::{Factor, dot, log_sum_exp};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -18,6 +18,21 @@ use std::ops::Range;
 const CORRELATIONS: [f64; 13] = [
     0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.87, 0.92, 0.95, 0.98,
 ];
+
+/// Mean and deviation of artanh ρ expected: nearly any correlation up to 0.98, which would be noise that lasts fifty means. Assumed.
+const EXPECTED: (f64, f64) = (0.3, 1.0);
+
+/// ln of the probability expected of each correlation in the list, as far as half way to its neighbours.
+fn correlation_priors() -> [f64; CORRELATIONS.len()] {
+    let places = CORRELATIONS.map(f64::atanh);
+    let logs = std::array::from_fn(|k| {
+        let (before, after) = (k.saturating_sub(1), (k + 1).min(places.len() - 1));
+        let width = 0.5 * (places[after] - places[before]);
+        width.ln() - 0.5 * ((places[k] - EXPECTED.0) / EXPECTED.1).powi(2)
+    });
+    let total = log_sum_exp(&logs);
+    logs.map(|log| log - total)
+}
 
 /// Means of a curve's place x and value y over equal parts of a record, in the order of time.
 #[derive(Default)]
@@ -86,6 +101,8 @@ pub(crate) struct Posterior {
     pub log_evidence: f64,
     pub mean: DVector<f64>,
     pub covariance: DMatrix<f64>,
+    /// Part of the covariance that is the prior's alone, A⁻¹PA⁻¹: no repetition of the record would show it.
+    pub prior: DMatrix<f64>,
     /// Correlation of neighbouring residuals.
     pub correlation: f64,
     /// Standard deviation of one mean.
@@ -97,6 +114,11 @@ impl Posterior {
     pub fn drawn(&self, rows: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
         let covariance = rows * &self.covariance * rows.transpose();
         (rows * &self.mean, covariance)
+    }
+
+    /// Part of that covariance that is the prior's alone.
+    pub fn drawn_prior(&self, rows: &DMatrix<f64>) -> DMatrix<f64> {
+        rows * &self.prior * rows.transpose()
     }
 }
 
@@ -170,6 +192,7 @@ pub(crate) fn weighed(
         (matrix, white.column(size).rows(0, size) * weight)
     };
     let noises = data.noises();
+    let expected = correlation_priors();
     let mut points = Vec::new();
     for (place, (white, &correlation)) in whitened.iter().zip(&CORRELATIONS).enumerate() {
         let log_shape = (count - stretches) * (1.0 - correlation * correlation).ln();
@@ -185,12 +208,13 @@ pub(crate) fn weighed(
                     correlation: place,
                     noise,
                     precision,
-                    log_weight: -0.5
-                        * (count * (TAU * noise * noise).ln()
-                            + log_shape
-                            + squares
-                            + factor.log_determinant
-                            - prior),
+                    log_weight: expected[place]
+                        - 0.5
+                            * (count * (TAU * noise * noise).ln()
+                                + log_shape
+                                + squares
+                                + factor.log_determinant
+                                - prior),
                 });
             }
         }
@@ -202,7 +226,7 @@ pub(crate) fn weighed(
     if !top.is_finite() {
         return None;
     }
-    let tried = (CORRELATIONS.len() * noises.len() * precisions.len()) as f64;
+    let tried = (noises.len() * precisions.len()) as f64;
     let weight = |point: &Point| (point.log_weight - top).exp();
     let total: f64 = points.iter().map(weight).sum();
     points.retain(|point| weight(point) > LEAST_WEIGHT * total);
@@ -217,30 +241,35 @@ pub(crate) fn weighed(
             let white = &whitened[point.correlation];
             let (matrix, right) = system(white, wide * point.noise, &precisions[point.precision]);
             let factor = Factor::of(matrix)?;
-            Some((*weight, factor.solved(&right), factor.inverse()))
+            let around = factor.inverse();
+            let prior = &around * &precisions[point.precision] * &around;
+            Some((*weight, factor.solved(&right), around, prior))
         });
         let own: Vec<_> = own.collect::<Option<_>>()?;
         let mut mean = DVector::zeros(size);
-        for (weight, at, _) in &own {
+        for (weight, at, ..) in &own {
             mean += at * *weight;
         }
         let mut covariance = DMatrix::zeros(size, size);
-        for (weight, at, around) in &own {
+        let mut prior = DMatrix::zeros(size, size);
+        for (weight, at, around, held) in &own {
             let apart = at - &mean;
             covariance += (around + &apart * apart.transpose()) * *weight;
+            prior += held * *weight;
         }
-        Some((mean, covariance))
+        Some((mean, covariance, prior))
     };
     let over = |f: &dyn Fn(&Point) -> f64| points.iter().map(|(w, p)| w * f(p)).sum::<f64>();
     let correlation = over(&|point| CORRELATIONS[point.correlation]);
-    let (mean, _) = drawn(1.0)?;
+    let (mean, ..) = drawn(1.0)?;
     let residual = DVector::from_column_slice(&data.y) - columns * &mean;
     let wide = colour(residual.as_slice(), &data.stretches, correlation);
-    let (mean, covariance) = drawn(wide.sqrt())?;
+    let (mean, covariance, prior) = drawn(wide.sqrt())?;
     Some(Posterior {
         log_evidence: top + (total / tried).ln(),
         mean,
         covariance,
+        prior,
         correlation,
         noise: over(&|point| point.noise),
     })

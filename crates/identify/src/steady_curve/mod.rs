@@ -44,6 +44,9 @@ pub struct SteadyCurve {
     pub zero_deviation: f64,
     /// Covariance of the torques by noise, by rows; 0 where the torque is NaN.
     pub covariance: Vec<Vec<f64>>,
+    /// The part of it that is not the record's: how far the curve may leave what its smoothness makes of the record. Of two records
+    /// of one curve it is the same in both. Empty where it is not known.
+    pub smoothing: Vec<Vec<f64>>,
     /// What is not trustworthy.
     pub notes: Vec<String>,
 }
@@ -215,10 +218,12 @@ impl Smooth {
             rows.iter().flatten().flatten().copied(),
         );
         let (values, own) = self.posterior.drawn(&weights);
+        let smoothing = self.posterior.drawn_prior(&weights);
         let mut curve = SteadyCurve {
             speed: at.to_vec(),
             torque: vec![f64::NAN; at.len()],
             covariance: vec![vec![0.0; at.len()]; at.len()],
+            smoothing: vec![vec![0.0; at.len()]; at.len()],
             notes: self.notes,
             ..SteadyCurve::default()
         };
@@ -226,6 +231,7 @@ impl Smooth {
             curve.torque[to] = factor * values[i];
             for (j, &with) in inside.iter().enumerate() {
                 curve.covariance[to][with] = factor * factor * own[(i, j)];
+                curve.smoothing[to][with] = factor * factor * smoothing[(i, j)];
             }
         }
         if inside.len() < at.len() {
