@@ -19,7 +19,7 @@
 //!
 //! Measured (`tests/moment.rs`, 400 made-up coast-downs with another law, another noise and a nonlinear sensor): the band of two
 //! deviations holds the true moment at 95.5 % of all speeds after one coast-down of 20 s, at 94.8 % after three of 3 s.
-//! Noise alike over 0.6 s, a smoothed one and no autoregression, makes the band wider than it need be: 99.0 %.
+//! Noise alike over 0.6 s, a smoothed one and no autoregression, makes the band wider than it need be: 98.7 %.
 
 mod blocks;
 mod curve;
