@@ -24,7 +24,8 @@
 //! small by more than two deviations in 38 % of them: the cages lagged by 5 to 35 ms.
 
 use crate::measurement::{Measurement, SetDeviation};
-use crate::series::{RunningVariance, between, interpolate, trapezoid};
+use crate::series::{RunningVariance, trapezoid};
+use measure::interpolation::{between, held};
 use measure::normal::below;
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
@@ -338,14 +339,14 @@ fn with_cage(
             between(&cage.time, &cage.deviation, time),
         ) {
             (Some(own), Some(deviation)) => (own, deviation),
-            // a sensor of passing balls tells nothing before the first has passed: the cage starts from rest
+            // a sensor of passing balls shows nothing before the first has passed: the cage starts from rest
             _ if k == 0 || part.speed[k].abs() < 0.1 * part.speed[part.speed.len() - 1].abs() => {
                 (0.0, 0.0)
             }
             _ => return Err(missing()),
         };
         times.push((part.speed[k], own));
-        errors.push((deviation, interpolate(&cage.time, &age, time)));
+        errors.push((deviation, held(&cage.time, &age, time)));
     }
     // sum over one bound of the ball spin: grips outside (true) or inside
     let sums = |outside: bool| {

@@ -1,34 +1,4 @@
-//! Values over time: between samples, their rates, and errors that are alike at neighbouring times.
-
-/// Index and weight of the later of two neighbours of a place in a rising list; none outside.
-pub(crate) fn place(list: &[f64], at: f64) -> Option<(usize, f64)> {
-    let (first, last) = (*list.first()?, *list.last()?);
-    if !(at >= first && at <= last) || list.len() < 2 {
-        return None;
-    }
-    let next = list.partition_point(|&x| x <= at).clamp(1, list.len() - 1);
-    let width = list[next] - list[next - 1];
-    Some((next, (at - list[next - 1]) / width))
-}
-
-/// Straight line between the neighbours of a place; none outside.
-pub(crate) fn between(list: &[f64], values: &[f64], at: f64) -> Option<f64> {
-    let (next, weight) = place(list, at)?;
-    Some(values[next - 1] + weight * (values[next] - values[next - 1]))
-}
-
-/// Linear interpolation, constant beyond the ends.
-pub(crate) fn interpolate(time: &[f64], values: &[f64], t: f64) -> f64 {
-    let above = time.partition_point(|knot| *knot <= t);
-    if above == 0 {
-        return values[0];
-    }
-    if above == time.len() {
-        return values[above - 1];
-    }
-    let share = (t - time[above - 1]) / (time[above] - time[above - 1]);
-    values[above - 1] + share * (values[above] - values[above - 1])
-}
+//! Values over time: their rates, and errors that are alike at neighbouring times.
 
 /// Weights of the trapezoidal rule, s.
 pub(crate) fn trapezoid(time: &[f64]) -> Vec<f64> {
@@ -157,11 +127,5 @@ mod tests {
         for (rate, deviation) in rates(&time, &values, &[0.1; 50], 0.1) {
             assert!((rate + 40.0).abs() < 1e-10 && deviation > 2.4);
         }
-        assert_eq!(
-            between(&time, &values, 0.005),
-            Some(0.5 * (values[0] + values[1]))
-        );
-        assert_eq!(between(&time, &values, 0.5), None);
-        assert_eq!(place(&time, f64::NAN), None);
     }
 }

@@ -66,7 +66,7 @@ const FIRST_RISE: f64 = 0.25;
 ///
 /// - `signals`: what was found in them
 ///
-/// Each torque's deviation is at least 2 % of that of zero or noise. Where no rest before the test tells the zero, that behind it
+/// Each torque's deviation is at least 2 % of that of zero or noise. Where no rest before the test shows the zero, that behind it
 /// does, see [`zero_at_rest`].
 pub fn measurement(signals: &Signals) -> Measurement {
     let torque = signals.torque;

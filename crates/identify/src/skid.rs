@@ -1,4 +1,4 @@
-//! Spin of the balls, as far as the torque on the outer race tells it.
+//! Spin of the balls, as far as the torque on the outer race shows it.
 //!
 //! ```text
 //!   (7)   ⅖ N m_b s R (1+s) ω̇_b = 2(1+s) T_O + b - F,      T_O = (t_O - M)/((1+2s) R),  ∫b dt = (N m_b + m_c) R (1+s)² ω_c
@@ -6,15 +6,16 @@
 //! ```
 //! ω_b is integrated from rest at the engagement. F ≥ 0 is not known: an exponential prior about a stated mean. Two cases, even
 //! odds before: each ball grips at least one race (x evenly between 1+|S| and 1-|S|), or it skids on both (x evenly below). The
-//! torque's error grows with time in the integral: within some 20 ms the torque tells little, later nothing, and this page says so.
+//! torque's error grows with time in the integral: within some 20 ms the torque shows little, later nothing, and this page says so.
 //!
 //! **Does not model**: balls with different spins (this is their mean); a moment M that falls while balls skid, which looks like
 //! less F; memory from one time to the next beyond the integral.
 
 use crate::measurement::Measurement;
 use crate::moment::{CARRIED_ON, SteadyMoment};
-use crate::series::{RunningVariance, between, trapezoid};
+use crate::series::{RunningVariance, trapezoid};
 use crate::slip::{self, SlipSettings, slip_at};
+use measure::interpolation::between;
 use measure::normal::{below, density};
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
@@ -58,7 +59,7 @@ pub struct Skid {
     /// Points from the engagement on, where the shaft turns.
     pub points: Vec<SkidPoint>,
     /// Last time at which the data tell anything, s; none if they never do.
-    pub tells_until: Option<f64>,
+    pub known_until: Option<f64>,
     /// Largest probability of a skid at any one time at which the data tell; none if they never do.
     pub skidded: Option<f64>,
 }
@@ -171,9 +172,9 @@ pub fn skid(
             test.name
         ));
     }
-    let telling = |p: &&SkidPoint| p.skidding.is_some();
+    let known = |p: &&SkidPoint| p.skidding.is_some();
     Ok(Skid {
-        tells_until: points.iter().rfind(telling).map(|p| p.time),
+        known_until: points.iter().rfind(known).map(|p| p.time),
         skidded: points.iter().filter_map(|p| p.skidding).reduce(f64::max),
         points,
     })
@@ -228,13 +229,14 @@ mod tests {
     #[test]
     fn certain_spins_are_told_and_uncertain_ones_are_not() {
         let settings = SkidSettings::default();
-        let told = |value, deviation| probability(Uncertain::new(value, deviation), 0.0, &settings);
+        let chance =
+            |value, deviation| probability(Uncertain::new(value, deviation), 0.0, &settings);
         // half the rolling spin, known to 5 %: skids
-        assert!(told(0.5, 0.05).unwrap() > 0.99);
+        assert!(chance(0.5, 0.05).unwrap() > 0.99);
         // rolling, known to 5 %: a mass at 1 against an even spread below favours rolling 1 to 0.06
-        let rolls = told(1.0, 0.05).unwrap();
+        let rolls = chance(1.0, 0.05).unwrap();
         assert!(rolls < 0.08 && rolls > 0.0);
         // known to twice its range: nothing
-        assert_eq!(told(0.8, 2.0), None);
+        assert_eq!(chance(0.8, 2.0), None);
     }
 }

@@ -8,13 +8,13 @@
 //! |S| > limit is less likely than not for the rest of the record.
 //!
 //! **Does not model**: errors of cage and shaft that are alike (a common clock cancels in S); spin of the balls (see
-//! [`skid`](crate::skid)); a cage signal made with a wrong ball count (see [`doubt`](crate::doubt)).
+//! [`skid`](crate::skid)); a cage signal made with a wrong ball count (see [`data_checks`](crate::data_checks)).
 //!
 //! Measured (`tests/cage.rs`, 400 seeds, band of two deviations): the true slip lies in its band at 95.5 % of all times;
 //! the true time from which on it stays below the limit lies between earliest and latest in 98 % of the seeds.
 
 use crate::measurement::Measurement;
-use crate::series::between;
+use measure::interpolation::between;
 use measure::normal::beyond;
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
@@ -29,13 +29,13 @@ pub struct SlipSettings {
     pub limit: f64,
     /// Relative standard deviation of the rolling ratio 1/(2(1+s)), 1: of track radii and contact angle.
     pub ratio_deviation: f64,
-    /// Slip is told only above this part of the fastest speed of the test, 1.
+    /// Slip is reported only above this part of the fastest speed of the test, 1.
     pub least_part: f64,
 }
 
 impl Default for SlipSettings {
     /// 1 %: the limit below which F is read from the rolling formula. The ratio is exact, as in a radial bearing. Below 5 % of
-    /// the fastest speed nothing is told: balls that have just begun to turn have no slip worth the name.
+    /// the fastest speed nothing is reported: balls that have just begun to turn have no slip worth the name.
     fn default() -> Self {
         Self {
             limit: 0.01,
@@ -63,9 +63,9 @@ pub struct CageSlip {
     pub points: Vec<SlipPoint>,
     /// The limit, 1.
     pub limit: f64,
-    /// Largest probability of |S| above the limit at any one time after the engagement at which the signal tells it: its band is
+    /// Largest probability of |S| above the limit at any one time after the engagement at which the signal shows it: its band is
     /// narrower than the limit, or S is far from 0. At least as probable it is that the cage slipped in this test; none where the
-    /// signal never tells.
+    /// signal never shows it.
     pub slipped: Option<f64>,
     /// When rolling is established, with the earliest and the latest time that the band allows.
     pub established: Established,
@@ -74,7 +74,7 @@ pub struct CageSlip {
 /// When rolling is established.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Established {
-    /// It never slipped, as far as the signal tells.
+    /// It never slipped, as far as the signal shows.
     Throughout,
     /// At a time, s of the record.
     At {
@@ -127,11 +127,11 @@ pub fn cage_slip(
         .filter(|point| test.engagement.is_none_or(|start| point.time >= start))
         .collect();
     // a band wider than the limit around no slip says nothing of it
-    let tells = |p: &&&SlipPoint| {
+    let shown = |p: &&&SlipPoint| {
         p.slip.deviation <= settings.limit || p.slip.value.abs() > CERTAIN * p.slip.deviation
     };
-    let told = after.iter().filter(tells).map(|p| p.slipping);
-    let slipped = told.reduce(f64::max);
+    let seen = after.iter().filter(shown).map(|p| p.slipping);
+    let slipped = seen.reduce(f64::max);
     Ok(CageSlip {
         limit: settings.limit,
         slipped,

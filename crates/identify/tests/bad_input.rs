@@ -2,8 +2,8 @@
 
 mod made_up;
 
+use identify::data_checks::{CheckSettings, doubts};
 use identify::dissipation::dissipation;
-use identify::doubt::{DoubtSettings, doubts};
 use identify::loss::{LossMap, LossSettings, Rolling, loss};
 use identify::moment::{MomentSettings, SteadyMoment, moment};
 use identify::skid::{SkidSettings, skid};
@@ -100,7 +100,7 @@ proptest! {
                 prop_assert!(found.curve.sound().is_ok());
                 prop_assert!(found.forms.iter().all(|f| (0.0..=1.0).contains(&f.probability)));
             }
-            let _ = doubts(&tests, Some(&curve), &set, &DoubtSettings { ball_count: Some(0), ..DoubtSettings::default() });
+            let _ = doubts(&tests, Some(&curve), &set, &CheckSettings { ball_count: Some(0), ..CheckSettings::default() });
         }
         let settings = LossSettings {
             rolling: if seed % 2 == 0 { Rolling::Stated } else { Rolling::ByCage },

@@ -137,9 +137,9 @@ fn skidding_balls_are_told_only_by_a_good_torque() {
             // a lab's sensor: nothing beyond the spin-up
             let found = skid(&run.test, &exact(), &set(), &SkidSettings::default()).unwrap();
             assert!(
-                found.tells_until.is_none_or(|t| t < 0.3),
+                found.known_until.is_none_or(|t| t < 0.3),
                 "{:?}",
-                found.tells_until
+                found.known_until
             );
             // one a hundred times better, and a bearing whose F is known to be small
             let reading: Vec<f64> = run

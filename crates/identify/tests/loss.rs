@@ -239,10 +239,12 @@ fn the_map_is_honest_where_no_data_are() {
     assert!(far.friction.deviation > 5.0 * near.friction.deviation);
     // F0 is 0, F1 0.0775 mN s²/rad at 75 rad/s
     let holds = |own: Uncertain, truth: f64| (own.value - truth).abs() < 3.0 * own.deviation;
-    assert!(holds(map.constant_part(75.0), 0.0));
-    assert!(holds(map.proportional_part(75.0), 7.75e-5));
-    let sum = map.constant_part(75.0).value + 2000.0 * map.proportional_part(75.0).value;
-    assert!((sum - near.friction.value).abs() < 1e-9);
+    let constant = map.at(75.0, 0.0).friction;
+    assert!(holds(constant, 0.0));
+    assert!(holds(near.friction, 2000.0 * 7.75e-5));
+    // F is straight in |Ω̇|
+    let middle = 0.5 * (constant.value + near.friction.value);
+    assert!((map.at(75.0, -1000.0).friction.value - middle).abs() < 1e-9);
     assert!(LossMap::fitted(&[], &exact(), &set(), &settings).is_err());
 }
 

@@ -1,10 +1,4 @@
-//! What a converter does to signals: skew of its channels, steps, limits, drop-outs.
-//!
-//! ```text
-//! one converter, channel after channel:  channel k of n is taken k/f later, each channel every n/f
-//! ```
-
-use crate::kernel::Kernel;
+//! What a converter does to signals: steps, limits, drop-outs.
 
 /// A converter that takes its channels in turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,11 +37,6 @@ impl Converter {
         self.channels as f64 / self.rate
     }
 
-    /// How much later than channel 0 a channel is taken, s.
-    pub fn delay(&self, channel: usize) -> f64 {
-        channel as f64 / self.rate
-    }
-
     /// Smallest difference of two values.
     ///
     /// Formula: range/2^bits
@@ -69,99 +58,6 @@ impl Converter {
     pub fn rounding_noise(&self) -> f64 {
         self.step() / 12.0_f64.sqrt()
     }
-}
-
-/// A channel brought to another clock.
-#[derive(Clone, Debug)]
-pub struct Aligned {
-    /// Values at the new times; NaN where there was none near enough.
-    pub values: Vec<f64>,
-    /// Values by straight lines instead of the band-limited form: near ends and gaps.
-    pub straight: usize,
-    /// What is not trustworthy.
-    pub notes: Vec<String>,
-}
-
-/// Brings a channel whose values were taken `delay` later, s, to the clock of the undelayed one: band-limited interpolation.
-///
-/// Amplitude and phase are right to 2e-4 for frequencies up to 0.4/interval; above, aliases were recorded that nothing removes.
-/// Within 16 values of an end or a gap straight lines are used and counted. The error says what is wrong.
-pub fn aligned(values: &[f64], interval: f64, delay: f64) -> Result<Aligned, String> {
-    if !(interval > 0.0 && interval.is_finite() && delay.is_finite()) {
-        return Err("interval and delay of a channel must be finite, the interval positive".into());
-    }
-    let shift = delay / interval;
-    // The value at time k of the undelayed clock lies before the k-th of this channel, always by the same part of an interval.
-    let (back, part) = ((-shift).floor(), -shift - (-shift).floor());
-    let weights = Kernel::new(1.0).weights(part);
-    let half = (weights.len() / 2) as f64;
-    let mut straight = 0;
-    let mut notes = Vec::new();
-    let moved: Vec<f64> = (0..values.len())
-        .map(|k| {
-            let first = k as f64 + back - half;
-            let near = if first >= 0.0 && first < values.len() as f64 {
-                values.get(first as usize..first as usize + weights.len())
-            } else {
-                None
-            };
-            let sum = near.map_or(f64::NAN, |near| {
-                near.iter().zip(&weights).map(|(v, w)| v * w).sum()
-            });
-            if sum.is_finite() {
-                return sum;
-            }
-            straight += 1;
-            between(values, k as f64 - shift)
-        })
-        .collect();
-    if straight > 0 {
-        notes.push(format!(
-            "{straight} values near ends or gaps were brought to the common clock by straight lines"
-        ));
-    }
-    if let Some(part) = fast_part(values) {
-        notes.push(format!(
-            "{:.0} % of the channel's changes are near its highest frequency: skew cannot be removed well from them",
-            100.0 * part
-        ));
-    }
-    Ok(Aligned {
-        values: moved,
-        straight,
-        notes,
-    })
-}
-
-/// Straight line between neighbours; the end value up to one interval outside.
-fn between(values: &[f64], place: f64) -> f64 {
-    if !(place > -1.0 && place < values.len() as f64) {
-        return f64::NAN;
-    }
-    let low = place.floor().max(0.0) as usize;
-    let part = (place - low as f64).max(0.0);
-    match (values.get(low), values.get(low + 1)) {
-        (Some(&a), Some(&b)) if part > 0.0 => a + part * (b - a),
-        (Some(&a), _) => a,
-        _ => f64::NAN,
-    }
-}
-
-/// Share of the power of first differences that second differences show to lie above 0.4 of the rate, if it is large.
-fn fast_part(values: &[f64]) -> Option<f64> {
-    let (mut odd, mut all) = (0.0, 0.0);
-    // A filter with weights 1, -4, 6, -4, 1 passes little below a third of the rate.
-    for w in values.windows(5) {
-        let fast = (w[0] - 4.0 * w[1] + 6.0 * w[2] - 4.0 * w[3] + w[4]) / 16.0;
-        let change = 0.5 * (w[3] - w[2]);
-        if fast.is_finite() && change.is_finite() {
-            odd += fast * fast;
-            all += change * change;
-        }
-    }
-    let part = odd / all;
-    // White noise has 0.55 here, a sine at a tenth of the rate 0.0009.
-    (all > 0.0 && part > 0.3).then_some(part.min(1.0))
 }
 
 /// What is wrong with a stretch of a channel.

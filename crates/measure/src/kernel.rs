@@ -39,20 +39,6 @@ impl Kernel {
         }
     }
 
-    /// Weights of the values around a place that lies by `part` (0 to 1) after the middle one of them.
-    pub(crate) fn weights(&self, part: f64) -> Vec<f64> {
-        let half = (HALF as f64 * self.stretch) as usize + 2;
-        let mut impulse = vec![0.0; 2 * half + 1];
-        (0..impulse.len())
-            .map(|i| {
-                impulse[i] = 1.0;
-                let weight = self.at(&impulse, half as f64 + part).unwrap_or(0.0);
-                impulse[i] = 0.0;
-                weight
-            })
-            .collect()
-    }
-
     /// Value at a place counted in samples; none where the kernel finds a value missing or leaves the list.
     pub(crate) fn at(&self, values: &[f64], place: f64) -> Option<f64> {
         let reach = HALF as f64 * self.stretch;

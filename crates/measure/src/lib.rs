@@ -6,13 +6,15 @@
 //! | [`mod@file`] | the formats: from a file to a recording, and back |
 //! | [`pulse`] | pulse trains: edge times, numbering of the marks, calibration of the wheel |
 //! | [`speed`] | from numbered pulses to angle, speed and acceleration with covariance |
-//! | [`converter`] | skew between channels, steps, clipping, drop-outs |
+//! | [`converter`] | steps, clipping, drop-outs |
 //! | [`shaft`] | angle and speed of the shaft as the estimators below take them |
 //! | [`spectrum`] | spectra and spectrograms over time and over order |
 //! | [`order`] | amplitude and phase of orders at any speed; the signal without them |
 //! | [`torque_sensor`] | a sensor that swings: identified from a tap, its reading inverted, its frequency chosen |
-//! | [`steady_curve`] | torque over speed from slow runs by two ways; inertia |
+//! | [`inertia`] | inertia of a rotor from simple tests |
 //! | [`cage_speed`] | speed and slip of a cage from passing balls or vibration |
+//! | [`interpolation`] | straight lines between values |
+//! | [`random`] | repeatable numbers |
 //! | [`uncertain`] | a number with its standard deviation |
 //!
 //! Estimators return values with standard deviations and notes about what is not trustworthy; what they refuse they refuse with a
@@ -21,17 +23,19 @@
 pub mod cage_speed;
 pub mod converter;
 pub mod file;
+pub mod inertia;
+pub mod interpolation;
 mod kernel;
 mod linear;
 pub mod normal;
 pub mod order;
 pub mod pulse;
+pub mod random;
 pub mod recording;
 pub mod shaft;
 mod simplex;
 pub mod spectrum;
 pub mod speed;
 mod state_space;
-pub mod steady_curve;
 pub mod torque_sensor;
 pub mod uncertain;

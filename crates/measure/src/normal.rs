@@ -71,14 +71,14 @@ pub fn quantile(probability: f64) -> f64 {
     }
 }
 
-/// Probability that the sum of the squares of so many normal numbers of deviation 1 is above a value: 1 for none of them.
+/// Probability that the sum of the squares of so many normal numbers of deviation 1 is above a value: 1 for none of them. The number
+/// need not be whole.
 ///
 /// Source: Wilson and Hilferty, PNAS 17, 1931 (from memory); within 0.003.
-pub fn squares_above(value: f64, count: usize) -> f64 {
-    if count == 0 {
+pub fn squares_above(value: f64, count: f64) -> f64 {
+    if count <= 0.0 {
         return 1.0;
     }
-    let count = count as f64;
     let variance = 2.0 / (9.0 * count);
     below(-((value / count).cbrt() - 1.0 + variance) / variance.sqrt())
 }
@@ -114,13 +114,13 @@ mod tests {
     fn sums_of_squares_are_those_of_tables() {
         // 5 % points for 1, 10, 20 numbers, and the 1 % point for 10.
         for (count, point, p) in [
-            (1, 3.841, 0.05),
-            (10, 18.307, 0.05),
-            (20, 31.410, 0.05),
-            (10, 23.209, 0.01),
+            (1.0, 3.841, 0.05),
+            (10.0, 18.307, 0.05),
+            (20.0, 31.410, 0.05),
+            (10.0, 23.209, 0.01),
         ] {
             assert!((squares_above(point, count) - p).abs() < 3e-3, "{count}");
         }
-        assert_eq!(squares_above(1.0, 0), 1.0);
+        assert_eq!(squares_above(1.0, 0.0), 1.0);
     }
 }

@@ -2,10 +2,13 @@
 //!
 //! Source: Nelder and Mead, A simplex method for function minimization, Computer Journal 7 (1965) 308 (from memory).
 
+use std::array::from_fn;
+use std::cell::Cell;
+
 /// Lowest point found and the value there.
 ///
-/// Starts from `start` with steps `step` along each axis; stops after `calls` evaluations or when the values at the corners
-/// differ by less than `tolerance`. A value that is not a number counts as infinitely high.
+/// Starts from `start` with steps `step` along each axis; stops at the end of the round in which `calls` evaluations are reached,
+/// or when the values at the corners differ by less than `tolerance`. A value that is not a number counts as infinitely high.
 pub(crate) fn lowest<const N: usize>(
     start: [f64; N],
     step: [f64; N],
@@ -13,68 +16,44 @@ pub(crate) fn lowest<const N: usize>(
     calls: usize,
     mut function: impl FnMut(&[f64; N]) -> f64,
 ) -> ([f64; N], f64) {
-    let mut count = 0;
-    let mut value_at = |point: &[f64; N]| {
-        count += 1;
-        let value = function(point);
-        (if value.is_nan() { f64::INFINITY } else { value }, count)
+    let used = Cell::new(0);
+    let mut valued = |point: [f64; N]| {
+        used.set(used.get() + 1);
+        let value = function(&point);
+        (point, if value.is_nan() { f64::INFINITY } else { value })
     };
-    let mut corners = vec![(start, value_at(&start).0)];
+    let mut corners = vec![valued(start)];
     for axis in 0..N {
         let mut point = start;
         point[axis] += step[axis];
-        let value = value_at(&point).0;
-        corners.push((point, value));
+        corners.push(valued(point));
     }
     loop {
         corners.sort_by(|a, b| a.1.total_cmp(&b.1));
         let (best, worst) = (corners[0], corners[N]);
-        if worst.1 - best.1 < tolerance {
+        if used.get() >= calls || worst.1 - best.1 < tolerance {
             return best;
         }
-        let mut centre = [0.0; N];
-        for (point, _) in &corners[..N] {
-            for (c, p) in centre.iter_mut().zip(point) {
-                *c += p / N as f64;
-            }
-        }
-        let along = |reach: f64| {
-            let mut point = centre;
-            for (p, w) in point.iter_mut().zip(&worst.0) {
-                *p += reach * (w - *p);
-            }
-            point
-        };
-        let reflected = along(-1.0);
-        let (at_reflected, used) = value_at(&reflected);
-        if used >= calls {
-            return if at_reflected < best.1 {
-                (reflected, at_reflected)
+        let centre: [f64; N] =
+            from_fn(|i| corners[..N].iter().map(|c| c.0[i]).sum::<f64>() / N as f64);
+        let along = |reach: f64| from_fn(|i| centre[i] + reach * (worst.0[i] - centre[i]));
+        let reflected = valued(along(-1.0));
+        if reflected.1 < best.1 {
+            let expanded = valued(along(-2.0));
+            corners[N] = if expanded.1 < reflected.1 {
+                expanded
             } else {
-                best
+                reflected
             };
-        }
-        if at_reflected < best.1 {
-            let expanded = along(-2.0);
-            let at_expanded = value_at(&expanded).0;
-            corners[N] = if at_expanded < at_reflected {
-                (expanded, at_expanded)
-            } else {
-                (reflected, at_reflected)
-            };
-        } else if at_reflected < corners[N - 1].1 {
-            corners[N] = (reflected, at_reflected);
+        } else if reflected.1 < corners[N - 1].1 {
+            corners[N] = reflected;
         } else {
-            let contracted = along(if at_reflected < worst.1 { -0.5 } else { 0.5 });
-            let at_contracted = value_at(&contracted).0;
-            if at_contracted < at_reflected.min(worst.1) {
-                corners[N] = (contracted, at_contracted);
+            let contracted = valued(along(if reflected.1 < worst.1 { -0.5 } else { 0.5 }));
+            if contracted.1 < reflected.1.min(worst.1) {
+                corners[N] = contracted;
             } else {
-                for corner in corners.iter_mut().skip(1) {
-                    for (p, b) in corner.0.iter_mut().zip(&best.0) {
-                        *p = 0.5 * (*p + b);
-                    }
-                    corner.1 = value_at(&corner.0).0;
+                for corner in &mut corners[1..] {
+                    *corner = valued(from_fn(|i| 0.5 * (best.0[i] + corner.0[i])));
                 }
             }
         }

@@ -73,8 +73,10 @@ fn propagated<const N: usize>(f: &Matrix<N>, p: &Matrix<N>, q: &Matrix<N>) -> Ma
     next
 }
 
+/// Takes the mean of a matrix and its transposed one.
+#[inline]
 #[allow(clippy::needless_range_loop)] // two entries at a time
-fn symmetric<const N: usize>(p: &mut Matrix<N>) {
+pub(crate) fn symmetric<const N: usize>(p: &mut Matrix<N>) {
     for i in 0..N {
         for j in 0..i {
             let mean = 0.5 * (p[i][j] + p[j][i]);
@@ -282,21 +284,13 @@ impl<const N: usize> Filter<N> {
         let mut matrix = [[0.0; N]; N];
         for node in self.nodes.iter().rev() {
             if let Some((row, innovation, variance, gain)) = &node.update {
-                // (I - K h)ᵀ applied: v - h (K·v)
-                let along = dot(gain, &vector);
-                for (v, h) in vector.iter_mut().zip(row) {
-                    *v -= h * (along + innovation);
-                }
-                let pulled = applied(&matrix, gain);
-                let twice = dot(gain, &pulled);
-                for i in 0..N {
-                    for j in 0..N {
-                        matrix[i][j] += row[i] * row[j] * (twice + 1.0 / variance)
-                            - row[i] * pulled[j]
-                            - pulled[i] * row[j];
-                    }
-                }
-                symmetric(&mut matrix);
+                seen_back(
+                    &mut vector,
+                    &mut matrix,
+                    row,
+                    gain,
+                    (*innovation, 1.0 / variance),
+                );
             }
             let shift = applied(&node.covariance, &vector);
             let mut mean = node.mean;
@@ -316,6 +310,33 @@ impl<const N: usize> Filter<N> {
         states.reverse();
         states
     }
+}
+
+/// Takes gradient and curvature of the misfit of all that follows back over an observation: `(I - k h)ᵀ g - hᵀ e/s` and
+/// `(I - k h)ᵀ c (I - k h) + hᵀ h/s`.
+///
+/// - `row`, `gain`: h and k
+/// - `pull`: innovation over its variance, e/s, and one over its variance, 1/s
+pub(crate) fn seen_back<const N: usize>(
+    gradient: &mut Vector<N>,
+    curvature: &mut Matrix<N>,
+    row: &Vector<N>,
+    gain: &Vector<N>,
+    (pull, stiffness): (f64, f64),
+) {
+    let along = dot(gain, gradient);
+    for (g, h) in gradient.iter_mut().zip(row) {
+        *g -= h * (along + pull);
+    }
+    let pulled = applied(curvature, gain);
+    let twice = dot(gain, &pulled);
+    for i in 0..N {
+        for j in 0..N {
+            curvature[i][j] +=
+                row[i] * row[j] * (twice + stiffness) - row[i] * pulled[j] - pulled[i] * row[j];
+        }
+    }
+    symmetric(curvature);
 }
 
 /// `(I - k h) p (I - k h)ᵀ + r k kᵀ`, which stays symmetric and positive.

@@ -1,9 +1,9 @@
-//! Skew, steps and faults of a converter.
+//! Steps and faults of a converter.
 
 #[path = "synthetic/rig.rs"]
 mod synthetic;
 
-use measure::converter::{Converter, Fault, Interval, aligned, faults};
+use measure::converter::{Converter, Fault, Interval, faults};
 use std::f64::consts::TAU;
 use synthetic::Random;
 
@@ -16,57 +16,6 @@ fn converter() -> Converter {
         highest: 10.0,
         bits: 14,
     }
-}
-
-/// Channel 5 brought to the clock of channel 0 agrees with it to the stated error.
-#[test]
-fn skew_is_removed() {
-    let c = converter();
-    for part in [0.01, 0.1, 0.25, 0.4] {
-        let frequency = part / c.interval();
-        let wave = |t: f64| (TAU * frequency * t + 0.7).sin();
-        let late: Vec<f64> = (0..500)
-            .map(|k| wave(k as f64 * c.interval() + c.delay(5)))
-            .collect();
-        let found = aligned(&late, c.interval(), c.delay(5)).expect("aligned");
-        for k in 20..480 {
-            let wanted = wave(k as f64 * c.interval());
-            assert!(
-                (found.values[k] - wanted).abs() < 2e-4,
-                "{part}: {} {wanted}",
-                found.values[k]
-            );
-        }
-        assert!(found.values.iter().all(|v| v.is_finite()));
-        assert!(found.straight > 0 && found.straight < 40);
-    }
-}
-
-#[test]
-fn gaps_stay_gaps_and_noise_is_told() {
-    let mut values: Vec<f64> = (0..500).map(|k| (0.1 * k as f64).sin()).collect();
-    values[250] = f64::NAN;
-    let found = aligned(&values, 1.0, 0.5).expect("aligned");
-    assert_eq!(found.values.iter().filter(|v| v.is_nan()).count(), 2);
-    assert_eq!(found.notes.len(), 1, "{:?}", found.notes);
-    let mut random = Random::new(1);
-    let noise: Vec<f64> = (0..500).map(|_| random.normal()).collect();
-    assert!(
-        aligned(&noise, 1.0, 0.5)
-            .expect("aligned")
-            .notes
-            .iter()
-            .any(|n| n.contains("skew"))
-    );
-    assert!(aligned(&[], 1.0, 0.5).expect("nothing").values.is_empty());
-    assert!(aligned(&noise, 0.0, 0.5).is_err());
-    assert!(
-        aligned(&noise, 1.0, 1e300)
-            .expect("far")
-            .values
-            .iter()
-            .all(|v| v.is_nan())
-    );
 }
 
 /// The rounding error of a noisy signal has the stated size.

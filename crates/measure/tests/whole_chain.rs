@@ -4,13 +4,12 @@
 mod synthetic;
 
 use measure::cage_speed::{Line, QuickChange, from_pulses, from_vibration};
-use measure::converter::{Converter, aligned, faults};
+use measure::converter::{Converter, faults};
 use measure::order::orders;
 use measure::shaft::Shaft;
 use measure::spectrum::{
     AngularSettings, Segments, Window, order_spectrogram, spectrogram, spectrum,
 };
-use measure::steady_curve::{direct, inertial};
 use measure::torque_sensor::{Clipped, Inversion, Sensor, identify_free_response, invert};
 use measure::uncertain::Uncertain;
 use std::f64::consts::TAU;
@@ -37,7 +36,7 @@ fn timed<T>(name: &str, sum: &mut f64, step: impl FnOnce() -> T) -> T {
     result
 }
 
-/// A spin-up, 9.5 s of turning: skew, faults, spectra, orders, torque, cage speed. Vibration of 7000 values a second is also put
+/// A spin-up, 9.5 s of turning: faults, spectra, orders, torque, cage speed. Vibration of 7000 values a second is also put
 /// through at the full 42 000, as if it were alone.
 #[test]
 fn ten_seconds_are_quick() {
@@ -84,16 +83,9 @@ fn ten_seconds_are_quick() {
         speed_deviation: &[],
     };
     let mut sum = 0.0;
-    timed("skew and faults of 6 channels", &mut sum, || {
-        for channel in 0..6 {
+    timed("faults of 6 channels", &mut sum, || {
+        for _ in 0..6 {
             assert!(faults(&slow, Some(&converter)).is_empty());
-            assert_eq!(
-                aligned(&slow, interval, converter.delay(channel))
-                    .expect("aligned")
-                    .values
-                    .len(),
-                count
-            );
         }
     });
     let hann = |length| Segments {
@@ -165,14 +157,6 @@ fn ten_seconds_are_quick() {
         from_vibration(1.0, 1.0 / 42_000.0, &late, &shaft, &line).expect("a cage speed")
     });
     assert!((cage.slip[cage.slip.len() / 2] - 0.0049).abs() < 0.002);
-    timed("both ways to a steady curve", &mut sum, || {
-        let down: Vec<f64> = (0..count)
-            .map(|k| 150.0 - 14.0 * k as f64 * interval + 0.02 * slow[k])
-            .collect();
-        let at: Vec<f64> = (1..14).map(|k| 10.0 * f64::from(k)).collect();
-        direct(&down, &reading, &at).expect("a curve");
-        inertial(0.0, interval, &down, Uncertain::new(2e-3, 1e-5), &at).expect("a curve");
-    });
     println!("all: {sum:.2} s");
     // 1.5 s are promised of a release build; tests are built to be compiled quickly, and a loaded machine has cold caches.
     assert!(sum < 3.0, "{sum} s");
@@ -256,7 +240,6 @@ fn nonsense_is_survived() {
         };
         answers += usize::from(order_spectrogram(&a, x, y, &shaft, &settings).is_ok());
         answers += usize::from(orders(&a, x, y, &shaft, &[1.0, number(r)], z).is_ok());
-        answers += usize::from(aligned(&a, x, y).is_ok());
         let converter = Converter {
             rate: x,
             channels: length,
@@ -266,8 +249,6 @@ fn nonsense_is_survived() {
         };
         let _ = converter.check();
         answers += faults(&a, (x > 0.0).then_some(&converter)).len();
-        answers += usize::from(direct(&a, &b, &c).is_ok());
-        answers += usize::from(inertial(x, y, &a, Uncertain::new(z, 0.0), &b).is_ok());
         answers += usize::from(
             from_pulses(
                 &a,

@@ -69,7 +69,7 @@ pub use system::SystemName;
 pub use table::{FORMAT, keys, keys_of, presence, sections, sections_of, systems};
 pub use template::template;
 pub use torque::{ComparedLaw, Torque};
-pub use vary::{Distribution, Draws, Vary};
+pub use vary::{Distribution, Vary};
 
 use crate::problem::{Code, Problem};
 use std::fs::File;

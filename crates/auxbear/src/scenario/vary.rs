@@ -18,6 +18,7 @@ use crate::scenario::key::{Key, Kind, quoted};
 use crate::scenario::several::{AUXILIARY_BEARING, VARY, of_each_bearing, path_of};
 use crate::scenario::table;
 use crate::scenario::values::Values;
+use measure::random::Random;
 use std::f64::consts::TAU;
 use units::{Dimension, Quantity, parse_quantity};
 
@@ -59,17 +60,9 @@ pub enum Distribution {
     Choice(Vec<String>),
 }
 
-/// Random numbers that a value is drawn by.
-pub trait Draws {
-    /// A standard normal number.
-    fn normal(&mut self) -> f64;
-    /// A number from 0 to 1.
-    fn uniform(&mut self) -> f64;
-}
-
 impl Vary {
     /// Draws a value: paths with their new values, as an override has them.
-    pub fn draw(&self, random: &mut dyn Draws) -> Vec<(String, String)> {
+    pub fn draw(&self, random: &mut Random) -> Vec<(String, String)> {
         let draw: Box<dyn Fn(f64) -> f64> = match &self.distribution {
             Distribution::Choice(texts) => {
                 let place = (random.uniform() * texts.len() as f64) as usize;

@@ -7,11 +7,12 @@
 //! is 0, and the rest is raised so that it integrates to 1.
 
 use super::hypothesis::{Bearing, Hypothesis, Prediction};
-use super::linear::{Cholesky, dot, log_sum_exp};
 use super::noise::Observed;
 use super::proposal::Component;
-use super::record::Test;
-use super::sampling::{Random, quasi_normal};
+use super::record::Trial;
+use crate::algebra::{Factor, dot, log_sum_exp};
+use measure::random::{Random, quasi_normal};
+use nalgebra::{DMatrix, DVector};
 
 /// A point of the posterior.
 #[derive(Clone, Debug)]
@@ -34,7 +35,7 @@ pub(crate) struct Evidence {
 /// All that an integral needs.
 pub(crate) struct Integral<'a> {
     pub hypothesis: Hypothesis,
-    pub tests: &'a [Test],
+    pub tests: &'a [Trial],
     pub bearing: &'a Bearing<'a>,
     pub observed: &'a Observed,
     pub size: usize,
@@ -45,7 +46,7 @@ pub(crate) struct Integral<'a> {
 /// A place where the posterior is high, with the factor of its curvature.
 struct Mode {
     at: Vec<f64>,
-    curvature: Cholesky,
+    curvature: Factor,
     height: f64,
 }
 
@@ -168,11 +169,12 @@ impl Integral<'_> {
 
     /// The best points of the prior and the share of the prior that fulfils the claim.
     fn explore(&self, points: u32) -> (Vec<Vec<f64>>, f64) {
-        let shift = vec![0.0; self.size];
         let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
         let mut claimed = 0_u32;
-        for index in 0..points {
-            let z = quasi_normal(index, &shift);
+        for index in 1..=points as usize {
+            let z: Vec<f64> = (0..self.size)
+                .map(|axis| quasi_normal(index, axis))
+                .collect();
             let prediction = self.predict(&z);
             if prediction.claim >= 1.0 {
                 claimed += 1;
@@ -243,7 +245,7 @@ impl Integral<'_> {
     }
 
     /// Levenberg's and Marquardt's climb; the place and the factor of the curvature there.
-    fn climb(&self, start: &[f64], amplitude: usize, rounds: u32) -> (Vec<f64>, Option<Cholesky>) {
+    fn climb(&self, start: &[f64], amplitude: usize, rounds: u32) -> (Vec<f64>, Option<Factor>) {
         let size = self.size;
         let mut z = start.to_vec();
         let mut prediction = self.predict(&z);
@@ -270,31 +272,26 @@ impl Integral<'_> {
             }
             let weighted = whitened.metric(&slopes);
             let short = Self::shortfall(&prediction);
-            let mut hessian = vec![0.0; size * size];
-            let mut gradient = vec![0.0; size];
-            for i in 0..size {
-                gradient[i] =
-                    dot(&weighted[i], &whitened.residual) - z[i] - short * claim_slopes[i];
-                for j in 0..size {
-                    hessian[i * size + j] = dot(&weighted[i], &slopes[j])
-                        + claim_slopes[i] * claim_slopes[j]
-                        + f64::from(u8::from(i == j));
-                }
-            }
-            curvature = Cholesky::of(&hessian, size);
+            let gradient = DVector::from_fn(size, |i, _| {
+                dot(&weighted[i], &whitened.residual) - z[i] - short * claim_slopes[i]
+            });
+            let hessian = DMatrix::from_fn(size, size, |i, j| {
+                dot(&weighted[i], &slopes[j])
+                    + claim_slopes[i] * claim_slopes[j]
+                    + f64::from(u8::from(i == j))
+            });
+            curvature = Factor::of(hessian.clone());
             let mut gained = 0.0;
             for _ in 0..6 {
                 let mut damped = hessian.clone();
                 for i in 0..size {
-                    damped[i * size + i] *= 1.0 + damping;
+                    damped[(i, i)] *= 1.0 + damping;
                 }
-                let Some(factor) = Cholesky::of(&damped, size) else {
+                let Some(factor) = Factor::of(damped) else {
                     break;
                 };
-                let mut step = gradient.clone();
-                factor.solve(&mut step);
-                let length = dot(&step, &step).sqrt();
-                let share = (1.5 / length).min(1.0);
+                let step = factor.solved(&gradient);
+                let share = (1.5 / step.norm()).min(1.0);
                 let moved: Vec<f64> = (z.iter().zip(&step)).map(|(z, s)| z + share * s).collect();
                 let other = self.predict(&moved);
                 let there = self.height(&moved, &other, amplitude);
@@ -325,11 +322,8 @@ impl Integral<'_> {
                 student: true,
             })
             .collect();
-        let mut unit = vec![0.0; self.size * self.size];
-        for i in 0..self.size {
-            unit[i * self.size + i] = 1.0;
-        }
-        components.extend(Cholesky::of(&unit, self.size).map(|curvature| Component {
+        let unit = DMatrix::identity(self.size, self.size);
+        components.extend(Factor::of(unit).map(|curvature| Component {
             at: vec![0.0; self.size],
             curvature,
             weight: if modes.is_empty() { 1.0 } else { 0.1 },
@@ -412,7 +406,7 @@ mod tests {
         let (priors, settings) = (Priors::default(), Settings::default());
         let bearing = Bearing::new(&steady, 150.0, &set, &priors, &settings, false);
         let speed = |t: f64| 150.0 * (t / 0.1).clamp(0.0, 1.0);
-        let mut test = Test::planned(
+        let mut test = Trial::planned(
             &speed,
             3.0,
             &LeastWidth::even(0.05),

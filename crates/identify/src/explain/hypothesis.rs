@@ -1,10 +1,11 @@
 //! What each explanation predicts.
 
+use physics::lubricant_state::Grease;
 use physics::rolling::RollingSet;
 
 use super::parameter::share_range;
 use super::prior::Priors;
-use super::record::{Past, Step, Test};
+use super::record::{Past, Step, Trial};
 use super::slip::{Slip, load_moment_factor};
 use super::steady::{Continued, Table};
 use super::{Explanation, Settings};
@@ -125,7 +126,7 @@ impl Hypothesis {
     }
 
     /// Predicted means at standard normal coordinates.
-    pub fn predict(self, coordinates: &[f64], tests: &[Test], bearing: &Bearing) -> Prediction {
+    pub fn predict(self, coordinates: &[f64], tests: &[Trial], bearing: &Bearing) -> Prediction {
         let values = self.values(coordinates, bearing);
         let mut prediction = Prediction {
             torque: Vec::new(),
@@ -144,7 +145,7 @@ impl Hypothesis {
                     film,
                     ..test.past
                 };
-                Test {
+                Trial {
                     past,
                     ..test.clone()
                 }
@@ -182,7 +183,7 @@ impl Hypothesis {
             } else if self == Self::Grease {
                 // both states must show, each where the other is as it is
                 let smaller = (tests.iter())
-                    .map(|test| smaller_effect(&values, test, bearing))
+                    .map(|test| smaller_effect(self, &values, test, bearing))
                     .fold(0.0, f64::max);
                 smaller / (bearing.settings.least_effect * bearing.table.reference)
             } else {
@@ -192,8 +193,19 @@ impl Hypothesis {
         prediction
     }
 
+    /// The grease of the parameters; it does not recover where no test asks for the recovery.
+    fn grease(self, values: &[f64], bearing: &Bearing) -> Grease<f64> {
+        Grease {
+            rested_factor: values[1],
+            worked_factor: values[2],
+            build_up_angle: values[3],
+            breakdown_time: values[4],
+            recovery_time: self.recovery(values, bearing).unwrap_or(f64::INFINITY),
+        }
+    }
+
     /// Means of torque and cage speed of one test, and how much traction softened in it.
-    fn run(self, values: &[f64], test: &Test, bearing: &Bearing) -> (Vec<f64>, Vec<f64>, f64) {
+    fn run(self, values: &[f64], test: &Trial, bearing: &Bearing) -> (Vec<f64>, Vec<f64>, f64) {
         let reference = bearing.table.reference;
         let rolls =
             || test.cage_means((test.steps.iter()).map(|s| bearing.set.cage_speed(s.middle_speed)));
@@ -203,7 +215,8 @@ impl Hypothesis {
             Self::Grease => {
                 let load_moment = (1.0 - values[0]) * reference;
                 let torque = rolling_torque(test, bearing, 1.0 - values[0]);
-                let factor = grease_factor(&values[1..], test, bearing.set);
+                let grease = self.grease(values, bearing);
+                let factor = grease_factor(grease, test, bearing.set);
                 let moments =
                     (torque.zip(&test.steps))
                         .zip(factor)
@@ -289,7 +302,7 @@ fn another_moment(values: &[f64], step: &Step, table: &Table) -> f64 {
     let (ratio, at_half) = (values[0], values[1]);
     let reference = table.reference;
     let half = table.at(0.5 * table.top_speed).0;
-    // of a flat curve the parts are not told apart
+    // of a flat curve the parts cannot be distinguished
     let growth = (reference - half).max(0.1 * reference);
     let shifted = ratio * (at_half - 1.0) * half / growth;
     (ratio * step.steady + shifted * (reference * step.fading - step.steady)).max(0.0)
@@ -298,7 +311,7 @@ fn another_moment(values: &[f64], step: &Step, table: &Table) -> f64 {
 /// t_O of rolling balls along the steps, N m: M - J_O Ω̇.
 ///
 /// - `load_share`: share of M that grows with the load, where the load is another one
-fn rolling_torque(test: &Test, bearing: &Bearing, load_share: f64) -> impl Iterator<Item = f64> {
+fn rolling_torque(test: &Trial, bearing: &Bearing, load_share: f64) -> impl Iterator<Item = f64> {
     let inertia = bearing.set.outer_inertia();
     // without an explanation that knows the share, the middle of the prior
     let share = if load_share < 1.0 {
@@ -312,52 +325,49 @@ fn rolling_torque(test: &Test, bearing: &Bearing, load_share: f64) -> impl Itera
 }
 
 /// The smaller of the largest changes of a mean torque that build-up and breakdown make, N m.
-fn smaller_effect(values: &[f64], test: &Test, bearing: &Bearing) -> f64 {
+fn smaller_effect(form: Hypothesis, values: &[f64], test: &Trial, bearing: &Bearing) -> f64 {
     let load_moment = (1.0 - values[0]) * bearing.table.reference;
-    let torque = |fresh: f64, worked: f64| {
-        let state = [fresh, worked, values[3], values[4]];
-        let factor = grease_factor(&state, test, bearing.set);
+    let grease = form.grease(values, bearing);
+    let torque = |grease: Grease<f64>| {
+        let factor = grease_factor(grease, test, bearing.set);
         test.means(
             (test.steps.iter().zip(factor))
                 .map(|(step, factor)| factor * (step.steady - load_moment * step.fading).max(0.0)),
         )
     };
-    let (both, built, unworked) = (
-        torque(values[1], values[2]),
-        torque(1.0, values[2]),
-        torque(values[1], 1.0),
-    );
+    let both = torque(grease);
+    let without_build_up = torque(Grease {
+        rested_factor: 1.0,
+        ..grease
+    });
+    let without_breakdown = torque(Grease {
+        worked_factor: 1.0,
+        ..grease
+    });
     let largest = |other: &[f64]| {
         (both.iter().zip(other))
             .map(|(a, b)| (a - b).abs())
             .fold(0.0, f64::max)
     };
-    largest(&built).min(largest(&unworked))
+    largest(&without_build_up).min(largest(&without_breakdown))
 }
 
-/// Drag factor D of the grease along the steps.
-///
-/// Formula: D = [g0+(1-g0)b][1-(1-g_w)w], ḃ = |ω_c|(1-b)/φ_b, ẇ = (1-w)/τ_w while turning
-fn grease_factor(values: &[f64], test: &Test, set: &RollingSet<f64>) -> impl Iterator<Item = f64> {
-    let [fresh, worked, angle, time] = [values[0], values[1], values[2], values[3]];
-    let mut build_up = if test.starts_turning {
-        1.0
-    } else {
-        test.past.left
-    };
+/// Drag factor of the grease along the steps, each taken in its middle: the law of
+/// [`lubricant_state`](physics::lubricant_state) at the speed of the step.
+fn grease_factor(
+    grease: Grease<f64>,
+    test: &Trial,
+    set: &RollingSet<f64>,
+) -> impl Iterator<Item = f64> {
     let mut breakdown = test.past.left;
+    let mut build_up = if test.starts_turning { 1.0 } else { breakdown };
     let set = *set;
     (test.steps.iter()).map(move |step| {
         let cage = set.cage_speed(step.middle_speed);
-        let turning = cage * cage / (cage * cage + 1.0);
-        // half of the step before the value, half after it: the value stands in the middle
-        let built = (-0.5 * cage * step.duration / angle).exp();
-        let broken = (-0.5 * turning * step.duration / time).exp();
-        let middle_up = 1.0 - (1.0 - build_up) * built;
-        let middle_down = 1.0 - (1.0 - breakdown) * broken;
-        build_up = 1.0 - (1.0 - middle_up) * built;
-        breakdown = 1.0 - (1.0 - middle_down) * broken;
-        (fresh + (1.0 - fresh) * middle_up) * (1.0 - (1.0 - worked) * middle_down)
+        let half = 0.5 * step.duration;
+        let (middle_up, middle_down) = grease.after(build_up, breakdown, cage, half);
+        (build_up, breakdown) = grease.after(middle_up, middle_down, cage, half);
+        grease.drag_factor(middle_up, middle_down)
     })
 }
 
@@ -368,7 +378,7 @@ mod tests {
     use super::*;
 
     /// A bearing with a flat curve of 20 N mm, and a test that holds 150 rad/s for 4 s and then rests.
-    fn with_test(check: impl Fn(&Bearing, &Test)) {
+    fn with_test(check: impl Fn(&Bearing, &Trial)) {
         let steady = known(vec![1.0, 150.0], vec![20e-3, 20e-3]);
         let set = RollingSet {
             inner_track_radius: 14.8e-3,
@@ -380,7 +390,7 @@ mod tests {
             |t: f64| 150.0 * (t / 0.02).clamp(0.0, 1.0) * (1.0 - (t - 4.0) / 0.5).clamp(0.0, 1.0);
         let (priors, settings) = (Priors::default(), Settings::default());
         let bearing = Bearing::new(&steady, 150.0, &set, &priors, &settings, false);
-        let test = Test::planned(
+        let test = Trial::planned(
             &speed,
             6.0,
             &LeastWidth::even(0.02),
@@ -394,8 +404,14 @@ mod tests {
     fn grease_builds_up_over_cage_angle_and_breaks_down_over_time() {
         with_test(|bearing, test| {
             let (fresh, worked, angle, time) = (0.6, 0.7, 10.0, 1.5);
-            let factors: Vec<f64> =
-                grease_factor(&[fresh, worked, angle, time], test, bearing.set).collect();
+            let grease = Grease {
+                rested_factor: fresh,
+                build_up_angle: angle,
+                worked_factor: worked,
+                breakdown_time: time,
+                recovery_time: f64::INFINITY,
+            };
+            let factors: Vec<f64> = grease_factor(grease, test, bearing.set).collect();
             for (step, factor) in test.steps.iter().zip(factors) {
                 let middle = step.elapsed - 0.5 * step.duration;
                 if !(0.05..4.0).contains(&middle) {
@@ -460,7 +476,7 @@ mod tests {
                     < 1e-9
             );
             let after = |rest: f64| {
-                let test = Test {
+                let test = Trial {
                     rest_before: Some(rest),
                     ..test.clone()
                 };

@@ -3,8 +3,9 @@
 //! Rows lie closer where the speed bends, and balls pass in unequal times: a mean of the values would be that of the time with the
 //! most of them.
 
-use crate::series::{RunningVariance, interpolate, trapezoid};
+use crate::series::{RunningVariance, trapezoid};
 use crate::{CageTrace, Measurement};
+use measure::interpolation::held;
 
 /// A mean of the cage speed over the part of a time that its signal covers.
 #[derive(Clone, Copy, Debug)]
@@ -42,8 +43,8 @@ fn mean(
     let mut error = RunningVariance::default();
     for (t, weight) in knots.iter().zip(trapezoid(&knots)) {
         let share = weight / (to - from);
-        sum += share * interpolate(time, values, *t);
-        variance = error.add(interpolate(time, age, *t), share * deviation(*t));
+        sum += share * held(time, values, *t);
+        variance = error.add(held(time, age, *t), share * deviation(*t));
     }
     Some(((from, to), sum, variance))
 }
@@ -62,8 +63,8 @@ pub(super) fn torque_mean(
 ) -> (f64, f64) {
     let time = &measurement.time;
     let own = |t: f64| {
-        let value = interpolate(time, &measurement.torque, t);
-        let square = interpolate(time, &measurement.torque_deviation, t).powi(2);
+        let value = held(time, &measurement.torque, t);
+        let square = held(time, &measurement.torque_deviation, t).powi(2);
         let shared =
             measurement.zero_deviation.powi(2) + (measurement.scale_deviation * value).powi(2);
         (square - shared).max(LEAST_OWN * square).sqrt()
@@ -75,7 +76,7 @@ pub(super) fn torque_mean(
 }
 
 /// Whether the torque between two times is zero by definition, because the zero was taken there: its deviation is less than the
-/// zero's, and it tells nothing of how far the zero is off.
+/// zero's, and it says nothing of how far the zero is off.
 pub(super) fn zeroed(measurement: &Measurement, from: f64, to: f64) -> bool {
     let time = &measurement.time;
     let inside = time.partition_point(|t| *t < from)..time.partition_point(|t| *t < to);
@@ -90,7 +91,7 @@ pub(super) fn zeroed(measurement: &Measurement, from: f64, to: f64) -> bool {
 ///
 /// - `age`: of the cage's errors in correlation times
 pub(super) fn cage_mean(cage: &CageTrace, age: &[f64], from: f64, to: f64) -> Option<CageMean> {
-    let deviation = |t: f64| interpolate(&cage.time, &cage.deviation, t);
+    let deviation = |t: f64| held(&cage.time, &cage.deviation, t);
     let ((from, to), speed, variance) = mean(&cage.time, &cage.speed, &deviation, age, (from, to))?;
     Some(CageMean {
         from,

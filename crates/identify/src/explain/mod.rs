@@ -25,7 +25,7 @@
 //! its states show, slip a cage that stays behind, heating a traction that still falls 0.3 s after the run-up, a slow
 //! sensor more than what any inversion smooths.
 //!
-//! Assumed: all tests at one load, with the bearing rested before each but where [`Measurement::rest_before`] tells otherwise: such a
+//! Assumed: all tests at one load, with the bearing rested before each but where [`Measurement::rest_before`] says otherwise: such a
 //! test begins with what is left of a whole test like it. Priors are those of [`Priors`]: an explanation
 //! that needs a coincidence (traction and drag that agree to 0.4 % for seconds) is as improbable as the coincidence is.
 //!
@@ -52,37 +52,35 @@
 //! it differs from creep by the load part of M alone, and creep is what it would be called.
 
 mod evidence;
-mod foretold;
 mod hypothesis;
-mod linear;
 mod means;
 mod next_test;
 mod noise;
 mod parameter;
+mod prediction_errors;
 mod prior;
 mod proposal;
 mod record;
-mod sampling;
 mod slip;
 mod steady;
 mod verdict;
 
 use physics::rolling::RollingSet;
 
+use crate::algebra::log_sum_exp;
 use crate::{Measurement, SteadyMoment};
 
 use evidence::{Evidence, Integral};
 use hypothesis::{Bearing, Hypothesis};
-use linear::log_sum_exp;
 use measure::normal::squares_above;
+use measure::random::Random;
 use noise::Observed;
 use proposal::tempered;
-use record::Test;
-use sampling::Random;
+use record::Trial;
 use verdict::FormDraw;
 
-pub use foretold::{Foretelling, foretold};
 pub use next_test::{Candidate, Proposal, next_test};
+pub use prediction_errors::{PredictionErrors, with_prediction_errors};
 pub use prior::{Priors, Range};
 pub use verdict::{Assessment, Conclusion, Estimate, Explanation, Fit, Refusal, Verdict};
 
@@ -181,7 +179,7 @@ impl Settings {
 /// Which explanation the tests of one bearing support.
 ///
 /// - `tests`: all at one load; the record may include rest before, run-down and rest after; speed and acceleration are taken as
-///   they are, [`foretold`] makes what is not known of them an error of the torque
+///   they are, [`with_prediction_errors`] makes what is not known of them an error of the torque
 /// - `steady`: M(Ω) at this load; between its speeds as it is, held above them, fading to 0 at rest below
 /// - `set`: masses and radii of balls and cage
 ///
@@ -195,8 +193,8 @@ pub fn explain(
     settings: &Settings,
 ) -> Result<Verdict, Refusal> {
     let bearing = bearing(tests, steady, set, priors, settings)?;
-    let records: Vec<Test> = (tests.iter())
-        .map(|test| Test::measured(test, &bearing.table, set.outer_inertia()))
+    let records: Vec<Trial> = (tests.iter())
+        .map(|test| Trial::measured(test, &bearing.table, set.outer_inertia()))
         .collect();
     let observed =
         Observed::new(&records, &bearing, &settings.discrepancy).ok_or(Refusal::BadCurve)?;
@@ -366,7 +364,7 @@ const KEPT_DRAWS: usize = 48;
 
 fn assess(
     explanation: Explanation,
-    tests: &[Test],
+    tests: &[Trial],
     bearing: &Bearing,
     [observed, finely]: [&Observed; 2],
     leader: f64,
@@ -480,11 +478,11 @@ fn estimates(
 /// How far the data lie from the best of the draws.
 ///
 /// Formula: χ² = (y - f(z))ᵀ C⁻¹ (y - f(z)) + zᵀz of the draw z at which likelihood times prior is largest; of all data that the
-/// explanation foretells with its priors it has as many degrees of freedom as there are means, where f is straight over the width
+/// explanation predicts with its priors it has as many degrees of freedom as there are means, where f is straight over the width
 /// of the posterior; mean over the amplitudes of the models' own error
 fn fit(
     (form, evidence): &(Hypothesis, Evidence),
-    tests: &[Test],
+    tests: &[Trial],
     bearing: &Bearing,
     finely: &Observed,
 ) -> Fit {
@@ -512,7 +510,7 @@ fn fit(
         let share = (log - total).exp();
         let all = residual + square(best);
         fit.chi_squared += share * all;
-        fit.probability += share * squares_above(all, count);
+        fit.probability += share * squares_above(all, count as f64);
     }
     // shares sum to 1 but for rounding
     fit.probability = fit.probability.min(1.0);

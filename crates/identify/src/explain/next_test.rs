@@ -10,16 +10,17 @@
 //!
 //! Does not model: what the new test shares with the old ones (zero, scale and level count as new), the effort of a test.
 
+use measure::random::Random;
+use nalgebra::DMatrix;
 use physics::rolling::RollingSet;
 
+use crate::algebra::{Factor, dot, log_sum_exp};
 use crate::{Measurement, SteadyMoment};
 
 use super::hypothesis::{Bearing, Hypothesis, Prediction};
-use super::linear::{Cholesky, dot, log_sum_exp};
 use super::means::CageMean;
 use super::noise::Observed;
-use super::record::{LeastWidth, Past, Test};
-use super::sampling::Random;
+use super::record::{LeastWidth, Past, Trial};
 use super::steady::Table;
 use super::{Priors, Refusal, Settings, Verdict, bearing};
 
@@ -148,7 +149,7 @@ pub fn next_test(
     let mut candidates = Vec::new();
     for proposal in Proposal::ALL {
         let mut random = Random::new(settings.seed ^ 0xca5e);
-        let trial = Trial {
+        let trial = Planned {
             proposal,
             test: rig.plan(proposal, table),
             bearing: &bearing,
@@ -170,7 +171,7 @@ pub fn next_test(
     Ok(candidates)
 }
 
-/// What the last test tells of rig and sensors.
+/// What the last test shows of rig and sensors.
 struct Rig {
     /// J_O, kg m².
     inertia: f64,
@@ -192,7 +193,7 @@ const HEAT_CAPACITY: super::Range = super::Range::new(50.0, 500.0);
 
 impl Rig {
     fn of(test: &Measurement, table: &Table, inertia: f64) -> Self {
-        let record = Test::measured(test, table, inertia);
+        let record = Trial::measured(test, table, inertia);
         let ramp = (record.steps.iter())
             .find(|step| step.speed > 0.95 * table.top_speed)
             .map_or(0.1, |step| step.elapsed);
@@ -211,13 +212,13 @@ impl Rig {
         }
     }
 
-    fn plan(&self, proposal: Proposal, table: &Table) -> Test {
+    fn plan(&self, proposal: Proposal, table: &Table) -> Trial {
         let top = table.top_speed;
         let ramp = |ramp: f64, top: f64| move |t: f64| top * (t / ramp).clamp(0.0, 1.0);
         let usual = ramp(self.ramp, top);
         let hold = self.ramp + 5.0;
         let planned = |speed: &dyn Fn(f64) -> f64, end: f64| {
-            Test::planned(speed, end, &self.least_width, table, self.inertia)
+            Trial::planned(speed, end, &self.least_width, table, self.inertia)
         };
         let mut test = match proposal {
             Proposal::CoastDownAtOnce => {
@@ -263,9 +264,9 @@ impl Rig {
 }
 
 /// A candidate before it is judged.
-struct Trial<'a> {
+struct Planned<'a> {
     proposal: Proposal,
-    test: Test,
+    test: Trial,
     bearing: &'a Bearing<'a>,
 }
 
@@ -274,7 +275,7 @@ struct Class {
     probability: f64,
     points: Vec<Vec<f64>>,
     mean: Vec<f64>,
-    factor: Cholesky,
+    factor: Factor,
 }
 
 /// Least probability of an explanation that counts as left.
@@ -284,7 +285,7 @@ const NOISE_DRAWS: u32 = 4;
 /// Draws of the posterior that are used.
 const DRAWS: usize = 24;
 
-impl Trial<'_> {
+impl Planned<'_> {
     /// Expected information and the entropy that is left, nats.
     fn information(&self, verdict: &Verdict, random: &mut Random) -> Option<(f64, f64)> {
         let one = std::slice::from_ref(&self.test);
@@ -339,7 +340,7 @@ impl Trial<'_> {
         let mut test = self.test.clone();
         let values = form.values(coordinates, self.bearing);
         let recovery = match form.recovery(&values, self.bearing) {
-            Some(told) => told,
+            Some(time) => time,
             None => self.bearing.priors.recovery_time.positive(random.normal()),
         };
         let rest = match self.proposal {
@@ -374,19 +375,14 @@ impl Class {
                 *mean += x / count;
             }
         }
-        let mut covariance = vec![0.0; size * size];
-        for i in 0..size {
-            covariance[i * size + i] = 1.0;
-            for j in 0..size {
-                let products = points.iter().map(|p| (p[i] - mean[i]) * (p[j] - mean[j]));
-                covariance[i * size + j] += products.sum::<f64>() / (count - 1.0).max(1.0);
-            }
-        }
+        let apart = DMatrix::from_fn(points.len(), size, |k, i| points[k][i] - mean[i]);
+        let covariance =
+            DMatrix::identity(size, size) + apart.tr_mul(&apart) / (count - 1.0).max(1.0);
         Some(Self {
             probability,
             points,
             mean,
-            factor: Cholesky::of(&covariance, size)?,
+            factor: Factor::of(covariance)?,
         })
     }
 

@@ -16,9 +16,10 @@
 //! sensor after a stop.
 
 use super::hypothesis::{Bearing, Hypothesis, Prediction};
-use super::linear::{Cholesky, dot};
-use super::record::{Bin, Test};
+use super::record::{Bin, Trial};
+use crate::algebra::{Factor, dot};
 use crate::moment::CARRIED_ON;
+use nalgebra::DMatrix;
 
 /// The data with the covariances of their errors.
 pub(crate) struct Observed {
@@ -39,7 +40,7 @@ struct Signal {
     test: Vec<usize>,
     value: Vec<f64>,
     /// For each amplitude.
-    factor: Vec<Cholesky>,
+    factor: Vec<Factor>,
 }
 
 /// Residual of unit covariance but for the scatter of effects.
@@ -73,7 +74,7 @@ impl Observed {
     /// The data of all tests; none where a covariance is not positive definite (a band that is none).
     ///
     /// - `amplitudes`: of the discrepancy
-    pub fn new(tests: &[Test], bearing: &Bearing, amplitudes: &[f64]) -> Option<Self> {
+    pub fn new(tests: &[Trial], bearing: &Bearing, amplitudes: &[f64]) -> Option<Self> {
         let settings = bearing.settings;
         let all: Vec<(usize, usize, &Bin)> = (tests.iter().enumerate())
             .flat_map(|(t, test)| test.bins.iter().map(move |bin| (t, bin)))
@@ -191,23 +192,19 @@ impl Observed {
 }
 
 impl Whitened {
-    /// I + GᵀG of the directions G; its factor always exists.
-    fn inner(&self) -> Cholesky {
+    /// Factor of I + GᵀG of the directions G; none where an effect is not finite.
+    fn inner(&self) -> Option<Factor> {
         let size = self.directions.len();
-        let mut matrix = vec![0.0; size * size];
-        for i in 0..size {
-            for j in 0..size {
-                matrix[i * size + j] =
-                    f64::from(u8::from(i == j)) + dot(&self.directions[i], &self.directions[j]);
-            }
-        }
-        Cholesky::of(&matrix, size)
-            .unwrap_or_else(|| Cholesky::of(&[1.0], 1).expect("1 is positive"))
+        Factor::of(DMatrix::from_fn(size, size, |i, j| {
+            f64::from(u8::from(i == j)) + dot(&self.directions[i], &self.directions[j])
+        }))
     }
 
     /// (I + GGᵀ)⁻¹ v.
     pub fn metric(&self, vectors: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let inner = self.inner();
+        let Some(inner) = self.inner() else {
+            return vectors.to_vec();
+        };
         (vectors.iter())
             .map(|vector| {
                 let mut shares: Vec<f64> = self.directions.iter().map(|d| dot(d, vector)).collect();
@@ -225,7 +222,9 @@ impl Whitened {
 
     /// ln of the likelihood and χ².
     pub fn log_likelihood(&self) -> (f64, f64) {
-        let inner = self.inner();
+        let Some(inner) = self.inner() else {
+            return (f64::NEG_INFINITY, f64::INFINITY);
+        };
         let mut shares: Vec<f64> = (self.directions.iter())
             .map(|d| dot(d, &self.residual))
             .collect();
@@ -247,18 +246,17 @@ impl Signal {
         let size = means.len();
         let factor = (amplitudes.iter())
             .map(|amplitude| {
-                let mut matrix = vec![0.0; size * size];
+                let mut matrix = DMatrix::zeros(size, size);
                 for (i, (place, test, bin)) in means.iter().enumerate() {
                     for (j, (other_place, other_test, other)) in means[..=i].iter().enumerate() {
                         let mut entry = covariance(*amplitude, (*test, bin), (*other_test, other));
                         if place == other_place {
                             entry *= 1.0 + 1e-9;
                         }
-                        matrix[i * size + j] = entry;
-                        matrix[j * size + i] = entry;
+                        matrix[(i, j)] = entry;
                     }
                 }
-                Cholesky::of(&matrix, size)
+                Factor::of(matrix)
             })
             .collect::<Option<Vec<_>>>()?;
         Some(Self {
@@ -281,7 +279,7 @@ fn kernel(one: (usize, &Bin), other: (usize, &Bin), top_speed: f64) -> f64 {
 
 fn torque_covariance(
     amplitude: f64,
-    tests: &[Test],
+    tests: &[Trial],
     one: (usize, &Bin),
     other: (usize, &Bin),
     bearing: &Bearing,

@@ -26,7 +26,7 @@ impl Parameter {
 }
 
 impl Hypothesis {
-    /// Parameters in the order of the coordinates; the recovery at rest is the last one, where a test tells of it.
+    /// Parameters in the order of the coordinates; the recovery at rest is the last one, where a test shows it.
     pub fn parameters(self, bearing: &Bearing) -> Vec<Parameter> {
         let mut parameters = self.own_parameters(&bearing.priors);
         if bearing.repeated && self.recovers() {

@@ -157,7 +157,7 @@ impl Priors {
         .find_map(|(name, range)| (!range.is_positive()).then_some(name))
     }
 
-    /// Share of M that depends on speed as the curve tells it.
+    /// Share of M that depends on speed as the curve shows it.
     ///
     /// ```text
     ///   M = M1 + c Ω^(2/3)     x = M1/M(Ω0) by least squares of relative deviations     σ_x from the band of the curve
@@ -214,7 +214,7 @@ impl Priors {
         Range::new(1.0 - high, 1.0 - low)
     }
 
-    /// Viscous share where too few speeds tell it: most of what Palmgren's law and a plain coefficient of friction give for light
+    /// Viscous share where too few speeds show it: most of what Palmgren's law and a plain coefficient of friction give for light
     /// loads.
     const UNKNOWN_SHARE: Range = Range::new(0.7, 0.995);
 
@@ -269,7 +269,7 @@ mod tests {
         shifted.covariance = vec![vec![1e-8; 15]; 15];
         let wide = Priors::share_of(&shifted, 150.0);
         assert!((wide.high - range.high - QUANTILE * 0.1 / 25.0).abs() < 1e-6);
-        // one speed alone tells nothing, and a flat curve has all of it: still ranges
+        // one speed alone shows nothing, and a flat curve has all of it: still ranges
         for curve in [
             known(vec![100.0], vec![20e-3]),
             known(vec![50.0, 100.0], vec![20e-3; 2]),

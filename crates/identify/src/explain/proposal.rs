@@ -1,13 +1,14 @@
 //! Distributions that draws of an integral come from: Student's t and normal ones by location and curvature.
 
 use super::evidence::Draw;
-use super::linear::{Cholesky, dot, log_sum_exp};
-use super::sampling::Random;
+use crate::algebra::{Factor, dot, log_sum_exp};
+use measure::random::Random;
+use nalgebra::DMatrix;
 
 /// Part of the proposal: location, curvature, weight; Student's t or normal.
 pub(crate) struct Component {
     pub at: Vec<f64>,
-    pub curvature: Cholesky,
+    pub curvature: Factor,
     pub weight: f64,
     pub student: bool,
 }
@@ -27,37 +28,18 @@ impl Component {
                 *mean += weight * z;
             }
         }
-        let mut covariance = vec![0.0; size * size];
-        for (draw, weight) in draws.iter().zip(&weights) {
-            for i in 0..size {
-                for j in 0..size {
-                    covariance[i * size + j] +=
-                        weight * (draw.coordinates[i] - mean[i]) * (draw.coordinates[j] - mean[j]);
-                }
-            }
-        }
+        // rows of √w (z - mean)
+        let apart = DMatrix::from_fn(draws.len(), size, |draw, axis| {
+            weights[draw].sqrt() * (draws[draw].coordinates[axis] - mean[axis])
+        });
+        let mut covariance = apart.tr_mul(&apart);
         for i in 0..size {
-            covariance[i * size + i] *= 1.0 + 1e-6;
-            covariance[i * size + i] += 1e-10;
-        }
-        let factor = Cholesky::of(&covariance, size)?;
-        let mut inverse = vec![0.0; size * size];
-        for i in 0..size {
-            let mut column = vec![0.0; size];
-            column[i] = 1.0;
-            factor.solve(&mut column);
-            for j in 0..size {
-                inverse[j * size + i] = column[j];
-            }
-        }
-        for i in 0..size {
-            for j in 0..i {
-                inverse[i * size + j] = inverse[j * size + i];
-            }
+            covariance[(i, i)] *= 1.0 + 1e-6;
+            covariance[(i, i)] += 1e-10;
         }
         let component = Self {
             at: mean,
-            curvature: Cholesky::of(&inverse, size)?,
+            curvature: Factor::of(Factor::of(covariance)?.inverse())?,
             weight: 0.5,
             student: true,
         };

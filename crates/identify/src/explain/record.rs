@@ -3,8 +3,8 @@
 //! Means lie closer where more happens: their width grows with the time since the engagement and, after the
 //! run-down, with the time since standstill; none spans a large change of speed.
 
-use crate::series::interpolate;
 use crate::{CageTrace, Measurement};
+use measure::interpolation::held;
 
 use super::means::{CageMean, cage_mean, torque_mean, zeroed};
 use super::steady::{Table, fading};
@@ -76,7 +76,7 @@ impl Past {
 
 /// One test.
 #[derive(Clone, Debug)]
-pub(crate) struct Test {
+pub(crate) struct Trial {
     pub steps: Vec<Step>,
     pub bins: Vec<Bin>,
     pub zero_deviation: f64,
@@ -128,7 +128,7 @@ impl LeastWidth {
     }
 
     fn at(&self, time: f64) -> f64 {
-        interpolate(&self.time, &self.width, time)
+        held(&self.time, &self.width, time)
     }
 }
 
@@ -173,7 +173,7 @@ fn limits(
     limits
 }
 
-impl Test {
+impl Trial {
     /// Steps and empty means over a course of speed.
     ///
     /// - `speed`: speed over the time since the engagement, rad/s
@@ -258,7 +258,7 @@ impl Test {
         let time = &measurement.time;
         let engagement = engagement(measurement, table.top_speed);
         let end = time[time.len() - 1] - engagement;
-        let speed = |t: f64| interpolate(time, &measurement.speed, t + engagement);
+        let speed = |t: f64| held(time, &measurement.speed, t + engagement);
         let least = LeastWidth::of(measurement, table.top_speed);
         let age = measurement.noise_age();
         let mut test = Self::planned(&speed, end, &least, table, inertia);
@@ -328,7 +328,7 @@ impl Test {
     }
 }
 
-/// When the test began, s: as told, else the first sign of turning.
+/// When the test began, s: as given, else the first sign of turning.
 fn engagement(measurement: &Measurement, top_speed: f64) -> f64 {
     let (first, last) = (
         measurement.time[0],
@@ -361,7 +361,7 @@ mod tests {
 
     #[test]
     fn means_lie_side_by_side_and_none_spans_much_change() {
-        let test = Test::planned(&course, 7.6, &LeastWidth::even(0.02), &table(), 0.0);
+        let test = Trial::planned(&course, 7.6, &LeastWidth::even(0.02), &table(), 0.0);
         let mut from = 0.0;
         for bin in &test.bins {
             assert_eq!(bin.from, from);
@@ -381,7 +381,7 @@ mod tests {
     }
     #[test]
     fn the_mean_of_a_constant_is_the_constant() {
-        let test = Test::planned(&course, 7.6, &LeastWidth::even(0.02), &table(), 0.0);
+        let test = Trial::planned(&course, 7.6, &LeastWidth::even(0.02), &table(), 0.0);
         for mean in test.means(test.steps.iter().map(|_| 3.0)) {
             assert!((mean - 3.0).abs() < 1e-9);
         }
@@ -432,9 +432,9 @@ mod tests {
     #[test]
     fn a_long_hold_leaves_the_means_of_the_spin_up_as_they_are() {
         let long = smoothed_more_in_the_hold();
-        let whole = Test::measured(&long, &table(), 0.0);
-        let cut = Test::measured(&long.between(0.0, 1.2), &table(), 0.0);
-        let early = |test: &Test| -> Vec<(f64, f64)> {
+        let whole = Trial::measured(&long, &table(), 0.0);
+        let cut = Trial::measured(&long.between(0.0, 1.2), &table(), 0.0);
+        let early = |test: &Trial| -> Vec<(f64, f64)> {
             let bins = test.bins.iter().filter(|bin| bin.to < 0.4 && !bin.before);
             bins.map(|bin| (bin.from, bin.to)).collect()
         };
@@ -452,20 +452,20 @@ mod tests {
     #[test]
     fn a_mean_of_the_cage_is_one_over_time() {
         let long = smoothed_more_in_the_hold();
-        let test = Test::measured(&long, &table(), 0.0);
-        let foretold = test.cage_means(test.steps.iter().map(|s| 0.4 * s.middle_speed));
-        for (bin, foretold) in test.bins.iter().zip(foretold) {
+        let test = Trial::measured(&long, &table(), 0.0);
+        let predicted = test.cage_means(test.steps.iter().map(|s| 0.4 * s.middle_speed));
+        for (bin, predicted) in test.bins.iter().zip(predicted) {
             let Some(mean) = bin.cage else { continue };
             // straight between balls 10 ms apart at full speed, and steps of some ms: a few tenths of a per cent of 60 rad/s;
             // a mean over balls would be 2 rad/s too high while the cage is braked
-            assert!((mean.speed - foretold).abs() < 0.2, "{bin:?} {foretold}");
+            assert!((mean.speed - predicted).abs() < 0.2, "{bin:?} {predicted}");
         }
     }
     #[test]
     fn a_torque_that_is_zero_by_definition_is_no_value() {
         let mut long = smoothed_more_in_the_hold();
         let before = |test: &Measurement| {
-            let test = Test::measured(test, &table(), 0.0);
+            let test = Trial::measured(test, &table(), 0.0);
             test.bins.iter().any(|bin| bin.before)
         };
         assert!(before(&long));
@@ -496,7 +496,7 @@ mod tests {
             cage: None,
             temperature: None,
         };
-        let test = Test::measured(&measurement, &table(), 0.0);
+        let test = Trial::measured(&measurement, &table(), 0.0);
         for bin in &test.bins {
             let width = bin.to - bin.from;
             // errors alike by e^(-|Δt|/10 ms): of a long mean σ √(20 ms/T), of a short one less than that

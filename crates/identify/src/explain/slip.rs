@@ -18,7 +18,7 @@
 
 use physics::rolling::RollingSet;
 
-use super::record::{Past, Test};
+use super::record::{Past, Trial};
 use super::steady::Table;
 
 /// Constants of the reduced model.
@@ -88,7 +88,7 @@ struct Moment<'a> {
     spin_inertia: f64,
 }
 
-/// Time after which heating must still go on to be told from a film that was warm at once, s: assumed.
+/// Time after which heating must still go on to be distinguished from a film that was warm at once, s: assumed.
 const SETTLING: f64 = 0.3;
 /// Speed at which rolling couples fade at rest, rad/s.
 const ROLLING_SPEED: f64 = 1.0;
@@ -222,7 +222,7 @@ pub(crate) fn load_moment_factor(past: &Past) -> f64 {
 
 impl Slip {
     /// The course of one test.
-    pub fn course(&self, test: &Test, table: &Table, set: &RollingSet<f64>) -> Course {
+    pub fn course(&self, test: &Trial, table: &Table, set: &RollingSet<f64>) -> Course {
         let mut course = Course::default();
         course.outer_moment.reserve(test.steps.len());
         course.cage.reserve(test.steps.len());
@@ -328,10 +328,10 @@ mod tests {
     }
 
     /// A ramp to 150 rad/s, held for a second.
-    fn test(acceleration: f64, table: &Table) -> Test {
+    fn test(acceleration: f64, table: &Table) -> Trial {
         let ramp = 150.0 / acceleration;
         let speed = move |t: f64| 150.0 * (t / ramp).clamp(0.0, 1.0);
-        Test::planned(
+        Trial::planned(
             &speed,
             ramp + 1.0,
             &LeastWidth::even(0.02),

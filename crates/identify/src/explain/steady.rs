@@ -1,10 +1,11 @@
-//! The steady friction moment continued beyond what was measured: an explanation foretells whole tests, from rest to rest.
+//! The steady friction moment continued beyond what was measured: an explanation predicts whole tests, from rest to rest.
 
 use crate::SteadyMoment;
+use measure::interpolation::place;
 
 /// The steady curve straight between its speeds, held above them, fading to 0 at rest below.
 ///
-/// A [`SteadyMoment`] itself tells nothing outside its speeds, and the estimators leave such times out. An explanation foretells whole
+/// A [`SteadyMoment`] itself says nothing outside its speeds, and the estimators leave such times out. An explanation predicts whole
 /// tests, from rest to rest, and needs a value everywhere; what it is not known by is in the discrepancy of the comparison. The
 /// deviation of the scale is left out: the tests share it with the curve.
 #[derive(Clone, Copy, Debug)]
@@ -39,15 +40,8 @@ impl Continued<'_> {
     /// Index of the knot below a speed and the share of the next one.
     fn place(&self, speed: f64) -> (usize, f64) {
         let knots = &self.0.speed;
-        let above = knots.partition_point(|knot| *knot <= speed);
-        if above == 0 {
-            return (0, 0.0);
-        }
-        if above == knots.len() {
-            return (above - 1, 0.0);
-        }
-        let (a, b) = (knots[above - 1], knots[above]);
-        (above - 1, (speed - a) / (b - a))
+        let inside = speed.max(knots[0]).min(knots[knots.len() - 1]);
+        place(knots, inside).map_or((0, 0.0), |(next, share)| (next - 1, share))
     }
 
     /// Covariance of M at two speeds, (N m)²; it fades below the lowest knot as M does.

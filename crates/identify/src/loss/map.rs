@@ -22,11 +22,12 @@
 //! **Does not model**: dependence on load or temperature; rotation one way against the other (Ω and F count along the rotation).
 
 use super::{Loss, LossSettings, State, scale_part};
-use crate::dense::{Matrix, cholesky, dot, forward, log_determinant, solved, zeros};
+use crate::algebra::{Factor, dot};
 use crate::measurement::Measurement;
 use crate::moment::SteadyMoment;
 use crate::series::{alike, trapezoid};
 use measure::uncertain::Uncertain;
+use nalgebra::{DMatrix, DVector};
 use physics::rolling::RollingSet;
 
 /// Most means that are used: their matrix is dense.
@@ -80,12 +81,12 @@ impl Sizes {
 #[derive(Clone, Debug)]
 pub struct LossMap {
     data: Vec<Datum>,
-    factor: Matrix,
-    weights: Vec<f64>,
+    factor: Factor,
+    weights: DVector<f64>,
     sizes: Sizes,
     /// The wide prior, and the factor of the data under it.
     wide: Sizes,
-    wide_factor: Matrix,
+    wide_factor: Factor,
     range: (f64, f64, f64, f64),
     /// What is not trustworthy.
     pub notes: Vec<String>,
@@ -147,12 +148,7 @@ impl LossMap {
         };
         let (low, high) = span(|d| d.speed);
         let (least, most) = span(|d| d.rate);
-        let floor = errors
-            .iter()
-            .enumerate()
-            .map(|(i, row)| row[i])
-            .fold(f64::INFINITY, f64::min)
-            .sqrt();
+        let floor = errors.diagonal().min().sqrt();
         let level = level.max(floor);
         let undetermined = "the means of F do not determine a map";
         let wide = wide(&data, steady, set.pocket_friction_arm(), high, most);
@@ -171,14 +167,14 @@ impl LossMap {
         let best =
             Self::sizes(&data, &errors, constants, proportionals, high).ok_or(undetermined)?;
         let factor = covered(&data, &errors, &best).ok_or(undetermined)?;
-        let friction: Vec<f64> = data.iter().map(|d| d.friction).collect();
+        let friction = DVector::from_iterator(data.len(), data.iter().map(|d| d.friction));
         if most - least < 0.2 * most {
             notes.push(format!(
-                "all accelerations are from {least:.0} to {most:.0} rad/s²: F0 and F1 are hardly told apart"
+                "all accelerations are from {least:.0} to {most:.0} rad/s²: F0 and F1 are hardly distinguished"
             ));
         }
         Ok(Self {
-            weights: solved(&factor, &friction),
+            weights: factor.solved(&friction),
             factor,
             sizes: best,
             wide,
@@ -194,7 +190,7 @@ impl LossMap {
     /// - `high`: largest speed
     fn sizes(
         data: &[Datum],
-        errors: &Matrix,
+        errors: &DMatrix<f64>,
         constants: [f64; 5],
         proportionals: [f64; 5],
         high: f64,
@@ -218,8 +214,8 @@ impl LossMap {
                     let Some(factor) = covered(data, errors, &sizes) else {
                         continue;
                     };
-                    let white = forward(&factor, &friction);
-                    let log = -0.5 * (dot(&white, &white) + log_determinant(&factor));
+                    let square = whitened_square(&factor, friction.clone());
+                    let log = -0.5 * (square + factor.log_determinant);
                     if best.is_none_or(|(top, _)| log > top) {
                         best = Some((log, sizes));
                     }
@@ -235,8 +231,10 @@ impl LossMap {
     /// - `acceleration`: Ω̇, rad/s²
     pub fn at(&self, speed: f64, acceleration: f64) -> MapPlace {
         let place = (speed.abs(), acceleration.abs());
-        let alone = self.sizes.covariance(place, place);
-        let friction = self.drawn(alone, |d| self.sizes.covariance(place, (d.speed, d.rate)));
+        let with = |d: &Datum| self.sizes.covariance(place, (d.speed, d.rate));
+        let row: Vec<f64> = self.data.iter().map(with).collect();
+        let value = dot(&row, self.weights.as_slice());
+        let variance = self.sizes.covariance(place, place) - whitened_square(&self.factor, row);
         let (low, high, least, most) = self.range;
         let wide = |x: f64, scale: f64| x / scale.max(1e-300);
         let nearest = self
@@ -247,7 +245,7 @@ impl LossMap {
             })
             .fold(f64::INFINITY, f64::min);
         MapPlace {
-            friction,
+            friction: Uncertain::new(value, variance.max(0.0).sqrt()),
             nearest,
             known: nearest < NEAR && self.left(place) < LEFT * self.wide.constant,
         }
@@ -256,37 +254,9 @@ impl LossMap {
     /// What the data leave of the wide prior at a place, N.
     fn left(&self, place: (f64, f64)) -> f64 {
         let with = |d: &Datum| self.wide.covariance(place, (d.speed, d.rate));
-        let white = forward(
-            &self.wide_factor,
-            &self.data.iter().map(with).collect::<Vec<_>>(),
-        );
-        let variance = self.wide.covariance(place, place) - dot(&white, &white);
-        variance.max(0.0).sqrt()
-    }
-
-    /// F0 at a speed, N.
-    ///
-    /// - `speed`: Ω, rad/s
-    pub fn constant_part(&self, speed: f64) -> Uncertain {
-        let size = self.sizes.constant.powi(2);
-        self.drawn(size, |d| size * self.sizes.alike(speed.abs(), d.speed))
-    }
-
-    /// F1 at a speed, N s²/rad: F over |Ω̇|.
-    ///
-    /// - `speed`: Ω, rad/s
-    pub fn proportional_part(&self, speed: f64) -> Uncertain {
-        let size = self.sizes.proportional.powi(2);
-        self.drawn(size, |d| {
-            size * d.rate * self.sizes.alike(speed.abs(), d.speed)
-        })
-    }
-
-    fn drawn(&self, alone: f64, with: impl Fn(&Datum) -> f64) -> Uncertain {
         let row: Vec<f64> = self.data.iter().map(with).collect();
-        let white = forward(&self.factor, &row);
-        let variance = alone - dot(&white, &white);
-        Uncertain::new(dot(&row, &self.weights), variance.max(0.0).sqrt())
+        let variance = self.wide.covariance(place, place) - whitened_square(&self.wide_factor, row);
+        variance.max(0.0).sqrt()
     }
 }
 
@@ -312,7 +282,7 @@ fn wide(data: &[Datum], steady: &SteadyMoment, arm: f64, high: f64, most: f64) -
 /// - `share`: what a datum holds of it
 fn least_left(
     data: &[Datum],
-    factor: &Matrix,
+    factor: &Factor,
     wide: &Sizes,
     size: f64,
     share: impl Fn(&Datum) -> f64,
@@ -321,21 +291,23 @@ fn least_left(
         let row: Vec<f64> = (data.iter())
             .map(|d| size * size * share(d) * wide.alike(at.speed, d.speed))
             .collect();
-        let white = forward(factor, &row);
-        (size * size - dot(&white, &white)).max(0.0).sqrt()
+        (size * size - whitened_square(factor, row)).max(0.0).sqrt()
     });
     left.fold(f64::INFINITY, f64::min)
 }
 
+/// vᵀ C⁻¹ v of a covariance C.
+fn whitened_square(factor: &Factor, mut vector: Vec<f64>) -> f64 {
+    factor.whiten(&mut vector);
+    dot(&vector, &vector)
+}
+
 /// Factor of the covariance of the data.
-fn covered(data: &[Datum], errors: &Matrix, sizes: &Sizes) -> Option<Matrix> {
-    let mut sum = errors.clone();
-    for (i, a) in data.iter().enumerate() {
-        for (j, b) in data.iter().enumerate() {
-            sum[i][j] += sizes.covariance((a.speed, a.rate), (b.speed, b.rate));
-        }
-    }
-    cholesky(sum)
+fn covered(data: &[Datum], errors: &DMatrix<f64>, sizes: &Sizes) -> Option<Factor> {
+    let place = |i: usize| (data[i].speed, data[i].rate);
+    Factor::of(DMatrix::from_fn(data.len(), data.len(), |i, j| {
+        errors[(i, j)] + sizes.covariance(place(i), place(j))
+    }))
 }
 
 /// Means of F over the correlation time, where the balls roll and the speed does not change by more than a tenth of its range.
@@ -407,7 +379,7 @@ fn errors(
     steady: &SteadyMoment,
     set: &RollingSet<f64>,
     settings: &LossSettings,
-) -> Matrix {
+) -> DMatrix<f64> {
     let arm = set.pocket_friction_arm();
     let inertia = set.outer_inertia();
     let own = &settings.set_deviation;
@@ -426,7 +398,7 @@ fn errors(
             ) / arm
         })
         .collect();
-    let mut sum = zeros(data.len(), data.len());
+    let mut sum = DMatrix::zeros(data.len(), data.len());
     for (i, a) in data.iter().enumerate() {
         for (j, b) in data.iter().enumerate().take(i + 1) {
             let mut value = steady.covariance_between(a.speed, b.speed).unwrap_or(0.0)
@@ -444,8 +416,8 @@ fn errors(
                 value += a.by_rate.powi(2);
                 value += 1e-6 * value + 1e-300;
             }
-            sum[i][j] = value;
-            sum[j][i] = value;
+            sum[(i, j)] = value;
+            sum[(j, i)] = value;
         }
     }
     sum

@@ -13,7 +13,7 @@
 //! measured t_O and M: its scale acts on their difference.
 //!
 //! **Does not model**: errors of Ω̇ and t_O that are alike; a state of the lubricant other than that of the slow tests, which
-//! looks like F here (see [`doubt`](crate::doubt) and [`explain`](crate::explain)).
+//! looks like F here (see [`data_checks`](crate::data_checks) and [`explain`](crate::explain)).
 //!
 //! Measured (`tests/loss.rs`, 400 seeds with another noise, a nonlinear sensor and M from made-up coast-downs, band of two
 //! deviations): the true F lies in its band at 95.8 % of all times, the true map at 97.7 % of all places that count as known. With a
@@ -26,8 +26,9 @@ pub use map::{LossMap, MapPlace};
 
 use crate::measurement::{Measurement, SetDeviation};
 use crate::moment::{SteadyMoment, same_load};
-use crate::series::{between, rates};
+use crate::series::rates;
 use crate::slip::{self, SlipSettings, slip_at};
+use measure::interpolation::between;
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 
@@ -36,7 +37,7 @@ use physics::rolling::RollingSet;
 pub enum Rolling {
     /// The user states that they roll throughout.
     Stated,
-    /// As the cage signal tells; unknown without one.
+    /// As the cage signal shows; unknown without one.
     ByCage,
 }
 
@@ -81,7 +82,7 @@ pub enum State {
     OutsideMoment,
 }
 
-/// What one time tells.
+/// What is known at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LossPoint {
     /// Time, s.
@@ -145,7 +146,9 @@ pub fn loss(
         ));
     }
     if settings.rolling == Rolling::ByCage && test.cage.is_none() {
-        notes.push("no cage signal, and rolling is not stated: t_O - M is told, F is not".into());
+        notes.push(
+            "no cage signal, and rolling is not stated: t_O - M is reported, F is not".into(),
+        );
     }
     let cage_rates = test.cage.as_ref().map(|cage| {
         let window = settings.cage_window;
@@ -203,7 +206,7 @@ pub fn loss(
     if outside > 0 {
         let (low, high) = steady.range();
         notes.push(format!(
-            "{outside} of {} times lie outside the speeds of the steady moment, {low:.4} to {high:.4} rad/s: nothing is told there",
+            "{outside} of {} times lie outside the speeds of the steady moment, {low:.4} to {high:.4} rad/s: nothing is reported there",
             points.len()
         ));
     }

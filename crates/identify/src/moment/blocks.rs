@@ -2,9 +2,9 @@
 
 use super::MomentSettings;
 use crate::measurement::Measurement;
+use crate::regression::Data;
 use crate::series::trapezoid;
 use physics::rolling::RollingSet;
-use std::ops::Range;
 
 /// About as many blocks as all tests together become: few, so that quick noise averages out.
 const BLOCKS: f64 = 200.0;
@@ -14,26 +14,15 @@ const FEWEST: usize = 16;
 
 /// Means of speed and torque over equal times, in the order of time, one test after another.
 pub(super) struct Blocks {
-    /// Speed without sign, rad/s.
-    pub(super) x: Vec<f64>,
-    /// Torque along the rotation without the part of inertia, N m.
-    pub(super) y: Vec<f64>,
+    /// Speed without sign, rad/s, and torque along the rotation without the part of inertia, N m.
+    pub(super) data: Data,
     /// Test of each block.
     pub(super) test: Vec<usize>,
-    /// Stretches of blocks that follow each other without a gap.
-    pub(super) stretches: Vec<Range<usize>>,
-    /// Duration of a block, s.
-    pub(super) duration: f64,
     /// Smallest and largest speed of what went in, rad/s.
     pub(super) range: (f64, f64),
 }
 
 impl Blocks {
-    /// Root mean square of the torque, N m: the unit of the priors.
-    pub(super) fn level(&self) -> f64 {
-        (self.y.iter().map(|y| y * y).sum::<f64>() / self.y.len() as f64).sqrt()
-    }
-
     pub(super) fn new(
         tests: &[&Measurement],
         set: &RollingSet<f64>,
@@ -62,11 +51,8 @@ impl Blocks {
         let slowest = tests.iter().map(|test| interval(test)).fold(0.0, f64::max);
         let duration = (whole / BLOCKS).max(slowest);
         let mut blocks = Self {
-            x: Vec::new(),
-            y: Vec::new(),
+            data: Data::default(),
             test: Vec::new(),
-            stretches: Vec::new(),
-            duration,
             range: (f64::INFINITY, 0.0),
         };
         for (number, (test, taken)) in tests.iter().zip(&taken).enumerate() {
@@ -81,41 +67,25 @@ impl Blocks {
                     || test.time[b] - test.time[a] > 3.0 * step
                     || test.speed[a].signum() != test.speed[b].signum()
             };
-            let mut start = 0;
-            while start < taken.len() {
-                let mut end = start + 1;
-                while end < taken.len() && !apart(taken[end - 1], taken[end]) {
-                    end += 1;
+            for run in taken.chunk_by(|&a, &b| !apart(a, b)) {
+                let of = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
+                    run.iter().map(|&k| value(k)).collect()
+                };
+                let speed = of(&|k| test.speed[k].abs());
+                let used = (blocks.data).add(&speed, &of(&value), &of(&|k| weights[k]), size);
+                blocks.test.resize(blocks.data.x.len(), number);
+                for &speed in &speed[..used] {
+                    blocks.range.0 = blocks.range.0.min(speed);
+                    blocks.range.1 = blocks.range.1.max(speed);
                 }
-                let run = &taken[start..end];
-                // shorter stretches tell nothing of the correlation and little of the curve
-                if run.len() / size >= 3 {
-                    let first = blocks.x.len();
-                    for part in run.chunks_exact(size) {
-                        let whole: f64 = part.iter().map(|&k| weights[k]).sum();
-                        let mean = |f: &dyn Fn(usize) -> f64| {
-                            part.iter().map(|&k| weights[k] * f(k)).sum::<f64>() / whole
-                        };
-                        blocks.x.push(mean(&|k| test.speed[k].abs()));
-                        blocks.y.push(mean(&value));
-                        blocks.test.push(number);
-                    }
-                    for &k in &run[..run.len() / size * size] {
-                        let speed = test.speed[k].abs();
-                        blocks.range.0 = blocks.range.0.min(speed);
-                        blocks.range.1 = blocks.range.1.max(speed);
-                    }
-                    blocks.stretches.push(first..blocks.x.len());
-                }
-                start = end;
             }
         }
-        if blocks.x.len() < FEWEST {
+        if blocks.data.x.len() < FEWEST {
             return Err(format!(
                 "slow running above {} rad/s with accelerations below {} rad/s² gives {} values; at least {FEWEST} are needed: the slow test is too short or not slow",
                 settings.least_speed,
                 settings.slow_acceleration,
-                blocks.x.len()
+                blocks.data.x.len()
             ));
         }
         if blocks.range.1 - blocks.range.0 < 0.02 * blocks.range.1 {
@@ -124,7 +94,7 @@ impl Blocks {
                 blocks.range.1
             ));
         }
-        let level = blocks.level();
+        let level = blocks.data.level();
         if !(level > 0.0 && level.is_finite()) {
             return Err("the torque of the slow tests is 0 throughout".into());
         }

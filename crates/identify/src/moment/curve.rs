@@ -1,6 +1,6 @@
 //! A steady moment over speed with its band.
 
-use crate::series::place;
+use measure::interpolation::place;
 use measure::uncertain::Uncertain;
 
 /// Part of the largest speed by which a speed may lie above it and still count as measured: tests and slow tests start from a

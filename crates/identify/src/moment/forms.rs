@@ -1,13 +1,11 @@
 //! The forms of a steady moment that are set against each other, as sums of given shapes.
 
 use super::{Form, MomentSettings};
-use crate::dense::{Matrix, zeros};
+use crate::regression::spline::{self, SPLINES};
+use nalgebra::DMatrix;
 use physics::palmgren::viscous_moment;
 use physics::rolling::RollingSet;
 use physics::skf::SkfMoment;
-
-/// Number of B-splines.
-const SPLINES: usize = 16;
 
 /// Standard deviations of second differences of the coefficients of a spline, as parts of the level, that are tried.
 const SMOOTHNESS: [f64; 6] = [0.001, 0.003, 0.01, 0.03, 0.1, 0.3];
@@ -142,54 +140,23 @@ impl Member {
         }
     }
 
-    /// The shapes at a speed.
-    pub(super) fn row(&self, speed: f64) -> Vec<f64> {
-        self.shapes
-            .row(speed)
-            .into_iter()
-            .zip(&self.scales)
-            .map(|(value, scale)| value / scale)
-            .collect()
+    /// The shapes at speeds, a row for each.
+    pub(super) fn rows(&self, speeds: &[f64]) -> DMatrix<f64> {
+        let rows = speeds.iter().flat_map(|&speed| self.shapes.row(speed));
+        let mut rows = DMatrix::from_row_iterator(speeds.len(), self.scales.len(), rows);
+        for (mut column, scale) in rows.column_iter_mut().zip(&self.scales) {
+            column /= *scale;
+        }
+        rows
     }
 
     /// Prior precisions of the coefficients, each as likely as the others.
-    pub(super) fn precisions(&self, level: f64) -> Vec<Matrix> {
+    pub(super) fn precisions(&self, level: f64) -> Vec<DMatrix<f64>> {
         let size = self.scales.len();
-        if !matches!(self.shapes, Shapes::Spline { .. }) {
-            let mut precision = zeros(size, size);
-            for (i, row) in precision.iter_mut().enumerate() {
-                row[i] = level.powi(-2);
-            }
-            return vec![precision];
+        match self.shapes {
+            Shapes::Spline { .. } => spline::precisions(level, 2, &SMOOTHNESS),
+            _ => vec![DMatrix::from_diagonal_element(size, size, level.powi(-2))],
         }
-        // Level and slope of the coefficients as wide as the level; their second differences as smooth as is tried.
-        let count = SPLINES as f64;
-        let middle = 0.5 * (count - 1.0);
-        let spread = (0..SPLINES)
-            .map(|i| (i as f64 - middle).powi(2))
-            .sum::<f64>();
-        SMOOTHNESS
-            .iter()
-            .map(|part| {
-                let mut precision = zeros(size, size);
-                for (i, row) in precision.iter_mut().enumerate() {
-                    for (j, value) in row.iter_mut().enumerate() {
-                        let slopes = (i as f64 - middle) * (j as f64 - middle) / spread;
-                        *value = (1.0 / count + slopes) / (count * level * level);
-                    }
-                }
-                let weight = (part * level).powi(-2);
-                for first in 0..size - 2 {
-                    let difference = [1.0, -2.0, 1.0];
-                    for (i, a) in difference.iter().enumerate() {
-                        for (j, b) in difference.iter().enumerate() {
-                            precision[first + i][first + j] += weight * a * b;
-                        }
-                    }
-                }
-                precision
-            })
-            .collect()
     }
 }
 
@@ -217,44 +184,7 @@ impl Shapes {
                 let part = speed / 100.0;
                 vec![part.powf(0.6), 1.0, part * part]
             }
-            Shapes::Spline { range } => spline(speed, *range),
-        }
-    }
-}
-
-/// Cubic B-splines on equal knots.
-fn spline(speed: f64, range: (f64, f64)) -> Vec<f64> {
-    let pieces = SPLINES - 3;
-    let place = (speed - range.0) / (range.1 - range.0) * pieces as f64;
-    let place = place.clamp(0.0, pieces as f64);
-    let first = (place as usize).min(pieces - 1);
-    let u = place - first as f64;
-    let v = 1.0 - u;
-    let mut row = vec![0.0; SPLINES];
-    row[first] = v * v * v / 6.0;
-    row[first + 1] = (3.0 * u * u * u - 6.0 * u * u + 4.0) / 6.0;
-    row[first + 2] = (3.0 * v * v * v - 6.0 * v * v + 4.0) / 6.0;
-    row[first + 3] = u * u * u / 6.0;
-    row
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn splines_sum_to_one_and_follow_a_straight_line() {
-        for speed in [10.0, 17.3, 60.0, 99.9, 110.0] {
-            let row = spline(speed, (10.0, 110.0));
-            assert!((row.iter().sum::<f64>() - 1.0).abs() < 1e-14);
-            // Coefficients on the line of the knots' averages give the line: width 100/13 a piece, first average one before.
-            let width = 100.0 / 13.0;
-            let line: f64 = row
-                .iter()
-                .enumerate()
-                .map(|(i, w)| w * (10.0 + width * (i as f64 - 1.0)))
-                .sum();
-            assert!((line - speed).abs() < 1e-12);
+            Shapes::Spline { range } => spline::row(speed, *range, 0),
         }
     }
 }

@@ -14,32 +14,29 @@
 //! disagreement. Coefficients of these forms correlate by 0.98 and more with each other and with the zero: the curve is the result,
 //! not they.
 //!
-//! Why a spline of its own beside that of [`measure::steady_curve`]: that one's likelihood has no proper prior and cannot be
-//! weighed against a law.
-//!
 //! **Does not model**: a moment that changes with time, temperature or direction inside one call (up against down is compared,
 //! not averaged away); noise slower than the test, other than its zero; F in slow tests (taken as 0).
 //!
 //! Measured (`tests/moment.rs`, 400 made-up coast-downs with another law, another noise and a nonlinear sensor): the band of two
 //! deviations holds the true moment at 95.5 % of all speeds after one coast-down of 20 s, at 94.8 % after three of 3 s.
-//! Noise alike over 0.6 s, a smoothed one and no autoregression, makes the band wider than it need be: 99.0 %.
+//! Noise alike over 0.6 s, a smoothed one and no autoregression, makes the band wider than it need be: 98.7 %.
 
 mod blocks;
 mod curve;
-mod fit;
 mod forms;
 mod unequal;
 
 pub use curve::SteadyMoment;
 pub use unequal::Unequal;
 
-use crate::dense::{Matrix, zeros};
+use crate::algebra::log_sum_exp;
 use crate::measurement::Measurement;
+use crate::regression::{Posterior, weighed};
+use crate::steady_curve::{Difference, SteadyCurve, compare};
 use blocks::Blocks;
-use fit::Posterior;
 use forms::Member;
-use measure::steady_curve::{Difference, SteadyCurve, compare};
 use measure::uncertain::Uncertain;
+use nalgebra::DMatrix;
 use physics::rolling::RollingSet;
 use physics::skf::SkfMoment;
 
@@ -123,8 +120,6 @@ pub struct Moment {
     pub curve: SteadyMoment,
     /// Number of means that were fitted.
     pub data: usize,
-    /// Duration of one mean, s.
-    pub mean_duration: f64,
     /// How many independent data they are worth.
     pub effective_data: f64,
     /// Moment speeding up minus moment slowing down, where the tests have both.
@@ -288,10 +283,6 @@ fn difference(up: &SteadyMoment, down: &SteadyMoment) -> Result<Difference, Stri
         SteadyCurve {
             speed: speed.clone(),
             torque: own.iter().map(|u| u.value).collect(),
-            deviation: own.iter().map(|u| u.deviation).collect(),
-            // one sensor: the scale is the same in both and cancels but for its part of the difference
-            scale_deviation: 0.0,
-            zero_deviation: 0.0,
             covariance: speed
                 .iter()
                 .map(|&a| {
@@ -301,9 +292,8 @@ fn difference(up: &SteadyMoment, down: &SteadyMoment) -> Result<Difference, Stri
                         .collect()
                 })
                 .collect(),
-            residual: 0.0,
-            correlation: 0.0,
-            notes: Vec::new(),
+            // one sensor: the scale is the same in both and cancels but for its part of the difference
+            ..SteadyCurve::default()
         }
     };
     compare(&drawn(up), &drawn(down))
@@ -321,20 +311,17 @@ fn fitted(
     settings: &MomentSettings,
 ) -> Result<Moment, String> {
     let blocks = Blocks::new(tests, set, settings)?;
-    let level = blocks.level();
-    let noises = fit::noises(&blocks);
+    let level = blocks.data.level();
     let load = tests[0].load;
-    let members = Member::all(settings, set, load, blocks.range, &blocks.x);
+    let members = Member::all(settings, set, load, blocks.range, &blocks.data.x);
     let weighed: Vec<Weighed> = members
         .into_iter()
         .filter_map(|member| {
             let columns = with_zeros(&member, &blocks, tests.len());
-            let precisions = member
-                .precisions(level)
-                .into_iter()
+            let precisions: Vec<DMatrix<f64>> = (member.precisions(level).into_iter())
                 .map(|precision| beside_zeros(precision, tests, level))
-                .collect::<Vec<_>>();
-            let posterior = fit::weighed(&blocks, &columns, &precisions, &noises)?;
+                .collect();
+            let posterior = weighed(&blocks.data, &columns, &precisions)?;
             Some(Weighed { member, posterior })
         })
         .collect();
@@ -368,9 +355,8 @@ fn fitted(
     let rho = forms[0].noise_correlation;
     Ok(Moment {
         curve,
-        data: blocks.x.len(),
-        mean_duration: blocks.duration,
-        effective_data: blocks.x.len() as f64 * (1.0 - rho) / (1.0 + rho),
+        data: blocks.data.x.len(),
+        effective_data: blocks.data.x.len() as f64 * (1.0 - rho) / (1.0 + rho),
         unequal: None,
         up_against_down: None,
         notes: Vec::new(),
@@ -379,39 +365,31 @@ fn fitted(
 }
 
 /// Shapes and, behind them, one column a test for its zero.
-fn with_zeros(member: &Member, blocks: &Blocks, tests: usize) -> Matrix {
-    blocks
-        .x
-        .iter()
-        .zip(&blocks.test)
-        .map(|(&speed, &test)| {
-            let mut row = member.row(speed);
-            row.extend((0..tests).map(|t| if t == test { 1.0 } else { 0.0 }));
-            row
-        })
-        .collect()
+fn with_zeros(member: &Member, blocks: &Blocks, tests: usize) -> DMatrix<f64> {
+    let shapes = member.rows(&blocks.data.x);
+    let size = shapes.ncols();
+    let mut columns = shapes.resize_horizontally(size + tests, 0.0);
+    for (k, test) in blocks.test.iter().enumerate() {
+        columns[(k, size + test)] = 1.0;
+    }
+    columns
 }
 
 /// The prior of the coefficients with that of the zeros.
-fn beside_zeros(mut precision: Matrix, tests: &[&Measurement], level: f64) -> Matrix {
-    let size = precision.len();
-    for row in &mut precision {
-        row.resize(size + tests.len(), 0.0);
-    }
+fn beside_zeros(shapes: DMatrix<f64>, tests: &[&Measurement], level: f64) -> DMatrix<f64> {
+    let size = shapes.ncols();
+    let mut precision = shapes.resize(size + tests.len(), size + tests.len(), 0.0);
     for (k, test) in tests.iter().enumerate() {
-        let mut row = vec![0.0; size + tests.len()];
         // a zero that is known exactly is known to a millionth of the level
-        row[size + k] = test.zero_deviation.max(1e-6 * level).powi(-2);
-        precision.push(row);
+        precision[(size + k, size + k)] = test.zero_deviation.max(1e-6 * level).powi(-2);
     }
     precision
 }
 
 /// Probabilities of logarithms of evidence.
 fn shares(logs: &[f64]) -> Vec<f64> {
-    let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let total: f64 = logs.iter().map(|log| (log - top).exp()).sum();
-    logs.iter().map(|log| (log - top).exp() / total).collect()
+    let total = log_sum_exp(logs);
+    logs.iter().map(|log| (log - total).exp()).collect()
 }
 
 fn form_fit(
@@ -433,22 +411,15 @@ fn form_fit(
         .zip(&odds)
         .filter(|(_, odds)| **odds > 1e-4)
         .map(|(weighed, &odds)| {
-            let rows: Matrix = speed
-                .iter()
-                .map(|&speed| {
-                    let mut row = weighed.member.row(speed);
-                    row.resize(weighed.posterior.mean.len(), 0.0);
-                    row
-                })
-                .collect();
+            let rows = weighed.member.rows(speed);
+            let posterior = &weighed.posterior;
+            let (moment, covariance) =
+                posterior.drawn(&rows.resize_horizontally(posterior.mean.len(), 0.0));
             let curve = SteadyMoment {
                 load,
                 speed: speed.to_vec(),
-                moment: rows
-                    .iter()
-                    .map(|row| crate::dense::dot(row, &weighed.posterior.mean))
-                    .collect(),
-                covariance: fit::covariance(&rows, &weighed.posterior),
+                moment: moment.as_slice().to_vec(),
+                covariance: listed(&covariance),
                 scale_deviation,
             };
             (odds, curve)
@@ -456,13 +427,11 @@ fn form_fit(
         .collect();
     let curves: Vec<(f64, &SteadyMoment)> =
         curves.iter().map(|(odds, curve)| (*odds, curve)).collect();
-    let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let mean = logs.iter().map(|log| (log - top).exp()).sum::<f64>() / logs.len() as f64;
     let (parameters, correlation) = parameters(best, tests);
     Some(FormFit {
         form,
         probability: 0.0,
-        log_evidence: top + mean.ln(),
+        log_evidence: log_sum_exp(&logs) - (logs.len() as f64).ln(),
         parameters,
         correlation,
         viscosity: best.member.viscosity(),
@@ -473,7 +442,7 @@ fn form_fit(
 }
 
 /// Parameters of a member and the zeros, with their correlations.
-fn parameters(weighed: &Weighed, tests: &[&Measurement]) -> (Vec<Parameter>, Matrix) {
+fn parameters(weighed: &Weighed, tests: &[&Measurement]) -> (Vec<Parameter>, Vec<Vec<f64>>) {
     let posterior = &weighed.posterior;
     let first_zero = posterior.mean.len() - tests.len();
     let mut list: Vec<(usize, String, &'static str, f64)> = weighed
@@ -486,7 +455,7 @@ fn parameters(weighed: &Weighed, tests: &[&Measurement]) -> (Vec<Parameter>, Mat
     for (k, test) in tests.iter().enumerate() {
         list.push((first_zero + k, format!("zero of {}", test.name), "N m", 1.0));
     }
-    let deviation = |k: usize| posterior.covariance[k][k].max(0.0).sqrt();
+    let deviation = |k: usize| posterior.covariance[(k, k)].max(0.0).sqrt();
     let parameters = list
         .iter()
         .map(|(k, name, unit, factor)| Parameter {
@@ -502,7 +471,7 @@ fn parameters(weighed: &Weighed, tests: &[&Measurement]) -> (Vec<Parameter>, Mat
                 .map(|(j, ..)| {
                     let size = deviation(*i) * deviation(*j);
                     if size > 0.0 {
-                        posterior.covariance[*i][*j] / size
+                        posterior.covariance[(*i, *j)] / size
                     } else {
                         0.0
                     }
@@ -511,6 +480,13 @@ fn parameters(weighed: &Weighed, tests: &[&Measurement]) -> (Vec<Parameter>, Mat
         })
         .collect();
     (parameters, correlation)
+}
+
+/// A matrix by rows.
+fn listed(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    (matrix.row_iter())
+        .map(|row| row.iter().copied().collect())
+        .collect()
 }
 
 /// Mean of curves by weight, their disagreement in the covariance.
@@ -524,7 +500,7 @@ fn mixed(curves: &[(f64, &SteadyMoment)]) -> SteadyMoment {
             *sum += weight / total * value;
         }
     }
-    let mut covariance = zeros(count, count);
+    let mut covariance = vec![vec![0.0; count]; count];
     for (weight, curve) in curves {
         let apart: Vec<f64> = curve
             .moment

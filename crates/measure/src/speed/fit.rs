@@ -3,7 +3,7 @@
 use super::Transient;
 use super::matrix::Memory;
 use super::plan::{Data, Livelier, Noise, Passage, Plan};
-use super::search::smallest;
+use crate::simplex;
 
 /// Passages in one stretch of a quiet part whose likelihood is taken.
 pub(super) const STRETCH: usize = 80;
@@ -218,11 +218,11 @@ pub(super) fn quiet(data: &Data, range: std::ops::Range<usize>) -> (Noise, f64) 
         0.5 * belief - fit
     };
     // A density that changes the speed by a thousandth over a hundred intervals, to begin with.
-    let (best, _) = smallest(
+    let (best, _) = simplex::lowest(
         [0.0, -0.5, 1.5, (1e-12 * speed * speed).ln()],
         [0.5, 1.0, 1.0, 4.0],
-        160,
         0.1,
+        160,
         cost,
     );
     (noise(&best), best[3].exp())
@@ -266,7 +266,7 @@ pub(super) fn calm(data: &Data, range: std::ops::Range<usize>, noise: Noise, fir
             .map(|set| plan.likelihood_of(data, set))
             .sum::<f64>()
     };
-    smallest([first.ln()], [-3.0], 25, 0.1, cost).0[0].exp()
+    simplex::lowest([first.ln()], [-3.0], 0.1, 25, cost).0[0].exp()
 }
 
 /// Density of the stretch in which a lively part settles, with noise that is known.
@@ -286,8 +286,11 @@ pub(super) fn settling(
         };
         -plan.likelihood(data, range.clone())
     };
-    let start = smallest([0.0], [4.0], 12, 0.05, cost).0;
-    quiet * smallest(start, [2.0], 16, 0.05, cost).0[0].max(0.0).exp()
+    let start = simplex::lowest([0.0], [4.0], 0.05, 12, cost).0;
+    quiet
+        * simplex::lowest(start, [2.0], 0.05, 16, cost).0[0]
+            .max(0.0)
+            .exp()
 }
 
 /// Gain of the logarithm of the likelihood from which a stretch counts as livelier than its part of the record: of a
@@ -353,5 +356,5 @@ fn own_density(data: &Data, plan: &Plan, window: &[Passage], usual: f64) -> Opti
         .into_iter()
         .fold((usual, here), |a, b| if b.1 < a.1 { b } else { a });
     let notable = here - best.1 > NOTABLE;
-    notable.then(|| smallest([best.0], [1.5], 14, 0.1, cost).0[0].exp())
+    notable.then(|| simplex::lowest([best.0], [1.5], 0.1, 14, cost).0[0].exp())
 }

@@ -10,7 +10,8 @@
 
 use super::fit::{STRETCH, Sight};
 use super::plan::{Data, Head, Knot, Lively, Passage, Plan};
-use super::search::{smallest, spread};
+use super::spread::spread;
+use crate::simplex;
 
 /// Passages beyond the lively part that take part in its fit.
 const BEYOND: usize = 40;
@@ -151,10 +152,10 @@ fn climbed(
     cost: impl Fn(&[f64; 3]) -> f64,
 ) -> ([f64; 3], f64) {
     const AGAIN: usize = 4;
-    let mut best = smallest(point, steps, calls, 0.1, &cost);
+    let mut best = simplex::lowest(point, steps, 0.1, calls, &cost);
     for _ in 0..AGAIN {
         let closer = [-1.5 * steps[0], 0.1 * steps[1], 0.1 * steps[2]];
-        let next = smallest(best.0, closer, calls / 2, 0.1, &cost);
+        let next = simplex::lowest(best.0, closer, 0.1, calls / 2, &cost);
         let gain = best.1 - next.1;
         if next.1 < best.1 {
             best = next;
@@ -310,7 +311,7 @@ pub(super) fn lively(
                 let points = valleys(sight, density, &ends, cost);
                 let short: Vec<_> = points
                     .iter()
-                    .map(|point| smallest(*point, steps, CLIMB / 4, 0.1, &cost))
+                    .map(|point| simplex::lowest(*point, steps, 0.1, CLIMB / 4, &cost))
                     .collect();
                 let tops = summits(short);
                 tops.iter().map(|top| from(&top.0, CLIMB)).collect()

@@ -1,32 +1,11 @@
 //! Vectors and matrices of angle, speed, acceleration, jerk, and the error of the clock.
 #![allow(clippy::needless_range_loop)] // rows and columns by number read like the formula
 
+use crate::state_space::{self, symmetric};
+
 pub(super) const N: usize = 5;
-pub(super) type Vector = [f64; N];
-pub(super) type Matrix = [[f64; N]; N];
-
-#[inline]
-pub(super) fn product(a: &Matrix, b: &Matrix) -> Matrix {
-    let mut c = [[0.0; N]; N];
-    for (from, to) in a.iter().zip(&mut c) {
-        let mut row = [0.0; N];
-        for (x, other) in from.iter().zip(b) {
-            for (sum, y) in row.iter_mut().zip(other) {
-                *sum += x * y;
-            }
-        }
-        *to = row;
-    }
-    c
-}
-
-pub(super) fn transposed(a: &Matrix) -> Matrix {
-    std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
-}
-
-pub(super) fn apply(a: &Matrix, x: &Vector) -> Vector {
-    std::array::from_fn(|i| (0..N).map(|j| a[i][j] * x[j]).sum())
-}
+pub(super) type Vector = state_space::Vector<N>;
+pub(super) type Matrix = state_space::Matrix<N>;
 
 pub(super) fn plus(a: &Matrix, b: &Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + b[i][j]))
@@ -125,13 +104,7 @@ pub(super) fn advance(x: &mut Vector, p: &mut Matrix, dt: f64, density: f64, mem
         b[i][3] += a[i][3];
         b[i][4] += kept * a[i][4];
     }
-    for i in 0..N {
-        for j in 0..i {
-            let mean = 0.5 * (b[i][j] + b[j][i]);
-            b[i][j] = mean;
-            b[j][i] = mean;
-        }
-    }
+    symmetric(&mut b);
     *p = b;
 }
 
@@ -164,13 +137,7 @@ pub(super) fn taken_back(g: &mut Vector, c: &mut Matrix, dt: f64, memory: &Memor
             kept * a[i][4],
         ];
     }
-    for i in 0..N {
-        for j in 0..i {
-            let mean = 0.5 * (c[i][j] + c[j][i]);
-            c[i][j] = mean;
-            c[j][i] = mean;
-        }
-    }
+    symmetric(c);
 }
 
 /// Lower triangle `l` with `l lᵀ = p` of a matrix that may be singular.

@@ -13,10 +13,10 @@
 #![allow(clippy::needless_range_loop)] // rows and columns by number read like the formula
 
 use super::matrix::{
-    Matrix, Memory, N, Vector, advance, apply, carry, drift, gathered, minus, plus, product, root,
-    taken_back, transposed,
+    Matrix, Memory, N, Vector, advance, carry, drift, gathered, minus, plus, root, taken_back,
 };
 use super::node::{Belief, Node};
+use crate::state_space::{applied, product, seen_back, transposed};
 
 /// A filtered and smoothed record.
 #[derive(Clone, Debug)]
@@ -143,19 +143,8 @@ impl Track {
                     pull,
                     stiffness,
                 } = updates[k];
-                let along = (0..N).map(|i| gain[i] * g[i]).sum::<f64>();
-                let across: Vector = apply(&c, &gain);
-                let twice = (0..N).map(|i| gain[i] * across[i]).sum::<f64>();
-                for (i, lever) in [(0, 1.0), (4, pulse.speed)] {
-                    g[i] -= lever * (pull + along);
-                    for j in 0..N {
-                        c[i][j] -= lever * across[j];
-                        c[j][i] -= lever * across[j];
-                    }
-                    for (j, other) in [(0, 1.0), (4, pulse.speed)] {
-                        c[i][j] += lever * other * (twice + stiffness);
-                    }
-                }
+                let row = [1.0, 0.0, 0.0, 0.0, pulse.speed];
+                seen_back(&mut g, &mut c, &row, &gain, (pull, stiffness));
             }
             if nodes[k].fresh.is_some() {
                 (g, c) = ([0.0; N], [[0.0; N]; N]);
@@ -249,7 +238,7 @@ impl Track {
         let path = self.back(time - begin);
         let spread = product(&path, &product(&first.covariance, &transposed(&path)));
         Belief {
-            mean: apply(&path, &first.mean),
+            mean: applied(&path, &first.mean),
             covariance: plus(&spread, &self.lost(begin - time)),
         }
     }
@@ -310,7 +299,7 @@ impl Track {
     fn smoothed(&self, time: f64) -> Belief {
         let (belief, gradient, curvature) = self.around(time);
         let p = &belief.covariance;
-        let shift = apply(p, &gradient);
+        let shift = applied(p, &gradient);
         let shrink = product(p, &product(&curvature, p));
         Belief {
             mean: std::array::from_fn(|i| belief.mean[i] - shift[i]),
@@ -382,7 +371,7 @@ impl Track {
     pub fn draw(&self, times: &[f64], normal: &mut dyn FnMut() -> f64) -> Vec<Vector> {
         let mut shake = |p: &Matrix| -> Vector {
             let noise: Vector = std::array::from_fn(|_| normal());
-            apply(&root(p), &noise)
+            applied(&root(p), &noise)
         };
         let moved = shake(&self.start.covariance);
         let mut x: Vector = std::array::from_fn(|i| self.start.mean[i] + moved[i]);
@@ -397,7 +386,7 @@ impl Track {
                 continue;
             }
             let noise = shake(&self.lost(before - t));
-            let free = apply(&self.back(t - before), &later);
+            let free = applied(&self.back(t - before), &later);
             *state = std::array::from_fn(|i| free[i] + noise[i]);
             (later, before) = (*state, t);
         }
@@ -405,7 +394,7 @@ impl Track {
             |x: &mut Vector, dt: f64, density: f64, shake: &mut dyn FnMut(&Matrix) -> Vector| {
                 if dt > 0.0 {
                     let noise = shake(&gathered(dt, density, &self.memory));
-                    let free = apply(&drift(dt, &self.memory), x);
+                    let free = applied(&drift(dt, &self.memory), x);
                     *x = std::array::from_fn(|i| free[i] + noise[i]);
                 }
             };

@@ -2,6 +2,7 @@
 
 use super::inversion::{Inversion, invert};
 use super::{Sensor, Swing, chain};
+use crate::random::Random;
 use crate::shaft::Shaft;
 use crate::uncertain::Uncertain;
 use std::f64::consts::TAU;
@@ -114,9 +115,9 @@ pub fn design_error(design: &Design, frequencies: &[f64]) -> Result<Vec<DesignEr
         let (mut raw, mut readings) = (0.0, 0.0);
         let (mut inverted, mut stated, mut judgements) = (0.0, 0.0, 0.0);
         for repetition in 0..design.repetitions.max(1) {
-            let mut noise = Noise(repetition as u64 + 1);
-            let mut reading: Vec<f64> = (0..rest).map(|_| design.noise * noise.next()).collect();
-            reading.extend(exact.iter().map(|y| y + design.noise * noise.next()));
+            let mut noise = Random::new(repetition as u64 + 1);
+            let mut reading: Vec<f64> = (0..rest).map(|_| design.noise * noise.normal()).collect();
+            reading.extend(exact.iter().map(|y| y + design.noise * noise.normal()));
             let found = invert(&Inversion {
                 sensor: Sensor {
                     frequency: Uncertain::exact(frequency),
@@ -160,21 +161,4 @@ pub fn design_error(design: &Design, frequencies: &[f64]) -> Result<Vec<DesignEr
         });
     }
     Ok(errors)
-}
-
-/// Repeatable noise: SplitMix64, summed to a normal number of unit variance.
-struct Noise(u64);
-
-impl Noise {
-    fn next(&mut self) -> f64 {
-        let mut sum = -6.0;
-        for _ in 0..12 {
-            self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-            let mut z = self.0;
-            z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-            z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-            sum += ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64;
-        }
-        sum
-    }
 }

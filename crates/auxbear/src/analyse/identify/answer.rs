@@ -1,8 +1,8 @@
 //! Named results of an identification: the steady moment, the map of F, the explanations; those of each test on their own
 //! page.
 
-use crate::analyse::identify::answer_tests;
 use crate::analyse::identify::found::Found;
+use crate::analyse::identify::per_test;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Value};
 use identify::explain::{self, Conclusion, Explanation};
@@ -21,7 +21,7 @@ pub(crate) fn quantities(found: &Found) -> Vec<Quantity> {
     verdict(&mut list, found);
     moment(&mut list, found);
     for (number, test) in found.tests.iter().enumerate() {
-        answer_tests::name(&mut list, number + 1, test, &found.set);
+        per_test::name(&mut list, number + 1, test, &found.set);
     }
     map(&mut list, found);
     rotor(&mut list, found);
@@ -284,7 +284,7 @@ fn map(list: &mut List, found: &Found) {
 fn rotor(list: &mut List, found: &Found) {
     let rotor = found.rotor.as_ref().map_err(Clone::clone);
     let mean = rotor.clone().map(|rotor| rotor.mean().friction);
-    answer_tests::uncertain(list, "rotor_friction_coefficient", "1", mean, &ROTOR);
+    per_test::uncertain(list, "rotor_friction_coefficient", "1", mean, &ROTOR);
     let points = rotor.map(|rotor| rotor.over_slip(20));
     for (name, unit, pick) in [
         (
@@ -318,7 +318,7 @@ const FIT: Origin = Origin {
 const NEXT: Origin = Origin {
     law: "expected reduction of the entropy over the explanations",
     source: "crates/identify/src/explain/next_test.rs",
-    valid: "an approximation: each candidate is foretold by draws of each explanation that is left",
+    valid: "an approximation: each candidate is predicted by draws of each explanation that is left",
 };
 const EVIDENCE: Origin = Origin {
     law: "marginal likelihood of each form, the correlation of residuals accounted for",

@@ -57,7 +57,7 @@ mod tests {
             );
             assert_eq!(cause.is_some(), other, "{}", explanation.name());
             assert!(cause.is_none_or(|why| why.contains(explanation.name())));
-            // a false reading tells no energy, a slip leaves the end of the spin-up open
+            // a false reading says nothing of energy, a slip leaves the end of the spin-up open
             let supported = Conclusion::Supported(explanation);
             let sensor = explanation == Explanation::Sensor;
             assert_eq!(false_reading(&supported).is_some(), sensor);

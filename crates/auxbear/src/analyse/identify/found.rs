@@ -1,15 +1,17 @@
 //! What the estimators find in the tests, each with its own reason where it refuses.
 
 use crate::analyse::identify::consequence::{false_reading, other_cause, slip_is_open, slips};
+use crate::analyse::identify::notes::{Note, grouped};
 use crate::analyse::identify::read::{Asked, Test};
-use crate::analyse::identify::told::{Told, grouped};
 use crate::analyse::signals;
 use crate::options::Options;
 use crate::result::outcome::Warning;
 use crate::scenario::RotorFriction;
+use identify::data_checks::{ByTemperature, CheckSettings, Doubt, doubts};
 use identify::dissipation::{Dissipation, dissipation};
-use identify::doubt::{ByTemperature, Doubt, DoubtSettings, doubts};
-use identify::explain::{self, Candidate, Conclusion, Foretelling, Priors, Verdict, foretold};
+use identify::explain::{
+    self, Candidate, Conclusion, PredictionErrors, Priors, Verdict, with_prediction_errors,
+};
 use identify::loss::{Loss, LossMap, LossSettings, Rolling, loss};
 use identify::moment::{Moment, MomentSettings, moment, same_load};
 use identify::rotor_friction::{self, Race, RubbingSpinUp};
@@ -49,7 +51,7 @@ pub(crate) struct TestFound {
 }
 
 impl TestFound {
-    /// What tells that the torque does not come to the steady moment: the lubricant or the sensor was in another state than in the
+    /// What shows that the torque does not come to the steady moment: the lubricant or the sensor was in another state than in the
     /// slow tests, and what is left of t_O - M is not F alone. None where it comes there, or where that is not known.
     pub fn off_the_moment(&self) -> Option<String> {
         let loss = self.loss.as_ref().ok()?;
@@ -244,25 +246,25 @@ impl Found {
             }
             _ => Err("identify.rotor_friction.file is not given".to_string()),
         };
-        let mut told: Vec<Told> = (unusable.iter())
-            .map(|(name, why)| Told::of("AB1060", name, &format!("it is not used: {why}")))
+        let mut lines: Vec<Note> = (unusable.iter())
+            .map(|(name, why)| Note::of("AB1060", name, &format!("it is not used: {why}")))
             .collect();
-        told.extend(doubts.iter().map(|doubt| match doubt.test() {
-            Some(test) => Told::of("AB1061", test, &doubt.finding()),
-            None => Told::of_all("AB1061", &doubt.finding()),
+        lines.extend(doubts.iter().map(|doubt| match doubt.test() {
+            Some(test) => Note::of("AB1061", test, &doubt.finding()),
+            None => Note::of_all("AB1061", &doubt.finding()),
         }));
         let unequal = moment.iter().filter_map(|moment| moment.unequal.as_ref());
-        told.extend(unequal.map(|unequal| Told::of_all("AB1061", &unequal.finding())));
+        lines.extend(unequal.map(|unequal| Note::of_all("AB1061", &unequal.finding())));
         let notes = (moment.iter().flat_map(|moment| &moment.notes))
             .chain(map.iter().flat_map(|map| &map.notes))
             .chain(rotor.iter().flat_map(|rotor| &rotor.notes));
-        told.extend(notes.map(|note| Told::of_all("AB1062", note)));
-        told.extend(tests.iter().flat_map(|test| {
+        lines.extend(notes.map(|note| Note::of_all("AB1062", note)));
+        lines.extend(tests.iter().flat_map(|test| {
             let notes = (test.loss.iter().flat_map(|loss| &loss.notes))
                 .chain(test.dissipation.iter().flat_map(|found| &found.notes));
-            notes.map(|note| Told::of("AB1062", &test.name, note))
+            notes.map(|note| Note::of("AB1062", &test.name, note))
         }));
-        told.append(&mut of_signals);
+        lines.append(&mut of_signals);
         Found {
             set,
             coast_downs,
@@ -273,7 +275,7 @@ impl Found {
             next,
             rotor,
             unused,
-            warnings: grouped(&told),
+            warnings: grouped(&lines),
             interrupted: interrupted(),
         }
     }
@@ -322,10 +324,10 @@ fn rolling_set(asked: &Asked) -> RollingSet<f64> {
 fn measured(
     test: &Test,
     settling_time: f64,
-    told: &mut Vec<Told>,
+    lines: &mut Vec<Note>,
 ) -> Result<(Measurement, Uncertain), String> {
     let found = signals::find(&test.asked);
-    told.extend(noted(test, &found));
+    lines.extend(noted(test, &found));
     let lacks = |part: &'static str| format!("no {part}: {}", found.why(part, true));
     let shaft = found.shaft.as_ref().ok_or_else(|| lacks("speed"))?;
     let torque = found.torque.as_ref().ok_or_else(|| lacks("torque"))?;
@@ -359,9 +361,9 @@ fn measured(
 }
 
 /// What the estimators of the signals say.
-fn noted(test: &Test, found: &signals::found::Found) -> Vec<Told> {
+fn noted(test: &Test, found: &signals::found::Found) -> Vec<Note> {
     (found.warnings.iter())
-        .map(|warning| Told::of(warning.code, &test.name, &warning.text))
+        .map(|warning| Note::of(warning.code, &test.name, &warning.text))
         .collect()
 }
 
@@ -400,12 +402,12 @@ fn doubted(
         tests,
         curve,
         set,
-        &DoubtSettings {
+        &CheckSettings {
             wanted_speed: wanted.is_finite().then_some(wanted),
             ball_count: Some(wish.ball_count as u32),
             masses_known: true,
             temperature: Some(ByTemperature::MomentPerKelvin(Uncertain::new(change, open))),
-            ..DoubtSettings::default()
+            ..CheckSettings::default()
         },
     )
 }
@@ -423,14 +425,14 @@ fn explained(
         settling_time,
         ..explain::Settings::default()
     };
-    let foretelling = Foretelling {
+    let errors = PredictionErrors {
         locking_window: how.locking_window,
         rolling_ratio_deviation: how.rolling_ratio_deviation,
     };
     let priors = Priors::default();
     let curve = &moment.curve;
     let measurements: Vec<Measurement> = (tests.iter())
-        .map(|test| foretold(&test.measurement, curve, set, &foretelling))
+        .map(|test| with_prediction_errors(&test.measurement, curve, set, &errors))
         .collect();
     let verdict = explain::explain(&measurements, curve, set, &priors, &settings)
         .map_err(|why| why.to_string());
@@ -469,11 +471,11 @@ fn rubbed(
     wish: &RotorFriction,
     test: &Test,
     bearing: &Known,
-    told: &mut Vec<Told>,
+    lines: &mut Vec<Note>,
 ) -> Result<rotor_friction::RotorFriction, String> {
     let moment = (bearing.moment.as_ref()).map_err(|_| "the steady moment is not known")?;
     let found = signals::find(&test.asked);
-    told.extend(noted(test, &found));
+    lines.extend(noted(test, &found));
     let shaft = (found.shaft.as_ref()).ok_or_else(|| found.why("speed", true))?;
     let run = RubbingSpinUp::measured(
         &test.name,

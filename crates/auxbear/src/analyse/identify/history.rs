@@ -2,6 +2,7 @@
 
 use crate::analyse::identify::found::{Found, TestFound};
 use crate::result::outcome::Column;
+use measure::interpolation::between;
 use measure::uncertain::Uncertain;
 
 /// Interval in the quick part, s, and how long that lasts after the engagement.
@@ -62,7 +63,7 @@ fn of_test(
         });
     };
     let at = |list: &[f64]| -> Vec<f64> {
-        let value = |time: &f64| interpolated(&m.time, list, begin + time);
+        let value = |time: &f64| between(&m.time, list, begin + time).unwrap_or(f64::NAN);
         times.iter().map(value).collect()
     };
     add("speed", "rad/s", "speed of the inner race", at(&m.speed));
@@ -132,7 +133,7 @@ fn of_test(
                     .collect();
                 times
                     .iter()
-                    .map(|t| interpolated(&time, &list, begin + t))
+                    .map(|t| between(&time, &list, begin + t).unwrap_or(f64::NAN))
                     .collect()
             };
             add(name, unit, meaning, part(|u| u.value));
@@ -166,7 +167,7 @@ fn of_test(
             let list: Vec<f64> = slip.points.iter().map(pick).collect();
             times
                 .iter()
-                .map(|t| interpolated(&time, &list, begin + t))
+                .map(|t| between(&time, &list, begin + t).unwrap_or(f64::NAN))
                 .collect()
         };
         add("cage_slip", "1", "slip of the cage", part(|p| p.slip.value));
@@ -183,15 +184,4 @@ fn of_test(
             part(|p| p.slipping),
         );
     }
-}
-
-/// A list over rising times at a time, straight between two values; not-a-number outside.
-fn interpolated(times: &[f64], values: &[f64], time: f64) -> f64 {
-    let after = times.partition_point(|t| *t <= time);
-    if after == 0 || after >= times.len() {
-        return f64::NAN;
-    }
-    let (left, right) = (after - 1, after);
-    let share = (time - times[left]) / (times[right] - times[left]);
-    values[left] + share * (values[right] - values[left])
 }

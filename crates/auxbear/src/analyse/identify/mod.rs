@@ -1,4 +1,4 @@
-//! What measured tests tell of a bearing: from the signals files of several tests to named results.
+//! What measured tests say of a bearing: from the signals files of several tests to named results.
 //!
 //! ```text
 //! signals files ─signals─▶ speed, torque, cage ─measurement─▶ one Measurement a test
@@ -9,17 +9,17 @@
 //! | `read` | the signals files and their channels |
 //! | `found` | the estimators of the crate `identify`, each with its own reason where it refuses |
 //! | `consequence` | what follows from a verdict for the other results |
-//! | `told` | what to know of the tests, each line once |
-//! | `answer`, `answer_tests` | named results |
+//! | `notes` | what to know of the tests, each line once |
+//! | `answer`, `per_test` | named results |
 //! | `history` | the tests over time since their engagement |
 
 mod answer;
-mod answer_tests;
 mod consequence;
 mod found;
 mod history;
+mod notes;
+mod per_test;
 mod read;
-mod told;
 
 use crate::options::Options;
 use crate::result::assumptions::assumptions;

@@ -5,7 +5,7 @@ use crate::problem::{Code, Problem};
 use crate::scenario::{BuiltIn, Identify, Scenario, Signals, System, UNNAMED};
 use std::path::Path;
 
-/// One test as its signals file tells it, its channels read.
+/// One test as its signals file describes it, its channels read.
 pub struct Test {
     /// Name for people: that of the file, or of its folder where the file is called signals.toml.
     pub name: String,

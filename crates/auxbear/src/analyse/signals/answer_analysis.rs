@@ -5,7 +5,7 @@ use crate::analyse::signals::found::Found;
 use crate::analyse::signals::vibration;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::Value;
-use measure::steady_curve::{Difference, SteadyCurve};
+use identify::steady_curve::{Difference, SteadyCurve};
 
 /// Names the results.
 pub(crate) fn name(list: &mut List, asked: &Asked, found: &Found) {
@@ -198,16 +198,16 @@ const SPECTROGRAM: Origin = Origin {
 };
 const INERTIA: Origin = Origin {
     law: "as given; m g a T²/4π² - m a² (pendulum); m g d² T²/16π² l (two strings); ΔM/(α₁ - α₀) (known torque)",
-    source: "crates/measure/src/steady_curve/inertia.rs",
+    source: "crates/measure/src/inertia.rs",
     valid: "small swings, light damping; everything that coasts takes part",
 };
 const STEADY: Origin = Origin {
     law: "direct: smooth curve through torque over speed; inertial: -I dΩ/dt of a smooth curve through the speed of whole turns; deviation: standard, of the inertia included",
-    source: "crates/measure/src/steady_curve; bands in crates/measure/tests/steady_curve.rs",
+    source: "crates/identify/src/steady_curve; bands in crates/identify/tests/steady_curve.rs",
     valid: "one passage over the speeds; inertial: all that brakes what coasts, other bearings and air included",
 };
 const COMPARED: Origin = Origin {
     law: "mean difference over the common speeds; chance of so large a difference between equal curves",
-    source: "crates/measure/src/steady_curve/compare.rs",
+    source: "crates/identify/src/steady_curve/compare.rs",
     valid: "independent errors of the two curves",
 };

@@ -2,6 +2,7 @@
 
 use crate::analyse::signals::shaft;
 use crate::scenario::TorqueSignal;
+use measure::interpolation::held;
 use measure::torque_sensor::{Design, DesignError, Sensor, Torque, design_error};
 use std::f64::consts::TAU;
 
@@ -47,13 +48,7 @@ pub(crate) fn errors(
     }
     let motions: Vec<_> = times.iter().map(|time| shaft.speed.at(*time)).collect();
     let expected: Vec<f64> = (times.iter())
-        .map(|time| {
-            let after = torque.time.partition_point(|t| t <= time).max(1);
-            let after = after.min(torque.time.len() - 1);
-            let part = (time - torque.time[after - 1]) / interval;
-            let (left, right) = (torque.torque[after - 1], torque.torque[after]);
-            left + part.clamp(0.0, 1.0) * (right - left)
-        })
+        .map(|time| held(&torque.time, &torque.torque, *time))
         .collect();
     if expected.iter().any(|value| value.is_nan()) {
         return Err("the torque is not told where the reading is clipped".to_string());

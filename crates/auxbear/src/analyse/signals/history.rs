@@ -3,6 +3,7 @@
 use crate::analyse::signals::asked::{Asked, Signal};
 use crate::analyse::signals::found::Found;
 use crate::result::outcome::Column;
+use measure::interpolation;
 use measure::speed::Motion;
 
 /// Rows of a history at equal times.
@@ -76,7 +77,7 @@ pub(crate) fn columns(asked: &Asked, found: &Found) -> Vec<Column> {
     if let Some(series) = &asked.torque {
         let reading = |time: f64| {
             let place = (time - series.first) / series.interval;
-            between(place, &series.values)
+            interpolation::at_index(&series.values, place).unwrap_or(f64::NAN)
         };
         add(
             "torque.reading",
@@ -249,20 +250,6 @@ fn times(asked: &Asked, found: &Found) -> Vec<f64> {
     times
 }
 
-/// Value at a place between indices, on a straight line; not-a-number outside.
-fn between(place: f64, values: &[f64]) -> f64 {
-    if !(place >= 0.0 && place <= values.len() as f64 - 1.0) {
-        return f64::NAN;
-    }
-    let low = place as usize;
-    let part = place - low as f64;
-    match (values.get(low), values.get(low + 1)) {
-        (Some(a), Some(b)) if part > 0.0 => a + part * (b - a),
-        (Some(a), _) => *a,
-        _ => f64::NAN,
-    }
-}
-
 /// The one of two neighbouring times, by its index, that is on the same side of a jump between them.
 fn beside_a_jump(time: f64, jump: f64, times: &[f64]) -> Option<usize> {
     let next = times.partition_point(|t| *t <= time);
@@ -271,22 +258,9 @@ fn beside_a_jump(time: f64, jump: f64, times: &[f64]) -> Option<usize> {
     between.then_some(if time < jump { before } else { after })
 }
 
-/// Value at a time among times that rise.
+/// Value at a time among times that rise; not-a-number outside.
 fn at(time: f64, times: &[f64], values: &[f64]) -> f64 {
-    let next = times.partition_point(|t| *t <= time);
-    if next == 0 {
-        return f64::NAN;
-    }
-    if next >= times.len() {
-        let last = times.last().is_some_and(|last| *last >= time);
-        return if last {
-            values.last().copied().unwrap_or(f64::NAN)
-        } else {
-            f64::NAN
-        };
-    }
-    let width = times[next] - times[next - 1];
-    between((next - 1) as f64 + (time - times[next - 1]) / width, values)
+    interpolation::between(times, values, time).unwrap_or(f64::NAN)
 }
 
 #[cfg(test)]

@@ -3,10 +3,8 @@
 use crate::analyse::signals::read::Series;
 use crate::analyse::signals::{shaft, torque};
 use crate::scenario::{InertiaSource, SteadySignal, TorqueSignal};
-use measure::steady_curve::{
-    Difference, SteadyCurve, compare, direct, inertia_from_bifilar, inertia_from_known_torque,
-    inertia_from_pendulum, inertial,
-};
+use identify::steady_curve::{Difference, SteadyCurve, compare, direct, inertial};
+use measure::inertia::{inertia_from_bifilar, inertia_from_known_torque, inertia_from_pendulum};
 use measure::uncertain::Uncertain;
 
 /// Values of the speed that a curve is drawn from, at most.

@@ -1,6 +1,7 @@
 //! The temperature of the outer race.
 
 use crate::analyse::signals::read::Series;
+use measure::interpolation::held;
 
 /// Length of the means, s: short against any thermocouple's lag, long enough to take its noise away.
 const MEAN: f64 = 0.05;
@@ -50,15 +51,6 @@ impl Found {
 
     /// Temperature at a time, K: straight between the means, as at the ends beyond them.
     pub fn at(&self, time: f64) -> f64 {
-        let after = self.time.partition_point(|t| *t <= time);
-        let last = self.time.len().saturating_sub(1);
-        let (left, right) = (after.saturating_sub(1), after.min(last));
-        let (Some(a), Some(b)) = (self.temperature.get(left), self.temperature.get(right)) else {
-            return f64::NAN;
-        };
-        if left == right {
-            return *a;
-        }
-        a + (b - a) * (time - self.time[left]) / (self.time[right] - self.time[left])
+        held(&self.time, &self.temperature, time)
     }
 }

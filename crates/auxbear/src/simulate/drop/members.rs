@@ -1,15 +1,13 @@
 //! The members of a repeated drop: perturbed starts, and machines that differ.
 
 use crate::problem::{Place, Problem};
-use crate::scenario::{Draws, Drop, Scenario, System};
+use crate::scenario::{Drop, Scenario, System};
 use crate::simulate::drop::build::{self, Built};
 use crate::simulate::drop::ensemble::Member;
+use measure::random::Random;
 use model::bearing::BearingConstants;
 use model::system::machine::RotorMachine;
 use number::Vec2;
-use rand_distr::{Distribution, StandardNormal};
-use rand_xoshiro::Xoshiro256PlusPlus;
-use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
 /// A member whose machine differs from the one given.
 pub(crate) struct Varied {
@@ -32,7 +30,7 @@ pub(crate) fn varied(scenario: &Scenario, drop: &Drop) -> Result<Vec<Varied>, Bo
     let mut kinds = vec![kind_of(scenario)];
     (1..count)
         .map(|k| {
-            let mut random = Random::of(drop.repeat.seed ^ MACHINES, k);
+            let mut random = numbers(drop.repeat.seed ^ MACHINES, k);
             let drawn: Vec<_> = (scenario.vary.iter())
                 .flat_map(|vary| vary.draw(&mut random))
                 .collect();
@@ -103,7 +101,7 @@ pub(crate) fn of(drop: &Drop, built: &Built, varied: &[Varied]) -> Vec<Member> {
 
 /// Moves the rotor and every ball a little.
 fn perturb(drop: &Drop, machine: &RotorMachine, start: &mut [f64], k: usize) {
-    let mut random = Random::of(drop.repeat.seed, k);
+    let mut random = numbers(drop.repeat.seed, k);
     let mut normal = || random.normal();
     let shift = Vec2::new(normal(), normal()) * drop.repeat.rotor_position_deviation;
     let angles: Vec<Vec<f64>> = (machine.constants.bearings.iter())
@@ -123,28 +121,15 @@ fn perturb(drop: &Drop, machine: &RotorMachine, start: &mut [f64], k: usize) {
 /// Keeps the numbers of machines apart from those of starts.
 const MACHINES: u64 = 0x5851_f42d_4c95_7f2d;
 
-/// The random numbers of a member.
-struct Random(Xoshiro256PlusPlus);
-
-impl Random {
-    /// (seed, k) mixed so that neighbouring pairs share nothing.
-    fn of(seed: u64, k: usize) -> Self {
-        // finaliser of SplitMix64, twice
-        let mix = |mut x: u64| {
-            x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            x ^ (x >> 31)
-        };
-        let mixed = mix(mix(seed.wrapping_add(0x9e37_79b9_7f4a_7c15)).wrapping_add(k as u64));
-        Random(Xoshiro256PlusPlus::seed_from_u64(mixed))
-    }
-}
-
-impl Draws for Random {
-    fn normal(&mut self) -> f64 {
-        StandardNormal.sample(&mut self.0)
-    }
-    fn uniform(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
-    }
+/// The random numbers of a member: (seed, k) mixed so that neighbouring pairs share nothing.
+fn numbers(seed: u64, k: usize) -> Random {
+    // finaliser of SplitMix64, twice
+    let mix = |mut x: u64| {
+        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^ (x >> 31)
+    };
+    Random::new(mix(
+        mix(seed.wrapping_add(0x9e37_79b9_7f4a_7c15)).wrapping_add(k as u64)
+    ))
 }

@@ -12,13 +12,11 @@
 //! Does not model: hum, a filter before the converter, cross-talk between channels.
 
 use crate::scenario::{Rig, RigArm, RigPickupKind, RigProgram};
+use measure::random::Random;
 use model::sensor::Marks;
 use model::system::rig::Tap;
 use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
 use model::system::rig::taps::multiplexed;
-use rand_distr::{Distribution, StandardNormal};
-use rand_xoshiro::Xoshiro256PlusPlus;
-use rand_xoshiro::rand_core::SeedableRng;
 
 /// Values of something at equal times.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -115,8 +113,8 @@ enum Stream {
 fn normal(rig: &Rig, stream: Stream) -> impl FnMut() -> f64 {
     // streams far apart: golden-ratio steps of 2^64
     let seed = (rig.logger.seed).wrapping_add((stream as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15));
-    let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
-    move || StandardNormal.sample(&mut random)
+    let mut random = Random::new(seed);
+    move || random.normal()
 }
 
 /// A converter channel over a range.

@@ -3,6 +3,7 @@
 //! A scale takes the values of another by its number, or raw values; the last is the channel's.
 
 use super::layout::PLAIN;
+use crate::interpolation::held;
 use crate::recording::Value;
 
 /// Most scales of a channel; devices use a handful.
@@ -28,7 +29,8 @@ enum Law {
     },
     /// Straight lines between points, the nearest point's value outside; the inputs ascend.
     Table {
-        points: Vec<(f64, f64)>,
+        inputs: Vec<f64>,
+        outputs: Vec<f64>,
         input: usize,
     },
     /// Left + right.
@@ -142,8 +144,10 @@ impl Scaling {
                 if points.is_empty() {
                     return Err(format!("scale {scale} (Table) is empty"));
                 }
+                let (inputs, outputs) = points.into_iter().unzip();
                 Law::Table {
-                    points,
+                    inputs,
+                    outputs,
                     input: input("Input_Source")?,
                 }
             }
@@ -196,9 +200,10 @@ impl Scaling {
                     );
                 }
                 Law::Table {
-                    points,
+                    inputs,
+                    outputs,
                     input: from,
-                } => out.extend(input(from).map(|x| between(points, x))),
+                } => out.extend(input(from).map(|x| held(inputs, outputs, x))),
                 Law::Add { left, right } => {
                     out.extend(input(left).zip(input(right)).map(|(l, r)| l + r))
                 }
@@ -220,22 +225,6 @@ fn number(property: &Lookup, name: &str) -> Option<f64> {
     match property(name) {
         Some(Value::Number(number)) => Some(*number),
         _ => None,
-    }
-}
-
-/// The value at `x` on straight lines between points whose first numbers ascend.
-fn between(points: &[(f64, f64)], x: f64) -> f64 {
-    if x.is_nan() {
-        return x;
-    }
-    let above = points.partition_point(|point| point.0 <= x);
-    match (
-        above.checked_sub(1).and_then(|below| points.get(below)),
-        points.get(above),
-    ) {
-        (Some(a), Some(b)) => a.1 + (b.1 - a.1) * (x - a.0) / (b.0 - a.0),
-        (Some(only), None) | (None, Some(only)) => only.1,
-        (None, None) => f64::NAN,
     }
 }
 
@@ -304,14 +293,5 @@ mod tests {
             ("NI_Scale[0]_Linear_Y_Intercept", n(1.0)),
         ];
         assert!(scaled(&properties, 3.0).is_err_and(|why| why.contains("are scaled")));
-    }
-
-    #[test]
-    fn a_table_is_straight_between_points_and_level_outside() {
-        let points = [(0.0, 1.0), (2.0, 5.0)];
-        assert_eq!(between(&points, 0.5), 2.0);
-        assert_eq!(between(&points, -9.0), 1.0);
-        assert_eq!(between(&points, 9.0), 5.0);
-        assert!(between(&points, f64::NAN).is_nan());
     }
 }

@@ -55,7 +55,7 @@ impl Doubt {
                 "it reaches {reached:.4} rad/s, never the {wanted:.4} rad/s at which it is to be analysed"
             ),
             Doubt::OutsideMoment { part, range, .. } => format!(
-                "it runs outside {:.4} to {:.4} rad/s, where M was measured, for {:.1} % of its time: nothing is told there",
+                "it runs outside {:.4} to {:.4} rad/s, where M was measured, for {:.1} % of its time: nothing is reported there",
                 range.0,
                 range.1,
                 100.0 * part
@@ -95,7 +95,7 @@ impl Doubt {
                     1e3 * most
                 ),
                 None => format!(
-                    "the masses of balls and cage are not known: at {acceleration:.0} rad/s² inertia cannot be told from friction"
+                    "the masses of balls and cage are not known: at {acceleration:.0} rad/s² inertia cannot be distinguished from friction"
                 ),
             },
             Doubt::WrongBallCount {

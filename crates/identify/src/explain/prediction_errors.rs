@@ -1,4 +1,4 @@
-//! A test whose torque and cage speed are as uncertain as what is foretold of them.
+//! A test whose torque and cage speed are as uncertain as their prediction.
 //!
 //! ```text
 //!   σ² = σ_t² + (M' σ_Ω)² + (J_O σ_Ω̇)²                 the torque of rolling balls, M(Ω) - J_O Ω̇, by speed and acceleration
@@ -13,9 +13,9 @@
 use crate::{Measurement, SteadyMoment};
 use physics::rolling::RollingSet;
 
-/// How well a test can be foretold beside its own deviations.
+/// How well a test can be predicted beside its own deviations.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Foretelling {
+pub struct PredictionErrors {
     /// Time around the largest acceleration within which a jump of the torque is smeared, s.
     pub locking_window: f64,
     /// Relative standard deviation of the ratio of the cage's rolling speed to the shaft's: contact angle and radii, and a shaft's
@@ -23,7 +23,7 @@ pub struct Foretelling {
     pub rolling_ratio_deviation: f64,
 }
 
-impl Default for Foretelling {
+impl Default for PredictionErrors {
     /// 10 ms, about 1/ω_n of usual arms (16 ms at 10 Hz, 5 ms at 30 Hz); a ratio to 0.2 %: in a 6005 diameters that are off by 1 %, or a contact angle
     /// of 8° taken as none.
     fn default() -> Self {
@@ -34,17 +34,17 @@ impl Default for Foretelling {
     }
 }
 
-/// The test with the deviations of what is foretold of it.
+/// The test with the errors of its prediction in its deviations.
 ///
 /// - `test`: as measured
 /// - `steady`: M(Ω) of the slow tests
 /// - `set`: balls and cage
-/// - `how`: how well it can be foretold
-pub fn foretold(
+/// - `how`: how well it can be predicted
+pub fn with_prediction_errors(
     test: &Measurement,
     steady: &SteadyMoment,
     set: &RollingSet<f64>,
-    how: &Foretelling,
+    how: &PredictionErrors,
 ) -> Measurement {
     let mut test = test.clone();
     by_motion(&mut test, steady, set);
@@ -131,11 +131,11 @@ mod tests {
             temperature: None,
             time,
         };
-        let how = Foretelling {
+        let how = PredictionErrors {
             locking_window: 0.0055,
             rolling_ratio_deviation: 0.05,
         };
-        let wide = foretold(&test, &steady, &set, &how);
+        let wide = with_prediction_errors(&test, &steady, &set, &how);
         let inertia = set.outer_inertia() * 100.0;
         let near = |k: usize, expected: f64| {
             assert!(

@@ -5,22 +5,22 @@ use crate::result::outcome::Warning;
 
 /// Something that is said of a test, or of all.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Told {
+pub(crate) struct Note {
     code: &'static str,
     test: Option<String>,
     text: String,
 }
 
-impl Told {
+impl Note {
     /// Said of one test.
     ///
     /// Where the text begins with the name, or says it again on the way, it is left out: the line names the test already, and a
     /// name that is a number is none to be merged.
-    pub fn of(code: &'static str, test: &str, text: &str) -> Told {
+    pub fn of(code: &'static str, test: &str, text: &str) -> Note {
         let named = format!("{test}: ");
         let text = text.replace(&format!(" {named}"), " ");
         let text = text.trim_start_matches(named.as_str());
-        Told {
+        Note {
             code,
             test: Some(test.to_string()),
             text: text.trim_end_matches('.').to_string(),
@@ -28,8 +28,8 @@ impl Told {
     }
 
     /// Said of all.
-    pub fn of_all(code: &'static str, text: &str) -> Told {
-        Told {
+    pub fn of_all(code: &'static str, text: &str) -> Note {
+        Note {
             code,
             test: None,
             text: text.trim_end_matches('.').to_string(),
@@ -90,9 +90,9 @@ fn merged(texts: &[&str]) -> String {
 }
 
 /// The lines: in the order in which each is said first.
-pub(crate) fn grouped(told: &[Told]) -> Vec<Warning> {
-    let mut groups: Vec<Vec<&Told>> = Vec::new();
-    for one in told {
+pub(crate) fn grouped(notes: &[Note]) -> Vec<Warning> {
+    let mut groups: Vec<Vec<&Note>> = Vec::new();
+    for one in notes {
         if groups.iter().any(|group| group.contains(&one)) {
             continue;
         }
@@ -114,9 +114,9 @@ pub(crate) fn grouped(told: &[Told]) -> Vec<Warning> {
         .map(|group| {
             let names: Vec<&str> = group
                 .iter()
-                .filter_map(|told| told.test.as_deref())
+                .filter_map(|note| note.test.as_deref())
                 .collect();
-            let texts: Vec<&str> = group.iter().map(|told| told.text.as_str()).collect();
+            let texts: Vec<&str> = group.iter().map(|note| note.text.as_str()).collect();
             let text = merged(&texts);
             Warning {
                 code: group[0].code,
@@ -133,8 +133,8 @@ pub(crate) fn grouped(told: &[Told]) -> Vec<Warning> {
 mod tests {
     use super::*;
 
-    fn texts(told: &[Told]) -> Vec<String> {
-        grouped(told)
+    fn texts(notes: &[Note]) -> Vec<String> {
+        grouped(notes)
             .into_iter()
             .map(|warning| warning.text)
             .collect()
@@ -143,27 +143,27 @@ mod tests {
     #[test]
     fn the_same_of_several_tests_is_one_line_with_ranges() {
         let outside = |count: u32| {
-            format!("{count} of 8029 times lie outside 3.7 to 150 rad/s: nothing is told there")
+            format!("{count} of 8029 times lie outside 3.7 to 150 rad/s: nothing is reported there")
         };
-        let told = [
-            Told::of("AB1062", "fast", &outside(1446)),
-            Told::of(
+        let notes = [
+            Note::of("AB1062", "fast", &outside(1446)),
+            Note::of(
                 "AB1061",
                 "slow",
                 "it settles at 0.714 of M, -7.4 ± 0.13 N mm (2σ) apart.",
             ),
-            Told::of("AB1062", "slow", &outside(27)),
-            Told::of(
+            Note::of("AB1062", "slow", &outside(27)),
+            Note::of(
                 "AB1061",
                 "fast",
                 "it settles at 0.714 of M, -12.4 ± 0.13 N mm (2σ) apart",
             ),
-            Told::of_all("AB1062", "no SKF law is given."),
+            Note::of_all("AB1062", "no SKF law is given."),
         ];
         assert_eq!(
-            texts(&told),
+            texts(&notes),
             [
-                "fast, slow: 27 to 1446 of 8029 times lie outside 3.7 to 150 rad/s: nothing is told there.",
+                "fast, slow: 27 to 1446 of 8029 times lie outside 3.7 to 150 rad/s: nothing is reported there.",
                 "slow, fast: it settles at 0.714 of M, -12.4 to -7.4 ± 0.13 N mm (2σ) apart.",
                 "no SKF law is given.",
             ]
@@ -171,13 +171,13 @@ mod tests {
     }
     #[test]
     fn the_name_of_a_test_is_said_once_though_it_be_a_number() {
-        let told: Vec<Told> = ["1300", "7200", "11500"]
+        let notes: Vec<Note> = ["1300", "7200", "11500"]
             .iter()
-            .map(|name| Told::of("AB1062", name, &format!("{name}: no cage signal")))
-            .chain([Told::of("AB1060", "r1", "it is not used: r1: no mark")])
+            .map(|name| Note::of("AB1062", name, &format!("{name}: no cage signal")))
+            .chain([Note::of("AB1060", "r1", "it is not used: r1: no mark")])
             .collect();
         assert_eq!(
-            texts(&told),
+            texts(&notes),
             [
                 "1300, 7200, 11500: no cage signal.",
                 "r1: it is not used: no mark.",
@@ -186,17 +186,17 @@ mod tests {
     }
     #[test]
     fn what_differs_in_words_code_or_by_one_test_stays_apart() {
-        let told = [
-            Told::of("AB1043", "a", "Torque: 1 values are left out"),
-            Told::of("AB1043", "b", "Cage: 1 values are left out"),
-            Told::of("AB1041", "c", "Torque: 1 values are left out"),
-            Told::of("AB1043", "a", "Torque: 2 values are left out"),
-            Told::of("AB1043", "d", "Torque: 1 values are left out, and more"),
+        let notes = [
+            Note::of("AB1043", "a", "Torque: 1 values are left out"),
+            Note::of("AB1043", "b", "Cage: 1 values are left out"),
+            Note::of("AB1041", "c", "Torque: 1 values are left out"),
+            Note::of("AB1043", "a", "Torque: 2 values are left out"),
+            Note::of("AB1043", "d", "Torque: 1 values are left out, and more"),
             // the very same of the same test is said once
-            Told::of("AB1043", "b", "Cage: 1 values are left out"),
-            Told::of_all("AB1062", "Torque: 1 values are left out"),
+            Note::of("AB1043", "b", "Cage: 1 values are left out"),
+            Note::of_all("AB1062", "Torque: 1 values are left out"),
         ];
-        let said = texts(&told);
+        let said = texts(&notes);
         assert_eq!(said.len(), 6, "{said:?}");
         // a word with a number in it is a name
         assert!(!alike("channel ch1: 3 gaps", "channel ch2: 3 gaps"));

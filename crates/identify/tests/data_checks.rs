@@ -2,7 +2,7 @@
 
 mod made_up;
 
-use identify::doubt::{ByTemperature, Doubt, DoubtSettings, doubts};
+use identify::data_checks::{ByTemperature, CheckSettings, Doubt, doubts};
 use identify::moment::SteadyMoment;
 use identify::{CageTrace, Measurement};
 use made_up::{Random, rolling_spin_up, set, steady};
@@ -30,7 +30,7 @@ fn test(seed: u64) -> Measurement {
     test
 }
 
-fn said(tests: &[&Measurement], steady: &SteadyMoment, settings: &DoubtSettings) -> Vec<Doubt> {
+fn said(tests: &[&Measurement], steady: &SteadyMoment, settings: &CheckSettings) -> Vec<Doubt> {
     let found = doubts(tests, Some(steady), &set(), settings).unwrap();
     for doubt in &found {
         // each can be said, with the name of its test before the finding alone
@@ -44,12 +44,12 @@ fn said(tests: &[&Measurement], steady: &SteadyMoment, settings: &DoubtSettings)
     found
 }
 
-fn told() -> DoubtSettings<'static> {
-    DoubtSettings {
+fn told() -> CheckSettings<'static> {
+    CheckSettings {
         wanted_speed: Some(140.0),
         ball_count: Some(10),
         temperature: Some(ByTemperature::ViscosityPerKelvin(-0.06, -0.03)),
-        ..DoubtSettings::default()
+        ..CheckSettings::default()
     }
 }
 
@@ -65,7 +65,7 @@ fn sound_tests_raise_no_doubt() {
 
 #[test]
 fn a_test_that_never_reaches_the_speed() {
-    let settings = DoubtSettings {
+    let settings = CheckSettings {
         wanted_speed: Some(180.0),
         ..told()
     };
@@ -130,7 +130,7 @@ fn tests_at_different_loads() {
 
 #[test]
 fn inertia_that_is_not_known() {
-    let settings = DoubtSettings {
+    let settings = CheckSettings {
         masses_known: false,
         ..told()
     };
@@ -172,7 +172,7 @@ fn a_cage_signal_of_the_wrong_ball_count() {
             .speed
             .iter_mut()
             .for_each(|s| *s *= factor);
-        let settings = DoubtSettings {
+        let settings = CheckSettings {
             ball_count: Some(stated),
             ..told()
         };
@@ -275,7 +275,7 @@ fn a_temperature_that_explains_everything() {
     assert!(explained(&found), "{found:?}");
     // by a law: ν halves
     let halves = |_: f64| 0.5;
-    let by_law = DoubtSettings {
+    let by_law = CheckSettings {
         temperature: Some(ByTemperature::Viscosity(&halves)),
         ..told()
     };
@@ -286,7 +286,7 @@ fn a_temperature_that_explains_everything() {
         (Uncertain::new(-0.02, 0.0), true),
         (Uncertain::new(-0.01, 0.0), false),
     ] {
-        let by_moment = DoubtSettings {
+        let by_moment = CheckSettings {
             temperature: Some(ByTemperature::MomentPerKelvin(change)),
             ..told()
         };

@@ -10,7 +10,7 @@ use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 use physics::spin_up_energy::SpinUpEnergy;
 
-/// Names what one test tells.
+/// Names the results of one test.
 pub(crate) fn name(list: &mut List, number: usize, test: &TestFound, set: &RollingSet<f64>) {
     let named = |name: &str| format!("test_{number}.{name}");
     let m = &test.measurement;
@@ -148,7 +148,7 @@ fn slip(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
         slip.and_then(|slip| match slip.established {
             Established::At { time, .. } => Ok(time - test.measurement.begin()),
             Established::Throughout => {
-                Err("as far as the signal tells, the cage never slipped".to_string())
+                Err("as far as the signal shows, the cage never slipped".to_string())
             }
             Established::Never => Err("not before the record ends".to_string()),
         }),
@@ -213,5 +213,5 @@ const SLIP: Origin = Origin {
 const SKID: Origin = Origin {
     law: "spin of the balls from (4), (5), (7) with F ≥ 0",
     source: "crates/identify/src/skid.rs",
-    valid: "shortly after the engagement, as long as the torque tells it, with the lubricant in the state of the slow tests: a grease that starts low looks like skid",
+    valid: "shortly after the engagement, as long as the torque shows it, with the lubricant in the state of the slow tests: a grease that starts low looks like skid",
 };

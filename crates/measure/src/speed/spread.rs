@@ -1,69 +1,7 @@
-//! Search for the best parameters, and a picture of how well they are known.
+//! A picture of how well parameters are known.
 
-use crate::normal::quantile;
-
-/// Smallest value of a function by the simplex of Nelder and Mead, from a start and first steps.
-///
-/// Source: Nelder and Mead, The Computer Journal 7, 1965 (from memory).
-pub(super) fn smallest<const D: usize>(
-    start: [f64; D],
-    steps: [f64; D],
-    calls: usize,
-    tolerance: f64,
-    mut value: impl FnMut(&[f64; D]) -> f64,
-) -> ([f64; D], f64) {
-    let mut corners: Vec<([f64; D], f64)> = Vec::with_capacity(D + 1);
-    corners.push((start, value(&start)));
-    for k in 0..D {
-        let mut corner = start;
-        corner[k] += steps[k];
-        corners.push((corner, value(&corner)));
-    }
-    let mut used = D + 1;
-    while used < calls {
-        corners.sort_by(|a, b| a.1.total_cmp(&b.1));
-        if corners[D].1 - corners[0].1 < tolerance {
-            break;
-        }
-        let centre: [f64; D] =
-            std::array::from_fn(|i| corners[..D].iter().map(|c| c.0[i]).sum::<f64>() / D as f64);
-        let worst = corners[D];
-        let along = |factor: f64| -> [f64; D] {
-            std::array::from_fn(|i| centre[i] + factor * (worst.0[i] - centre[i]))
-        };
-        let mut tried = (along(-1.0), 0.0);
-        tried.1 = value(&tried.0);
-        used += 1;
-        if tried.1 < corners[0].1 {
-            let far = along(-2.0);
-            let there = value(&far);
-            used += 1;
-            corners[D] = if there < tried.1 { (far, there) } else { tried };
-        } else if tried.1 < corners[D - 1].1 {
-            corners[D] = tried;
-        } else {
-            let near = if tried.1 < worst.1 {
-                along(-0.5)
-            } else {
-                along(0.5)
-            };
-            let there = value(&near);
-            used += 1;
-            if there < worst.1.min(tried.1) {
-                corners[D] = (near, there);
-            } else {
-                let best = corners[0].0;
-                for corner in &mut corners[1..] {
-                    corner.0 = std::array::from_fn(|i| 0.5 * (best[i] + corner.0[i]));
-                    corner.1 = value(&corner.0);
-                }
-                used += D;
-            }
-        }
-    }
-    corners.sort_by(|a, b| a.1.total_cmp(&b.1));
-    corners[0]
-}
+use crate::linear::lower;
+use crate::random::quasi_normal;
 
 /// Points spread as a density `exp(-value)`, with weights and the logarithm of the integral of the density.
 ///
@@ -127,50 +65,16 @@ pub(super) fn spread<const D: usize>(
             for i in 0..D {
                 covariance[i][i] += (0.02 * guess[i]).powi(2);
             }
-            triangle = lower(&covariance);
+            // where rounding leaves no covariance the density stays as it was
+            triangle = lower(&covariance).unwrap_or(triangle);
         }
     }
     (found, evidence)
 }
 
-fn lower<const D: usize>(p: &[[f64; D]; D]) -> [[f64; D]; D] {
-    let mut l = [[0.0; D]; D];
-    for j in 0..D {
-        let pivot = p[j][j] - (0..j).map(|k| l[j][k] * l[j][k]).sum::<f64>();
-        l[j][j] = pivot.max(1e-12 * p[j][j]).sqrt();
-        for i in j + 1..D {
-            l[i][j] = (p[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>()) / l[j][j];
-        }
-    }
-    l
-}
-
-/// Point of the sequence of Halton, mapped to a standard normal number.
-fn quasi_normal(index: usize, dimension: usize) -> f64 {
-    const BASES: [usize; 5] = [2, 3, 5, 7, 11];
-    let base = BASES[dimension % BASES.len()];
-    let (mut left, mut part, mut x) = (index, 1.0, 0.0);
-    while left > 0 {
-        part /= base as f64;
-        x += part * (left % base) as f64;
-        left /= base;
-    }
-    quantile(x)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_bottom_of_a_bent_valley_is_found() {
-        let valley = |x: &[f64; 2]| (1.0 - x[0]).powi(2) + 100.0 * (x[1] - x[0] * x[0]).powi(2);
-        let (best, value) = smallest([-1.2, 1.0], [0.5, 0.5], 400, 1e-12, valley);
-        assert!(
-            (best[0] - 1.0).abs() < 1e-4 && value < 1e-8,
-            "{best:?} {value}"
-        );
-    }
 
     #[test]
     fn points_have_the_moments_and_the_integral_of_their_density() {

@@ -28,7 +28,7 @@ pub enum ByTemperature<'a> {
 
 /// What is known beside the tests.
 #[derive(Clone, Copy)]
-pub struct DoubtSettings<'a> {
+pub struct CheckSettings<'a> {
     /// Speed at which the tests are to be analysed, rad/s.
     pub wanted_speed: Option<f64>,
     /// Number of balls with which the cage signal was made.
@@ -43,7 +43,7 @@ pub struct DoubtSettings<'a> {
     pub shortest_hold: f64,
 }
 
-impl Default for DoubtSettings<'_> {
+impl Default for CheckSettings<'_> {
     /// Nothing known but the masses. The viscous part is from 0.3 to 1: a greased bearing under light load. The hold is 4 s: the
     /// source paper's slow change takes 3 to 4 s.
     fn default() -> Self {
@@ -179,7 +179,7 @@ pub fn doubts(
     tests: &[&Measurement],
     steady: Option<&SteadyMoment>,
     set: &RollingSet<f64>,
-    settings: &DoubtSettings,
+    settings: &CheckSettings,
 ) -> Result<Vec<Doubt>, String> {
     for test in tests {
         test.sound()?;
@@ -227,7 +227,7 @@ pub fn doubts(
 fn inertia(
     tests: &[&Measurement],
     set: &RollingSet<f64>,
-    settings: &DoubtSettings,
+    settings: &CheckSettings,
     found: &mut Vec<Doubt>,
 ) {
     let sound = |mass: f64| mass.is_finite() && mass > 0.0;
@@ -284,7 +284,7 @@ fn outside(test: &Measurement, steady: &SteadyMoment, found: &mut Vec<Doubt>) {
 fn cage(
     test: &Measurement,
     set: &RollingSet<f64>,
-    settings: &DoubtSettings,
+    settings: &CheckSettings,
     found: &mut Vec<Doubt>,
 ) {
     let (start, end) = held(test);
@@ -333,7 +333,7 @@ fn cage_ratio(
     let top = test.fastest();
     let (mut ratios, mut deviations) = (Vec::new(), Vec::new());
     for ((&time, &own), &deviation) in cage.time.iter().zip(&cage.speed).zip(&cage.deviation) {
-        let of = |list: &[f64]| crate::series::between(&test.time, list, time);
+        let of = |list: &[f64]| measure::interpolation::between(&test.time, list, time);
         let (Some(speed), Some(rate)) = (of(&test.speed), of(&test.acceleration)) else {
             continue;
         };
@@ -369,7 +369,7 @@ fn held(test: &Measurement) -> (f64, f64) {
 fn hold(
     test: &Measurement,
     steady: Option<&SteadyMoment>,
-    settings: &DoubtSettings,
+    settings: &CheckSettings,
     found: &mut Vec<Doubt>,
 ) {
     if spin_up_window(test).is_err() {
