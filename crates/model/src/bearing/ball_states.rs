@@ -6,7 +6,7 @@
 //!   then   balls   ρ (m), ρ̇ (m/s), θ (rad), θ̇ (rad/s), σ (rad/s), each for all balls in turn
 //! ```
 
-use super::ball::{BallMotion, RaceMotion};
+use super::ball::{BallConstants, BallDistances, BallMotion, RaceMotion};
 use crate::motion::Body;
 use number::{Real, Vec2};
 
@@ -18,6 +18,27 @@ pub const OF_CENTRED_CAGE: usize = 2;
 pub const CAGE_PLACE: usize = 2;
 /// States of a cage that is free to move.
 pub const OF_FREE_CAGE: usize = 6;
+
+/// Angle of a ball's seat on the cage, rad: seats are spread evenly.
+pub fn seat(ball: usize, balls: usize) -> f64 {
+    2.0 * std::f64::consts::PI * ball as f64 / balls as f64
+}
+
+/// The seats of all balls.
+pub(super) fn seats<R: Real>(balls: usize) -> Vec<R> {
+    (0..balls).map(|ball| R::splat(seat(ball, balls))).collect()
+}
+
+/// The balls of a bearing: how many, where their states begin, what each is.
+#[derive(Clone, Debug)]
+pub(super) struct BallRow<R: Real> {
+    /// Number of balls.
+    pub balls: usize,
+    /// First state of the balls.
+    pub first: usize,
+    /// The ball.
+    pub ball: BallConstants<R::Group>,
+}
 
 /// The lists of ball states, one after the other.
 #[inline(always)]
@@ -85,4 +106,14 @@ pub(super) fn race<R: Real>(body: &Body<R>) -> RaceMotion<R::Group> {
 pub(super) fn direction<R: Real>(azimuth: R) -> Vec2<R> {
     let (sine, cosine) = azimuth.sin_cos();
     Vec2::new(cosine, sine)
+}
+
+/// Distances of a ball from the centres of the races.
+#[inline(always)]
+pub(super) fn distances<R: Real>(
+    inner: &RaceMotion<R>,
+    outer: &RaceMotion<R>,
+    ball: &BallMotion<R>,
+) -> BallDistances<R> {
+    BallDistances::of(inner, outer, ball.radius, direction(ball.azimuth))
 }

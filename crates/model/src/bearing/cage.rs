@@ -14,32 +14,15 @@
 
 use super::ball::{BallConstants, RaceMotion};
 use super::ball_states::{
-    CAGE_PLACE, OF_FREE_CAGE, add, direction, grouped, load_ball, split, split_mut,
+    CAGE_PLACE, OF_FREE_CAGE, add, direction, grouped, load_ball, seat, split, split_mut,
 };
+use super::ball_sums::{BallSums, largest_part};
+use super::land::Land;
+use super::planar_constants::PlanarConstants;
 use super::pocket::PocketShape;
-use super::{BallSums, BearingEnergy, BearingReaction, PlanarConstants, largest_part, seat};
-use crate::contact::{ContactReaction, JournalContact};
+use super::reaction::{BearingEnergy, BearingReaction};
 use crate::motion::{Body, Motion};
-use crate::rotor::GeometricCentre;
 use number::{Gather, Real, Vec2, Vectorized};
-
-/// Which race has the land.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LandRace {
-    /// The cage rides on the inner race.
-    Inner,
-    /// The cage rides in the outer race.
-    Outer,
-}
-
-/// A land that guides a cage.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Land<R> {
-    /// The race that has it.
-    pub race: LandRace,
-    /// The contact: the cage in the outer race, or the inner race in the cage.
-    pub contact: JournalContact<R>,
-}
 
 /// A cage that is free to move, over `R`.
 #[derive(Clone, Debug)]
@@ -54,28 +37,6 @@ pub(super) struct FreeCage<R: Real> {
     /// Direction of each pocket on the cage.
     seat_x: Vec<R>,
     seat_y: Vec<R>,
-}
-
-impl<R: Real> Land<R> {
-    /// What cage and race do to each other: the cage is the journal, or the bore.
-    #[inline(always)]
-    fn react(&self, cage: &Body<R>, motion: &Motion<R>) -> ContactReaction<R> {
-        let centre = |body: &Body<R>| GeometricCentre {
-            arm: Vec2::zero(),
-            position: body.position,
-            velocity: body.velocity,
-        };
-        match self.race {
-            LandRace::Inner => {
-                let inner = &motion.inner;
-                self.contact.react(&centre(inner), inner.spin, cage)
-            }
-            LandRace::Outer => {
-                let outer = &motion.outer;
-                self.contact.react(&centre(cage), cage.spin, outer)
-            }
-        }
-    }
 }
 
 /// Pockets of a cage: one that has no land rides on its balls, and needs them around it.

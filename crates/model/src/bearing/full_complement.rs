@@ -10,26 +10,12 @@
 //!
 //! Assumes: motion in the plane. Does not model: a film between the balls, a filling slot.
 
+use super::ball_pair::{BallPair, Place, Touch};
 use super::ball_states::{OF_CENTRED_CAGE, direction, split, split_mut};
-use super::{BearingReaction, PlanarConstants};
-use number::{Gather, Mask, Real, Vec2, Vectorized, constants};
-use physics::contact::{ball_race, ball_race_energy};
-
-constants! {
-    /// The contact of two balls.
-    pub struct BallPair {
-        /// Ball radius r, m.
-        radius: R,
-        /// Hertz stiffness K of two equal balls, N/m^1.5.
-        stiffness: R,
-        /// Contact damping time β, s.
-        damping_time: R,
-        /// Friction coefficient μ; with contacts at an angle α times cos α.
-        friction: R,
-        /// 1/u0, s/m; with contacts at an angle α times cos α.
-        inverse_reference_speed: R,
-    }
-}
+use super::planar_constants::PlanarConstants;
+use super::reaction::BearingReaction;
+use number::{Gather, Real, Vec2, Vectorized};
+use physics::contact::ball_race_energy;
 
 /// The row of balls over `R`.
 #[derive(Clone, Debug)]
@@ -39,64 +25,6 @@ pub(super) struct FullComplement<R: Real> {
     inverse_mass: R,
     inverse_inertia: R,
     share: R,
-}
-
-/// A ball as its neighbour sees it.
-#[derive(Clone, Copy)]
-struct Place<R> {
-    radius: R,
-    e_r: Vec2<R>,
-    position: Vec2<R>,
-    velocity: Vec2<R>,
-    spin: R,
-}
-
-/// What two neighbours do to each other.
-struct Touch<R> {
-    /// Force on the second ball, N; on the first the opposite.
-    force: Vec2<R>,
-    /// Moment on each of both, N m.
-    moment: R,
-    normal: R,
-    damping_heat: R,
-    sliding_heat: R,
-}
-
-impl<R: Real> BallPair<R> {
-    #[inline(always)]
-    fn react(&self, first: &Place<R>, second: &Place<R>) -> Touch<R> {
-        let zero = R::zero();
-        let apart = second.position - first.position;
-        let two = R::splat(2.0);
-        let square = apart.length_squared();
-        let reach = two * self.radius;
-        let mut touch = Touch {
-            force: Vec2::zero(),
-            moment: zero,
-            normal: zero,
-            damping_heat: zero,
-            sliding_heat: zero,
-        };
-        if square.less(reach.square()).any() {
-            let distance = square.max(R::splat(1e-30)).sqrt();
-            let e = apart * distance.recip();
-            let t = e.turned();
-            let relative = second.velocity - first.velocity;
-            let approach = reach - distance;
-            let closing = -relative.dot(e);
-            let press = ball_race(self.stiffness, self.damping_time, approach, closing);
-            let arm = self.radius - R::splat(0.5) * approach;
-            let slip = relative.dot(t) - arm * (first.spin + second.spin);
-            let coefficient = self.friction * (slip * self.inverse_reference_speed).tanh();
-            let friction = coefficient * press.force;
-            touch.force = e * press.force - t * friction;
-            touch.moment = arm * friction;
-            touch.normal = press.force;
-            touch.damping_heat = (press.force - press.elastic) * closing;
-            touch.sliding_heat = friction * slip;
-        }
-        touch
-    }
 }
 
 #[inline(always)]

@@ -18,10 +18,11 @@
 //! Does not model: what the source leaves out besides, see the law's page.
 
 use super::ball::{BallConstants, BallMotion, RaceMotion, gather_group};
-use super::ball_states::{add, load_ball, race, split, split_mut};
-use super::planar::distances;
+use super::ball_states::{BallRow, add, distances, load_ball, race, split, split_mut};
+use super::ball_sums::BallSums;
+use super::planar_constants::PlanarConstants;
+use super::reaction::BearingReaction;
 use super::steady_moment::SteadyMoment;
-use super::{BallSums, BearingReaction, Planar, PlanarConstants};
 use crate::motion::Motion;
 use number::{Real, Vectorized};
 use physics::inlet_rolling::ResistanceAtRaces;
@@ -96,7 +97,7 @@ impl<R: Real> InletCouples<R> {
 
 /// The couples of all balls as a task: it is compiled once for all systems.
 pub(super) struct Act<'a, R: Real> {
-    pub bearing: &'a Planar<R>,
+    pub row: &'a BallRow<R>,
     pub couples: &'a InletCouples<R>,
     pub motion: &'a Motion<R>,
     pub state: &'a [R],
@@ -108,9 +109,7 @@ impl<R: Real> Vectorized for Act<'_, R> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        let Planar {
-            balls, ball, first, ..
-        } = self.bearing;
+        let BallRow { balls, first, ball } = self.row;
         let (inner, outer) = (race(&self.motion.inner), race(&self.motion.outer));
         let lists = split(self.state, *first, *balls);
         let [.., d_spin] = split_mut(self.rate, *first, *balls);

@@ -8,11 +8,11 @@
 //! of a free cage.
 
 use super::ball::{BallConstants, BallMotion, BallReaction, PocketMotion, RaceMotion};
-use super::ball_states::{CAGE_PLACE, OF_BALL, direction};
+use super::ball_states::{CAGE_PLACE, OF_BALL, direction, distances, seat};
+use super::cage;
 use super::lubricant_state::Warmed;
-use super::planar::distances;
+use super::planar_constants::{PlanarConstants, Separation};
 use super::pocket::PocketShape;
-use super::{PlanarConstants, Separation, cage, seat};
 use crate::motion::Motion;
 use number::{Dual, Gather, Real, Vec2, Vectorized};
 use physics::traction::Traction;

@@ -19,7 +19,7 @@
 //!
 //! Assumes: one state for all contacts. Does not model: places; see the laws for the rest.
 
-use super::BearingHeat;
+use super::reaction::BearingHeat;
 use number::{Gather, Real, Vectorized};
 use physics::lubricant_state::{FilmHeating, Grease};
 use physics::traction::{SlidingContact, Traction, TractionLaw};

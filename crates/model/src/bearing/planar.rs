@@ -14,17 +14,18 @@
 //!
 //! Does not model: what a ball leaves out ([`ball`](super::ball)), films in pockets and lands, heat.
 
-use super::ball::{
-    BallConstants, BallDistances, BallMotion, PocketMotion, RaceMotion, gather_group,
+use super::ball::{BallDistances, PocketMotion, gather_group};
+use super::ball_states::{
+    BallRow, OF_BALL, direction, distances, load_ball, race, seats, split, split_mut,
 };
-use super::ball_states::{OF_BALL, direction, load_ball, race, split, split_mut};
+use super::ball_sums::{BallSums, largest_part};
 use super::cage::{self, FreeCage};
 use super::full_complement::{self, FullComplement};
 use super::inlet_couples::{self, InletCouples};
 use super::lubricant_state::{self, Lubricant, Warmed};
 use super::planar_constants::{PlanarConstants, Separation};
+use super::reaction::{BearingHeat, BearingReaction};
 use super::steady_moment::{self, MomentPairs};
-use super::{BallSums, BearingHeat, BearingReaction, largest_part, seats};
 use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, Vectorized};
 use physics::traction::{Traction, TractionLaw};
@@ -40,8 +41,7 @@ enum Apart<R: Real> {
 /// The planar bearing over `R`.
 #[derive(Clone, Debug)]
 pub struct Planar<R: Real> {
-    pub(super) balls: usize,
-    pub(super) ball: BallConstants<R::Group>,
+    row: BallRow<R>,
     traction: Traction<R::Group>,
     cage_inverse_inertia: R,
     cage_drag: R,
@@ -51,8 +51,6 @@ pub struct Planar<R: Real> {
     couples: Option<InletCouples<R>>,
     lubricant: Option<Lubricant<R>>,
     apart: Apart<R>,
-    /// First state of the balls.
-    pub(super) first: usize,
     /// Angle of each pocket on the cage, rad.
     seats: Vec<R>,
 }
@@ -62,10 +60,13 @@ impl<R: Real> Planar<R> {
     pub(crate) fn gather<'a>(machine: &dyn Fn(usize) -> &'a PlanarConstants) -> Self {
         let balls = Gather::<R>::gather(&|lane| &machine(lane).balls);
         Planar {
-            balls,
-            ball: machine(0)
-                .separation
-                .beyond_pockets(gather_group::<R, _>(&|lane| &machine(lane).ball)),
+            row: BallRow {
+                balls,
+                first: machine(0).first_ball_state(),
+                ball: machine(0)
+                    .separation
+                    .beyond_pockets(gather_group::<R, _>(&|lane| &machine(lane).ball)),
+            },
             traction: gather_group::<R, _>(&|lane| &machine(lane).traction),
             cage_inverse_inertia: R::from_lanes(|lane| 1.0 / machine(lane).cage_inertia),
             cage_drag: R::from_lanes(|lane| machine(lane).cage_drag),
@@ -95,7 +96,6 @@ impl<R: Real> Planar<R> {
                     ))
                 }
             },
-            first: machine(0).first_ball_state(),
             seats: seats(balls),
         }
     }
@@ -110,7 +110,7 @@ impl<R: Real> Planar<R> {
         rate: &mut [R],
         detail: &mut [R],
     ) -> BearingReaction<R> {
-        let of_lubricant = self.first + OF_BALL * self.balls;
+        let of_lubricant = self.row.first + OF_BALL * self.row.balls;
         let mut drag_factor = R::one();
         let mut reaction = match &self.lubricant {
             // the law is chosen once a call, not once a ball
@@ -137,7 +137,7 @@ impl<R: Real> Planar<R> {
         // apart from the sum above: without a steady moment nothing is paid, and the code above stands once a law
         if let Some(pairs) = &self.moment {
             R::vectorized(steady_moment::Share {
-                bearing: self,
+                row: &self.row,
                 pairs,
                 motion,
                 held_load,
@@ -149,7 +149,7 @@ impl<R: Real> Planar<R> {
         }
         if let Some(couples) = &self.couples {
             R::vectorized(inlet_couples::Act {
-                bearing: self,
+                row: &self.row,
                 couples,
                 motion,
                 state,
@@ -218,15 +218,15 @@ impl<R: Real> Planar<R> {
     /// Sum of the elastic loads of all balls at the inner race, N.
     #[inline(always)]
     fn inner_elastic(&self, motion: &Motion<R>, state: &[R]) -> R {
-        let n = self.balls;
-        let lists = split(state, self.first, n);
+        let n = self.row.balls;
+        let lists = split(state, self.row.first, n);
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
         let mut sum = BallSums::<R, 1>::new(n);
         let mut from = 0;
         while from < n {
             let ball = load_ball(&lists, from);
             let places = distances(&inner, &outer, &ball);
-            let between = self.ball.between(&inner, &outer, &ball, &places);
+            let between = self.row.ball.between(&inner, &outer, &ball, &places);
             sum.add(from, &[between.inner.normal.elastic]);
             from += R::GROUP;
         }
@@ -236,8 +236,11 @@ impl<R: Real> Planar<R> {
     /// Rate of the angular momentum of balls and cage about the origin, N m, from the rates of their states.
     #[inline(always)]
     pub(crate) fn angular_momentum_rate(&self, state: &[R], rate: &[R]) -> R {
-        let n = self.balls;
-        let (lists, rates) = (split(state, self.first, n), split(rate, self.first, n));
+        let n = self.row.balls;
+        let (lists, rates) = (
+            split(state, self.row.first, n),
+            split(rate, self.row.first, n),
+        );
         let mut sum = BallSums::<R, 1>::new(n);
         let mut from = 0;
         while from < n {
@@ -245,8 +248,8 @@ impl<R: Real> Planar<R> {
             let two = <R::Group as Real>::splat(2.0);
             let orbit = ball.radius.square() * change.orbit_speed
                 + two * ball.radius * ball.radial_speed * ball.orbit_speed;
-            let spin = change.spin / self.ball.inverse_inertia;
-            sum.add(from, &[self.ball.mass * orbit + spin]);
+            let spin = change.spin / self.row.ball.inverse_inertia;
+            sum.add(from, &[self.row.ball.mass * orbit + spin]);
             from += R::GROUP;
         }
         let turning = rate[1] / self.cage_inverse_inertia;
@@ -267,11 +270,11 @@ impl<R: Real> Planar<R> {
         rate: &mut [R],
         detail: &mut [R],
     ) -> BearingReaction<R> {
-        let n = self.balls;
+        let n = self.row.balls;
         let (cage_angle, cage_speed) = (state[0], state[1]);
-        let lists = split(state, self.first, n);
+        let lists = split(state, self.row.first, n);
         let [d_radius, d_radial_speed, d_azimuth, d_orbit_speed, d_spin] =
-            split_mut(rate, self.first, n);
+            split_mut(rate, self.row.first, n);
 
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
         // all directions and distances first: the roots and divisions of one ball keep no other ball waiting; they
@@ -305,7 +308,7 @@ impl<R: Real> Planar<R> {
                 outer: R::load_group(d_spin, from),
                 inverse_product: R::load_group(d_radius, from),
             };
-            let r = (self.ball).react(traction, &inner, &outer, &pocket, &ball, &distances);
+            let r = (self.row.ball).react(traction, &inner, &outer, &pocket, &ball, &distances);
             R::store_group(ball.radial_speed, d_radius, from);
             R::store_group(r.acceleration.radial, d_radial_speed, from);
             R::store_group(ball.orbit_speed, d_azimuth, from);
@@ -417,14 +420,4 @@ impl<R: Real> Vectorized for InnerElastic<'_, R> {
     fn run(self) -> R {
         self.bearing.inner_elastic(self.motion, self.state)
     }
-}
-
-/// Distances of a ball from the centres of the races.
-#[inline(always)]
-pub(super) fn distances<R: Real>(
-    inner: &RaceMotion<R>,
-    outer: &RaceMotion<R>,
-    ball: &BallMotion<R>,
-) -> BallDistances<R> {
-    BallDistances::of(inner, outer, ball.radius, direction(ball.azimuth))
 }

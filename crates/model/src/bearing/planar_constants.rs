@@ -1,13 +1,13 @@
 //! What a planar bearing is made of: its constants, its states, what it stores.
 
 use super::ball::{BallConstants, BallMotion, BallReaction, PocketMotion};
-use super::ball_states::{OF_BALL, OF_CENTRED_CAGE, OF_FREE_CAGE, race, split, split_mut};
-use super::cage::{self, Land};
-use super::full_complement::{self, BallPair};
+use super::ball_pair::BallPair;
+use super::ball_states::{
+    OF_BALL, OF_CENTRED_CAGE, OF_FREE_CAGE, distances, race, seat, split, split_mut,
+};
+use super::land::Land;
 use super::lubricant_state::{LubricantConstants, Warmed};
-use super::planar::distances;
 use super::steady_moment::{Geometry, SharedMoment};
-use super::{BearingEnergy, seat};
 use crate::motion::Motion;
 use number::Real;
 use physics::inlet_rolling::ResistanceAtRaces;
@@ -184,44 +184,11 @@ impl PlanarConstants {
     pub fn drags_to_ground(&self) -> bool {
         self.ball.orbit_drag != 0.0 || self.ball.spin_drag != 0.0 || self.cage_drag != 0.0
     }
-    fn pocket(&self, state: &[f64], ball: usize) -> PocketMotion<f64> {
+    pub(super) fn pocket(&self, state: &[f64], ball: usize) -> PocketMotion<f64> {
         PocketMotion {
             angle: state[0] + seat(ball, self.balls),
             spin: state[1],
         }
-    }
-    pub(super) fn energy(&self, motion: &Motion<f64>, state: &[f64]) -> BearingEnergy {
-        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
-        let between_races = self.separation.beyond_pockets(self.ball);
-        let mut sum = BearingEnergy::default();
-        for j in 0..self.balls {
-            let ball = self.motion(state, j);
-            let pocket = self.pocket(state, j);
-            let (elastic, weight) = between_races.energy(&inner, &outer, &pocket, &ball);
-            let (translation, spin) = self.ball.kinetic_energy(&ball);
-            sum.translation += translation;
-            sum.spin += spin;
-            sum.elastic += elastic;
-            sum.weight += weight;
-            sum.angular_momentum += self.ball.angular_momentum(&ball);
-        }
-        match &self.separation {
-            Separation::CentredCage => {}
-            Separation::FreeCage(land) => {
-                let cage = cage::energy(self, land.as_ref(), motion, state);
-                sum.translation += cage.translation;
-                sum.weight += cage.weight;
-                sum.elastic += cage.elastic;
-                sum.angular_momentum += cage.angular_momentum;
-            }
-            Separation::Neighbours(pair) => {
-                sum.elastic += full_complement::energy(self, pair, state);
-                return sum;
-            }
-        }
-        sum.spin += 0.5 * self.cage_inertia * state[1] * state[1];
-        sum.angular_momentum += self.cage_inertia * state[1];
-        sum
     }
 }
 

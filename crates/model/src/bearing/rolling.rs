@@ -17,11 +17,12 @@
 
 use super::acceleration_loss::{AccelerationLoss, Loss};
 use super::ball::gather_group;
+use super::ball_states::{seat, seats};
+use super::ball_sums::{BallSums, largest};
 use super::lubricant_state::{self, Lubricant, LubricantConstants};
+use super::planar_constants::PlanarConstants;
+use super::reaction::{BearingEnergy, BearingHeat, BearingReaction};
 use super::steady_moment::SteadyMoment;
-use super::{
-    BallSums, BearingEnergy, BearingHeat, BearingReaction, PlanarConstants, largest, seat, seats,
-};
 use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, constants};
 use physics::contact::{ball_race, ball_race_energy};

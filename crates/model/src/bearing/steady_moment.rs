@@ -32,9 +32,9 @@
 //! Assumes: χ_o (½ where nothing is known), and that M is shared by the load.
 //! Does not model: drag on the cage and its lands; the flow that carries lubricant around; the moment at standstill.
 
-use super::ball_states::{add, load_ball, race, split, split_mut};
-use super::planar::distances;
-use super::{BallSums, BearingReaction, Planar};
+use super::ball_states::{BallRow, add, distances, load_ball, race, split, split_mut};
+use super::ball_sums::BallSums;
+use super::reaction::BearingReaction;
 use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, Vectorized};
 pub use physics::friction::Friction as SteadyMoment;
@@ -278,7 +278,7 @@ impl<R: Real> PairsOfBall<'_, R> {
     }
 }
 
-impl<R: Real> Planar<R> {
+impl<R: Real> BallRow<R> {
     /// Adds the pairs of the steady moment to the rates and to the reaction.
     #[inline(always)]
     fn share(&self, task: Share<'_, R>) {
@@ -367,7 +367,7 @@ impl<R: Real> Planar<R> {
 
 /// What the balls share, as a task: it is compiled once for all systems and traction laws.
 pub(super) struct Share<'a, R: Real> {
-    pub bearing: &'a Planar<R>,
+    pub row: &'a BallRow<R>,
     pub pairs: &'a MomentPairs<R>,
     pub motion: &'a Motion<R>,
     pub held_load: R,
@@ -381,6 +381,6 @@ impl<R: Real> Vectorized for Share<'_, R> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        self.bearing.share(self);
+        self.row.share(self);
     }
 }

@@ -6,9 +6,9 @@
 
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::bearing::ball::{BallConstants, BallMotion};
+use model::bearing::ball_pair::BallPair;
 use model::bearing::ball_states::CAGE_PLACE;
-use model::bearing::cage::{Land, LandRace};
-use model::bearing::full_complement::BallPair;
+use model::bearing::land::{Land, LandRace};
 use model::bearing::{
     AccelerationLoss, BearingConstants, LubricantConstants, PlanarConstants, RollingConstants,
     Separation, SteadyMoment, lubricant_state, rolling::RollingBall, seat,

@@ -10,7 +10,7 @@ use crate::machines::{
 use crate::relatives::{lubricant_factors, machines};
 use model::auxiliary_bearing::probe::{COUNT as DETAIL, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD};
 use model::bearing::ball_states::CAGE_PLACE;
-use model::bearing::cage::LandRace;
+use model::bearing::land::LandRace;
 use model::bearing::{
     BearingConstants, PlanarConstants, Separation, SharedMoment, SteadyMoment, seat,
 };

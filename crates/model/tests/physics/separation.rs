@@ -7,7 +7,7 @@ use crate::machines::{
 };
 use model::auxiliary_bearing::probe::{LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_POCKET_FORCE};
 use model::bearing::ball_states::CAGE_PLACE;
-use model::bearing::cage::LandRace;
+use model::bearing::land::LandRace;
 use model::bearing::{BearingConstants, Separation};
 use model::system::machine::{MachineConstants, RotorMachine};
 

@@ -4,7 +4,7 @@
 use crate::machines::{ball_pair, land, oil, vec2};
 use crate::plateaus::{Plateau, plateaus};
 use crate::rig::{greased_bearing, shared};
-use model::bearing::cage::LandRace;
+use model::bearing::land::LandRace;
 use model::bearing::{PlanarConstants, Separation, SteadyMoment};
 use physics::moment_curve::MomentCurve;
 

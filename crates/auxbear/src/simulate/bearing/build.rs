@@ -5,8 +5,8 @@ use crate::scenario::{Bearing, Fidelity, Guidance, Land, Separation};
 use crate::simulate::bearing::contacts::{BallContacts, SCENARIO};
 use crate::simulate::bearing::traction::{inlet_rolling, traction};
 use model::bearing::ball::BallConstants;
-use model::bearing::cage::{Land as CageLand, LandRace};
-use model::bearing::full_complement::BallPair;
+use model::bearing::ball_pair::BallPair;
+use model::bearing::land::{Land as CageLand, LandRace};
 use model::bearing::rolling::RollingBall;
 use model::bearing::{
     BearingConstants, LubricantConstants, PlanarConstants, RollingConstants,

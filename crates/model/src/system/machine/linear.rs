@@ -9,6 +9,7 @@
 //! follows from the place of a free cage, how neighbours without a cage press each other, the power of a growing race.
 
 use super::layout::{Layout, ROTOR, ROTOR_CHANNELS};
+use super::rate::Reactions;
 use super::{Machines, Mode, RotorMachine};
 use crate::auxiliary_bearing::BearingAt;
 use crate::bearing::ball::{BallMotion, BallReaction};
@@ -372,13 +373,32 @@ impl Vectorized for Border<'_> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        let reaction = |k: usize, _: &mut [BorderDual], _: &mut [BorderDual]| {
-            if k == self.bearing {
-                *self.reaction
-            } else {
-                BearingReaction::zero()
-            }
+        let given = Given {
+            bearing: self.bearing,
+            reaction: self.reaction,
         };
-        (self.machine).accelerate(self.mode, self.state, self.rate, &mut [], reaction);
+        (self.machine).accelerate(self.mode, self.state, self.rate, &mut [], &given);
+    }
+}
+
+/// A reaction of one bearing that is known; the others do nothing.
+struct Given<'a> {
+    bearing: usize,
+    reaction: &'a BearingReaction<BorderDual>,
+}
+
+impl Reactions<BorderDual> for Given<'_> {
+    #[inline(always)]
+    fn reaction(
+        &self,
+        k: usize,
+        _: &mut [BorderDual],
+        _: &mut [BorderDual],
+    ) -> BearingReaction<BorderDual> {
+        if k == self.bearing {
+            *self.reaction
+        } else {
+            BearingReaction::zero()
+        }
     }
 }

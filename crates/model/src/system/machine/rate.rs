@@ -21,6 +21,28 @@ pub fn rotor_motion<R: Real>(state: &[R]) -> RotorMotion<R> {
     }
 }
 
+/// What each bearing of a machine does. No closures here: they are compiled without the vector unit's instructions, unless
+/// the compiler inlines them.
+pub(super) trait Reactions<R: Real> {
+    /// Of bearing `k`; may write the rates of its own states, and its probes.
+    fn reaction(&self, k: usize, rate: &mut [R], probe: &mut [R]) -> BearingReaction<R>;
+}
+
+/// What the bearings do in a state.
+struct InState<'a, R: Real> {
+    machine: &'a Machines<R>,
+    state: &'a [R],
+}
+
+impl<R: Real> Reactions<R> for InState<'_, R> {
+    #[inline(always)]
+    fn reaction(&self, k: usize, rate: &mut [R], probe: &mut [R]) -> BearingReaction<R> {
+        let at = &self.machine.layout.bearings[k];
+        let motion = at.motion(self.state);
+        self.machine.bearings[k].bearing(at, &motion, self.state, rate, probe)
+    }
+}
+
 impl<R: Real> Machines<R> {
     /// The rate of change of the state, and the probes where asked.
     #[inline(always)]
@@ -33,14 +55,14 @@ impl<R: Real> Machines<R> {
     ) {
         let dimension = self.layout.dimension();
         let (state, rate) = (&state[..dimension], &mut rate[..dimension]);
-        self.accelerate(mode, state, rate, probe, |k, rate, probe| {
-            let at = &self.layout.bearings[k];
-            self.bearings[k].bearing(at, &at.motion(state), state, rate, probe)
-        });
+        let bearings = InState {
+            machine: self,
+            state,
+        };
+        self.accelerate(mode, state, rate, probe, &bearings);
     }
 
-    /// What the rotor does at a bearing. Not a closure: one that is called more than once is compiled without the vector
-    /// unit's instructions.
+    /// What the rotor does at a bearing.
     #[inline(always)]
     fn contact(
         &self,
@@ -53,7 +75,7 @@ impl<R: Real> Machines<R> {
         self.bearings[k].contact(centre, spin, &inner)
     }
 
-    /// The rates of rotor, races and ledger, and the probes where asked, under what `bearing` says that each bearing does.
+    /// The rates of rotor, races and ledger, and the probes where asked, under what `bearings` says that each bearing does.
     #[inline(always)]
     pub(super) fn accelerate(
         &self,
@@ -61,7 +83,7 @@ impl<R: Real> Machines<R> {
         state: &[R],
         rate: &mut [R],
         probe: &mut [R],
-        mut bearing: impl FnMut(usize, &mut [R], &mut [R]) -> BearingReaction<R>,
+        bearings: &impl Reactions<R>,
     ) {
         let layout = &self.layout;
         let zero = R::zero();
@@ -105,7 +127,7 @@ impl<R: Real> Machines<R> {
             acceleration + centre.arm.turned() * spin_rate - centre.arm * rotor.spin.square();
         let mut impulse = rotor.position.cross(self.gravity) * self.rotor.mass;
         for (k, (part, at)) in self.bearings.iter().zip(&layout.bearings).enumerate() {
-            let reaction = bearing(k, rate, probe);
+            let reaction = bearings.reaction(k, rate, probe);
             let node = AtNode {
                 centre,
                 acceleration: of_centre,

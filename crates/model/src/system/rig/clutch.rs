@@ -16,33 +16,9 @@
 //!
 //! Assumes: one coefficient of friction at rest and in motion. Does not model: warming and fading of the lining.
 
-use super::layout::{CLUTCH_TORQUE, FLYWHEEL, SHAFT};
-use super::{Mode, RigMachine};
-
-/// What the clutch does.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Clutch {
-    /// Nothing.
-    Open,
-    /// It slips: the torque on the shaft is the capacity in this direction, 1 or -1.
-    Slipping {
-        /// Direction in which the flywheel is ahead of the shaft.
-        direction: f64,
-    },
-    /// Flywheel and shaft are one body.
-    Locked,
-}
-
-/// A change of the clutch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ClutchEvent {
-    /// When, s.
-    pub time: f64,
-    /// What it does from then on.
-    pub clutch: Clutch,
-    /// Speed of the shaft then, rad/s.
-    pub speed: f64,
-}
+use super::layout::{CLUTCH_HEAT, CLUTCH_TORQUE, FLYWHEEL, SHAFT};
+use super::machine::RigMachine;
+use super::mode::{Clutch, Mode};
 
 /// Speed by which the flywheel is ahead of the shaft, rad/s.
 pub fn slip_speed(state: &[f64]) -> f64 {
@@ -83,6 +59,6 @@ impl RigMachine {
         state[FLYWHEEL + 1] = shared;
         state[SHAFT + 1] = shared;
         let reduced = flywheel * shaft / (flywheel + shaft);
-        state[self.layout.heat(super::layout::CLUTCH_HEAT)] += 0.5 * reduced * slip * slip;
+        state[self.layout.heat(CLUTCH_HEAT)] += 0.5 * reduced * slip * slip;
     }
 }

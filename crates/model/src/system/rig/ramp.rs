@@ -7,7 +7,7 @@
 //! rate is found by a secant on ln Ω̇_max over ln rate, which is nearly a straight line of slope ½, on runs of the rig with
 //! balls that roll: they take milliseconds.
 
-use super::clutch::Clutch;
+use super::mode::Clutch;
 use super::record::{Keep, Record};
 use super::simulate::until_locked;
 use super::{Action, RigConstants, RigMachine, RigRefusal};

@@ -4,11 +4,11 @@
 //! the clutch does are such ends. Means are taken over cage turns at the target speed. Rows are sampled at equal intervals
 //! and at the end. Everything is allocated before the run but the changes of the clutch.
 
-use super::clutch::ClutchEvent;
 use super::layout::{
     ACCELERATION, BEARING, CAGE_SLIP, CLUTCH_TORQUE, INNER_MOMENT, LARGEST_INNER_LOAD,
     LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, OUTER_MOMENT, SHAFT, STEADY_MOMENT, TEMPERATURE,
 };
+use super::mode::ClutchEvent;
 use super::taps::{Tap, Taps};
 use super::{Clutch, Mode, RigMachine, Segment};
 use crate::bearing::BearingConstants;
@@ -76,7 +76,7 @@ impl Record {
         };
         let idle = Mode {
             clutch: Clutch::Open,
-            ..super::program::Schedule::new().mode
+            ..super::progress::Progress::new().mode
         };
         Record {
             acceleration: Peak::NONE,

@@ -13,7 +13,7 @@ use super::clutch::slip_speed;
 use super::layout::{
     ACCELERATION, CLUTCH_CAPACITY, CLUTCH_TORQUE, FLYWHEEL, FLYWHEEL_ACCELERATION, SHAFT,
 };
-use super::program::Schedule;
+use super::progress::Progress;
 use super::{Clutch, ClutchEvent, Mode, Record, RigMachine, Segment, SegmentRun};
 use number::{Level, Real, Task};
 use solve::{Ending, Flow, Observer, Settings, Step, Stop, Work};
@@ -209,7 +209,7 @@ impl<'a> Run<'a> {
         let machine = self.machine;
         let start = machine.start();
         let (mut time, mut state) = (self.settings.start, start.clone());
-        let mut schedule = Schedule::new();
+        let mut schedule = Progress::new();
         let mut work = Work::default();
         let program = &machine.constants.program;
         let stop = loop {
