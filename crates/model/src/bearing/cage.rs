@@ -17,7 +17,7 @@ use super::ball_states::{
     CAGE_PLACE, OF_FREE_CAGE, add, direction, grouped, load_ball, seat, split, split_mut,
 };
 use super::ball_sums::{BallSums, largest_part};
-use super::land::Land;
+use super::land::{Land, LandRace};
 use super::planar_constants::PlanarConstants;
 use super::pocket::PocketShape;
 use super::reaction::{BearingEnergy, BearingReaction};

@@ -10,7 +10,7 @@
 //!
 //! Assumes: motion in the plane. Does not model: a film between the balls, a filling slot.
 
-use super::ball_pair::{BallPair, Place, Touch};
+use super::ball_pair::{BallPair, Place};
 use super::ball_states::{OF_CENTRED_CAGE, direction, split, split_mut};
 use super::planar_constants::PlanarConstants;
 use super::reaction::BearingReaction;

@@ -38,7 +38,7 @@ pub mod steady_moment;
 
 use crate::motion::Motion;
 pub use acceleration_loss::AccelerationLoss;
-use ball_states::seat;
+pub use ball_states::seat;
 pub use lubricant_state::{LubricantAt, LubricantConstants};
 use number::Real;
 use physics::rolling::RollingSet;
