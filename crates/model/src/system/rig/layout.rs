@@ -15,10 +15,9 @@
 //! What a converter samples comes first: it is cheap to read between two steps ([`taps`](super::taps)).
 
 use super::constants::RigConstants;
-use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
-use crate::system::layout;
+use crate::bearing::{self, BearingConstants};
+use crate::system::layout::TestParts;
 use crate::system::outer_race::WORKS;
-use std::ops::{Deref, Range};
 
 /// First channel of the shaft: angle, speed.
 pub const SHAFT: usize = 0;
@@ -139,82 +138,54 @@ const BODIES: [&str; BEARING] = [
     "housing.y_speed",
 ];
 
-/// The layout of a rig: the bodies stand first, then its bearing.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Layout {
-    channels: layout::Layout,
-    own: Range<usize>,
-    /// Number of balls.
-    pub balls: usize,
+/// The layout of a rig.
+pub use crate::system::layout::TestLayout as Layout;
+
+/// The layout of a rig of a bearing.
+pub fn of(bearing: &BearingConstants) -> Layout {
+    Layout::of(
+        bearing,
+        TestParts {
+            bodies: &BODIES,
+            heats: &OWN_HEATS,
+            sources: &SOURCES,
+            impulses: &["impulse", "bearing_impulse"],
+            works: &WORKS,
+            probes: DETAIL,
+        },
+    )
 }
 
-impl Deref for Layout {
-    type Target = layout::Layout;
-    fn deref(&self) -> &layout::Layout {
-        &self.channels
-    }
+/// Channel of the external angular impulse of balls and cage.
+#[inline(always)]
+pub fn bearing_impulse(layout: &Layout) -> usize {
+    layout.angular_impulse() + 1
 }
 
-impl Layout {
-    /// The layout of a rig with a test bearing.
-    pub fn of(bearing: &BearingConstants) -> Self {
-        let mut channels = layout::Layout::default();
-        channels.block("", BODIES.map(String::from));
-        let own = channels.bearing("", bearing);
-        channels.heats_of("", bearing::HEATS.into_iter().chain(OWN_HEATS));
-        channels.sources_of("", SOURCES);
-        channels.impulses_of("", ["impulse", "bearing_impulse"]);
-        channels.works_of("", WORKS);
-        Layout {
-            channels,
-            own,
-            balls: bearing.balls(),
-        }
-    }
-    /// Channels of the bearing.
-    #[inline(always)]
-    pub fn bearing(&self) -> Range<usize> {
-        self.own.clone()
-    }
-    /// Number of probes.
-    pub fn probes(&self) -> usize {
-        DETAIL + DETAIL_PER_BALL * self.balls
-    }
-    /// Number of probes down to the loads of the balls.
-    pub fn probes_with_loads(&self) -> usize {
-        DETAIL + 2 * self.balls
-    }
-    /// Channel of the external angular impulse of balls and cage.
-    #[inline(always)]
-    pub fn bearing_impulse(&self) -> usize {
-        self.angular_impulse() + 1
-    }
-
-    /// The magnitude that matters in each channel: a tolerance of 1e-6 allows errors of one millionth of it a step.
-    ///
-    /// Places of housing and balls by a ten-thousandth of the ball, speeds of centres by a thousandth of the speed of the
-    /// ball centres, spins by the target speed, energies by the spin energy of the shaft at that speed, the arm by a moment
-    /// of 0.1 N m, temperatures by 1 K.
-    pub fn error_scale(&self, constants: &RigConstants) -> Vec<f64> {
-        const MOMENT: f64 = 0.1;
-        let spin = constants.target_speed.abs().max(1.0);
-        let set = constants.bearing.set();
-        let centre_speed = 1e-3 * spin * constants.bearing.pitch_radius();
-        let inertia = constants.shaft.inertia + set.inner_inertia();
-        let mut scale = vec![0.0; self.dimension()];
-        scale[SHAFT] = 1.0;
-        scale[SHAFT + 1] = spin;
-        scale[FLYWHEEL] = 1.0;
-        scale[FLYWHEEL + 1] = spin;
-        scale[ARM] = MOMENT;
-        scale[ARM + 1] = MOMENT * constants.arm.natural_frequency;
-        scale[TEMPERATURE..=THERMOCOUPLE].fill(1.0);
-        scale[HOUSING..HOUSING + 2].fill(1e-4 * set.inner_track_radius * set.ball_ratio);
-        scale[HOUSING + 2..BEARING].fill(centre_speed);
-        let own = self.bearing();
-        (constants.bearing).error_scale(&mut scale[own], spin, centre_speed);
-        scale[self.ledger()..].fill(0.5 * inertia * spin * spin);
-        scale[self.angular_impulse()..self.work(0)].fill(inertia * spin);
-        scale
-    }
+/// The magnitude that matters in each channel: a tolerance of 1e-6 allows errors of one millionth of it a step.
+///
+/// Places of housing and balls by a ten-thousandth of the ball, speeds of centres by a thousandth of the speed of the
+/// ball centres, spins by the target speed, energies by the spin energy of the shaft at that speed, the arm by a moment
+/// of 0.1 N m, temperatures by 1 K.
+pub fn error_scale(layout: &Layout, constants: &RigConstants) -> Vec<f64> {
+    const MOMENT: f64 = 0.1;
+    let spin = constants.target_speed.abs().max(1.0);
+    let set = constants.bearing.set();
+    let centre_speed = 1e-3 * spin * constants.bearing.pitch_radius();
+    let inertia = constants.shaft.inertia + set.inner_inertia();
+    let mut scale = vec![0.0; layout.dimension()];
+    scale[SHAFT] = 1.0;
+    scale[SHAFT + 1] = spin;
+    scale[FLYWHEEL] = 1.0;
+    scale[FLYWHEEL + 1] = spin;
+    scale[ARM] = MOMENT;
+    scale[ARM + 1] = MOMENT * constants.arm.natural_frequency;
+    scale[TEMPERATURE..=THERMOCOUPLE].fill(1.0);
+    scale[HOUSING..HOUSING + 2].fill(1e-4 * set.inner_track_radius * set.ball_ratio);
+    scale[HOUSING + 2..BEARING].fill(centre_speed);
+    let own = layout.bearing();
+    (constants.bearing).error_scale(&mut scale[own], spin, centre_speed);
+    scale[layout.ledger()..].fill(0.5 * inertia * spin * spin);
+    scale[layout.angular_impulse()..layout.work(0)].fill(inertia * spin);
+    scale
 }

@@ -9,7 +9,7 @@
 //! ```
 //! The arm takes t_O as a pure couple. The temperatures count apart: C ΔT + C_f ΔΘ = heats of the bearing - ∫G T dt.
 
-use super::layout::{FLYWHEEL, HEATS, SHAFT};
+use super::layout::{FLYWHEEL, HEATS, SHAFT, bearing_impulse};
 use super::rate::race_motion;
 use super::{Mode, RigMachine};
 use crate::bearing::BearingEnergy;
@@ -60,7 +60,7 @@ impl RigMachine {
 
     /// External angular impulse on balls and cage less the change of their angular momentum, N m s: zero but for errors.
     pub fn bearing_momentum_residual(&self, start: &[f64], end: &[f64]) -> f64 {
-        let impulse = self.layout.bearing_impulse();
+        let impulse = bearing_impulse(&self.layout);
         let held = |state: &[f64]| self.bearing_content(state).angular_momentum;
         (end[impulse] - start[impulse]) - (held(end) - held(start))
     }

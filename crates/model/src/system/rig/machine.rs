@@ -29,14 +29,14 @@ impl RigMachine {
     /// A rig at its start.
     pub fn new(constants: RigConstants) -> Result<Self, RigRefusal> {
         constants.check()?;
-        let layout = Layout::of(&constants.bearing);
+        let layout = layout::of(&constants.bearing);
         Ok(RigMachine {
             bearing: Bearing::gather(&|_| &constants.bearing),
             rolling_cage_ratio: constants.bearing.rolling_cage_ratio(),
             moving_mass: constants.housing.mass + constants.bearing.mass_with_outer_race(),
             weight: constants.housing.load_direction * constants.housing.load
                 + constants.housing.gravity * constants.bearing.mass_with_outer_race(),
-            error_scale: layout.error_scale(&constants),
+            error_scale: layout::error_scale(&layout, &constants),
             layout,
             constants,
         })

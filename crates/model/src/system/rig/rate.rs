@@ -19,6 +19,7 @@ use super::layout::{
     FLYWHEEL_ACCELERATION, HEATS, HOUSING, INNER_LOAD_SUM, INNER_MOMENT, LAND_FORCE,
     LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, MOMENTUM_RATE, MOTOR_TORQUE,
     OUTER_MOMENT, SHAFT, STEADY_MOMENT, SUPPORT_DRAG, SUPPORT_HEAT, TEMPERATURE, THERMOCOUPLE,
+    bearing_impulse,
 };
 use super::{Clutch, Mode, RigMachine};
 use crate::bearing::{self, Bearing, POCKET_FRICTION};
@@ -194,7 +195,7 @@ impl RigMachine {
         let force = -on_outer;
         let eccentric = external + centre.cross(force);
         put(
-            layout.bearing_impulse(),
+            bearing_impulse(layout),
             inner_moment - outer_moment + eccentric,
         );
         let kept = plain(c.bearing.kept_by_films(&rate[own.clone()]));

@@ -11,10 +11,9 @@
 //! a race that moves or grows.
 
 use super::constants::SpinUpConstants;
-use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
-use crate::system::layout;
+use crate::bearing::{self, BearingConstants};
+use crate::system::layout::TestParts;
 use crate::system::outer_race::WORKS;
-use std::ops::{Deref, Range};
 
 /// First channel of the inner race.
 pub const INNER: usize = 0;
@@ -102,69 +101,44 @@ const BODIES: [&str; BEARING] = [
     "rotor.speed",
 ];
 
-/// The layout of a spin-up: the bodies stand first, then its bearing.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Layout {
-    channels: layout::Layout,
-    own: Range<usize>,
-    /// Number of balls.
-    pub balls: usize,
+/// The layout of a spin-up.
+pub use crate::system::layout::TestLayout as Layout;
+
+/// The layout of a spin-up of a bearing.
+pub fn of(bearing: &BearingConstants) -> Layout {
+    Layout::of(
+        bearing,
+        TestParts {
+            bodies: &BODIES,
+            heats: &OWN_HEATS,
+            sources: &SOURCES,
+            impulses: &["impulse"],
+            works: &WORKS,
+            probes: DETAIL,
+        },
+    )
 }
 
-impl Deref for Layout {
-    type Target = layout::Layout;
-    fn deref(&self) -> &layout::Layout {
-        &self.channels
-    }
-}
-
-impl Layout {
-    /// The layout of a spin-up of a bearing.
-    pub fn of(bearing: &BearingConstants) -> Self {
-        let mut channels = layout::Layout::default();
-        channels.block("", BODIES.map(String::from));
-        let own = channels.bearing("", bearing);
-        channels.heats_of("", bearing::HEATS.into_iter().chain(OWN_HEATS));
-        channels.sources_of("", SOURCES);
-        channels.impulses_of("", ["impulse"]);
-        channels.works_of("", WORKS);
-        Layout {
-            channels,
-            own,
-            balls: bearing.balls(),
-        }
-    }
-    /// Channels of the bearing.
-    #[inline(always)]
-    pub fn bearing(&self) -> Range<usize> {
-        self.own.clone()
-    }
-    /// Number of probes.
-    pub fn probes(&self) -> usize {
-        DETAIL + DETAIL_PER_BALL * self.balls
-    }
-
-    /// The magnitude that matters in each channel: a tolerance of 1e-6 allows errors of one millionth of it a step.
-    ///
-    /// Places of race and balls by a ten-thousandth of the ball, speeds of centres by a thousandth of the speed of the
-    /// ball centres, spins by the target speed, energies by the spin energy of the race at that speed.
-    pub fn error_scale(&self, constants: &SpinUpConstants) -> Vec<f64> {
-        let spin = constants.target_speed.abs().max(1.0);
-        let pitch = constants.bearing.pitch_radius();
-        let set = constants.bearing.set();
-        let centre_speed = 1e-3 * spin * pitch;
-        let inertia = constants.race.inertia + set.inner_inertia();
-        let mut scale = vec![0.0; self.dimension()];
-        scale[INNER..INNER + 2].fill(1e-4 * set.inner_track_radius * set.ball_ratio);
-        scale[INNER + 2..INNER + 4].fill(centre_speed);
-        scale[INNER + 4] = 1.0;
-        scale[INNER + 5] = spin;
-        scale[ROTOR] = 1.0;
-        scale[ROTOR + 1] = spin;
-        let own = self.bearing();
-        (constants.bearing).error_scale(&mut scale[own], spin, centre_speed);
-        scale[self.ledger()..].fill(0.5 * inertia * spin * spin);
-        scale[self.angular_impulse()] = inertia * spin;
-        scale
-    }
+/// The magnitude that matters in each channel: a tolerance of 1e-6 allows errors of one millionth of it a step.
+///
+/// Places of race and balls by a ten-thousandth of the ball, speeds of centres by a thousandth of the speed of the
+/// ball centres, spins by the target speed, energies by the spin energy of the race at that speed.
+pub fn error_scale(layout: &Layout, constants: &SpinUpConstants) -> Vec<f64> {
+    let spin = constants.target_speed.abs().max(1.0);
+    let pitch = constants.bearing.pitch_radius();
+    let set = constants.bearing.set();
+    let centre_speed = 1e-3 * spin * pitch;
+    let inertia = constants.race.inertia + set.inner_inertia();
+    let mut scale = vec![0.0; layout.dimension()];
+    scale[INNER..INNER + 2].fill(1e-4 * set.inner_track_radius * set.ball_ratio);
+    scale[INNER + 2..INNER + 4].fill(centre_speed);
+    scale[INNER + 4] = 1.0;
+    scale[INNER + 5] = spin;
+    scale[ROTOR] = 1.0;
+    scale[ROTOR + 1] = spin;
+    let own = layout.bearing();
+    (constants.bearing).error_scale(&mut scale[own], spin, centre_speed);
+    scale[layout.ledger()..].fill(0.5 * inertia * spin * spin);
+    scale[layout.angular_impulse()] = inertia * spin;
+    scale
 }

@@ -73,11 +73,11 @@ impl SpinUpMachine {
     /// A machine at rest.
     pub fn new(constants: SpinUpConstants) -> Result<Self, Refusal> {
         constants.check()?;
-        let layout = Layout::of(&constants.bearing);
+        let layout = layout::of(&constants.bearing);
         Ok(SpinUpMachine {
             one: SpinUp::of(&|_| &constants, layout.clone()),
             landings: constants.landings(),
-            error_scale: layout.error_scale(&constants),
+            error_scale: layout::error_scale(&layout, &constants),
             layout,
             constants,
         })
