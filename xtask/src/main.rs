@@ -5,6 +5,7 @@ mod bench;
 mod book;
 mod check;
 mod circles;
+mod coverage;
 mod crate_directions;
 mod docs;
 mod documentation;
@@ -31,6 +32,8 @@ cargo xtask bench --against COMMIT
 cargo xtask docs            writes the book's page of validation from auxbear validate
 cargo xtask docs PROGRAM    the same with a command that is built already
 cargo xtask golden          writes the golden values of six scenarios, xtask/golden.json
+cargo xtask coverage        writes what the bands of signals and identify hold, book/src/coverage.md; hours
+cargo xtask coverage NAME   the same of one test binary; the rest of the page stays
 cargo xtask help            this text
 ";
 
@@ -46,6 +49,8 @@ fn main() -> ExitCode {
         ["docs"] => docs::run(None),
         ["docs", program] => docs::run(Some(program)),
         ["golden"] => golden::write(),
+        ["coverage"] => coverage::run(None),
+        ["coverage", name] => coverage::run(Some(name)),
         ["help" | "--help" | "-h"] => {
             print!("{HELP}");
             ExitCode::SUCCESS

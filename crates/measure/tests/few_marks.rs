@@ -57,7 +57,7 @@ fn slip(shape: Shape, marks: usize, within: f64) -> f64 {
 }
 
 fn seeds() -> u64 {
-    std::env::var("FEW_MARKS_SEEDS")
+    std::env::var("AUXBEAR_SEEDS")
         .ok()
         .and_then(|seeds| seeds.parse().ok())
         .unwrap_or(4)

@@ -1,7 +1,7 @@
 //! Few samples a mark: flanks that hide between two samples, and marks in step with the sampling.
 //!
 //! An optical pickup whose flanks take a tenth of a pitch, on a wheel whose marks are off by a hundredth; 26 ms to 150 rad/s.
-//! Forty seeds a case in a release build, FEW_SAMPLES_SEEDS=40:
+//! Forty seeds a case in a release build, AUXBEAR_SEEDS=40:
 //!
 //! | samples a mark at speed | speed at running inside two deviations | off at most | engagement inside | off at most |
 //! |---|---|---|---|---|
@@ -27,7 +27,7 @@ const REACHED: f64 = 150.0;
 const SLIP: f64 = 0.0258;
 
 fn seeds() -> u64 {
-    std::env::var("FEW_SAMPLES_SEEDS")
+    std::env::var("AUXBEAR_SEEDS")
         .ok()
         .and_then(|seeds| seeds.parse().ok())
         .unwrap_or(8)

@@ -172,7 +172,7 @@ fn shares(seeds: u64, seen: impl Fn(&Motion, u64) -> Vec<f64>) -> ([[f64; 2]; 3]
 
 /// Seeds here and, in release, in the figures of the guide.
 fn seeds() -> u64 {
-    let asked = std::env::var("PICKUP_SEEDS").ok();
+    let asked = std::env::var("AUXBEAR_SEEDS").ok();
     asked.and_then(|seeds| seeds.parse().ok()).unwrap_or(3)
 }
 

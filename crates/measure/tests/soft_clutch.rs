@@ -208,9 +208,9 @@ fn score(shape: Shape, rig: &Rig, seed: u64) -> Score {
     score
 }
 
-/// Spin-ups of each rig. The whole number is run in a release build with `SOFT_CLUTCH_SEEDS=400`.
+/// Spin-ups of each rig. The whole number is run in a release build with `AUXBEAR_SEEDS=400`.
 fn seeds() -> u64 {
-    std::env::var("SOFT_CLUTCH_SEEDS")
+    std::env::var("AUXBEAR_SEEDS")
         .ok()
         .and_then(|seeds| seeds.parse().ok())
         .unwrap_or(24)

@@ -60,9 +60,9 @@ impl Count {
     }
 }
 
-/// Campaigns of each explanation. The whole number is run in a release build with EXPLAIN_RUNS=100.
+/// Campaigns of each explanation. The whole number is run in a release build with AUXBEAR_SEEDS=100.
 pub fn runs() -> u64 {
-    std::env::var("EXPLAIN_RUNS")
+    std::env::var("AUXBEAR_SEEDS")
         .ok()
         .and_then(|runs| runs.parse().ok())
         .unwrap_or(1)
@@ -82,31 +82,13 @@ fn right_as_often_as_promised() {
                 }
                 let verdict = judge(&campaign);
                 counts[truth as usize][usize::from(without_cage)].add(&verdict, truth);
-                if std::env::var("EXPLAIN_RUNS").is_ok() {
-                    println!(
-                        "{seed} {truth:?} {without_cage} {:?} {:.3?} {:?} {:?}",
-                        verdict.conclusion,
-                        verdict
-                            .assessments
-                            .iter()
-                            .map(|a| a.probability)
-                            .collect::<Vec<_>>(),
-                        campaign.truth.fault,
-                        campaign.truth.bearing
-                    );
-                }
             }
-        }
-        if std::env::var("EXPLAIN_RUNS").is_ok() {
-            println!(
-                "after {} campaigns, with and without cage: {counts:#?}",
-                seed + 1
-            );
         }
     }
     let total = runs() as u32;
     for truth in Explanation::ALL {
         let [with_cage, without] = counts[truth as usize];
+        println!("{truth:?}: with a cage signal {with_cage:?}; without {without:?}");
         // of few runs, whose seeds are fixed, all must be right
         let enough = total - total / 20;
         assert!(with_cage.right >= enough, "{truth:?} {with_cage:?}");
