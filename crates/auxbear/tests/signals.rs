@@ -378,7 +378,7 @@ fn a_torque_that_was_clipped_has_no_peak() {
         outcome
             .warnings
             .iter()
-            .any(|w| w.code == "AB1043" && w.text.contains("the torque is not told for")),
+            .any(|w| w.code == "AB1043" && w.text.contains("the torque is unknown for")),
         "{:?}",
         outcome.warnings
     );

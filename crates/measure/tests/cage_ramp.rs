@@ -194,7 +194,7 @@ fn a_rival_line_is_refused_or_told() {
     };
     let strong = with(0.7).expect_err("one of two");
     assert!(
-        strong.contains("nothing tells which") && strong.contains("order 4.0"),
+        strong.contains("nothing shows which") && strong.contains("order 4.0"),
         "{strong}"
     );
     let weak = with(0.3).expect("the stronger one");

@@ -111,7 +111,7 @@ fn wrong_marks_are_detected_with_the_right_number() {
                         Marks::Contradicted(_)
                             if period(&train).is_some_and(|found| found % marks == 0) => {}
                         Marks::Contradicted(why) => wrong.push(format!("{words}: {why}")),
-                        Marks::Shown | Marks::Untold(_) => missed.push(words),
+                        Marks::Shown | Marks::Unclear(_) => missed.push(words),
                     }
                 }
             }

@@ -347,7 +347,7 @@ fn the_pattern_of_intervals_tells_the_marks_of_the_wheel() {
     // A perfect wheel has no pattern.
     let even = coast(&[0.0; 60], 9, 1e-6, 1.5);
     assert_eq!(period(&even), None);
-    let Marks::Untold(why) = check_marks(&even) else {
+    let Marks::Unclear(why) = check_marks(&even) else {
         panic!("an even wheel");
     };
     assert!(why.contains("noise of their instants"), "{why}");
