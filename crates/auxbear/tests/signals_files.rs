@@ -45,7 +45,7 @@ fn an_interval_that_contradicts_the_file_is_told() {
     );
     assert_eq!(
         told,
-        "error[AB0305]: a.toml:5: signals.sample_interval: found run.csv, channel \"torque\", whose clock has an interval of 1000 us, beside 100 us here; leave signals.sample_interval away: the file tells the clock of its channels"
+        "error[AB0305]: a.toml:5: signals.sample_interval: found run.csv, channel \"torque\", whose clock has an interval of 1000 us, beside 100 us here; leave signals.sample_interval away: the file states the clock of its channels"
     );
     // the same interval is no contradiction
     let same = problem(

@@ -122,7 +122,7 @@ fn rounded_times_are_still_a_uniform_clock() {
 fn a_time_without_unit_stays_in_its_own() {
     let file = open("Time,RPM\n0,598\n0.001,599\n0.002,600\n");
     assert_eq!(file.channels()[1].clock, Clock::Channel(0));
-    assert!(notes(&file).contains("Time: is a time by its name, but its unit is not told"));
+    assert!(notes(&file).contains("Time: is a time by its name, but its unit is not stated"));
 }
 
 #[test]

@@ -286,7 +286,7 @@ fn sets_of_other_types_are_skipped_with_a_note() {
 fn more_and_fewer_values_than_told_and_words_among_them_are_told() {
     let mut fewer = open(text_set(2, 9, 1, " 1.0E+00 2.0E+00\n").as_bytes());
     assert_eq!(all(&mut fewer, 0), [1.0, 2.0]);
-    assert!(told(&fewer).contains("tells 9 values, 2 are there"));
+    assert!(told(&fewer).contains("states 9 values, 2 are there"));
     let mut more = open(text_set(2, 1, 1, " 1.0E+00 2.0E+00\n").as_bytes());
     assert_eq!(all(&mut more, 0), [1.0]);
     assert!(told(&more).contains("left out"));

@@ -239,7 +239,7 @@ fn values_that_are_cut_off_or_never_counted_are_read_as_far_as_they_are_there() 
     assert!(
         cut.notes()[0]
             .text
-            .contains("8 bytes are told, 7 are there")
+            .contains("8 bytes are stated, 7 are there")
     );
     let mut uncounted = whole.clone();
     let length = whole.len() - 12;

@@ -294,7 +294,7 @@ impl Values {
         let told = if factors.lubrication_stated {
             ""
         } else {
-            ", which does not tell the lubrication"
+            ", which does not state the lubrication"
         };
         let how = format!(
             "series {series}, {kind}: {}{told}",
