@@ -35,7 +35,7 @@ fn times_without_a_unit_are_asked_for() {
     }
 }
 
-/// An interval in the scenario beside a clock of the file is held against it.
+/// An interval in the scenario beside a clock of the file is checked against it.
 #[test]
 fn an_interval_that_contradicts_the_file_is_reported() {
     let shown = problem(

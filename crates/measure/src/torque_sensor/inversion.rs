@@ -358,7 +358,7 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
             let by = moved(k, TORQUE).abs();
             // a torque that is zero by definition stays so
             let rests = deviation[k] == 0.0;
-            if !rests && (thin.limits[k].is_some() || by > MOST_MOVED * deviation[k]) {
+            if !rests && (thin.limits[k].is_some() || by > MOVED * deviation[k]) {
                 (torque[k], deviation[k]) = (lost, lost);
                 (rate[k], rate_deviation[k]) = (lost, lost);
             } else if !rests {
@@ -366,7 +366,7 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
                 rate_deviation[k] = rate_deviation[k].hypot(moved(k, RATE));
             }
             let by = moved(k, COSINE).hypot(moved(k, SINE));
-            if by > MOST_MOVED * disturbance_deviation[k] {
+            if by > MOVED * disturbance_deviation[k] {
                 (disturbance[k], disturbance_deviation[k]) = (lost, lost);
             } else {
                 disturbance_deviation[k] = disturbance_deviation[k].hypot(by);
@@ -463,7 +463,7 @@ fn refuse(input: &Inversion) -> Result<(), String> {
 }
 
 /// Deviations by which what clipped readings hide may move what is given.
-const MOST_MOVED: f64 = 2.0;
+const MOVED: f64 = 2.0;
 
 /// Standard deviation of the reading; the unit in which the filter works.
 fn scale_of(reading: &[f64]) -> f64 {
