@@ -247,7 +247,7 @@ fn sensor(
                         ""
                     };
                     format!(
-                        "the tap does not show the sensor: {}, {why}{told}",
+                        "the tap does not identify the sensor: {}, {why}{told}",
                         tap.name
                     )
                 })?;
