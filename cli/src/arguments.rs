@@ -25,7 +25,7 @@ pub enum Command {
     Torque(Torque),
     /// Compute speed, torque and cage speed from the channels of a measurement file, and write a run directory
     Signals(Measured),
-    /// Find what measured tests tell of a bearing: friction, loss, slip, and which explanation they support
+    /// Find what measured tests show of a bearing: friction, loss, slip, and which explanation they support
     Identify(Measured),
     /// Read and check a file, print it with every default and its unit; run nothing
     Check {

@@ -107,7 +107,7 @@ fn in_unit(si: f64, unit: &str) -> String {
 }
 
 fn show(bearing: &Bearing) -> String {
-    let head = ["quantity", "value", "mark", "source, way or reason"].map(String::from);
+    let head = ["quantity", "value", "mark", "source, method or reason"].map(String::from);
     let values = bearing.values.iter().map(|value| {
         [
             value.key.clone(),

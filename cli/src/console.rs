@@ -4,13 +4,13 @@ use std::io::{Write, stderr, stdout};
 
 /// Prints results.
 pub fn print(text: &str) {
-    // The reader may have left, as `head` does; there is nobody to tell.
+    // The reader may have left, as `head` does; nobody reads on.
     let mut out = stdout().lock();
     let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
 }
 
-/// Tells a problem or how far things are, on a line of its own beside the results.
-pub fn tell(line: &str) {
+/// Prints a problem or the progress on a line of its own beside the results.
+pub fn report(line: &str) {
     let _ = writeln!(stderr().lock(), "{line}");
 }
 

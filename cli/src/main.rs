@@ -31,7 +31,7 @@ fn main() -> ExitCode {
     let exit = match perform(&arguments.command) {
         Ok(exit) => exit,
         Err(problem) => {
-            console::tell(&problem.to_string());
+            console::report(&problem.to_string());
             match problem.code {
                 Code::OutputFailed => Exit::Failed,
                 _ => Exit::WrongInput,
@@ -41,7 +41,7 @@ fn main() -> ExitCode {
     exit.into()
 }
 
-/// A damaged measurement file may make the library that unpacks it panic: the reader catches that and tells it as a problem.
+/// A damaged measurement file may make the library that unpacks it panic: the reader catches that and reports it as a problem.
 fn measured_quietly() {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
@@ -62,7 +62,7 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
             let machine = auxbear::run::build(&scenario)?;
             console::print(&scenario.resolved.toml());
             for warning in machine.warnings() {
-                console::tell(&format!("warning[{}]: {}", warning.code, warning.text));
+                console::report(&format!("warning[{}]: {}", warning.code, warning.text));
             }
         }
         Command::New { kind, path } => start::perform(kind, path.as_deref())?,

@@ -1,4 +1,4 @@
-//! `auxbear signals` and `auxbear identify`: what measurements tell, by a file of their own system.
+//! `auxbear signals` and `auxbear identify`: what measurements show, by a file of their own system.
 
 use crate::arguments::Measured;
 use crate::exit::Exit;

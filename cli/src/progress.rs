@@ -16,14 +16,14 @@ pub enum Progress {
     Lines(Mutex<Lines>),
 }
 
-/// What was told in a log: a line each 10 %, and none sooner than a second after the last.
+/// What was printed in a log: a line each 10 %, and none sooner than a second after the last.
 pub struct Lines {
     tenths: u32,
     last: Instant,
 }
 
 impl Progress {
-    /// The way that fits where the messages go.
+    /// The form that fits where the messages go.
     pub fn new(quiet: bool) -> Progress {
         if quiet {
             return Progress::Quiet;
@@ -54,7 +54,7 @@ impl Progress {
                 if tenths > lines.tenths && lines.last.elapsed() >= PAUSE {
                     lines.tenths = tenths;
                     lines.last = Instant::now();
-                    console::tell(&format!("run: {} %", 10 * tenths));
+                    console::report(&format!("run: {} %", 10 * tenths));
                 }
             }
         }

@@ -47,7 +47,7 @@ fn threads(text: &str) -> Result<NonZeroUsize, Box<Problem>> {
     })
 }
 
-/// Runs a scenario, writes its run directory and tells what came out.
+/// Runs a scenario, writes its run directory and prints what came out.
 pub fn execute(
     scenario: &Scenario,
     path: &Path,
@@ -79,7 +79,7 @@ pub fn execute(
         _ => "run failed",
     };
     let text = outcome.stop.text.trim_end_matches('.');
-    console::tell(&format!(
+    console::report(&format!(
         "{word}: {text}. What was computed is in {}",
         path.display()
     ));
@@ -110,6 +110,6 @@ fn listen() {
         }
     };
     if let Err(error) = ctrlc::set_handler(handler) {
-        console::tell(&format!("an interrupt will not keep results: {error}"));
+        console::report(&format!("an interrupt will not keep results: {error}"));
     }
 }

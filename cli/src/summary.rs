@@ -141,7 +141,7 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
     let mut text = format!("{}\n{}", outcome.title, console::table(&rows));
     let next = outcome.quantities.iter().find(|q| q.name == NEXT_TESTS);
     if let Some(Value::Text(next)) = next.map(|q| &q.value) {
-        text.push_str("the next test, the most telling first:\n");
+        text.push_str("the next test, the most informative first:\n");
         for line in next.lines() {
             text.push_str(&format!("  {line}\n"));
         }

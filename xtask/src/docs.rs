@@ -1,4 +1,4 @@
-//! `cargo xtask docs`: writes the page of the book that shows what the program was held against.
+//! `cargo xtask docs`: writes the page of the book that shows what the program was compared with.
 
 use crate::bench::build;
 use crate::repository::Repository;
@@ -63,7 +63,7 @@ fn page(report: &Value, sources: &BTreeMap<String, toml::Table>) -> String {
     );
     let _ = write!(
         out,
-        "What the program was held against: published and closed-form results, each with its source and a tolerance that the source supports. \
+        "What the program was compared with: published and closed-form results, each with its source and a tolerance that the source supports. \
          {} of {} comparisons in {} cases pass. A deviation is a share of the reference, or absolute where the reference is 0.\n\n\
          The case files stand in `validation/`. `auxbear validate` runs them; `auxbear validate --cases DIR` adds your own.\n",
         count("pass"),

@@ -104,17 +104,17 @@ fn what_does_not_fit_together_is_refused_before_anything_is_written() {
 }
 
 #[test]
-fn a_slow_test_that_tells_nothing_ends_with_its_reason() {
+fn a_slow_test_that_shows_nothing_ends_with_its_reason() {
     let place = Place::new();
     tested(&place);
     identify(&place, "test/signals.toml", "");
-    let called = place.call(&["identify", "identify.toml", "--out", "told"]);
-    // a spin-up of 0.6 s is no coast-down: told, kept, and no panic
+    let called = place.call(&["identify", "identify.toml", "--out", "found"]);
+    // a spin-up of 0.6 s is no coast-down: reported, kept, and no panic
     assert!(
         called.code == Some(0) || called.code == Some(1),
         "{called:?}"
     );
-    assert!(place.path("told").join("summary.json").exists());
+    assert!(place.path("found").join("summary.json").exists());
 }
 
 #[test]

@@ -17,7 +17,7 @@ fn every_kind_of_file_has_a_schema() {
 }
 
 #[test]
-fn other_kinds_are_told_apart() {
+fn other_kinds_are_distinguished() {
     let place = Place::new();
     for (kind, code, words) in [
         ("drp", "AB0108", "Did you mean \"drop\"?"),

@@ -149,15 +149,15 @@ viscosity = "40 mm^2/s"
     for command in ["run", "check"] {
         let mut words = vec![command, "lossy.toml"];
         words.extend(LOSSY);
-        let told =
+        let expected =
             "error[AB0211]: lossy.toml, --set: bearing.acceleration_loss.per_acceleration: found";
-        place.call(&words).refused(&[told]);
+        place.call(&words).refused(&[expected]);
         assert_eq!(place.names(), ["lossy.toml"]);
     }
 }
 
 #[test]
-fn check_tells_a_load_above_the_static_rating() {
+fn check_reports_a_load_above_the_static_rating() {
     let place = place();
     let words = [
         "check",
@@ -165,15 +165,15 @@ fn check_tells_a_load_above_the_static_rating() {
         "--set",
         "bearing.static_load_rating=1 kN",
     ];
-    let told = |load: &str| {
+    let reported = |load: &str| {
         let mut words = words.to_vec();
         words.extend(["--set", load]);
         place.call(&words).done().err
     };
-    assert_eq!(told("drive.radial_load=0.9 kN"), "");
-    let told = told("drive.radial_load=100 kN");
+    assert_eq!(reported("drive.radial_load=0.9 kN"), "");
+    let text = reported("drive.radial_load=100 kN");
     assert!(
-        told.starts_with("warning[AB1029]: The static radial load of 100000 N is 100.0 times"),
-        "{told}"
+        text.starts_with("warning[AB1029]: The static radial load of 100000 N is 100.0 times"),
+        "{text}"
     );
 }

@@ -406,7 +406,7 @@ impl Place {
     }
 }
 
-/// One thing that is wrong with the input, told so that it can be put right. Prints as one paragraph.
+/// One thing that is wrong with the input, worded so that it can be corrected. Prints as one paragraph.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// Stable code.

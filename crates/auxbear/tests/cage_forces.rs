@@ -1,7 +1,7 @@
 //! Forces on a cage at steady speed, beside measured ones.
 //!
 //! Ball/cage forces up to 25 N and forces on the inner land up to 20 N were measured on a bearing of 110 mm bore at speeds up to
-//! 12 000 rpm (J. Lubr. Technol. 101 (1979) 180, abstract). The abstract tells neither load nor cage, so that only the
+//! 12 000 rpm (J. Lubr. Technol. 101 (1979) 180, abstract). The abstract states neither load nor cage, so that only the
 //! magnitude can be compared: a cage that is guided by the inner land of an angular contact bearing of that bore must stay
 //! below, and well above nothing.
 

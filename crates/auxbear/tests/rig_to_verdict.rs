@@ -155,7 +155,7 @@ fn the_wanted_peak_acceleration_is_reached_and_momentum_closes() {
     }
 }
 
-/// A test whose torque was cut at the end of its range tells nothing of the bearing.
+/// A test whose torque was cut at the end of its range shows nothing of the bearing.
 #[test]
 fn a_clipped_test_is_not_identified() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -168,11 +168,11 @@ fn a_clipped_test_is_not_identified() {
     ));
     // it is the only one
     assert!(!found.stop.complete(), "{:?}", found.stop);
-    let told = (found.warnings.iter()).find(|warning| warning.code == "AB1060");
-    let told = &told.expect("it is told").text;
+    let shown = (found.warnings.iter()).find(|warning| warning.code == "AB1060");
+    let shown = &shown.expect("it is reported").text;
     assert!(
-        told.starts_with("rig_test_2: it is not used: the reading is clipped at 2"),
-        "{told}"
+        shown.starts_with("rig_test_2: it is not used: the reading is clipped at 2"),
+        "{shown}"
     );
     assert!(!(found.quantities.iter()).any(|quantity| quantity.name.starts_with("test_1.")));
 }
@@ -276,7 +276,7 @@ fn the_grease_of_three_tests_is_found() {
     }
 }
 
-/// The dissipation of a rolling bearing, as the outer race tells it, beside the heat of the simulation.
+/// The dissipation of a rolling bearing, as estimated from the outer race, beside the heat of the simulation.
 #[test]
 fn the_energy_of_a_spin_up_lies_in_its_band() {
     let folder = tempfile::tempdir().expect("a folder");

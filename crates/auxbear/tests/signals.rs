@@ -94,7 +94,7 @@ fn a_made_up_spin_up_is_found_within_its_bands() {
     // the acceleration begins with its rise of 1 ms
     let engaged = number(&outcome, "engagement_time");
     assert!((engaged - ENGAGED).abs() < RISE, "{engaged}");
-    // One record: rows are correlated, so that the share scatters about 95 % by more than their number would tell.
+    // One record: rows are correlated, so that the share scatters about 95 % by more than their number would explain.
     for (name, deviation, span, truth) in [
         (
             "shaft.speed",
@@ -163,7 +163,7 @@ fn what_is_not_asked_for_is_not_computed() {
 
 #[test]
 fn a_record_that_does_not_carry_the_answer_says_what_would() {
-    // to 1 % of its peak no 60 marks sampled at 10 kHz can tell this acceleration
+    // to 1 % of its peak no 60 marks sampled at 10 kHz can resolve this acceleration
     let outcome = example(&["signals.speed.wanted=0.001"]);
     assert!(!outcome.stop.complete());
     assert_eq!(outcome.stop.reason, "not answered");
@@ -184,7 +184,7 @@ fn a_record_that_does_not_carry_the_answer_says_what_would() {
 
 /// Marks that are counted wrongly do not pass in silence: a wheel whose 60 marks are off shows that it has not 12.
 #[test]
-fn wrong_marks_are_told() {
+fn wrong_marks_are_reported() {
     let folder = tempfile::tempdir().unwrap();
     let mut text = String::from("mark,tacho [s]\n");
     for mark in 0..3000_usize {
@@ -230,7 +230,7 @@ fn the_resolved_file_runs_again() {
 }
 
 #[test]
-fn a_channel_that_is_not_there_is_told_with_those_that_are() {
+fn a_channel_that_is_not_there_is_reported_with_those_that_are() {
     let speed = "[signals.speed]\nchannel = \"torqe\"\nmarks_per_revolution = 60\n";
     assert_eq!(
         problem("run.csv", &table("N mm", &|_| None), speed),
@@ -239,49 +239,49 @@ fn a_channel_that_is_not_there_is_told_with_those_that_are() {
 }
 
 #[test]
-fn a_unit_that_is_no_torque_is_told() {
-    let told = problem("run.csv", &table("N", &|_| None), TORQUE);
+fn a_unit_that_is_no_torque_is_reported() {
+    let shown = problem("run.csv", &table("N", &|_| None), TORQUE);
     assert!(
-        told.starts_with("error[AB0306]: a.toml:6: signals.torque.channel: found run.csv, channel \"torque\" in \"N\";"),
-        "{told}"
+        shown.starts_with("error[AB0306]: a.toml:6: signals.torque.channel: found run.csv, channel \"torque\" in \"N\";"),
+        "{shown}"
     );
     let both = format!("{TORQUE}scale = \"1 N m\"\n");
-    let told = problem("run.csv", &table("N mm", &|_| None), &both);
+    let shown = problem("run.csv", &table("N mm", &|_| None), &both);
     assert!(
-        told.contains("signals.torque.scale") && told.contains("contradict"),
-        "{told}"
+        shown.contains("signals.torque.scale") && shown.contains("contradict"),
+        "{shown}"
     );
 }
 
 #[test]
-fn times_that_fall_or_are_uneven_are_told() {
+fn times_that_fall_or_are_uneven_are_reported() {
     let back = |row| (row == 20).then_some("0.0005");
-    let told = problem("run.csv", &table("N mm", &back), TORQUE);
+    let shown = problem("run.csv", &table("N mm", &back), TORQUE);
     assert!(
-        told.starts_with(
+        shown.starts_with(
             "error[AB0305]: a.toml:6: signals.torque.channel: found run.csv, channel \"time\", whose time goes from 0.019 s to 0.0005 s at value 20;"
         ),
-        "{told}"
+        "{shown}"
     );
     let uneven = |row| (row == 20).then_some("0.0205");
-    let told = problem("run.csv", &table("N mm", &uneven), TORQUE);
+    let shown = problem("run.csv", &table("N mm", &uneven), TORQUE);
     assert!(
-        told.contains("AB0305") && told.contains("not at equal times"),
-        "{told}"
+        shown.contains("AB0305") && shown.contains("not at equal times"),
+        "{shown}"
     );
 }
 
 #[test]
-fn files_that_are_no_measurement_are_told() {
-    let told = problem("run.tdms", "this is a text\n", "");
+fn files_that_are_no_measurement_are_reported() {
+    let shown = problem("run.tdms", "this is a text\n", "");
     assert!(
-        told.starts_with("error[AB0303]: a.toml:4: signals.file: found run.tdms, which is text"),
-        "{told}"
+        shown.starts_with("error[AB0303]: a.toml:4: signals.file: found run.tdms, which is text"),
+        "{shown}"
     );
-    let told = problem("run.tdms", "", "");
+    let shown = problem("run.tdms", "", "");
     assert!(
-        told.starts_with("error[AB0303]: a.toml:4: signals.file: found run.tdms, which is empty"),
-        "{told}"
+        shown.starts_with("error[AB0303]: a.toml:4: signals.file: found run.tdms, which is empty"),
+        "{shown}"
     );
     let missing = problem(
         "other.csv",
@@ -291,9 +291,9 @@ fn files_that_are_no_measurement_are_told() {
     assert!(missing.contains("AB0"), "{missing}");
 }
 
-/// Clipped, missing: values that are left out are told, and the run goes on.
+/// Clipped, missing: values that are left out are reported, and the run goes on.
 #[test]
-fn clipped_and_missing_torque_is_told() {
+fn clipped_and_missing_torque_is_reported() {
     let folder = tempfile::tempdir().unwrap();
     let mut text = String::from("time,torque\ns,N mm\n");
     for row in 0..4000 {
@@ -316,20 +316,21 @@ fn clipped_and_missing_torque_is_told() {
     let outcome = computed(&Scenario::read(&file, &[], &BuiltIn).unwrap());
     assert_eq!(number(&outcome, "torque_missing_values"), 3.0);
     assert!(number(&outcome, "torque_clipped_values") > 100.0);
-    let told: Vec<&str> = outcome
+    let shown: Vec<&str> = outcome
         .warnings
         .iter()
         .filter(|w| w.code == "AB1041")
         .map(|w| w.text.as_str())
         .collect();
     assert!(
-        told.iter()
+        shown
+            .iter()
             .any(|text| text.starts_with("Channel torque:") && text.contains("clipped")),
-        "{told:?}"
+        "{shown:?}"
     );
 }
 
-/// A reading at its limit says that the torque is there or beyond: nothing is told of it there, and the peak not at all.
+/// A reading at its limit says that the torque is there or beyond: no torque is given there, and the peak not at all.
 #[test]
 fn a_torque_that_was_clipped_has_no_peak() {
     let whole = example(&[]);
@@ -359,26 +360,26 @@ fn a_torque_that_was_clipped_has_no_peak() {
         .zip(column(&outcome, "torque.torque"))
         .zip(column(&outcome, "torque.deviation"))
         .filter(|((time, _), _)| **time > 0.35 && **time < 1.4);
-    let (mut told, mut inside, mut hidden) = (0.0, 0.0, 0.0);
+    let (mut shown, mut inside, mut hidden) = (0.0, 0.0, 0.0);
     for ((time, value), deviation) in rows {
         if value.is_nan() {
             assert!(deviation.is_nan());
             hidden += 1.0;
             continue;
         }
-        told += 1.0;
+        shown += 1.0;
         inside += f64::from((value - torque(*time)).abs() <= 2.0 * deviation);
     }
-    println!("told {told}, inside {inside}, hidden {hidden}");
+    println!("given {shown}, inside {inside}, hidden {hidden}");
     assert!(hidden > 100.0, "{hidden}");
-    assert!(told > 500.0, "{told}");
+    assert!(shown > 500.0, "{shown}");
     // one record, whose rows are correlated
-    assert!(inside >= 0.8 * told, "{inside} of {told}");
+    assert!(inside >= 0.8 * shown, "{inside} of {shown}");
     assert!(
         outcome
             .warnings
             .iter()
-            .any(|w| w.code == "AB1043" && w.text.contains("the torque is not told for")),
+            .any(|w| w.code == "AB1043" && w.text.contains("the torque is unknown for")),
         "{:?}",
         outcome.warnings
     );
@@ -386,13 +387,13 @@ fn a_torque_that_was_clipped_has_no_peak() {
 
 /// A slip that no cage has at speed names the counts that would explain it.
 #[test]
-fn wrong_counts_of_balls_and_marks_are_told() {
-    let told = |sets: &[&str]| {
+fn wrong_counts_of_balls_and_marks_are_reported() {
+    let shown = |sets: &[&str]| {
         let outcome = example(sets);
         let doubts = outcome.warnings.iter().filter(|w| w.code == "AB1045");
         doubts.map(|w| w.text.clone()).collect::<Vec<_>>().join(" ")
     };
-    assert_eq!(told(&[]), "");
+    assert_eq!(shown(&[]), "");
     for (set, right) in [
         (
             "signals.cage.ball_count=5",
@@ -405,12 +406,12 @@ fn wrong_counts_of_balls_and_marks_are_told() {
             "60 marks per revolution instead of 30 (signals.speed.marks_per_revolution)",
         ),
     ] {
-        let told = told(&[set]);
+        let shown = shown(&[set]);
         assert!(
-            told.starts_with(
+            shown.starts_with(
                 "Channel \"rig/ball_pass\" of spin_up.tdms: the cage rests at a slip of"
-            ) && told.contains(right),
-            "{set}: {told}"
+            ) && shown.contains(right),
+            "{set}: {shown}"
         );
     }
 }
@@ -437,16 +438,16 @@ fn a_spectrum_of_the_torque_ends_where_it_holds_something() {
     for asked in ["0.01 Hz", "251 Hz"] {
         let set = format!("signals.torque.highest_frequency={asked}");
         let scenario = Scenario::read(&file, &[set], &BuiltIn).unwrap();
-        let told = match build(&scenario) {
+        let shown = match build(&scenario) {
             Ok(_) => panic!("{asked} is taken"),
             Err(problem) => problem.to_string(),
         };
         // 1.5 s in four: lines 2.7 Hz apart
         assert!(
-            told.contains("signals.torque.highest_frequency")
-                && told.contains("from 10.6")
-                && told.contains("to 250 Hz is needed"),
-            "{told}"
+            shown.contains("signals.torque.highest_frequency")
+                && shown.contains("from 10.6")
+                && shown.contains("to 250 Hz is needed"),
+            "{shown}"
         );
     }
 }
@@ -465,19 +466,19 @@ fn a_temperature_is_no_signal_of_a_sensor() {
             _ => "ball_count = 10\nrolling_ratio = 0.4\n",
         };
         let text = format!("{more}[signals.{section}]\nchannel = \"torque\"\n{keys}");
-        let told = problem("run.csv", &table("K", &|_| None), &text);
+        let shown = problem("run.csv", &table("K", &|_| None), &text);
         assert!(
-            told.contains("AB0306")
-                && told.contains(&format!("signals.{section}.channel"))
-                && told.contains("channel \"torque\" in \"K\", a temperature"),
-            "{told}"
+            shown.contains("AB0306")
+                && shown.contains(&format!("signals.{section}.channel"))
+                && shown.contains("channel \"torque\" in \"K\", a temperature"),
+            "{shown}"
         );
     }
 }
 
 #[test]
 fn keys_without_their_channel_are_refused() {
-    let told = |more: &str| {
+    let shown = |more: &str| {
         let text = format!(
             "format = \"auxbear.scenario/1\"\nsystem = \"signals\"\n[signals]\nfile = \"a.tdms\"\n{more}"
         );
@@ -486,14 +487,14 @@ fn keys_without_their_channel_are_refused() {
             .to_string()
     };
     assert_eq!(
-        told("[signals.speed]\nmarks_per_revolution = 60\n"),
+        shown("[signals.speed]\nmarks_per_revolution = 60\n"),
         "error[AB0110]: a.toml:6: signals.speed.marks_per_revolution: found a key that has no effect; signals.speed.channel is needed with it"
     );
     assert_eq!(
-        told("[signals.speed]\nchannel = \"tacho\"\n"),
+        shown("[signals.speed]\nchannel = \"tacho\"\n"),
         "error[AB0107]: a.toml: signals.speed.marks_per_revolution: found no value; with signals.speed.channel a whole number from 1 to 100000 is needed, e.g. 60"
     );
-    let cage = told("[signals.cage]\nchannel = \"balls\"\nball_count = 10\nrolling_ratio = 0.4\n");
+    let cage = shown("[signals.cage]\nchannel = \"balls\"\nball_count = 10\nrolling_ratio = 0.4\n");
     assert!(
         cage.contains("signals.speed.channel: found no value"),
         "{cage}"
@@ -533,8 +534,8 @@ fn the_choice_of_a_sensor_is_shown() {
 
 /// A damping ratio that is wrong by ten changes the torque by half: one that stops every swing does not pass in silence.
 #[test]
-fn a_damping_ratio_without_swing_is_told() {
-    let told = |ratio: &str| {
+fn a_damping_ratio_without_swing_is_reported() {
+    let shown = |ratio: &str| {
         let outcome = example(&[&format!("signals.torque.damping_ratio={ratio}")]);
         let mut notes = outcome.warnings.iter().filter(|w| w.code == "AB1043");
         notes.any(|w| {
@@ -542,6 +543,6 @@ fn a_damping_ratio_without_swing_is_told() {
                 .starts_with(&format!("Torque: a damping ratio of {ratio} is that"))
         })
     };
-    assert!(!told("0.2"));
-    assert!(told("2"));
+    assert!(!shown("0.2"));
+    assert!(shown("2"));
 }

@@ -205,10 +205,10 @@ fn a_spectrogram_ends_at_the_highest_frequency() {
         ("100", "e.g. \"500 Hz\""),
         ("100 rpm/s", "e.g. \"500 Hz\""),
     ] {
-        let told = asked(&format!("highest_frequency = \"{value}\"\n")).unwrap_err();
+        let shown = asked(&format!("highest_frequency = \"{value}\"\n")).unwrap_err();
         assert!(
-            told.contains("signals.vibration.highest_frequency") && told.contains(needed),
-            "{told}"
+            shown.contains("signals.vibration.highest_frequency") && shown.contains(needed),
+            "{shown}"
         );
     }
 }
@@ -256,12 +256,12 @@ fn a_converter_flags_its_limits() {
         clipped > 100.0 && clipped < 0.5 * SECONDS * RATE,
         "{clipped}"
     );
-    let told = outcome.warnings.iter().any(|warning| {
+    let shown = outcome.warnings.iter().any(|warning| {
         warning.code == "AB1041"
             && warning.text.contains("clipped")
             && warning.text.contains("the first at 0.")
     });
-    assert!(told, "{:?}", outcome.warnings);
+    assert!(shown, "{:?}", outcome.warnings);
 }
 
 /// What is left of a clipped torque is lower than the torque: no mean is taken of it.
@@ -323,12 +323,12 @@ fn what_contradicts_itself_is_refused() {
         ),
     ];
     for (more, words) in cases {
-        let told = coast.asked(more).map(|_| ()).unwrap_err();
-        assert!(told.contains(words), "{more}: {told}");
+        let shown = coast.asked(more).map(|_| ()).unwrap_err();
+        assert!(shown.contains(words), "{more}: {shown}");
     }
 }
 
-/// Zero and scale of the sensor are in the band of what it reads over the speed; where the zero is not told that is said.
+/// Zero and scale of the sensor are in the band of what it reads over the speed; where the zero is not stated that is said.
 #[test]
 fn a_steady_curve_carries_zero_and_scale_of_the_sensor() {
     let coast = Coast::new("steady_zero", f64::INFINITY);
@@ -337,8 +337,8 @@ fn a_steady_curve_carries_zero_and_scale_of_the_sensor() {
         let sensor =
             format!("[signals.torque]\nchannel = \"torque\"\n{zero}scale_deviation = {scale}\n");
         let outcome = coast.asked(&format!("{sensor}{slow}")).unwrap();
-        let told = outcome.warnings.iter();
-        let told = told.filter(|w| {
+        let shown = outcome.warnings.iter();
+        let shown = shown.filter(|w| {
             w.code == "AB1043"
                 && w.text
                     .contains("signals.torque.zero_deviation is not given")
@@ -346,15 +346,15 @@ fn a_steady_curve_carries_zero_and_scale_of_the_sensor() {
         (
             list(&outcome, "steady_direct_deviations").to_vec(),
             list(&outcome, "steady_direct_torques").to_vec(),
-            told.filter(|w| w.text.starts_with("Steady curve")).count(),
+            shown.filter(|w| w.text.starts_with("Steady curve")).count(),
             value(&outcome, "steady_direct_less_inertial").clone(),
         )
     };
-    let (bare, torques, told, difference) = deviations("", 0.0);
-    assert_eq!(told, 1);
+    let (bare, torques, shown, difference) = deviations("", 0.0);
+    assert_eq!(shown, 1);
     assert!(matches!(difference, Value::None { why } if why.contains("zero of the reading")));
-    let (zeroed, _, told, difference) = deviations("zero_deviation = \"0.1 N mm\"\n", 0.0);
-    assert_eq!(told, 0);
+    let (zeroed, _, shown, difference) = deviations("zero_deviation = \"0.1 N mm\"\n", 0.0);
+    assert_eq!(shown, 0);
     assert!(matches!(difference, Value::Number(_)));
     let (scaled, ..) = deviations("zero_deviation = \"0.1 N mm\"\n", 0.05);
     for k in 0..bare.len() {

@@ -225,8 +225,8 @@ fn lubricants_are_compared_where_they_are_known() {
     assert_eq!(list(&outcome, "lubricant_1_temperatures").len(), 2);
     assert_eq!(list(&outcome, "lubricant_2_temperatures").len(), 1);
     assert_eq!(list(&outcome, "lubricant_3_temperatures").len(), 3);
-    let told = outcome.warnings.iter().filter(|w| w.code == "AB1023");
-    assert_eq!(told.count(), 2);
+    let shown = outcome.warnings.iter().filter(|w| w.code == "AB1023");
+    assert_eq!(shown.count(), 2);
 }
 
 #[test]
@@ -239,8 +239,8 @@ fn a_law_that_is_refused_in_a_comparison_says_why() {
     assert!(number(&outcome, "law_palmgren_friction_moment") > 0.0);
     assert!(why(&outcome, "law_skf_friction_moment").contains("oil mist"));
     assert!(why(&outcome, "law_measured_friction_moment").contains("bearing.moment.curve"));
-    let told = outcome.warnings.iter().filter(|w| w.code == "AB1022");
-    assert_eq!(told.count(), 2);
+    let shown = outcome.warnings.iter().filter(|w| w.code == "AB1022");
+    assert_eq!(shown.count(), 2);
     // a key of a law that is compared belongs to the file
     let outcome = plain(&[
         "torque.laws=[\"palmgren\", \"measured\"]",

@@ -94,12 +94,12 @@ impl Dissipation {
         self
     }
 
-    /// Which way the printed form is wrong, in words.
+    /// How the printed form is wrong, in words.
     pub fn printed_verdict(&self) -> String {
-        let way = match self.printed_too_large {
+        let error = match self.printed_too_large {
             p if p > 0.975 => "too large",
             p if p < 0.025 => "too small",
-            _ => "wrong by an amount whose sign these data do not tell",
+            _ => "wrong by an amount whose sign these data do not determine",
         };
         let negative = if self.printed.value < 0.0 {
             "; it is negative, which no loss can be"
@@ -107,7 +107,7 @@ impl Dissipation {
             ""
         };
         format!(
-            "(21) as printed is {way}: {} J{negative}",
+            "(21) as printed is {error}: {} J{negative}",
             self.printed_error
         )
     }

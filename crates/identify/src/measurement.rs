@@ -1,4 +1,4 @@
-//! One test, as its signals tell it.
+//! One test, as measured by its signals.
 
 use crate::series::ages;
 use physics::rolling::RollingSet;

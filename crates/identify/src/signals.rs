@@ -8,7 +8,7 @@
 //!   correlation      τ = 2 σ_torque/σ_rate at each time
 //! ```
 //! The settling time is that of the torque arm after a sudden change: within it a reading still swings, and a smoothed torque does
-//! not follow. Nothing here is fitted; what the signals do not tell is in the deviations.
+//! not follow. Nothing here is fitted; what the signals do not determine is in the deviations.
 //!
 //! **Does not model**: a shaft that turns on by less than a mark behind its last pulse, other than by its deviation; a zero that
 //! wanders between the test and the rest behind it.
@@ -62,7 +62,7 @@ const INDEPENDENT: f64 = 2.0;
 /// square of time differs from it by as much.
 const FIRST_RISE: f64 = 0.25;
 
-/// The measurement that signals tell, without a temperature.
+/// The measurement by signals, without a temperature.
 ///
 /// - `signals`: what was found in them
 ///

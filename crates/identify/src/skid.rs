@@ -27,17 +27,17 @@ pub struct SkidSettings {
     pub slip: SlipSettings,
     /// Mean of the prior of F, N; none for a tenth of M over the arm of F, which is assumed.
     pub mean_friction: Option<f64>,
-    /// Bayes factor, or its inverse, from which on the data count as telling, 1.
-    pub telling: f64,
+    /// Bayes factor, or its inverse, from which on the data count as evidence, 1.
+    pub bayes_factor: f64,
 }
 
 impl Default for SkidSettings {
-    /// Telling from 3 on: evidence worth a mention by the usual scale (Kass and Raftery 1995, from memory).
+    /// 3: evidence worth a mention by the usual scale (Kass and Raftery 1995, from memory).
     fn default() -> Self {
         Self {
             slip: SlipSettings::default(),
             mean_friction: None,
-            telling: 3.0,
+            bayes_factor: 3.0,
         }
     }
 }
@@ -49,7 +49,7 @@ pub struct SkidPoint {
     pub time: f64,
     /// x = 2s ω_b/Ω by the integral alone, without bounds, 1.
     pub spin_ratio: Uncertain,
-    /// Probability of K above the limit; none where the data cannot tell.
+    /// Probability of K above the limit; none where the data do not decide.
     pub skidding: Option<f64>,
 }
 
@@ -58,9 +58,9 @@ pub struct SkidPoint {
 pub struct Skid {
     /// Points from the engagement on, where the shaft turns.
     pub points: Vec<SkidPoint>,
-    /// Last time at which the data tell anything, s; none if they never do.
+    /// Last time at which the data decide, s; none if they never do.
     pub known_until: Option<f64>,
-    /// Largest probability of a skid at any one time at which the data tell; none if they never do.
+    /// Largest probability of a skid at any one time at which the data decide; none if they never do.
     pub skidded: Option<f64>,
 }
 
@@ -92,10 +92,10 @@ pub fn skid(
     let (s, radius) = (set.ball_ratio, set.inner_track_radius);
     let inertia = 0.4 * set.balls_mass * s * radius * (1.0 + s);
     if !(inertia > 0.0 && inertia.is_finite())
-        || settings.telling.is_nan()
-        || settings.telling < 1.0
+        || settings.bayes_factor.is_nan()
+        || settings.bayes_factor < 1.0
     {
-        return Err("masses and radii must be positive, and the telling factor at least 1".into());
+        return Err("masses and radii must be positive, and the Bayes factor at least 1".into());
     }
     let orbit = (set.balls_mass + set.cage_mass) * radius * (1.0 + s).powi(2);
     let arm = set.pocket_friction_arm();
@@ -206,7 +206,7 @@ fn probability(ratio: Uncertain, slip: f64, settings: &SkidSettings) -> Option<f
     };
     if grips > 0.0 && skids > 0.0 {
         let factor = skids / grips;
-        if factor < settings.telling && factor > 1.0 / settings.telling {
+        if factor < settings.bayes_factor && factor > 1.0 / settings.bayes_factor {
             return None;
         }
     }
@@ -227,7 +227,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn certain_spins_are_told_and_uncertain_ones_are_not() {
+    fn certain_spins_are_reported_and_uncertain_ones_are_not() {
         let settings = SkidSettings::default();
         let chance =
             |value, deviation| probability(Uncertain::new(value, deviation), 0.0, &settings);

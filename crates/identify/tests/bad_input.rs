@@ -1,4 +1,4 @@
-//! Whatever a file can hold is answered or refused with a sentence: nothing panics, nothing that is told is not a number.
+//! Whatever a file can hold is answered or refused with a sentence: nothing panics, nothing that is reported is not a number.
 
 mod made_up;
 

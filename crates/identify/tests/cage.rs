@@ -78,7 +78,7 @@ fn a_rolling_cage_never_slipped() {
     let found = cage_slip(&test, &set(), &SlipSettings::default()).unwrap();
     assert_eq!(found.established, Established::Throughout);
     assert!(found.slipped.unwrap() < 0.05, "{:?}", found.slipped);
-    // slip is told only where the shaft turns
+    // slip is reported only where the shaft turns
     assert!(found.points.iter().all(|p| p.time > 0.2));
     // a cage at rest: slip 1, never established
     test.cage
@@ -128,7 +128,7 @@ fn without_a_cage_signal_slip_is_not_known() {
 }
 
 #[test]
-fn skidding_balls_are_told_only_by_a_good_torque() {
+fn skidding_balls_are_reported_only_by_a_good_torque() {
     let (mut right, mut wrong) = (0, 0);
     let count = 8;
     for seed in 0..count {
@@ -178,7 +178,7 @@ fn skidding_balls_are_told_only_by_a_good_torque() {
             }
         }
     }
-    println!("ball skid told rightly {right} times, wrongly {wrong} times");
+    println!("ball skid reported rightly {right} times, wrongly {wrong} times");
     assert!(right > 100 && wrong * 20 < right, "{right} {wrong}");
 }
 

@@ -44,7 +44,7 @@ fn said(tests: &[&Measurement], steady: &SteadyMoment, settings: &CheckSettings)
     found
 }
 
-fn told() -> CheckSettings<'static> {
+fn stated() -> CheckSettings<'static> {
     CheckSettings {
         wanted_speed: Some(140.0),
         ball_count: Some(10),
@@ -58,7 +58,7 @@ fn sound_tests_raise_no_doubt() {
     // three deviations, three comparisons a test: about one false doubt in a hundred tests
     let mut raised = 0;
     for seed in 0..20 {
-        raised += said(&[&test(seed)], &curve(1.0), &told()).len();
+        raised += said(&[&test(seed)], &curve(1.0), &stated()).len();
     }
     assert!(raised <= 1, "{raised}");
 }
@@ -67,7 +67,7 @@ fn sound_tests_raise_no_doubt() {
 fn a_test_that_never_reaches_the_speed() {
     let settings = CheckSettings {
         wanted_speed: Some(180.0),
-        ..told()
+        ..stated()
     };
     let found = said(&[&test(1)], &curve(1.0), &settings);
     let [
@@ -83,7 +83,7 @@ fn a_test_that_never_reaches_the_speed() {
 
 #[test]
 fn a_coast_down_of_another_bearing() {
-    let found = said(&[&test(2)], &curve(1.6), &told());
+    let found = said(&[&test(2)], &curve(1.6), &stated());
     let [
         Doubt::ForeignSteadyMoment {
             difference,
@@ -98,7 +98,7 @@ fn a_coast_down_of_another_bearing() {
     assert!((ratio - 1.0 / 1.6).abs() < 0.05 && (speed - 150.0).abs() < 1.0);
     // a lubricant may be in another state; beyond a factor of two explanations are not compared
     for (factor, forbids) in [(1.6, false), (3.0, true), (0.4, true)] {
-        let found = said(&[&test(2)], &curve(factor), &told());
+        let found = said(&[&test(2)], &curve(factor), &stated());
         let forbidden = found.iter().any(Doubt::forbids_comparison);
         assert_eq!(forbidden, forbids, "{factor}: {found:?}");
     }
@@ -108,7 +108,7 @@ fn a_coast_down_of_another_bearing() {
         load: 100.0,
         ..curve(1.0)
     };
-    let found = said(&[&test(2)], &other_load, &told());
+    let found = said(&[&test(2)], &other_load, &stated());
     assert!(
         matches!(&found[..], [Doubt::LoadOfSteadyMoment { load, steady_load, .. }] if *load == 50.0 && *steady_load == 100.0)
     );
@@ -121,7 +121,7 @@ fn tests_at_different_loads() {
         name: "heavy".into(),
         ..test(4)
     };
-    let found = said(&[&test(3), &heavy], &curve(1.0), &told());
+    let found = said(&[&test(3), &heavy], &curve(1.0), &stated());
     let Doubt::MixedLoads { loads } = &found[0] else {
         panic!("{found:?}")
     };
@@ -132,7 +132,7 @@ fn tests_at_different_loads() {
 fn inertia_that_is_not_known() {
     let settings = CheckSettings {
         masses_known: false,
-        ..told()
+        ..stated()
     };
     let found = said(&[&test(5)], &curve(1.0), &settings);
     let Doubt::InertiaMissing {
@@ -153,7 +153,7 @@ fn inertia_that_is_not_known() {
         balls_mass: f64::NAN,
         ..set()
     };
-    let found = doubts(&[&test(5)], None, &unknown, &told()).unwrap();
+    let found = doubts(&[&test(5)], None, &unknown, &stated()).unwrap();
     assert!(matches!(
         found[0],
         Doubt::InertiaMissing { torque: None, .. }
@@ -174,7 +174,7 @@ fn a_cage_signal_of_the_wrong_ball_count() {
             .for_each(|s| *s *= factor);
         let settings = CheckSettings {
             ball_count: Some(stated),
-            ..told()
+            ..stated()
         };
         let found = said(&[&wrong], &curve(1.0), &settings);
         let [
@@ -199,7 +199,7 @@ fn a_cage_signal_of_the_wrong_ball_count() {
         .speed
         .iter_mut()
         .for_each(|s| *s *= 0.96);
-    let found = said(&[&odd], &curve(1.0), &told());
+    let found = said(&[&odd], &curve(1.0), &stated());
     assert!(
         matches!(found[..], [Doubt::CageNeverRolls { .. }]),
         "{found:?}"
@@ -237,7 +237,7 @@ fn a_cage_that_skids_in_the_hold_is_not_miscounted() {
         speeds,
         vec![0.25; skids.time.len()],
     ));
-    let found = said(&[&skids], &curve(1.0), &told());
+    let found = said(&[&skids], &curve(1.0), &stated());
     let cages: Vec<&Doubt> = (found.iter())
         .filter(|doubt| doubt.finding().contains("cage settles"))
         .collect();
@@ -249,7 +249,7 @@ fn a_cage_that_skids_in_the_hold_is_not_miscounted() {
     let mut wrong = test(6);
     let cage = wrong.cage.as_mut().unwrap();
     cage.speed.iter_mut().for_each(|speed| *speed *= 0.8);
-    let found = said(&[&wrong], &curve(1.0), &told());
+    let found = said(&[&wrong], &curve(1.0), &stated());
     assert!(matches!(found[..], [Doubt::WrongBallCount { fits: 8, .. }]));
     let beside = found[0].clone().beside_a_slip();
     assert!(matches!(beside, Doubt::CageNeverRolls { .. }));
@@ -266,7 +266,7 @@ fn a_temperature_that_explains_everything() {
         .map(|t| 10.0 * (1.0 - (-t / 0.5_f64).exp()))
         .collect();
     warm.temperature = Some(rise);
-    let found = said(&[&warm], &curve(1.25), &told());
+    let found = said(&[&warm], &curve(1.25), &stated());
     let explained = |found: &[Doubt]| {
         found
             .iter()
@@ -277,7 +277,7 @@ fn a_temperature_that_explains_everything() {
     let halves = |_: f64| 0.5;
     let by_law = CheckSettings {
         temperature: Some(ByTemperature::Viscosity(&halves)),
-        ..told()
+        ..stated()
     };
     assert!(explained(&said(&[&warm], &curve(1.25), &by_law)));
     // by the moment itself: 2 % ± ½ % a kelvin take up to 26 % within two deviations, 1 % takes 10 %
@@ -288,7 +288,7 @@ fn a_temperature_that_explains_everything() {
     ] {
         let by_moment = CheckSettings {
             temperature: Some(ByTemperature::MomentPerKelvin(change)),
-            ..told()
+            ..stated()
         };
         let found = said(&[&warm], &curve(1.25), &by_moment);
         assert_eq!(explained(&found), explains, "{change:?}");
@@ -300,9 +300,9 @@ fn a_temperature_that_explains_everything() {
         .unwrap()
         .iter_mut()
         .for_each(|t| *t *= 0.1);
-    assert!(!explained(&said(&[&cool], &curve(1.25), &told())));
+    assert!(!explained(&said(&[&cool], &curve(1.25), &stated())));
     // warmer and *more* torque: not by viscosity
-    assert!(!explained(&said(&[&warm], &curve(0.8), &told())));
+    assert!(!explained(&said(&[&warm], &curve(0.8), &stated())));
 }
 
 #[test]
@@ -311,7 +311,7 @@ fn a_torque_that_has_not_settled_and_a_record_too_short() {
     for (torque, time) in drifting.torque.iter_mut().zip(&drifting.time) {
         *torque -= 2e-3 * (time - 0.2).max(0.0);
     }
-    let found = said(&[&drifting], &curve(1.0), &told());
+    let found = said(&[&drifting], &curve(1.0), &stated());
     let change = found.iter().find_map(|d| match d {
         Doubt::NotSettled { change, over, .. } => Some((change.value, *over)),
         _ => None,
@@ -320,7 +320,7 @@ fn a_torque_that_has_not_settled_and_a_record_too_short() {
     let (change, over) = change.unwrap_or_else(|| panic!("{found:?}"));
     assert!((over - 1.25).abs() < 0.02 && (change + 2.5e-3).abs() < 0.4e-3);
     let short = test(9).between(0.0, 1.0);
-    let found = said(&[&short], &curve(1.0), &told());
+    let found = said(&[&short], &curve(1.0), &stated());
     assert!(
         matches!(found[..], [Doubt::TooShort { lasts, needed, .. }] if needed == 4.0 && (lasts - 0.77).abs() < 0.02),
         "{found:?}"
@@ -331,7 +331,7 @@ fn a_torque_that_has_not_settled_and_a_record_too_short() {
 fn speeds_outside_the_steady_moment() {
     let mut narrow = curve(1.0);
     narrow.speed.iter_mut().for_each(|s| *s *= 0.75);
-    let found = said(&[&test(10)], &narrow, &told());
+    let found = said(&[&test(10)], &narrow, &stated());
     assert!(
         matches!(&found[..], [Doubt::OutsideMoment { part, range, .. }] if *part > 0.9 && range.1 < 120.0)
             && found[0].forbids_comparison(),
@@ -344,14 +344,14 @@ fn broken_measurements_are_refused_not_doubted() {
     let mut broken = test(1);
     broken.speed[3] = f64::INFINITY;
     assert!(
-        doubts(&[&broken], None, &set(), &told())
+        doubts(&[&broken], None, &set(), &stated())
             .unwrap_err()
             .contains("number 3 of the speeds")
     );
-    assert!(doubts(&[], None, &set(), &told()).unwrap().is_empty());
+    assert!(doubts(&[], None, &set(), &stated()).unwrap().is_empty());
     let still = Measurement {
         speed: vec![0.0; test(1).time.len()],
         ..test(1)
     };
-    assert!(doubts(&[&still], Some(&curve(1.0)), &set(), &told()).is_ok());
+    assert!(doubts(&[&still], Some(&curve(1.0)), &set(), &stated()).is_ok());
 }

@@ -164,7 +164,7 @@ fn balls_that_still_slip_at_the_end_lie_in_the_range_of_any_slip() {
             );
         }
     }
-    // what the cage tells stays
+    // what the cage shows stays
     let (test, _) = quiet(0.025, true);
     let found = dissipation(&test, &set(), &EXACT, Some((0.2, 0.25))).unwrap();
     assert_eq!(found.clone().with_any_slip(&set()), found);

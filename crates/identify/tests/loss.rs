@@ -1,4 +1,4 @@
-//! F of accelerated balls: known values come back, bands hold, and nothing is told where nothing is known.
+//! F of accelerated balls: known values come back, bands hold, and nothing is reported where nothing is known.
 
 mod made_up;
 
@@ -268,7 +268,7 @@ fn what_is_known_does_not_depend_on_the_size_of_the_friction() {
         rolling: Rolling::Stated,
         ..LossSettings::default()
     };
-    // from 4 rad/s on, as slow tests tell it: at rest there is no M
+    // from 4 rad/s on, as slow tests measure it: at rest there is no M
     let whole = exact();
     let curve = SteadyMoment {
         speed: whole.speed[10..].to_vec(),

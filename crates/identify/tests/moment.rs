@@ -1,4 +1,4 @@
-//! The steady moment: forms told apart, the band that holds the truth, limits and what is refused.
+//! The steady moment: forms distinguished, the band that holds the truth, limits and what is refused.
 
 mod made_up;
 
@@ -115,7 +115,7 @@ fn the_law_that_made_the_data_wins() {
                 assert_eq!(names, ["f0", "M1", "zero of coast-down"]);
                 let f0 = best.parameters[0].value;
                 assert!((f0.value - 2.0).abs() < 4.0 * f0.deviation && f0.deviation < 0.1);
-                // what the torque cannot tell: a constant moment and a zero
+                // what the torque cannot separate: a constant moment and a zero
                 assert!(best.correlation[1][2] < -0.8, "{:?}", best.correlation);
             }
             Form::Skf => assert_eq!(best.parameters[0].name, "rolling"),

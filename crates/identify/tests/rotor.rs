@@ -171,7 +171,7 @@ fn without_noise_it_is_the_formula() {
     // nothing where the load lifts
     let lifted = drop.run.load.iter().filter(|w| w.value < 15.0).count();
     assert!(lifted > 0 && found.points.len() <= drop.run.time.len() - lifted);
-    // an F that is there and not known makes μ too small by share F/(R_0 W), and is told
+    // an F that is there and not known makes μ too small by share F/(R_0 W), and is reported
     let unknown = |_: f64, _: f64| None;
     let race = exact_race(&law, &unknown);
     assert!(rotor_friction(&drop.run, &race).unwrap().notes[0].contains("taken as 0"));
@@ -296,7 +296,7 @@ fn what_the_unbalance_swings_averages_out_of_whole_turns() {
             // 0.06 of swing over 2π of a turn
             assert!((own.value - 0.15).abs() < 0.005, "{mean:?}");
         } else {
-            // the slip at which it is told, within the slips of its turns
+            // the slip at which it is reported, within the slips of its turns
             let (low, high) = (
                 creeping(slip.value - 2.0 * slip.deviation),
                 creeping(slip.value + 2.0 * slip.deviation),
@@ -310,7 +310,7 @@ fn what_the_unbalance_swings_averages_out_of_whole_turns() {
     // it ends creeping, where friction carries M: μ = M/(R_0 W)
     let creep = means[0];
     assert!((creep.friction.value - 0.06).abs() < 0.004, "{creep:?}");
-    // told at the slip at which it lies; W swings μ between 0.043 and 0.1 there
+    // reported at the slip at which it lies; W swings μ between 0.043 and 0.1 there
     assert!(
         (creep.friction.value - creeping(creep.slip.value)).abs() < 0.01,
         "{creep:?}"

@@ -78,7 +78,7 @@ fn signals<'a>(speed: &'a Speed, torque: &'a Torque) -> Signals<'a> {
 }
 
 #[test]
-fn behind_its_last_pulse_a_shaft_rests_and_the_reading_tells_its_zero() {
+fn behind_its_last_pulse_a_shaft_rests_and_the_reading_shows_its_zero() {
     let (speed, torque) = (coast_down(), torque(1e-3));
     let found = measurement(&signals(&speed, &torque));
     assert!(found.sound().is_ok());

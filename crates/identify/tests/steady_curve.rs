@@ -107,7 +107,7 @@ fn the_inertia_shifts_the_whole_curve() {
 
 /// Two runs of the same torque differ by chance only; with 1 N mm between them they differ.
 #[test]
-fn up_and_down_are_told_apart() {
+fn up_and_down_are_distinguished() {
     let mut small = 0;
     for seed in 0..40 {
         let curve = |seed, offset| {
@@ -176,7 +176,7 @@ fn driven(seed: u64, directed: bool) -> [(Vec<f64>, Vec<f64>); 2] {
 }
 
 /// A known torque drives the shaft up, then it coasts: the difference of the two curves lies in its band by both ways, and is
-/// told where friction differs.
+/// reported where friction differs.
 ///
 /// With 60 runs of each kind: by the sensor 97 % of the differences lie within two deviations, by the speed 98 %; of their means 98 and
 /// 95 % by the sensor (friction alike; not alike), 85 and 87 % by the speed; a chance below 5 % in 5 and 2 of the runs with like

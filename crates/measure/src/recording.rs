@@ -1,7 +1,7 @@
 //! What a measurement file holds: channels with name, unit and clock, and values that are read in pieces.
 //!
 //! A recording may be larger than the memory: a reader keeps an index of the file, and [`Recording::read`] brings the
-//! piece that is asked for. What could not be read is told in [`Recording::notes`], never silently left out.
+//! piece that is asked for. What could not be read is reported in [`Recording::notes`], never silently left out.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ pub enum Clock {
     },
     /// At the values of another channel of the same recording, by its index; in that channel's unit.
     Channel(usize),
-    /// The file does not tell.
+    /// The file does not state it.
     Unknown,
 }
 
@@ -42,7 +42,7 @@ pub enum Content {
     Text,
 }
 
-/// What a file tells beside the values: of itself or of a channel.
+/// What a file states beside the values: of itself or of a channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Property {
     /// Name as in the file.
@@ -77,16 +77,16 @@ pub struct Channel {
     pub content: Content,
     /// Number of values that can be read.
     pub count: u64,
-    /// The instant from which the clock counts, where the file tells.
+    /// The instant from which the clock counts, where the file states it.
     pub start: Option<Instant>,
     /// When the values were taken.
     pub clock: Clock,
-    /// Whatever else the file tells of the channel, in the order of the file.
+    /// Whatever else the file states of the channel, in the order of the file.
     pub properties: Vec<Property>,
 }
 
 impl Channel {
-    /// A channel of `count` numbers, of which the file tells no more than the name.
+    /// A channel of `count` numbers, of which the file states no more than the name.
     pub fn new(name: impl Into<String>, count: u64) -> Channel {
         Channel {
             name: name.into(),
@@ -118,7 +118,7 @@ pub trait Recording {
     /// What was wrong with the file as far as it was read.
     fn notes(&self) -> &[Note];
 
-    /// Whatever else the file tells of itself, in the order of the file.
+    /// Whatever else the file states of itself, in the order of the file.
     fn properties(&self) -> &[Property] {
         &[]
     }

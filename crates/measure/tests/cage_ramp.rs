@@ -75,9 +75,9 @@ const RAMP: Line = Line {
     engagement: None,
 };
 
-/// Found speeds against the slip of a ramp: values inside two deviations, all that are told, and the largest error in slip.
+/// Found speeds against the slip of a ramp: values inside two deviations, all that are given, and the largest error in slip.
 fn against(ramp: &Ramp, mean: f64, found: &CageSpeed) -> (usize, usize, f64) {
-    let (mut inside, mut told, mut worst) = (0, 0, 0.0_f64);
+    let (mut inside, mut given, mut worst) = (0, 0, 0.0_f64);
     for (k, &slip) in found
         .slip
         .iter()
@@ -90,10 +90,10 @@ fn against(ramp: &Ramp, mean: f64, found: &CageSpeed) -> (usize, usize, f64) {
         );
         let error = slip - ramp.slip(mean, found.time[k]);
         inside += usize::from(error.abs() <= 2.0 * found.slip_deviation[k]);
-        told += 1;
+        given += 1;
         worst = worst.max(error.abs());
     }
-    (inside, told, worst)
+    (inside, given, worst)
 }
 
 fn without_orders(ramp: &Ramp, signal: &[f64]) -> Vec<f64> {
@@ -102,14 +102,14 @@ fn without_orders(ramp: &Ramp, signal: &[f64]) -> Vec<f64> {
     found.expect("they are followed").rest
 }
 
-/// Slips of 0 to 15 % through a ramp. What is told lies in the range that is looked for and never an alias away from the truth,
-/// also where the line is lost for half of the time; one that stands out is told throughout, with its band.
+/// Slips of 0 to 15 % through a ramp. What is given lies in the range that is looked for and never an alias away from the truth,
+/// also where the line is lost for half of the time; one that stands out is followed throughout, with its band.
 #[test]
 fn a_ramp_does_not_lead_to_an_alias() {
     let ramp = Ramp::new();
     for mean in [0.0, 0.02, 0.05, 0.15] {
         for level in [0.1, 0.4, 1.0] {
-            let (mut inside, mut told, mut seen, mut worst) = (0.0, 0.0, 0.0, 0.0_f64);
+            let (mut inside, mut given, mut seen, mut worst) = (0.0, 0.0, 0.0, 0.0_f64);
             let mut refused = 0;
             for seed in 0..6 {
                 let mut random = Random::new(seed);
@@ -119,7 +119,7 @@ fn a_ramp_does_not_lead_to_an_alias() {
                     Ok(found) => {
                         let one = against(&ramp, mean, &found);
                         inside += one.0 as f64;
-                        told += one.1 as f64;
+                        given += one.1 as f64;
                         seen += found.slip.len() as f64;
                         worst = worst.max(one.2);
                         assert!(one.1 == found.slip.len() || !found.notes.is_empty());
@@ -128,24 +128,24 @@ fn a_ramp_does_not_lead_to_an_alias() {
                 }
             }
             println!(
-                "slip {mean}, noise {level}: {:.3} inside, {:.3} told, error at most {worst:.4}, {refused} refused",
-                inside / told,
-                told / seen
+                "slip {mean}, noise {level}: {:.3} inside, {:.3} given, error at most {worst:.4}, {refused} refused",
+                inside / given,
+                given / seen
             );
             // The nearest alias of cells of 16 periods is 0.0625 away.
             assert!(worst < 0.04, "{worst}");
             if level < 1.0 {
-                assert!(refused == 0 && told > 0.97 * seen, "{told} of {seen}");
+                assert!(refused == 0 && given > 0.97 * seen, "{given} of {seen}");
                 // 6 records, whose values are correlated over tens: 95 % within some per cent.
-                assert!(inside > 0.85 * told, "{inside} of {told}");
+                assert!(inside > 0.85 * given, "{inside} of {given}");
             }
         }
     }
 }
 
-/// A cage that slips more and more: where it leaves what is looked for, nothing is told.
+/// A cage that slips more and more: where it leaves what is looked for, nothing is given.
 #[test]
-fn a_slip_outside_the_range_is_not_told() {
+fn a_slip_outside_the_range_is_not_reported() {
     let ramp = Ramp::new();
     let mut random = Random::new(3);
     let noise = random.coloured(ramp.angle.len(), 0.6, 0.9);
@@ -159,17 +159,17 @@ fn a_slip_outside_the_range_is_not_told() {
         .collect();
     // 20 % are reached at 5 s
     let found = from_vibration(0.0, 1.0 / ramp.rate, &signal, &ramp.shaft(), &RAMP).expect("found");
-    let mut told = 0;
+    let mut given = 0;
     for (&time, &value) in found.time.iter().zip(&found.slip) {
         if value.is_finite() {
-            told += 1;
+            given += 1;
             assert!((value - slip(time)).abs() < 0.01, "{value} at {time} s");
         } else {
-            assert!(time > 4.2, "not told at {time} s");
+            assert!(time > 4.2, "not given at {time} s");
         }
         assert!(time < 5.3 || value.is_nan(), "{value} at {time} s");
     }
-    assert!(told > 20, "{told}");
+    assert!(given > 20, "{given}");
     assert!(
         found
             .notes
@@ -182,7 +182,7 @@ fn a_slip_outside_the_range_is_not_told() {
 
 /// Order 4 of the shaft looks like a cage at 2.4 % slip.
 #[test]
-fn a_rival_line_is_refused_or_told() {
+fn a_rival_line_is_refused_or_reported() {
     let ramp = Ramp::new();
     let with = |amplitude: f64| {
         let mut random = Random::new(4);
@@ -194,7 +194,7 @@ fn a_rival_line_is_refused_or_told() {
     };
     let strong = with(0.7).expect_err("one of two");
     assert!(
-        strong.contains("nothing tells which") && strong.contains("order 4.0"),
+        strong.contains("nothing shows which") && strong.contains("order 4.0"),
         "{strong}"
     );
     let weak = with(0.3).expect("the stronger one");

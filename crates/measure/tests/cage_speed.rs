@@ -318,7 +318,7 @@ fn the_speed_does_not_hang_on_the_ratio() {
 }
 
 #[test]
-fn what_holds_no_line_is_told() {
+fn what_holds_no_line_is_reported() {
     let mut random = Random::new(5);
     let truth = Truth::new(&mut random, 4.0);
     let noise = random.coloured(8000, 0.5, 0.9);
@@ -329,9 +329,9 @@ fn what_holds_no_line_is_told() {
         highest_slip: 0.1,
         engagement: None,
     };
-    let told = from_vibration(0.0, 1.0 / 2000.0, &noise, &truth.shaft(), &line)
+    let shown = from_vibration(0.0, 1.0 / 2000.0, &noise, &truth.shaft(), &line)
         .expect_err("noise holds no line");
-    assert!(told.contains("no line between the slips"), "{told}");
+    assert!(shown.contains("no line between the slips"), "{shown}");
 }
 
 #[test]
@@ -373,9 +373,9 @@ fn what_cannot_be_followed_is_refused() {
     );
 }
 
-/// A rolling cage through a spin-up in which fewer than two balls pass: it is told between them.
+/// A rolling cage through a spin-up in which fewer than two balls pass: it is given between them.
 #[test]
-fn a_rolling_cage_is_told_through_a_quick_spin_up() {
+fn a_rolling_cage_is_followed_through_a_quick_spin_up() {
     let (mut inside, mut count) = (0, 0);
     for seed in 0..20 {
         let mut random = Random::new(seed);

@@ -71,14 +71,14 @@ fn letters_of_a_code_page_are_not_lost() {
 }
 
 #[test]
-fn what_is_no_value_is_told_with_column_and_line() {
+fn what_is_no_value_is_reported_with_column_and_line() {
     let text = "time [s],force [N]\n0,1\n1,\n2,OVER\n3,4,5\n4\ntime [s],force [N]\n2.5,7\n";
     let mut file = open(text);
     let force = all(&mut file, "force");
     assert_eq!((force[0], force[3], force[5]), (1.0, 4.0, 7.0));
     assert!(force[1].is_nan() && force[2].is_nan() && force[4].is_nan());
     assert_eq!(file.channels()[1].clock, Clock::Channel(0));
-    let told = notes(&file);
+    let shown = notes(&file);
     for expected in [
         "force: 1 cells are empty, the first in line 3",
         "force: 1 cells are no numbers, the first in line 4: “OVER”",
@@ -87,7 +87,7 @@ fn what_is_no_value_is_told_with_column_and_line() {
         "1 lines hold no values; they are left out; the first is line 7",
         "time: 1 times are not after the one before, the first in line 8",
     ] {
-        assert!(told.contains(expected), "{expected}\n{told}");
+        assert!(shown.contains(expected), "{expected}\n{shown}");
     }
 }
 
@@ -122,7 +122,7 @@ fn rounded_times_are_still_a_uniform_clock() {
 fn a_time_without_unit_stays_in_its_own() {
     let file = open("Time,RPM\n0,598\n0.001,599\n0.002,600\n");
     assert_eq!(file.channels()[1].clock, Clock::Channel(0));
-    assert!(notes(&file).contains("Time: is a time by its name, but its unit is not told"));
+    assert!(notes(&file).contains("Time: is a time by its name, but its unit is not stated"));
 }
 
 #[test]

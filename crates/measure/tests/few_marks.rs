@@ -1,4 +1,4 @@
-//! Few marks in a quick change: what eight of them tell, what fewer do not, and how many are enough.
+//! Few marks in a quick change: what eight of them show, what fewer do not, and how many are enough.
 //!
 //! A pickup whose flanks are sampled, on a wheel whose marks are off by a hundredth of their pitch. Where marks are few the
 //! likelihood of the engagement has many summits, one for each interval between marks that the lock may lie in; a search that
@@ -175,9 +175,9 @@ fn a_change_that_began_before_the_record_is_not_dated() {
                 off < 2.0 * change.engagement.1,
                 "{seed} {missing}: {change:?}"
             );
-            let told = |note: &String| note.contains("may have begun before");
+            let shown = |note: &String| note.contains("may have begun before");
             assert!(
-                change.from_rest || speed.notes.iter().any(told),
+                change.from_rest || speed.notes.iter().any(shown),
                 "{:?}",
                 speed.notes
             );

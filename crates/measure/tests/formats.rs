@@ -7,7 +7,7 @@ use measure::recording::{Channel, Clock};
 use tables::{all, path, waves};
 
 #[test]
-fn the_content_tells_the_format() {
+fn the_content_shows_the_format() {
     for (name, channel) in [
         ("old.h5", "run/plain"),
         ("new.h5", "run/plain"),
@@ -24,7 +24,7 @@ fn the_content_tells_the_format() {
 }
 
 #[test]
-fn a_text_under_another_name_is_told() {
+fn a_text_under_another_name_is_reported() {
     let folder = tempfile::tempdir().unwrap();
     for name in ["a.parquet", "a.mat", "a.h5", "a.tdms"] {
         let path = folder.path().join(name);

@@ -63,7 +63,7 @@ fn tapped(arm: f64, zeta: f64, seed: u64, event: Event, hard: f64) -> Vec<f64> {
 }
 
 #[test]
-fn a_tap_or_a_step_tells_frequency_and_damping() {
+fn a_tap_or_a_step_shows_frequency_and_damping() {
     for (event, start) in [
         (Event::Tap, None),
         (Event::Load, Some(102)),
@@ -149,8 +149,8 @@ fn a_second_tap_ends_the_record() {
 
 /// Mains in the reading: without the line the frequency is off by some deviations.
 #[test]
-fn a_line_of_the_mains_is_taken_out_and_told() {
-    let (mut inside, mut told, mut all) = (0, 0, 0);
+fn a_line_of_the_mains_is_taken_out_and_reported() {
+    let (mut inside, mut shown, mut all) = (0, 0, 0);
     for seed in 0..60 {
         let (arm, zeta) = [(10.0, 0.3), (30.0, 0.207), (60.0, 0.104)][seed % 3];
         let mut reading = tapped(arm, zeta, seed as u64, Event::Tap, 0.0);
@@ -161,7 +161,7 @@ fn a_line_of_the_mains_is_taken_out_and_told() {
         let (f, z) = (found.sensor.frequency, found.sensor.damping_ratio);
         inside += usize::from((f.value - arm).abs() <= 2.0 * f.deviation);
         inside += usize::from((z.value - zeta).abs() <= 2.0 * z.deviation);
-        told += usize::from(
+        shown += usize::from(
             found
                 .notes
                 .iter()
@@ -169,13 +169,13 @@ fn a_line_of_the_mains_is_taken_out_and_told() {
         );
         all += 1;
     }
-    println!("inside {inside} of {}, told {told} of {all}", 2 * all);
+    println!("inside {inside} of {}, reported {shown} of {all}", 2 * all);
     assert!(inside as f64 >= 0.9 * 2.0 * all as f64);
-    assert_eq!(told, all);
+    assert_eq!(shown, all);
 }
 
 #[test]
-fn a_sensor_that_is_not_linear_is_told() {
+fn a_sensor_that_is_not_linear_is_reported() {
     let reading = tapped(60.0, 0.02, 3, Event::Tap, 2e-5);
     let found = identify_free_response(&reading, INTERVAL, None).expect("a swing");
     assert!(

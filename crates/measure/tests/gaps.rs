@@ -1,4 +1,4 @@
-//! Gaps in a train of pulses: how many marks they hold, and rests in which nobody can tell.
+//! Gaps in a train of pulses: how many marks they hold, and rests in which nobody can count.
 
 #[path = "synthetic/wheel.rs"]
 mod synthetic;

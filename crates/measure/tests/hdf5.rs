@@ -134,13 +134,14 @@ fn units_clocks_and_properties_come_from_attributes() {
 }
 
 #[test]
-fn what_is_left_out_is_told() {
+fn what_is_left_out_is_reported() {
     for name in ["old.h5", "new.h5"] {
         let file = open(name);
         for left_out in ["run/words", "run/cube"] {
-            let told = |note: &&measure::recording::Note| note.channel.as_deref() == Some(left_out);
+            let shown =
+                |note: &&measure::recording::Note| note.channel.as_deref() == Some(left_out);
             assert!(
-                file.notes().iter().any(|note| told(&note)),
+                file.notes().iter().any(|note| shown(&note)),
                 "{name} {left_out}"
             );
         }
@@ -161,7 +162,7 @@ fn matlab_columns_are_channels() {
         file.properties()[1].value,
         Value::Text("6008 µ".to_string())
     );
-    // MATLAB tells no unit, so the times stay in the unit of their channel.
+    // MATLAB states no unit, so the times stay in the unit of their channel.
     let t = Clock::Channel(channel(&file, "t"));
     assert_eq!(file.channels()[channel(&file, "torque")].clock, t);
     assert_eq!(file.channels()[channel(&file, "run/speed")].clock, t);
@@ -188,17 +189,17 @@ fn no_damage_makes_the_reader_panic() {
     }
 }
 
-/// MATLAB writes its text into a user block before the file: the end that the file tells counts from its first byte.
+/// MATLAB writes its text into a user block before the file: the end that the file states counts from its first byte.
 #[test]
 fn a_user_block_is_no_cut() {
-    let told = |bytes: Vec<u8>| {
+    let shown = |bytes: Vec<u8>| {
         let file = Hdf5::from_source(Cursor::new(bytes), "v73.mat".as_ref()).unwrap();
         file.notes()
             .iter()
             .any(|note| note.text.contains("cut off"))
     };
     let whole = bytes("v73.mat");
-    assert!(!told(whole.clone()));
+    assert!(!shown(whole.clone()));
     let length = whole.len();
-    assert!(told(whole[..length - 1].to_vec()));
+    assert!(shown(whole[..length - 1].to_vec()));
 }

@@ -88,8 +88,8 @@ fn values_that_do_not_match_their_checksum_are_not_given() {
             "{inside}"
         );
         assert_eq!(values[64..], ramps(96)[64..]);
-        let told = notes(&file).iter().any(|note| note.contains("summed"));
-        assert!(told, "{:?}", notes(&file));
+        let shown = notes(&file).iter().any(|note| note.contains("summed"));
+        assert!(shown, "{:?}", notes(&file));
     }
 }
 
@@ -105,11 +105,12 @@ fn an_old_header_that_contradicts_itself_is_noted() {
             let mut changed = whole.clone();
             changed[head + inside] = value;
             let file = open(changed).unwrap();
-            let told = notes(&file);
+            let shown = notes(&file);
             assert!(
-                told.iter()
+                shown
+                    .iter()
                     .any(|note| note.contains("an object header is damaged")),
-                "{head} {inside}: {told:?}"
+                "{head} {inside}: {shown:?}"
             );
         }
     }
@@ -123,11 +124,12 @@ fn a_damaged_attribute_is_noted() {
     let mut changed = whole.clone();
     changed[at] = 9;
     let file = open(changed).unwrap();
-    let told = notes(&file);
+    let shown = notes(&file);
     assert!(
-        told.iter()
+        shown
+            .iter()
             .any(|note| note.contains("attributes of it are damaged")),
-        "{told:?}"
+        "{shown:?}"
     );
     let known = notes(&open(whole).unwrap());
     assert!(
@@ -142,19 +144,19 @@ fn links_that_lead_nowhere_and_deep_groups_are_noted() {
     assert_eq!(all(&mut file, "force"), waves(20));
     let deep = format!("{}speed", "deep/".repeat(40));
     assert_eq!(all(&mut file, &deep), ramps(20));
-    let told = notes(&file);
+    let shown = notes(&file);
     for text in [
         "\"elsewhere\"): leads to the file other.h5; it is left out",
         "\"nowhere\"): leads to /many/force, which is not there",
         "below\"): stands below 64 groups; it is left out",
     ] {
         assert!(
-            told.iter().any(|note| note.contains(text)),
-            "{text}: {told:?}"
+            shown.iter().any(|note| note.contains(text)),
+            "{text}: {shown:?}"
         );
     }
     // The two hundred links to a channel that is there are none of them.
-    assert_eq!(told.len(), 3, "{told:?}");
+    assert_eq!(shown.len(), 3, "{shown:?}");
     assert_eq!(
         channel(&file, "force"),
         0,

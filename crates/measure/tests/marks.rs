@@ -111,7 +111,7 @@ fn wrong_marks_are_detected_with_the_right_number() {
                         Marks::Contradicted(_)
                             if period(&train).is_some_and(|found| found % marks == 0) => {}
                         Marks::Contradicted(why) => wrong.push(format!("{words}: {why}")),
-                        Marks::Shown | Marks::Untold(_) => missed.push(words),
+                        Marks::Shown | Marks::Unclear(_) => missed.push(words),
                     }
                 }
             }
@@ -246,15 +246,15 @@ impl Record {
 /// Seeds of each course, wheel and way of recording.
 const SEEDS: u64 = 3;
 
-/// True wheels of 12, 60 and 360 marks are never called wrong; wrong numbers are told where the wheel shows its own.
+/// True wheels of 12, 60 and 360 marks are never called wrong; wrong numbers are reported where the wheel shows its own.
 ///
-/// With 100 seeds: of 1800 true wheels none is called wrong; of 3600 numbers that are no multiple 77 % are told, of 1800
-/// twofold ones 45 %; 15 of these with another number than the wheel's, a part or a multiple of it. Told most seldom: digital
+/// With 100 seeds: of 1800 true wheels none is called wrong; of 3600 numbers that are no multiple 77 % are reported, of 1800
+/// twofold ones 45 %; 15 of these with another number than the wheel's, a part or a multiple of it. Reported most seldom: digital
 /// signals, whose instants are those of the samples, and a dozen marks, of which too few differ.
 #[test]
 fn true_wheels_are_not_called_wrong_and_wrong_ones_are() {
     let (mut alarms, mut count) = (vec![], 0);
-    let (mut told, mut asked, mut strange) = ([0; 2], [0; 2], vec![]);
+    let (mut shown, mut asked, mut strange) = ([0; 2], [0; 2], vec![]);
     for marks in [12, 60, 360] {
         let others: &[usize] = match marks {
             12 => &[11, 24],
@@ -275,7 +275,7 @@ fn true_wheels_are_not_called_wrong_and_wrong_ones_are() {
                         let parts = usize::from(other.is_multiple_of(marks));
                         asked[parts] += 1;
                         if let Marks::Contradicted(why) = check_marks(&train) {
-                            told[parts] += 1;
+                            shown[parts] += 1;
                             if !why.found.contains(&format!("after {marks} pulses")) {
                                 strange.push(format!("{words}, {other}: {why}"));
                             }
@@ -289,12 +289,12 @@ fn true_wheels_are_not_called_wrong_and_wrong_ones_are() {
         "{} of {count} true wheels called wrong: {alarms:#?}",
         alarms.len()
     );
-    println!("told {told:?} of {asked:?}, with another number {strange:#?}");
+    println!("reported {shown:?} of {asked:?}, with another number {strange:#?}");
     assert!(alarms.is_empty());
-    assert!(strange.len() * 20 <= told[0], "{strange:#?}");
+    assert!(strange.len() * 20 <= shown[0], "{strange:#?}");
     // 77 and 45 % less what chance makes of 108 and 54.
-    assert!(10 * told[0] >= 5 * asked[0], "{told:?} of {asked:?}");
-    assert!(10 * told[1] >= 2 * asked[1], "{told:?} of {asked:?}");
+    assert!(10 * shown[0] >= 5 * asked[0], "{shown:?} of {asked:?}");
+    assert!(10 * shown[1] >= 2 * asked[1], "{shown:?} of {asked:?}");
 }
 
 /// An even wheel on a shaft whose speed ripples ten times a turn: the ripple is no wheel of six marks.

@@ -46,7 +46,7 @@ fn numbers_and_texts_become_properties_and_a_vector_of_times_a_clock() {
         );
         assert_eq!(property("run/inner/count"), Some(Value::Number(3.0)));
         assert_eq!(property("cell/2"), Some(Value::Text("text".to_string())));
-        // The unit of t is not told, so the times stay in the unit of their channel, and that is noted.
+        // The unit of t is not stated, so the times stay in the unit of their channel, and that is noted.
         let t = channel(&file, "t");
         assert_eq!(
             file.channels()[channel(&file, "torque")].clock,
@@ -64,9 +64,10 @@ fn numbers_and_texts_become_properties_and_a_vector_of_times_a_clock() {
         };
         assert_eq!(file.channels()[channel(&file, "flags")].clock, rate);
         for left_out in ["empty", "cube"] {
-            let told = |note: &&measure::recording::Note| note.channel.as_deref() == Some(left_out);
+            let shown =
+                |note: &&measure::recording::Note| note.channel.as_deref() == Some(left_out);
             assert!(
-                file.notes().iter().any(|note| told(&note)),
+                file.notes().iter().any(|note| shown(&note)),
                 "{name} {left_out}"
             );
         }

@@ -115,7 +115,7 @@ fn the_rest_holds_no_order() {
 }
 
 #[test]
-fn low_speed_and_gaps_are_told_and_survived() {
+fn low_speed_and_gaps_are_reported_and_survived() {
     let mut values = signal(3);
     for value in &mut values[5000..6000] {
         *value = f64::NAN;

@@ -82,7 +82,7 @@ fn rows_may_be_read_in_any_order() {
 }
 
 #[test]
-fn a_packing_that_is_not_read_is_told() {
+fn a_packing_that_is_not_read_is_reported() {
     let file = open("zstd.parquet");
     assert!(file.channels().is_empty());
     assert!(file.notes()[0].text.contains("ZSTD") && file.notes()[0].text.contains("snappy"));
@@ -164,13 +164,13 @@ fn a_page_without_its_dictionary_is_damage_and_no_panic() {
     );
     let bytes = std::fs::read(path).unwrap();
     let panicked = Arc::new(AtomicBool::new(false));
-    let told = panicked.clone();
+    let shown = panicked.clone();
     let before = std::panic::take_hook();
     // The hook sees panics that the reader catches too.
     let here = std::thread::current().id();
     std::panic::set_hook(Box::new(move |info| {
         if std::thread::current().id() == here {
-            told.store(true, Ordering::Relaxed);
+            shown.store(true, Ordering::Relaxed);
         }
         before(info);
     }));

@@ -224,11 +224,11 @@ fn first_pulses_that_drown_leave_the_engagement_open() {
         let samples = truth.seen(0.15, seed, |x, w, _| 5.0 * w / 150.0 * sine(x));
         let (pulses, speed) = found(&samples).unwrap();
         assert!(pulses.unseen > 0.3, "{}", pulses.unseen);
-        let told = speed
+        let shown = speed
             .notes
             .iter()
             .any(|note| note.contains("passed unseen before it"));
-        assert!(told, "{:?}", speed.notes);
+        assert!(shown, "{:?}", speed.notes);
         let engagement = knots(&truth, &speed)[0];
         assert!(engagement.abs() < 3.0, "{engagement}");
     }
@@ -246,7 +246,7 @@ fn silenced(samples: &[f64], from: f64, to: f64, rest: bool) -> Vec<f64> {
 }
 
 #[test]
-fn a_silent_pickup_is_told_and_harms_nothing_beside_it() {
+fn a_silent_pickup_is_reported_and_harms_nothing_beside_it() {
     let mut random = Random::new(3);
     for seed in 0..seeds().div_ceil(3) {
         let truth = motion(0.2 + 1e-3 * seed as f64);
@@ -302,7 +302,7 @@ fn a_silent_pickup_is_told_and_harms_nothing_beside_it() {
 }
 
 #[test]
-fn a_silence_within_the_change_is_refused_and_a_stuck_pickup_told() {
+fn a_silence_within_the_change_is_refused_and_a_stuck_pickup_reported() {
     let truth = motion(0.2);
     let whole = truth.seen(0.02, 1, |x, _, _| light(x));
     let why = found(&silenced(&whole, 0.217, 0.22, false)).err().unwrap();
@@ -311,9 +311,9 @@ fn a_silence_within_the_change_is_refused_and_a_stuck_pickup_told() {
         "{why}"
     );
     let (_, speed) = found(&silenced(&whole, 0.9, 99.0, true)).unwrap();
-    let told = |text: &str| speed.notes.iter().any(|note| note.contains(text));
+    let shown = |text: &str| speed.notes.iter().any(|note| note.contains(text));
     assert!(
-        told("no mark came after 0.89") && told("stuck"),
+        shown("no mark came after 0.89") && shown("stuck"),
         "{:?}",
         speed.notes
     );

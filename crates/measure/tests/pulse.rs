@@ -160,7 +160,7 @@ fn noise_without_pulses_is_refused_and_so_is_a_constant() {
 }
 
 #[test]
-fn a_gap_in_the_samples_is_told_and_nothing_is_counted_across_it() {
+fn a_gap_in_the_samples_is_reported_and_nothing_is_counted_across_it() {
     let mut samples: Vec<f64> = trapezoids(50.0, 0.5, 0.05, 1.0).map(|(_, x)| x).collect();
     samples[3000..3450].fill(f64::NAN);
     let found = edges(0.0, 1e-4, &samples, &EdgeSettings::default()).unwrap();
@@ -305,7 +305,7 @@ fn wheel_errors_are_found_within_their_stated_covariance() {
         assert!(row.abs() < 1e-3 * pitch.covariance(7, 7), "{row}");
     }
     // Mean square of 1180 standardised errors: 1 with a standard deviation of 0.04; the noise of neighbouring revolutions,
-    // which tell the speed, adds a little.
+    // which give the speed, adds a little.
     let mean: f64 = square / count;
     assert!((0.85..1.3).contains(&mean), "{mean}");
 }
@@ -327,7 +327,7 @@ fn too_few_revolutions_are_not_calibrated() {
 }
 
 #[test]
-fn the_pattern_of_intervals_tells_the_marks_of_the_wheel() {
+fn the_pattern_of_intervals_shows_the_marks_of_the_wheel() {
     for (marks, seed) in [(60, 1), (36, 2), (100, 3)] {
         let errors = synthetic::wheel(&mut Random::new(seed), marks, 1e-3, 0.0);
         let pulses = coast(&errors, seed, 1e-6, 1.5);
@@ -347,7 +347,7 @@ fn the_pattern_of_intervals_tells_the_marks_of_the_wheel() {
     // A perfect wheel has no pattern.
     let even = coast(&[0.0; 60], 9, 1e-6, 1.5);
     assert_eq!(period(&even), None);
-    let Marks::Untold(why) = check_marks(&even) else {
+    let Marks::Unclear(why) = check_marks(&even) else {
         panic!("an even wheel");
     };
     assert!(why.contains("noise of their instants"), "{why}");

@@ -160,7 +160,7 @@ fn covered(arm: f64, power: f64, seeds: std::ops::Range<u64>, stated: bool, unti
     (parts, zeros, powers)
 }
 
-fn told(name: &str, (parts, zeros, powers): &Covered) {
+fn shown(name: &str, (parts, zeros, powers): &Covered) {
     print!("{name}: ");
     for ((inside, count, squares), part) in parts.iter().zip(PARTS).filter(|(p, _)| p.1 > 0) {
         print!(
@@ -182,7 +182,7 @@ fn the_band_holds_the_torque_whatever_the_disturbance_grows_with() {
             let mut sum = [(0, 0); 4];
             for arm in [10.0, 30.0, 60.0] {
                 let found = covered(arm, power, 0..seeds, stated, 3.5);
-                told(&format!("power {power}, {arm} Hz, stated {stated}"), &found);
+                shown(&format!("power {power}, {arm} Hz, stated {stated}"), &found);
                 for (all, part) in sum.iter_mut().zip(&found.0) {
                     all.0 += part.0;
                     all.1 += part.1;
@@ -206,7 +206,7 @@ fn a_record_without_coasting_leaves_the_growth_open() {
         let mut sum = [(0, 0); 4];
         for arm in [10.0, 30.0, 60.0] {
             let found = covered(arm, power, 0..10, false, 1.1);
-            told(&format!("no coasting, power {power}, {arm} Hz"), &found);
+            shown(&format!("no coasting, power {power}, {arm} Hz"), &found);
             for (all, part) in sum.iter_mut().zip(&found.0) {
                 all.0 += part.0;
                 all.1 += part.1;

@@ -342,7 +342,7 @@ const CLOSE: Promise = Promise {
     engagements: 0.9,
     errors: 0.03,
 };
-/// A start that is softer than any of them: the first mark comes after a third of the slip, and nothing tells of the
+/// A start that is softer than any of them: the first mark comes after a third of the slip, and nothing shows the
 /// time before it but what is expected of clutches.
 const VAGUE: Promise = Promise {
     instants: 0.88,

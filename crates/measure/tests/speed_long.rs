@@ -84,7 +84,7 @@ fn found(truth: &SpinUp, rate: f64, seed: u64) -> (f64, usize) {
 #[test]
 fn a_quick_change_in_a_long_record() {
     let bell = |x: f64| (PI * x).sin().powi(2);
-    // Quick rise, slow end: what is left after nine tenths of the speed is as lively as what came before.
+    // Quick rise, slow end: what is left after nine tenths of the speed is as fast a transient as what came before.
     let clutch = |x: f64| {
         if x < 0.025 {
             x / 0.025

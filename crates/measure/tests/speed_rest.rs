@@ -110,7 +110,7 @@ fn friction_that_a_rising_torque_must_overcome_widens_the_engagement() {
         let speed = smooth(&train, None, &SpeedSettings::default()).unwrap();
         let (engagement, deviation) = speed.change.unwrap().engagement;
         println!("engagement {engagement:.5} ± {deviation:.5}");
-        // The marks look as if the motion had begun a millisecond later; the lock is told to some hundredths of one.
+        // The marks look as if the motion had begun a millisecond later; the lock is found to some hundredths of one.
         assert!(engagement - 0.2 > 5e-4, "{engagement}");
         let (lock, _) = speed.change.unwrap().end.unwrap();
         assert!((lock - 0.428).abs() < 2e-4, "{lock}");
@@ -125,7 +125,7 @@ fn friction_that_a_rising_torque_must_overcome_widens_the_engagement() {
 }
 
 #[test]
-fn a_turning_shaft_is_told_before_its_first_mark_with_its_band() {
+fn a_turning_shaft_is_found_before_its_first_mark_with_its_band() {
     for seed in 0..10 {
         // The first mark passes a millisecond after the beginning of the record.
         let train = pulses(60, 5.0, 2e-6, seed, |t| 150.0 * t - 12.5 * t * t - 0.1);
@@ -146,7 +146,7 @@ fn a_turning_shaft_is_told_before_its_first_mark_with_its_band() {
 
 /// Asserts that paths drawn at random have the mean and the deviations of the motion at each instant, and that the covariance
 /// of an instant with itself is that of the motion.
-fn drawn_as_told(speed: &Speed, times: &[f64], many: usize) {
+fn drawn_as_given(speed: &Speed, times: &[f64], many: usize) {
     let mut random = Random::new(5);
     let paths: Vec<Vec<[f64; 3]>> = (0..many)
         .map(|_| {
@@ -190,7 +190,7 @@ fn drawn_as_told(speed: &Speed, times: &[f64], many: usize) {
 }
 
 #[test]
-fn paths_from_rest_to_rest_are_drawn_as_the_motion_is_told() {
+fn paths_from_rest_to_rest_are_drawn_as_the_motion_is_given() {
     // A clutch from 0.2 s on brings the shaft to 40 rad/s in 0.2 s against 40 rad/s², then lets go.
     let clutch = |t: f64| {
         if (0.2..0.4).contains(&t) {
@@ -205,7 +205,7 @@ fn paths_from_rest_to_rest_are_drawn_as_the_motion_is_told() {
     let change = speed.change.unwrap();
     let (engagement, first) = (change.engagement.0, train.times[0]);
     // Rest, the engagement, what lies hidden before the first mark, and the change.
-    drawn_as_told(
+    drawn_as_given(
         &speed,
         &[0.1, engagement, 0.5 * (engagement + first), first, 0.33],
         1000,
@@ -213,7 +213,7 @@ fn paths_from_rest_to_rest_are_drawn_as_the_motion_is_told() {
     // The last interval, the stop and behind it.
     let n = train.times.len();
     let (before, last) = (train.times[n - 2], train.times[n - 1]);
-    drawn_as_told(
+    drawn_as_given(
         &speed,
         &[
             0.5 * (before + last),
@@ -235,7 +235,7 @@ fn paths_of_a_turning_shaft_are_drawn_before_its_first_mark_too() {
     let train = pulses(12, 1.0, 5e-5, 4, |t| 60.0 * t + 20.0 * t * t - 0.5);
     let speed = smooth(&train, None, &SpeedSettings::default()).unwrap();
     let first = train.times[0];
-    drawn_as_told(&speed, &[0.0, 0.5 * first, first, first + 0.01], 800);
+    drawn_as_given(&speed, &[0.0, 0.5 * first, first, first + 0.01], 800);
     let (there, back) = (speed.covariance(0.0, first), speed.covariance(first, 0.0));
     assert_eq!(there[1][2], back[2][1]);
     // The speed before the first mark is that at it, but for what changed since.

@@ -5,7 +5,7 @@ use std::path::Path;
 use measure::file;
 use measure::recording::Channel;
 
-/// Peak of the memory of this process, bytes; none where the system does not tell.
+/// Peak of the memory of this process, bytes; none where the system does not report it.
 fn peak() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
@@ -19,7 +19,7 @@ fn peak() -> Option<u64> {
 #[test]
 fn a_file_of_64_megabytes_is_written_and_read_in_little_memory() {
     let Some(before) = peak() else {
-        println!("did not run: this system does not tell the memory of a process");
+        println!("did not run: this system does not report the memory of a process");
         return;
     };
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("long.tdms");

@@ -294,7 +294,7 @@ fn the_disturbance_is_found_beside_the_torque() {
 }
 
 #[test]
-fn missing_values_are_bridged_and_told() {
+fn missing_values_are_bridged_and_reported() {
     let mut test = measured(30.0, 9, FAST, true);
     for k in 200..210 {
         test.reading[k] = f64::NAN;
@@ -331,11 +331,11 @@ fn cut(reading: &mut [f64], limit: f64) -> Vec<Clipped> {
     found
 }
 
-/// Readings at a limit say that the true ones are there or beyond, not by how much: the torque they would tell is not told, and
-/// what is told beside them keeps its band.
+/// Readings at a limit say that the true ones are there or beyond, not by how much: the torque there is not given, and
+/// what is given beside them keeps its band.
 #[test]
-fn clipped_readings_tell_no_torque() {
-    let (mut told, mut inside, mut at_limit) = (0, 0, 0);
+fn clipped_readings_give_no_torque() {
+    let (mut given, mut inside, mut at_limit) = (0, 0, 0);
     for seed in 0..6 {
         for limit in [15.0, 33.0, 37.0] {
             let mut test = measured(30.0, 40 + seed, MIDDLE, true);
@@ -351,24 +351,24 @@ fn clipped_readings_tell_no_torque() {
                     assert!(torque.torque[k].is_nan() == torque.deviation[k].is_nan());
                 }
             }
-            let told_some = torque.notes.iter().any(|n| n.contains("not told"));
-            assert_eq!(told_some, !clipped.is_empty());
+            let some_unknown = torque.notes.iter().any(|n| n.contains("is unknown"));
+            assert_eq!(some_unknown, !clipped.is_empty());
             let start = (test.engagement.value / INTERVAL) as usize + 1;
             for k in start..torque.torque.len() {
                 let away = (torque.torque[k] - test.truth[k]).abs();
-                told += usize::from(away.is_finite());
+                given += usize::from(away.is_finite());
                 inside += usize::from(away <= 2.0 * torque.deviation[k]);
             }
             // the rest before it is a rest still
             assert!(torque.torque[..start - 2].iter().all(|t| *t == 0.0));
         }
     }
-    println!("told {told}, inside {inside}, at the limit {at_limit}");
+    println!("given {given}, inside {inside}, at the limit {at_limit}");
     assert_eq!(at_limit, 0);
-    // some of the records clip a few readings only, or none: most of those stays told
-    assert!(told > 1000, "{told}");
+    // some of the records clip a few readings only, or none: most of those stays given
+    assert!(given > 1000, "{given}");
     // the share of the bands without clipping, less what so few seeds scatter
-    assert!(inside as f64 > 0.88 * told as f64, "{inside} of {told}");
+    assert!(inside as f64 > 0.88 * given as f64, "{inside} of {given}");
 }
 
 /// A rest that an uncertain engagement leaves open teaches no zero.
@@ -466,7 +466,7 @@ fn a_torque_that_hardly_changes_keeps_its_level() {
     let mut random = Random::new(3);
     // 20 N mm throughout, noise of 1 N mm, no rest.
     let reading: Vec<f64> = (0..2000).map(|_| 20.0 + random.normal()).collect();
-    let told = |zero: f64| {
+    let given = |zero: f64| {
         let torque = invert(&Inversion {
             sensor: Sensor {
                 frequency: Uncertain::exact(30.0),
@@ -488,7 +488,7 @@ fn a_torque_that_hardly_changes_keeps_its_level() {
         (torque.torque[1000], torque.deviation[1000])
     };
     for zero in [0.01, 0.5, 2.0, 20.0] {
-        let (torque, deviation) = told(zero);
+        let (torque, deviation) = given(zero);
         println!("zero to {zero}: {torque:.2} ± {deviation:.2}");
         assert!(
             (torque - 20.0).abs() < 0.3 + 0.05 * zero,

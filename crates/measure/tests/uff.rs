@@ -21,7 +21,7 @@ fn all(file: &mut dyn Recording, channel: usize) -> Vec<f64> {
     values
 }
 
-fn told(file: &dyn Recording) -> String {
+fn shown(file: &dyn Recording) -> String {
     file.notes()
         .iter()
         .map(|n| format!("{}: {}\n", n.channel.as_deref().unwrap_or("-"), n.text))
@@ -52,11 +52,11 @@ fn binary_set(
     count: u64,
     spacing: u32,
     order: u32,
-    told: u64,
+    shown: u64,
     data: &[u8],
     end: &str,
 ) -> Vec<u8> {
-    let mut out = format!("    -1\r\n    58b{order:>6}     2          11{told:>12}     0     0           0           0\r\n").into_bytes();
+    let mut out = format!("    -1\r\n    58b{order:>6}     2          11{shown:>12}     0     0           0           0\r\n").into_bytes();
     out.extend(
         header(kind, count, spacing, TIME, ACCELERATION)
             .replace('\n', "\r\n")
@@ -210,9 +210,9 @@ fn a_line_end_behind_the_bytes_and_a_wrong_length_do_not_matter() {
         let mut file = open(&bytes);
         assert_eq!(all(&mut file, 0), [1.5, -2.0], "{length} {end:?}");
         assert!(
-            !told(&file).contains("closed"),
+            !shown(&file).contains("closed"),
             "{length} {end:?}: {}",
-            told(&file)
+            shown(&file)
         );
         if end.ends_with('\n') {
             assert_eq!(all(&mut file, 1), [7.0], "{length} {end:?}");
@@ -244,7 +244,7 @@ fn a_frequency_is_no_clock_but_a_channel() {
 }
 
 #[test]
-fn a_unit_that_was_lost_is_told_and_given_only_where_the_file_is_in_si() {
+fn a_unit_that_was_lost_is_reported_and_given_only_where_the_file_is_in_si() {
     let lost = "        12    1    0    0 Acceleration         NONE                ";
     let set = format!(
         "    -1\n    58\n{} 1.0E+00\n    -1\n",
@@ -253,14 +253,14 @@ fn a_unit_that_was_lost_is_told_and_given_only_where_the_file_is_in_si() {
     let file = open(set.as_bytes());
     assert_eq!(file.channels()[0].unit, "");
     assert!(
-        told(&file).contains("run 7: its unit is lost"),
+        shown(&file).contains("run 7: its unit is lost"),
         "{}",
-        told(&file)
+        shown(&file)
     );
     let si = "    -1\n   164\n         1SI: metre (newton)           2\n  1.0D+00  1.0D+00  1.0D+00\n  2.7315D+02\n    -1\n";
     let file = open(format!("{si}{set}").as_bytes());
     assert_eq!(file.channels()[0].unit, "m/s^2");
-    assert!(told(&file).contains("by its quantity"), "{}", told(&file));
+    assert!(shown(&file).contains("by its quantity"), "{}", shown(&file));
 }
 
 #[test]
@@ -271,25 +271,25 @@ fn sets_of_other_types_are_skipped_with_a_note() {
     let mut file = open(text.as_bytes());
     assert_eq!(all(&mut file, 0), [7.0]);
     assert!(
-        told(&file).contains("type 15 are left out (2)"),
+        shown(&file).contains("type 15 are left out (2)"),
         "{}",
-        told(&file)
+        shown(&file)
     );
     let kept: Vec<&str> = file.properties().iter().map(|p| p.name.as_str()).collect();
     assert_eq!(kept, ["model", "program"]);
     let none = open(format!("{head}{other}").as_bytes());
     assert_eq!(none.channels().len(), 0);
-    assert!(told(&none).contains("no values"));
+    assert!(shown(&none).contains("no values"));
 }
 
 #[test]
-fn more_and_fewer_values_than_told_and_words_among_them_are_told() {
+fn more_and_fewer_values_than_stated_and_words_among_them_are_reported() {
     let mut fewer = open(text_set(2, 9, 1, " 1.0E+00 2.0E+00\n").as_bytes());
     assert_eq!(all(&mut fewer, 0), [1.0, 2.0]);
-    assert!(told(&fewer).contains("tells 9 values, 2 are there"));
+    assert!(shown(&fewer).contains("states 9 values, 2 are there"));
     let mut more = open(text_set(2, 1, 1, " 1.0E+00 2.0E+00\n").as_bytes());
     assert_eq!(all(&mut more, 0), [1.0]);
-    assert!(told(&more).contains("left out"));
+    assert!(shown(&more).contains("left out"));
     let mut words = open(text_set(2, 3, 1, " 1.0E+00 ****** 3.0E+00\n").as_bytes());
     let values = all(&mut words, 0);
     assert!(
@@ -297,13 +297,13 @@ fn more_and_fewer_values_than_told_and_words_among_them_are_told() {
         "{values:?}"
     );
     assert!(
-        told(&words).contains("1 of its values are no numbers"),
+        shown(&words).contains("1 of its values are no numbers"),
         "{}",
-        told(&words)
+        shown(&words)
     );
     let text = text_set(2, 3, 1, " 1.0E+00 2.0E+00 3.0E+00\n");
     let cut = open(text.trim_end_matches("    -1\n").as_bytes());
-    assert!(told(&cut).contains("not closed"), "{}", told(&cut));
+    assert!(shown(&cut).contains("not closed"), "{}", shown(&cut));
     let huge = open(&binary_set(
         2,
         u64::MAX / 4,
@@ -314,7 +314,7 @@ fn more_and_fewer_values_than_told_and_words_among_them_are_told() {
         "",
     ));
     assert_eq!(huge.channels()[0].count, 2);
-    assert!(told(&huge).contains("cut off"), "{}", told(&huge));
+    assert!(shown(&huge).contains("cut off"), "{}", shown(&huge));
 }
 
 #[test]
@@ -419,12 +419,12 @@ fn real_files_agree_with_pyuff_in_every_sample() {
         return;
     }
     assert_eq!(compare(&folder, include_str!("data/uff.txt")), 10);
-    let notes = |name: &str| told(file::open(folder.join(name)).unwrap().as_ref());
+    let notes = |name: &str| shown(file::open(folder.join(name)).unwrap().as_ref());
     println!("{}", notes("TestLab_161_164_18_15_82.uff"));
     assert!(notes("TestLab_161_164_18_15_82.uff").contains("no values"));
     let non_ascii = file::open(folder.join("non_ascii_header.uff")).unwrap();
     assert_eq!(non_ascii.channels()[0].unit, "(1/N)*(m/s²)");
-    assert!(told(non_ascii.as_ref()).contains("Latin-1"));
+    assert!(shown(non_ascii.as_ref()).contains("Latin-1"));
     let short = file::open(folder.join("time-history-not-all-columns-filled.uff")).unwrap();
     assert_eq!(short.channels()[0].unit, "m/s²");
 }

@@ -20,7 +20,7 @@ fn chunk(name: &[u8; 4], content: &[u8], big: bool) -> Vec<u8> {
     out
 }
 
-/// The chunk that tells the type: code, channels, bits; rate 8000 1/s.
+/// The chunk that states the type: code, channels, bits; rate 8000 1/s.
 fn layout(code: u16, channels: u16, bits: u16, big: bool) -> Vec<u8> {
     let short = |n: u16| {
         if big {
@@ -239,7 +239,7 @@ fn values_that_are_cut_off_or_never_counted_are_read_as_far_as_they_are_there() 
     assert!(
         cut.notes()[0]
             .text
-            .contains("8 bytes are told, 7 are there")
+            .contains("8 bytes are stated, 7 are there")
     );
     let mut uncounted = whole.clone();
     let length = whole.len() - 12;
@@ -250,7 +250,7 @@ fn values_that_are_cut_off_or_never_counted_are_read_as_far_as_they_are_there() 
 }
 
 #[test]
-fn what_cannot_be_read_is_told() {
+fn what_cannot_be_read_is_reported() {
     let error = |bytes: &[u8]| {
         Wav::from_source(Cursor::new(bytes.to_vec()), Path::new("x.wav"))
             .err()

@@ -9,9 +9,9 @@
 //! |---|---|---|
 //! | [`palmgren`](crate::palmgren) | M0 | M1 |
 //! | [`skf`](crate::skf) | φ_ish φ_rs M_rr + M_drag | M_sl + M_seal |
-//! | [`moment_curve`](crate::moment_curve) | all of it: a measured curve does not tell its parts | 0 |
+//! | [`moment_curve`](crate::moment_curve) | all of it: a measured curve does not separate its parts | 0 |
 //!
-//! Where a law has been left by speed, load or temperature is told by [`Friction::departures`].
+//! Where a law has been left by speed, load or temperature is reported by [`Friction::departures`].
 //!
 //! Not modelled: a moment at standstill (every law fades with tanh(Ω/0.1 rad/s)), warming, running-in.
 

@@ -7,7 +7,7 @@
 //! | curve | the measured speeds | its points |
 //! | all, with a viscosity over temperature | the temperatures of the oil's data | [`viscosity`](crate::viscosity) |
 //!
-//! Not told: a load below the recommended minimum (it needs the dynamic rating), and the fading below 1 rad/s, which
+//! Not reported: a load below the recommended minimum (it needs the dynamic rating), and the fading below 1 rad/s, which
 //! every run passes on its way from rest.
 
 use crate::friction::Friction;

@@ -10,15 +10,15 @@
 //!   traction factor  F = e^(-k_T Θ)                                              0..1
 //! ```
 //! D multiplies the speed-dependent part of the steady friction moment ([`friction`](crate::friction)): what the flow of the
-//! lubricant makes. A measured curve does not tell its parts and is multiplied as a whole. F multiplies the coefficient
+//! lubricant makes. A measured curve does not separate its parts and is multiplied as a whole. F multiplies the coefficient
 //! of [`traction`](crate::traction) between balls and races. Both are positive, so what opposed a motion still does, and every
 //! heat stays a heat.
 //!
-//! Build-up counts the way of the cage, since it is the passing balls that draw grease in; breakdown counts time, as shear at
-//! a steady speed does. Both go back while the bearing rests, at one rate. What is between 0 and 1 stays there: at
+//! Build-up counts the angle the cage turns, since it is the passing balls that draw grease in; breakdown counts time, as
+//! shear at a steady speed does. Both go back while the bearing rests, at one rate. What is between 0 and 1 stays there: at
 //! b = 0 and w = 0 the rates are not negative, at 1 not positive.
 //!
-//! ω_q only has to tell a turning bearing from one at rest. 1 rad/s is small against any cage in use (10 rad/s is 99 % turning)
+//! ω_q only separates a turning bearing from one at rest. 1 rad/s is small against any cage in use (10 rad/s is 99 % turning)
 //! and large against the creep of a bearing that is said to rest; the time spent near it in a run-down is short against τ_r.
 //!
 //! | parameter | typical | where from |
@@ -77,7 +77,7 @@ impl<R: Real> Grease<R> {
     /// - `build_up`: b, 0 to 1
     /// - `cage_speed`: ω against the outer ring, rad/s
     ///
-    /// Source: first order in the way of the cage; assumed. Structural kinetics of first order are the usual model of
+    /// Source: first order in the angle of the cage; assumed. Structural kinetics of first order are the usual model of
     /// thixotropy: H. A. Barnes, J. Non-Newtonian Fluid Mech. 70 (1997) 1 (from memory).
     /// Valid: 0 ≤ b ≤ 1.
     #[inline(always)]
@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn one_way_of_the_cage_builds_63_percent_whatever_its_speed() {
+    fn one_angle_of_the_cage_builds_63_percent_whatever_its_speed() {
         for speed in [-300.0, 20.0, 62.0] {
             let time = GREASE.build_up_angle / f64::abs(speed);
             let built = advance(0.0, time, |b| GREASE.build_up_rate(b, speed));

@@ -8,7 +8,7 @@
 //!     └──────────────── |Ω|
 //! ```
 //! The curve is odd in speed and has a continuous slope between its first and last point. At its ends it goes on
-//! constant: a slope is never extrapolated. [`MomentCurve::covers`] tells whether a speed lies inside.
+//! constant: a slope is never extrapolated. [`MomentCurve::covers`] says whether a speed lies inside.
 //!
 //! Not modelled: load and temperature; the curve holds for those it was measured at.
 

@@ -28,7 +28,7 @@ impl<R: Real> MomentParts<R> {
     /// - `drag_factor`: D, not negative
     ///
     /// Source: [`lubricant_state`](crate::lubricant_state).
-    /// Valid: as the law and the factor; a law that does not tell its parts is multiplied as a whole.
+    /// Valid: as the law and the factor; a law that does not separate its parts is multiplied as a whole.
     #[inline(always)]
     #[must_use]
     pub fn with_drag(self, drag_factor: R) -> Self {

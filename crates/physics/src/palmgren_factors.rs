@@ -9,7 +9,7 @@
 //! | | angular contact, 22° < α ≤ 45° | 02, 03; double row or paired 32, 33 |
 //! | | four-point contact | 02, 03 |
 //!
-//! The makers disagree: Schaeffler's f1 grows with load, Timken's does not. Timken does not tell the lubrication its f0
+//! The makers disagree: Schaeffler's f1 grows with load, Timken's does not. Timken does not state the lubrication its f0
 //! is for; they equal Schaeffler's for an oil bath. A freshly greased bearing has 2 to 5 times Schaeffler's f0, an oil
 //! level above the centre of the lowest ball up to 3 times (both after Schaeffler).
 //!
@@ -38,7 +38,7 @@ pub enum FactorType {
     FourPointContact,
 }
 
-/// Lubrication as the tables tell it apart.
+/// Lubrication as the tables distinguish it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lubrication {
     /// Grease that has settled, or oil mist.
@@ -59,7 +59,7 @@ pub enum FactorSource {
 /// f0 of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ViscousFactor {
-    /// Told by lubrication.
+    /// One for each lubrication.
     ByLubrication {
         /// Grease or oil mist.
         grease_or_oil_mist: f64,
@@ -67,7 +67,7 @@ pub enum ViscousFactor {
         oil_bath: Option<f64>,
     },
     /// One number without a word on lubrication.
-    LubricationNotTold(f64),
+    LubricationNotStated(f64),
 }
 
 /// One row of a table, as printed.
@@ -102,8 +102,8 @@ pub struct PalmgrenFactors {
     pub source: FactorSource,
     /// Least and largest contact angle of the bearings they are for, degrees; none where the source has none.
     pub angles_deg: Option<[f64; 2]>,
-    /// Whether the source tells that f0 is for this lubrication.
-    pub lubrication_told: bool,
+    /// Whether the source states that f0 is for this lubrication.
+    pub lubrication_stated: bool,
 }
 
 /// Why there are no factors.
@@ -244,7 +244,7 @@ const fn timken(kind: FactorType, series: &'static str, f0: f64, f1: f64) -> Fac
         source: FactorSource::Timken,
         kind,
         series,
-        viscous_factor: ViscousFactor::LubricationNotTold(f0),
+        viscous_factor: ViscousFactor::LubricationNotStated(f0),
         load_factor: f1,
         load_exponent: 0.0,
         angles_deg: match kind {
@@ -303,7 +303,7 @@ pub const FACTORS: [FactorRow; 35] = [
 ///
 /// - `kind`: type
 /// - `series`: in the words of a source, such as "60" (Schaeffler) or "00" (Timken)
-/// - `lubrication`: chooses f0 where the source tells it
+/// - `lubrication`: chooses f0 where the source states it
 ///
 /// Source: [`FactorSource::citation`] of the result.
 /// Valid: the rows of [`FACTORS`]; else a [`FactorRefusal`].
@@ -319,8 +319,8 @@ pub fn palmgren_factors(
             kind,
             series: series.to_string(),
         })?;
-    let (viscous_factor, lubrication_told) = match (row.viscous_factor, lubrication) {
-        (ViscousFactor::LubricationNotTold(f0), _) => (Some(f0), false),
+    let (viscous_factor, lubrication_stated) = match (row.viscous_factor, lubrication) {
+        (ViscousFactor::LubricationNotStated(f0), _) => (Some(f0), false),
         (ViscousFactor::ByLubrication { oil_bath, .. }, Lubrication::OilBath) => (oil_bath, true),
         (
             ViscousFactor::ByLubrication {
@@ -339,7 +339,7 @@ pub fn palmgren_factors(
         load_exponent: row.load_exponent,
         source: row.source,
         angles_deg: row.angles_deg,
-        lubrication_told,
+        lubrication_stated,
     })
 }
 
@@ -392,7 +392,7 @@ mod tests {
                 "{series}"
             );
             assert_eq!(factors.load_exponent, 0.0);
-            assert!(!factors.lubrication_told);
+            assert!(!factors.lubrication_stated);
         }
     }
     #[test]

@@ -19,7 +19,7 @@
 //!
 //! Not modelled: clearance and misalignment, freshly greased bearings (sliding 2 to 4 times higher for the first hours
 //! or days, after the source), V_M (read from a diagram of the source by the user), a moment at standstill: what starts the
-//! bearing is told by [`SkfMoment::starting_moment`] and acts in no run.
+//! bearing is given by [`SkfMoment::starting_moment`] and acts in no run.
 
 use crate::moment_parts::MomentParts;
 use crate::palmgren::{fading, viscosity_times_speed_mm2_s_rpm};

@@ -15,7 +15,7 @@
 use crate::skf::{SkfAngularContact, SkfContacts, SkfDeepGroove, SkfMoment, SkfSphericalRoller};
 use std::fmt;
 
-/// Bearing types as the model tells them apart.
+/// Bearing types as the model distinguishes them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SkfType {
     /// Deep groove ball bearing.

@@ -117,7 +117,7 @@ impl fmt::Display for ViscosityError {
             ),
             ViscosityError::TooClose { distance } => write!(
                 out,
-                "two viscosities {distance:.1} K apart: at least 10 K are needed to tell their slope"
+                "two viscosities {distance:.1} K apart: at least 10 K are needed to determine their slope"
             ),
             ViscosityError::Rising => {
                 write!(out, "the viscosity of an oil falls with temperature")

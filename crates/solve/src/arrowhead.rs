@@ -461,7 +461,7 @@ mod tests {
     }
 
     #[test]
-    fn a_singular_system_is_told() {
+    fn a_singular_system_is_reported() {
         let mut seed = 3;
         let mut arrow = arrow(&mut seed);
         arrow.blocks[1].own = [[0.0; 3]; 3];

@@ -139,7 +139,7 @@ where
 }
 
 /// Integrates one machine by the linearly implicit method, where friction or contacts are so stiff that stability bounds
-/// the explicit one. `linear` tells its Jacobian.
+/// the explicit one. `linear` gives its Jacobian.
 ///
 /// # Panics
 /// When `R` has several lanes.
@@ -347,7 +347,7 @@ where
         }
     }
 
-    // every machine has been on a lane, or was told that it never will be
+    // every machine has been on a lane, or has its ending already
     endings.into_iter().flatten().collect()
 }
 

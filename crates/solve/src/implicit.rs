@@ -8,7 +8,7 @@ use crate::system::{Batch, Machine};
 use crate::workspace::{Judgement, Workspace};
 use number::{Real, Vectorized};
 
-/// Tells the Jacobian of a machine's rate, with blocks of `M` channels that depend on `COLUMNS` channels of the border and
+/// The Jacobian of a machine's rate, with blocks of `M` channels that depend on `COLUMNS` channels of the border and
 /// act on `ROWS` of them.
 pub trait Linear<T: Machine, const M: usize, const COLUMNS: usize, const ROWS: usize> {
     /// Where its parts stand.
@@ -46,7 +46,7 @@ pub(crate) struct Implicit<R, L, const M: usize, const COLUMNS: usize, const ROW
 impl<R: Real, L, const M: usize, const COLUMNS: usize, const ROWS: usize>
     Implicit<R, L, M, COLUMNS, ROWS>
 {
-    /// For a machine and what tells its Jacobian.
+    /// For a machine and its Jacobian.
     pub fn new<T: Machine>(machine: &T, linear: L) -> Self
     where
         L: Linear<T, M, COLUMNS, ROWS>,

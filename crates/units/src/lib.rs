@@ -2,7 +2,7 @@
 //!
 //! Inside the program every number is SI. This crate is the edge where people's units come in and go out.
 //!
-//! - Angle is a base dimension here, so `rpm`, `rad/s` and `deg/s` are told apart from `Hz` and from bare numbers.
+//! - Angle is a base dimension here, so `rpm`, `rad/s` and `deg/s` are distinguished from `Hz` and from bare numbers.
 //!   Torque (`N m`) and energy (`J`) are the same dimension.
 //! - Decimal units are exact: `"0.25 mm"` gives the same `f64` as the literal `0.00025`, because the power of ten of the
 //!   unit is added to the exponent of the number before it becomes a float. SI units have the factor 1 exactly.

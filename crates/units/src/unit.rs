@@ -291,7 +291,7 @@ impl<'a> Reader<'a> {
         Ok(Some(exponent))
     }
 
-    /// Skips spaces and at most one product sign; tells whether there was any.
+    /// Skips spaces and at most one product sign; returns whether there was any.
     fn skip_product_sign(&mut self) -> bool {
         let before = self.rest.len();
         self.skip_space();

@@ -10,7 +10,7 @@ pub fn timed(work: impl FnOnce() -> Result<(), String>) -> Result<f64, String> {
     Ok(spent.unwrap_or_else(|| wall.elapsed().as_secs_f64()))
 }
 
-/// CPU seconds of all ended children so far, where the system tells.
+/// CPU seconds of all ended children so far, where the system reports them.
 pub fn children_seconds() -> Option<f64> {
     children_ticks(&std::fs::read_to_string("/proc/self/stat").ok()?).map(|ticks| ticks / 100.0)
 }
@@ -38,7 +38,7 @@ pub fn machine() -> String {
     let load = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
     let load = load.split_whitespace().next().unwrap_or("unknown");
     let today = date(std::time::SystemTime::now());
-    let kind = children_seconds().map_or("Wall time, as CPU time is not told", |_| "CPU time");
+    let kind = children_seconds().map_or("Wall time, as CPU time is not reported", |_| "CPU time");
     format!(
         "{processor}, {}, {cores} cores, load {load} before; {today}. {kind}.",
         level()

@@ -1,4 +1,4 @@
-//! Named results: how they are collected, and what each tells of its origin.
+//! Named results: how they are collected, and what each states of its origin.
 
 use crate::result::outcome::{Quantity, Value};
 

@@ -43,7 +43,7 @@ pub struct Attachment {
 pub enum Attached {
     /// A text.
     Text(String),
-    /// Channels of a measurement with their values; the name of the file tells the format.
+    /// Channels of a measurement with their values; the name of the file gives the format.
     Recording(Vec<(measure::recording::Channel, Vec<f64>)>),
 }
 
@@ -62,7 +62,7 @@ pub struct Quantity {
     pub source: &'static str,
     /// Where it is valid.
     pub valid: &'static str,
-    /// True where tiny changes of the start change it much: a single run tells an example, an ensemble its distribution.
+    /// True where tiny changes of the start change it much: a single run is an example, an ensemble its distribution.
     pub chaotic: bool,
     /// Spread over the members, when repeated.
     pub spread: Option<Spread>,

@@ -16,7 +16,7 @@ use crate::scenario::{Drop, Rig, Scenario, SpinUp, System};
 use crate::simulate::{drop, rig, spin_up};
 pub use measure::file::parquet::panic_is_caught;
 
-/// A scenario with its machine: what could be wrong with the input has been told.
+/// A scenario with its machine: everything wrong with the input has been reported.
 pub struct Machine<'a> {
     scenario: &'a Scenario,
     system: Built<'a>,
@@ -73,7 +73,7 @@ impl Machine<'_> {
             outcome
                 .warnings
                 .iter()
-                .all(|told| told.code != warning.code)
+                .all(|other| other.code != warning.code)
         });
         outcome.warnings.splice(0..0, before);
         outcome

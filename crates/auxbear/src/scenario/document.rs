@@ -261,7 +261,7 @@ impl Document {
         let Some(place) = self.own.iter().position(|own| own.name == named) else {
             let names: Vec<String> = self.own.iter().map(|own| quoted(&own.name)).collect();
             let allowed = match names.as_slice() {
-                [] => "the file does not tell several auxiliary bearings apart".to_string(),
+                [] => "the file does not name several auxiliary bearings".to_string(),
                 names => format!("one of {} is needed", names.join(", ")),
             };
             let problem = Problem::new(Code::UnknownKey, &self.file, quoted(named), allowed);

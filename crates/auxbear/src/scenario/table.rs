@@ -117,7 +117,7 @@ const HEAD: &[Key] = &[
         "system",
         Kind::Word(SystemName::WORDS),
         "drop",
-        "What is simulated: drop, a levitated rotor that is released onto its auxiliary bearing; spin_up, an inner race that is brought to speed; torque, the torque of a bearing without motion; signals, speed and torque from a measurement; rig, a test on a rig with the raw file of its logger; identify, what measured tests tell of a bearing.",
+        "What is simulated: drop, a levitated rotor that is released onto its auxiliary bearing; spin_up, an inner race that is brought to speed; torque, the torque of a bearing without motion; signals, speed and torque from a measurement; rig, a test on a rig with the raw file of its logger; identify, what measured tests show of a bearing.",
     ),
     Key::new(
         "title",

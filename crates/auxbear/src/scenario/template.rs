@@ -15,14 +15,14 @@ pub fn template(kind: &str) -> Option<String> {
         SystemName::SpinUp => "The inner race of a bearing is brought to speed.",
         SystemName::Signals => "Speed, torque and cage speed from a measurement.",
         SystemName::Rig => "A test on a rig, and the raw file of its logger.",
-        SystemName::Identify => "What measured tests tell of a bearing.",
+        SystemName::Identify => "What measured tests show of a bearing.",
         SystemName::Torque => "The torque of a bearing over speed, load and acceleration.",
     };
     let mut out = String::new();
     comment(
         &mut out,
         &format!(
-            "{about} Replace the examples by your machine. A value is a text with a unit, or a table that tells where it comes from:"
+            "{about} Replace the examples by your machine. A value is a text with a unit, or a table that says where it comes from:"
         ),
     );
     out.push_str("#   mass = { value = \"8 kg\", source = \"drawing 4711\" }\n");

@@ -1,6 +1,6 @@
 //! Files of an independent reference implementation, read as they are.
 //!
-//! They name no format; their keys tell them apart: contacts (`hertz.json`), rolling moments (`rolling.json`), whole
+//! They name no format; their keys distinguish them: contacts (`hertz.json`), rolling moments (`rolling.json`), whole
 //! states with their derivative (`derivative_points*.json`), drops (`drop_*.json`). Laws are compared here; states
 //! and drops go to the [`Simulator`] and are compared in `points.rs` and `drops.rs`.
 //! A file with hundreds of numbers becomes one row per quantity: the one that deviates most.

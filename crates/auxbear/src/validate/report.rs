@@ -12,7 +12,7 @@ pub enum Verdict {
     /// Outside the tolerance, not a number, or a case of our format that cannot be read.
     #[serde(rename = "fail")]
     Fail,
-    /// Nothing was compared; `why` tells.
+    /// Nothing was compared; `why` has the reason.
     #[serde(rename = "not run")]
     NotRun,
 }

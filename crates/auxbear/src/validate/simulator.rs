@@ -119,7 +119,7 @@ pub struct DropAnswer {
     pub contact_start_times: Vec<f64>,
 }
 
-/// The simulation as validation sees it. `Err` tells why a case cannot be run: its rows become "not run".
+/// The simulation as validation sees it. `Err` says why a case cannot be run: its rows become "not run".
 pub trait Simulator {
     /// Time to first contact, s.
     fn free_fall(&self, case: &FreeFall) -> Result<f64, String>;

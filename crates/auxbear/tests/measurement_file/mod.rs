@@ -14,11 +14,11 @@ pub fn problem(name: &str, content: &str, more: &str) -> String {
     let file = folder.path().join("a.toml");
     fs::write(&file, text).unwrap();
     let scenario = Scenario::read(&file, &[], &BuiltIn).unwrap();
-    let told = match build(&scenario) {
+    let shown = match build(&scenario) {
         Ok(_) => panic!("nothing is found wrong with {name}"),
         Err(problem) => problem.to_string(),
     };
-    told.replace(&format!("{}/", folder.path().display()), "")
+    shown.replace(&format!("{}/", folder.path().display()), "")
 }
 
 /// The section of a torque.

@@ -28,9 +28,9 @@ impl Drop for Folder {
 }
 
 #[test]
-fn files_that_are_no_scenario_are_told_apart() {
+fn files_that_are_no_scenario_are_distinguished() {
     let folder = Folder::new("bad-files");
-    let told = |path: &PathBuf| {
+    let shown = |path: &PathBuf| {
         let problem = Scenario::read(path, &[], &NoBearings).unwrap_err();
         let text = problem.to_string();
         (
@@ -39,7 +39,7 @@ fn files_that_are_no_scenario_are_told_apart() {
         )
     };
     assert_eq!(
-        told(&folder.0),
+        shown(&folder.0),
         (
             Code::FileIsFolder,
             "error[AB0002]: FILE: found a folder; the path of a scenario file is needed"
@@ -47,7 +47,7 @@ fn files_that_are_no_scenario_are_told_apart() {
         )
     );
     assert_eq!(
-        told(&folder.0.join("none.toml")),
+        shown(&folder.0.join("none.toml")),
         (
             Code::FileMissing,
             "error[AB0001]: FILE: found no file of this name; the path of a scenario file is needed"
@@ -55,7 +55,7 @@ fn files_that_are_no_scenario_are_told_apart() {
         )
     );
     assert_eq!(
-        told(&folder.file("empty.toml", b" \n")),
+        shown(&folder.file("empty.toml", b" \n")),
         (
             Code::FileEmpty,
             "error[AB0004]: FILE: found an empty file; a scenario is needed; auxbear new drop writes one to start from"
@@ -63,7 +63,7 @@ fn files_that_are_no_scenario_are_told_apart() {
         )
     );
     assert_eq!(
-        told(&folder.file("latin.toml", b"a = 1\nb = \"\xe4\"\n")),
+        shown(&folder.file("latin.toml", b"a = 1\nb = \"\xe4\"\n")),
         (
             Code::FileNotUtf8,
             "error[AB0003]: FILE:2: found bytes that are not UTF-8 text; a text file in UTF-8 is needed"
@@ -71,7 +71,7 @@ fn files_that_are_no_scenario_are_told_apart() {
         )
     );
     assert_eq!(
-        told(&folder.file("large.toml", &vec![b'#'; 10_000_001])),
+        shown(&folder.file("large.toml", &vec![b'#'; 10_000_001])),
         (
             Code::FileTooLarge,
             "error[AB0005]: FILE: found more than 10 MB; a scenario file of at most 10 MB is needed"

@@ -77,12 +77,15 @@ fn an_unknown_key_names_the_near_one() {
 }
 
 #[test]
-fn the_first_wrong_line_is_told() {
+fn the_first_wrong_line_is_reported() {
     let text = DROP
         .replace("polar_inertia", "inertia_polar")
         .replace("cage_mass", "cagemass");
-    let told = parse(&text, &[]).unwrap_err();
-    assert!(told.contains("drop.toml:6: rotor.inertia_polar:"), "{told}");
+    let shown = parse(&text, &[]).unwrap_err();
+    assert!(
+        shown.contains("drop.toml:6: rotor.inertia_polar:"),
+        "{shown}"
+    );
 }
 
 #[test]
@@ -209,12 +212,12 @@ fn wrong_kinds_of_value_are_refused() {
 }
 
 #[test]
-fn radial_and_diametral_are_told_apart() {
+fn radial_and_diametral_are_distinguished() {
     let both = "contact.radial_air_clearance is the radial gap between rotor and inner race, half the difference of their diameters; bearing.operating_diametral_clearance is the diametral internal clearance of the bearing";
     for name in ["clearance", "air_clearance", "diametral_air_clearance"] {
-        let told = message("radial_air_clearance", name);
+        let shown = message("radial_air_clearance", name);
         assert_eq!(
-            told,
+            shown,
             format!(
                 "error[AB0101]: drop.toml:15: contact.{name}: found an unknown key; [contact] takes radial_air_clearance, bore_diameter, exponent, stiffness, damping, friction_coefficient, friction_reference_speed. {both}"
             )
@@ -225,19 +228,19 @@ fn radial_and_diametral_are_told_apart() {
         "diametral_internal_clearance",
         "preload",
     ] {
-        let told = set_message(&format!("bearing.{name}=5 um"));
-        assert!(told.ends_with(both), "{told}");
+        let shown = set_message(&format!("bearing.{name}=5 um"));
+        assert!(shown.ends_with(both), "{shown}");
     }
-    let told = set_message("bearing.ball_radius=3 mm");
+    let shown = set_message("bearing.ball_radius=3 mm");
     assert!(
-        told.ends_with("The file takes diameters: bearing.ball_diameter, bearing.pitch_diameter, contact.bore_diameter"),
-        "{told}"
+        shown.ends_with("The file takes diameters: bearing.ball_diameter, bearing.pitch_diameter, contact.bore_diameter"),
+        "{shown}"
     );
-    // A mere slip of the pen is told as one.
-    let told = message("radial_air_clearance", "radial_air_clearence");
+    // A mere slip of the pen is reported as one.
+    let shown = message("radial_air_clearance", "radial_air_clearence");
     assert!(
-        told.ends_with("Did you mean \"contact.radial_air_clearance\"?"),
-        "{told}"
+        shown.ends_with("Did you mean \"contact.radial_air_clearance\"?"),
+        "{shown}"
     );
 }
 
@@ -406,11 +409,11 @@ fn keys_without_effect_are_refused() {
         set_message("bearing.traction.a=0.1"),
         "error[AB0110]: drop.toml, --set: bearing.traction.a: found a key that has no effect; it is used only with bearing.traction.law = \"four parameter\"; here it is \"tanh\""
     );
-    // The root of a chain of conditions is told.
-    let told = set_message("bearing.moment.orbit_share=0.3");
+    // The root of a chain of conditions is reported.
+    let shown = set_message("bearing.moment.orbit_share=0.3");
     assert!(
-        told.contains("bearing.moment.law = \"palmgren\" or"),
-        "{told}"
+        shown.contains("bearing.moment.law = \"palmgren\" or"),
+        "{shown}"
     );
     assert_eq!(
         set_message("rotor.spin=braked"),
@@ -490,10 +493,10 @@ fn other_formats_and_systems_are_named() {
 
 #[test]
 fn broken_toml_names_its_line() {
-    let told = message("\"0.25 mm\"", "0.25 mm");
+    let shown = message("\"0.25 mm\"", "0.25 mm");
     assert!(
-        told.starts_with("error[AB0100]: drop.toml:15: found what is not valid TOML ("),
-        "{told}"
+        shown.starts_with("error[AB0100]: drop.toml:15: found what is not valid TOML ("),
+        "{shown}"
     );
     let twice = message("[mount]", "bore_diameter = \"2 mm\"\n[mount]");
     assert!(
@@ -504,7 +507,7 @@ fn broken_toml_names_its_line() {
 }
 
 #[test]
-fn unreadable_overrides_are_told() {
+fn unreadable_overrides_are_reported() {
     for set in ["rotor.mass", "=3", "rotor..mass=3", "rotor.mass=", ""] {
         assert_eq!(
             set_message(set),

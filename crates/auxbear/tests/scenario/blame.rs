@@ -75,22 +75,22 @@ fn what_the_machine_refuses_names_file_line_and_key() {
         "\n[bearing.moment]",
         "fidelity = \"rolling\"\n\n[bearing.acceleration_loss]\nkind = \"proportional\"\nper_acceleration = \"1 N s^2/rad\"\n\n[bearing.moment]",
     );
-    let told = message(&text, &[]);
+    let shown = message(&text, &[]);
     assert!(
-        told.starts_with(
+        shown.starts_with(
             "error[AB0211]: a.toml:15: bearing.acceleration_loss.per_acceleration: found 1 N s^2/rad"
         ),
-        "{told}"
+        "{shown}"
     );
-    let told = message(
+    let shown = message(
         &text,
         &["bearing.acceleration_loss.per_acceleration=2 N s^2/rad"],
     );
     assert!(
-        told.starts_with(
+        shown.starts_with(
             "error[AB0211]: a.toml, --set: bearing.acceleration_loss.per_acceleration: found 2"
         ),
-        "{told}"
+        "{shown}"
     );
 }
 
@@ -121,7 +121,7 @@ fn a_loaded_race_needs_three_balls() {
 fn dimensions_that_contradict_the_bearing_named_are_refused() {
     let hint = "The dimensions that are not given are those of bearing.name = \"6005\"";
     for text in [SPIN_UP, DROP] {
-        for (set, told) in [
+        for (set, shown) in [
             (
                 "bearing.pitch_diameter=24 mm",
                 "error[AB0203]: a.toml, --set: bearing.pitch_diameter: found 24 mm; more than bore_diameter = 25 mm is needed. ",
@@ -147,7 +147,7 @@ fn dimensions_that_contradict_the_bearing_named_are_refused() {
                 "error[AB0203]: a.toml, --set: bearing.ball_diameter: found 11.5 mm; less than 11 mm is needed, pitch_diameter = 0.036 m less bore_diameter = 25 mm, or no ring is left inside the balls. ",
             ),
         ] {
-            assert_eq!(message(text, &[set]), format!("{told}{hint}"));
+            assert_eq!(message(text, &[set]), format!("{shown}{hint}"));
         }
     }
 }
@@ -178,16 +178,16 @@ fn a_drive_that_moves_nothing_is_refused() {
     let torque = SPIN_UP
         .replace("sliding rotor", "torque")
         .replace("rotor_speed", "reference_speed");
-    let told = message(&torque, &["drive.torque=0 N m"]);
+    let shown = message(&torque, &["drive.torque=0 N m"]);
     assert!(
-        told.starts_with("error[AB0211]: a.toml, --set: drive.torque: found 0 N m;"),
-        "{told}"
+        shown.starts_with("error[AB0211]: a.toml, --set: drive.torque: found 0 N m;"),
+        "{shown}"
     );
     read(&torque, &["drive.torque=-0.1 N m"]).unwrap();
 }
 
 #[test]
-fn keys_of_another_choice_are_told_with_the_lines_to_remove() {
+fn keys_of_another_choice_are_reported_with_the_lines_to_remove() {
     assert_eq!(
         message(
             SPIN_UP,
@@ -209,19 +209,19 @@ fn keys_of_another_choice_are_told_with_the_lines_to_remove() {
     assert!(
         message(&traction, &[]).ends_with("Remove line 20 (kinetic), or give bearing.traction.law")
     );
-    let told = message(SPIN_UP, &["drive.kind=speed"]);
+    let shown = message(SPIN_UP, &["drive.kind=speed"]);
     assert!(
-        told.ends_with("Remove line 7 (rotor_speed), or leave --set drive.kind away"),
-        "{told}"
+        shown.ends_with("Remove line 7 (rotor_speed), or leave --set drive.kind away"),
+        "{shown}"
     );
     let loss = SPIN_UP.replace(
         "\n[run]",
         "\n[bearing.acceleration_loss]\nforce = \"1 N\"\n\n[run]",
     );
-    let told = message(&loss, &["bearing.fidelity=rolling"]);
+    let shown = message(&loss, &["bearing.fidelity=rolling"]);
     assert!(
-        told.ends_with("Remove line 20 (force), or give bearing.acceleration_loss.kind"),
-        "{told}"
+        shown.ends_with("Remove line 20 (force), or give bearing.acceleration_loss.kind"),
+        "{shown}"
     );
 }
 
@@ -245,12 +245,12 @@ fn a_duration_that_was_given_is_blamed_for_too_few_and_too_many_rows() {
 
 #[test]
 fn only_drops_are_repeated_and_the_message_says_what_to_do() {
-    let told = message(SPIN_UP, &["repeat.count=4"]);
+    let shown = message(SPIN_UP, &["repeat.count=4"]);
     assert!(
-        told.contains("repeat.count") && told.contains("Only drops are repeated so far"),
-        "{told}"
+        shown.contains("repeat.count") && shown.contains("Only drops are repeated so far"),
+        "{shown}"
     );
-    assert!(told.contains("--set PATH=VALUE"), "{told}");
+    assert!(shown.contains("--set PATH=VALUE"), "{shown}");
 }
 
 #[test]
@@ -289,7 +289,7 @@ fn an_axial_load_reaches_palmgrens_law() {
         .get("bearing.moment.contact_angle")
         .unwrap();
     assert_eq!(angle.provenance.mark(), "catalogue");
-    let told = message(
+    let shown = message(
         SPIN_UP,
         &[
             "bearing.moment.axial_load=9 N",
@@ -297,12 +297,12 @@ fn an_axial_load_reaches_palmgrens_law() {
         ],
     );
     assert!(
-        told.starts_with(
+        shown.starts_with(
             "error[AB0208]: a.toml, --set: bearing.moment.contact_angle: found a deep groove"
         ),
-        "{told}"
+        "{shown}"
     );
-    let told = message(
+    let shown = message(
         SPIN_UP,
         &[
             "bearing.moment.axial_load=9 N",
@@ -310,8 +310,8 @@ fn an_axial_load_reaches_palmgrens_law() {
         ],
     );
     assert!(
-        told.contains("AB0208") && told.contains("bearing.moment.axial_load"),
-        "{told}"
+        shown.contains("AB0208") && shown.contains("bearing.moment.axial_load"),
+        "{shown}"
     );
     let printed = SPIN_UP.replace("\"palmgren\"", "\"palmgren printed\"");
     assert!(message(&printed, &["bearing.moment.axial_load=9 N"]).contains("AB0110"));
@@ -367,10 +367,10 @@ fn a_resolved_file_keeps_the_origin_of_every_value_as_long_as_it_is_that_value()
             );
         }
     }
-    let told = message(SPIN_UP, &["run.tolerance={ value = 1e-4, from = \"me\" }"]);
+    let shown = message(SPIN_UP, &["run.tolerance={ value = 1e-4, from = \"me\" }"]);
     assert!(
-        told.contains("run.tolerance.from") && told.contains("\"default\" or \"catalogue\""),
-        "{told}"
+        shown.contains("run.tolerance.from") && shown.contains("\"default\" or \"catalogue\""),
+        "{shown}"
     );
 }
 
@@ -402,7 +402,7 @@ fn what_is_derived_shows_its_number() {
 }
 
 #[test]
-fn a_load_above_the_static_rating_is_told_before_the_run() {
+fn a_load_above_the_static_rating_is_reported_before_the_run() {
     let codes = |text: &str, sets: &[&str]| {
         let scenario = read(text, sets).unwrap();
         let machine = built(&scenario).unwrap();
@@ -422,7 +422,7 @@ fn a_load_above_the_static_rating_is_told_before_the_run() {
 }
 
 #[test]
-fn a_signals_file_that_is_missing_is_told_where_it_is_named() {
+fn a_signals_file_that_is_missing_is_reported_where_it_is_named() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("identify.toml");
     let text = "format = \"auxbear.scenario/1\"\nsystem = \"identify\"\n[identify]\n\
@@ -431,12 +431,12 @@ fn a_signals_file_that_is_missing_is_told_where_it_is_named() {
     let scenario = auxbear::scenario::Scenario::read(&path, &[], &auxbear::scenario::BuiltIn)
         .expect("it is right");
     let problem = auxbear::run::build(&scenario).err();
-    let told = problem.expect("a file is missing").to_string();
+    let shown = problem.expect("a file is missing").to_string();
     for part in [
         "error[AB0001]",
         "identify.toml:4: identify.coast_down",
         "slow.toml",
     ] {
-        assert!(told.contains(part), "{told}");
+        assert!(shown.contains(part), "{shown}");
     }
 }

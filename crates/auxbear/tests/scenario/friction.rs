@@ -104,8 +104,8 @@ fn factors_that_no_table_has_are_refused() {
         )),
         "error[AB0208]: a.toml, --set: bearing.moment.lubrication: found \"oil and air\", which Palmgren's tables do not have; one of \"grease\", \"oil mist\", \"low oil bath\", \"oil jet\" is needed, or f0 and f1 by hand"
     );
-    let told = message(&with(&PALMGREN, &["bearing.moment.series=99"]));
-    assert!(told.starts_with("error[AB0208]: a.toml, --set: bearing.moment.series: found no Palmgren factors for series \"99\""), "{told}");
+    let shown = message(&with(&PALMGREN, &["bearing.moment.series=99"]));
+    assert!(shown.starts_with("error[AB0208]: a.toml, --set: bearing.moment.series: found no Palmgren factors for series \"99\""), "{shown}");
     let given = [
         "bearing.moment.f0=2",
         "bearing.moment.f1_factor=9e-4",
@@ -223,10 +223,10 @@ fn constants_for_another_contact_angle_are_refused() {
         palmgren("angular contact", "15 deg", "72B").unwrap_err(),
         "error[AB0208]: a.toml, --set: bearing.contact_angle: found a contact angle of 15 deg; 35 to 45 deg is needed, for which the constants of series 72B are; else Palmgren's law with f0, f1_factor and f1_exponent by hand, or a measured curve"
     );
-    let told = skf("angular contact", "15 deg").unwrap_err();
+    let shown = skf("angular contact", "15 deg").unwrap_err();
     assert!(
-        told.contains("AB0208") && told.contains("the constants of the SKF model"),
-        "{told}"
+        shown.contains("AB0208") && shown.contains("the constants of the SKF model"),
+        "{shown}"
     );
     for (accepted, scenario) in [
         (true, palmgren("angular contact", "35 deg", "72B")),
@@ -253,8 +253,8 @@ fn constants_for_another_contact_angle_are_refused() {
     // a given angle under load is looked at too, and the file counts before the catalogue
     let spindle = SPIN_UP.replace("6005", "SNFA EX 25");
     let sets = |more| with(&with(&PALMGREN, &["bearing.moment.series=70B"]), more);
-    let told = read(&spindle, &sets(&[])).unwrap_err();
-    assert!(told.contains("found a contact angle of 15 deg"), "{told}");
+    let shown = read(&spindle, &sets(&[])).unwrap_err();
+    assert!(shown.contains("found a contact angle of 15 deg"), "{shown}");
     read(&spindle, &sets(&["bearing.contact_angle=40 deg"])).unwrap();
     let load = [
         "bearing.contact_angle=40 deg",
@@ -351,22 +351,22 @@ fn viscosity_follows_the_temperature() {
 }
 
 #[test]
-fn temperatures_and_points_that_tell_nothing_are_refused() {
+fn temperatures_and_points_that_show_nothing_are_refused() {
     let law = [
         "bearing.moment.law=palmgren",
         "bearing.moment.lubrication=grease",
     ];
-    let told = |more: &[&str]| message(&with(&law, more));
+    let shown = |more: &[&str]| message(&with(&law, more));
     assert_eq!(
-        told(&[POINTS, "bearing.moment.temperature=200 degC"]),
+        shown(&[POINTS, "bearing.moment.temperature=200 degC"]),
         "error[AB0208]: a.toml, --set: bearing.moment.temperature: found 200.0 °C is outside the viscosity data, which serve from 10.0 to 130.0 °C; a temperature near those of bearing.moment.viscosity_points is needed, or the viscosity itself"
     );
     assert_eq!(
-        told(&[POINTS]),
+        shown(&[POINTS]),
         "error[AB0107]: a.toml: bearing.moment.temperature: found no value; a temperature above 0 is needed with viscosity_points, e.g. \"60 degC\""
     );
     assert_eq!(
-        told(&[
+        shown(&[
             "bearing.moment.viscosity=1e-4 m^2/s",
             "bearing.moment.temperature=60 degC"
         ]),
@@ -374,16 +374,16 @@ fn temperatures_and_points_that_tell_nothing_are_refused() {
     );
     let rising = "bearing.moment.viscosity_points=[[\"40 degC\", \"10 mm^2/s\"], [\"100 degC\", \"11 mm^2/s\"]]";
     assert_eq!(
-        told(&[rising, "bearing.moment.temperature=60 degC"]),
+        shown(&[rising, "bearing.moment.temperature=60 degC"]),
         "error[AB0208]: a.toml, --set: bearing.moment.viscosity_points: found the viscosity of an oil falls with temperature; two points of one oil are needed"
     );
     let three = "bearing.moment.viscosity_points=[[\"20 degC\", \"400 mm^2/s\"], [\"40 degC\", \"100 mm^2/s\"], [\"100 degC\", \"11 mm^2/s\"]]";
     assert_eq!(
-        told(&[three, "bearing.moment.temperature=60 degC"]),
+        shown(&[three, "bearing.moment.temperature=60 degC"]),
         "error[AB0102]: a.toml, --set: bearing.moment.viscosity_points: found 3 rows; two rows are needed, e.g. at 40 degC and 100 degC"
     );
-    let told = told(&[POINTS, "bearing.moment.viscosity=1e-4 m^2/s"]);
-    assert!(told.starts_with("error[AB0109]"), "{told}");
+    let shown = shown(&[POINTS, "bearing.moment.viscosity=1e-4 m^2/s"]);
+    assert!(shown.starts_with("error[AB0109]"), "{shown}");
 }
 
 #[test]
@@ -404,17 +404,17 @@ fn the_skf_model_takes_what_its_catalogue_has() {
         ]),
         "error[AB0107]: a.toml: bearing.moment.lubrication: found no value; one of \"grease\", \"oil and air\", \"oil bath\", \"low oil bath\", \"oil jet\" is needed for the SKF model"
     );
-    let told = message(&with(&SKF, &["bearing.moment.lubrication=oil mist"]));
+    let shown = message(&with(&SKF, &["bearing.moment.lubrication=oil mist"]));
     assert!(
-        told.starts_with(
+        shown.starts_with(
             "error[AB0208]: a.toml, --set: bearing.moment.lubrication: found \"oil mist\""
         ),
-        "{told}"
+        "{shown}"
     );
-    let told = message(&with(&SKF, &["bearing.moment.series=99"]));
+    let shown = message(&with(&SKF, &["bearing.moment.series=99"]));
     assert!(
-        told.starts_with("error[AB0208]") && told.contains("99"),
-        "{told}"
+        shown.starts_with("error[AB0208]") && shown.contains("99"),
+        "{shown}"
     );
     assert_eq!(
         message(&with(&SKF, &["bearing.moment.outer_diameter=20 mm"])),
@@ -464,11 +464,11 @@ fn measured_curves_are_checked() {
             curve: vec![[10.0, 0.014], [150.0, 0.025]]
         }
     );
-    let told = curve("[[\"10 rad/s\", \"14 N mm\"], [\"5 rad/s\", \"25 N mm\"]]").unwrap_err();
-    assert!(told.starts_with("error[AB0114]: a.toml, --set: bearing.moment.curve: found \"5 rad/s\" in row 2, which is not above \"10 rad/s\" in row 1"), "{told}");
-    let told = curve("[[\"10 rad/s\", \"14 N mm\"], [\"50 rad/s\", \"-1 N mm\"]]").unwrap_err();
+    let shown = curve("[[\"10 rad/s\", \"14 N mm\"], [\"5 rad/s\", \"25 N mm\"]]").unwrap_err();
+    assert!(shown.starts_with("error[AB0114]: a.toml, --set: bearing.moment.curve: found \"5 rad/s\" in row 2, which is not above \"10 rad/s\" in row 1"), "{shown}");
+    let shown = curve("[[\"10 rad/s\", \"14 N mm\"], [\"50 rad/s\", \"-1 N mm\"]]").unwrap_err();
     assert_eq!(
-        told,
+        shown,
         "error[AB0209]: a.toml, --set: bearing.moment.curve: found a moment below 0 in row 2, which would create energy; moments not below 0 are needed: the curve holds for both directions"
     );
 }
@@ -526,16 +526,16 @@ fn a_loss_that_would_create_energy_is_refused() {
 
 #[test]
 fn a_loss_beyond_the_inertia_leaves_braking_without_an_answer() {
-    let told = message(&[
+    let shown = message(&[
         "bearing.fidelity=rolling",
         "bearing.acceleration_loss.kind=proportional",
         "bearing.acceleration_loss.per_acceleration=1 N s^2/rad",
     ]);
     assert!(
-        told.starts_with(
+        shown.starts_with(
             "error[AB0211]: a.toml, --set: bearing.acceleration_loss.per_acceleration: found 1 N s^2/rad; less than"
         ),
-        "{told}"
+        "{shown}"
     );
 }
 
@@ -565,20 +565,20 @@ fn a_catalogue_beside_the_file_is_used_and_its_problems_named() {
         .replace("[drive]", "catalogue = \"my_bearings.toml\"\n\n[drive]");
     fs::write(&file, text).unwrap();
     let read = || Scenario::read(&file, &[], &BuiltIn).map_err(|problem| problem.to_string());
-    let told = read().unwrap_err();
+    let shown = read().unwrap_err();
     assert!(
-        told.starts_with("error[AB0001]") && told.contains("my_bearings.toml"),
-        "{told}"
+        shown.starts_with("error[AB0001]") && shown.contains("my_bearings.toml"),
+        "{shown}"
     );
-    assert!(told.contains("It is named by catalogue in"), "{told}");
+    assert!(shown.contains("It is named by catalogue in"), "{shown}");
 
     let own = folder.path().join("my_bearings.toml");
     let bearing = "format = \"auxbear.bearings/1\"\n\n[[bearing]]\nname = \"mine\"\ndescription = \"my bearing\"\ntype = \"deep groove\"\nbore_diameter = \"25 mm\"\nouter_diameter = \"47 mm\"\nwidth = \"12 mm\"\nball_count = 10\nball_diameter = \"6.35 mm\"\npitch_diameter = \"36 mm\"\ninner_race_mass = \"20 g\"\ninner_race_inertia = \"3.9e-6 kg m^2\"\n";
     fs::write(&own, bearing.replace("\"6.35 mm\"", "\"6.35 kg\"")).unwrap();
-    let told = read().unwrap_err();
+    let shown = read().unwrap_err();
     assert!(
-        told.contains("my_bearings.toml") && told.contains("6.35 kg"),
-        "{told}"
+        shown.contains("my_bearings.toml") && shown.contains("6.35 kg"),
+        "{shown}"
     );
 
     fs::write(&own, bearing).unwrap();

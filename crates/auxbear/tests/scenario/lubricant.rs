@@ -42,8 +42,8 @@ fn an_oil_is_read_with_what_is_assumed_of_it() {
 }
 
 #[test]
-fn what_an_oil_needs_is_told() {
-    for (set, told) in [
+fn what_an_oil_needs_is_reported() {
+    for (set, shown) in [
         (
             "bearing.traction.oil_temperature=120 degC",
             "from 25.0 to 100.0",
@@ -55,7 +55,7 @@ fn what_an_oil_needs_is_told() {
         ("bearing.traction.maximum=0.05", "tanh"),
     ] {
         let message = parse(&[set]).expect_err(set);
-        assert!(message.contains(told), "{set}: {message}");
+        assert!(message.contains(shown), "{set}: {message}");
     }
     let given = [
         "bearing.traction.oil=PAO100",

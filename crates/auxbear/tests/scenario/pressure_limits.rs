@@ -54,8 +54,8 @@ fn ceramic_balls_that_meet_crack_by_a_limit_of_their_own() {
     assert!(warned(&outcome, "AB1002").is_none(), "no race dents");
     let text = warned(&outcome, "AB1070").expect("balls crack");
     let tension = (1.0 - 2.0 * 0.26) * neighbours / 3.0;
-    for told in [neighbours, limit, tension] {
-        assert!(text.contains(&format!("{:.0} MPa", told * 1e-6)), "{text}");
+    for shown in [neighbours, limit, tension] {
+        assert!(text.contains(&format!("{:.0} MPa", shown * 1e-6)), "{text}");
     }
     assert!(text.contains("crack in rings") && !text.contains("dents"));
     // of a strength that is known nothing is said

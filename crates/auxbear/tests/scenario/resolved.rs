@@ -151,7 +151,7 @@ fn a_short_file_is_filled_and_reads_back_bit_for_bit() {
 }
 
 #[test]
-fn every_value_tells_its_origin() {
+fn every_value_states_its_origin() {
     let scenario = read(SHORT, &sets(&["rotor.planes=2"]));
     let provenance = |path: &str| scenario.resolved.get(path).unwrap().provenance.clone();
     assert_eq!(

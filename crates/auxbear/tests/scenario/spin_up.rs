@@ -130,8 +130,8 @@ fn keys_and_sections_of_another_system_are_refused() {
         set_message("rotor.speed=800 rad/s"),
         "error[AB0110]: spin_up.toml, --set: rotor.speed: found a key that has no effect; it is used only with system = \"drop\"; here it is \"spin_up\". Did you mean \"drive.rotor_speed\"?"
     );
-    let told = set_message("repeat.count=8");
-    assert!(told.starts_with("error[AB0110]: spin_up.toml, --set: repeat.count: found a key that has no effect; it is used only with system = \"drop\"; here it is \"spin_up\". Only drops are repeated"), "{told}");
+    let shown = set_message("repeat.count=8");
+    assert!(shown.starts_with("error[AB0110]: spin_up.toml, --set: repeat.count: found a key that has no effect; it is used only with system = \"drop\"; here it is \"spin_up\". Only drops are repeated"), "{shown}");
     let torque = template("torque").unwrap();
     let sets = ["bearing.fidelity=rolling".to_string()];
     let problem = Scenario::parse(&torque, "torque.toml", &sets, &BuiltIn).unwrap_err();
@@ -143,12 +143,12 @@ fn keys_and_sections_of_another_system_are_refused() {
 
 #[test]
 fn names_are_near_only_within_the_system() {
-    let told = set_message("drive.rotor_sped=3 rad/s");
+    let shown = set_message("drive.rotor_sped=3 rad/s");
     assert!(
-        told.contains("Did you mean \"drive.rotor_speed\"?"),
-        "{told}"
+        shown.contains("Did you mean \"drive.rotor_speed\"?"),
+        "{shown}"
     );
-    assert!(told.contains("auxbear new spin_up lists them"), "{told}");
+    assert!(shown.contains("auxbear new spin_up lists them"), "{shown}");
     assert_eq!(
         message("[drive]", "[drvie]"),
         "error[AB0101]: spin_up.toml:4: drvie: found an unknown section; the top level takes format, system, title, description, catalogue, drive, bearing, run. Did you mean \"drive\"?"
@@ -187,7 +187,7 @@ fn each_kind_of_drive_has_its_own_keys() {
 #[test]
 fn a_wrong_row_is_named() {
     let needed = "rows of a time, rising from row to row, and a force not below 0 are needed, e.g. [[\"0 s\", \"200 N\"], [\"10 ms\", \"80 N\"]]";
-    let told = |rows: &str| message("radial_load = \"80 N\"", &format!("load_history = {rows}"));
+    let shown = |rows: &str| message("radial_load = \"80 N\"", &format!("load_history = {rows}"));
     for (rows, code, found) in [
         ("\"80 N\"", "AB0102", "the text \"80 N\""),
         ("[]", "AB0102", "an empty list"),
@@ -236,8 +236,8 @@ fn a_wrong_row_is_named() {
     ] {
         let whole =
             format!("error[{code}]: spin_up.toml:6: drive.load_history: found {found}; {needed}");
-        let told = told(rows);
-        assert!(told.starts_with(&whole), "{told}\n{whole}");
+        let shown = shown(rows);
+        assert!(shown.starts_with(&whole), "{shown}\n{whole}");
     }
 }
 

@@ -47,7 +47,7 @@ pub enum Proposal {
     Temperature,
 }
 
-/// A proposal with what it would tell.
+/// A proposal with what it would settle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
     /// The test.
@@ -126,7 +126,7 @@ impl Proposal {
     }
 }
 
-/// Candidates for the next test, the most telling first.
+/// Candidates for the next test, the most informative first.
 ///
 /// - `verdict`: of the tests made so far, with the same arguments
 /// - `tests`, `steady`, `set`, `priors`, `settings`: as for [`explain`](super::explain)

@@ -99,7 +99,7 @@ const LEAST_WIDTH: f64 = 0.02;
 /// Least width of a mean over the time since the engagement: two correlation times there.
 ///
 /// A torque is smoothed less while it changes. One width for a whole test would be that of its longest part: a record with a long
-/// hold would tell less of the spin-up than the same one cut short.
+/// hold would say less of the spin-up than the same one cut short.
 #[derive(Clone, Debug)]
 pub(crate) struct LeastWidth {
     time: Vec<f64>,

@@ -73,7 +73,7 @@ pub struct Fit {
     pub chi_squared: f64,
     /// Number of means it sums over.
     pub count: usize,
-    /// Probability of a χ² at least as large, where the explanation is true with parameters as its priors tell.
+    /// Probability of a χ² at least as large, where the explanation is true with parameters drawn from its priors.
     pub probability: f64,
     /// Posterior mean of the models' own error over M.
     pub discrepancy: f64,

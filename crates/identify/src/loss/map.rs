@@ -6,7 +6,7 @@
 //!   errors   noise of the means with its correlation in time; zero of each test; M's band, by its covariance; masses, common to all
 //! ```
 //! Sizes of F0 and F1 and the length ℓ are those of the highest marginal likelihood on a grid, neither smaller than what the data
-//! leave of F0 or F1 at their best speed under the wide prior below: data cannot tell that F is smaller than they can see. Where no
+//! leave of F0 or F1 at their best speed under the wide prior below: data cannot show that F is smaller than they resolve. Where no
 //! data are the band returns to that size.
 //!
 //! Whether F is *known* at a place is asked of the data, not of F: what the same data, with the same errors, leave of a prior that
@@ -19,7 +19,7 @@
 //! ```
 //! So a bearing without F has the same known places as one with much of it.
 //!
-//! **Does not model**: dependence on load or temperature; rotation one way against the other (Ω and F count along the rotation).
+//! **Does not model**: dependence on load or temperature; unequal directions of rotation (Ω and F count along the rotation).
 
 use super::{Loss, LossSettings, State, scale_part};
 use crate::algebra::{Factor, dot};

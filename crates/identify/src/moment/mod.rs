@@ -193,7 +193,7 @@ pub fn moment(
         }
         if best.noise_correlation > 0.9 {
             notes.push(format!(
-                "errors of neighbouring means correlate by {:.2}: slow noise and the shape of the curve are hard to tell apart",
+                "errors of neighbouring means correlate by {:.2}: slow noise and the shape of the curve are hard to separate",
                 best.noise_correlation
             ));
         }

@@ -1,4 +1,4 @@
-//! Slow tests that do not tell the same moment: their mean is that of none of them.
+//! Slow tests that do not have the same moment: their mean is that of none of them.
 
 use super::{MomentSettings, difference, fitted, speeds_up};
 use crate::measurement::Measurement;

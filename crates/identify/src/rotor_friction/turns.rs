@@ -18,7 +18,7 @@ const ALIKE: f64 = 1.5;
 /// Swing over the mean of μ from which on it is worth a note.
 const NOTED: f64 = 0.1;
 
-/// What the points of one turn tell.
+/// Means over the points of one turn.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Window {
     /// Their number.
@@ -31,7 +31,7 @@ pub(super) struct Window {
     time: f64,
     slip: f64,
     slip_square: f64,
-    way: f64,
+    sign: f64,
     slip_deviation: f64,
     /// Means of μ, of its shared deviation, of its own variance.
     friction: f64,
@@ -108,7 +108,7 @@ fn window(points: &[FrictionPoint], places: &[(f64, f64)]) -> Window {
         time: mean(&|p| p.time),
         slip: mean(&|p| p.slip.value.abs()),
         slip_square: mean(&|p| p.slip.value.powi(2)),
-        way: mean(&|p| p.slip.value.signum()),
+        sign: mean(&|p| p.slip.value.signum()),
         slip_deviation: mean(&|p| p.slip.deviation),
         friction,
         shared: mean(&|p| p.shared_deviation),
@@ -173,10 +173,10 @@ pub(super) fn mean(part: &[&Window], correlation_time: f64) -> FrictionPoint {
     let shared = mean(&|w| w.shared);
     let slip = mean(&|w| w.slip);
     let spread = (mean(&|w| w.slip_square) - slip * slip).max(0.0).sqrt();
-    let way = if mean(&|w| w.way) < 0.0 { -1.0 } else { 1.0 };
+    let sign = if mean(&|w| w.sign) < 0.0 { -1.0 } else { 1.0 };
     FrictionPoint {
         time: mean(&|w| w.time),
-        slip: Uncertain::new(way * slip, mean(&|w| w.slip_deviation).hypot(spread)),
+        slip: Uncertain::new(sign * slip, mean(&|w| w.slip_deviation).hypot(spread)),
         friction: Uncertain::new(
             mean(&|w| w.friction),
             shared

@@ -13,7 +13,7 @@
 use measure::speed::Speed;
 use measure::torque_sensor::Torque;
 
-/// Most times of the torque that are taken: beyond, neighbours tell nothing new.
+/// Most times of the torque that are taken: beyond, neighbours add nothing.
 const MOST_TIMES: usize = 20_000;
 /// Distance of the rows beside a kink, s: the quickest spin-up changes by 1e-3 rad/s within it.
 const SIDE: f64 = 1e-7;

@@ -1,4 +1,4 @@
-//! Torque over speed from slow runs of which no bearing is known, by two ways.
+//! Torque over speed from slow runs of which no bearing is known, by two methods.
 //!
 //! ```text
 //! direct:    reading of a torque sensor against speed            M(Ω)
@@ -29,7 +29,7 @@ const OF_TORQUE: [f64; 6] = [0.001, 0.003, 0.01, 0.03, 0.1, 0.3];
 const OF_SPEED: [f64; 8] = [3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1];
 
 /// Correlation of the residuals above which slow noise may be taken for the shape of a curve.
-const HARD_TO_TELL: f64 = 0.95;
+const INSEPARABLE: f64 = 0.95;
 
 /// A torque over speed with its band. All lists have the same length.
 #[derive(Clone, Debug, Default)]
@@ -187,9 +187,9 @@ impl Smooth {
         let precisions = spline::precisions(data.level(), order, smoothness);
         let posterior =
             weighed(&data, &columns, &precisions).ok_or("the values do not determine a curve")?;
-        if posterior.correlation > HARD_TO_TELL {
+        if posterior.correlation > INSEPARABLE {
             notes.push(format!(
-                "residuals of neighbouring values correlate by {:.3}: slow noise and the shape of the curve are hard to tell apart",
+                "residuals of neighbouring values correlate by {:.3}: slow noise and the shape of the curve are hard to separate",
                 posterior.correlation
             ));
         }

@@ -73,7 +73,7 @@ fn cut(mut campaign: Campaign) -> Campaign {
 
 #[test]
 fn below_the_slow_tests_nothing_speaks_against_rolling() {
-    // a coast-down that ends at 52 rad/s of 150: at 8 rad/s M is a fifth of it, and no datum of the slow tests tells it
+    // a coast-down that ends at 52 rad/s of 150: at 8 rad/s M is a fifth of it, and no datum of the slow tests shows it
     for seed in 0..4 {
         let mut campaign = campaign(Explanation::Rolling, seed);
         let steady = &mut campaign.steady;
@@ -114,7 +114,7 @@ fn ask(campaign: &Campaign, verdict: &Verdict) -> Vec<identify::explain::Candida
 
 #[test]
 fn one_short_test_leaves_doubt_and_the_next_test_is_named() {
-    // creep of the sensor: one hold alone tells it from neither grease nor heated slip
+    // creep of the sensor: one hold alone separates it from neither grease nor heated slip
     let mut chance = Chance::new(17);
     let truth = Truth {
         bearing: bearing(5.0),

@@ -42,7 +42,7 @@ const ONE_ERROR: f64 = 10.0;
 /// Correlation of a smooth random curve is gone after so many times the ratio of its deviation to that of its rate.
 const INDEPENDENT: f64 = 2.0;
 
-/// After an engagement the cage's speed is told at such intervals, s, for such a time, s: few balls pass while it rises.
+/// After an engagement the cage's speed is given at such intervals, s, for such a time, s: few balls pass while it rises.
 const CLOSE: f64 = 2e-3;
 const CLOSE_FOR: f64 = 0.5;
 

@@ -11,7 +11,7 @@ const LAG: f64 = 0.15;
 /// Speed of a cage from the times at which its balls pass a sensor at rest.
 ///
 /// `passings` in s, in order; `balls` the number of balls; `ratio` the speed of a rolling cage over that of the shaft, 1;
-/// `change` a quick change of the shaft's speed, after whose begin slip may change fast. Missing and double passings are found and told (missing ones not
+/// `change` a quick change of the shaft's speed, after whose begin slip may change fast. Missing and double passings are reported (missing ones not
 /// within 0.15 s after the engagement, where the cage may lag); errors of the ball
 /// spacing that repeat with the cage are taken out where the record is long enough. The list holds one value a passing, and for
 /// half a second after an engagement values every 2 ms between them: the cage rises there while hardly a ball passes.

@@ -9,10 +9,10 @@
 //! - another path through the spectra: where its chance is above 5 % the ridge has no value;
 //! - a phase that lost a cycle in every cell of P periods: its slip is wrong by 1/P, which is further from the path than half of
 //!   that: such values are left out, as is every slip outside the range that is looked for;
-//! - a cycle lost or won once, which noise of the phase does: its chance is in the deviation, and told where it counts;
+//! - a cycle lost or won once, which noise of the phase does: its chance is in the deviation, and reported where it counts;
 //! - another line in the range, at an order of the shaft or beside the ridge: above half of the ridge's amplitude, more than a
-//!   sideline by modulation can have, nothing tells which of the two is the cage's, and both are refused; a weaker one is told;
-//! - a line of the shaft at the very order of the ridge, which looks the same: it is told.
+//!   sideline by modulation can have, nothing shows which is the cage's, and both are refused; a weaker one is reported;
+//! - a line of the shaft at the very order of the ridge, which looks the same: it is reported.
 //!
 //! A line above half of the sampling rate folds to where it is not; that is for the filter before the converter.
 
@@ -38,7 +38,7 @@ pub struct Line {
     pub engagement: Option<f64>,
 }
 
-/// Slip above which a line is too slow to be told from the mean of the signal.
+/// Slip above which a line is too slow to be separated from the mean of the signal.
 const NEAR_REST: f64 = 0.98;
 /// Chance of another path above which the ridge has no value.
 const DOUBT: f64 = 0.05;
@@ -51,9 +51,9 @@ const NEAR: usize = 4;
 const PERIODS: [(f64, f64); 3] = [(4.0, 15.0), (8.0, 7.5), (16.0, 0.0)];
 /// Share of the record that must be left.
 const LEAST_SHARE: f64 = 0.2;
-/// Amplitudes of another line over that of the ridge from which on it is refused, and told.
+/// Amplitudes of another line over that of the ridge from which on it is refused, and reported.
 const REFUSED: f64 = 0.5;
-const TOLD: f64 = 0.25;
+const REPORTED: f64 = 0.25;
 /// Distance from the ridge from which on a line beside it is another, as a slip.
 const BESIDE: f64 = 0.02;
 /// Cells over which a cycle that is lost turns into slip.
@@ -65,7 +65,7 @@ const AT_ORDER: f64 = 1e-3;
 ///
 /// `signal` at equal `interval` from the time `first` on, s; NaN where there is none. Values are returned about one in four
 /// periods of the line, of a weak line one in 8 or 16; they are NaN where the line is lost, may be another, or leaves the slips
-/// that are looked for. Other lines near it (shaft orders) should be removed before. The error says why no cage speed is told.
+/// that are looked for. Other lines near it (shaft orders) should be removed before. The error says why no cage speed is found.
 pub fn from_vibration(
     first: f64,
     interval: f64,
@@ -98,7 +98,7 @@ pub fn from_vibration(
     let usable = |k: usize| path.doubt[k] <= DOUBT && standing[k] >= LOST;
     if share(&usable) < LEAST_SHARE {
         return Err(format!(
-            "no line between the slips {:.3} and {:.3} stands out of the noise so that it can be followed: it is lost during {:.0} % of the way, and another path is as likely during {:.0} %",
+            "no line between the slips {:.3} and {:.3} stands out of the noise so that it can be followed: it is lost during {:.0} % of the record, and another path is as likely during {:.0} %",
             slips.0,
             slips.1,
             100.0 * lost,
@@ -108,13 +108,13 @@ pub fn from_vibration(
     let mut notes = Vec::new();
     if lost > 0.0 {
         notes.push(format!(
-            "the line is lost in noise during {:.1} % of the way: there is no value there",
+            "the line is lost in noise during {:.1} % of the record: there is no value there",
             100.0 * lost
         ));
     }
     if in_doubt > 0.0 {
         notes.push(format!(
-            "another path of the line is as likely during {:.1} % of the way: there is no value there",
+            "another path of the line is as likely during {:.1} % of the record: there is no value there",
             100.0 * in_doubt
         ));
     }
@@ -349,7 +349,7 @@ fn phases(cells: &[Cell], standing: &[f64], usable: &[bool]) -> (Vec<f64>, Vec<f
     (turns, weight)
 }
 
-/// Refuses or tells another line in the range beside the ridge.
+/// Refuses or reports another line in the range beside the ridge.
 ///
 /// `usable` spectra of the path, `slips` that are looked for.
 fn rivals(
@@ -419,19 +419,19 @@ fn rivals(
     };
     let part = found.amplitude / amplitude.max(f64::MIN_POSITIVE);
     let order = turned.periods * (1.0 - at);
-    let told = format!(
+    let text = format!(
         "beside the line about the slip {mean:.3} there is another {how} {at:.3} (order {order:.2} of the shaft) with {:.0} % of its amplitude",
         100.0 * part
     );
     if part > REFUSED {
         return Err(format!(
-            "{told}: nothing tells which of the two is the cage's; a narrower range of slip would"
+            "{text}: nothing shows which of the two is the cage's; a narrower range of slip would"
         ));
     }
-    Ok((part > TOLD).then_some(told))
+    Ok((part > REPORTED).then_some(text))
 }
 
-/// Tells where the ridge stays at an order of the shaft.
+/// Reports where the ridge stays at an order of the shaft.
 fn at_order(found: &CageSpeed, periods: f64) -> Option<String> {
     let middle = |values: &mut Vec<f64>| {
         values.sort_by(f64::total_cmp);
@@ -457,7 +457,7 @@ fn at_order(found: &CageSpeed, periods: f64) -> Option<String> {
 ///
 /// `noise` of the phase of each value, rad, of cells of so many periods.
 fn with_lost_cycles(found: &mut CageSpeed, noise: &[f64], periods: f64) {
-    // The next phase is foretold with about as much error again: one and a quarter of its noise in all.
+    // The next phase is predicted with about as much error again: one and a quarter of its noise in all.
     let chances: Vec<f64> = noise
         .iter()
         .map(|noise| crate::normal::beyond(0.0, 1.25 * noise, PI))

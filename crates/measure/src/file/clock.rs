@@ -262,7 +262,7 @@ pub(crate) fn clocks(
         if seconds_in(&channel.unit).is_none() {
             notes.push(Note {
                 channel: Some(channel.name.clone()),
-                text: "is a time by its name, but its unit is not told".to_string(),
+                text: "is a time by its name, but its unit is not stated".to_string(),
             });
         }
         for (index, beside) in channels.iter().enumerate() {
@@ -291,7 +291,7 @@ pub(crate) fn clocks(
     }
     notes.extend(origins.iter().map(|(origin, count)| Note {
         channel: None,
-        text: format!("{count} channels have the clock that {origin} tells, taken in s or 1/s"),
+        text: format!("{count} channels have the clock that {origin} states, taken in s or 1/s"),
     }));
     (clocks, notes)
 }

@@ -191,7 +191,7 @@ pub fn open(path: impl AsRef<Path>) -> Result<Box<dyn Recording>, FileError> {
     };
     let promised = Format::promised_by(path);
     if row.format == Format::Csv && !promised.is_empty() {
-        let found = format!("is text, not {} as its name tells", promised[0]);
+        let found = format!("is text, not {} as its name says", promised[0]);
         let needed = format!("rename it if it is a table; {}", readable());
         return Err(FileError::new(path, "", found, needed));
     }
@@ -227,7 +227,7 @@ pub fn create(path: impl AsRef<Path>, channels: &[Channel]) -> Result<Box<dyn Wr
         _ => Err(FileError::new(
             path,
             "",
-            "cannot be written: its name tells no format that can be",
+            "cannot be written: its name has no format that can be",
             "end the name with: .tdms, .csv, .parquet",
         )),
     }

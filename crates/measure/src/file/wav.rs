@@ -106,7 +106,7 @@ impl<S: Read + Seek> Wav<S> {
             return Err(FileError::new(
                 path,
                 "",
-                "does not tell the type of its values: the chunk 'fmt ' is missing",
+                "does not state the type of its values: the chunk 'fmt ' is missing",
                 "a whole file",
             ));
         };
@@ -231,7 +231,7 @@ impl Chunks {
         }
         if told > there {
             self.note(format!(
-                "the values are cut off: {told} bytes are told, {there} are there"
+                "the values are cut off: {told} bytes are stated, {there} are there"
             ));
         }
         told.min(there)
@@ -296,7 +296,7 @@ fn layout(bytes: &[u8], big: bool) -> Result<Layout, String> {
     };
     if channels == 0 || rate == 0 {
         return Err(format!(
-            "the chunk 'fmt ' tells {channels} channels at {rate} 1/s"
+            "the chunk 'fmt ' states {channels} channels at {rate} 1/s"
         ));
     }
     // Values are as wide as their place in a row: 20 bits stand in 24.

@@ -151,7 +151,7 @@ pub fn orders(
     }
     let factor = system
         .factored()
-        .ok_or("the orders cannot be told apart in this signal")?;
+        .ok_or("the orders cannot be separated in this signal")?;
     let found = factor.solved(&right);
     let variances = factor.inverse_diagonal();
     let mut rest = vec![f64::NAN; signal.len()];
@@ -217,7 +217,7 @@ pub fn orders(
             .count();
         if slow > 0 {
             notes.push(format!(
-                "order {order} is below twice the bandwidth during {:.0} % of the time: it cannot be told from the mean there",
+                "order {order} is below twice the bandwidth during {:.0} % of the time: it cannot be separated from the mean there",
                 100.0 * slow as f64 / count as f64
             ));
         }

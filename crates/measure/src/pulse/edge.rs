@@ -38,7 +38,7 @@ const STRAIGHT: f64 = 0.3;
 const LEFT: f64 = 0.3;
 /// Deviations of the crossing by which that of a parabola is elsewhere, from which on a flank is bent.
 const BENT: f64 = 3.0;
-/// Samples of a plateau, next to the flank, that tell its level, at most.
+/// Samples of a plateau, next to the flank, that give its level, at most.
 const PLATEAU: usize = 64;
 
 pub(super) struct Flip {
@@ -53,7 +53,7 @@ pub(super) struct Flip {
 /// gap: nothing is counted across it, and a note says so. The crossing is the root of a straight line through the samples
 /// of the flank where it has at least four of them, of a cubic through its neighbours else. The uncertainty is the noise of
 /// the samples divided by the slope, and the error of interpolation: for a flank steeper than the sampling the interval
-/// divided by √12. Where the record holds slow passages, they tell the shape of a flank over the angle, and steep flanks are
+/// divided by √12. Where the record holds slow passages, they show the shape of a flank over the angle, and steep flanks are
 /// laid on that shape.
 pub fn edges(
     first: f64,
@@ -246,7 +246,7 @@ fn flips(samples: &[f64], levels: &Levels, part: Option<f64>) -> Vec<Flip> {
 }
 
 /// The middle between the levels at every flip: between the plateaus on its two sides, so that it follows a drift, and the
-/// height of each mark. Plateaus of few samples tell their level with noise, so that each middle is drawn to that of its
+/// height of each mark. Plateaus of few samples give their level with noise, so that each middle is drawn to that of its
 /// neighbours as far as these differ by no more than noise.
 fn middles(samples: &[f64], flips: &[Flip], levels: &Levels, fixed: bool) -> Vec<f64> {
     let own: Vec<Middle> = flips
@@ -288,7 +288,7 @@ fn middles(samples: &[f64], flips: &[Flip], levels: &Levels, fixed: bool) -> Vec
     (0..own.len()).map(|k| among_neighbours(&own, k)).collect()
 }
 
-/// A middle as its own plateaus tell it.
+/// A middle as its own plateaus give it.
 struct Middle {
     value: f64,
     /// Variance that the noise of the samples leaves.

@@ -48,7 +48,7 @@ pub(super) struct Envelope {
 }
 
 impl Envelope {
-    /// That of a signal whose pulses are not equally high, or have no plateaus that tell their middle; `usual` is the height of the higher ones.
+    /// That of a signal whose pulses are not equally high, or have no plateaus that give their middle; `usual` is the height of the higher ones.
     pub fn of(samples: &[f64], usual: f64, noise: f64) -> Option<Envelope> {
         let least = (ABOVE_NOISE * noise).max(LEAST * usual);
         let turns = without_ripple(turning_points(samples, least));
@@ -218,7 +218,7 @@ fn is_steady(swings: &[Swing]) -> bool {
     least > STEADY * largest
 }
 
-/// Whether the signal is on its way most of the time, as a sine is and pulses with plateaus are not.
+/// Whether the signal is between its levels most of the time, as a sine is and pulses with plateaus are not.
 fn has_no_plateaus(samples: &[f64], swings: &[Swing]) -> bool {
     let (mut between, mut count) = (0.0, 0.0);
     for swing in swings {

@@ -1,4 +1,4 @@
-//! The shape of a flank, learnt from slow passages, tells where a steep one crosses the middle.
+//! The shape of a flank, learnt from slow passages, shows where a steep one crosses the middle.
 //!
 //! A flank that a sampler meets with one or two samples can be laid anywhere between them if its shape is not known; and the
 //! error changes slowly from pulse to pulse where the rate of the pulses is nearly a whole part of the sampling rate. Over
@@ -230,7 +230,7 @@ fn lay(samples: &[f64], passing: &mut Passing, rate: f64, scale: f64, shape: &Sh
     }
     let moved = place - passing.place;
     if weight > 0.0 && moved.abs() < 0.6 {
-        // A flank between two samples lies there with a variance of 1/12; its shape tells more.
+        // A flank between two samples lies there with a variance of 1/12; its shape says more.
         passing.place = place;
         passing.spread = (12.0 + weight / (shape.scatter * shape.scatter))
             .sqrt()

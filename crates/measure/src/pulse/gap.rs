@@ -27,7 +27,7 @@ pub struct Gap {
     pub pulse: usize,
     /// Positions from the last pulse before to the first one after, as counted.
     pub positions: i64,
-    /// Standard deviation of that count before it is rounded; infinite where a side is too short to tell.
+    /// Standard deviation of that count before it is rounded; infinite where a side is too short to count.
     pub deviation: f64,
     /// Whether no other count is likely.
     pub sure: bool,
@@ -39,11 +39,11 @@ pub(super) const LONG: i64 = 6;
 /// Deviations of the count that must lie with one whole number: what is beyond has a probability of 5e-4.
 const BAND: f64 = 3.5;
 
-/// Fewest and most marks on one side of a gap that tell the rate there.
+/// Fewest and most marks on one side of a gap that give the rate there.
 const FEWEST: usize = 8;
 const MOST: usize = 512;
 
-/// What one side of a gap tells at its edge.
+/// What one side of a gap gives at its edge.
 #[derive(Clone, Copy, Debug)]
 struct Side {
     /// Mark, its rate and the slope of that, at the edge; the mark from the one that passed there.
@@ -87,7 +87,7 @@ fn quadratic(covariance: &[[f64; 3]; 3], row: &[f64; 3]) -> f64 {
         .max(0.0)
 }
 
-/// The fit over as many marks as tell the count best: the noise falls with their number, and what a parabola does not follow
+/// The fit over as many marks as give the count best: the noise falls with their number, and what a parabola does not follow
 /// rises. The latter is what a cubic says otherwise.
 fn side(marks: &[(f64, f64)], length: f64, noise: f64) -> Option<Side> {
     let weights = [1.0, 0.5 * length, length * length / 12.0];

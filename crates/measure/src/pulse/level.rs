@@ -61,7 +61,7 @@ impl Levels {
         self.noise / height
     }
 
-    /// Finds levels block by block: a block that holds both levels tells its own, the others take their neighbours'.
+    /// Finds levels block by block: a block that holds both levels gives its own, the others take their neighbours'.
     ///
     /// So a slow drift by more than the height of a pulse does no harm, nor a duty far from one half.
     pub fn find(samples: &[f64]) -> Result<Levels, Refusal> {
@@ -129,7 +129,7 @@ fn second_extremes(samples: &[f64]) -> (f64, f64) {
 /// Standard deviation of the noise from the smallest tenth of the differences: the flanks of pulses are in the upper part.
 ///
 /// A signal that never rests, as a sine, has no smallest differences that are noise alone; differences of the third order, in
-/// which little is left of it, tell there.
+/// which little is left of it, serve there.
 fn noise(samples: &[f64]) -> f64 {
     let stride = (samples.len() / 20_000).max(1);
     // A tenth of |x| is below 0.1257 standard deviations for normal x; a difference has √2 the noise, the third one √20.

@@ -1,4 +1,4 @@
-//! The marks per revolution that were stated, held against what the wheel shows.
+//! The marks per revolution that were stated, compared with what the wheel shows.
 //!
 //! ```text
 //! stated N, found P:   mean correlation over the lags that only P repeats at  against  that over the lags that only N repeats at
@@ -15,8 +15,8 @@ pub enum Marks {
     Shown,
     /// It repeats, but with something else.
     Contradicted(Refusal),
-    /// It does not tell, and why.
-    Untold(String),
+    /// It does not show, and why.
+    Unclear(String),
 }
 
 /// Chance from which on a wheel of independent marks looks like one of equal parts as one in a hundred does: sampling moves
@@ -34,7 +34,7 @@ const ITSELF: f64 = 6.0;
 /// Compares the marks per revolution that were stated with those that the wheel itself shows, where it does.
 ///
 /// Contradicted only where another number explains the pattern better than the stated one beyond chance. A wheel whose revolution
-/// has equal parts cannot be told from one with fewer marks: the text names both. Untold where no period stands out: marks
+/// has equal parts looks like one with fewer marks: the text names both. Unclear where no period stands out: marks
 /// too even for the noise of their instants, or speeds in step with the sampling.
 ///
 /// Source: derived here.
@@ -43,15 +43,15 @@ const ITSELF: f64 = 6.0;
 /// contradicted (`crates/measure/tests/marks.rs`).
 pub fn check_marks(pulses: &Pulses) -> Marks {
     let stated = pulses.positions;
-    // A gap of left-out marks that comes back at its place tells the number by itself.
+    // A gap of left-out marks that comes back at its place shows the number by itself.
     if pulses.reference.is_some() {
         return Marks::Shown;
     }
     let Some(seen) = Correlated::of(pulses) else {
-        return untold(pulses, None);
+        return unclear(pulses, None);
     };
     let Some(found) = seen.period() else {
-        return untold(pulses, Some(&seen));
+        return unclear(pulses, Some(&seen));
     };
     let contradicted = if found == stated || seen.independent(found) < RIPPLE {
         false
@@ -77,7 +77,7 @@ pub fn check_marks(pulses: &Pulses) -> Marks {
     if !contradicted {
         return match seen.stands_out(stated) {
             true => Marks::Shown,
-            false => untold(pulses, Some(&seen)),
+            false => unclear(pulses, Some(&seen)),
         };
     }
     let parts = stated / found;
@@ -100,13 +100,13 @@ pub fn check_marks(pulses: &Pulses) -> Marks {
     })
 }
 
-/// Why nothing is told.
-fn untold(pulses: &Pulses, seen: Option<&Correlated>) -> Marks {
+/// Why nothing is clear.
+fn unclear(pulses: &Pulses, seen: Option<&Correlated>) -> Marks {
     let Some(seen) = seen else {
-        return Marks::Untold("too few pulses follow each other without a fault".to_string());
+        return Marks::Unclear("too few pulses follow each other without a fault".to_string());
     };
     let turns = seen.count as f64 / pulses.positions as f64;
-    Marks::Untold(match pulses.sample_interval {
+    Marks::Unclear(match pulses.sample_interval {
         _ if turns < 3.0 => format!("{turns:.1} revolutions are too few to see a pattern repeat"),
         Some(interval) => format!(
             "at {:.1} samples a mark no errors of the marks stand out of those of their instants, or they are in step with the sampling",

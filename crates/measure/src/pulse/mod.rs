@@ -10,10 +10,10 @@
 //! | [`number`] | counts marks: gaps are filled in the count as far as it is sure ([`Gap`]), doubled pulses are left out, each with a note | times that do not increase |
 //! | [`calibrate`] | angular error of every mark, from revolutions whose speed changes evenly | fewer than two even revolutions |
 //! | [`period`] | number of pulses after which the pattern of intervals repeats | no pattern above the noise |
-//! | [`check_marks`] | compares it with the marks that were stated | they differ, or why nothing can be told |
+//! | [`check_marks`] | compares it with the marks that were stated | they differ, or why nothing can be said |
 //!
 //! **What it does not model**: an error of the wheel that changes with time or speed (loose discs, a lateral vibration of
-//! the shaft seen by one pickup); speed ripple locked to the revolution cannot be told from mark errors and is taken for such.
+//! the shaft seen by one pickup); speed ripple locked to the revolution cannot be separated from mark errors and is taken for them.
 
 mod edge;
 mod envelope;
@@ -57,7 +57,7 @@ pub struct Edges {
     pub times: Vec<f64>,
     /// Standard uncertainty of each instant, s.
     pub uncertainties: Vec<f64>,
-    /// Whether each is a rising one; tells the two kinds apart where both flanks are used.
+    /// Whether each is a rising one; distinguishes the two kinds where both flanks are used.
     pub rises: Vec<bool>,
     /// The flank in use.
     pub flank: Flank,

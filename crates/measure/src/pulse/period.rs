@@ -1,4 +1,4 @@
-//! After how many pulses the errors of a wheel repeat, as its pulses tell.
+//! After how many pulses the errors of a wheel repeat, as its pulses show.
 //!
 //! ```text
 //! intervals ─▶ pattern: each against its two neighbours ─▶ without what sampling makes ─▶ correlation over the lag ─▶ combs
@@ -12,13 +12,13 @@
 //! ```
 //! E is the logarithm of the likelihood ratio of P against no period, of pairs taken as independent normal ones. A divisor of
 //! P has more lags of which fewer show anything, a multiple has fewer lags, so that E is largest at the wheel's own period.
-//! Were there no wheel, z = r √n would be as large for one P as for another: its scatter over all P tells how much sampling and
+//! Were there no wheel, z = r √n would be as large for one P as for another: its scatter over all P shows how much sampling and
 //! noise make.
 //!
 //! Where the rate of pulses is nearly in step with the sampling, the errors of the instants repeat too, after another number
 //! of pulses than the wheel's. They are a function of the place of the instant between two samples; this part is found by
 //! least squares and taken out. What is left of it repeats after numbers of pulses that take a whole number of samples: such
-//! lags alone prove nothing and are left out of all combs, so that at some speeds nothing is told.
+//! lags alone prove nothing and are left out of all combs, so that at some speeds nothing is reported.
 
 use super::{Pulses, median};
 use crate::linear::solved;
@@ -50,10 +50,10 @@ pub(super) const ALIKE: f64 = 1e-4;
 const MOST_PARTS: usize = 12;
 /// Part of the scatter that is left to chance where all is explained.
 const OPEN: f64 = 0.01;
-/// Standard deviations by which a mean correlation may be off, where a wheel is to be told from one with fewer marks.
+/// Standard deviations by which a mean correlation may be off, where a wheel is to be distinguished from one with fewer marks.
 const SURE: f64 = 3.0;
 
-/// After how many pulses the pattern of intervals repeats: the positions per revolution as the wheel itself tells them.
+/// After how many pulses the pattern of intervals repeats: the positions per revolution as the wheel itself shows them.
 ///
 /// Intervals are compared with their two neighbours, so that speed and acceleration drop out. None where no period stands out
 /// of the noise of the instants and of sampling, or where fewer than two and a half periods were seen.
@@ -101,8 +101,8 @@ impl Correlated {
         let longest = count - (FEWEST_PAIRS * count as f64).ceil() as usize;
         let sampling = pulses.sample_interval.map(|s| Sampling::of(times, s));
         let pairs = |lag: usize| {
-            let telling = lag > 0 && sampling.as_ref().is_none_or(|s| !s.in_step(lag));
-            if telling { (count - lag) as f64 } else { 0.0 }
+            let counts = lag > 0 && sampling.as_ref().is_none_or(|s| !s.in_step(lag));
+            if counts { (count - lag) as f64 } else { 0.0 }
         };
         let mut seen = Correlated {
             values: correlations(&pattern, longest)?,
@@ -162,7 +162,7 @@ impl Correlated {
         (median(&mut sizes) / 0.6745).max(1.0)
     }
 
-    /// Mean correlation over the multiples of a number that are none of another; none where no lag tells.
+    /// Mean correlation over the multiples of a number that are none of another; none where no lag counts.
     ///
     /// What the wheel explains is not left to chance: its part of the scatter is less by 1 - r².
     pub fn mean(&self, multiples_of: usize, none_of: Option<usize>) -> Option<Mean> {
@@ -323,13 +323,13 @@ fn longest_regular(pulses: &Pulses) -> std::ops::Range<usize> {
     best.end.saturating_sub(WINDOW).max(best.start)..best.end
 }
 
-/// Each interval against its two neighbours, without what sampling makes, and without what tells two flanks apart.
+/// Each interval against its two neighbours, without what sampling makes, and without what two flanks differ by.
 fn pattern(pulses: &Pulses, times: &[f64], gaps: &[f64]) -> Vec<f64> {
     let mut pattern: Vec<f64> = gaps
         .windows(3)
         .map(|g| g[1].ln() - 0.5 * (g[0].ln() + g[2].ln()))
         .collect();
-    // Where both flanks are used every other interval is longer, by the duty; a pattern that repeats after two tells no marks.
+    // Where both flanks are used every other interval is longer, by the duty; a pattern that repeats after two shows no marks.
     for parity in 0..2 {
         let places = || (parity..pattern.len()).step_by(2);
         let mean = places().map(|k| pattern[k]).sum::<f64>() / places().count().max(1) as f64;
@@ -361,7 +361,7 @@ const MOSTLY: f64 = 0.4;
 /// The same from half a sample: samples that are either low or high repeat there too.
 const HALF_STEP: f64 = 0.05;
 
-/// Stretches of a record that tell how pulses lie to the samples, at most.
+/// Stretches of a record that show how pulses lie to the samples, at most.
 const BLOCKS: usize = 32;
 
 /// Pulses over which their times are averaged, so that the errors of the marks drop out.

@@ -47,7 +47,7 @@ const EVEN: f64 = 0.03;
 /// Angular errors of the marks from revolutions at steady or evenly changing speed.
 ///
 /// Every pulse that has one revolution before and one after it is compared with the mean of the revolution around it: the
-/// mean holds every mark once, so the errors cancel in it; the same mark one revolution earlier and later tells speed and
+/// mean holds every mark once, so the errors cancel in it; the same mark one revolution earlier and later gives speed and
 /// acceleration free of mark errors. What repeats with the revolution is taken for an error of the wheel.
 ///
 /// Formula:

@@ -17,9 +17,9 @@ use super::median;
 const SAME: f64 = 1.25;
 /// Least length of a flank, in samples, at which its steepness shows.
 const SHOWN: f64 = 6.0;
-/// Fewest flanks that tell.
+/// Fewest flanks that count.
 const FEW: usize = 30;
-/// Usual uncertainty of flanks between samples, in samples, below which their shape could tell no more.
+/// Usual uncertainty of flanks between samples, in samples, below which their shape could add nothing.
 const EXACT: f64 = 0.03;
 /// Height over that of the magnetic law, below which a pulse is cut off.
 const CUT: f64 = 0.8;
@@ -44,7 +44,7 @@ pub(super) struct OverSpeed {
 }
 
 impl OverSpeed {
-    /// States what the noise leaves of places that a sample tells: the same noise is less of a signal that is larger.
+    /// States what the noise leaves of places that a sample resolves: the same noise is less of a signal that is larger.
     pub fn state(&self, found: &mut [Passing], rises: bool, levels: &Levels) {
         let own: Vec<usize> = (0..found.len())
             .filter(|&k| found[k].rises == rises)
@@ -52,7 +52,7 @@ impl OverSpeed {
         for three in own.windows(3) {
             let interval = 0.5 * (found[three[2]].place - found[three[0]].place);
             let passing = &mut found[three[1]];
-            if !passing.resolved && passing.spread < TOLD {
+            if !passing.resolved && passing.spread < RESOLVED {
                 let height = levels
                     .envelope()
                     .map_or(1.0, |e| e.at(passing.place as usize).1);
@@ -64,8 +64,8 @@ impl OverSpeed {
     }
 }
 
-/// Uncertainty, in samples, of a place that no sample tells, at least; and of one that a sample tells exactly.
-const TOLD: f64 = 0.1;
+/// Uncertainty, in samples, of a place that no sample resolves, at least; and of one that a sample resolves exactly.
+const RESOLVED: f64 = 0.1;
 const FINEST: f64 = 3e-4;
 
 /// A flank whose steepness shows.

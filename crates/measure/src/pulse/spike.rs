@@ -18,7 +18,7 @@ const TIMES: usize = 4;
 const WIDE: usize = 8;
 /// Pulses to each side among which one is looked for: spikes may come in a row.
 const BESIDE: usize = 16;
-/// Largest part of the pulses that are spikes: more are marks of their own kind, as a thin one that tells the turn.
+/// Largest part of the pulses that are spikes: more are marks of their own kind, as a thin one that marks the turn.
 const SELDOM: f64 = 0.01;
 /// Spikes that are always seldom.
 const FEW: usize = 3;

@@ -145,7 +145,7 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
     let kept = without_last(without_broken(kept, edges, wheel), edges);
     let mut steps = steps(&kept, &edges.times);
     let silent = silent(&kept, edges, &mut steps, wheel);
-    notes.extend(silent.iter().map(told));
+    notes.extend(silent.iter().map(in_words));
     let mut count = 0i64;
     let mut counts = vec![0i64];
     let (mut lost, mut repairs, mut first_lost) = (0usize, 0usize, None);
@@ -217,7 +217,7 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
     })
 }
 
-/// Height at which the noise hides a pulse over that of the first one, from which on it is told.
+/// Height at which the noise hides a pulse over that of the first one, from which on it is reported.
 const HIDDEN: f64 = 0.3;
 
 /// Edges without those that split an interval; and those left out.
@@ -357,7 +357,7 @@ fn steps(kept: &[usize], times: &[f64]) -> Vec<i64> {
     steps
 }
 
-/// Intervals on each side of a long gap that tell its positions, at most.
+/// Intervals on each side of a long gap that give its positions, at most.
 const BESIDE: usize = 60;
 
 /// Positions over a gap, given what the two intervals beside it say. Over many positions errors of single marks and instants
@@ -406,7 +406,7 @@ fn without_broken(kept: Vec<usize>, edges: &Edges, wheel: &Wheel) -> Vec<usize> 
         };
         k.checked_sub(1).is_some_and(long) || long(k)
     };
-    // A pulse between two silences, or one of few, tells of nothing but itself.
+    // A pulse between two silences, or one of few, shows nothing but itself.
     let left: Vec<usize> = (0..kept.len()).filter(|&k| !beside(k)).collect();
     if left.len() < kept.len() / 2 {
         return kept;
@@ -460,7 +460,7 @@ fn silent(kept: &[usize], edges: &Edges, steps: &mut [i64], wheel: &Wheel) -> Ve
         let noise = edges.uncertainties[kept[k]].max(edges.uncertainties[kept[k + 1]]);
         let found = count_over(&left, &right, noise).filter(|found| found.0.is_finite());
         let (mean, deviation) = found.unwrap_or((steps[k] as f64, f64::INFINITY));
-        // Where the sides tell nothing the two intervals beside it must do.
+        // Where the sides give nothing the two intervals beside it must do.
         if found.is_some_and(|found| found.1 < 0.5 * found.0.abs()) {
             steps[k] = (mean.round() as i64).max(1);
         }
@@ -480,12 +480,12 @@ fn silent(kept: &[usize], edges: &Edges, steps: &mut [i64], wheel: &Wheel) -> Ve
 }
 
 /// A gap in words.
-fn told(gap: &Gap) -> String {
+fn in_words(gap: &Gap) -> String {
     let Gap { from, to, .. } = gap;
     let passed = gap.positions - 1;
     match gap.sure {
         true => format!(
-            "the pickup is silent from {from:.6} s to {to:.6} s: {passed} marks passed unseen, and what is told in between follows from both sides"
+            "the pickup is silent from {from:.6} s to {to:.6} s: {passed} marks passed unseen, and what is given in between follows from both sides"
         ),
         false => format!(
             "the pickup is silent from {from:.6} s to {to:.6} s: about {passed} marks passed unseen, how many is not sure; angles before and after do not join"

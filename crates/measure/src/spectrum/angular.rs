@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 pub struct AngularSettings {
     /// Highest order that must be right.
     pub highest_order: f64,
-    /// Turns in a segment: orders are told apart down to about two over this.
+    /// Turns in a segment: orders are separated down to about two over this.
     pub turns: usize,
     /// Overlap of segments, 0 to 0.95.
     pub overlap: f64,

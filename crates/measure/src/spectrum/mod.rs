@@ -237,7 +237,7 @@ fn lines(length: usize, interval: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Spectrum of a signal with values at equal `interval`, s. Segments with missing values are left out and told.
+/// Spectrum of a signal with values at equal `interval`, s. Segments with missing values are left out and reported.
 pub fn spectrum(signal: &[f64], interval: f64, segments: &Segments) -> Result<Spectrum, String> {
     check(signal, interval, segments)?;
     let mut density = vec![0.0; segments.length / 2 + 1];

@@ -234,7 +234,7 @@ pub fn smooth(
     let mut notes = pulses.notes.clone();
     if (all - n) as f64 > IN_STEP * all as f64 {
         notes.push(format!(
-            "{} of {all} pulses are left out: a mark takes a whole number of samples there, so that their errors are one error; another sampling rate, or another number of marks, would tell more",
+            "{} of {all} pulses are left out: a mark takes a whole number of samples there, so that their errors are one error; another sampling rate, or another number of marks, would show more",
             all - n
         ));
     }
@@ -307,7 +307,7 @@ pub fn smooth(
         let (plans, range) = lively::lively(&data, sight, &base);
         let Some((best, _)) = plans.first() else {
             return Err(Refusal::new(
-                "the start and the end of the quick change cannot be told".into(),
+                "the start and the end of the quick change cannot be found".into(),
                 "the window of one change of speed, with even running after it",
             ));
         };
@@ -365,7 +365,7 @@ pub fn smooth(
     {
         change.engagement.1 = change.engagement.1.hypot(open);
         speed.notes.push(format!(
-            "the speed changes quickly from mark {} of the record on: the change may have begun before, and when it began is not told; needed: a record that begins at rest, or some turns earlier",
+            "the speed changes quickly from mark {} of the record on: the change may have begun before, and when it began is unknown; needed: a record that begins at rest, or some turns earlier",
             sight.first + 1
         ));
     }
@@ -431,7 +431,7 @@ fn fell_silent(pulses: &Pulses, speed: &Speed) -> Option<String> {
     let silent = pulses.watched.1 - last;
     (silent * rate > STUCK).then(|| {
         format!(
-            "no mark came after {last:.4} s, for {silent:.4} s, though the shaft turned at {:.1} rad/s: the pickup is stuck, its pulses sank into the noise, or the shaft stopped at once; what is told behind does not follow from the pulses",
+            "no mark came after {last:.4} s, for {silent:.4} s, though the shaft turned at {:.1} rad/s: the pickup is stuck, its pulses sank into the noise, or the shaft stopped at once; what is given behind does not follow from the pulses",
             rate * pulses.pitch()
         )
     })
@@ -519,7 +519,7 @@ fn carried(
     };
     Err(Refusal::new(
         format!(
-            "the speed changes by {jump:.1} rad/s in {:.1} ms, in which {} pulses came: too few to tell how it changes, and how \
+            "the speed changes by {jump:.1} rad/s in {:.1} ms, in which {} pulses came: too few to show how it changes, and how \
              well that is known",
             1e3 * (to - from),
             change.pulses

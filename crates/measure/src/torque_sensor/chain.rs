@@ -51,7 +51,7 @@ pub(super) struct Chain<'a> {
     /// Power of the speed with which the disturbance grows.
     power: f64,
     scale: f64,
-    /// Time since the torque was lively last, s, at the middle of the step that ends at sample k.
+    /// Time since the torque's last transient, s, at the middle of the step that ends at sample k.
     calm: Vec<f64>,
     /// One step of the interval without disturbance, and the noise that unit intensity gathers.
     whole: (Matrix<STATES>, Matrix<STATES>),
@@ -206,7 +206,7 @@ impl<'a> Chain<'a> {
         let [noise, slow, fast, calming] = hyper.map(|v| v.clamp(-40.0, 40.0).exp());
         let rests = self.engaging.is_some();
         let zero = input.zero.deviation / self.scale;
-        // Amplitudes of the disturbance may drift by 3 % of the reading's spread in a second, the zero as told.
+        // Amplitudes of the disturbance may drift by 3 % of the reading's spread in a second, the zero as stated.
         let drift = if input.angle.is_empty() {
             0.0
         } else {
@@ -232,7 +232,7 @@ impl<'a> Chain<'a> {
         }
         if !rests {
             // Reading and torque agree up to what a swing of the size of the record does, about what the record begins with: a
-            // torque that hardly changes may be large beside its spread. What of it is zero only the zero's own deviation tells.
+            // torque that hardly changes may be large beside its spread. What of it is zero is open by the zero's own deviation.
             let level = self.first_level() / self.scale - mean[ZERO];
             (mean[0], mean[TORQUE]) = (level, level);
             let torque = wide + 100.0 * zero * zero;
@@ -313,7 +313,7 @@ impl<'a> Chain<'a> {
         transition[1][SINE] = sine_rate;
     }
 
-    /// What all readings tell; the amplitudes of the disturbance are those at each time.
+    /// What all readings give; the amplitudes of the disturbance are those at each time.
     pub(super) fn smoothed(&self, hyper: &Hyper) -> Pass {
         let filter = self.filtered(hyper, true);
         let scale = self.scale;
@@ -372,7 +372,7 @@ pub(super) fn mixed(likely: &Pass, others: &[(f64, Pass)]) -> Pass {
 /// Part of the highest speed below which a shaft comes to rest or leaves it: there the torque changes as it does in a spin-up.
 const CREEPING: f64 = 0.02;
 
-/// Time since the torque was lively last, s, at the middle of the steps: the clutch slipped, or the shaft crept.
+/// Time since the torque's last transient, s, at the middle of the steps: the clutch slipped, or the shaft crept.
 fn calm(input: &Samples, knots: Knots) -> Vec<f64> {
     let from = (knots.lock.or(knots.engagement)).unwrap_or(f64::NEG_INFINITY);
     let mut crept = f64::NEG_INFINITY;

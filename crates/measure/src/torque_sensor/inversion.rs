@@ -12,8 +12,8 @@
 //! likelihood of the whole record. What it leaves open is in mean and band: those of all growths, weighed by their likelihood.
 //!
 //! A reading at the limit of its converter ([`Clipped`]) says only that the true one is at least there. What lies beyond is not
-//! guessed, and no torque is told there. Beside it the torque is computed once more with readings beyond the limit by twice what
-//! slopes and duration let expect: the band widens by what that changes; where that is more than two deviations no torque is told.
+//! guessed, and no torque is given there. Beside it the torque is computed once more with readings beyond the limit by twice what
+//! slopes and duration let expect: the band widens by what that changes; beyond two deviations no torque is given.
 //!
 //! Source: physics of the sensor as in the module; unknown-input smoothing as by Lourens et al., Mech. Syst. Signal Process. 29
 //! (2012) 446 (from memory).
@@ -42,7 +42,7 @@ pub struct Inversion<'a> {
     /// The shaft over all the time of the reading; none where there is no synchronous disturbance to remove.
     pub shaft: Option<Shaft<'a>>,
     /// Time at which the clutch engages, with its standard deviation, s; before it the shaft rests. None: it turns throughout. An
-    /// engagement that may lie before the record, within two deviations, is not used: no rest tells a zero then.
+    /// engagement that may lie before the record, within two deviations, is not used: no rest gives a zero then.
     pub engagement: Option<Uncertain>,
     /// Time at which the clutch locks, with its standard deviation, s, where it is known and not before the engagement: what
     /// the acceleration makes of the torque ends there at once. None: the torque calms down from the engagement on.
@@ -79,7 +79,7 @@ impl Inversion<'_> {
     }
 }
 
-/// Torque as the data tell it. All lists have the same length; NaN, with its deviation, is what clipped readings do not tell.
+/// Torque found from the data. All lists have the same length; NaN, with its deviation, is what clipped readings hide.
 #[derive(Clone, Debug)]
 pub struct Torque {
     /// Times, s: those of the reading, or of the middle of blocks of it where it is finer than the sensor needs.
@@ -115,7 +115,7 @@ impl Torque {
     /// the speed of the shaft is not known.
     ///
     /// What is added is the rms of the torque about its mean over half a second around each time, a turn at 13 rad/s. A torque
-    /// that itself changes within that time is told less well than it could be.
+    /// that itself changes within that time is known less well than it could be.
     pub fn hold_what_swings(&mut self) {
         let [first, second, ..] = self.time.as_slice() else {
             return;
@@ -193,7 +193,7 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         engagement: knot,
         lock: lock.map(|lock| lock.value),
     };
-    // Hyper-parameters from the part of the record that tells most of them.
+    // Hyper-parameters from the part of the record that shows most of them.
     let (from, to) = match knot {
         Some(knot) => {
             let place = |time: f64| ((time - samples.first) / samples.interval).max(0.0) as usize;
@@ -237,7 +237,7 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         .collect();
     if !others.is_empty() && growths[..=others.len()].iter().any(|g| g.0 == 0.0) {
         notes.push(
-            "the record does not tell whether the disturbance once a turn grows with speed or is there at rest too: mean and band hold both"
+            "the record does not show whether the disturbance once a turn grows with speed or is there at rest too: mean and band hold both"
                 .to_string(),
         );
     }
@@ -307,7 +307,7 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         *v += (input.scale_deviation * state.0[TORQUE]).powi(2);
     }
     let noise = hyper[0].exp() * spread;
-    tell(input, &likely, colour, engagement.is_some(), &mut notes);
+    doubts(input, &likely, colour, engagement.is_some(), &mut notes);
     for (v, state) in variance.iter_mut().zip(&base.states) {
         *v = v.max(state.1[TORQUE]);
     }
@@ -325,8 +325,8 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
     }
     let pick = |index: usize| base.states.iter().map(|s| s.0[index]).collect::<Vec<_>>();
     let mut deviation: Vec<f64> = variance.iter().map(|v| v.max(0.0).sqrt()).collect();
-    let mut told = pick(TORQUE);
-    let mut told_rate = pick(RATE);
+    let mut torque = pick(TORQUE);
+    let mut rate = pick(RATE);
     let amplitude = |k: usize| base.states[k].0[COSINE].hypot(base.states[k].0[SINE]);
     let spread_of = |index: usize| {
         base.states
@@ -354,32 +354,36 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         let other = Chain::new(samples, swing, knots, power, spread).smoothed(&hyper);
         let moved = |k: usize, index: usize| other.states[k].0[index] - likely.states[k].0[index];
         let lost = f64::NAN;
-        for k in 0..told.len() {
+        for k in 0..torque.len() {
             let by = moved(k, TORQUE).abs();
             // a torque that is zero by definition stays so
             let rests = deviation[k] == 0.0;
-            if !rests && (thin.limits[k].is_some() || by > UNTOLD * deviation[k]) {
-                (told[k], deviation[k]) = (lost, lost);
-                (told_rate[k], rate_deviation[k]) = (lost, lost);
+            if !rests && (thin.limits[k].is_some() || by > MOVED * deviation[k]) {
+                (torque[k], deviation[k]) = (lost, lost);
+                (rate[k], rate_deviation[k]) = (lost, lost);
             } else if !rests {
                 deviation[k] = deviation[k].hypot(by);
                 rate_deviation[k] = rate_deviation[k].hypot(moved(k, RATE));
             }
             let by = moved(k, COSINE).hypot(moved(k, SINE));
-            if by > UNTOLD * disturbance_deviation[k] {
+            if by > MOVED * disturbance_deviation[k] {
                 (disturbance[k], disturbance_deviation[k]) = (lost, lost);
             } else {
                 disturbance_deviation[k] = disturbance_deviation[k].hypot(by);
             }
         }
-        let by = if told.is_empty() { 0.0 } else { moved(0, ZERO) };
+        let by = if torque.is_empty() {
+            0.0
+        } else {
+            moved(0, ZERO)
+        };
         zero.deviation = zero.deviation.hypot(by);
-        let count = told.iter().filter(|value| value.is_nan()).count();
+        let count = torque.iter().filter(|value| value.is_nan()).count();
         if count > 0 {
             notes.push(format!(
-                "the torque is not told for {:.3} s of {:.3} s: readings there, or beside, are clipped, and the true ones may lie beyond by any amount",
+                "the torque is unknown for {:.3} s of {:.3} s: readings there, or beside, are clipped, and the true ones may lie beyond by any amount",
                 count as f64 * samples.interval,
-                told.len() as f64 * samples.interval
+                torque.len() as f64 * samples.interval
             ));
         }
     }
@@ -387,9 +391,9 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         time: (0..base.states.len())
             .map(|k| samples.first + k as f64 * samples.interval)
             .collect(),
-        torque: told,
+        torque,
         deviation,
-        rate: told_rate,
+        rate,
         rate_deviation,
         disturbance,
         disturbance_deviation,
@@ -458,8 +462,8 @@ fn refuse(input: &Inversion) -> Result<(), String> {
     Ok(())
 }
 
-/// Deviations by which what clipped readings hide may move what is told.
-const UNTOLD: f64 = 2.0;
+/// Deviations by which what clipped readings hide may move what is given.
+const MOVED: f64 = 2.0;
 
 /// Standard deviation of the reading; the unit in which the filter works.
 fn scale_of(reading: &[f64]) -> f64 {
@@ -469,10 +473,10 @@ fn scale_of(reading: &[f64]) -> f64 {
     (seen().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt()
 }
 
-/// Factor on the bands from which on it is told.
-const TOLD: f64 = 1.05;
+/// Factor on the bands from which on it is reported.
+const REPORTED: f64 = 1.05;
 
-fn tell(input: &Inversion, base: &Pass, colour: f64, rests: bool, notes: &mut Vec<String>) {
+fn doubts(input: &Inversion, base: &Pass, colour: f64, rests: bool, notes: &mut Vec<String>) {
     let unknown = |part: &[f64]| part.iter().filter(|v| !v.is_finite()).count();
     let clipped = input.clipped.iter().map(|part| {
         let end = (part.first + part.count).min(input.reading.len());
@@ -486,8 +490,8 @@ fn tell(input: &Inversion, base: &Pass, colour: f64, rests: bool, notes: &mut Ve
     }
     let count = base.innovations.len() as f64;
     let correlation = correlation(&base.innovations, 1);
-    // Three standard deviations of a correlation of white noise; one that leaves the bands as they are tells nothing.
-    if correlation.abs() > 3.0 / count.sqrt() && colour.sqrt() >= TOLD {
+    // Three standard deviations of a correlation of white noise; one that leaves the bands as they are shows nothing.
+    if correlation.abs() > 3.0 / count.sqrt() && colour.sqrt() >= REPORTED {
         notes.push(format!(
             "successive innovations of the torque sensor correlate by {correlation:.2}: noise or sensor differ from their model; bands are wider by {:.2}",
             colour.sqrt()

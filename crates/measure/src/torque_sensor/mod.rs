@@ -7,7 +7,7 @@
 //! ```
 //!
 //! The reading of a 20 to 30 Hz arm is worst where the shaft turns once in an arm's period. [`identify_free_response`] finds
-//! frequency and damping from a tap or a step, [`invert`] finds torque and disturbance jointly, [`design_error`] tells what an
+//! frequency and damping from a tap or a step, [`invert`] finds torque and disturbance jointly, [`design_error`] gives what an
 //! arm of another frequency would give.
 //!
 //! Not modelled: a second mode, play, a sensor whose damping depends on amplitude. Torque may be in any unit; it comes back in

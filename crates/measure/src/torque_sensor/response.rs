@@ -32,7 +32,7 @@ pub enum Excitation {
     Unknown,
 }
 
-/// Frequency and damping as a free response tells them.
+/// Frequency and damping as a free response shows them.
 #[derive(Clone, Debug)]
 pub struct FreeResponse {
     /// The sensor.
@@ -97,10 +97,10 @@ impl Found {
 
 fn fitted(data: &Data, point: &[f64; 2]) -> Result<Fit, String> {
     data.fit(point[0].exp(), damping_of(point[1]))
-        .ok_or_else(|| "the free response cannot be told from its level".into())
+        .ok_or_else(|| "the free response cannot be separated from its level".into())
 }
 
-/// Part of the swing that may be left where tap or step were not told where to begin.
+/// Part of the swing that may be left where tap or step have no stated beginning.
 const LEFT: f64 = 0.2;
 
 /// Damping ratio from which on a sensor hardly swings: a load that is let down slowly looks like one.
@@ -238,7 +238,7 @@ fn weak(found: &Found, length: f64) -> Vec<String> {
         notes.push("the swing has not died within the record: level and damping are weak".into());
     }
     if damping > OVERDAMPED {
-        notes.push(format!("a sensor damped by {damping:.2} hardly swings: frequency and damping cannot be told apart well"));
+        notes.push(format!("a sensor damped by {damping:.2} hardly swings: frequency and damping cannot be separated well"));
     }
     if found.leaves_more() {
         notes.push(format!(

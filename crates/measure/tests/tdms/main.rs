@@ -427,7 +427,7 @@ fn digital_lines_of_daqmx_are_bits() {
 }
 
 #[test]
-fn plain_values_are_scaled_and_unknown_scales_are_told() {
+fn plain_values_are_scaled_and_unknown_scales_are_reported() {
     let scale = |kind| {
         vec![
             ("NI_Scaling_Status", Set::Text("unscaled")),
@@ -512,7 +512,7 @@ fn a_file_that_a_crash_cut_gives_what_is_there() {
 }
 
 #[test]
-fn a_claim_of_more_than_is_there_is_told() {
+fn a_claim_of_more_than_is_there_is_reported() {
     let objects = [("/'g'/'a'", Raw::Plain(10, 1 << 60), vec![])];
     let mut bytes = segment(
         META | NEW | RAW,
@@ -531,7 +531,7 @@ fn a_claim_of_more_than_is_there_is_told() {
 }
 
 #[test]
-fn types_of_unknown_size_are_told_and_later_segments_read() {
+fn types_of_unknown_size_are_reported_and_later_segments_read() {
     let mut bytes = segment(
         META | NEW | RAW,
         &meta(false, &[("/'g'/'a'", Raw::Plain(11, 1), vec![])]),

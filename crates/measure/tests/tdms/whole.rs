@@ -71,23 +71,23 @@ fn a_file_has_its_name_only_when_it_is_finished() {
 }
 
 #[test]
-fn what_is_no_tdms_is_told() {
+fn what_is_no_tdms_is_reported() {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
-    let tell = |name: &str, bytes: &[u8]| {
+    let message = |name: &str, bytes: &[u8]| {
         std::fs::write(folder.join(name), bytes).unwrap();
         file::open(folder.join(name))
             .err()
             .map(|e| e.to_string())
             .unwrap_or_default()
     };
-    let text = tell("text.tdms", b"this is no measurement");
+    let text = message("text.tdms", b"this is no measurement");
     assert!(
         text.contains("text.tdms") && text.contains("is text") && text.contains("TDMS, "),
         "{text}"
     );
-    assert!(tell("empty.tdms", b"").contains("empty"));
-    assert!(tell("index.tdms", b"TDSh\x0e\0\0\0").contains("index of a TDMS file"));
-    assert!(tell("noise.tdms", &[0, 1, 2, 3, 250, 0]).contains("no format that is known"));
+    assert!(message("empty.tdms", b"").contains("empty"));
+    assert!(message("index.tdms", b"TDSh\x0e\0\0\0").contains("index of a TDMS file"));
+    assert!(message("noise.tdms", &[0, 1, 2, 3, 250, 0]).contains("no format that is known"));
     assert!(
         file::open(folder.join("absent.tdms")).is_err_and(|e| e.found.contains("cannot be opened"))
     );

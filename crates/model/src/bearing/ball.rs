@@ -432,7 +432,7 @@ impl<R: Real> BallConstants<R> {
         let inner_traction = mu_i * inner.load;
         let outer_traction = mu_o * outer.load;
 
-        // pocket: computed only where any ball of the group may be pressed, which costs less to tell than where each
+        // pocket: computed only where any ball of the group may be pressed, which costs less to decide than where each
         // stands exactly; the answer is the same, and the compiler moves what only the branch needs into it
         let sine = e_r.cross(from_outer) * inverse_outer;
         let angle = pocket_angle(ball.azimuth, pocket.angle);

@@ -162,7 +162,7 @@ impl<R: Real> BearingReaction<R> {
     ///
     /// F has the sign of Ω, so its moment is arm F1 |Ω̇| sgn Ω = j Ω̇ with j = +arm F1 while the race is sped up and
     /// -arm F1 while it is braked. (I + J_I + j) Ω̇ = A has one solution, with the sign of A, as long as
-    /// arm F1 < I + J_I: then the sign of A tells j, and there is no loop. From rest any motion speeds up.
+    /// arm F1 < I + J_I: then the sign of A gives j, and there is no loop. From rest any motion speeds up.
     #[inline(always)]
     #[must_use]
     pub fn with_loss(mut self, speed: R, acceleration: R) -> Self {

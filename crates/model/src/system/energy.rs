@@ -63,7 +63,7 @@ pub struct Balance {
 }
 
 impl Balance {
-    /// Between two states, by what tells contents and flows of one.
+    /// Between two states, by a function that gives contents and flows of one.
     pub fn between(start: &[f64], end: &[f64], at: impl Fn(&[f64]) -> (Content, Flows)) -> Self {
         Balance {
             start: at(start),

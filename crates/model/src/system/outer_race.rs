@@ -1,4 +1,4 @@
-//! What a bearing dissipates while it is spun up, true and as the moment on its outer race tells it.
+//! What a bearing dissipates while it is spun up, true and as estimated from the moment on its outer race.
 //!
 //! ```text
 //!   what the bearing dissipates, from the moment on the outer race            Ω0 final speed, start at rest
@@ -27,7 +27,7 @@ use physics::spin_up_energy::{SpinUpEnergy, spin_up_loss};
 /// | `other` | what drags to the ground, weights and races that move or grow add; 0 on the concentric rig |
 pub const WORKS: [&str; 4] = ["inner_moment", "outer_moment", "momentum", "other"];
 
-/// What the bearing dissipated in a spin-up from rest, J: true, and as the outer race tells it.
+/// What the bearing dissipated in a spin-up from rest, J: true, and as estimated from the outer race.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OuterRaceEnergy {
     /// Sum of the heats in the bearing.
@@ -49,7 +49,7 @@ pub struct OuterRaceEnergy {
 }
 
 impl OuterRaceEnergy {
-    /// Told by the ledgers of two states (start, end) of a system that keeps [`WORKS`], with the final speed Ω0 of the inner
+    /// From the ledgers of two states (start, end) of a system that keeps [`WORKS`], with the final speed Ω0 of the inner
     /// race, rad/s, and the energy of balls, cage and contacts in a state.
     ///
     /// The printed and the corrected form and the bounds of the path term take the balls to have been at rest at the

@@ -1,4 +1,4 @@
-//! A ball between races with oil: what its contacts are told, from points on the surfaces.
+//! A ball between races with oil: the inputs of its contacts, from points on the surfaces.
 
 use crate::machines::{
     BEARING, INNER, Random, ball_of, bearing_part, heat_of, inlets, oil, planar, race_motion,

@@ -135,11 +135,11 @@ fn the_thermocouple_follows_the_bearing() {
         let t = row.time;
         let final_rise = power / c.heat.conductance;
         let rise = final_rise * (1.0 - (-slow * t).exp());
-        let told = final_rise
+        let reading = final_rise
             * (1.0 + (slow * (-fast * t).exp() - fast * (-slow * t).exp()) / (fast - slow));
         // the flywheel of 1e4 kg m² loses 1e-5 of its speed
         assert!((row.state[TEMPERATURE] - rise).abs() < 1e-4 * final_rise);
-        assert!((row.state[THERMOCOUPLE] - told).abs() < 1e-4 * final_rise);
+        assert!((row.state[THERMOCOUPLE] - reading).abs() < 1e-4 * final_rise);
     }
 }
 

@@ -5,7 +5,7 @@ use number::{Level, Real, Task};
 use solve::{Ending, Flow, Observer, Settings, Step, Stop, watch};
 use std::sync::atomic::AtomicBool;
 
-/// Keeps step ends, crossings of x = 0 and their times; stops where it is told to.
+/// Keeps step ends, crossings of x = 0 and their times; stops where asked.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Trace {
     steps: Vec<f64>,

@@ -311,7 +311,7 @@ const VERDICT: Origin = Origin {
     valid: "the explanations listed, one at a time, with the priors of crates/identify/src/explain/prior.rs",
 };
 const FIT: Origin = Origin {
-    law: "probability of a χ² of data and parameters at least as large, where the explanation is true with parameters as its priors tell",
+    law: "probability of a χ² of data and parameters at least as large, where the explanation is true with parameters drawn from its priors",
     source: "crates/identify/src/explain/mod.rs",
     valid: "of the most probable explanation; below 0.1 % none of these fits; near 1 where the bands of the signals are wider than their errors",
 };
@@ -326,7 +326,7 @@ const EVIDENCE: Origin = Origin {
     valid: "between the smallest and the largest speed of the slow tests",
 };
 const WORTH: Origin = Origin {
-    law: "n (1-ρ)/(1+ρ) of n means whose errors correlate by ρ from one to the next: as many independent ones tell a level as well",
+    law: "n (1-ρ)/(1+ρ) of n means whose errors correlate by ρ from one to the next: as many independent ones give a level as well",
     source: "crates/identify/src/moment/mod.rs",
     valid: "2 where ρ is at its limit of 0.98: what is left of the best form changes as slowly as the curve itself",
 };
@@ -343,7 +343,7 @@ const COAST_DOWN: Origin = Origin {
 const MAP: Origin = Origin {
     law: "F = F0(Ω) + F1(Ω)|Ω̇| by a Gaussian process over all tests where the balls are known to roll",
     source: "crates/identify/src/loss/map.rs",
-    valid: "where data are near (known = 1): they tell F there to within a quarter of M over its arm, whatever F is",
+    valid: "where data are near (known = 1): they give F there to within a quarter of M over its arm, whatever F is",
 };
 const ROTOR: Origin = Origin {
     law: "μ = (I_I Ω̇ + t_I)/(R_0 W) over whole turns of the rotor, at the mean slip u = (R_0 - c0) ω - R_0 Ω of each",

@@ -56,13 +56,13 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outc
         (Err(why), false) => Stop {
             reason: "not answered",
             time: 0.0,
-            text: format!("the slow tests do not tell the steady moment: {why}"),
+            text: format!("the slow tests do not give the steady moment: {why}"),
         },
     };
     Outcome {
         system: "identify",
         title: (scenario.title.clone())
-            .unwrap_or_else(|| "What the tests tell of the bearing".to_string()),
+            .unwrap_or_else(|| "What the tests show of the bearing".to_string()),
         quantities: answer::quantities(&found),
         history,
         contacts: Vec::new(),

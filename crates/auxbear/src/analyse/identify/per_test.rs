@@ -163,7 +163,7 @@ fn slip(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
             )),
             None => test.skid.as_ref().map_err(Clone::clone).and_then(|skid| {
                 skid.skidded
-                    .ok_or_else(|| "torque and cage do not tell the spin of the balls".to_string())
+                    .ok_or_else(|| "torque and cage do not show the spin of the balls".to_string())
             }),
         },
         &SKID,
@@ -171,7 +171,7 @@ fn slip(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
 }
 
 const TEST: Origin = Origin {
-    law: "as the signals of the test tell it",
+    law: "as measured by the signals of the test",
     source: "crates/measure/src/speed/mod.rs",
     valid: "see auxbear signals of its file",
 };

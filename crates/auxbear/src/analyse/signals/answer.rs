@@ -341,7 +341,7 @@ fn cage(list: &mut List, asked: &Asked, found: &Found) {
             .map(|found| value(&found.told))
             .map_err(|why| why.to_string())
             .and_then(|value| match value.is_nan() {
-                true => Err("the cage speed has no value there: the warnings tell why".to_string()),
+                true => Err("the cage speed has no value there: the warnings say why".to_string()),
                 false => Ok(value),
             })
     };
@@ -365,7 +365,7 @@ fn cage(list: &mut List, asked: &Asked, found: &Found) {
 }
 
 const FILE: Origin = Origin {
-    law: "as the file tells it",
+    law: "as stated in the file",
     source: "the measurement file, crates/measure/src/file",
     valid: "as far as the file could be read",
 };
@@ -386,7 +386,7 @@ const PITCH: Origin = Origin {
 };
 const SPEED: Origin = Origin {
     law: "smoothing spline of the seventh degree through the pulses, as stiff as their likelihood asks for; deviation: standard",
-    source: "crates/measure/src/speed; bands held against 400 synthetic records in crates/measure/tests/speed_coverage.rs",
+    source: "crates/measure/src/speed; bands compared with 400 synthetic records in crates/measure/tests/speed_coverage.rs",
     valid: "one quick change in the record; no ripple quicker than two marks can show",
 };
 const PEAK_ACCELERATION: Origin = Origin {

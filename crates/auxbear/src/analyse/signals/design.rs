@@ -51,7 +51,7 @@ pub(crate) fn errors(
         .map(|time| held(&torque.time, &torque.torque, *time))
         .collect();
     if expected.iter().any(|value| value.is_nan()) {
-        return Err("the torque is not told where the reading is clipped".to_string());
+        return Err("the torque is unknown where the reading is clipped".to_string());
     }
     let disturbance = torque.disturbance.iter().fold(0.0_f64, |a, b| a.max(*b));
     let possible: Vec<f64> = (FREQUENCIES.into_iter())

@@ -260,7 +260,7 @@ impl<'a> Source<'a> {
                 return Err(self.problem(
                     Code::ChannelClock,
                     key,
-                    format!("channel \"{name}\", of which the file tells no clock"),
+                    format!("channel \"{name}\", of which the file states no clock"),
                     "signals.sample_interval is needed with it, e.g. \"0.1 ms\"",
                 ));
             }
@@ -469,7 +469,7 @@ impl<'a> Source<'a> {
                     "" => format!("channel \"{name}\" without a unit"),
                     unit => format!("channel \"{name}\" in \"{unit}\""),
                 },
-                "a unit of torque is needed: tell what one unit of the channel is, e.g. signals.torque.scale = \"1 N mm\"",
+                "a unit of torque is needed: state what one unit of the channel is, e.g. signals.torque.scale = \"1 N mm\"",
             )),
         }
     }

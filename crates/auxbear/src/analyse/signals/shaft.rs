@@ -56,11 +56,11 @@ impl Found {
         let doubt = match check_marks(&pulses) {
             Marks::Contradicted(why) => Some(words(why)),
             // One mark or two have no pattern of their own.
-            Marks::Untold(why) if wish.marks_per_revolution > 2 => {
+            Marks::Unclear(why) if wish.marks_per_revolution > 2 => {
                 notes.push(format!("the number of marks could not be checked: {why}"));
                 None
             }
-            Marks::Untold(_) | Marks::Shown => None,
+            Marks::Unclear(_) | Marks::Shown => None,
         };
         let pitch = match wish.calibration {
             true => calibrate(&pulses)

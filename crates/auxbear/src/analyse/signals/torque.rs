@@ -225,7 +225,7 @@ fn sensor(
         ) => {
             if *damping_ratio >= NO_SWING {
                 notes.push(format!(
-                    "a damping ratio of {} is that of a sensor that does not swing, as hardly a torque arm is: one that is too large shows torques that were not; a tap would tell it (signals.torque.tap_file)",
+                    "a damping ratio of {} is that of a sensor that does not swing, as hardly a torque arm is: one that is too large shows torques that were not; a tap would measure it (signals.torque.tap_file)",
                     units::number_text(*damping_ratio)
                 ));
             }
@@ -242,12 +242,12 @@ fn sensor(
             let response =
                 identify_free_response(&tap.values, tap.interval, start).map_err(|why| {
                     let told = if start.is_none() {
-                        "; signals.torque.tap_start tells from where on the sensor swings freely"
+                        "; signals.torque.tap_start says from where on the sensor swings freely"
                     } else {
                         ""
                     };
                     format!(
-                        "the tap does not tell the sensor: {}, {why}{told}",
+                        "the tap does not identify the sensor: {}, {why}{told}",
                         tap.name
                     )
                 })?;

@@ -207,7 +207,7 @@ const VISCOSITY: Origin = Origin {
 const FRICTION: Origin = Origin {
     law: "M = M0 + M1 by bearing.moment.law, or by the law named",
     source: "the page of the law in crates/physics/src",
-    valid: "where the law holds; a warning tells where it is left",
+    valid: "where the law holds; a warning says where it is left",
 };
 const STARTING: Origin = Origin {
     law: "M_start = G_sl μ_bl + M_seal",

@@ -119,7 +119,7 @@ function verdict(run) {
   );
 }
 
-// Rotor, speed, bearing, clearance and friction in one line, as far as the inputs tell.
+// Rotor, speed, bearing, clearance and friction in one line, as far as the inputs state it.
 function machineLine(run) {
   const given = (path) => {
     const input = inputOf(run, path);

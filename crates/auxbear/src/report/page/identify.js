@@ -3,7 +3,7 @@
 
 const EXPLANATIONS = ["rolling", "rolling with a grease state", "isothermal slip", "slip with heating", "sensor artefact", "another steady moment"];
 
-// A probability; what is hardly possible is not told to its last digit.
+// A probability; what is hardly possible is not shown to its last digit.
 function chanceText(probability) {
   return probability > 0 && probability < 1e-4 ? "< 0.01 %" : percentText(probability, 3);
 }
@@ -51,7 +51,7 @@ function explanationFigure(run, runs) {
       element("table", { class: "bars" }, element("tbody", {}, rows)),
       typeof parameters === "string" ? element("p", { class: "small" }, "Most probable: " + parameters + fits) : null,
     ),
-    next.length ? figure(shareOfRun(run, runs, "The next test, the most telling first"), "Expected part of what is open between the explanations that the test would settle.", element("ol", {}, next.map((line) => element("li", {}, line)))) : null,
+    next.length ? figure(shareOfRun(run, runs, "The next test, the most informative first"), "Expected part of what is open between the explanations that the test would settle.", element("ol", {}, next.map((line) => element("li", {}, line)))) : null,
   ];
 }
 
@@ -179,7 +179,7 @@ function lossFigures(run, runs) {
   );
   const friction = tests.flatMap((test, index) => bandLines([run], `${test.key}.friction`, `${test.key}.friction_deviation`, 1, { label: `${test.name} [N]`, colour: LINE_COLOURS[index % LINE_COLOURS.length], width: 1.25 }));
   return [
-    figure(shareOfRun(run, runs, "Beyond the steady moment"), "± is twice the standard deviation. Slip and skid: probability that it happened at any time that the signals tell of; a slip before about ten balls have passed is not seen. The spin of the balls is told by the torque alone and takes M to hold: a lubricant in another state than in the slow tests looks like skid.", table),
+    figure(shareOfRun(run, runs, "Beyond the steady moment"), "± is twice the standard deviation. Slip and skid: probability that it happened at any time that the signals show; a slip before about ten balls have passed is not seen. The spin of the balls is inferred from the torque alone and takes M to hold: a lubricant in another state than in the slow tests looks like skid.", table),
     figure(shareOfRun(run, runs, "Friction F of the accelerated balls"), friction.length ? `Where the balls are known to roll, of tests that come to M; elsewhere t_O − M alone is known. No friction is negative: where F is, the lubricant or the sensor was in another state than in the slow tests. ${BAND_WORDS}` : null, friction.length ? timePlot({ series: friction, label: "F [N]", include: () => [0], height: 240 }) : notInThisRun("F: " + (quantityOf(run, "loss_map_friction").why || "nowhere are the balls known to roll"), run), friction.length ? frictionClosely(run, tests) : null),
     mapFigure(run, runs),
     figure(shareOfRun(run, runs, "What the spin-up dissipated"), "From the engagement until 99 % of the largest speed: where a motor brings up the last per cent, most of it is steady running. ± is twice the standard deviation. The printed form has the factor 1 + 2s where none belongs.", energies),

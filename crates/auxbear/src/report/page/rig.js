@@ -15,7 +15,7 @@ function rigSpeedSection(runs) {
   return section(
     "rig-speed",
     "Speed and acceleration",
-    history("Speed", "The clutch slips until flywheel and shaft turn alike, then both are one body.", runs, names, speeds, { label: "speed [rad/s]", marks, height: 270 }),
+    history("Speed", "The clutch slips until flywheel and shaft turn at the same speed, then both are one body.", runs, names, speeds, { label: "speed [rad/s]", marks, height: 270 }),
     history("Acceleration of the shaft", "It grows with the torque of the engaging clutch and ends where the clutch locks.", runs, ["shaft.acceleration"], lines(runs, "shaft.acceleration", 1, { label: "acceleration [rad/s²]", colour: SERIES_COLOURS.race, width: 1.25 }), { label: "acceleration [rad/s²]", marks, height: 230 }),
   );
 }

@@ -105,7 +105,7 @@ function designFigure(run, runs) {
   return figure(shareOfRun(run, runs, "Which frequency a torque sensor should have"), "Root mean square error after the engagement for the torque found here, with the decay, noise and disturbance of this sensor. A stiff arm swings less and reads less: its noise in N mm is that of this one.", curves({ series, across: "frequency of the sensor [Hz]", upright: "error [N mm]", logarithmic: false, height: 260 }));
 }
 
-// Amplitudes over frequency; where the sensor swings and where the shaft's orders lie at its largest speed is told.
+// Amplitudes over frequency; where the sensor swings and where the shaft's orders lie at its largest speed is marked.
 function torqueSpectrum(run, runs) {
   const frequencies = listOf(run, "torque_spectrum_frequencies");
   const amplitudes = listOf(run, "torque_spectrum_amplitudes").map((value) => 1e3 * value);
@@ -126,7 +126,7 @@ function torqueSpectrum(run, runs) {
   return figure(title, "Amplitude of a sine, peak; overlapping Hann segments over the whole record. A speed that changes smears its orders.", curves({ series, across: "frequency [Hz]", upright: "amplitude [N mm]", logarithmic: true, height: 280 }));
 }
 
-// A band beyond which a slip tells nothing, %.
+// A band beyond which a slip says nothing, %.
 const WIDEST_SLIP = 10;
 
 function cageSection(runs) {

@@ -1,4 +1,4 @@
-// The pictures of a spin-up: moments, slip and loads, and the energy as the outer race tells it.
+// The pictures of a spin-up: moments, slip and loads, and the energy as estimated from the outer race.
 
 function isSpinUp(run) {
   return run.summary.system === "spin_up";
@@ -78,7 +78,7 @@ function slipSection(runs) {
       slip.length ? timePlot({ series: slip, label: "slip [%]", include: () => [0], height: 200 }) : null,
       still,
     ),
-    figure("Fastest sliding of any ball", sliding.length ? "Loaded and unloaded balls alike; the maps below tell them apart." : null, sliding.length ? timePlot({ series: sliding, label: "slip speed [m/s]", height: 190 }) : null, still),
+    figure("Fastest sliding of any ball", sliding.length ? "Loaded and unloaded balls alike; the maps below separate them." : null, sliding.length ? timePlot({ series: sliding, label: "slip speed [m/s]", height: 190 }) : null, still),
     history("Largest ball load", "The outer race also carries the centrifugal force of the balls.", runs, ["bearing.inner_race.largest_ball_load"], loads, { label: "load [N]", height: 200 }),
   );
 }
@@ -119,7 +119,7 @@ function signedBars(run, forms, reference) {
 }
 
 function outerRaceFigure(run, runs) {
-  const title = (runs.length > 1 ? run.label + ": " : "") + "What the bearing dissipated, as the moment on the outer race tells it";
+  const title = (runs.length > 1 ? run.label + ": " : "") + "What the bearing dissipated, as estimated from the moment on the outer race";
   const truth = numberOf(run, "bearing_dissipated_energy");
   if (truth === null) return figure(title, null, notInThisRun("the summary holds no energy of the outer race"));
   const still = quantityOf(run, "balls_skid").value === "still at the end";

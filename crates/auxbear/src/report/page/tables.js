@@ -73,7 +73,7 @@ function censored(quantity) {
   return absent > 0 ? `; ${absent} others never came to it, so that mean and range are those of the quick ones` : "";
 }
 
-// What a single run tells as an example only.
+// What a single run shows as an example only.
 function chaoticMark(quantity) {
   return quantity.chaotic ? element("span", { class: "mark mark-chaotic", title: "tiny changes of the start change it much: compare ensembles (auxbear run --repeat)" }, "chaotic") : null;
 }
@@ -122,8 +122,8 @@ function quantitySection(runs) {
   if (repeated && single) heads.push("Mean ± deviation, range");
   const bodies = names.map((name) => {
     const all = runs.map((run) => quantityOf(run, name));
-    const told = all.find((quantity) => quantity.law || quantity.source || quantity.valid) || all[0];
-    const cells = [element("td", { class: "name" }, wordsOf(name), chaoticMark(told), element("code", {}, name))];
+    const stated = all.find((quantity) => quantity.law || quantity.source || quantity.valid) || all[0];
+    const cells = [element("td", { class: "name" }, wordsOf(name), chaoticMark(stated), element("code", {}, name))];
     if (single) cells.push(element("td", {}, quantityText(all[0])), element("td", { class: "small" }, siCell(all[0])));
     else {
       all.forEach((quantity, index) => {
@@ -132,7 +132,7 @@ function quantitySection(runs) {
       });
     }
     if (repeated && single) cells.push(element("td", {}, spreadCell(all[0])));
-    const laws = lawLine(told);
+    const laws = lawLine(stated);
     return element("tbody", {}, element("tr", {}, cells), laws.length ? element("tr", { class: "laws" }, element("td", { colspan: heads.length }, laws)) : null);
   });
   const table = element("table", { class: single ? "quantities single" : "quantities several", style: single ? null : `--columns:${heads.length}` }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), bodies);

@@ -291,10 +291,10 @@ impl Values {
                 "a series of the tables is needed, or f0, f1_factor and f1_exponent by hand",
             ))
         })?;
-        let told = if factors.lubrication_told {
+        let told = if factors.lubrication_stated {
             ""
         } else {
-            ", which does not tell the lubrication"
+            ", which does not state the lubrication"
         };
         let how = format!(
             "series {series}, {kind}: {}{told}",

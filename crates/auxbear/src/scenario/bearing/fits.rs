@@ -138,7 +138,7 @@ impl Values {
             path,
             self.place(fit),
             "no value",
-            format!("{fit} needs it, to tell how far the ring is pressed"),
+            format!("{fit} needs it, to know how far the ring is pressed"),
         )))
     }
 }

@@ -48,7 +48,7 @@ pub(crate) const KEYS: &[Key] = &[
         "bearing.lubricant_state.kind",
         Kind::Word(StateKind::WORDS),
         "grease",
-        "What changes: none; grease, which builds up over the way of the cage and breaks down over time; films, which warm by their own friction; or both.",
+        "What changes: none; grease, which builds up over the angle the cage turns and breaks down over time; films, which warm by their own friction; or both.",
     )
     .default("none", "friction and traction are those of their laws at all times unless asked for"),
     Key::new(

@@ -228,7 +228,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Share of the speed-dependent part that drags on the orbit of the balls; the rest drags on their spin.",
     )
     .within(Range::FromTo(0.0, 1.0))
-    .assumed("0.5", "no measurement tells the two apart")
+    .assumed("0.5", "no measurement separates the two")
     .when(SHARED)
     .only(MOVING),
     Key::new(

@@ -40,7 +40,7 @@ pub(crate) const SECTIONS: &[Section] = &[
 /// Repetition stands at the end of a file.
 pub(crate) const REPEAT_SECTIONS: &[Section] = &[Section {
     path: "repeat",
-    doc: "Repeated runs from slightly different starts: what differs between them is chaos, not physics. With deviations of the machine they tell what its tolerances do.",
+    doc: "Repeated runs from slightly different starts: what differs between them is chaos, not physics. With deviations of the machine they show what its tolerances do.",
     systems: DROP,
 }];
 

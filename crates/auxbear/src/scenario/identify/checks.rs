@@ -22,7 +22,7 @@ impl Context<'_> {
                 Code::Conflict,
                 "identify.tests",
                 format!("{}, which is a coast-down too", twice.display()),
-                "a test is either slow, and tells the steady moment, or has acceleration",
+                "a test is either slow, and gives the steady moment, or has acceleration",
             );
         }
         match &identify.rotor_friction {

@@ -11,12 +11,12 @@ const IDENTIFY: &[SystemName] = &[SystemName::Identify];
 pub(crate) const SECTIONS: &[Section] = &[
     Section {
         path: "identify",
-        doc: "What measured tests tell of a bearing. Each test is a file of the system signals, which says what its channels are; auxbear run of a rig writes one beside its raw file.",
+        doc: "What measured tests show of a bearing. Each test is a file of the system signals, which says what its channels are; auxbear run of a rig writes one beside its raw file.",
         systems: IDENTIFY,
     },
     Section {
         path: "identify.explanations",
-        doc: "Why the torque after a spin-up differs from that of the coast-down: explanations are compared by how well they foretell the data.",
+        doc: "Why the torque after a spin-up differs from that of the coast-down: explanations are compared by how well they predict the data.",
         systems: IDENTIFY,
     },
     Section {
@@ -67,7 +67,7 @@ pub(crate) const KEYS: &[Key] = &[
         "identify.viscosity",
         Kind::Quantity("m^2/s"),
         "100 mm^2/s",
-        "Kinematic viscosity of the lubricant at the temperature of the tests: it tells where Palmgren's moment leaves its floor.",
+        "Kinematic viscosity of the lubricant at the temperature of the tests: it gives where Palmgren's moment leaves its floor.",
     )
     .positive()
     .optional("the floor of Palmgren's moment is left out of the fit"),

@@ -59,7 +59,7 @@ pub(crate) const SECTIONS: &[Section] = &[
     },
     Section {
         path: "rig.clutch",
-        doc: "The clutch: the torque it can carry rises from its engagement on; it slips until both sides turn alike, and again where it is asked for more.",
+        doc: "The clutch: the torque it can carry rises from its engagement on; it slips until both sides turn at the same speed, and again where it is asked for more.",
         systems: RIG,
     },
     Section {
@@ -74,7 +74,7 @@ pub(crate) const SECTIONS: &[Section] = &[
     },
     Section {
         path: "rig.arm",
-        doc: "The torque arm or load cell that holds the housing, as it is; the file for auxbear signals tells what a lab would know of it.",
+        doc: "The torque arm or load cell that holds the housing, as it is; the file for auxbear signals states what a lab would know of it.",
         systems: RIG,
     },
     Section {
@@ -487,7 +487,7 @@ pub(crate) const KEYS: &[Key] = &[
         "rig.ball_pass.place_deviation",
         Kind::Coefficient,
         "0.02",
-        "Standard deviation of the place of a ball, as a part of the pitch between two: pockets leave them some way.",
+        "Standard deviation of the place of a ball, as a part of the pitch between two: pockets leave them some play.",
     )
     .within(Range::FromTo(0.0, 0.2))
     .default("0.02", "a pocket that is 0.2 mm wider than its ball at the pitch circle of a 6005")

@@ -81,7 +81,7 @@ pub(crate) const KEYS: &[Key] = &[
         "signals.sample_interval",
         Kind::Quantity("s"),
         "0.1 ms",
-        "Time between values of a channel of which the file tells no clock.",
+        "Time between values of a channel of which the file states no clock.",
     )
     .positive()
     .optional("a channel without a clock is refused"),
@@ -89,7 +89,7 @@ pub(crate) const KEYS: &[Key] = &[
         "signals.time_unit",
         Kind::Word(&["s", "ms", "us", "ns", "min"]),
         "s",
-        "Unit of a column of times, or of instants, of which the file tells none.",
+        "Unit of a column of times, or of instants, of which the file states none.",
     )
     .optional("times without a unit are refused"),
     Key::new(
@@ -172,7 +172,7 @@ pub(crate) const KEYS: &[Key] = &[
         "signals.speed.change_from",
         Kind::Quantity("s"),
         "4.9 s",
-        "Where the quick change is looked for begins, on the clock of the file: tells which one, where a record holds several.",
+        "Where the quick change is looked for begins, on the clock of the file: says which one, where a record holds several.",
     )
     .optional("the steepest rise of speed is taken"),
     Key::new(
@@ -193,7 +193,7 @@ pub(crate) const KEYS: &[Key] = &[
         "signals.speed.ripple",
         Kind::Quantity("rad/s^2"),
         "3 rad/s^2",
-        "Standard deviation of an acceleration once a turn while the marks are calibrated, from unbalance under gravity or a belt: it cannot be told from an eccentric wheel.",
+        "Standard deviation of an acceleration once a turn while the marks are calibrated, from unbalance under gravity or a belt: it cannot be separated from an eccentric wheel.",
     )
     .not_negative()
     .default("0 rad/s^2", "a shaft that runs evenly"),
@@ -235,7 +235,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Undamped natural frequency of the sensor with what it carries. Give this with the damping ratio, or a tap.",
     )
     .positive()
-    .optional("a tap tells it, or the reading is taken as it is")
+    .optional("a tap measures it, or the reading is taken as it is")
     .excludes("signals.torque.tap_file"),
     Key::new(
         "signals.torque.damping_ratio",
@@ -244,7 +244,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Damping ratio of the sensor.",
     )
     .within(Range::FromTo(0.0, 10.0))
-    .optional("a tap tells it, or the reading is taken as it is")
+    .optional("a tap measures it, or the reading is taken as it is")
     .excludes("signals.torque.tap_file"),
     Key::new(
         "signals.torque.frequency_deviation",

@@ -11,7 +11,7 @@ const SIGNALS: &[SystemName] = &[SystemName::Signals];
 pub(crate) const SECTIONS: &[Section] = &[
     Section {
         path: "signals.converter",
-        doc: "The converter that took the channels: values at its limits are flagged and not used, its steps are held against the noise.",
+        doc: "The converter that took the channels: values at its limits are flagged and not used, its steps are compared with the noise.",
         systems: SIGNALS,
     },
     Section {
@@ -140,10 +140,10 @@ pub(crate) const KEYS: &[Key] = &[
         "signals.vibration.turns",
         Kind::Count,
         "16",
-        "Turns of the shaft in one spectrum over order: two orders are told apart down to about two over this.",
+        "Turns of the shaft in one spectrum over order: two orders are separated down to about two over this.",
     )
     .within(Range::FromTo(2.0, 10_000.0))
-    .default("16", "order 4 and ball pass at 4.1 are told apart"),
+    .default("16", "order 4 and ball pass at 4.1 are separated"),
     Key::new(
         "signals.steady.from",
         Kind::Quantity("s"),

@@ -274,7 +274,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// What the moment on the outer race tells of a spin-up; `body`, for short `name`, turns with the inner race.
+    /// The works by the moment on the outer race in a spin-up; `body`, for short `name`, turns with the inner race.
     pub fn outer_race_works(&mut self, body: &str, name: &str, layout: &Layout) {
         self.channel(
             "energy.outer_race.moment_work",

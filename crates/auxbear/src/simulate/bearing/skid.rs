@@ -1,4 +1,4 @@
-//! Where balls slide on their races, told after a run from its rows.
+//! Where balls slide on their races, found after a run from its rows.
 
 use crate::result::list::{List, Origin};
 use crate::result::outcome::Value;
@@ -16,7 +16,7 @@ pub(crate) struct Skids<'a> {
     bearing: &'a PlanarConstants,
 }
 
-/// What the rows tell: of the inner race, then of the outer one.
+/// What the rows show: of the inner race, then of the outer one.
 pub(crate) struct Skidding {
     judged: usize,
     skids: [usize; 2],
@@ -91,7 +91,7 @@ impl Skidding {
                 .then(|| self.skids[race] as f64 / self.judged as f64)
                 .ok_or_else(none);
             list.number(&format!("{side}_skid_share"), "1", share, &SHARE);
-            // rows tell how the ledger's heat is shared among the balls
+            // rows show how the ledger's heat is shared among the balls
             let sum: f64 = self.work[race].iter().sum();
             let scale = if sum > 0.0 { heats[race] / sum } else { 0.0 };
             let by_ball = self.work[race].iter().map(|work| scale * work).collect();

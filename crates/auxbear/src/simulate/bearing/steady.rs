@@ -77,7 +77,7 @@ pub(crate) fn steady(
     }))
 }
 
-/// A machine that the model refuses, told with the key that decides.
+/// A machine that the model refuses, reported with the key that decides.
 pub(crate) fn refused(refusal: Refusal) -> Box<Problem> {
     let key = match refusal {
         Refusal::DragToGround => "bearing.drag",

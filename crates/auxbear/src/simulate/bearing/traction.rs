@@ -111,8 +111,8 @@ fn lubricated(
         BallMaterial::Steel => STEEL_SURFACE,
         BallMaterial::SiliconNitride => SILICON_NITRIDE_SURFACE,
     };
-    let told = |error: &dyn std::fmt::Display| error.to_string();
-    let lubricant = (film.oil.at(film.temperature, film.conductivity)).map_err(|e| told(&e))?;
+    let text = |error: &dyn std::fmt::Display| error.to_string();
+    let lubricant = (film.oil.at(film.temperature, film.conductivity)).map_err(|e| text(&e))?;
     let contact = LubricatedContact {
         entrained: EntrainedContact::new(curvature, modulus).map_err(|_| {
             "a contact ellipse that is long along the rolling direction".to_string()
@@ -126,6 +126,6 @@ fn lubricated(
             ..Asperities::raceway(film.composite_roughness, film.boundary_reference_speed)
         },
     };
-    let law = contact.traction().map_err(|error| told(&error))?;
+    let law = contact.traction().map_err(|error| text(&error))?;
     Ok(FilmContact { contact, law })
 }

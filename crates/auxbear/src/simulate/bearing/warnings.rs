@@ -295,10 +295,10 @@ mod tests {
 
     #[test]
     fn a_message_has_single_spaces() {
-        let told = warm_films(34.0);
+        let text = warm_films(34.0);
         assert!(
-            told.contains("hold over some 20 K") && !told.contains("  "),
-            "{told}"
+            text.contains("hold over some 20 K") && !text.contains("  "),
+            "{text}"
         );
     }
 }

@@ -47,7 +47,7 @@ pub struct Plan<'a> {
     pub threads: Option<usize>,
     /// Stops everything when true.
     pub interrupt: &'a AtomicBool,
-    /// Told the fraction done.
+    /// Called with the fraction done.
     pub progress: &'a (dyn Fn(f64) + Sync),
 }
 
@@ -203,7 +203,7 @@ struct Report<'a> {
 struct Watched<'a> {
     record: Record,
     report: &'a Report<'a>,
-    told: u64,
+    reported: u64,
     end: f64,
 }
 
@@ -213,13 +213,13 @@ impl<'a> Watched<'a> {
         Watched {
             record: Record::new(&member.machine, end, plan.interval, member.keep_rows),
             report,
-            told: 0,
+            reported: 0,
             end,
         }
     }
     fn finish(self, ending: Ending, member: &Member) -> Finished {
         if ending.stop == solve::Stop::Finished {
-            self.tell(1000);
+            self.advance(1000);
         }
         let mut record = self.record;
         record.finish(&member.machine, ending.time, &ending.state);
@@ -229,9 +229,9 @@ impl<'a> Watched<'a> {
             ending,
         }
     }
-    /// Tells that this member stands at so many thousandths.
-    fn tell(&self, thousandths: u64) {
-        let more = thousandths.saturating_sub(self.told);
+    /// Reports that this member stands at so many thousandths.
+    fn advance(&self, thousandths: u64) {
+        let more = thousandths.saturating_sub(self.reported);
         let done = self.report.done.fetch_add(more, Ordering::Relaxed) + more;
         (self.report.progress)(done as f64 / (1000 * self.report.members) as f64);
     }
@@ -240,9 +240,9 @@ impl<'a> Watched<'a> {
 impl Observer<RotorMachine> for Watched<'_> {
     fn step(&mut self, step: &mut Step<RotorMachine>) -> Flow {
         let thousandths = (1000.0 * step.end / self.end) as u64;
-        if thousandths > self.told {
-            self.tell(thousandths);
-            self.told = thousandths;
+        if thousandths > self.reported {
+            self.advance(thousandths);
+            self.reported = thousandths;
         }
         self.record.step(step)
     }

@@ -317,7 +317,7 @@ fn temperature(rig: &Rig, happened: &Happened) -> RawChannel {
 }
 
 /// What the converter samples: the channels in turn. A counter sees the shaft as often as a channel would; its speed beside
-/// the angle tells what lies between.
+/// the angle gives what lies between.
 pub(crate) fn taps(rig: &Rig) -> Vec<Tap> {
     let analog = analog(rig);
     let mut channels = Vec::new();

@@ -8,7 +8,7 @@ use model::system::rig::layout::{
     ARM, BEARING, FLYWHEEL, HOUSING, PROBES, SHAFT, TEMPERATURE, THERMOCOUPLE,
 };
 
-/// What the probes of the model are, in their order; empty where another column tells it.
+/// What the probes of the model are, in their order; empty where another column has it.
 const MEANINGS: [&str; PROBES.len()] = [
     "moment t_I of the bearing that resists the shaft",
     "moment t_O of the bearing on the outer race: what the arm is to measure",

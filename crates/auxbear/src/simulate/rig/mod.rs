@@ -25,7 +25,7 @@ use build::Built;
 use chain::{Happened, Sampled};
 use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
 use model::system::rig::record::Keep;
-use model::system::rig::{Record, simulate_told};
+use model::system::rig::{Record, simulate_with_progress};
 use std::time::Instant;
 
 /// Runs a test.
@@ -40,7 +40,7 @@ pub(crate) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
         taps: &taps,
     };
     let mut record = Record::new(machine, &keep);
-    let run = simulate_told(
+    let run = simulate_with_progress(
         machine,
         &settings(&rig.run),
         &mut record,

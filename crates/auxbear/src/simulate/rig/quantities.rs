@@ -181,7 +181,7 @@ fn probes(context: &Context) -> Vec<f64> {
 }
 
 const ENGAGEMENT: Origin = Origin {
-    law: "engaged as the program says; locked where flywheel and shaft first turn alike",
+    law: "engaged as the program says; locked where flywheel and shaft first turn at the same speed",
     source: "crates/model/src/system/rig/clutch.rs",
     valid: "the instant of locking is found on the dense output of the step",
 };
@@ -223,7 +223,7 @@ const AT_END: Origin = Origin {
 const SLIP: Origin = Origin {
     law: "S = 1 - 2(1+s)ω_c/Ω, mean over the last cage turn",
     source: "kinematics of a rolling ball, crates/physics/src/kinematics.rs",
-    valid: "as it happened; what a sensor tells has its own band",
+    valid: "as it happened; what a sensor measures has its own band",
 };
 const TEMPERATURE: Origin = Origin {
     law: "C Ṫ = heats of the bearing - G T",

@@ -1,11 +1,11 @@
-//! The raw file of a test, as a laboratory's logger leaves it, and the file that tells `auxbear signals` what it holds.
+//! The raw file of a test, as a laboratory's logger leaves it, and the file that describes it to `auxbear signals`.
 
 use crate::result::outcome::{Attached, Attachment};
 use crate::scenario::{RawFormat, Rig, RigPickupKind, RigProgram};
 use crate::simulate::rig::chain::RawChannel;
 use measure::recording::{Channel, Clock};
 
-/// Name of the file that tells what the channels are.
+/// Name of the file that describes the channels.
 const SIGNALS: &str = "signals.toml";
 
 /// What a laboratory would state of a sensor that it has calibrated.
@@ -33,7 +33,7 @@ pub(crate) fn files(
     let name = name(rig.logger.format);
     let signals = signals(rig, title, name, &raw, rolling_ratio, rested);
     let channels = raw.into_iter().map(|channel| {
-        let told = Channel {
+        let described = Channel {
             unit: channel.unit.to_string(),
             description: channel.description,
             clock: match channel.interval {
@@ -45,7 +45,7 @@ pub(crate) fn files(
             },
             ..Channel::new(channel.name, channel.values.len() as u64)
         };
-        (told, channel.values)
+        (described, channel.values)
     });
     vec![
         Attachment {

@@ -117,13 +117,13 @@ mod tests {
     }
 
     #[test]
-    fn marks_that_pass_between_two_samples_are_told() {
+    fn marks_that_pass_between_two_samples_are_reported() {
         // four channels at 42 kHz in all, 60 marks: 7.3 samples a mark at 150 rad/s, 4 at 275 rad/s
         let rig = shipped(&[]);
         let limit = TAU * 10_500.0 / (4.0 * 60.0);
         assert!(sampled(&rig, 150.0).is_none() && sampled(&rig, 0.99 * limit).is_none());
-        let told = sampled(&rig, 20_000.0 * TAU / 60.0).expect("half a sample a mark");
-        assert!(told.text.contains("0.52 samples"), "{}", told.text);
+        let warning = sampled(&rig, 20_000.0 * TAU / 60.0).expect("half a sample a mark");
+        assert!(warning.text.contains("0.52 samples"), "{}", warning.text);
         assert!(sampled(&rig, 1.01 * limit).is_some());
         // a counter has no samples
         let counted = shipped(&["rig.pickup.kind=edges"]);

@@ -81,7 +81,7 @@ fn integrate(
     let mut watched = [Watched {
         record: Record::new(machine, end, spin_up.run.output_interval, true),
         progress: options.progress,
-        told: 0,
+        reported: 0,
         end,
     }];
     let mut endings = solve::run::<f64, System<f64>, _>(
@@ -103,16 +103,16 @@ fn integrate(
 struct Watched<'a> {
     record: Record,
     progress: &'a (dyn Fn(f64) + Sync),
-    told: u64,
+    reported: u64,
     end: f64,
 }
 
 impl Observer<SpinUpMachine> for Watched<'_> {
     fn step(&mut self, step: &mut Step<SpinUpMachine>) -> Flow {
         let thousandths = (1000.0 * step.end / self.end) as u64;
-        if thousandths > self.told {
+        if thousandths > self.reported {
             (self.progress)(thousandths as f64 * 1e-3);
-            self.told = thousandths;
+            self.reported = thousandths;
         }
         self.record.step(step)
     }

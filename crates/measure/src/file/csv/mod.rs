@@ -408,7 +408,7 @@ impl<S: Read + Seek> Csv<S> {
             ));
         }
         if clock::seconds_in(unit).is_none() {
-            note("is a time by its name, but its unit is not told".to_string());
+            note("is a time by its name, but its unit is not stated".to_string());
         }
         let clock = spacing.clock(time, unit);
         let start = self.starts[time];

@@ -121,7 +121,7 @@ impl<S: Read + Seek> Storage<S> {
             .unwrap_or_else(|| vec![0; datatype.size]);
         let body = self
             .part(messages, kind::LAYOUT)?
-            .ok_or_else(|| form("it tells no layout"))?;
+            .ok_or_else(|| form("it states no layout"))?;
         let layout = self.layout(&body, &space, datatype.size, !filters.is_empty());
         let place = match layout.ok_or_else(|| form("its layout cannot be read"))? {
             Layout::Compact(bytes) => Place::Compact(bytes),

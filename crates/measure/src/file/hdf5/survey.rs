@@ -42,7 +42,7 @@ pub(super) fn survey<S: Read + Seek>(
     let mut found = Found::default();
     let length = storage.source.length();
     if let Some(end) = storage.end.filter(|&end| end > length) {
-        let text = format!("the file was cut off: it tells {end} bytes, {length} are there");
+        let text = format!("the file was cut off: it states {end} bytes, {length} are there");
         found.notes.push(Note {
             channel: None,
             text,
@@ -271,7 +271,7 @@ impl Found {
         let length = storage.source.length();
         let count = dataset.readable(along, storage.base, length);
         if count < size {
-            let text = format!("{size} values are told, {count} are there");
+            let text = format!("{size} values are stated, {count} are there");
             self.note(&name, text);
         }
         let mut unit = ["unit", "units", "unit_string", "physical_unit", "einheit"]

@@ -50,7 +50,7 @@ pub(super) fn survey<S: Read + Seek>(
         let end = told_end.min(source.length());
         if told_end > source.length() {
             let text = format!(
-                "byte {at}: {} bytes are told, {} are there; the file was cut off",
+                "byte {at}: {} bytes are stated, {} are there; the file was cut off",
                 tag.size,
                 end - start
             );
@@ -395,7 +395,7 @@ impl<S: Read + Seek> Walk<'_, S> {
             there = there.min(left / size);
         }
         if there < count {
-            let text = format!("{count} values are told, {there} are there");
+            let text = format!("{count} values are stated, {there} are there");
             self.found.note(name, text);
         }
         let wide: Vec<u64> = sizes.iter().copied().filter(|&size| size != 1).collect();

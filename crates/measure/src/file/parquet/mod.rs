@@ -187,7 +187,7 @@ impl<S: Read + Seek + Send + 'static> Parquet<S> {
         }
         let footer = u64::from(u32::from_le_bytes([tail[0], tail[1], tail[2], tail[3]]));
         if footer > LARGEST_FOOTER.min(length) {
-            let found = format!("tells a description of {footer} bytes at its end");
+            let found = format!("states a description of {footer} bytes at its end");
             return Err(FileError::new(path, "", found, ""));
         }
         let shared = Shared(Arc::new(Mutex::new(source)));

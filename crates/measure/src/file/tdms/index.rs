@@ -133,7 +133,7 @@ impl Index {
         } else if self.notes.len() == NOTES && !self.notes.contains(&note) {
             self.notes.push(Note {
                 channel: None,
-                text: "more was found that is not told".to_owned(),
+                text: "more was found that is not listed".to_owned(),
             });
         }
     }

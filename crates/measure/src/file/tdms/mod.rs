@@ -163,8 +163,7 @@ impl<S: Read + Seek> Tdms<S> {
                 .pieces(number)
                 .any(|piece| piece.parts.iter().any(coded))
         {
-            let text =
-                "its values are the codes of the device: the file tells no scaling that is applied";
+            let text = "its values are the codes of the device: the file states no scaling that is applied";
             self.index.note(Some(name.clone()), text);
         }
         let complex = self.index.objects[number as usize].complex;

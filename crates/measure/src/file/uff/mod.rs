@@ -205,13 +205,13 @@ fn unit(axis: &Axis, system: Option<u32>) -> (String, Option<String>) {
         (true, Some(unit), Some(1)) => (
             unit.to_owned(),
             Some(format!(
-                "its unit is not told: {unit} by its quantity, as the file is in SI"
+                "its unit is not stated: {unit} by its quantity, as the file is in SI"
             )),
         ),
         (true, Some(unit), _) => (
             String::new(),
             Some(format!(
-                "its unit is lost: the file tells its quantity only, whose unit in SI is {unit}"
+                "its unit is lost: the file states its quantity only, whose unit in SI is {unit}"
             )),
         ),
         (true, None, _) => (String::new(), None),

@@ -301,7 +301,7 @@ impl Contents {
             self.note(
                 name,
                 format!(
-                    "its header tells no number of values: the {there} that are there are read"
+                    "its header states no number of values: the {there} that are there are read"
                 ),
             );
             return there;
@@ -309,12 +309,14 @@ impl Contents {
         if told > there {
             self.note(
                 name,
-                format!("its header tells {told} values, {there} are there"),
+                format!("its header states {told} values, {there} are there"),
             );
         } else if told < there {
             self.note(
                 name,
-                format!("its header tells {told} values, {there} are there: the last are left out"),
+                format!(
+                    "its header states {told} values, {there} are there: the last are left out"
+                ),
             );
         }
         told.min(there)

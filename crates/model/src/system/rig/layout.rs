@@ -27,7 +27,7 @@ pub const FLYWHEEL: usize = 2;
 pub const ARM: usize = 4;
 /// Channel of the rise of the bearing's temperature, K.
 pub const TEMPERATURE: usize = 6;
-/// Channel of what the thermocouple tells of it, K.
+/// Channel of the thermocouple's reading of it, K.
 pub const THERMOCOUPLE: usize = 7;
 /// First channel of the housing: x, y, ẋ, ẏ.
 pub const HOUSING: usize = 8;

@@ -65,7 +65,7 @@ impl RigMachine {
         (end[impulse] - start[impulse]) - (held(end) - held(start))
     }
 
-    /// The energy that the bearing dissipated between two states, told in four ways; see [`OuterRaceEnergy::between`].
+    /// The energy that the bearing dissipated between two states, in four forms; see [`OuterRaceEnergy::between`].
     pub fn outer_race_energy(&self, start: &[f64], end: &[f64]) -> OuterRaceEnergy {
         OuterRaceEnergy::between(
             &self.layout,

@@ -229,11 +229,11 @@ impl RigMachine {
             let rolling = speed * self.rolling_cage_ratio;
             let loads = &probe[DETAIL..DETAIL + layout.balls];
             let load_sum = loads.iter().map(|load| plain(*load)).sum();
-            let mut tell = |index: usize, value: f64| probe[index] = R::splat(value);
-            tell(INNER_MOMENT, inner_moment);
-            tell(OUTER_MOMENT, outer_moment);
-            tell(STEADY_MOMENT, plain(bearing.steady_moment));
-            tell(
+            let mut show = |index: usize, value: f64| probe[index] = R::splat(value);
+            show(INNER_MOMENT, inner_moment);
+            show(OUTER_MOMENT, outer_moment);
+            show(STEADY_MOMENT, plain(bearing.steady_moment));
+            show(
                 CAGE_SLIP,
                 if rolling == 0.0 {
                     0.0
@@ -241,24 +241,24 @@ impl RigMachine {
                     1.0 - cage_speed / rolling
                 },
             );
-            tell(ACCELERATION, acceleration);
-            tell(FLYWHEEL_ACCELERATION, flywheel_acceleration);
-            tell(CLUTCH_TORQUE, torque);
-            tell(CLUTCH_CAPACITY, capacity);
-            tell(CLUTCH_SLIP, flywheel_speed - speed);
-            tell(MOTOR_TORQUE, motor);
-            tell(BELT_DRAG, belt);
-            tell(SUPPORT_DRAG, support);
-            tell(DISTURBANCE, disturbance);
-            tell(CAGE_SPEED, cage_speed);
-            tell(BEARING_LOAD, force.length_squared().sqrt());
-            tell(BEARING_HEAT, bearing_heat);
-            tell(MOMENTUM_RATE, momentum);
-            tell(INNER_LOAD_SUM, load_sum);
-            tell(LARGEST_INNER_LOAD, plain(bearing.largest_inner_load));
-            tell(LARGEST_OUTER_LOAD, plain(bearing.largest_outer_load));
-            tell(LARGEST_POCKET_FORCE, plain(bearing.largest_pocket_force));
-            tell(LAND_FORCE, plain(bearing.land_force));
+            show(ACCELERATION, acceleration);
+            show(FLYWHEEL_ACCELERATION, flywheel_acceleration);
+            show(CLUTCH_TORQUE, torque);
+            show(CLUTCH_CAPACITY, capacity);
+            show(CLUTCH_SLIP, flywheel_speed - speed);
+            show(MOTOR_TORQUE, motor);
+            show(BELT_DRAG, belt);
+            show(SUPPORT_DRAG, support);
+            show(DISTURBANCE, disturbance);
+            show(CAGE_SPEED, cage_speed);
+            show(BEARING_LOAD, force.length_squared().sqrt());
+            show(BEARING_HEAT, bearing_heat);
+            show(MOMENTUM_RATE, momentum);
+            show(INNER_LOAD_SUM, load_sum);
+            show(LARGEST_INNER_LOAD, plain(bearing.largest_inner_load));
+            show(LARGEST_OUTER_LOAD, plain(bearing.largest_outer_load));
+            show(LARGEST_POCKET_FORCE, plain(bearing.largest_pocket_force));
+            show(LAND_FORCE, plain(bearing.land_force));
         }
     }
 }

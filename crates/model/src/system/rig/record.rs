@@ -48,7 +48,7 @@ pub struct Record {
     pub largest_pocket_force: Peak,
     /// Largest rise of the bearing's temperature, K.
     pub temperature: Peak,
-    /// What the clutch did, in order; the first entry tells how it started.
+    /// What the clutch did, in order; the first entry is how it started.
     pub clutch: Vec<ClutchEvent>,
     /// What the converter sampled.
     pub taps: Taps,

@@ -40,19 +40,19 @@ pub fn simulate(
     simulate_on(Level::detect(), machine, settings, record, interrupt)
 }
 
-/// The same, told in thousandths how far it is, from 0 to 1.
-pub fn simulate_told(
+/// The same; `progress` is called with the fraction done, 0 to 1, at each thousandth.
+pub fn simulate_with_progress(
     machine: &RigMachine,
     settings: &Settings,
     record: &mut Record,
     interrupt: &AtomicBool,
-    told: &dyn Fn(f64),
+    progress: &dyn Fn(f64),
 ) -> RigRun {
     let run = Run {
         machine,
         settings: *settings,
         interrupt,
-        told,
+        progress,
     };
     Level::detect().run_one(ToTheEnd { run, record })
 }
@@ -72,7 +72,7 @@ pub fn simulate_on(
         machine,
         settings: *settings,
         interrupt,
-        told: &|_| {},
+        progress: &|_| {},
     };
     level.run_one(ToTheEnd { run, record })
 }
@@ -100,7 +100,7 @@ pub(super) fn until_locked(
         machine,
         settings: *settings,
         interrupt: &AtomicBool::new(false),
-        told: &|_| {},
+        progress: &|_| {},
     };
     // balls that roll are few numbers: nothing is gained by several at a time
     run.to_the_end::<f64>(record, true)
@@ -112,7 +112,7 @@ struct Run<'a> {
     machine: &'a RigMachine,
     settings: Settings,
     interrupt: &'a AtomicBool,
-    told: &'a dyn Fn(f64),
+    progress: &'a dyn Fn(f64),
 }
 
 /// A change of the clutch within a step.
@@ -134,7 +134,7 @@ const CHANGE: &str = "the clutch changes";
 struct Watch<'r> {
     record: &'r mut Record,
     found: Option<Found>,
-    told: &'r dyn Fn(f64),
+    progress: &'r dyn Fn(f64),
     end: f64,
 }
 
@@ -169,7 +169,7 @@ impl<'a> Observer<Segment<'a>> for Watch<'_> {
         }
         let thousandths = |time: f64| (1000.0 * time / self.end) as u64;
         if thousandths(step.end) > thousandths(step.start) {
-            (self.told)(thousandths(step.end) as f64 * 1e-3);
+            (self.progress)(thousandths(step.end) as f64 * 1e-3);
         }
         self.record.step(step)
     }
@@ -227,7 +227,7 @@ impl<'a> Run<'a> {
             let mut watch = Watch {
                 record: &mut *record,
                 found: None,
-                told: self.told,
+                progress: self.progress,
                 end: self.settings.end,
             };
             let ending = self.segment::<R, _>(

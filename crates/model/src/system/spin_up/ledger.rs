@@ -61,7 +61,7 @@ impl SpinUpMachine {
         Balance::between(start, end, |state| (self.content(state), self.flows(state)))
     }
 
-    /// The energy that the bearing dissipated between two states, told in four ways; see [`OuterRaceEnergy::between`].
+    /// The energy that the bearing dissipated between two states, in four forms; see [`OuterRaceEnergy::between`].
     pub fn outer_race_energy(&self, start: &[f64], end: &[f64]) -> OuterRaceEnergy {
         OuterRaceEnergy::between(
             &self.layout,

@@ -32,7 +32,7 @@ impl Source<'_> {
                 text(*own),
                 text(told)
             ),
-            "leave signals.sample_interval away: the file tells the clock of its channels",
+            "leave signals.sample_interval away: the file states the clock of its channels",
         ))
     }
 
