@@ -27,6 +27,7 @@ use std::f64::consts::TAU;
 
 mod turns;
 
+pub use turns::FrictionPoint;
 use turns::Window;
 
 /// The spin-up of a race by a rotor that rubs along it. All lists have the same length; all values are SI.
@@ -118,19 +119,6 @@ pub struct Race<'a> {
     pub least_load: f64,
     /// Least |u| that counts as sliding, m/s.
     pub least_slip: f64,
-}
-
-/// Friction at one time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrictionPoint {
-    /// Time, s.
-    pub time: f64,
-    /// Slip u of the rotor's surface over the race's, m/s.
-    pub slip: Uncertain,
-    /// Coefficient of friction μ, 1; along the slip, negative where the race is driven against it.
-    pub friction: Uncertain,
-    /// Deviation of μ by what all points share.
-    pub shared_deviation: f64,
 }
 
 /// Friction over slip.

@@ -6,6 +6,7 @@
 //! over: the spread of the repeats is the stated error. Where the claim of an explanation is not fulfilled its prior
 //! is 0, and the rest is raised so that it integrates to 1.
 
+use super::draw::Draw;
 use super::hypothesis::{Bearing, Hypothesis, Prediction};
 use super::noise::Observed;
 use super::proposal::Component;
@@ -13,16 +14,6 @@ use super::record::Trial;
 use crate::algebra::{Factor, dot, log_sum_exp};
 use measure::random::{Random, quasi_normal};
 use nalgebra::{DMatrix, DVector};
-
-/// A point of the posterior.
-#[derive(Clone, Debug)]
-pub(crate) struct Draw {
-    pub coordinates: Vec<f64>,
-    /// ln of its share of the posterior (unnormalised).
-    pub log_weight: f64,
-    /// ln likelihood and χ² at each amplitude.
-    pub levels: Vec<(f64, f64)>,
-}
 
 /// Evidence and posterior of one form.
 #[derive(Clone, Debug)]

@@ -3,12 +3,12 @@
 use physics::lubricant_state::Grease;
 use physics::rolling::RollingSet;
 
-use super::parameter::share_range;
+use super::explanation::Explanation;
 use super::prior::Priors;
 use super::record::{Past, Step, Trial};
+use super::settings::Settings;
 use super::slip::{Slip, load_moment_factor};
 use super::steady::{Continued, Table};
-use super::{Explanation, Settings};
 use crate::SteadyMoment;
 
 /// An explanation in the form that is computed: a sensor has several faults, each of one sign.
@@ -317,7 +317,7 @@ fn rolling_torque(test: &Trial, bearing: &Bearing, load_share: f64) -> impl Iter
     let share = if load_share < 1.0 {
         load_share
     } else {
-        1.0 - share_range(&bearing.priors).share(0.0)
+        1.0 - bearing.priors.share_range().share(0.0)
     };
     let extra = share * bearing.table.reference * (load_moment_factor(&test.past) - 1.0);
     (test.steps.iter())

@@ -51,7 +51,9 @@
 //! a moment at rest, faults of the speed signal. A breakdown of grease without a build-up is no explanation of its own:
 //! it differs from creep by the load part of M alone, and creep is what it would be called.
 
+mod draw;
 mod evidence;
+mod explanation;
 mod hypothesis;
 mod means;
 mod next_test;
@@ -61,6 +63,7 @@ mod prediction_errors;
 mod prior;
 mod proposal;
 mod record;
+mod settings;
 mod slip;
 mod steady;
 mod verdict;
@@ -70,6 +73,7 @@ use physics::rolling::RollingSet;
 use crate::algebra::log_sum_exp;
 use crate::{Measurement, SteadyMoment};
 
+use draw::Draw;
 use evidence::{Evidence, Integral};
 use hypothesis::{Bearing, Hypothesis};
 use measure::normal::squares_above;
@@ -79,102 +83,12 @@ use proposal::tempered;
 use record::Trial;
 use verdict::FormDraw;
 
+pub use explanation::Explanation;
 pub use next_test::{Candidate, Proposal, next_test};
 pub use prediction_errors::{PredictionErrors, with_prediction_errors};
 pub use prior::{Priors, Range};
-pub use verdict::{Assessment, Conclusion, Estimate, Explanation, Fit, Refusal, Verdict};
-
-/// How the comparison is made. The defaults are assumed; the tests state how often they lead to the right answer.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
-    /// Seed of all random numbers: the same seed gives the same verdict.
-    pub seed: u64,
-    /// Probability from which an explanation wins.
-    pub decision: f64,
-    /// Least probability of an acceptable fit.
-    pub least_fit: f64,
-    /// Least effect on the torque that makes an explanation differ from rolling, over M.
-    pub least_effect: f64,
-    /// Least cage slip that makes slip an explanation.
-    pub least_slip: f64,
-    /// Amplitudes of the models' own error over M, equally probable.
-    pub discrepancy: Vec<f64>,
-    /// Relative deviation of the size of an effect from test to test.
-    pub effect_scatter: f64,
-    /// Relative deviation of the level of M between coast-down and tests, beside its band.
-    pub level_deviation: f64,
-    /// Relative deviation of the inertia J_O (masses, cage).
-    pub inertia_deviation: f64,
-    /// Deviation of the time by which the torque lags or is smoothed beyond what is stated, s.
-    pub lag_deviation: f64,
-    /// Time by which the reading settles after a stop, s: before, no mean at rest counts.
-    pub settling_time: f64,
-    /// Least excess settling time that makes a slow sensor an explanation, s.
-    pub least_settling: f64,
-    /// Points of the prior that are looked at first.
-    pub prior_points: u32,
-    /// Of these, how many are refined.
-    pub starts: usize,
-    /// Draws of each repeat of the integral.
-    pub draws: usize,
-    /// Repeats of the integral.
-    pub repeats: u32,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            seed: 1,
-            decision: 0.95,
-            least_fit: 1e-3,
-            least_effect: 0.05,
-            least_slip: 0.02,
-            discrepancy: vec![0.005, 0.01, 0.02, 0.04, 0.08],
-            effect_scatter: 0.1,
-            level_deviation: 0.01,
-            inertia_deviation: 0.1,
-            lag_deviation: 0.01,
-            settling_time: 0.1,
-            least_settling: 0.03,
-            prior_points: 256,
-            starts: 3,
-            draws: 120,
-            repeats: 3,
-        }
-    }
-}
-
-impl Settings {
-    fn fault(&self) -> Option<&'static str> {
-        let share = |x: f64| x > 0.0 && x < 1.0;
-        let deviation = |x: f64| (0.0..1.0).contains(&x);
-        [
-            ("decision", self.decision > 0.5 && self.decision < 1.0),
-            ("least_fit", share(self.least_fit)),
-            ("least_effect", share(self.least_effect)),
-            ("least_slip", share(self.least_slip)),
-            (
-                "discrepancy",
-                !self.discrepancy.is_empty() && self.discrepancy.iter().all(|a| share(*a)),
-            ),
-            ("effect_scatter", deviation(self.effect_scatter)),
-            ("level_deviation", deviation(self.level_deviation)),
-            ("inertia_deviation", deviation(self.inertia_deviation)),
-            ("lag_deviation", deviation(self.lag_deviation)),
-            ("least_settling", deviation(self.least_settling)),
-            (
-                "settling_time",
-                self.settling_time >= 0.0 && self.settling_time.is_finite(),
-            ),
-            ("prior_points", (16..=100_000).contains(&self.prior_points)),
-            ("starts", (1..=100).contains(&self.starts)),
-            ("draws", (20..=1_000_000).contains(&self.draws)),
-            ("repeats", (2..=1000).contains(&self.repeats)),
-        ]
-        .into_iter()
-        .find_map(|(name, fine)| (!fine).then_some(name))
-    }
-}
+pub use settings::Settings;
+pub use verdict::{Assessment, Conclusion, Estimate, Fit, Refusal, Verdict};
 
 /// Which explanation the tests of one bearing support.
 ///
@@ -458,7 +372,7 @@ fn estimates(
 ) -> Vec<Estimate> {
     (form.parameters(bearing).iter().enumerate())
         .map(|(axis, parameter)| {
-            let value = |draw: &evidence::Draw| parameter.value(draw.coordinates[axis]);
+            let value = |draw: &Draw| parameter.value(draw.coordinates[axis]);
             let mean: f64 = (evidence.draws.iter().zip(weights))
                 .map(|(draw, weight)| weight * value(draw))
                 .sum();
@@ -487,8 +401,8 @@ fn fit(
     finely: &Observed,
 ) -> Fit {
     let count = finely.count();
-    let square = |draw: &evidence::Draw| draw.coordinates.iter().map(|z| z * z).sum::<f64>();
-    let height = |draw: &evidence::Draw| {
+    let square = |draw: &Draw| draw.coordinates.iter().map(|z| z * z).sum::<f64>();
+    let height = |draw: &Draw| {
         let logs: Vec<f64> = draw.levels.iter().map(|(log, _)| *log).collect();
         log_sum_exp(&logs) - 0.5 * square(draw)
     };

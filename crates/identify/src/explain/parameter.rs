@@ -83,7 +83,7 @@ impl Hypothesis {
             name: "viscous share of the steady moment",
             unit: "1",
             kind: Kind::Share,
-            range: share_range(priors),
+            range: priors.share_range(),
         };
         let orbit_share = Parameter {
             name: "share of the viscous part on the orbit",
@@ -147,9 +147,4 @@ impl Hypothesis {
             ],
         }
     }
-}
-
-/// Range of the viscous share, which the comparison has taken from the curve where none was given.
-pub(super) fn share_range(priors: &Priors) -> Range {
-    priors.viscous_share.unwrap_or(Range::new(0.8, 0.95))
 }

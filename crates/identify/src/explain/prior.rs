@@ -1,6 +1,6 @@
 //! What is held possible before the data: odds of the explanations and ranges of their parameters.
 
-use super::Explanation;
+use super::explanation::Explanation;
 use crate::SteadyMoment;
 
 /// Range that holds 90 % of what is thought possible: 5 % lie below `low`, 5 % above `high`.
@@ -118,6 +118,10 @@ impl Default for Priors {
 }
 
 impl Priors {
+    /// Range of the viscous share, which the comparison has taken from the curve where none was given.
+    pub(super) fn share_range(&self) -> Range {
+        self.viscous_share.unwrap_or(Range::new(0.8, 0.95))
+    }
     /// Name of the first range that is none.
     pub(crate) fn fault(&self) -> Option<&'static str> {
         let odds_are_odds = self

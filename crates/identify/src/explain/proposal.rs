@@ -1,6 +1,6 @@
 //! Distributions that draws of an integral come from: Student's t and normal ones by location and curvature.
 
-use super::evidence::Draw;
+use super::draw::Draw;
 use crate::algebra::{Factor, dot, log_sum_exp};
 use measure::random::Random;
 use nalgebra::DMatrix;

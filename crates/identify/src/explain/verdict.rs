@@ -1,46 +1,7 @@
 //! What the comparison answers.
 
-/// An explanation of a torque transient. Each is a claim of its own: one without a noticeable effect
-/// ([`Settings::least_effect`](super::Settings::least_effect)) is not that explanation but rolling.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Explanation {
-    /// Balls roll, the lubricant is as in the coast-down.
-    Rolling,
-    /// Balls roll; the grease builds up over cage angle and breaks down over time.
-    Grease,
-    /// A limited traction does not bring balls and cage to rolling speed.
-    IsothermalSlip,
-    /// Slip, with a traction that falls as the contact films heat.
-    HeatedSlip,
-    /// Balls roll; the reading drifts, creeps, or settles more slowly than stated.
-    Sensor,
-    /// Balls roll; the steady moment of the slow tests is not that of these tests.
-    AnotherMoment,
-}
-
-impl Explanation {
-    /// All explanations, in the order of the prior odds.
-    pub const ALL: [Self; 6] = [
-        Self::Rolling,
-        Self::Grease,
-        Self::IsothermalSlip,
-        Self::HeatedSlip,
-        Self::Sensor,
-        Self::AnotherMoment,
-    ];
-
-    /// Name in words.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rolling => "rolling",
-            Self::Grease => "rolling with a grease state",
-            Self::IsothermalSlip => "isothermal slip",
-            Self::HeatedSlip => "slip with heating",
-            Self::Sensor => "sensor artefact",
-            Self::AnotherMoment => "another steady moment",
-        }
-    }
-}
+use super::explanation::Explanation;
+use super::hypothesis::Hypothesis;
 
 /// What the data say.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,7 +66,7 @@ pub struct Assessment {
 /// A draw with the form it belongs to.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct FormDraw {
-    pub form: super::hypothesis::Hypothesis,
+    pub form: Hypothesis,
     pub coordinates: Vec<f64>,
 }
 

@@ -1,6 +1,6 @@
 //! What of slow tests is fitted: means over equal times.
 
-use super::MomentSettings;
+use super::settings::MomentSettings;
 use crate::measurement::Measurement;
 use crate::regression::Data;
 use crate::series::trapezoid;

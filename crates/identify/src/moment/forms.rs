@@ -1,6 +1,6 @@
 //! The forms of a steady moment that are set against each other, as sums of given shapes.
 
-use super::{Form, MomentSettings};
+use super::settings::{Form, MomentSettings};
 use crate::regression::spline::{self, SPLINES};
 use nalgebra::DMatrix;
 use physics::palmgren::viscous_moment;

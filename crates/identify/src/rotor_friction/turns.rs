@@ -8,8 +8,20 @@
 //!   n         (windows + 1)/2: half of each is in the next
 //! ```
 
-use super::FrictionPoint;
 use measure::uncertain::Uncertain;
+
+/// Friction at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrictionPoint {
+    /// Time, s.
+    pub time: f64,
+    /// Slip u of the rotor's surface over the race's, m/s.
+    pub slip: Uncertain,
+    /// Coefficient of friction μ, 1; along the slip, negative where the race is driven against it.
+    pub friction: Uncertain,
+    /// Deviation of μ by what all points share.
+    pub shared_deviation: f64,
+}
 
 /// Part of a turn that must be covered by points to count as whole.
 const WHOLE: f64 = 0.9;
