@@ -137,7 +137,10 @@ fn output_that_cannot_be_written_is_an_error() {
         &["schema", "drop"],
     ] {
         let place = Place::new();
-        let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let full = fs::OpenOptions::new()
+            .write(true)
+            .open("/dev/full")
+            .unwrap();
         let output = place.command(words).stdout(full).output().unwrap();
         let called = Called::of(output);
         assert_eq!(called.code, Some(1), "{words:?}: {called:?}");
@@ -177,7 +180,10 @@ fn pipes_and_devices_are_refused_at_once() {
         ] {
             let called = place.call(words);
             assert_eq!(called.code, Some(2), "{words:?}: {called:?}");
-            assert!(called.err.contains("a pipe, a socket or a device"), "{called:?}");
+            assert!(
+                called.err.contains("a pipe, a socket or a device"),
+                "{called:?}"
+            );
         }
     }
 }
@@ -186,7 +192,11 @@ fn pipes_and_devices_are_refused_at_once() {
 fn a_damaged_case_file_is_a_wrong_input() {
     let place = Place::new();
     fs::create_dir(place.path("cases")).unwrap();
-    for (name, text) in [("cut.json", "{\"a\": "), ("empty.toml", ""), ("cut.toml", "format = \"auxb")] {
+    for (name, text) in [
+        ("cut.json", "{\"a\": "),
+        ("empty.toml", ""),
+        ("cut.toml", "format = \"auxb"),
+    ] {
         fs::write(place.path("cases").join(name), text).unwrap();
         let called = place.call(&["validate", "--json", "--cases", "cases"]);
         assert_eq!(called.code, Some(2), "{name}: {called:?}");

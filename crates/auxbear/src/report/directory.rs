@@ -123,10 +123,16 @@ impl NewDirectory {
     fn kept(&self) -> Option<String> {
         fs::read_dir(&self.partial).ok()?.next()?.ok()?;
         let first = with_end(&self.path, "incomplete")?;
-        let others = (2..100).filter_map(|number| with_end(&self.path, &format!("incomplete-{number}")));
-        let place = std::iter::once(first).chain(others).find(|place| !exists(place))?;
+        let others =
+            (2..100).filter_map(|number| with_end(&self.path, &format!("incomplete-{number}")));
+        let place = std::iter::once(first)
+            .chain(others)
+            .find(|place| !exists(place))?;
         fs::rename(&self.partial, &place).ok()?;
-        Some(format!("What could be written is kept in {}", place.display()))
+        Some(format!(
+            "What could be written is kept in {}",
+            place.display()
+        ))
     }
 
     /// Writes the files, each whatever became of the others; tells of the first that could not be written.
@@ -143,14 +149,17 @@ impl NewDirectory {
                 history::write(file, &outcome.history).map_err(io_error)
             }),
         ];
-        written.extend(outcome.files.iter().map(|attachment| {
-            match &attachment.content {
-                Attached::Text(text) => {
-                    self.file(&attachment.name, |file| file.write_all(text.as_bytes()))
-                }
-                Attached::Recording(channels) => self.recording(&attachment.name, channels),
-            }
-        }));
+        written.extend(
+            outcome
+                .files
+                .iter()
+                .map(|attachment| match &attachment.content {
+                    Attached::Text(text) => {
+                        self.file(&attachment.name, |file| file.write_all(text.as_bytes()))
+                    }
+                    Attached::Recording(channels) => self.recording(&attachment.name, channels),
+                }),
+        );
         let columns = outcome.history.iter().map(|column| PageColumn {
             name: column.name.clone(),
             unit: column.unit.to_string(),
@@ -384,7 +393,13 @@ fn is_at(held: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let identity = |data: fs::Metadata| (data.is_dir(), data.dev(), data.ino());
     let there = fs::symlink_metadata(path).map(identity);
-    there.is_ok_and(|there| there.0 && held.metadata().map(identity).is_ok_and(|held| held == there))
+    there.is_ok_and(|there| {
+        there.0
+            && held
+                .metadata()
+                .map(identity)
+                .is_ok_and(|held| held == there)
+    })
 }
 
 /// Elsewhere a directory that is open cannot be renamed.

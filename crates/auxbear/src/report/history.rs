@@ -204,6 +204,33 @@ mod tests {
         assert_eq!(back[1].values, [1.5; 5]);
     }
 
+    /// A run directory whose history was damaged on a disk made the report panic.
+    #[test]
+    fn a_damaged_history_is_an_error_or_read_and_never_a_panic() {
+        let mut file = tempfile::tempfile().unwrap();
+        write(&file, &[column("time", "s", vec![0.5; 40])]).unwrap();
+        std::io::Seek::rewind(&mut file).unwrap();
+        let mut whole = Vec::new();
+        std::io::Read::read_to_end(&mut file, &mut whole).unwrap();
+        let try_read = |bytes: &[u8]| {
+            let mut file = tempfile::tempfile().unwrap();
+            std::io::Write::write_all(&mut file, bytes).unwrap();
+            std::io::Seek::rewind(&mut file).unwrap();
+            read(file, "history.parquet".as_ref())
+        };
+        assert_eq!(try_read(&whole).unwrap().len(), 1);
+        for end in [0, 3, whole.len() / 2, whole.len() - 1] {
+            assert!(try_read(&whole[..end]).is_err(), "{end}");
+        }
+        for at in 0..whole.len() {
+            for value in [0, 0x7f, 0xff, whole[at] ^ 1] {
+                let mut changed = whole.clone();
+                changed[at] = value;
+                let _ = try_read(&changed);
+            }
+        }
+    }
+
     #[test]
     fn a_history_without_rows_keeps_its_columns() {
         let back = round_trip(&[column("time", "s", Vec::new())]);

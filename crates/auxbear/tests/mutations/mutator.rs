@@ -87,7 +87,11 @@ fn change_bytes(dice: &mut Dice, bytes: &mut Vec<u8>, other: &[u8]) {
             if dice.below(4) == 0 {
                 raw[..width].reverse();
             }
-            let at = if dice.below(2) == 0 { at & !(width - 1) } else { at };
+            let at = if dice.below(2) == 0 {
+                at & !(width - 1)
+            } else {
+                at
+            };
             for (byte, raw) in bytes.iter_mut().skip(at).zip(&raw[..width]) {
                 *byte = *raw;
             }
@@ -114,20 +118,67 @@ fn change_bytes(dice: &mut Dice, bytes: &mut Vec<u8>, other: &[u8]) {
             let stretch = dice.stretch(other.len());
             let end = (at + stretch.len()).min(bytes.len());
             let insert = dice.below(2) == 0;
-            bytes.splice(at..if insert { at } else { end }, other[stretch].iter().copied());
+            bytes.splice(
+                at..if insert { at } else { end },
+                other[stretch].iter().copied(),
+            );
         }
     }
 }
 
 const NUMBERS: &[&str] = &[
-    "0", "-0.0", "1", "-1", "2", "3", "7", "0.5", "1e-3", "1e-9", "1e-30", "1e-308", "1e308", "1e400", "-1e9", "1e9",
-    "1e5", "100", "1000", "4294967296", "9223372036854775807", "nan", "inf", "-inf", "0x7f", "1_000", "",
+    "0",
+    "-0.0",
+    "1",
+    "-1",
+    "2",
+    "3",
+    "7",
+    "0.5",
+    "1e-3",
+    "1e-9",
+    "1e-30",
+    "1e-308",
+    "1e308",
+    "1e400",
+    "-1e9",
+    "1e9",
+    "1e5",
+    "100",
+    "1000",
+    "4294967296",
+    "9223372036854775807",
+    "nan",
+    "inf",
+    "-inf",
+    "0x7f",
+    "1_000",
+    "",
 ];
 const WORDS: &[&str] = &[
-    "\"\"", "\"1 mm\"", "\"5 rpm\"", "\"-3 K\"", "\"0 s\"", "\"1 h\"", "\"7 N\"", "\"µ\"", "\"a\\u0000b\"", "true", "[]", "{}",
-    "[1, 2, 3]", "{ value = 1 }", "{ value = \"1 N\", assumed = \"\" }", "1979-05-27T07:32:00Z", "'''", "\"6205\"",
+    "\"\"",
+    "\"1 mm\"",
+    "\"5 rpm\"",
+    "\"-3 K\"",
+    "\"0 s\"",
+    "\"1 h\"",
+    "\"7 N\"",
+    "\"µ\"",
+    "\"a\\u0000b\"",
+    "true",
+    "[]",
+    "{}",
+    "[1, 2, 3]",
+    "{ value = 1 }",
+    "{ value = \"1 N\", assumed = \"\" }",
+    "1979-05-27T07:32:00Z",
+    "'''",
+    "\"6205\"",
 ];
-const SIGNS: &[char] = &['"', '\'', '[', ']', '{', '}', '=', '.', ',', '#', '\n', '\t', '\\', '\u{0}', 'µ', '\u{feff}', '9', 'e', '-'];
+const SIGNS: &[char] = &[
+    '"', '\'', '[', ']', '{', '}', '=', '.', ',', '#', '\n', '\t', '\\', '\u{0}', 'µ', '\u{feff}',
+    '9', 'e', '-',
+];
 
 /// A text with some numbers, words, lines or letters changed; `other` lends lines.
 pub fn text(dice: &mut Dice, seed: &str, other: &str) -> String {
@@ -252,7 +303,11 @@ fn tokens(text: &str, belongs: impl Fn(char) -> bool) -> Vec<std::ops::Range<usi
 }
 
 fn replaced(text: &str, at: std::ops::Range<usize>, new: &str) -> String {
-    format!("{}{new}{}", &text[..at.start], &text[at.end.max(at.start)..])
+    format!(
+        "{}{new}{}",
+        &text[..at.start],
+        &text[at.end.max(at.start)..]
+    )
 }
 
 fn joined(lines: &[&str]) -> String {
@@ -260,14 +315,21 @@ fn joined(lines: &[&str]) -> String {
 }
 
 fn boundary(text: &str, at: usize) -> usize {
-    (0..=at).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0)
+    (0..=at)
+        .rev()
+        .find(|&at| text.is_char_boundary(at))
+        .unwrap_or(0)
 }
 
 #[test]
 fn the_same_seed_gives_the_same_mutation_and_others_give_others() {
     let seed = "a = \"3 mm\"\nb = [1, 2.5]\n";
-    let all: Vec<String> = (0..200).map(|k| text(&mut Dice::new(k), seed, "c = 1\n")).collect();
-    let again: Vec<String> = (0..200).map(|k| text(&mut Dice::new(k), seed, "c = 1\n")).collect();
+    let all: Vec<String> = (0..200)
+        .map(|k| text(&mut Dice::new(k), seed, "c = 1\n"))
+        .collect();
+    let again: Vec<String> = (0..200)
+        .map(|k| text(&mut Dice::new(k), seed, "c = 1\n"))
+        .collect();
     assert_eq!(all, again);
     let different: std::collections::BTreeSet<&String> = all.iter().collect();
     assert!(different.len() > 100, "{}", different.len());

@@ -113,6 +113,11 @@ impl Watch {
 
     /// Does something with an input; it tells whether the input was accepted.
     pub fn each(&mut self, input: &[u8], act: impl FnOnce() -> bool) {
+        self.budgeted(input, LONGEST, act);
+    }
+
+    /// The same with another longest time.
+    pub fn budgeted(&mut self, input: &[u8], longest: Duration, act: impl FnOnce() -> bool) {
         let name = format!("{}-{}", self.name, self.tried);
         self.tried += 1;
         let before = LIVE.load(Ordering::Relaxed);
@@ -129,7 +134,7 @@ impl Watch {
         self.largest = self.largest.max(memory);
         let wrong = match done {
             Err(_) => Some("panics".to_string()),
-            Ok(_) if time > LONGEST => Some(format!("takes {:.1} s", time.as_secs_f64())),
+            Ok(_) if time > longest => Some(format!("takes {:.1} s", time.as_secs_f64())),
             Ok(_) if memory > MOST => Some(format!("takes {} MB", memory >> 20)),
             Ok(accepted) => {
                 self.accepted += usize::from(accepted);
@@ -160,6 +165,7 @@ impl Watch {
 /// How many: by an environment variable in the long form.
 pub fn count(variable: &str, usual: usize) -> usize {
     std::env::var(variable).map_or(usual, |text| {
-        text.parse().unwrap_or_else(|_| panic!("{variable}={text} is no count"))
+        text.parse()
+            .unwrap_or_else(|_| panic!("{variable}={text} is no count"))
     })
 }

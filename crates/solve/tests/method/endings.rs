@@ -88,6 +88,10 @@ fn a_pace_that_would_need_the_limit_many_times_is_given_up_early() {
     let end = run_alone(&Problem::kepler(), &start, &mut log, &settings);
     assert_sane(&end, &log);
     assert!(matches!(end.stop, Stop::StepLimit { .. }), "{:?}", end.stop);
+    let Stop::StepLimit { share } = end.stop else {
+        panic!("{:?}", end.stop);
+    };
+    assert!((share / 5e-5 - 1.0).abs() < 1e-3, "{share}");
     // a twentieth of the limit: then the end is seen to need a billion steps
     assert_eq!(end.work.accepted, 50_000);
 }

@@ -183,8 +183,14 @@ impl Found {
                         curve().and_then(|curve| skid(&own, curve, &set, &SkidSettings::default())),
                     ))
                 });
-                let (loss, dissipation, slip, skid) = parts
-                    .unwrap_or_else(|why| (Err(why.clone()), Err(why.clone()), Err(why.clone()), Err(why)));
+                let (loss, dissipation, slip, skid) = parts.unwrap_or_else(|why| {
+                    (
+                        Err(why.clone()),
+                        Err(why.clone()),
+                        Err(why.clone()),
+                        Err(why),
+                    )
+                });
                 TestFound {
                     name: test.name.clone(),
                     peak_acceleration,
@@ -403,7 +409,8 @@ fn map(
     }
     let (curve, set, settings) = (curve.clone(), *set, *settings);
     heed(interrupt, move || {
-        let pairs: Vec<(&Measurement, &Loss)> = pairs.iter().map(|(test, loss)| (test, loss)).collect();
+        let pairs: Vec<(&Measurement, &Loss)> =
+            pairs.iter().map(|(test, loss)| (test, loss)).collect();
         LossMap::fitted(&pairs, &curve, &set, &settings)
     })
 }

@@ -84,11 +84,7 @@ fn more(asked: &Arc<Asked>, interrupt: &AtomicBool, found: &mut Found) {
     if asked.signals.steady.is_none() {
         return;
     }
-    let (own, shaft, torque) = (
-        Arc::clone(asked),
-        found.shaft.clone(),
-        found.torque.clone(),
-    );
+    let (own, shaft, torque) = (Arc::clone(asked), found.shaft.clone(), found.torque.clone());
     let steady = move || {
         let faulty = own.torque.as_ref().map(torque::faulty);
         let reading = own.torque.as_ref().zip(faulty.as_ref());

@@ -396,7 +396,8 @@ impl<S: Read + Seek + Send + 'static> Parquet<S> {
                 "a part is damaged or cut off; its values are missing",
             ),
         };
-        if matches!(self.damage[channel], known if known == damage || known == Damage::Contradicted) {
+        if matches!(self.damage[channel], known if known == damage || known == Damage::Contradicted)
+        {
             return;
         }
         self.damage[channel] = damage;
