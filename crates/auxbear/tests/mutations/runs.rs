@@ -25,7 +25,7 @@ fn mutated_scenarios_end_and_keep_what_was_computed() {
     let budget = if runs > USUAL { LONG } else { SHORT };
     let folder = tempfile::tempdir().unwrap();
     let seeds = scenarios();
-    for system in SystemName::ALL {
+    for &system in SystemName::ALL.iter() {
         let word = system.word();
         let of_system = |text: &str, name: &str| {
             let read = Scenario::parse(text, name, &[], &BuiltIn);
