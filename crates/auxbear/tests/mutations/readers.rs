@@ -11,7 +11,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 /// Mutations of each format in the short form: together some seconds.
-const USUAL: usize = 300;
+const USUAL: usize = 200;
 
 /// Channels and values of each that are read of a file.
 const CHANNELS: usize = 16;
