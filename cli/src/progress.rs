@@ -17,18 +17,16 @@ const PATIENCE: Duration = Duration::from_secs(2);
 const REPEATED: Duration = Duration::from_secs(10);
 
 /// Tells what is done where it takes longer than two seconds, until it is dropped.
-pub struct Busy(#[allow(dead_code)] Sender<()>);
+pub struct Busy(#[allow(dead_code)] Sender<()>); // its end is what is heard
 
 impl Busy {
     /// Tells of the building of the machine that a scenario describes.
     pub fn building(scenario: &Scenario) -> Busy {
         let what = match scenario.system.name() {
             SystemName::Signals | SystemName::Identify => "reading the measurement files",
-            SystemName::Drop | SystemName::Rig => "building the machine",
-            SystemName::SpinUp => {
-                "building the machine: whether traction can carry the friction moment at the wanted speed"
+            SystemName::Drop | SystemName::Rig | SystemName::SpinUp | SystemName::Torque => {
+                "building the machine"
             }
-            SystemName::Torque => "reading the laws of friction",
         };
         let (held, dropped) = channel::<()>();
         thread::spawn(move || {

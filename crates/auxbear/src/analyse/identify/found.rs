@@ -1,6 +1,6 @@
 //! What the estimators find in the tests, each with its own reason where it refuses.
 
-use crate::analyse::heed::heed;
+use crate::analyse::heed::{INTERRUPTED, heed};
 use crate::analyse::identify::consequence::{false_reading, other_cause, slip_is_open, slips};
 use crate::analyse::identify::notes::{Note, grouped};
 use crate::analyse::identify::read::{Asked, Test};
@@ -214,6 +214,10 @@ impl Found {
         let (verdict, next) = match (&moment, wish.explanations) {
             (_, None) => {
                 let why = || "identify.explanations.compare is false".to_string();
+                (Err(why()), Err(why()))
+            }
+            (_, Some(_)) if interrupted() => {
+                let why = || INTERRUPTED.to_string();
                 (Err(why()), Err(why()))
             }
             (Err(_), Some(_)) => (Err(no_moment()), Err(no_moment())),
