@@ -32,7 +32,7 @@ pub fn perform(command: &Bearings) -> Result<(), Box<Problem>> {
                 catalogue::to_json(wanted)
             } else {
                 list(&wanted)
-            });
+            })?;
         }
         Bearings::Show {
             name,
@@ -47,7 +47,7 @@ pub fn perform(command: &Bearings) -> Result<(), Box<Problem>> {
                 catalogue::to_json([bearing])
             } else {
                 show(bearing)
-            });
+            })?;
         }
     }
     Ok(())

@@ -1,12 +1,20 @@
 //! Printing that outlives its reader: a closed pipe ends the output, not the program.
 
-use std::io::{Write, stderr, stdout};
+use auxbear::problem::Problem;
+use auxbear::report::directory::failed;
+use std::io::{ErrorKind, Write, stderr, stdout};
+use std::path::Path;
 
-/// Prints results.
-pub fn print(text: &str) {
-    // The reader may have left, as `head` does; nobody reads on.
+/// Prints results. A problem where they cannot be written, as on a full disk.
+pub fn print(text: &str) -> Result<(), Box<Problem>> {
     let mut out = stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        // The reader may have left, as `head` does; there is nobody to tell.
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(failed(Path::new("standard output"), &error))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Prints a problem or the progress on a line of its own beside the results.

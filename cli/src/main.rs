@@ -1,5 +1,7 @@
 //! The command `auxbear`: reads the command line, calls the library, prints. No physics and no default values of its own.
 
+#![forbid(unsafe_code)]
+
 mod arguments;
 mod bearings;
 mod console;
@@ -22,6 +24,7 @@ use auxbear::scenario::{BuiltIn, Scenario, SystemName};
 use auxbear::validate::{self, Simulation};
 use clap::Parser;
 use exit::Exit;
+use progress::Busy;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -59,8 +62,10 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
         Command::Identify(wish) => return measured::perform(wish, SystemName::Identify),
         Command::Check { file, set } => {
             let scenario = Scenario::read(file, set, &BuiltIn)?;
+            let busy = Busy::building(&scenario);
             let machine = auxbear::run::build(&scenario)?;
-            console::print(&scenario.resolved.toml());
+            drop(busy);
+            console::print(&scenario.resolved.toml())?;
             for warning in machine.warnings() {
                 console::report(&format!("warning[{}]: {}", warning.code, warning.text));
             }
@@ -74,7 +79,14 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
                 report.to_json() + "\n"
             } else {
                 report.to_text()
-            });
+            })?;
+            let damaged: Vec<Problem> = report.problems().collect();
+            for problem in &damaged {
+                console::tell(&problem.to_string());
+            }
+            if !damaged.is_empty() {
+                return Ok(Exit::WrongInput);
+            }
             if !report.passed() {
                 return Ok(Exit::Failed);
             }
@@ -93,6 +105,5 @@ fn report(directories: &[PathBuf], out: Option<&Path>) -> Result<(), Box<Problem
             file.to_path_buf()
         }
     };
-    console::print(&format!("{}\n", written.display()));
-    Ok(())
+    console::print(&format!("{}\n", written.display()))
 }

@@ -1,13 +1,44 @@
-//! How far a run is: a bar on a terminal, a few lines in a log, nothing when quiet.
+//! How far a run is: a bar on a terminal, a few lines in a log, nothing when quiet; and what takes long before it begins.
 
 use crate::console;
+use auxbear::scenario::{Scenario, SystemName};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::Mutex;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread;
 use std::time::{Duration, Instant};
 
 /// Time between lines in a log, at least.
 const PAUSE: Duration = Duration::from_secs(1);
+
+/// Time after which is told what takes so long, and between two lines of that.
+const PATIENCE: Duration = Duration::from_secs(2);
+const REPEATED: Duration = Duration::from_secs(10);
+
+/// Tells what is done where it takes longer than two seconds, until it is dropped.
+pub struct Busy(#[allow(dead_code)] Sender<()>); // its end is what is heard
+
+impl Busy {
+    /// Tells of the building of the machine that a scenario describes.
+    pub fn building(scenario: &Scenario) -> Busy {
+        let what = match scenario.system.name() {
+            SystemName::Signals | SystemName::Identify => "reading the measurement files",
+            SystemName::Drop | SystemName::Rig | SystemName::SpinUp | SystemName::Torque => {
+                "building the machine"
+            }
+        };
+        let (held, dropped) = channel::<()>();
+        thread::spawn(move || {
+            let (begin, mut wait) = (Instant::now(), PATIENCE);
+            while dropped.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
+                console::tell(&format!("{what}: {:.0} s", begin.elapsed().as_secs_f64()));
+                wait = REPEATED;
+            }
+        });
+        Busy(held)
+    }
+}
 
 /// Shows how far a run is.
 pub enum Progress {

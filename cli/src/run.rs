@@ -2,7 +2,7 @@
 
 use crate::arguments::Run;
 use crate::exit::Exit;
-use crate::progress::Progress;
+use crate::progress::{Busy, Progress};
 use crate::{console, summary};
 use auxbear::problem::{Code, Problem};
 use auxbear::report::directory::{NewDirectory, free_path};
@@ -61,7 +61,9 @@ pub fn execute(
         interrupt: &INTERRUPT,
         progress: &|fraction| progress.show(fraction),
     };
+    let busy = (!quiet).then(|| Busy::building(scenario));
     let machine = auxbear::run::build(scenario).inspect_err(|_| progress.end())?;
+    drop(busy);
     let directory = NewDirectory::reserve(path).inspect_err(|_| progress.end())?;
     if let Ok(mut partial) = PARTIAL.lock() {
         *partial = Some(directory.partial().to_path_buf());
@@ -94,20 +96,25 @@ fn exit_of(stop: &Stop) -> Exit {
     }
 }
 
-/// The first Ctrl-C (or termination) ends the run and keeps what was computed; one that follows later ends the program
-/// and takes the unfinished directory away.
+/// The first Ctrl-C (or termination) ends the run and keeps what was computed; one that follows later, or one before there is
+/// anything to keep, ends the program and takes the unfinished directory away.
 fn listen() {
     let mut first = None;
     let handler = move || {
         let first = first.get_or_insert_with(Instant::now);
-        if INTERRUPT.swap(true, Ordering::Relaxed) && first.elapsed() > ECHO {
-            if let Ok(partial) = PARTIAL.lock()
-                && let Some(partial) = partial.as_ref()
-            {
+        let again = INTERRUPT.swap(true, Ordering::Relaxed) && first.elapsed() > ECHO;
+        let Ok(partial) = PARTIAL.lock() else {
+            return;
+        };
+        match partial.as_ref() {
+            Some(partial) if again => {
                 let _ = fs::remove_dir_all(partial);
             }
-            process::exit(130);
+            Some(_) => return,
+            // Nothing is computed yet that could be kept: the input is read, or the machine built.
+            None => console::tell("interrupted: nothing was computed yet"),
         }
+        process::exit(130);
     };
     if let Err(error) = ctrlc::set_handler(handler) {
         console::report(&format!("an interrupt will not keep results: {error}"));

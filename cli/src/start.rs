@@ -16,8 +16,7 @@ pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
     let text = template(kind).ok_or_else(|| unknown("auxbear new", kind))?;
     // A dash stands for the standard output.
     let Some(path) = path.filter(|path| *path != Path::new("-")) else {
-        console::print(&text);
-        return Ok(());
+        return console::print(&text);
     };
     let mut file = File::create_new(path).map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => Box::new(Problem::at_path(

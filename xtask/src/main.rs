@@ -1,5 +1,7 @@
 //! `cargo xtask`: what the repository demands of every change, in one command.
 
+#![forbid(unsafe_code)]
+
 mod architecture;
 mod bench;
 mod book;

@@ -1,6 +1,6 @@
 //! Wrong input: one message, exit status 2, nothing written.
 
-use crate::place::Place;
+use crate::place::{Called, Place};
 use std::fs;
 
 #[test]
@@ -99,11 +99,114 @@ fn results_are_never_written_over_others() {
     fs::write(place.path("file"), "mine").unwrap();
     let called = place.call(&["run", "drop.toml", "--out", "file"]);
     called.refused(&["error[AB0301]: file"]);
+    // a directory that no run left behind, and one that another run holds
     fs::create_dir(place.path("half.partial")).unwrap();
+    fs::write(place.path("half.partial/mine.txt"), "mine").unwrap();
+    let called = place.call(&["run", "drop.toml", "--out", "half"]);
+    called.refused(&["error[AB0301]: half.partial", "another run"]);
+    fs::remove_file(place.path("half.partial/mine.txt")).unwrap();
+    let held = fs::File::open(place.path("half.partial")).unwrap();
+    held.try_lock().unwrap();
     let called = place.call(&["run", "drop.toml", "--out", "half"]);
     called.refused(&["error[AB0301]: half.partial", "another run"]);
     assert_eq!(place.names(), ["file", "half.partial", "taken"]);
     assert_eq!(fs::read_dir(place.path("taken")).unwrap().count(), 1);
+}
+
+#[test]
+fn what_a_killed_run_left_behind_is_taken_over() {
+    let place = Place::new();
+    fs::create_dir(place.path("run.partial")).unwrap();
+    fs::write(place.path("run.partial/scenario.toml"), "old").unwrap();
+    fs::write(place.path("run.partial/history.parquet"), "old").unwrap();
+    place.short_run(&["--out", "run"]).done();
+    assert_eq!(place.names(), ["run"]);
+    assert!(place.read("run").columns.len() > 1);
+}
+
+/// Output that the system refuses is an error; a reader that has left is none.
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_cannot_be_written_is_an_error() {
+    for words in [
+        &["check", "drop.toml"][..],
+        &["torque", "6005", "--out", "torque"],
+        &["validate", "--json"],
+        &["bearings", "list"],
+        &["new", "drop"],
+        &["schema", "drop"],
+    ] {
+        let place = Place::new();
+        let full = fs::OpenOptions::new()
+            .write(true)
+            .open("/dev/full")
+            .unwrap();
+        let output = place.command(words).stdout(full).output().unwrap();
+        let called = Called::of(output);
+        assert_eq!(called.code, Some(1), "{words:?}: {called:?}");
+        assert!(
+            called.err.contains("error[AB0302]: standard output"),
+            "{called:?}"
+        );
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        fs::remove_dir_all(place.path("torque")).ok();
+        let output = place.command(words).stdout(writer).output().unwrap();
+        let called = Called::of(output);
+        assert_eq!(called.code, Some(0), "{words:?}: {called:?}");
+        assert!(!called.err.contains("error"), "{called:?}");
+    }
+}
+
+/// A pipe may wait for ever, a device never end.
+#[cfg(unix)]
+#[test]
+fn pipes_and_devices_are_refused_at_once() {
+    let place = Place::new();
+    let made = std::process::Command::new("mkfifo")
+        .arg(place.path("pipe"))
+        .status();
+    assert!(made.unwrap().success());
+    let text = auxbear::scenario::template("signals").unwrap();
+    fs::write(place.path("signals.toml"), text).unwrap();
+    for input in ["pipe", "/dev/zero", "/dev/null"] {
+        let file = format!("signals.file={input}");
+        let file = file.as_str();
+        for words in [
+            &["check", input][..],
+            &["bearings", "list", "--catalogue", input],
+            &["torque", "6005", "--catalogue", input],
+            &["signals", "signals.toml", "--set", file],
+        ] {
+            let called = place.call(words);
+            assert_eq!(called.code, Some(2), "{words:?}: {called:?}");
+            assert!(
+                called.err.contains("a pipe, a socket or a device"),
+                "{called:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_damaged_case_file_is_a_wrong_input() {
+    let place = Place::new();
+    fs::create_dir(place.path("cases")).unwrap();
+    for (name, text) in [
+        ("cut.json", "{\"a\": "),
+        ("empty.toml", ""),
+        ("cut.toml", "format = \"auxb"),
+    ] {
+        fs::write(place.path("cases").join(name), text).unwrap();
+        let called = place.call(&["validate", "--json", "--cases", "cases"]);
+        assert_eq!(called.code, Some(2), "{name}: {called:?}");
+        assert!(called.err.contains("error[AB0310]"), "{called:?}");
+        let report: serde_json::Value = serde_json::from_str(&called.out).unwrap();
+        assert!(report["cases"].as_array().unwrap().len() > 10);
+        fs::remove_file(place.path("cases").join(name)).unwrap();
+    }
+    fs::write(place.path("cases/other.toml"), "a = 1").unwrap();
+    place.call(&["validate", "--cases", "cases"]).done();
 }
 
 #[test]

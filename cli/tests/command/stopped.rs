@@ -95,7 +95,7 @@ fn an_interrupted_run_keeps_what_was_computed() {
 
 #[cfg(unix)]
 #[test]
-fn a_full_disk_leaves_nothing_behind() {
+fn a_full_disk_keeps_what_could_be_written_and_says_so() {
     let place = Place::new();
     // Files of at most 8 blocks (4 or 8 kB): the summary does not fit.
     let script = format!(
@@ -111,10 +111,18 @@ fn a_full_disk_leaves_nothing_behind() {
     assert_eq!(called.code, Some(1), "{called:?}");
     assert!(called.err.starts_with("error[AB0302]: run/"), "{called:?}");
     assert!(called.err.contains("File too large"), "{called:?}");
-    assert!(place.names().is_empty(), "{:?}", place.names());
+    assert!(
+        called
+            .err
+            .contains("What could be written is kept in run.incomplete"),
+        "{called:?}"
+    );
+    assert_eq!(place.names(), ["run.incomplete"]);
+    assert!(place.path("run.incomplete/scenario.toml").is_file());
+    assert!(!place.path("run.incomplete/summary.json").exists());
 
     // The same for each larger file in turn: the history, then the page.
-    for (blocks, file) in [(120, "history.parquet"), (400, "report.html")] {
+    for (number, blocks, file) in [(2, 120, "history.parquet"), (3, 400, "report.html")] {
         let script = script.replace("-f 8", &format!("-f {blocks}"));
         let output = Command::new("sh")
             .args(["-c", &script])
@@ -122,8 +130,15 @@ fn a_full_disk_leaves_nothing_behind() {
             .output()
             .unwrap();
         let called = Called::of(output);
+        assert_eq!(called.code, Some(1), "{called:?}");
         assert!(called.err.contains(&format!("run/{file}")), "{called:?}");
-        assert!(place.names().is_empty(), "{:?}", place.names());
+        let kept = format!("run.incomplete-{number}");
+        assert!(called.err.contains(&kept), "{called:?}");
+        assert!(!place.path("run").exists() && !place.path("run.partial").exists());
+        assert!(!place.path(&kept).join(file).exists());
+        let summary = place.summary(&kept);
+        assert_eq!(summary["complete"], false);
+        assert_eq!(summary["stop"]["reason"], "not written");
     }
     let text = fs::read_to_string(place.path("drop.toml")).unwrap();
     assert!(text.contains("[rotor]"));

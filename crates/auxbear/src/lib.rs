@@ -18,6 +18,8 @@
 //! Modules, each using only those before it: [`problem`], [`catalogue`], [`scenario`], [`options`], [`result`], then
 //! [`simulate`], [`analyse`] and [`evaluate`] side by side, [`mod@run`], [`report`], [`validate`].
 
+#![forbid(unsafe_code)]
+
 pub mod analyse;
 pub mod catalogue;
 pub mod evaluate;

@@ -82,6 +82,8 @@ pub enum Code {
     ChannelUnit,
     /// AB0307
     OutputPlace,
+    /// AB0310
+    CaseDamaged,
     /// AB0401
     DuplicateBearing,
     /// AB0402
@@ -318,6 +320,12 @@ impl Code {
             "AB0307",
             "No place for results",
             "Nothing can be made at the path that was given: a part of it is no folder, or may not be written.",
+        ),
+        (
+            Code::CaseDamaged,
+            "AB0310",
+            "Damaged case file",
+            "A file of cases is cut off, empty or wrong in itself, so that what it would compare is not compared.",
         ),
         (
             Code::DuplicateBearing,

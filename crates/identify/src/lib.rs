@@ -19,6 +19,8 @@
 //!
 //! It knows no files and no scenario: arrays in SI in, values with deviations out. What is refused is refused with a sentence.
 
+#![forbid(unsafe_code)]
+
 mod algebra;
 pub mod data_checks;
 pub mod dissipation;

@@ -20,6 +20,8 @@
 //! Estimators return values with standard deviations and notes about what is not trustworthy; what they refuse they refuse with a
 //! sentence. Nothing here knows a bearing or a rotor. SI inside where a quantity is computed; values of a file stay in the file's unit.
 
+#![forbid(unsafe_code)]
+
 pub mod cage_speed;
 pub mod converter;
 pub mod file;

@@ -118,6 +118,12 @@ pub trait Recording {
     /// What was wrong with the file as far as it was read.
     fn notes(&self) -> &[Note];
 
+    /// Whether values of a channel that were read contradict a checksum of the file. They were given as NaN, but a file that
+    /// is damaged in one place may be in others that no checksum covers.
+    fn contradicts_checksum(&self, _channel: usize) -> bool {
+        false
+    }
+
     /// Whatever else the file states of itself, in the order of the file.
     fn properties(&self) -> &[Property] {
         &[]

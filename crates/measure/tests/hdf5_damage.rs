@@ -81,7 +81,10 @@ fn values_that_do_not_match_their_checksum_are_not_given() {
         let mut changed = whole.clone();
         changed[at + inside] ^= 1 << bit;
         let mut file = open(changed).unwrap();
+        let index = channel(&file, "summed");
+        assert!(!file.contradicts_checksum(index), "not read yet");
         let values = all(&mut file, "summed");
+        assert!(file.contradicts_checksum(index));
         assert_eq!(values[..32], ramps(96)[..32]);
         assert!(
             values[32..64].iter().all(|value| value.is_nan()),
@@ -113,6 +116,25 @@ fn an_old_header_that_contradicts_itself_is_noted() {
                 "{head} {inside}: {shown:?}"
             );
         }
+    }
+}
+
+/// One byte of the old root header made all channels vanish without a word.
+#[test]
+fn a_group_whose_message_of_members_is_lost_is_noted() {
+    let whole = bytes("old.h5");
+    // The message of the members: its kind and its size of 16 bytes.
+    let found = places(&whole, &[0x11, 0, 0x10, 0]);
+    assert!(!found.is_empty());
+    for at in found {
+        let mut changed = whole.clone();
+        changed[at] = 0x16;
+        let told = notes(&open(changed).unwrap());
+        assert!(
+            told.iter()
+                .any(|note| note.contains("names neither members nor values")),
+            "{at}: {told:?}"
+        );
     }
 }
 

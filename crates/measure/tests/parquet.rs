@@ -183,3 +183,44 @@ fn a_page_without_its_dictionary_is_damage_and_no_panic() {
             .any(|note| note.text.contains("damaged"))
     );
 }
+
+/// A file with a checksum for each page (pyarrow, `write_page_checksum`): one bit of a value was changed.
+#[test]
+fn a_page_that_contradicts_its_checksum_is_not_read() {
+    let whole = include_bytes!("data/damaged/page_crc.parquet");
+    let open = |bytes: Vec<u8>| Parquet::from_source(Cursor::new(bytes), "crc.parquet".as_ref());
+    let read = |file: &mut Parquet<Cursor<Vec<u8>>>| -> Vec<Vec<f64>> {
+        let count = file.channels().len();
+        let values = |k: usize, file: &mut Parquet<Cursor<Vec<u8>>>| {
+            let mut values = vec![0.0; file.channels()[k].count as usize];
+            file.read(k, 0, &mut values).unwrap();
+            values
+        };
+        (0..count).map(|k| values(k, file)).collect()
+    };
+    let mut good = open(whole.to_vec()).unwrap();
+    let values = read(&mut good);
+    assert!((0..values.len()).all(|k| !good.contradicts_checksum(k) && !good.is_damaged(k)));
+    let mut changed = whole.to_vec();
+    changed[891] ^= 0x10;
+    let mut file = open(changed).unwrap();
+    let found = read(&mut file);
+    let damaged: Vec<usize> = (0..found.len())
+        .filter(|&k| file.contradicts_checksum(k))
+        .collect();
+    assert_eq!(damaged.len(), 1, "{:?}", file.notes());
+    for k in 0..found.len() {
+        if k == damaged[0] {
+            assert!(found[k].iter().any(|value| value.is_nan()));
+            let known = |(a, b): (&f64, &f64)| b.is_nan() || a == b;
+            assert!(values[k].iter().zip(&found[k]).all(known));
+        } else {
+            assert_eq!(values[k], found[k]);
+        }
+    }
+    let name = &file.channels()[damaged[0]].name;
+    let told = |note: &measure::recording::Note| {
+        note.channel.as_ref() == Some(name) && note.text.contains("checksum")
+    };
+    assert!(file.notes().iter().any(told), "{:?}", file.notes());
+}

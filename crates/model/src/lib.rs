@@ -7,6 +7,8 @@
 //! Frame: ground, x to the right, y up; angles and spins counter-clockwise.
 //! n points from a race centre to a ball or rotor centre, t is n turned by +90°.
 
+#![forbid(unsafe_code)]
+
 pub mod auxiliary_bearing;
 pub mod bearing;
 pub mod contact;

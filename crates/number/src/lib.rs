@@ -25,6 +25,27 @@
 //! | `sin_cos` | \|x\| ≤ 1e5 rad | absolute 2.3e-16 |
 //! | `asin_small` | \|x\| ≤ 0.125 | 2 ulp |
 //! | `sqrt`, `abs`, `+ - * /` | all | correctly rounded |
+//!
+//! # Why the unsafe code is sound
+//! This is the only crate with unsafe code; all others forbid it. There are three kinds:
+//!
+//! - **Instructions that a machine may not have** (`x86.rs`, `dual.rs`). An intrinsic is undefined behaviour only where the
+//!   machine lacks its instructions, or where it reaches memory that is not there. The vector types and their masks are private,
+//!   their only constructors are methods of [`Real`] and [`Mask`], and no public item names them: code outside has such a type
+//!   only as the parameter of a [`Task`], which [`Level::run_one`] and [`Level::run_many`] start after they asserted
+//!   `level <= Level::detect()`. Detection asks for exactly the features that `for_avx2` and `for_avx512` enable, AVX2 among those
+//!   of AVX-512, so that the order of the levels is one of inclusion. [`Dual`] calls these two functions in the branch of the
+//!   level that was detected. A value cannot outlive the machine.
+//! - **Loads and stores of vectors** (`x86.rs`). `Four` loads and stores four numbers through a slice of four that `get` returned,
+//!   or lane by lane. `Eight` masks the lanes behind the end of the slice, and masked lanes are not accessed: the pointer, which
+//!   may then lie outside, is made by `wrapping_add` and never read. An empty list panics before. `add_to` loads and stores the
+//!   four numbers of an array of four. None of these asks for alignment.
+//! - **The same bits as another type.** An array of four or eight `f64` has the size of the vector that it is transmuted to, which
+//!   the compiler checks, and every pattern of bits is a value of both. `Single<V>` is `repr(transparent)` over `f64` beside a
+//!   `PhantomData`, so that a slice of one is a slice of the other, of the same length, alignment and lifetime, borrowed in the same
+//!   way.
+//!
+//! Every method is tested on every level of the machine against `f64`, bit by bit. Miri has not been run on it.
 
 mod constants;
 mod dual;

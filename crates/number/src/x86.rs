@@ -1,7 +1,7 @@
 //! Numbers on the vector units of x86-64.
 //!
 //! These types are private: code outside meets them only as type parameters of a [`Task`](crate::Task), which
-//! [`Level::run`](crate::Level::run) starts after it has seen that the machine has the instructions. That makes the
+//! [`Level::run_one`](crate::Level::run_one) and its like start after they have seen that the machine has the instructions. That makes the
 //! intrinsics below sound. Their methods are inlined into functions compiled for the unit ([`Real::vectorized`]).
 
 use crate::elementary::{self, Bits, LOW_EXPONENT, ONE_BITS, ROUNDING, SIGN_BIT};

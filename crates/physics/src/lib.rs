@@ -31,6 +31,8 @@
 //! | [`kinematics`] | speeds of cage and balls, passing frequencies |
 //! | [`unbalance`] | whirl of an unbalanced rotor on a linear support |
 
+#![forbid(unsafe_code)]
+
 pub mod angular_contact;
 #[cfg(test)]
 mod bearing_6005;

@@ -59,7 +59,10 @@ pub enum Stop {
         step: f64,
     },
     /// The step limit was reached.
-    StepLimit,
+    StepLimit {
+        /// Part of the whole time that was reached.
+        share: f64,
+    },
 }
 
 /// How much work a machine took.
@@ -426,12 +429,11 @@ fn aim<R: Real, M: Machine>(
     }
     let steps = lane.work.accepted + lane.work.rejected;
     // far from the end after many steps: at this pace the limit would be passed many times over
-    let hopeless = steps >= (settings.step_limit / HOPELESS_PART).max(HOPELESS_LEAST) && {
-        let share = (lane.time - settings.start) / (settings.end - settings.start);
-        (HOPELESS_FACTOR * HOPELESS_PART) as f64 * share < 1.0
-    };
+    let share = (lane.time - settings.start) / (settings.end - settings.start);
+    let hopeless = steps >= (settings.step_limit / HOPELESS_PART).max(HOPELESS_LEAST)
+        && (HOPELESS_FACTOR * HOPELESS_PART) as f64 * share < 1.0;
     if steps >= settings.step_limit || hopeless {
-        lane.stop = Some(Stop::StepLimit);
+        lane.stop = Some(Stop::StepLimit { share });
         return;
     }
     lane.length = lane.length.min(settings.largest_step);

@@ -18,6 +18,8 @@
 //!
 //! Nothing in the loop allocates.
 
+#![forbid(unsafe_code)]
+
 pub mod arrowhead;
 pub mod attempt;
 pub mod bogacki_shampine;

@@ -16,6 +16,8 @@
 //! assert_eq!(units::display(gap.value_si, "um").unwrap(), "250 um");
 //! ```
 
+#![forbid(unsafe_code)]
+
 mod dimension;
 mod error;
 mod near;

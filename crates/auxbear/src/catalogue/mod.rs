@@ -182,7 +182,7 @@ fn read_text(path: &Path) -> Result<String, Box<Problem>> {
             format!("a file that cannot be read ({error})"),
         ),
     };
-    let file = std::fs::File::open(path).map_err(unreadable)?;
+    let file = measure::file::open_file(path).map_err(unreadable)?;
     let mut bytes = Vec::new();
     // Not the size of the metadata: a pipe or a device has none.
     file.take(LARGEST_FILE + 1)

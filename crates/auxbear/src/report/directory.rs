@@ -1,18 +1,23 @@
 //! A run directory: `scenario.toml`, `summary.json`, `history.parquet`, `report.html`, and what the run leaves besides.
 //!
 //! It is filled under the name `DIR.partial` and gets its own name when all files are complete, so a directory
-//! that looks whole is whole. Whatever goes wrong before, the partial one is removed.
+//! that looks whole is whole. Where a file cannot be written, the others are kept as `DIR.incomplete`; what else goes wrong
+//! before removes the partial one.
+//!
+//! The process that fills `DIR.partial` holds a lock on it, which goes with the process: one without a lock was left behind by
+//! a process that was killed, and the next takes it over.
 
 use super::page::{self, PageColumn, PageRun};
 use super::picture;
 use super::{history, summary};
 use crate::problem::{Code, Problem};
-use crate::result::outcome::Attached;
+use crate::result::outcome::{Attached, Stop};
 use crate::run::Outcome;
 use crate::scenario::Scenario;
+use measure::file::open_file;
 use measure::recording::Channel;
 use std::ffi::OsString;
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -32,6 +37,8 @@ const WRITABLE: &str = "a place with room and permission to write is needed";
 pub struct NewDirectory {
     path: PathBuf,
     partial: PathBuf,
+    /// The partial directory, locked; none where the system locks no directories.
+    lock: Option<File>,
 }
 
 impl NewDirectory {
@@ -51,21 +58,33 @@ impl NewDirectory {
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(|error| misplaced(parent, &error))?;
         }
-        match fs::create_dir(&partial) {
-            Ok(()) => Ok(NewDirectory {
-                path: path.to_path_buf(),
-                partial,
-            }),
+        let in_use = || {
+            Box::new(Problem::at_path(
+                Code::OutputExists,
+                &partial,
+                "what another run is writing or left behind",
+                "choose another directory, or remove this one if no run is using it",
+            ))
+        };
+        let lock = match fs::create_dir(&partial) {
+            Ok(()) => match locked(&partial) {
+                Ok(lock) => Some(lock),
+                // another run took it for one left behind
+                Err(TryLockError::WouldBlock) => return Err(in_use()),
+                Err(TryLockError::Error(_)) => None,
+            },
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {
-                Err(Box::new(Problem::at_path(
-                    Code::OutputExists,
-                    &partial,
-                    "what another run is writing or left behind",
-                    "choose another directory, or remove this one if no run is using it",
-                )))
+                let left = locked(&partial).map_err(|_| in_use())?;
+                empty_leftover(&partial).map_err(|_| in_use())?;
+                Some(left)
             }
-            Err(error) => Err(misplaced(&partial, &error)),
-        }
+            Err(error) => return Err(misplaced(&partial, &error)),
+        };
+        Ok(NewDirectory {
+            path: path.to_path_buf(),
+            partial,
+            lock,
+        })
     }
 
     /// The directory as it will be called.
@@ -78,24 +97,69 @@ impl NewDirectory {
         &self.partial
     }
 
-    /// Writes the files and gives the directory its name.
+    /// Writes the files and gives the directory its name. Where one cannot be written, the others are kept under another name,
+    /// which the problem tells, and their summary says that they are not complete.
     pub fn finish(self, scenario: &Scenario, outcome: &Outcome) -> Result<(), Box<Problem>> {
-        let summary_json = summary::json(scenario, outcome)
+        self.fill(scenario, outcome).map_err(|problem| {
+            let stop = Stop {
+                reason: "not written",
+                time: outcome.stop.time,
+                text: problem.to_string(),
+            };
+            let name = self.partial.join(SUMMARY);
+            if name.exists()
+                && let Ok(text) = summary::json(scenario, outcome, &stop)
+                && fs::write(&name, text).is_err()
+            {
+                // one that says that all is there would be worse than none
+                let _ = fs::remove_file(name);
+            }
+            let told = self.kept();
+            Box::new((*problem).with_hint(told))
+        })
+    }
+
+    /// Gives what was written the name `DIR.incomplete`; tells that. None where nothing was.
+    fn kept(&self) -> Option<String> {
+        fs::read_dir(&self.partial).ok()?.next()?.ok()?;
+        let first = with_end(&self.path, "incomplete")?;
+        let others =
+            (2..100).filter_map(|number| with_end(&self.path, &format!("incomplete-{number}")));
+        let place = std::iter::once(first)
+            .chain(others)
+            .find(|place| !exists(place))?;
+        fs::rename(&self.partial, &place).ok()?;
+        Some(format!(
+            "What could be written is kept in {}",
+            place.display()
+        ))
+    }
+
+    /// Writes the files, each whatever became of the others; tells of the first that could not be written.
+    fn fill(&self, scenario: &Scenario, outcome: &Outcome) -> Result<(), Box<Problem>> {
+        // somebody may have removed it while the run was computed
+        let _ = fs::create_dir(&self.partial);
+        let summary_json = summary::json(scenario, outcome, &outcome.stop)
             .map_err(|error| failed(&self.partial.join(SUMMARY), &error.into()))?;
         let scenario_toml = scenario.resolved.toml();
-        self.file(SCENARIO, |file| file.write_all(scenario_toml.as_bytes()))?;
-        self.file(SUMMARY, |file| file.write_all(summary_json.as_bytes()))?;
-        self.file(HISTORY, |file| {
-            history::write(file, &outcome.history).map_err(io_error)
-        })?;
-        for attachment in &outcome.files {
-            match &attachment.content {
-                Attached::Text(text) => {
-                    self.file(&attachment.name, |file| file.write_all(text.as_bytes()))?;
-                }
-                Attached::Recording(channels) => self.recording(&attachment.name, channels)?,
-            }
-        }
+        let mut written = vec![
+            self.file(SCENARIO, |file| file.write_all(scenario_toml.as_bytes())),
+            self.file(SUMMARY, |file| file.write_all(summary_json.as_bytes())),
+            self.file(HISTORY, |file| {
+                history::write(file, &outcome.history).map_err(io_error)
+            }),
+        ];
+        written.extend(
+            outcome
+                .files
+                .iter()
+                .map(|attachment| match &attachment.content {
+                    Attached::Text(text) => {
+                        self.file(&attachment.name, |file| file.write_all(text.as_bytes()))
+                    }
+                    Attached::Recording(channels) => self.recording(&attachment.name, channels),
+                }),
+        );
         let columns = outcome.history.iter().map(|column| PageColumn {
             name: column.name.clone(),
             unit: column.unit.to_string(),
@@ -110,7 +174,8 @@ impl NewDirectory {
             columns: columns.collect(),
         };
         let html = page::html(&[run]);
-        self.file(REPORT, |file| file.write_all(html.as_bytes()))?;
+        written.push(self.file(REPORT, |file| file.write_all(html.as_bytes())));
+        written.into_iter().collect::<Result<(), _>>()?;
         // On some systems a rename would replace an empty directory that appeared meanwhile.
         if exists(&self.path) {
             return Err(taken(&self.path));
@@ -143,25 +208,31 @@ impl NewDirectory {
             })
     }
 
-    /// Writes one file; a problem names the place where it would have stood.
+    /// Writes one file, or nothing of it; a problem names the place where it would have stood.
     fn file(
         &self,
         name: &str,
         fill: impl FnOnce(&mut File) -> std::io::Result<()>,
     ) -> Result<(), Box<Problem>> {
-        File::create_new(self.partial.join(name))
+        let place = self.partial.join(name);
+        File::create_new(&place)
             .and_then(|mut file| {
-                fill(&mut file)?;
-                file.sync_all()
+                fill(&mut file)
+                    .and_then(|()| file.sync_all())
+                    .inspect_err(|_| {
+                        let _ = fs::remove_file(&place);
+                    })
             })
             .map_err(|error| failed(&self.path.join(name), &error))
     }
 }
 
 impl Drop for NewDirectory {
-    /// After a rename there is nothing left of this name to remove.
+    /// After a rename there is nothing left of this name to remove, or what is there is another run's.
     fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.partial);
+        if (self.lock.as_ref()).is_none_or(|lock| is_at(lock, &self.partial)) {
+            let _ = fs::remove_dir_all(&self.partial);
+        }
     }
 }
 
@@ -196,7 +267,7 @@ pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
     let text = |name: &str| -> Result<String, Box<Problem>> {
         let path = path.join(name);
         let mut text = String::new();
-        File::open(&path)
+        open_file(&path)
             .and_then(|mut file| file.read_to_string(&mut text))
             .map_err(|error| unreadable(&path, &error))?;
         Ok(text)
@@ -214,16 +285,18 @@ pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
         )));
     }
     let history = path.join(HISTORY);
-    let columns = File::open(&history)
-        .and_then(|file| history::read(file).map_err(io_error))
-        .map_err(|error| match error.kind() {
-            ErrorKind::Other => Box::new(Problem::at_path(
-                Code::FileUnreadable,
-                &history,
-                format!("what cannot be read as a history ({error})"),
-                NEEDED,
-            )),
-            _ => unreadable(&history, &error),
+    let columns = open_file(&history)
+        .map_err(|error| unreadable(&history, &error))
+        .and_then(|file| {
+            history::read(file, &history).map_err(|error| {
+                let what = format!("{} {}", error.place, error.found);
+                Box::new(Problem::at_path(
+                    Code::FileUnreadable,
+                    &history,
+                    format!("what cannot be read as a history ({})", what.trim()),
+                    NEEDED,
+                ))
+            })
         });
     Ok(PageRun {
         name: name_of(path),
@@ -292,9 +365,62 @@ fn exists(path: &Path) -> bool {
 }
 
 fn partial_of(path: &Path) -> Option<PathBuf> {
+    with_end(path, "partial")
+}
+
+/// The path with a word behind its name.
+fn with_end(path: &Path, word: &str) -> Option<PathBuf> {
     let mut name = OsString::from(path.file_name()?);
-    name.push(".partial");
+    name.push(".");
+    name.push(word);
     Some(path.with_file_name(name))
+}
+
+/// A directory, locked for this process. An error where another one holds it, or no directory can be locked here.
+fn locked(partial: &Path) -> Result<File, TryLockError> {
+    let held = File::open(partial).map_err(TryLockError::Error)?;
+    held.try_lock()?;
+    match is_at(&held, partial) {
+        true => Ok(held),
+        // it got its own name meanwhile
+        false => Err(TryLockError::WouldBlock),
+    }
+}
+
+/// Whether an open directory still has this path.
+#[cfg(unix)]
+fn is_at(held: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let identity = |data: fs::Metadata| (data.is_dir(), data.dev(), data.ino());
+    let there = fs::symlink_metadata(path).map(identity);
+    there.is_ok_and(|there| {
+        there.0
+            && held
+                .metadata()
+                .map(identity)
+                .is_ok_and(|held| held == there)
+    })
+}
+
+/// Elsewhere a directory that is open cannot be renamed.
+#[cfg(not(unix))]
+fn is_at(held: &File, _: &Path) -> bool {
+    held.metadata().is_ok_and(|data| data.is_dir())
+}
+
+/// Removes what a killed process left in its partial directory; an error where that is not what such a one holds: no files
+/// yet, or a scenario and other files.
+fn empty_leftover(partial: &Path) -> std::io::Result<()> {
+    let entries = fs::read_dir(partial)?.collect::<Result<Vec<_>, _>>()?;
+    let foreign = |entry: &fs::DirEntry| !entry.file_type().is_ok_and(|kind| kind.is_file());
+    let is_ours = entries.is_empty() || entries.iter().any(|entry| entry.file_name() == SCENARIO);
+    if !is_ours || entries.iter().any(foreign) {
+        return Err(ErrorKind::DirectoryNotEmpty.into());
+    }
+    for entry in entries {
+        fs::remove_file(entry.path())?;
+    }
+    Ok(())
 }
 
 /// The last part of the path; that of the full path for one like `.`.

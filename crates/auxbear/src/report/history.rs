@@ -7,32 +7,29 @@
 use super::page::PageColumn;
 use crate::result::outcome::Column;
 use measure::file::parquet::arrow_schema::{self, Field};
+use measure::file::parquet::{COLUMNS, Parquet};
+use measure::recording::{Content, FileError, Recording};
 use parquet::basic::{Compression, Encoding, Repetition, Type as Physical};
-use parquet::column::reader::ColumnReader;
 use parquet::data_type::DoubleType;
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
-use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
-use serde::{Deserialize, Serialize};
-use std::borrow::Cow;
+use serde::Serialize;
 use std::fs::File;
+use std::path::Path;
 use std::sync::Arc;
-
-/// Key of names, units and meanings in the metadata of the file.
-pub(super) const COLUMNS: &str = "auxbear.columns";
 
 /// Rows of a row group: a reader holds one of them at a time.
 const GROUP_ROWS: usize = 1 << 17;
 
 /// What is known of a column besides its values.
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize)]
 struct About<'a> {
-    name: Cow<'a, str>,
-    unit: Cow<'a, str>,
-    meaning: Cow<'a, str>,
+    name: &'a str,
+    unit: &'a str,
+    meaning: &'a str,
 }
 
 /// Writes the columns, which have equal length.
@@ -104,9 +101,9 @@ fn properties(columns: &[Column]) -> Result<WriterProperties, ParquetError> {
     let about: Vec<About> = columns
         .iter()
         .map(|column| About {
-            name: column.name.as_str().into(),
-            unit: column.unit.into(),
-            meaning: column.meaning.as_str().into(),
+            name: &column.name,
+            unit: column.unit,
+            meaning: &column.meaning,
         })
         .collect();
     let about =
@@ -128,68 +125,33 @@ fn properties(columns: &[Column]) -> Result<WriterProperties, ParquetError> {
         .build())
 }
 
-/// Reads the columns of doubles; columns of another type are left out.
-pub(super) fn read(file: File) -> Result<Vec<PageColumn>, ParquetError> {
-    let reader = SerializedFileReader::new(file)?;
-    let metadata = reader.metadata().file_metadata();
-    let text = metadata
-        .key_value_metadata()
-        .and_then(|pairs| pairs.iter().find(|pair| pair.key == COLUMNS))
-        .and_then(|pair| pair.value.as_deref())
-        .unwrap_or("[]");
-    let about: Vec<About> = serde_json::from_str(text)
-        .map_err(|error| ParquetError::General(format!("{COLUMNS}: {error}")))?;
-    let schema = metadata.schema_descr_ptr();
+/// Reads the columns of numbers; columns of another type are left out. A damaged one is an error.
+pub(super) fn read(file: File, path: &Path) -> Result<Vec<PageColumn>, FileError> {
+    let mut file = Parquet::from_source(file, path)?;
+    let channels = file.channels().to_vec();
     let mut columns = Vec::new();
-    for (index, description) in schema.columns().iter().enumerate() {
-        if description.physical_type() != Physical::DOUBLE || description.max_rep_level() > 0 {
+    for (index, channel) in channels.into_iter().enumerate() {
+        if channel.content != Content::Number {
             continue;
         }
-        let name = description.path().string();
-        let known = about.iter().find(|known| known.name == name.as_str());
-        let mut values = Vec::new();
-        for group in 0..reader.num_row_groups() {
-            let column = reader.get_row_group(group)?.get_column_reader(index)?;
-            read_part(column, description.max_def_level(), &mut values)?;
+        // A damaged file may claim any number of rows: what is there is read piece by piece.
+        let (mut values, mut piece) = (Vec::new(), vec![0.0; GROUP_ROWS]);
+        while (values.len() as u64) < channel.count {
+            let there = file.read(index, values.len() as u64, &mut piece)?;
+            if file.is_damaged(index) || there == 0 {
+                let place = format!("column '{}'", channel.name);
+                return Err(FileError::new(path, place, "is damaged or cut off", ""));
+            }
+            values.extend(&piece[..there]);
         }
         columns.push(PageColumn {
-            name,
-            unit: known.map_or(String::new(), |known| known.unit.to_string()),
-            meaning: known.map_or(String::new(), |known| known.meaning.to_string()),
+            name: channel.name,
+            unit: channel.unit,
+            meaning: channel.description,
             values,
         });
     }
     Ok(columns)
-}
-
-/// Appends one row group of one column.
-fn read_part(column: ColumnReader, full: i16, values: &mut Vec<f64>) -> Result<(), ParquetError> {
-    let ColumnReader::DoubleColumnReader(mut column) = column else {
-        return Err(ParquetError::General("a column of doubles".to_string()));
-    };
-    let (mut levels, mut present) = (Vec::new(), Vec::new());
-    loop {
-        let before = present.len();
-        let (rows, ..) = column.read_records(
-            GROUP_ROWS,
-            (full > 0).then_some(&mut levels),
-            None,
-            &mut present,
-        )?;
-        if rows == 0 && present.len() == before {
-            break;
-        }
-    }
-    if full == 0 {
-        values.extend(present);
-    } else {
-        let mut present = present.into_iter();
-        values.extend(levels.iter().map(|&level| {
-            let cell = (level == full).then(|| present.next());
-            cell.flatten().unwrap_or(f64::NAN)
-        }));
-    }
-    Ok(())
 }
 
 #[cfg(test)]
@@ -209,7 +171,7 @@ mod tests {
         let mut file = tempfile::tempfile().unwrap();
         write(&file, columns).unwrap();
         std::io::Seek::rewind(&mut file).unwrap();
-        read(file).unwrap()
+        read(file, "history.parquet".as_ref()).unwrap()
     }
 
     #[test]
@@ -240,6 +202,33 @@ mod tests {
         assert!(back[0].values[1..4].iter().all(|value| value.is_nan()));
         assert_eq!(back[0].values[4], 2.0);
         assert_eq!(back[1].values, [1.5; 5]);
+    }
+
+    /// A run directory whose history was damaged on a disk made the report panic.
+    #[test]
+    fn a_damaged_history_is_an_error_or_read_and_never_a_panic() {
+        let mut file = tempfile::tempfile().unwrap();
+        write(&file, &[column("time", "s", vec![0.5; 40])]).unwrap();
+        std::io::Seek::rewind(&mut file).unwrap();
+        let mut whole = Vec::new();
+        std::io::Read::read_to_end(&mut file, &mut whole).unwrap();
+        let try_read = |bytes: &[u8]| {
+            let mut file = tempfile::tempfile().unwrap();
+            std::io::Write::write_all(&mut file, bytes).unwrap();
+            std::io::Seek::rewind(&mut file).unwrap();
+            read(file, "history.parquet".as_ref())
+        };
+        assert_eq!(try_read(&whole).unwrap().len(), 1);
+        for end in [0, 3, whole.len() / 2, whole.len() - 1] {
+            assert!(try_read(&whole[..end]).is_err(), "{end}");
+        }
+        for at in 0..whole.len() {
+            for value in [0, 0x7f, 0xff, whole[at] ^ 1] {
+                let mut changed = whole.clone();
+                changed[at] = value;
+                let _ = try_read(&changed);
+            }
+        }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //!
 //! No number in it is infinite or not-a-number: such a quantity is `null` with the reason.
 
-use crate::result::outcome::{Contact, Outcome, Picture, Quantity, Spread, Value, Warning};
+use crate::result::outcome::{self, Contact, Outcome, Picture, Quantity, Spread, Value, Warning};
 use crate::scenario::{Provenance, ResolvedValue, Scenario};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -10,8 +10,12 @@ use serde::{Serialize, Serializer};
 const FORMAT: &str = "auxbear.summary/1";
 const NOT_FINITE: &str = "what was computed is not a finite number";
 
-/// The summary of a run as JSON text.
-pub(super) fn json(scenario: &Scenario, outcome: &Outcome) -> Result<String, serde_json::Error> {
+/// The summary of a run as JSON text; `stop` says how it ended.
+pub(super) fn json(
+    scenario: &Scenario,
+    outcome: &Outcome,
+    stop: &outcome::Stop,
+) -> Result<String, serde_json::Error> {
     let quantities = outcome
         .quantities
         .iter()
@@ -27,11 +31,11 @@ pub(super) fn json(scenario: &Scenario, outcome: &Outcome) -> Result<String, ser
         system: outcome.system,
         title: &outcome.title,
         version: env!("CARGO_PKG_VERSION"),
-        complete: outcome.stop.complete(),
+        complete: stop.complete(),
         stop: Stop {
-            reason: outcome.stop.reason,
-            time_s: finite(outcome.stop.time),
-            text: &outcome.stop.text,
+            reason: stop.reason,
+            time_s: finite(stop.time),
+            text: &stop.text,
         },
         quantities: Named(quantities.collect()),
         warnings: outcome.warnings.iter().map(warning).collect(),

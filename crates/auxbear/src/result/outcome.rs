@@ -173,7 +173,7 @@ pub(crate) fn warning(code: &'static str, text: String) -> Warning {
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stop {
-    /// `finished`, `interrupted`, `diverged`, `step limit` or `left the model`.
+    /// `finished`, `interrupted`, `diverged`, `step limit`, `left the model`, `not answered` or `not written`.
     pub reason: &'static str,
     /// Time of the last state, s.
     pub time: f64,

@@ -15,6 +15,7 @@ pub use crate::result::outcome::{self, Outcome};
 use crate::scenario::{Drop, Rig, Scenario, SpinUp, System};
 use crate::simulate::{drop, rig, spin_up};
 pub use measure::file::parquet::panic_is_caught;
+use std::sync::Arc;
 
 /// A scenario with its machine: everything wrong with the input has been reported.
 pub struct Machine<'a> {
@@ -31,7 +32,7 @@ enum Built<'a> {
     ),
     SpinUp(&'a SpinUp, Box<spin_up::build::Built>),
     Torque(Box<torque::Asked<'a>>),
-    Signals(Box<signals::Asked>),
+    Signals(Arc<signals::Asked>),
     Rig(&'a Rig, Box<rig::build::Built>),
     Identify(Box<identify::Asked<'a>>),
 }
@@ -47,7 +48,7 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
             spin_up::build::spin_up(of).map(|built| Built::SpinUp(of, Box::new(built)))
         }
         System::Torque(of) => torque::Asked::of(of).map(|asked| Built::Torque(Box::new(asked))),
-        System::Signals(of) => signals::Asked::of(of).map(|asked| Built::Signals(Box::new(asked))),
+        System::Signals(of) => signals::Asked::of(of).map(|asked| Built::Signals(Arc::new(asked))),
         System::Identify(of) => {
             identify::Asked::of(of).map(|asked| Built::Identify(Box::new(asked)))
         }

@@ -72,7 +72,6 @@ pub use torque::{ComparedLaw, Torque};
 pub use vary::{Distribution, Vary};
 
 use crate::problem::{Code, Problem};
-use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
@@ -268,7 +267,7 @@ fn read_text(path: &Path) -> Result<String, Box<Problem>> {
             &format!("a file that cannot be read ({error})"),
         ),
     };
-    let file = File::open(path).map_err(unreadable)?;
+    let file = measure::file::open_file(path).map_err(unreadable)?;
     let metadata = file.metadata().map_err(unreadable)?;
     if metadata.is_dir() {
         return Err(problem(Code::FileIsFolder, "a folder"));

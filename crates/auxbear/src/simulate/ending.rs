@@ -31,6 +31,22 @@ fn instant(time: f64) -> String {
     }
 }
 
+/// Why a run was given up: it came to the limit of steps, or would pass it many times over at its pace.
+fn given_up(steps: u64, share: f64) -> String {
+    if steps >= STEP_LIMIT {
+        return format!("after the {STEP_LIMIT} steps that are the limit");
+    }
+    let reached = 100.0 * share;
+    let pace = match share > 0.0 {
+        true => format!("about {:.0e}", steps as f64 / share),
+        false => "any number of".to_string(),
+    };
+    format!(
+        "early: after {steps} steps {reached:.2} % of the duration were computed, and at this pace all of it would take {pace} steps, \
+         more than the limit of {STEP_LIMIT}"
+    )
+}
+
 /// How a run ended, in words.
 pub(crate) fn stop(ending: &Ending) -> Stop {
     let time = ending.time;
@@ -55,14 +71,14 @@ pub(crate) fn stop(ending: &Ending) -> Stop {
                 instant(time)
             ),
         ),
-        solve::Stop::StepLimit => (
+        solve::Stop::StepLimit { share } => (
             "step limit",
             format!(
-                "Given up at {} after {} steps, the limit being {STEP_LIMIT}. Either the duration is very long, or \
+                "Given up at {}, {}. Either the duration is very long, or \
                  something in the machine is very stiff: a damper or spring with too many zeros, friction with a very \
                  small reference speed.",
                 instant(time),
-                ending.work.accepted + ending.work.rejected
+                given_up(ending.work.accepted + ending.work.rejected, *share)
             ),
         ),
     };

@@ -68,7 +68,10 @@ struct Expected {
 pub fn rows(text: &str, simulator: &dyn Simulator) -> Vec<Row> {
     match read(text, simulator) {
         Ok(rows) => rows,
-        Err(why) => vec![Row::wrong(why)],
+        Err(why) => vec![Row {
+            damaged: true,
+            ..Row::wrong(format!("wrong: {why}"))
+        }],
     }
 }
 

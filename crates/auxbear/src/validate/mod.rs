@@ -63,13 +63,16 @@ fn named(case: &str, rows: Vec<Row>) -> impl Iterator<Item = Row> {
 fn of_file(path: &Path, simulator: &dyn Simulator) -> Vec<Row> {
     let size = fs::metadata(path).map(|data| data.len());
     if size.is_ok_and(|size| size > LARGEST_FILE) {
-        return vec![Row::not_run(format!("larger than {LARGEST_FILE} bytes"))];
+        return vec![Row::damaged(format!("larger than {LARGEST_FILE} bytes"))];
     }
     let text = match fs::read(path).map(String::from_utf8) {
         Ok(Ok(text)) => text,
-        Ok(Err(_)) => return vec![Row::not_run("not UTF-8 text")],
-        Err(error) => return vec![Row::not_run(format!("cannot be read: {error}"))],
+        Ok(Err(_)) => return vec![Row::damaged("not UTF-8 text")],
+        Err(error) => return vec![Row::damaged(format!("not readable ({error})"))],
     };
+    if text.trim().is_empty() {
+        return vec![Row::damaged("empty")];
+    }
     let is_json = path
         .extension()
         .is_some_and(|extension| extension == "json");
@@ -82,7 +85,7 @@ fn of_file(path: &Path, simulator: &dyn Simulator) -> Vec<Row> {
 
 fn of_json(text: &str, simulator: &dyn Simulator) -> Vec<Row> {
     match serde_json::from_str(text) {
-        Err(error) => vec![Row::not_run(format!("not JSON: {error}"))],
+        Err(error) => vec![Row::damaged(format!("not JSON: {error}"))],
         Ok(value) => reference::rows(&value, simulator)
             .unwrap_or_else(|| vec![Row::not_run("a JSON file of no known format")]),
     }
@@ -90,7 +93,7 @@ fn of_json(text: &str, simulator: &dyn Simulator) -> Vec<Row> {
 
 fn of_toml(text: &str, simulator: &dyn Simulator) -> Vec<Row> {
     let table: toml::Table = match toml::from_str(text) {
-        Err(error) => return vec![Row::not_run(format!("not TOML: {}", error.message()))],
+        Err(error) => return vec![Row::damaged(format!("not TOML: {}", error.message()))],
         Ok(table) => table,
     };
     match table.get("format").and_then(toml::Value::as_str) {
@@ -236,6 +239,7 @@ mod tests {
         fs::write(folder.join("list.json"), "[1, 2]").unwrap();
         fs::write(folder.join("broken.json"), "{").unwrap();
         fs::write(folder.join("bytes.toml"), [0xff, 0xfe]).unwrap();
+        fs::write(folder.join("empty.toml"), " \n").unwrap();
         fs::write(folder.join("notes.txt"), "not read").unwrap();
         let report = run(Some(&folder), &LawsOnly).unwrap();
         fs::remove_dir_all(&folder).unwrap();
@@ -253,11 +257,15 @@ mod tests {
             ("broken.json", "not JSON"),
             ("list", "no known format"),
             ("bytes", "not UTF-8"),
+            ("empty", "empty"),
         ] {
             assert_eq!(find(case).verdict, Verdict::NotRun, "{case}");
             assert!(find(case).why.contains(why), "{case}: {}", find(case).why);
         }
         assert!(report.cases.iter().all(|row| row.case != "notes"));
+        // of another format is no damage
+        let damaged: Vec<String> = report.problems().map(|problem| problem.file).collect();
+        assert_eq!(damaged, ["broken.json", "broken.toml", "bytes", "empty"]);
     }
     #[test]
     fn no_folder_is_one_message() {

@@ -33,7 +33,12 @@ pub fn rows(value: &Value, simulator: &dyn Simulator) -> Option<Vec<Row>> {
     } else {
         return None;
     };
-    Some(rows.unwrap_or_else(|error| vec![Row::wrong(error)]))
+    Some(rows.unwrap_or_else(|error| {
+        vec![Row {
+            damaged: true,
+            ..Row::wrong(format!("wrong: {error}"))
+        }]
+    }))
 }
 
 fn first_row_has(top: &Map<String, Value>, key: &str) -> bool {

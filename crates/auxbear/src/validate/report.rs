@@ -1,5 +1,6 @@
 //! What a validation found: rows, verdicts, table and JSON.
 
+use crate::problem::{Code, Problem};
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -58,6 +59,9 @@ pub struct Row {
     pub verdict: Verdict,
     /// Reason of the tolerance, or why nothing was compared.
     pub why: String,
+    /// Whether the file is damaged: a wrong input, unlike one of another format.
+    #[serde(skip)]
+    pub damaged: bool,
 }
 
 impl Row {
@@ -108,10 +112,19 @@ impl Row {
             tolerance: None,
             verdict: Verdict::NotRun,
             why: why.into(),
+            damaged: false,
         }
     }
 
-    /// A case of a known format that is wrong in itself.
+    /// A file of cases that cannot be read.
+    pub fn damaged(why: impl Into<String>) -> Row {
+        Row {
+            damaged: true,
+            ..Row::not_run(why)
+        }
+    }
+
+    /// What is wrong in itself.
     pub fn wrong(why: impl Into<String>) -> Row {
         Row {
             verdict: Verdict::Fail,
@@ -152,6 +165,15 @@ impl Report {
     /// True when nothing failed.
     pub fn passed(&self) -> bool {
         self.count(Verdict::Fail) == 0
+    }
+
+    /// One problem for each damaged file.
+    pub fn problems(&self) -> impl Iterator<Item = Problem> {
+        self.cases.iter().filter(|row| row.damaged).map(|row| {
+            let found = format!("a case file that is {}", row.why);
+            let needed = "a whole case file is needed; nothing of this one was compared";
+            Problem::new(Code::CaseDamaged, row.case.clone(), found, needed)
+        })
     }
 
     /// The report as JSON: `{"cases": [{"case", "quantity", "unit", "reference", "ours", "deviation", "tolerance",

@@ -30,7 +30,8 @@ pub mod uff;
 pub mod wav;
 
 use std::fmt;
-use std::fs::File;
+use std::fs::{self, File};
+use std::io;
 use std::path::Path;
 
 use crate::recording::{Channel, FileError, Recording};
@@ -169,12 +170,22 @@ fn is_text(head: &[u8]) -> bool {
     !head.is_empty() && (utf16 || (!head.contains(&0) && controls * 50 <= head.len()))
 }
 
+/// Opens a file of bytes for reading. A pipe, a socket or a device is an error: to open or to read it may wait, or never end.
+pub fn open_file(path: &Path) -> io::Result<File> {
+    let kind = fs::metadata(path)?;
+    if !kind.is_file() && !kind.is_dir() {
+        let found = "a pipe, a socket or a device, not a file";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, found));
+    }
+    File::open(path)
+}
+
 /// Opens a file for reading; its format is recognised by its content.
 ///
 /// An error where the file cannot be opened, is of no readable format, or is text under the name of another format.
 pub fn open(path: impl AsRef<Path>) -> Result<Box<dyn Recording>, FileError> {
     let path = path.as_ref();
-    let file = File::open(path)
+    let file = open_file(path)
         .map_err(|e| FileError::new(path, "", format!("cannot be opened ({e})"), ""))?;
     let mut source = source::Source::new(file, path)?;
     let head = source.bytes(0, source.length().min(HEAD as u64))?;

@@ -69,7 +69,7 @@ fn the_step_limit_counts_accepted_and_rejected_steps() {
     let start = [0.5, 0.0, 0.0, 1.7];
     let end = run_alone(&Problem::kepler(), &start, &mut log, &settings);
     assert_sane(&end, &log);
-    assert_eq!(end.stop, Stop::StepLimit);
+    assert!(matches!(end.stop, Stop::StepLimit { .. }), "{:?}", end.stop);
     assert_eq!(end.work.accepted + end.work.rejected, 10);
     assert!(end.work.rejected > 0, "the first step was far too long");
     assert_eq!(end.work.rate_calls, 30);
@@ -87,7 +87,11 @@ fn a_pace_that_would_need_the_limit_many_times_is_given_up_early() {
     let start = [0.5, 0.0, 0.0, 1.7];
     let end = run_alone(&Problem::kepler(), &start, &mut log, &settings);
     assert_sane(&end, &log);
-    assert_eq!(end.stop, Stop::StepLimit);
+    assert!(matches!(end.stop, Stop::StepLimit { .. }), "{:?}", end.stop);
+    let Stop::StepLimit { share } = end.stop else {
+        panic!("{:?}", end.stop);
+    };
+    assert!((share / 5e-5 - 1.0).abs() < 1e-3, "{share}");
     // a twentieth of the limit: then the end is seen to need a billion steps
     assert_eq!(end.work.accepted, 50_000);
 }

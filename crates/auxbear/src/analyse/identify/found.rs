@@ -1,5 +1,6 @@
 //! What the estimators find in the tests, each with its own reason where it refuses.
 
+use crate::analyse::heed::{INTERRUPTED, heed};
 use crate::analyse::identify::consequence::{false_reading, other_cause, slip_is_open, slips};
 use crate::analyse::identify::notes::{Note, grouped};
 use crate::analyse::identify::read::{Asked, Test};
@@ -21,7 +22,7 @@ use identify::slip::{CageSlip, SlipSettings, cage_slip};
 use identify::{Measurement, SetDeviation};
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Part of the largest speed at which tests are compared where nothing is asked for.
 const ANALYSED: f64 = 0.95;
@@ -122,14 +123,15 @@ impl Found {
         let set = rolling_set(asked);
         let mut of_signals = Vec::new();
         let mut unusable = Vec::new();
-        let interrupted = || options.interrupt.load(Ordering::Relaxed);
+        let interrupt = options.interrupt;
+        let interrupted = || interrupt.load(Ordering::Relaxed);
         let mut read = |tests: &[Test]| -> Vec<(Measurement, Uncertain)> {
             let mut list = Vec::new();
             for test in tests {
                 if interrupted() {
                     break;
                 }
-                match measured(test, wish.settling_time, &mut of_signals) {
+                match measured(test, wish.settling_time, interrupt, &mut of_signals) {
                     Ok(measurement) => list.push(measurement),
                     Err(why) => unusable.push((test.name.clone(), why)),
                 }
@@ -144,17 +146,15 @@ impl Found {
         let steady: Vec<Measurement> = (coast_downs.iter())
             .map(|test| before_the_stop(test, wish.settling_time))
             .collect();
-        let slow: Vec<&Measurement> = steady.iter().collect();
-        let moment = match slow.as_slice() {
-            [] => Err("none of the slow tests can be used".to_string()),
-            slow => moment(
-                slow,
-                &set,
-                &MomentSettings {
-                    viscosity: wish.viscosity,
-                    ..MomentSettings::default()
-                },
-            ),
+        let settings = MomentSettings {
+            viscosity: wish.viscosity,
+            ..MomentSettings::default()
+        };
+        let moment = match steady.is_empty() {
+            true => Err("none of the slow tests can be used".to_string()),
+            false => heed(interrupt, move || {
+                moment(&steady.iter().collect::<Vec<_>>(), &set, &settings)
+            }),
         };
         let deviation = SetDeviation {
             balls_mass: wish.ball_mass_deviation,
@@ -172,19 +172,37 @@ impl Found {
         let curve = moment.as_ref().map(|moment| &moment.curve);
         let no_moment = || "the steady moment is not known".to_string();
         let mut tests: Vec<TestFound> = (tests.into_iter())
-            .map(|(test, peak_acceleration)| TestFound {
-                name: test.name.clone(),
-                peak_acceleration,
-                loss: (curve.as_ref().map_err(|_| no_moment()))
-                    .and_then(|curve| loss(&test, curve, &set, &settings)),
-                dissipation: dissipation(&test, &set, &deviation, None),
-                slip: cage_slip(&test, &set, &SlipSettings::default()),
-                skid: (curve.as_ref().map_err(|_| no_moment()))
-                    .and_then(|curve| skid(&test, curve, &set, &SkidSettings::default())),
-                rolling_stated: wish.rolling_stated,
-                other_cause: None,
-                false_reading: None,
-                measurement: test,
+            .map(|(test, peak_acceleration)| {
+                let (own, moment) = (test.clone(), curve.ok().cloned());
+                let parts = heed(interrupt, move || {
+                    let curve = || moment.as_ref().ok_or_else(no_moment);
+                    Ok((
+                        curve().and_then(|curve| loss(&own, curve, &set, &settings)),
+                        dissipation(&own, &set, &deviation, None),
+                        cage_slip(&own, &set, &SlipSettings::default()),
+                        curve().and_then(|curve| skid(&own, curve, &set, &SkidSettings::default())),
+                    ))
+                });
+                let (loss, dissipation, slip, skid) = parts.unwrap_or_else(|why| {
+                    (
+                        Err(why.clone()),
+                        Err(why.clone()),
+                        Err(why.clone()),
+                        Err(why),
+                    )
+                });
+                TestFound {
+                    name: test.name.clone(),
+                    peak_acceleration,
+                    loss,
+                    dissipation,
+                    slip,
+                    skid,
+                    rolling_stated: wish.rolling_stated,
+                    other_cause: None,
+                    false_reading: None,
+                    measurement: test,
+                }
             })
             .collect();
         let measurements: Vec<&Measurement> = tests.iter().map(|test| &test.measurement).collect();
@@ -199,7 +217,7 @@ impl Found {
                 (Err(why()), Err(why()))
             }
             (_, Some(_)) if interrupted() => {
-                let why = || "interrupted".to_string();
+                let why = || INTERRUPTED.to_string();
                 (Err(why()), Err(why()))
             }
             (Err(_), Some(_)) => (Err(no_moment()), Err(no_moment())),
@@ -212,7 +230,14 @@ impl Found {
                     let why = || format!("M does not hold for these tests: {finding}");
                     (Err(why()), Err(why()))
                 }
-                None => explained(&tests, moment, &set, how, wish.settling_time),
+                None => {
+                    let tests: Vec<Measurement> = measurements.iter().copied().cloned().collect();
+                    let (moment, settling_time) = (moment.clone(), wish.settling_time);
+                    let found = heed(interrupt, move || {
+                        Ok(explained(&tests, &moment, &set, how, settling_time))
+                    });
+                    found.unwrap_or_else(|why| (Err(why.clone()), Err(why)))
+                }
             },
         };
         let cause = (verdict.as_ref().ok()).and_then(|verdict| other_cause(&verdict.conclusion));
@@ -232,7 +257,7 @@ impl Found {
         }
         let map = match &unused {
             Some(why) => Err(why.clone()),
-            None => map(&tests, curve.as_ref().ok().copied(), &set, &settings),
+            None => map(&tests, curve.ok(), &set, &settings, interrupt),
         };
         let rotor = match (&wish.rotor_friction, &asked.rotor) {
             (Some(wish), Some(test)) => {
@@ -242,7 +267,7 @@ impl Found {
                     set,
                     deviation,
                 };
-                rubbed(wish, test, &bearing, &mut of_signals)
+                rubbed(wish, test, &bearing, interrupt, &mut of_signals)
             }
             _ => Err("identify.rotor_friction.file is not given".to_string()),
         };
@@ -324,9 +349,10 @@ fn rolling_set(asked: &Asked) -> RollingSet<f64> {
 fn measured(
     test: &Test,
     settling_time: f64,
+    interrupt: &AtomicBool,
     lines: &mut Vec<Note>,
 ) -> Result<(Measurement, Uncertain), String> {
-    let found = signals::find(&test.asked);
+    let found = signals::find(&test.asked, interrupt);
     lines.extend(noted(test, &found));
     let lacks = |part: &'static str| format!("no {part}: {}", found.why(part, true));
     let shaft = found.shaft.as_ref().ok_or_else(|| lacks("speed"))?;
@@ -372,19 +398,25 @@ fn map(
     curve: Option<&identify::SteadyMoment>,
     set: &RollingSet<f64>,
     settings: &LossSettings,
+    interrupt: &AtomicBool,
 ) -> Result<LossMap, String> {
     let curve = curve.ok_or_else(|| "the steady moment is not known".to_string())?;
     // one map of speed and acceleration cannot hold what changes with time besides
     if let Some(why) = tests.iter().find_map(TestFound::withheld) {
         return Err(format!("{why}, so that what is left is not F alone"));
     }
-    let pairs: Vec<(&Measurement, &Loss)> = (tests.iter())
-        .filter_map(|test| Some((&test.measurement, test.loss.as_ref().ok()?)))
+    let pairs: Vec<(Measurement, Loss)> = (tests.iter())
+        .filter_map(|test| Some((test.measurement.clone(), test.loss.clone().ok()?)))
         .collect();
     if pairs.is_empty() {
         return Err("no test with acceleration can be used".to_string());
     }
-    LossMap::fitted(&pairs, curve, set, settings)
+    let (curve, set, settings) = (curve.clone(), *set, *settings);
+    heed(interrupt, move || {
+        let pairs: Vec<(&Measurement, &Loss)> =
+            pairs.iter().map(|(test, loss)| (test, loss)).collect();
+        LossMap::fitted(&pairs, &curve, &set, &settings)
+    })
 }
 
 fn doubted(
@@ -413,7 +445,7 @@ fn doubted(
 }
 
 fn explained(
-    tests: &[TestFound],
+    tests: &[Measurement],
     moment: &Moment,
     set: &RollingSet<f64>,
     how: crate::scenario::Explanations,
@@ -432,7 +464,7 @@ fn explained(
     let priors = Priors::default();
     let curve = &moment.curve;
     let measurements: Vec<Measurement> = (tests.iter())
-        .map(|test| with_prediction_errors(&test.measurement, curve, set, &errors))
+        .map(|test| with_prediction_errors(test, curve, set, &errors))
         .collect();
     let verdict = explain::explain(&measurements, curve, set, &priors, &settings)
         .map_err(|why| why.to_string());
@@ -471,10 +503,11 @@ fn rubbed(
     wish: &RotorFriction,
     test: &Test,
     bearing: &Known,
+    interrupt: &AtomicBool,
     lines: &mut Vec<Note>,
 ) -> Result<rotor_friction::RotorFriction, String> {
     let moment = (bearing.moment.as_ref()).map_err(|_| "the steady moment is not known")?;
-    let found = signals::find(&test.asked);
+    let found = signals::find(&test.asked, interrupt);
     lines.extend(noted(test, &found));
     let shaft = (found.shaft.as_ref()).ok_or_else(|| found.why("speed", true))?;
     let run = RubbingSpinUp::measured(

@@ -4,6 +4,7 @@ use crate::analyse::signals;
 use crate::problem::{Code, Problem};
 use crate::scenario::{BuiltIn, Identify, Scenario, Signals, System, UNNAMED};
 use std::path::Path;
+use std::sync::Arc;
 
 /// One test as its signals file describes it, its channels read.
 pub struct Test {
@@ -14,7 +15,7 @@ pub struct Test {
     /// What is asked of the channels.
     pub signals: Signals,
     /// The channels.
-    pub asked: signals::Asked,
+    pub asked: Arc<signals::Asked>,
 }
 
 /// Tests whose channels were read, and what is asked of them.
@@ -121,7 +122,7 @@ fn test(
         name: name(path),
         load,
         signals: signals.clone(),
-        asked,
+        asked: Arc::new(asked),
     })
 }
 

@@ -2,12 +2,13 @@
 
 use crate::analyse::signals::{cage, converter, shaft, steady, temperature, torque, vibration};
 use crate::result::outcome::Warning;
+use std::sync::Arc;
 
 /// What was found, and what to know of it.
 #[derive(Default)]
 pub(crate) struct Found {
-    pub shaft: Option<shaft::Found>,
-    pub torque: Option<torque::Found>,
+    pub shaft: Option<Arc<shaft::Found>>,
+    pub torque: Option<Arc<torque::Found>>,
     pub cage: Option<cage::Found>,
     /// Temperature of the outer race, K, about every 50 ms.
     pub temperature: Option<temperature::Found>,

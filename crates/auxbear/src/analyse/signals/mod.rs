@@ -26,6 +26,7 @@ pub(crate) mod torque;
 mod unit;
 mod vibration;
 
+use crate::analyse::heed::{INTERRUPTED, heed};
 pub(crate) use crate::analyse::signals::asked::Asked;
 use crate::analyse::signals::asked::{capital, sampled};
 use crate::analyse::signals::found::Found;
@@ -33,7 +34,8 @@ use crate::options::Options;
 use crate::result::assumptions::assumptions;
 use crate::result::outcome::{Outcome, Picture, Stop, Warning, Work};
 use crate::scenario::{Scenario, SensorSource};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// Keys that say something of a sensor only where it is given, not where a tap tells it.
@@ -53,15 +55,25 @@ fn assumed(scenario: &Scenario, asked: &Asked) -> Option<Warning> {
     assumptions(&paths.into_iter().filter(counts).collect::<Vec<_>>())
 }
 
+/// Why a part has no numbers where the shaft has none.
+fn no_shaft<T>() -> Result<T, String> {
+    Err("it needs the speed of the shaft".to_string())
+}
+
+/// Why a part has no numbers that was not asked for.
+fn not_asked<T>() -> Result<T, String> {
+    Err("it is not asked for".to_string())
+}
+
 /// A vibration and slow runs, which need the shaft.
-fn more(asked: &Asked, going: &dyn Fn() -> Result<(), String>, found: &mut Found) {
-    let no_shaft = || Err("it needs the speed of the shaft".to_string());
-    if let (Some(series), Some(wish)) = (&asked.vibration, &asked.signals.vibration) {
-        let vibration = match &found.shaft {
-            Some(shaft) => going().and_then(|()| vibration::Found::of(series, wish, shaft)),
-            None => no_shaft(),
+fn more(asked: &Arc<Asked>, interrupt: &AtomicBool, found: &mut Found) {
+    if asked.vibration.is_some() && asked.signals.vibration.is_some() {
+        let (own, shaft) = (Arc::clone(asked), found.shaft.clone());
+        let vibration = move || match (&own.vibration, &own.signals.vibration, &shaft) {
+            (Some(series), Some(wish), Some(shaft)) => vibration::Found::of(series, wish, shaft),
+            _ => no_shaft(),
         };
-        match vibration {
+        match heed(interrupt, vibration) {
             Ok(vibration) => {
                 found.warn("AB1043", "Vibration", &vibration.notes);
                 found.vibration = Some(vibration);
@@ -69,18 +81,22 @@ fn more(asked: &Asked, going: &dyn Fn() -> Result<(), String>, found: &mut Found
             Err(why) => found.refused.push(("vibration", why)),
         }
     }
-    let Some(wish) = &asked.signals.steady else {
+    if asked.signals.steady.is_none() {
         return;
+    }
+    let (own, shaft, torque) = (Arc::clone(asked), found.shaft.clone(), found.torque.clone());
+    let steady = move || {
+        let faulty = own.torque.as_ref().map(torque::faulty);
+        let reading = own.torque.as_ref().zip(faulty.as_ref());
+        let reading = reading.map(|(series, faulty)| (series, faulty, torque.as_deref()));
+        match (&own.signals.steady, &shaft) {
+            (Some(wish), Some(shaft)) => {
+                steady::Found::of(wish, shaft, reading, own.signals.torque.as_ref())
+            }
+            _ => no_shaft(),
+        }
     };
-    let faulty = asked.torque.as_ref().map(torque::faulty);
-    let reading = asked.torque.as_ref().zip(faulty.as_ref());
-    let reading = reading.map(|(series, faulty)| (series, faulty, found.torque.as_ref()));
-    let steady = match &found.shaft {
-        Some(shaft) => going()
-            .and_then(|()| steady::Found::of(wish, shaft, reading, asked.signals.torque.as_ref())),
-        None => Err("it needs the speed of the shaft".to_string()),
-    };
-    match steady {
+    match heed(interrupt, steady) {
         Ok(steady) => {
             found.warn("AB1043", "Steady curve", &steady.notes);
             found.steady = Some(steady);
@@ -89,20 +105,8 @@ fn more(asked: &Asked, going: &dyn Fn() -> Result<(), String>, found: &mut Found
     }
 }
 
-/// Why a part has no numbers where an interrupt came before it.
-const INTERRUPTED: &str = "interrupted";
-
-/// Computes what is asked for.
-pub(crate) fn find(asked: &Asked) -> Found {
-    find_until(asked, &AtomicBool::new(false))
-}
-
 /// Computes what is asked for, part by part until an interrupt.
-fn find_until(asked: &Asked, interrupt: &AtomicBool) -> Found {
-    let going = || match interrupt.load(Ordering::Relaxed) {
-        true => Err(INTERRUPTED.to_string()),
-        false => Ok(()),
-    };
+pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
     let mut found = Found::default();
     found.warn("AB1040", "The file", &asked.notes);
     for series in sampled(asked) {
@@ -123,8 +127,13 @@ fn find_until(asked: &Asked, interrupt: &AtomicBool) -> Found {
         .torque
         .as_ref()
         .map(|series| (series.first, series.last()));
-    if let (Some(signal), Some(wish)) = (&asked.speed, &asked.signals.speed) {
-        match going().and_then(|()| shaft::Found::of(signal, wish, watched)) {
+    if asked.speed.is_some() && asked.signals.speed.is_some() {
+        let own = Arc::clone(asked);
+        let shaft = move || match (&own.speed, &own.signals.speed) {
+            (Some(signal), Some(wish)) => shaft::Found::of(signal, wish, watched),
+            _ => not_asked(),
+        };
+        match heed(interrupt, shaft) {
             Ok(shaft) => {
                 if let Some(doubt) = &shaft.doubt {
                     found.warn(
@@ -134,34 +143,41 @@ fn find_until(asked: &Asked, interrupt: &AtomicBool) -> Found {
                     );
                 }
                 found.warn("AB1043", "Speed", &shaft.notes);
-                found.shaft = Some(shaft);
+                found.shaft = Some(Arc::new(shaft));
             }
             Err(why) => found.refused.push(("speed", why)),
         }
     }
-    if let (Some(series), Some(wish)) = (&asked.torque, &asked.signals.torque) {
+    if let (Some(series), Some(_)) = (&asked.torque, &asked.signals.torque) {
         let faults = torque::faulty(series);
         found.warn("AB1041", &format!("Channel {}", series.name), &faults.told);
-        let (tap, shaft) = (asked.tap.as_ref(), found.shaft.as_ref());
-        match going().and_then(|()| torque::Found::of(series, &faults, wish, tap, shaft)) {
+        let (own, shaft) = (Arc::clone(asked), found.shaft.clone());
+        let torque = move || match (&own.torque, &own.signals.torque) {
+            (Some(series), Some(wish)) => {
+                torque::Found::of(series, &faults, wish, own.tap.as_ref(), shaft.as_deref())
+            }
+            _ => not_asked(),
+        };
+        match heed(interrupt, torque) {
             Ok(torque) => {
                 found.warn("AB1043", "Torque", &torque.notes);
-                found.torque = Some(torque);
+                found.torque = Some(Arc::new(torque));
             }
             Err(why) => found.refused.push(("torque", why)),
         }
     }
-    if let (Some(signal), Some(wish)) = (&asked.cage, &asked.signals.cage) {
-        let cage = match &found.shaft {
-            Some(shaft) => going().and_then(|()| cage::Found::of(signal, wish, shaft)),
-            None => Err("it needs the speed of the shaft".to_string()),
+    if let (Some(_), Some(wish)) = (&asked.cage, &asked.signals.cage) {
+        let (own, shaft) = (Arc::clone(asked), found.shaft.clone());
+        let cage = move || match (&own.cage, &own.signals.cage, &shaft) {
+            (Some(signal), Some(wish), Some(shaft)) => cage::Found::of(signal, wish, shaft),
+            _ => no_shaft(),
         };
-        match cage {
+        match heed(interrupt, cage) {
             Ok(cage) => {
                 found.warn("AB1043", "Cage", &cage.notes);
                 let marks = asked.signals.speed.as_ref();
                 let marks = marks.map_or(0, |speed| speed.marks_per_revolution);
-                let shaft = found.shaft.as_ref();
+                let shaft = found.shaft.as_deref();
                 if let Some(doubt) = shaft.and_then(|shaft| cage.doubt(wish, marks, shaft)) {
                     found.warn("AB1045", &capital(&asked.place("cage")), &[doubt]);
                 }
@@ -171,7 +187,7 @@ fn find_until(asked: &Asked, interrupt: &AtomicBool) -> Found {
         }
     }
     found.temperature = asked.temperature.as_ref().map(temperature::Found::of);
-    more(asked, &going, &mut found);
+    more(asked, interrupt, &mut found);
     let refused: Vec<Warning> = found
         .refused
         .iter()
@@ -193,9 +209,9 @@ fn find_until(asked: &Asked, interrupt: &AtomicBool) -> Found {
 }
 
 /// Computes what is asked for and names it.
-pub(crate) fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outcome {
+pub(crate) fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcome {
     let clock = Instant::now();
-    let mut found = find_until(asked, options.interrupt);
+    let mut found = find(asked, options.interrupt);
     found.warnings.extend(assumed(scenario, asked));
     let history = history::columns(asked, &found);
     let end = history.first().and_then(|time| time.values.last().copied());

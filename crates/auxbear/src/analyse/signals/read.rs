@@ -441,6 +441,15 @@ impl<'a> Source<'a> {
             .read(channel, first, &mut values)
             .map_err(|error| of_file(&error, key))?;
         values.truncate(got);
+        if self.recording.contradicts_checksum(channel) {
+            let name = &self.recording.channels()[channel].name;
+            return Err(self.problem(
+                Code::MeasurementUnreadable,
+                key,
+                format!("channel \"{name}\", whose values do not match the checksum in the file"),
+                "the file was damaged after it was written: a whole copy of it is needed",
+            ));
+        }
         Ok(values)
     }
 

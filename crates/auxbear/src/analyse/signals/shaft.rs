@@ -13,6 +13,9 @@ use measure::speed::{Motion, Speed, SpeedSettings, Transient, smooth};
 const LONGEST_INTERVAL: f64 = 1e-3;
 /// Shortest.
 const SHORTEST_INTERVAL: f64 = 2e-4;
+/// Most intervals, for each pulse and at least: a record of few pulses over hours has no motion in a millisecond.
+const INTERVALS_PER_PULSE: usize = 256;
+const FEWEST_INTERVALS: usize = 100_000;
 /// Marks that would have passed behind the last one, had the shaft not stopped.
 pub(crate) const SILENT_MARKS: f64 = 2.0;
 /// Intervals of a record at which its largest values are looked for.
@@ -89,7 +92,10 @@ impl Found {
             notes.push(format!("mark {odd} from the first one seen is out of line with the others; it is allowed for"));
         }
         let (first, last) = pulses.watched;
-        let interval = ((last - first) / 20_000.0).clamp(SHORTEST_INTERVAL, LONGEST_INTERVAL);
+        let most = (INTERVALS_PER_PULSE * pulses.times.len()).max(FEWEST_INTERVALS) as f64;
+        let interval = ((last - first) / 20_000.0)
+            .clamp(SHORTEST_INTERVAL, LONGEST_INTERVAL)
+            .max((last - first) / most);
         let count = ((last - first) / interval).ceil() as usize + 1;
         let motions = (0..count).map(|k| speed.at(first + k as f64 * interval));
         let (mut angle, mut rate, mut deviation) = (Vec::new(), Vec::new(), Vec::new());

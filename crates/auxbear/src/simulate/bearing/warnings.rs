@@ -80,7 +80,7 @@ pub(crate) fn cage_inertia(bearing: &Bearing) -> Option<Warning> {
     })
 }
 
-/// An energy ledger that does not close, where the run came to its end.
+/// An energy ledger that does not close, however the run ended.
 pub(crate) fn residual(quantities: &[Quantity]) -> Option<Warning> {
     let residual = number(quantities, "energy_residual")?;
     (residual.abs() > LARGEST_RESIDUAL).then(|| {

@@ -44,9 +44,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
     list.extend(bending(context));
     list.extend(one_motion(context));
     list.extend(each(&|k| loads(context, members, k)));
-    if context.finished.ending.stop == solve::Stop::Finished {
-        list.extend(shared::residual(&name(context)));
-    }
+    list.extend(shared::residual(&name(context)));
     if drop.rotor.planes > 1 {
         list.push(warning(
             "AB1007",

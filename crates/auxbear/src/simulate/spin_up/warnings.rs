@@ -29,9 +29,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     list.extend(shared::films(&run, bearing));
     list.extend(shared::law_range(bearing, speed, load));
     list.extend(shared::film_rise(&run));
-    if context.ending.stop == solve::Stop::Finished {
-        list.extend(shared::residual(quantities));
-    }
+    list.extend(shared::residual(quantities));
     if bearing.inner_race_centre_held && load > 0.0 {
         list.push(warning(
             "AB1020",

@@ -62,6 +62,8 @@ pub(super) struct Lines {
     used: usize,
     /// Whether the file may have more than the buffer.
     more: bool,
+    /// Whether the line that was given last has its end.
+    ended: bool,
 }
 
 impl Lines {
@@ -73,12 +75,18 @@ impl Lines {
             buffer: Vec::new(),
             used: 0,
             more: true,
+            ended: true,
         }
     }
 
     /// Where in the file the next line starts.
     pub fn at(&self) -> u64 {
         self.at + self.used as u64
+    }
+
+    /// Whether the line that was given last has its end; where not, the file may have been cut off inside it.
+    pub fn ended(&self) -> bool {
+        self.ended
     }
 
     /// The next line without its end, as bytes of UTF-8 or a code page; none at the end of the file.
@@ -132,6 +140,7 @@ impl Lines {
         while let Some(b'\r') = line.last() {
             line.pop();
         }
+        self.ended = past > end;
         self.used = past;
         Ok(true)
     }

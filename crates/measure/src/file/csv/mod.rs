@@ -9,7 +9,8 @@
 //! `Sample rate: 1000` before the table tells it.
 //!
 //! Opening reads the whole file once and keeps where every some thousand lines start; values are read on demand. An
-//! empty cell and one that is no number are not-a-number, and are noted with column and line.
+//! empty cell and one that is no number are not-a-number, and are noted with column and line; so is a last line without a
+//! line end, whose last number may be a part of one.
 
 mod cell;
 mod faults;
@@ -182,6 +183,7 @@ impl<S: Read + Seek> Csv<S> {
         let time = self.time();
         let (mut lines, mut line) = (Lines::new(self.letters, first.at), Vec::new());
         let mut number = first.line;
+        let mut cut = None;
         let mut faults = vec![Faults::default(); self.channels.len()];
         let mut lost = Lost::default();
         let mut spacing = Spacing::new();
@@ -212,6 +214,7 @@ impl<S: Read + Seek> Csv<S> {
                 }
                 values.extend(&row);
                 self.rows += 1;
+                cut = (!lines.ended()).then_some(number);
             }
             number += 1;
         }
@@ -220,6 +223,14 @@ impl<S: Read + Seek> Csv<S> {
             channel.count = self.rows;
         }
         self.set_notes(&faults, &lost);
+        if let Some(line) = cut {
+            self.notes.push(Note {
+                channel: None,
+                text: format!(
+                    "the last line, {line}, has no line end: if the file was cut off there, its last number is a part of one"
+                ),
+            });
+        }
         self.set_clock(time, &spacing, back_line);
         Ok(())
     }

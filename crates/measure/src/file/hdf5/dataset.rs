@@ -1,5 +1,6 @@
 //! Datasets: which values there are, where they stand, and how a line of them is read.
 
+use std::collections::BTreeSet;
 use std::io::{Read, Seek};
 use std::sync::Arc;
 
@@ -318,6 +319,8 @@ impl Dataset {
 pub(super) struct Cache {
     #[allow(clippy::type_complexity)]
     chunks: Vec<((usize, Vec<u64>), Option<Arc<Vec<u8>>>)>,
+    /// Datasets of which a chunk is there, but does not match its checksums.
+    pub contradicted: BTreeSet<usize>,
 }
 
 impl Cache {
@@ -332,8 +335,13 @@ impl Cache {
             let entry = self.chunks.remove(at);
             self.chunks.push(entry);
         } else {
-            let bytes = unpacked(storage, dataset, &key.1).map(Arc::new);
-            self.chunks.push((key.clone(), bytes));
+            let packed = packed(storage, dataset, &key.1);
+            let is_there = packed.is_some();
+            let bytes = packed.and_then(|packed| packed.undone());
+            if is_there && bytes.is_none() {
+                self.contradicted.insert(key.0);
+            }
+            self.chunks.push((key.clone(), bytes.map(Arc::new)));
             let held = |cache: &Cache| -> usize {
                 let sizes = cache.chunks.iter().flat_map(|(_, bytes)| bytes.as_ref());
                 sizes.map(|bytes| bytes.len()).sum()
@@ -346,11 +354,27 @@ impl Cache {
     }
 }
 
-fn unpacked<S: Read + Seek>(
+/// A chunk as it stands in the file.
+struct Packed<'a> {
+    bytes: Vec<u8>,
+    filters: &'a [Filter],
+    left_out: u32,
+    size: usize,
+}
+
+impl Packed<'_> {
+    /// Its values; none where they do not unpack, or do not match their checksums.
+    fn undone(self) -> Option<Vec<u8>> {
+        filter::undo(self.filters, self.left_out, self.bytes, self.size)
+    }
+}
+
+/// A chunk; none where it is cut off.
+fn packed<'a, S: Read + Seek>(
     storage: &mut Storage<S>,
-    dataset: &Dataset,
+    dataset: &'a Dataset,
     place: &[u64],
-) -> Option<Vec<u8>> {
+) -> Option<Packed<'a>> {
     let Place::Chunked {
         grid,
         filters,
@@ -366,8 +390,12 @@ fn unpacked<S: Read + Seek>(
     } else {
         chunk.size
     };
-    let bytes = storage.source.bytes(at, size).ok()?;
-    filter::undo(filters, chunk.left_out, bytes, grid.bytes as usize)
+    Some(Packed {
+        bytes: storage.source.bytes(at, size).ok()?,
+        filters,
+        left_out: chunk.left_out,
+        size: grid.bytes as usize,
+    })
 }
 
 /// Fills `values` along a line from the index `first` on; what cannot be read is NaN. Tells whether all could be.

@@ -21,6 +21,9 @@ pub(super) mod kind {
     pub const CONTINUATION: u16 = 0x10;
     pub const SYMBOL_TABLE: u16 = 0x11;
     pub const ATTRIBUTE_INFO: u16 = 0x15;
+
+    /// Kinds of which a group has one at least: where its members stand, or how they are kept.
+    pub const OF_GROUPS: [u16; 4] = [SYMBOL_TABLE, LINK_INFO, LINK, 0x0a];
 }
 
 /// One message of an object.

@@ -142,6 +142,11 @@ impl<S: Read + Seek> Recording for Hdf5<S> {
         &self.notes
     }
 
+    fn contradicts_checksum(&self, channel: usize) -> bool {
+        let line = self.lines.get(channel);
+        line.is_some_and(|line| self.cache.contradicted.contains(&line.dataset))
+    }
+
     fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
         let (Some(told), Some(line)) = (self.channels.get(channel), self.lines.get(channel)) else {
             let path = self.storage.source.path();

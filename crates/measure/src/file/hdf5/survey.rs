@@ -65,6 +65,11 @@ pub(super) fn survey<S: Read + Seek>(
                 continue;
             }
         };
+        let is = |kinds: &[u16]| messages.iter().any(|message| kinds.contains(&message.kind));
+        if !is(&kind::OF_GROUPS) && !is(&[kind::DATATYPE]) {
+            let text = "its header names neither members nor values: it is damaged, and what it holds is left out";
+            found.note(&prefix, text.to_string());
+        }
         let attributes = found.attributes(storage, &prefix, &messages);
         found.take_properties(&prefix, attributes);
         let (members, error) = storage.members(&messages);

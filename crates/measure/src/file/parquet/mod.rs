@@ -114,6 +114,19 @@ struct Column {
     origin: (i64, f64),
 }
 
+/// What is wrong with the values of a channel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Damage {
+    None,
+    /// They cannot be unpacked, or end too early.
+    Unreadable,
+    /// A page does not match its checksum.
+    Contradicted,
+}
+
+/// What the library that unpacks Parquet says of a page that does not match its checksum.
+const CONTRADICTED: &str = "CRC checksum mismatch";
+
 /// A Parquet file that is open for reading.
 pub struct Parquet<S> {
     shared: Shared<S>,
@@ -125,7 +138,8 @@ pub struct Parquet<S> {
     channels: Vec<Channel>,
     properties: Vec<Property>,
     notes: Vec<Note>,
-    told: Vec<bool>,
+    /// What was found damaged in each channel.
+    damage: Vec<Damage>,
     /// Columns that are being read: channel, row group, and where; none where the group is damaged.
     cursors: Vec<(usize, usize, Option<Cursor>)>,
 }
@@ -207,7 +221,7 @@ impl<S: Read + Seek + Send + 'static> Parquet<S> {
             channels: Vec::new(),
             properties: Vec::new(),
             notes: Vec::new(),
-            told: Vec::new(),
+            damage: Vec::new(),
             cursors: Vec::new(),
         };
         file.take_columns();
@@ -270,7 +284,7 @@ impl<S: Read + Seek + Send + 'static> Parquet<S> {
                 },
                 ..Channel::new(name, rows)
             });
-            self.told.push(false);
+            self.damage.push(Damage::None);
         }
         self.properties = about.properties;
     }
@@ -311,6 +325,11 @@ impl<S: Read + Seek + Send + 'static> Parquet<S> {
             self.channels[channel].clock = clock;
         }
         self.notes.extend(notes);
+    }
+
+    /// Whether a part of a channel that was read is damaged or cut off.
+    pub fn is_damaged(&self, channel: usize) -> bool {
+        self.damage.get(channel) != Some(&Damage::None)
     }
 
     /// The place where a channel was read last in a row group, or the start of the group; none where it is damaged.
@@ -365,14 +384,27 @@ impl<S: Read + Seek + Send + 'static> Parquet<S> {
         (group, row - self.starts[group])
     }
 
-    fn tell_damage(&mut self, channel: usize) {
-        if !self.told[channel] {
-            self.told[channel] = true;
-            self.notes.push(Note {
-                channel: Some(self.channels[channel].name.clone()),
-                text: "a part is damaged or cut off; its values are missing".to_string(),
-            });
+    /// Notes that a part of a channel was not read, once for each reason; `why` is what the library said.
+    fn tell_damage(&mut self, channel: usize, why: &str) {
+        let (damage, text) = match why.contains(CONTRADICTED) {
+            true => (
+                Damage::Contradicted,
+                "a page does not match its checksum; its values are missing",
+            ),
+            false => (
+                Damage::Unreadable,
+                "a part is damaged or cut off; its values are missing",
+            ),
+        };
+        if matches!(self.damage[channel], known if known == damage || known == Damage::Contradicted)
+        {
+            return;
         }
+        self.damage[channel] = damage;
+        self.notes.push(Note {
+            channel: Some(self.channels[channel].name.clone()),
+            text: text.to_string(),
+        });
     }
 }
 
@@ -451,6 +483,10 @@ impl<S: Read + Seek + Send + 'static> Recording for Parquet<S> {
         &self.notes
     }
 
+    fn contradicts_checksum(&self, channel: usize) -> bool {
+        self.damage.get(channel) == Some(&Damage::Contradicted)
+    }
+
     fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
         let told = self.channels.get(channel);
         let Some(told) = told.filter(|told| told.content != Content::Text) else {
@@ -478,7 +514,7 @@ impl<S: Read + Seek + Send + 'static> Recording for Parquet<S> {
             let whole = read == Ok(here);
             let kept = cursor.filter(|_| whole);
             if !whole {
-                self.tell_damage(channel);
+                self.tell_damage(channel, read.err().as_deref().unwrap_or_default());
             }
             self.keep(channel, group, kept);
         }
@@ -509,12 +545,15 @@ impl<S: Read + Seek + Send + 'static> Recording for Parquet<S> {
                 }),
                 None => Ok(Vec::new()),
             };
-            let read = read.unwrap_or_default();
+            let (read, why) = match read {
+                Ok(read) => (read, String::new()),
+                Err(why) => (Vec::new(), why),
+            };
             let whole = read.len() == here;
             texts.extend(read);
             self.keep(channel, group, cursor.filter(|_| whole));
             if !whole {
-                self.tell_damage(channel);
+                self.tell_damage(channel, &why);
                 break;
             }
         }

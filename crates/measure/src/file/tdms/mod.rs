@@ -182,7 +182,16 @@ impl<S: Read + Seek> Tdms<S> {
             channel.unit = "s".to_owned();
         }
         if complex {
-            origin.scaling = None;
+            let scaled = match origin.scaling.take() {
+                Some(_) => "; their scaling is not applied",
+                None => "",
+            };
+            self.index.note(
+                Some(name.clone()),
+                format!(
+                    "its values are complex: they are read as two channels, “{name} (real)” and “{name} (imaginary)”{scaled}"
+                ),
+            );
             let second = Origin {
                 imaginary: true,
                 scaling: None,
