@@ -82,6 +82,8 @@ pub enum Code {
     ChannelUnit,
     /// AB0307
     OutputPlace,
+    /// AB0340
+    UnknownQuantity,
     /// AB0401
     DuplicateBearing,
     /// AB0402
@@ -318,6 +320,12 @@ impl Code {
             "AB0307",
             "No place for results",
             "Nothing can be made at the path that was given: a part of it is no folder, or may not be written.",
+        ),
+        (
+            Code::UnknownQuantity,
+            "AB0340",
+            "Limit of no such result",
+            "A limit names a result that a run of this file does not have, or one that is not a single number.",
         ),
         (
             Code::DuplicateBearing,

@@ -2,7 +2,7 @@
 //!
 //! No number in it is infinite or not-a-number: such a quantity is `null` with the reason.
 
-use crate::result::outcome::{Contact, Outcome, Picture, Quantity, Spread, Value, Warning};
+use crate::result::outcome::{Contact, Judged, Outcome, Picture, Quantity, Spread, Value, Warning};
 use crate::scenario::{Provenance, ResolvedValue, Scenario};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -34,6 +34,7 @@ pub(super) fn json(scenario: &Scenario, outcome: &Outcome) -> Result<String, ser
             text: &outcome.stop.text,
         },
         quantities: Named(quantities.collect()),
+        limits: outcome.limits.iter().map(limit).collect(),
         warnings: outcome.warnings.iter().map(warning).collect(),
         contacts: outcome.contacts.iter().map(contact).collect(),
         inputs: scenario.resolved.values.iter().map(input).collect(),
@@ -89,6 +90,8 @@ struct Summary<'a> {
     complete: bool,
     stop: Stop<'a>,
     quantities: Named<'a, Found<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    limits: Vec<Held<'a>>,
     warnings: Vec<Message<'a>>,
     contacts: Vec<Touch>,
     inputs: Vec<Input<'a>>,
@@ -159,6 +162,21 @@ struct Range {
     q05: Option<f64>,
     median: Option<f64>,
     q95: Option<f64>,
+}
+
+/// A limit and its verdict.
+#[derive(Serialize)]
+struct Held<'a> {
+    quantity: &'a str,
+    side: &'static str,
+    bound: f64,
+    value: Option<f64>,
+    unit: &'static str,
+    share: f64,
+    members: usize,
+    hold: usize,
+    verdict: &'static str,
+    why: &'a str,
 }
 
 #[derive(Serialize)]
@@ -247,6 +265,21 @@ fn range(spread: &Spread) -> Range {
         q05: finite(spread.quantiles[0]),
         median: finite(spread.quantiles[1]),
         q95: finite(spread.quantiles[2]),
+    }
+}
+
+fn limit(judged: &Judged) -> Held<'_> {
+    Held {
+        quantity: &judged.limit.quantity,
+        side: judged.limit.side.word(),
+        bound: judged.limit.bound,
+        value: judged.value.and_then(finite),
+        unit: judged.unit,
+        share: judged.limit.share,
+        members: judged.members,
+        hold: judged.hold,
+        verdict: judged.verdict.word(),
+        why: &judged.why,
     }
 }
 

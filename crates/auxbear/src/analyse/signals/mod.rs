@@ -233,6 +233,7 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outc
         },
         members: Vec::new(),
         drawn: Vec::new(),
+        limits: Vec::new(),
         pictures: vec![Picture {
             bearing: String::new(),
             clearance: None,
