@@ -34,6 +34,14 @@ pub(super) struct Inside<'a, W: Write> {
     size: u64,
 }
 
+impl<W: Write> Inside<'_, W> {
+    /// Ends the file: its size and checksum.
+    fn finish(self) -> io::Result<(u32, u32)> {
+        self.deflating.finish()?;
+        Ok((small(self.size)?, self.checksum.sum()))
+    }
+}
+
 impl<W: Write> Write for Inside<'_, W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let count = self.deflating.write(bytes)?;
@@ -71,15 +79,15 @@ impl<W: Write + Seek> Archive<W> {
         };
         self.out.write_all(&entry.local())?;
         let begin = self.out.stream_position()?;
-        let mut inside = Inside {
-            deflating: DeflateEncoder::new(&mut self.out, Compression::fast()),
-            checksum: Crc::new(),
-            size: 0,
+        (entry.size, entry.checksum) = {
+            let mut inside = Inside {
+                deflating: DeflateEncoder::new(&mut self.out, Compression::fast()),
+                checksum: Crc::new(),
+                size: 0,
+            };
+            fill(&mut inside)?;
+            inside.finish()?
         };
-        fill(&mut inside)?;
-        entry.size = small(inside.size)?;
-        entry.checksum = inside.checksum.sum();
-        inside.deflating.finish()?;
         let end = self.out.stream_position()?;
         entry.deflated = small(end - begin)?;
         self.out.seek(SeekFrom::Start(place))?;
