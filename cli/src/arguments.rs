@@ -56,6 +56,21 @@ pub enum Command {
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
+    /// Write results and histories of a run as tables for other programs
+    Export {
+        /// Run directory
+        #[arg(value_name = "DIR")]
+        directory: PathBuf,
+        /// A folder of CSV files: results, members, history and more
+        #[arg(long, required_unless_present = "xlsx", conflicts_with = "xlsx")]
+        csv: bool,
+        /// A workbook with a sheet for each of these
+        #[arg(long)]
+        xlsx: bool,
+        /// Folder or file to write [csv/ or run.xlsx in the run directory]
+        #[arg(long, value_name = "PATH")]
+        out: Option<PathBuf>,
+    },
     /// Run published and reference cases and print how far the results lie from them
     Validate {
         /// Folder with more cases, besides those that ship

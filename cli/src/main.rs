@@ -7,6 +7,7 @@ mod bearings;
 mod console;
 mod digits;
 mod exit;
+mod limits;
 mod measured;
 mod progress;
 mod run;
@@ -19,6 +20,7 @@ mod torque_tables;
 use arguments::{Arguments, Command};
 use auxbear::problem::{Code, Problem};
 use auxbear::report::directory;
+use auxbear::report::export::{self, Format};
 use auxbear::run::panic_is_caught;
 use auxbear::scenario::{BuiltIn, Scenario, SystemName};
 use auxbear::validate::{self, Simulation};
@@ -73,6 +75,16 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
         Command::New { kind, path } => start::perform(kind, path.as_deref())?,
         Command::Schema { kind } => schema::perform(kind)?,
         Command::Report { directories, out } => report(directories, out.as_deref())?,
+        Command::Export {
+            directory,
+            csv,
+            out,
+            ..
+        } => {
+            let format = if *csv { Format::Csv } else { Format::Xlsx };
+            let written = export::export(directory, format, out.as_deref())?;
+            console::print(&format!("{}\n", written.display()));
+        }
         Command::Validate { cases, json } => {
             let report = validate::run(cases.as_deref(), &Simulation)?;
             console::print(&if *json {
@@ -82,7 +94,7 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
             })?;
             let damaged: Vec<Problem> = report.problems().collect();
             for problem in &damaged {
-                console::tell(&problem.to_string());
+                console::report(&problem.to_string());
             }
             if !damaged.is_empty() {
                 return Ok(Exit::WrongInput);

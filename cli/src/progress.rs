@@ -32,7 +32,7 @@ impl Busy {
         thread::spawn(move || {
             let (begin, mut wait) = (Instant::now(), PATIENCE);
             while dropped.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
-                console::tell(&format!("{what}: {:.0} s", begin.elapsed().as_secs_f64()));
+                console::report(&format!("{what}: {:.0} s", begin.elapsed().as_secs_f64()));
                 wait = REPEATED;
             }
         });

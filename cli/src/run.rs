@@ -112,7 +112,7 @@ fn listen() {
             }
             Some(_) => return,
             // Nothing is computed yet that could be kept: the input is read, or the machine built.
-            None => console::tell("interrupted: nothing was computed yet"),
+            None => console::report("interrupted: nothing was computed yet"),
         }
         process::exit(130);
     };

@@ -1,7 +1,7 @@
 //! What is printed after a run: where it is, the quantities most looked for, warnings, cost.
 
-use crate::digits::four_digits;
-use crate::{console, torque_tables};
+use crate::digits::readable;
+use crate::{console, limits, torque_tables};
 use auxbear::result::outcome::{Outcome, Quantity, Value};
 use std::path::Path;
 
@@ -88,19 +88,6 @@ const OF_TESTS: &[&str] = &[
 /// What an identification ends with.
 const NEXT_TESTS: &str = "next_tests";
 
-/// Units for people: SI unit, then units from large to small with their value in SI.
-const UNITS: &[(&str, &[(&str, f64)])] = &[
-    ("s", &[("s", 1.0), ("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)]),
-    ("m", &[("m", 1.0), ("mm", 1e-3), ("µm", 1e-6), ("nm", 1e-9)]),
-    ("N", &[("kN", 1e3), ("N", 1.0), ("mN", 1e-3), ("µN", 1e-6)]),
-    (
-        "Pa",
-        &[("GPa", 1e9), ("MPa", 1e6), ("kPa", 1e3), ("Pa", 1.0)],
-    ),
-    ("N m", &[("N m", 1.0), ("N mm", 1e-3)]),
-    ("J", &[("kJ", 1e3), ("J", 1.0), ("mJ", 1e-3), ("µJ", 1e-6)]),
-];
-
 /// The text printed after a run.
 pub fn text(path: &Path, outcome: &Outcome) -> String {
     let mut rows = Vec::new();
@@ -122,7 +109,7 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
                 _ => q.name == name && *bearing == bearings[0],
             };
             let mut known = outcome.quantities.iter();
-            if let Some(quantity) = known.find(|q| of(q) && !not_asked_for(q)) {
+            if let Some(quantity) = known.find(of) {
                 let name = quantity.name.replace(['_', '.'], " ");
                 rows.push([format!("  {name}"), value(quantity)]);
             }
@@ -133,7 +120,11 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
             .name
             .strip_prefix("test_")
             .and_then(|name| name.split_once('.'));
-        if of_test.is_some_and(|(_, name)| OF_TESTS.contains(&name)) {
+        // of a deviation the value itself says why there is none
+        let known = |name: &str| {
+            !(name.ends_with("_deviation") && matches!(quantity.value, Value::None { .. }))
+        };
+        if of_test.is_some_and(|(_, name)| OF_TESTS.contains(&name) && known(name)) {
             let name = quantity.name.replace(['_', '.'], " ");
             rows.push([format!("  {name}"), value(quantity)]);
         }
@@ -146,6 +137,7 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
             text.push_str(&format!("  {line}\n"));
         }
     }
+    text.push_str(&limits::text(outcome));
     for warning in &outcome.warnings {
         text.push_str(&format!("warning[{}]: {}\n", warning.code, warning.text));
     }
@@ -171,12 +163,6 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
     text
 }
 
-/// Whether a quantity needs a channel or another file that the file does not name.
-fn not_asked_for(quantity: &Quantity) -> bool {
-    let absent = [".channel is not given", ".file is not given"];
-    matches!(&quantity.value, Value::None { why } if absent.iter().any(|end| why.ends_with(end)))
-}
-
 fn value(quantity: &Quantity) -> String {
     let text = match &quantity.value {
         Value::Number(number) => readable(*number, quantity.unit),
@@ -192,44 +178,5 @@ fn value(quantity: &Quantity) -> String {
             spread.members
         ),
         None => text,
-    }
-}
-
-/// A value with four digits in the unit that keeps it between 1 and 1000, where there is one.
-fn readable(si: f64, unit: &str) -> String {
-    let units = UNITS.iter().find(|(known, _)| *known == unit);
-    let units = units.map_or(&[][..], |(_, units)| units);
-    let fitting = units.iter().find(|(_, size)| si.abs() >= *size);
-    let (unit, size) = match fitting.or(units.last()) {
-        Some((unit, size)) if si != 0.0 => (*unit, *size),
-        _ => (unit, 1.0),
-    };
-    let number = four_digits(si / size);
-    match unit {
-        "" | "1" => number,
-        unit => format!("{number} {unit}"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_are_printed_in_the_unit_that_fits() {
-        for (si, unit, text) in [
-            (7.139_21e-3, "s", "7.139 ms"),
-            (675.498, "N", "675.5 N"),
-            (13_450.0, "N", "13.45 kN"),
-            (3.2e9, "Pa", "3.2 GPa"),
-            (-2.5e-4, "m", "-250 µm"),
-            (0.0, "m", "0 m"),
-            (12.0, "", "12"),
-            (123_456.0, "", "123456"),
-            (3.21e-8, "1", "3.21e-8"),
-            (1256.64, "rad/s", "1257 rad/s"),
-        ] {
-            assert_eq!(readable(si, unit), text);
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! What `auxbear torque` prints: tables over acceleration, load, law and lubricant.
 
-use crate::console;
 use crate::digits::four_digits;
+use crate::{console, limits};
 use auxbear::result::outcome::{Outcome, Value};
 use auxbear::units;
 use std::path::Path;
@@ -11,6 +11,9 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
     let found = Found(outcome);
     let mut text = format!("{}\n{}\n", outcome.title, found.place());
     text.push_str(&format!("\n{}", console::table(&found.accelerations())));
+    if let Some(Value::Number(power)) = found.value("power_loss") {
+        text.push_str(&format!("power loss M Ω {} W\n", four_digits(*power)));
+    }
     if let Some(Value::Number(_)) = found.value("starting_moment") {
         let moment = found.number("starting_moment", "N mm");
         text.push_str(&format!("at rest {moment} N mm to start\n"));
@@ -25,6 +28,7 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
         text.push_str(&format!("\n{}", console::table(&found.lubricants())));
     }
     text.push('\n');
+    text.push_str(&limits::text(outcome));
     for warning in &outcome.warnings {
         text.push_str(&format!("warning[{}]: {}\n", warning.code, warning.text));
     }

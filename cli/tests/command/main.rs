@@ -2,6 +2,8 @@
 
 mod bad_input;
 mod bearings;
+mod export;
+mod limits;
 mod lists;
 mod place;
 mod rig;

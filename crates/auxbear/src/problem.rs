@@ -84,6 +84,8 @@ pub enum Code {
     OutputPlace,
     /// AB0310
     CaseDamaged,
+    /// AB0340
+    UnknownQuantity,
     /// AB0401
     DuplicateBearing,
     /// AB0402
@@ -326,6 +328,12 @@ impl Code {
             "AB0310",
             "Damaged case file",
             "A file of cases is cut off, empty or wrong in itself, so that what it would compare is not compared.",
+        ),
+        (
+            Code::UnknownQuantity,
+            "AB0340",
+            "Limit of no such result",
+            "A limit names a result that a run of this file does not have, or one that is not a single number.",
         ),
         (
             Code::DuplicateBearing,

@@ -101,8 +101,12 @@ pub mod probe {
     pub const LARGEST_POCKET_FORCE: usize = 8;
     /// Force between cage and land, N.
     pub const LAND_FORCE: usize = 9;
+    /// Size of the force that the balls exert on the outer race, N: the load on the bearing.
+    pub const BEARING_LOAD: usize = 10;
+    /// Size of the force of the outer race on its mount, spring and damper together, N.
+    pub const MOUNT_FORCE: usize = 11;
     /// Number of them.
-    pub const COUNT: usize = 10;
+    pub const COUNT: usize = 12;
 }
 
 /// Where an auxiliary bearing stands in the state, in the ledger and among the probes of its machine.
@@ -345,6 +349,8 @@ impl<R: Real> AuxiliaryBearing<R> {
                 bearing.largest_outer_load,
                 bearing.largest_pocket_force,
                 bearing.land_force,
+                bearing.on_outer.force.length_squared().sqrt(),
+                mount.length_squared().sqrt(),
             ];
             probe[at.probe..at.probe + probe::COUNT].copy_from_slice(&values);
         }

@@ -15,6 +15,7 @@
 
 use crate::moment_parts::MomentParts;
 use crate::power::power_from_zero;
+use crate::static_load::equivalent_static_load;
 use number::Real;
 use std::f64::consts::PI;
 
@@ -199,8 +200,8 @@ impl<R: Real> PalmgrenCombined<R> {
     /// Valid: as the two factors.
     #[inline(always)]
     pub fn static_load(&self, radial_load: R, axial_load: R) -> R {
-        radial_load
-            .max(self.static_radial_factor * radial_load + self.static_axial_factor * axial_load)
+        let factors = [self.static_radial_factor, self.static_axial_factor];
+        equivalent_static_load(factors, radial_load, axial_load)
     }
 }
 

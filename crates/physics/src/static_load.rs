@@ -1,6 +1,7 @@
 //! The static equivalent load of ball bearings under combined load: P0 = X0 F_r + Y0 F_a, never less than F_r.
 
 use crate::palmgren_factors::FactorType;
+use number::Real;
 use std::fmt;
 
 /// Y0 of single row angular contact bearings over the contact angle in degrees, with X0 = 0.5. Pairs, double row and
@@ -83,6 +84,23 @@ pub fn static_load_factors(
         .ok_or(NoStaticFactors::AngularContactAngle(degrees))?;
     let share = (degrees - low.0) / (high.0 - low.0);
     Ok((0.5 * rows, rows * (low.1 + (high.1 - low.1) * share)))
+}
+
+/// Static equivalent load of a ball bearing, N.
+///
+/// Formula: P0 = max(F_r, X0 F_r + Y0 F_a)
+///
+/// - `factors`: X0 and Y0.
+/// - `radial_load`: F_r, N, not negative.
+/// - `axial_load`: F_a, N, not negative.
+///
+/// Source: ISO 76 (from memory)
+///
+/// Valid: where the factors are.
+#[inline(always)]
+pub fn equivalent_static_load<R: Real>(factors: [R; 2], radial_load: R, axial_load: R) -> R {
+    let [radial, axial] = factors;
+    radial_load.max(radial * radial_load + axial * axial_load)
 }
 
 #[cfg(test)]

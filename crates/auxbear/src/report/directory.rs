@@ -431,7 +431,7 @@ fn name_of(path: &Path) -> String {
         .map_or("run".into(), |name| name.to_string_lossy().into_owned())
 }
 
-fn taken(path: &Path) -> Box<Problem> {
+pub(super) fn taken(path: &Path) -> Box<Problem> {
     Box::new(Problem::at_path(
         Code::OutputExists,
         path,

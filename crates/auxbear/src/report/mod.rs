@@ -7,9 +7,14 @@
 //! | `history` | `history.parquet`: time histories with unit and meaning of every column |
 //! | [`page`] | one run or several as an HTML page |
 //! | [`picture`] | one run as a picture |
+//! | [`export`] | results and histories as CSV files or a workbook |
 
 pub mod directory;
+pub mod export;
 mod history;
 pub mod page;
 pub mod picture;
 mod summary;
+mod table;
+mod workbook;
+mod zip;

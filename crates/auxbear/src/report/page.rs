@@ -51,6 +51,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("page/format.js"),
     include_str!("page/colour.js"),
     include_str!("page/run.js"),
+    include_str!("page/limits.js"),
     include_str!("page/header.js"),
     include_str!("page/timeline.js"),
     include_str!("page/histories.js"),

@@ -2,7 +2,9 @@
 //!
 //! No number in it is infinite or not-a-number: such a quantity is `null` with the reason.
 
-use crate::result::outcome::{self, Contact, Outcome, Picture, Quantity, Spread, Value, Warning};
+use crate::result::outcome::{
+    self, Contact, Judged, Outcome, Picture, Quantity, Spread, Value, Warning,
+};
 use crate::scenario::{Provenance, ResolvedValue, Scenario};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -38,6 +40,7 @@ pub(super) fn json(
             text: &stop.text,
         },
         quantities: Named(quantities.collect()),
+        limits: outcome.limits.iter().map(limit).collect(),
         warnings: outcome.warnings.iter().map(warning).collect(),
         contacts: outcome.contacts.iter().map(contact).collect(),
         inputs: scenario.resolved.values.iter().map(input).collect(),
@@ -93,6 +96,8 @@ struct Summary<'a> {
     complete: bool,
     stop: Stop<'a>,
     quantities: Named<'a, Found<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    limits: Vec<Held<'a>>,
     warnings: Vec<Message<'a>>,
     contacts: Vec<Touch>,
     inputs: Vec<Input<'a>>,
@@ -163,6 +168,21 @@ struct Range {
     q05: Option<f64>,
     median: Option<f64>,
     q95: Option<f64>,
+}
+
+/// A limit and its verdict.
+#[derive(Serialize)]
+struct Held<'a> {
+    quantity: &'a str,
+    side: &'static str,
+    bound: f64,
+    value: Option<f64>,
+    unit: &'static str,
+    share: f64,
+    members: usize,
+    hold: usize,
+    verdict: &'static str,
+    why: &'a str,
 }
 
 #[derive(Serialize)]
@@ -251,6 +271,21 @@ fn range(spread: &Spread) -> Range {
         q05: finite(spread.quantiles[0]),
         median: finite(spread.quantiles[1]),
         q95: finite(spread.quantiles[2]),
+    }
+}
+
+fn limit(judged: &Judged) -> Held<'_> {
+    Held {
+        quantity: &judged.limit.quantity,
+        side: judged.limit.side.word(),
+        bound: judged.limit.bound,
+        value: judged.value.and_then(finite),
+        unit: judged.unit,
+        share: judged.limit.share,
+        members: judged.members,
+        hold: judged.hold,
+        verdict: judged.verdict.word(),
+        why: &judged.why,
     }
 }
 

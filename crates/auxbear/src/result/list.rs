@@ -25,12 +25,6 @@ impl List {
             spread: None,
         });
     }
-    /// Marks what tiny changes of the start change much.
-    pub fn mark_chaotic(&mut self, names: &[&str]) {
-        for quantity in &mut self.0 {
-            quantity.chaotic |= names.contains(&quantity.name.as_str());
-        }
-    }
     /// The results of a run that ended at an instant, s: none has a value where it ended before its first step.
     pub fn ended_at(mut self, time: f64) -> Vec<Quantity> {
         if time == 0.0 {

@@ -1,5 +1,7 @@
 //! What a run hands over: plain data in SI.
 
 pub(crate) mod assumptions;
+pub mod limits;
 pub mod list;
 pub mod outcome;
+pub(crate) mod static_safety;

@@ -1,5 +1,7 @@
 //! What a simulation hands over: quantities, history, contacts, warnings. Plain data, SI.
 
+use crate::scenario::Limit;
+
 /// Everything known after a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
@@ -27,6 +29,8 @@ pub struct Outcome {
     pub pictures: Vec<Picture>,
     /// Files that the run leaves beside its results.
     pub files: Vec<Attachment>,
+    /// Limits of the scenario with their verdicts.
+    pub limits: Vec<Judged>,
 }
 
 /// A file that a run leaves beside its results.
@@ -62,7 +66,7 @@ pub struct Quantity {
     pub source: &'static str,
     /// Where it is valid.
     pub valid: &'static str,
-    /// True where tiny changes of the start change it much: a single run is an example, an ensemble its distribution.
+    /// True where the members of a repeated run show that tiny changes of the start change it much; not known of a single run.
     pub chaotic: bool,
     /// Spread over the members, when repeated.
     pub spread: Option<Spread>,
@@ -102,6 +106,15 @@ pub struct Spread {
 }
 
 impl Spread {
+    /// Deviation over the largest size of a member; 0 where all are 0.
+    pub fn relative_deviation(&self) -> f64 {
+        let size = self.largest.abs().max(self.smallest.abs());
+        match size > 0.0 {
+            true => self.standard_deviation / size,
+            false => 0.0,
+        }
+    }
+
     /// Of the values of members; none of fewer than two.
     pub fn of(mut values: Vec<f64>) -> Option<Self> {
         if values.len() < 2 {
@@ -168,6 +181,47 @@ pub struct Warning {
 /// A warning of a code in the book.
 pub(crate) fn warning(code: &'static str, text: String) -> Warning {
     Warning { code, text }
+}
+
+/// A limit with its verdict.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judged {
+    /// The limit.
+    pub limit: Limit,
+    /// SI unit of bound and value.
+    pub unit: &'static str,
+    /// The value that decides: of the run, or that which the share of the members holds; none where it is not known.
+    pub value: Option<f64>,
+    /// Members asked for; 1 of a run that is not repeated.
+    pub members: usize,
+    /// Members that hold the bound.
+    pub hold: usize,
+    /// What follows.
+    pub verdict: Verdict,
+    /// Why.
+    pub why: String,
+}
+
+/// Whether a limit is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It is.
+    Pass,
+    /// It is not.
+    Fail,
+    /// What is known does not say.
+    Undecided,
+}
+
+impl Verdict {
+    /// In one word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Verdict::Pass => "pass",
+            Verdict::Fail => "fail",
+            Verdict::Undecided => "undecided",
+        }
+    }
 }
 
 /// How a run ended.

@@ -11,11 +11,14 @@ use crate::analyse::{identify, signals};
 use crate::evaluate::torque;
 pub use crate::options::Options;
 use crate::problem::Problem;
+use crate::result::limits;
+use crate::result::outcome::Quantity;
 pub use crate::result::outcome::{self, Outcome};
 use crate::scenario::{Drop, Rig, Scenario, SpinUp, System};
 use crate::simulate::{drop, rig, spin_up};
 pub use measure::file::parquet::panic_is_caught;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// A scenario with its machine: everything wrong with the input has been reported.
 pub struct Machine<'a> {
@@ -55,20 +58,23 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
         System::Rig(of) => rig::build::rig(of).map(|built| Built::Rig(of, Box::new(built))),
     };
     let system = system.map_err(|problem| scenario.locate(problem))?;
-    Ok(Machine { scenario, system })
+    let machine = Machine { scenario, system };
+    if !scenario.limits.is_empty() {
+        let known = machine.results_without_values();
+        let later = match &machine.system {
+            Built::Identify(asked) => asked.results_of_tests(),
+            _ => Vec::new(),
+        };
+        limits::check(&scenario.limits, &known, &later)
+            .map_err(|problem| scenario.locate(problem))?;
+    }
+    Ok(machine)
 }
 
 impl Machine<'_> {
     /// Simulates it. A run that fails is an [`Outcome`] whose `stop` says where and why.
     pub fn run(&self, options: &Options) -> Outcome {
-        let mut outcome = match &self.system {
-            Built::Drop(of, built, varied) => drop::run(self.scenario, of, built, varied, options),
-            Built::SpinUp(of, built) => spin_up::run(self.scenario, of, built, options),
-            Built::Torque(asked) => torque::run(self.scenario, asked),
-            Built::Signals(asked) => signals::run(self.scenario, asked, options),
-            Built::Identify(asked) => identify::run(self.scenario, asked, options),
-            Built::Rig(of, built) => rig::run(self.scenario, of, built, options),
-        };
+        let mut outcome = self.computed(options);
         let mut before = self.warnings();
         before.retain(|warning| {
             outcome
@@ -77,7 +83,34 @@ impl Machine<'_> {
                 .all(|other| other.code != warning.code)
         });
         outcome.warnings.splice(0..0, before);
+        outcome.limits = limits::of(&self.scenario.limits, &outcome);
         outcome
+    }
+
+    fn computed(&self, options: &Options) -> Outcome {
+        match &self.system {
+            Built::Drop(of, built, varied) => drop::run(self.scenario, of, built, varied, options),
+            Built::SpinUp(of, built) => spin_up::run(self.scenario, of, built, options),
+            Built::Torque(asked) => torque::run(self.scenario, asked),
+            Built::Signals(asked) => signals::run(self.scenario, asked, options),
+            Built::Identify(asked) => identify::run(self.scenario, asked, options),
+            Built::Rig(of, built) => rig::run(self.scenario, of, built, options),
+        }
+    }
+
+    /// Names and units of what a run will find: a run that is interrupted before its first step has them all.
+    fn results_without_values(&self) -> Vec<Quantity> {
+        let at_once = AtomicBool::new(true);
+        let options = Options::unwatched(&at_once);
+        let outcome = match &self.system {
+            Built::Drop(of, built, _) => {
+                let mut once = (*of).clone();
+                once.repeat.count = 1;
+                drop::run(self.scenario, &once, built, &[], &options)
+            }
+            _ => self.computed(&options),
+        };
+        outcome.quantities
     }
 }
 

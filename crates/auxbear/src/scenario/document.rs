@@ -3,47 +3,14 @@
 use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::key::{Key, quoted};
 use crate::scenario::meant;
-use crate::scenario::several::{self, AUXILIARY_BEARING, VARY};
+pub(crate) use crate::scenario::raw::{Raw, as_toml};
+use crate::scenario::raw::{Written, collect, raw, table_raw, tables};
+use crate::scenario::several::{self, AUXILIARY_BEARING, LIMIT, VARY};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
 use std::collections::BTreeMap;
 use std::ops::Range;
-use toml::Spanned;
 use toml::de::{DeTable, DeValue};
-
-/// A value as written, before it is known what it means.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Raw {
-    /// A text in quotes, or a bare word of an override.
-    Text(String),
-    /// A whole number, as written.
-    Integer(String, Option<i64>),
-    /// A number with point or exponent.
-    Float(f64),
-    /// `true` or `false`.
-    Switch(bool),
-    /// A table: a value with its source or assumption.
-    Table(Vec<(String, Raw)>),
-    /// A list.
-    List(Vec<Raw>),
-    /// Something that no key takes, in words.
-    Other(&'static str),
-}
-
-impl Raw {
-    /// The value in words, for a message.
-    pub(crate) fn text(&self) -> String {
-        match self {
-            Raw::Text(text) => format!("the text \"{text}\""),
-            Raw::Integer(text, _) => format!("the number {text}"),
-            Raw::Float(value) => format!("the number {}", units::number_text(*value)),
-            Raw::Switch(value) => format!("the switch {value}"),
-            Raw::Table(_) => "a table".to_string(),
-            Raw::List(_) => "a list".to_string(),
-            Raw::Other(words) => words.to_string(),
-        }
-    }
-}
 
 /// One given value.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,7 +34,9 @@ pub(crate) struct Document {
     /// What the file gives of each of several auxiliary bearings alone.
     own: Vec<Own>,
     /// What repeated runs vary: path, distribution, place.
-    pub(crate) vary: Vec<(String, Raw, Place)>,
+    pub(crate) vary: Vec<Written>,
+    /// What results must hold: the keys of each limit.
+    pub(crate) limits: Vec<Vec<Written>>,
 }
 
 /// An auxiliary bearing of several: its name, and the values that it alone has.
@@ -97,6 +66,7 @@ impl Document {
             bearing: None,
             own: Vec::new(),
             vary: Vec::new(),
+            limits: Vec::new(),
         };
         let mut entries = Vec::new();
         flatten(root.get_ref(), &[], &mut entries);
@@ -110,6 +80,9 @@ impl Document {
         }
         if let Some((key, value)) = root.get_ref().get_key_value(VARY) {
             document.add_varied(text, key.span().start, value.get_ref())?;
+        }
+        if let Some((key, value)) = root.get_ref().get_key_value(LIMIT) {
+            document.limits = tables(text, key.span().start, value.get_ref());
         }
         for set in sets {
             document.add_override(set)?;
@@ -307,6 +280,15 @@ impl Document {
             self.vary.push((path, raw, Place::Set));
             return self.only_drops_vary(Place::Set);
         }
+        if let [first, quantity @ .., word] = path.as_slice()
+            && first == LIMIT
+        {
+            let quantity = Raw::Text(quantity.join("."));
+            let keys = [("quantity", quantity), (word.as_str(), raw)];
+            let keys = keys.map(|(key, raw)| (key.to_string(), raw, Place::Set));
+            self.limits.push(keys.to_vec());
+            return Ok(());
+        }
         if path[0] == AUXILIARY_BEARING {
             return self.add_to_bearing(&path, raw, typed.to_string());
         }
@@ -404,27 +386,6 @@ impl Document {
 const TABLES: &str = "one table [[auxiliary_bearing]] for each is needed";
 const NAME: &str = "name = \"drive_end\" is needed: letters, digits, _ and -, each name once";
 
-/// Lists paths with what stands there, down to tables whose values are no tables.
-fn collect(text: &str, table: &DeTable<'_>, before: &str, list: &mut Vec<(String, Raw, Place)>) {
-    for (key, value) in table {
-        let path = match before {
-            "" => key.get_ref().to_string(),
-            _ => format!("{before}.{}", key.get_ref()),
-        };
-        match value.get_ref() {
-            DeValue::Table(inner)
-                if !inner.is_empty()
-                    && inner
-                        .iter()
-                        .all(|(_, v)| matches!(v.get_ref(), DeValue::Table(_))) =>
-            {
-                collect(text, inner, &path, list);
-            }
-            other => list.push((path, raw(other), Place::of_offset(text, key.span().start))),
-        }
-    }
-}
-
 /// Whether a name can stand before results: no dots, no blanks.
 fn is_name(name: &str) -> bool {
     let allowed = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
@@ -520,7 +481,7 @@ fn flatten(table: &DeTable<'_>, prefix: &[String], entries: &mut Vec<Entry>) {
         let mut path = prefix.to_vec();
         path.push(key.get_ref().to_string());
         let dotted = path.join(".");
-        if dotted == AUXILIARY_BEARING || dotted == VARY {
+        if [AUXILIARY_BEARING, VARY, LIMIT].contains(&dotted.as_str()) {
             continue;
         }
         let Range { start, .. } = key.span();
@@ -551,40 +512,4 @@ fn flatten(table: &DeTable<'_>, prefix: &[String], entries: &mut Vec<Entry>) {
             }),
         }
     }
-}
-
-fn table_raw(table: &DeTable<'_>) -> Raw {
-    let mut parts: Vec<(usize, String, Raw)> = table
-        .iter()
-        .map(|(key, value): (&Spanned<_>, &Spanned<_>)| {
-            (
-                key.span().start,
-                key.get_ref().to_string(),
-                raw(value.get_ref()),
-            )
-        })
-        .collect();
-    parts.sort_by_key(|part| part.0);
-    Raw::Table(parts.into_iter().map(|(_, key, raw)| (key, raw)).collect())
-}
-
-fn raw(value: &DeValue<'_>) -> Raw {
-    match value {
-        DeValue::String(text) => Raw::Text(text.to_string()),
-        DeValue::Integer(integer) => Raw::Integer(
-            integer.to_string(),
-            i64::from_str_radix(integer.as_str(), integer.radix()).ok(),
-        ),
-        DeValue::Float(float) => Raw::Float(float.as_str().parse().unwrap_or(f64::NAN)),
-        DeValue::Boolean(value) => Raw::Switch(*value),
-        DeValue::Datetime(_) => Raw::Other("a date"),
-        DeValue::Array(list) => Raw::List(list.iter().map(|item| raw(item.get_ref())).collect()),
-        DeValue::Table(table) => table_raw(table),
-    }
-}
-
-/// The value of a text when it is TOML by itself.
-pub(crate) fn as_toml(typed: &str) -> Option<Raw> {
-    let value = DeValue::parse(typed).ok()?;
-    Some(raw(value.get_ref()))
 }

@@ -15,9 +15,11 @@ pub(crate) mod document;
 pub(crate) mod drop;
 pub(crate) mod identify;
 pub(crate) mod key;
+pub(crate) mod limit;
 pub(crate) mod locate;
 pub(crate) mod meant;
 pub(crate) mod provenance;
+pub(crate) mod raw;
 pub(crate) mod read;
 pub(crate) mod read_lists;
 pub(crate) mod read_rows;
@@ -50,6 +52,7 @@ pub use drop::{AuxiliaryBearing, Contact, Drop, Gravity, Levitation, Mount, Repe
 pub use identify::{Explanations, Identify, RotorFriction};
 pub(crate) use key::quoted;
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
+pub use limit::{Limit, Side};
 pub(crate) use locate::UNNAMED;
 pub use provenance::Provenance;
 pub use resolved::{Resolved, ResolvedValue};
@@ -171,6 +174,8 @@ pub struct Scenario {
     pub resolved: Resolved,
     /// What repeated runs vary.
     pub vary: Vec<Vary>,
+    /// What results must hold.
+    pub limits: Vec<Limit>,
     /// Where it was read.
     text: locate::Text,
     /// What was read, to be read again with other values.
@@ -235,13 +240,17 @@ impl Scenario {
             System::Drop(drop) => vary::of_drop(&drop.repeat, &document.vary, &values)?,
             _ => Vec::new(),
         };
+        let limits = limit::of(&document)?;
         Ok(Scenario {
             format: FORMAT.to_string(),
             title: values[0].text("title"),
             description: values[0].text("description"),
             system,
-            resolved: values::Values::resolved(&values).varied(&vary),
+            resolved: values::Values::resolved(&values)
+                .varied(&vary)
+                .limited(&limits),
             vary,
+            limits,
             text: locate::Text {
                 name: name.to_string(),
                 sections: document.sections.clone(),

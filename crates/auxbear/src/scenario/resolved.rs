@@ -2,6 +2,7 @@
 
 use crate::problem::Place;
 use crate::scenario::key::{Key, Kind, quoted};
+use crate::scenario::limit::Limit;
 use crate::scenario::provenance::Provenance;
 use crate::scenario::several::{self, AUXILIARY_BEARING, VARY};
 use crate::scenario::table;
@@ -46,12 +47,22 @@ pub struct Resolved {
     pub values: Vec<ResolvedValue>,
     /// What `[vary]` says, a line each.
     vary: Vec<String>,
+    /// What results must hold, a table each.
+    limits: Vec<String>,
 }
 
 impl Resolved {
     pub(crate) fn new(values: Vec<ResolvedValue>) -> Resolved {
-        let vary = Vec::new();
-        Resolved { values, vary }
+        Resolved {
+            values,
+            vary: Vec::new(),
+            limits: Vec::new(),
+        }
+    }
+    /// The same with what results must hold.
+    pub(crate) fn limited(mut self, limits: &[Limit]) -> Resolved {
+        self.limits = limits.iter().map(Limit::toml).collect();
+        self
     }
     /// The same with what repeated runs vary; what the keys of `[repeat]` say stands there.
     pub(crate) fn varied(mut self, vary: &[Vary]) -> Resolved {
@@ -107,6 +118,9 @@ impl Resolved {
         }
         if !self.vary.is_empty() {
             out.push_str(&format!("\n[{VARY}]\n{}\n", self.vary.join("\n")));
+        }
+        for limit in &self.limits {
+            out.push_str(&format!("\n{limit}"));
         }
         out
     }

@@ -15,7 +15,7 @@
 
 use crate::scenario::key::{Condition, Key, Kind, Otherwise, Presence, Range};
 use crate::scenario::read::FILLED_IN;
-use crate::scenario::several::{AUXILIARY_BEARING, VARY, of_each_bearing};
+use crate::scenario::several::{AUXILIARY_BEARING, LIMIT, VARY, of_each_bearing};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
 use crate::scenario::values::{COMPARED_LAWS, LAW};
@@ -48,6 +48,7 @@ fn root(system: SystemName) -> Value {
     for key in table::keys_of(system) {
         properties(&mut root, key.section()).insert(key.name().to_string(), value(key, system));
     }
+    properties(&mut root, "").insert(LIMIT.to_string(), limits(system));
     let mut rules = exclusions(system);
     // what each of several auxiliary bearings may have of its own needs not stand in the head of the file
     let mut single = Vec::new();
@@ -113,6 +114,38 @@ fn add_bearings(root: &mut Value, system: SystemName) {
         "description": "What repeated runs vary: dotted paths in quotes, each with one of lognormal, normal, uniform, triangular, choice.",
     });
     properties(root, "").insert(VARY.to_string(), vary);
+}
+
+/// The array of what results must hold.
+fn limits(system: SystemName) -> Value {
+    let mut one = object("A limit that a result must hold; the verdict stands among the results.");
+    let bound =
+        json!({ "anyOf": [{ "type": "string", "pattern": QUANTITY }, { "type": "number" }] });
+    let with = |words: &str| {
+        let mut bound = bound.clone();
+        bound["description"] = json!(words);
+        bound
+    };
+    let name = "Name of a result, as in summary.json.";
+    let mut keys = vec![
+        ("quantity", json!({ "type": "string", "description": name })),
+        ("most", with("Bound that the result must not exceed.")),
+        ("least", with("Bound that the result must not fall below.")),
+    ];
+    if system == SystemName::Drop {
+        let share = json!({ "anyOf": [
+            { "type": "number", "exclusiveMinimum": 0, "maximum": 1 },
+            { "type": "string", "pattern": QUANTITY },
+        ], "description": "Share of the members of a repeated run that must hold it; without it all of them." });
+        keys.push(("share", share));
+    }
+    for (key, schema) in keys {
+        properties(&mut one, "").insert(key.to_string(), schema);
+    }
+    one["required"] = json!(["quantity"]);
+    one["anyOf"] = json!([given("most"), given("least")]);
+    one["not"] = json!({ "required": ["most", "least"] });
+    json!({ "type": "array", "items": one, "description": "Limits that results must hold, each with a verdict." })
 }
 
 /// A table that knows all its keys.

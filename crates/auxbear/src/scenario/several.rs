@@ -1,4 +1,5 @@
-//! What stands in a file besides sections of the table of keys: several auxiliary bearings, and what repeated runs vary.
+//! What stands in a file besides sections of the table of keys: several auxiliary bearings, what repeated runs vary, what
+//! results must hold.
 
 /// The array of tables that tells several auxiliary bearings apart.
 pub(crate) const AUXILIARY_BEARING: &str = "auxiliary_bearing";
@@ -22,3 +23,6 @@ pub(crate) fn path_of(bearing: Option<&str>, path: &str) -> String {
 
 /// The section of values that repeated runs vary.
 pub(crate) const VARY: &str = "vary";
+
+/// The array of tables of what results must hold.
+pub(crate) const LIMIT: &str = "limit";

@@ -1,6 +1,8 @@
 //! The commented starting file, written from the table of keys.
 
 use crate::scenario::key::{Condition, Key, Otherwise, Presence};
+use crate::scenario::limit;
+use crate::scenario::several::LIMIT;
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
 
@@ -43,7 +45,23 @@ pub fn template(kind: &str) -> Option<String> {
         }
         describe(&mut out, key, system);
     }
+    limit_example(&mut out, system);
     Some(out.trim_end().to_string() + "\n")
+}
+
+/// What results must hold stands at the end, as lines that are not read.
+fn limit_example(out: &mut String, system: SystemName) {
+    comment(
+        out,
+        "Limits that the results must hold, as many as you like, each with a verdict: name of a result, most or least.",
+    );
+    let (quantity, bound) = limit::example(system);
+    out.push_str(&format!(
+        "# [[{LIMIT}]]\n# quantity = \"{quantity}\"\n# {bound}\n"
+    ));
+    if system == SystemName::Drop {
+        out.push_str("# share = 0.95 # of repeated runs; without it all of them\n");
+    }
 }
 
 fn describe(out: &mut String, key: &Key, system: SystemName) {

@@ -6,6 +6,7 @@ mod blame;
 mod contact_angle;
 mod files;
 mod friction;
+mod limits;
 mod lubricant;
 mod lubricant_state;
 mod pressure_limits;

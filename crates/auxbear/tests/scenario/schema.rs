@@ -140,6 +140,7 @@ fn the_schema_has_every_section_and_key_and_no_other() {
         list(&root, "", &mut found);
         let mut known: Vec<String> = keys_of(*system).map(|key| key.path.to_string()).collect();
         known.extend(sections_of(*system).map(|section| section.path.to_string()));
+        known.push("limit".to_string());
         if *system == SystemName::Drop {
             known.extend(["auxiliary_bearing", "vary"].map(String::from));
         }
@@ -147,6 +148,31 @@ fn the_schema_has_every_section_and_key_and_no_other() {
         known.sort();
         assert_eq!(found, known);
     }
+}
+
+#[test]
+fn a_limit_is_right_with_one_bound_and_no_other_key() {
+    let schema = schema_of("drop");
+    let with = |lines: &str| {
+        let text = format!("{}\n[[limit]]\n{lines}\n", template("drop").unwrap());
+        right(&schema, &parsed(&text))
+    };
+    assert!(with("quantity = \"contact_count\"\nmost = 5\nshare = 0.9"));
+    assert!(with("quantity = \"peak_contact_force\"\nleast = \"5 kN\""));
+    for wrong in [
+        "quantity = \"contact_count\"",
+        "most = 5",
+        "quantity = \"contact_count\"\nmost = 5\nleast = 4",
+        "quantity = \"contact_count\"\nmax = 5",
+        "quantity = \"contact_count\"\nmost = 5\nshare = 2",
+    ] {
+        assert!(!with(wrong), "{wrong}");
+    }
+    let torque = parsed(&format!(
+        "{}\n[[limit]]\nquantity = \"power_loss\"\nmost = \"1 W\"\nshare = 0.9\n",
+        template("torque").unwrap()
+    ));
+    assert!(!right(&schema_of("torque"), &torque));
 }
 
 /// Paths of all sections and keys of a schema; each has a description.

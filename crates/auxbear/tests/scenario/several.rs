@@ -5,7 +5,7 @@ use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::{BuiltIn, Distribution, Scenario, System};
 use std::sync::atomic::AtomicBool;
 
-const HEAD: &str = r#"
+pub(crate) const HEAD: &str = r#"
 format = "auxbear.scenario/1"
 system = "drop"
 
@@ -40,7 +40,7 @@ operating_diametral_clearance = "-4 um"
 duration = "15 ms"
 "#;
 
-const TWINS: &str = r#"
+pub(crate) const TWINS: &str = r#"
 [[auxiliary_bearing]]
 name = "drive_end"
 
@@ -48,12 +48,12 @@ name = "drive_end"
 name = "other_end"
 "#;
 
-fn read(text: &str, sets: &[&str]) -> Result<Scenario, Box<auxbear::problem::Problem>> {
+pub(crate) fn read(text: &str, sets: &[&str]) -> Result<Scenario, Box<auxbear::problem::Problem>> {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_string()).collect();
     Scenario::parse(text, "two.toml", &sets, &BuiltIn)
 }
 
-fn outcome(text: &str, sets: &[&str]) -> Outcome {
+pub(crate) fn outcome(text: &str, sets: &[&str]) -> Outcome {
     let scenario = read(text, sets).expect("it is right");
     let interrupt = AtomicBool::new(false);
     run(&scenario, &Options::unwatched(&interrupt)).expect("it builds")

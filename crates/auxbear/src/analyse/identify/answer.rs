@@ -3,6 +3,7 @@
 
 use crate::analyse::identify::found::Found;
 use crate::analyse::identify::per_test;
+use crate::analyse::identify::read::Asked;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Value};
 use identify::explain::{self, Conclusion, Explanation};
@@ -15,16 +16,20 @@ const CURVE_POINTS: usize = 60;
 /// Speeds and accelerations of the map.
 const MAP_POINTS: usize = 24;
 
-/// All named results.
-pub(crate) fn quantities(found: &Found) -> Vec<Quantity> {
+/// All named results; what was not asked for has none.
+pub(crate) fn quantities(asked: &Asked, found: &Found) -> Vec<Quantity> {
     let mut list = List(Vec::new());
     verdict(&mut list, found);
     moment(&mut list, found);
     for (number, test) in found.tests.iter().enumerate() {
-        per_test::name(&mut list, number + 1, test, &found.set);
+        let given = asked.tests.iter().find(|given| given.name == test.name);
+        let cage = given.is_some_and(|given| given.signals.cage.is_some());
+        per_test::name(&mut list, number + 1, test, &found.set, cage);
     }
     map(&mut list, found);
-    rotor(&mut list, found);
+    if asked.rotor.is_some() {
+        rotor(&mut list, found);
+    }
     list.0
 }
 

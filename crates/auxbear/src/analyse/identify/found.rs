@@ -354,7 +354,7 @@ fn measured(
 ) -> Result<(Measurement, Uncertain), String> {
     let found = signals::find(&test.asked, interrupt);
     lines.extend(noted(test, &found));
-    let lacks = |part: &'static str| format!("no {part}: {}", found.why(part, true));
+    let lacks = |part: &'static str| format!("no {part}: {}", found.why(part));
     let shaft = found.shaft.as_ref().ok_or_else(|| lacks("speed"))?;
     let torque = found.torque.as_ref().ok_or_else(|| lacks("torque"))?;
     if let Some(why) = &torque.hidden {
@@ -509,7 +509,7 @@ fn rubbed(
     let moment = (bearing.moment.as_ref()).map_err(|_| "the steady moment is not known")?;
     let found = signals::find(&test.asked, interrupt);
     lines.extend(noted(test, &found));
-    let shaft = (found.shaft.as_ref()).ok_or_else(|| found.why("speed", true))?;
+    let shaft = (found.shaft.as_ref()).ok_or_else(|| found.why("speed"))?;
     let run = RubbingSpinUp::measured(
         &test.name,
         &shaft.speed,

@@ -63,7 +63,7 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outc
         system: "identify",
         title: (scenario.title.clone())
             .unwrap_or_else(|| "What the tests show of the bearing".to_string()),
-        quantities: answer::quantities(&found),
+        quantities: answer::quantities(asked, &found),
         history,
         contacts: Vec::new(),
         stop,
@@ -75,6 +75,7 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outc
         },
         members: Vec::new(),
         drawn: Vec::new(),
+        limits: Vec::new(),
         pictures: vec![Picture {
             bearing: String::new(),
             clearance: None,

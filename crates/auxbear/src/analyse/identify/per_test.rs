@@ -10,8 +10,14 @@ use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 use physics::spin_up_energy::SpinUpEnergy;
 
-/// Names the results of one test.
-pub(crate) fn name(list: &mut List, number: usize, test: &TestFound, set: &RollingSet<f64>) {
+/// Names the results of one test; those of the cage where its channel is given.
+pub(crate) fn name(
+    list: &mut List,
+    number: usize,
+    test: &TestFound,
+    set: &RollingSet<f64>,
+    cage: bool,
+) {
     let named = |name: &str| format!("test_{number}.{name}");
     let m = &test.measurement;
     list.push(&named("name"), "", Value::Text(test.name.clone()), &TEST);
@@ -33,7 +39,10 @@ pub(crate) fn name(list: &mut List, number: usize, test: &TestFound, set: &Rolli
     torques(list, &named, test);
     rolling_up(list, &named, test, set);
     energies(list, &named, test);
-    slip(list, &named, test);
+    if cage {
+        slip(list, &named, test);
+    }
+    skid(list, &named, test);
 }
 
 /// A value with its standard deviation under the same name.
@@ -55,12 +64,20 @@ pub(crate) fn uncertain(
 
 fn torques(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
     let loss = test.loss.as_ref().map_err(Clone::clone);
-    let unknown = || "there is no torque beside a steady moment then".to_string();
     type Part = fn(&Loss, &Measurement) -> Option<Uncertain>;
-    for (name, part) in [
-        ("excess_torque_settled", Loss::settled_excess as Part),
-        ("excess_torque_at_end", Loss::excess_at_end),
+    for (name, part, lacking) in [
+        (
+            "excess_torque_settled",
+            Loss::settled_excess as Part,
+            "no engagement was found, or t_O - M is not known 0.2 to 0.4 s after it",
+        ),
+        (
+            "excess_torque_at_end",
+            Loss::excess_at_end,
+            "the test does not hold its full speed long enough, or t_O - M is not known there",
+        ),
     ] {
+        let unknown = || lacking.to_string();
         let value =
             (loss.clone()).and_then(|loss| part(loss, &test.measurement).ok_or_else(unknown));
         uncertain(list, &named(name), "N m", value, &EXCESS);
@@ -154,6 +171,9 @@ fn slip(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
         }),
         &ROLLS,
     );
+}
+
+fn skid(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
     list.number(
         &named("skid_probability"),
         "1",

@@ -7,13 +7,19 @@ use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Value};
 use measure::pulse::Gap;
 
-/// Names the results.
+/// Names the results; what no channel was given for has none.
 pub(crate) fn quantities(asked: &Asked, found: &Found) -> Vec<Quantity> {
     let mut list = List(Vec::new());
     listing(&mut list, asked);
-    speed(&mut list, asked, found);
-    torque(&mut list, asked, found);
-    cage(&mut list, asked, found);
+    if asked.speed.is_some() {
+        speed(&mut list, found);
+    }
+    if asked.torque.is_some() {
+        torque(&mut list, asked, found);
+    }
+    if asked.cage.is_some() {
+        cage(&mut list, found);
+    }
     crate::analyse::signals::answer_analysis::name(&mut list, asked, found);
     list.0
 }
@@ -44,11 +50,8 @@ fn listing(list: &mut List, asked: &Asked) {
     list.push("file_notes", "", Value::Text(notes), &FILE);
 }
 
-fn speed(list: &mut List, asked: &Asked, found: &Found) {
-    let shaft = found
-        .shaft
-        .as_ref()
-        .ok_or_else(|| found.why("speed", asked.speed.is_some()));
+fn speed(list: &mut List, found: &Found) {
+    let shaft = found.shaft.as_ref().ok_or_else(|| found.why("speed"));
     let change = || {
         let shaft = shaft.as_ref().map_err(|why| why.to_string())?;
         shaft
@@ -176,14 +179,8 @@ fn speed(list: &mut List, asked: &Asked, found: &Found) {
 }
 
 fn torque(list: &mut List, asked: &Asked, found: &Found) {
-    let part = found
-        .torque
-        .as_ref()
-        .ok_or_else(|| found.why("torque", asked.torque.is_some()));
-    let series = asked
-        .torque
-        .as_ref()
-        .ok_or_else(|| found.why("torque", false));
+    let part = found.torque.as_ref().ok_or_else(|| found.why("torque"));
+    let series = asked.torque.as_ref().ok_or_else(|| found.why("torque"));
     let faults = series
         .as_ref()
         .map(|series| torque::faulty(series))
@@ -331,11 +328,8 @@ fn torque(list: &mut List, asked: &Asked, found: &Found) {
     }
 }
 
-fn cage(list: &mut List, asked: &Asked, found: &Found) {
-    let cage = found
-        .cage
-        .as_ref()
-        .ok_or_else(|| found.why("cage", asked.cage.is_some()));
+fn cage(list: &mut List, found: &Found) {
+    let cage = found.cage.as_ref().ok_or_else(|| found.why("cage"));
     let of = |value: &dyn Fn(&measure::cage_speed::CageSpeed) -> f64| {
         cage.as_ref()
             .map(|found| value(&found.told))

@@ -7,11 +7,17 @@ use crate::result::list::{List, Origin};
 use crate::result::outcome::Value;
 use identify::steady_curve::{Difference, SteadyCurve};
 
-/// Names the results.
+/// Names the results; what was not asked for has none.
 pub(crate) fn name(list: &mut List, asked: &Asked, found: &Found) {
-    converter(list, found);
-    vibration(list, asked, found);
-    steady(list, asked, found);
+    if !found.converted.is_empty() {
+        converter(list, found);
+    }
+    if asked.vibration.is_some() {
+        vibration(list, found);
+    }
+    if asked.signals.steady.is_some() {
+        steady(list, found);
+    }
 }
 
 fn listed(values: Result<Vec<f64>, String>) -> Value {
@@ -22,21 +28,23 @@ fn listed(values: Result<Vec<f64>, String>) -> Value {
 }
 
 fn converter(list: &mut List, found: &Found) {
-    let why = || match found.converted.is_empty() {
-        true => Err("signals.converter.channels names no channel that is looked at".to_string()),
-        false => Ok(&found.converted),
-    };
-    let clipped = why().map(|all| all.iter().map(|one| one.clipped as f64).sum());
-    list.number("converter_clipped_values", "", clipped, &CONVERTER);
-    let share = why().map(|all| all.iter().map(|one| one.rounding_share).fold(0.0, f64::max));
-    list.number("converter_rounding_share_of_noise", "1", share, &CONVERTER);
+    let all = || found.converted.iter();
+    let clipped = all().map(|one| one.clipped as f64).sum();
+    list.number("converter_clipped_values", "", Ok(clipped), &CONVERTER);
+    let share = all().map(|one| one.rounding_share).fold(0.0, f64::max);
+    list.number(
+        "converter_rounding_share_of_noise",
+        "1",
+        Ok(share),
+        &CONVERTER,
+    );
 }
 
-fn vibration(list: &mut List, asked: &Asked, found: &Found) {
+fn vibration(list: &mut List, found: &Found) {
     let part = found
         .vibration
         .as_ref()
-        .ok_or_else(|| found.why("vibration", asked.vibration.is_some()));
+        .ok_or_else(|| found.why("vibration"));
     let orders = part.as_ref().map_err(|why| why.clone()).and_then(|part| {
         part.orders
             .as_ref()
@@ -99,16 +107,8 @@ fn vibration(list: &mut List, asked: &Asked, found: &Found) {
     }
 }
 
-fn steady(list: &mut List, asked: &Asked, found: &Found) {
-    let part = || {
-        found
-            .steady
-            .as_ref()
-            .ok_or_else(|| match asked.signals.steady {
-                Some(_) => found.why("steady", true),
-                None => "signals.steady.from is not given".to_string(),
-            })
-    };
+fn steady(list: &mut List, found: &Found) {
+    let part = || found.steady.as_ref().ok_or_else(|| found.why("steady"));
     let inertia = || part().and_then(|part| part.inertia.clone());
     list.number(
         "steady_inertia",

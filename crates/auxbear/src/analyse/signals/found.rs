@@ -29,13 +29,12 @@ impl Found {
         }
     }
 
-    /// Why a part has no numbers.
-    pub fn why(&self, part: &'static str, asked: bool) -> String {
+    /// Why a part that was asked for has no numbers.
+    pub fn why(&self, part: &'static str) -> String {
         let refused = self.refused.iter().find(|(name, _)| *name == part);
-        match refused {
-            Some((_, why)) => why.clone(),
-            None if asked => "what it needs was not found".to_string(),
-            None => format!("signals.{part}.channel is not given"),
-        }
+        refused.map_or_else(
+            || "what it needs was not found".to_string(),
+            |(_, why)| why.clone(),
+        )
     }
 }

@@ -249,6 +249,7 @@ pub(crate) fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) ->
         },
         members: Vec::new(),
         drawn: Vec::new(),
+        limits: Vec::new(),
         pictures: vec![Picture {
             bearing: String::new(),
             clearance: None,

@@ -50,6 +50,7 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
         },
         members: Vec::new(),
         drawn: Vec::new(),
+        limits: Vec::new(),
         pictures: vec![Picture {
             bearing: String::new(),
             clearance: None,
@@ -100,6 +101,12 @@ fn history(asked: &Asked) -> Vec<Column> {
             &|speed| part(steady(speed)),
         );
     }
+    add(
+        "friction.power".to_string(),
+        "W",
+        format!("power M Ω that the steady moment takes {under}"),
+        &|speed| speed * steady(speed).sum(),
+    );
     for (number, &acceleration) in (1..).zip(&torque.accelerations) {
         let at = format!("at {acceleration} rad/s^2 {under}");
         for (name, words, part) in [

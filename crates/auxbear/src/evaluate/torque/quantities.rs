@@ -3,6 +3,7 @@
 use crate::evaluate::torque::asked::{Asked, Moments, law_of, name_of};
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Value};
+use crate::result::static_safety::{AT_THE_LOAD, StaticLoad};
 use physics::friction::{Friction, MomentParts};
 
 /// Names the results.
@@ -43,6 +44,14 @@ fn place(list: &mut List, asked: &Asked) {
 fn steady(list: &mut List, asked: &Asked) {
     let parts = asked.friction(&asked.law, asked.torque.speed, asked.load());
     parts_of(list, "", Ok(parts));
+    let power = parts.sum() * asked.torque.speed;
+    list.number("power_loss", "W", Ok(power), &POWER);
+    let load = StaticLoad {
+        radial: asked.torque.loads.iter().copied().fold(0.0, f64::max),
+        axial: asked.torque.moment.axial_load(),
+        contact_angle: None,
+    };
+    list.static_safety(&asked.torque.rated(), &load, &AT_THE_LOAD);
     let starting = match &asked.law {
         Friction::Skf(law) => {
             Ok(law.starting_moment(asked.load(), asked.torque.moment.axial_load()))
@@ -208,6 +217,11 @@ const FRICTION: Origin = Origin {
     law: "M = M0 + M1 by bearing.moment.law, or by the law named",
     source: "the page of the law in crates/physics/src",
     valid: "where the law holds; a warning says where it is left",
+};
+const POWER: Origin = Origin {
+    law: "M Ω of the steady moment M = M0 + M1",
+    source: FRICTION.source,
+    valid: "balls that roll at an even speed; all of it becomes heat in the bearing",
 };
 const STARTING: Origin = Origin {
     law: "M_start = G_sl μ_bl + M_seal",

@@ -196,7 +196,7 @@ function header(runs) {
     const about = element("p", { class: "subtitle" }, key, single ? null : element("strong", {}, run.label + "  "), facts.filter(Boolean).join(" · "));
     const own = systemOf(run);
     const line = own.line(run);
-    parts.push(single ? [line, about] : [about, line], own.verdict(run), origin ? element("p", { class: "small" }, "Large numbers: the unperturbed run. Below them: " + origin + ".") : null);
+    parts.push(single ? [line, about] : [about, line], own.verdict(run), limitTiles(run), origin ? element("p", { class: "small" }, "Large numbers: the unperturbed run. Below them: " + origin + ".") : null);
   }
   parts.push(warningBox(runs));
   return element("header", {}, parts);

@@ -115,7 +115,7 @@ function whyNoColumn(run, names) {
 
 function quantityOf(run, name) {
   const quantity = run.quantities[name];
-  return quantity && typeof quantity === "object" ? quantity : { value: null, why: "the summary does not hold it" };
+  return quantity && typeof quantity === "object" ? quantity : { value: null, why: "this run has no such result" };
 }
 
 function numberOf(run, name) {

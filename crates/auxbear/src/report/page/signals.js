@@ -237,7 +237,7 @@ function trustSection(runs) {
       ["torque: values that are no numbers", "torque_missing_values"],
       ["values at the limits of the converter, all its channels", "converter_clipped_values"],
       ["rounding of the converter, largest share of a channel's noise", "converter_rounding_share_of_noise"],
-    ].map(([words, name]) => {
+    ].filter(([, name]) => name in run.quantities).map(([words, name]) => {
       const quantity = quantityOf(run, name);
       return [words, isNumber(quantity.value) ? numberText(quantity.value, 4) : element("span", { class: "absent" }, quantity.why || "–")];
     });

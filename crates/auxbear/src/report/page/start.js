@@ -34,6 +34,7 @@ function start() {
   timeline.span(runs);
   const builders = [
     ...(runs.length > 1 ? [[differenceSection, runs]] : []),
+    ...(runs.some((run) => limitsOf(run).length) ? [[limitSection, runs]] : []),
     ...sectionsOf(runs),
     [quantitySection, runs],
     [inputSection, runs],

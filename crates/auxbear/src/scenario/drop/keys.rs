@@ -188,6 +188,14 @@ pub(crate) const KEYS: &[Key] = &[
     .positive()
     .catalogued(),
     Key::new(
+        "contact.width",
+        Kind::Quantity("m"),
+        "10 mm",
+        "Axial width of the landing surface: that of the sleeve or of the inner race, whichever the rotor touches.",
+    )
+    .positive()
+    .optional("no friction work per area of the landing surface is given"),
+    Key::new(
         "contact.exponent",
         Kind::Exponent,
         "10/9",

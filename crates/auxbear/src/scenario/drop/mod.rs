@@ -127,6 +127,8 @@ pub struct Contact {
     pub radial_air_clearance: f64,
     /// Diameter of the bore, m.
     pub bore_diameter: f64,
+    /// Width of the landing surface, m.
+    pub width: Option<f64>,
     /// Stiffness k, N/mⁿ.
     pub stiffness: f64,
     /// Exponent n.
@@ -252,6 +254,7 @@ fn contact(contact: &Section<'_>) -> Contact {
     Contact {
         radial_air_clearance: contact.number("radial_air_clearance"),
         bore_diameter: contact.number("bore_diameter"),
+        width: contact.maybe("width"),
         stiffness: contact.number("stiffness"),
         exponent: contact.number("exponent"),
         damping: contact.number("damping"),

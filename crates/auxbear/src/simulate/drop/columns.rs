@@ -4,7 +4,9 @@ use crate::result::outcome::Column;
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::drop::context::Context;
-use model::auxiliary_bearing::probe::{FRICTION_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED};
+use model::auxiliary_bearing::probe::{
+    BEARING_LOAD, FRICTION_FORCE, MOUNT_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED,
+};
 use model::system::layout::of_part;
 use model::system::machine::layout::ROTOR;
 use model::system::sampling::Row;
@@ -104,6 +106,18 @@ fn of_bearing(context: &Context, k: usize, run: &BearingRun) -> Vec<Column> {
         "m/s",
         "sliding speed of the surfaces, inner race less rotor",
         at.probe(SLIP_SPEED),
+    );
+    table.probe(
+        "bearing.load",
+        "N",
+        "size of the sum of all ball forces on the outer race",
+        at.probe(BEARING_LOAD),
+    );
+    table.probe(
+        "bearing.mount.force",
+        "N",
+        "size of the force of the outer race on its mount, spring and damper together",
+        at.probe(MOUNT_FORCE),
     );
     table.bearing();
     table.columns

@@ -78,8 +78,13 @@ pub(crate) fn run(
                     .collect()
             })
             .collect();
+        let least = chaotic_from(scenario, drop);
         for quantity in &mut named {
             quantity.spread = spread(&table, &quantity.name);
+            let deviation = quantity.spread.map_or(0.0, |of| of.relative_deviation());
+            quantity.chaotic = least.is_some_and(|least| deviation > least)
+                // what a ledger misses is an error of the integration, and has no size of its own
+                && !quantity.name.ends_with("residual");
         }
     }
     Outcome {
@@ -96,11 +101,32 @@ pub(crate) fn run(
         work: work(&finished, seconds, implicit),
         members: table,
         drawn,
+        limits: Vec::new(),
         pictures: (0..drop.auxiliary_bearings.len())
             .map(|k| picture(&first, k))
             .collect(),
         files: Vec::new(),
     }
+}
+
+/// Relative deviation of members that starts make chaotic: below it no reader sees it.
+const SEEN: f64 = 1e-3;
+/// How much larger than that of the starts it must be at least.
+const AMPLIFIED: f64 = 1e3;
+
+/// Relative deviation of the members from which a result is chaotic: far above that of their starts. None where their machines
+/// differ, which is another reason to differ.
+fn chaotic_from(scenario: &Scenario, drop: &Drop) -> Option<f64> {
+    if !scenario.vary.is_empty() {
+        return None;
+    }
+    let clearances = drop.auxiliary_bearings.iter();
+    let smallest = clearances
+        .map(|part| part.contact.radial_air_clearance)
+        .fold(f64::INFINITY, f64::min);
+    let repeat = &drop.repeat;
+    let of_starts = (repeat.rotor_position_deviation / smallest).max(repeat.ball_angle_deviation);
+    Some(SEEN.max(AMPLIFIED * of_starts))
 }
 
 fn spread(members: &[Vec<(String, Option<f64>)>], name: &str) -> Option<Spread> {

@@ -83,6 +83,7 @@ pub(crate) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
         },
         members: Vec::new(),
         drawn: Vec::new(),
+        limits: Vec::new(),
         pictures: vec![Picture {
             bearing: String::new(),
             clearance: None,

@@ -2,6 +2,7 @@
 
 use crate::result::list::{List, Origin, relative};
 use crate::result::outcome::{Quantity, Value};
+use crate::result::static_safety::{AT_THE_LOAD, StaticLoad};
 use crate::scenario::{Fidelity, RigProgram};
 use crate::simulate::rig::context::Context;
 use model::system::rig::layout::{
@@ -126,6 +127,13 @@ fn loads(list: &mut List, context: &Context) {
     let loads = [record.largest_inner_load, record.largest_outer_load];
     list.ball_loads(loads, &context.pressures(), &context.rig.bearing);
     list.lubricant(&run, &context.ending.state);
+    let bearing = &context.rig.bearing;
+    let load = StaticLoad {
+        radial: context.rig.load.radial_load,
+        axial: bearing.axial_preload,
+        contact_angle: Some(bearing.contact_angle),
+    };
+    list.static_safety(&bearing.rated(), &load, &AT_THE_LOAD);
 }
 
 fn energies(list: &mut List, context: &Context) {

@@ -58,6 +58,7 @@ pub(crate) fn run(
         },
         members: Vec::new(),
         drawn: Vec::new(),
+        limits: Vec::new(),
         pictures: vec![Picture {
             bearing: String::new(),
             clearance: None,

@@ -2,6 +2,7 @@
 
 use crate::result::list::{List, Origin, relative};
 use crate::result::outcome::{Quantity, Value};
+use crate::result::static_safety::{AT_THE_LOAD, StaticLoad};
 use crate::scenario::{Drive, Fidelity};
 use crate::simulate::bearing::quantities::{End, LargestForces};
 use crate::simulate::spin_up::context::Context;
@@ -211,6 +212,13 @@ fn loads(list: &mut List, context: &Context) {
     };
     let bearing = &context.spin_up.bearing;
     list.balls(&context.bearing(), &forces, bearing, &end(context));
+    let duration = context.spin_up.run.duration;
+    let load = StaticLoad {
+        radial: context.spin_up.radial_load.largest_until(duration),
+        axial: bearing.axial_preload,
+        contact_angle: Some(bearing.contact_angle),
+    };
+    list.static_safety(&bearing.rated(), &load, &AT_THE_LOAD);
 }
 
 fn energies(list: &mut List, context: &Context) {

@@ -8,8 +8,8 @@ use super::layout::{ROTOR, ROTOR_CHANNELS};
 use super::rate::rotor_motion;
 use crate::auxiliary_bearing::BearingAt;
 use crate::auxiliary_bearing::probe::{
-    LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, NORMAL_FORCE,
-    NORMAL_FORCE_RATE, PENETRATION, PENETRATION_SPEED,
+    BEARING_LOAD, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
+    MOUNT_FORCE, NORMAL_FORCE, NORMAL_FORCE_RATE, PENETRATION, PENETRATION_SPEED,
 };
 use crate::bearing::BearingConstants;
 use crate::contact::ContactReaction;
@@ -59,6 +59,10 @@ pub struct BearingRecord {
     pub largest_pocket_force: Peak,
     /// Largest force between cage and land, N.
     pub largest_land_force: Peak,
+    /// Largest load on the bearing as a whole, N.
+    pub largest_bearing_load: Peak,
+    /// Largest force on the mount, N.
+    pub largest_mount_force: Peak,
     /// Largest distance of the rotor's geometric centre from the inner race's centre, m.
     pub rotor_race_displacement: Peak,
     /// Largest distance of the rotor's geometric centre from the origin while it touches the race, m.
@@ -83,14 +87,17 @@ struct Limits {
 }
 
 /// Forces whose largest values are kept.
-const WATCHED: [usize; 4] = [
+const WATCHED: [usize; 6] = [
     LARGEST_INNER_LOAD,
     LARGEST_OUTER_LOAD,
+    BEARING_LOAD,
+    MOUNT_FORCE,
     LARGEST_POCKET_FORCE,
     LAND_FORCE,
 ];
 
-/// So many of the first of them are searched for between the steps as well; the others are chaotic.
+/// So many of the first of them are searched for between the steps as well. The load on the bearing peaks with that of a ball, a
+/// mount swings slowly against the steps, and the forces on a cage are chaotic.
 const SEARCHED: usize = 2;
 
 /// A peak is searched for inside a step when a value comes this near to the record.
@@ -172,6 +179,8 @@ impl BearingRecord {
             largest_outer_load: Peak::NONE,
             largest_pocket_force: Peak::NONE,
             largest_land_force: Peak::NONE,
+            largest_bearing_load: Peak::NONE,
+            largest_mount_force: Peak::NONE,
             rotor_race_displacement: Peak::NONE,
             rotor_displacement: Peak::NONE,
             mount_displacement: Peak::NONE,
@@ -337,6 +346,8 @@ impl BearingRecord {
         [
             &mut self.largest_inner_load,
             &mut self.largest_outer_load,
+            &mut self.largest_bearing_load,
+            &mut self.largest_mount_force,
             &mut self.largest_pocket_force,
             &mut self.largest_land_force,
         ]

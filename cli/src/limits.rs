@@ -1,0 +1,31 @@
+//! What is printed of the limits: a line each with its verdict.
+
+use crate::console;
+use crate::digits::readable;
+use auxbear::result::outcome::{Judged, Outcome};
+
+/// The verdicts as a table; nothing where there are none.
+pub fn text(outcome: &Outcome) -> String {
+    let rows: Vec<[String; 4]> = outcome.limits.iter().map(row).collect();
+    match rows.is_empty() {
+        true => String::new(),
+        false => format!("limits:\n{}", console::table(&rows)),
+    }
+}
+
+fn row(judged: &Judged) -> [String; 4] {
+    let limit = &judged.limit;
+    let value = judged
+        .value
+        .map_or("-".to_string(), |value| readable(value, judged.unit));
+    [
+        format!("  {}", judged.verdict.word()),
+        limit.quantity.replace(['_', '.'], " "),
+        format!(
+            "{value}, at {} {}",
+            limit.side.word(),
+            readable(limit.bound, judged.unit)
+        ),
+        judged.why.clone(),
+    ]
+}

@@ -1,0 +1,84 @@
+//! Tables of a run for other programs.
+
+use crate::place::Place;
+use std::fs;
+use std::path::Path;
+
+/// The cells of a CSV file without quoted commas, row by row.
+fn rows(path: &Path) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(path).unwrap();
+    let cells = |line: &str| line.split(',').map(String::from).collect();
+    text.lines().map(cells).collect()
+}
+
+#[test]
+fn csv_gives_every_number_back_with_its_unit() {
+    let place = Place::new();
+    place.short_run(&["--out", "run", "--repeat", "3"]).done();
+    let called = place.call(&["export", "run", "--csv"]).done();
+    assert_eq!(called.out.trim(), "run/csv");
+    let run = place.read("run");
+    let history = rows(&place.path("run/csv/history.csv"));
+    assert_eq!(history[0][0], "time [s]");
+    assert_eq!(history[0].len(), run.columns.len());
+    assert_eq!(history.len(), run.columns[0].values.len() + 1);
+    for (column, known) in run.columns.iter().enumerate() {
+        assert_eq!(
+            history[0][column],
+            format!("{} [{}]", known.name, known.unit)
+        );
+        for (row, value) in known.values.iter().enumerate() {
+            let read: f64 = history[row + 1][column].parse().unwrap();
+            assert_eq!(read.to_bits(), value.to_bits(), "{} {row}", known.name);
+        }
+    }
+    let summary = place.summary("run");
+    let results = fs::read_to_string(place.path("run/csv/results.csv")).unwrap();
+    let first = &summary["quantities"]["first_impact_force"];
+    let line = results
+        .lines()
+        .find(|line| line.starts_with("first_impact_force,"));
+    let cells: Vec<&str> = line.unwrap().split(',').collect();
+    assert_eq!(
+        cells[1].parse::<f64>().unwrap(),
+        first["value"].as_f64().unwrap()
+    );
+    assert_eq!(cells[2..4], ["N", "3"]);
+    // in the order of the report
+    assert!(
+        results.find("\ntime_to_first_contact").unwrap()
+            < results.find("\nfirst_impact_force").unwrap()
+    );
+    let members = rows(&place.path("run/csv/members.csv"));
+    assert_eq!(members.len(), 4);
+    let at = members[0]
+        .iter()
+        .position(|head| head == "first_impact_force [N]")
+        .unwrap();
+    let known = summary["members"][2]["first_impact_force"].as_f64();
+    assert_eq!(members[3][at].parse::<f64>().ok(), known);
+    place.call(&["export", "run", "--csv"]).refused(&["AB0301"]);
+}
+
+#[test]
+fn a_workbook_is_written_once() {
+    let place = Place::new();
+    place.short_run(&["--out", "run"]).done();
+    let called = place.call(&["export", "run", "--xlsx"]).done();
+    assert_eq!(called.out.trim(), "run/run.xlsx");
+    let bytes = fs::read(place.path("run/run.xlsx")).unwrap();
+    assert!(bytes.starts_with(b"PK\x03\x04"));
+    place
+        .call(&["export", "run", "--xlsx"])
+        .refused(&["AB0301"]);
+    place
+        .call(&["export", "run", "--xlsx", "--out", "other.xlsx"])
+        .done();
+    assert_eq!(fs::read(place.path("other.xlsx")).unwrap(), bytes);
+    place
+        .call(&["export", "nothing", "--xlsx"])
+        .refused(&["AB0001"]);
+    fs::write(place.path("run/summary.json"), "{").unwrap();
+    place.call(&["export", "run", "--csv"]).refused(&["AB0006"]);
+    assert!(!place.path("run/csv").exists());
+}

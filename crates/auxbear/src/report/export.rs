@@ -1,0 +1,354 @@
+//! A run directory as tables for other programs: CSV files, or one XLSX workbook.
+//!
+//! | table | content |
+//! |---|---|
+//! | `run` | title, system, version, how the run ended |
+//! | `results` | every named result with unit, spread, law, source, valid range, or why it has no value |
+//! | `lists` | results that are lists of numbers, a column each |
+//! | `limits`, `warnings`, `contacts`, `inputs` | as in `summary.json` |
+//! | `members` | results and draws of each member of a repeated run |
+//! | `history` | the time histories, a column each |
+//!
+//! All values are SI, the unit stands in the head of its column: `bearing.contact.force [N]`. Numbers have the digits that
+//! give them back bit for bit; what is not a finite number is an empty cell. A table without rows is left out.
+
+use super::directory::{failed, misplaced, read, taken};
+use super::page::PageRun;
+use super::table::{Cell, Table};
+use super::workbook;
+use crate::problem::{Code, Problem};
+use serde::Deserialize;
+use serde::de::{Deserializer, MapAccess, Visitor};
+use serde_json::Value;
+use std::borrow::Cow;
+use std::fmt;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, ErrorKind, Write};
+use std::marker::PhantomData;
+use std::path::{Path, PathBuf};
+
+/// What other programs read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// A folder of CSV files: commas, decimal points, UTF-8.
+    Csv,
+    /// A workbook with a sheet for each table.
+    Xlsx,
+}
+
+/// Writes the tables of a run directory; returns the file or folder. Without a place it is `csv/` or `run.xlsx` in the run
+/// directory. What exists there is never written over.
+pub fn export(
+    directory: &Path,
+    format: Format,
+    out: Option<&Path>,
+) -> Result<PathBuf, Box<Problem>> {
+    let run = read(directory)?;
+    let summary: Summary = serde_json::from_str(&run.summary_json).map_err(|error| {
+        let found = format!("what cannot be read as a summary ({error})");
+        let needed = "a run directory, as auxbear run writes it, is needed";
+        let path = directory.join("summary.json");
+        Box::new(Problem::at_path(Code::FileUnreadable, &path, found, needed))
+    })?;
+    let tables = tables(&run, &summary);
+    let own = match format {
+        Format::Csv => "csv",
+        Format::Xlsx => "run.xlsx",
+    };
+    let place = out.map_or_else(|| directory.join(own), Path::to_path_buf);
+    match format {
+        Format::Csv => csv(&place, &tables)?,
+        Format::Xlsx => xlsx(&place, &tables)?,
+    }
+    Ok(place)
+}
+
+/// What is read of a summary; older ones have less.
+#[derive(Deserialize)]
+struct Summary {
+    #[serde(default)]
+    title: String,
+    #[serde(default)]
+    system: String,
+    #[serde(default)]
+    version: String,
+    #[serde(default)]
+    complete: bool,
+    #[serde(default)]
+    stop: Value,
+    #[serde(default)]
+    quantities: Ordered<Value>,
+    #[serde(default)]
+    limits: Vec<Value>,
+    #[serde(default)]
+    warnings: Vec<Value>,
+    #[serde(default)]
+    contacts: Vec<Value>,
+    #[serde(default)]
+    inputs: Vec<Value>,
+    #[serde(default)]
+    members: Vec<Ordered<Option<f64>>>,
+    #[serde(default)]
+    drawn: Vec<Ordered<String>>,
+}
+
+/// A JSON object in the order of its names.
+struct Ordered<T>(Vec<(String, T)>);
+
+impl<T> Default for Ordered<T> {
+    fn default() -> Self {
+        Ordered(Vec::new())
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Ordered<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct InOrder<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for InOrder<T> {
+            type Value = Ordered<T>;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "an object")
+            }
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Ordered<T>, A::Error> {
+                let mut list = Vec::new();
+                while let Some(entry) = map.next_entry()? {
+                    list.push(entry);
+                }
+                Ok(Ordered(list))
+            }
+        }
+        deserializer.deserialize_map(InOrder(PhantomData))
+    }
+}
+
+/// Name and unit of a column.
+fn head(name: &str, unit: &str) -> String {
+    match unit {
+        "" => name.to_string(),
+        unit => format!("{name} [{unit}]"),
+    }
+}
+
+fn tables<'a>(run: &'a PageRun, summary: &'a Summary) -> Vec<Table<'a>> {
+    let history = run.columns.iter();
+    let heads = history
+        .clone()
+        .map(|column| head(&column.name, &column.unit));
+    let columns = history.map(|column| Cow::Borrowed(column.values.as_slice()));
+    let all = vec![
+        facts(run, summary),
+        results(summary),
+        lists(summary),
+        Table::of_objects("limits", LIMITS, &summary.limits),
+        Table::of_objects("warnings", WARNINGS, &summary.warnings),
+        Table::of_objects("contacts", CONTACTS, &summary.contacts),
+        members(summary),
+        Table::of_objects("inputs", INPUTS, &summary.inputs),
+        Table::of_columns("history", heads.collect(), columns.collect()),
+    ];
+    all.into_iter().filter(|table| table.rows > 0).collect()
+}
+
+const LIMITS: &[(&str, &str)] = &[
+    ("quantity", "quantity"),
+    ("side", "at"),
+    ("bound", "bound, SI"),
+    ("value", "value, SI"),
+    ("unit", "unit"),
+    ("share", "share"),
+    ("members", "members"),
+    ("hold", "members that hold it"),
+    ("verdict", "verdict"),
+    ("why", "why"),
+];
+const WARNINGS: &[(&str, &str)] = &[("code", "code"), ("text", "text")];
+const CONTACTS: &[(&str, &str)] = &[
+    ("auxiliary_bearing", "auxiliary bearing"),
+    ("start_s", "start [s]"),
+    ("end_s", "end [s]"),
+    ("peak_force_N", "peak force [N]"),
+    ("peak_time_s", "peak time [s]"),
+];
+const INPUTS: &[(&str, &str)] = &[
+    ("path", "path"),
+    ("value", "value"),
+    ("mark", "origin"),
+    ("note", "note"),
+];
+
+fn facts<'a>(run: &'a PageRun, summary: &'a Summary) -> Table<'a> {
+    let stop = |key| Cell::of(summary.stop.get(key));
+    let complete = if summary.complete { "yes" } else { "no" };
+    let facts = [
+        ("title", Cell::text(&summary.title)),
+        ("system", Cell::text(&summary.system)),
+        ("directory", Cell::text(&run.directory)),
+        ("version of auxbear", Cell::text(&summary.version)),
+        ("complete", Cell::text(complete)),
+        ("how it ended", stop("text")),
+        ("end [s]", stop("time_s")),
+    ];
+    let rows = facts.map(|(name, value)| vec![Cell::Text(name.into()), value]);
+    let heads = ["fact", "value"].map(String::from);
+    Table::of_rows("run", heads.to_vec(), rows.to_vec())
+}
+
+fn results(summary: &Summary) -> Table<'_> {
+    const SPREAD: [(&str, &str); 8] = [
+        ("members", "members"),
+        ("mean", "mean"),
+        ("sd", "standard deviation"),
+        ("min", "smallest"),
+        ("q05", "5 %"),
+        ("median", "median"),
+        ("q95", "95 %"),
+        ("max", "largest"),
+    ];
+    let repeated = (summary.quantities.0.iter()).any(|(_, of)| of.get("spread").is_some());
+    let spread = if repeated { &SPREAD[..] } else { &[] };
+    let ends = ["why it has no value", "law", "source", "valid"];
+    let mut heads = vec!["result", "value, SI", "unit"];
+    heads.extend(spread.iter().map(|(_, head)| *head));
+    heads.extend(ends);
+    let mut rows = Vec::new();
+    for (name, of) in &summary.quantities.0 {
+        let mut row = vec![Cell::text(name)];
+        row.push(match of.get("value") {
+            Some(Value::Array(list)) => {
+                Cell::Text(format!("{} values, in lists", list.len()).into())
+            }
+            value => Cell::of(value),
+        });
+        row.push(Cell::of(of.get("unit")));
+        let of_spread = |key| Cell::of(of.get("spread").and_then(|spread| spread.get(key)));
+        row.extend(spread.iter().map(|(key, _)| of_spread(*key)));
+        row.extend(["why", "law", "source", "valid"].map(|key| Cell::of(of.get(key))));
+        rows.push(row);
+    }
+    Table::of_rows(
+        "results",
+        heads.into_iter().map(String::from).collect(),
+        rows,
+    )
+}
+
+fn unit_of(quantity: &Value) -> &str {
+    quantity.get("unit").and_then(Value::as_str).unwrap_or("")
+}
+
+fn lists(summary: &Summary) -> Table<'_> {
+    let (mut heads, mut columns) = (Vec::new(), Vec::new());
+    for (name, of) in &summary.quantities.0 {
+        if let Some(Value::Array(list)) = of.get("value") {
+            heads.push(head(name, unit_of(of)));
+            let values = list.iter().map(|value| value.as_f64().unwrap_or(f64::NAN));
+            columns.push(Cow::Owned(values.collect()));
+        }
+    }
+    Table::of_columns("lists", heads, columns)
+}
+
+fn members(summary: &Summary) -> Table<'_> {
+    let mut results: Vec<&str> = Vec::new();
+    let mut draws: Vec<&str> = Vec::new();
+    for (name, _) in summary.members.iter().flat_map(|member| &member.0) {
+        if !results.contains(&name.as_str()) {
+            results.push(name);
+        }
+    }
+    for (path, _) in summary.drawn.iter().flat_map(|member| &member.0) {
+        if !draws.contains(&path.as_str()) {
+            draws.push(path);
+        }
+    }
+    let unit = |name: &str| {
+        let known = summary.quantities.0.iter().find(|(known, _)| known == name);
+        known.map_or("", |(_, quantity)| unit_of(quantity))
+    };
+    let mut heads = vec!["member".to_string()];
+    heads.extend(results.iter().map(|name| head(name, unit(name))));
+    heads.extend(draws.iter().map(|path| format!("drawn {path}")));
+    let rows = summary.members.iter().enumerate().map(|(k, member)| {
+        let mut row = vec![Cell::Number(k as f64)];
+        row.extend(results.iter().map(|name| {
+            let found = member.0.iter().find(|(known, _)| known == name);
+            let value = found.and_then(|(_, value)| *value);
+            value.map_or(Cell::Empty, Cell::number)
+        }));
+        row.extend(draws.iter().map(|path| {
+            let drawn = summary.drawn.get(k).map_or(&[][..], |drawn| &drawn.0);
+            let value = drawn.iter().find(|(known, _)| known == path);
+            value.map_or(Cell::Empty, |(_, text)| Cell::text(text))
+        }));
+        row
+    });
+    let rows = rows.collect();
+    Table::of_rows("members", heads, rows)
+}
+
+/// Writes a folder of CSV files, whole or not at all.
+fn csv(folder: &Path, tables: &[Table]) -> Result<(), Box<Problem>> {
+    fs::create_dir(folder).map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists => taken(folder),
+        _ => misplaced(folder, &error),
+    })?;
+    for table in tables {
+        let path = folder.join(format!("{}.csv", table.name));
+        let written = File::create_new(&path).and_then(|file| csv_table(file, table));
+        if let Err(error) = written {
+            let _ = fs::remove_dir_all(folder);
+            return Err(failed(&path, &error));
+        }
+    }
+    Ok(())
+}
+
+fn csv_table(file: File, table: &Table) -> io::Result<()> {
+    let mut out = BufWriter::new(file);
+    let heads: Vec<String> = table.heads.iter().map(|head| quoted(head)).collect();
+    writeln!(out, "{}", heads.join(","))?;
+    for row in 0..table.rows {
+        for column in 0..table.heads.len() {
+            if column > 0 {
+                out.write_all(b",")?;
+            }
+            match (table.cell)(row, column) {
+                Cell::Empty => {}
+                Cell::Number(value) => out.write_all(units::number_text(value).as_bytes())?,
+                Cell::Text(text) => out.write_all(quoted(&text).as_bytes())?,
+            }
+        }
+        out.write_all(b"\n")?;
+    }
+    out.into_inner()
+        .map_err(|error| error.into_error())?
+        .sync_all()
+}
+
+/// A text as a cell by RFC 4180.
+fn quoted(text: &str) -> String {
+    match text.contains([',', '"', '\n', '\r', ';', '\t']) {
+        true => format!("\"{}\"", text.replace('"', "\"\"")),
+        false => text.to_string(),
+    }
+}
+
+/// Writes a workbook, whole or not at all.
+fn xlsx(file: &Path, tables: &[Table]) -> Result<(), Box<Problem>> {
+    if let Some(found) = tables.iter().find_map(workbook::too_large) {
+        let needed = format!(
+            "{}: use --csv, or history.parquet itself",
+            workbook::LARGEST
+        );
+        let problem = Problem::at_path(Code::TooManyRows, file, found, needed);
+        return Err(Box::new(problem));
+    }
+    let out = File::create_new(file).map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists => taken(file),
+        _ => misplaced(file, &error),
+    })?;
+    workbook::write(out, tables).map_err(|error| {
+        let _ = fs::remove_file(file);
+        failed(file, &error)
+    })
+}

@@ -1,0 +1,470 @@
+//! Limits judged: whether a result holds its bound in one run, or in the share of runs that is asked for.
+//!
+//! A single run holds a bound or does not. Of a repeated run either all members must hold it (share 1), or the share of *all
+//! such runs* must reach a level; the members are a sample of these, and what it shows is bounded by the binomial law:
+//!
+//! ```text
+//!   pass        P(at least h of n hold | share) <= 5 %    the lower bound of the share is not below the level
+//!   fail        P(at most  h of n hold | share) <= 5 %    the upper bound is not above it
+//!   undecided   neither: n is too small
+//! ```
+//! These are the one-sided bounds of Clopper and Pearson, Biometrika 26 (1934) 404 (from memory); that 59 runs without an
+//! exception show 95 % with 95 % confidence (Wilks, Ann. Math. Stat. 12 (1941) 91, from memory) is the case h = n.
+//!
+//! What is not known, of a run that ended early or a result that does not exist, neither holds nor breaks a bound: the verdict
+//! is one that stands either way, or none.
+
+use crate::problem::{Code, Problem, did_you_mean, question};
+use crate::result::outcome::{Judged, Outcome, Quantity, Value, Verdict};
+use crate::scenario::{Limit, Side};
+use units::{Dimension, Unit};
+
+/// Confidence with which a share of runs is told.
+const CONFIDENCE: f64 = 0.95;
+/// Most members that are counted when it is told how many would decide.
+const MOST_MEMBERS: usize = 100_000;
+/// Names of results that a message lists.
+const MOST_NAMES: usize = 8;
+
+/// Refuses limits of results that a run does not have, or of another dimension; `known` are its results, without values
+/// where these are not known before the run. What begins like one of `later` is found or not at its end.
+pub(crate) fn check(
+    limits: &[Limit],
+    known: &[Quantity],
+    later: &[String],
+) -> Result<(), Box<Problem>> {
+    let at_the_end = |limit: &&Limit| later.iter().any(|start| limit.quantity.starts_with(start));
+    for limit in limits.iter().filter(|limit| !at_the_end(limit)) {
+        let Some(quantity) = known.iter().find(|known| known.name == limit.quantity) else {
+            return Err(unknown(limit, known));
+        };
+        let kind = match quantity.value {
+            Value::Text(_) => Some("a word"),
+            Value::List(_) => Some("a list"),
+            Value::Number(_) | Value::None { .. } => None,
+        };
+        if let Some(kind) = kind {
+            let found = format!("\"{}\", which is {kind}", limit.quantity);
+            let allowed = "the name of a result that is a number is needed".to_string();
+            return Err(Box::new(limit.problem(
+                Code::UnknownQuantity,
+                found,
+                allowed,
+            )));
+        }
+        let wanted = dimension_of(quantity.unit);
+        if wanted.is_some_and(|wanted| wanted != limit.dimension) {
+            let is = |dimension: Dimension| match dimension {
+                Dimension::NONE => "a bare number".to_string(),
+                dimension => dimension.to_string(),
+            };
+            let found = format!("{}, which is {}", limit.text, is(limit.dimension));
+            let allowed = format!(
+                "{} is {}",
+                limit.quantity,
+                wanted.map_or(quantity.unit.to_string(), is)
+            );
+            let code = Code::WrongDimension;
+            return Err(Box::new(limit.bound_problem(code, found, allowed)));
+        }
+    }
+    Ok(())
+}
+
+/// The dimension of a result; none of a unit that limits cannot have.
+fn dimension_of(unit: &str) -> Option<Dimension> {
+    match unit {
+        "" | "1" => Some(Dimension::NONE),
+        unit => Unit::parse(unit).ok().map(|unit| unit.dimension()),
+    }
+}
+
+/// A limit of a result that is not there, with what is.
+fn unknown(limit: &Limit, known: &[Quantity]) -> Box<Problem> {
+    let name = limit.quantity.as_str();
+    let names = || known.iter().map(|known| known.name.as_str());
+    // with several bearings each has its own, with one none has a prefix
+    let last = name.rsplit('.').next().unwrap_or(name);
+    let mut near: Vec<&str> = names()
+        .filter(|known| known.rsplit('.').next() == Some(last))
+        .collect();
+    near.truncate(3);
+    let hint = question(&near).or_else(|| did_you_mean(name, names()));
+    let allowed = if known.len() <= MOST_NAMES {
+        let all: Vec<&str> = names().collect();
+        format!("the results are {}", all.join(", "))
+    } else {
+        format!(
+            "the name of one of the {} results is needed; summary.json of any such run lists them, e.g. {}",
+            known.len(),
+            known[0].name
+        )
+    };
+    let found = format!("\"{name}\", which is no result of this run");
+    Box::new((limit.problem(Code::UnknownQuantity, found, allowed)).with_hint(hint))
+}
+
+/// The verdicts of a run.
+pub(crate) fn of(limits: &[Limit], outcome: &Outcome) -> Vec<Judged> {
+    let judged = |limit: &Limit| {
+        let mut quantities = outcome.quantities.iter();
+        let quantity = quantities.find(|quantity| quantity.name == limit.quantity);
+        let (unit, values, why) = match quantity {
+            Some(quantity) => {
+                let (values, why) = values_of(quantity, outcome);
+                (quantity.unit, values, why)
+            }
+            None => ("", vec![None], "this run has no such result".to_string()),
+        };
+        judge(limit, unit, &values, &why)
+    };
+    limits.iter().map(judged).collect()
+}
+
+/// The values of a result in each member that was asked for, and why some are not known.
+fn values_of(quantity: &Quantity, outcome: &Outcome) -> (Vec<Option<f64>>, String) {
+    let early = || outcome.stop.text.trim_end_matches('.').to_string();
+    let asked = outcome.work.members;
+    if asked > 1 {
+        let of = |member: &Vec<(String, Option<f64>)>| {
+            let mut values = member.iter();
+            values.find(|(name, _)| *name == quantity.name)?.1
+        };
+        let mut values: Vec<Option<f64>> = outcome.members.iter().map(of).collect();
+        let why = match values.len() < asked {
+            true => early(),
+            false => "it does not exist in these".to_string(),
+        };
+        values.resize(asked, None);
+        return (values, why);
+    }
+    match (&quantity.value, outcome.stop.complete()) {
+        (Value::None { why }, _) => (vec![None], why.clone()),
+        (_, false) => (vec![None], early()),
+        (Value::Number(value), true) => (vec![Some(*value)], String::new()),
+        (Value::Text(_) | Value::List(_), true) => {
+            let why = "it is no number, and a limit holds one number".to_string();
+            (vec![None], why)
+        }
+    }
+}
+
+/// Judges the values of all members, of which those not known are none; `why` says why they are not.
+pub fn judge(limit: &Limit, unit: &'static str, values: &[Option<f64>], why: &str) -> Judged {
+    let members = values.len();
+    let holds = |value: &f64| limit.side.holds(*value, limit.bound);
+    let known: Vec<f64> = values.iter().flatten().copied().collect();
+    let hold = known.iter().filter(|value| holds(value)).count();
+    let open = members - known.len();
+    let (verdict, reason) = match (members, limit.share) {
+        (0 | 1, share) if share >= 1.0 => match known.first() {
+            None => (Verdict::Undecided, why.to_string()),
+            Some(value) if holds(value) => (Verdict::Pass, room(limit, *value)),
+            Some(value) => (Verdict::Fail, room(limit, *value)),
+        },
+        (_, share) if share >= 1.0 => of_all(members, hold, open, why),
+        (_, share) => of_share(share, members, hold, open, why),
+    };
+    Judged {
+        limit: limit.clone(),
+        unit,
+        value: deciding(limit, known, members),
+        members,
+        hold,
+        verdict,
+        why: reason,
+    }
+}
+
+/// The value that the share of the members holds: the worst of them for a share of 1. None where it is not known.
+fn deciding(limit: &Limit, mut known: Vec<f64>, members: usize) -> Option<f64> {
+    known.sort_by(f64::total_cmp);
+    if limit.side == Side::Least {
+        known.reverse();
+    }
+    // rounding of a share that is a whole number of members
+    let place = (limit.share * members as f64 - 1e-9).ceil().max(1.0) as usize;
+    known.get(place - 1).copied()
+}
+
+/// How far a value is from its bound.
+fn room(limit: &Limit, value: f64) -> String {
+    let beyond = if value < limit.bound {
+        "below"
+    } else {
+        "above"
+    };
+    if value == limit.bound {
+        return "just at the bound".to_string();
+    }
+    match ((value - limit.bound) / limit.bound).abs() {
+        share if share.is_finite() => format!("{} {beyond} the bound", percent(share)),
+        _ => format!("{beyond} the bound"),
+    }
+}
+
+/// All members must hold it.
+fn of_all(members: usize, hold: usize, open: usize, why: &str) -> (Verdict, String) {
+    let broken = members - hold - open;
+    if broken > 0 {
+        let known = members - open;
+        return (
+            Verdict::Fail,
+            format!("{broken} of {known} members break it"),
+        );
+    }
+    if open > 0 {
+        return (
+            Verdict::Undecided,
+            format!("{open} of {members} members have no value: {why}"),
+        );
+    }
+    let shown = at_least_shown(hold, members);
+    (
+        Verdict::Pass,
+        format!(
+            "all {members} members hold it; that shows with {} confidence that {} or more of such runs do",
+            percent(CONFIDENCE),
+            percent(shown)
+        ),
+    )
+}
+
+/// A share of all such runs must hold it.
+fn of_share(share: f64, members: usize, hold: usize, open: usize, why: &str) -> (Verdict, String) {
+    let (least, most) = (hold, hold + open);
+    let held = match open {
+        0 => format!("{hold} of {members} members hold it"),
+        _ => format!("{hold} of {members} members hold it, {open} have no value ({why})"),
+    };
+    let with = format!("with {} confidence", percent(CONFIDENCE));
+    if shows_reached(share, least, members) {
+        let shown = percent(at_least_shown(least, members));
+        let reason = format!("{held}: {with} {shown} or more of such runs do");
+        return (Verdict::Pass, reason);
+    }
+    if shows_missed(share, most, members) {
+        let shown = percent(at_most_shown(most, members));
+        let reason = format!("{held}: {with} {shown} or fewer of such runs do");
+        return (Verdict::Fail, reason);
+    }
+    let from = percent(at_least_shown(least, members));
+    let to = percent(at_most_shown(most, members));
+    let more = match more_members(share, hold, members) {
+        _ if open > 0 => String::new(),
+        Some(more) if hold == members => {
+            format!("; {more} more that all hold it would decide")
+        }
+        Some(more) => format!("; about {more} more would decide if their share stays the same"),
+        None => format!("; more than {MOST_MEMBERS} would be needed if their share stays the same"),
+    };
+    (
+        Verdict::Undecided,
+        format!(
+            "{held}: from {from} to {to} of such runs do (each bound {with}), and {} are asked for{more}",
+            percent(share)
+        ),
+    )
+}
+
+/// Whether so many that hold show that the share of all is reached.
+fn shows_reached(share: f64, hold: usize, members: usize) -> bool {
+    chance_of_as_many(share, hold, members) <= 1.0 - CONFIDENCE
+}
+
+/// Whether so few that hold show that the share of all is missed.
+fn shows_missed(share: f64, hold: usize, members: usize) -> bool {
+    chance_of_as_many(1.0 - share, members - hold, members) <= 1.0 - CONFIDENCE
+}
+
+/// Least share of all runs that so many of the members show.
+fn at_least_shown(hold: usize, members: usize) -> f64 {
+    if hold == 0 {
+        return 0.0;
+    }
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        match shows_reached(middle, hold, members) {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    low
+}
+
+/// Largest share of all runs that so many of the members allow.
+fn at_most_shown(hold: usize, members: usize) -> f64 {
+    1.0 - at_least_shown(members - hold, members)
+}
+
+/// How many more members would decide if the same share of them held; none if too many.
+fn more_members(share: f64, hold: usize, members: usize) -> Option<usize> {
+    let decided = |count: usize| {
+        let held = (hold as f64 / members as f64 * count as f64).round() as usize;
+        shows_reached(share, held, count) || shows_missed(share, held, count)
+    };
+    let (mut low, mut high) = (members, 2 * members.max(1));
+    while !decided(high) {
+        (low, high) = (high, 2 * high);
+        if low > MOST_MEMBERS {
+            return None;
+        }
+    }
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        match decided(middle) {
+            true => high = middle,
+            false => low = middle,
+        }
+    }
+    Some(high - members)
+}
+
+/// Probability that of `members` independent runs `hold` or more hold where each does with probability `share`.
+fn chance_of_as_many(share: f64, hold: usize, members: usize) -> f64 {
+    if hold == 0 || share >= 1.0 {
+        return 1.0;
+    }
+    if share <= 0.0 {
+        return 0.0;
+    }
+    // ln of the terms of the binomial law: their products leave the range of a number
+    let odds = (share / (1.0 - share)).ln();
+    let mut term = members as f64 * (1.0 - share).ln();
+    let mut sum = 0.0;
+    for k in 0..=members {
+        if k >= hold {
+            sum += term.exp();
+        }
+        term += ((members - k) as f64 / (k + 1) as f64).ln() + odds;
+    }
+    sum
+}
+
+/// A share to three digits.
+fn percent(share: f64) -> String {
+    let text = format!("{:.2e}", 1e2 * share);
+    let rounded = text.parse().unwrap_or(1e2 * share);
+    format!("{} %", units::number_text(rounded))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::Place;
+
+    fn limit(side: Side, bound: f64, share: f64) -> Limit {
+        Limit {
+            quantity: "force".to_string(),
+            side,
+            bound,
+            share,
+            dimension: Dimension::NONE,
+            text: units::number_text(bound),
+            place: Place::Whole,
+            bound_place: Place::Whole,
+        }
+    }
+
+    fn judged(limit: &Limit, hold: usize, broken: usize, open: usize) -> Judged {
+        let mut values = vec![Some(1.0); hold];
+        values.extend(vec![Some(3.0); broken]);
+        values.extend(vec![None; open]);
+        judge(limit, "N", &values, "it ended early")
+    }
+
+    #[test]
+    fn the_bounds_are_those_of_tables() {
+        // Clopper and Pearson, one-sided 95 %: 0.05^(1/n) where all hold
+        for members in [1, 10, 59, 300] {
+            let shown = at_least_shown(members, members);
+            assert!((shown - 0.05_f64.powf(1.0 / members as f64)).abs() < 1e-12);
+            assert_eq!(at_most_shown(members, members), 1.0);
+        }
+        // the beta quantiles of 8 of 10 (R: qbeta(0.05, 8, 3), qbeta(0.95, 9, 2)): 0.4930987, 0.9632286
+        assert!((at_least_shown(8, 10) - 0.493_098_7).abs() < 1e-6);
+        assert!((at_most_shown(8, 10) - 0.963_228_6).abs() < 1e-6);
+        // a sum of thousands of terms is still a probability
+        assert!((chance_of_as_many(0.5, 1, 50_000) - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn fifty_nine_runs_without_exception_show_95_percent() {
+        let limit = limit(Side::Most, 2.0, 0.95);
+        assert_eq!(judged(&limit, 59, 0, 0).verdict, Verdict::Pass);
+        let few = judged(&limit, 58, 0, 0);
+        assert_eq!(few.verdict, Verdict::Undecided);
+        assert!(few.why.contains("; 1 more that all hold it"), "{}", few.why);
+        let one = judged(&limit, 1, 0, 0);
+        assert!(
+            one.why.contains("; 58 more that all hold it"),
+            "{}",
+            one.why
+        );
+        assert_eq!(judged(&limit, 8, 2, 0).verdict, Verdict::Undecided);
+        assert_eq!(judged(&limit, 6, 4, 0).verdict, Verdict::Fail);
+    }
+
+    #[test]
+    fn what_would_decide_decides() {
+        let wanted = limit(Side::Most, 2.0, 0.9);
+        let now = judged(&wanted, 28, 2, 0);
+        assert_eq!(now.verdict, Verdict::Undecided);
+        let more = more_members(0.9, 28, 30).unwrap();
+        let members = 30 + more;
+        let hold = (28.0 / 30.0 * members as f64).round() as usize;
+        let then = judged(&wanted, hold, members - hold, 0);
+        assert_eq!(then.verdict, Verdict::Pass, "{more}");
+        // a share that is just the one asked for is never decided
+        assert_eq!(more_members(0.9, 90, 100), None);
+    }
+
+    #[test]
+    fn one_that_breaks_it_is_enough_where_all_must_hold() {
+        let limit = limit(Side::Most, 2.0, 1.0);
+        assert_eq!(judged(&limit, 64, 0, 0).verdict, Verdict::Pass);
+        assert_eq!(judged(&limit, 63, 1, 0).verdict, Verdict::Fail);
+        // what is not known cannot mend it, but can hide the next
+        assert_eq!(judged(&limit, 10, 1, 50).verdict, Verdict::Fail);
+        assert_eq!(judged(&limit, 63, 0, 1).verdict, Verdict::Undecided);
+        assert_eq!(judged(&limit, 0, 0, 1).verdict, Verdict::Undecided);
+    }
+
+    #[test]
+    fn what_is_not_known_counts_for_neither_side() {
+        let limit = limit(Side::Most, 2.0, 0.5);
+        assert_eq!(judged(&limit, 60, 0, 10).verdict, Verdict::Pass);
+        assert_eq!(judged(&limit, 0, 60, 10).verdict, Verdict::Fail);
+        assert_eq!(judged(&limit, 30, 0, 30).verdict, Verdict::Undecided);
+    }
+
+    #[test]
+    fn the_value_is_the_one_that_decides() {
+        let values: Vec<Option<f64>> = (1..=20).map(|k| Some(f64::from(k))).collect();
+        let at = |side, share| judge(&limit(side, 10.0, share), "N", &values, "").value;
+        assert_eq!(at(Side::Most, 1.0), Some(20.0));
+        assert_eq!(at(Side::Most, 0.95), Some(19.0));
+        assert_eq!(at(Side::Least, 1.0), Some(1.0));
+        assert_eq!(at(Side::Least, 0.9), Some(3.0));
+        // two members without a value: the worst is not known
+        let mut some = values.clone();
+        some[3] = None;
+        let judged = judge(&limit(Side::Most, 10.0, 1.0), "N", &some, "");
+        assert_eq!(judged.value, None);
+    }
+
+    #[test]
+    fn the_bound_itself_holds() {
+        for side in [Side::Most, Side::Least] {
+            let at = judge(&limit(side, 0.0, 1.0), "N", &[Some(0.0)], "");
+            assert_eq!(
+                (at.verdict, at.why.as_str()),
+                (Verdict::Pass, "just at the bound")
+            );
+        }
+        let above = judge(&limit(Side::Most, 2.0, 1.0), "N", &[Some(3.0)], "");
+        assert_eq!(above.verdict, Verdict::Fail);
+        assert_eq!(above.why, "50 % above the bound");
+    }
+}

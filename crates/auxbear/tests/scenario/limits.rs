@@ -1,0 +1,214 @@
+//! Limits of a file: what is read, refused, judged and written back.
+
+use crate::several::{HEAD, TWINS, outcome, read};
+use auxbear::problem::Code;
+use auxbear::result::outcome::{Judged, Value, Verdict};
+use auxbear::run::build;
+use auxbear::scenario::{BuiltIn, Scenario, Side, SystemName, template};
+
+/// The head of a drop with a limit of these lines.
+fn limited(lines: &str) -> String {
+    format!("{HEAD}\n[[limit]]\n{lines}\n")
+}
+
+fn judged(text: &str, sets: &[&str]) -> Vec<Judged> {
+    outcome(text, sets).limits
+}
+
+#[test]
+fn a_limit_is_judged_by_the_value_of_the_run() {
+    let text = limited("quantity = \"first_impact_force\"\nmost = \"5 kN\"");
+    let run = outcome(&text, &[]);
+    let force = (run.quantities.iter()).find(|quantity| quantity.name == "first_impact_force");
+    let Value::Number(force) = force.unwrap().value else {
+        panic!("it is a number");
+    };
+    let [limit] = run.limits.as_slice() else {
+        panic!("there is one limit");
+    };
+    assert_eq!((limit.limit.side, limit.limit.bound), (Side::Most, 5000.0));
+    assert_eq!((limit.value, limit.unit), (Some(force), "N"));
+    assert!(force < 5000.0 && limit.verdict == Verdict::Pass);
+    assert!(run.stop.complete());
+
+    let failed = judged(&text, &["limit.first_impact_force.most=10 N"]);
+    assert_eq!(failed.len(), 1);
+    assert_eq!(failed[0].verdict, Verdict::Fail);
+    assert!(
+        failed[0].why.ends_with("above the bound"),
+        "{}",
+        failed[0].why
+    );
+    let both = judged(&text, &["limit.first_impact_force.least=10 N"]);
+    assert_eq!(both.len(), 2);
+    assert!(both.iter().all(|limit| limit.verdict == Verdict::Pass));
+}
+
+#[test]
+fn what_is_not_reached_is_not_decided() {
+    // 15 ms are too short
+    let text = limited("quantity = \"inner_race_time_to_95_percent\"\nmost = \"1 s\"");
+    let limits = judged(&text, &[]);
+    assert_eq!(limits[0].verdict, Verdict::Undecided);
+    assert_eq!(limits[0].value, None);
+    assert!(
+        limits[0].why.contains("was not reached"),
+        "{}",
+        limits[0].why
+    );
+}
+
+#[test]
+fn members_too_few_for_the_share_do_not_decide() {
+    let text = limited("quantity = \"first_impact_force\"\nmost = \"5 kN\"\nshare = 0.8");
+    let few = judged(&text, &["repeat.count=6"]);
+    assert_eq!((few[0].members, few[0].hold), (6, 6));
+    assert_eq!(few[0].verdict, Verdict::Undecided);
+    // 0.8^14 < 5 % < 0.8^13
+    assert!(few[0].why.contains("8 more"), "{}", few[0].why);
+    let enough = judged(&text, &["repeat.count=14"]);
+    assert_eq!(enough[0].verdict, Verdict::Pass);
+    let all = judged(
+        &text,
+        &["repeat.count=6", "limit.first_impact_force.share=1"],
+    );
+    assert_eq!(all[0].verdict, Verdict::Pass);
+}
+
+#[test]
+fn one_of_several_bearings_has_its_own() {
+    let text = format!(
+        "{HEAD}{TWINS}\n[[limit]]\nquantity = \"drive_end.first_impact_force\"\nleast = \"1 N\"\n"
+    );
+    assert_eq!(judged(&text, &[])[0].verdict, Verdict::Pass);
+    let bare = text.replace("drive_end.first", "first");
+    let problem = build(&read(&bare, &[]).unwrap()).err().unwrap();
+    assert_eq!(problem.code, Code::UnknownQuantity);
+    let message = problem.to_string();
+    let line = bare.lines().position(|line| line.starts_with("quantity"));
+    assert!(
+        message.contains(&format!("two.toml:{}", line.unwrap() + 1)),
+        "{message}"
+    );
+    assert!(
+        message.contains(
+            "Did you mean \"drive_end.first_impact_force\" or \"other_end.first_impact_force\"?"
+        ),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_wrong_limit_is_refused_before_the_run() {
+    for (lines, code, told) in [
+        (
+            "quantity = \"peak_contact_forse\"\nmost = \"5 kN\"",
+            Code::UnknownQuantity,
+            "Did you mean \"peak_contact_force\"?",
+        ),
+        (
+            "quantity = \"peak_contact_force\"\nmost = \"5 mm\"",
+            Code::WrongDimension,
+            "peak_contact_force is force (N)",
+        ),
+        (
+            "quantity = \"peak_contact_force\"\nmost = 5",
+            Code::WrongDimension,
+            "a bare number",
+        ),
+        (
+            "quantity = \"contact_count\"\nmost = \"5 N\"",
+            Code::WrongDimension,
+            "contact_count is a bare number",
+        ),
+        (
+            "quantity = \"peak_contact_force\"\nmost = \"5\"",
+            Code::BareNumber,
+            "most = \"5 kN\"",
+        ),
+        (
+            "quantity = \"peak_contact_force\"\nmost = \"5 kN\"\nleast = \"1 N\"",
+            Code::Conflict,
+            "both most and least",
+        ),
+        (
+            "quantity = \"peak_contact_force\"",
+            Code::MissingKey,
+            "without most or least",
+        ),
+        ("most = \"5 kN\"", Code::MissingKey, "without a quantity"),
+        (
+            "quantity = \"peak_contact_force\"\nmax = \"5 kN\"",
+            Code::UnknownKey,
+            "Did you mean \"most\"?",
+        ),
+        (
+            "quantity = \"peak_contact_force\"\nmost = \"5 kN\"\nshare = 1.5",
+            Code::OutOfRange,
+            "not above 1",
+        ),
+        (
+            "quantity = 7\nmost = \"5 kN\"",
+            Code::WrongType,
+            "name of a result",
+        ),
+    ] {
+        let text = limited(lines);
+        let problem = match read(&text, &[]) {
+            Err(problem) => problem,
+            Ok(scenario) => build(&scenario).err().unwrap_or_else(|| panic!("{lines}")),
+        };
+        let message = problem.to_string();
+        assert_eq!(problem.code, code, "{message}");
+        assert!(
+            message.contains("two.toml:") && message.contains("limit"),
+            "{message}"
+        );
+        assert!(message.contains(told), "{message}");
+    }
+    let single = format!("{HEAD}\n[limit]\nquantity = \"contact_count\"\nmost = 5\n");
+    assert_eq!(read(&single, &[]).unwrap_err().code, Code::WrongType);
+    let share = read(
+        &limited("quantity = \"contact_count\"\nmost = 5"),
+        &["limit.peak_contact_force.share=0.9"],
+    );
+    assert_eq!(share.unwrap_err().code, Code::MissingKey);
+}
+
+#[test]
+fn the_resolved_file_has_the_same_limits() {
+    let text = limited("quantity = \"peak_contact_force\"\nmost = \"5 kN\"\nshare = 0.95");
+    let scenario = read(&text, &["limit.contact_count.least=3"]).unwrap();
+    let again = read(&scenario.resolved.toml(), &[]).unwrap();
+    let known = |scenario: &Scenario| -> Vec<_> {
+        let limits = scenario.limits.iter();
+        limits
+            .map(|limit| (limit.quantity.clone(), limit.side, limit.bound, limit.share))
+            .collect()
+    };
+    assert_eq!(known(&scenario), known(&again));
+    assert_eq!(
+        known(&scenario)[1],
+        ("contact_count".to_string(), Side::Least, 3.0, 1.0)
+    );
+}
+
+/// The lines of each starting file that show a limit.
+#[test]
+fn the_example_of_each_starting_file_is_a_limit_of_its_results() {
+    for system in [
+        SystemName::Drop,
+        SystemName::SpinUp,
+        SystemName::Torque,
+        SystemName::Rig,
+    ] {
+        let text = template(system.word()).unwrap();
+        let at = text.find("# [[limit]]").expect("it shows one");
+        let (head, example) = text.split_at(at);
+        let example = example.replace("# [[", "[[").replace("\n# ", "\n");
+        let text = format!("{head}{example}");
+        let scenario = Scenario::parse(&text, system.word(), &[], &BuiltIn).unwrap();
+        assert_eq!(scenario.limits.len(), 1);
+        build(&scenario).map(|_| ()).unwrap();
+    }
+}
