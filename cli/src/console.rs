@@ -1,5 +1,6 @@
 //! Printing that outlives its reader: a closed pipe ends the output, not the program.
 
+use auxbear::result::outcome::Warning;
 use std::io::{Write, stderr, stdout};
 
 /// Prints results.
@@ -12,6 +13,13 @@ pub fn print(text: &str) {
 /// Tells a problem or how far things are, on a line of its own beside the results.
 pub fn tell(line: &str) {
     let _ = writeln!(stderr().lock(), "{line}");
+}
+
+/// Tells warnings, one a line; nothing silences them.
+pub fn warn(warnings: &[Warning]) {
+    for warning in warnings {
+        tell(&format!("warning[{}]: {}", warning.code, warning.text));
+    }
 }
 
 /// A table: columns aligned but for the last, two spaces between them, no space at the end of a line.

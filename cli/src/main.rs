@@ -15,7 +15,7 @@ mod torque;
 mod torque_tables;
 
 use arguments::{Arguments, Command};
-use auxbear::problem::{Code, Problem};
+use auxbear::problem::{Code, Problem, explain};
 use auxbear::report::directory;
 use auxbear::run::panic_is_caught;
 use auxbear::scenario::{BuiltIn, Scenario, SystemName};
@@ -61,9 +61,7 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
             let scenario = Scenario::read(file, set, &BuiltIn)?;
             let machine = auxbear::run::build(&scenario)?;
             console::print(&scenario.resolved.toml());
-            for warning in machine.warnings() {
-                console::tell(&format!("warning[{}]: {}", warning.code, warning.text));
-            }
+            console::warn(&machine.warnings());
         }
         Command::New { kind, path } => start::perform(kind, path.as_deref())?,
         Command::Schema { kind } => schema::perform(kind)?,
@@ -79,6 +77,7 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
                 return Ok(Exit::Failed);
             }
         }
+        Command::Explain { code } => console::print(&explain(code)?),
         Command::Bearings { command } => bearings::perform(command)?,
     }
     Ok(Exit::Done)

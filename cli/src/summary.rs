@@ -1,4 +1,4 @@
-//! What is printed after a run: where it is, the quantities most looked for, warnings, cost.
+//! What is printed after a run: where it is, the quantities most looked for, cost.
 
 use crate::digits::four_digits;
 use crate::{console, torque_tables};
@@ -145,9 +145,6 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
         for line in next.lines() {
             text.push_str(&format!("  {line}\n"));
         }
-    }
-    for warning in &outcome.warnings {
-        text.push_str(&format!("warning[{}]: {}\n", warning.code, warning.text));
     }
     if outcome.quantities.iter().any(|q| q.spread.is_some()) {
         text.push_str(

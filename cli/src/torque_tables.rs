@@ -25,9 +25,6 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
         text.push_str(&format!("\n{}", console::table(&found.lubricants())));
     }
     text.push('\n');
-    for warning in &outcome.warnings {
-        text.push_str(&format!("warning[{}]: {}\n", warning.code, warning.text));
-    }
     text.push_str(&format!("{}\n", path.join("report.html").display()));
     text
 }

@@ -170,10 +170,10 @@ fn check_tells_a_load_above_the_static_rating() {
         words.extend(["--set", load]);
         place.call(&words).done().err
     };
-    assert_eq!(told("drive.radial_load=0.9 kN"), "");
+    assert!(!told("drive.radial_load=0.9 kN").contains("AB1029"));
     let told = told("drive.radial_load=100 kN");
     assert!(
-        told.starts_with("warning[AB1029]: The static radial load of 100000 N is 100.0 times"),
+        told.contains("warning[AB1029]: The static radial load of 100000 N is 100.0 times"),
         "{told}"
     );
 }

@@ -3,6 +3,7 @@
 use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::key::{Key, quoted};
 use crate::scenario::meant;
+use crate::scenario::not_modelled;
 use crate::scenario::several::{self, AUXILIARY_BEARING, VARY};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
@@ -383,6 +384,13 @@ impl Document {
                 Ok(())
             }
             (key, raw) => {
+                if key.is_none()
+                    && let Some(absent) = not_modelled::of(&dotted)
+                {
+                    let found = "a key of what is not modelled yet".to_string();
+                    let told = problem(Code::NotModelled, found, absent.allowed());
+                    return Err(Box::new(told.with_hint(absent.hint())));
+                }
                 let (code, found) = match (key, raw) {
                     (Some(_), _) => (Code::WrongType, "a section".to_string()),
                     (None, None) => (Code::UnknownKey, "an unknown section".to_string()),

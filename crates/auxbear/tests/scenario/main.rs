@@ -8,6 +8,7 @@ mod files;
 mod friction;
 mod lubricant;
 mod lubricant_state;
+mod notes;
 mod pressure_limits;
 mod resolved;
 mod schema;

@@ -8,18 +8,19 @@ use crate::scenario::key::Key;
 use crate::scenario::provenance::Provenance;
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
-use crate::scenario::values::{COMPARED_LAWS, Known, LAW, Value, Values, quantity_text};
+use crate::scenario::values::{
+    COMPARED_LAWS, Known, LAW, LUBRICATION, Value, Values, quantity_text,
+};
 use crate::scenario::words::Words;
 use physics::hertz::{BallRace, PointContact, Race};
 use physics::materials::{BEARING_STEEL, SILICON_NITRIDE, ball_mass, contact_modulus};
-use physics::palmgren_factors::{FactorSource, Lubrication, palmgren_factors};
+use physics::palmgren_factors::{FACTORS, FactorSource, Lubrication, palmgren_factors};
 use physics::viscosity::Viscosity;
 
 const F0: &str = "bearing.moment.f0";
 const F1_FACTOR: &str = "bearing.moment.f1_factor";
 const F1_EXPONENT: &str = "bearing.moment.f1_exponent";
 const SERIES: &str = "bearing.moment.series";
-const LUBRICATION: &str = "bearing.moment.lubrication";
 const TEMPERATURE: &str = "bearing.moment.temperature";
 const VISCOSITY_POINTS: &str = "bearing.moment.viscosity_points";
 const LUBRICANTS: &str = "torque.lubricants";
@@ -222,17 +223,35 @@ impl Values {
         key.is_some_and(|key| self.unmet(key).is_none()) && self.text(path).is_none()
     }
 
-    /// The series by the name of a deep groove bearing.
+    /// The series by the name of the bearing, where the name holds it.
     fn series(&mut self) -> Done {
-        if self.bearing_type() != BearingType::DeepGroove || !self.lacks(SERIES) {
-            return Ok(());
-        }
-        match self.text("bearing.name").as_deref().and_then(series_of) {
-            Some(series) => {
-                let how = "the name of a deep groove bearing without its bore code";
+        match self.series_by_name() {
+            Some((series, how)) if self.lacks(SERIES) => {
                 self.put_derived(SERIES, Value::Text(series), how)
             }
-            None => Ok(()),
+            _ => Ok(()),
+        }
+    }
+
+    /// The series in the name of the bearing, as the tables call it, and how it was found.
+    fn series_by_name(&self) -> Option<(String, &'static str)> {
+        let record = self.record.as_ref().map(|record| record.name.clone());
+        let name = record.or_else(|| self.text("bearing.name"))?;
+        match self.bearing_type() {
+            BearingType::DeepGroove => Some((
+                series_of(&name)?,
+                "the name of a deep groove bearing without its bore code",
+            )),
+            // of the spindle bearings only these have a row: those of 15 deg and the lighter series have none
+            BearingType::AngularContact => {
+                (name.starts_with("SNFA E 2") && name.ends_with("25deg")).then(|| {
+                    (
+                        "02".to_string(),
+                        "the dimension series of the spindle bearings SNFA E 2",
+                    )
+                })
+            }
+            BearingType::AngularContactDoubleRow | BearingType::FourPointContact => None,
         }
     }
 
@@ -244,29 +263,17 @@ impl Values {
         else {
             self.equivalent_load(FactorSource::Timken, "f1 is given by hand")?;
             self.contact_angle(None, "")?;
-            let wanted = !self.words(COMPARED_LAWS).is_empty();
             if !self.is_given(LUBRICATION) {
                 self.take_away(LUBRICATION);
+            } else if self.words(COMPARED_LAWS).is_empty() {
+                self.without_effect.push(LUBRICATION);
             }
-            return match self.text(LUBRICATION) {
-                Some(text) if !wanted => Err(Box::new(self.problem(
-                    Code::UnusedKey,
-                    LUBRICATION,
-                    self.place(LUBRICATION),
-                    format!("\"{text}\", which has no effect"),
-                    "lubrication chooses f0 and f1 from the tables, and all of these are given here",
-                ))),
-                _ => Ok(()),
-            };
+            return Ok(());
         };
         let lubrication = match self.chosen(LUBRICATION) {
             Some(Lubricated::Grease | Lubricated::OilMist) => Lubrication::GreaseOrOilMist,
             Some(Lubricated::LowOilBath | Lubricated::OilJet) => Lubrication::OilBath,
-            None => {
-                return Err(Box::new(
-                    self.no_factor(missing, "bearing.moment.lubrication"),
-                ));
-            }
+            None => return Err(Box::new(self.no_factor(missing))),
             Some(other @ (Lubricated::OilAndAir | Lubricated::OilBath)) => {
                 let other = other.as_word();
                 return Err(Box::new(self.problem(
@@ -279,7 +286,7 @@ impl Values {
             }
         };
         let Some(series) = self.text(SERIES) else {
-            return Err(Box::new(self.no_factor(missing, "bearing.moment.series")));
+            return Err(Box::new(self.no_factor(missing)));
         };
         let kind = self.bearing_type().factor_type();
         let factors = palmgren_factors(kind, &series, lubrication).map_err(|refusal| {
@@ -329,12 +336,54 @@ impl Values {
         )
     }
 
-    fn no_factor(&self, path: &str, other: &str) -> Problem {
+    /// Keys of Palmgren's factors that have no value and that no table fills, while others are missing.
+    pub(crate) fn missing_factors(&self) -> impl Iterator<Item = &'static str> {
+        let palmgren = [MomentLaw::Palmgren, MomentLaw::PalmgrenPrinted].map(Some);
+        let wanted = palmgren.contains(&self.chosen(LAW))
+            && [F0, F1_FACTOR, F1_EXPONENT]
+                .iter()
+                .any(|path| self.lacks(path));
+        let series = wanted && self.lacks(SERIES) && self.series_by_name().is_none();
+        let lubrication = wanted && self.lacks(LUBRICATION);
+        [(lubrication, LUBRICATION), (series, SERIES)]
+            .into_iter()
+            .filter_map(|(lacks, path)| lacks.then_some(path))
+    }
+
+    /// What factors by the tables need, all of it; else what is to be given by hand.
+    fn no_factor(&self, path: &str) -> Problem {
         let needed = table::keys()
             .find(|key| key.path == path)
             .map_or(String::new(), Key::needed);
+        let kind = self.bearing_type().factor_type();
+        let degrees = self.number(ANGLE).map(f64::to_degrees);
+        let holds = |angles: Option<[f64; 2]>| match (angles, degrees) {
+            (Some([least, largest]), Some(angle)) => (least..=largest).contains(&angle),
+            _ => true,
+        };
+        let series: Vec<&str> = (FACTORS.iter())
+            .filter(|row| row.kind == kind && holds(row.angles_deg))
+            .map(|row| row.series)
+            .collect();
+        let by_hand = "f0, f1_factor and f1_exponent are needed, all three";
+        let hint = match (self.lacks(LUBRICATION), self.lacks(SERIES)) {
+            (_, true) if series.is_empty() => format!(
+                "No table has factors of a {kind} of {:.0} deg: {by_hand}",
+                degrees.unwrap_or_default()
+            ),
+            (true, false) => format!("With {LUBRICATION} it is taken from the tables"),
+            (lubrication, _) => format!(
+                "With {SERIES}, one of {}{}, it is taken from the tables; else {by_hand}",
+                series.join(", "),
+                if lubrication {
+                    format!(", and {LUBRICATION}")
+                } else {
+                    String::new()
+                }
+            ),
+        };
         self.problem(Code::MissingKey, path, Place::Whole, "no value", needed)
-            .with_hint(format!("With {other} it is taken from the tables"))
+            .with_hint(hint)
     }
 
     fn skf_lubrication(&self) -> Done {
