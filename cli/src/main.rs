@@ -15,7 +15,8 @@ mod torque;
 mod torque_tables;
 
 use arguments::{Arguments, Command};
-use auxbear::problem::{Code, Problem, explain};
+use auxbear::problem::explain::explain;
+use auxbear::problem::{Code, Problem};
 use auxbear::report::directory;
 use auxbear::run::panic_is_caught;
 use auxbear::scenario::{BuiltIn, Scenario, SystemName};

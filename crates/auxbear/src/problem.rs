@@ -1,8 +1,6 @@
 //! The one message for wrong input: file, line, key, what was found, what is needed, what was meant.
 
-mod explain;
-
-pub use explain::explain;
+pub mod explain;
 
 use std::fmt;
 use std::path::Path;

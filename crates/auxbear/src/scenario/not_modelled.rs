@@ -40,9 +40,7 @@ pub(crate) fn of(path: &str) -> Option<&'static Absent> {
             .strip_prefix(*pattern)
             .is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),
     };
-    TABLE
-        .iter()
-        .find(|absent| absent.paths.iter().any(|pattern| asks(&pattern)))
+    TABLE.iter().find(|absent| absent.paths.iter().any(&asks))
 }
 
 const TABLE: &[Absent] = &[

@@ -215,15 +215,9 @@ fn what_the_model_would_compute_as_something_else_is_refused_or_told() {
 #[test]
 fn a_preload_that_the_weight_exceeds_is_told() {
     // 78.48 N a plane; 15 deg: 0.7203/tan 15 deg = 2.688 N held for each newton of preload
-    let sets = |preload| {
-        [
-            "bearing.name=SNFA EX 25".to_string(),
-            format!("bearing.axial_preload={preload}"),
-        ]
-    };
     let of = |preload: &str| {
-        let sets = sets(preload);
-        told("drop", "AB1096", &[&sets[0], &sets[1]])
+        let preload = format!("bearing.axial_preload={preload}");
+        told("drop", "AB1096", &["bearing.name=SNFA EX 25", &preload])
     };
     assert!(of("30 N").is_empty());
     let [exceeded] = of("20 N").try_into().unwrap();
