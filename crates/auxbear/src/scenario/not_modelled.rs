@@ -19,7 +19,7 @@ impl Absent {
     /// What to read.
     pub(crate) fn allowed(&self) -> String {
         format!(
-            "{}: see point {} of \"When not to trust this\" in the book (limits.md)",
+            "{} (\"When not to trust this\" in the book, point {})",
             self.what, self.point
         )
     }

@@ -28,7 +28,7 @@ enum Side {
     Above,
 }
 
-/// What makes a bearing the one named, and the share by which makers' tables and roundings of one bearing differ.
+/// What makes a bearing the one named, and the share by which tables, roundings and, of ring masses, estimates of one bearing differ.
 const IDENTITY: &[(&str, f64, Side)] = &[
     ("bearing.type", 0.0, Side::Both),
     ("bearing.ball_material", 0.0, Side::Both),
@@ -37,8 +37,8 @@ const IDENTITY: &[(&str, f64, Side)] = &[
     ("bearing.pitch_diameter", 2e-2, Side::Both),
     ("bearing.contact_angle", 5e-2, Side::Both),
     ("bearing.static_load_rating", 0.1, Side::Both),
-    ("bearing.inner_race_mass", 0.1, Side::Below),
-    ("bearing.inner_race_inertia", 0.1, Side::Below),
+    ("bearing.inner_race_mass", 0.3, Side::Below),
+    ("bearing.inner_race_inertia", 0.3, Side::Below),
     ("contact.bore_diameter", 1e-3, Side::Above),
     ("drive.bore_diameter", 1e-3, Side::Above),
     ("bearing.fits.bore_diameter", 1e-3, Side::Both),

@@ -119,7 +119,7 @@ pub(crate) const KEYS: &[Key] = &[
         "rotor.planes",
         Kind::Count,
         "2",
-        "Number of identical auxiliary bearings that share the rotor. The motion is taken as parallel, so one plane with its share of mass and inertia is simulated.",
+        "Number of identical auxiliary bearings that share the rotor. The motion is taken as parallel, so one plane with its share of mass and inertia is simulated. Pairs at two places are 4 bearings, each with half of the mount of its place.",
     )
     .within(Range::FromTo(1.0, 4.0))
     .default("1", "one auxiliary bearing carries the whole rotor"),
