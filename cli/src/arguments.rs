@@ -52,7 +52,7 @@ pub enum Command {
         /// Run directories
         #[arg(required = true, value_name = "DIR")]
         directories: Vec<PathBuf>,
-        /// File to write [one run: its own report.html; several: comparison.html here]; *.svg: one run as a picture
+        /// File to write, *.html, or *.svg for one run as a picture [one run: its own report.html; several: comparison.html here]
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
@@ -80,6 +80,11 @@ pub enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Print what a code of a message means and what to do
+    Explain {
+        /// Code as the message prints it, e.g. AB1007
+        code: String,
+    },
     /// The catalogue of bearings
     Bearings {
         #[command(subcommand)]
@@ -103,7 +108,7 @@ pub struct Run {
     /// Number of threads [all cores]; the numbers do not depend on it
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub threads: Option<String>,
-    /// Print nothing but problems
+    /// Print no progress and no tables; warnings and problems are told all the same
     #[arg(long)]
     pub quiet: bool,
 }
@@ -118,7 +123,7 @@ pub struct Measured {
     /// Override a value of the file, e.g. signals.file=test_7.tdms; may be repeated
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// Print nothing but problems
+    /// Print no progress and no tables; warnings and problems are told all the same
     #[arg(long)]
     pub quiet: bool,
 }
@@ -154,7 +159,7 @@ pub struct Torque {
     /// Run directory to write [runs/torque-BEARING, with a number where that is taken]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Print nothing but problems
+    /// Print no progress and no tables; warnings and problems are told all the same
     #[arg(long)]
     pub quiet: bool,
 }

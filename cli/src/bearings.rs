@@ -2,6 +2,7 @@
 
 use crate::arguments::Bearings;
 use crate::console;
+use auxbear::catalogue::designation::{self, Designation};
 use auxbear::catalogue::{self, Bearing, Catalogue, Filter, FilterTexts, Origin};
 use auxbear::problem::{Code, Problem, did_you_mean};
 use auxbear::units;
@@ -41,8 +42,10 @@ pub fn perform(command: &Bearings) -> Result<(), Box<Problem>> {
         } => {
             let name = name.join(" ");
             let catalogue = read(catalogue.as_deref())?;
-            let bearing = catalogue.find(&name);
-            let bearing = bearing.ok_or_else(|| unknown(&name, &catalogue))?;
+            let bearing = match catalogue.find(&name) {
+                Some(bearing) => bearing,
+                None => meant(&name, &catalogue)?,
+            };
             console::print(&if *json {
                 catalogue::to_json([bearing])
             } else {
@@ -136,6 +139,33 @@ fn show(bearing: &Bearing) -> String {
     format!("{title}\n{assumed}\n\n{}", console::table(&rows))
 }
 
+/// The bearing that a designation of no name stands for; what is left out of it is told beside.
+fn meant<'a>(name: &str, catalogue: &'a Catalogue) -> Result<&'a Bearing, Box<Problem>> {
+    let known = |name: &str| catalogue.find(name).is_some();
+    match designation::read(name, &known) {
+        Some(Designation::Known {
+            name: own,
+            left_out,
+        }) => {
+            let left_out = match left_out.as_str() {
+                "" => String::new(),
+                words => format!(". Left out: {words}"),
+            };
+            console::tell(&format!("{name}: the {own} of the catalogue{left_out}"));
+            catalogue.find(&own).ok_or_else(|| unknown(name, catalogue))
+        }
+        Some(Designation::Missing(why)) => Err(Box::new(Problem::new(
+            Code::UnknownBearing,
+            PLACE,
+            format!("\"{name}\", which is not in the catalogue"),
+            why,
+        ))),
+        None => Err(unknown(name, catalogue)),
+    }
+}
+
+/// What messages name as the file.
+const PLACE: &str = "auxbear bearings show";
 /// Most names that a message lists.
 const MOST_NAMES: usize = 8;
 
@@ -146,7 +176,7 @@ fn unknown(name: &str, catalogue: &Catalogue) -> Box<Problem> {
     Box::new(
         Problem::new(
             Code::UnknownBearing,
-            "auxbear bearings show",
+            PLACE,
             format!("\"{name}\", which is not in the catalogue"),
             format!(
                 "one of its {} bearings is needed ({listed}, …); auxbear bearings list names them",

@@ -2,6 +2,7 @@
 
 use auxbear::problem::Problem;
 use auxbear::report::directory::failed;
+use auxbear::result::outcome::Warning;
 use std::io::{ErrorKind, Write, stderr, stdout};
 use std::path::Path;
 
@@ -20,6 +21,13 @@ pub fn print(text: &str) -> Result<(), Box<Problem>> {
 /// Prints a problem or the progress on a line of its own beside the results.
 pub fn report(line: &str) {
     let _ = writeln!(stderr().lock(), "{line}");
+}
+
+/// Tells warnings, one a line; nothing silences them.
+pub fn warn(warnings: &[Warning]) {
+    for warning in warnings {
+        report(&format!("warning[{}]: {}", warning.code, warning.text));
+    }
 }
 
 /// A table: columns aligned but for the last, two spaces between them, no space at the end of a line.

@@ -25,8 +25,17 @@ pub fn four_digits(value: f64) -> String {
     number_text(rounded)
 }
 
+/// Size in SI below which nothing that is printed here differs from zero.
+const ROUNDED_AWAY: f64 = 1e-15;
+
 /// A value with four digits in the unit that keeps it between 1 and 1000, where there is one.
 pub fn readable(si: f64, unit: &str) -> String {
+    // of a quantity with a unit so little is what rounding left
+    let si = match unit {
+        "" | "1" => si,
+        _ if si.abs() < ROUNDED_AWAY => 0.0,
+        _ => si,
+    };
     let units = UNITS.iter().find(|(known, _)| *known == unit);
     let units = units.map_or(&[][..], |(_, units)| units);
     let fitting = units.iter().find(|(_, size)| si.abs() >= *size);
@@ -54,6 +63,8 @@ mod tests {
             (3.2e9, "Pa", "3.2 GPa"),
             (-2.5e-4, "m", "-250 µm"),
             (0.0, "m", "0 m"),
+            (7.767e-26, "rad/s", "0 rad/s"),
+            (2e-14, "1", "2e-14"),
             (12.0, "", "12"),
             (123_456.0, "", "123456"),
             (3.21e-8, "1", "3.21e-8"),

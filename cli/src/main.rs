@@ -18,6 +18,7 @@ mod torque;
 mod torque_tables;
 
 use arguments::{Arguments, Command};
+use auxbear::problem::explain::explain;
 use auxbear::problem::{Code, Problem};
 use auxbear::report::directory;
 use auxbear::report::export::{self, Format};
@@ -68,9 +69,7 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
             let machine = auxbear::run::build(&scenario)?;
             drop(busy);
             console::print(&scenario.resolved.toml())?;
-            for warning in machine.warnings() {
-                console::report(&format!("warning[{}]: {}", warning.code, warning.text));
-            }
+            console::warn(&machine.warnings());
         }
         Command::New { kind, path } => start::perform(kind, path.as_deref())?,
         Command::Schema { kind } => schema::perform(kind)?,
@@ -103,6 +102,7 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
                 return Ok(Exit::Failed);
             }
         }
+        Command::Explain { code } => console::print(&explain(code)?),
         Command::Bearings { command } => bearings::perform(command)?,
     }
     Ok(Exit::Done)

@@ -74,6 +74,7 @@ pub fn execute(
     if !quiet {
         console::print(&summary::text(path, &outcome));
     }
+    console::warn(&outcome.warnings);
     let exit = exit_of(&outcome.stop);
     let word = match exit {
         Exit::Done => return Ok(exit),

@@ -1,4 +1,4 @@
-//! What is printed after a run: where it is, the quantities most looked for, warnings, cost.
+//! What is printed after a run: where it is, the quantities most looked for, cost.
 
 use crate::digits::readable;
 use crate::{console, limits, torque_tables};
@@ -138,9 +138,6 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
         }
     }
     text.push_str(&limits::text(outcome));
-    for warning in &outcome.warnings {
-        text.push_str(&format!("warning[{}]: {}\n", warning.code, warning.text));
-    }
     if outcome.quantities.iter().any(|q| q.spread.is_some()) {
         text.push_str(
             "± is one standard deviation over the perturbed starts (repeat.*): chaos, not tolerances of the machine\n",
@@ -151,6 +148,9 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
         "{} in {:.2} s{}\n",
         match work.members {
             1 => "1 run".to_string(),
+            members if outcome.members.len() < members => {
+                format!("{} of {members} runs", outcome.members.len())
+            }
             members => format!("{members} runs"),
         },
         work.seconds,

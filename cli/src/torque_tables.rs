@@ -29,9 +29,6 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
     }
     text.push('\n');
     text.push_str(&limits::text(outcome));
-    for warning in &outcome.warnings {
-        text.push_str(&format!("warning[{}]: {}\n", warning.code, warning.text));
-    }
     text.push_str(&format!("{}\n", path.join("report.html").display()));
     text
 }

@@ -107,6 +107,14 @@ fn a_bearing_is_shown_with_the_source_of_each_number() {
     );
     let hybrid = call(&place, &["show", "6005", "hybrid"]).done();
     assert!(hybrid.out.contains("silicon nitride"));
+    let sealed = call(&place, &["show", "6205-2RS"]).done();
+    assert!(
+        sealed.out.starts_with("6205: deep groove"),
+        "{}",
+        sealed.out
+    );
+    assert!(sealed.err.contains("2RS, seals"), "{}", sealed.err);
+    call(&place, &["show", "71910"]).refused(&["AB0201", "\"SNFA SEB 50\"", "25deg"]);
     call(&place, &["show", "6o05"]).refused(&["\"6o05\"", "\"6005\"", "bearings list"]);
 }
 

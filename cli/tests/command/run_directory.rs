@@ -144,10 +144,20 @@ fn a_run_without_a_place_gets_the_next_free_one() {
 }
 
 #[test]
-fn quiet_is_quiet() {
+fn quiet_leaves_the_warnings_alone() {
     let place = Place::new();
     let called = place.short_run(&["--quiet"]).done();
-    assert_eq!((called.out.as_str(), called.err.as_str()), ("", ""));
+    let all: String = (place.summary("runs/drop")["warnings"]
+        .as_array()
+        .unwrap()
+        .iter())
+    .map(|told| {
+        let part = |name: &str| told[name].as_str().unwrap().to_string();
+        format!("warning[{}]: {}\n", part("code"), part("text"))
+    })
+    .collect();
+    assert!(all.contains("AB1013"), "{all}");
+    assert_eq!((called.out.as_str(), called.err), ("", all));
 }
 
 #[test]
@@ -175,6 +185,13 @@ fn the_report_is_drawn_again_and_side_by_side() {
         .call(&["report", "a", "b", "--out", "both.html"])
         .done();
     assert_eq!(fs::read_to_string(place.path("both.html")).unwrap(), page);
+
+    for name in ["both.pdf", "both.csv", "both"] {
+        place
+            .call(&["report", "a", "b", "--out", name])
+            .refused(&["AB0108", name, "*.html", "*.svg"]);
+        assert!(!place.path(name).exists());
+    }
 
     fs::write(place.path("b/history.parquet"), "PAR1 is not enough PAR1").unwrap();
     place

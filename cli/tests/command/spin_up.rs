@@ -170,10 +170,10 @@ fn check_reports_a_load_above_the_static_rating() {
         words.extend(["--set", load]);
         place.call(&words).done().err
     };
-    assert_eq!(reported("drive.radial_load=0.9 kN"), "");
-    let text = reported("drive.radial_load=100 kN");
+    assert!(!reported("drive.radial_load=0.9 kN").contains("AB1029"));
+    let found = reported("drive.radial_load=100 kN");
     assert!(
-        text.starts_with("warning[AB1029]: The static radial load of 100000 N is 100.0 times"),
-        "{text}"
+        found.contains("warning[AB1029]: The static radial load of 100000 N is 100.0 times"),
+        "{found}"
     );
 }

@@ -1,5 +1,7 @@
 //! The one message for wrong input: file, line, key, what was found, what is needed, what was meant.
 
+pub mod explain;
+
 use std::fmt;
 use std::path::Path;
 
@@ -68,6 +70,10 @@ pub enum Code {
     CreatesEnergy,
     /// AB0211
     Impossible,
+    /// AB0212
+    NotModelled,
+    /// AB0213
+    MeasurementInstead,
     /// AB0301
     OutputExists,
     /// AB0302
@@ -280,6 +286,18 @@ impl Code {
             "AB0211",
             "Motion that cannot be",
             "What is asked for has no answer in the model, for example a step of speed on balls that always roll.",
+        ),
+        (
+            Code::NotModelled,
+            "AB0212",
+            "Not modelled yet",
+            "The key or the bearing is of something that no system describes yet; it is never computed as something else.",
+        ),
+        (
+            Code::MeasurementInstead,
+            "AB0213",
+            "Measurement instead of a scenario",
+            "The file holds measured values; the commands take a scenario that names it.",
         ),
         (
             Code::OutputExists,
@@ -543,62 +561,4 @@ pub(crate) fn question(names: &[&str]) -> Option<String> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn codes_are_distinct_ordered_and_explained() {
-        let mut last = "";
-        for (position, code) in Code::all().enumerate() {
-            assert_eq!(code as usize, position, "{code:?}");
-            assert!(code.text() > last, "{code} after {last}");
-            assert!(code.sentence().ends_with('.') && !code.title().ends_with('.'));
-            last = code.text();
-        }
-    }
-
-    #[test]
-    fn prints_as_one_paragraph() {
-        let problem = Problem::new(
-            Code::BareNumber,
-            "drop.toml",
-            "a bare number 8",
-            "a quantity with a unit is needed, e.g. \"8 kg\"",
-        )
-        .at(Place::Line {
-            line: 12,
-            column: 8,
-        })
-        .on_key("rotor.mass");
-        assert_eq!(
-            problem.to_string(),
-            "error[AB0103]: drop.toml:12: rotor.mass: found a bare number 8; a quantity with a unit is needed, e.g. \"8 kg\""
-        );
-        assert_eq!(
-            problem
-                .at(Place::Set)
-                .with_hint(did_you_mean("mas", ["mass", "speed"]))
-                .to_string(),
-            "error[AB0103]: drop.toml, --set: rotor.mass: found a bare number 8; a quantity with a unit is needed, e.g. \"8 kg\". Did you mean \"mass\"?"
-        );
-    }
-
-    #[test]
-    fn what_a_user_typed_cannot_break_the_line() {
-        let problem = Problem::new(Code::UnknownWord, "a.toml", "\"a\nb\"", "x")
-            .on_key("k\u{1b}[2J".repeat(100));
-        let text = problem.to_string();
-        assert!(!text.contains('\n') && !text.contains('\u{1b}') && text.len() < 300);
-    }
-
-    #[test]
-    fn offsets_become_lines_and_columns() {
-        let text = "a = 1\nµ = 2\n";
-        let line = |offset| Place::of_offset(text, offset);
-        assert_eq!(line(0), Place::Line { line: 1, column: 1 });
-        assert_eq!(line(6), Place::Line { line: 2, column: 1 });
-        assert_eq!(line(9), Place::Line { line: 2, column: 3 });
-        assert_eq!(line(7), Place::Line { line: 2, column: 1 });
-        assert_eq!(line(999), Place::Line { line: 3, column: 1 });
-    }
-}
+mod tests;

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | Palmgren | P0 up to C0; ν n up to 1e6 mm²/s·rpm; without the combined form no axial load | as [`palmgren`](crate::palmgren) |
 //! | SKF, deep groove | F_r up to C0, F_a up to ¼ C0 (½ C0 for heavier than light series and bores above 12 mm) | SKF General Catalogue (edition 6000), chapter deep groove ball bearings |
+//! | SKF, angular contact | the centrifugal load S3 d_m⁴ n² up to the load of the bearing | beyond it the law extrapolates (own judgement) |
 //! | curve | the measured speeds | its points |
 //! | all, with a viscosity over temperature | the temperatures of the oil's data | [`viscosity`](crate::viscosity) |
 //!
@@ -133,7 +134,15 @@ impl Friction<f64> {
                         consequence: "too much for light series and bores up to 12 mm; heavier ones bear half their static load rating",
                     }),
                 ],
-                SkfContacts::AngularContact(_) | SkfContacts::SphericalRoller(_) => vec![],
+                SkfContacts::AngularContact(angular) => vec![outside(Departure {
+                    quantity: "centrifugal load of the balls in the SKF model",
+                    value: angular.centrifugal_load(law.mean_diameter, speed),
+                    least: 0.0,
+                    largest: at.radial_load.max(axial),
+                    unit: "N",
+                    consequence: "its moments are those of that load, extrapolated to a lightly loaded bearing",
+                })],
+                SkfContacts::SphericalRoller(_) => vec![],
             },
             Friction::Curve(law) => {
                 let (least, largest) = law.range();

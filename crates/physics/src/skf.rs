@@ -298,6 +298,20 @@ impl<R: Real> SkfDeepGroove<R> {
     }
 }
 
+impl SkfAngularContact<f64> {
+    /// Centrifugal load F_g of the balls, as the sliding part of the model counts it, N.
+    ///
+    /// Formula: F_g = S3 d_m⁴ n²
+    ///
+    /// - `mean_diameter` d_m, m; `speed` Ω, rad/s
+    ///
+    /// Source: SKF General Catalogue (edition 6000), chapter Friction, pp. 88-105.
+    /// Valid: the contact angles of the constants.
+    pub fn centrifugal_load(&self, mean_diameter: f64, speed: f64) -> f64 {
+        self.s3 * fourth(mean_diameter * 1e3) * (speed * 30.0 / PI).powi(2)
+    }
+}
+
 impl<R: Real> SkfAngularContact<R> {
     #[inline(always)]
     fn variables(&self, diameter_mm: R, radial: R, axial: R, rpm: R) -> (R, R) {

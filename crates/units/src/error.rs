@@ -22,6 +22,13 @@ pub enum ParseError {
         /// The whole text.
         text: String,
     },
+    /// Digits in groups.
+    GroupedDigits {
+        /// The whole text.
+        text: String,
+        /// The same without marks between digits.
+        joined: String,
+    },
     /// A number without a unit.
     MissingUnit {
         /// The number as written.
@@ -73,6 +80,12 @@ impl fmt::Display for ParseError {
                 write!(
                     f,
                     "a comma in \"{text}\"; decimals are written with a point and thousands without a mark"
+                )
+            }
+            ParseError::GroupedDigits { text, .. } => {
+                write!(
+                    f,
+                    "\"{text}\", whose digits stand in groups; they are written without blanks or marks between them"
                 )
             }
             ParseError::MissingUnit { number } => write!(f, "the number {number} without a unit"),

@@ -21,6 +21,7 @@
 mod dimension;
 mod error;
 mod near;
+mod product;
 mod quantity;
 mod rational;
 mod symbols;
@@ -29,6 +30,7 @@ mod unit;
 pub use dimension::Dimension;
 pub use error::ParseError;
 pub use near::{edit_distance, nearest_names};
+pub use product::as_product;
 pub use quantity::{Quantity, display, number_text, parse_quantity};
 pub use rational::Rational;
 pub use unit::Unit;

@@ -32,6 +32,12 @@ pub fn parse_quantity(text: &str) -> Result<Quantity, ParseError> {
     if whole.is_empty() {
         return Err(ParseError::Empty);
     }
+    if let Some(joined) = without_groups(whole) {
+        return Err(ParseError::GroupedDigits {
+            text: whole.to_string(),
+            joined,
+        });
+    }
     let number = split_number(whole)?;
     let rest = number.rest.trim_start();
     if rest.is_empty() {
@@ -69,19 +75,44 @@ pub fn parse_quantity(text: &str) -> Result<Quantity, ParseError> {
     })
 }
 
+/// The text with the thousands of its number joined, where they stand in groups of three digits.
+fn without_groups(whole: &str) -> Option<String> {
+    let is_mark = |c: char| {
+        matches!(
+            c,
+            ' ' | '\u{a0}' | '\u{2009}' | '\u{202f}' | '\'' | '’' | '_'
+        )
+    };
+    let start = whole.find(|c: char| c.is_ascii_digit())?;
+    if start > 0 && !matches!(&whole[..start], "-" | "+" | "−") {
+        return None;
+    }
+    let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
+    let mut joined = whole[..start + digits(&whole[start..])].to_string();
+    let mut rest = &whole[joined.len()..];
+    while let Some(group) = rest.strip_prefix(is_mark)
+        && digits(group) == 3
+    {
+        joined.push_str(&group[..3]);
+        rest = &group[3..];
+    }
+    let grouped = rest.len() + joined.len() < whole.len();
+    grouped.then(|| joined + rest)
+}
+
 /// The number at the start of a text, in decimal pieces.
-struct Number<'a> {
+pub(crate) struct Number<'a> {
     written: &'a str,
     /// Sign, digits and point, without exponent.
     digits: String,
     exponent: i64,
-    rest: &'a str,
+    pub(crate) rest: &'a str,
 }
 
 /// Larger exponents give infinity or zero anyway; the limit keeps sums of exponents small.
 const LARGEST_EXPONENT: i64 = 100_000;
 
-fn split_number(whole: &str) -> Result<Number<'_>, ParseError> {
+pub(crate) fn split_number(whole: &str) -> Result<Number<'_>, ParseError> {
     let sign_length = whole
         .chars()
         .next()

@@ -2,12 +2,8 @@
 
 use super::complete::mass_of_ball;
 use super::draft::{Draft, Read, Reader};
-use super::geometry::{Geometry, digits, millimetres};
+use super::geometry::{Geometry, digits, millimetres, rating_beyond_balls};
 use crate::problem::{Code, Problem};
-
-/// Static load rating over Z D² cos α, N/m²: makers' values lie between 6e6 (spindle bearings with open grooves) and
-/// 22e6; beyond these limits a digit or a unit is wrong.
-const RATING: (f64, f64) = (2e6, 60e6);
 
 /// Refuses contradictions.
 pub(super) fn check(draft: &Draft, reader: &Reader<'_>) -> Read<()> {
@@ -100,10 +96,9 @@ impl Context<'_, '_> {
         };
         let angle = self.number("contact_angle").unwrap_or(0.0);
         let area = count * ball * ball * angle.cos();
-        let (least, most) = (RATING.0 * area, RATING.1 * area);
-        if (least..=most).contains(&rating) {
+        let Some(allowed) = rating_beyond_balls(rating, area) else {
             return Ok(());
-        }
+        };
         Err(self.refuse(
             Code::RatingContradictsBalls,
             &["static_load_rating", "ball_count", "ball_diameter"],
@@ -112,11 +107,7 @@ impl Context<'_, '_> {
                 self.text("static_load_rating"),
                 self.text("ball_diameter")
             ),
-            format!(
-                "between {} kN and {} kN is needed: 2 to 60 N/mm² times Z D² cos α; makers' bearings have 6 to 22",
-                digits(least * 1e-3),
-                digits(most * 1e-3)
-            ),
+            allowed,
         ))
     }
 

@@ -181,6 +181,22 @@ impl Geometry {
     }
 }
 
+/// Static load rating over Z D² cos α, N/m²: makers' values lie between 6e6 (spindle bearings with open grooves) and
+/// 22e6; beyond these limits a digit or a unit is wrong.
+const RATING: (f64, f64) = (2e6, 60e6);
+
+/// What is allowed instead of a static load rating, N, that balls of this area Z D² cos α, m², cannot have.
+pub(crate) fn rating_beyond_balls(rating: f64, area: f64) -> Option<String> {
+    let (least, most) = (RATING.0 * area, RATING.1 * area);
+    (!(least..=most).contains(&rating)).then(|| {
+        format!(
+            "between {} kN and {} kN is needed: 2 to 60 N/mm² times Z D² cos α; makers' bearings have 6 to 22",
+            digits(least * 1e-3),
+            digits(most * 1e-3)
+        )
+    })
+}
+
 /// A number for a message, to four digits.
 pub(crate) fn digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);

@@ -36,6 +36,7 @@
 pub(crate) mod bearing;
 mod check;
 mod complete;
+pub mod designation;
 mod draft;
 mod family;
 mod filter;

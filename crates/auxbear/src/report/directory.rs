@@ -328,7 +328,18 @@ pub fn write_report(file: &Path, directories: &[PathBuf]) -> Result<(), Box<Prob
         .iter()
         .map(|path| read(path))
         .collect::<Result<Vec<_>, _>>()?;
-    let picture = file.extension().is_some_and(|end| end == "svg");
+    let picture = match file.extension().and_then(|end| end.to_str()) {
+        Some("html" | "htm") => false,
+        Some("svg") => true,
+        _ => {
+            return Err(Box::new(Problem::at_path(
+                Code::UnknownWord,
+                file,
+                "a name of no kind that the report has",
+                "*.html is needed, or *.svg for the picture of one run; a browser prints the page to PDF, and history.parquet of the run holds the columns",
+            )));
+        }
+    };
     let text = match (picture, runs.as_slice()) {
         (false, _) => page::html(&runs),
         (true, [run]) if picture::shows(run) => picture::orbit_svg(run),

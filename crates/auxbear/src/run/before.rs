@@ -3,18 +3,28 @@
 use crate::result::assumptions::speed_rating;
 use crate::result::outcome::{Warning, warning};
 use crate::run::{Built, Machine};
-use crate::scenario::Bearing;
+use crate::scenario::{AuxiliaryBearing, Bearing};
+use crate::simulate::bearing::warnings::preload_left;
 
 impl Machine<'_> {
     /// What the user should know before the run.
     pub fn warnings(&self) -> Vec<Warning> {
+        let notes = self.scenario.notes.iter();
+        let of_values = notes.map(|note| warning(note.code, note.text.clone()));
+        of_values.chain(self.of_system()).collect()
+    }
+
+    fn of_system(&self) -> Vec<Warning> {
         match &self.system {
             Built::Drop(drop, ..) => {
                 let load = drop.rotor.mass * drop.gravity.acceleration * drop.share();
                 let parts = drop.auxiliary_bearings.iter();
-                parts
-                    .flat_map(|part| of_bearing(&part.name, &part.bearing, load, drop.rotor.speed))
-                    .collect()
+                let of_part = |part: &AuxiliaryBearing| {
+                    let mut list = of_bearing(&part.name, &part.bearing, load, drop.rotor.speed);
+                    list.extend(preload_left(&part.name, &part.bearing, load, None));
+                    list
+                };
+                parts.flat_map(of_part).collect()
             }
             Built::SpinUp(spin_up, _) => {
                 let load = spin_up.radial_load.largest_until(spin_up.run.duration);

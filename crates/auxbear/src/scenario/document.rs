@@ -4,6 +4,7 @@ use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::key::{Key, quoted};
 use crate::scenario::meant;
 pub(crate) use crate::scenario::raw::{Raw, as_toml};
+use crate::scenario::not_modelled;
 use crate::scenario::raw::{Written, collect, raw, table_raw, tables};
 use crate::scenario::several::{self, AUXILIARY_BEARING, LIMIT, VARY};
 use crate::scenario::system::SystemName;
@@ -365,6 +366,13 @@ impl Document {
                 Ok(())
             }
             (key, raw) => {
+                if key.is_none()
+                    && let Some(absent) = not_modelled::of(&dotted)
+                {
+                    let found = "a key of what is not modelled yet".to_string();
+                    let told = problem(Code::NotModelled, found, absent.allowed());
+                    return Err(Box::new(told.with_hint(absent.hint())));
+                }
                 let (code, found) = match (key, raw) {
                     (Some(_), _) => (Code::WrongType, "a section".to_string()),
                     (None, None) => (Code::UnknownKey, "an unknown section".to_string()),

@@ -53,6 +53,9 @@ pub enum Range {
     FromTo(f64, f64),
 }
 
+/// Friction coefficients of rotor and race: of clean metals that seize in vacuum some units, of nothing that slides more.
+pub(crate) const LANDING_FRICTION: Range = Range::FromTo(0.0, 5.0);
+
 /// What happens when a key is not given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Presence {

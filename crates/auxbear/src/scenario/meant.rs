@@ -51,6 +51,9 @@ pub(crate) fn allowed_near(path: &[String], system: SystemName) -> String {
 /// What an unknown key was probably meant to be.
 pub(crate) fn meant(path: &[String], system: SystemName) -> Option<String> {
     let name = path.last()?;
+    if system == SystemName::Drop && is_another_bearing(&path[0]) {
+        return Some(OTHERS.to_string());
+    }
     if let Some(hint) = confused(name, system) {
         return Some(hint.to_string());
     }
@@ -89,6 +92,17 @@ pub(crate) fn meant(path: &[String], system: SystemName) -> Option<String> {
     }
     names.truncate(3);
     question(&names)
+}
+
+const OTHERS: &str = "Bearings that differ are tables [[auxiliary_bearing]], each with name and with what it has of its own in contact, mount and bearing; equal ones are counted by rotor.planes";
+
+/// Whether a section is one for a second bearing: `bearing_2`, `bearings`, `drive_end`.
+fn is_another_bearing(section: &str) -> bool {
+    let numbered = section.strip_prefix("bearing").is_some_and(|rest| {
+        let rest = rest.trim_start_matches('_');
+        rest == "s" || (rest.len() == 1 && rest.starts_with(|c: char| c.is_ascii_alphanumeric()))
+    });
+    numbered || ["drive_end", "non_drive_end", "second_bearing"].contains(&section)
 }
 
 /// Names that another key bears elsewhere, and what is meant by them.

@@ -18,6 +18,8 @@ pub(crate) mod key;
 pub(crate) mod limit;
 pub(crate) mod locate;
 pub(crate) mod meant;
+pub(crate) mod not_modelled;
+pub(crate) mod notes;
 pub(crate) mod provenance;
 pub(crate) mod raw;
 pub(crate) mod read;
@@ -80,6 +82,11 @@ use std::path::Path;
 
 /// Largest input file, bytes.
 const LARGEST_FILE: u64 = 10_000_000;
+
+/// Ends of the names of measurement files.
+const MEASUREMENTS: [&str; 11] = [
+    "csv", "tsv", "tdms", "uff", "unv", "mat", "h5", "hdf5", "parquet", "wav", "wave",
+];
 
 /// What is simulated or computed: the one place in which the systems of a scenario meet.
 #[allow(clippy::large_enum_variant)] // one of them stands in memory at a time
@@ -176,6 +183,8 @@ pub struct Scenario {
     pub vary: Vec<Vary>,
     /// What results must hold.
     pub limits: Vec<Limit>,
+    /// What the user should know of the values themselves.
+    pub(crate) notes: Vec<notes::Note>,
     /// Where it was read.
     text: locate::Text,
     /// What was read, to be read again with other values.
@@ -189,6 +198,9 @@ impl Scenario {
         sets: &[String],
         bearings: &dyn BearingSource,
     ) -> Result<Scenario, Box<Problem>> {
+        if let Some(measurement) = measurement(path) {
+            return Err(measurement);
+        }
         let text = read_text(path)?;
         Scenario::parse(&text, &path.display().to_string(), sets, bearings)
     }
@@ -241,6 +253,13 @@ impl Scenario {
             _ => Vec::new(),
         };
         let limits = limit::of(&document)?;
+        let mut notes: Vec<notes::Note> = Vec::new();
+        for note in values.iter().flat_map(values::Values::notes) {
+            // what is of the whole file is noted of each of several bearings
+            if !notes.contains(&note) {
+                notes.push(note);
+            }
+        }
         Ok(Scenario {
             format: FORMAT.to_string(),
             title: values[0].text("title"),
@@ -251,6 +270,7 @@ impl Scenario {
                 .limited(&limits),
             vary,
             limits,
+            notes,
             text: locate::Text {
                 name: name.to_string(),
                 sections: document.sections.clone(),
@@ -263,6 +283,24 @@ impl Scenario {
     pub fn locate(&self, problem: Box<Problem>) -> Box<Problem> {
         self.text.locate(&self.resolved, problem)
     }
+}
+
+/// A file of measured values in the place of the scenario that should name it.
+fn measurement(path: &Path) -> Option<Box<Problem>> {
+    let end = path.extension()?.to_str()?.to_lowercase();
+    if !MEASUREMENTS.contains(&end.as_str()) || !path.is_file() {
+        return None;
+    }
+    let name = path.display();
+    Some(Box::new(Problem::at_path(
+        Code::MeasurementInstead,
+        path,
+        "a file of measured values",
+        format!(
+            "a scenario that names it is needed: auxbear new signals writes one, with signals.file = \"{name}\", for auxbear signals; \
+             auxbear new identify one for auxbear identify"
+        ),
+    )))
 }
 
 fn read_text(path: &Path) -> Result<String, Box<Problem>> {

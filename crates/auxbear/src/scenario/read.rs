@@ -5,7 +5,7 @@ use crate::scenario::document::{Given, Raw};
 use crate::scenario::key::{Key, Kind, article, quoted};
 use crate::scenario::provenance::Provenance;
 use crate::scenario::values::{Known, POWER_TOLERANCE, Value, Values};
-use units::{Dimension, ParseError, Rational, parse_quantity};
+use units::{Dimension, ParseError, Rational, as_product, parse_quantity};
 
 /// What a resolved file says of values that were not given.
 pub(crate) const FILLED_IN: [&str; 2] = ["default", "catalogue"];
@@ -216,7 +216,7 @@ impl Values {
     ) -> Result<(Value, String), Box<Problem>> {
         let text = text.trim();
         let quantity = parse_quantity(text).map_err(|error| {
-            let (code, found, hint) = unreadable(&error);
+            let (code, found, hint) = unreadable(&error, text, key.dimension());
             Box::new(
                 self.problem(code, key.path, place, found, key.needed())
                     .with_hint(hint),
@@ -264,8 +264,12 @@ pub(crate) fn described(dimension: Dimension) -> String {
     }
 }
 
-/// What is wrong with the text of a quantity. A near unit is a hint of its own, not the middle of the message.
-pub(crate) fn unreadable(error: &ParseError) -> (Code, String, Option<String>) {
+/// What is wrong with the text of a quantity. What was meant is a hint of its own, not the middle of the message.
+pub(crate) fn unreadable(
+    error: &ParseError,
+    text: &str,
+    wanted: Option<Dimension>,
+) -> (Code, String, Option<String>) {
     let code = match error {
         ParseError::MissingUnit { .. } => Code::BareNumber,
         ParseError::OutOfRange { .. } | ParseError::NotFinite { .. } => Code::OutOfRange,
@@ -275,8 +279,12 @@ pub(crate) fn unreadable(error: &ParseError) -> (Code, String, Option<String>) {
         ParseError::UnknownUnit { unit, nearest } => (
             code,
             format!("the unknown unit \"{unit}\""),
-            nearest.as_deref().and_then(|nearest| question(&[nearest])),
+            (wanted.and_then(|wanted| as_product(text, wanted)))
+                .as_deref()
+                .or(nearest.as_deref())
+                .and_then(|meant| question(&[meant])),
         ),
+        ParseError::GroupedDigits { joined, .. } => (code, error.to_string(), question(&[joined])),
         other => (code, other.to_string(), None),
     }
 }

@@ -103,8 +103,8 @@ pub(crate) fn cell<'a>(
         return Err((code, raw.text(), None));
     };
     let text = text.trim();
-    let quantity = parse_quantity(text).map_err(|error| unreadable(&error))?;
     let wanted = Unit::parse(unit).ok().map(|unit| unit.dimension());
+    let quantity = parse_quantity(text).map_err(|error| unreadable(&error, text, wanted))?;
     if wanted != Some(quantity.dimension) {
         let found = format!("{}, {},", quoted(text), described(quantity.dimension));
         return Err((Code::WrongDimension, found, None));

@@ -8,7 +8,9 @@ use crate::scenario::provenance::Provenance;
 use crate::scenario::resolved::{Resolved, ResolvedValue};
 use crate::scenario::several;
 use crate::scenario::table;
-use crate::scenario::values::{COMPARED_LAWS, Known, LAW, POWER_TOLERANCE, Value, Values};
+use crate::scenario::values::{
+    COMPARED_LAWS, Known, LAW, LUBRICATION, POWER_TOLERANCE, Value, Values,
+};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use units::{Rational, parse_quantity};
@@ -26,12 +28,14 @@ impl Values {
             known: BTreeMap::new(),
             record: None,
             lacking: RefCell::default(),
+            without_effect: Vec::new(),
         };
         let own = values.own_catalogue(document)?;
         let bearings = own
             .as_ref()
             .map_or(bearings, |own| own as &dyn BearingSource);
         let record = values.find_bearing(document, bearings)?;
+        let mut missing: Vec<Box<Problem>> = Vec::new();
         for key in table::keys_of(document.system) {
             let given = document.values.get(key.path);
             if let Some(unmet) = values.unmet(key) {
@@ -40,6 +44,19 @@ impl Values {
                         let known = values.read(key, given)?;
                         values.known.insert(key.path, known);
                     }
+                    // a file says how its bearing is lubricated, whatever is computed of it
+                    Some(given) if key.path == LUBRICATION => {
+                        let known = values.read(key, given)?;
+                        values.known.insert(key.path, known);
+                        values.without_effect.push(LUBRICATION);
+                    }
+                    // a choice that is missing is no choice against the key
+                    Some(_)
+                        if missing.iter().any(|lack| {
+                            lack.key
+                                .as_ref()
+                                .is_some_and(|key| key.ends_with(unmet.path))
+                        }) => {}
                     Some(given) => {
                         return Err(Box::new(values.unused(key, given, &unmet, document)));
                     }
@@ -55,16 +72,42 @@ impl Values {
                 }
                 None => match values.catalogued(key, record.as_ref())? {
                     Some(known) => Some(known),
-                    None => values.without(key, record.as_ref(), document)?,
+                    None => match values.without(key, record.as_ref(), document) {
+                        Err(problem) if problem.code == Code::MissingKey => {
+                            missing.push(problem);
+                            None
+                        }
+                        other => other?,
+                    },
                 },
             };
             if let Some(known) = known {
                 values.known.insert(key.path, known);
             }
         }
-        values.derive()?;
         values.record = record;
+        if !missing.is_empty() {
+            return Err(values.all_missing(missing));
+        }
+        values.derive()?;
         Ok(values)
+    }
+
+    /// The first missing key, with the names of all others: one round is enough to give them.
+    fn all_missing(&self, mut missing: Vec<Box<Problem>>) -> Box<Problem> {
+        let mut others: Vec<String> = (missing.iter().skip(1))
+            .filter_map(|problem| problem.key.clone())
+            .collect();
+        others.extend(self.missing_factors().map(|path| self.shown(path)));
+        let mut first = missing.swap_remove(0);
+        if !others.is_empty() {
+            let others = format!("Missing as well: {}", others.join(", "));
+            first.hint = Some(match first.hint {
+                Some(hint) => format!("{hint}. {others}"),
+                None => others,
+            });
+        }
+        first
     }
 
     /// The condition that keeps a key from having a meaning, followed to its root.

@@ -83,12 +83,14 @@ pub fn presence(key: &Key, system: SystemName) -> Presence {
 
 /// Whether the starting file of a system gives a key that could stay away in a file of another bearing.
 pub(crate) fn starts_with(key: &Key, system: SystemName) -> bool {
+    if key.path == "bearing.name" {
+        return true;
+    }
     match system {
-        SystemName::Torque => crate::scenario::torque::keys::GIVEN.contains(&key.path),
         SystemName::Signals => crate::scenario::signals::keys::GIVEN.contains(&key.path),
         SystemName::Rig => crate::scenario::rig::keys::GIVEN.contains(&key.path),
         SystemName::Identify => crate::scenario::identify::keys::GIVEN.contains(&key.path),
-        SystemName::Drop | SystemName::SpinUp => false,
+        SystemName::Drop | SystemName::SpinUp | SystemName::Torque => false,
     }
 }
 

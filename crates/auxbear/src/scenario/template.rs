@@ -87,7 +87,8 @@ fn describe(out: &mut String, key: &Key, system: SystemName) {
         Presence::Required => (holds, line(example)),
         Presence::FromBearing => {
             doc.push_str(" Not needed with a bearing.name that the catalogue knows.");
-            (holds, line(key.example))
+            // the starting file names a bearing: dimensions of an example would be those of another one once the name changes
+            (false, line(key.example))
         }
         Presence::Optional(meaning) => {
             doc.push_str(&format!(" Without it {meaning}."));
@@ -145,10 +146,13 @@ fn holds(condition: &Condition, system: SystemName) -> bool {
         return true;
     };
     let value = match table::presence(key, system) {
-        Presence::Required | Presence::FromBearing => key.example,
+        Presence::Required => key.example,
         _ if table::starts_with(key, system) => key.example,
         Presence::Default(fallback) => fallback.text,
-        Presence::Optional(_) | Presence::Derived(_) | Presence::DefaultWhen(..) => return false,
+        Presence::FromBearing
+        | Presence::Optional(_)
+        | Presence::Derived(_)
+        | Presence::DefaultWhen(..) => return false,
     };
     condition.values.contains(&value) && key.when.iter().all(|condition| holds(condition, system))
 }

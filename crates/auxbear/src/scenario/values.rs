@@ -9,13 +9,15 @@ use crate::scenario::system::SystemName;
 use crate::scenario::words::Words;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use units::Quantity;
+use units::{Dimension, Quantity};
 
 /// How far the power in the unit of a contact stiffness may be from its exponent: decimals of 10/9 are accepted.
 pub(crate) const POWER_TOLERANCE: f64 = 1e-6;
 
 /// Key of the law of the friction moment, on which its constants depend.
 pub(crate) const LAW: &str = "bearing.moment.law";
+/// Key of the lubrication, which not every law asks for.
+pub(crate) const LUBRICATION: &str = "bearing.moment.lubrication";
 /// Key of the laws that are compared with it.
 pub(crate) const COMPARED_LAWS: &str = "torque.laws";
 
@@ -81,6 +83,8 @@ pub(crate) struct Values {
     pub(crate) record: Option<BearingRecord>,
     /// Keys that typed values needed and that have none.
     pub(crate) lacking: RefCell<Vec<String>>,
+    /// Given keys that nothing is computed from, kept as information.
+    pub(crate) without_effect: Vec<&'static str>,
 }
 
 impl Values {
@@ -245,14 +249,27 @@ impl Values {
     }
 }
 
-/// A value in SI as a text that reads back bit for bit.
+/// A value in SI as a text that reads back bit for bit: in SI, or in rpm or degrees where that is shorter.
 pub(crate) fn quantity_text(key: &Key, value_si: f64) -> String {
-    match key.dimension() {
-        Some(dimension) => Quantity {
-            value_si,
-            dimension,
-        }
-        .to_string(),
-        None => units::number_text(value_si),
+    let Some(dimension) = key.dimension() else {
+        return units::number_text(value_si);
+    };
+    let si = Quantity {
+        value_si,
+        dimension,
+    }
+    .to_string();
+    let unit = match dimension {
+        Dimension::ANGLE => "deg",
+        Dimension::ANGULAR_SPEED => "rpm",
+        _ => return si,
+    };
+    let usual = units::display(value_si, unit).unwrap_or_default();
+    let same = units::parse_quantity(&usual)
+        .is_ok_and(|back| back.value_si.to_bits() == value_si.to_bits());
+    if same && usual.len() < si.len() {
+        usual
+    } else {
+        si
     }
 }

@@ -9,6 +9,7 @@ mod friction;
 mod limits;
 mod lubricant;
 mod lubricant_state;
+mod notes;
 mod pressure_limits;
 mod resolved;
 mod schema;

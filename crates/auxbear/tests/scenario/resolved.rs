@@ -2,7 +2,7 @@
 
 use crate::files::{must_read, owned as sets};
 use auxbear::scenario::{
-    BallMaterial, BearingRecord, BearingSource, Cage, Drop, Fidelity, Moment, NoBearings,
+    BallMaterial, BearingRecord, BearingSource, BuiltIn, Cage, Drop, Fidelity, Moment, NoBearings,
     Provenance, Scenario, Separation, Spin, System, SystemName, Traction, keys, keys_of, template,
 };
 use physics::palmgren_factors::FactorSource;
@@ -342,10 +342,10 @@ fn the_starting_file_reads_without_a_problem() {
     for system in SystemName::ALL {
         let name = format!("{}.toml", system.word());
         let text = template(system.word()).unwrap();
-        let scenario = Scenario::parse(&text, &name, &[], &NoBearings)
+        let scenario = Scenario::parse(&text, &name, &[], &BuiltIn)
             .unwrap_or_else(|problem| panic!("{problem}"));
         assert_eq!(scenario.system.name(), *system);
-        let again = Scenario::parse(&scenario.resolved.toml(), &name, &[], &NoBearings).unwrap();
+        let again = Scenario::parse(&scenario.resolved.toml(), &name, &[], &BuiltIn).unwrap();
         assert_eq!(bits(&again), bits(&scenario));
         assert_eq!(again.system, scenario.system);
         for key in keys() {

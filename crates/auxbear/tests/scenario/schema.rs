@@ -248,8 +248,18 @@ fn right_edits_are_right_and_wrong_ones_are_not() {
         ),
         (
             "drop",
-            &["bearing.ball_count"],
-            &[("bearing", "name = \"6005\"")],
+            &["bearing.name"],
+            &[
+                ("contact", "bore_diameter = \"25 mm\""),
+                (
+                    "bearing",
+                    "ball_count = 10\nball_diameter = \"6.35 mm\"\npitch_diameter = \"36 mm\"",
+                ),
+                (
+                    "bearing",
+                    "inner_race_mass = \"20 g\"\ninner_race_inertia = \"3.9e-6 kg m^2\"\ncage_mass = \"5 g\"",
+                ),
+            ],
         ),
         (
             "drop",
@@ -300,7 +310,7 @@ fn right_edits_are_right_and_wrong_ones_are_not() {
             )],
         ),
         ("drop", &[], &[("contact", "exponent = 3.0")]),
-        ("drop", &["bearing.ball_count"], &[]),
+        ("drop", &["bearing.name"], &[]),
         ("drop", &[], &[("", "[drive]\nkind = \"torque\"")]),
         ("drop", &[], &[("", "system = \"spin_up\"")]),
         ("drop", &[], &[("bearing.traction", "law = \"dry\"")]),

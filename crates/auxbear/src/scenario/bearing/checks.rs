@@ -1,6 +1,6 @@
 //! Checks between the values of a bearing.
 
-use crate::catalogue::geometry::{Geometry, millimetres};
+use crate::catalogue::geometry::{Geometry, millimetres, rating_beyond_balls};
 use crate::problem::Code;
 use crate::scenario::bearing::kind::Fidelity;
 use crate::scenario::bearing::moment::{AccelerationLoss, Moment, RatedBearing};
@@ -71,7 +71,7 @@ impl Context<'_> {
             written.or_else(known).unwrap_or_default()
         };
         let Some(mut found) = geometry.contradiction(&text) else {
-            return Ok(());
+            return self.static_rating();
         };
         let paths: Vec<&str> = (found.blames.iter()).map(|blame| path(blame.key)).collect();
         let blamed = self.blamed(&paths);
@@ -82,6 +82,27 @@ impl Context<'_> {
         Err(Box::new(problem.with_hint(named.map(|name| {
             format!("The dimensions that are not given are those of bearing.name = \"{name}\"")
         }))))
+    }
+
+    /// A rating that such balls cannot have.
+    fn static_rating(&self) -> Check {
+        let path = "bearing.static_load_rating";
+        let known = self.values.number(path).zip(self.values.area_of_balls());
+        let allowed = known.and_then(|(rating, area)| rating_beyond_balls(rating, area));
+        match allowed {
+            None => Ok(()),
+            Some(allowed) => Err(Box::new(self.problem(
+                Code::RatingContradictsBalls,
+                self.blamed(&[path, "bearing.ball_count", "bearing.ball_diameter"]),
+                format!(
+                    "{} with {} balls of {}",
+                    self.text(path),
+                    self.text("bearing.ball_count"),
+                    self.text("bearing.ball_diameter")
+                ),
+                allowed,
+            ))),
+        }
     }
 
     /// The rotor's side of the inner race, which a sleeve may narrow.

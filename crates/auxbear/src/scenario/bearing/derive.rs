@@ -4,30 +4,30 @@ use crate::problem::{Code, Place, Problem};
 use crate::scenario::bearing::kind::{BallMaterial, BearingType};
 use crate::scenario::bearing::lubricant::Lubricant;
 use crate::scenario::bearing::moment::{EquivalentLoad, Lubricated, MomentLaw};
-use crate::scenario::key::Key;
 use crate::scenario::provenance::Provenance;
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
-use crate::scenario::values::{COMPARED_LAWS, Known, LAW, Value, Values, quantity_text};
+use crate::scenario::values::{
+    COMPARED_LAWS, Known, LAW, LUBRICATION, Value, Values, quantity_text,
+};
 use crate::scenario::words::Words;
 use physics::hertz::{BallRace, PointContact, Race};
 use physics::materials::{BEARING_STEEL, SILICON_NITRIDE, ball_mass, contact_modulus};
 use physics::palmgren_factors::{FactorSource, Lubrication, palmgren_factors};
 use physics::viscosity::Viscosity;
 
-const F0: &str = "bearing.moment.f0";
-const F1_FACTOR: &str = "bearing.moment.f1_factor";
-const F1_EXPONENT: &str = "bearing.moment.f1_exponent";
-const SERIES: &str = "bearing.moment.series";
-const LUBRICATION: &str = "bearing.moment.lubrication";
+pub(super) const F0: &str = "bearing.moment.f0";
+pub(super) const F1_FACTOR: &str = "bearing.moment.f1_factor";
+pub(super) const F1_EXPONENT: &str = "bearing.moment.f1_exponent";
+pub(super) const SERIES: &str = "bearing.moment.series";
 const TEMPERATURE: &str = "bearing.moment.temperature";
 const VISCOSITY_POINTS: &str = "bearing.moment.viscosity_points";
 const LUBRICANTS: &str = "torque.lubricants";
 const AXIAL_LOAD: &str = "bearing.moment.axial_load";
-const CONTACT_ANGLE: &str = "bearing.moment.contact_angle";
+pub(super) const CONTACT_ANGLE: &str = "bearing.moment.contact_angle";
 const EQUIVALENT_LOAD: &str = "bearing.moment.equivalent_load";
 const PRELOAD: &str = "bearing.axial_preload";
-const ANGLE: &str = "bearing.contact_angle";
+pub(super) const ANGLE: &str = "bearing.contact_angle";
 const BALL_MASS: &str = "bearing.ball_mass";
 
 /// Contact angle of a deep groove bearing under axial load, degrees: 0.9 cot(16.7 degrees) = 3.
@@ -212,7 +212,7 @@ impl Values {
     }
 
     /// The type of the bearing; deep groove where nothing asks for it.
-    fn bearing_type(&self) -> BearingType {
+    pub(super) fn bearing_type(&self) -> BearingType {
         (self.chosen("bearing.type")).unwrap_or(BearingType::DeepGroove)
     }
 
@@ -222,17 +222,13 @@ impl Values {
         key.is_some_and(|key| self.unmet(key).is_none()) && self.text(path).is_none()
     }
 
-    /// The series by the name of a deep groove bearing.
+    /// The series by the name of the bearing, where the name holds it.
     fn series(&mut self) -> Done {
-        if self.bearing_type() != BearingType::DeepGroove || !self.lacks(SERIES) {
-            return Ok(());
-        }
-        match self.text("bearing.name").as_deref().and_then(series_of) {
-            Some(series) => {
-                let how = "the name of a deep groove bearing without its bore code";
+        match self.series_by_name() {
+            Some((series, how)) if self.lacks(SERIES) => {
                 self.put_derived(SERIES, Value::Text(series), how)
             }
-            None => Ok(()),
+            _ => Ok(()),
         }
     }
 
@@ -244,29 +240,17 @@ impl Values {
         else {
             self.equivalent_load(FactorSource::Timken, "f1 is given by hand")?;
             self.contact_angle(None, "")?;
-            let wanted = !self.words(COMPARED_LAWS).is_empty();
             if !self.is_given(LUBRICATION) {
                 self.take_away(LUBRICATION);
+            } else if self.words(COMPARED_LAWS).is_empty() {
+                self.without_effect.push(LUBRICATION);
             }
-            return match self.text(LUBRICATION) {
-                Some(text) if !wanted => Err(Box::new(self.problem(
-                    Code::UnusedKey,
-                    LUBRICATION,
-                    self.place(LUBRICATION),
-                    format!("\"{text}\", which has no effect"),
-                    "lubrication chooses f0 and f1 from the tables, and all of these are given here",
-                ))),
-                _ => Ok(()),
-            };
+            return Ok(());
         };
         let lubrication = match self.chosen(LUBRICATION) {
             Some(Lubricated::Grease | Lubricated::OilMist) => Lubrication::GreaseOrOilMist,
             Some(Lubricated::LowOilBath | Lubricated::OilJet) => Lubrication::OilBath,
-            None => {
-                return Err(Box::new(
-                    self.no_factor(missing, "bearing.moment.lubrication"),
-                ));
-            }
+            None => return Err(Box::new(self.no_factor(missing))),
             Some(other @ (Lubricated::OilAndAir | Lubricated::OilBath)) => {
                 let other = other.as_word();
                 return Err(Box::new(self.problem(
@@ -279,7 +263,7 @@ impl Values {
             }
         };
         let Some(series) = self.text(SERIES) else {
-            return Err(Box::new(self.no_factor(missing, "bearing.moment.series")));
+            return Err(Box::new(self.no_factor(missing)));
         };
         let kind = self.bearing_type().factor_type();
         let factors = palmgren_factors(kind, &series, lubrication).map_err(|refusal| {
@@ -327,14 +311,6 @@ impl Values {
             Value::Word(EquivalentLoad::of(source).as_word()),
             how,
         )
-    }
-
-    fn no_factor(&self, path: &str, other: &str) -> Problem {
-        let needed = table::keys()
-            .find(|key| key.path == path)
-            .map_or(String::new(), Key::needed);
-        self.problem(Code::MissingKey, path, Place::Whole, "no value", needed)
-            .with_hint(format!("With {other} it is taken from the tables"))
     }
 
     fn skf_lubrication(&self) -> Done {
@@ -516,36 +492,5 @@ impl Values {
             },
         );
         Ok(())
-    }
-}
-
-/// The series in the name of a deep groove bearing: its digits without the bore code.
-fn series_of(name: &str) -> Option<String> {
-    let digits: String = name.chars().take_while(char::is_ascii_digit).collect();
-    let series = match digits.len() {
-        3 | 4 => &digits[..2],
-        5 => &digits[..3],
-        _ => return None,
-    };
-    Some(series.to_string())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_name_holds_its_series() {
-        for (name, series) in [
-            ("6005", Some("60")),
-            ("6005 hybrid", Some("60")),
-            ("607", Some("60")),
-            ("61807", Some("618")),
-            ("16005", Some("160")),
-            ("SNFA EX 25", None),
-            ("", None),
-        ] {
-            assert_eq!(series_of(name).as_deref(), series, "{name}");
-        }
     }
 }

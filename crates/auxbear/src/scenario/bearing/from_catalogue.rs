@@ -1,6 +1,7 @@
 //! Values that a bearing catalogue knows.
 
 use crate::catalogue::Catalogue;
+use crate::catalogue::designation::{self, Designation};
 use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::bearing::source::{BearingRecord, BearingSource};
 use crate::scenario::document::{Document, Given, Raw};
@@ -87,15 +88,21 @@ impl Values {
         };
         let known = self.read(key, given)?;
         let name = known.text.as_str();
-        let record = bearings.find(name);
-        if record.is_some() {
-            return Ok(record);
+        if let Some(record) = bearings.find(name) {
+            return Ok(Some(record));
+        }
+        let meant = designation::read(name, &|name| bearings.find(name).is_some());
+        if let Some(Designation::Known { name, .. }) = &meant {
+            return Ok(bearings.find(name));
         }
         let names = bearings.names();
         let mut listed: Vec<&str> = names.iter().map(String::as_str).collect();
-        let near = did_you_mean(name, listed.iter().copied());
+        let mut near = did_you_mean(name, listed.iter().copied());
         listed.truncate(12);
-        let allowed = if listed.is_empty() {
+        let allowed = if let Some(Designation::Missing(why)) = meant {
+            near = None;
+            why
+        } else if listed.is_empty() {
             "the catalogue is empty; give the dimensions of the bearing instead of its name"
                 .to_string()
         } else {

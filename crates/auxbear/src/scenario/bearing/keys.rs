@@ -314,7 +314,7 @@ pub(crate) const KEYS: &[Key] = &[
         },
         Otherwise::Fallback(Fallback {
             text: "4200 MPa",
-            reason: "the steel races of a hybrid bearing dent first: the static limit for steel",
+            reason: "the steel races of a hybrid bearing dent first: the static limit for steel, ISO 76",
             assumed: true,
         }),
     )

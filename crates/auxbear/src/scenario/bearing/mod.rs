@@ -5,6 +5,7 @@ pub(crate) mod checks_fits;
 pub(crate) mod checks_lubricant;
 pub(crate) mod checks_separation;
 pub(crate) mod derive;
+pub(crate) mod factors;
 pub(crate) mod fits;
 pub(crate) mod from_catalogue;
 pub(crate) mod keys;

@@ -2,7 +2,9 @@
 
 use crate::scenario::drop::SpinKind;
 use crate::scenario::drop::UnbalanceAngle;
-use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
+use crate::scenario::key::{
+    Condition, Fallback, Key, Kind, LANDING_FRICTION, Otherwise, Range, Section,
+};
 use crate::scenario::system::SystemName;
 use crate::scenario::words::Words;
 
@@ -117,7 +119,7 @@ pub(crate) const KEYS: &[Key] = &[
         "rotor.planes",
         Kind::Count,
         "2",
-        "Number of identical auxiliary bearings that share the rotor. The motion is taken as parallel, so one plane with its share of mass and inertia is simulated.",
+        "Number of identical auxiliary bearings that share the rotor. The motion is taken as parallel, so one plane with its share of mass and inertia is simulated. Pairs at two places are 4 bearings, each with half of the mount of its place.",
     )
     .within(Range::FromTo(1.0, 4.0))
     .default("1", "one auxiliary bearing carries the whole rotor"),
@@ -133,7 +135,7 @@ pub(crate) const KEYS: &[Key] = &[
         "gravity.acceleration",
         Kind::Quantity("m/s^2"),
         "9.81 m/s^2",
-        "Acceleration of gravity in the plane of the bearing; 0 for a vertical shaft.",
+        "Acceleration of gravity in the plane of the bearing. With a vertical shaft none is left of it, and the axial drop is not described: such a run warns.",
     )
     .not_negative()
     .default("9.81 m/s^2", "usual rounded value near sea level"),
@@ -242,7 +244,7 @@ pub(crate) const KEYS: &[Key] = &[
         "0.15",
         "Coefficient of sliding friction between rotor and inner race.",
     )
-    .not_negative()
+    .within(LANDING_FRICTION)
     .assumed("0.15", "arbitrary; it decides the spin-up time, so give the value of the pair"),
     Key::new(
         "contact.friction_reference_speed",

@@ -1,6 +1,6 @@
 //! The part of the table of keys that describes what brings an inner race to speed.
 
-use crate::scenario::key::{Condition, Fallback, Key, Kind, Presence, Section};
+use crate::scenario::key::{Condition, Fallback, Key, Kind, LANDING_FRICTION, Presence, Section};
 use crate::scenario::spin_up::DriveKind;
 use crate::scenario::spin_up::RotorSpin;
 use crate::scenario::system::SystemName;
@@ -129,7 +129,7 @@ pub(crate) const KEYS: &[Key] = &[
         "0.15",
         "Coefficient of sliding friction between rotor and inner race.",
     )
-    .not_negative()
+    .within(LANDING_FRICTION)
     .assumed("0.15", "arbitrary; it decides the spin-up time, so give the value of the pair")
     .when(SLIDING),
     Key::new(

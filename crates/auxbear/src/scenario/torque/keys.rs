@@ -118,6 +118,3 @@ pub(crate) const PRESENCES: &[(&str, Presence)] = &[
         }),
     ),
 ];
-
-/// What the law needs that a bearing without a name, as in the starting file, must be told.
-pub(crate) const GIVEN: &[&str] = &["bearing.static_load_rating", "bearing.moment.series"];

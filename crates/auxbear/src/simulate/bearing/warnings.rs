@@ -223,6 +223,12 @@ pub(crate) fn kind(bearing: &Bearing) -> Vec<Warning> {
 /// What a contact angle in the plane takes for granted.
 fn angular_contact(bearing: &Bearing) -> String {
     let angle = bearing.contact_angle.to_degrees();
+    let rows = match bearing.kind {
+        BearingType::AngularContactDoubleRow => {
+            " Its two rows are computed as one, of ball_count balls."
+        }
+        _ => "",
+    };
     let held = if bearing.axial_preload > 0.0 {
         let most = radial_load_that_unloads_a_ball(bearing.axial_preload, bearing.contact_angle);
         format!("keeps it (locked, at rest up to a radial load of {most:.0} N)")
@@ -231,8 +237,46 @@ fn angular_contact(bearing: &Bearing) -> String {
     };
     format!(
         "The contact angle of {angle:.1} deg is computed in the plane and stays as it is: that holds while an axial preload {held}. \
-         Axial motion, tilt and the balls' spin about their contacts are left out."
+         Axial motion, tilt and the balls' spin about their contacts are left out.{rows}"
     )
+}
+
+/// A radial load beyond what the axial preload holds: the weight at rest, or the largest of the run with its instant.
+pub(crate) fn preload_left(
+    name: &str,
+    bearing: &Bearing,
+    weight: f64,
+    peak: Option<(f64, f64)>,
+) -> Option<Warning> {
+    let preload = bearing.axial_preload;
+    if preload <= 0.0 || bearing.contact_angle <= 0.0 {
+        return None;
+    }
+    let most = radial_load_that_unloads_a_ball(preload, bearing.contact_angle);
+    let told = match peak {
+        Some((force, time)) if force > most => format!(
+            "{force:.0} N at {:.2} ms, {:.1} times that{}",
+            time * 1e3,
+            force / most,
+            match weight > most {
+                true => format!("; the weight of {weight:.0} N alone exceeds it"),
+                false => String::new(),
+            }
+        ),
+        _ if weight > most => format!("exceeded by the weight of {weight:.0} N alone"),
+        _ => return None,
+    };
+    let name = match name {
+        "" => String::new(),
+        name => format!("{name}: "),
+    };
+    Some(warning(
+        "AB1096",
+        format!(
+            "{name}The axial preload of {preload:.0} N keeps all balls loaded up to a radial load of {most:.0} N: {told}. Beyond it \
+             balls are unloaded and the contact angle changes, so ball loads, pressures and spin-up times are indicative only."
+        ),
+    ))
 }
 
 /// Films so warm that the factors of the lubricant's state have left their range.

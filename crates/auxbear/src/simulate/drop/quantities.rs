@@ -1,5 +1,6 @@
 //! Every named result of a drop with its law, source and valid range.
 
+use crate::catalogue::geometry::digits;
 use crate::result::list::{List, Origin, relative};
 use crate::result::outcome::{Quantity, Value};
 use crate::result::static_safety::StaticLoad;
@@ -90,7 +91,7 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
     );
 
     // speeds
-    let never = |what: &str| format!("{what} was not reached by {:.4e} s", ending.time);
+    let never = |what: &str| format!("{what} was not reached in {} ms", digits(1e3 * ending.time));
     list.rises(
         "inner_race",
         [

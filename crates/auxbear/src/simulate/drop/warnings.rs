@@ -43,6 +43,15 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
     }));
     list.extend(bending(context));
     list.extend(one_motion(context));
+    let weight = drop.rotor.mass * drop.gravity.acceleration * drop.share();
+    list.extend(names.iter().enumerate().filter_map(|(k, name)| {
+        let peaks =
+            (members.iter()).filter_map(|member| member.record.bearings[k].peak_contact_force());
+        let peak = peaks
+            .map(|peak| (peak.value, peak.time))
+            .reduce(|a, b| if b.0 > a.0 { b } else { a });
+        shared::preload_left(name, &context.given(k).bearing, weight, peak)
+    }));
     list.extend(each(&|k| loads(context, members, k)));
     list.extend(shared::residual(&name(context)));
     if drop.rotor.planes > 1 {

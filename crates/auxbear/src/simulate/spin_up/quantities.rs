@@ -1,5 +1,6 @@
 //! Every named result of a spin-up with its law, source and valid range.
 
+use crate::catalogue::geometry::digits;
 use crate::result::list::{List, Origin, relative};
 use crate::result::outcome::{Quantity, Value};
 use crate::result::static_safety::{AT_THE_LOAD, StaticLoad};
@@ -37,8 +38,8 @@ fn times(list: &mut List, context: &Context) {
     let (record, state) = (context.record, &context.ending.state);
     let target = context.spin_up.target_speed();
     let never = |what: &str, speed: f64| {
-        let instant = 1e3 * context.ending.time;
-        format!("{what} ({speed:.1} rad/s) was not reached by {instant:.4} ms")
+        let instant = digits(1e3 * context.ending.time);
+        format!("{what} ({speed:.1} rad/s) was not reached in {instant} ms")
     };
     let rolling = target * context.machine().constants.bearing.rolling_cage_ratio();
     list.rises(

@@ -1,0 +1,172 @@
+//! Keys that users try and that nothing describes yet: they are told so, with the page of the book, instead of a near name.
+
+use crate::catalogue::designation::PAIRS;
+
+/// Something that no system describes.
+#[derive(Debug)]
+pub(crate) struct Absent {
+    /// Paths as users write them, with blanks between: a section or key with all below it, or `*.name` in any section.
+    paths: &'static str,
+    /// What it is.
+    what: &'static str,
+    /// Number on the page of limits.
+    point: u8,
+    /// What there is instead; empty for nothing.
+    instead: &'static str,
+}
+
+impl Absent {
+    /// What to read.
+    pub(crate) fn allowed(&self) -> String {
+        format!(
+            "{} (\"When not to trust this\" in the book, point {})",
+            self.what, self.point
+        )
+    }
+
+    /// What there is instead.
+    pub(crate) fn hint(&self) -> Option<String> {
+        (!self.instead.is_empty()).then(|| self.instead.to_string())
+    }
+}
+
+/// What a path asks for, where that is not described.
+pub(crate) fn of(path: &str) -> Option<&'static Absent> {
+    let path = path.to_lowercase();
+    let name = path.rsplit('.').next().unwrap_or(&path);
+    let asks = |pattern: &str| match pattern.strip_prefix("*.") {
+        Some(wanted) => name == wanted,
+        None => path
+            .strip_prefix(pattern)
+            .is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),
+    };
+    TABLE
+        .iter()
+        .find(|absent| absent.paths.split_whitespace().any(&asks))
+}
+
+const TABLE: &[Absent] = &[
+    Absent {
+        paths: "axial thrust thrust_bearing rotor.thrust rotor.axial_load *.axial_gap *.axial_clearance \
+                *.axial_air_clearance *.axial_play *.axial_stiffness *.axial_damping *.axial_speed *.thrust_load",
+        what: "motion along the shaft, the axial gap and the landing on the thrust faces are not described",
+        point: 10,
+        instead: "Constant axial loads are bearing.axial_preload, for contacts and friction, and bearing.moment.axial_load, for friction alone",
+    },
+    Absent {
+        paths: "*.transverse_inertia *.diametral_inertia *.diametrical_inertia *.equatorial_inertia \
+                *.transverse_moment_of_inertia *.centre_of_mass *.center_of_mass *.centre_of_gravity \
+                *.center_of_gravity *.bearing_distance *.bearing_span *.axial_position rotor.position \
+                contact.position mount.position bearing.position *.tilt *.misalignment *.dynamic_unbalance \
+                *.couple_unbalance",
+        what: "tilt and conical motion are not described: the rotor stays parallel to itself",
+        point: 2,
+        instead: "Bearings that differ are tables [[auxiliary_bearing]], under one motion",
+    },
+    Absent {
+        paths: "shaft rotor.shaft rotor.stiffness rotor.shaft_stiffness rotor.bending_stiffness rotor.damping \
+                rotor.modes rotor.flexible rotor.elements rotor.nodes rotor.disks rotor.stations rotor.length \
+                *.youngs_modulus *.elastic_modulus",
+        what: "a rotor that bends is not described",
+        point: 2,
+        instead: "With rotor.first_bending_frequency a run says whether it matters",
+    },
+    Absent {
+        paths: "heat thermal temperature *.heat rotor.temperature contact.temperature mount.temperature \
+                bearing.temperature *.heat_capacity *.thermal_conductivity *.thermal_expansion *.ambient_temperature",
+        what: "heat is not described: nothing warms, fades or expands",
+        point: 5,
+        instead: "The temperature of the lubricant is bearing.moment.temperature; its slow state, with films that warm, is [bearing.lubricant_state]",
+    },
+    Absent {
+        paths: "life wear fatigue *.life *.wear *.wear_coefficient *.l10 *.dynamic_load_rating *.drops \
+                *.number_of_drops *.landings",
+        what: "wear, life and the number of drops are not described",
+        point: 11,
+        instead: "",
+    },
+    Absent {
+        paths: "controller magnet magnets amb magnetic_bearing levitation.controller levitation.control \
+                levitation.pid levitation.kp levitation.ki levitation.kd levitation.ks levitation.gain \
+                levitation.current levitation.current_limit levitation.bias_current levitation.force_limit \
+                levitation.recovery levitation.relevitation levitation.off levitation.off_at levitation.on_at \
+                levitation.failure",
+        what: "controllers, currents and faults of the magnetic bearing are not described: it is a spring and a damper until time 0, then off",
+        point: 3,
+        instead: "levitation.stiffness and levitation.damping set the orbit before the release",
+    },
+    Absent {
+        paths: "bearing.rows bearing.row bearing.paired bearing.pair bearing.arrangement bearing.duplex bearing.set \
+                bearing.count bearing.number bearing.number_of_bearings bearing.number_of_rows",
+        what: "a pair, set or several rows are not described as one bearing",
+        point: 10,
+        instead: PAIRS,
+    },
+    Absent {
+        paths: "mount.friction mount.friction_coefficient mount.squeeze_film mount.tolerance_ring mount.stop \
+                mount.gap mount.hysteresis mount.exponent",
+        what: "a mount is one spring and one damper, equal in all directions",
+        point: 7,
+        instead: "Give stiffness and damping at the amplitude that is expected, and vary them",
+    },
+    Absent {
+        paths: "seal seals windage gas process rotor.drag rotor.windage rotor.brake_curve rotor.braking_curve \
+                rotor.speed_curve rotor.load_torque",
+        what: "forces of seals and gas, and torques over speed or time, are not described",
+        point: 5,
+        instead: "A constant torque is rotor.brake_torque with rotor.spin = \"braked\"",
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::table;
+
+    #[test]
+    fn what_exists_is_not_told_to_be_absent() {
+        for key in table::keys() {
+            assert!(
+                of(key.path).is_none() || key.path.starts_with("rig."),
+                "{}",
+                key.path
+            );
+        }
+        for section in table::sections() {
+            assert!(of(section.path).is_none(), "{}", section.path);
+        }
+    }
+
+    #[test]
+    fn every_point_stands_on_the_page_of_limits() {
+        let page = include_str!("../../../../book/src/limits.md");
+        for absent in TABLE {
+            assert!(
+                page.contains(&format!("\n{}. ", absent.point)),
+                "{}",
+                absent.what
+            );
+        }
+    }
+
+    #[test]
+    fn likely_words_are_known_in_any_case_and_with_what_is_below_them() {
+        for path in [
+            "rotor.axial_gap",
+            "rotor.transverse_inertia",
+            "heat.enabled",
+            "levitation.controller",
+            "Levitation.Kp",
+            "bearing.rows",
+            "bearing.paired",
+            "bearing.count",
+            "rotor.shaft.length",
+            "mount.tolerance_ring",
+        ] {
+            assert!(of(path).is_some(), "{path}");
+        }
+        for path in ["rotor.mas", "heating", "bearing.counts", "levitation.kpa"] {
+            assert!(of(path).is_none(), "{path}");
+        }
+    }
+}
