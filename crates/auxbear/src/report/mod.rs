@@ -3,11 +3,13 @@
 //! | page | subject |
 //! |---|---|
 //! | [`directory`] | a run directory as a whole: written in one piece or not at all, and read back |
+//! | `closely` | the part of a run that its page shows closely |
 //! | `summary` | `summary.json`: quantities, warnings, contacts, inputs |
 //! | `history` | `history.parquet`: time histories with unit and meaning of every column |
 //! | [`page`] | one run or several as an HTML page |
 //! | [`picture`] | one run as a picture |
 
+mod closely;
 pub mod directory;
 mod history;
 pub mod page;

@@ -19,8 +19,8 @@ function bandCurves(x, values, deviations, scale, label, colour) {
   const moved = (sign) => values.map((value, row) => (isNumber(value) && isNumber(deviations[row]) ? scale * (value + sign * BAND * deviations[row]) : null));
   return [
     { label, x, y: values.map((value) => (isNumber(value) ? scale * value : null)), colour, width: 2 },
-    { label: "+2σ", x, y: moved(1), colour: colour + "90", width: 0.75 },
-    { label: "−2σ", x, y: moved(-1), colour: colour + "90", width: 0.75 },
+    { x, y: moved(1), colour: colour + "90", width: 0.75 },
+    { x, y: moved(-1), colour: colour + "90", width: 0.75 },
   ];
 }
 
@@ -69,8 +69,9 @@ function steadyFigure(run, runs) {
   const measured = [listOf(run, "coast_down_speeds"), listOf(run, "coast_down_torques").map((value) => 1e3 * value)];
   const form = quantityOf(run, "steady_moment_form").value;
   const series = [
-    { label: "measured", x: measured[0], y: measured[1], colour: SERIES_COLOURS.quiet, width: 0.75 },
     ...bandCurves(speeds, listOf(run, "steady_moments"), listOf(run, "steady_moment_deviations"), 1e3, `M, ${FORMS[form] || form}`, SERIES_COLOURS.limit),
+    // on top of the line, and thin enough to leave it to be seen
+    { label: "measured", x: measured[0], y: measured[1], colour: INK, dots: true, line: false, radius: 1.1 },
   ];
   const forms = Object.keys(FORMS).map((name) => [name, numberOf(run, `probability_of_${name}_form`)]).filter(([, probability]) => probability !== null);
   const correlation = numberOf(run, "largest_parameter_correlation");
@@ -78,7 +79,7 @@ function steadyFigure(run, runs) {
   return figure(
     title,
     `From the slow tests. Probability of the forms: ${words}. ${correlation === null ? "" : `Parameters correlate up to ${numberText(correlation, 3)}: the curve counts, not they. `}${BAND_WORDS}`,
-    curves({ series, across: "speed [rad/s]", upright: "torque [N mm]", height: 320 }),
+    curves({ series, across: "speed [rad/s]", above: IN_RPM, upright: "torque [N mm]", height: 320 }),
   );
 }
 
@@ -105,8 +106,8 @@ function quickFigures(run, test) {
   const rows = rowsUpTo(run, 2 * until);
   const x = rows.map((row) => 1e3 * run.time[row]);
   const of = (name) => rows.map((row) => (columnOf(run, `${test.key}.${name}`) || [])[row]);
-  const look = (name, label, colour) => curves({ series: bandCurves(x, of(name), of(name + "_deviation"), 1, label, colour), across: "time since the engagement [ms]", upright: label, height: 200 });
-  return [figure(`${test.name}: speed and acceleration after the engagement, closely`, null, look("speed", "speed [rad/s]", SERIES_COLOURS.rotor), look("acceleration", "acceleration [rad/s²]", SERIES_COLOURS.race))];
+  const look = (name, label, colour, right) => curves({ series: bandCurves(x, of(name), of(name + "_deviation"), 1, label, colour), across: "time since the engagement [ms]", upright: label, right, height: 200 });
+  return [figure(`${test.name}: speed and acceleration after the engagement, closely`, null, look("speed", "speed [rad/s]", SERIES_COLOURS.rotor, IN_RPM), look("acceleration", "acceleration [rad/s²]", SERIES_COLOURS.race))];
 }
 
 // F over the spin-ups closely: its band is wide only there.
@@ -140,7 +141,7 @@ function testFigures(run, test) {
   const peak = numberOf(run, `${test.key}.peak_acceleration`);
   const title = `${test.name}${peak === null ? "" : `, peak ${numberText(peak, 4)} rad/s²`}`;
   return [
-    figure(`${title}: speed`, BAND_WORDS, timePlot({ series: of("speed", 1, { label: "speed [rad/s]", colour: SERIES_COLOURS.rotor, width: 1.5 }), label: "speed [rad/s]", marks, height: 180 })),
+    figure(`${title}: speed`, BAND_WORDS, timePlot({ series: of("speed", 1, { label: "speed [rad/s]", colour: SERIES_COLOURS.rotor, width: 1.5 }), label: "speed [rad/s]", second: IN_RPM, marks, height: 180 })),
     figure("Acceleration", null, timePlot({ series: of("acceleration", 1, { label: "acceleration [rad/s²]", colour: SERIES_COLOURS.race, width: 1.25 }), label: "acceleration [rad/s²]", marks, height: 180 })),
     figure("Torque on the outer race, without the sensor's swing", "Dashed: the steady torque of the slow tests at the speed of the moment.", timePlot({ series: [...of("torque", 1e3, { label: "t_O [N mm]", colour: SERIES_COLOURS.race, width: 1.5 }), ...steady], label: "torque [N mm]", marks, height: 260 })),
     quickFigures(run, test),
@@ -199,7 +200,7 @@ function mapFigure(run, runs) {
     const x = rows.map((row) => speeds[row]);
     return bandCurves(x, rows.map((row) => friction[row]), rows.map((row) => deviations[row]), 1, `${numberText(level, 3)} rad/s²`, LINE_COLOURS[index]);
   });
-  return figure(title, series.length ? `Drawn where data are near. ${BAND_WORDS}` : null, series.length ? curves({ series, across: "speed [rad/s]", upright: "F [N]", height: 260 }) : notInThisRun("places with data near", run));
+  return figure(title, series.length ? `Drawn where data are near. ${BAND_WORDS}` : null, series.length ? curves({ series, across: "speed [rad/s]", above: IN_RPM, upright: "F [N]", height: 260 }) : notInThisRun("places with data near", run));
 }
 
 function lossSection(runs) {

@@ -349,5 +349,5 @@ register("drop", {
   verdict,
   time: "time since release",
   facts: true,
-  sections: (runs) => [[10, orbitSection, runs], [11, contactSection, runs], [50, speedSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs]],
+  sections: (runs) => [[10, orbitSection, runs], [10.5, firstContactsSection, runs], [11, contactSection, runs], [50, speedSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs]],
 });

@@ -14,59 +14,6 @@ function listOf(run, name) {
   return list(quantityOf(run, name).value).filter(isNumber);
 }
 
-// Round numbers that divide an axis into some five parts.
-function axisSteps(low, high) {
-  const rough = (high - low) / 5;
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 2.5, 5, 10].map((factor) => factor * power).find((size) => size >= rough * 0.999);
-  const first = Math.ceil(low / step - 1e-9);
-  const last = Math.floor(high / step + 1e-9);
-  return Array.from({ length: Math.max(0, last - first + 1) }, (_, index) => Number(((first + index) * step).toPrecision(12)));
-}
-
-// series: [{label, x, y, colour, dash?, width?, dots?}]; words of both axes; logarithmic: decades on the upright axis.
-function curves({ series, across, upright, height = 300, logarithmic = false }) {
-  const width = 900;
-  const box = { left: 66, right: 18, top: 10, bottom: 42 };
-  const points = series.flatMap((line) => line.x.map((x, row) => [x, line.y[row]])).filter(([x, y]) => isNumber(x) && isNumber(y) && (!logarithmic || y > 0));
-  if (!points.length) return null;
-  const scaled = (y) => (logarithmic ? Math.log10(y) : y);
-  const xs = points.map(([x]) => x);
-  const ys = points.map(([, y]) => scaled(y));
-  let [left, right] = [Math.min(...xs), Math.max(...xs)];
-  if (left > 0 && left < 0.05 * right) left = 0;
-  if (!(right > left)) right = left + 1;
-  let [low, high] = [Math.min(...ys), Math.max(...ys)];
-  // A peak that touches the frame looks cut off.
-  const room = 0.04 * (high - low);
-  [low, high] = logarithmic ? [low - room, high + room] : paddedRange(low, high, []);
-  if (!(high > low)) [low, high] = [low - 0.5, high + 0.5];
-  const toX = (x) => box.left + ((x - left) / (right - left)) * (width - box.left - box.right);
-  const toY = (y) => height - box.bottom - ((y - low) / (high - low)) * (height - box.top - box.bottom);
-  const text = (x, y, anchor, words, more) => drawing("text", { x, y, "text-anchor": anchor, fill: PALE_INK, "font-size": 12, ...more }, words);
-  const decades = (from, to) => Array.from({ length: Math.ceil(to) - Math.floor(from) + 1 }, (_, index) => Math.floor(from) + index).flatMap((power) => [1, 2, 5].map((digit) => [digit * 10 ** power, power + Math.log10(digit)]));
-  const rungs = logarithmic ? decades(low, high).filter(([, y]) => y >= low && y <= high) : axisSteps(low, high).map((y) => [y, y]);
-  const grid = [
-    ...axisSteps(left, right).map((x) => [drawing("line", { x1: toX(x), x2: toX(x), y1: box.top, y2: height - box.bottom, stroke: RULE }), text(toX(x), height - box.bottom + 16, "middle", numberText(x, 6))]),
-    ...rungs.map(([value, y]) => [
-      drawing("line", { x1: box.left, x2: width - box.right, y1: toY(y), y2: toY(y), stroke: !logarithmic && value === 0 ? "#8995a0" : RULE }),
-      text(box.left - 8, toY(y) + 4, "end", numberText(value, 6)),
-    ]),
-    text((box.left + width - box.right) / 2, height - 6, "middle", across),
-    text(14, (box.top + height - box.bottom) / 2, "middle", upright, { transform: `rotate(-90 14 ${(box.top + height - box.bottom) / 2})` }),
-  ];
-  const drawn = series.map((line) => {
-    const known = line.x.map((x, row) => [x, line.y[row]]).filter(([x, y]) => isNumber(x) && isNumber(y) && (!logarithmic || y > 0));
-    const path = known.map(([x, y], index) => `${index ? "L" : "M"}${toX(x).toFixed(2)} ${toY(scaled(y)).toFixed(2)}`).join("");
-    const dots = line.dots || known.length === 1 ? known.map(([x, y]) => drawing("circle", { cx: toX(x), cy: toY(scaled(y)), r: 2.6, fill: line.colour })) : [];
-    return [drawing("path", { d: path, fill: "none", stroke: line.colour, "stroke-width": line.width || 1.75, "stroke-dasharray": line.dash || null, "stroke-linejoin": "round" }), dots];
-  });
-  const legend = series.map((line) =>
-    element("span", { class: "curve-key" }, drawing("svg", { width: 30, height: 10, viewBox: "0 0 30 10" }, drawing("line", { x1: 0, x2: 30, y1: 5, y2: 5, stroke: line.colour, "stroke-width": line.width || 1.75, "stroke-dasharray": line.dash || null })), line.label),
-  );
-  return [drawing("svg", { class: "curves", viewBox: `0 0 ${width} ${height}`, role: "img" }, grid, drawn), element("p", { class: "curve-keys" }, legend)];
-}
-
 // A plain table: heads, then rows of texts; the first column is a name.
 function plainTable(heads, rows) {
   return element(
@@ -107,7 +54,7 @@ function accelerationFigures(run, runs) {
   const each = (name, label, dash) =>
     accelerations.map((acceleration, index) => ({ label: `${label} at ${accelerationText(acceleration)}`, x: speed, y: part(index + 1, name) || [], colour: LINE_COLOURS[index % LINE_COLOURS.length], dash }));
   const friction = { label: "steady friction M", x: speed, y: overSpeed(run, "friction.moment", 1e3) || [], colour: "#8995a0", dash: "2 3", width: 2.5 };
-  const axes = { across: "speed of the inner race [rad/s]", upright: "moment [N mm]" };
+  const axes = { across: "speed of the inner race [rad/s]", above: IN_RPM, upright: "moment [N mm]" };
   const middle = accelerations.length - 1;
   const parts = [
     { label: "M0, made by the flow of the lubricant", x: speed, y: overSpeed(run, "friction.speed_dependent", 1e3) || [], colour: LINE_COLOURS[0] },
@@ -142,7 +89,7 @@ function loadFigures(run, runs) {
   const [m1, sums] = ["load_dependent_moments_over_load", "friction_moments_over_load"].map((name) => listOf(run, name));
   const rows = loads.map((load, row) => [engineeringText(load, "N", 4), millimetres(m1[row]), millimetres(sums[row])]);
   return [
-    figure(shareOfRun(run, runs, "Steady friction M under each radial load"), null, curves({ series, across: "speed of the inner race [rad/s]", upright: "moment [N mm]" })),
+    figure(shareOfRun(run, runs, "Steady friction M under each radial load"), null, curves({ series, across: "speed of the inner race [rad/s]", above: IN_RPM, upright: "moment [N mm]" })),
     figure(shareOfRun(run, runs, `At ${numberText(numberOf(run, "speed"), 5)} rad/s`), null, plainTable(["radial load", "M1 [N mm]", "M [N mm]"], rows)),
   ];
 }
@@ -170,7 +117,7 @@ function lawFigures(run, runs) {
     return [words, millimetres(part("speed_dependent_moment")), millimetres(part("load_dependent_moment")), millimetres(part("friction_moment")), why ? element("span", { class: "absent" }, why) : ""];
   });
   return [
-    figure(shareOfRun(run, runs, "Steady friction M by several laws"), "The same bearing, load and lubricant. The SKF model has its sliding friction in M1.", series.length ? curves({ series, across: "speed of the inner race [rad/s]", upright: "moment [N mm]" }) : notInThisRun("a law that has constants for this bearing", run)),
+    figure(shareOfRun(run, runs, "Steady friction M by several laws"), "The same bearing, load and lubricant. The SKF model has its sliding friction in M1.", series.length ? curves({ series, across: "speed of the inner race [rad/s]", above: IN_RPM, upright: "moment [N mm]" }) : notInThisRun("a law that has constants for this bearing", run)),
     figure(shareOfRun(run, runs, `At ${torquePlace(run)}`), null, plainTable(["law", "M0 [N mm]", "M1 [N mm]", "M [N mm]", ""], rows)),
   ];
 }
@@ -206,7 +153,7 @@ function lubricantFigures(run, runs) {
   return [
     moments.length ? figure(shareOfRun(run, runs, "Steady friction M over temperature, " + at), "Each lubricant where its viscosity is known.", curves({ series: moments, across, upright: "moment [N mm]" })) : null,
     moments.length ? figure(shareOfRun(run, runs, "Viscosity over temperature"), "A straight line in the axes of ASTM D341 through two points.", curves({ series: over("viscosities", 1e6), across, upright: "viscosity [mm²/s]", logarithmic: true, height: 240 })) : null,
-    running.length ? figure(shareOfRun(run, runs, "Steady friction M over speed, at the running temperature"), null, curves({ series: running, across: "speed of the inner race [rad/s]", upright: "moment [N mm]" })) : null,
+    running.length ? figure(shareOfRun(run, runs, "Steady friction M over speed, at the running temperature"), null, curves({ series: running, across: "speed of the inner race [rad/s]", above: IN_RPM, upright: "moment [N mm]" })) : null,
     figure(shareOfRun(run, runs, "M [N mm] by lubricant and temperature, " + at), null, plainTable(heads, rows)),
   ];
 }
