@@ -24,7 +24,8 @@ const UPPER_AXIS = 34;
 
 // series: [{label?, x, y, colour, dash?, width?, dots?, line?: false}]; words of both axes; logarithmic: decades on the upright axis;
 // above: {label, factor} a second axis over the plot, right: {label, factor} one beside it; marks: [{at, words}] upright lines;
-// level: {at, words} a line across.
+// level: {at, words} a line across; decades: a logarithmic axis across, on which the first tenths of a second have as much room as the
+// seconds behind them.
 function curves(options) {
   const known = options.series.some((line) => line.x.some((x, row) => isNumber(x) && isNumber(line.y[row]) && (!options.logarithmic || line.y[row] > 0)));
   if (!known) return null;
@@ -39,29 +40,30 @@ function curveSample(line) {
   return drawing("svg", { width: 30, height: 10, viewBox: "0 0 30 10" }, sample);
 }
 
-function curveDrawing({ series, across, upright, height: tall = 300, logarithmic = false, above = null, right: beside = null, marks = [], level = null }, width) {
+function curveDrawing({ series, across, upright, height: tall = 300, logarithmic = false, above = null, right: beside = null, marks = [], level = null, decades: across10 = false }, width) {
   const paper = document.documentElement.classList.contains("paper");
-  const height = Math.round((paper ? 0.85 : 1) * tall) + (above ? UPPER_AXIS : 0);
+  const height = Math.round((paper ? 0.78 : 1) * tall) + (above ? UPPER_AXIS : 0);
   const box = { ...CURVE_BOX, top: CURVE_BOX.top + (above ? UPPER_AXIS : 0) + (marks.length ? 16 : 0) };
   const scaled = (y) => (logarithmic ? Math.log10(y) : y);
-  const points = series.flatMap((line) => line.x.map((x, row) => [x, line.y[row]])).filter(([x, y]) => isNumber(x) && isNumber(y) && (!logarithmic || y > 0));
+  const placed = (x) => (across10 ? Math.log10(x) : x);
+  const points = series.flatMap((line) => line.x.map((x, row) => [x, line.y[row]])).filter(([x, y]) => isNumber(x) && isNumber(y) && (!logarithmic || y > 0) && (!across10 || x > 0));
   let [left, right] = [Infinity, -Infinity];
   let [low, high] = [Infinity, -Infinity];
   for (const [x, y] of points) {
-    [left, right] = [Math.min(left, x), Math.max(right, x)];
+    [left, right] = [Math.min(left, placed(x)), Math.max(right, placed(x))];
     [low, high] = [Math.min(low, scaled(y)), Math.max(high, scaled(y))];
   }
-  if (left > 0 && left < 0.05 * right) left = 0;
+  if (!across10 && left > 0 && left < 0.05 * right) left = 0;
   if (!(right > left)) right = left + 1;
   const [wide, high_] = [width - box.left - box.right, height - box.top - box.bottom];
   const columns = Math.max(3, Math.floor(wide / 75));
   const rows = Math.max(3, Math.floor(high_ / 38));
-  right = roundedEnd(left, right, columns);
+  if (!across10) right = roundedEnd(left, right, columns);
   // A peak that touches the frame looks cut off.
   const room = 0.04 * (high - low);
   [low, high] = logarithmic ? [low - room, high + room] : paddedRange(low, high, level ? [level.at] : []);
   if (!(high > low)) [low, high] = [low - 0.5, high + 0.5];
-  const toX = (x) => box.left + ((x - left) / (right - left)) * wide;
+  const toX = (x) => box.left + ((placed(x) - left) / (right - left)) * wide;
   const toY = (y) => box.top + high_ - ((y - low) / (high - low)) * high_;
   const bottom = box.top + high_;
   const text = (x, y, anchor, words, more) => drawing("text", { x, y, "text-anchor": anchor, fill: INK, "font-size": 12, ...more }, words);
@@ -70,7 +72,7 @@ function curveDrawing({ series, across, upright, height: tall = 300, logarithmic
   const rungs = logarithmic ? decades(low, high).filter(([, y]) => y >= low && y <= high) : axisSteps(low, high, rows).map((y) => [y, y]);
   const longest = Math.max(...rungs.map(([value]) => numberText(value, 6).length), 1);
   const grid = [
-    axisSteps(left, right, columns).map((x) => [drawing("line", { x1: toX(x), x2: toX(x), y1: box.top, y2: bottom, stroke: RULE }), text(toX(x), bottom + 17, "middle", numberText(x, 6))]),
+    (across10 ? decades(left, right).filter(([, at]) => at >= left && at <= right).map(([x]) => x) : axisSteps(left, right, columns)).map((x) => [drawing("line", { x1: toX(x), x2: toX(x), y1: box.top, y2: bottom, stroke: RULE }), text(toX(x), bottom + 17, "middle", numberText(x, 6))]),
     rungs.map(([value, y]) => [
       drawing("line", { x1: box.left, x2: width - box.right, y1: toY(y), y2: toY(y), stroke: !logarithmic && value === 0 ? "#8995a0" : RULE }),
       text(box.left - 7, toY(y) + 4, "end", numberText(value, 6)),
@@ -97,7 +99,7 @@ function curveDrawing({ series, across, upright, height: tall = 300, logarithmic
     line.x.forEach((x, row) => {
       const y = line.y[row];
       // a value that is known to be none is a gap; x without y of a joined line is not
-      if (!isNumber(x) || !isNumber(y) || (logarithmic && !(y > 0))) {
+      if (!isNumber(x) || !isNumber(y) || (logarithmic && !(y > 0)) || (across10 && !(x > 0))) {
         if (line.gaps) down = false;
         return;
       }

@@ -55,8 +55,56 @@ function explanationFigure(run, runs) {
   ];
 }
 
+// The explanations whose torque the history holds for a test: the likeliest first.
+function predictionsOf(run, test) {
+  const start = `${test.key}.predicted_by.`;
+  const names = [...run.columns.keys()].filter((name) => name.startsWith(start) && columnOf(run, name));
+  return names.map((name, index) => ({ name, words: name.slice(start.length).replaceAll("_", " "), colour: index ? SERIES_COLOURS.race : SERIES_COLOURS.rotor, dash: index ? "7 4" : undefined }));
+}
+
+// One value for each mean with its times: rows inside one mean repeat it.
+function meansOf(run, names) {
+  const rows = [];
+  let begin = null;
+  const at = (row) => names.map((name) => columnOf(run, name)[row]);
+  run.time.forEach((time, row) => {
+    const values = at(row);
+    if (!values.every(isNumber)) {
+      begin = null;
+      return;
+    }
+    if (begin && begin.values.every((value, index) => value === values[index])) begin.to = time;
+    else rows.push((begin = { from: time, to: time, values }));
+  });
+  return rows.map(({ from, to, values }) => ({ from, to, middle: 0.5 * (from + to), values }));
+}
+
+// What the two likeliest explanations predict for the means that were compared, over the data, and what they leave.
+function predictionFigures(run, runs) {
+  return testsOf(run).map((test) => {
+    const predictions = predictionsOf(run, test);
+    const measured = `${test.key}.torque_mean`;
+    if (!predictions.length || !columnOf(run, measured)) return null;
+    const means = meansOf(run, [measured, ...predictions.map(({ name }) => name)]).filter(({ middle }) => middle > 0);
+    // a mean is drawn as long as it lasts
+    const steps = (value) => ({ x: means.flatMap(({ from, to }) => [1e3 * from, 1e3 * to]), y: means.flatMap((mean) => [value(mean), value(mean)]) });
+    const torque = [
+      ...predictions.map(({ words, colour, dash }, index) => ({ ...steps(({ values }) => 1e3 * values[index + 1]), label: `${index ? "next best" : "likeliest"}: ${words}`, colour, dash, width: 2 })),
+      { x: means.map(({ middle }) => 1e3 * middle), y: means.map(({ values }) => 1e3 * values[0]), label: "measured, means", colour: INK, dots: true, line: false, radius: 2.2 },
+    ];
+    const left = predictions.map(({ words, colour, dash }, index) => ({ ...steps(({ values }) => 1e3 * (values[0] - values[index + 1])), label: words, colour, dash, width: 1.75 }));
+    const axes = { across: "time since the engagement [ms]", decades: true };
+    return figure(
+      shareOfRun(run, runs, `${test.name}: what the explanations predict, over the data`),
+      "Means of the torque t_O, on which the explanations were compared, over a time in decades. Below: measured less predicted; what is common to a test, its zero, scale and level of M, may be off within its deviation and is not taken out here.",
+      curves({ series: torque, ...axes, upright: "torque [N mm]", height: 280 }),
+      curves({ series: left, ...axes, upright: "residual [N mm]", height: 170 }),
+    );
+  });
+}
+
 function explanationSection(runs) {
-  return section("explanations", "Verdict", runs.map((run) => explanationFigure(run, runs)));
+  return section("explanations", "Verdict", runs.map((run) => [explanationFigure(run, runs), predictionFigures(run, runs)]));
 }
 
 // Forms of the steady moment, as the field calls them.

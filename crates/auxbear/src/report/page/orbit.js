@@ -53,7 +53,7 @@ function orbitFigure(run, runs) {
   };
 
   const draw = () => {
-    const most = document.documentElement.classList.contains("paper") ? 370 : 600;
+    const most = document.documentElement.classList.contains("paper") ? 310 : 600;
     size = Math.max(280, Math.min(most, holder.clientWidth || 500));
     const pen = sizedCanvas(size, size + 40, canvas);
     const place = frame();
@@ -314,7 +314,8 @@ function orbitReadout(run, ground, place, px, py) {
   return `${timeline.text(run.time[best])}: x ${engineeringText(x, "m", 4)}, y ${engineeringText(y, "m", 4)}, distance ${engineeringText(radius, "m", 4)}${share}`;
 }
 
-const CONTACTS_PRINTED = 100;
+// As many as stand beside the orbit on paper.
+const CONTACTS_PRINTED = 24;
 
 function contactTable(run) {
   if (!run.contacts.length) return notInThisRun("a list of contacts; none happened, or the summary does not hold them", run);

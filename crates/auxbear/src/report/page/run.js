@@ -81,6 +81,7 @@ function ofBearing(run, bearing, names) {
     ...run,
     name: `${run.name}, ${bearing.name}`,
     columns: new Map(of([...run.columns]).map(([name, column]) => [name, { ...column, name }])),
+    bearingNames: names,
     contacts: run.contacts.filter((contact) => contact.auxiliary_bearing === bearing.name),
     quantities: Object.fromEntries(of(Object.entries(run.quantities))),
     summary: { ...run.summary, ...bearing, inputs: plain },
@@ -88,7 +89,8 @@ function ofBearing(run, bearing, names) {
 }
 
 // Letter, directory and title of a run among several; a directory that is called as its letter is not said twice.
-function runLabel(run, letter) {
+function runLabel(run, letter, ofOne) {
+  if (ofOne) return `${letter} · ${run.summary.name || run.name}`;
   const parts = [letter, run.name === letter ? null : run.name, run.summary.title && run.summary.title !== run.name ? run.summary.title : null];
   return parts.filter(Boolean).join(" · ");
 }
@@ -102,7 +104,7 @@ function readRuns() {
   return runs.map((run, index) => {
     const letter = String.fromCharCode(65 + index);
     const several = runs.length > 1;
-    return { ...run, letter, label: several ? runLabel(run, letter) : run.name, prefix: several ? letter + " " : "", colour: RUN_COLOURS[index % RUN_COLOURS.length] };
+    return { ...run, letter, label: several ? runLabel(run, letter, ofOneRun(runs)) : run.name, prefix: several ? letter + " " : "", colour: RUN_COLOURS[index % RUN_COLOURS.length] };
   });
 }
 

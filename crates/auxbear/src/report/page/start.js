@@ -33,7 +33,7 @@ function start() {
   }
   timeline.span(runs);
   const builders = [
-    ...(runs.length > 1 ? [[differenceSection, runs]] : []),
+    ...(runs.length > 1 && !differentSystems(runs) ? [[differenceSection, runs]] : []),
     ...sectionsOf(runs),
     [quantitySection, runs],
     [inputSection, runs],

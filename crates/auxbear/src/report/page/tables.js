@@ -95,9 +95,22 @@ function spreadCell(quantity) {
 // Changes of these carry no meaning as a share: they scatter about zero.
 const WITHOUT_SHARE = /(residual|whirl_turns)$/;
 
+// Law, source and range of a group of quantities that share them, folded: the literature first, then the file of the code.
 function lawLine(quantity) {
-  const parts = [["Law", quantity.law], ["Source", quantity.source], ["Valid", quantity.valid]].filter(([, words]) => words);
+  const [literature, code] = sourceParts(quantity.source);
+  const parts = [["Law", quantity.law], ["Source", literature], ["Valid", quantity.valid], ["Code", code]].filter(([, words]) => words);
   return parts.map(([title, words]) => element("span", { class: "law" }, element("b", {}, title + ": "), words + "  "));
+}
+
+// A source without, and as, the paths of the code that computes it.
+function sourceParts(source) {
+  const paths = /(?:crates\/[\w./{}-]+|\b\w+\/\w+\.rs|\b\w+\.rs)/g;
+  const text = String(source || "");
+  const code = (text.match(paths) || []).map((path) => path.replace(/[.,;]$/, ""));
+  if (!code.length) return [text, ""];
+  const kept = text.split(/[;,]| and /).map((part) => part.trim()).filter((part) => part && !part.replace(paths, "").match(/^\W*$/));
+  const literature = kept.map((part) => part.replace(paths, "").replace(/\s+(of|in|by|and)\s*$/, "").replace(/\(\s*\)/, "").trim()).filter((part) => part && !/^(the page of the law in|slips of|in the rows|noise)$/.test(part));
+  return [literature.join("; "), code.join(", ")];
 }
 
 function differenceText(first, other) {
@@ -110,6 +123,38 @@ function differenceText(first, other) {
   return (share > 0 ? "+" : "") + percentText(share);
 }
 
+// What a quantity is about, by the words of its name; the first that fits.
+const SUBJECTS = [
+  ["Verdict", /^(explanation|probability_of_(?!\w+_form)|next_test)/],
+  ["Residuals of the computation", /residual$/],
+  ["Energy and heat", /energy|heat|work|dissipat|power|path_term/],
+  ["Hertz pressure and loads of the balls", /pressure|ball_load|static_safety|skid_share/],
+  ["Cage and balls", /cage|pocket|skid|slip|ball_ball|land_/],
+  ["Contact of rotor and race", /contact|impact|force|whirl/],
+  ["Displacements", /displacement/],
+  ["Steady moment", /^steady|_form$|coast_down|largest_parameter|effective_steady/],
+  ["Moments", /moment|torque|traction_capacity|friction/],
+  ["Speeds, accelerations and times", /speed|acceler|deceler|time|engage|lock|rolling_established|pulse|mark/],
+  ["Film and lubricant", /film|lubricant|viscosity|temperature|lambda/],
+  ["Vibration", /vibration|spectr/],
+];
+
+// Names by the test or bearing that they begin with, else by subject, in the order of their first.
+function subjectsOf(names) {
+  const found = new Map();
+  for (const name of names) {
+    const [owner, rest] = name.includes(".") ? [name.slice(0, name.lastIndexOf(".")), name.slice(name.lastIndexOf(".") + 1)] : ["", name];
+    const subject = owner ? wordsOf(owner) : (SUBJECTS.find(([, words]) => words.test(rest)) || ["Others"])[0];
+    if (!found.has(subject)) found.set(subject, []);
+    found.get(subject).push(name);
+  }
+  return [...found];
+}
+
+function hasValue({ value }) {
+  return value !== null && value !== undefined;
+}
+
 function quantitySection(runs) {
   const names = [...new Set(runs.flatMap((run) => Object.keys(run.quantities)))];
   if (!names.length) return section("quantities", "Quantities", notInThisRun("the summary holds no quantities"));
@@ -120,10 +165,13 @@ function quantitySection(runs) {
   if (single) heads.push("Value", "In SI units");
   else runs.forEach((run, index) => heads.push(run.label, ...(index ? [`(${run.letter} − A) / A`] : [])));
   if (repeated && single) heads.push("Mean ± deviation, range");
-  const bodies = names.map((name) => {
+  const toldOf = (name) => {
     const all = runs.map((run) => quantityOf(run, name));
-    const told = all.find((quantity) => quantity.law || quantity.source || quantity.valid) || all[0];
-    const cells = [element("td", { class: "name" }, wordsOf(name), chaoticMark(told), element("code", {}, name))];
+    return all.find((quantity) => quantity.law || quantity.source || quantity.valid) || all[0];
+  };
+  const rowOf = (name) => {
+    const all = runs.map((run) => quantityOf(run, name));
+    const cells = [element("td", { class: "name" }, wordsOf(name), chaoticMark(toldOf(name)), element("code", {}, name))];
     if (single) cells.push(element("td", {}, quantityText(all[0])), element("td", { class: "small" }, siCell(all[0])));
     else {
       all.forEach((quantity, index) => {
@@ -132,8 +180,29 @@ function quantitySection(runs) {
       });
     }
     if (repeated && single) cells.push(element("td", {}, spreadCell(all[0])));
-    const laws = lawLine(told);
-    return element("tbody", {}, element("tr", {}, cells), laws.length ? element("tr", { class: "laws" }, element("td", { colspan: heads.length }, laws)) : null);
+    return element("tr", {}, cells);
+  };
+  const bodies = subjectsOf(names).map(([subject, some]) => {
+    const empty = some.filter((name) => runs.every((run) => !hasValue(quantityOf(run, name))));
+    const told = some.filter((name) => !empty.includes(name));
+    const laws = new Map();
+    for (const name of some) {
+      const quantity = toldOf(name);
+      const key = JSON.stringify([quantity.law, quantity.source, quantity.valid]);
+      if (!(quantity.law || quantity.source || quantity.valid)) continue;
+      if (!laws.has(key)) laws.set(key, { quantity, of: [] });
+      laws.get(key).of.push(wordsOf(name));
+    }
+    const about = [...laws.values()].map(({ quantity, of }) => element("p", {}, laws.size > 1 ? element("strong", {}, of.join(", ") + ". ") : null, lawLine(quantity)));
+    const whole = (content) => element("tr", { class: "laws" }, element("td", { colspan: heads.length }, content));
+    return element(
+      "tbody",
+      {},
+      element("tr", { class: "subject" }, element("th", { colspan: heads.length }, subject)),
+      told.map(rowOf),
+      empty.length ? whole(element("details", {}, element("summary", {}, `${empty.length} not in ${single ? "this run" : "these runs"}: ${empty.map(wordsOf).join(", ")}`), element("table", {}, element("tbody", {}, empty.map(rowOf))))) : null,
+      about.length ? whole(element("details", {}, element("summary", {}, "Law, source and valid range"), about)) : null,
+    );
   });
   const table = element("table", { class: single ? "quantities single" : "quantities several", style: single ? null : `--columns:${heads.length}` }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), bodies);
   const origin = runs.map(spreadOrigin).find(Boolean);
