@@ -11,6 +11,7 @@ mod documentation;
 mod golden;
 mod licences;
 mod module_order;
+mod pages;
 mod repository;
 mod rust_text;
 mod scenarios;

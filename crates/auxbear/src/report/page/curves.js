@@ -4,7 +4,10 @@
 function axisSteps(low, high, parts = 5) {
   const rough = (high - low) / parts;
   const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 2.5, 5, 10].map((factor) => factor * power).find((size) => size >= rough * 0.999);
+  const sizes = [1, 2, 2.5, 5, 10, 20, 25].map((factor) => factor * power).filter((size) => size >= rough * 0.999);
+  // of steps that are not much wider one that ends at the end
+  const ends = (size) => size <= 2 * rough && Math.abs(high / size - Math.round(high / size)) < 0.01;
+  const step = sizes.find(ends) || sizes[0];
   const first = Math.ceil(low / step - 1e-9);
   const last = Math.floor(high / step + 1e-9);
   return Array.from({ length: Math.max(0, last - first + 1) }, (_, index) => Number(((first + index) * step).toPrecision(12)));
@@ -57,7 +60,7 @@ function curveDrawing({ series, across, upright, height: tall = 300, logarithmic
   if (!(right > left)) right = left + 1;
   const [wide, high_] = [width - box.left - box.right, height - box.top - box.bottom];
   const columns = Math.max(3, Math.floor(wide / 75));
-  const rows = Math.max(3, Math.floor(high_ / 38));
+  const rows = Math.max(3, Math.floor(high_ / 30));
   if (!across10) right = roundedEnd(left, right, columns);
   // A peak that touches the frame looks cut off.
   const room = 0.04 * (high - low);

@@ -27,7 +27,7 @@ function heatHistory(run, runs) {
   const all = heatsOf(run).filter((heat) => heat.final > 0);
   // bands that no picture shows stand in the balance below
   const heats = all.filter((heat) => heat.final > 1e-3 * all[0].final);
-  const title = (runs.length > 1 ? run.label + ": " : "") + "Heat over time";
+  const title = (runs.length > 1 ? run.short + ": " : "") + "Heat over time";
   if (!heats.length) return figure(title, null, notInThisRun(run.time ? "its history has no heats" : "it has no time history"));
   const sums = [];
   let below = run.time.map(() => 0);
@@ -84,7 +84,7 @@ function barRows(entries, largest, total) {
 }
 
 function balanceFigure(run, runs) {
-  const title = (runs.length > 1 ? run.label + ": " : "") + "Energy balance over the whole run";
+  const title = (runs.length > 1 ? run.short + ": " : "") + "Energy balance over the whole run";
   const { came, went } = balance(run);
   if (!came.length && !went.length) return figure(title, null, notInThisRun(run.time ? "its history has no energies" : "it has no time history"));
   const sum = (entries) => entries.reduce((total, entry) => total + entry.amount, 0);

@@ -128,7 +128,19 @@ function steadyFigure(run, runs) {
     title,
     `From the slow tests. Probability of the forms: ${words}. ${correlation === null ? "" : `Parameters correlate up to ${numberText(correlation, 3)}: the curve counts, not they. `}${BAND_WORDS}`,
     curves({ series, across: "speed [rad/s]", above: IN_RPM, upright: "torque [N mm]", height: 320 }),
+    steadyResidual(run, measured),
   );
+}
+
+// Measured less M, where both are known; pale lines: twice the standard deviation of M.
+function steadyResidual(run, [x, y]) {
+  const speeds = listOf(run, "steady_moment_speeds");
+  const [moments, deviations] = ["steady_moments", "steady_moment_deviations"].map((name) => listOf(run, name).map((value) => 1e3 * value));
+  const rows = x.map((_, row) => row).filter((row) => x[row] >= speeds[0] && x[row] <= speeds[speeds.length - 1]);
+  const left = rows.map((row) => y[row] - valueAt(speeds, moments, x[row]));
+  const pale = (sign) => ({ x: speeds, y: deviations.map((deviation) => sign * BAND * deviation), colour: SERIES_COLOURS.limit + "90", width: 0.75 });
+  const series = [pale(1), pale(-1), { label: "measured less M", x: rows.map((row) => x[row]), y: left, colour: INK, dots: true, line: false, radius: 1.1 }];
+  return rows.length ? curves({ series, across: "speed [rad/s]", upright: "residual [N mm]", height: 150 }) : null;
 }
 
 function steadyMomentSection(runs) {

@@ -280,7 +280,7 @@ function mapSection(runs) {
       notes.push(`Red: balls with more than ${percentText(SKID_LOAD_SHARE)} of the largest load that slip faster than ${engineeringText(limit.speed, "m/s", 3)} (${limit.source}).`);
     const even = new Map(drawn.map((run) => [run, rangeOf(run, map.part)]).filter(([, range]) => range.even && map.load));
     if (drawn.length === even.size) return figure(map.title, null, drawn.map((run) => evenLine(run, map, even.get(run))), missing.map((run) => notInThisRun(`its history has no ${map.part.replace("_", " ")} of the balls`, run)));
-    const canvases = drawn.map((run) => [runs.length > 1 ? element("p", { class: "run-label" }, element("span", { class: "swatch", style: "background:" + run.colour }), run.label) : null, mapCanvas(run, drawn, map, limit)]);
+    const canvases = drawn.map((run) => [runs.length > 1 ? element("p", { class: "run-label" }, element("span", { class: "swatch", style: "background:" + run.colour }), run.short) : null, mapCanvas(run, drawn, map, limit)]);
     const why = missing.map((run) =>
       notInThisRun(run.time ? `its history has no ${map.part.replace("_", " ")} of the balls (the rolling fidelity gives loads only)` : "it has no time history", run),
     );

@@ -119,7 +119,7 @@ function orbitFigure(run, runs) {
   const remarks = why ? [] : orbitRemarks(run).map((words) => element("p", { class: "small" }, words));
   fillElement(holder, {}, why ? [why] : [controls, canvas, remarks, readout]);
   const note = "Geometric centre of the rotor at the bearing plane. Drag a box to zoom, double-click to reset; a time zoom below shows its part of the orbit in colour.";
-  return figure(runs.length > 1 ? run.label : "Orbit of the rotor centre", why ? null : note, holder);
+  return figure(runs.length > 1 ? run.short : "Orbit of the rotor centre", why ? null : note, holder);
 }
 
 function drawOrbitAxes(pen, place, view) {

@@ -88,7 +88,8 @@ function ofBearing(run, bearing, names) {
   };
 }
 
-// Letter, directory and title of a run among several; a directory that is called as its letter is not said twice.
+// Letter, directory and title of a run among several; a directory that is called as its letter is not said twice. Tables and small
+// pictures have room for the letter and the directory alone.
 function runLabel(run, letter, ofOne) {
   if (ofOne) return `${letter} · ${run.summary.name || run.name}`;
   const parts = [letter, run.name === letter ? null : run.name, run.summary.title && run.summary.title !== run.name ? run.summary.title : null];
@@ -104,7 +105,7 @@ function readRuns() {
   return runs.map((run, index) => {
     const letter = String.fromCharCode(65 + index);
     const several = runs.length > 1;
-    return { ...run, letter, label: several ? runLabel(run, letter, ofOneRun(runs)) : run.name, prefix: several ? letter + " " : "", colour: RUN_COLOURS[index % RUN_COLOURS.length] };
+    return { ...run, letter, label: several ? runLabel(run, letter, ofOneRun(runs)) : run.name, short: several ? `${letter} · ${run.summary.name || run.name}` : run.name, prefix: several ? letter + " " : "", colour: RUN_COLOURS[index % RUN_COLOURS.length] };
   });
 }
 

@@ -163,7 +163,7 @@ function quantitySection(runs) {
   for (const run of runs) for (const quantity of Object.values(run.quantities)) if (quantity && quantity.spread) quantity.all_members = list(run.summary.members).length;
   const heads = ["Quantity"];
   if (single) heads.push("Value", "In SI units");
-  else runs.forEach((run, index) => heads.push(run.label, ...(index ? [`(${run.letter} − A) / A`] : [])));
+  else runs.forEach((run, index) => heads.push(run.short, ...(index ? [`(${run.letter} − A) / A`] : [])));
   if (repeated && single) heads.push("Mean ± deviation, range");
   const toldOf = (name) => {
     const all = runs.map((run) => quantityOf(run, name));
@@ -239,15 +239,22 @@ function breakable(path) {
   return path.split(/(?<=[._])/).flatMap((part, index) => (index ? [element("wbr"), part] : [part]));
 }
 
+// Beside more than two runs there is room for neither notes nor a column of origins: those stand below the values, these in the tips
+// of their marks.
+const RUNS_WITH_NOTES = 2;
+
 function inputRow(paths, path, runs) {
   const inputs = paths.get(path);
+  const narrow = runs.length > RUNS_WITH_NOTES;
   const cells = runs.map((run, index) => {
     const input = inputs[index];
-    return [element("td", {}, input ? inputText(input.value) : element("span", { class: "absent" }, "not in this run")), element("td", {}, input ? markBadge(input.mark) : null)];
+    const value = input ? inputText(input.value) : element("span", { class: "absent" }, "not in this run");
+    if (narrow) return element("td", { title: input && input.note ? input.note : null }, value, " ", input ? markBadge(input.mark) : null);
+    return [element("td", {}, value), element("td", {}, input ? markBadge(input.mark) : null)];
   });
   const notes = [...new Set(inputs.filter(Boolean).map((input) => input.note).filter(Boolean))].join("; ");
   const assumed = inputs.some((input) => input && input.mark === "assumed");
-  return element("tr", { class: assumed ? "assumed" : null }, element("td", {}, element("code", {}, breakable(path))), cells, element("td", { class: "small" }, notes));
+  return element("tr", { class: assumed ? "assumed" : null }, element("td", {}, element("code", {}, breakable(path))), cells, narrow ? null : element("td", { class: "small" }, notes));
 }
 
 // The inputs of all runs by path, in the order of the file.
@@ -268,7 +275,8 @@ function inputsDiffer(inputs) {
 }
 
 function inputTable(runs, paths, keys) {
-  const heads = ["Input", ...runs.flatMap((run) => [runs.length === 1 ? "Value" : run.label, "Origin"]), "Note"];
+  const narrow = runs.length > RUNS_WITH_NOTES;
+  const heads = ["Input", ...runs.flatMap((run) => [runs.length === 1 ? "Value" : run.short, ...(narrow ? [] : ["Origin"])]), ...(narrow ? [] : ["Note"])];
   return element("table", { class: "inputs" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), element("tbody", {}, keys.map((path) => inputRow(paths, path, runs))));
 }
 
@@ -314,6 +322,6 @@ function factSection(runs) {
     ["Rows in this page", (run) => (run.time ? (run.rows === run.rowsTotal ? `all ${run.rows} of history.parquet` : `${run.rows} of the ${run.rowsTotal} in history.parquet, extremes kept`) : number(null))],
   ];
   const rows = facts.map(([title, fact]) => element("tr", {}, element("th", {}, title), runs.map((run) => element("td", {}, fact(run)))));
-  const head = runs.length > 1 ? element("thead", {}, element("tr", {}, element("th", {}, ""), runs.map((run) => element("th", {}, run.label)))) : null;
+  const head = runs.length > 1 ? element("thead", {}, element("tr", {}, element("th", {}, ""), runs.map((run) => element("th", {}, run.short)))) : null;
   return section("facts", "Run facts", element("table", { class: "facts" }, head, element("tbody", {}, rows)), residualFigures(runs));
 }

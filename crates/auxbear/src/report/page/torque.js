@@ -32,7 +32,7 @@ function accelerationText(value) {
 }
 
 function shareOfRun(run, runs, title) {
-  return runs.length > 1 ? `${run.label}: ${title}` : title;
+  return runs.length > 1 ? `${run.short}: ${title}` : title;
 }
 
 // Where the tables hold that vary one thing.
