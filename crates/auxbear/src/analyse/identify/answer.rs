@@ -307,12 +307,12 @@ fn rotor(list: &mut List, found: &Found) {
 
 const VERDICT: Origin = Origin {
     law: "posterior probability among six explanations, by marginal likelihood with a correlated discrepancy; decided from identify.explanations.decide_at on",
-    source: "crates/identify/src/explain/mod.rs",
+    source: "Kass and Raftery 1995 (marginal likelihood), crates/identify/src/explain/mod.rs",
     valid: "the explanations listed, one at a time, with the priors of crates/identify/src/explain/prior.rs",
 };
 const FIT: Origin = Origin {
     law: "probability of a χ² of data and parameters at least as large, where the explanation is true with parameters as its priors tell",
-    source: "crates/identify/src/explain/mod.rs",
+    source: "Kass and Raftery 1995 (marginal likelihood), crates/identify/src/explain/mod.rs",
     valid: "of the most probable explanation; below 0.1 % none of these fits; near 1 where the bands of the signals are wider than their errors",
 };
 const NEXT: Origin = Origin {
@@ -322,17 +322,17 @@ const NEXT: Origin = Origin {
 };
 const EVIDENCE: Origin = Origin {
     law: "marginal likelihood of each form, the correlation of residuals accounted for",
-    source: "crates/identify/src/moment/mod.rs",
+    source: "Kass and Raftery 1995 (marginal likelihood), crates/identify/src/moment/mod.rs",
     valid: "between the smallest and the largest speed of the slow tests",
 };
 const WORTH: Origin = Origin {
     law: "n (1-ρ)/(1+ρ) of n means whose errors correlate by ρ from one to the next: as many independent ones tell a level as well",
-    source: "crates/identify/src/moment/mod.rs",
+    source: "Kass and Raftery 1995 (marginal likelihood), crates/identify/src/moment/mod.rs",
     valid: "2 where ρ is at its limit of 0.98: what is left of the best form changes as slowly as the curve itself",
 };
 const CURVE: Origin = Origin {
     law: "M(Ω) of the most probable form, with the band of its noise, zero, form and scale",
-    source: "crates/identify/src/moment/mod.rs",
+    source: "Kass and Raftery 1995 (marginal likelihood), crates/identify/src/moment/mod.rs",
     valid: "between the smallest and the largest speed of the slow tests; parameters correlate, the curve counts",
 };
 const COAST_DOWN: Origin = Origin {

@@ -102,15 +102,15 @@ function lawLine(quantity) {
   return parts.map(([title, words]) => element("span", { class: "law" }, element("b", {}, title + ": "), words + "  "));
 }
 
-// A source without, and as, the paths of the code that computes it.
+// A source without the paths of the code that computes it, and these paths.
+const CODE_PATH = /(?:crates\/[\w./{}-]+|\b\w+\/\w+\.rs|\b\w+\.rs)/g;
+
 function sourceParts(source) {
-  const paths = /(?:crates\/[\w./{}-]+|\b\w+\/\w+\.rs|\b\w+\.rs)/g;
   const text = String(source || "");
-  const code = (text.match(paths) || []).map((path) => path.replace(/[.,;]$/, ""));
-  if (!code.length) return [text, ""];
-  const kept = text.split(/[;,]| and /).map((part) => part.trim()).filter((part) => part && !part.replace(paths, "").match(/^\W*$/));
-  const literature = kept.map((part) => part.replace(paths, "").replace(/\s+(of|in|by|and)\s*$/, "").replace(/\(\s*\)/, "").trim()).filter((part) => part && !/^(the page of the law in|slips of|in the rows|noise)$/.test(part));
-  return [literature.join("; "), code.join(", ")];
+  const code = (text.match(CODE_PATH) || []).map((path) => path.replace(/[.,;]$/, ""));
+  const lead = "(?:[;,]?\\s*(?:and )?(?:bands in|slips of|in)?)?\\s*";
+  const literature = text.replace(new RegExp(lead + CODE_PATH.source, "g"), "").replace(/^[\s;,]+|[\s;,]+$/g, "");
+  return [literature, code.join(", ")];
 }
 
 function differenceText(first, other) {
