@@ -391,6 +391,15 @@ mod tests {
     }
 
     #[test]
+    fn every_system_registers_what_its_page_shows() {
+        for system in crate::scenario::SystemName::ALL {
+            let call = format!("register(\"{}\", {{", system.word());
+            let scripts = SCRIPTS.iter().filter(|script| script.contains(&call));
+            assert_eq!(scripts.count(), 1, "{call}");
+        }
+    }
+
+    #[test]
     fn values_are_little_endian_single_precision_unless_that_is_coarse() {
         // 1.0f32 is 00 00 80 3f and 2.0f32 is 00 00 00 40 in memory order.
         let json = column_json(&column("force", vec![1.0, 2.0]), &[0, 1]);
@@ -474,7 +483,8 @@ mod tests {
             columns,
             ..PageRun::default()
         };
-        let page = html(&vec![run.clone(); 5]);
+        let five: Vec<PageRun> = std::iter::repeat_n(run.clone(), 5).collect();
+        let page = html(&five);
         assert!(page.len() < 4_000_000, "{} bytes", page.len());
         assert!(page.contains("\"balls\":false") && !page.contains("ball_17"));
         assert!(html(&[run]).contains("ball_17"));

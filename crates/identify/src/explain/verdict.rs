@@ -129,8 +129,9 @@ pub struct Verdict {
 pub struct TorqueMean {
     /// Place of its test among the tests.
     pub test: usize,
-    /// Begin and end on the clock of that test, s.
+    /// Begin on the clock of that test, s.
     pub from: f64,
+    /// End on the same clock, s.
     pub to: f64,
     /// N m.
     pub torque: f64,
