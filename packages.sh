@@ -5,6 +5,7 @@ set -euo pipefail
 packages=(
     gcc       # the linker; no C is compiled
     libc6-dev # what every program is linked with
+    chromium  # opens the reports that the check has made
     git       # `cargo xtask check` looks at the files git knows
 )
 

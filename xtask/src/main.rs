@@ -14,6 +14,7 @@ mod documentation;
 mod golden;
 mod licences;
 mod module_order;
+mod pages;
 mod repository;
 mod rust_text;
 mod scenarios;

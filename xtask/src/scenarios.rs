@@ -1,6 +1,7 @@
 //! Guard: the built command reads and runs every shipped scenario, and its validation passes.
 
 use crate::golden;
+use crate::pages;
 use crate::repository::{Outcome, Repository};
 use crate::shipped::{build, call, summary_in};
 use serde_json::Value;
@@ -45,13 +46,19 @@ pub fn check(repository: &Repository) -> Outcome {
         let faults = faults.into_iter().chain(differences.unwrap_or_default());
         findings.extend(faults.map(|fault| format!("{file}: {fault}")));
     }
+    let opened = pages::faults(&folder, &program);
+    let pages = match &opened {
+        Some(_) => "their pages opened in a browser",
+        None => "no page opened: no chromium here",
+    };
+    findings.extend(opened.unwrap_or_default());
     // Nothing depends on the folder any more; one that stays behind is no fault of the product.
     let _ = std::fs::remove_dir_all(&folder);
     findings.extend(call(&repository.root, &program, &["validate"]));
     let count = files.iter().filter(|file| file.ends_with(".toml")).count();
     let seen = match count {
         0 => "no scenarios to run: the folder is empty; validation passed".to_owned(),
-        count => format!("{count} run; validation passed"),
+        count => format!("{count} run; {pages}; validation passed"),
     };
     Outcome::new(seen, findings)
 }

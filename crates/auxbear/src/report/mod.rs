@@ -3,12 +3,14 @@
 //! | page | subject |
 //! |---|---|
 //! | [`directory`] | a run directory as a whole: written in one piece or not at all, and read back |
+//! | `closely` | the part of a run that its page shows closely |
 //! | `summary` | `summary.json`: quantities, warnings, contacts, inputs |
 //! | `history` | `history.parquet`: time histories with unit and meaning of every column |
 //! | [`page`] | one run or several as an HTML page |
 //! | [`picture`] | one run as a picture |
 //! | [`export`] | results and histories as CSV files or a workbook |
 
+mod closely;
 pub mod directory;
 pub mod export;
 mod history;

@@ -2,13 +2,20 @@
 //!
 //! Rust only packs the data: each column becomes base64 text inside a JSON block of the page, and the scripts of
 //! `page/` draw it. Long histories are thinned to [`ROW_LIMIT`] rows, the same rows for every column, in a way that keeps
-//! the extremes; peaks that must be exact come from the summary, not from these columns.
+//! the extremes and every row of the close-ups; peaks that must be exact come from the summary, not from these columns.
+//! Several runs share the room of one page: they have fewer rows, and many of them leave their single balls to their own pages.
 
+use super::closely;
 use measure::file::parquet::arrow_schema::base64;
 use std::collections::BTreeSet;
 
 /// Largest number of rows of a history that the page carries.
 pub const ROW_LIMIT: usize = 4000;
+
+/// Largest size of the histories of several runs in one page, bytes of text.
+const SHARED_ROOM: usize = 3_300_000;
+/// Rows of each of several runs below which their single balls are left out instead.
+const LEAST_SHARED_ROWS: usize = 1500;
 
 /// One run as the page needs it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -54,7 +61,9 @@ const SCRIPTS: &[&str] = &[
     include_str!("page/limits.js"),
     include_str!("page/header.js"),
     include_str!("page/timeline.js"),
+    include_str!("page/curves.js"),
     include_str!("page/histories.js"),
+    include_str!("page/closely.js"),
     include_str!("page/orbit.js"),
     include_str!("page/maps.js"),
     include_str!("page/energy.js"),
@@ -79,7 +88,10 @@ pub fn html(runs: &[PageRun]) -> String {
         script.push_str(part);
     }
     script.push_str("})();\n");
-    let data: String = runs.iter().map(|run| block(&run_json(run))).collect();
+    let (limit, with_balls) = room(runs);
+    let data: String = (runs.iter())
+        .map(|run| block(&run_json(run, limit, with_balls)))
+        .collect();
     let library = format!("/*\n{PLOT_LICENCE}\n*/\n{PLOT_LIBRARY}");
     fill(
         TEMPLATE,
@@ -118,27 +130,72 @@ fn block(json: &str) -> String {
     )
 }
 
-fn run_json(run: &PageRun) -> String {
+/// Rows that each run may have, and whether the columns of single balls are among them.
+fn room(runs: &[PageRun]) -> (usize, bool) {
+    if runs.len() < 2 {
+        return (ROW_LIMIT, true);
+    }
+    let rows = |with_balls: bool| {
+        let of = |run: &PageRun| {
+            let columns = (run.columns.iter()).filter(|column| with_balls || !of_a_ball(column));
+            // base64 of four bytes a value, of eight for the few that need them
+            columns
+                .map(|column| 16.0 / 3.0 * if column.name == "time" { 2.0 } else { 1.0 })
+                .sum::<f64>()
+        };
+        let row: f64 = runs.iter().map(of).sum();
+        ((SHARED_ROOM as f64 / row.max(1.0)) as usize).min(ROW_LIMIT)
+    };
+    match rows(true) {
+        enough if enough >= LEAST_SHARED_ROWS => (enough, true),
+        _ => (rows(false).max(LEAST_ROWS), false),
+    }
+}
+
+/// Rows without which a history shows nothing, however many runs share a page.
+const LEAST_ROWS: usize = 100;
+
+/// Whether a column is that of a single ball.
+fn of_a_ball(column: &PageColumn) -> bool {
+    let mut parts = column.name.split('.');
+    parts.any(|part| {
+        let number = part.strip_prefix("ball_");
+        number.is_some_and(|number| number.parse::<u32>().is_ok())
+    })
+}
+
+fn run_json(run: &PageRun, limit: usize, with_balls: bool) -> String {
     let total = run
         .columns
         .iter()
         .map(|column| column.values.len())
         .max()
         .unwrap_or(0);
-    let rows = kept_rows(&run.columns, ROW_LIMIT);
+    let windows = closely::windows(&run.summary_json);
+    let rows = kept_rows(
+        &run.columns,
+        limit,
+        &windows.values().copied().collect::<Vec<_>>(),
+    );
     let columns: Vec<String> = run
         .columns
         .iter()
+        .filter(|column| with_balls || !of_a_ball(column))
         .map(|column| column_json(column, &rows))
         .collect();
     // The summary travels as text: should it not be JSON, only its own part of the page is missing.
     format!(
-        "{{\"name\":{},\"directory\":{},\"summary\":{},\"scenario\":{},\"rows\":{},\"rows_total\":{total},\"columns\":[{}]}}",
+        "{{\"name\":{},\"directory\":{},\"summary\":{},\"scenario\":{},\"rows\":{},\"rows_total\":{total},\"balls\":{with_balls},\"closely\":{{{}}},\"columns\":[{}]}}",
         json_text(&run.name),
         json_text(&run.directory),
         json_text(&run.summary_json),
         json_text(&run.scenario_toml),
         rows.len(),
+        windows
+            .iter()
+            .map(|(bearing, [begin, end])| format!("{}:[{begin:e},{end:e}]", json_text(bearing)))
+            .collect::<Vec<_>>()
+            .join(","),
         columns.join(",\n")
     )
 }
@@ -148,6 +205,15 @@ fn column_json(column: &PageColumn, rows: &[usize]) -> String {
         .iter()
         .map(|&row| column.values.get(row).copied().unwrap_or(f64::NAN))
         .collect();
+    let same = values
+        .windows(2)
+        .all(|pair| pair[0].to_bits() == pair[1].to_bits());
+    // what never changes is written once
+    let values = if same {
+        values.into_iter().take(1).collect()
+    } else {
+        values
+    };
     let (kind, bytes) = if column.name == "time" || single_precision_is_coarse(&values) {
         (
             "f64",
@@ -187,8 +253,9 @@ fn single_precision_is_coarse(values: &[f64]) -> bool {
 }
 
 /// The rows of a history that the page carries, in order: all of them up to `limit`, else first and last, the
-/// extremes of each column, and in equal stretches the first row and those where the contact and the balls peak.
-fn kept_rows(columns: &[PageColumn], limit: usize) -> Vec<usize> {
+/// extremes of each column, those of the close-ups, and in equal stretches the first row and those where the contact and the
+/// balls peak.
+fn kept_rows(columns: &[PageColumn], limit: usize, windows: &[[f64; 2]]) -> Vec<usize> {
     let total = columns
         .iter()
         .map(|column| column.values.len())
@@ -204,6 +271,24 @@ fn kept_rows(columns: &[PageColumn], limit: usize) -> Vec<usize> {
         }
         kept.extend(extreme(column, 0, total, 1.0));
         kept.extend(extreme(column, 0, total, -1.0));
+    }
+    let time = columns.iter().find(|column| column.name == "time");
+    for [begin, end] in windows {
+        let inside = |instant: &f64| (*begin..=*end).contains(instant);
+        let close: Vec<usize> = time.map_or_else(Vec::new, |time| {
+            let instants = time.values.iter().enumerate();
+            instants
+                .filter(|(_, instant)| inside(instant))
+                .map(|(row, _)| row)
+                .collect()
+        });
+        // of more than fit into half of the room every so many
+        let room = (limit / 2).saturating_sub(kept.len());
+        kept.extend(
+            close
+                .iter()
+                .step_by(close.len().div_ceil(room.max(1)).max(1)),
+        );
     }
     let watched: Vec<(&PageColumn, f64)> = [
         ("bearing.contact.force", 1.0),
@@ -225,7 +310,7 @@ fn kept_rows(columns: &[PageColumn], limit: usize) -> Vec<usize> {
             kept.extend(extreme(column, begin, end, *sign));
         }
     }
-    let room = limit - kept.len();
+    let room = limit.saturating_sub(kept.len());
     kept.extend((0..room).map(|index| total * index / room));
     kept.into_iter().collect()
 }
@@ -307,6 +392,15 @@ mod tests {
     }
 
     #[test]
+    fn every_system_registers_what_its_page_shows() {
+        for system in crate::scenario::SystemName::ALL {
+            let call = format!("register(\"{}\", {{", system.word());
+            let scripts = SCRIPTS.iter().filter(|script| script.contains(&call));
+            assert_eq!(scripts.count(), 1, "{call}");
+        }
+    }
+
+    #[test]
     fn values_are_little_endian_single_precision_unless_that_is_coarse() {
         // 1.0f32 is 00 00 80 3f and 2.0f32 is 00 00 00 40 in memory order.
         let json = column_json(&column("force", vec![1.0, 2.0]), &[0, 1]);
@@ -322,14 +416,17 @@ mod tests {
 
     #[test]
     fn short_histories_keep_every_row() {
-        assert_eq!(kept_rows(&eventful(50), 50), (0..50).collect::<Vec<_>>());
-        assert!(kept_rows(&[], 50).is_empty());
+        assert_eq!(
+            kept_rows(&eventful(50), 50, &[]),
+            (0..50).collect::<Vec<_>>()
+        );
+        assert!(kept_rows(&[], 50, &[]).is_empty());
     }
 
     #[test]
     fn thinning_keeps_peaks_ends_and_the_bound() {
         for rows in [ROW_LIMIT + 1, 10 * ROW_LIMIT + 3, 200_000] {
-            let kept = kept_rows(&eventful(rows), ROW_LIMIT);
+            let kept = kept_rows(&eventful(rows), ROW_LIMIT, &[]);
             assert!(kept.len() <= ROW_LIMIT, "{} rows of {rows}", kept.len());
             // Three watched values and one uniform row a stretch: even if they coincide, a quarter of the limit is used.
             assert!(
@@ -345,8 +442,58 @@ mod tests {
     }
 
     #[test]
+    fn thinning_keeps_every_row_of_a_close_up() {
+        // rows every 10 µs: 4 to 9 ms are the rows 400 to 900
+        let kept = kept_rows(&eventful(100_000), ROW_LIMIT, &[[4e-3, 9e-3]]);
+        assert!(kept.len() <= ROW_LIMIT);
+        assert!((401..900).all(|row| kept.binary_search(&row).is_ok()));
+        // a close-up of everything leaves room for the peaks
+        let kept = kept_rows(&eventful(100_000), ROW_LIMIT, &[[0.0, 1.0]]);
+        assert!(kept.len() <= ROW_LIMIT && kept.contains(&33_334));
+    }
+
+    #[test]
+    fn what_never_changes_is_written_once() {
+        let json = column_json(
+            &column("load", vec![23.6; 1000]),
+            &(0..1000).collect::<Vec<_>>(),
+        );
+        assert!(json.len() < 100, "{json}");
+    }
+
+    /// The largest shipped drop has 17 balls of seven columns and 30 columns besides.
+    #[test]
+    fn five_runs_side_by_side_stay_below_four_megabytes() {
+        let rows = 5001;
+        let wave = |phase: usize| {
+            (0..rows)
+                .map(|row| ((row * (phase + 3)) as f64).sin())
+                .collect()
+        };
+        let mut columns = vec![column(
+            "time",
+            (0..rows).map(|row| row as f64 * 1e-4).collect(),
+        )];
+        columns.extend((0..30).map(|index| column(&format!("bearing.c{index}"), wave(index))));
+        for ball in 1..=17 {
+            let parts =
+                (0..7).map(|part| column(&format!("bearing.ball_{ball}.p{part}"), wave(part)));
+            columns.extend(parts);
+        }
+        let run = PageRun {
+            columns,
+            ..PageRun::default()
+        };
+        let five: Vec<PageRun> = std::iter::repeat_n(run.clone(), 5).collect();
+        let page = html(&five);
+        assert!(page.len() < 4_000_000, "{} bytes", page.len());
+        assert!(page.contains("\"balls\":false") && !page.contains("ball_17"));
+        assert!(html(&[run]).contains("ball_17"));
+    }
+
+    #[test]
     fn thinning_leaves_no_long_gap() {
-        let kept = kept_rows(&eventful(100_000), ROW_LIMIT);
+        let kept = kept_rows(&eventful(100_000), ROW_LIMIT, &[]);
         let gap = kept.windows(2).map(|pair| pair[1] - pair[0]).max().unwrap();
         // 100 000 rows in (4000 - 12) / 4 stretches: at most one stretch of 101 rows between kept rows.
         assert!(gap <= 101, "gap of {gap} rows");
@@ -360,7 +507,7 @@ mod tests {
         for (index, column) in columns.iter_mut().enumerate() {
             column.values[index] = 1.0;
         }
-        let kept = kept_rows(&columns, 100);
+        let kept = kept_rows(&columns, 100, &[]);
         assert!(kept.len() <= 100);
         assert!(kept.len() > 50);
     }
@@ -373,9 +520,9 @@ mod tests {
         };
         // 1.0f32 then the quiet NaN 7fc00000.
         assert!(
-            run_json(&run).contains("\"data\":\"AACAPwAAwH8=\""),
+            run_json(&run, ROW_LIMIT, true).contains("\"data\":\"AACAPwAAwH8=\""),
             "{}",
-            run_json(&run)
+            run_json(&run, ROW_LIMIT, true)
         );
     }
 

@@ -80,7 +80,7 @@ use measure::normal::squares_above;
 use measure::random::Random;
 use noise::Observed;
 use proposal::tempered;
-use record::Trial;
+use record::{Trial, engagement};
 use verdict::FormDraw;
 
 pub use explanation::Explanation;
@@ -88,7 +88,7 @@ pub use next_test::{Candidate, Proposal, next_test};
 pub use prediction_errors::{PredictionErrors, with_prediction_errors};
 pub use prior::{Priors, Range};
 pub use settings::Settings;
-pub use verdict::{Assessment, Conclusion, Estimate, Fit, Refusal, Verdict};
+pub use verdict::{Assessment, Conclusion, Estimate, Fit, Refusal, TorqueMean, Verdict};
 
 /// Which explanation the tests of one bearing support.
 ///
@@ -147,9 +147,32 @@ pub fn explain(
         conclusion: Conclusion::NoneOfThese,
         assessments,
         means: observed.counts(),
+        torque_means: torque_means(tests, &records, &observed, &bearing),
     };
     verdict.conclusion = conclude(&verdict, settings);
     Ok(verdict)
+}
+
+/// The means of torque that are compared, on the clocks of their tests.
+fn torque_means(
+    tests: &[Measurement],
+    records: &[Trial],
+    observed: &Observed,
+    bearing: &Bearing,
+) -> Vec<TorqueMean> {
+    let all: Vec<TorqueMean> = (tests.iter().zip(records).enumerate())
+        .flat_map(|(test, (measurement, record))| {
+            let begin = engagement(measurement, bearing.table.top_speed);
+            record.bins.iter().map(move |bin| TorqueMean {
+                test,
+                from: begin + bin.from,
+                to: begin + bin.to,
+                torque: bin.torque,
+            })
+        })
+        .collect();
+    let places = observed.torque_places();
+    places.iter().map(|place| all[*place]).collect()
 }
 
 fn conclude(verdict: &Verdict, settings: &Settings) -> Conclusion {
@@ -312,6 +335,7 @@ fn assess(
         fit: None,
         form: explanation.name(),
         parameters: Vec::new(),
+        predicted_torque: Vec::new(),
         draws: Vec::new(),
     };
     if !total.is_finite() {
@@ -331,7 +355,8 @@ fn assess(
     assessment.form = best.0.name();
     let weights = normalised(&best.1);
     assessment.parameters = estimates(best.0, &best.1, &weights, bearing);
-    let mut how = fit(best, tests, bearing, finely);
+    let (mut how, predicted) = fit(best, tests, bearing, finely);
+    assessment.predicted_torque = predicted;
     how.discrepancy = discrepancy(&best.1, &weights, observed);
     assessment.fit = Some(how);
     // draws over all forms, each by its share
@@ -393,13 +418,13 @@ fn estimates(
 ///
 /// Formula: χ² = (y - f(z))ᵀ C⁻¹ (y - f(z)) + zᵀz of the draw z at which likelihood times prior is largest; of all data that the
 /// explanation predicts with its priors it has as many degrees of freedom as there are means, where f is straight over the width
-/// of the posterior; mean over the amplitudes of the models' own error
+/// of the posterior; mean over the amplitudes of the models' own error. Beside it the torques that this draw predicts.
 fn fit(
     (form, evidence): &(Hypothesis, Evidence),
     tests: &[Trial],
     bearing: &Bearing,
     finely: &Observed,
-) -> Fit {
+) -> (Fit, Vec<f64>) {
     let count = finely.count();
     let square = |draw: &Draw| draw.coordinates.iter().map(|z| z * z).sum::<f64>();
     let height = |draw: &Draw| {
@@ -414,7 +439,7 @@ fn fit(
         discrepancy: 0.0,
     };
     let Some(best) = best else {
-        return fit;
+        return (fit, Vec::new());
     };
     let prediction = form.predict(&best.coordinates, tests, bearing);
     let levels = finely.log_likelihood(&prediction, form.directions(tests.len()));
@@ -428,7 +453,9 @@ fn fit(
     }
     // shares sum to 1 but for rounding
     fit.probability = fit.probability.min(1.0);
-    fit
+    let places = finely.torque_places();
+    let predicted = places.iter().map(|place| prediction.torque[*place]);
+    (fit, predicted.collect())
 }
 
 /// Posterior mean of the models' own error over M.

@@ -127,6 +127,11 @@ impl Observed {
         (self.torque.value.len(), self.cage.value.len())
     }
 
+    /// Places of the means of torque in a prediction.
+    pub fn torque_places(&self) -> &[usize] {
+        &self.torque.place
+    }
+
     /// Number of means.
     pub fn count(&self) -> usize {
         self.torque.value.len() + self.cage.value.len()

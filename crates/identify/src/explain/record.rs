@@ -329,7 +329,7 @@ impl Trial {
 }
 
 /// When the test began, s: as given, else the first sign of turning.
-fn engagement(measurement: &Measurement, top_speed: f64) -> f64 {
+pub(super) fn engagement(measurement: &Measurement, top_speed: f64) -> f64 {
     let (first, last) = (
         measurement.time[0],
         measurement.time[measurement.time.len() - 1],

@@ -59,6 +59,8 @@ pub struct Assessment {
     pub form: &'static str,
     /// Parameters of that form.
     pub parameters: Vec<Estimate>,
+    /// Torque that the best of the posterior predicts, N m: one for each of [`Verdict::torque_means`]; empty without a fit.
+    pub predicted_torque: Vec<f64>,
     /// Draws of the posterior for the ranking of tests.
     pub(crate) draws: Vec<FormDraw>,
 }
@@ -79,12 +81,35 @@ pub struct Verdict {
     pub assessments: Vec<Assessment>,
     /// Number of means of torque and of cage speed that were compared.
     pub means: (usize, usize),
+    /// The means of torque that were compared.
+    pub torque_means: Vec<TorqueMean>,
+}
+
+/// A mean of the measured torque over some time, as the explanations are compared on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TorqueMean {
+    /// Place of its test among the tests.
+    pub test: usize,
+    /// Begin on the clock of that test, s.
+    pub from: f64,
+    /// End on the same clock, s.
+    pub to: f64,
+    /// N m.
+    pub torque: f64,
 }
 
 impl Verdict {
     /// The assessment of an explanation.
     pub fn of(&self, explanation: Explanation) -> &Assessment {
         &self.assessments[explanation as usize]
+    }
+
+    /// All of them, the most probable first, also where the odds leave nothing to tell apart.
+    pub fn ranked(&self) -> Vec<&Assessment> {
+        let mut ranked: Vec<&Assessment> = self.assessments.iter().collect();
+        let weight = |a: &Assessment| a.prior_probability.ln() + a.log_evidence;
+        ranked.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
+        ranked
     }
 
     /// The most probable explanation.

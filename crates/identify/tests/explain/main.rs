@@ -20,7 +20,7 @@ mod bearing;
 mod fit;
 mod lab;
 
-use identify::explain::{Conclusion, Explanation, Priors, Settings, Verdict, explain};
+use identify::explain::{Assessment, Conclusion, Explanation, Priors, Settings, Verdict, explain};
 use lab::{Campaign, Chance, Truth};
 
 fn campaign(explanation: Explanation, seed: u64) -> Campaign {
@@ -66,6 +66,37 @@ pub fn runs() -> u64 {
         .ok()
         .and_then(|runs| runs.parse().ok())
         .unwrap_or(1)
+}
+
+/// What a report draws: the likeliest explanation lies on the data, rolling balls without a grease state do not.
+#[test]
+fn what_the_winner_predicts_lies_on_the_means() {
+    let campaign = campaign(Explanation::Grease, 0);
+    let verdict = judge(&campaign);
+    let off = |assessment: &Assessment| {
+        let pairs = verdict
+            .torque_means
+            .iter()
+            .zip(&assessment.predicted_torque);
+        let squares = pairs.map(|(mean, predicted)| (mean.torque - predicted).powi(2));
+        (squares.sum::<f64>() / verdict.torque_means.len() as f64).sqrt()
+    };
+    assert_eq!(verdict.torque_means.len(), verdict.means.0);
+    let best = verdict.ranked()[0];
+    assert_eq!(best.explanation, Explanation::Grease);
+    assert_eq!(best.predicted_torque.len(), verdict.means.0);
+    // effects are 15 to 40 % of M, what is common to a test and not taken out a few per cent
+    let rolling = verdict.of(Explanation::Rolling);
+    assert!(
+        3.0 * off(best) < off(rolling),
+        "{} {}",
+        off(best),
+        off(rolling)
+    );
+    for mean in &verdict.torque_means {
+        let time = &campaign.tests[mean.test].time;
+        assert!(mean.from < mean.to && mean.to <= time[time.len() - 1] + 1e-9);
+    }
 }
 
 #[test]

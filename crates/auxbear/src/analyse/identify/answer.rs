@@ -312,7 +312,7 @@ fn rotor(list: &mut List, found: &Found) {
 
 const VERDICT: Origin = Origin {
     law: "posterior probability among six explanations, by marginal likelihood with a correlated discrepancy; decided from identify.explanations.decide_at on",
-    source: "crates/identify/src/explain/mod.rs",
+    source: "Kass and Raftery 1995 (marginal likelihood), crates/identify/src/explain/mod.rs",
     valid: "the explanations listed, one at a time, with the priors of crates/identify/src/explain/prior.rs",
 };
 const FIT: Origin = Origin {
@@ -327,7 +327,7 @@ const NEXT: Origin = Origin {
 };
 const EVIDENCE: Origin = Origin {
     law: "marginal likelihood of each form, the correlation of residuals accounted for",
-    source: "crates/identify/src/moment/mod.rs",
+    source: "Kass and Raftery 1995 (marginal likelihood), crates/identify/src/moment/mod.rs",
     valid: "between the smallest and the largest speed of the slow tests",
 };
 const WORTH: Origin = Origin {
@@ -337,7 +337,7 @@ const WORTH: Origin = Origin {
 };
 const CURVE: Origin = Origin {
     law: "M(Ω) of the most probable form, with the band of its noise, zero, form and scale",
-    source: "crates/identify/src/moment/mod.rs",
+    source: "Kass and Raftery 1995 (marginal likelihood), crates/identify/src/moment/mod.rs",
     valid: "between the smallest and the largest speed of the slow tests; parameters correlate, the curve counts",
 };
 const COAST_DOWN: Origin = Origin {

@@ -2,6 +2,7 @@
 
 use crate::analyse::identify::found::{Found, TestFound};
 use crate::result::outcome::Column;
+use identify::explain::TorqueMean;
 use measure::interpolation::between;
 use measure::uncertain::Uncertain;
 
@@ -25,8 +26,54 @@ pub(crate) fn columns(found: &Found) -> Vec<Column> {
     }];
     for (number, test) in found.tests.iter().enumerate() {
         of_test(&mut columns, number + 1, test, found, &times);
+        columns.extend(explained(number, test, found, &times));
     }
     columns
+}
+
+/// Explanations whose torque is shown beside the data: the most probable and the next best.
+const SHOWN_EXPLANATIONS: usize = 2;
+
+/// The means of torque on which the explanations were compared, and what the best ones predict for each; between means nothing.
+fn explained(test: usize, shown: &TestFound, found: &Found, times: &[f64]) -> Vec<Column> {
+    let Ok(verdict) = &found.verdict else {
+        return Vec::new();
+    };
+    let begin = shown.measurement.begin();
+    let means: Vec<(usize, &TorqueMean)> = (verdict.torque_means.iter().enumerate())
+        .filter(|(_, mean)| mean.test == test)
+        .collect();
+    let column = |name: String, meaning: String, values: &dyn Fn(usize) -> f64| Column {
+        name: format!("test_{}.{name}", test + 1),
+        unit: "N m",
+        meaning: format!("{}: {meaning}", shown.name),
+        values: (times.iter())
+            .map(|time| {
+                let inside = |mean: &TorqueMean| (mean.from..mean.to).contains(&(begin + time));
+                let at = means.iter().find(|(_, mean)| inside(mean));
+                at.map_or(f64::NAN, |(place, _)| values(*place))
+            })
+            .collect(),
+    };
+    let measured = column(
+        "torque_mean".to_string(),
+        "mean torque t_O, on which the explanations were compared".to_string(),
+        &|place| verdict.torque_means[place].torque,
+    );
+    let predicted = (verdict.ranked().into_iter())
+        .filter(|assessment| !assessment.predicted_torque.is_empty())
+        .take(SHOWN_EXPLANATIONS)
+        .map(|assessment| {
+            column(
+                format!(
+                    "predicted_by.{}",
+                    assessment.explanation.name().replace(' ', "_")
+                ),
+                format!("what \"{}\" predicts for it", assessment.explanation.name()),
+                &|place| assessment.predicted_torque[place],
+            )
+        });
+    std::iter::once(measured).chain(predicted).collect()
 }
 
 fn times(tests: &[TestFound]) -> Vec<f64> {

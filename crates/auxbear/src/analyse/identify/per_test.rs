@@ -192,12 +192,12 @@ fn skid(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
 
 const TEST: Origin = Origin {
     law: "as measured by the signals of the test",
-    source: "crates/measure/src/speed/mod.rs",
+    source: "Bierman 1977 (filter and smoother), crates/measure/src/speed/mod.rs",
     valid: "see auxbear signals of its file",
 };
 const ENGAGED: Origin = Origin {
     law: "when the quick change of the speed begins, in the time of the file; other times of a test count from here",
-    source: "crates/measure/src/speed/mod.rs",
+    source: "Bierman 1977 (filter and smoother), crates/measure/src/speed/mod.rs",
     valid: "see auxbear signals of its file",
 };
 const EXCESS: Origin = Origin {
@@ -222,16 +222,16 @@ const UNTIL: Origin = Origin {
 };
 const ROLLS: Origin = Origin {
     law: "from when on |S| above 1 % stays less likely than not, counted from the engagement",
-    source: "crates/identify/src/slip.rs",
+    source: "Harris 2001, section 8 (kinematics), crates/identify/src/slip.rs",
     valid: "needs a cage signal; engagement_time is in the time of the file",
 };
 const SLIP: Origin = Origin {
     law: "S = 1 - 2(1+s)ω_c/Ω; the largest probability of |S| above 1 % at any time",
-    source: "crates/identify/src/slip.rs",
+    source: "Harris 2001, section 8 (kinematics), crates/identify/src/slip.rs",
     valid: "needs a cage signal",
 };
 const SKID: Origin = Origin {
     law: "spin of the balls from (4), (5), (7) with F ≥ 0",
-    source: "crates/identify/src/skid.rs",
+    source: "the source paper, (4), (5) and (7); crates/identify/src/skid.rs",
     valid: "shortly after the engagement, as long as the torque shows it, with the lubricant in the state of the slow tests: a grease that starts low looks like skid",
 };

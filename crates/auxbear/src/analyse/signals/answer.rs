@@ -380,7 +380,7 @@ const PITCH: Origin = Origin {
 };
 const SPEED: Origin = Origin {
     law: "smoothing spline of the seventh degree through the pulses, as stiff as their likelihood asks for; deviation: standard",
-    source: "crates/measure/src/speed; bands compared with 400 synthetic records in crates/measure/tests/speed_coverage.rs",
+    source: "Bierman 1977 (filter and smoother), crates/measure/src/speed; bands compared with 400 synthetic records in crates/measure/tests/speed_coverage.rs",
     valid: "one quick change in the record; no ripple quicker than two marks can show",
 };
 const PEAK_ACCELERATION: Origin = Origin {
@@ -390,17 +390,17 @@ const PEAK_ACCELERATION: Origin = Origin {
 };
 const CHANGE: Origin = Origin {
     law: "knots of the spline at which acceleration or its rate may jump, by likelihood",
-    source: "crates/measure/src/speed",
+    source: "Bierman 1977 (filter and smoother), crates/measure/src/speed",
     valid: "one quick change in the record",
 };
 const FAULTS: Origin = Origin {
     law: "values held at the highest or lowest value, held longer than the noise allows, or not there",
-    source: "crates/measure/src/converter.rs",
+    source: "Bennett 1948 (rounding), crates/measure/src/converter.rs",
     valid: "a channel with noise of its own",
 };
 const SENSOR: Origin = Origin {
     law: "ÿ + 2ζω ẏ + ω² y = ω² (T + d), as given or from its free response",
-    source: "crates/measure/src/torque_sensor/response.rs",
+    source: "Golub and Pereyra 1973, Newey and West 1987, crates/measure/src/torque_sensor/response.rs",
     valid: "one degree of freedom, small swings",
 };
 const TORQUE: Origin = Origin {
@@ -420,6 +420,6 @@ const SPECTRUM: Origin = Origin {
 };
 const CAGE: Origin = Origin {
     law: "slip = 1 - cage speed/(rolling ratio times shaft speed); the deviation from rolling is smoothed; deviation: standard",
-    source: "crates/measure/src/cage_speed",
+    source: "Viterbi 1967, Baum et al. 1970, crates/measure/src/cage_speed",
     valid: "a cage that does not turn backwards; the ratio as given",
 };

@@ -183,7 +183,7 @@ fn steady(list: &mut List, found: &Found) {
 
 const CONVERTER: Origin = Origin {
     law: "values at the limits of the range; rounding noise step/√12 over the noise of the channel, largest of all channels",
-    source: "crates/measure/src/converter.rs; noise: median of fourth differences",
+    source: "Bennett 1948 (rounding), crates/measure/src/converter.rs; noise: median of fourth differences",
     valid: "equal steps of the converter; a signal that is smooth from value to value but for its noise",
 };
 const ORDERS: Origin = Origin {
@@ -193,7 +193,7 @@ const ORDERS: Origin = Origin {
 };
 const SPECTROGRAM: Origin = Origin {
     law: "amplitude of Hann segments, in whole dB below the largest (20 log10 of the ratio), column after column; -80 and less is -80",
-    source: "crates/measure/src/spectrum",
+    source: "Welch 1967, windows after Harris 1978, crates/measure/src/spectrum",
     valid: "a picture: the largest of neighbouring lines and segments stands for them",
 };
 const INERTIA: Origin = Origin {
@@ -203,11 +203,11 @@ const INERTIA: Origin = Origin {
 };
 const STEADY: Origin = Origin {
     law: "direct: smooth curve through torque over speed; inertial: -I dΩ/dt of a smooth curve through the speed of whole turns; deviation: standard, of the inertia included",
-    source: "crates/identify/src/steady_curve; bands in crates/identify/tests/steady_curve.rs",
+    source: "Eilers and Marx 1996, crates/identify/src/steady_curve; bands in crates/identify/tests/steady_curve.rs",
     valid: "one passage over the speeds; inertial: all that brakes what coasts, other bearings and air included",
 };
 const COMPARED: Origin = Origin {
     law: "mean difference over the common speeds; chance of so large a difference between equal curves",
-    source: "crates/identify/src/steady_curve/compare.rs",
+    source: "Satterthwaite 1946, crates/identify/src/steady_curve/compare.rs",
     valid: "independent errors of the two curves",
 };

@@ -215,7 +215,7 @@ const VISCOSITY: Origin = Origin {
 };
 const FRICTION: Origin = Origin {
     law: "M = M0 + M1 by bearing.moment.law, or by the law named",
-    source: "the page of the law in crates/physics/src",
+    source: "Palmgren 1959, SKF General Catalogue (edition 6000), or the curve given: by the law named; crates/physics/src",
     valid: "where the law holds; a warning says where it is left",
 };
 const POWER: Origin = Origin {

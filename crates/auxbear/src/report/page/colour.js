@@ -3,7 +3,31 @@
 
 const RUN_COLOURS = ["#1f5fa8", "#c2571a", "#2f8f5b", "#8a4fae", "#8a7410", "#b0306a"];
 const SERIES_COLOURS = { rotor: "#1f5fa8", race: "#c2571a", cage: "#2f8f5b", quiet: "#8995a0", limit: "#b3261e" };
-const HEAT_COLOURS = ["#c2571a", "#e0a03c", "#2f8f5b", "#1f5fa8", "#8a4fae", "#b0306a", "#5f8f9c", "#8a7410", "#6b7680"];
+// Each heat has its colour in every report; what no name stands for here comes in grey.
+const HEAT_COLOURS = {
+  rotor_race_friction: "#c2571a",
+  rotor_race_damping: "#e0a03c",
+  mount_damping: "#2f8f5b",
+  ball_slip: "#1f5fa8",
+  inner_ball_slip: "#1f5fa8",
+  outer_ball_slip: "#6d9fd3",
+  inner_contact_damping: "#8a7410",
+  outer_contact_damping: "#bda93f",
+  pocket_friction: "#8a4fae",
+  pocket_damping: "#b48fcc",
+  land_friction: "#b0306a",
+  land_damping: "#d988a9",
+  ball_ball_friction: "#5b4a9c",
+  ball_ball_damping: "#9d92c8",
+  steady_moment: "#287d86",
+  inlet_rolling: "#5fb3b3",
+  acceleration_loss: "#7d4b2a",
+  drag: "#5f8f9c",
+  clutch: "#a33a3a",
+  belt: "#d48a7a",
+  support_bearings: "#4b5a66",
+};
+const HEAT_WITHOUT_NAME = "#9aa7b4";
 const SKID = [206, 44, 38];
 
 function screenColour(lightness, chroma, hue) {

@@ -4,7 +4,7 @@ const HEAT_PREFIX = "energy.heat.";
 const SOURCE_PREFIX = "energy.source.";
 
 function columnsUnder(run, prefix) {
-  return [...run.columns.keys()].filter((name) => name.startsWith(prefix) && columnOf(run, name)).map((name) => ({ name: wordsOf(name.slice(prefix.length)), values: columnOf(run, name) }));
+  return [...run.columns.keys()].filter((name) => name.startsWith(prefix) && columnOf(run, name)).map((name) => ({ key: name.slice(prefix.length), name: wordsOf(name.slice(prefix.length)), values: columnOf(run, name) }));
 }
 
 function lastNumber(values) {
@@ -16,16 +16,18 @@ function change(values) {
   return lastNumber(values) - (values.find(isNumber) || 0);
 }
 
-// Largest heat first, each with its colour: the same order and colours in the history and in the bars.
+// Largest heat first, each in the colour of its name: the same in the history, in the bars and in every report.
 function heatsOf(run) {
   const heats = columnsUnder(run, HEAT_PREFIX).map((heat) => ({ ...heat, final: lastNumber(heat.values) }));
   heats.sort((left, right) => right.final - left.final);
-  return heats.map((heat, index) => ({ ...heat, colour: HEAT_COLOURS[Math.min(index, HEAT_COLOURS.length - 1)] }));
+  return heats.map((heat) => ({ ...heat, colour: HEAT_COLOURS[heat.key.split(".").pop()] || HEAT_WITHOUT_NAME }));
 }
 
 function heatHistory(run, runs) {
-  const heats = heatsOf(run).filter((heat) => heat.final > 0);
-  const title = (runs.length > 1 ? run.label + ": " : "") + "Heat over time";
+  const all = heatsOf(run).filter((heat) => heat.final > 0);
+  // bands that no picture shows stand in the balance below
+  const heats = all.filter((heat) => heat.final > 1e-3 * all[0].final);
+  const title = (runs.length > 1 ? run.short + ": " : "") + "Heat over time";
   if (!heats.length) return figure(title, null, notInThisRun(run.time ? "its history has no heats" : "it has no time history"));
   const sums = [];
   let below = run.time.map(() => 0);
@@ -43,13 +45,13 @@ function heatHistory(run, runs) {
     fill: heat.colour,
     width: 0.5,
   }));
-  return figure(title, "Stacked: each band is one kind of heat, the upper edge their sum.", timePlot({ series, label: "energy [J]", stacked: true, height: 240 }));
+  return figure(title, "Stacked: each band is one kind of heat, the upper edge their sum." + (all.length > heats.length ? " Heats below a thousandth of the largest stand in the balance alone." : ""), timePlot({ series, label: "energy [J]", stacked: true, height: 240 }));
 }
 
 // Every entry with a positive amount, on the side of the balance where it stands.
 function balance(run) {
   const came = [];
-  const went = heatsOf(run).map((heat) => ({ name: "heat: " + heat.name, amount: heat.final, colour: heat.colour }));
+  const went = heatsOf(run).filter((heat) => heat.final !== 0).map((heat) => ({ name: "heat: " + heat.name, amount: heat.final, colour: heat.colour }));
   const enter = (name, gain) => {
     if (gain < 0) came.push({ name, amount: -gain, colour: SERIES_COLOURS.rotor });
     else went.push({ name, amount: gain, colour: SERIES_COLOURS.quiet });
@@ -60,7 +62,8 @@ function balance(run) {
   }
   for (const source of columnsUnder(run, SOURCE_PREFIX)) {
     const amount = change(source.values);
-    if (amount >= 0) came.push({ name: "source: " + source.name, amount, colour: SERIES_COLOURS.cage });
+    if (amount === 0) continue;
+    if (amount > 0) came.push({ name: "source: " + source.name, amount, colour: SERIES_COLOURS.cage });
     else went.push({ name: "taken out: " + source.name, amount: -amount, colour: SERIES_COLOURS.limit });
   }
   const bySize = (left, right) => right.amount - left.amount;
@@ -81,7 +84,7 @@ function barRows(entries, largest, total) {
 }
 
 function balanceFigure(run, runs) {
-  const title = (runs.length > 1 ? run.label + ": " : "") + "Energy balance over the whole run";
+  const title = (runs.length > 1 ? run.short + ": " : "") + "Energy balance over the whole run";
   const { came, went } = balance(run);
   if (!came.length && !went.length) return figure(title, null, notInThisRun(run.time ? "its history has no energies" : "it has no time history"));
   const sum = (entries) => entries.reduce((total, entry) => total + entry.amount, 0);

@@ -111,8 +111,23 @@ function columnScale(values, unit, digits) {
   return { name, text: (value) => decimalText(isNumber(value) ? value / scale : null, decimals) };
 }
 
-// The value of an input without float noise: numbers of more than six digits are rounded, counts and words stay.
+// A speed in both of its units.
+function speedText(value, digits = 4) {
+  return isNumber(value) ? `${numberText((value * 30) / Math.PI, digits)} rpm (${numberText(value, digits)} rad/s)` : "–";
+}
+
+// The value of an input as people say it: without float noise, speeds in rpm and rad/s, angles in degrees.
 function inputText(value) {
+  const text = plainInput(value);
+  const match = /^([+-]?[\d.]+(?:[eE][+-]?\d+)?) (rpm|rad\/s|rad)$/.exec(text);
+  if (!match) return text;
+  const [number, unit] = [Number(match[1]), match[2]];
+  if (unit === "rad") return `${numberText((number * 180) / Math.PI, 5)}°`;
+  return unit === "rpm" ? `${text} (${numberText((number * Math.PI) / 30, 5)} rad/s)` : `${text} (${numberText((number * 30) / Math.PI, 5)} rpm)`;
+}
+
+// Numbers of more than six digits are rounded, counts and words stay.
+function plainInput(value) {
   const text = String(value);
   if (!/^[[+-]?\d/.test(text)) return text;
   const short = text.replace(/(\d+\.\d*)([eE][+-]?\d+)?/g, (number, mantissa, exponent = "") => {

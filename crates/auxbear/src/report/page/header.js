@@ -16,7 +16,7 @@ function tile(title, value, notes, state) {
     { class: state ? "tile " + state : "tile" },
     element("div", { class: "tile-title" }, title),
     element("div", { class: "tile-value" }, value),
-    list(notes).filter(Boolean).map((note) => element("div", { class: "tile-note" }, note)),
+    list(notes).flat().filter(Boolean).map((note) => element("div", { class: "tile-note" }, note)),
   );
 }
 
@@ -40,7 +40,8 @@ function quantityTile(run, title, name, note, state) {
     const [unit, scale] = readableUnit(Math.max(Math.abs(quantity.value), BAND * deviation), quantity.unit);
     return bandValue(bandParts(quantity.value / scale, (BAND * deviation) / scale), unit);
   };
-  return tile(title, deviation === null ? engineeringText(quantity.value, quantity.unit, 4) : shown(), [meanNote(quantity), note && note(quantity.value)], state && state(quantity.value));
+  const radians = quantity.unit === "rad/s" ? `${numberText(quantity.value, 4)} rad/s` : null;
+  return tile(title, deviation === null ? engineeringText(quantity.value, quantity.unit, 4) : shown(), [radians, meanNote(quantity), note && note(quantity.value)], state && state(quantity.value));
 }
 
 function stateTile(run) {
@@ -55,41 +56,42 @@ function forceNote(run) {
   const peak = peakContact(run);
   const count = numberOf(run, "contact_count");
   const parts = [peak && "at " + engineeringText(peak.peak_time_s, "s", 4), isNumber(count) && count + (count === 1 ? " contact" : " contacts")];
-  return parts.filter(Boolean).join(", ");
+  return parts.filter(Boolean);
 }
 
 function pressureNote(run, pressure) {
   const limit = run.summary.hertz_pressure_limit_Pa;
   if (!isNumber(limit)) return "no limit is given for these balls";
   const where = pressure <= limit ? "below" : "ABOVE";
-  const races = `${where} the limit of ${engineeringText(limit, "Pa", 4)} (${percentText(pressure / limit)} of it)`;
+  const races = `${where} the limit of ${engineeringText(limit, "Pa", 4)}: ${percentText(pressure / limit)} of it`;
   const neighbours = numberOf(run, "peak_ball_ball_pressure");
   if (neighbours === null) return races;
   const share = numberOf(run, "hertz_pressure_share_of_limit");
   const apart = share > pressure / limit ? `, ${percentText(share)} of their limit` : "";
-  return `${races}; between balls ${engineeringText(neighbours, "Pa", 4)}${apart}`;
+  return [races, `between balls ${engineeringText(neighbours, "Pa", 4)}${apart}`];
 }
 
 function spinUpNote(run) {
   const half = numberOf(run, "inner_race_time_to_50_percent");
-  const share = half === null ? "" : "50 % at " + engineeringText(half, "s", 4) + "; ";
-  return share + "time 0 is the release";
+  return [half === null ? null : "50 % at " + engineeringText(half, "s", 4), "after the release"];
 }
 
 function whirlTile(run) {
   const quantity = quantityOf(run, "whirl_direction");
   if (typeof quantity.value !== "string") return tile("Whirl", "–", ["not in this run: " + (quantity.why || "no reason given")]);
   const turns = quantityOf(run, "whirl_turns");
-  const count = isNumber(turns.value) ? numberText(Math.abs(turns.value), 3) + " net turns in the inner race" : null;
+  const sense = turns.value < 0 ? "backward" : "forward";
+  const count = isNumber(turns.value) ? `${numberText(Math.abs(turns.value), 3)} net turns, ${sense}, in the inner race` : null;
   const rule = quantity.value === "none" ? "below one turn there is no whirl" : null;
-  return tile("Whirl", quantity.value, [meanNote(turns), count, rule], verdictState(run, quantity.value === "backward"));
+  const mean = meanNote(turns);
+  return tile("Whirl", quantity.value, [count, rule, mean && `${mean} members; forward is positive`], verdictState(run, quantity.value === "backward"));
 }
 
 function displacementTile(run) {
   if (!("max_rotor_displacement" in run.quantities)) return null;
   const clearance = run.summary.clearance_radius_m;
-  const beside = isNumber(clearance) ? `; the clearance is ${engineeringText(clearance, "m", 4)}` : "";
-  return quantityTile(run, "Largest rotor displacement", "max_rotor_displacement", () => "of its centre from the origin" + beside);
+  const beside = isNumber(clearance) ? `clearance ${engineeringText(clearance, "m", 4)}` : null;
+  return quantityTile(run, "Largest rotor displacement", "max_rotor_displacement", () => ["of its centre from the origin", beside]);
 }
 
 // Each pressure counts by the limit of what touches there; the share is the largest.
@@ -126,7 +128,6 @@ function machineLine(run) {
     return input && String(input.value) !== "not given" ? inputText(input.value) : null;
   };
   const speed = given("rotor.speed");
-  const radians = speed && /^([0-9.eE+-]+)\s*rad\/s$/.exec(speed);
   const mass = given("rotor.mass");
   const clearance = given("contact.radial_air_clearance");
   const friction = given("contact.friction_coefficient");
@@ -136,7 +137,7 @@ function machineLine(run) {
   const assumed = (path) => (inputOf(run, path).mark === "assumed" ? " (assumed)" : "");
   const facts = [
     mass && `rotor ${mass}`,
-    speed && (radians ? numberText((Number(radians[1]) * 30) / Math.PI, 6) + " rpm" : speed),
+    speed,
     bearing && bearing + (planes && !run.summary.name ? ` × ${planes} ${planes === "1" ? "plane" : "planes"}` : ""),
     clearance && `radial air clearance ${clearance}${assumed("contact.radial_air_clearance")}`,
     friction && `friction coefficient ${friction}${assumed("contact.friction_coefficient")}`,
@@ -160,25 +161,92 @@ function spreadOrigin(run) {
   return `spread of starts perturbed by ${by || "tiny amounts"} (see repeat.*): shows numerical chaos, not tolerances of the machine`;
 }
 
-// Each warning once; with several runs it names those that have it.
+// How grave a warning is: 0 the result is that of another machine, or destruction; 2 what is left out or to be kept in mind; 1 all
+// between, and every code that no list names.
+const GRAVE = new Set(["AB1001", "AB1002", "AB1005", "AB1006", "AB1014", "AB1017", "AB1029", "AB1032", "AB1042", "AB1044", "AB1060", "AB1070", "AB1090", "AB1092", "AB1094", "AB1095", "AB1096"]);
+const REMARKS = new Set(["AB1007", "AB1008", "AB1010", "AB1011", "AB1012", "AB1020", "AB1022", "AB1023", "AB1052", "AB1062", "AB1071", "AB1093"]);
+const ASSUMED = "AB1013";
+
+function graveness({ code }) {
+  if (code === ASSUMED) return 3;
+  return GRAVE.has(code) || !code ? 0 : REMARKS.has(code) ? 2 : 1;
+}
+
+// The assumptions on which results hang most, first the most: what sets the speed-up and the first impact before what only forms them.
+const TELLING_INPUTS = [
+  "contact.friction_coefficient", "bearing.moment.f0", "bearing.moment.viscosity", "identify.viscosity", "contact.radial_air_clearance", "bearing.traction.maximum",
+  "mount.damping", "mount.stiffness", "contact.stiffness", "rotor.unbalance_eccentricity", "bearing.operating_diametral_clearance", "bearing.inner_groove_curvature",
+  "bearing.outer_groove_curvature", "bearing.cage_mass", "bearing.moment.lubrication", "rig.load.radial_load", "rig.shaft.inertia", "identify.moment_per_kelvin",
+];
+
+// The assumed inputs of runs, the most telling first: path, value, note.
+function assumedInputs(runs) {
+  const found = new Map();
+  for (const run of runs) {
+    for (const input of list(run.summary.inputs)) if (input && input.mark === "assumed" && !found.has(input.path)) found.set(input.path, input);
+  }
+  const rank = ({ path }) => {
+    const at = TELLING_INPUTS.findIndex((telling) => path.endsWith(telling));
+    return at < 0 ? TELLING_INPUTS.length : at;
+  };
+  return [...found.values()].sort((one, other) => rank(one) - rank(other));
+}
+
+const ASSUMED_SHOWN = 3;
+
+function assumedItem(runs) {
+  const all = assumedInputs(runs);
+  if (!all.length) return null;
+  const words = (input) => [element("code", {}, input.path), ` = ${inputText(input.value)}`];
+  const shown = all.slice(0, ASSUMED_SHOWN).flatMap((input, index) => [index ? "; " : "", ...words(input)]);
+  const rest = all.slice(ASSUMED_SHOWN);
+  return element(
+    "li",
+    {},
+    element("code", {}, ASSUMED),
+    ` ${all.length} ${all.length === 1 ? "input is" : "inputs are"} assumed, not measured. Most telling: `,
+    shown,
+    ".",
+    rest.length ? element("details", {}, element("summary", {}, `${rest.length} more`), element("p", { class: "small" }, rest.flatMap((input, index) => [index ? "; " : "", ...words(input)]))) : null,
+  );
+}
+
+// Each warning once, the gravest first; with several runs or bearings it names those that have it.
 function warningBox(runs) {
   const found = new Map();
   const add = (run, code, text) => {
-    const key = `${code} ${text}`;
-    if (!found.has(key)) found.set(key, { code, text, letters: [] });
-    found.get(key).letters.push(run.letter);
+    // a text that begins with the name of a bearing says the same of each
+    const bearing = list(run.bearingNames).find((name) => text.startsWith(`${name}: `));
+    const plain = bearing ? text.slice(bearing.length + 2) : text;
+    // what differs in its numbers alone stands in one entry, with the text of each
+    const key = `${code} ${plain.replace(/[\d.,]+/g, "#")}`;
+    if (!found.has(key)) found.set(key, { code, texts: new Map() });
+    const { texts } = found.get(key);
+    if (!texts.has(plain)) texts.set(plain, new Set());
+    texts.get(plain).add(bearing || (ofOneRun(runs) ? "" : run.letter));
   };
   for (const run of runs) {
     if (run.summaryProblem) add(run, "", run.summaryProblem);
-    for (const warning of list(run.summary.warnings).filter(Boolean)) add(run, warning.code || "", warning.text || String(warning));
+    for (const warning of list(run.summary.warnings).filter(Boolean)) if (warning.code !== ASSUMED) add(run, warning.code || "", warning.text || String(warning));
   }
-  if (!found.size) return null;
-  const who = ({ letters }) => {
-    if (ofOneRun(runs)) return null;
-    return element("strong", {}, letters.length === runs.length ? "all runs: " : (letters.length > 1 ? "runs " : "run ") + letters.join(", ") + ": ");
+  const assumed = assumedItem(runs);
+  if (!found.size && !assumed) return null;
+  const who = (names) => {
+    const known = [...names].filter(Boolean);
+    if (!known.length) return null;
+    const letters = !ofOneRun(runs);
+    const words = !letters ? known.join(", ") : known.length === runs.length ? "all runs" : (known.length > 1 ? "runs " : "run ") + known.join(", ");
+    return element("strong", {}, words + ": ");
   };
-  const items = [...found.values()].map((warning) => element("li", {}, warning.code ? element("code", {}, warning.code) : null, " ", who(warning), warning.text));
-  return element("div", { class: "warnings" }, element("strong", {}, "Warnings"), element("ul", {}, items));
+  const parts = (texts) => [...texts].flatMap(([text, names], index) => [index ? " " : null, who(names), text]);
+  const ranked = [...found.values()].sort((one, other) => graveness(one) - graveness(other));
+  const items = ranked.map((warning) => element("li", { class: graveness(warning) === 0 ? "grave" : null }, warning.code ? element("code", {}, warning.code) : null, " ", parts(warning.texts)));
+  return element("div", { class: "warnings" }, element("strong", {}, ranked.length ? "Warnings, the gravest first" : "What is assumed"), element("ul", {}, items, assumed));
+}
+
+// Whether runs of different kinds were put side by side.
+function differentSystems(runs) {
+  return new Set(runs.map((run) => run.summary.system)).size > 1;
 }
 
 // Whether all are the bearings of one run.
@@ -189,6 +257,7 @@ function ofOneRun(runs) {
 function header(runs) {
   const single = runs.length === 1 ? runs[0] : null;
   const parts = [element("h1", {}, ofOneRun(runs) ? runs[0].summary.title || runs[0].name : "Comparison of " + runs.length + " runs")];
+  if (differentSystems(runs)) parts.push(element("div", { class: "warnings" }, element("strong", {}, "These runs cannot be compared: "), `they are of different kinds (${[...new Set(runs.map((run) => run.summary.system))].join(", ")}). Each is shown with its own pictures; quantities of one name may mean different things.`));
   for (const run of runs) {
     const facts = [run.summary.system, run.directory, run.summary.version && "auxbear " + run.summary.version];
     const key = single ? null : element("span", { class: "swatch", style: "background:" + run.colour });

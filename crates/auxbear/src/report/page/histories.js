@@ -176,6 +176,7 @@ function separationFigures(runs) {
       dash: several && index ? [4, 3] : undefined,
     })),
   );
+  if (!series.length) return [cagePlaceFigure(runs), filmFigure(runs)];
   const missing = runs.filter((run) => !of(run).length).map((run) => notInThisRun("this run has no forces on a cage or between balls (only the planar fidelity gives them)", run));
   const note = "Forces in the rows of the history; peaks between rows are in the table. " + (runs.every(isSpinUp) ? "They are chaotic." : "Such impacts are what makes late details of a drop irreproducible.");
   const plot = series.length ? timePlot({ series, label: "force [N]", ticks: runs, height: 190 }) : null;

@@ -19,8 +19,8 @@ function bandCurves(x, values, deviations, scale, label, colour) {
   const moved = (sign) => values.map((value, row) => (isNumber(value) && isNumber(deviations[row]) ? scale * (value + sign * BAND * deviations[row]) : null));
   return [
     { label, x, y: values.map((value) => (isNumber(value) ? scale * value : null)), colour, width: 2 },
-    { label: "+2σ", x, y: moved(1), colour: colour + "90", width: 0.75 },
-    { label: "−2σ", x, y: moved(-1), colour: colour + "90", width: 0.75 },
+    { x, y: moved(1), colour: colour + "90", width: 0.75 },
+    { x, y: moved(-1), colour: colour + "90", width: 0.75 },
   ];
 }
 
@@ -55,8 +55,56 @@ function explanationFigure(run, runs) {
   ];
 }
 
+// The explanations whose torque the history holds for a test: the likeliest first.
+function predictionsOf(run, test) {
+  const start = `${test.key}.predicted_by.`;
+  const names = [...run.columns.keys()].filter((name) => name.startsWith(start) && columnOf(run, name));
+  return names.map((name, index) => ({ name, words: name.slice(start.length).replaceAll("_", " "), colour: index ? SERIES_COLOURS.race : SERIES_COLOURS.rotor, dash: index ? "7 4" : undefined }));
+}
+
+// One value for each mean with its times: rows inside one mean repeat it.
+function meansOf(run, names) {
+  const rows = [];
+  let begin = null;
+  const at = (row) => names.map((name) => columnOf(run, name)[row]);
+  run.time.forEach((time, row) => {
+    const values = at(row);
+    if (!values.every(isNumber)) {
+      begin = null;
+      return;
+    }
+    if (begin && begin.values.every((value, index) => value === values[index])) begin.to = time;
+    else rows.push((begin = { from: time, to: time, values }));
+  });
+  return rows.map(({ from, to, values }) => ({ from, to, middle: 0.5 * (from + to), values }));
+}
+
+// What the two likeliest explanations predict for the means that were compared, over the data, and what they leave.
+function predictionFigures(run, runs) {
+  return testsOf(run).map((test) => {
+    const predictions = predictionsOf(run, test);
+    const measured = `${test.key}.torque_mean`;
+    if (!predictions.length || !columnOf(run, measured)) return null;
+    const means = meansOf(run, [measured, ...predictions.map(({ name }) => name)]).filter(({ middle }) => middle > 0);
+    // a mean is drawn as long as it lasts
+    const steps = (value) => ({ x: means.flatMap(({ from, to }) => [1e3 * from, 1e3 * to]), y: means.flatMap((mean) => [value(mean), value(mean)]) });
+    const torque = [
+      ...predictions.map(({ words, colour, dash }, index) => ({ ...steps(({ values }) => 1e3 * values[index + 1]), label: `${index ? "next best" : "likeliest"}: ${words}`, colour, dash, width: 2 })),
+      { x: means.map(({ middle }) => 1e3 * middle), y: means.map(({ values }) => 1e3 * values[0]), label: "measured, means", colour: INK, dots: true, line: false, radius: 2.2 },
+    ];
+    const left = predictions.map(({ words, colour, dash }, index) => ({ ...steps(({ values }) => 1e3 * (values[0] - values[index + 1])), label: words, colour, dash, width: 1.75 }));
+    const axes = { across: "time since the engagement [ms]", decades: true };
+    return figure(
+      shareOfRun(run, runs, `${test.name}: what the explanations predict, over the data`),
+      "Means of the torque t_O, on which the explanations were compared, over a time in decades. Below: measured less predicted; what is common to a test, its zero, scale and level of M, may be off within its deviation and is not taken out here.",
+      curves({ series: torque, ...axes, upright: "torque [N mm]", height: 280 }),
+      curves({ series: left, ...axes, upright: "residual [N mm]", height: 170 }),
+    );
+  });
+}
+
 function explanationSection(runs) {
-  return section("explanations", "Verdict", runs.map((run) => explanationFigure(run, runs)));
+  return section("explanations", "Verdict", runs.map((run) => [explanationFigure(run, runs), predictionFigures(run, runs)]));
 }
 
 // Forms of the steady moment, as the field calls them.
@@ -69,8 +117,9 @@ function steadyFigure(run, runs) {
   const measured = [listOf(run, "coast_down_speeds"), listOf(run, "coast_down_torques").map((value) => 1e3 * value)];
   const form = quantityOf(run, "steady_moment_form").value;
   const series = [
-    { label: "measured", x: measured[0], y: measured[1], colour: SERIES_COLOURS.quiet, width: 0.75 },
     ...bandCurves(speeds, listOf(run, "steady_moments"), listOf(run, "steady_moment_deviations"), 1e3, `M, ${FORMS[form] || form}`, SERIES_COLOURS.limit),
+    // on top of the line, and thin enough to leave it to be seen
+    { label: "measured", x: measured[0], y: measured[1], colour: INK, dots: true, line: false, radius: 1.1 },
   ];
   const forms = Object.keys(FORMS).map((name) => [name, numberOf(run, `probability_of_${name}_form`)]).filter(([, probability]) => probability !== null);
   const correlation = numberOf(run, "largest_parameter_correlation");
@@ -78,8 +127,20 @@ function steadyFigure(run, runs) {
   return figure(
     title,
     `From the slow tests. Probability of the forms: ${words}. ${correlation === null ? "" : `Parameters correlate up to ${numberText(correlation, 3)}: the curve counts, not they. `}${BAND_WORDS}`,
-    curves({ series, across: "speed [rad/s]", upright: "torque [N mm]", height: 320 }),
+    curves({ series, across: "speed [rad/s]", above: IN_RPM, upright: "torque [N mm]", height: 320 }),
+    steadyResidual(run, measured),
   );
+}
+
+// Measured less M, where both are known; pale lines: twice the standard deviation of M.
+function steadyResidual(run, [x, y]) {
+  const speeds = listOf(run, "steady_moment_speeds");
+  const [moments, deviations] = ["steady_moments", "steady_moment_deviations"].map((name) => listOf(run, name).map((value) => 1e3 * value));
+  const rows = x.map((_, row) => row).filter((row) => x[row] >= speeds[0] && x[row] <= speeds[speeds.length - 1]);
+  const left = rows.map((row) => y[row] - valueAt(speeds, moments, x[row]));
+  const pale = (sign) => ({ x: speeds, y: deviations.map((deviation) => sign * BAND * deviation), colour: SERIES_COLOURS.limit + "90", width: 0.75 });
+  const series = [pale(1), pale(-1), { label: "measured less M", x: rows.map((row) => x[row]), y: left, colour: INK, dots: true, line: false, radius: 1.1 }];
+  return rows.length ? curves({ series, across: "speed [rad/s]", upright: "residual [N mm]", height: 150 }) : null;
 }
 
 function steadyMomentSection(runs) {
@@ -105,8 +166,8 @@ function quickFigures(run, test) {
   const rows = rowsUpTo(run, 2 * until);
   const x = rows.map((row) => 1e3 * run.time[row]);
   const of = (name) => rows.map((row) => (columnOf(run, `${test.key}.${name}`) || [])[row]);
-  const look = (name, label, colour) => curves({ series: bandCurves(x, of(name), of(name + "_deviation"), 1, label, colour), across: "time since the engagement [ms]", upright: label, height: 200 });
-  return [figure(`${test.name}: speed and acceleration after the engagement, closely`, null, look("speed", "speed [rad/s]", SERIES_COLOURS.rotor), look("acceleration", "acceleration [rad/s²]", SERIES_COLOURS.race))];
+  const look = (name, label, colour, right) => curves({ series: bandCurves(x, of(name), of(name + "_deviation"), 1, label, colour), across: "time since the engagement [ms]", upright: label, right, height: 200 });
+  return [figure(`${test.name}: speed and acceleration after the engagement, closely`, null, look("speed", "speed [rad/s]", SERIES_COLOURS.rotor, IN_RPM), look("acceleration", "acceleration [rad/s²]", SERIES_COLOURS.race))];
 }
 
 // F over the spin-ups closely: its band is wide only there.
@@ -140,7 +201,7 @@ function testFigures(run, test) {
   const peak = numberOf(run, `${test.key}.peak_acceleration`);
   const title = `${test.name}${peak === null ? "" : `, peak ${numberText(peak, 4)} rad/s²`}`;
   return [
-    figure(`${title}: speed`, BAND_WORDS, timePlot({ series: of("speed", 1, { label: "speed [rad/s]", colour: SERIES_COLOURS.rotor, width: 1.5 }), label: "speed [rad/s]", marks, height: 180 })),
+    figure(`${title}: speed`, BAND_WORDS, timePlot({ series: of("speed", 1, { label: "speed [rad/s]", colour: SERIES_COLOURS.rotor, width: 1.5 }), label: "speed [rad/s]", second: IN_RPM, marks, height: 180 })),
     figure("Acceleration", null, timePlot({ series: of("acceleration", 1, { label: "acceleration [rad/s²]", colour: SERIES_COLOURS.race, width: 1.25 }), label: "acceleration [rad/s²]", marks, height: 180 })),
     figure("Torque on the outer race, without the sensor's swing", "Dashed: the steady torque of the slow tests at the speed of the moment.", timePlot({ series: [...of("torque", 1e3, { label: "t_O [N mm]", colour: SERIES_COLOURS.race, width: 1.5 }), ...steady], label: "torque [N mm]", marks, height: 260 })),
     quickFigures(run, test),
@@ -199,7 +260,7 @@ function mapFigure(run, runs) {
     const x = rows.map((row) => speeds[row]);
     return bandCurves(x, rows.map((row) => friction[row]), rows.map((row) => deviations[row]), 1, `${numberText(level, 3)} rad/s²`, LINE_COLOURS[index]);
   });
-  return figure(title, series.length ? `Drawn where data are near. ${BAND_WORDS}` : null, series.length ? curves({ series, across: "speed [rad/s]", upright: "F [N]", height: 260 }) : notInThisRun("places with data near", run));
+  return figure(title, series.length ? `Drawn where data are near. ${BAND_WORDS}` : null, series.length ? curves({ series, across: "speed [rad/s]", above: IN_RPM, upright: "F [N]", height: 260 }) : notInThisRun("places with data near", run));
 }
 
 function lossSection(runs) {

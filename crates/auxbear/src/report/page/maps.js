@@ -117,6 +117,29 @@ function paintGrid(grid, columns, largest, showSkid) {
   return sheet;
 }
 
+// Loads that hardly change over time and balls need no map.
+const EVEN = 0.02;
+
+// Smallest and largest size over all balls and times, and whether they agree but for a few percent.
+function rangeOf(run, part) {
+  let [low, high] = [Infinity, 0];
+  for (const ball of ballsOf(run)) {
+    for (const value of ball[part] || []) {
+      if (!isNumber(value)) continue;
+      low = Math.min(low, Math.abs(value));
+      high = Math.max(high, Math.abs(value));
+    }
+  }
+  return { low, high, even: high > 0 && high - low <= EVEN * high };
+}
+
+// What stands for a map of even values: one line.
+function evenLine(run, map, { low, high }) {
+  const [unit, scale] = readableUnit(high, map.unit);
+  const range = high - low > 1e-3 * high ? `between ${numberText(low / scale, 4)} and ${numberText(high / scale, 4)} ${unit}` : `${numberText(high / scale, 4)} ${unit}`;
+  return element("p", {}, `${run.prefix}Even: every ball carries ${range} all the time.`);
+}
+
 function largestOf(runs, part) {
   let most = 0;
   for (const run of runs) for (const ball of ballsOf(run)) for (const value of ball[part] || []) most = Math.max(most, Math.abs(value || 0));
@@ -153,7 +176,7 @@ function mapCanvas(run, runs, map, limit) {
   let grid = null;
   const draw = () => {
     const width = holder.clientWidth || 600;
-    place.height = document.documentElement.classList.contains("paper") ? 120 : 176;
+    place.height = document.documentElement.classList.contains("paper") ? 100 : 176;
     place.width = Math.max(50, width - 2 * AXIS_WIDTH);
     const pen = sizedCanvas(width, place.top + place.height + 38, canvas);
     const columns = Math.round(place.width);
@@ -246,24 +269,31 @@ function mapControls() {
 
 function mapSection(runs) {
   const limit = skidLimit(runs);
-  const figures = MAPS.map((map) => {
-    const drawn = runs.filter((run) => run.time && ballsOf(run).some((ball) => ball[map.part]));
+  const has = (run, map) => run.time && ballsOf(run).some((ball) => ball[map.part]);
+  const maps = MAPS.filter((map) => runs.some((run) => has(run, map)));
+  const figures = maps.map((map) => {
+    const drawn = runs.filter((run) => has(run, map));
     const missing = runs.filter((run) => !drawn.includes(run));
     const notes = [];
     if (drawn.some((run) => !ballsOf(run).every((ball) => ball.azimuth))) notes.push("This fidelity gives no ball positions: one row a ball.");
     if (map.slip && drawn.some((run) => ballsOf(run).some((ball) => ball[map.slip])))
       notes.push(`Red: balls with more than ${percentText(SKID_LOAD_SHARE)} of the largest load that slip faster than ${engineeringText(limit.speed, "m/s", 3)} (${limit.source}).`);
-    const canvases = drawn.map((run) => [runs.length > 1 ? element("p", { class: "run-label" }, element("span", { class: "swatch", style: "background:" + run.colour }), run.label) : null, mapCanvas(run, drawn, map, limit)]);
+    const even = new Map(drawn.map((run) => [run, rangeOf(run, map.part)]).filter(([, range]) => range.even && map.load));
+    if (drawn.length === even.size) return figure(map.title, null, drawn.map((run) => evenLine(run, map, even.get(run))), missing.map((run) => notInThisRun(`its history has no ${map.part.replace("_", " ")} of the balls`, run)));
+    const canvases = drawn.map((run) => [runs.length > 1 ? element("p", { class: "run-label" }, element("span", { class: "swatch", style: "background:" + run.colour }), run.short) : null, mapCanvas(run, drawn, map, limit)]);
     const why = missing.map((run) =>
       notInThisRun(run.time ? `its history has no ${map.part.replace("_", " ")} of the balls (the rolling fidelity gives loads only)` : "it has no time history", run),
     );
     return figure(map.title, notes.join(" "), canvases, why);
   });
-  const drawn = runs.filter((run) => run.time && ballsOf(run).length);
+  const absent = MAPS.filter((map) => !maps.includes(map)).map((map) => map.title.replace(", size", "").toLowerCase());
+  const left = runs.every((run) => !run.withBalls);
+  const lack = left ? element("p", { class: "lead" }, "Maps of the single balls are on the pages of the single runs: so many runs together would not fit into one page.") : absent.length ? element("p", { class: "small" }, `Not in ${runs.length > 1 ? "these runs" : "this run"}: ${absent.join(", ")}${ballsOf(runs[0]).length ? " (the rolling fidelity takes the balls to roll)" : ""}.`) : null;
+  const drawn = runs.filter((run) => run.time && ballsOf(run).length && maps.some((map) => has(run, map) && !(map.load && rangeOf(run, map.part).even)));
   const note = element(
     "p",
     { class: "lead" },
     "Azimuth is that of the ball seen from the ground, counter-clockwise from the right; where a column of the picture holds several instants, the largest value is shown.",
   );
-  return section("balls", "Ball loads and slip", [drawn.some((run) => ballsOf(run).some((ball) => ball.azimuth)) ? note : null, drawn.length ? mapControls() : null], figures, separationFigures(runs));
+  return section("balls", "Ball loads and slip", [drawn.some((run) => ballsOf(run).some((ball) => ball.azimuth)) ? note : null, drawn.length ? mapControls() : null], figures, lack, separationFigures(runs));
 }

@@ -53,7 +53,7 @@ function orbitFigure(run, runs) {
   };
 
   const draw = () => {
-    const most = document.documentElement.classList.contains("paper") ? 370 : 600;
+    const most = document.documentElement.classList.contains("paper") ? 310 : 600;
     size = Math.max(280, Math.min(most, holder.clientWidth || 500));
     const pen = sizedCanvas(size, size + 40, canvas);
     const place = frame();
@@ -119,7 +119,7 @@ function orbitFigure(run, runs) {
   const remarks = why ? [] : orbitRemarks(run).map((words) => element("p", { class: "small" }, words));
   fillElement(holder, {}, why ? [why] : [controls, canvas, remarks, readout]);
   const note = "Geometric centre of the rotor at the bearing plane. Drag a box to zoom, double-click to reset; a time zoom below shows its part of the orbit in colour.";
-  return figure(runs.length > 1 ? run.label : "Orbit of the rotor centre", why ? null : note, holder);
+  return figure(runs.length > 1 ? run.short : "Orbit of the rotor centre", why ? null : note, holder);
 }
 
 function drawOrbitAxes(pen, place, view) {
@@ -314,7 +314,8 @@ function orbitReadout(run, ground, place, px, py) {
   return `${timeline.text(run.time[best])}: x ${engineeringText(x, "m", 4)}, y ${engineeringText(y, "m", 4)}, distance ${engineeringText(radius, "m", 4)}${share}`;
 }
 
-const CONTACTS_PRINTED = 100;
+// As many as stand beside the orbit on paper.
+const CONTACTS_PRINTED = 24;
 
 function contactTable(run) {
   if (!run.contacts.length) return notInThisRun("a list of contacts; none happened, or the summary does not hold them", run);
@@ -349,5 +350,5 @@ register("drop", {
   verdict,
   time: "time since release",
   facts: true,
-  sections: (runs) => [[10, orbitSection, runs], [11, contactSection, runs], [50, speedSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs]],
+  sections: (runs) => [[10, orbitSection, runs], [10.5, firstContactsSection, runs], [11, contactSection, runs], [50, speedSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs]],
 });

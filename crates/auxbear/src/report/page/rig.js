@@ -15,7 +15,7 @@ function rigSpeedSection(runs) {
   return section(
     "rig-speed",
     "Speed and acceleration",
-    history("Speed", "The clutch slips until flywheel and shaft turn at the same speed, then both are one body.", runs, names, speeds, { label: "speed [rad/s]", marks, height: 270 }),
+    history("Speed", "The clutch slips until flywheel and shaft turn at the same speed, then both are one body.", runs, names, speeds, { label: "speed [rad/s]", second: IN_RPM, marks, height: 270 }),
     history("Acceleration of the shaft", "It grows with the torque of the engaging clutch and ends where the clutch locks.", runs, ["shaft.acceleration"], lines(runs, "shaft.acceleration", 1, { label: "acceleration [rad/s²]", colour: SERIES_COLOURS.race, width: 1.25 }), { label: "acceleration [rad/s²]", marks, height: 230 }),
   );
 }
@@ -109,5 +109,5 @@ register("rig", {
   verdict: rigVerdict,
   time: "time since the start",
   facts: true,
-  sections: (runs) => [[40, rigSpeedSection, runs], [41, rigTorqueSection, runs], [42, rigWarmthSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs]],
+  sections: (runs) => [[39.5, engagementSection, runs.filter(closeWindow)], [40, rigSpeedSection, runs], [41, rigTorqueSection, runs], [42, rigWarmthSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs]].filter(([, , part]) => part.length),
 });

@@ -26,15 +26,17 @@ function sectionsOf(runs) {
   return inOrder.map(([build, { runs: some }]) => [build, runs.filter((run) => some.has(run))]);
 }
 
-function decodeColumn(column) {
+// What never changes came as a single value.
+function decodeColumn(column, rows) {
   const bytes = Uint8Array.from(atob(column.data), (letter) => letter.charCodeAt(0));
   const view = new DataView(bytes.buffer);
   const wide = column.type === "f64";
-  const values = new Array(bytes.length / (wide ? 8 : 4));
+  let values = new Array(bytes.length / (wide ? 8 : 4));
   for (let row = 0; row < values.length; row++) {
     const value = wide ? view.getFloat64(8 * row, true) : view.getFloat32(4 * row, true);
     values[row] = Number.isFinite(value) ? value : null;
   }
+  if (values.length === 1 && rows > 1) values = new Array(rows).fill(values[0]);
   return { name: column.name, unit: column.unit, meaning: column.meaning, values };
 }
 
@@ -49,7 +51,7 @@ function readRun(text) {
   } catch (problem) {
     summaryProblem = "summary.json cannot be read (" + problem.message + ")";
   }
-  const columns = new Map(list(raw.columns).map((column) => [column.name, decodeColumn(column)]));
+  const columns = new Map(list(raw.columns).map((column) => [column.name, decodeColumn(column, raw.rows)]));
   const name = raw.name || summary.title || raw.directory || "run";
   return {
     name,
@@ -60,6 +62,8 @@ function readRun(text) {
     columns,
     rows: raw.rows,
     rowsTotal: raw.rows_total,
+    withBalls: raw.balls !== false,
+    closely: raw.closely || {},
     time: columns.has("time") ? columns.get("time").values : null,
     contacts: list(summary.contacts).filter((contact) => contact && isNumber(contact.start_s)),
     quantities: summary.quantities && typeof summary.quantities === "object" ? summary.quantities : {},
@@ -77,10 +81,19 @@ function ofBearing(run, bearing, names) {
     ...run,
     name: `${run.name}, ${bearing.name}`,
     columns: new Map(of([...run.columns]).map(([name, column]) => [name, { ...column, name }])),
+    bearingNames: names,
     contacts: run.contacts.filter((contact) => contact.auxiliary_bearing === bearing.name),
     quantities: Object.fromEntries(of(Object.entries(run.quantities))),
     summary: { ...run.summary, ...bearing, inputs: plain },
   };
+}
+
+// Letter, directory and title of a run among several; a directory that is called as its letter is not said twice. Tables and small
+// pictures have room for the letter and the directory alone.
+function runLabel(run, letter, ofOne) {
+  if (ofOne) return `${letter} · ${run.summary.name || run.name}`;
+  const parts = [letter, run.name === letter ? null : run.name, run.summary.title && run.summary.title !== run.name ? run.summary.title : null];
+  return parts.filter(Boolean).join(" · ");
 }
 
 function readRuns() {
@@ -92,7 +105,7 @@ function readRuns() {
   return runs.map((run, index) => {
     const letter = String.fromCharCode(65 + index);
     const several = runs.length > 1;
-    return { ...run, letter, label: several ? letter + " · " + run.name : run.name, prefix: several ? letter + " " : "", colour: RUN_COLOURS[index % RUN_COLOURS.length] };
+    return { ...run, letter, label: several ? runLabel(run, letter, ofOneRun(runs)) : run.name, short: several ? `${letter} · ${run.summary.name || run.name}` : run.name, prefix: several ? letter + " " : "", colour: RUN_COLOURS[index % RUN_COLOURS.length] };
   });
 }
 

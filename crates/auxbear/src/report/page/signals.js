@@ -43,15 +43,15 @@ function changeFigure(run, runs) {
   });
   const three = (name, label, colour) => [
     { label, x, y: of(name, null, 0), colour },
-    { label: "+2σ", x, y: of(name, `${name}_deviation`, 1), colour: colour + "90", width: 0.75 },
-    { label: "−2σ", x, y: of(name, `${name}_deviation`, -1), colour: colour + "90", width: 0.75 },
+    { x, y: of(name, `${name}_deviation`, 1), colour: colour + "90", width: 0.75 },
+    { x, y: of(name, `${name}_deviation`, -1), colour: colour + "90", width: 0.75 },
   ];
   const raw = { label: "between two pulses", x, y: rows.map((row) => (columnOf(run, "shaft.pulse_speed") || [])[row]), colour: SERIES_COLOURS.quiet, width: 1 };
   const across = "time [ms]";
   return figure(
     shareOfRun(run, runs, "The quick change, closely"),
     `${numberText(numberOf(run, "pulses_in_change"), 4)} pulses came in it. ${BAND_WORDS}`,
-    curves({ series: [raw, ...three("shaft.speed", "speed", SERIES_COLOURS.rotor)], across, upright: "speed [rad/s]", height: 260 }),
+    curves({ series: [raw, ...three("shaft.speed", "speed", SERIES_COLOURS.rotor)], across, upright: "speed [rad/s]", right: IN_RPM, height: 260 }),
     curves({ series: three("shaft.acceleration", "acceleration", SERIES_COLOURS.race), across, upright: "acceleration [rad/s²]", height: 260 }),
   );
 }
@@ -64,7 +64,7 @@ function shaftSection(runs) {
   return section(
     "shaft",
     "Speed and acceleration of the shaft",
-    signalFigure("Speed", `Grey: pitch over time between two pulses, as raw as pulses are. ${BAND_WORDS}`, [...(raw.length && speed.length ? raw : []), ...speed], { label: "speed [rad/s]", marks, height: 290 }, lackOf(runs, "shaft.speed", "peak_speed", "speed")),
+    signalFigure("Speed", `Grey: pitch over time between two pulses, as raw as pulses are. ${BAND_WORDS}`, [...(raw.length && speed.length ? raw : []), ...speed], { label: "speed [rad/s]", second: IN_RPM, marks, height: 290 }, lackOf(runs, "shaft.speed", "peak_speed", "speed")),
     signalFigure("Acceleration", `Drag over the change to see it closely. ${BAND_WORDS}`, acceleration, { label: "acceleration [rad/s²]", marks, height: 260 }, []),
     runs.map((run) => changeFigure(run, runs)),
   );
@@ -135,7 +135,7 @@ function cageSection(runs) {
   return section(
     "cage",
     "Cage",
-    signalFigure("Speed of the cage", BAND_WORDS, speed, { label: "speed [rad/s]", marks: engagementMarks(runs), height: 230 }, lackOf(runs, "cage.speed", "cage_speed_at_end", "the cage")),
+    signalFigure("Speed of the cage", BAND_WORDS, speed, { label: "speed [rad/s]", second: IN_RPM, marks: engagementMarks(runs), height: 230 }, lackOf(runs, "cage.speed", "cage_speed_at_end", "the cage")),
     slip.length ? signalFigure("Slip of the cage", `0 % where the balls roll, 100 % where the cage rests; nothing is drawn where the band is wider than ±${WIDEST_SLIP} %. ${BAND_WORDS}`, slip, { label: "slip [%]", include: () => [-0.5, 0.5], height: 230 }, []) : null,
   );
 }
@@ -202,7 +202,7 @@ function steadySection(runs) {
       const deviation = wholeList(run, `steady_${name}_deviations`, 1e3);
       if (!torque.length) return [];
       const moved = (sign) => torque.map((value, row) => (value === null || deviation[row] === null ? null : value + sign * BAND * deviation[row]));
-      return [{ label, x, y: torque, colour }, { label: "+2σ", x, y: moved(1), colour: colour + "90", width: 0.75 }, { label: "−2σ", x, y: moved(-1), colour: colour + "90", width: 0.75 }];
+      return [{ label, x, y: torque, colour }, { x, y: moved(1), colour: colour + "90", width: 0.75 }, { x, y: moved(-1), colour: colour + "90", width: 0.75 }];
     };
     const series = [...curve("direct", "by the sensor, speed falling", SERIES_COLOURS.race), ...curve("inertial", "−I dΩ/dt", SERIES_COLOURS.rotor), ...curve("up", "by the sensor, speed rising", SERIES_COLOURS.cage)];
     const row = (words, name) => {
@@ -214,7 +214,7 @@ function steadySection(runs) {
     const inertia = numberOf(run, "steady_inertia");
     const note = inertia === null ? "" : `I = ${bandNumbers(inertia, BAND * numberOf(run, "steady_inertia_deviation"))} kg m² (2σ). `;
     return [
-      figure(shareOfRun(run, runs, "Torque over speed in slow running"), `${note}${BAND_WORDS}`, series.length ? curves({ series, across: "speed [rad/s]", upright: "torque [N mm]", height: 320 }) : null, series.length ? null : [notInThisRun(quantityOf(run, "steady_speeds").why || "no reason is given", run)]),
+      figure(shareOfRun(run, runs, "Torque over speed in slow running"), `${note}${BAND_WORDS}`, series.length ? curves({ series, across: "speed [rad/s]", above: IN_RPM, upright: "torque [N mm]", height: 320 }) : null, series.length ? null : [notInThisRun(quantityOf(run, "steady_speeds").why || "no reason is given", run)]),
       figure(shareOfRun(run, runs, "One curve against another"), "Chance: how often equal curves would differ as much.", plainTable(["difference", "mean over the speeds", "chance"], [row("by the sensor less −I dΩ/dt", "steady_direct_less_inertial"), row("rising less falling speed", "steady_up_less_down")])),
     ];
   }));

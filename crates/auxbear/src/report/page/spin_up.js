@@ -119,7 +119,7 @@ function signedBars(run, forms, reference) {
 }
 
 function outerRaceFigure(run, runs) {
-  const title = (runs.length > 1 ? run.label + ": " : "") + "What the bearing dissipated, as estimated from the moment on the outer race";
+  const title = (runs.length > 1 ? run.short + ": " : "") + "What the bearing dissipated, as estimated from the moment on the outer race";
   const truth = numberOf(run, "bearing_dissipated_energy");
   if (truth === null) return figure(title, null, notInThisRun("the summary holds no energy of the outer race"));
   const still = quantityOf(run, "balls_skid").value === "still at the end";

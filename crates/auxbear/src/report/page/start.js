@@ -33,7 +33,7 @@ function start() {
   }
   timeline.span(runs);
   const builders = [
-    ...(runs.length > 1 ? [[differenceSection, runs]] : []),
+    ...(runs.length > 1 && !differentSystems(runs) ? [[differenceSection, runs]] : []),
     ...(runs.some((run) => limitsOf(run).length) ? [[limitSection, runs]] : []),
     ...sectionsOf(runs),
     [quantitySection, runs],

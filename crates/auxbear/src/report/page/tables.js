@@ -95,9 +95,22 @@ function spreadCell(quantity) {
 // Changes of these carry no meaning as a share: they scatter about zero.
 const WITHOUT_SHARE = /(residual|whirl_turns)$/;
 
+// Law, source and range of a group of quantities that share them, folded: the literature first, then the file of the code.
 function lawLine(quantity) {
-  const parts = [["Law", quantity.law], ["Source", quantity.source], ["Valid", quantity.valid]].filter(([, words]) => words);
+  const [literature, code] = sourceParts(quantity.source);
+  const parts = [["Law", quantity.law], ["Source", literature], ["Valid", quantity.valid], ["Code", code]].filter(([, words]) => words);
   return parts.map(([title, words]) => element("span", { class: "law" }, element("b", {}, title + ": "), words + "  "));
+}
+
+// A source without the paths of the code that computes it, and these paths.
+const CODE_PATH = /(?:crates\/[\w./{}-]+|\b\w+\/\w+\.rs|\b\w+\.rs)/g;
+
+function sourceParts(source) {
+  const text = String(source || "");
+  const code = (text.match(CODE_PATH) || []).map((path) => path.replace(/[.,;]$/, ""));
+  const lead = "(?:[;,]?\\s*(?:and )?(?:bands in|slips of|in)?)?\\s*";
+  const literature = text.replace(new RegExp(lead + CODE_PATH.source, "g"), "").replace(/^[\s;,]+|[\s;,]+$/g, "");
+  return [literature, code.join(", ")];
 }
 
 function differenceText(first, other) {
@@ -110,6 +123,38 @@ function differenceText(first, other) {
   return (share > 0 ? "+" : "") + percentText(share);
 }
 
+// What a quantity is about, by the words of its name; the first that fits.
+const SUBJECTS = [
+  ["Verdict", /^(explanation|probability_of_(?!\w+_form)|next_test)/],
+  ["Residuals of the computation", /residual$/],
+  ["Energy and heat", /energy|heat|work|dissipat|power|path_term/],
+  ["Hertz pressure and loads of the balls", /pressure|ball_load|static_safety|skid_share/],
+  ["Cage and balls", /cage|pocket|skid|slip|ball_ball|land_/],
+  ["Contact of rotor and race", /contact|impact|force|whirl/],
+  ["Displacements", /displacement/],
+  ["Steady moment", /^steady|_form$|coast_down|largest_parameter|effective_steady/],
+  ["Moments", /moment|torque|traction_capacity|friction/],
+  ["Speeds, accelerations and times", /speed|acceler|deceler|time|engage|lock|rolling_established|pulse|mark/],
+  ["Film and lubricant", /film|lubricant|viscosity|temperature|lambda/],
+  ["Vibration", /vibration|spectr/],
+];
+
+// Names by the test or bearing that they begin with, else by subject, in the order of their first.
+function subjectsOf(names) {
+  const found = new Map();
+  for (const name of names) {
+    const [owner, rest] = name.includes(".") ? [name.slice(0, name.lastIndexOf(".")), name.slice(name.lastIndexOf(".") + 1)] : ["", name];
+    const subject = owner ? wordsOf(owner) : (SUBJECTS.find(([, words]) => words.test(rest)) || ["Others"])[0];
+    if (!found.has(subject)) found.set(subject, []);
+    found.get(subject).push(name);
+  }
+  return [...found];
+}
+
+function hasValue({ value }) {
+  return value !== null && value !== undefined;
+}
+
 function quantitySection(runs) {
   const names = [...new Set(runs.flatMap((run) => Object.keys(run.quantities)))];
   if (!names.length) return section("quantities", "Quantities", notInThisRun("the summary holds no quantities"));
@@ -118,12 +163,15 @@ function quantitySection(runs) {
   for (const run of runs) for (const quantity of Object.values(run.quantities)) if (quantity && quantity.spread) quantity.all_members = list(run.summary.members).length;
   const heads = ["Quantity"];
   if (single) heads.push("Value", "In SI units");
-  else runs.forEach((run, index) => heads.push(run.label, ...(index ? [`(${run.letter} − A) / A`] : [])));
+  else runs.forEach((run, index) => heads.push(run.short, ...(index ? [`(${run.letter} − A) / A`] : [])));
   if (repeated && single) heads.push("Mean ± deviation, range");
-  const bodies = names.map((name) => {
+  const statedOf = (name) => {
     const all = runs.map((run) => quantityOf(run, name));
-    const stated = all.find((quantity) => quantity.law || quantity.source || quantity.valid) || all[0];
-    const cells = [element("td", { class: "name" }, wordsOf(name), chaoticMark(stated), element("code", {}, name))];
+    return all.find((quantity) => quantity.law || quantity.source || quantity.valid) || all[0];
+  };
+  const rowOf = (name) => {
+    const all = runs.map((run) => quantityOf(run, name));
+    const cells = [element("td", { class: "name" }, wordsOf(name), chaoticMark(statedOf(name)), element("code", {}, name))];
     if (single) cells.push(element("td", {}, quantityText(all[0])), element("td", { class: "small" }, siCell(all[0])));
     else {
       all.forEach((quantity, index) => {
@@ -132,8 +180,29 @@ function quantitySection(runs) {
       });
     }
     if (repeated && single) cells.push(element("td", {}, spreadCell(all[0])));
-    const laws = lawLine(stated);
-    return element("tbody", {}, element("tr", {}, cells), laws.length ? element("tr", { class: "laws" }, element("td", { colspan: heads.length }, laws)) : null);
+    return element("tr", {}, cells);
+  };
+  const bodies = subjectsOf(names).map(([subject, some]) => {
+    const empty = some.filter((name) => runs.every((run) => !hasValue(quantityOf(run, name))));
+    const shown = some.filter((name) => !empty.includes(name));
+    const laws = new Map();
+    for (const name of some) {
+      const quantity = statedOf(name);
+      const key = JSON.stringify([quantity.law, quantity.source, quantity.valid]);
+      if (!(quantity.law || quantity.source || quantity.valid)) continue;
+      if (!laws.has(key)) laws.set(key, { quantity, of: [] });
+      laws.get(key).of.push(wordsOf(name));
+    }
+    const about = [...laws.values()].map(({ quantity, of }) => element("p", {}, laws.size > 1 ? element("strong", {}, of.join(", ") + ". ") : null, lawLine(quantity)));
+    const whole = (content) => element("tr", { class: "laws" }, element("td", { colspan: heads.length }, content));
+    return element(
+      "tbody",
+      {},
+      element("tr", { class: "subject" }, element("th", { colspan: heads.length }, subject)),
+      shown.map(rowOf),
+      empty.length ? whole(element("details", {}, element("summary", {}, `${empty.length} not in ${single ? "this run" : "these runs"}: ${empty.map(wordsOf).join(", ")}`), element("table", {}, element("tbody", {}, empty.map(rowOf))))) : null,
+      about.length ? whole(element("details", {}, element("summary", {}, "Law, source and valid range"), about)) : null,
+    );
   });
   const table = element("table", { class: single ? "quantities single" : "quantities several", style: single ? null : `--columns:${heads.length}` }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), bodies);
   const origin = runs.map(spreadOrigin).find(Boolean);
@@ -171,15 +240,22 @@ function breakable(path) {
   return path.split(/(?<=[._])/).flatMap((part, index) => (index ? [element("wbr"), part] : [part]));
 }
 
+// Beside more than two runs there is room for neither notes nor a column of origins: those stand below the values, these in the tips
+// of their marks.
+const RUNS_WITH_NOTES = 2;
+
 function inputRow(paths, path, runs) {
   const inputs = paths.get(path);
+  const narrow = runs.length > RUNS_WITH_NOTES;
   const cells = runs.map((run, index) => {
     const input = inputs[index];
-    return [element("td", {}, input ? inputText(input.value) : element("span", { class: "absent" }, "not in this run")), element("td", {}, input ? markBadge(input.mark) : null)];
+    const value = input ? inputText(input.value) : element("span", { class: "absent" }, "not in this run");
+    if (narrow) return element("td", { title: input && input.note ? input.note : null }, value, " ", input ? markBadge(input.mark) : null);
+    return [element("td", {}, value), element("td", {}, input ? markBadge(input.mark) : null)];
   });
   const notes = [...new Set(inputs.filter(Boolean).map((input) => input.note).filter(Boolean))].join("; ");
   const assumed = inputs.some((input) => input && input.mark === "assumed");
-  return element("tr", { class: assumed ? "assumed" : null }, element("td", {}, element("code", {}, breakable(path))), cells, element("td", { class: "small" }, notes));
+  return element("tr", { class: assumed ? "assumed" : null }, element("td", {}, element("code", {}, breakable(path))), cells, narrow ? null : element("td", { class: "small" }, notes));
 }
 
 // The inputs of all runs by path, in the order of the file.
@@ -200,7 +276,8 @@ function inputsDiffer(inputs) {
 }
 
 function inputTable(runs, paths, keys) {
-  const heads = ["Input", ...runs.flatMap((run) => [runs.length === 1 ? "Value" : run.label, "Origin"]), "Note"];
+  const narrow = runs.length > RUNS_WITH_NOTES;
+  const heads = ["Input", ...runs.flatMap((run) => [runs.length === 1 ? "Value" : run.short, ...(narrow ? [] : ["Origin"])]), ...(narrow ? [] : ["Note"])];
   return element("table", { class: "inputs" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), element("tbody", {}, keys.map((path) => inputRow(paths, path, runs))));
 }
 
@@ -246,6 +323,6 @@ function factSection(runs) {
     ["Rows in this page", (run) => (run.time ? (run.rows === run.rowsTotal ? `all ${run.rows} of history.parquet` : `${run.rows} of the ${run.rowsTotal} in history.parquet, extremes kept`) : number(null))],
   ];
   const rows = facts.map(([title, fact]) => element("tr", {}, element("th", {}, title), runs.map((run) => element("td", {}, fact(run)))));
-  const head = runs.length > 1 ? element("thead", {}, element("tr", {}, element("th", {}, ""), runs.map((run) => element("th", {}, run.label)))) : null;
+  const head = runs.length > 1 ? element("thead", {}, element("tr", {}, element("th", {}, ""), runs.map((run) => element("th", {}, run.short)))) : null;
   return section("facts", "Run facts", element("table", { class: "facts" }, head, element("tbody", {}, rows)), residualFigures(runs));
 }

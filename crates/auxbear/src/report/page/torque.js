@@ -14,59 +14,6 @@ function listOf(run, name) {
   return list(quantityOf(run, name).value).filter(isNumber);
 }
 
-// Round numbers that divide an axis into some five parts.
-function axisSteps(low, high) {
-  const rough = (high - low) / 5;
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 2.5, 5, 10].map((factor) => factor * power).find((size) => size >= rough * 0.999);
-  const first = Math.ceil(low / step - 1e-9);
-  const last = Math.floor(high / step + 1e-9);
-  return Array.from({ length: Math.max(0, last - first + 1) }, (_, index) => Number(((first + index) * step).toPrecision(12)));
-}
-
-// series: [{label, x, y, colour, dash?, width?, dots?}]; words of both axes; logarithmic: decades on the upright axis.
-function curves({ series, across, upright, height = 300, logarithmic = false }) {
-  const width = 900;
-  const box = { left: 66, right: 18, top: 10, bottom: 42 };
-  const points = series.flatMap((line) => line.x.map((x, row) => [x, line.y[row]])).filter(([x, y]) => isNumber(x) && isNumber(y) && (!logarithmic || y > 0));
-  if (!points.length) return null;
-  const scaled = (y) => (logarithmic ? Math.log10(y) : y);
-  const xs = points.map(([x]) => x);
-  const ys = points.map(([, y]) => scaled(y));
-  let [left, right] = [Math.min(...xs), Math.max(...xs)];
-  if (left > 0 && left < 0.05 * right) left = 0;
-  if (!(right > left)) right = left + 1;
-  let [low, high] = [Math.min(...ys), Math.max(...ys)];
-  // A peak that touches the frame looks cut off.
-  const room = 0.04 * (high - low);
-  [low, high] = logarithmic ? [low - room, high + room] : paddedRange(low, high, []);
-  if (!(high > low)) [low, high] = [low - 0.5, high + 0.5];
-  const toX = (x) => box.left + ((x - left) / (right - left)) * (width - box.left - box.right);
-  const toY = (y) => height - box.bottom - ((y - low) / (high - low)) * (height - box.top - box.bottom);
-  const text = (x, y, anchor, words, more) => drawing("text", { x, y, "text-anchor": anchor, fill: PALE_INK, "font-size": 12, ...more }, words);
-  const decades = (from, to) => Array.from({ length: Math.ceil(to) - Math.floor(from) + 1 }, (_, index) => Math.floor(from) + index).flatMap((power) => [1, 2, 5].map((digit) => [digit * 10 ** power, power + Math.log10(digit)]));
-  const rungs = logarithmic ? decades(low, high).filter(([, y]) => y >= low && y <= high) : axisSteps(low, high).map((y) => [y, y]);
-  const grid = [
-    ...axisSteps(left, right).map((x) => [drawing("line", { x1: toX(x), x2: toX(x), y1: box.top, y2: height - box.bottom, stroke: RULE }), text(toX(x), height - box.bottom + 16, "middle", numberText(x, 6))]),
-    ...rungs.map(([value, y]) => [
-      drawing("line", { x1: box.left, x2: width - box.right, y1: toY(y), y2: toY(y), stroke: !logarithmic && value === 0 ? "#8995a0" : RULE }),
-      text(box.left - 8, toY(y) + 4, "end", numberText(value, 6)),
-    ]),
-    text((box.left + width - box.right) / 2, height - 6, "middle", across),
-    text(14, (box.top + height - box.bottom) / 2, "middle", upright, { transform: `rotate(-90 14 ${(box.top + height - box.bottom) / 2})` }),
-  ];
-  const drawn = series.map((line) => {
-    const known = line.x.map((x, row) => [x, line.y[row]]).filter(([x, y]) => isNumber(x) && isNumber(y) && (!logarithmic || y > 0));
-    const path = known.map(([x, y], index) => `${index ? "L" : "M"}${toX(x).toFixed(2)} ${toY(scaled(y)).toFixed(2)}`).join("");
-    const dots = line.dots || known.length === 1 ? known.map(([x, y]) => drawing("circle", { cx: toX(x), cy: toY(scaled(y)), r: 2.6, fill: line.colour })) : [];
-    return [drawing("path", { d: path, fill: "none", stroke: line.colour, "stroke-width": line.width || 1.75, "stroke-dasharray": line.dash || null, "stroke-linejoin": "round" }), dots];
-  });
-  const legend = series.map((line) =>
-    element("span", { class: "curve-key" }, drawing("svg", { width: 30, height: 10, viewBox: "0 0 30 10" }, drawing("line", { x1: 0, x2: 30, y1: 5, y2: 5, stroke: line.colour, "stroke-width": line.width || 1.75, "stroke-dasharray": line.dash || null })), line.label),
-  );
-  return [drawing("svg", { class: "curves", viewBox: `0 0 ${width} ${height}`, role: "img" }, grid, drawn), element("p", { class: "curve-keys" }, legend)];
-}
-
 // A plain table: heads, then rows of texts; the first column is a name.
 function plainTable(heads, rows) {
   return element(
@@ -85,7 +32,7 @@ function accelerationText(value) {
 }
 
 function shareOfRun(run, runs, title) {
-  return runs.length > 1 ? `${run.label}: ${title}` : title;
+  return runs.length > 1 ? `${run.short}: ${title}` : title;
 }
 
 // Where the tables hold that vary one thing.
@@ -93,11 +40,36 @@ function torquePlace(run) {
   const temperature = numberOf(run, "temperature");
   const viscosity = numberOf(run, "viscosity");
   return [
-    `${numberText(numberOf(run, "speed"), 5)} rad/s (${engineeringText(numberOf(run, "speed"), "rad/s", 4)})`,
+    speedText(numberOf(run, "speed")),
     engineeringText(numberOf(run, "radial_load"), "N", 4),
     temperature === null ? null : `${numberText(temperature - ZERO_CELSIUS, 4)} °C`,
     viscosity === null ? null : `${numberText(1e6 * viscosity, 4)} mm²/s`,
   ].filter(Boolean).join(", ");
+}
+
+// The two parts of the moment, as the law calls them: symbol and what makes it.
+function momentParts(run) {
+  const skf = String((inputOf(run, "bearing.moment.law") || {}).value) === "skf";
+  return skf ? [["M_rr", "rolling"], ["M_sl", "sliding"]] : [["M0", "by the flow of the lubricant"], ["M1", "by the load"]];
+}
+
+// Accelerations that nobody asked for are examples.
+function accelerationsAsked(run) {
+  return ["given", "assumed"].includes((inputOf(run, "torque.accelerations") || {}).mark);
+}
+
+// The steady moment and its parts over speed.
+function steadyPartsFigure(run, runs) {
+  const speed = overSpeed(run, "speed");
+  const [[m0, flow], [m1, load]] = momentParts(run);
+  const part = (name, label, colour, dash) => ({ label, x: speed, y: overSpeed(run, name, 1e3) || [], colour, dash });
+  const series = [
+    { ...part("friction.moment", "M", INK), width: 2.25 },
+    part("friction.speed_dependent", `${m0}, ${flow}`, LINE_COLOURS[0], "7 4"),
+    part("friction.load_dependent", `${m1}, ${load}`, LINE_COLOURS[1], "7 4"),
+  ];
+  const at = numberOf(run, "speed");
+  return figure(shareOfRun(run, runs, "Steady friction moment and its parts"), `Under ${engineeringText(numberOf(run, "radial_load"), "N", 4)}.`, curves({ series, across: "speed of the inner race [rad/s]", above: IN_RPM, upright: "moment [N mm]", marks: at === null ? [] : [{ at, words: "tables" }], height: 320 }));
 }
 
 function accelerationFigures(run, runs) {
@@ -107,18 +79,19 @@ function accelerationFigures(run, runs) {
   const each = (name, label, dash) =>
     accelerations.map((acceleration, index) => ({ label: `${label} at ${accelerationText(acceleration)}`, x: speed, y: part(index + 1, name) || [], colour: LINE_COLOURS[index % LINE_COLOURS.length], dash }));
   const friction = { label: "steady friction M", x: speed, y: overSpeed(run, "friction.moment", 1e3) || [], colour: "#8995a0", dash: "2 3", width: 2.5 };
-  const axes = { across: "speed of the inner race [rad/s]", upright: "moment [N mm]" };
+  const axes = { across: "speed of the inner race [rad/s]", above: IN_RPM, upright: "moment [N mm]" };
   const middle = accelerations.length - 1;
+  const [[first, flow], [second, load]] = momentParts(run);
   const parts = [
-    { label: "M0, made by the flow of the lubricant", x: speed, y: overSpeed(run, "friction.speed_dependent", 1e3) || [], colour: LINE_COLOURS[0] },
-    { label: "M1, made by the load", x: speed, y: overSpeed(run, "friction.load_dependent", 1e3) || [], colour: LINE_COLOURS[1] },
+    { label: `${first}, ${flow}`, x: speed, y: overSpeed(run, "friction.speed_dependent", 1e3) || [], colour: LINE_COLOURS[0] },
+    { label: `${second}, ${load}`, x: speed, y: overSpeed(run, "friction.load_dependent", 1e3) || [], colour: LINE_COLOURS[1] },
     { label: `inertia at the inner race at ${accelerationText(accelerations[middle])}`, x: speed, y: part(middle + 1, "inner_race.inertia") || [], colour: LINE_COLOURS[2] },
     { label: "inertia at the outer race", x: speed, y: part(middle + 1, "outer_race.inertia") || [], colour: LINE_COLOURS[3] },
     { label: "pocket friction F at both races", x: speed, y: part(middle + 1, "loss") || [], colour: LINE_COLOURS[4], dash: "7 4" },
   ];
   const columns = ["inner_race_inertia_moments", "outer_race_inertia_moments", "acceleration_loss_moments", "inner_race_moments", "outer_race_moments"].map((name) => listOf(run, name));
   const [m0, m1] = ["speed_dependent_moment", "load_dependent_moment"].map((name) => millimetres(numberOf(run, name)));
-  const heads = ["acceleration", "M0 [N mm]", "M1 [N mm]", "inertia, inner race [N mm]", "inertia, outer race [N mm]", "pocket friction F [N mm]", "t_I [N mm]", "t_O [N mm]"];
+  const heads = ["acceleration", `${first} [N mm]`, `${second} [N mm]`, "inertia, inner race [N mm]", "inertia, outer race [N mm]", "pocket friction F [N mm]", "t_I [N mm]", "t_O [N mm]"];
   const rows = accelerations.map((acceleration, row) => [accelerationText(acceleration), m0, m1, ...columns.map((column) => millimetres(column[row]))]);
   return [
     figure(
@@ -126,13 +99,14 @@ function accelerationFigures(run, runs) {
       "Full lines: t_I, which resists the inner race. Dashed: t_O, which a torque arm on the outer race measures. In a steady run both equal the friction M; while the race speeds up the inertia of balls and cage adds to t_I and takes from t_O.",
       curves({ series: [...each("inner_race.moment", "t_I"), ...each("outer_race.moment", "t_O", "7 4"), friction], ...axes, height: 380 }),
     ),
-    figure(shareOfRun(run, runs, "The parts of these moments"), "t_I = M0 + M1 + inertia at the inner race + pocket friction; t_O likewise with the inertia at the outer race.", curves({ series: parts, ...axes, height: 280 })),
+    figure(shareOfRun(run, runs, "The parts of these moments"), `t_I = ${first} + ${second} + inertia at the inner race + pocket friction; t_O likewise with the inertia at the outer race.`, curves({ series: parts, ...axes, height: 280 })),
     figure(shareOfRun(run, runs, `At ${torquePlace(run)}`), null, plainTable(heads, rows)),
   ];
 }
 
 function torqueMomentSection(runs) {
-  return section("torque", "Moments over speed and acceleration", runs.map((run) => accelerationFigures(run, runs)));
+  const examples = (run) => element("details", {}, element("summary", {}, `${run.prefix}While the race speeds up: examples, no acceleration was asked for (torque.accelerations)`), accelerationFigures(run, runs));
+  return section("torque", "Moments over speed and acceleration", runs.map((run) => [steadyPartsFigure(run, runs), accelerationsAsked(run) ? accelerationFigures(run, runs) : examples(run)]));
 }
 
 function loadFigures(run, runs) {
@@ -142,8 +116,8 @@ function loadFigures(run, runs) {
   const [m1, sums] = ["load_dependent_moments_over_load", "friction_moments_over_load"].map((name) => listOf(run, name));
   const rows = loads.map((load, row) => [engineeringText(load, "N", 4), millimetres(m1[row]), millimetres(sums[row])]);
   return [
-    figure(shareOfRun(run, runs, "Steady friction M under each radial load"), null, curves({ series, across: "speed of the inner race [rad/s]", upright: "moment [N mm]" })),
-    figure(shareOfRun(run, runs, `At ${numberText(numberOf(run, "speed"), 5)} rad/s`), null, plainTable(["radial load", "M1 [N mm]", "M [N mm]"], rows)),
+    figure(shareOfRun(run, runs, "Steady friction M under each radial load"), null, curves({ series, across: "speed of the inner race [rad/s]", above: IN_RPM, upright: "moment [N mm]" })),
+    figure(shareOfRun(run, runs, `At ${speedText(numberOf(run, "speed"))}`), null, plainTable(["radial load", `${momentParts(run)[1][0]} [N mm]`, "M [N mm]"], rows)),
   ];
 }
 
@@ -170,8 +144,8 @@ function lawFigures(run, runs) {
     return [words, millimetres(part("speed_dependent_moment")), millimetres(part("load_dependent_moment")), millimetres(part("friction_moment")), why ? element("span", { class: "absent" }, why) : ""];
   });
   return [
-    figure(shareOfRun(run, runs, "Steady friction M by several laws"), "The same bearing, load and lubricant. The SKF model has its sliding friction in M1.", series.length ? curves({ series, across: "speed of the inner race [rad/s]", upright: "moment [N mm]" }) : notInThisRun("a law that has constants for this bearing", run)),
-    figure(shareOfRun(run, runs, `At ${torquePlace(run)}`), null, plainTable(["law", "M0 [N mm]", "M1 [N mm]", "M [N mm]", ""], rows)),
+    figure(shareOfRun(run, runs, "Steady friction M by several laws"), "The same bearing, load and lubricant.", series.length ? curves({ series, across: "speed of the inner race [rad/s]", above: IN_RPM, upright: "moment [N mm]" }) : notInThisRun("a law that has constants for this bearing", run)),
+    figure(shareOfRun(run, runs, `At ${torquePlace(run)}`), null, plainTable(["law", "M0, or M_rr of SKF [N mm]", "M1, or M_sl of SKF [N mm]", "M [N mm]", ""], rows)),
   ];
 }
 
@@ -202,11 +176,11 @@ function lubricantFigures(run, runs) {
     return [words, viscosity === null ? element("span", { class: "absent" }, why || "–") : numberText(1e6 * viscosity, 4), millimetres(numberOf(run, `${name}_friction_moment`)), ...temperatures.map((temperature) => cell(name, temperature))];
   });
   const heads = ["lubricant", "ν, running [mm²/s]", "M, running [N mm]", ...temperatures.map((temperature) => `${numberText(temperature - ZERO_CELSIUS, 4)} °C`)];
-  const at = `at ${numberText(numberOf(run, "speed"), 5)} rad/s under ${engineeringText(numberOf(run, "radial_load"), "N", 4)}`;
+  const at = `at ${speedText(numberOf(run, "speed"))} under ${engineeringText(numberOf(run, "radial_load"), "N", 4)}`;
   return [
     moments.length ? figure(shareOfRun(run, runs, "Steady friction M over temperature, " + at), "Each lubricant where its viscosity is known.", curves({ series: moments, across, upright: "moment [N mm]" })) : null,
     moments.length ? figure(shareOfRun(run, runs, "Viscosity over temperature"), "A straight line in the axes of ASTM D341 through two points.", curves({ series: over("viscosities", 1e6), across, upright: "viscosity [mm²/s]", logarithmic: true, height: 240 })) : null,
-    running.length ? figure(shareOfRun(run, runs, "Steady friction M over speed, at the running temperature"), null, curves({ series: running, across: "speed of the inner race [rad/s]", upright: "moment [N mm]" })) : null,
+    running.length ? figure(shareOfRun(run, runs, "Steady friction M over speed, at the running temperature"), null, curves({ series: running, across: "speed of the inner race [rad/s]", above: IN_RPM, upright: "moment [N mm]" })) : null,
     figure(shareOfRun(run, runs, "M [N mm] by lubricant and temperature, " + at), null, plainTable(heads, rows)),
   ];
 }
@@ -215,10 +189,18 @@ function torqueLubricantSection(runs) {
   return section("lubricants", "Lubricants", runs.map((run) => lubricantFigures(run, runs)));
 }
 
+function shareNote(run, name) {
+  const [part, whole] = [numberOf(run, name), numberOf(run, "friction_moment")];
+  return part === null || !(whole > 0) ? null : `${percentText(part / whole, 3)} of M`;
+}
+
 // The verdict of a torque computation.
 function torqueVerdict(run) {
   const accelerations = listOf(run, "accelerations");
   const fastest = accelerations.reduce((best, value, row) => (Math.abs(value) > Math.abs(accelerations[best]) ? row : best), 0);
+  // accelerations that nobody asked for are examples, and no headline
+  const asked = accelerationsAsked(run);
+  const [[first, flow], [second, load]] = momentParts(run);
   const at = (name) => engineeringText(listOf(run, name)[fastest], "N m", 4);
   const part = (name) => engineeringText(numberOf(run, name), "N m", 4);
   return element(
@@ -226,10 +208,10 @@ function torqueVerdict(run) {
     { class: "tiles" },
     stateTile(run),
     tile("Friction M", part("friction_moment"), [`at ${torquePlace(run)}`]),
-    tile("Made by the flow, M0", part("speed_dependent_moment"), ["speed-dependent part"]),
-    tile("Made by the load, M1", part("load_dependent_moment"), ["load-dependent part"]),
-    tile("Inner race t_I", at("inner_race_moments"), [`at ${accelerationText(accelerations[fastest])}; ${at("inner_race_inertia_moments")} of it inertia`]),
-    tile("Outer race t_O", at("outer_race_moments"), [`at ${accelerationText(accelerations[fastest])}; ${at("outer_race_inertia_moments")} of it inertia`]),
+    tile(`${first}, ${flow}`, part("speed_dependent_moment"), [shareNote(run, "speed_dependent_moment")]),
+    tile(`${second}, ${load}`, part("load_dependent_moment"), [shareNote(run, "load_dependent_moment")]),
+    !asked ? null : tile("Inner race t_I", at("inner_race_moments"), [`at ${accelerationText(accelerations[fastest])}; ${at("inner_race_inertia_moments")} of it inertia`]),
+    !asked ? null : tile("Outer race t_O", at("outer_race_moments"), [`at ${accelerationText(accelerations[fastest])}; ${at("outer_race_inertia_moments")} of it inertia`]),
   );
 }
 
@@ -257,6 +239,6 @@ register("torque", {
   facts: false,
   sections: (runs) => {
     const some = (known) => runs.filter((run) => known(run).length);
-    return [[20, torqueMomentSection, runs], [21, torqueLoadSection, runs], [22, torqueLawSection, some(comparedLaws)], [23, torqueLubricantSection, some(lubricantsOf)]].filter(([, , part]) => part.length);
+    return [[20, torqueMomentSection, runs], [21, torqueLoadSection, runs.filter((run) => listOf(run, "loads").length > 1)], [22, torqueLawSection, some(comparedLaws)], [23, torqueLubricantSection, some(lubricantsOf)]].filter(([, , part]) => part.length);
   },
 });

@@ -156,12 +156,12 @@ impl List {
 
 const LUBRICANT: Origin = Origin {
     law: "first-order states of grease and films, factor on the speed-dependent part of the steady moment",
-    source: "crates/physics/src/lubricant_state.rs; the parameters are the scenario's",
+    source: "Barnes 1997 (thixotropy), crates/physics/src/lubricant_state.rs; the parameters are the scenario's",
     valid: "film rises of some 20 K; speeds of one order",
 };
 const CAGE_FORCE: Origin = Origin {
     law: "P = max(0, k p(1 + a ṗ)) of pockets and land, Hertz between balls; largest at the ends of the steps",
-    source: "Hunt-Crossley contact, crates/model/src/bearing/pocket.rs, cage.rs, full_complement.rs",
+    source: "Hunt and Crossley 1975, crates/model/src/bearing/pocket.rs, cage.rs, full_complement.rs",
     valid: "stiffness and damping as given; pocket impacts are often chaotic: repeat the run",
 };
 const CAGE_FRICTION: Origin = Origin {

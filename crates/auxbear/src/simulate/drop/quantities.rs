@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 const EQUATIONS: &str =
     "equations of motion, crates/model/src/system/machine/rate.rs and crates/model/src/bearing/";
-const CONTACT: &str = "Hunt-Crossley contact, crates/model/src/contact.rs";
+const CONTACT: &str = "Hunt and Crossley 1975, crates/model/src/contact.rs";
 const EVENT: &str = "root on dense output of the time integration, crates/solve/src/watch.rs";
 const LEDGER: &str = "energy ledger, crates/model/src/system/machine/ledger.rs";
 

@@ -230,7 +230,7 @@ const AT_END: Origin = Origin {
 };
 const SLIP: Origin = Origin {
     law: "S = 1 - 2(1+s)ω_c/Ω, mean over the last cage turn",
-    source: "kinematics of a rolling ball, crates/physics/src/kinematics.rs",
+    source: "Harris 2001, section 8: kinematics of a rolling ball, crates/physics/src/kinematics.rs",
     valid: "as it happened; what a sensor measures has its own band",
 };
 const TEMPERATURE: Origin = Origin {

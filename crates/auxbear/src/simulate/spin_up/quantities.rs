@@ -336,7 +336,7 @@ const CAPACITY: Origin = Origin {
 };
 const SLIP: Origin = Origin {
     law: "S = 1 - 2(1+s)ω_c/Ω, at the last instant, or as the mean over the later half of the cage turns at the final speed",
-    source: "kinematics of a rolling ball, crates/physics/src/kinematics.rs",
+    source: "Harris 2001, section 8: kinematics of a rolling ball, crates/physics/src/kinematics.rs",
     valid: "pockets let the cage lead and lag a little from instant to instant",
 };
 const SKID: Origin = Origin {
