@@ -20,6 +20,7 @@
 //! It knows no files and no scenario: arrays in SI in, values with deviations out. What is refused is refused with a sentence.
 
 mod algebra;
+pub mod coasting;
 pub mod data_checks;
 pub mod dissipation;
 pub mod explain;

@@ -55,12 +55,20 @@ pub(crate) fn uncertain(
 
 fn torques(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
     let loss = test.loss.as_ref().map_err(Clone::clone);
-    let unknown = || "there is no torque beside a steady moment then".to_string();
     type Part = fn(&Loss, &Measurement) -> Option<Uncertain>;
-    for (name, part) in [
-        ("excess_torque_settled", Loss::settled_excess as Part),
-        ("excess_torque_at_end", Loss::excess_at_end),
+    for (name, when, part) in [
+        (
+            "excess_torque_settled",
+            "0.2 to 0.4 s after the engagement",
+            Loss::settled_excess as Part,
+        ),
+        (
+            "excess_torque_at_end",
+            "in the last 0.5 s at full speed",
+            Loss::excess_at_end,
+        ),
     ] {
+        let unknown = || format!("{when} the record has no torque at a speed at which M is known");
         let value =
             (loss.clone()).and_then(|loss| part(loss, &test.measurement).ok_or_else(unknown));
         uncertain(list, &named(name), "N m", value, &EXCESS);

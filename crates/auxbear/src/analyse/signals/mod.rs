@@ -20,7 +20,7 @@ mod history;
 mod read;
 pub(crate) mod shaft;
 mod spectrum;
-mod steady;
+pub(crate) mod steady;
 mod temperature;
 pub(crate) mod torque;
 mod unit;
@@ -32,7 +32,8 @@ use crate::analyse::signals::found::Found;
 use crate::options::Options;
 use crate::result::assumptions::assumptions;
 use crate::result::outcome::{Outcome, Picture, Stop, Warning, Work};
-use crate::scenario::{Scenario, SensorSource};
+use crate::scenario::{Scenario, SensorSource, SteadySignal};
+use identify::coasting::Windage;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -75,18 +76,41 @@ fn more(asked: &Asked, going: &dyn Fn() -> Result<(), String>, found: &mut Found
     let faulty = asked.torque.as_ref().map(torque::faulty);
     let reading = asked.torque.as_ref().zip(faulty.as_ref());
     let reading = reading.map(|(series, faulty)| (series, faulty, found.torque.as_ref()));
+    let windage = windage(wish, asked);
     let steady = match &found.shaft {
-        Some(shaft) => going()
-            .and_then(|()| steady::Found::of(wish, shaft, reading, asked.signals.torque.as_ref())),
+        Some(shaft) => going().and_then(|()| {
+            let sensor = asked.signals.torque.as_ref();
+            steady::Found::of(wish, shaft, reading, sensor, windage)
+        }),
         None => Err("it needs the speed of the shaft".to_string()),
     };
     match steady {
         Ok(steady) => {
+            if let Some(doubt) = &steady.doubt {
+                found.warn("AB1122", "Steady curve", std::slice::from_ref(doubt));
+            }
             found.warn("AB1043", "Steady curve", &steady.notes);
             found.steady = Some(steady);
         }
         Err(why) => found.refused.push(("steady", why)),
     }
+}
+
+/// What brakes the shaft without the bearing, by its law or by the run without it.
+pub(crate) fn windage(wish: &SteadySignal, asked: &Asked) -> Result<Windage, String> {
+    steady::windage(wish, || {
+        let run = (asked.windage.as_ref())
+            .ok_or_else(|| "there is no run without bearing".to_string())?;
+        let found = find(run);
+        let of = |part| found.why(part, true);
+        let steady = found.steady.as_ref();
+        match (steady, &found.shaft) {
+            (Some(steady), _) => steady.inertial.clone(),
+            (None, Some(_)) => Err(of("steady")),
+            (None, None) => Err(of("speed")),
+        }
+        .map_err(|why| format!("in the run without bearing: {why}"))
+    })
 }
 
 /// Why a part has no numbers where an interrupt came before it.
@@ -132,6 +156,14 @@ fn find_until(asked: &Asked, interrupt: &AtomicBool) -> Found {
                         "Marks per revolution",
                         std::slice::from_ref(doubt),
                     );
+                }
+                if let Some(odd) = shaft.beside_set(wish) {
+                    found.warn("AB1121", "Largest speed", &[odd]);
+                }
+                if let shaft::From::Channel(channel) = &shaft.from
+                    && let Some(doubt) = &channel.doubt
+                {
+                    found.warn("AB1120", "Speed", std::slice::from_ref(doubt));
                 }
                 found.warn("AB1043", "Speed", &shaft.notes);
                 found.shaft = Some(shaft);

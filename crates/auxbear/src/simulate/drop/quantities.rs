@@ -81,7 +81,8 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
     );
 
     // speeds
-    let never = |what: &str| format!("{what} was not reached by {:.4e} s", ending.time);
+    let until = units::number_text((ending.time * 1e6).round() / 1e6);
+    let never = |what: &str| format!("{what} was not reached within {until} s");
     list.rises(
         "inner_race",
         [
