@@ -26,8 +26,14 @@ fn thinned(data: &Data, sight: &Sight, range: std::ops::Range<usize>) -> Vec<Pas
     let inner =
         (sight.first + ALL).min(sight.after)..sight.after.saturating_sub(ALL).max(sight.first);
     let step = inner.len().div_ceil(BETWEEN).max(1);
+    // A channel shows long rest before a soft start.
+    let early = range.start..sight.first.saturating_sub(BEYOND).max(range.start);
+    let apart = early.len().div_ceil(BETWEEN).max(1);
+    let kept = |k: usize, part: &std::ops::Range<usize>, step: usize| {
+        !part.contains(&k) || (k - part.start).is_multiple_of(step)
+    };
     range
-        .filter(|k| !inner.contains(k) || (k - inner.start) % step == 0)
+        .filter(|&k| kept(k, &inner, step) && kept(k, &early, apart))
         .map(|k| data.passages[k])
         .collect()
 }

@@ -54,9 +54,15 @@ impl Stop {
     /// The stop of a shaft that a channel shows at rest behind the last instant of a record, until the end of what was watched, s;
     /// `before` is the instant before the last one.
     pub fn seen(before: f64, speed: &Speed, watched: f64) -> Option<Stop> {
-        let last = speed.at(speed.range().1);
-        let length = (-last.speed / last.acceleration).min(watched - last.time);
-        (last.speed > 0.0 && length > 0.0).then_some(Stop {
+        let mut last = speed.at(speed.range().1);
+        // What noise leaves of the last speed may turn back, or not brake.
+        last.speed = last.speed.max(0.0);
+        let brakes = last.speed > 0.0 && last.acceleration < 0.0;
+        let length = match brakes {
+            true => (-last.speed / last.acceleration).min(watched - last.time),
+            false => last.time - before,
+        };
+        (length > 0.0).then_some(Stop {
             before,
             last,
             length,

@@ -2,7 +2,7 @@
 
 use crate::analyse::signals::asked::{Asked, median};
 use crate::analyse::signals::found::Found;
-use crate::analyse::signals::shaft::From;
+use crate::analyse::signals::shaft::Seen;
 use crate::analyse::signals::torque;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Value};
@@ -63,9 +63,9 @@ fn speed(list: &mut List, asked: &Asked, found: &Found) {
             .map(|s| value(s))
             .map_err(|why| why.to_string())
     };
-    let channel = shaft.as_ref().ok().and_then(|shaft| match &shaft.from {
-        From::Channel(channel) => Some(channel),
-        From::Marks { .. } => None,
+    let channel = shaft.as_ref().ok().and_then(|shaft| match &shaft.seen {
+        Seen::Channel(channel) => Some(channel),
+        Seen::Marks { .. } => None,
     });
     if let Some(channel) = channel {
         list.number("speed_noise", "rad/s", Ok(channel.noise), &CHANNEL);
@@ -108,8 +108,8 @@ fn speed(list: &mut List, asked: &Asked, found: &Found) {
     let pitch = shaft
         .as_ref()
         .map_err(|why| why.to_string())
-        .and_then(|s| match &s.from {
-            From::Marks {
+        .and_then(|s| match &s.seen {
+            Seen::Marks {
                 pulses,
                 pitch: Some(p),
             } => {

@@ -160,7 +160,7 @@ fn find_until(asked: &Asked, interrupt: &AtomicBool) -> Found {
                 if let Some(odd) = shaft.beside_set(wish) {
                     found.warn("AB1121", "Largest speed", &[odd]);
                 }
-                if let shaft::From::Channel(channel) = &shaft.from
+                if let shaft::Seen::Channel(channel) = &shaft.seen
                     && let Some(doubt) = &channel.doubt
                 {
                     found.warn("AB1120", "Speed", std::slice::from_ref(doubt));

@@ -27,7 +27,7 @@ const LOOKS: usize = 4000;
 pub(crate) struct Found {
     pub speed: Speed,
     /// What it was found from.
-    pub from: From,
+    pub seen: Seen,
     /// Where the acceleration is largest: in the quick change in its direction, by size where there is none.
     pub peak: Motion,
     /// Where the largest speed is.
@@ -44,7 +44,7 @@ pub(crate) struct Found {
 }
 
 /// What a motion was found from.
-pub(crate) enum From {
+pub(crate) enum Seen {
     /// Marks that passed.
     Marks {
         pulses: Pulses,
@@ -74,7 +74,7 @@ pub(crate) struct Channel {
 /// A motion and what it was found from, before it is looked at.
 struct Smoothed {
     speed: Speed,
-    from: From,
+    seen: Seen,
     notes: Vec<String>,
     doubt: Option<String>,
     watched: (f64, f64),
@@ -137,7 +137,7 @@ fn by_marks(
     Ok(Smoothed {
         watched: pulses.watched,
         speed,
-        from: From::Marks { pulses, pitch },
+        seen: Seen::Marks { pulses, pitch },
         notes,
         doubt,
     })
@@ -164,7 +164,7 @@ fn by_channel(
         .map_or(0.0, |bandwidth| 1.0 / (TAU * bandwidth));
     Ok(Smoothed {
         watched: (series.first, series.last()),
-        from: From::Channel(Channel {
+        seen: Seen::Channel(Channel {
             series: series.clone(),
             late: instrument.delay + lag,
             noise: shown.noise,
@@ -187,7 +187,7 @@ impl Found {
     ) -> Result<Found, String> {
         let Smoothed {
             speed,
-            from,
+            seen,
             mut notes,
             doubt,
             watched,
@@ -257,7 +257,7 @@ impl Found {
             angle,
             rate,
             deviation,
-            from,
+            seen,
             speed,
         })
     }
@@ -275,9 +275,9 @@ impl Found {
 
     /// Last time at which a motion is known, s: a mark's time behind the last one; of a channel its last value.
     pub fn told_until(&self) -> f64 {
-        let (pulses, watched) = match &self.from {
-            From::Marks { pulses, .. } => (pulses, self.watched.1),
-            From::Channel(_) => return self.watched.1,
+        let (pulses, watched) = match &self.seen {
+            Seen::Marks { pulses, .. } => (pulses, self.watched.1),
+            Seen::Channel(_) => return self.watched.1,
         };
         let Some(last) = pulses.times.last() else {
             return watched;
@@ -289,25 +289,25 @@ impl Found {
     /// Angle without a sign of turning from which on the shaft counts as stopped, rad: some marks; of a channel none where it
     /// shows the rest, and any where it does not.
     pub fn silence(&self) -> f64 {
-        match &self.from {
-            From::Marks { pulses, .. } => SILENT_MARKS * pulses.pitch(),
-            From::Channel(channel) if channel.stop.is_some() => 0.0,
-            From::Channel(_) => f64::INFINITY,
+        match &self.seen {
+            Seen::Marks { pulses, .. } => SILENT_MARKS * pulses.pitch(),
+            Seen::Channel(channel) if channel.stop.is_some() => 0.0,
+            Seen::Channel(_) => f64::INFINITY,
         }
     }
 
     /// The pulses, where marks were seen; else why there are none.
     pub fn pulses(&self) -> Result<&Pulses, String> {
-        match &self.from {
-            From::Marks { pulses, .. } => Ok(pulses),
-            From::Channel(_) => Err("signals.speed.channel holds a speed, not marks".to_string()),
+        match &self.seen {
+            Seen::Marks { pulses, .. } => Ok(pulses),
+            Seen::Channel(_) => Err("signals.speed.channel holds a speed, not marks".to_string()),
         }
     }
 
     /// Speed between the two pulses around a time, or as the instrument shows it, rad/s; not-a-number outside them.
     pub fn raw_speed(&self, time: f64) -> f64 {
-        match &self.from {
-            From::Marks { pulses, .. } => {
+        match &self.seen {
+            Seen::Marks { pulses, .. } => {
                 let next = pulses.times.partition_point(|t| *t <= time);
                 if next == 0 || next >= pulses.times.len() {
                     return f64::NAN;
@@ -315,7 +315,7 @@ impl Found {
                 let marks = (pulses.marks[next] - pulses.marks[next - 1]) as f64;
                 marks * pulses.pitch() / (pulses.times[next] - pulses.times[next - 1])
             }
-            From::Channel(Channel { series, .. }) => {
+            Seen::Channel(Channel { series, .. }) => {
                 interpolation::at_index(&series.values, (time - series.first) / series.interval)
                     .unwrap_or(f64::NAN)
             }

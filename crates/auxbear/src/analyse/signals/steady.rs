@@ -291,9 +291,9 @@ fn torques(
 ///
 /// The mean speed of a turn is that of its middle in time, not in angle: where a turn takes long these are far apart.
 fn speeds(part: (f64, f64), shaft: &shaft::Found) -> Result<(f64, f64, Vec<f64>), String> {
-    let pulses = match &shaft.from {
-        shaft::From::Marks { pulses, .. } => pulses,
-        shaft::From::Channel(channel) => return shown(part, channel),
+    let pulses = match &shaft.seen {
+        shaft::Seen::Marks { pulses, .. } => pulses,
+        shaft::Seen::Channel(channel) => return shown(part, channel),
     };
     let (times, marks) = (&pulses.times, &pulses.marks);
     let turn = pulses.positions as i64;
