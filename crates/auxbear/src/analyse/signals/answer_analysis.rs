@@ -166,13 +166,16 @@ fn steady(list: &mut List, asked: &Asked, found: &Found) {
         };
         part.speed.iter().map(at).collect()
     });
-    list.push("steady_windage_torques", "N m", listed(torques), &WINDAGE);
-    list.push(
-        "steady_windage_deviations",
-        "N m",
-        listed(deviations),
-        &WINDAGE,
-    );
+    let asked_for = (asked.signals.steady.as_ref()).is_some_and(|wish| wish.windage.is_some());
+    if asked_for {
+        list.push("steady_windage_torques", "N m", listed(torques), &WINDAGE);
+        list.push(
+            "steady_windage_deviations",
+            "N m",
+            listed(deviations),
+            &WINDAGE,
+        );
+    }
     type Pair = fn(&crate::analyse::signals::steady::Found) -> &Result<Difference, String>;
     let pairs: [(&str, Pair); 2] = [
         ("direct_less_inertial", |p| &p.direct_less_inertial),
