@@ -54,7 +54,7 @@ impl Folder {
             let torque = 1e3 * moment(speed) + 0.2 * normal();
             writeln!(text, "{:.4},{shown},{torque:.3}", k as f64 / RATE).unwrap();
             let half = speed - 0.5 * brake(speed) / INERTIA / RATE;
-            speed -= brake(half) / INERTIA / RATE;
+            speed = f64::max(speed - brake(half) / INERTIA / RATE, 0.0);
         }
         self.write(name, &text);
     }
@@ -125,10 +125,10 @@ fn a_coast_down_of_a_few_seconds_gives_its_curve_from_a_speed_in_rpm() {
     let folder = Folder::new("speed_channel_signals");
     let brake = |speed| moment(speed) + windage(speed);
     folder.coasts("coast.csv", 6.3, brake);
-    folder.coasts("bare.csv", 20.0, windage);
+    folder.coasts("bare.csv", 45.0, windage);
     let law = "windage_constant = \"0.5 N mm\"\nwindage_quadratic = \"0.2 uN m s^2\"\nwindage_deviation = 0.1\n";
     folder.write("law.toml", &signals("coast.csv", &steady(6.0, law)));
-    folder.write("bare.toml", &signals("bare.csv", &steady(19.8, "")));
+    folder.write("bare.toml", &signals("bare.csv", &steady(44.8, "")));
     let run = "windage_file = \"bare.toml\"\n";
     folder.write("run.toml", &signals("coast.csv", &steady(6.0, run)));
     for file in ["law.toml", "run.toml"] {
@@ -150,8 +150,8 @@ fn a_coast_down_of_a_few_seconds_gives_its_curve_from_a_speed_in_rpm() {
         let (two, four) = inside(curve("inertial"), moment);
         assert!(two >= 0.8 && four == 1.0, "{file}: {two} {four}");
         let (two, four) = inside(curve("windage"), windage);
-        assert!(two >= 0.8 && four == 1.0, "{file}, windage: {two} {four}");
-        // ten parts in a hundred of a windage that is two fifths of the moment
+        assert!(two >= 0.8 && four >= 0.95, "{file}, windage: {two} {four}");
+        // a tenth of a windage that is a fifth of the moment there
         let [_, values, deviations] = curve("inertial");
         let middle = values.len() / 2;
         assert!(deviations[middle] < 0.1 * values[middle]);
@@ -161,9 +161,9 @@ fn a_coast_down_of_a_few_seconds_gives_its_curve_from_a_speed_in_rpm() {
 #[test]
 fn an_identification_takes_the_moment_from_the_slope_of_a_speed() {
     let folder = Folder::new("speed_channel_identify");
-    folder.coasts("coast.csv", 8.0, |speed| moment(speed) + windage(speed));
+    folder.coasts("coast.csv", 6.3, |speed| moment(speed) + windage(speed));
     let law = "windage_constant = \"0.5 N mm\"\nwindage_quadratic = \"0.2 uN m s^2\"\nwindage_deviation = 0.1\n";
-    folder.write("coast.toml", &signals("coast.csv", &steady(7.8, law)));
+    folder.write("coast.toml", &signals("coast.csv", &steady(6.0, law)));
     folder.write("identify.toml", IDENTIFY);
     let outcome = folder.outcome("identify.toml").unwrap();
     assert_eq!(outcome.stop.reason, "finished", "{}", outcome.stop.text);
