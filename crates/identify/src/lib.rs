@@ -22,6 +22,7 @@
 #![forbid(unsafe_code)]
 
 mod algebra;
+pub mod coasting;
 pub mod data_checks;
 pub mod dissipation;
 pub mod explain;

@@ -5,7 +5,7 @@
 //! | [`recording`] | channels of a file: names, units, clocks, and values read in pieces |
 //! | [`mod@file`] | the formats: from a file to a recording, and back |
 //! | [`pulse`] | pulse trains: edge times, numbering of the marks, calibration of the wheel |
-//! | [`speed`] | from numbered pulses to angle, speed and acceleration with covariance |
+//! | [`speed`] | from numbered pulses, or a speed that an instrument shows, to angle, speed and acceleration with covariance |
 //! | [`converter`] | steps, clipping, drop-outs |
 //! | [`shaft`] | angle and speed of the shaft as the estimators below take them |
 //! | [`spectrum`] | spectra and spectrograms over time and over order |

@@ -64,7 +64,9 @@ pub use rig::{
 };
 pub use run::{Method, Run};
 pub use schema::schema;
-pub use signals::analysis::{ConverterSignal, InertiaSource, SteadySignal, VibrationSignal};
+pub use signals::analysis::{
+    ConverterSignal, InertiaSource, SteadySignal, VibrationSignal, Windage,
+};
 pub use signals::{
     CageKind, CageSignal, Disturbance, PickupFlank, PickupKind, SensorSource, Signals, SpeedSignal,
     TorqueSignal,

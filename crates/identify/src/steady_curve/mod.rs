@@ -19,7 +19,7 @@ use crate::regression::{Data, Posterior, spline, weighed};
 use measure::uncertain::Uncertain;
 use nalgebra::DMatrix;
 
-/// Most means that are fitted. Few, so that noise faster than a mean averages out and what is left is near a first-order
+/// About as many means as are fitted. Few, so that noise faster than a mean averages out and what is left is near a first-order
 /// autoregression.
 const MEANS: usize = 80;
 
@@ -157,7 +157,7 @@ impl Smooth {
                 x.len()
             ));
         }
-        let size = known.len().div_ceil(MEANS).max(1);
+        let size = ((known.len() as f64 / MEANS as f64).round() as usize).max(1);
         let mut data = Data::default();
         for run in known.chunk_by(|a, b| b - a == 1) {
             let part = run[0]..run[0] + run.len();
@@ -166,8 +166,9 @@ impl Smooth {
         let least = 2 * spline::SPLINES;
         if data.x.len() < least {
             return Err(format!(
-                "{} values are too few for a curve; at least {least} without a gap between them are needed",
+                "the part gives {} values (whole turns of the shaft, or values of a channel), in {} means without a gap, and {least} are needed: a longer part, or more values a second",
                 known.len(),
+                data.x.len(),
             ));
         }
         let span = |list: &[f64]| {

@@ -27,6 +27,7 @@ mod pitch;
 mod shape;
 mod spike;
 mod train;
+mod undersampled;
 
 use std::fmt;
 

@@ -1,6 +1,7 @@
 //! Which mark passed at which edge.
 
 use super::gap::{LONG, count as count_over, is_sure};
+use super::undersampled::undersampled;
 use super::{Edges, Flank, Gap, Refusal, median};
 
 /// The wheel that the pickup looks at.
@@ -126,6 +127,9 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
     let main: Vec<usize> = (0..edges.times.len())
         .filter(|&k| !both || rises(k))
         .collect();
+    if let Some(refusal) = undersampled(&main, edges, wheel) {
+        return Err(refusal);
+    }
     let (kept, extra) = without_doubles(&main, &edges.times);
     if let Some(&first) = extra.first() {
         notes.push(format!(

@@ -42,7 +42,7 @@ pub fn marks_needed(change: f64, duration: f64, timing: f64, wanted: f64) -> Opt
 /// Relative uncertainty that a number of marks gives; none where there are too few or far too many to ask.
 fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<f64> {
     let pitch = TAU / marks as f64;
-    if change * duration / 3.0 < (super::FEWEST_WITHIN + 1) as f64 * pitch {
+    if change * duration / 3.0 < (super::too_few::FEWEST_WITHIN + 1) as f64 * pitch {
         return None;
     }
     let whole = 0.5 * change * duration;
@@ -93,10 +93,7 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
     let length = duration / data.unit;
     let peak = 2.0 * change * data.unit / length;
     let engage = data.units(0.0);
-    let memory = Memory {
-        spread: 1e-3 * timing / data.unit,
-        rate: 1.0,
-    };
+    let memory = Memory::of_clock(1e-3 * timing / data.unit, 1.0);
     // Knots that the pulses themselves must find: a grid of them, weighted by likelihood.
     let shifts = [-0.12, -0.06, 0.0, 0.06, 0.12];
     let mut parts = Vec::new();

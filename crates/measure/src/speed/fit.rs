@@ -139,7 +139,7 @@ fn rough_speeds(data: &Data, range: std::ops::Range<usize>, over: usize) -> Vec<
             true => (k, k + 1),
             false => (about.start, about.end),
         };
-        (all[b].angle - all[a].angle) / (all[b].time - all[a].time)
+        (all[b].value - all[a].value) / (all[b].time - all[a].time)
     };
     let mut rough: Vec<f64> = (from..to - 1).map(speed).collect();
     // Over a silence of the pickup nothing is seen of the speed.
@@ -162,7 +162,7 @@ fn rough_speeds(data: &Data, range: std::ops::Range<usize>, over: usize) -> Vec<
 }
 
 /// Stretches of a part of the passages, at most three, spread over it.
-fn stretches(range: std::ops::Range<usize>) -> Vec<std::ops::Range<usize>> {
+pub(super) fn stretches(range: std::ops::Range<usize>) -> Vec<std::ops::Range<usize>> {
     let n = range.len();
     if n <= 3 * STRETCH {
         return vec![range];
@@ -194,10 +194,7 @@ pub(super) fn quiet(data: &Data, range: std::ops::Range<usize>) -> (Noise, f64) 
         } else {
             usual * x[0].exp()
         },
-        memory: Memory {
-            spread: stated * x[1].exp(),
-            rate: (-x[2]).exp(),
-        },
+        memory: Memory::of_clock(stated * x[1].exp(), (-x[2]).exp()),
     };
     let cost = |x: &[f64; 4]| {
         let plan = Plan {

@@ -26,8 +26,14 @@ fn thinned(data: &Data, sight: &Sight, range: std::ops::Range<usize>) -> Vec<Pas
     let inner =
         (sight.first + ALL).min(sight.after)..sight.after.saturating_sub(ALL).max(sight.first);
     let step = inner.len().div_ceil(BETWEEN).max(1);
+    // A channel shows long rest before a soft start.
+    let early = range.start..sight.first.saturating_sub(BEYOND).max(range.start);
+    let apart = early.len().div_ceil(BETWEEN).max(1);
+    let kept = |k: usize, part: &std::ops::Range<usize>, step: usize| {
+        !part.contains(&k) || (k - part.start).is_multiple_of(step)
+    };
     range
-        .filter(|k| !inner.contains(k) || (k - inner.start) % step == 0)
+        .filter(|&k| kept(k, &inner, step) && kept(k, &early, apart))
         .map(|k| data.passages[k])
         .collect()
 }
@@ -94,23 +100,19 @@ fn ends(data: &Data, sight: &Sight, length: f64) -> Vec<Vec<f64>> {
     std::iter::once(NEAR.to_vec()).chain(middles).collect()
 }
 
+/// The same for a channel, whose samples are many and follow each other evenly: one valley.
+const ENDS_OF_CHANNEL: [f64; 7] = [-0.15, -0.08, -0.04, 0.0, 0.02, 0.05, 0.1];
+
 /// Points from which the likelihood is climbed, two for each valley of the end: the best of a scan over the engagement and the
 /// density, and the best one far from it. A clutch that engages softly and one that grips late may both explain the same
 /// marks.
 fn valleys(
-    sight: &Sight,
+    places: &[f64],
     density: f64,
     ends: &[Vec<f64>],
     cost: impl Fn(&[f64; 3]) -> f64,
 ) -> Vec<[f64; 3]> {
     const DENSITY: [f64; 4] = [1.0, -2.0, -5.0, -9.0];
-    let places: &[f64] = if sight.rests {
-        &[
-            -4.5, -3.5, -2.75, -2.25, -1.75, -1.25, -0.75, -0.25, 0.4, 1.1,
-        ]
-    } else {
-        &[-0.15, -0.1, -0.05, 0.0, 0.05, 0.1, 0.15]
-    };
     let mut points = Vec::new();
     for ends in ends {
         let at = |place: f64| {
@@ -211,7 +213,7 @@ fn thinner(mut parts: Vec<(Plan, f64)>) -> Vec<(Plan, f64)> {
 
 /// Whether a change has so many marks that its start may be livelier than the whole: a motor that follows an even ramp with
 /// a lag.
-pub(super) fn is_long(sight: &Sight) -> bool {
+fn is_long(sight: &Sight) -> bool {
     sight.after.saturating_sub(sight.first) > 3 * STRETCH
 }
 
@@ -221,10 +223,13 @@ pub(super) fn lively(
     sight: &Sight,
     base: &Plan,
 ) -> (Vec<(Plan, f64)>, std::ops::Range<usize>) {
-    let from = if sight.rests {
-        0
-    } else {
-        sight.first.saturating_sub(BEYOND)
+    let from = match (sight.rests, data.channel) {
+        // A soft start is seen late, by up to half the change.
+        (_, true) => sight
+            .first
+            .saturating_sub((sight.after - sight.first) / 2 + BEYOND),
+        (true, false) => 0,
+        (false, false) => sight.first.saturating_sub(BEYOND),
     };
     let to = (sight.after + BEYOND).min(data.passages.len());
     let range = from..to;
@@ -238,8 +243,10 @@ pub(super) fn lively(
         first - 4.0 * length
     };
     let latest = (sight.lock + length).min(data.passages[to - 1].time);
+    // Of a shaft at rest no mark tells when it began to turn, only that it did before its first one; a channel shows the rest.
+    let unseen = sight.rests && !data.channel;
     let plan = |x: &[f64; 3], (start, stop, head): (Knot, Knot, f64)| -> Option<Plan> {
-        let engage = if sight.rests {
+        let engage = if unseen {
             first - length * x[1].exp()
         } else {
             sight.engage + length * x[1]
@@ -277,27 +284,36 @@ pub(super) fn lively(
             Some(plan) => {
                 let belief = expected(x[0] - density.ln(), jumps.0, jumps.2);
                 // Any time of the engagement is as likely as any other, not any logarithm of it.
-                let stretched = if sight.rests { x[1] } else { 0.0 };
+                let stretched = if unseen { x[1] } else { 0.0 };
                 -plan.likelihood_of(data, some) - belief - stretched
             }
             None => f64::INFINITY,
         }
+    };
+    let places: &[f64] = match (unseen, data.channel) {
+        (true, _) => &[
+            -4.5, -3.5, -2.75, -2.25, -1.75, -1.25, -0.75, -0.25, 0.4, 1.1,
+        ],
+        (false, true) => &[-0.5, -0.35, -0.25, -0.15, -0.1, -0.05, 0.0, 0.05, 0.1],
+        (false, false) => &[-0.15, -0.1, -0.05, 0.0, 0.05, 0.1, 0.15],
     };
     let stops: &[Knot] = if sight.ends {
         &[Knot::Jump, Knot::Kink, Knot::Soft]
     } else {
         &[Knot::Soft]
     };
-    let heads: &[f64] = if is_long(sight) {
+    // A channel shows the start itself.
+    let heads: &[f64] = if is_long(sight) && !data.channel {
         &[0.0, 1e-3, 1e-2, 1e-1]
     } else {
         &[0.0]
     };
     let ends = match sight.ends {
+        true if data.channel => vec![ENDS_OF_CHANNEL.to_vec()],
         true => ends(data, sight, length),
         false => vec![vec![0.0]],
     };
-    let steps = [2.0, if sight.rests { 0.2 } else { 0.05 }, 0.05];
+    let steps = [2.0, if unseen { 0.2 } else { 0.05 }, 0.05];
     let mut bests = Vec::new();
     for (start, head) in [Knot::Soft, Knot::Kink, Knot::Jump]
         .into_iter()
@@ -308,7 +324,7 @@ pub(super) fn lively(
             let cost = cost((start, stop, head));
             let from = |point: &[f64; 3], calls| climbed(*point, steps, calls, cost);
             let tops: Vec<_> = if warm.is_empty() {
-                let points = valleys(sight, density, &ends, cost);
+                let points = valleys(places, density, &ends, cost);
                 let short: Vec<_> = points
                     .iter()
                     .map(|point| simplex::lowest(*point, steps, 0.1, CLIMB / 4, &cost))
@@ -334,7 +350,7 @@ pub(super) fn lively(
             continue;
         }
         let cost = cost(jumps);
-        let widest = [2.0, if sight.rests { 0.6 } else { 0.05 }, 0.08];
+        let widest = [2.0, if unseen { 0.6 } else { 0.05 }, 0.08];
         let guess = widths(&best, value, widest, cost);
         let (points, evidence) = spread(best, guess, 28, cost);
         for (x, weight) in points {

@@ -1,4 +1,4 @@
-//! Angle, speed and acceleration of a shaft from the pulses of its wheel.
+//! Angle, speed and acceleration of a shaft from the pulses of its wheel, or from a speed that an instrument shows.
 //!
 //! ```text
 //! pulses ─▶ quiet parts: noise and liveliness by likelihood ─▶ knots: engagement and end, by likelihood
@@ -18,8 +18,10 @@
 mod answer;
 mod breakaway;
 mod bridge;
+mod channel;
 mod design;
 mod fit;
+mod fitted;
 mod lively;
 mod matrix;
 mod node;
@@ -28,18 +30,20 @@ mod smoothness;
 mod spread;
 mod stiffest;
 mod stop;
+mod too_few;
 mod track;
 
-use crate::pulse::{Gap, Pitch, Pulses, Refusal};
+use crate::pulse::{Pitch, Pulses, Refusal};
 use breakaway::Breakaway;
 use bridge::Bridge;
+pub use channel::{Channel, Instrument, Shown, smooth_channel};
 pub use design::marks_needed;
-use matrix::N;
-use node::Belief;
-use plan::{Data, Plan};
+use fitted::{QUIET_BEFORE, fitted};
+use plan::Data;
 use smoothness::Smoothness;
 use stiffest::Stiffest;
 use stop::Stop;
+use too_few::{carried, enough, needed, seen, stated};
 use track::Track;
 
 /// Where a quick change of speed is looked for.
@@ -158,9 +162,6 @@ pub struct Speed {
     pub notes: Vec<String>,
 }
 
-/// Pulses before a quick change that show how the shaft turned before it.
-const QUIET_BEFORE: usize = 12;
-
 /// Part of the pulses that are in step with the sampling from which on it is told.
 const IN_STEP: f64 = 0.4;
 
@@ -247,105 +248,11 @@ pub fn smooth(
         );
         fit::quiet(&data, n.saturating_sub(12)..n)
     };
-    let mut base = Plan {
-        noise,
-        quiet: [density; 3],
-        lively: None,
-        settled: 0.0,
-        rests: false,
-    };
-    if let Some(sight) = &sight
-        && !sight.rests
-        && sight.first >= QUIET_BEFORE
-    {
-        base.quiet[0] = fit::quiet(&data, 0..sight.first).1;
-    }
-    // From here on nothing of a quick change is left.
-    let mut calm_from = 0;
-    if let Some(sight) = &sight {
-        base.settled = sight.lock + 2.0 * (sight.lock - sight.engage);
-        calm_from = data.passages.partition_point(|p| p.time <= base.settled);
-        if calm_from >= sight.after + 8 {
-            let range = sight.after..calm_from.min(sight.after + 200);
-            base.quiet[1] = fit::settling(&data, range, noise, density);
-        }
-    }
-    if n - calm_from >= 3 * fit::STRETCH {
-        base.quiet[2] = fit::calm(&data, calm_from..n, noise, density);
-        // A change that settles is no calmer than what comes after it.
-        base.quiet[1] = base.quiet[1].max(base.quiet[2]);
-    }
-    let mut speed = Speed {
-        base: Track::new(
-            Vec::new(),
-            Belief {
-                mean: [0.0; N],
-                covariance: [[0.0; N]; N],
-            },
-            0.0,
-            noise.memory,
-        ),
-        parts: Vec::new(),
-        window: (f64::INFINITY, f64::NEG_INFINITY),
-        smoothness: None,
-        origin: data.origin,
-        unit: data.unit,
-        latency: settings.latency.max(0.0),
-        stiffest: None,
-        stop: None,
-        breakaway: None,
-        bridges: Vec::new(),
-        eccentricity: pitch.map_or(0.0, |p| {
-            settings.ripple.max(0.0) / (p.speed * p.speed).max(1e-12)
-        }),
-        change: None,
-        timing_factor: noise.timing,
-        angle_noise: noise.angle,
-        notes,
-    };
-    if let Some(sight) = &sight {
-        let (plans, range) = lively::lively(&data, sight, &base);
-        let Some((best, _)) = plans.first() else {
-            return Err(Refusal::new(
-                "the start and the end of the quick change cannot be found".into(),
-                "the window of one change of speed, with even running after it",
-            ));
-        };
-        base = *best;
-        let track = |plan: &Plan| {
-            let (nodes, start) = plan.nodes(&data, range.clone());
-            Track::new(nodes, start, plan.quiet[2], noise.memory)
-        };
-        speed.parts = plans
-            .iter()
-            .map(|(plan, weight)| (*weight, track(plan)))
-            .collect();
-        let stiffer: Vec<(f64, Track)> = plans
-            .iter()
-            .map(|(plan, weight)| (*weight, track(&smoothness::stiffer(plan))))
-            .collect();
-        let begin = if sight.rests {
-            f64::NEG_INFINITY
-        } else {
-            data.passages[range.start].time
-        };
-        let margin = if range.end < n { 5 } else { 1 };
-        speed.window = (begin, data.passages[range.end - margin].time);
-        speed.smoothness = best.lively.map(|lively| {
-            let to = lively.lock.min(speed.window.1);
-            Smoothness::of(&speed.parts, &stiffer, (lively.engage, to))
-        });
-        speed.change = Some(summary(&data, sight, &plans));
-    }
-    data.livelier = fit::livelier(&data, &base);
-    let (nodes, start) = base.nodes(&data, 0..n);
-    speed.base = Track::new(nodes, start, base.quiet[2], noise.memory);
-    if !(speed.base.is_finite() && speed.parts.iter().all(|(_, track)| track.is_finite())) {
-        return Err(Refusal::new(
-            "the intervals of the pulses differ so much that they cannot be smoothed".into(),
-            "pulses of one wheel that turns forward; look at the signal",
-        ));
-    }
+    let mut speed = fitted(&mut data, sight.as_ref(), (noise, density), notes)?;
+    speed.latency = settings.latency.max(0.0);
+    speed.eccentricity = pitch.map_or(0.0, |p| {
+        settings.ripple.max(0.0) / (p.speed * p.speed).max(1e-12)
+    });
     if speed.change.is_none() {
         speed.stiffest = Stiffest::of(pulses, &speed);
     }
@@ -401,17 +308,6 @@ pub fn smooth(
     Ok(speed)
 }
 
-/// Fewest pulses within a quick change that are looked at.
-const FEWEST_LOOKED_AT: usize = 4;
-
-/// Fewest pulses within a quick change whose answer is given.
-///
-/// A change from rest has five unknowns at least: the angle at which it begins and the time, the acceleration and its slope,
-/// the end. Angle and speed behind it are known. What is left of n pulses, n - 3, tells how lively the change is, and with it
-/// the band: of a deviation from ν degrees of freedom a band of two holds nine tenths from ν = 5 on (Student: 0.898), which
-/// are eight pulses. `tests/few_marks.rs` shows that it does.
-const FEWEST_WITHIN: usize = 8;
-
 /// Usual intervals without a mark, at the speed of the last ones, after which a pickup is taken for stuck.
 const STUCK: f64 = 8.0;
 
@@ -435,162 +331,4 @@ fn fell_silent(pulses: &Pulses, speed: &Speed) -> Option<String> {
             rate * pulses.pitch()
         )
     })
-}
-
-/// Refuses a quick change in which the pickup was silent.
-fn seen(pulses: &Pulses, data: &Data, sight: &fit::Sight) -> Result<(), Refusal> {
-    let (from, to) = (data.seconds(sight.engage), data.seconds(sight.lock));
-    let within = |gap: &&Gap| gap.from < to && gap.to > from;
-    match pulses.gaps.iter().find(within) {
-        Some(gap) => Err(Refusal::new(
-            format!(
-                "the pickup is silent from {:.4} s to {:.4} s, within the quick change of speed from about {from:.4} s to {to:.4} s",
-                gap.from, gap.to
-            ),
-            "a record that shows the change, or a part of this one without it (from, to)",
-        )),
-        None => Ok(()),
-    }
-}
-
-/// Refuses a quick change with too few pulses to see anything of it.
-fn enough(data: &Data, sight: &fit::Sight, settings: &SpeedSettings) -> Result<(), Refusal> {
-    let within = sight.after.saturating_sub(sight.first);
-    if within >= FEWEST_LOOKED_AT {
-        return Ok(());
-    }
-    let change = sight.change / data.unit;
-    // The change is over before the angle between two marks has passed at the new speed twice.
-    let longest = (2.0 * data.pitch / change).max((sight.lock - sight.engage) * data.unit);
-    let duration = settings.duration.filter(|d| *d > 0.0).unwrap_or(longest);
-    let wanted = settings.wanted.unwrap_or(0.1);
-    let mut spreads: Vec<f64> = data.passages.iter().map(|p| p.spread * data.unit).collect();
-    let timing = crate::pulse::median(&mut spreads);
-    let marks = marks_needed(change, duration, timing, wanted);
-    let least = if settings.duration.is_some() {
-        ""
-    } else {
-        " or less"
-    };
-    Err(Refusal::new(
-        format!(
-            "the speed changes by {change:.1} rad/s in {:.1} ms{least}, in which {within} pulses came",
-            1e3 * duration
-        ),
-        match marks {
-            Some(marks) => format!(
-                "{}{marks} marks per revolution for an acceleration within {:.0} % of its peak (there are {:.0})",
-                if settings.duration.is_some() {
-                    ""
-                } else {
-                    "at least "
-                },
-                100.0 * wanted,
-                std::f64::consts::TAU / data.pitch
-            ),
-            None => "more exact instants: no number of marks is enough with these".into(),
-        },
-    ))
-}
-
-/// Refuses a quick change with too few pulses to tell its band.
-fn carried(
-    speed: &Speed,
-    change: &Change,
-    (from, to): (f64, f64),
-    pulses: &Pulses,
-    settings: &SpeedSettings,
-) -> Result<(), Refusal> {
-    if change.pulses >= FEWEST_WITHIN {
-        return Ok(());
-    }
-    let (begin, end) = (speed.at(from), speed.at(to));
-    let jump = (end.speed - begin.speed).abs();
-    // Pulses that came are at most one fewer than pitches that passed; one more is for what is not known of the end.
-    let turned = (end.angle - begin.angle).abs();
-    let enough = design::offered((FEWEST_WITHIN + 1) as f64 * std::f64::consts::TAU / turned);
-    let timing = stated(pulses) * speed.timing_factor;
-    let exact = settings
-        .wanted
-        .map(|wanted| marks_needed(jump, to - from, timing, wanted));
-    let marks = match exact {
-        Some(exact) => exact.and_then(|exact| Some(exact.max(enough?))),
-        None => enough,
-    };
-    Err(Refusal::new(
-        format!(
-            "the speed changes by {jump:.1} rad/s in {:.1} ms, in which {} pulses came: too few to show how it changes, and how \
-             well that is known",
-            1e3 * (to - from),
-            change.pulses
-        ),
-        match marks {
-            Some(marks) => format!(
-                "{marks} marks per revolution (there are {}): {FEWEST_WITHIN} pulses in the change at least",
-                pulses.positions
-            ),
-            None => "more exact instants: no number of marks is enough with these".into(),
-        },
-    ))
-}
-
-fn needed(marks: Option<usize>, pulses: &Pulses, wanted: f64) -> String {
-    match marks {
-        Some(marks) if marks > pulses.positions => {
-            format!(
-                "about {marks} marks per revolution for {:.1} % (there are {})",
-                100.0 * wanted,
-                pulses.positions
-            )
-        }
-        _ => format!(
-            "more exact instants: {} marks per revolution would do for {:.1} % if their angles were known",
-            pulses.positions,
-            100.0 * wanted
-        ),
-    }
-}
-
-/// Usual stated uncertainty of an instant, s.
-fn stated(pulses: &Pulses) -> f64 {
-    crate::pulse::median(&mut pulses.uncertainties.clone())
-}
-
-/// Instants of the knots from the plans that are left.
-fn summary(data: &Data, sight: &fit::Sight, plans: &[(Plan, f64)]) -> Change {
-    let moments = |value: &dyn Fn(&plan::Lively) -> f64| {
-        let known = || {
-            plans
-                .iter()
-                .filter_map(|(plan, weight)| plan.lively.as_ref().map(|l| (value(l), *weight)))
-        };
-        let mean: f64 = known().map(|(x, w)| w * x).sum();
-        let variance: f64 = known().map(|(x, w)| w * (x - mean).powi(2)).sum();
-        (mean, variance.sqrt())
-    };
-    let (engage, engage_spread) = moments(&|l| l.engage);
-    let (lock, lock_spread) = moments(&|l| l.lock);
-    // Where a start has a lag, what came before the first marks is told by nothing that came after them.
-    let next = data.passages.partition_point(|p| p.time <= engage);
-    let hidden = match data.passages.get(next + 1) {
-        Some(second) if sight.rests => 0.5 * (second.time - engage),
-        _ => 0.0,
-    } * moments(&|l| f64::from(u8::from(l.head.is_some()))).0;
-    let engage_spread = engage_spread.hypot(hidden);
-    let jump = moments(&|l| f64::from(u8::from(l.start == plan::Knot::Jump)))
-        .0
-        .clamp(0.0, 1.0);
-    Change {
-        engagement: (data.seconds(engage), engage_spread * data.unit),
-        end: sight
-            .ends
-            .then_some((data.seconds(lock), lock_spread * data.unit)),
-        from_rest: sight.rests,
-        jump,
-        pulses: data
-            .passages
-            .iter()
-            .filter(|p| p.time > engage && p.time < lock)
-            .count(),
-    }
 }

@@ -2,25 +2,34 @@
 
 use super::matrix::{Matrix, Memory, Vector};
 use super::plan::moving;
+use crate::state_space::{applied, dot};
 
-/// A mark that passes.
+/// What is seen of the motion at an instant: `value = row · state + noise`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sight {
-    pub angle: f64,
-    /// Variance of the angle.
+    pub value: f64,
+    /// Variance of the noise.
     pub variance: f64,
-    /// Rough speed: angle per error of the instant.
-    pub speed: f64,
+    pub row: Vector,
 }
 
 impl Sight {
-    /// A column of a matrix as the pulse sees it: of the angle, plus the speed times that of the clock.
+    /// A mark that passes: its angle, off by the rough speed times the error of the clock.
+    pub(super) fn mark(angle: f64, variance: f64, speed: f64) -> Sight {
+        Sight {
+            value: angle,
+            variance,
+            row: [1.0, 0.0, 0.0, 0.0, speed],
+        }
+    }
+
+    /// A covariance as it is seen: `p h`.
     pub(super) fn seen(&self, matrix: &Matrix) -> Vector {
-        std::array::from_fn(|i| matrix[i][0] + self.speed * matrix[i][4])
+        applied(matrix, &self.row)
     }
 
     pub(super) fn of(&self, x: &Vector) -> f64 {
-        x[0] + self.speed * x[4]
+        dot(&self.row, x)
     }
 }
 
@@ -31,7 +40,7 @@ pub(super) struct Node {
     pub time: f64,
     /// Density of the snap in the interval before it.
     pub density: f64,
-    /// Where a mark passes.
+    /// Where something is seen.
     pub pulse: Option<Sight>,
     /// Variance added to each state, before the pulse.
     pub added: Option<[f64; 4]>,

@@ -1,26 +1,29 @@
-//! From pulses to the nodes of a track: noises, densities, knots.
+//! From pulses, or from samples of a speed, to the nodes of a track: noises, densities, knots.
 
 use super::matrix::{Memory, N};
 use super::node::{Belief, Fresh, Node, Sight};
 use super::track::{Pass, forward};
 use crate::pulse::{Pitch, Pulses};
 
-/// A passage, in the units of the fit.
+/// A mark that passes, or a mean of samples of a speed, in the units of the fit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Passage {
     /// Instant.
     pub time: f64,
-    /// Angle of the mark from the first one, rad.
-    pub angle: f64,
+    /// What is seen: the angle of the mark from the first one, rad; of a channel the speed.
+    pub value: f64,
     /// Rough speed.
     pub speed: f64,
     /// Stated uncertainty of the instant.
     pub spread: f64,
-    /// Variance that the calibration of the mark leaves, and what pulses in step with the sampling share, rad².
+    /// Part of the noise that the mean of some samples keeps; 1 for a mark.
+    pub kept: f64,
+    /// Variance that the noise does not hold: what the calibration of the mark leaves, and what pulses in step with the sampling
+    /// share, rad²; of a channel what its steps hide.
     pub left: f64,
 }
 
-/// Pulses in units in which the usual interval is one.
+/// Pulses, or samples of a speed, in units in which the usual interval is one.
 pub(super) struct Data {
     pub passages: Vec<Passage>,
     /// Time of the unit zero, s.
@@ -31,9 +34,11 @@ pub(super) struct Data {
     pub watched: (f64, f64),
     /// Angle from the last mark that can have passed unseen before the first pulse to it, rad.
     pub before: f64,
-    /// Usual angle between marks, rad.
+    /// Usual angle between marks, rad; of a channel the largest speed.
     pub pitch: f64,
     pub calibrated: bool,
+    /// Whether speeds are seen, not marks.
+    pub channel: bool,
     /// Instants of the first passages behind a silence of the pickup; nothing is carried over to them.
     pub fresh: Vec<f64>,
     /// Stretches that are livelier than the part of the record they lie in, side by side and in order.
@@ -85,9 +90,10 @@ impl Data {
         let mut passages: Vec<Passage> = (0..pulses.times.len())
             .map(|k| Passage {
                 time: (pulses.times[k] - origin) / unit,
-                angle: (pulses.marks[k] - pulses.marks[0]) as f64 * nominal + error(k) - first,
+                value: (pulses.marks[k] - pulses.marks[0]) as f64 * nominal + error(k) - first,
                 speed: 0.0,
                 spread: pulses.uncertainties[k] / unit,
+                kept: 1.0,
                 left: left(k),
             })
             .collect();
@@ -102,7 +108,7 @@ impl Data {
                 }],
                 &passages[if last { k } else { k + 1 }],
             );
-            let speed = (b.angle - a.angle) / (b.time - a.time).max(1e-9);
+            let speed = (b.value - a.value) / (b.time - a.time).max(1e-9);
             passages[k].speed = speed;
         }
         let previous = (pulses.position(0) + pulses.positions - 1) % pulses.positions;
@@ -123,6 +129,7 @@ impl Data {
             before,
             pitch: nominal,
             calibrated: pitch.is_some(),
+            channel: false,
             fresh: (pulses.gaps.iter())
                 .map(|gap| (pulses.times[gap.pulse] - origin) / unit)
                 .collect(),
@@ -165,21 +172,21 @@ impl Data {
     }
 }
 
-/// Noise of the angle of a passage.
+/// Noise of what is seen at a passage.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Noise {
     /// Factor on the stated uncertainty of the instants.
     pub timing: f64,
-    /// Standard deviation that does not depend on speed, rad.
+    /// Standard deviation that does not depend on speed, rad; of a channel that of one sample.
     pub angle: f64,
-    /// Error of the instants that lasts over several pulses.
+    /// Error of the instants that lasts over several pulses; of a channel its instrument.
     pub memory: Memory,
 }
 
 impl Noise {
     pub fn variance(&self, passage: &Passage) -> f64 {
         (self.timing * passage.spread * passage.speed).powi(2)
-            + self.angle * self.angle
+            + (self.angle * passage.kept).powi(2)
             + passage.left
     }
 }
@@ -300,10 +307,14 @@ impl Plan {
         let mut nodes = Vec::with_capacity(passages.len() + 2);
         let mut knots: Vec<(f64, Option<[f64; 4]>)> = Vec::new();
         let first = passages[0];
-        let mut start = moving(first.angle, first.speed, data.pitch);
+        let mut start = match data.channel {
+            true => shown(first.value, data.pitch),
+            false => moving(first.value, first.speed, data.pitch),
+        };
         let clock = self.noise.memory.spread * self.noise.memory.spread;
         if let Some(lively) = &self.lively {
-            if self.rests && lively.engage <= first.time {
+            // A channel that shows the rest before the engagement begins there: nothing moves before.
+            if self.rests && (data.channel || lively.engage <= first.time) {
                 start = resting(data, lively);
                 knots.push((lively.engage, None));
             } else if lively.engage > first.time {
@@ -313,11 +324,13 @@ impl Plan {
                 knots.push((lively.lock, Some(lively.added(lively.stop))));
             }
         }
-        start.covariance[4][4] = clock;
+        if !data.channel {
+            start.covariance[4][4] = clock;
+        }
         let density = |time: f64| self.density(time).max(data.livelier_at(time));
         let mut knots = knots.into_iter().peekable();
         let mut gaps = data.fresh.partition_point(|&time| time <= first.time);
-        for passage in passages {
+        for passage in &passages[self.at_rest(data, passages)..] {
             let passed = data.fresh[gaps..].partition_point(|&time| time <= passage.time);
             gaps += passed;
             while let Some((time, added)) = knots.next_if(|knot| knot.0 <= passage.time) {
@@ -332,20 +345,35 @@ impl Plan {
             nodes.push(Node {
                 time: passage.time,
                 density: density(passage.time),
-                pulse: Some(Sight {
-                    angle: passage.angle,
-                    variance: self.noise.variance(passage),
-                    speed: passage.speed,
+                pulse: Some(match data.channel {
+                    true => Sight {
+                        value: passage.value,
+                        variance: self.noise.variance(passage),
+                        row: self.noise.memory.row(),
+                    },
+                    false => {
+                        Sight::mark(passage.value, self.noise.variance(passage), passage.speed)
+                    }
                 }),
                 added: None,
                 fresh: (passed > 0).then_some(Fresh {
-                    angle: passage.angle,
+                    angle: passage.value,
                     speed: passage.speed,
                     pitch: data.pitch,
                 }),
             });
         }
         (nodes, start)
+    }
+
+    /// How many of some passages show a shaft that rests before its engagement; marks do not pass then.
+    fn at_rest(&self, data: &Data, passages: &[Passage]) -> usize {
+        match self.lively {
+            Some(lively) if self.rests && data.channel => {
+                passages.partition_point(|p| p.time <= lively.engage)
+            }
+            _ => 0,
+        }
     }
 
     /// Log likelihood of some passages.
@@ -362,9 +390,17 @@ impl Plan {
             direction[state] = 1.0;
         }
         let pass = forward(&nodes, &start, &direction, &self.noise.memory, |_, _| ());
+        let resting: f64 = (passages[..self.at_rest(data, passages)].iter())
+            .map(|passage| {
+                let variance = self.noise.variance(passage);
+                -0.5 * (passage.value * passage.value / variance + variance.ln())
+            })
+            .sum();
         match leading {
-            Some(state) => pass.likelihood + forward_only(&pass, start.covariance[state][state]),
-            None => pass.likelihood,
+            Some(state) => {
+                pass.likelihood + resting + forward_only(&pass, start.covariance[state][state])
+            }
+            None => pass.likelihood + resting,
         }
     }
 
@@ -403,21 +439,35 @@ pub(super) fn moving(angle: f64, speed: f64, pitch: f64) -> Belief {
     }
 }
 
+/// Belief before the first sample of a speed: no angle is counted yet, and of the motion hardly more is known than what it
+/// shows.
+fn shown(value: f64, largest: f64) -> Belief {
+    let mut covariance = [[0.0; N]; N];
+    for (state, spread) in [(1, 0.3), (2, 0.1), (3, 0.03), (4, 0.3)] {
+        covariance[state][state] = (spread * largest).powi(2);
+    }
+    Belief {
+        mean: [0.0, value, 0.0, 0.0, value],
+        covariance,
+    }
+}
+
 /// Belief at the engagement from rest: no speed, an angle anywhere before the first mark.
 fn resting(data: &Data, lively: &Lively) -> Belief {
     let added = lively.started();
     let mut covariance = [[0.0; N]; N];
-    covariance[0][0] = data.before * data.before / 12.0;
+    // A channel counts its angle from here.
+    let passed = if data.channel { 0.0 } else { data.before };
+    let first = if data.channel {
+        0.0
+    } else {
+        data.passages[0].value
+    };
+    covariance[0][0] = passed * passed / 12.0;
     covariance[2][2] = added[2];
     covariance[3][3] = added[3];
     Belief {
-        mean: [
-            data.passages[0].angle - 0.5 * data.before,
-            0.0,
-            0.0,
-            0.0,
-            0.0,
-        ],
+        mean: [first - 0.5 * passed, 0.0, 0.0, 0.0, 0.0],
         covariance,
     }
 }

@@ -161,11 +161,7 @@ mod tests {
         let node = |k: i32| Node {
             time: f64::from(k),
             density,
-            pulse: Some(Sight {
-                angle: 0.0,
-                variance,
-                speed: 0.0,
-            }),
+            pulse: Some(Sight::mark(0.0, variance, 0.0)),
             added: None,
             fresh: None,
         };
@@ -177,10 +173,7 @@ mod tests {
             mean: [0.0; N],
             covariance,
         };
-        let memory = Memory {
-            spread: 1e-9,
-            rate: 1.0,
-        };
+        let memory = Memory::of_clock(1e-9, 1.0);
         Track::new((0..=400).map(node).collect(), start, density, memory)
     }
 

@@ -45,6 +45,31 @@ impl Stiffest {
                 }
             }
         }
+        Stiffest::with(middle, half, square)
+    }
+
+    /// The same of speeds at some instants, s, with their deviations, rad/s. They say nothing of the angle.
+    pub fn of_speeds(times: &[f64], deviations: &[f64]) -> Option<Stiffest> {
+        let (from, to) = (*times.first()?, *times.last()?);
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let mut square = [[0.0; SIZE]; SIZE];
+        for (time, deviation) in times.iter().zip(deviations) {
+            let weight = 1.0 / (deviation * half).powi(2);
+            if !weight.is_finite() {
+                continue;
+            }
+            let row = rates((time - middle) / half);
+            for (i, line) in square.iter_mut().enumerate() {
+                for (j, value) in line.iter_mut().enumerate() {
+                    *value += weight * row[i] * row[j];
+                }
+            }
+        }
+        square[0][0] = square[1][1];
+        Stiffest::with(middle, half, square)
+    }
+
+    fn with(middle: f64, half: f64, square: [[f64; SIZE]; SIZE]) -> Option<Stiffest> {
         Some(Stiffest {
             middle,
             half,
@@ -57,7 +82,7 @@ impl Stiffest {
     pub fn variance(&self, order: i32, time: f64) -> f64 {
         let x = ((time - self.middle) / self.half).clamp(-1.0, 1.0);
         let row = match order {
-            1 => [0.0, 1.0, 2.0 * x, 3.0 * x * x],
+            1 => rates(x),
             _ => [0.0, 0.0, 2.0, 6.0 * x],
         };
         let lines = row.iter().zip(&self.covariance);
@@ -66,6 +91,11 @@ impl Stiffest {
             .sum();
         variance.max(0.0) / self.half.powi(2 * order)
     }
+}
+
+/// Derivatives of the powers.
+fn rates(x: f64) -> [f64; SIZE] {
+    [0.0, 1.0, 2.0 * x, 3.0 * x * x]
 }
 
 fn powers(x: f64) -> [f64; SIZE] {

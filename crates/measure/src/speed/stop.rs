@@ -1,4 +1,4 @@
-//! A shaft that comes to rest after its last mark.
+//! A shaft that comes to rest after its last mark, or after the last instant at which a channel shows it turn.
 //!
 //! ```text
 //! seen      no mark for longer than three intervals, by a shaft whose brake would stop it before the next mark
@@ -45,6 +45,24 @@ impl Stop {
         let stops_before_the_next_mark = 0.5 * last.speed * length < 1.5 * pulses.pitch();
         let silent = pulses.watched.1 - end > SILENCE * (end - before);
         (brakes && stops_before_the_next_mark && silent).then_some(Stop {
+            before,
+            last,
+            length,
+        })
+    }
+
+    /// The stop of a shaft that a channel shows at rest behind the last instant of a record, until the end of what was watched, s;
+    /// `before` is the instant before the last one.
+    pub fn seen(before: f64, speed: &Speed, watched: f64) -> Option<Stop> {
+        let mut last = speed.at(speed.range().1);
+        // What noise leaves of the last speed may turn back, or not brake.
+        last.speed = last.speed.max(0.0);
+        let brakes = last.speed > 0.0 && last.acceleration < 0.0;
+        let length = match brakes {
+            true => (-last.speed / last.acceleration).min(watched - last.time),
+            false => last.time - before,
+        };
+        (length > 0.0).then_some(Stop {
             before,
             last,
             length,

@@ -2,8 +2,9 @@
 //!
 //! ```text
 //! state  x = [angle, speed, acceleration, jerk, e]   white noise of the density q in the snap
-//! e      error of the instants with a memory: first-order Markov process
-//! pulse  z = angle + speed e + noise of variance r
+//! e      of pulses: error of the instants with a memory, a first-order Markov process; of a speed channel: what its instrument
+//!        shows of the speed, ė = (speed - e)/τ
+//! pulse  z = angle + speed e + noise of variance r;   channel  z = e + noise, or speed + noise where the instrument has no lag
 //! knot   variance added to any state at an instant: what it was before tells less, or nothing, of what it is after
 //! ```
 //! Forward: a Kalman filter. Backward: the adjoint recursion of Bryson and Frazier, which inverts no matrix, so that a
@@ -42,6 +43,16 @@ pub(super) struct Update {
     /// Innovation divided by its variance, and one over its variance.
     pull: f64,
     stiffness: f64,
+}
+
+impl Update {
+    /// The innovation in units of its deviation.
+    pub fn innovation(&self) -> f64 {
+        match self.stiffness > 0.0 {
+            true => self.pull / self.stiffness.sqrt(),
+            false => 0.0,
+        }
+    }
 }
 
 /// What a pass forward tells of the start.
@@ -90,7 +101,7 @@ pub(super) fn forward(
         }
         let mut update = Update::default();
         if let Some(pulse) = &node.pulse {
-            let innovation = pulse.angle - pulse.of(&belief.mean);
+            let innovation = pulse.value - pulse.of(&belief.mean);
             let row = pulse.seen(&belief.covariance);
             let spread = pulse.of(&row) + pulse.variance;
             update = Update {
@@ -143,8 +154,7 @@ impl Track {
                     pull,
                     stiffness,
                 } = updates[k];
-                let row = [1.0, 0.0, 0.0, 0.0, pulse.speed];
-                seen_back(&mut g, &mut c, &row, &gain, (pull, stiffness));
+                seen_back(&mut g, &mut c, &pulse.row, &gain, (pull, stiffness));
             }
             if nodes[k].fresh.is_some() {
                 (g, c) = ([0.0; N], [[0.0; N]; N]);
@@ -250,21 +260,14 @@ impl Track {
 
     /// Free motion back over a time before the first node, where the error of the instants plays no part.
     fn back(&self, dt: f64) -> Matrix {
-        let still = Memory {
-            rate: 0.0,
-            ..self.memory
-        };
-        drift(dt, &still)
+        drift(dt, &Memory::of_clock(self.memory.spread, 0.0))
     }
 
     /// Covariance that a time before the first node gathers, seen from its end: neighbouring derivatives err against each
     /// other.
     fn lost(&self, length: f64) -> Matrix {
         let density = self.nodes.first().map_or(self.density, |node| node.density);
-        let still = Memory {
-            rate: 0.0,
-            ..self.memory
-        };
+        let still = Memory::of_clock(self.memory.spread, 0.0);
         let gathered = gathered(length, density, &still);
         std::array::from_fn(|i| {
             std::array::from_fn(|j| gathered[i][j] * if (i + j) % 2 == 0 { 1.0 } else { -1.0 })
@@ -348,8 +351,7 @@ impl Track {
             }
             if let Some(pulse) = &self.nodes[k].pulse {
                 let gain = self.updates[k].gain;
-                let row: Vector =
-                    std::array::from_fn(|j| carried[0][j] + pulse.speed * carried[4][j]);
+                let row = applied(&transposed(&carried), &pulse.row);
                 for i in 0..N {
                     for j in 0..N {
                         carried[i][j] -= gain[i] * row[j];
@@ -424,7 +426,7 @@ impl Track {
             if let Some(pulse) = &mut node.pulse {
                 let mut only = [[0.0; N]; N];
                 only[0][0] = pulse.variance;
-                pulse.angle = pulse.of(&x) + shake(&only)[0];
+                pulse.value = pulse.of(&x) + shake(&only)[0];
             }
         }
         for &t in wanted {
@@ -480,11 +482,7 @@ mod tests {
                 Node {
                     time,
                     density: 0.05,
-                    pulse: Some(Sight {
-                        angle: 0.5 * time * time + error,
-                        variance: 1e-4,
-                        speed: time,
-                    }),
+                    pulse: Some(Sight::mark(0.5 * time * time + error, 1e-4, time)),
                     added: None,
                     fresh: None,
                 }
@@ -503,10 +501,7 @@ mod tests {
         }
     }
 
-    const MEMORY: Memory = Memory {
-        spread: 1e-2,
-        rate: 0.5,
-    };
+    const MEMORY: Memory = Memory::of_clock(1e-2, 0.5);
 
     #[test]
     fn derivatives_along_a_direction_are_those_of_the_likelihood() {

@@ -6,6 +6,7 @@ use crate::analyse::identify::per_test;
 use crate::analyse::identify::read::Asked;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Value};
+use identify::coasting::Windage;
 use identify::explain::{self, Conclusion, Explanation};
 use identify::moment::{Form, Moment};
 use identify::slip::{Established, SlipSettings};
@@ -188,6 +189,18 @@ fn moment(list: &mut List, found: &Found) {
         list_or(deviations),
         &CURVE,
     );
+    let windage = |pick: fn(&Windage, f64) -> Option<f64>| {
+        let windage = found.windage.as_ref();
+        let windage = windage.ok_or_else(|| "no slow test takes a windage out".to_string())?;
+        let at = |speed: &f64| pick(windage, *speed).unwrap_or(f64::NAN);
+        Ok::<Vec<f64>, String>(speeds.clone()?.iter().map(at).collect())
+    };
+    if found.windage.is_some() {
+        let values = windage(|windage, speed| windage.at(speed));
+        let deviations = windage(|w, speed| w.covariance(speed, speed).map(f64::sqrt));
+        list.push("windage_torques", "N m", list_or(values), &WINDAGE);
+        list.push("windage_deviations", "N m", list_or(deviations), &WINDAGE);
+    }
     let (speeds, torques) = measured_curve(found);
     list.push(
         "coast_down_speeds",
@@ -339,6 +352,11 @@ const CURVE: Origin = Origin {
     law: "M(Ω) of the most probable form, with the band of its noise, zero, form and scale",
     source: "Kass and Raftery 1995 (marginal likelihood), crates/identify/src/moment/mod.rs",
     valid: "between the smallest and the largest speed of the slow tests; parameters correlate, the curve counts",
+};
+const WINDAGE: Origin = Origin {
+    law: "what brakes the shaft without the bearing, at the speeds of the steady moment; it is no part of M",
+    source: "crates/identify/src/coasting.rs",
+    valid: "the same shaft, gas and other bearings in both runs",
 };
 const COAST_DOWN: Origin = Origin {
     law: "means of speed and torque over equal parts of each slow test",

@@ -1,13 +1,15 @@
 //! What the estimators find in the tests, each with its own reason where it refuses.
 
 use crate::analyse::heed::{INTERRUPTED, heed};
+use crate::analyse::identify::coast_down::{coasted, largest};
 use crate::analyse::identify::consequence::{false_reading, other_cause, slip_is_open, slips};
-use crate::analyse::identify::notes::{Note, grouped};
+use crate::analyse::identify::notes::{Note, grouped, noted};
 use crate::analyse::identify::read::{Asked, Test};
 use crate::analyse::signals;
 use crate::options::Options;
 use crate::result::outcome::Warning;
 use crate::scenario::RotorFriction;
+use identify::coasting::Windage;
 use identify::data_checks::{ByTemperature, CheckSettings, Doubt, doubts};
 use identify::dissipation::{Dissipation, dissipation};
 use identify::explain::{
@@ -98,6 +100,8 @@ pub(crate) struct Found {
     pub coast_downs: Vec<Measurement>,
     /// The steady moment.
     pub moment: Result<Moment, String>,
+    /// What was taken out of slow tests without torque beside the bearing, where that is known.
+    pub windage: Option<Windage>,
     /// Tests with acceleration.
     pub tests: Vec<TestFound>,
     /// F over speed and acceleration.
@@ -125,7 +129,7 @@ impl Found {
         let mut unusable = Vec::new();
         let interrupt = options.interrupt;
         let interrupted = || interrupt.load(Ordering::Relaxed);
-        let mut read = |tests: &[Test]| -> Vec<(Measurement, Uncertain)> {
+        let mut read = |tests: &[&Test]| -> Vec<(Measurement, Uncertain)> {
             let mut list = Vec::new();
             for test in tests {
                 if interrupted() {
@@ -138,10 +142,25 @@ impl Found {
             }
             list
         };
-        let coast_downs: Vec<Measurement> = (read(&asked.coast_downs).into_iter())
+        let (with_torque, without): (Vec<&Test>, Vec<&Test>) =
+            (asked.coast_downs.iter()).partition(|test| test.signals.torque.is_some());
+        let mut coast_downs: Vec<Measurement> = (read(&with_torque).into_iter())
             .map(|(test, _)| test)
             .collect();
-        let tests = read(&asked.tests);
+        let tests = read(&asked.tests.iter().collect::<Vec<_>>());
+        let mut windages = Vec::new();
+        for test in without {
+            if interrupted() {
+                break;
+            }
+            match coasted(test, &set, interrupt, &mut of_signals) {
+                Ok((measurement, windage)) => {
+                    windages.extend(windage.map(|windage| (windage, measurement.scale_deviation)));
+                    coast_downs.push(measurement);
+                }
+                Err(why) => unusable.push((test.name.clone(), why)),
+            }
+        }
         let unused = all_unused(&tests, &asked.tests, &unusable);
         let steady: Vec<Measurement> = (coast_downs.iter())
             .map(|test| before_the_stop(test, wish.settling_time))
@@ -150,12 +169,17 @@ impl Found {
             viscosity: wish.viscosity,
             ..MomentSettings::default()
         };
-        let moment = match steady.is_empty() {
+        let mut moment = match steady.is_empty() {
             true => Err("none of the slow tests can be used".to_string()),
             false => heed(interrupt, move || {
                 moment(&steady.iter().collect::<Vec<_>>(), &set, &settings)
             }),
         };
+        // Of several windages each is part of the mean: the largest that any leaves open counts, once.
+        let windage = largest(windages);
+        if let (Ok(moment), Some((windage, scale))) = (&mut moment, &windage) {
+            windage.left_open(moment, *scale);
+        }
         let deviation = SetDeviation {
             balls_mass: wish.ball_mass_deviation,
             cage_mass: wish.cage_mass_deviation,
@@ -294,6 +318,7 @@ impl Found {
             set,
             coast_downs,
             moment,
+            windage: windage.map(|(windage, _)| windage),
             tests,
             map,
             verdict,
@@ -370,7 +395,7 @@ fn measured(
         load: test.load.unwrap_or(0.0),
         speed: &shaft.speed,
         fastest: shaft.fastest.speed.abs(),
-        silence: signals::shaft::SILENT_MARKS * shaft.pulses.pitch(),
+        silence: shaft.silence(),
         torque,
         scale_deviation: (test.signals.torque.as_ref()).map_or(0.0, |asked| asked.scale_deviation),
         cage: found.cage.as_ref().map(|found| &found.cage),
@@ -384,13 +409,6 @@ fn measured(
         measurement,
         Uncertain::new(peak.acceleration, peak.acceleration_uncertainty()),
     ))
-}
-
-/// What the estimators of the signals say.
-fn noted(test: &Test, found: &signals::found::Found) -> Vec<Note> {
-    (found.warnings.iter())
-        .map(|warning| Note::of(warning.code, &test.name, &warning.text))
-        .collect()
 }
 
 fn map(

@@ -8,12 +8,14 @@
 //! |---|---|
 //! | `read` | the signals files and their channels |
 //! | `found` | the estimators of the crate `identify`, each with its own reason where it refuses |
+//! | `coast_down` | M of slow tests without a torque |
 //! | `consequence` | what follows from a verdict for the other results |
 //! | `notes` | what to know of the tests, each line once |
 //! | `answer`, `per_test` | named results |
 //! | `history` | the tests over time since their engagement |
 
 mod answer;
+mod coast_down;
 mod consequence;
 mod found;
 mod history;

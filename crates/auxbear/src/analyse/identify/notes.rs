@@ -1,6 +1,8 @@
 //! What to know of the tests before trusting the numbers: what says the same of several tests is one line that names them, its
 //! numbers from the smallest to the largest.
 
+use crate::analyse::identify::read::Test;
+use crate::analyse::signals;
 use crate::result::outcome::Warning;
 
 /// Something that is said of a test, or of all.
@@ -126,6 +128,13 @@ pub(crate) fn grouped(notes: &[Note]) -> Vec<Warning> {
                 },
             }
         })
+        .collect()
+}
+
+/// What the estimators of the signals say.
+pub(super) fn noted(test: &Test, found: &signals::found::Found) -> Vec<Note> {
+    (found.warnings.iter())
+        .map(|warning| Note::of(warning.code, &test.name, &warning.text))
         .collect()
 }
 

@@ -2,7 +2,7 @@
 
 use crate::analyse::signals;
 use crate::problem::{Code, Problem};
-use crate::scenario::{BuiltIn, Identify, Scenario, Signals, System, UNNAMED};
+use crate::scenario::{Identify, Signals, UNNAMED};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -75,24 +75,10 @@ fn test(
             .on_key(key),
         )
     };
-    let scenario = Scenario::read(path, &[], &BuiltIn).map_err(|problem| match problem.code {
-        // a file that is not there is wrong where it is named
-        Code::FileMissing | Code::FileIsFolder | Code::FileUnreadable => refuse(
-            problem.code,
-            problem.found.clone(),
-            "the path of a signals file is needed, relative to this one",
-        ),
-        _ => problem,
-    })?;
-    let System::Signals(signals) = &scenario.system else {
-        let word = scenario.system.name().word();
-        return Err(refuse(
-            Code::UnknownWord,
-            format!("which describes system = \"{word}\""),
-            "a file of system = \"signals\" is needed, which says what the channels of a measurement are",
-        ));
-    };
-    if signals.speed.is_none() || (with_torque && signals.torque.is_none()) {
+    let (scenario, signals) = signals::asked::signals_file(key, path)?;
+    let coasts = key == "identify.coast_down"
+        && (signals.steady.as_ref()).is_some_and(|steady| steady.inertia.is_some());
+    if signals.speed.is_none() || (with_torque && signals.torque.is_none() && !coasts) {
         let lacks = match signals.speed {
             None => "[signals.speed]",
             Some(_) => "[signals.torque]",
@@ -100,7 +86,12 @@ fn test(
         return Err(refuse(
             Code::MissingKey,
             format!("which has no {lacks}"),
-            "speed and torque of each test are needed",
+            match key {
+                "identify.coast_down" => {
+                    "speed and torque of each test are needed; of a coast-down without torque sensor the speed, and signals.steady.from, to and inertia"
+                }
+                _ => "speed and torque of each test are needed",
+            },
         ));
     }
     if let Some(cage) = &signals.cage
@@ -123,11 +114,11 @@ fn test(
             "the weight on the bearing is needed, in each signals file or as identify.radial_load, e.g. \"60 N\"",
         ));
     }
-    let asked = signals::Asked::of(signals).map_err(|problem| scenario.locate(problem))?;
+    let asked = signals::Asked::of(&signals).map_err(|problem| scenario.locate(problem))?;
     Ok(Test {
         name: name(path),
         load,
-        signals: signals.clone(),
+        signals,
         asked: Arc::new(asked),
     })
 }

@@ -2,10 +2,11 @@
 
 use crate::analyse::signals::asked::{Asked, median};
 use crate::analyse::signals::found::Found;
+use crate::analyse::signals::shaft::Seen;
 use crate::analyse::signals::torque;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Value};
-use measure::pulse::Gap;
+use measure::pulse::{Gap, Pulses};
 
 /// Names the results; what no channel was given for has none.
 pub(crate) fn quantities(asked: &Asked, found: &Found) -> Vec<Quantity> {
@@ -65,16 +66,28 @@ fn speed(list: &mut List, found: &Found) {
             .map(|s| value(s))
             .map_err(|why| why.to_string())
     };
+    let channel = shaft.as_ref().ok().and_then(|shaft| match &shaft.seen {
+        Seen::Channel(channel) => Some(channel),
+        Seen::Marks { .. } => None,
+    });
+    if let Some(channel) = channel {
+        list.number("speed_noise", "rad/s", Ok(channel.noise), &CHANNEL);
+        list.number("speed_step", "rad/s", Ok(channel.step), &CHANNEL);
+    }
+    let of_pulses = |value: &dyn Fn(&Pulses) -> f64| {
+        let shaft = shaft.as_ref().map_err(|why| why.to_string())?;
+        shaft.pulses().map(value)
+    };
     list.number(
         "pulse_count",
         "",
-        of(&|s| s.pulses.times.len() as f64),
+        of_pulses(&|pulses| pulses.times.len() as f64),
         &PULSES,
     );
     list.number(
         "pulses_repaired_share",
         "1",
-        of(&|s| s.pulses.repaired),
+        of_pulses(&|pulses| pulses.repaired),
         &PULSES,
     );
     for (name, end) in [
@@ -92,19 +105,25 @@ fn speed(list: &mut List, found: &Found) {
     list.number(
         "pulse_timing_factor",
         "1",
-        of(&|s| s.speed.timing_factor),
+        of_pulses(&|_| shaft.as_ref().map_or(f64::NAN, |s| s.speed.timing_factor)),
         &SPEED,
     );
-    let pitch = of(&|s| {
-        s.pitch.as_ref().map_or(f64::NAN, |p| {
-            let worst = p.errors.iter().fold(0.0_f64, |most, e| most.max(e.abs()));
-            worst / s.pulses.pitch()
-        })
-    });
-    let pitch = pitch.and_then(|share| match share.is_nan() {
-        true => Err("the marks were not calibrated".to_string()),
-        false => Ok(share),
-    });
+    let pitch = shaft
+        .as_ref()
+        .map_err(|why| why.to_string())
+        .and_then(|s| match &s.seen {
+            Seen::Marks {
+                pulses,
+                pitch: Some(p),
+            } => {
+                let worst = p.errors.iter().fold(0.0_f64, |most, e| most.max(e.abs()));
+                Ok(worst / pulses.pitch())
+            }
+            _ => Err(s
+                .pulses()
+                .err()
+                .unwrap_or_else(|| "the marks were not calibrated".to_string())),
+        });
     list.number("largest_mark_error_share_of_pitch", "1", pitch, &PITCH);
     list.number(
         "mean_speed",
@@ -167,7 +186,10 @@ fn speed(list: &mut List, found: &Found) {
     list.number(
         "pulses_in_change",
         "",
-        change().map(|c| c.pulses as f64),
+        change().and_then(|c| match channel {
+            None => Ok(c.pulses as f64),
+            Some(_) => Err("signals.speed.channel holds a speed, not marks".to_string()),
+        }),
         &CHANGE,
     );
     let rest = change().map(|c| if c.from_rest { "yes" } else { "no" });
@@ -368,6 +390,11 @@ const PULSES: Origin = Origin {
     source: "crates/measure/src/pulse",
     valid: "pulses of one wheel that turns forward",
 };
+const CHANNEL: Origin = Origin {
+    law: "noise of one value by likelihood, or as stated; the smallest step between values",
+    source: "crates/measure/src/speed/channel",
+    valid: "noise that changes from value to value",
+};
 const SILENT: Origin = Origin {
     law: "intervals in which six marks or more passed unseen, or the signal is missing; speeds in between follow from both sides, and no extreme is taken there",
     source: "crates/measure/src/pulse/gap.rs",
@@ -379,7 +406,7 @@ const PITCH: Origin = Origin {
     valid: "an error of the wheel that does not change; a ripple once a turn is taken for one",
 };
 const SPEED: Origin = Origin {
-    law: "smoothing spline of the seventh degree through the pulses, as stiff as their likelihood asks for; deviation: standard",
+    law: "smoothing spline of the seventh degree through the pulses, or of a speed through what its instrument makes of it, as stiff as their likelihood asks for; deviation: standard",
     source: "Bierman 1977 (filter and smoother), crates/measure/src/speed; bands compared with 400 synthetic records in crates/measure/tests/speed_coverage.rs",
     valid: "one quick change in the record; no ripple quicker than two marks can show",
 };

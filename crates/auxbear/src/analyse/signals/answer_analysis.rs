@@ -153,6 +153,29 @@ fn steady(list: &mut List, found: &Found) {
             &STEADY,
         );
     }
+    let windage = || part().and_then(|part| Ok((part, part.windage.clone()?)));
+    let torques = windage().map(|(part, windage)| {
+        let at = |speed: &f64| windage.at(*speed).unwrap_or(f64::NAN);
+        part.speed.iter().map(at).collect()
+    });
+    let deviations = windage().map(|(part, windage)| {
+        let at = |speed: &f64| {
+            windage
+                .covariance(*speed, *speed)
+                .map_or(f64::NAN, f64::sqrt)
+        };
+        part.speed.iter().map(at).collect()
+    });
+    let asked_for = (asked.signals.steady.as_ref()).is_some_and(|wish| wish.windage.is_some());
+    if asked_for {
+        list.push("steady_windage_torques", "N m", listed(torques), &WINDAGE);
+        list.push(
+            "steady_windage_deviations",
+            "N m",
+            listed(deviations),
+            &WINDAGE,
+        );
+    }
     type Pair = fn(&crate::analyse::signals::steady::Found) -> &Result<Difference, String>;
     let pairs: [(&str, Pair); 2] = [
         ("direct_less_inertial", |p| &p.direct_less_inertial),
@@ -202,9 +225,14 @@ const INERTIA: Origin = Origin {
     valid: "small swings, light damping; everything that coasts takes part",
 };
 const STEADY: Origin = Origin {
-    law: "direct: smooth curve through torque over speed; inertial: -I dΩ/dt of a smooth curve through the speed of whole turns; deviation: standard, of the inertia included",
+    law: "direct: smooth curve through torque over speed; inertial: -I dΩ/dt of a smooth curve through the speed of whole turns, or as an instrument shows it, less the windage where it is known; deviation: standard, of the inertia included",
     source: "Eilers and Marx 1996, crates/identify/src/steady_curve; bands in crates/identify/tests/steady_curve.rs",
     valid: "one passage over the speeds; inertial: all that brakes what coasts, other bearings and air included",
+};
+const WINDAGE: Origin = Origin {
+    law: "what brakes the shaft without the bearing, a + b Ω + c Ω² as given or -I dΩ/dt of a run without it; it is taken out of the inertial torque",
+    source: "crates/identify/src/coasting.rs",
+    valid: "the same shaft, gas and other bearings in both runs",
 };
 const COMPARED: Origin = Origin {
     law: "mean difference over the common speeds; chance of so large a difference between equal curves",

@@ -2,8 +2,12 @@
 
 use crate::analyse::signals::read::{self, Listed, Series, Source, Stamps};
 use crate::analyse::signals::spectrum;
-use crate::problem::Problem;
-use crate::scenario::{CageKind, PickupKind, SensorSource, Signals};
+use crate::problem::{Code, Problem};
+use crate::scenario::{
+    BuiltIn, CageKind, PickupKind, Scenario, SensorSource, Signals, System, UNNAMED, Windage,
+};
+use std::sync::Arc;
+use std::path::Path;
 
 /// Channels that were read, and what is asked of them.
 pub(crate) struct Asked {
@@ -16,6 +20,8 @@ pub(crate) struct Asked {
     pub cage: Option<Signal>,
     pub temperature: Option<Series>,
     pub vibration: Option<Series>,
+    /// A coast-down without the bearing.
+    pub windage: Option<Arc<Asked>>,
 }
 
 /// What a channel holds.
@@ -38,6 +44,9 @@ impl Asked {
                     }
                     PickupKind::Edges { .. } => {
                         Signal::Stamped(source.stamps(key, &speed.channel)?)
+                    }
+                    PickupKind::Speed { scale, .. } => {
+                        Signal::Sampled(source.speeds(key, &speed.channel, scale)?)
                     }
                 })
             }
@@ -109,9 +118,18 @@ impl Asked {
         if let Some(converter) = &signals.converter {
             source.has("signals.converter.channels", &converter.channels)?;
         }
+        let windage = match signals
+            .steady
+            .as_ref()
+            .and_then(|steady| steady.windage.as_ref())
+        {
+            Some(Windage::Run(path)) => Some(Arc::new(without_bearing(path)?)),
+            _ => None,
+        };
         source.interval_holds(tap_source.as_ref())?;
         let mut all = source.notes();
         all.append(&mut notes);
+        all.extend(windage.iter().flat_map(|run| run.notes.iter().cloned()));
         Ok(Asked {
             signals: signals.clone(),
             listed,
@@ -122,6 +140,7 @@ impl Asked {
             cage,
             temperature,
             vibration,
+            windage,
         })
     }
 
@@ -143,6 +162,77 @@ impl Asked {
     }
 }
 
+/// Reads a signals file that another file names under a key.
+pub(crate) fn signals_file(
+    key: &'static str,
+    path: &Path,
+) -> Result<(Scenario, Signals), Box<Problem>> {
+    let refuse = |code, found: String, needed: String| {
+        let found = format!("{}, {found}", path.display());
+        Box::new(Problem::new(code, UNNAMED, found, needed).on_key(key))
+    };
+    let scenario = Scenario::read(path, &[], &BuiltIn).map_err(|problem| match problem.code {
+        // a file that is not there is wrong where it is named
+        Code::FileMissing | Code::FileIsFolder | Code::FileUnreadable => {
+            let needed = "the path of a signals file is needed, relative to this one";
+            let found = problem.found.clone();
+            refuse(problem.code, found, format!("{needed}{}", made_by(path)))
+        }
+        _ => problem,
+    })?;
+    match &scenario.system {
+        System::Signals(signals) => {
+            let signals = signals.clone();
+            Ok((scenario, signals))
+        }
+        other => Err(refuse(
+            Code::UnknownWord,
+            format!("which describes system = \"{}\"", other.name().word()),
+            "a file of system = \"signals\" is needed, which says what the channels of a measurement are".to_string(),
+        )),
+    }
+}
+
+/// Which command makes a signals file that is not there: a rig's run writes one called signals.toml into its directory.
+fn made_by(path: &Path) -> String {
+    let folder = path.parent().filter(|_| path.ends_with("signals.toml"));
+    match folder.and_then(|folder| Some((folder, folder.file_name()?.to_string_lossy()))) {
+        Some((folder, name)) => format!(
+            "; where it is of a simulated rig, its run writes it: auxbear run {name}.toml --out {}",
+            folder.display()
+        ),
+        None => String::new(),
+    }
+}
+
+/// A coast-down of the shaft without the bearing, its channels read.
+fn without_bearing(path: &Path) -> Result<Asked, Box<Problem>> {
+    let key = "signals.steady.windage_file";
+    let (scenario, signals) = signals_file(key, path)?;
+    let refuse = |code, found: &str, needed: &str| {
+        let found = format!("{}, {found}", path.display());
+        Box::new(Problem::new(code, UNNAMED, found, needed).on_key(key))
+    };
+    match &signals.steady {
+        Some(steady) if steady.windage.is_some() => {
+            return Err(refuse(
+                Code::Conflict,
+                "which takes a windage out itself",
+                "the run without bearing shows the windage: leave signals.steady.windage_* out of its file",
+            ));
+        }
+        Some(steady) if steady.inertia.is_some() && signals.speed.is_some() => (),
+        _ => {
+            return Err(refuse(
+                Code::MissingKey,
+                "which draws no torque from the slope of the speed",
+                "a coast-down with [signals.speed], signals.steady.from, to and inertia is needed",
+            ));
+        }
+    }
+    Asked::of(&signals).map_err(|problem| scenario.locate(problem))
+}
+
 /// The middle of the values that are numbers; not-a-number where there is none.
 pub(crate) fn median(values: &[f64]) -> f64 {
     let mut known: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
@@ -159,13 +249,7 @@ pub(crate) fn in_newton_metres(
 ) -> Result<Series, Box<Problem>> {
     let mut series = source.series(key, name, whole)?;
     let factor = source.torque_factor(key, &series.unit, name, scale)?;
-    for value in &mut series.values {
-        *value *= factor;
-    }
-    if let Some(converter) = &mut series.converter {
-        converter.lowest *= factor;
-        converter.highest *= factor;
-    }
+    series.scale(factor);
     Ok(series)
 }
 

@@ -154,7 +154,8 @@ impl Found {
         }
         let stated = marks as f64;
         let marks = (stated / ratio).round();
-        if marks >= 1.0 && marks != stated && (stated / marks - ratio).abs() <= near {
+        let other = stated > 0.0 && marks >= 1.0 && marks != stated;
+        if other && (stated / marks - ratio).abs() <= near {
             fits.push(format!(
                 "{marks} marks per revolution instead of {stated} (signals.speed.marks_per_revolution)"
             ));

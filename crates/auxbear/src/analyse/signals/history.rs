@@ -30,7 +30,7 @@ pub(crate) fn columns(asked: &Asked, found: &Found) -> Vec<Column> {
     };
     if let Some(shaft) = &found.shaft {
         let motions: Vec<Motion> = times.iter().map(|&time| shaft.speed.at(time)).collect();
-        let (first, last) = (shaft.pulses.watched.0, shaft.told_until());
+        let (first, last) = (shaft.watched.0, shaft.told_until());
         let row = |time: f64| {
             times
                 .partition_point(|t| *t < time)
@@ -40,16 +40,18 @@ pub(crate) fn columns(asked: &Asked, found: &Found) -> Vec<Column> {
             Some(motion) if time >= first && time <= last => value(motion),
             _ => f64::NAN,
         };
-        add(
-            "shaft.pulse_speed",
-            "rad/s",
-            "pitch over the time between the pulses around, as raw as pulses are",
-            &|t| shaft.pulse_speed(t),
-        );
+        let (name, meaning) = match shaft.pulses() {
+            Ok(_) => (
+                "shaft.pulse_speed",
+                "pitch over the time between the pulses around, as raw as pulses are",
+            ),
+            Err(_) => ("shaft.reading", "speed as the instrument shows it"),
+        };
+        add(name, "rad/s", meaning, &|t| shaft.raw_speed(t));
         add(
             "shaft.angle",
             "rad",
-            "angle of the shaft from the first mark that passed",
+            "angle of the shaft from the first mark that passed; of a speed from the first value or the engagement on",
             &|t| of(t, &|m| m.angle),
         );
         add("shaft.speed", "rad/s", "speed of the shaft", &|t| {

@@ -20,7 +20,7 @@ mod history;
 mod read;
 pub(crate) mod shaft;
 mod spectrum;
-mod steady;
+pub(crate) mod steady;
 mod temperature;
 pub(crate) mod torque;
 mod unit;
@@ -33,7 +33,8 @@ use crate::analyse::signals::found::Found;
 use crate::options::Options;
 use crate::result::assumptions::assumptions;
 use crate::result::outcome::{Outcome, Picture, Stop, Warning, Work};
-use crate::scenario::{Scenario, SensorSource};
+use crate::scenario::{Scenario, SensorSource, SteadySignal};
+use identify::coasting::Windage;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -91,18 +92,43 @@ fn more(asked: &Arc<Asked>, interrupt: &AtomicBool, found: &mut Found) {
         let reading = reading.map(|(series, faulty)| (series, faulty, torque.as_deref()));
         match (&own.signals.steady, &shaft) {
             (Some(wish), Some(shaft)) => {
-                steady::Found::of(wish, shaft, reading, own.signals.torque.as_ref())
+                let windage = windage(wish, &own, &AtomicBool::new(false));
+                steady::Found::of(wish, shaft, reading, own.signals.torque.as_ref(), windage)
             }
             _ => no_shaft(),
         }
     };
     match heed(interrupt, steady) {
         Ok(steady) => {
+            if let Some(doubt) = &steady.doubt {
+                found.warn("AB1122", "Steady curve", std::slice::from_ref(doubt));
+            }
             found.warn("AB1043", "Steady curve", &steady.notes);
             found.steady = Some(steady);
         }
         Err(why) => found.refused.push(("steady", why)),
     }
+}
+
+/// What brakes the shaft without the bearing, by its law or by the run without it.
+pub(crate) fn windage(
+    wish: &SteadySignal,
+    asked: &Asked,
+    interrupt: &AtomicBool,
+) -> Result<Windage, String> {
+    steady::windage(wish, || {
+        let run = (asked.windage.as_ref())
+            .ok_or_else(|| "there is no run without bearing".to_string())?;
+        let found = find(run, interrupt);
+        let of = |part| found.why(part);
+        let steady = found.steady.as_ref();
+        match (steady, &found.shaft) {
+            (Some(steady), _) => steady.inertial.clone(),
+            (None, Some(_)) => Err(of("steady")),
+            (None, None) => Err(of("speed")),
+        }
+        .map_err(|why| format!("in the run without bearing: {why}"))
+    })
 }
 
 /// Computes what is asked for, part by part until an interrupt.
@@ -141,6 +167,16 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
                         "Marks per revolution",
                         std::slice::from_ref(doubt),
                     );
+                }
+                if let Some(odd) =
+                    (asked.signals.speed.as_ref()).and_then(|wish| shaft.beside_set(wish))
+                {
+                    found.warn("AB1121", "Largest speed", &[odd]);
+                }
+                if let shaft::Seen::Channel(channel) = &shaft.seen
+                    && let Some(doubt) = &channel.doubt
+                {
+                    found.warn("AB1120", "Speed", std::slice::from_ref(doubt));
                 }
                 found.warn("AB1043", "Speed", &shaft.notes);
                 found.shaft = Some(Arc::new(shaft));

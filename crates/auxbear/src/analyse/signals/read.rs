@@ -2,7 +2,7 @@
 
 mod clock;
 
-use crate::analyse::signals::unit::{no_signal, si_factor, unit_of};
+use crate::analyse::signals::unit::{no_signal, si_factor, speed_factor, unit_of};
 use crate::problem::{Code, Problem, did_you_mean};
 use crate::scenario::{Signals, UNNAMED};
 use measure::converter::Converter;
@@ -39,6 +39,17 @@ impl Series {
     /// Time of the last value, s.
     pub fn last(&self) -> f64 {
         self.first + self.values.len().saturating_sub(1) as f64 * self.interval
+    }
+
+    /// Turns values and converter into another unit, of which one of the file's has `factor`.
+    pub fn scale(&mut self, factor: f64) {
+        for value in &mut self.values {
+            *value *= factor;
+        }
+        if let Some(converter) = &mut self.converter {
+            converter.lowest *= factor;
+            converter.highest *= factor;
+        }
     }
 
     /// Time of a value, s.
@@ -376,10 +387,52 @@ impl<'a> Source<'a> {
                     series.name,
                     series.unit.trim()
                 ),
-                "the signal of a sensor that sees each of them pass is needed, e.g. in V",
+                match speed_factor(&series.unit) {
+                    Some(_) if key == "signals.speed.channel" => {
+                        "a speed is read with signals.speed.kind = \"speed\"; else the signal of a sensor that sees each mark pass is needed, e.g. in V"
+                    }
+                    _ => "the signal of a sensor that sees each of them pass is needed, e.g. in V",
+                },
             )),
             None => Ok(series),
         }
+    }
+
+    /// The values of a channel that shows a speed, in rad/s, within the part that is looked at.
+    pub fn speeds(
+        &mut self,
+        key: &'static str,
+        name: &str,
+        scale: Option<f64>,
+    ) -> Result<Series, Box<Problem>> {
+        let mut series = self.series(key, name, false)?;
+        let named = || format!("channel \"{}\" in \"{}\"", series.name, series.unit.trim());
+        let factor = match (speed_factor(&series.unit), scale) {
+            (Some(own), Some(scale)) if (own / scale - 1.0).abs() > 1e-9 => {
+                return Err(self.problem(
+                    Code::ChannelUnit,
+                    "signals.speed.scale",
+                    named(),
+                    "the unit of the file and this scale contradict each other: leave the scale away, or correct it",
+                ));
+            }
+            (_, Some(scale)) => scale,
+            (Some(own), None) => own,
+            (None, None) => {
+                let found = match series.unit.trim() {
+                    "" => format!("channel \"{}\" without a unit", series.name),
+                    _ => named(),
+                };
+                return Err(self.problem(
+                    Code::ChannelUnit,
+                    key,
+                    found,
+                    "a unit of turning is needed (rpm, rad/s, Hz): tell what one unit of the channel is, e.g. signals.speed.scale = \"1 rpm\"",
+                ));
+            }
+        };
+        series.scale(factor);
+        Ok(series)
     }
 
     /// The instants in a channel, within the part that is looked at.

@@ -3,12 +3,23 @@
 use crate::analyse::signals::read::Series;
 use crate::analyse::signals::{shaft, torque};
 use crate::scenario::{InertiaSource, SteadySignal, TorqueSignal};
+use identify::coasting::Windage;
 use identify::steady_curve::{Difference, SteadyCurve, compare, direct, inertial};
 use measure::inertia::{inertia_from_bifilar, inertia_from_known_torque, inertia_from_pendulum};
 use measure::uncertain::Uncertain;
 
-/// Values of the speed that a curve is drawn from, at most.
+/// Values of the speed that a curve is drawn from, at most; and at least of a shaft that turns few times, whose turns overlap then:
+/// the fit sees that their errors are alike.
 const MOST: usize = 2000;
+const LEAST: usize = 96;
+/// Fewest turns of the shaft that show how its speed changes.
+const TURNS: i64 = 10;
+/// Fewest values of a speed channel in the part.
+const FEWEST: usize = 32;
+/// Part by which the torque by the slope of the speed may differ from that of the sensor, and deviations: beyond both it is no
+/// matter of the bands.
+const BESIDE: f64 = 0.3;
+const APART: f64 = 3.0;
 
 /// What a torque of a reading whose zero is not told lacks.
 const NO_ZERO: &str = "the zero of the reading is not known: signals.torque.zero_deviation is not given, so that the torque by the sensor may be off by any constant, which its band does not hold";
@@ -24,8 +35,12 @@ pub(crate) struct Found {
     pub up: Result<SteadyCurve, String>,
     pub direct_less_inertial: Result<Difference, String>,
     pub up_less_down: Result<Difference, String>,
+    /// What brakes the shaft without the bearing; it is taken out of `inertial`.
+    pub windage: Result<Windage, String>,
     pub speed: Vec<f64>,
     pub notes: Vec<String>,
+    /// Why marks, inertia or scale may be wrong.
+    pub doubt: Option<String>,
 }
 
 impl Found {
@@ -34,6 +49,7 @@ impl Found {
         shaft: &shaft::Found,
         reading: Option<(&Series, &torque::Faulty, Option<&torque::Found>)>,
         sensor: Option<&TorqueSignal>,
+        windage: Result<Windage, String>,
     ) -> Result<Found, String> {
         let (first, interval, speeds) = speeds((wish.from, wish.to), shaft)?;
         let known = || speeds.iter().copied().filter(|v| v.is_finite());
@@ -53,9 +69,16 @@ impl Found {
             .as_ref()
             .ok_or_else(|| "no inertia is given".to_string())
             .and_then(inertia);
-        let inertial = inertia
+        let mut inertial = inertia
             .clone()
             .and_then(|inertia| inertial(first, interval, &speeds, inertia, &speed));
+        match (&mut inertial, &windage, &wish.windage) {
+            (Ok(curve), Ok(windage), _) => windage.taken_out(curve),
+            (Ok(_), Err(why), Some(_)) => {
+                inertial = Err(format!("the windage is not known: {why}"));
+            }
+            _ => (),
+        }
         let by_sensor = |part: (f64, f64)| {
             let (series, faulty, found) =
                 reading.ok_or_else(|| "signals.torque.channel is not given".to_string())?;
@@ -118,7 +141,13 @@ impl Found {
             curve.zero_deviation = zero;
             curve.scale_deviation = sensor.map_or(0.0, |sensor| sensor.scale_deviation);
         }
+        let doubt = match (&direct, &inertial) {
+            (Ok(direct), Ok(inertial)) => beside(direct, inertial),
+            _ => None,
+        };
         Ok(Found {
+            windage,
+            doubt,
             direct_less_inertial: set(&direct, &inertial).and_then(|all| against.map(|()| all)),
             up_less_down,
             inertia,
@@ -128,6 +157,56 @@ impl Found {
             speed,
             notes,
         })
+    }
+}
+
+/// What is odd of a torque by the sensor beside that by the slope of the speed: a wrong number of marks makes the second wrong by its
+/// square or as much, a wrong inertia or scale by a factor.
+fn beside(direct: &SteadyCurve, inertial: &SteadyCurve) -> Option<String> {
+    let difference = compare(inertial, direct).ok()?;
+    let level = |curve: &SteadyCurve| {
+        let known = |k: &usize| direct.torque[*k].is_finite() && inertial.torque[*k].is_finite();
+        let common: Vec<usize> = (0..curve.torque.len()).filter(known).collect();
+        common.iter().map(|k| curve.torque[*k]).sum::<f64>() / common.len().max(1) as f64
+    };
+    let ratio = level(inertial) / level(direct);
+    let apart = difference.mean.value.abs() > APART * difference.mean.deviation;
+    (apart && (ratio - 1.0).abs() > BESIDE).then(|| {
+        format!(
+            "by the slope of the speed it is {ratio:.2} times the torque of the sensor: signals.speed.marks_per_revolution (or the unit of a speed), signals.steady.inertia or the scale of the torque is wrong, or more than the bearing brakes the shaft (signals.steady.windage_*)"
+        )
+    })
+}
+
+/// Speeds of a coast-down at equal times, and the inertia of what coasts: first time, interval, speeds, inertia.
+pub(crate) fn coasted(
+    wish: &SteadySignal,
+    shaft: &shaft::Found,
+) -> Result<((f64, f64), Vec<f64>, Uncertain), String> {
+    let source = wish.inertia.as_ref();
+    let inertia =
+        inertia(source.ok_or_else(|| "signals.steady.inertia is not given".to_string())?)?;
+    let (first, interval, speeds) = speeds((wish.from, wish.to), shaft)?;
+    Ok(((first, interval), speeds, inertia))
+}
+
+/// The windage that is asked for; `run` is what was found in the run without bearing, where one is named.
+pub(crate) fn windage(
+    wish: &SteadySignal,
+    run: impl FnOnce() -> Result<SteadyCurve, String>,
+) -> Result<Windage, String> {
+    match &wish.windage {
+        None => Err("signals.steady.windage_* is not given".to_string()),
+        Some(crate::scenario::Windage::Law {
+            constant,
+            linear,
+            quadratic,
+            deviation,
+        }) => Ok(Windage::Law {
+            coefficients: [*constant, *linear, *quadratic],
+            deviation: *deviation,
+        }),
+        Some(crate::scenario::Windage::Run(_)) => run().map(Windage::Curve),
     }
 }
 
@@ -212,11 +291,20 @@ fn torques(
 ///
 /// The mean speed of a turn is that of its middle in time, not in angle: where a turn takes long these are far apart.
 fn speeds(part: (f64, f64), shaft: &shaft::Found) -> Result<(f64, f64, Vec<f64>), String> {
-    let (times, marks) = (&shaft.pulses.times, &shaft.pulses.marks);
-    let turn = shaft.pulses.positions as i64;
+    let pulses = match &shaft.seen {
+        shaft::Seen::Marks { pulses, .. } => pulses,
+        shaft::Seen::Channel(channel) => return shown(part, channel),
+    };
+    let (times, marks) = (&pulses.times, &pulses.marks);
+    let turn = pulses.positions as i64;
     let begin = times.partition_point(|t| *t < part.0);
     let end = times.partition_point(|t| *t <= part.1);
-    let few = || "fewer than 20 turns of the shaft lie in the part that is looked at".to_string();
+    let few = || {
+        format!(
+            "fewer than {TURNS} turns of the shaft lie from {} s to {} s, and how its speed changes does not show: give a longer part (signals.steady.from, to)",
+            part.0, part.1
+        )
+    };
     let (Some(first), Some(last)) = (
         marks.get(begin),
         end.checked_sub(1).and_then(|e| marks.get(e)),
@@ -224,15 +312,50 @@ fn speeds(part: (f64, f64), shaft: &shaft::Found) -> Result<(f64, f64, Vec<f64>)
         return Err(few());
     };
     let turns = (last - first) / turn;
-    if turns < 20 {
+    if turns < TURNS {
         return Err(few());
     }
     let (from, to) = (times[begin], times[end - 1]);
-    let count = (turns as usize).min(MOST);
+    let count = (turns as usize).max(LEAST.min(end - begin)).min(MOST);
     let interval = (to - from) / count as f64;
     let at = (0..count).map(|k| from + (k as f64 + 0.5) * interval);
     let values = of_turns(times, marks, turn, at);
-    Ok((from + 0.5 * interval, interval, values))
+    Ok(trimmed(from + 0.5 * interval, interval, values))
+}
+
+/// Without what is not known at both ends: half a turn has no mean.
+fn trimmed(first: f64, interval: f64, values: Vec<f64>) -> (f64, f64, Vec<f64>) {
+    let known = |value: &f64| value.is_finite();
+    let begin = values.iter().position(known).unwrap_or(0);
+    let end = values.iter().rposition(known).map_or(0, |last| last + 1);
+    let inside = values.get(begin..end).unwrap_or(&[]).to_vec();
+    (first + begin as f64 * interval, interval, inside)
+}
+
+/// The same of a speed that an instrument shows: means over equal times, by as much earlier as it shows them late.
+fn shown(part: (f64, f64), channel: &shaft::Channel) -> Result<(f64, f64, Vec<f64>), String> {
+    let series = &channel.series;
+    let place = |time: f64| {
+        let place = (time + channel.late - series.first) / series.interval;
+        (place.ceil().max(0.0) as usize).min(series.values.len())
+    };
+    let (begin, end) = (place(part.0), place(part.1));
+    let count = end.saturating_sub(begin);
+    if count < FEWEST {
+        return Err(format!(
+            "{count} values of the speed lie from {} s to {} s, and {FEWEST} are needed: give a longer part (signals.steady.from, to), or more values a second",
+            part.0, part.1
+        ));
+    }
+    let size = count.div_ceil(MOST);
+    let mean = |values: &[f64]| {
+        let known: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+        known.iter().sum::<f64>() / known.len() as f64
+    };
+    let means = series.values[begin..end].chunks_exact(size).map(mean);
+    let interval = size as f64 * series.interval;
+    let first = series.time(begin) - channel.late + 0.5 * (interval - series.interval);
+    Ok(trimmed(first, interval, means.collect()))
 }
 
 /// Speeds at rising times, rad/s: a straight line between the middles of two neighbouring turns; not-a-number where marks are

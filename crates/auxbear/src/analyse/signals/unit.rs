@@ -32,6 +32,22 @@ pub fn unit_of(text: &str, si: &str) -> Option<Unit> {
     (unit.dimension() == wanted.dimension()).then_some(unit)
 }
 
+/// The size in rad/s of a unit of turning as files write it: of a speed, or of turns in a time.
+pub fn speed_factor(text: &str) -> Option<f64> {
+    const PER_MINUTE: &[&str] = &[
+        "rpm", "1/min", "U/min", "r/min", "rev/min", "min-1", "min^-1", "upm",
+    ];
+    let plain = text.trim();
+    if PER_MINUTE
+        .iter()
+        .any(|known| plain.eq_ignore_ascii_case(known))
+    {
+        return Some(std::f64::consts::PI / 30.0);
+    }
+    let turns = || si_factor(plain, "1/s").map(|turns| std::f64::consts::TAU * turns);
+    si_factor(plain, "rad/s").or_else(turns)
+}
+
 /// The unit of SI in which a vibration is given, and the factor to it; "1" where the file's unit is none of a vibration.
 pub fn unit_in_si(text: &str) -> (&'static str, f64) {
     ["m/s^2", "m/s", "m"]
@@ -59,7 +75,7 @@ pub fn no_signal(text: &str) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
-    use super::{no_signal, si_factor};
+    use super::{no_signal, si_factor, speed_factor};
 
     #[test]
     fn units_of_files_are_understood_as_labs_write_them() {
@@ -71,6 +87,18 @@ mod tests {
         assert_eq!(si_factor("N", "N m"), None);
         assert_eq!(si_factor("", "N m"), None);
         assert_eq!(si_factor("ms", "s"), Some(1e-3));
+    }
+
+    #[test]
+    fn speeds_are_read_in_the_units_of_drives() {
+        let rpm = std::f64::consts::PI / 30.0;
+        for text in ["rpm", "RPM", "1/min", "U/min", "min-1", " r/min "] {
+            assert_eq!(speed_factor(text), Some(rpm), "{text}");
+        }
+        assert_eq!(speed_factor("rad/s"), Some(1.0));
+        assert_eq!(speed_factor("Hz"), Some(60.0 * rpm));
+        assert_eq!(speed_factor("V"), None);
+        assert_eq!(speed_factor(""), None);
     }
 
     #[test]

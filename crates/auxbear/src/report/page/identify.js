@@ -41,7 +41,7 @@ function explanationFigure(run, runs) {
   const parameters = quantityOf(run, "explanation_parameters").value;
   const fit = numberOf(run, "explanation_fit_probability");
   const limits = quantityOf(run, "explanation_slip_limit").value;
-  const fits = fit === null ? "" : `. Data less like it would come with a probability of ${percentText(fit, 2)}`;
+  const fits = fit === null ? "" : `. If it is true, ${fit > 0.995 ? "nearly all" : percentText(fit, 2)} of such measurements would fit it worse`;
   const next = String(quantityOf(run, "next_tests").value || "").split("\n").filter(Boolean).map((line) => line.replace(/^\d+\. /, ""));
   return [
     figure(

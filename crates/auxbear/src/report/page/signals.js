@@ -46,25 +46,29 @@ function changeFigure(run, runs) {
     { x, y: of(name, `${name}_deviation`, 1), colour: colour + "90", width: 0.75 },
     { x, y: of(name, `${name}_deviation`, -1), colour: colour + "90", width: 0.75 },
   ];
-  const raw = { label: "between two pulses", x, y: rows.map((row) => (columnOf(run, "shaft.pulse_speed") || [])[row]), colour: SERIES_COLOURS.quiet, width: 1 };
+  const raw = { label: columnOf(run, "shaft.reading") ? "as shown" : "between two pulses", x, y: rows.map((row) => (columnOf(run, "shaft.pulse_speed") || columnOf(run, "shaft.reading") || [])[row]), colour: SERIES_COLOURS.quiet, width: 1 };
   const across = "time [ms]";
   return figure(
     shareOfRun(run, runs, "The quick change, closely"),
-    `${numberText(numberOf(run, "pulses_in_change"), 4)} pulses came in it. ${BAND_WORDS}`,
+    `${columnOf(run, "shaft.reading") ? "Grey: the instrument" : `${numberText(numberOf(run, "pulses_in_change"), 4)} pulses came in it`}. ${BAND_WORDS}`,
     curves({ series: [raw, ...three("shaft.speed", "speed", SERIES_COLOURS.rotor)], across, upright: "speed [rad/s]", right: IN_RPM, height: 260 }),
     curves({ series: three("shaft.acceleration", "acceleration", SERIES_COLOURS.race), across, upright: "acceleration [rad/s²]", height: 260 }),
   );
 }
 
 function shaftSection(runs) {
-  const raw = lines(runs, "shaft.pulse_speed", 1, { label: "between two pulses [rad/s]", colour: SERIES_COLOURS.quiet, width: 1 });
+  const quiet = { colour: SERIES_COLOURS.quiet, width: 1 };
+  const raw = [
+    ...lines(runs, "shaft.pulse_speed", 1, { label: "between two pulses [rad/s]", ...quiet }),
+    ...lines(runs, "shaft.reading", 1, { label: "as shown [rad/s]", ...quiet }),
+  ];
   const speed = bandLines(runs, "shaft.speed", "shaft.speed_deviation", 1, { label: "speed [rad/s]", colour: SERIES_COLOURS.rotor, width: 1.5 });
   const acceleration = bandLines(runs, "shaft.acceleration", "shaft.acceleration_deviation", 1, { label: "acceleration [rad/s²]", colour: SERIES_COLOURS.race, width: 1.5 });
   const marks = engagementMarks(runs);
   return section(
     "shaft",
     "Speed and acceleration of the shaft",
-    signalFigure("Speed", `Grey: pitch over time between two pulses, as raw as pulses are. ${BAND_WORDS}`, [...(raw.length && speed.length ? raw : []), ...speed], { label: "speed [rad/s]", second: IN_RPM, marks, height: 290 }, lackOf(runs, "shaft.speed", "peak_speed", "speed")),
+    signalFigure("Speed", `Grey: pitch over time between two pulses, as raw as pulses are, or what an instrument shows. ${BAND_WORDS}`, [...(raw.length && speed.length ? raw : []), ...speed], { label: "speed [rad/s]", second: IN_RPM, marks, height: 290 }, lackOf(runs, "shaft.speed", "peak_speed", "speed")),
     signalFigure("Acceleration", `Drag over the change to see it closely. ${BAND_WORDS}`, acceleration, { label: "acceleration [rad/s²]", marks, height: 260 }, []),
     runs.map((run) => changeFigure(run, runs)),
   );
@@ -204,7 +208,8 @@ function steadySection(runs) {
       const moved = (sign) => torque.map((value, row) => (value === null || deviation[row] === null ? null : value + sign * BAND * deviation[row]));
       return [{ label, x, y: torque, colour }, { x, y: moved(1), colour: colour + "90", width: 0.75 }, { x, y: moved(-1), colour: colour + "90", width: 0.75 }];
     };
-    const series = [...curve("direct", "by the sensor, speed falling", SERIES_COLOURS.race), ...curve("inertial", "−I dΩ/dt", SERIES_COLOURS.rotor), ...curve("up", "by the sensor, speed rising", SERIES_COLOURS.cage)];
+    const windage = wholeList(run, "steady_windage_torques").length > 0;
+    const series = [...curve("direct", "by the sensor, speed falling", SERIES_COLOURS.race), ...curve("inertial", windage ? "−I dΩ/dt less windage" : "−I dΩ/dt", SERIES_COLOURS.rotor), ...(windage ? curve("windage", "windage", SERIES_COLOURS.quiet) : []), ...curve("up", "by the sensor, speed rising", SERIES_COLOURS.cage)];
     const row = (words, name) => {
       const [mean, deviation, chance] = ["", "_deviation", "_chance"].map((end) => numberOf(run, name + end));
       return mean === null
@@ -212,7 +217,8 @@ function steadySection(runs) {
         : [words, `${bandNumbers(1e3 * mean, 1e3 * BAND * deviation)} N mm (2σ)`, numberText(chance, 2)];
     };
     const inertia = numberOf(run, "steady_inertia");
-    const note = inertia === null ? "" : `I = ${bandNumbers(inertia, BAND * numberOf(run, "steady_inertia_deviation"))} kg m² (2σ). `;
+    const spread = BAND * numberOf(run, "steady_inertia_deviation");
+    const note = inertia === null ? "" : spread > 0 ? `I = ${bandNumbers(inertia, spread)} kg m² (2σ). ` : `I = ${numberText(inertia, 4)} kg m², taken as exact. `;
     return [
       figure(shareOfRun(run, runs, "Torque over speed in slow running"), `${note}${BAND_WORDS}`, series.length ? curves({ series, across: "speed [rad/s]", above: IN_RPM, upright: "torque [N mm]", height: 320 }) : null, series.length ? null : [notInThisRun(quantityOf(run, "steady_speeds").why || "no reason is given", run)]),
       figure(shareOfRun(run, runs, "One curve against another"), "Chance: how often equal curves would differ as much.", plainTable(["difference", "mean over the speeds", "chance"], [row("by the sensor less −I dΩ/dt", "steady_direct_less_inertial"), row("rising less falling speed", "steady_up_less_down")])),

@@ -3,6 +3,7 @@
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
 use crate::scenario::words::words;
+use std::path::PathBuf;
 
 /// The converter that took some channels.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +50,26 @@ pub struct SteadySignal {
     pub points: usize,
     /// How the inertia is known; none where it is not.
     pub inertia: Option<InertiaSource>,
+    /// What brakes the shaft beside the bearing, where it is known.
+    pub windage: Option<Windage>,
+}
+
+/// What brakes the shaft without the bearing.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Windage {
+    /// a + b Ω + c Ω².
+    Law {
+        /// a, N m.
+        constant: f64,
+        /// b, N m s.
+        linear: f64,
+        /// c, N m s².
+        quadratic: f64,
+        /// Relative standard deviation, the same at all speeds.
+        deviation: f64,
+    },
+    /// A coast-down without the bearing: its signals file.
+    Run(PathBuf),
 }
 
 words! {
@@ -222,5 +243,22 @@ pub(crate) fn steady(values: &Values) -> Option<SteadySignal> {
         up_to: section.maybe("up_to"),
         points: section.count("points") as usize,
         inertia,
+        windage: windage(values, &section),
+    })
+}
+
+fn windage(values: &Values, section: &Section) -> Option<Windage> {
+    if let Some(file) = values.text("signals.steady.windage_file") {
+        return Some(Windage::Run(file.into()));
+    }
+    let parts =
+        ["constant", "linear", "quadratic"].map(|part| section.maybe(&format!("windage_{part}")));
+    let [constant, linear, quadratic] = parts.map(|part| part.unwrap_or(0.0));
+    let given = parts.iter().any(Option::is_some);
+    given.then(|| Windage::Law {
+        constant,
+        linear,
+        quadratic,
+        deviation: section.number("windage_deviation"),
     })
 }

@@ -2,7 +2,7 @@
 
 use crate::problem::Code;
 use crate::scenario::checks::{Check, Context};
-use crate::scenario::signals::Signals;
+use crate::scenario::signals::{PickupKind, Signals, SpeedSignal};
 use crate::scenario::table;
 
 impl Context<'_> {
@@ -28,13 +28,14 @@ impl Context<'_> {
         ] {
             self.without_channel(section)?;
         }
-        if signals.speed.is_some() {
+        let with_marks = |speed: &SpeedSignal| !matches!(speed.kind, PickupKind::Speed { .. });
+        if signals.speed.as_ref().is_some_and(with_marks) {
             self.needed(
                 "signals.speed.marks_per_revolution",
                 "signals.speed.channel",
             )?;
         }
-        if let Some(speed) = &signals.speed
+        if let Some(speed) = signals.speed.as_ref().filter(|speed| with_marks(speed))
             && speed.missing_marks >= speed.marks_per_revolution
         {
             return self.refuse(
@@ -139,9 +140,27 @@ impl Context<'_> {
         }
         if signals.steady.is_some() {
             self.needed("signals.speed.channel", "signals.steady.from")?;
-            return Ok(());
+            return self.windage();
         }
         self.together("signals.steady", "signals.steady.from")
+    }
+
+    /// A windage is a law with a constant, a linear or a quadratic part, or a run without bearing.
+    fn windage(&self) -> Check {
+        const LAW: [&str; 3] = [
+            "signals.steady.windage_constant",
+            "signals.steady.windage_linear",
+            "signals.steady.windage_quadratic",
+        ];
+        let file = "signals.steady.windage_file";
+        let part = LAW.into_iter().find(|path| self.values.is_given(path));
+        if let (Some(part), true) = (part, self.values.is_given(file)) {
+            let needed = format!(
+                "either the law of the windage ({part}) or a run without bearing is needed"
+            );
+            return self.refuse(Code::Conflict, file, self.text(file), &needed);
+        }
+        Ok(())
     }
 
     /// Refuses a key that is given in a section whose first key is not.

@@ -20,7 +20,7 @@ pub(crate) const SECTIONS: &[Section] = &[
     },
     Section {
         path: "signals.speed",
-        doc: "A pickup at a wheel with marks on the shaft: angle, speed and acceleration.",
+        doc: "A pickup at a wheel with marks on the shaft, or a speed that a drive, a converter or a tachometer shows: angle, speed and acceleration.",
         systems: SIGNALS,
     },
     Section {
@@ -43,6 +43,16 @@ pub(crate) const SECTIONS: &[Section] = &[
 const SAMPLED: Condition = Condition {
     path: "signals.speed.kind",
     values: &["analog"],
+    reason: "",
+};
+const MARKED: Condition = Condition {
+    path: "signals.speed.kind",
+    values: &["analog", "edges"],
+    reason: "a speed has no marks",
+};
+const SHOWN: Condition = Condition {
+    path: "signals.speed.kind",
+    values: &["speed"],
     reason: "",
 };
 const STAMPED: Condition = Condition {
@@ -127,7 +137,7 @@ pub(crate) const KEYS: &[Key] = &[
         "signals.speed.kind",
         Kind::Word(PickupOutput::WORDS),
         "analog",
-        "What the channel holds: analog, samples of the pickup's signal; edges, the instant of each mark.",
+        "What the channel holds: analog, samples of the pickup's signal; edges, the instant of each mark; speed, a speed in rpm, rad/s or Hz of turning.",
     )
     .default("analog", "a pickup on a channel of its own"),
     Key::new(
@@ -137,6 +147,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Marks of the wheel, the left-out ones included.",
     )
     .within(Range::FromTo(1.0, 100_000.0))
+    .when(&[MARKED])
     .optional("it is needed with signals.speed.channel"),
     Key::new(
         "signals.speed.missing_marks",
@@ -144,6 +155,7 @@ pub(crate) const KEYS: &[Key] = &[
         "2",
         "Neighbouring marks that were left out as a reference.",
     )
+    .when(&[MARKED])
     .default("0", "a full wheel"),
     Key::new(
         "signals.speed.flank",
@@ -161,6 +173,59 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .positive()
     .when(&[STAMPED]),
+    Key::new(
+        "signals.speed.scale",
+        Kind::Quantity("rad/s"),
+        "1 rpm",
+        "Speed of one unit of the channel, where the file gives no unit or none of a speed: \"1 rpm\"; \"60 rpm\" for Hz of turning; \"300 rpm\" for a converter of 300 rpm a volt.",
+    )
+    .positive()
+    .when(&[SHOWN])
+    .optional("the unit of the file counts, which must be rpm, rad/s or Hz"),
+    Key::new(
+        "signals.speed.bandwidth",
+        Kind::Quantity("Hz"),
+        "1 kHz",
+        "Frequency at which the instrument, as a low-pass of first order, leaves 0.707 of an amplitude; of a time constant T it is 0.159/T.",
+    )
+    .positive()
+    .when(&[SHOWN])
+    .optional("the instrument counts as unlimited, and a quick change is warned of"),
+    Key::new(
+        "signals.speed.delay",
+        Kind::Quantity("s"),
+        "5 ms",
+        "Time by which the instrument shows everything late, beside its low-pass: the half of a mean over a time, the cycle of a bus.",
+    )
+    .not_negative()
+    .when(&[SHOWN])
+    .default("0 s", "an analog converter has none beside its low-pass"),
+    Key::new(
+        "signals.speed.resolution",
+        Kind::Quantity("rad/s"),
+        "0.5 rpm",
+        "Smallest step of what the instrument shows: for 12 bits the range over 4096.",
+    )
+    .positive()
+    .when(&[SHOWN])
+    .optional("as the values show it"),
+    Key::new(
+        "signals.speed.noise",
+        Kind::Quantity("rad/s"),
+        "0.5 rpm",
+        "Standard deviation of the noise of one value.",
+    )
+    .positive()
+    .when(&[SHOWN])
+    .optional("as the values show it"),
+    Key::new(
+        "signals.speed.set_speed",
+        Kind::Quantity("rad/s"),
+        "1432 rpm",
+        "Largest speed that the test was to reach, as set at the drive: a wrong number of marks or unit shows beside it.",
+    )
+    .positive()
+    .optional("the largest speed is not checked"),
     Key::new(
         "signals.speed.quick_change",
         Kind::Word(Automatic::WORDS),
@@ -188,6 +253,7 @@ pub(crate) const KEYS: &[Key] = &[
         "auto",
         "Whether the errors of the marks are found from revolutions at even speed and taken out.",
     )
+    .when(&[MARKED])
     .default("auto", "no wheel is even; where no revolution is even enough, none are taken out"),
     Key::new(
         "signals.speed.ripple",
@@ -196,12 +262,13 @@ pub(crate) const KEYS: &[Key] = &[
         "Standard deviation of an acceleration once a turn while the marks are calibrated, from unbalance under gravity or a belt: it cannot be separated from an eccentric wheel.",
     )
     .not_negative()
+    .when(&[MARKED])
     .default("0 rad/s^2", "a shaft that runs evenly"),
     Key::new(
         "signals.speed.delay_deviation",
         Kind::Quantity("s"),
         "5 us",
-        "Standard deviation of a delay that all pulses have in common, from pickup and filter; pulses cannot show it.",
+        "Standard deviation of a delay that all pulses, or all values of a speed, have in common, from pickup and filter; they cannot show it.",
     )
     .not_negative()
     .default("0 s", "a pickup without a filter"),
@@ -383,4 +450,8 @@ pub(crate) const GIVEN: &[&str] = &[
 ];
 
 /// Keys that name a file beside this one.
-pub(crate) const FILES: &[&str] = &["signals.file", "signals.torque.tap_file"];
+pub(crate) const FILES: &[&str] = &[
+    "signals.file",
+    "signals.torque.tap_file",
+    "signals.steady.windage_file",
+];

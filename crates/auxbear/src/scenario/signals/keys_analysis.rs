@@ -205,6 +205,45 @@ pub(crate) const KEYS: &[Key] = &[
     .within(Range::FromTo(0.0, 1.0))
     .when(GIVEN_INERTIA)
     .default("0", "taken as exact"),
+    Key::new(
+        "signals.steady.windage_constant",
+        Kind::Quantity("N m"),
+        "0.2 N mm",
+        "Constant part of the torque that brakes the shaft without the bearing (windage, other bearings): it is taken out of the torque by the slope of the speed and reported apart.",
+    )
+    .not_negative()
+    .optional("no constant part"),
+    Key::new(
+        "signals.steady.windage_linear",
+        Kind::Quantity("N m s"),
+        "1 uN m s",
+        "The part of it that grows with the speed, over the speed in rad/s.",
+    )
+    .not_negative()
+    .optional("no part with the speed"),
+    Key::new(
+        "signals.steady.windage_quadratic",
+        Kind::Quantity("N m s^2"),
+        "0.02 uN m s^2",
+        "The part of it that grows with the square of the speed, over that square.",
+    )
+    .not_negative()
+    .optional("no part with the square of the speed"),
+    Key::new(
+        "signals.steady.windage_deviation",
+        Kind::Coefficient,
+        "0.1",
+        "Relative standard deviation of that law, the same at all speeds.",
+    )
+    .within(Range::FromTo(0.0, 1.0))
+    .default("0.2", "a law carried over from another shaft, or computed"),
+    Key::new(
+        "signals.steady.windage_file",
+        Kind::Text,
+        "without_bearing.toml",
+        "Signals file of a coast-down of the same shaft without the bearing, with its own signals.steady; in place of the law.",
+    )
+    .optional("nothing is taken out but the law, where there is one"),
     measured("signals.steady.test_mass", "kg", "0.4 kg", "Mass of the rotor that swings.", SWINGING),
     spread("signals.steady.test_mass_deviation", "kg", "0.001 kg", "0 kg", "Its standard deviation.", SWINGING),
     measured("signals.steady.test_period", "s", "0.62 s", "Period of the swing.", SWINGING),

@@ -46,14 +46,14 @@ pub struct Signals {
     pub steady: Option<SteadySignal>,
 }
 
-/// A pickup at a wheel with marks.
+/// A pickup at a wheel with marks, or an instrument that shows a speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpeedSignal {
     /// Name of the channel.
     pub channel: String,
     /// What it holds.
     pub kind: PickupKind,
-    /// Marks of the wheel, the left-out ones included.
+    /// Marks of the wheel, the left-out ones included; none of a speed.
     pub marks_per_revolution: usize,
     /// Marks left out.
     pub missing_marks: usize,
@@ -71,6 +71,8 @@ pub struct SpeedSignal {
     pub delay_deviation: f64,
     /// Largest uncertainty of the acceleration, as a part of its peak.
     pub wanted: Option<f64>,
+    /// Largest speed that the test was to reach, rad/s.
+    pub set_speed: Option<f64>,
 }
 
 words! {
@@ -80,6 +82,8 @@ words! {
         Analog = "analog",
         /// Instants.
         Edges = "edges",
+        /// A speed.
+        Speed = "speed",
     }
 }
 
@@ -117,6 +121,19 @@ pub enum PickupKind {
     Edges {
         /// Their standard deviation, s.
         stamp_deviation: f64,
+    },
+    /// A speed that an instrument shows.
+    Speed {
+        /// Speed of one unit of the channel, rad/s.
+        scale: Option<f64>,
+        /// Frequency of its first-order low-pass, Hz.
+        bandwidth: Option<f64>,
+        /// Its delay, s.
+        delay: f64,
+        /// Smallest step that it shows, rad/s.
+        resolution: Option<f64>,
+        /// Standard deviation of the noise of one value, rad/s.
+        noise: Option<f64>,
     },
 }
 
@@ -261,6 +278,13 @@ fn speed(values: &Values) -> Option<SpeedSignal> {
             PickupOutput::Analog => PickupKind::Analog {
                 flank: speed.choice("flank"),
             },
+            PickupOutput::Speed => PickupKind::Speed {
+                scale: speed.maybe("scale"),
+                bandwidth: speed.maybe("bandwidth"),
+                delay: speed.number("delay"),
+                resolution: speed.maybe("resolution"),
+                noise: speed.maybe("noise"),
+            },
         },
         marks_per_revolution: speed.count("marks_per_revolution") as usize,
         missing_marks: speed.count("missing_marks") as usize,
@@ -268,9 +292,10 @@ fn speed(values: &Values) -> Option<SpeedSignal> {
         change_from: speed.maybe("change_from"),
         change_to: speed.maybe("change_to"),
         calibration: speed.chosen::<Automatic>("calibration") != Some(Automatic::None),
-        ripple: speed.number("ripple"),
+        ripple: speed.maybe("ripple").unwrap_or(0.0),
         delay_deviation: speed.number("delay_deviation"),
         wanted: speed.maybe("wanted"),
+        set_speed: speed.maybe("set_speed"),
     })
 }
 
