@@ -117,7 +117,7 @@ impl Values {
                 let own_text = (own.value.number().zip(unit))
                     .and_then(|(si, unit)| display(si, unit).ok())
                     .unwrap_or(own.text);
-                (given && differs)
+                (self.is_own(path) && differs)
                     .then(|| format!("{} {} ({own_text})", self.shown(path), known.text))
             })
             .collect();
