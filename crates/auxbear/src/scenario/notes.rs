@@ -3,7 +3,6 @@
 
 use crate::catalogue::designation::{self, Designation};
 use crate::scenario::bearing::kind::BearingType;
-use crate::scenario::provenance::Provenance;
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
 use crate::scenario::values::Values;
@@ -99,10 +98,6 @@ impl Values {
             .iter()
             .filter_map(|&(path, share, side)| {
                 let known = self.known.get(path)?;
-                let given = matches!(
-                    known.provenance,
-                    Provenance::Given | Provenance::GivenWithSource(_) | Provenance::Assumed(_)
-                );
                 let key = table::keys_of(self.system()).find(|key| key.path == path)?;
                 let own = self.catalogued(key, Some(record)).ok().flatten()?;
                 let differs = match (known.value.number(), own.value.number()) {
@@ -122,7 +117,7 @@ impl Values {
                 let own_text = (own.value.number().zip(unit))
                     .and_then(|(si, unit)| display(si, unit).ok())
                     .unwrap_or(own.text);
-                (given && differs)
+                (self.is_own(path) && differs)
                     .then(|| format!("{} {} ({own_text})", self.shown(path), known.text))
             })
             .collect();
@@ -130,7 +125,7 @@ impl Values {
         (!differ.is_empty()).then(|| Note {
             code: "AB1092",
             text: format!(
-                "What is given is not a {name}, and counts: {} (the catalogue's in brackets). What is not given is still that of the {name}.",
+                "Given values differ from those of the {name}, and count: {} (the catalogue's in brackets). Ratings, limiting speed and whatever is not given are still those of the {name}.",
                 differ.join(", ")
             ),
         })

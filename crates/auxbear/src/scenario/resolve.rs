@@ -35,7 +35,7 @@ impl Values {
             .as_ref()
             .map_or(bearings, |own| own as &dyn BearingSource);
         let record = values.find_bearing(document, bearings)?;
-        let mut missing: Vec<Box<Problem>> = Vec::new();
+        let mut missing: Vec<Problem> = Vec::new();
         for key in table::keys_of(document.system) {
             let given = document.values.get(key.path);
             if let Some(unmet) = values.unmet(key) {
@@ -74,7 +74,7 @@ impl Values {
                     Some(known) => Some(known),
                     None => match values.without(key, record.as_ref(), document) {
                         Err(problem) if problem.code == Code::MissingKey => {
-                            missing.push(problem);
+                            missing.push(*problem);
                             None
                         }
                         other => other?,
@@ -87,14 +87,14 @@ impl Values {
         }
         values.record = record;
         if !missing.is_empty() {
-            return Err(values.all_missing(missing));
+            return Err(Box::new(values.all_missing(missing)));
         }
         values.derive()?;
         Ok(values)
     }
 
     /// The first missing key, with the names of all others: one round is enough to give them.
-    fn all_missing(&self, mut missing: Vec<Box<Problem>>) -> Box<Problem> {
+    fn all_missing(&self, mut missing: Vec<Problem>) -> Problem {
         let mut others: Vec<String> = (missing.iter().skip(1))
             .filter_map(|problem| problem.key.clone())
             .collect();

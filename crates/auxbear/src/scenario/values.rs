@@ -135,6 +135,16 @@ impl Values {
         })
     }
 
+    /// Whether the user gave a value, rather than a default, the catalogue or other values.
+    pub(crate) fn is_own(&self, path: &str) -> bool {
+        self.known.get(path).is_some_and(|known| {
+            matches!(
+                known.provenance,
+                Provenance::Given | Provenance::GivenWithSource(_) | Provenance::Assumed(_)
+            )
+        })
+    }
+
     /// Where a value comes from, in one word; empty where there is none.
     pub(crate) fn mark(&self, path: &str) -> &'static str {
         let known = self.known.get(path);

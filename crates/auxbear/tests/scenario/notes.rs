@@ -74,7 +74,7 @@ fn given_values_that_are_not_those_of_the_name_are_told_and_count() {
     ];
     let [told_once] = told("drop", "AB1092", &trap).try_into().unwrap();
     for part in [
-        "is not a 6205",
+        "differ from those of the 6205, and count",
         "bearing.ball_count 10 (9)",
         "bearing.ball_diameter 6.35 mm (7.938 mm)",
         "bearing.pitch_diameter 36 mm (38.5 mm)",

@@ -406,6 +406,7 @@ fn unlike_any_other(path: &str, kind: Kind, range: Range, example: &str) -> Opti
                 "bearing.cage.land_diameter" => 0.0401234,
                 "bearing.moment.outer_diameter" => 0.0512345,
                 "levitation.stiffness" => 1_234_567.0,
+                "bearing.static_load_rating" => 6543.21,
                 "torque.speed_to" | "rig.logger.total_rate" => 1234.567,
                 "run.output_interval" => 0.000345678,
                 "bearing.lubricant_state.breakdown_time"
@@ -428,6 +429,7 @@ fn unlike_any_other(path: &str, kind: Kind, range: Range, example: &str) -> Opti
             let si = match range {
                 Range::Above(low) => low + 0.0123456,
                 Range::FromTo(low, _) if low < 0.0 => low * 0.1234567,
+                Range::FromTo(0.0, most) => most * 0.0123456,
                 Range::FromTo(low, _) => low * 1.234567,
                 // a traction coefficient must not become negative, so A is
                 _ if path == "bearing.traction.a" => -0.0612345,

@@ -40,6 +40,7 @@ impl Context<'_> {
         self.moment(&bearing.moment, &bearing.rated())?;
         self.drag(bearing)?;
         self.lubricant_state(bearing)?;
+        self.static_rating()?;
         self.acceleration_loss(&bearing.acceleration_loss)
     }
 
@@ -71,7 +72,7 @@ impl Context<'_> {
             written.or_else(known).unwrap_or_default()
         };
         let Some(mut found) = geometry.contradiction(&text) else {
-            return self.static_rating();
+            return Ok(());
         };
         let paths: Vec<&str> = (found.blames.iter()).map(|blame| path(blame.key)).collect();
         let blamed = self.blamed(&paths);
@@ -84,25 +85,23 @@ impl Context<'_> {
         }))))
     }
 
-    /// A rating that such balls cannot have.
-    fn static_rating(&self) -> Check {
+    /// A given rating that such balls cannot have; that of the bearing named is told apart from given balls by a note.
+    pub(crate) fn static_rating(&self) -> Check {
         let path = "bearing.static_load_rating";
-        let known = self.values.number(path).zip(self.values.area_of_balls());
+        let given = self.values.is_own(path).then(|| self.values.number(path));
+        let known = given.flatten().zip(self.values.area_of_balls());
         let allowed = known.and_then(|(rating, area)| rating_beyond_balls(rating, area));
-        match allowed {
-            None => Ok(()),
-            Some(allowed) => Err(Box::new(self.problem(
-                Code::RatingContradictsBalls,
-                self.blamed(&[path, "bearing.ball_count", "bearing.ball_diameter"]),
-                format!(
-                    "{} with {} balls of {}",
-                    self.text(path),
-                    self.text("bearing.ball_count"),
-                    self.text("bearing.ball_diameter")
-                ),
-                allowed,
-            ))),
-        }
+        let Some(allowed) = allowed else {
+            return Ok(());
+        };
+        let found = format!(
+            "{} with {} balls of {}",
+            self.text(path),
+            self.text("bearing.ball_count"),
+            self.text("bearing.ball_diameter")
+        );
+        let code = Code::RatingContradictsBalls;
+        Err(Box::new(self.problem(code, path, found, allowed)))
     }
 
     /// The rotor's side of the inner race, which a sleeve may narrow.

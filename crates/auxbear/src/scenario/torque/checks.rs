@@ -8,6 +8,7 @@ impl Context<'_> {
     pub(crate) fn torque(&self, torque: &Torque) -> Check {
         let (ball, pitch) = (torque.ball_diameter, torque.pitch_diameter);
         self.geometry(torque.ball_count, ball, pitch)?;
+        self.static_rating()?;
         self.moment(&torque.moment, &torque.rated())?;
         self.acceleration_loss(&torque.acceleration_loss)?;
         self.torque_points(torque)
