@@ -60,7 +60,7 @@ function curveDrawing({ series, across, upright, height: tall = 300, logarithmic
   if (!(right > left)) right = left + 1;
   const [wide, high_] = [width - box.left - box.right, height - box.top - box.bottom];
   const columns = Math.max(3, Math.floor(wide / 75));
-  const rows = Math.max(3, Math.floor(high_ / 30));
+  const rows = Math.max(4, Math.floor(high_ / 26));
   if (!across10) right = roundedEnd(left, right, columns);
   // A peak that touches the frame looks cut off.
   const room = 0.04 * (high - low);

@@ -57,8 +57,12 @@ function readableUnit(size, unit) {
   return choices.find(([, scale]) => Math.abs(size) >= scale) || choices[choices.length - 1];
 }
 
+// Of these units such values are what rounding leaves of zero.
+const ROUNDING = { "rad/s": 1e-12, "N m": 1e-15 };
+
 function engineeringText(value, unit, digits) {
   if (!isNumber(value)) return "–";
+  if (value !== 0 && Math.abs(value) < (ROUNDING[unit] || 0)) return "0";
   const [name, scale] = value === 0 ? [unitText(unit), 1] : readableUnit(value, unit);
   const gap = name && name !== "°" ? " " : "";
   return numberText(value / scale, digits) + gap + name;

@@ -271,12 +271,13 @@ function drawDot(pen, x, y, fill) {
   pen.stroke();
 }
 
-// The words stand in the lower corners, which an orbit inside its clearance circle leaves free.
+// The words stand in the lower corners, which an orbit inside its clearance circle leaves free; in small pictures, where it lies low,
+// in the upper ones.
 function drawMarkKey(pen, place, marks) {
   pen.textBaseline = "middle";
   marks.forEach(({ words, fill }, index) => {
     const [side, edge] = index ? [-1, place.left + place.width] : [1, place.left];
-    const [x, y] = [edge + 13 * side, place.top + place.width - 13];
+    const [x, y] = [edge + 13 * side, place.width < 350 ? place.top + 13 : place.top + place.width - 13];
     drawDot(pen, x, y, fill);
     pen.fillStyle = INK;
     pen.textAlign = index ? "right" : "left";
@@ -350,5 +351,5 @@ register("drop", {
   verdict,
   time: "time since release",
   facts: true,
-  sections: (runs) => [[10, orbitSection, runs], [10.5, firstContactsSection, runs], [11, contactSection, runs], [50, speedSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs]],
+  sections: (runs) => [[9.5, firstContactsSection, runs], [10, orbitSection, runs], [11, contactSection, runs], [50, speedSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs]],
 });

@@ -165,22 +165,29 @@ function levelPicture(run, runs, name, upright, words, title, note) {
     image.data[at + 3] = 255;
   });
   pen.putImageData(image, 0, 0);
-  const [width, height, box] = [900, 300, { left: 66, right: 18, top: 10, bottom: 42 }];
+  const holder = element("div", { class: "curves" });
+  resizable.push(() => holder.replaceChildren(levelDrawing(sheet, times, rungs, words, holder.clientWidth || 900)));
+  return figure(shareOfRun(run, runs, title), `${note} Darkest: the largest amplitude; palest: ${-floor} dB below it and less.`, holder);
+}
+
+// The picture of levels with its axes, in the letters and margins of all other plots.
+function levelDrawing(sheet, times, rungs, words, width) {
+  const [height, box] = [300, CURVE_BOX];
   const half = (values) => (values.length > 1 ? 0.5 * (values[1] - values[0]) : 0.5);
   const ends = (values) => [values[0] - half(values), values[values.length - 1] + half(values)];
   const [[left, right], [low, high]] = [ends(times), ends(rungs)];
   const [wide, tall] = [width - box.left - box.right, height - box.top - box.bottom];
-  const text = (x, y, anchor, label, more) => drawing("text", { x, y, "text-anchor": anchor, fill: PALE_INK, "font-size": 12, ...more }, label);
+  const text = (x, y, anchor, label, more) => drawing("text", { x, y, "text-anchor": anchor, fill: INK, "font-size": 12, ...more }, label);
   const toX = (x) => box.left + ((x - left) / (right - left)) * wide;
   const toY = (y) => box.top + tall - ((y - low) / (high - low)) * tall;
   const ticks = [
-    ...axisSteps(left, right).map((x) => text(toX(x), height - box.bottom + 16, "middle", numberText(x, 6))),
+    ...axisSteps(left, right, Math.max(3, Math.floor(wide / 75))).map((x) => text(toX(x), height - box.bottom + 16, "middle", numberText(x, 6))),
     ...axisSteps(Math.max(low, 0), high).map((y) => text(box.left - 8, toY(y) + 4, "end", numberText(y, 6))),
     text(box.left + wide / 2, height - 6, "middle", "time [s]"),
     text(14, box.top + tall / 2, "middle", words, { transform: `rotate(-90 14 ${box.top + tall / 2})` }),
   ];
   const picture = drawing("image", { x: box.left, y: box.top, width: wide, height: tall, href: sheet.toDataURL(), preserveAspectRatio: "none" });
-  return figure(shareOfRun(run, runs, title), `${note} Darkest: the largest amplitude; palest: ${-floor} dB below it and less.`, drawing("svg", { class: "curves", viewBox: `0 0 ${width} ${height}`, role: "img" }, picture, ticks));
+  return drawing("svg", { class: "curves", width, height, viewBox: `0 0 ${width} ${height}`, role: "img" }, picture, ticks);
 }
 
 const ORDER_COLOURS = ["#1f5fa8", "#b5541c", "#3b7d3b", "#7a4aa0", "#a33a3a", "#287d86", "#8a6d1f", "#555f68"];

@@ -150,7 +150,7 @@ function timePlot(options) {
   const plot = new uPlot(configuration, data, holder);
   holder.querySelectorAll(".u-legend .u-series").forEach((row, index) => index && showLineStyle(row.querySelector(".u-marker"), ordered[index - 1]));
   // Lower on paper, so that pages fill.
-  const height = () => (document.documentElement.classList.contains("paper") ? 0.8 : 1) * configuration.height;
+  const height = () => (document.documentElement.classList.contains("paper") ? Math.max(155, 0.66 * configuration.height) : configuration.height);
   resizable.push(() => plot.setSize({ width: holder.clientWidth, height: height() }));
   timeline.listeners.push(() => plot.setScale("x", { min: timeline.begin, max: timeline.end }));
   return holder;
