@@ -151,7 +151,7 @@ fn meant<'a>(name: &str, catalogue: &'a Catalogue) -> Result<&'a Bearing, Box<Pr
                 "" => String::new(),
                 words => format!(". Left out: {words}"),
             };
-            console::tell(&format!("{name}: the {own} of the catalogue{left_out}"));
+            console::report(&format!("{name}: the {own} of the catalogue{left_out}"));
             catalogue.find(&own).ok_or_else(|| unknown(name, catalogue))
         }
         Some(Designation::Missing(why)) => Err(Box::new(Problem::new(

@@ -82,7 +82,7 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
         } => {
             let format = if *csv { Format::Csv } else { Format::Xlsx };
             let written = export::export(directory, format, out.as_deref())?;
-            console::print(&format!("{}\n", written.display()));
+            console::print(&format!("{}\n", written.display()))?;
         }
         Command::Validate { cases, json } => {
             let report = validate::run(cases.as_deref(), &Simulation)?;
@@ -102,7 +102,7 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
                 return Ok(Exit::Failed);
             }
         }
-        Command::Explain { code } => console::print(&explain(code)?),
+        Command::Explain { code } => console::print(&explain(code)?)?,
         Command::Bearings { command } => bearings::perform(command)?,
     }
     Ok(Exit::Done)

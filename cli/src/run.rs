@@ -71,10 +71,12 @@ pub fn execute(
     let outcome = machine.run(&options);
     progress.end();
     directory.finish(scenario, &outcome)?;
-    if !quiet {
-        console::print(&summary::text(path, &outcome));
-    }
+    let printed = match quiet {
+        true => Ok(()),
+        false => console::print(&summary::text(path, &outcome)),
+    };
     console::warn(&outcome.warnings);
+    printed?;
     let exit = exit_of(&outcome.stop);
     let word = match exit {
         Exit::Done => return Ok(exit),

@@ -162,9 +162,9 @@ fn inertia_that_is_not_known() {
 
 #[test]
 fn a_cage_signal_of_the_wrong_ball_count() {
-    for (stated, fits) in [(10u32, 9u32), (10, 11), (9, 10), (10, 7), (8, 16)] {
+    for (given, fits) in [(10u32, 9u32), (10, 11), (9, 10), (10, 7), (8, 16)] {
         let mut wrong = test(6);
-        let factor = f64::from(fits) / f64::from(stated);
+        let factor = f64::from(fits) / f64::from(given);
         wrong
             .cage
             .as_mut()
@@ -173,13 +173,13 @@ fn a_cage_signal_of_the_wrong_ball_count() {
             .iter_mut()
             .for_each(|s| *s *= factor);
         let settings = CheckSettings {
-            ball_count: Some(stated),
+            ball_count: Some(given),
             ..stated()
         };
         let found = said(&[&wrong], &curve(1.0), &settings);
         let [
             Doubt::WrongBallCount {
-                stated: a,
+                given: a,
                 fits: b,
                 ratio,
                 ..
@@ -188,7 +188,7 @@ fn a_cage_signal_of_the_wrong_ball_count() {
         else {
             panic!("{found:?}")
         };
-        assert_eq!((*a, *b), (stated, fits));
+        assert_eq!((*a, *b), (given, fits));
         assert!((ratio.value - factor).abs() < 0.01);
     }
     // 4 % off fits no count of ten

@@ -3,8 +3,8 @@
 use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::key::{Key, quoted};
 use crate::scenario::meant;
-pub(crate) use crate::scenario::raw::{Raw, as_toml};
 use crate::scenario::not_modelled;
+pub(crate) use crate::scenario::raw::{Raw, as_toml};
 use crate::scenario::raw::{Written, collect, raw, table_raw, tables};
 use crate::scenario::several::{self, AUXILIARY_BEARING, LIMIT, VARY};
 use crate::scenario::system::SystemName;

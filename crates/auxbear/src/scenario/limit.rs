@@ -263,7 +263,7 @@ fn amount(raw: &Raw) -> Result<(f64, Dimension, String), (Code, String, Option<S
     let (value, dimension, text) = match raw {
         Raw::Text(text) => {
             let text = text.trim();
-            let quantity = parse_quantity(text).map_err(|error| unreadable(&error))?;
+            let quantity = parse_quantity(text).map_err(|error| unreadable(&error, text, None))?;
             (quantity.value_si, quantity.dimension, quoted(text))
         }
         Raw::Float(value) => (*value, Dimension::NONE, units::number_text(*value)),

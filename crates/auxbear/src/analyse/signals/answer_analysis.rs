@@ -16,7 +16,7 @@ pub(crate) fn name(list: &mut List, asked: &Asked, found: &Found) {
         vibration(list, found);
     }
     if asked.signals.steady.is_some() {
-        steady(list, found);
+        steady(list, asked, found);
     }
 }
 
@@ -107,7 +107,7 @@ fn vibration(list: &mut List, found: &Found) {
     }
 }
 
-fn steady(list: &mut List, found: &Found) {
+fn steady(list: &mut List, asked: &Asked, found: &Found) {
     let part = || found.steady.as_ref().ok_or_else(|| found.why("steady"));
     let inertia = || part().and_then(|part| part.inertia.clone());
     list.number(

@@ -6,8 +6,8 @@ use crate::problem::{Code, Problem};
 use crate::scenario::{
     BuiltIn, CageKind, PickupKind, Scenario, SensorSource, Signals, System, UNNAMED, Windage,
 };
-use std::sync::Arc;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Channels that were read, and what is asked of them.
 pub(crate) struct Asked {
