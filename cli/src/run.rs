@@ -72,7 +72,7 @@ pub fn execute(
     progress.end();
     directory.finish(scenario, &outcome)?;
     if !quiet {
-        console::print(&summary::text(path, &outcome));
+        console::print(&summary::text(path, &outcome))?;
     }
     let exit = exit_of(&outcome.stop);
     let word = match exit {
