@@ -97,9 +97,9 @@ fn an_interrupted_run_keeps_what_was_computed() {
 #[test]
 fn a_full_disk_keeps_what_could_be_written_and_says_so() {
     let place = Place::new();
-    // Files of at most 8 blocks (4 or 8 kB): the scenario does not fit.
+    // Files of at most 4 blocks (2 or 4 kB): the scenario does not fit.
     let script = format!(
-        "trap '' XFSZ; ulimit -f 8; exec '{}' run drop.toml --out run --set 'run.duration=12 ms'",
+        "trap '' XFSZ; ulimit -f 4; exec '{}' run drop.toml --out run --set 'run.duration=12 ms'",
         env!("CARGO_BIN_EXE_auxbear")
     );
     let output = Command::new("sh")
@@ -119,7 +119,7 @@ fn a_full_disk_keeps_what_could_be_written_and_says_so() {
         ("run.incomplete", 120, "history.parquet"),
         ("run.incomplete-2", 400, "report.html"),
     ] {
-        let script = script.replace("-f 8", &format!("-f {blocks}"));
+        let script = script.replace("-f 4", &format!("-f {blocks}"));
         let output = Command::new("sh")
             .args(["-c", &script])
             .current_dir(place.folder())
