@@ -97,13 +97,8 @@ fn mutated_tdms_is_read() {
 fn mutated_csv_is_read() {
     let mut seeds = peers("csv");
     seeds.push(written("csv"));
-    seeds.push(
-        "\u{feff}t;Kraft\ns;N\n"
-            .encode_utf16()
-            .flat_map(u16::to_le_bytes)
-            .chain(*b"1\0;\0002\0\n\0")
-            .collect(),
-    );
+    let wide = "\u{feff}t;Kraft\ns;N\n1;2\n2;3,5\n".encode_utf16();
+    seeds.push(wide.flat_map(u16::to_le_bytes).collect());
     mutate("csv", &seeds, |bytes, path| {
         read(csv::Csv::from_source(bytes, path))
     });
