@@ -5,7 +5,7 @@ use crate::scenario::signals::Automatic;
 use crate::scenario::signals::CageOutput;
 use crate::scenario::signals::Disturbance;
 use crate::scenario::signals::PickupFlank;
-use crate::scenario::signals::PickupOutput;
+use crate::scenario::signals::SpeedOutput;
 use crate::scenario::system::SystemName;
 use crate::scenario::words::Words;
 
@@ -135,7 +135,7 @@ pub(crate) const KEYS: &[Key] = &[
     .optional("no speed is computed"),
     Key::new(
         "signals.speed.kind",
-        Kind::Word(PickupOutput::WORDS),
+        Kind::Word(SpeedOutput::WORDS),
         "analog",
         "What the channel holds: analog, samples of the pickup's signal; edges, the instant of each mark; speed, a speed in rpm, rad/s or Hz of turning.",
     )

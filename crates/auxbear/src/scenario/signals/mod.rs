@@ -82,6 +82,16 @@ words! {
         Analog = "analog",
         /// Instants.
         Edges = "edges",
+    }
+}
+
+words! {
+    /// What the channel of a speed holds, as a word.
+    pub(crate) enum SpeedOutput {
+        /// Samples of a pickup.
+        Analog = "analog",
+        /// Instants of marks.
+        Edges = "edges",
         /// A speed.
         Speed = "speed",
     }
@@ -272,13 +282,13 @@ fn speed(values: &Values) -> Option<SpeedSignal> {
     Some(SpeedSignal {
         channel: values.text("signals.speed.channel")?,
         kind: match speed.choice("kind") {
-            PickupOutput::Edges => PickupKind::Edges {
+            SpeedOutput::Edges => PickupKind::Edges {
                 stamp_deviation: speed.number("stamp_deviation"),
             },
-            PickupOutput::Analog => PickupKind::Analog {
+            SpeedOutput::Analog => PickupKind::Analog {
                 flank: speed.choice("flank"),
             },
-            PickupOutput::Speed => PickupKind::Speed {
+            SpeedOutput::Speed => PickupKind::Speed {
                 scale: speed.maybe("scale"),
                 bandwidth: speed.maybe("bandwidth"),
                 delay: speed.number("delay"),
