@@ -5,6 +5,7 @@ const EXPLANATIONS = ["rolling", "rolling with a grease state", "isothermal slip
 
 // A probability; what is hardly possible is not told to its last digit.
 function chanceText(probability) {
+  if (probability > 0.9999) return "> 99.99 %";
   return probability > 0 && probability < 1e-4 ? "< 0.01 %" : percentText(probability, 3);
 }
 // 2 % settling of the arm in the source paper, s: the torque before it is what the inversion of the sensor makes of it.
@@ -41,7 +42,7 @@ function explanationFigure(run, runs) {
   const parameters = quantityOf(run, "explanation_parameters").value;
   const fit = numberOf(run, "explanation_fit_probability");
   const limits = quantityOf(run, "explanation_slip_limit").value;
-  const fits = fit === null ? "" : `. Data less like it would come with a probability of ${percentText(fit, 2)}`;
+  const fits = fit === null ? "" : `. Fit: if it is true, data that lie as far off or farther come with a probability of ${chanceText(fit)}`;
   const next = String(quantityOf(run, "next_tests").value || "").split("\n").filter(Boolean).map((line) => line.replace(/^\d+\. /, ""));
   return [
     figure(
@@ -224,7 +225,7 @@ function lossFigures(run, runs) {
   const tests = testsOf(run);
   if (!tests.length) return null;
   const table = plainTable(
-    ["test", "t_O − M, 0.2 to 0.4 s", "t_O − M, last 0.5 s at speed", "would bring balls and cage up in 3.5 s", "cage slipped", "balls skidded, if M holds", "rolls from, after the engagement"],
+    ["test", "t_O − M, 0.2 to 0.4 s", "t_O − M, last 0.5 s at speed", "torque that would bring balls and cage to speed in 3.5 s", "cage slipped", "balls skidded, if M holds", "rolls from, after the engagement"],
     tests.map((test) => {
       const share = (name) => {
         const value = numberOf(run, `${test.key}.${name}`);
@@ -287,7 +288,7 @@ function identifyVerdict(run) {
     "div",
     { class: "tiles" },
     stateTile(run),
-    tile("Explanation", words.split(":")[0], [conclusion.why || words.split(": ")[1] || (words === "none of these" ? "the likeliest does not fit" : `probability ${percentText(probability, 3)}`)]),
+    tile("Explanation", words.split(":")[0], [conclusion.why || words.split(": ")[1] || (words === "none of these" ? "the likeliest does not fit" : `probability ${chanceText(probability)}`)]),
     tile("Steady moment", typeof form.value === "string" ? FORMS[form.value] || form.value : "–", [form.why]),
     numberOf(run, "rotor_friction_coefficient") === null ? null : tile("Friction rotor/race", uncertainText(run, "rotor_friction_coefficient", ""), ["mean over the slips, ± twice the standard deviation"]),
     tile("Dissipated in the spin-ups", `${tests.length} ${tests.length === 1 ? "test" : "tests"}`, best),
