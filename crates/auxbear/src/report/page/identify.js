@@ -5,6 +5,7 @@ const EXPLANATIONS = ["rolling", "rolling with a grease state", "isothermal slip
 
 // A probability; what is hardly possible is not shown to its last digit.
 function chanceText(probability) {
+  if (probability > 0.9999) return "> 99.99 %";
   return probability > 0 && probability < 1e-4 ? "< 0.01 %" : percentText(probability, 3);
 }
 // 2 % settling of the arm in the source paper, s: the torque before it is what the inversion of the sensor makes of it.
@@ -224,7 +225,7 @@ function lossFigures(run, runs) {
   const tests = testsOf(run);
   if (!tests.length) return null;
   const table = plainTable(
-    ["test", "t_O − M, 0.2 to 0.4 s", "t_O − M, last 0.5 s at speed", "would bring balls and cage up in 3.5 s", "cage slipped", "balls skidded, if M holds", "rolls from, after the engagement"],
+    ["test", "t_O − M, 0.2 to 0.4 s", "t_O − M, last 0.5 s at speed", "torque that would bring balls and cage to speed in 3.5 s", "cage slipped", "balls skidded, if M holds", "rolls from, after the engagement"],
     tests.map((test) => {
       const share = (name) => {
         const value = numberOf(run, `${test.key}.${name}`);
@@ -287,7 +288,7 @@ function identifyVerdict(run) {
     "div",
     { class: "tiles" },
     stateTile(run),
-    tile("Explanation", words.split(":")[0], [conclusion.why || words.split(": ")[1] || (words === "none of these" ? "the likeliest does not fit" : `probability ${percentText(probability, 3)}`)]),
+    tile("Explanation", words.split(":")[0], [conclusion.why || words.split(": ")[1] || (words === "none of these" ? "the likeliest does not fit" : `probability ${chanceText(probability)}`)]),
     tile("Steady moment", typeof form.value === "string" ? FORMS[form.value] || form.value : "–", [form.why]),
     numberOf(run, "rotor_friction_coefficient") === null ? null : tile("Friction rotor/race", uncertainText(run, "rotor_friction_coefficient", ""), ["mean over the slips, ± twice the standard deviation"]),
     tile("Dissipated in the spin-ups", `${tests.length} ${tests.length === 1 ? "test" : "tests"}`, best),
