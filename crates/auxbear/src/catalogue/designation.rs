@@ -52,7 +52,7 @@ const SUFFIXES: &[(&str, &[&str])] = &[
 /// Suffixes of ceramic balls.
 const CERAMIC: &[&str] = &["HYBRID", "HC5", "HC"];
 
-/// Angular contact bearings: prefix of the designation, family of the catalogue, whether its name holds the bore with two digits.
+/// Angular contact bearings: series, and what stands before the bore in the names of the catalogue; empty where it has none.
 const ANGULAR: &[(&str, &str)] = &[
     ("718", "SNFA SEA "),
     ("719", "SNFA SEB "),

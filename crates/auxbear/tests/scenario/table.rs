@@ -429,7 +429,7 @@ fn unlike_any_other(path: &str, kind: Kind, range: Range, example: &str) -> Opti
             let si = match range {
                 Range::Above(low) => low + 0.0123456,
                 Range::FromTo(low, _) if low < 0.0 => low * 0.1234567,
-                Range::FromTo(0.0, most) => most * 0.0123456,
+                Range::FromTo(..) if path.ends_with("friction_coefficient") => 0.0612345,
                 Range::FromTo(low, _) => low * 1.234567,
                 // a traction coefficient must not become negative, so A is
                 _ if path == "bearing.traction.a" => -0.0612345,
