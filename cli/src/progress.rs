@@ -24,9 +24,8 @@ impl Busy {
     pub fn building(scenario: &Scenario) -> Busy {
         let what = match scenario.system.name() {
             SystemName::Signals | SystemName::Identify => "reading the measurement files",
-            SystemName::Drop | SystemName::Rig | SystemName::SpinUp | SystemName::Torque => {
-                "building the machine"
-            }
+            SystemName::Rig => "searching the engagement that gives the wanted acceleration",
+            SystemName::Drop | SystemName::SpinUp | SystemName::Torque => "building the machine",
         };
         let (held, dropped) = channel::<()>();
         thread::spawn(move || {
