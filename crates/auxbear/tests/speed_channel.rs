@@ -86,7 +86,7 @@ fn steady(to: f64, more: &str) -> String {
     )
 }
 
-const IDENTIFY: &str = "format = \"auxbear.scenario/1\"\nsystem = \"identify\"\n[bearing]\nname = \"6005\"\ncage_mass = \"9 g\"\n[identify]\ncoast_down = [\"coast.toml\"]\n";
+const IDENTIFY: &str = "format = \"auxbear.scenario/1\"\nsystem = \"identify\"\n[bearing]\nname = \"6005\"\n[identify]\ncoast_down = [\"coast.toml\"]\n";
 
 fn list<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
     let quantity = outcome.quantities.iter().find(|q| q.name == name);

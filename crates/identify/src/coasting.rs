@@ -68,8 +68,8 @@ impl Windage {
         let whole = of.torque.clone();
         let count = of.speed.len();
         let own: Vec<Option<f64>> = of.speed.iter().map(|speed| self.at(*speed)).collect();
-        for k in 0..count {
-            of.torque[k] -= own[k].unwrap_or(f64::NAN);
+        for (torque, own) in of.torque.iter_mut().zip(&own) {
+            *torque -= own.unwrap_or(f64::NAN);
         }
         let scale = of.scale_deviation.powi(2);
         for i in 0..count {

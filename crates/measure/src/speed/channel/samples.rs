@@ -139,7 +139,8 @@ impl Samples {
         let low = if first > 0 { 0.0 } else { low };
         let change = high - low;
         let clear = |size: usize| self.noise / (size as f64).sqrt() < CLEAR * change;
-        if change < 0.3 * high || !(change > 8.0 * self.noise / (size as f64).sqrt()) {
+        let unclear = 8.0 * self.noise / (size as f64).sqrt();
+        if change.is_nan() || change < 0.3 * high || change <= unclear {
             return None;
         }
         let at = |part: f64| low + part * change;
