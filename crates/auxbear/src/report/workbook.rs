@@ -257,7 +257,7 @@ mod tests {
 
     #[test]
     fn a_workbook_holds_its_tables() {
-        let values = vec![
+        let values = [
             1.0 / 3.0,
             f64::NAN,
             -0.0,

@@ -187,8 +187,8 @@ impl Given {
                     return Err(wrong(Code::WrongType, raw.text(), allowed));
                 }
                 ("most" | "least", raw) => {
-                    if let Some(other) = &bound {
-                        let found = format!("both {} and {key} in one limit", other.side.word());
+                    if bound.is_some() {
+                        let found = "both most and least in one limit".to_string();
                         let allowed = "one of them is needed; a second [[limit]] takes the other";
                         return Err(wrong(Code::Conflict, found, allowed));
                     }
@@ -258,8 +258,11 @@ impl Given {
     }
 }
 
+/// Why a value is none: code, what was found, a hint.
+type Refused = (Code, String, Option<String>);
+
 /// A quantity or a bare number: in SI, its dimension, and as a file has it; else code, what was found and a hint.
-fn amount(raw: &Raw) -> Result<(f64, Dimension, String), (Code, String, Option<String>)> {
+fn amount(raw: &Raw) -> Result<(f64, Dimension, String), Refused> {
     let (value, dimension, text) = match raw {
         Raw::Text(text) => {
             let text = text.trim();

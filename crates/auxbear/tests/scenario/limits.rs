@@ -104,7 +104,7 @@ fn a_wrong_limit_is_refused_before_the_run() {
         (
             "quantity = \"peak_contact_forse\"\nmost = \"5 kN\"",
             Code::UnknownQuantity,
-            "Did you mean \"peak_contact_force\"?",
+            "Did you mean \"peak_contact_force\"",
         ),
         (
             "quantity = \"peak_contact_force\"\nmost = \"5 mm\"",
