@@ -58,7 +58,7 @@ fn explained(test: usize, shown: &TestFound, found: &Found, times: &[f64]) -> Ve
     let measured = column(
         "torque_mean".to_string(),
         "mean torque t_O, on which the explanations were compared".to_string(),
-        &|place| verdict.torque_means[place].torque,
+        &|place: usize| verdict.torque_means[place].torque,
     );
     let predicted = (verdict.ranked().into_iter())
         .filter(|assessment| !assessment.predicted_torque.is_empty())
@@ -70,7 +70,7 @@ fn explained(test: usize, shown: &TestFound, found: &Found, times: &[f64]) -> Ve
                     assessment.explanation.name().replace(' ', "_")
                 ),
                 format!("what \"{}\" predicts for it", assessment.explanation.name()),
-                &|place| assessment.predicted_torque[place],
+                &|place: usize| assessment.predicted_torque[place],
             )
         });
     std::iter::once(measured).chain(predicted).collect()
