@@ -269,7 +269,7 @@ impl Scenario {
             system,
             resolved: values::Values::resolved(&values)
                 .varied(&vary)
-                .limited(&limits),
+                .limited(limits.iter().map(Limit::toml).collect()),
             vary,
             limits,
             notes,

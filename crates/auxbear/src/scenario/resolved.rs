@@ -2,7 +2,6 @@
 
 use crate::problem::Place;
 use crate::scenario::key::{Key, Kind, quoted};
-use crate::scenario::limit::Limit;
 use crate::scenario::provenance::Provenance;
 use crate::scenario::several::{self, AUXILIARY_BEARING, VARY};
 use crate::scenario::table;
@@ -59,9 +58,9 @@ impl Resolved {
             limits: Vec::new(),
         }
     }
-    /// The same with what results must hold.
-    pub(crate) fn limited(mut self, limits: &[Limit]) -> Resolved {
-        self.limits = limits.iter().map(Limit::toml).collect();
+    /// The same with what results must hold, each limit as a file has it.
+    pub(crate) fn limited(mut self, limits: Vec<String>) -> Resolved {
+        self.limits = limits;
         self
     }
     /// The same with what repeated runs vary; what the keys of `[repeat]` say stands there.

@@ -28,6 +28,9 @@ pub mod source;
 pub mod tdms;
 pub mod uff;
 pub mod wav;
+mod writer;
+
+pub use writer::Writer;
 
 use std::fmt;
 use std::fs::{self, File};
@@ -35,9 +38,6 @@ use std::io;
 use std::path::Path;
 
 use crate::recording::{Channel, FileError, Recording};
-
-/// Number of bytes from the start of a file by which its format is recognised.
-const HEAD: usize = 4096;
 
 /// A format of measurement files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -188,7 +188,7 @@ pub fn open(path: impl AsRef<Path>) -> Result<Box<dyn Recording>, FileError> {
     let file = open_file(path)
         .map_err(|e| FileError::new(path, "", format!("cannot be opened ({e})"), ""))?;
     let mut source = source::Source::new(file, path)?;
-    let head = source.bytes(0, source.length().min(HEAD as u64))?;
+    let head = source.bytes(0, source.length().min(source::HEAD as u64))?;
     if head.is_empty() {
         return Err(FileError::new(path, "", "is empty", readable()));
     }
@@ -207,18 +207,6 @@ pub fn open(path: impl AsRef<Path>) -> Result<Box<dyn Recording>, FileError> {
         return Err(FileError::new(path, "", found, needed));
     }
     (row.open)(source.into_inner(), path)
-}
-
-/// A measurement file that is being written, piece by piece.
-///
-/// The file carries its name only after [`Writer::finish`]; until then a name beside it is used, and a writer that is
-/// dropped leaves nothing.
-pub trait Writer {
-    /// Appends values: one slice for each channel, in their order; slices of channels with one clock have one length.
-    fn append(&mut self, values: &[&[f64]]) -> Result<(), FileError>;
-
-    /// Completes the file and gives it its name.
-    fn finish(self: Box<Self>) -> Result<(), FileError>;
 }
 
 /// Starts a file of the channels; the extension of its name tells the format.

@@ -5,6 +5,9 @@ use std::path::{Path, PathBuf};
 
 use crate::recording::FileError;
 
+/// Number of bytes from the start of a file by which its format is recognised.
+pub(crate) const HEAD: usize = 4096;
+
 /// Most bytes that are read before the next are asked for: what a wrong size in a file can cost of memory at most is
 /// then the file's own length.
 const PIECE: u64 = 1 << 20;

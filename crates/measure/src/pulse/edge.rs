@@ -2,6 +2,7 @@
 
 use super::envelope::Envelope;
 use super::flank::{Passing, sharpen};
+use super::flip::Flip;
 use super::level::Levels;
 use super::shape::Shape;
 use super::spike;
@@ -40,12 +41,6 @@ const LEFT: f64 = 0.3;
 const BENT: f64 = 3.0;
 /// Samples of a plateau, next to the flank, that give its level, at most.
 const PLATEAU: usize = 64;
-
-pub(super) struct Flip {
-    /// First sample beyond the hysteresis on the new side.
-    pub sample: usize,
-    pub rises: bool,
-}
 
 /// Finds the instants at which a sampled signal crosses the middle between its two levels.
 ///

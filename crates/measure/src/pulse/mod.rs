@@ -18,6 +18,7 @@
 mod edge;
 mod envelope;
 mod flank;
+mod flip;
 mod gap;
 mod in_step;
 mod level;
@@ -28,6 +29,7 @@ mod shape;
 mod spike;
 mod train;
 mod undersampled;
+mod wheel;
 
 use std::fmt;
 
@@ -36,7 +38,8 @@ pub use gap::Gap;
 pub use marks::{Marks, check_marks};
 pub use period::period;
 pub use pitch::{Pitch, calibrate};
-pub use train::{Pulses, Wheel, number};
+pub use train::{Pulses, number};
+pub use wheel::Wheel;
 
 /// Which flank of a pulse marks the passage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,7 +10,7 @@
 //!
 //! **Does not model**: spikes beside pulses that are narrow themselves; what they do to the count is seen there ([`super::number`]).
 
-use super::edge::Flip;
+use super::flip::Flip;
 
 /// How many times as wide as a spike the pulses beside it are.
 const TIMES: usize = 4;

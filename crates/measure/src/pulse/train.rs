@@ -2,16 +2,8 @@
 
 use super::gap::{LONG, count as count_over, is_sure};
 use super::undersampled::undersampled;
+use super::wheel::Wheel;
 use super::{Edges, Flank, Gap, Refusal, median};
-
-/// The wheel that the pickup looks at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Wheel {
-    /// Marks per revolution, the left-out ones included.
-    pub marks: usize,
-    /// Neighbouring marks left out as a reference; zero for a full wheel.
-    pub missing: usize,
-}
 
 /// Passages with the number of the mark that passed.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,6 @@
 //! What happens at an instant of a record, and what is known there.
 
-use super::matrix::{Matrix, Memory, Vector};
-use super::plan::moving;
+use super::matrix::{Matrix, Memory, N, Vector};
 use crate::state_space::{applied, dot};
 
 /// What is seen of the motion at an instant: `value = row · state + noise`.
@@ -71,4 +70,18 @@ impl Fresh {
 pub(super) struct Belief {
     pub mean: Vector,
     pub covariance: Matrix,
+}
+
+/// Belief before a first passage in motion: hardly anything.
+pub(super) fn moving(angle: f64, speed: f64, pitch: f64) -> Belief {
+    let speed = speed.max(1e-6 * pitch);
+    let mut covariance = [[0.0; N]; N];
+    covariance[0][0] = pitch * pitch;
+    covariance[1][1] = (0.3 * speed).powi(2);
+    covariance[2][2] = (0.1 * speed).powi(2);
+    covariance[3][3] = (0.03 * speed).powi(2);
+    Belief {
+        mean: [angle, speed, 0.0, 0.0, 0.0],
+        covariance,
+    }
 }

@@ -1,7 +1,7 @@
 //! From pulses, or from samples of a speed, to the nodes of a track: noises, densities, knots.
 
 use super::matrix::{Memory, N};
-use super::node::{Belief, Fresh, Node, Sight};
+use super::node::{Belief, Fresh, Node, Sight, moving};
 use super::track::{Pass, forward};
 use crate::pulse::{Pitch, Pulses};
 
@@ -423,20 +423,6 @@ fn forward_only(pass: &Pass, variance: f64) -> f64 {
     libm::erfc(-z / std::f64::consts::SQRT_2)
         .max(f64::MIN_POSITIVE)
         .ln()
-}
-
-/// Belief before a first passage in motion: hardly anything.
-pub(super) fn moving(angle: f64, speed: f64, pitch: f64) -> Belief {
-    let speed = speed.max(1e-6 * pitch);
-    let mut covariance = [[0.0; N]; N];
-    covariance[0][0] = pitch * pitch;
-    covariance[1][1] = (0.3 * speed).powi(2);
-    covariance[2][2] = (0.1 * speed).powi(2);
-    covariance[3][3] = (0.03 * speed).powi(2);
-    Belief {
-        mean: [angle, speed, 0.0, 0.0, 0.0],
-        covariance,
-    }
 }
 
 /// Belief before the first sample of a speed: no angle is counted yet, and of the motion hardly more is known than what it

@@ -1,7 +1,7 @@
 //! What is inverted: means of blocks of the reading, and what may lie beyond where it is clipped.
 
 use super::chain::{Pass, Samples, ZERO};
-use super::inversion::Inversion;
+use super::input::Inversion;
 
 /// The reading in blocks that are short for the sensor and for a spin-up, and the shaft at their middles.
 pub(super) struct Thin {

@@ -1,6 +1,7 @@
 //! What a torque sensor of another frequency would give: the picture before the arm is made.
 
-use super::inversion::{Inversion, invert};
+use super::input::Inversion;
+use super::inversion::invert;
 use super::{Sensor, Swing, chain};
 use crate::random::Random;
 use crate::shaft::Shaft;

@@ -16,13 +16,15 @@
 mod blocks;
 mod chain;
 mod design;
+mod input;
 mod inversion;
 mod line;
 mod response;
 mod swing;
 
 pub use design::{Design, DesignError, design_error};
-pub use inversion::{Clipped, Inversion, Torque, invert};
+pub use input::{Clipped, Inversion};
+pub use inversion::{Torque, invert};
 pub use response::{Excitation, FreeResponse, identify_free_response};
 
 use crate::uncertain::Uncertain;

@@ -35,7 +35,7 @@ function limitSection(runs) {
     element(
       "tr",
       {},
-      several ? element("td", {}, run.label) : null,
+      several ? element("td", {}, run.short) : null,
       element("td", { class: "name" }, limitName(run, limit), element("code", {}, limit.quantity)),
       element("td", {}, boundText(limit)),
       element("td", {}, isNumber(limit.value) ? engineeringText(limit.value, limit.unit, 5) : "–"),

@@ -6,7 +6,7 @@ use crate::scenario::rig::Housing;
 use crate::scenario::rig::MotorAfter;
 use crate::scenario::rig::ProgramKind;
 use crate::scenario::rig::RawFormat;
-use crate::scenario::rig::RigPickupOutput;
+use crate::scenario::signals::PickupOutput;
 use crate::scenario::system::SystemName;
 use crate::scenario::words::Words;
 
@@ -453,7 +453,7 @@ pub(crate) const KEYS: &[Key] = &[
     .default("0.01", "a printed wheel"),
     Key::new(
         "rig.pickup.kind",
-        Kind::Word(RigPickupOutput::WORDS),
+        Kind::Word(PickupOutput::WORDS),
         "analog",
         "What the logger writes of it: analog, samples of its signal; edges, the instant of each mark by a counter.",
     )

@@ -6,6 +6,7 @@ pub(crate) mod keys;
 use crate::scenario::bearing::{Bearing, bearing};
 use crate::scenario::run::Run;
 use crate::scenario::section::Section;
+use crate::scenario::signals::PickupOutput;
 use crate::scenario::values::Values;
 use crate::scenario::words::words;
 
@@ -382,25 +383,15 @@ fn program(rig: &Section<'_>, motor: &Section<'_>, clutch: &Section<'_>) -> RigP
     }
 }
 
-words! {
-    /// What the logger writes of the pickup, as a word.
-    pub(crate) enum RigPickupOutput {
-        /// Samples.
-        Analog = "analog",
-        /// Instants.
-        Edges = "edges",
-    }
-}
-
 fn pickup(section: &Section<'_>) -> RigPickup {
     RigPickup {
         marks: section.count("marks") as usize,
         mark_deviation: section.number("mark_deviation"),
         kind: match section.choice("kind") {
-            RigPickupOutput::Edges => RigPickupKind::Edges {
+            PickupOutput::Edges => RigPickupKind::Edges {
                 stamp_deviation: section.number("stamp_deviation"),
             },
-            RigPickupOutput::Analog => RigPickupKind::Analog {
+            PickupOutput::Analog => RigPickupKind::Analog {
                 noise: section.number("noise"),
             },
         },

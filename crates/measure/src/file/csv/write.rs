@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use crate::file::Writer;
 use crate::file::columns::{self, Times};
 use crate::file::draft::Draft;
+use crate::file::writer::Writer;
 use crate::recording::{Channel, FileError};
 
 /// Writes channels of one clock as text in columns: commas between cells, a point before decimals, and as many digits

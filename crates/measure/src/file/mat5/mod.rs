@@ -11,6 +11,7 @@
 
 mod stream;
 mod survey;
+mod values;
 
 use std::fmt;
 use std::io::{Read, Seek};
@@ -21,6 +22,7 @@ use super::request::{refuse_number, refuse_text};
 use super::source::Source;
 use crate::recording::{Channel, FileError, Note, Property, Recording};
 use stream::Stream;
+use values::{Stored, Values};
 
 /// Places in the file that are kept, one a channel: a packed variable can only be read forward.
 const PLACES: usize = 64;
@@ -32,87 +34,6 @@ const PIECE: usize = 1 << 18;
 pub fn is_mat5(head: &[u8]) -> bool {
     let told = head.get(124..128);
     matches!(told, Some([0, 1, b'I', b'M'] | [1, 0, b'M', b'I']))
-}
-
-/// How a number is stored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stored {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
-    I64,
-    U64,
-}
-
-impl Stored {
-    /// From the number of a data type.
-    fn of(kind: u32) -> Option<Stored> {
-        Some(match kind {
-            1 => Stored::I8,
-            2 | 16 => Stored::U8,
-            3 => Stored::I16,
-            4 | 17 => Stored::U16,
-            5 => Stored::I32,
-            6 | 18 => Stored::U32,
-            7 => Stored::F32,
-            9 => Stored::F64,
-            12 => Stored::I64,
-            13 => Stored::U64,
-            _ => return None,
-        })
-    }
-
-    /// Bytes of a number.
-    fn size(self) -> usize {
-        match self {
-            Stored::I8 | Stored::U8 => 1,
-            Stored::I16 | Stored::U16 => 2,
-            Stored::I32 | Stored::U32 | Stored::F32 => 4,
-            Stored::F64 | Stored::I64 | Stored::U64 => 8,
-        }
-    }
-
-    /// The number that these bytes start with; not-a-number where they are too few.
-    fn number(self, bytes: &[u8], big_endian: bool) -> f64 {
-        let Some(bytes) = bytes.get(..self.size()) else {
-            return f64::NAN;
-        };
-        let byte = |bits: u64, byte: &u8| bits << 8 | u64::from(*byte);
-        let bits = if big_endian {
-            bytes.iter().fold(0, byte)
-        } else {
-            bytes.iter().rev().fold(0, byte)
-        };
-        match self {
-            Stored::I8 => f64::from(bits as i8),
-            Stored::I16 => f64::from(bits as i16),
-            Stored::I32 => f64::from(bits as i32),
-            Stored::I64 => bits as i64 as f64,
-            Stored::U8 | Stored::U16 | Stored::U32 | Stored::U64 => bits as f64,
-            Stored::F32 => f64::from(f32::from_bits(bits as u32)),
-            Stored::F64 => f64::from_bits(bits),
-        }
-    }
-}
-
-/// Where the values of a channel stand.
-#[derive(Clone, Debug)]
-struct Values {
-    /// Start and end of the variable in the file.
-    start: u64,
-    end: u64,
-    packed: bool,
-    /// Where in the variable the array starts.
-    at: u64,
-    stored: Stored,
-    /// Index of the first value in the array, and from one to the next.
-    first: u64,
-    step: u64,
 }
 
 /// A MAT file that is open for reading.

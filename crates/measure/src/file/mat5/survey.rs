@@ -3,7 +3,7 @@
 use std::io::{Read, Seek};
 
 use super::stream::Stream;
-use super::{Stored, Values};
+use super::values::{Stored, Values};
 use crate::file::source::Source;
 use crate::recording::{Channel, FileError, Note, Property, Value};
 

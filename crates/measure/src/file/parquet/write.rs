@@ -13,9 +13,9 @@ use ::parquet::schema::types::Type;
 
 use super::COLUMNS;
 use super::arrow_schema::{self, Field};
-use crate::file::Writer;
 use crate::file::columns::{self, Times};
 use crate::file::draft::Draft;
+use crate::file::writer::Writer;
 use crate::recording::{Channel, FileError, Value};
 
 /// Rows of a row group: the writer, and a reader, holds one of them at a time.

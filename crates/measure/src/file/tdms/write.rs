@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::kind::EPOCH;
-use crate::file::Writer;
 use crate::file::draft::Draft;
+use crate::file::writer::Writer;
 use crate::recording::{Channel, Clock, Content, FileError, Instant, Property, Value};
 
 /// Values that are gathered before a segment is written.

@@ -2,20 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::scan::{Body, Set};
+use super::set::{Axis, Body, Set};
 use super::text::{Numbers, columns, value};
 use crate::recording::{Instant, Property, Value};
-
-/// An axis of a set.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Axis {
-    /// Number of the quantity in the format's list.
-    pub quantity: u32,
-    /// What it is called; empty where not told.
-    pub label: String,
-    /// Its unit; empty where not told.
-    pub unit: String,
-}
 
 /// The header of a set 58 as it stands.
 pub struct Header {

@@ -13,6 +13,7 @@
 
 mod header;
 mod scan;
+mod set;
 mod text;
 
 use std::io::{Read, Seek};
@@ -20,8 +21,9 @@ use std::path::Path;
 
 use super::source::{Source, WINDOW};
 use crate::recording::{Channel, Clock, FileError, Note, Property, Recording, Value};
-use header::{Axis, Names, date, si_unit};
-use scan::{Body, Contents, Set};
+use header::{Names, date, si_unit};
+use scan::Contents;
+use set::{Axis, Body, Set};
 use text::{Numbers, is_mark, line, value};
 
 /// Whether a file begins as one of universal sets.
@@ -79,7 +81,7 @@ impl<S: Read + Seek> Uff<S> {
     /// An error where the file is no universal file; whatever else is wrong is a note.
     pub fn from_source(source: S, path: &Path) -> Result<Uff<S>, FileError> {
         let mut source = Source::new(source, path)?;
-        let head = source.bytes(0, source.length().min(super::HEAD as u64))?;
+        let head = source.bytes(0, source.length().min(super::source::HEAD as u64))?;
         if !is_uff(&head) {
             return Err(source.error(
                 0,
