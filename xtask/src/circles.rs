@@ -8,7 +8,7 @@ use crate::rust_text::{code_only, is_word, without_tests};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Folders in which circles are known and not yet opened.
-const NOT_YET: [&str; 1] = ["crates/measure/src/"];
+const NOT_YET: [&str; 1] = ["crates/measure/src/speed/"];
 
 type Module = Vec<String>;
 

@@ -3,7 +3,7 @@
 //! Texts stand in their cells, numbers with the digits that give them back bit for bit; rows go to the file one after the
 //! other, so that a million of them do not stand in memory.
 //!
-//! Source: ECMA-376-1, SpreadsheetML, the parts that a reader needs (from memory); read back by openpyxl.
+//! Source: ECMA-376-1, SpreadsheetML, the parts that a reader needs (from memory).
 
 use super::table::{Cell, Table};
 use super::zip::Archive;
