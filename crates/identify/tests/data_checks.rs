@@ -179,7 +179,7 @@ fn a_cage_signal_of_the_wrong_ball_count() {
         let found = said(&[&wrong], &curve(1.0), &settings);
         let [
             Doubt::WrongBallCount {
-                given: a,
+                stated: a,
                 fits: b,
                 ratio,
                 ..

@@ -178,11 +178,11 @@ fn beside(direct: &SteadyCurve, inertial: &SteadyCurve) -> Option<String> {
     })
 }
 
+/// First time and interval of the speeds of a shaft that coasts, s; the speeds, rad/s; what coasts.
+type Coasted = ((f64, f64), Vec<f64>, Uncertain);
+
 /// Speeds of a coast-down at equal times, and the inertia of what coasts: first time, interval, speeds, inertia.
-pub(crate) fn coasted(
-    wish: &SteadySignal,
-    shaft: &shaft::Found,
-) -> Result<((f64, f64), Vec<f64>, Uncertain), String> {
+pub(crate) fn coasted(wish: &SteadySignal, shaft: &shaft::Found) -> Result<Coasted, String> {
     let source = wish.inertia.as_ref();
     let inertia =
         inertia(source.ok_or_else(|| "signals.steady.inertia is not given".to_string())?)?;
