@@ -3,6 +3,7 @@
 mod bad_file;
 mod bad_input;
 mod blame;
+mod catalogue_file;
 mod contact_angle;
 mod files;
 mod friction;

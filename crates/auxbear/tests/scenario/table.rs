@@ -60,9 +60,17 @@ fn measurement(path: &str) -> String {
         "tap_file" | "tap_channel" | "tap_start" => "tap_file = \"tap.tdms\"",
         _ => "sensor_frequency = \"30 Hz\"\ndamping_ratio = 0.2",
     };
+    let speed = match path {
+        "signals.speed.scale"
+        | "signals.speed.bandwidth"
+        | "signals.speed.delay"
+        | "signals.speed.resolution"
+        | "signals.speed.noise" => "kind = \"speed\"",
+        _ => "marks_per_revolution = 60",
+    };
     format!(
         "format = \"auxbear.scenario/1\"\nsystem = \"signals\"\n[signals]\nfile = \"a.tdms\"\n\
-         [signals.speed]\nchannel = \"tacho\"\nmarks_per_revolution = 60\n\
+         [signals.speed]\nchannel = \"tacho\"\n{speed}\n\
          [signals.torque]\nchannel = \"torque\"\n{sensor}\n\
          [signals.cage]\nchannel = \"balls\"\nball_count = 10\nrolling_ratio = 0.4\n"
     )
@@ -352,6 +360,11 @@ fn choices(path: &str) -> Vec<String> {
                 "signals.steady.acceleration_without=-15 rad/s^2",
             ]
         }
+        "signals.steady.windage_deviation" => &[
+            "signals.steady.from=0 s",
+            "signals.steady.to=100 s",
+            "signals.steady.windage_constant=0.2 N mm",
+        ],
         _ if path.starts_with("signals.steady.test_") => &[
             "signals.steady.from=0 s",
             "signals.steady.to=100 s",
@@ -473,6 +486,10 @@ fn every_number_reaches_the_typed_scenario() {
             list.push(format!("{}={text}", key.path));
             let typed = read(&base(*system, key.path), &list).system;
             let name = match key.name() {
+                "windage_constant" => "constant",
+                "windage_linear" => "linear",
+                "windage_quadratic" => "quadratic",
+                "windage_deviation" => "deviation",
                 "brake_torque" => "torque",
                 "brake_start" => "start",
                 "torque_rate" | "peak_acceleration" => "engagement",
