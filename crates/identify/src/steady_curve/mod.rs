@@ -5,7 +5,7 @@
 //! inertial:  slope of the speed of a coasting rotor              M(Ω) = −I dΩ/dt
 //! ```
 //!
-//! Both are smooth curves with a band, fitted as the spline of [`moment`](crate::moment()) is: sixteen cubic B-splines, residuals a
+//! Both are smooth curves with a band, fitted as the spline of [`moment`](mod@crate::moment) is: sixteen cubic B-splines, residuals a
 //! first-order autoregression, smoothness, noise and correlation summed over. The deviation of the inertia shifts a whole curve,
 //! so it is kept apart. [`compare`] sets one curve against another: up against down, direct against inertial.
 //!
