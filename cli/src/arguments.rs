@@ -108,7 +108,7 @@ pub struct Run {
     /// Number of threads [all cores]; the numbers do not depend on it
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub threads: Option<String>,
-    /// Print no progress and no tables; warnings and problems are told all the same
+    /// Print no progress and no tables; warnings and problems are printed all the same
     #[arg(long)]
     pub quiet: bool,
 }
@@ -123,7 +123,7 @@ pub struct Measured {
     /// Override a value of the file, e.g. signals.file=test_7.tdms; may be repeated
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// Print no progress and no tables; warnings and problems are told all the same
+    /// Print no progress and no tables; warnings and problems are printed all the same
     #[arg(long)]
     pub quiet: bool,
 }
@@ -159,7 +159,7 @@ pub struct Torque {
     /// Run directory to write [runs/torque-BEARING, with a number where that is taken]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Print no progress and no tables; warnings and problems are told all the same
+    /// Print no progress and no tables; warnings and problems are printed all the same
     #[arg(long)]
     pub quiet: bool,
 }

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 /// Time between lines in a log, at least.
 const PAUSE: Duration = Duration::from_secs(1);
 
-/// Time after which is told what takes so long, and between two lines of that.
+/// Time after which a line says what takes so long, and between two such lines.
 const PATIENCE: Duration = Duration::from_secs(2);
 const REPEATED: Duration = Duration::from_secs(10);
 
@@ -20,7 +20,7 @@ const REPEATED: Duration = Duration::from_secs(10);
 pub struct Busy(#[allow(dead_code)] Sender<()>); // its end is what is heard
 
 impl Busy {
-    /// Tells of the building of the machine that a scenario describes.
+    /// Reports the building of the machine that a scenario describes.
     pub fn building(scenario: &Scenario) -> Busy {
         let what = match scenario.system.name() {
             SystemName::Signals | SystemName::Identify => "reading the measurement files",

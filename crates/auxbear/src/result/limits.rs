@@ -19,9 +19,9 @@ use crate::result::outcome::{Judged, Outcome, Quantity, Value, Verdict};
 use crate::scenario::{Limit, Side};
 use units::{Dimension, Unit};
 
-/// Confidence with which a share of runs is told.
+/// Confidence with which a share of runs is judged.
 const CONFIDENCE: f64 = 0.95;
-/// Most members that are counted when it is told how many would decide.
+/// Most members that are counted for how many would decide.
 const MOST_MEMBERS: usize = 100_000;
 /// Names of results that a message lists.
 const MOST_NAMES: usize = 8;

@@ -1,4 +1,4 @@
-//! Keys that users try and that nothing describes yet: they are told so, with the page of the book, instead of a near name.
+//! Keys that users try and that nothing describes yet: the answer says so, with the page of the book, instead of a near name.
 
 use crate::catalogue::designation::PAIRS;
 

@@ -275,7 +275,7 @@ const ENERGY: Origin = Origin {
     valid: "heat of what is simulated: of identical planes that of one; nothing is cooled or warmed by it",
 };
 const ALL_BEARINGS: Origin = Origin {
-    law: "dissipated_energy times rotor.planes: of bearings that are told apart it is their sum already",
+    law: "dissipated_energy times rotor.planes: of bearings computed one by one it is their sum already",
     source: LEDGER,
     valid: "heat of bearings, mounts and landing surfaces; nothing is cooled or warmed by it",
 };
