@@ -176,11 +176,11 @@ pub fn lay_races(layout: &mut Layout, name: &str) -> (usize, usize) {
 /// An auxiliary bearing over `R`.
 #[derive(Clone, Debug)]
 pub struct AuxiliaryBearing<R: Real> {
-    contact: JournalContact<R>,
-    inner_race: RaceConstants<R>,
-    bearing: Bearing<R>,
-    mount: Mount<R>,
-    outer_moving_mass: R,
+    pub(crate) contact: JournalContact<R>,
+    pub(crate) inner_race: RaceConstants<R>,
+    pub(crate) bearing: Bearing<R>,
+    pub(crate) mount: Mount<R>,
+    pub(crate) outer_moving_mass: R,
     /// Reciprocals, because a division costs as much as ten products.
     inverse_inner_mass: R,
     inverse_outer_mass: R,

@@ -62,6 +62,23 @@ pub struct ContactReaction<R> {
     pub friction_heat: R,
 }
 
+/// Stiffness and damping of the contact, for linearly implicit steps.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactTangent<R> {
+    /// n.
+    pub normal: Vec2<R>,
+    /// Arm of the journal's surface about C, m.
+    pub journal_arm: R,
+    /// Arm of the bore's surface, m.
+    pub bore_arm: R,
+    /// ∂N/∂d, N/m.
+    pub stiffness: R,
+    /// ∂N/∂ḋ, N s/m.
+    pub damping: R,
+    /// Slope of friction over slip, N s/m.
+    pub friction: R,
+}
+
 impl<R: Real> JournalContact<R> {
     /// Reaction of the contact to the motion of both bodies.
     #[inline(always)]
@@ -109,6 +126,36 @@ impl<R: Real> JournalContact<R> {
             slip_speed: slip,
             damping_heat,
             friction_heat: friction * slip,
+        }
+    }
+
+    /// Tangents of the contact at this motion; nothing where the surfaces do not press.
+    #[inline(always)]
+    pub fn tangent(
+        &self,
+        reaction: &ContactReaction<R>,
+        journal: &GeometricCentre<R>,
+        bore: &Body<R>,
+    ) -> ContactTangent<R> {
+        let (zero, one, half) = (R::zero(), R::one(), R::splat(0.5));
+        let d = reaction.penetration;
+        let pressed = reaction.normal_force.greater(zero);
+        let only = |value: R| R::select(pressed, value, zero);
+        let n = (journal.position - bore.position) * (d + self.radial_clearance).recip();
+        let damping = reaction.elastic_force * self.damping;
+        let saturation = (reaction.slip_speed * self.inverse_reference_speed).tanh();
+        ContactTangent {
+            normal: n,
+            journal_arm: self.bore_radius - self.radial_clearance - half * d,
+            bore_arm: self.bore_radius + half * d,
+            stiffness: only(self.exponent * reaction.normal_force / d.max(R::splat(1e-18))),
+            damping: only(damping),
+            friction: only(
+                self.friction
+                    * self.inverse_reference_speed
+                    * (one - saturation.square())
+                    * reaction.normal_force,
+            ),
         }
     }
 

@@ -29,23 +29,25 @@ impl Observer<RotorMachine> for Bits {
     }
 }
 
-/// A run of machines side by side: how each ended, and the bits of what was seen on the way.
-struct Side<'a>(&'a [RotorMachine], f64);
+/// A run of machines side by side by explicit steps, and if so by linearly implicit ones behind it: how each ended, and the bits
+/// of what was seen on the way.
+struct Side<'a>(&'a [RotorMachine], f64, bool);
 impl Task for Side<'_> {
     type Output = Vec<(Ending, Vec<u64>)>;
     fn run<R: Real>(self) -> Self::Output {
-        let Side(machines, end) = self;
+        let Side(machines, end, implicit) = self;
         let starts: Vec<_> = machines.iter().map(RotorMachine::start).collect();
         let machines: Vec<_> = machines.iter().collect();
         let mut seen: Vec<_> = machines.iter().map(|_| Bits::default()).collect();
         let never = AtomicBool::new(false);
-        let endings = solve::run::<R, Machines<R>, _>(
-            &machines,
-            &starts,
-            &mut seen,
-            &settings(end, 1e-4),
-            &never,
-        );
+        let run = if implicit {
+            solve::run_implicit::<R, Machines<R>, _>
+        } else {
+            solve::run::<R, Machines<R>, _>
+        };
+        let tolerance = if implicit { 1e-2 } else { 1e-4 };
+        let settings = settings(end, tolerance);
+        let endings = run(&machines, &starts, &mut seen, &settings, &never);
         endings
             .into_iter()
             .zip(seen.into_iter().map(|bits| bits.0))
@@ -54,10 +56,15 @@ impl Task for Side<'_> {
 }
 
 /// Asserts that each machine ends alone at every level as it does without a vector unit, and on the lane it has
-/// among the others.
+/// among the others, by both methods.
 fn same_bits(machines: &[RotorMachine], end: f64) {
+    same_bits_of(machines, end, false);
+    same_bits_of(machines, end, true);
+}
+
+fn same_bits_of(machines: &[RotorMachine], end: f64, implicit: bool) {
     let alone = |level: Level, machine: &RotorMachine| {
-        let mut runs = level.run_one(Side(std::slice::from_ref(machine), end));
+        let mut runs = level.run_one(Side(std::slice::from_ref(machine), end, implicit));
         runs.remove(0)
     };
     let expected: Vec<_> = machines
@@ -73,7 +80,7 @@ fn same_bits(machines: &[RotorMachine], end: f64) {
             );
         }
         for (from, batch) in machines.chunks(level.lanes()).enumerate() {
-            let runs = level.run_many(Side(batch, end));
+            let runs = level.run_many(Side(batch, end, implicit));
             for (lane, run) in runs.iter().enumerate() {
                 let machine = from * level.lanes() + lane;
                 assert_equal(run, &expected[machine], &format!("lane {lane}, {level:?}"));

@@ -9,7 +9,6 @@ mod machines;
 
 use differential_equations::prelude::{IVP, ImplicitRungeKutta, Matrix, ODE};
 use machines::{Blind, INNER, heat_of, planar, reference, settings};
-use model::system::machine::linear::MachineLinear;
 use model::system::machine::{Machines, RotorMachine};
 use physics::traction::{TanhTraction, Traction};
 use solve::{Machine, Settings, Stop};
@@ -63,14 +62,14 @@ impl ODE<f64, Channels> for Scaled<'_> {
 
 /// The end of a run by linearly implicit steps.
 fn by_our_steps(machine: &RotorMachine, start: &[f64], settings: &Settings) -> Vec<f64> {
-    let ending = solve::run_implicit::<f64, Machines<f64>, _, _, _, _, _>(
-        machine,
-        MachineLinear::of(machine).expect("planar"),
-        start,
-        &mut Blind,
+    let endings = solve::run_implicit::<f64, Machines<f64>, _>(
+        &[machine],
+        &[start.to_vec()],
+        &mut [Blind],
         settings,
         &AtomicBool::new(false),
     );
+    let ending = endings.into_iter().next().expect("one machine");
     assert_eq!(ending.stop, Stop::Finished);
     println!("ours: {:?}", ending.work);
     ending.state

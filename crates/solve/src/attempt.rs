@@ -66,7 +66,7 @@ pub(crate) struct Explicit;
 
 impl<R: Real, B: Batch<R>> Method<R, B> for Explicit {
     const EVALUATIONS: u64 = STAGES as u64 - 1;
-    fn begin(&mut self, step: Place<R, B>, work: &mut Workspace<R>) {
+    fn begin(&mut self, step: Place<R, B>, _fresh: R::Mask, work: &mut Workspace<R>) {
         explicit(step, work, true);
     }
     fn attempt(&mut self, step: Place<R, B>, work: &mut Workspace<R>) -> Judgement<R> {

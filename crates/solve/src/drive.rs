@@ -1,7 +1,7 @@
 //! The loop: per-lane step control, landed instants, endings.
 
 use crate::attempt::{Advance, Explicit};
-use crate::implicit::{Implicit, Linear};
+use crate::implicit::{Implicit, Tangents};
 use crate::method::{Method, Place};
 use crate::step::{LaneOf, Scratch, Step};
 use crate::system::{Batch, Machine};
@@ -137,45 +137,32 @@ where
     B: Batch<R>,
     O: Observer<B::Machine>,
 {
-    let method = &mut Explicit;
+    let method = |_: &B| Explicit;
     integrate::<R, B, O, _>(method, machines, starts, observers, settings, interrupt)
 }
 
-/// Integrates one machine by the linearly implicit method, where friction or contacts are so stiff that stability bounds
-/// the explicit one. `linear` gives its Jacobian.
+/// The same by linearly implicit steps, where contacts and friction are so stiff that stability bounds the explicit ones.
 ///
 /// # Panics
-/// When `R` has several lanes.
-pub fn run_implicit<R, B, O, L, const M: usize, const COLUMNS: usize, const ROWS: usize>(
-    machine: &B::Machine,
-    linear: L,
-    start: &[f64],
-    observer: &mut O,
+/// As [`run`].
+pub fn run_implicit<R, B, O>(
+    machines: &[&B::Machine],
+    starts: &[Vec<f64>],
+    observers: &mut [O],
     settings: &Settings,
     interrupt: &AtomicBool,
-) -> Ending
+) -> Vec<Ending>
 where
     R: Real,
-    B: Batch<R>,
+    B: Tangents<R>,
     O: Observer<B::Machine>,
-    L: Linear<B::Machine, M, COLUMNS, ROWS>,
 {
-    assert!(R::LANES == 1, "one machine");
-    let method = &mut Implicit::<R, _, M, COLUMNS, ROWS>::new(machine, linear);
-    let mut endings = integrate::<R, B, O, _>(
-        method,
-        &[machine],
-        &[start.to_vec()],
-        std::slice::from_mut(observer),
-        settings,
-        interrupt,
-    );
-    // one machine, one ending
-    endings.remove(0)
+    let method = |batch: &B| Implicit::new(batch, machines[0].dimension());
+    integrate::<R, B, O, _>(method, machines, starts, observers, settings, interrupt)
 }
 
 fn integrate<R, B, O, M>(
-    method: &mut M,
+    method: impl FnOnce(&B) -> M,
     machines: &[&B::Machine],
     starts: &[Vec<f64>],
     observers: &mut [O],
@@ -213,13 +200,13 @@ where
         );
     }
     work.time = R::splat(settings.start);
+    let mut method = method(&batch);
     let mut mode = B::gather_mode(&|lane| lanes[lane].mode);
     let place = Place {
         batch: &batch,
         mode: &mode,
-        modes: &|lane| lanes[lane].mode,
     };
-    method.begin(place, &mut work);
+    method.begin(place, R::Mask::from_lanes(|_| true), &mut work);
 
     let mut iteration: u64 = 0;
     loop {
@@ -243,7 +230,7 @@ where
                 aim(lane, machines[lane.member], settings, &work, index);
             }
         }
-        let mut refilled = false;
+        let mut refilled: u64 = 0;
         for (index, lane) in lanes.iter_mut().enumerate() {
             if lane.empty || lane.stop.is_none() {
                 continue;
@@ -254,20 +241,20 @@ where
                 *lane = Lane::at_start(machines, next, settings);
                 load(&mut work, index, machines[next], &starts[next], settings);
                 next += 1;
-                refilled = true;
+                refilled |= 1 << index;
             }
         }
-        if refilled {
+        if refilled != 0 {
             batch = B::gather(&|lane| machines[lanes[lane].member]);
             mode = B::gather_mode(&|lane| lanes[lane].mode);
             work.time = R::from_lanes(|i| lanes[i].time);
             let place = Place {
                 batch: &batch,
                 mode: &mode,
-                modes: &|lane| lanes[lane].mode,
             };
             // rates and probes of the others are what they were: the same functions of the same states
-            method.begin(place, &mut work);
+            let fresh = R::Mask::from_lanes(|i| refilled & (1 << i) != 0);
+            method.begin(place, fresh, &mut work);
             continue;
         }
         if lanes.iter().all(|lane| lane.stop.is_some()) {
@@ -281,17 +268,16 @@ where
         let place = Place {
             batch: &batch,
             mode: &mode,
-            modes: &|lane| lanes[lane].mode,
         };
         let judgement = method.attempt(place, &mut work);
 
-        let mut jumped = false;
+        let mut jumped: u64 = 0;
         for (index, lane) in lanes.iter_mut().enumerate() {
             if lane.stop.is_some() {
                 continue;
             }
             lane.work.rate_calls += M::EVALUATIONS;
-            if !control(lane, &judgement, index) {
+            if !control(lane, &judgement, index, M::GROWTH) {
                 continue;
             }
             scratch.copied = 0;
@@ -316,6 +302,7 @@ where
         let accepted = R::Mask::from_lanes(|i| {
             lanes[i].time == lanes[i].step_end && work.length.lane(i) > 0.0
         });
+        method.accept(accepted, &work);
         R::vectorized(Advance {
             work: &mut work,
             accepted,
@@ -336,17 +323,17 @@ where
                         R::from_lanes(|i| if i == index { *value } else { old.lane(i) });
                 }
                 lane.next_landing += 1;
-                jumped = true;
+                jumped |= 1 << index;
             }
         }
-        if jumped {
+        if jumped != 0 {
             mode = B::gather_mode(&|lane| lanes[lane].mode);
             let place = Place {
                 batch: &batch,
                 mode: &mode,
-                modes: &|lane| lanes[lane].mode,
             };
-            method.begin(place, &mut work);
+            let fresh = R::Mask::from_lanes(|i| jumped & (1 << i) != 0);
+            method.begin(place, fresh, &mut work);
         }
     }
 
@@ -477,12 +464,13 @@ fn control<R: Real, M: Machine>(
     lane: &mut Lane<M>,
     judgement: &Judgement<R>,
     index: usize,
+    growth: f64,
 ) -> bool {
     let taken = lane.step_end - lane.time;
     let error = judgement.error.lane(index);
     if error <= 1.0 {
         lane.work.accepted += 1;
-        let most = if lane.after_rejection { 1.0 } else { 5.0 };
+        let most = if lane.after_rejection { 1.0 } else { growth };
         // a step cut short by a landing does not shrink the next one
         let proposed = taken * judgement.next.lane(index).clamp(0.2, most);
         lane.length = if taken < 0.99 * lane.length {

@@ -1,345 +1,434 @@
-//! One linearly implicit step of one machine: see [`rosenbrock`](crate::rosenbrock) and
-//! [`arrowhead`](crate::arrowhead).
+//! One linearly implicit step of all lanes, each with its own length: see [`rosenbrock`](crate::rosenbrock).
+//!
+//! The matrix is not the Jacobian but what the problem's stiff parts say of themselves: [`Tangents`]. It need not be exact, the
+//! method keeps its order; what it leaves out must not be stiff.
+//!
+//! **Quadratures.** A heat that is the square of a stiff speed is wrong in the stages, whose speeds are: c v² counts their
+//! errors of either sign. Such ones are summed from the rates at accepted points, by the parabola through the ends of the step and
+//! the start of the step before:
+//!
+//! ```text
+//!   ∫ f dt = H (f_b + f_c)/2 - H³/6 f[a, b, c]        the correction at most 0.3 of the first term
+//! ```
+//! The others, whose rates begin within a step as those of a friction at the onset of its contact, go through the stages.
 
-use crate::arrowhead::{Arrowhead, Factors, Shape};
 use crate::method::{Method, Place};
 use crate::rosenbrock::{Coefficients, EMBEDDED, GAMMA, STAGES, STEP};
-use crate::system::{Batch, Machine};
+use crate::system::Batch;
 use crate::workspace::{Judgement, Workspace};
-use number::{Real, Vectorized};
+use number::{Mask, Real, Vectorized};
 
-/// The Jacobian of a machine's rate, with blocks of `M` channels that depend on `COLUMNS` channels of the border and
-/// act on `ROWS` of them.
-pub trait Linear<T: Machine, const M: usize, const COLUMNS: usize, const ROWS: usize> {
-    /// Where its parts stand.
-    fn shape(&self) -> Shape<M, COLUMNS, ROWS>;
-    /// The Jacobian at a state; all of its entries are written.
-    fn jacobian(
-        &mut self,
-        mode: &T::Mode,
-        time: f64,
-        state: &[f64],
-        into: &mut Arrowhead<M, COLUMNS, ROWS>,
-    );
+/// A batch whose stiff parts know their tangents.
+pub trait Tangents<R: Real>: Batch<R> {
+    /// What is kept from the start of a step for its stages.
+    type Room;
+
+    /// Room for it.
+    fn room(&self) -> Self::Room;
+    /// Quadratures, by their place among them, that are summed from accepted points.
+    fn at_points(&self) -> Vec<bool>;
+    /// Takes the tangents A at a state.
+    fn take(&self, mode: &Self::Mode, state: &[R], room: &mut Self::Room);
+    /// Factors G - A.
+    fn factor(&self, room: &mut Self::Room, g: R);
+    /// Solves (G - A) u = R: `side` holds R of all channels but the quadratures, then u.
+    fn solve(&self, room: &mut Self::Room, side: &mut [R]);
+    /// Adds to the rates of quadratures what they change by along a vector over the other channels.
+    fn along(&self, room: &Self::Room, vector: &[R], rates: &mut [R]);
 }
+
+/// Largest growth of a step.
+const GROWTH: f64 = 3.0;
+/// Largest correction of a quadrature at points, of its trapezoid.
+const CORRECTION: f64 = 0.3;
 
 /// The linearly implicit method.
-pub(crate) struct Implicit<R, L, const M: usize, const COLUMNS: usize, const ROWS: usize> {
-    linear: L,
-    jacobian: Arrowhead<M, COLUMNS, ROWS>,
-    factors: Factors<M, COLUMNS>,
-    /// Time of the state that the Jacobian was taken at; none when there is none.
-    taken_at: Option<f64>,
-    /// The diagonal it was factored with.
-    factored: f64,
+pub(crate) struct Implicit<R, Room> {
+    room: Room,
+    at_points: Vec<bool>,
     coefficients: Coefficients,
-    /// u of each stage; of the tail, its rate.
-    stages: [Vec<f64>; STAGES],
-    /// State at the start.
-    start: Vec<f64>,
-    /// Sums of the stages: by the weights of the step, and by those of its error.
-    sums: [Vec<f64>; 2],
-    argument: Vec<R>,
-    rate: Vec<R>,
+    /// u of each stage; of the quadratures, their rate.
+    stages: [Vec<R>; STAGES],
+    /// Room for what the stages did not see.
+    rest: Vec<R>,
+    /// Rates of the quadratures at the start of the step before, and its length.
+    before: Vec<R>,
+    before_length: R,
 }
 
-impl<R: Real, L, const M: usize, const COLUMNS: usize, const ROWS: usize>
-    Implicit<R, L, M, COLUMNS, ROWS>
-{
-    /// For a machine and its Jacobian.
-    pub fn new<T: Machine>(machine: &T, linear: L) -> Self
-    where
-        L: Linear<T, M, COLUMNS, ROWS>,
-    {
-        let dimension = machine.dimension();
-        let jacobian = Arrowhead::new(linear.shape());
+impl<R: Real, Room> Implicit<R, Room> {
+    pub fn new<B: Tangents<R, Room = Room>>(batch: &B, dimension: usize) -> Self {
+        let at_points = batch.at_points();
+        let zeros = |n| vec![R::zero(); n];
         Implicit {
-            factors: Factors::of(&jacobian),
-            linear,
-            jacobian,
-            taken_at: None,
-            factored: f64::NAN,
+            room: batch.room(),
             coefficients: Coefficients::new(),
-            stages: std::array::from_fn(|_| vec![0.0; dimension]),
-            start: vec![0.0; dimension],
-            sums: std::array::from_fn(|_| vec![0.0; dimension]),
-            argument: vec![R::zero(); dimension],
-            rate: vec![R::zero(); dimension],
+            stages: std::array::from_fn(|_| zeros(dimension)),
+            rest: zeros(dimension),
+            before: zeros(at_points.len()),
+            before_length: R::splat(f64::INFINITY),
+            at_points,
         }
     }
 }
 
-/// The right-hand side as a task of its own: it stands once in the compiled code.
-struct Rate<'a, R: Real, B: Batch<R>> {
+/// A step, or only the rates and probes at its start.
+struct Attempt<'a, R: Real, B: Tangents<R>> {
     batch: &'a B,
     mode: &'a B::Mode,
-    time: R,
-    state: &'a [R],
-    rate: &'a mut [R],
-    probe: &'a mut [R],
+    work: &'a mut Workspace<R>,
+    method: &'a mut Implicit<R, B::Room>,
+    begin: bool,
 }
 
-impl<R: Real, B: Batch<R>> Vectorized for Rate<'_, R, B> {
+impl<R: Real, B: Tangents<R>> Vectorized for Attempt<'_, R, B> {
+    type Output = Judgement<R>;
+    #[inline(always)]
+    fn run(self) -> Judgement<R> {
+        let Attempt {
+            batch,
+            mode,
+            work: w,
+            method: m,
+            begin,
+        } = self;
+        let zero = R::zero();
+        // a lane that stands still takes a step of any length that nobody looks at
+        let moves = w.length.greater(zero);
+        let h = R::select(moves, w.length, R::splat(1e-9));
+        let inverse_h = h.recip();
+        let g = inverse_h * R::splat(1.0 / GAMMA);
+        let active = w.active;
+        if !begin {
+            R::vectorized(Prepare {
+                batch,
+                mode,
+                state: &w.state,
+                room: &mut m.room,
+                g,
+            });
+        }
+        let mut error = zero;
+        let calls = if begin { 0..1 } else { 0..STAGES + 1 };
+        for s in calls {
+            // the right-hand side stands once in the compiled code: the stages, and the state at the end
+            let instant = if s == STAGES {
+                1.0
+            } else {
+                m.coefficients.instant[s]
+            };
+            if s == STAGES {
+                error = m.sum_up(w);
+            } else if s > 0 {
+                reach(
+                    &m.coefficients.argument[s],
+                    &w.state[..active],
+                    &m.stages[..s],
+                    &mut w.next,
+                );
+            }
+            let (from_start, at_end) = (begin || s == 0, s == STAGES);
+            if begin || s > 0 {
+                let (state, rate, probe): (&[R], &mut [R], &mut [R]) = if from_start {
+                    (&w.state, &mut w.first, &mut w.probe)
+                } else if at_end {
+                    (&w.next, &mut w.last, &mut w.next_probe)
+                } else {
+                    (&w.next, &mut w.last, &mut [])
+                };
+                batch.rate(mode, w.time + h * R::splat(instant), state, rate, probe);
+            }
+            if begin || at_end {
+                break;
+            }
+            let rate = if s == 0 { &w.first } else { &w.last };
+            m.side(s, rate, inverse_h, active);
+            R::vectorized(Solve {
+                batch,
+                room: &mut m.room,
+                stage: &mut m.stages[s],
+                active,
+            });
+        }
+        if begin {
+            w.seen.take(&w.state, &w.probe);
+            return Judgement::of(zero, w.last_logarithm);
+        }
+        error = error.max(m.quadratures(w, h));
+        w.next_seen.take(&w.next, &w.next_probe);
+        let accepted = R::one().greater(error) & moves;
+        if accepted.any() {
+            error = error.max(R::select(accepted, m.unseen(batch, w, h, g), zero));
+        }
+        Judgement::of(error, w.last_logarithm)
+    }
+}
+
+/// The tangents at the start of a step, factored, as a task of its own.
+struct Prepare<'a, R: Real, B: Tangents<R>> {
+    batch: &'a B,
+    mode: &'a B::Mode,
+    state: &'a [R],
+    room: &'a mut B::Room,
+    g: R,
+}
+
+impl<R: Real, B: Tangents<R>> Vectorized for Prepare<'_, R, B> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        (self.batch).rate(self.mode, self.time, self.state, self.rate, self.probe);
+        self.batch.take(self.mode, self.state, self.room);
+        self.batch.factor(self.room, self.g);
     }
 }
 
-impl<R, B, L, const M: usize, const COLUMNS: usize, const ROWS: usize> Method<R, B>
-    for Implicit<R, L, M, COLUMNS, ROWS>
-where
-    R: Real,
-    B: Batch<R>,
-    L: Linear<B::Machine, M, COLUMNS, ROWS>,
-{
-    const EVALUATIONS: u64 = STAGES as u64;
+/// The linear system of a stage as a task of its own: it stands once in the compiled code. The stage holds its right-hand side and
+/// the rates of the quadratures, then its u and what those rates change by along it.
+struct Solve<'a, R: Real, B: Tangents<R>> {
+    batch: &'a B,
+    room: &'a mut B::Room,
+    stage: &'a mut [R],
+    active: usize,
+}
 
-    fn begin(&mut self, step: Place<R, B>, work: &mut Workspace<R>) {
-        self.taken_at = None;
-        R::vectorized(Rate {
-            batch: step.batch,
-            mode: step.mode,
-            time: work.time,
-            state: &work.state,
-            rate: &mut work.first,
-            probe: &mut work.probe,
-        });
-        work.seen.take(&work.state, &work.probe);
+impl<R: Real, B: Tangents<R>> Vectorized for Solve<'_, R, B> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let (side, rates) = self.stage.split_at_mut(self.active);
+        self.batch.solve(self.room, side);
+        self.batch.along(self.room, side, rates);
     }
+}
 
-    fn attempt(&mut self, step: Place<R, B>, work: &mut Workspace<R>) -> Judgement<R> {
-        let h = work.length.lane(0);
-        let time = work.time.lane(0);
-        for (value, lanes) in self.start.iter_mut().zip(&work.state) {
-            *value = lanes.lane(0);
+/// What the next step needs of this one, as a task.
+struct Accept<'a, R: Real> {
+    before: &'a mut [R],
+    before_length: &'a mut R,
+    accepted: R::Mask,
+    work: &'a Workspace<R>,
+}
+
+impl<R: Real> Vectorized for Accept<'_, R> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let w = self.work;
+        *self.before_length = R::select(self.accepted, w.length, *self.before_length);
+        for (before, rate) in self.before.iter_mut().zip(&w.first[w.active..]) {
+            *before = R::select(self.accepted, *rate, *before);
         }
-        if self.taken_at != Some(time) {
-            let mode = (step.modes)(0);
-            self.linear
-                .jacobian(&mode, time, &self.start, &mut self.jacobian);
-            self.taken_at = Some(time);
-            self.factored = f64::NAN;
-        }
-        let diagonal = 1.0 / (h * GAMMA);
-        if self.factored != diagonal {
-            let factored = R::vectorized(Factor {
-                factors: &mut self.factors,
-                jacobian: &self.jacobian,
-                diagonal,
-            });
-            if !factored {
-                return Judgement::of(R::splat(f64::INFINITY), work.last_logarithm);
-            }
-            self.factored = diagonal;
-        }
-        let c = self.coefficients;
-        let active = self.jacobian.shape().tail.start;
-        for i in 0..STAGES {
-            let (before, from_here) = self.stages.split_at_mut(i);
-            if i > 0 {
-                let state = &mut self.argument[..active];
-                combine(&self.start, &c.argument[i][..i], before, state);
-                R::vectorized(Rate {
-                    batch: step.batch,
-                    mode: step.mode,
-                    time: R::splat(time + h * c.instant[i]),
-                    state: &self.argument,
-                    rate: &mut self.rate,
-                    probe: &mut [],
-                });
-            }
-            let rate = if i > 0 { &self.rate } else { &work.first };
-            let side = &mut from_here[0];
-            for (value, rate) in side.iter_mut().zip(rate) {
-                *value = rate.lane(0);
-            }
-            for (weight, stage) in c.side[i].iter().zip(before.iter()) {
-                let weight = weight / h;
-                for (value, u) in side[..active].iter_mut().zip(stage) {
-                    *value += weight * u;
+    }
+}
+
+impl<R: Real, Room> Implicit<R, Room> {
+    /// The right-hand side of a stage: the rate there, and what the stages before leave of theirs.
+    #[inline(always)]
+    fn side(&mut self, stage: usize, rate: &[R], inverse_h: R, active: usize) {
+        let (before, from_here) = self.stages.split_at_mut(stage);
+        let side = &mut from_here[0];
+        side[active..].copy_from_slice(&rate[active..]);
+        let weights = &self.coefficients.side[stage];
+        let a = inverse_h * R::splat(weights[0]);
+        let b = inverse_h * R::splat(weights[1]);
+        let c = inverse_h * R::splat(weights[2]);
+        let (side, rate) = (&mut side[..active], &rate[..active]);
+        match before {
+            [] => side.copy_from_slice(rate),
+            [first] => {
+                for ((side, rate), u) in side.iter_mut().zip(rate).zip(first.iter()) {
+                    *side = *rate + a * *u;
                 }
             }
-            R::vectorized(Solve {
-                factors: &mut self.factors,
-                jacobian: &self.jacobian,
-                side,
-            });
-        }
-        R::vectorized(SumUp {
-            method: self,
-            h,
-            active,
-        });
-        for ((next, start), change) in (work.next.iter_mut().zip(&self.start)).zip(&self.sums[0]) {
-            *next = R::splat(start + change);
-        }
-        R::vectorized(Rate {
-            batch: step.batch,
-            mode: step.mode,
-            time: R::splat(time + h),
-            state: &work.next,
-            rate: &mut work.last,
-            probe: &mut work.next_probe,
-        });
-        work.next_seen.take(&work.next, &work.next_probe);
-        let mut error = self.error(work);
-        if error <= 1.0 {
-            error = error.max(self.unseen(h, active, work));
-        }
-        Judgement::of(R::splat(error), work.last_logarithm)
-    }
-}
-
-impl<R: Real, L, const M: usize, const COLUMNS: usize, const ROWS: usize>
-    Implicit<R, L, M, COLUMNS, ROWS>
-{
-    /// Change of the state over the step, and its error.
-    #[inline(always)]
-    fn sum_up(&mut self, h: f64, active: usize) {
-        let c = &self.coefficients;
-        let error: [f64; STAGES] = std::array::from_fn(|i| STEP[i] - EMBEDDED[i]);
-        let weights = [(&c.step, &STEP), (&c.error, &error)];
-        for (sum, (of_others, of_tail)) in self.sums.iter_mut().zip(weights) {
-            let (others, tail) = sum.split_at_mut(active);
-            weigh(of_tail, &self.stages, 0, others);
-            weigh(of_tail, &self.stages, active, tail);
-            self.jacobian.add_tail(others, tail);
-            tail.iter_mut().for_each(|value| *value *= h);
-            weigh(of_others, &self.stages, 0, others);
-        }
-        // two of the weights are negative: a sum of what no stage saw negative does not fall all the same
-        let [a, b, c, d] = self.stages.each_ref().map(|stage| &stage[active..]);
-        for (i, change) in self.sums[0][active..].iter_mut().enumerate() {
-            let (low, high) = (
-                a[i].min(b[i]).min(c[i].min(d[i])),
-                a[i].max(b[i]).max(c[i].max(d[i])),
-            );
-            if (low >= 0.0 && *change < 0.0) || (high <= 0.0 && *change > 0.0) {
-                *change = 0.0;
+            [first, second] => {
+                let u = first.iter().zip(second.iter());
+                for ((side, rate), (u, v)) in side.iter_mut().zip(rate).zip(u) {
+                    *side = *rate + (a * *u + b * *v);
+                }
+            }
+            [first, second, third, ..] => {
+                let u = first.iter().zip(second.iter()).zip(third.iter());
+                for ((side, rate), ((u, v), w)) in side.iter_mut().zip(rate).zip(u) {
+                    *side = *rate + (a * *u + b * *v + c * *w);
+                }
             }
         }
+    }
+
+    /// The state at the end of the step, but for the quadratures; returns its largest error over the channels, each relative to what is allowed there, infinite where any is not a number.
+    #[inline(always)]
+    fn sum_up(&self, w: &mut Workspace<R>) -> R {
+        let zero = R::zero();
+        let active = w.active;
+        let c = &self.coefficients;
+        let (sa, sb) = (R::splat(c.step[0]), R::splat(c.step[1]));
+        let (sc, sd) = (R::splat(c.step[2]), R::splat(c.step[3]));
+        let (ea, eb) = (R::splat(c.error[0]), R::splat(c.error[1]));
+        let (ec, ed) = (R::splat(c.error[2]), R::splat(c.error[3]));
+        let (mut largest, mut sum) = (zero, zero);
+        let [a, b, c, d] = &self.stages;
+        let stages = a.iter().zip(b).zip(c.iter().zip(d));
+        let states = w.next[..active].iter_mut().zip(&w.state);
+        for (((next, start), inverse), ((a, b), (c, d))) in states.zip(&w.inverse_error).zip(stages)
+        {
+            *next = *start + (sa * *a + sb * *b + (sc * *c + sd * *d));
+            let error = (ea * *a + eb * *b + (ec * *c + ed * *d)).abs() * *inverse;
+            largest = error.max(largest);
+            // `max` forgets what is not a number, the sum does not
+            sum += error;
+        }
+        let infinite = R::splat(f64::INFINITY);
+        R::select(sum.less(infinite), largest, infinite)
+    }
+
+    /// The quadratures at the end of the step; returns the largest error of those that go through the stages.
+    #[inline(always)]
+    fn quadratures(&mut self, w: &mut Workspace<R>, h: R) -> R {
+        let zero = R::zero();
+        let active = w.active;
+        let (half, sixth, most) = (R::splat(0.5), R::splat(-1.0 / 6.0), R::splat(CORRECTION));
+        let (inverse, inverse_before) = (h.recip(), self.before_length.recip());
+        let spread = (h + self.before_length).recip();
+        let (mut largest, mut sum) = (zero, zero);
+        for (i, at_points) in self.at_points.iter().enumerate() {
+            let k = active + i;
+            let (first, last) = (w.first[k], w.last[k]);
+            if *at_points {
+                let trapezoid = half * h * (first + last);
+                let bend =
+                    ((last - first) * inverse - (first - self.before[i]) * inverse_before) * spread;
+                let correction = sixth * h * h * h * bend;
+                let bound = most * trapezoid.abs();
+                let correction = correction.max(-bound).min(bound);
+                w.next[k] = w.state[k] + (trapezoid + correction);
+                continue;
+            }
+            let (a, b) = (self.stages[0][k], self.stages[1][k]);
+            let (c, d) = (self.stages[2][k], self.stages[3][k]);
+            let mean = weighed(&STEP, a, b, c, d);
+            let error = (h * (mean - weighed(&EMBEDDED, a, b, c, d))).abs() * w.inverse_error[k];
+            // two of the weights are negative: a heat does not fall all the same
+            let falls = !zero.greater(first) & !zero.greater(last) & zero.greater(mean);
+            w.next[k] = w.state[k] + h * R::select(falls, zero, mean);
+            largest = error.max(largest);
+            sum += error;
+        }
+        let infinite = R::splat(f64::INFINITY);
+        R::select(sum.less(infinite), largest, infinite)
     }
 
     /// What the stages did not see and the rate at the end shows: relative to what is allowed where it forbids the step,
     /// else zero. See [`rosenbrock`](crate::rosenbrock).
-    fn unseen(&mut self, h: f64, active: usize, work: &Workspace<R>) -> f64 {
+    #[inline(always)]
+    fn unseen<B: Tangents<R, Room = Room>>(
+        &mut self,
+        batch: &B,
+        w: &Workspace<R>,
+        h: R,
+        g: R,
+    ) -> R {
+        let active = w.active;
+        let inverse_h = h.recip();
+        let weights = &self.coefficients.side[STAGES - 1];
+        let wa = inverse_h * R::splat(weights[0]);
+        let wb = inverse_h * R::splat(weights[1]);
+        let wc = inverse_h * R::splat(weights[2]);
         let [a, b, c, last] = &self.stages;
-        let [wa, wb, wc, _] = self.coefficients.side[STAGES - 1].map(|weight| weight / h);
-        let diagonal = 1.0 / (h * GAMMA);
-        let side = &mut self.sums[1];
-        for (i, side) in side[..active].iter_mut().enumerate() {
-            let stage = diagonal * last[i] - (wa * a[i] + wb * b[i] + wc * c[i]);
-            *side = work.last[i].lane(0) - stage;
+        let (mut far, mut sum) = (R::zero(), R::zero());
+        let (one, infinite) = (R::one(), R::splat(f64::INFINITY));
+        for (i, side) in self.rest[..active].iter_mut().enumerate() {
+            let stage = g * last[i] - (wa * a[i] + wb * b[i] + wc * c[i]);
+            *side = w.last[i] - stage;
+            let size = side.abs() * w.inverse_error[i];
+            far = size.max(far);
+            sum += size;
         }
-        let largest = |correction: &[f64], factor: f64| {
-            (correction[..active].iter().zip(&work.inverse_error))
-                .map(|(value, inverse)| (factor * value * inverse.lane(0)).abs())
-                .fold(0.0, f64::max)
-        };
-        if largest(side, h * GAMMA) <= 1.0 {
-            return 0.0;
+        let broken = !sum.less(infinite);
+        let asks = (far * g.recip()).greater(one);
+        let mut correction = R::zero();
+        if asks.any() {
+            R::vectorized(Solve {
+                batch,
+                room: &mut self.room,
+                stage: &mut self.rest,
+                active,
+            });
+            for (side, inverse) in self.rest[..active].iter().zip(&w.inverse_error) {
+                correction = correction.max(side.abs() * *inverse);
+            }
+            correction = R::select(asks & correction.greater(one), correction, R::zero());
         }
-        R::vectorized(Solve {
-            factors: &mut self.factors,
-            jacobian: &self.jacobian,
-            side,
+        R::select(broken, infinite, correction)
+    }
+}
+
+impl<R: Real, B: Tangents<R>> Method<R, B> for Implicit<R, B::Room> {
+    const EVALUATIONS: u64 = STAGES as u64;
+    const GROWTH: f64 = GROWTH;
+
+    fn begin(&mut self, step: Place<R, B>, fresh: R::Mask, work: &mut Workspace<R>) {
+        let infinite = R::splat(f64::INFINITY);
+        self.before_length = R::select(fresh, infinite, self.before_length);
+        R::vectorized(Attempt {
+            batch: step.batch,
+            mode: step.mode,
+            work,
+            method: self,
+            begin: true,
         });
-        let correction = largest(side, 1.0);
-        if correction > 1.0 { correction } else { 0.0 }
     }
-    /// Largest error over the channels, each relative to what is allowed there; infinite where any is not a number.
-    fn error(&self, work: &Workspace<R>) -> f64 {
-        let mut largest = 0.0_f64;
-        let mut sum = 0.0;
-        for ((error, inverse), rate) in (self.sums[1].iter())
-            .zip(&work.inverse_error)
-            .zip(&work.last)
-        {
-            let relative = (error * inverse.lane(0)).abs();
-            largest = largest.max(relative);
-            // `max` forgets what is not a number, the sum does not
-            sum += relative + rate.lane(0).abs();
-        }
-        if sum < f64::INFINITY {
-            largest
-        } else {
-            f64::INFINITY
-        }
+    fn attempt(&mut self, step: Place<R, B>, work: &mut Workspace<R>) -> Judgement<R> {
+        R::vectorized(Attempt {
+            batch: step.batch,
+            mode: step.mode,
+            work,
+            method: self,
+            begin: false,
+        })
+    }
+    fn accept(&mut self, accepted: R::Mask, work: &Workspace<R>) {
+        R::vectorized(Accept {
+            before: &mut self.before,
+            before_length: &mut self.before_length,
+            accepted,
+            work,
+        });
     }
 }
 
-/// Parts of a step as tasks for the vector unit.
-struct Factor<'a, const M: usize, const COLUMNS: usize, const ROWS: usize> {
-    factors: &'a mut Factors<M, COLUMNS>,
-    jacobian: &'a Arrowhead<M, COLUMNS, ROWS>,
-    diagonal: f64,
-}
-
-impl<const M: usize, const COLUMNS: usize, const ROWS: usize> Vectorized
-    for Factor<'_, M, COLUMNS, ROWS>
-{
-    type Output = bool;
-    #[inline(always)]
-    fn run(self) -> bool {
-        self.factors.factor(self.jacobian, self.diagonal)
-    }
-}
-
-struct Solve<'a, const M: usize, const COLUMNS: usize, const ROWS: usize> {
-    factors: &'a mut Factors<M, COLUMNS>,
-    jacobian: &'a Arrowhead<M, COLUMNS, ROWS>,
-    side: &'a mut [f64],
-}
-
-impl<const M: usize, const COLUMNS: usize, const ROWS: usize> Vectorized
-    for Solve<'_, M, COLUMNS, ROWS>
-{
-    type Output = ();
-    #[inline(always)]
-    fn run(self) {
-        self.factors.solve(self.jacobian, self.side);
-    }
-}
-
-struct SumUp<'a, R, L, const M: usize, const COLUMNS: usize, const ROWS: usize> {
-    method: &'a mut Implicit<R, L, M, COLUMNS, ROWS>,
-    h: f64,
-    active: usize,
-}
-
-impl<R: Real, L, const M: usize, const COLUMNS: usize, const ROWS: usize> Vectorized
-    for SumUp<'_, R, L, M, COLUMNS, ROWS>
-{
-    type Output = ();
-    #[inline(always)]
-    fn run(self) {
-        self.method.sum_up(self.h, self.active);
-    }
-}
-
-/// out = Σ weight · stage, from a channel on.
+/// out = state + Σ weight · stage, over the stages there are.
 #[inline(always)]
-fn weigh(weights: &[f64; STAGES], stages: &[Vec<f64>; STAGES], from: usize, out: &mut [f64]) {
-    let [a, b, c, d] = stages;
-    let [wa, wb, wc, wd] = weights;
-    let lists = a[from..]
-        .iter()
-        .zip(&b[from..])
-        .zip(c[from..].iter().zip(&d[from..]));
-    for (out, ((a, b), (c, d))) in out.iter_mut().zip(lists) {
-        *out = wa * a + wb * b + (wc * c + wd * d);
+fn reach<R: Real>(weights: &[f64; STAGES], state: &[R], stages: &[Vec<R>], out: &mut [R]) {
+    let (wa, wb, wc) = (
+        R::splat(weights[0]),
+        R::splat(weights[1]),
+        R::splat(weights[2]),
+    );
+    match stages {
+        [a] => {
+            for ((out, state), a) in out.iter_mut().zip(state).zip(a) {
+                *out = *state + wa * *a;
+            }
+        }
+        [a, b] => {
+            for ((out, state), (a, b)) in out.iter_mut().zip(state).zip(a.iter().zip(b)) {
+                *out = *state + (wa * *a + wb * *b);
+            }
+        }
+        [a, b, c, ..] => {
+            let u = a.iter().zip(b).zip(c);
+            for ((out, state), ((a, b), c)) in out.iter_mut().zip(state).zip(u) {
+                *out = *state + (wa * *a + wb * *b + wc * *c);
+            }
+        }
+        [] => {}
     }
 }
 
-/// out = start + Σ weight · stage.
-fn combine<R: Real>(start: &[f64], weights: &[f64], stages: &[Vec<f64>], out: &mut [R]) {
-    for (channel, out) in out.iter_mut().enumerate() {
-        let mut value = start[channel];
-        for (weight, stage) in weights.iter().zip(stages) {
-            value += weight * stage[channel];
-        }
-        *out = R::splat(value);
-    }
+/// Sum of four stages.
+#[inline(always)]
+fn weighed<R: Real>(weights: &[f64; STAGES], a: R, b: R, c: R, d: R) -> R {
+    let (wa, wb) = (R::splat(weights[0]), R::splat(weights[1]));
+    let (wc, wd) = (R::splat(weights[2]), R::splat(weights[3]));
+    wa * a + wb * b + (wc * c + wd * d)
 }

@@ -10,8 +10,7 @@
 //! | the method: Bogacki-Shampine 3(2) with dense output | [`bogacki_shampine`] |
 //! | one attempted step of all lanes | [`attempt`]; what it works with: [`workspace`] |
 //! | the method for stiff problems: ROS34PW2, linearly implicit | [`rosenbrock`] |
-//! | its Jacobian, and the linear systems of its stages | [`arrowhead`] |
-//! | one linearly implicit step of one machine | [`implicit`] |
+//! | one attempted linearly implicit step of all lanes, by the tangents of the problem's parts | [`implicit`] |
 //! | the loop: step control, landed instants, endings | [`drive`] |
 //! | one accepted step of one lane | [`step`] |
 //! | roots and maxima on dense output | [`watch`] |
@@ -20,7 +19,6 @@
 
 #![forbid(unsafe_code)]
 
-pub mod arrowhead;
 pub mod attempt;
 pub mod bogacki_shampine;
 pub mod drive;
@@ -32,8 +30,7 @@ pub mod system;
 pub mod watch;
 pub mod workspace;
 
-pub use arrowhead::{Arrowhead, BlockShape, Shape};
 pub use drive::{Ending, Flow, Observer, Settings, Stop, Work, run, run_implicit};
-pub use implicit::Linear;
+pub use implicit::Tangents;
 pub use step::Step;
 pub use system::{Batch, Machine};

@@ -62,7 +62,7 @@ pub use rig::{
     BallPass, Engagement, Logger, RawFormat, Rig, RigArm, RigFlywheel, RigLoad, RigMotor,
     RigPickup, RigPickupKind, RigProgram, RigShaft, RigTemperature,
 };
-pub use run::{Method, Run};
+pub use run::{Accuracy, Method, Run};
 pub use schema::schema;
 pub use signals::analysis::{
     ConverterSignal, InertiaSource, SteadySignal, VibrationSignal, Windage,

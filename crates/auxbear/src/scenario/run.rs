@@ -9,14 +9,26 @@ use crate::scenario::words::words;
 pub struct Run {
     /// Simulated time, s.
     pub duration: f64,
-    /// Relative tolerance.
-    pub tolerance: f64,
+    /// How accurate the results are.
+    pub accuracy: Accuracy,
+    /// Relative tolerance, where it is given.
+    pub tolerance: Option<f64>,
     /// Time between rows of the history, s.
     pub output_interval: f64,
     /// Largest step, s.
     pub largest_step: f64,
     /// How steps are taken.
     pub method: Method,
+}
+
+words! {
+/// How accurate the results of a run are.
+pub enum Accuracy {
+    /// For numbers of a design: the energy ledger closes to a millionth.
+    Design = "design",
+    /// For ensembles and long runs: means within some 1e-4 of those of design.
+    Screening = "screening",
+}
 }
 
 words! {
@@ -39,7 +51,9 @@ impl Run {
         };
         Run {
             duration: run.number("duration"),
-            tolerance: run.number("tolerance"),
+            // what has no choice is computed for design
+            accuracy: run.chosen("accuracy").unwrap_or(Accuracy::Design),
+            tolerance: run.maybe("tolerance"),
             output_interval: run.number("output_interval"),
             largest_step: run.number("largest_step"),
             // what has no choice takes explicit steps

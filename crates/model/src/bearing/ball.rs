@@ -254,9 +254,9 @@ pub(super) struct AtRace<R> {
     /// Speed of the ball past the race's centre, m/s.
     pub past: Vec2<R>,
     /// Approach δ, m.
-    approach: R,
+    pub approach: R,
     /// Its rate, m/s.
-    closing: R,
+    pub closing: R,
     /// Load Q.
     pub normal: NormalForce<R>,
 }
@@ -270,6 +270,21 @@ pub(super) struct Surfaces<R> {
     race_arm: R,
     /// Slip, load and entrainment.
     pub contact: SlidingContact<R>,
+}
+
+/// A ball at the wall of its pocket; meaningful where it is pressed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AtWall<R> {
+    /// Pocket force.
+    pub normal: NormalForce<R>,
+    /// Rate of the penetration, m/s.
+    pub penetration_speed: R,
+    /// Arm of the friction about the ball's centre, m; its sign is the side of the pocket.
+    pub arm: R,
+    /// Sliding speed, m/s.
+    pub slide: R,
+    /// Friction coefficient, odd in the sliding speed.
+    pub coefficient: R,
 }
 
 /// A ball between its races.
@@ -444,24 +459,15 @@ impl<R: Real> BallConstants<R> {
         let (mut pocket_moment, mut damping_heat, mut sliding_heat) = (zero, zero, zero);
         if most.greater(self.pocket_gap).any() {
             let pressed = penetration.greater(zero);
-            let lever = side * self.pocket_radius;
-            let penetration_speed = lever * (past_outer_t * inverse_outer - pocket.spin);
-            let p = linear_contact(
-                self.pocket_stiffness,
-                self.pocket_damping,
-                penetration,
-                penetration_speed,
-            );
-            let arm = side * self.ball_radius;
-            let slide = outer_closing - arm * (ball.spin - pocket.spin);
-            let coefficient =
-                self.pocket_friction * (slide * self.pocket_inverse_reference_speed).tanh();
+            let orbit = past_outer_t * inverse_outer;
+            let wall = self.at_wall(side, penetration, orbit, outer_closing, ball.spin, pocket);
+            let (p, coefficient) = (wall.normal, wall.coefficient);
             pocket_force = p.force;
-            pocket_push = R::select(pressed, -(p.force * lever), zero);
+            pocket_push = R::select(pressed, -(p.force * (side * self.pocket_radius)), zero);
             pocket_friction = R::select(pressed, -(coefficient * p.force), zero);
-            pocket_moment = R::select(pressed, arm * pocket_friction, zero);
-            damping_heat = (p.force - p.elastic) * penetration_speed;
-            sliding_heat = R::select(pressed, coefficient * p.force * slide, zero);
+            pocket_moment = R::select(pressed, wall.arm * pocket_friction, zero);
+            damping_heat = (p.force - p.elastic) * wall.penetration_speed;
+            sliding_heat = R::select(pressed, coefficient * p.force * wall.slide, zero);
         }
 
         // the three force pairs
@@ -516,9 +522,45 @@ impl<R: Real> BallConstants<R> {
         }
     }
 
+    /// A ball at the wall of its pocket; `orbit` is its angular speed about the outer race's centre.
+    #[inline(always)]
+    pub(super) fn at_wall(
+        &self,
+        side: R,
+        penetration: R,
+        orbit: R,
+        outer_closing: R,
+        spin: R,
+        pocket: &PocketMotion<R>,
+    ) -> AtWall<R> {
+        let penetration_speed = (side * self.pocket_radius) * (orbit - pocket.spin);
+        let arm = side * self.ball_radius;
+        let slide = outer_closing - arm * (spin - pocket.spin);
+        AtWall {
+            normal: linear_contact(
+                self.pocket_stiffness,
+                self.pocket_damping,
+                penetration,
+                penetration_speed,
+            ),
+            penetration_speed,
+            arm,
+            slide,
+            coefficient: self.pocket_friction
+                * (slide * self.pocket_inverse_reference_speed).tanh(),
+        }
+    }
+
+    /// Angle of a ball off the middle of its pocket about the outer race's centre, rad.
+    #[inline(always)]
+    pub(super) fn pocket_offset(&self, at: &Between<R>, azimuth: R, pocket: R) -> R {
+        let sine = at.e_r.cross(at.from_outer) * at.outer.inverse_distance;
+        pocket_angle(azimuth, pocket) + sine.asin_small()
+    }
+
     /// Depth of a ball in its pocket at an angle off the pocket's middle, m; negative when free.
     #[inline(always)]
-    fn pocket_penetration(&self, offset: R) -> R {
+    pub(super) fn pocket_penetration(&self, offset: R) -> R {
         offset.abs() * self.pocket_radius - self.pocket_gap
     }
 

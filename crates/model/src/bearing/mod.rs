@@ -26,7 +26,6 @@ pub mod energy;
 pub mod full_complement;
 pub mod inlet_couples;
 pub mod land;
-pub mod linear;
 pub mod lubricant_state;
 pub mod planar;
 pub mod planar_constants;
@@ -35,6 +34,7 @@ pub mod reaction;
 pub mod rolling;
 pub mod settle;
 pub mod steady_moment;
+pub mod tangents;
 
 use crate::motion::Motion;
 pub use acceleration_loss::AccelerationLoss;
@@ -308,6 +308,15 @@ impl<R: Real> Bearing<R> {
         match self {
             Bearing::Rolling(bearing) => bearing.react(motion, held_load, state, rate, detail),
             Bearing::Planar(bearing) => bearing.react(motion, held_load, state, rate, detail),
+        }
+    }
+
+    /// The planar bearing, whose balls have tangents.
+    #[inline(always)]
+    pub fn planar(&self) -> Option<&Planar<R>> {
+        match self {
+            Bearing::Planar(bearing) => Some(bearing),
+            Bearing::Rolling(_) => None,
         }
     }
 

@@ -26,6 +26,7 @@ use super::lubricant_state::{self, Lubricant, Warmed};
 use super::planar_constants::{PlanarConstants, Separation};
 use super::reaction::{BearingHeat, BearingReaction};
 use super::steady_moment::{self, MomentPairs};
+use super::tangents::{BallTangents, ENTRIES, KnownRates, ROWS, TangentConstants};
 use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, Vectorized};
 use physics::traction::{Traction, TractionLaw};
@@ -53,6 +54,7 @@ pub struct Planar<R: Real> {
     apart: Apart<R>,
     /// Angle of each pocket on the cage, rad.
     seats: Vec<R>,
+    of_tangents: TangentConstants<R>,
 }
 
 impl<R: Real> Planar<R> {
@@ -97,6 +99,7 @@ impl<R: Real> Planar<R> {
                 }
             },
             seats: seats(balls),
+            of_tangents: TangentConstants::gather(machine),
         }
     }
 
@@ -193,6 +196,77 @@ impl<R: Real> Planar<R> {
             });
         }
         reaction
+    }
+
+    /// Takes the tangents of the balls at a state.
+    #[inline(always)]
+    pub fn tangents(&self, motion: &Motion<R>, state: &[R], into: &mut BallTangents<R>) {
+        let (row, seats) = (&self.row, &self.seats[..]);
+        match &self.lubricant {
+            None => match &self.traction {
+                Traction::Tanh(law) => into.take(row, seats, law, motion, state),
+                Traction::FourParameter(law) => into.take(row, seats, law, motion, state),
+                Traction::Dry(law) => into.take(row, seats, law, motion, state),
+                Traction::Lubricated(law) => into.take(row, seats, law, motion, state),
+            },
+            Some(lubricant) => {
+                let factors = R::vectorized(lubricant_state::Act {
+                    lubricant,
+                    state: &state[self.row.first + OF_BALL * self.row.balls..],
+                });
+                let law = Warmed {
+                    law: &self.traction,
+                    factor: factors.traction.map(R::grouped),
+                };
+                into.take(row, seats, &law, motion, state);
+            }
+        }
+    }
+
+    /// Eliminates the balls at a diagonal G, given with 1/G: what they add to the border. See [`tangents`](super::tangents).
+    #[inline(always)]
+    pub fn factor(&self, tangents: &mut BallTangents<R>, g: [R; 2]) -> [R; ENTRIES] {
+        tangents.factor(&self.row, &self.of_tangents, g)
+    }
+    /// Eliminates the balls from a right-hand side: what they add to that of the border.
+    #[inline(always)]
+    pub fn forward(
+        &self,
+        tangents: &BallTangents<R>,
+        known: &KnownRates<R>,
+        side: &mut [R],
+    ) -> [R; ROWS] {
+        tangents.forward(&self.row, &self.of_tangents, known, side)
+    }
+    /// The u of balls and cage from that of the border.
+    #[inline(always)]
+    pub fn back(&self, tangents: &BallTangents<R>, inverse_g: R, z: &[R; ROWS], side: &mut [R]) {
+        tangents.back(&self.row, &self.of_tangents, inverse_g, z, side);
+        let cage = z[5] * self.of_tangents.cage_radius[1];
+        side[0] = (side[0] + cage) * inverse_g;
+        side[1] = cage;
+        // the place of a cage that is free to move, and the lubricant, have no tangents
+        let place = (self.row.first - 2) / 2;
+        for k in 2..2 + place {
+            side[k + place] = side[k + place] * inverse_g;
+            side[k] = (side[k] + side[k + place]) * inverse_g;
+        }
+        for own in &mut side[self.row.first + OF_BALL * self.row.balls..] {
+            *own = *own * inverse_g;
+        }
+    }
+    /// Changes of the heats of pocket damping and of pocket friction along a vector over the bearing's own states.
+    #[inline(always)]
+    pub fn heats_along(&self, tangents: &BallTangents<R>, vector: &[R]) -> [R; 2] {
+        tangents.heats_along(&self.row, vector)
+    }
+    /// What its rows in a border are scaled by.
+    pub fn border(&self) -> &TangentConstants<R> {
+        &self.of_tangents
+    }
+    /// Number of balls.
+    pub fn balls(&self) -> usize {
+        self.row.balls
     }
 
     /// The sum over the balls as a task of its own: it is compiled once for all systems, apart from their steps.

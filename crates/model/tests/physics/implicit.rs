@@ -1,16 +1,14 @@
-//! Linearly implicit steps: the Jacobian is the derivative of the rate, and a drop is the same drop.
+//! Linearly implicit steps: no part's stiffness is missing from their tangents, and a drop is the same drop.
 
-use crate::machines::{
-    BEARING, planar, random_state, reference, separate, settings, tilt_contacts,
-};
-use crate::several::{of_twins, twins};
-use model::bearing::Separation;
-use model::bearing::ball_states::CAGE_PLACE;
-use model::system::machine::linear::MachineLinear;
+use crate::machines::{inlets, oil, planar, reference, settings, tilt_contacts};
+use crate::relatives::grease;
+use crate::several::twins;
+use model::bearing::{BearingConstants, SharedMoment, SteadyMoment};
 use model::system::machine::record::Record;
+use model::system::machine::tangents::Known;
 use model::system::machine::{MachineConstants, Machines, RotorMachine};
-use physics::traction::{TanhTraction, Traction};
-use solve::{Arrowhead, Ending, Linear, Machine, Stop};
+use physics::traction::{DryTraction, TanhTraction, Traction};
+use solve::{Batch, Ending, Flow, Machine, Observer, Step, Stop, Tangents};
 use std::sync::atomic::AtomicBool;
 
 /// The reference machine with another reference speed of traction, m/s.
@@ -23,134 +21,191 @@ fn with_reference_speed(reference_speed: f64) -> MachineConstants {
     constants
 }
 
-/// The whole Jacobian row by row.
-fn whole<const M: usize, const COLUMNS: usize, const ROWS: usize>(
-    arrow: &Arrowhead<M, COLUMNS, ROWS>,
-    dimension: usize,
-) -> Vec<f64> {
-    let s = arrow.shape();
-    let p = s.border.len();
-    let mut all = vec![0.0; dimension * dimension];
-    for (i, row) in s.border.iter().enumerate() {
-        for (k, column) in s.border.iter().enumerate() {
-            all[row * dimension + column] = arrow.corner[i * p + k];
-        }
-    }
-    for (k, row) in s.tail.clone().enumerate() {
-        for (i, column) in s.border.iter().enumerate() {
-            all[row * dimension + column] = arrow.tail_border[i * s.tail.len() + k];
-        }
-    }
-    for (j, block) in s.blocks.iter().enumerate() {
-        for (i, row) in block.channels.iter().enumerate() {
-            for (k, column) in block.channels.iter().enumerate() {
-                all[row * dimension + column] = arrow.blocks[j].own[i][k];
-            }
-            for (k, column) in block.columns.iter().enumerate() {
-                all[row * dimension + s.border[*column]] = arrow.blocks[j].right[i][k];
-            }
-            for (k, place) in block.rows.iter().enumerate() {
-                all[s.border[*place] * dimension + row] = arrow.blocks[j].left[k][i];
-            }
-            for (k, target) in s.tail.clone().enumerate() {
-                all[target * dimension + row] = arrow.blocks[j].tail[i][k];
-            }
-        }
-    }
-    all
+/// Keeps the state at the end of every so many accepted steps, with the length of the step.
+struct States {
+    every: usize,
+    seen: usize,
+    kept: Vec<(f64, Vec<f64>)>,
 }
 
-/// Compares a Jacobian at a state with differences of the rate; `exempt` says of row and column what is taken explicitly.
-/// Returns how many entries were compared.
-fn compare(machine: &RotorMachine, state: &[f64], exempt: &dyn Fn(usize, usize) -> bool) -> usize {
-    let mut linear = MachineLinear::of(machine).expect("planar");
-    let mut arrow = Arrowhead::new(linear.shape());
-    let n = machine.dimension();
+impl Observer<RotorMachine> for States {
+    fn step(&mut self, step: &mut Step<RotorMachine>) -> Flow {
+        self.seen += 1;
+        if self.seen.is_multiple_of(self.every) {
+            let length = step.end - step.start;
+            self.kept.push((length, step.state(1.0).to_vec()));
+        }
+        Flow::Continue
+    }
+}
+
+/// Tolerance of screening accuracy.
+const SCREENING: f64 = 3e-2;
+/// γ of the method.
+const GAMMA: f64 = solve::rosenbrock::GAMMA;
+
+/// Unit of a channel: 0.1 m/s of a centre or of a surface, spins by their radii; positions by what that makes of them in a step.
+fn unit(machine: &RotorMachine, channel: usize, g: f64) -> f64 {
+    let name = machine.channel_name(channel);
+    let planar = machine
+        .constants
+        .bearings
+        .iter()
+        .find_map(|part| match &part.bearing {
+            BearingConstants::Planar(bearing) => Some(bearing),
+            BearingConstants::Rolling(_) => None,
+        });
+    let ball = &planar.expect("it has balls").ball;
+    let radius = match name.rsplit('.').next().expect("a name") {
+        "spin" => ball.radius,
+        "azimuth" | "orbit_speed" => ball.pocket_radius,
+        "angle" | "speed" if name.contains("cage") => ball.pocket_radius,
+        "angle" | "speed" => ball.inner_track,
+        _ => 1.0,
+    };
+    let is_rate = name.ends_with("speed") || name.ends_with("spin");
+    0.1 / radius / if is_rate { 1.0 } else { g }
+}
+
+/// Largest entry of (G - J)(G - A)⁻¹ - I at a state, all channels as speeds of one unit: what the tangents A miss of the
+/// derivatives J in a step of that length.
+fn missing(machine: &RotorMachine, length: f64, state: &[f64]) -> (f64, String) {
+    let batch = Machines::<f64>::gather(&|_| machine);
     let mode = machine.start_mode();
-    linear.jacobian(&mode, 0.0, state, &mut arrow);
-    let ours = whole(&arrow, n);
-    let mut checked = 0;
-    for column in 0..machine.layout().ledger() {
-        let rate_at = |step: f64| {
-            let mut moved = state.to_vec();
-            moved[column] += step;
-            let mut rate = vec![0.0; n];
-            machine.rate(&mode, 0.0, &moved, &mut rate, &mut []);
-            rate
-        };
-        // differences to both sides and over half the length: where a corner of a contact force lies between,
-        // they disagree
-        let scale = machine.error_scale(column);
-        let here = rate_at(0.0);
-        let slopes = |step: f64| -> [Vec<f64>; 2] {
-            [step, -step].map(|step| {
-                let there = rate_at(step);
-                let pairs = there.iter().zip(&here);
-                pairs.map(|(there, here)| (there - here) / step).collect()
-            })
-        };
-        let (long, short) = (slopes(1e-6 * scale), slopes(5e-7 * scale));
-        for row in (0..n).filter(|row| !exempt(*row, column)) {
-            let size = machine.error_scale(row) / scale * 1e3;
-            let [coarse, fine] = [&long, &short].map(|s| 0.5 * (s[0][row] + s[1][row]));
-            let sides = (short[0][row] - short[1][row]).abs();
-            let apart = (coarse - fine).abs().max(1e-2 * sides);
-            if apart > 1e-5 * (fine.abs() + size) {
+    let active = machine.layout().ledger();
+    let g = 1.0 / (GAMMA * length);
+    let mut room = batch.room();
+    batch.take(&mode, state, &mut room);
+    batch.factor(&mut room, g);
+    let unit: Vec<f64> = (0..active).map(|k| unit(machine, k, g)).collect();
+    let rate_beside = |u: &[f64], share: f64| {
+        let mut moved = state.to_vec();
+        for (moved, u) in moved.iter_mut().zip(u) {
+            *moved += share * u;
+        }
+        let mut rate = vec![0.0; machine.dimension()];
+        machine.rate(&mode, 0.0, &moved, &mut rate, &mut []);
+        rate
+    };
+    let here = rate_beside(&vec![0.0; active], 0.0);
+    let mut worst = (0.0, String::new());
+    let at = &machine.layout().bearings[0];
+    let held = machine.constants.bearings[0].inner_race.centre_held;
+    for column in 0..active {
+        // a race that is held has no speed to be given
+        if held && (at.inner..at.inner + 4).contains(&column) {
+            continue;
+        }
+        let mut u = vec![0.0; active];
+        u[column] = g * unit[column];
+        batch.solve(&mut room, &mut u);
+        // so near that all is smooth but where a contact opens or closes in between
+        let share = 1e-4;
+        let (above, below) = (rate_beside(&u, share), rate_beside(&u, -share));
+        for row in 0..active {
+            let slopes = [above[row] - here[row], here[row] - below[row]].map(|d| d / share);
+            let of_row = g * unit[row];
+            if (slopes[0] - slopes[1]).abs() > 0.1 * of_row {
                 continue;
             }
-            checked += 1;
-            let value = ours[row * n + column];
-            assert!(
-                (value - fine).abs() < 1e-4 * (fine.abs() + size),
-                "d {} / d {}: {value} instead of {fine}",
-                machine.channel_name(row),
-                machine.channel_name(column)
-            );
+            let slope = 0.5 * (slopes[0] + slopes[1]);
+            let side = if row == column { of_row } else { 0.0 };
+            let entry = ((g * u[row] - slope - side) / of_row).abs();
+            if entry > worst.0 {
+                let names = [row, column].map(|channel| machine.channel_name(channel));
+                worst = (entry, names.join(" by "));
+            }
         }
     }
-    checked
+    worst
 }
 
-#[test]
-fn the_jacobian_is_the_derivative_of_the_rate() {
-    let mut random = crate::machines::Random(11);
-    let (mut held, mut guided_by_balls, mut tilted) = (reference(), reference(), reference());
+/// The machines that are offered linearly implicit steps at screening accuracy: everything that presses or rubs in them, and
+/// what is left out of the tangents.
+fn variants() -> Vec<(&'static str, MachineConstants)> {
+    let mut hard = reference();
+    hard.bearings[0].mount.stiffness *= 10.0;
+    let mut held = reference();
     held.bearings[0].inner_race.centre_held = true;
-    separate(&mut guided_by_balls, Separation::FreeCage(None));
+    let mut tilted = reference();
     tilt_contacts(planar(&mut tilted), 0.4);
     planar(&mut tilted).ball.inner_track_growth = 5e-12;
-    for mut constants in [reference(), held, tilted, guided_by_balls] {
-        planar(&mut constants).ball.orbit_drag = 1e-3;
-        // forces on the centre of a free cage, and what its place does elsewhere, are taken explicitly
-        let first = BEARING + CAGE_PLACE;
-        let place = first..BEARING + planar(&mut constants).first_ball_state();
-        let machine = RotorMachine::new(constants);
-        // what a growing race takes in is a product of sums over the balls, and nothing depends on it
-        let growth = machine.layout().source(3);
-        let exempt = |row: usize, column: usize| {
-            place.contains(&row) || place.contains(&column) || row == growth
-        };
-        let n = machine.dimension();
-        let checked: usize = (0..20)
-            .map(|_| compare(&machine, &random_state(&machine, &mut random), &exempt))
-            .sum();
-        assert!(checked > 20 * n * n / 2, "{checked}");
-    }
+    let mut loose = reference();
+    planar(&mut loose).ball.outer_track += 10e-6;
+    let mut dry = reference();
+    planar(&mut dry).traction = Traction::Dry(DryTraction {
+        kinetic: 0.1,
+        static_excess: 0.1,
+        inverse_decay_speed: 2.0,
+        inverse_reference_speed: 100.0,
+    });
+    let mut greased = reference();
+    let bearing = planar(&mut greased);
+    (bearing.ball.orbit_drag, bearing.ball.spin_drag) = (0.0, 0.0);
+    bearing.moment = Some(SharedMoment {
+        law: SteadyMoment::Palmgren(grease()),
+        axial_load: 0.0,
+        orbit_share: 0.5,
+        reference_spin: 1.0,
+    });
+    let mut oiled = reference();
+    planar(&mut oiled).traction = oil();
+    planar(&mut oiled).inlet_rolling = Some(inlets());
+    let several = twins(&RotorMachine::new(reference())).constants;
+    vec![
+        ("reference", reference()),
+        ("hard mount", hard),
+        ("held race", held),
+        ("contacts at an angle", tilted),
+        ("clearance", loose),
+        ("stiff friction", with_reference_speed(0.001)),
+        ("dry friction", dry),
+        ("grease with its moment", greased),
+        ("oil", oiled),
+        ("several bearings", several),
+    ]
 }
 
 #[test]
-fn the_jacobian_of_several_bearings_is_the_derivative_of_the_rate() {
-    let mut random = crate::machines::Random(12);
-    let half = RotorMachine::new(reference());
-    let whole = twins(&half);
-    let n = whole.dimension();
-    let mut checked = 0;
-    for _ in 0..5 {
-        let state = of_twins(&whole, &half, &random_state(&half, &mut random));
-        checked += compare(&whole, &state, &|_, _| false);
+fn tangents_miss_no_stiffness_where_screening_takes_its_steps() {
+    for (name, constants) in variants() {
+        let machine = RotorMachine::new(constants);
+        assert_eq!(machine.tangents(), Known::All);
+        let mut states = [States {
+            every: 40,
+            seen: 0,
+            kept: Vec::new(),
+        }];
+        // free fall, the first contact, spin-up
+        let settings = settings(0.03, SCREENING);
+        let endings = solve::run_implicit::<f64, Machines<f64>, _>(
+            &[&machine],
+            &[machine.start()],
+            &mut states,
+            &settings,
+            &AtomicBool::new(false),
+        );
+        assert_eq!(endings[0].stop, Stop::Finished, "{name}");
+        let kept = &states[0].kept;
+        assert!(kept.len() > 10, "{name}: {}", kept.len());
+        let mut all: Vec<_> = (kept.iter())
+            .map(|(length, state)| missing(&machine, *length, state))
+            .collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (median, worst) = (&all[all.len() / 2], &all[all.len() - 1]);
+        println!(
+            "{name}: median {:.3}, worst {:.3} ({}), {} steps",
+            median.0, worst.0, worst.1, endings[0].work.accepted
+        );
+        assert!(median.0 < USUALLY && worst.0 < MOST, "{name}: {all:?}");
     }
-    assert!(checked > 5 * n * n / 2, "{checked}");
 }
+
+/// What tangents may miss in half of the states: 0.04 to 0.13, of which friction that follows the load is the most. Without those of
+/// any single part it is 1 and more.
+const USUALLY: f64 = 0.25;
+/// And in the worst of them, at the longest steps: up to 1.9 with dry friction.
+const MOST: f64 = 2.5;
 
 /// A drop by explicit or by linearly implicit steps.
 fn drop(
@@ -164,27 +219,14 @@ fn drop(
     let mut record = Record::new(&machine, end, end / 10.0, false);
     let never = AtomicBool::new(false);
     let settings = settings(end, tolerance);
-    let ending = if implicit {
-        let linear = MachineLinear::of(&machine).expect("planar");
-        solve::run_implicit::<f64, Machines<f64>, _, _, _, _, _>(
-            &machine,
-            linear,
-            &start,
-            &mut record,
-            &settings,
-            &never,
-        )
+    let run = if implicit {
+        solve::run_implicit::<f64, Machines<f64>, _>
     } else {
-        let records = std::slice::from_mut(&mut record);
-        solve::run::<f64, Machines<f64>, _>(
-            &[&machine],
-            std::slice::from_ref(&start),
-            records,
-            &settings,
-            &never,
-        )
-        .remove(0)
+        solve::run::<f64, Machines<f64>, _>
     };
+    let records = std::slice::from_mut(&mut record);
+    let starts = std::slice::from_ref(&start);
+    let ending = run(&[&machine], starts, records, &settings, &never).remove(0);
     assert_eq!(ending.stop, Stop::Finished);
     let balance = machine.balance(&start, &ending.state);
     let residual = balance.energy_residual() / balance.heat();

@@ -1,13 +1,12 @@
 //! The slow state of the lubricant in a drop: implicit steps, and what is paid where there is none.
 
-use crate::machines::{Random, lubricant, planar, random_state, reference, settings};
+use crate::machines::{lubricant, planar, reference, settings};
 use crate::relatives::grease;
 use model::bearing::lubricant_state::STATES;
 use model::bearing::{SharedMoment, SteadyMoment};
-use model::system::machine::linear::MachineLinear;
 use model::system::machine::record::Record;
 use model::system::machine::{MachineConstants, Machines, RotorMachine};
-use solve::{Arrowhead, Ending, Linear, Machine, Stop};
+use solve::{Ending, Stop};
 use std::sync::atomic::AtomicBool;
 
 /// The reference machine with a grease whose films warm within milliseconds.
@@ -30,14 +29,14 @@ fn warming() -> MachineConstants {
 
 fn implicit(machine: &RotorMachine, end: f64, tolerance: f64) -> (Ending, Record) {
     let mut record = Record::new(machine, end, 1e-3, false);
-    let ending = solve::run_implicit::<f64, Machines<f64>, _, _, _, _, _>(
-        machine,
-        MachineLinear::of(machine).expect("planar"),
-        &machine.start(),
-        &mut record,
+    let ending = solve::run_implicit::<f64, Machines<f64>, _>(
+        &[machine],
+        &[machine.start()],
+        std::slice::from_mut(&mut record),
         &settings(end, tolerance),
         &AtomicBool::new(false),
-    );
+    )
+    .remove(0);
     assert_eq!(ending.stop, Stop::Finished);
     (ending, record)
 }
@@ -82,47 +81,5 @@ fn implicit_steps_change_the_lubricant_as_explicit_ones_do() {
         let balance = machine.balance(&machine.start(), &ending.state);
         let residual = balance.energy_residual() / balance.heat();
         assert!(residual.abs() < 1e-6, "{residual}");
-    }
-}
-
-#[test]
-fn the_jacobian_of_a_ball_between_warmed_films_is_that_of_its_weaker_traction() {
-    // 1/u0 and μ_max stand in ∂/∂spin of the traction alone: a factor F on μ is the law with F μ_max
-    let mut warmed = warming();
-    planar(&mut warmed).moment = None;
-    let machine = RotorMachine::new(warmed);
-    let mut random = Random(3);
-    let state = random_state(&machine, &mut random);
-    let own = machine.layout().ledger() - STATES;
-    let at = machine.constants.bearings[0]
-        .bearing
-        .lubricant_at(&state[16..own + STATES]);
-    let factor = at.expect("it has a state").traction_factor;
-    assert!((0.4..0.99).contains(&factor), "{factor}");
-    let mut weaker = machine.constants.clone();
-    let bearing = planar(&mut weaker);
-    bearing.lubricant = None;
-    if let physics::traction::Traction::Tanh(law) = &mut bearing.traction {
-        law.maximum *= factor;
-    }
-    let weaker = RotorMachine::new(weaker);
-    let mut short = state[..own].to_vec();
-    short.extend_from_slice(&state[own + STATES..]);
-    let jacobian = |machine: &RotorMachine, state: &[f64]| {
-        let mut linear = MachineLinear::of(machine).expect("planar");
-        let mut arrow = Arrowhead::new(linear.shape());
-        linear.jacobian(&machine.start_mode(), 0.0, state, &mut arrow);
-        arrow
-    };
-    let (ours, expected) = (jacobian(&machine, &state), jacobian(&weaker, &short));
-    assert_eq!(
-        ours.shape().border.len(),
-        expected.shape().border.len() + STATES
-    );
-    for (ours, expected) in ours.blocks.iter().zip(&expected.blocks) {
-        for (ours, expected) in (ours.own.iter().flatten()).zip(expected.own.iter().flatten()) {
-            // F (μ_max x) and (F μ_max) x
-            assert!((ours - expected).abs() <= 1e-12 * expected.abs().max(1.0));
-        }
     }
 }

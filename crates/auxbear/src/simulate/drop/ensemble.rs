@@ -3,7 +3,6 @@
 //! A member's result depends on its constants and its start alone, bit for bit: not on the lane, the company, the
 //! vector unit or the number of threads.
 
-use model::system::machine::linear::MachineLinear;
 use model::system::machine::record::Record;
 use model::system::machine::{Machines, RotorMachine};
 use number::{Level, Real, Task};
@@ -39,7 +38,7 @@ pub struct Finished {
 pub struct Plan<'a> {
     /// Of the integration.
     pub settings: Settings,
-    /// True for linearly implicit steps, machine by machine; needs balls with states of their own.
+    /// True for linearly implicit steps; needs balls with states of their own.
     pub implicit: bool,
     /// Time between rows, s.
     pub interval: f64,
@@ -93,20 +92,14 @@ fn run_of_a_kind(members: &[Member], plan: &Plan) -> Vec<Finished> {
             plan,
             report: &report,
         };
-        if plan.implicit {
-            level.run_one(Implicit(task))
-        } else if members.len() == 1 {
+        if members.len() == 1 {
             level.run_one(task)
         } else {
             level.run_many(task)
         }
     };
     let threads = plan.threads.unwrap_or_else(rayon::current_num_threads);
-    let together = if plan.implicit {
-        1
-    } else {
-        together(members.len(), level.lanes(), threads)
-    };
+    let together = together(members.len(), level.lanes(), threads);
     let all = || -> Vec<Finished> { members.par_chunks(together).flat_map_iter(chunk).collect() };
     match plan.threads {
         _ if members.len() <= together => chunk(members),
@@ -149,46 +142,18 @@ impl Task for Chunk<'_> {
         let mut watched: Vec<Watched> = (members.iter())
             .map(|member| Watched::of(member, plan, report))
             .collect();
-        let endings = solve::run::<R, Machines<R>, _>(
-            &machines,
-            &starts,
-            &mut watched,
-            &plan.settings,
-            plan.interrupt,
-        );
+        let settings = &plan.settings;
+        let endings = if plan.implicit {
+            let run = solve::run_implicit::<R, Machines<R>, _>;
+            run(&machines, &starts, &mut watched, settings, plan.interrupt)
+        } else {
+            let run = solve::run::<R, Machines<R>, _>;
+            run(&machines, &starts, &mut watched, settings, plan.interrupt)
+        };
         let parts = watched.into_iter().zip(endings).zip(members);
         parts
             .map(|((watched, ending), member)| watched.finish(ending, member))
             .collect()
-    }
-}
-
-/// The same members, one after the other by linearly implicit steps.
-struct Implicit<'a>(Chunk<'a>);
-
-impl Task for Implicit<'_> {
-    type Output = Vec<Finished>;
-    fn run<R: Real>(self) -> Vec<Finished> {
-        let Chunk {
-            members,
-            plan,
-            report,
-        } = self.0;
-        let one = |member: &Member| {
-            let mut watched = Watched::of(member, plan, report);
-            // balls that roll have no friction to be stiff
-            let linear = MachineLinear::of(&member.machine)?;
-            let ending = solve::run_implicit::<R, Machines<R>, _, _, _, _, _>(
-                &member.machine,
-                linear,
-                &member.start,
-                &mut watched,
-                &plan.settings,
-                plan.interrupt,
-            );
-            Some(watched.finish(ending, member))
-        };
-        members.iter().filter_map(one).collect()
     }
 }
 

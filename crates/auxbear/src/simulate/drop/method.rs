@@ -9,34 +9,71 @@
 //! clearance and is stopped by the mount. Where the slope depends on rolling, it is that of balls that do not roll yet:
 //! the largest.
 
-use crate::scenario::{Drop, Method};
+use crate::scenario::{Accuracy, Drop, Method};
 use crate::simulate::drop::build::Built;
+use crate::simulate::ending::DESIGN;
 use model::auxiliary_bearing::AuxiliaryBearingConstants;
 use model::bearing::{BearingConstants, PlanarConstants};
+use model::system::machine::tangents::Known;
 
-/// λ/ω above which linearly implicit steps are the quicker ones at equal error; measured on the reference drop with
+/// λ/ω above which linearly implicit steps are the quicker ones at design accuracy; measured on the reference drop with
 /// reference speeds of traction from 0.1 to 0.001 m/s.
 const STIFF: f64 = 60.0;
+
+/// Tolerance of linearly implicit steps at screening accuracy.
+const SCREENING: f64 = 3e-2;
+/// Tolerance of explicit steps there: stability bounds them, a larger one hardly saves any.
+const SCREENING_EXPLICIT: f64 = 1e-3;
 
 /// Names of the methods, for people.
 pub(crate) const EXPLICIT: &str = "Bogacki-Shampine 3(2), explicit";
 pub(crate) const IMPLICIT: &str = "ROS34PW2, linearly implicit";
 
-/// True for linearly implicit steps.
-pub(crate) fn is_implicit(drop: &Drop, built: &Built) -> bool {
-    let planar = |part: &'_ AuxiliaryBearingConstants| match &part.bearing {
+/// How the steps of a drop are taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Steps {
+    /// True for linearly implicit ones.
+    pub implicit: bool,
+    /// Tolerance, where none is given.
+    pub tolerance: f64,
+}
+
+impl Steps {
+    /// Name of the method, for people.
+    pub fn name(self) -> &'static str {
+        if self.implicit { IMPLICIT } else { EXPLICIT }
+    }
+}
+
+/// The steps of a drop. At design accuracy linearly implicit ones pay where friction is stiff; at screening accuracy wherever they
+/// know all that is stiff. Balls that roll have nothing stiff.
+pub(crate) fn steps(drop: &Drop, built: &Built, known: Known) -> Steps {
+    let screening = drop.run.accuracy == Accuracy::Screening;
+    let implicit = known != Known::Nothing
+        && match drop.run.method {
+            Method::Explicit => false,
+            Method::Implicit => true,
+            Method::Auto => (screening && known == Known::All) || is_stiff(drop, built),
+        };
+    let tolerance = match (screening, implicit) {
+        (false, _) => DESIGN,
+        (true, true) => SCREENING,
+        (true, false) => SCREENING_EXPLICIT,
+    };
+    Steps {
+        implicit,
+        tolerance,
+    }
+}
+
+/// Whether sliding friction is too stiff for explicit steps.
+fn is_stiff(drop: &Drop, built: &Built) -> bool {
+    let parts = built.constants.bearings.iter();
+    let stiffnesses = parts.filter_map(|part| match &part.bearing {
         BearingConstants::Planar(bearing) => Some(stiffness(drop, built, part, bearing)),
         BearingConstants::Rolling(_) => None,
-    };
-    let parts = built.constants.bearings.iter();
-    let Some(stiffnesses) = parts.map(planar).collect::<Option<Vec<f64>>>() else {
-        return false;
-    };
-    match drop.run.method {
-        Method::Explicit => false,
-        Method::Implicit => true,
-        Method::Auto => stiffnesses.into_iter().fold(0.0, f64::max) > STIFF,
-    }
+    });
+    stiffnesses.fold(0.0, f64::max) > STIFF
 }
 
 /// λ/ω of an auxiliary bearing in a first impact.

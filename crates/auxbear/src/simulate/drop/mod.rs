@@ -16,7 +16,8 @@ use crate::simulate::drop::build::Built;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{Finished, Member, Plan};
 use crate::simulate::drop::members::Varied;
-use crate::simulate::ending::{settings, stop};
+use crate::simulate::drop::method::Steps;
+use crate::simulate::ending::{settings_at, stop};
 use std::time::Instant;
 
 /// Runs a drop.
@@ -29,13 +30,13 @@ pub(crate) fn run(
 ) -> Outcome {
     let count = drop.repeat.count.max(1) as usize;
     let members: Vec<Member> = members::of(drop, built, varied);
-    let implicit = method::is_implicit(drop, built);
+    let steps = method::steps(drop, built, members[0].machine.tangents());
     let clock = Instant::now();
     let finished = ensemble::run(
         &members,
         &Plan {
-            settings: settings(&drop.run),
-            implicit,
+            settings: settings_at(&drop.run, steps.tolerance),
+            implicit: steps.implicit,
             interval: drop.run.output_interval,
             threads: options.threads,
             interrupt: options.interrupt,
@@ -98,7 +99,7 @@ pub(crate) fn run(
         contacts: contacts(&first),
         warnings: warnings::of(scenario, &first, &finished),
         stop: worst_stop(&finished),
-        work: work(&finished, seconds, implicit),
+        work: work(&finished, seconds, steps),
         members: table,
         drawn,
         limits: Vec::new(),
@@ -195,15 +196,11 @@ fn worst_stop(finished: &[Finished]) -> Stop {
     }
 }
 
-fn work(finished: &[Finished], seconds: f64, implicit: bool) -> Work {
+fn work(finished: &[Finished], seconds: f64, steps: Steps) -> Work {
     let mut work = Work {
         members: finished.len(),
         seconds,
-        method: Some(if implicit {
-            method::IMPLICIT
-        } else {
-            method::EXPLICIT
-        }),
+        method: Some(steps.name()),
         ..Work::default()
     };
     for member in finished {

@@ -109,7 +109,7 @@ impl Layout {
 
     /// The magnitude that matters in each channel: a tolerance of 1e-6 allows errors of one millionth of it a step.
     ///
-    /// Lengths by the radial air clearance, speeds by the fall through the clearance, spins by the release speed,
+    /// Lengths by a hundredth of the radial air clearance, speeds by a third of the fall through it, spins by the release speed,
     /// energies by the spin energy of the inner race brought to speed; the bearing's by
     /// [`error_scale`](BearingConstants::error_scale). The rotor by the smallest clearance of its bearings.
     pub fn error_scale(&self, constants: &MachineConstants) -> Vec<f64> {
@@ -123,8 +123,8 @@ impl Layout {
         let smallest = clearances.fold(f64::INFINITY, f64::min);
         let fall = |clearance: f64| (2.0 * gravity * clearance).sqrt();
         let body = |scale: &mut [f64], body: usize, clearance: f64, turns: bool| {
-            scale[body..body + 2].fill(clearance);
-            scale[body + 2..body + 4].fill(fall(clearance));
+            scale[body..body + 2].fill(0.01 * clearance);
+            scale[body + 2..body + 4].fill(0.3 * fall(clearance));
             if turns {
                 scale[body + 4] = 1.0;
                 scale[body + 5] = spin;

@@ -14,7 +14,7 @@
 //! | [`rate`] | the equations of motion |
 //! | [`start`] | the levitated state at release |
 //! | [`ledger`] | energies, momentum, what closes |
-//! | [`linear`] | the Jacobian, for linearly implicit steps |
+//! | [`tangents`] | what is stiff, for linearly implicit steps |
 //! | [`record`] | what is watched and kept of a run |
 //!
 //! The auxiliary bearing is a part: [`auxiliary_bearing`](crate::auxiliary_bearing).
@@ -25,10 +25,10 @@
 pub mod constants;
 pub mod layout;
 pub mod ledger;
-pub mod linear;
 pub mod rate;
 pub mod record;
 pub mod start;
+pub mod tangents;
 
 use crate::auxiliary_bearing::AuxiliaryBearing;
 use crate::levitation::Levitation;
@@ -77,6 +77,8 @@ pub struct Machines<R: Real> {
     /// Reciprocals, because a division costs as much as ten products.
     inverse_mass: R,
     inverse_polar_inertia: R,
+    /// 1/L, L the radius of the first bore, 1/m.
+    inverse_rotor_radius: R,
     layout: Layout,
 }
 
@@ -118,6 +120,9 @@ impl<R: Real> Machines<R> {
                 .collect(),
             inverse_mass: R::from_lanes(|lane| 1.0 / constants(lane).rotor.mass),
             inverse_polar_inertia: R::from_lanes(|lane| 1.0 / constants(lane).rotor.polar_inertia),
+            inverse_rotor_radius: R::from_lanes(|lane| {
+                1.0 / constants(lane).bearings[0].contact.bore_radius
+            }),
             layout,
         }
     }

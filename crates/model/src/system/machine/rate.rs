@@ -3,7 +3,6 @@
 use super::layout::{ROTOR, ROTOR_CHANNELS, ROTOR_SOURCES};
 use super::{Machines, Mode};
 use crate::auxiliary_bearing::{AtNode, Outlet, write_body};
-use crate::bearing::BearingReaction;
 use crate::contact::ContactReaction;
 use crate::motion::Wrench;
 use crate::rotor::{GeometricCentre, RotorMotion};
@@ -21,47 +20,7 @@ pub fn rotor_motion<R: Real>(state: &[R]) -> RotorMotion<R> {
     }
 }
 
-/// What each bearing of a machine does. No closures here: they are compiled without the vector unit's instructions, unless
-/// the compiler inlines them.
-pub(super) trait Reactions<R: Real> {
-    /// Of bearing `k`; may write the rates of its own states, and its probes.
-    fn reaction(&self, k: usize, rate: &mut [R], probe: &mut [R]) -> BearingReaction<R>;
-}
-
-/// What the bearings do in a state.
-struct InState<'a, R: Real> {
-    machine: &'a Machines<R>,
-    state: &'a [R],
-}
-
-impl<R: Real> Reactions<R> for InState<'_, R> {
-    #[inline(always)]
-    fn reaction(&self, k: usize, rate: &mut [R], probe: &mut [R]) -> BearingReaction<R> {
-        let at = &self.machine.layout.bearings[k];
-        let motion = at.motion(self.state);
-        self.machine.bearings[k].bearing(at, &motion, self.state, rate, probe)
-    }
-}
-
 impl<R: Real> Machines<R> {
-    /// The rate of change of the state, and the probes where asked.
-    #[inline(always)]
-    pub(super) fn rate_of_change(
-        &self,
-        mode: &Mode<R>,
-        state: &[R],
-        rate: &mut [R],
-        probe: &mut [R],
-    ) {
-        let dimension = self.layout.dimension();
-        let (state, rate) = (&state[..dimension], &mut rate[..dimension]);
-        let bearings = InState {
-            machine: self,
-            state,
-        };
-        self.accelerate(mode, state, rate, probe, &bearings);
-    }
-
     /// What the rotor does at a bearing.
     #[inline(always)]
     fn contact(
@@ -75,16 +34,17 @@ impl<R: Real> Machines<R> {
         self.bearings[k].contact(centre, spin, &inner)
     }
 
-    /// The rates of rotor, races and ledger, and the probes where asked, under what `bearings` says that each bearing does.
+    /// The rate of change of the state, and the probes where asked.
     #[inline(always)]
-    pub(super) fn accelerate(
+    pub(super) fn rate_of_change(
         &self,
         mode: &Mode<R>,
         state: &[R],
         rate: &mut [R],
         probe: &mut [R],
-        bearings: &impl Reactions<R>,
     ) {
+        let dimension = self.layout.dimension();
+        let (state, rate) = (&state[..dimension], &mut rate[..dimension]);
         let layout = &self.layout;
         let zero = R::zero();
 
@@ -127,7 +87,8 @@ impl<R: Real> Machines<R> {
             acceleration + centre.arm.turned() * spin_rate - centre.arm * rotor.spin.square();
         let mut impulse = rotor.position.cross(self.gravity) * self.rotor.mass;
         for (k, (part, at)) in self.bearings.iter().zip(&layout.bearings).enumerate() {
-            let reaction = bearings.reaction(k, rate, probe);
+            let motion = at.motion(state);
+            let reaction = part.bearing(at, &motion, state, rate, probe);
             let node = AtNode {
                 centre,
                 acceleration: of_centre,
@@ -141,7 +102,7 @@ impl<R: Real> Machines<R> {
                 at,
                 &node,
                 self.gravity,
-                &at.motion(state),
+                &motion,
                 &reaction,
                 Outlet {
                     heat: layout.heat(at.heat),
