@@ -1,8 +1,8 @@
 //! Noises and densities from the pulses themselves, and a quick change at first sight.
 
-use super::Transient;
 use super::matrix::Memory;
 use super::plan::{Data, Livelier, Noise, Passage, Plan};
+use super::settings::Transient;
 use crate::simplex;
 
 /// Passages in one stretch of a quiet part whose likelihood is taken.

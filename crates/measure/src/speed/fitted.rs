@@ -2,11 +2,13 @@
 
 use super::fit::{self, Sight};
 use super::matrix::N;
+use super::motion::Change;
 use super::node::Belief;
 use super::plan::{Data, Knot, Lively, Noise, Plan};
+use super::smoothed::Speed;
 use super::smoothness::{self, Smoothness};
 use super::track::Track;
-use super::{Change, Speed, lively};
+use super::transient;
 use crate::pulse::Refusal;
 
 /// Passages before a quick change that show how the shaft turned before it.
@@ -80,7 +82,7 @@ pub(super) fn fitted(
         notes,
     };
     if let Some(sight) = sight {
-        let (plans, range) = lively::lively(data, sight, &base);
+        let (plans, range) = transient::plans(data, sight, &base);
         let Some((best, _)) = plans.first() else {
             return Err(Refusal::new(
                 "the start and the end of the quick change cannot be found".into(),

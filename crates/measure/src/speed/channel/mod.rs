@@ -14,13 +14,16 @@
 
 mod samples;
 
+use super::design::FEWEST_WITHIN;
 use super::fit::{self, Sight};
 use super::fitted::{QUIET_BEFORE, fitted};
 use super::matrix::{Memory, N};
 use super::plan::{Data, Noise, Passage, Plan};
-use super::too_few::FEWEST_WITHIN;
+use super::settings::{SpeedSettings, Transient};
+use super::smoothed::Speed;
+use super::stiffest::Stiffest;
+use super::stop::Stop;
 use super::track::forward;
-use super::{Speed, SpeedSettings, Stiffest, Stop, Transient};
 use crate::pulse::Refusal;
 use crate::simplex;
 use crate::state_space::colour;
@@ -112,7 +115,7 @@ pub fn smooth_channel(channel: &Channel, settings: &SpeedSettings) -> Result<Sho
     };
     let samples = Samples::new(
         channel.values.iter().map(|v| sign * v).collect(),
-        instrument,
+        instrument.resolution,
     );
     let n = samples.len();
     let begin = channel.first - instrument.delay;
@@ -193,7 +196,7 @@ pub fn smooth_channel(channel: &Channel, settings: &SpeedSettings) -> Result<Sho
     let last = data.passages.len() - 1;
     if end < n {
         let before = data.seconds(data.passages[last - 1].time);
-        speed.stop = Stop::seen(before, &speed, clock.time(n as f64));
+        speed.stop = Stop::seen(before, speed.at(speed.range().1), clock.time(n as f64));
     }
     if let (Some(change), Some(sight)) = (&mut speed.change, &sight)
         && !change.from_rest

@@ -218,7 +218,7 @@ fn is_long(sight: &Sight) -> bool {
 }
 
 /// Plans for the lively part with their weights, the best one first.
-pub(super) fn lively(
+pub(super) fn plans(
     data: &Data,
     sight: &Sight,
     base: &Plan,
