@@ -56,31 +56,15 @@ impl Speed {
         self.bridges.iter().map(|bridge| &bridge.gap)
     }
 
-    /// The tracks that hold at an instant, in units, with their weights.
-    fn tracks(&self, time: f64) -> Vec<(f64, &Track)> {
-        if time >= self.window.0 && time <= self.window.1 && !self.parts.is_empty() {
-            self.parts
-                .iter()
-                .map(|(weight, track)| (*weight, track))
-                .collect()
-        } else {
-            vec![(1.0, &self.base)]
-        }
-    }
-
+    /// What is known of the state at an instant, in units.
     fn belief(&self, time: f64) -> Belief {
-        let beliefs: Vec<(f64, Belief)> = self
-            .tracks(time)
-            .iter()
-            .map(|(w, track)| (*w, track.at(time)))
+        if self.parts.is_empty() || time < self.window.0 || time > self.window.1 {
+            return self.base.at(time);
+        }
+        let beliefs: Vec<(f64, Belief)> = (self.parts.iter())
+            .map(|(weight, track)| (*weight, track.at(time)))
             .collect();
         mixed(beliefs.iter().copied())
-    }
-
-    /// Factors on the deviations of angle, speed and acceleration at an instant, in units.
-    fn factors(&self, time: f64) -> [f64; 3] {
-        let smoothness = self.smoothness.as_ref();
-        smoothness.map_or([1.0; 3], |smoothness| smoothness.at(time))
     }
 
     /// The motion at an instant, s; outside the range of the pulses it is carried on, with growing covariance; before an
@@ -99,7 +83,9 @@ impl Speed {
     /// The motion that follows from what was seen alone.
     fn seen(&self, seconds: f64) -> Motion {
         let time = (seconds - self.origin) / self.unit;
-        let (belief, factors) = (self.belief(time), self.factors(time));
+        let belief = self.belief(time);
+        let smoothness = self.smoothness.as_ref();
+        let factors = smoothness.map_or([1.0; 3], |smoothness| smoothness.at(time));
         let scale: [f64; 4] = std::array::from_fn(|i| self.unit.powi(-(i as i32)));
         let [angle, speed, acceleration, jerk] = std::array::from_fn(|i| belief.mean[i] * scale[i]);
         let late = [speed, acceleration, jerk].map(|x| x * self.latency);
