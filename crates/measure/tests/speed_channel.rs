@@ -200,7 +200,7 @@ fn a_spin_up_shown_5_ms_late() {
 }
 
 #[test]
-fn an_instrument_slower_than_the_change_is_told() {
+fn an_instrument_slower_than_the_change_is_reported() {
     let truth = spin_up(3, 150.0, 10_000.0, 0.4);
     let doubt = |bandwidth: Option<f64>| {
         let made = Made {

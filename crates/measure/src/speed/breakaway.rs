@@ -5,7 +5,7 @@
 //! deviation of t_e: δ;  of Ω: Ω̇ δ (1 - x);  of Ω̇: j δ (1 - x);   x = (t - t_e)/(t_1 - t_e) before the first mark t_1
 //! ```
 //! A clutch whose torque rises must first overcome what brakes the creeping shaft. Marks come later, from a motion that looks
-//! as if it had begun later. Where the same record shows the shaft come to rest, its last deceleration tells how much: the
+//! as if it had begun later. Where the same record shows the shaft come to rest, its last deceleration shows how much: the
 //! rising acceleration j makes up for it within Ω̇_stop/j, and the engagement is anywhere within that time.
 //!
 //! **Does not model**: a brake at rest that is larger than that of the creeping shaft.

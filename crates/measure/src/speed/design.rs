@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::matrix::Memory;
-use super::plan::{Data, Knot, Lively, Noise, Plan};
+use super::plan::{Data, Knot, Knots, Noise, Plan};
 use super::track::{Track, mixed};
 use crate::pulse::Pulses;
 
@@ -121,7 +121,7 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
                 memory,
             },
             quiet: [1e-9 * change * data.unit; 3],
-            lively: Some(Lively {
+            transient: Some(Knots {
                 engage,
                 lock: data.units(duration) + late * length,
                 change: change * data.unit,

@@ -1,11 +1,11 @@
 //! Angle, speed and acceleration of a shaft from the pulses of its wheel, or from a speed that an instrument shows.
 //!
 //! ```text
-//! pulses ─▶ quiet parts: noise and liveliness by likelihood ─▶ knots: engagement and end, by likelihood
+//! pulses ─▶ quiet parts: noise and density of the snap by likelihood ─▶ knots: engagement and end, by likelihood
 //!        ─▶ filter and smoother, averaged over what the likelihood leaves open ─▶ state and covariance at any instant
 //! ```
 //! The motion is a cubic of time whose snap is white noise: a spline of the seventh degree through the pulses, as stiff as
-//! the pulses themselves ask for. A quick change of speed (a clutch that engages) has its own liveliness between two knots,
+//! the pulses themselves ask for. A quick change of speed (a clutch that engages) has its own density of the snap between two knots,
 //! at which acceleration and jerk may jump. From rest the speed is zero until the engagement, the angle is anywhere
 //! between two marks, and what jumps first drives the shaft forward. How softly a clutch began before its first marks is
 //! open: starts without a jump, with one of the jerk and with one of the acceleration are all carried along, and the
@@ -49,7 +49,7 @@ use stiffest::Stiffest;
 use stop::Stop;
 use too_few::{carried, enough, needed, seen, stated};
 
-/// Part of the pulses that are in step with the sampling from which on it is told.
+/// Part of the pulses that are in step with the sampling from which on it is reported.
 const IN_STEP: f64 = 0.4;
 
 /// Fewest pulses that are smoothed at all.

@@ -1,10 +1,10 @@
-//! What the pulses of a record without a quick change cannot tell better than: the deviations of the stiffest fit.
+//! The least deviations of a record without a quick change: those of the stiffest fit.
 //!
 //! ```text
 //! φ(t) = Σₖ cₖ xᵏ, k = 0 … 3, by least squares through all pulses;  x = (t - t̄)/h;  weights 1/(Ω u)²
 //! ```
 //! The smoothing spline of a speed that changes evenly becomes this cubic; its own covariance is then a difference of numbers
-//! that are nearly alike and may be lost in rounding. A spline that is less stiff tells less, so that the larger deviation
+//! that are nearly alike and may be lost in rounding. A spline that is less stiff leaves more open, so that the larger deviation
 //! of the two is the true one.
 //!
 //! **Does not model**: errors of the marks, and noise of the instants that is correlated.

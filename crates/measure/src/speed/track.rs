@@ -5,7 +5,7 @@
 //! e      of pulses: error of the instants with a memory, a first-order Markov process; of a speed channel: what its instrument
 //!        shows of the speed, ė = (speed - e)/τ
 //! pulse  z = angle + speed e + noise of variance r;   channel  z = e + noise, or speed + noise where the instrument has no lag
-//! knot   variance added to any state at an instant: what it was before tells less, or nothing, of what it is after
+//! knot   variance added to any state at an instant: what it is after follows less, or not at all, from what it was before
 //! ```
 //! Forward: a Kalman filter. Backward: the adjoint recursion of Bryson and Frazier, which inverts no matrix, so that a
 //! start from rest with exactly known speed, and intervals of any length, do no harm.
@@ -54,7 +54,7 @@ impl Update {
     }
 }
 
-/// What a pass forward tells of the start.
+/// What follows from a pass forward.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
     /// Logarithm of the likelihood, up to a constant.
@@ -285,7 +285,7 @@ impl Track {
 
     /// Belief at an instant not before the first node.
     ///
-    /// Among the first pulses what was open and what they tell nearly cancel: there the motion is no better known than behind them.
+    /// Among the first pulses what was open and what they show nearly cancel: there the motion is no better known than behind them.
     fn within(&self, time: f64) -> Belief {
         let mut belief = self.smoothed(time);
         if let Some(settled) = self.settled(time) {
