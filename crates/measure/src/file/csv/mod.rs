@@ -276,7 +276,7 @@ impl<S: Read + Seek> Csv<S> {
         slack
     }
 
-    /// Reads the cells of a line into a row; whether it is one of values.
+    /// Reads the cells of a line into a row; returns whether it is one of values.
     fn take_row(
         &mut self,
         line: &[u8],

@@ -102,7 +102,7 @@ impl<S: Read + Seek> Mat5<S> {
         Ok(file)
     }
 
-    /// Fills `values` from the index `first` on; whether all were there.
+    /// Fills `values` from the index `first` on; returns whether all were there.
     fn fill(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<bool, FileError> {
         values.fill(f64::NAN);
         let layout = &self.values[channel];

@@ -108,7 +108,7 @@ impl Cursor {
         }
     }
 
-    /// Goes forward to a row; whether it is there.
+    /// Goes forward to a row; returns whether it is there.
     pub fn go_to(&mut self, row: u64) -> Result<bool, ParquetError> {
         let rows = row.saturating_sub(self.row) as usize;
         if rows == 0 {
