@@ -12,6 +12,7 @@ use crate::dissipation::spin_up_window;
 use crate::measurement::Measurement;
 use crate::moment::{SteadyMoment, same_load};
 use crate::series::{RunningVariance, median, trapezoid};
+use measure::normal::MEDIAN_OF_SIZE;
 use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 
@@ -349,7 +350,7 @@ fn cage_ratio(
     }
     let middle = median(&ratios);
     let away: Vec<f64> = ratios.iter().map(|r| (r - middle).abs()).collect();
-    let spread = median(&away) / 0.6745;
+    let spread = median(&away) / MEDIAN_OF_SIZE;
     Some(Uncertain::new(middle, spread.max(median(&deviations))))
 }
 

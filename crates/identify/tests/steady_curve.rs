@@ -106,9 +106,12 @@ fn the_inertia_shifts_the_whole_curve() {
 }
 
 /// Two runs of the same torque differ by chance only; with 1 N mm between them they differ.
+///
+/// Of 400 pairs with 1 N mm between them 4 have a chance above 1 %: the mean of a difference is known to 0.09 to 0.28 N mm, as the
+/// noise of the pair seems correlated, and where it is known worst 1 N mm is 3.5 deviations in one of some directions.
 #[test]
 fn up_and_down_are_distinguished() {
-    let mut small = 0;
+    let (mut small, mut missed) = (0, 0);
     for seed in 0..40 {
         let curve = |seed, offset| {
             let (speeds, torques) = coasted(seed, offset);
@@ -119,11 +122,13 @@ fn up_and_down_are_distinguished() {
         small += usize::from(same.chance < 0.05);
         let other =
             compare(&curve(500 + seed, 1.0), &curve(700 + seed, 0.0)).expect("common speeds");
-        assert!(other.chance < 0.05, "{}", other.chance);
+        missed += usize::from(other.chance >= 0.01);
         assert!((other.mean.value - 1.0).abs() < 4.0 * other.mean.deviation);
     }
-    // 2 of 40 are expected at 5 %; 8 or more come once in 2000.
+    // 2 of 40 are expected at 5 %; 8 or more come once in 1400.
     assert!(small < 8, "{small}");
+    // 0.4 are expected; 3 or more come once in 130.
+    assert!(missed < 3, "{missed}");
 }
 
 /// Torque of a drive that is known, N mm.

@@ -2,6 +2,9 @@
 
 use std::f64::consts::{SQRT_2, TAU};
 
+/// Median of |x| of normal numbers of mean 0 and deviation 1: a deviation that outliers hardly move is a median over this.
+pub const MEDIAN_OF_SIZE: f64 = 0.6745;
+
 /// Probability that a normal number of mean 0 and deviation 1 is below z.
 pub fn below(z: f64) -> f64 {
     0.5 * libm::erfc(-z / SQRT_2)

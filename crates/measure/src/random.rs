@@ -52,16 +52,18 @@ mod tests {
 
     #[test]
     fn the_sequence_fills_evenly() {
-        // mean 0 and variance 1 of 512 points, closer than 1/√512 = 0.044, what pseudo-random numbers scatter by; of base
-        // 11 the last block of 121 is not full
-        for dimension in [0, 1, 4] {
-            let points: Vec<f64> = (1..=512).map(|k| quasi_normal(k, dimension)).collect();
-            let mean = points.iter().sum::<f64>() / 512.0;
-            let square = points.iter().map(|x| x * x).sum::<f64>() / 512.0;
-            assert!(
-                mean.abs() < 0.04 && (square - 1.0).abs() < 0.06,
-                "{mean} {square}"
-            );
+        // the first n = b^k points are i/n, i from 1 to n - 1, which cancel about ½, and 1/(b n): their sum is its normal number;
+        // the variance lacks or has too much what lies beyond 1/(2n) at both ends, 2 (c φ(c) + Q(c)), about (c² + 2)/n
+        for (dimension, power) in [(0, 9), (1, 6), (4, 3)] {
+            let base = BASES[dimension];
+            let count = base.pow(power);
+            let n = count as f64;
+            let points: Vec<f64> = (1..=count).map(|k| quasi_normal(k, dimension)).collect();
+            let mean = points.iter().sum::<f64>() / n;
+            let square = points.iter().map(|x| x * x).sum::<f64>() / n;
+            let ends = (quantile(0.5 / n).powi(2) + 2.0) / n;
+            assert!((mean - quantile(1.0 / (base as f64 * n)) / n).abs() < 1e-12);
+            assert!((square - 1.0).abs() < ends, "{square} {ends}");
         }
     }
     #[test]

@@ -93,16 +93,16 @@ fn what_is_no_value_is_reported_with_column_and_line() {
 
 /// A file that was cut inside its last number has no line end behind it; nothing else shows it.
 #[test]
-fn a_last_line_without_its_end_is_told() {
+fn a_last_line_without_its_end_is_reported() {
     let whole = "time [s],force [N]\n0,1\n1,2\n2,1433.5\n";
-    let told = |text: &str| notes(&open(text)).contains("last line, 4, has no line end");
-    assert!(!told(whole));
-    assert!(!told(&whole.replace('\n', "\r\n")));
-    assert!(!told(&whole.replace('\n', "\r")));
-    assert!(told(&whole[..whole.len() - 1]));
-    assert!(told(&whole[..whole.len() - 5]));
+    let reported = |text: &str| notes(&open(text)).contains("last line, 4, has no line end");
+    assert!(!reported(whole));
+    assert!(!reported(&whole.replace('\n', "\r\n")));
+    assert!(!reported(&whole.replace('\n', "\r")));
+    assert!(reported(&whole[..whole.len() - 1]));
+    assert!(reported(&whole[..whole.len() - 5]));
     // a remark behind the table is none of its lines
-    assert!(!told(&format!("{whole}# end")));
+    assert!(!reported(&format!("{whole}# end")));
 }
 
 #[test]

@@ -129,11 +129,12 @@ fn a_group_whose_message_of_members_is_lost_is_noted() {
     for at in found {
         let mut changed = whole.clone();
         changed[at] = 0x16;
-        let told = notes(&open(changed).unwrap());
+        let found = notes(&open(changed).unwrap());
         assert!(
-            told.iter()
+            found
+                .iter()
                 .any(|note| note.contains("names neither members nor values")),
-            "{at}: {told:?}"
+            "{at}: {found:?}"
         );
     }
 }

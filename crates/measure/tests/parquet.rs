@@ -219,8 +219,8 @@ fn a_page_that_contradicts_its_checksum_is_not_read() {
         }
     }
     let name = &file.channels()[damaged[0]].name;
-    let told = |note: &measure::recording::Note| {
+    let reported = |note: &measure::recording::Note| {
         note.channel.as_ref() == Some(name) && note.text.contains("checksum")
     };
-    assert!(file.notes().iter().any(told), "{:?}", file.notes());
+    assert!(file.notes().iter().any(reported), "{:?}", file.notes());
 }

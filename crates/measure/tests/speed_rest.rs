@@ -7,8 +7,7 @@ mod synthetic;
 
 use made::pulses;
 use measure::pulse::{Edges, Wheel, number};
-use measure::speed::{Speed, SpeedSettings, smooth};
-use synthetic::Random;
+use measure::speed::{SpeedSettings, smooth};
 
 /// Speed and angle on a fine grid of a shaft that friction brakes, `rate` rad/s² and even down to a creeping that dies away
 /// at some tenths of a rad/s, after a torque over time of its own, rad/s².
@@ -142,106 +141,4 @@ fn a_turning_shaft_is_found_before_its_first_mark_with_its_band() {
         // The band of the first mark, not that of a shaft whose state is known.
         assert!(earlier.speed_uncertainty() > 0.9 * now.speed_uncertainty());
     }
-}
-
-/// Asserts that paths drawn at random have the mean and the deviations of the motion at each instant, and that the covariance
-/// of an instant with itself is that of the motion.
-fn drawn_as_given(speed: &Speed, times: &[f64], many: usize) {
-    let mut random = Random::new(5);
-    let paths: Vec<Vec<[f64; 3]>> = (0..many)
-        .map(|_| {
-            let uniform = random.uniform();
-            speed.draw(times, uniform, &mut || random.normal())
-        })
-        .collect();
-    for (k, &time) in times.iter().enumerate() {
-        let motion = speed.at(time);
-        let wanted = [motion.angle, motion.speed, motion.acceleration];
-        let own = speed.covariance(time, time);
-        for i in 0..3 {
-            let deviation = motion.covariance[i][i].sqrt();
-            assert!(
-                (own[i][i].max(0.0).sqrt() - deviation).abs() < 1e-4 * deviation + 1e-9,
-                "{time} {i}: {} {deviation}",
-                own[i][i].sqrt()
-            );
-            let mean = paths.iter().map(|path| path[k][i]).sum::<f64>() / many as f64;
-            let square = paths
-                .iter()
-                .map(|path| (path[k][i] - mean).powi(2))
-                .sum::<f64>();
-            let spread = (square / many as f64).sqrt();
-            println!(
-                "{time:.4} {i}: {:.4} ± {deviation:.4}, drawn {mean:.4} ± {spread:.4}",
-                wanted[i]
-            );
-            // Four deviations of a mean of so many; of a deviation, which the tails of a mixture make twice as uncertain.
-            let few = 4.0 / (many as f64).sqrt();
-            assert!(
-                (mean - wanted[i]).abs() < few * deviation + 1e-9,
-                "{time} {i}"
-            );
-            assert!(
-                (spread - deviation).abs() < 2.0 * few / 2f64.sqrt() * deviation + 1e-9,
-                "{time} {i}: {spread} {deviation}"
-            );
-        }
-    }
-}
-
-#[test]
-fn paths_from_rest_to_rest_are_drawn_as_the_motion_is_given() {
-    // A clutch from 0.2 s on brings the shaft to 40 rad/s in 0.2 s against 40 rad/s², then lets go.
-    let clutch = |t: f64| {
-        if (0.2..0.4).contains(&t) {
-            480.0 * (t - 0.2) / 0.2
-        } else {
-            0.0
-        }
-    };
-    let truth = Braked::new(0.0, 40.0, 3.0, clutch);
-    let train = pulses(36, 3.0, 5e-6, 2, |t| truth.of(&truth.angle, t));
-    let speed = smooth(&train, None, &SpeedSettings::default()).unwrap();
-    let change = speed.change.unwrap();
-    let (engagement, first) = (change.engagement.0, train.times[0]);
-    // Rest, the engagement, what lies hidden before the first mark, and the change.
-    drawn_as_given(
-        &speed,
-        &[0.1, engagement, 0.5 * (engagement + first), first, 0.33],
-        1000,
-    );
-    // The last interval, the stop and behind it.
-    let n = train.times.len();
-    let (before, last) = (train.times[n - 2], train.times[n - 1]);
-    drawn_as_given(
-        &speed,
-        &[
-            0.5 * (before + last),
-            last,
-            last + 0.03,
-            last + 0.1,
-            last + 0.5,
-        ],
-        600,
-    );
-    // What a stop hides is one error: neighbours behind it err together.
-    let pair = speed.covariance(last + 0.03, last + 0.031)[1][1];
-    let alone = speed.at(last + 0.03).covariance[1][1];
-    assert!(pair > 0.8 * alone && pair < 1.2 * alone, "{pair} {alone}");
-}
-
-#[test]
-fn paths_of_a_turning_shaft_are_drawn_before_its_first_mark_too() {
-    let train = pulses(12, 1.0, 5e-5, 4, |t| 60.0 * t + 20.0 * t * t - 0.5);
-    let speed = smooth(&train, None, &SpeedSettings::default()).unwrap();
-    let first = train.times[0];
-    drawn_as_given(&speed, &[0.0, 0.5 * first, first, first + 0.01], 800);
-    let (there, back) = (speed.covariance(0.0, first), speed.covariance(first, 0.0));
-    assert_eq!(there[1][2], back[2][1]);
-    // The speed before the first mark is that at it, but for what changed since.
-    let alone = (speed.at(0.0).covariance[1][1] * speed.at(first).covariance[1][1]).sqrt();
-    assert!(
-        there[1][1] > 0.5 * alone && there[1][1] < alone,
-        "{there:?} {alone}"
-    );
 }

@@ -95,11 +95,13 @@ mod tests {
     #[test]
     fn a_polynomial_is_as_wide_as_the_level_and_costs_nothing_else() {
         for order in [2, 3] {
-            // level and differences are powers of 2, so that the differences of a constant are 0 and not what rounding leaves of them
-            let precision = &precisions(4.0, order, &[0.125])[0];
-            let cost = |c: &DVector<f64>| c.dot(&(precision * c));
-            // a constant of the level: (c/level)² = 1; entries of some 80 round at 1e-14 and meet 256 products of 16
-            assert!((cost(&DVector::repeat(SPLINES, 4.0)) - 1.0).abs() < 1e-10);
+            let [wide, narrow] = &precisions(4.0, order, &[8.0, 0.125])[..] else {
+                unreachable!("two");
+            };
+            let of = |precision: &DMatrix<f64>, c: &DVector<f64>| c.dot(&(precision * c));
+            // a constant of the level: (c/level)² = 1; the differences, whose precisions are 0.02 at most, leave 1e-14 of rounding
+            assert!((of(wide, &DVector::repeat(SPLINES, 4.0)) - 1.0).abs() < 1e-12);
+            let cost = |c: &DVector<f64>| of(narrow, c);
             // i^order has differences of order!: all but `order` of them, over 1/8 of the level, and what a polynomial of lower
             // degree has of it, at most (15^order/4)²
             let power = DVector::from_fn(SPLINES, |i, _| (i as f64).powi(order as i32));

@@ -21,7 +21,7 @@ mod fit;
 mod lab;
 
 use identify::explain::{Assessment, Conclusion, Explanation, Priors, Settings, Verdict, explain};
-use lab::{Campaign, Chance, Truth};
+use lab::{Campaign, Chance, ENGAGEMENT, Truth};
 
 fn campaign(explanation: Explanation, seed: u64) -> Campaign {
     let mut chance = Chance::new(1000 * explanation as u64 + seed + 1);
@@ -73,22 +73,24 @@ pub fn runs() -> u64 {
 fn what_the_winner_predicts_lies_on_the_means() {
     let campaign = campaign(Explanation::Grease, 0);
     let verdict = judge(&campaign);
+    // the run-ups aside, of 20 to 180 ms, in which the torque rises within one mean
     let off = |assessment: &Assessment| {
         let pairs = verdict
             .torque_means
             .iter()
-            .zip(&assessment.predicted_torque);
+            .zip(&assessment.predicted_torque)
+            .filter(|(mean, _)| mean.from > ENGAGEMENT + 0.2);
         let squares = pairs.map(|(mean, predicted)| (mean.torque - predicted).powi(2));
-        (squares.sum::<f64>() / verdict.torque_means.len() as f64).sqrt()
+        squares.sum::<f64>().sqrt()
     };
     assert_eq!(verdict.torque_means.len(), verdict.means.0);
     let best = verdict.ranked()[0];
     assert_eq!(best.explanation, Explanation::Grease);
     assert_eq!(best.predicted_torque.len(), verdict.means.0);
-    // effects are 15 to 40 % of M, what is common to a test and not taken out a few per cent
+    // effects are 15 to 40 % of M and half of that in the mean over a test; zero and scale, which are not taken out, 3 %
     let rolling = verdict.of(Explanation::Rolling);
     assert!(
-        2.0 * off(best) < off(rolling),
+        3.0 * off(best) < off(rolling),
         "{} {}",
         off(best),
         off(rolling)

@@ -1,6 +1,7 @@
 //! Deviation of the cage angle from that of a rolling cage, smoothed.
 
 use super::CageSpeed;
+use crate::normal::MEDIAN_OF_SIZE;
 use crate::shaft::Shaft;
 use crate::simplex;
 use crate::state_space::{Filter, Observation, colour};
@@ -232,7 +233,7 @@ impl Deviations<'_> {
         }
         seconds.sort_by(f64::total_cmp);
         let middle = seconds.get(seconds.len() / 2).copied().unwrap_or(1.0);
-        let noise = (middle / 0.6745).powi(2) / 6.0;
+        let noise = (middle / MEDIAN_OF_SIZE).powi(2) / 6.0;
         let usual = USUAL_CHANGE * rolling.max(1e-9);
         // Integrated random walk: ω = √(q t³/3).
         let slow = 3.0 * usual * usual / USUAL_TIME.powi(3);

@@ -1,6 +1,6 @@
 //! How a column of times, or a number beside the values, becomes a clock.
 //!
-//! Formats without a clock of their own (text, MAT, HDF5, Parquet) tell the times as a channel of values, or as a rate
+//! Formats without a clock of their own (text, MAT, HDF5, Parquet) have the times as a channel of values, or as a rate
 //! or an interval by a name that is usual in the field.
 
 use crate::recording::{Channel, Clock, Content, Note, Property, Recording, Value};
@@ -72,7 +72,7 @@ pub(crate) fn is_time_name(name: &str) -> bool {
     TIME_NAMES.contains(&plain(name).as_str())
 }
 
-/// The interval, s, that a number of this name tells: a rate in 1/s or an interval in s; none for other names, and
+/// The interval, s, that a number of this name states: a rate in 1/s or an interval in s; none for other names, and
 /// for numbers that are no interval.
 pub(crate) fn interval_of(name: &str, value: f64) -> Option<f64> {
     let name = plain(name);
@@ -219,24 +219,24 @@ fn group_of(name: &str) -> &str {
     name.rfind('/').map_or("", |end| &name[..=end])
 }
 
-/// The clock that a property in the group of a channel, or in a group around it, tells, and the property's name.
-fn told_by<'a>(properties: &'a [Property], channel: &Channel) -> Option<(f64, &'a str)> {
+/// The clock that a property in the group of a channel, or in a group around it, states, and the property's name.
+fn stated_by<'a>(properties: &'a [Property], channel: &Channel) -> Option<(f64, &'a str)> {
     let around =
         |property: &&Property| group_of(&channel.name).starts_with(group_of(&property.name));
-    let told = properties.iter().filter(around).filter_map(|property| {
+    let stated = properties.iter().filter(around).filter_map(|property| {
         let Value::Number(value) = property.value else {
             return None;
         };
         let interval = interval_of(&property.name, value)?;
         Some((interval, &*property.name))
     });
-    told.max_by_key(|(_, name)| group_of(name).len())
+    stated.max_by_key(|(_, name)| group_of(name).len())
 }
 
 /// Clocks for the channels of a file that have none: from a channel of times in the same group or one around it, or
 /// else from a property such as `fs`; with what is to be noted.
 ///
-/// `rounding` tells for each channel how its values are rounded, as a part of them; none for a channel whose values are
+/// `rounding`: for each channel how its values are rounded, as a part of them; none for a channel whose values are
 /// not to be looked at.
 pub(crate) fn clocks(
     file: &mut dyn Recording,
@@ -280,7 +280,7 @@ pub(crate) fn clocks(
         .enumerate()
         .filter(|(index, _)| open[*index])
     {
-        if let Some((interval, origin)) = told_by(properties, channel) {
+        if let Some((interval, origin)) = stated_by(properties, channel) {
             let first = 0.0;
             clocks.push((index, Clock::Uniform { first, interval }));
             match origins.iter_mut().find(|(known, _)| *known == origin) {
@@ -377,7 +377,7 @@ mod tests {
     }
 
     #[test]
-    fn a_time_that_goes_back_is_told_with_its_index() {
+    fn a_time_that_goes_back_is_reported_with_its_index() {
         let found = spacing(&[0.0, 1.0, 2.0, 1.5, 2.5, 2.4], 0.0);
         assert_eq!(found.back, Some((3, 2)));
         assert_eq!(found.uniform(), None);

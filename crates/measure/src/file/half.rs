@@ -17,7 +17,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn half_precision_as_its_standard_tells() {
+    fn half_precision_by_its_standard() {
         // Examples of IEEE 754 binary16: one, smallest subnormal, largest, minus two, infinity.
         let cases = [
             (0x3c00, 1.0),

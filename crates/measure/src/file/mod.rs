@@ -108,7 +108,7 @@ impl fmt::Display for Format {
 /// Opens a file, which the path names in messages.
 type Open = fn(File, &Path) -> Result<Box<dyn Recording>, FileError>;
 
-/// One format: how its first bytes are told, and how a file of it is opened.
+/// One format: how it is recognised by its first bytes, and how a file of it is opened.
 struct Row {
     format: Format,
     recognise: fn(&[u8]) -> bool,
@@ -209,7 +209,7 @@ pub fn open(path: impl AsRef<Path>) -> Result<Box<dyn Recording>, FileError> {
     (row.open)(source.into_inner(), path)
 }
 
-/// Starts a file of the channels; the extension of its name tells the format.
+/// Starts a file of the channels; the extension of its name decides the format.
 ///
 /// The counts of the channels do not matter: the values that are appended count.
 pub fn create(path: impl AsRef<Path>, channels: &[Channel]) -> Result<Box<dyn Writer>, FileError> {

@@ -3,8 +3,8 @@
 //! ```text
 //! file = head, chunk, chunk, …        chunk = name (4 bytes), length (4 bytes), content, a byte to make it even
 //! ```
-//! The chunk `fmt ` tells rate, channels and type, the chunk `data` holds the values, one of each channel after the other.
-//! Whole numbers are brought to the range −1 to below 1, as other programs do; 8 bits are unsigned. The start is not told
+//! The chunk `fmt ` states rate, channels and type, the chunk `data` holds the values, one of each channel after the other.
+//! Whole numbers are brought to the range −1 to below 1, as other programs do; 8 bits are unsigned. The start is not stated
 //! by the format, except in the `bext` chunk, whose date has no zone and is therefore left a text.
 //!
 //! Source: Microsoft and IBM, "Multimedia Programming Interface and Data Specifications 1.0" (1991); Microsoft,
@@ -45,7 +45,7 @@ impl Kind {
     }
 }
 
-/// What the chunk `fmt ` tells.
+/// What the chunk `fmt ` states.
 #[derive(Clone, Copy, Debug)]
 struct Layout {
     kind: Kind,
@@ -89,7 +89,7 @@ const MOST: usize = 100;
 impl<S: Read + Seek> Wav<S> {
     /// Reads the head of a file, which `path` names in messages.
     ///
-    /// An error where it is no WAV, tells no type of values that can be read, or has no values.
+    /// An error where it is no WAV, states no type of values that can be read, or has no values.
     pub fn from_source(source: S, path: &Path) -> Result<Wav<S>, FileError> {
         let mut source = Source::new(source, path)?;
         let head = source.bytes(0, source.length().min(12))?;
@@ -159,18 +159,18 @@ impl Chunks {
                 break;
             };
             let name = [n0, n1, n2, n3];
-            let told = u64::from(if big {
+            let stated = u64::from(if big {
                 u32::from_be_bytes(l)
             } else {
                 u32::from_le_bytes(l)
             });
             let body = at + 8;
             let there = source.length() - body;
-            let told = match chunks.long {
-                Some(long) if &name == b"data" && told == u64::from(u32::MAX) => long,
-                _ => told,
+            let stated = match chunks.long {
+                Some(long) if &name == b"data" && stated == u64::from(u32::MAX) => long,
+                _ => stated,
             };
-            let length = told.min(there);
+            let length = stated.min(there);
             match &name {
                 b"ds64" => {
                     let bytes = source.bytes(body, length.min(24))?;
@@ -188,7 +188,7 @@ impl Chunks {
                     })?);
                 }
                 b"data" if chunks.data.is_none() => {
-                    chunks.data = Some((body, chunks.values(told, there)))
+                    chunks.data = Some((body, chunks.values(stated, there)))
                 }
                 b"data" => chunks.note("has a second chunk of values, which is left out"),
                 b"LIST" => chunks.remarks(&source.bytes(body, length.min(REMARKS))?, big),
@@ -196,7 +196,7 @@ impl Chunks {
                 _ => {}
             }
             // Chunks begin at even places.
-            at = body.saturating_add(told).saturating_add(told % 2);
+            at = body.saturating_add(stated).saturating_add(stated % 2);
         }
         Ok(chunks)
     }
@@ -223,18 +223,18 @@ impl Chunks {
         }
     }
 
-    /// Bytes of values that can be read where `told` are told and `there` are there.
-    fn values(&mut self, told: u64, there: u64) -> u64 {
-        if told == u64::from(u32::MAX) || (told == 0 && there > 0) {
+    /// Bytes of values that can be read where `stated` are stated and `there` are there.
+    fn values(&mut self, stated: u64, there: u64) -> u64 {
+        if stated == u64::from(u32::MAX) || (stated == 0 && there > 0) {
             self.note("the length of the values was never entered: what is there is read");
             return there;
         }
-        if told > there {
+        if stated > there {
             self.note(format!(
-                "the values are cut off: {told} bytes are stated, {there} are there"
+                "the values are cut off: {stated} bytes are stated, {there} are there"
             ));
         }
-        told.min(there)
+        stated.min(there)
     }
 
     /// Keeps the remarks of a list: title, author, device, date and the like, by their four letters.
@@ -270,7 +270,7 @@ impl Chunks {
     }
 }
 
-/// What the chunk `fmt ` tells; or why its values cannot be read.
+/// What the chunk `fmt ` states; or why its values cannot be read.
 fn layout(bytes: &[u8], big: bool) -> Result<Layout, String> {
     let short = |at: usize| -> Result<u16, String> {
         let raw = bytes
@@ -289,7 +289,7 @@ fn layout(bytes: &[u8], big: bool) -> Result<Layout, String> {
     );
     let rate = high << 16 | low;
     let (channels, row, bits) = (short(2)?, u64::from(short(12)?), short(14)?);
-    // The extensible format tells the type in the first bytes of its identifier.
+    // The extensible format has the type in the first bytes of its identifier.
     let code = match short(0)? {
         0xfffe => short(24)?,
         code => code,

@@ -6,6 +6,7 @@
 
 use super::level::Levels;
 use super::median;
+use crate::normal::MEDIAN_OF_SIZE;
 
 /// A crossing of the middle, in samples.
 pub(super) struct Passing {
@@ -355,10 +356,9 @@ fn learn(samples: &[f64], found: &[Passing], pupils: &[(usize, f64)], scale: f64
         })
         .collect();
     let steepest = away.iter().map(|a| a.1).fold(0.0, f64::max);
-    // The median of |x| is 0.6745 standard deviations for normal x.
     let deviation = |least: f64| {
         let mut sizes: Vec<f64> = away.iter().filter(|a| a.1 >= least).map(|a| a.0).collect();
-        median(&mut sizes) / 0.6745
+        median(&mut sizes) / MEDIAN_OF_SIZE
     };
     (shape.scatter, shape.steep_scatter) = (deviation(0.0).max(1e-3), deviation(0.5 * steepest));
     shape.steepest = steepest.max(1e-12);

@@ -22,6 +22,7 @@
 
 use super::{Pulses, median};
 use crate::linear::solved;
+use crate::normal::MEDIAN_OF_SIZE;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 use std::f64::consts::TAU;
@@ -158,8 +159,7 @@ impl Correlated {
     fn scatter_beside(&self, period: usize) -> f64 {
         let others = (3..=self.largest()).filter(|&other| common(other, period) == 1);
         let mut sizes: Vec<f64> = others.filter_map(|p| self.comb(p)).map(f64::abs).collect();
-        // The median of |x| is 0.6745 standard deviations for normal x.
-        (median(&mut sizes) / 0.6745).max(1.0)
+        (median(&mut sizes) / MEDIAN_OF_SIZE).max(1.0)
     }
 
     /// Mean correlation over the multiples of a number that are none of another; none where no lag counts.

@@ -1,5 +1,6 @@
 //! Errors of the wheel, from its own pulses.
 
+use crate::normal::MEDIAN_OF_SIZE;
 use std::f64::consts::TAU;
 
 use super::{Pulses, Refusal, median};
@@ -186,7 +187,7 @@ fn without_outliers(sights: &mut Vec<Sight>, places: usize) -> (Vec<f64>, Vec<us
         .iter()
         .map(|s| (s.value - medians[s.place]).abs())
         .collect();
-    let usual = median(&mut away) / 0.6745;
+    let usual = median(&mut away) / MEDIAN_OF_SIZE;
     if values
         .iter()
         .filter(|v| !v.is_empty())
@@ -223,8 +224,7 @@ fn odd(errors: &[f64], seen: &[usize]) -> Option<usize> {
     if sizes.len() < 8 {
         return None;
     }
-    // The median of |x| is 0.6745 standard deviations for normal x.
-    let usual = median(&mut sizes) / 0.6745;
+    let usual = median(&mut sizes) / MEDIAN_OF_SIZE;
     let (at, error) = errors
         .iter()
         .enumerate()

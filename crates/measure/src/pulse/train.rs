@@ -4,6 +4,7 @@ use super::gap::{LONG, count as count_over, is_sure};
 use super::undersampled::undersampled;
 use super::wheel::Wheel;
 use super::{Edges, Flank, Gap, Refusal, median};
+use crate::normal::MEDIAN_OF_SIZE;
 
 /// Passages with the number of the mark that passed.
 #[derive(Clone, Debug, PartialEq)]
@@ -285,8 +286,7 @@ fn without_strays(
             expected.abs()
         })
         .collect();
-    // The median of |x| is 0.6745 standard deviations for normal x.
-    let usual = median(&mut away.clone()) / 0.6745;
+    let usual = median(&mut away.clone()) / MEDIAN_OF_SIZE;
     let stray = |k: usize| {
         let near = &away[k.saturating_sub(2)..(k + 3).min(away.len())];
         away[k] > 0.1f64.max(8.0 * usual) && near.iter().all(|&other| other <= away[k])

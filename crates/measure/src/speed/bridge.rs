@@ -9,7 +9,7 @@
 //!
 //! **Does not model**: a shaft that brakes and speeds up again unseen.
 
-use super::{Motion, Speed};
+use super::motion::Motion;
 use crate::pulse::{Gap, Pulses};
 
 /// A silence, with the motion on both sides.
@@ -23,11 +23,12 @@ pub(super) struct Bridge {
 }
 
 impl Bridge {
-    pub fn all(pulses: &Pulses, speed: &Speed) -> Vec<Bridge> {
+    /// Those of a record, given its motion.
+    pub fn all(pulses: &Pulses, motion: impl Fn(f64) -> Motion) -> Vec<Bridge> {
         let of = |gap: &Gap| Bridge {
             gap: *gap,
-            begin: speed.at(gap.from),
-            end: speed.at(gap.to),
+            begin: motion(gap.from),
+            end: motion(gap.to),
             pitch: pulses.pitch(),
         };
         pulses.gaps.iter().map(of).collect()

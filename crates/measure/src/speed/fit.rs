@@ -1,18 +1,18 @@
 //! Noises and densities from the pulses themselves, and a quick change at first sight.
 
-use super::Transient;
 use super::matrix::Memory;
-use super::plan::{Data, Livelier, Noise, Passage, Plan};
+use super::plan::{Data, Noise, Passage, Plan, Unsteady};
+use super::settings::Transient;
 use crate::simplex;
 
 /// Passages in one stretch of a quiet part whose likelihood is taken.
 pub(super) const STRETCH: usize = 80;
 
-/// Part of the change of speed that lies before its end. What follows may settle as lively as the change itself was; without
-/// this the change would end where it first calms down, and too few pulses would tell how lively it is.
+/// Part of the change of speed that lies before its end. What follows may be as unsteady as the change itself was; without
+/// this the change would end where it first calms down, with too few pulses for the density of its snap.
 const MOST: f64 = 0.85;
 
-/// A lively part as it looks at first sight.
+/// A quick change as it looks at first sight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sight {
     pub engage: f64,
@@ -28,6 +28,29 @@ pub(super) struct Sight {
     pub change: f64,
     /// Whether the end lies within the record.
     pub ends: bool,
+}
+
+impl Sight {
+    /// A change by `change` between two instants, most of which has come at a third.
+    pub(super) fn new(
+        data: &Data,
+        (engage, most, lock): (f64, f64, f64),
+        rests: bool,
+        change: f64,
+    ) -> Sight {
+        let first = data.passages.partition_point(|p| p.time <= engage);
+        let after = data.passages.partition_point(|p| p.time < lock);
+        Sight {
+            engage,
+            lock,
+            most: most.min(lock),
+            first,
+            after,
+            rests,
+            change,
+            ends: after + 3 < data.passages.len(),
+        }
+    }
 }
 
 /// Looks for the steepest rise of speed.
@@ -97,18 +120,8 @@ pub(super) fn sight(data: &Data, wanted: &Transient) -> Option<Sight> {
             return None;
         }
     }
-    let first = all.partition_point(|p| p.time <= engage);
-    let after = all.partition_point(|p| p.time < lock);
-    Some(Sight {
-        engage,
-        lock,
-        most: all[from + most].time.min(lock),
-        first,
-        after,
-        rests,
-        change,
-        ends: after + 3 < n,
-    })
+    let most = all[from + most].time;
+    Some(Sight::new(data, (engage, most, lock), rests, change))
 }
 
 /// Noise of a rough speed, as a part of it, that first sight bears: a quarter of what it looks at.
@@ -173,6 +186,16 @@ pub(super) fn stretches(range: std::ops::Range<usize>) -> Vec<std::ops::Range<us
         .collect()
 }
 
+/// Density that changes a speed by a thousandth over a hundred intervals.
+pub(super) fn usual_density(speed: f64) -> f64 {
+    1e-12 * speed * speed
+}
+
+/// How far the logarithm of a density is from what is expected before anything is seen, as a square; a weak belief.
+pub(super) fn unusual(log_density: f64, speed: f64) -> f64 {
+    ((log_density - (1e-6 * speed).ln()) / 14.0).powi(2)
+}
+
 /// Noise and density of a quiet part by their likelihood, with a weak belief about the noise.
 pub(super) fn quiet(data: &Data, range: std::ops::Range<usize>) -> (Noise, f64) {
     let parts = stretches(range);
@@ -197,26 +220,16 @@ pub(super) fn quiet(data: &Data, range: std::ops::Range<usize>) -> (Noise, f64) 
         memory: Memory::of_clock(stated * x[1].exp(), (-x[2]).exp()),
     };
     let cost = |x: &[f64; 4]| {
-        let plan = Plan {
-            noise: noise(x),
-            quiet: [x[3].exp(); 3],
-            lively: None,
-            settled: 0.0,
-            rests: false,
-        };
-        let fit: f64 = parts
-            .iter()
-            .map(|part| plan.likelihood(data, part.clone()))
-            .sum();
+        let plan = Plan::steady(noise(x), x[3].exp());
+        let fit = plan.likelihood_in(data, &parts);
         let belief = (x[0] / if data.calibrated { 1.0 } else { 1.5 }).powi(2)
             + ((x[1] + 1.0) / 1.5).powi(2)
             + ((x[2] - 1.5) / 1.0).powi(2)
-            + ((x[3] - (1e-6 * speed).ln()) / 14.0).powi(2);
+            + unusual(x[3], speed);
         0.5 * belief - fit
     };
-    // A density that changes the speed by a thousandth over a hundred intervals, to begin with.
     let (best, _) = simplex::lowest(
-        [0.0, -0.5, 1.5, (1e-12 * speed * speed).ln()],
+        [0.0, -0.5, 1.5, usual_density(speed).ln()],
         [0.5, 1.0, 1.0, 4.0],
         0.1,
         160,
@@ -225,7 +238,7 @@ pub(super) fn quiet(data: &Data, range: std::ops::Range<usize>) -> (Noise, f64) 
     (noise(&best), best[3].exp())
 }
 
-/// Density of a long quiet part with noise that is known: neighbouring pulses tell quick changes, far ones slow changes.
+/// Density of a long quiet part with noise that is known: neighbouring pulses show quick changes, far ones slow changes.
 pub(super) fn calm(data: &Data, range: std::ops::Range<usize>, noise: Noise, first: f64) -> f64 {
     let sparse = |step: usize| -> Vec<Passage> {
         let count = (range.len() / step).min(STRETCH);
@@ -251,13 +264,7 @@ pub(super) fn calm(data: &Data, range: std::ops::Range<usize>, noise: Noise, fir
             .map(sparse),
     );
     let cost = |x: &[f64; 1]| {
-        let plan = Plan {
-            noise,
-            quiet: [x[0].exp(); 3],
-            lively: None,
-            settled: 0.0,
-            rests: false,
-        };
+        let plan = Plan::steady(noise, x[0].exp());
         -sets
             .iter()
             .map(|set| plan.likelihood_of(data, set))
@@ -266,7 +273,7 @@ pub(super) fn calm(data: &Data, range: std::ops::Range<usize>, noise: Noise, fir
     simplex::lowest([first.ln()], [-3.0], 0.1, 25, cost).0[0].exp()
 }
 
-/// Density of the stretch in which a lively part settles, with noise that is known.
+/// Density of the stretch in which a quick change settles, with noise that is known.
 pub(super) fn settling(
     data: &Data,
     range: std::ops::Range<usize>,
@@ -274,13 +281,7 @@ pub(super) fn settling(
     quiet: f64,
 ) -> f64 {
     let cost = |x: &[f64; 1]| {
-        let plan = Plan {
-            noise,
-            quiet: [quiet * x[0].exp(); 3],
-            lively: None,
-            settled: 0.0,
-            rests: false,
-        };
+        let plan = Plan::steady(noise, quiet * x[0].exp());
         -plan.likelihood(data, range.clone())
     };
     let start = simplex::lowest([0.0], [4.0], 0.05, 12, cost).0;
@@ -290,19 +291,19 @@ pub(super) fn settling(
             .exp()
 }
 
-/// Gain of the logarithm of the likelihood from which a stretch counts as livelier than its part of the record: of a
+/// Gain of the logarithm of the likelihood from which a stretch counts as less steady than its part of the record: of a
 /// hundred stretches that are not, one gains so much by chance.
 const NOTABLE: f64 = 4.0;
 
-/// Stretches behind the quick change, or anywhere where there is none, that are livelier than the part of the record they lie
+/// Stretches behind the quick change, or anywhere where there is none, that are less steady than the part of the record they lie
 /// in: a clutch that lets go, a brake, the corner at which a slow ramp ends, the last turns before a stop.
 ///
 /// Windows of 80 marks, of every fourth, every sixteenth and so on: what is quick shows in short ones, what is weak in long
 /// ones. They overlap by half, so that nothing happens between two of them; a part has the largest density of its windows.
-pub(super) fn livelier(data: &Data, plan: &Plan) -> Vec<Livelier> {
+pub(super) fn unsteady(data: &Data, plan: &Plan) -> Vec<Unsteady> {
     const PART: usize = STRETCH / 2;
     const LONGER: usize = 4;
-    let quiet_from = plan.lively.map_or(f64::NEG_INFINITY, |lively| lively.lock);
+    let quiet_from = plan.transient.map_or(f64::NEG_INFINITY, |knots| knots.lock);
     let first = data.passages.partition_point(|p| p.time <= quiet_from);
     let all = &data.passages[first..];
     let mut densities = vec![0.0f64; all.len().div_ceil(PART)];
@@ -327,7 +328,7 @@ pub(super) fn livelier(data: &Data, plan: &Plan) -> Vec<Livelier> {
     };
     (densities.iter().enumerate())
         .filter(|(_, density)| **density > 0.0)
-        .map(|(k, density)| Livelier {
+        .map(|(k, density)| Unsteady {
             from: part(k).0,
             to: part(k).1,
             density: *density,
@@ -337,16 +338,7 @@ pub(super) fn livelier(data: &Data, plan: &Plan) -> Vec<Livelier> {
 
 /// Density of a window of its own, where it is much more likely than the usual one, which is given by its logarithm.
 fn own_density(data: &Data, plan: &Plan, window: &[Passage], usual: f64) -> Option<f64> {
-    let cost = |x: &[f64; 1]| {
-        let alone = Plan {
-            quiet: [x[0].exp(); 3],
-            lively: None,
-            settled: 0.0,
-            rests: false,
-            ..*plan
-        };
-        -alone.likelihood_of(data, window)
-    };
+    let cost = |x: &[f64; 1]| -Plan::steady(plan.noise, x[0].exp()).likelihood_of(data, window);
     let here = cost(&[usual]);
     let best = [2.0, 4.0, 7.0, 10.0, 14.0, 20.0]
         .map(|more| (usual + more, cost(&[usual + more])))

@@ -2,11 +2,13 @@
 
 use super::fit::{self, Sight};
 use super::matrix::N;
+use super::motion::Change;
 use super::node::Belief;
-use super::plan::{Data, Knot, Lively, Noise, Plan};
+use super::plan::{Data, Knot, Knots, Noise, Plan};
+use super::smoothed::Speed;
 use super::smoothness::{self, Smoothness};
 use super::track::Track;
-use super::{Change, Speed, lively};
+use super::transient;
 use crate::pulse::Refusal;
 
 /// Passages before a quick change that show how the shaft turned before it.
@@ -22,13 +24,7 @@ pub(super) fn fitted(
     notes: Vec<String>,
 ) -> Result<Speed, Refusal> {
     let n = data.passages.len();
-    let mut base = Plan {
-        noise,
-        quiet: [density; 3],
-        lively: None,
-        settled: 0.0,
-        rests: false,
-    };
+    let mut base = Plan::steady(noise, density);
     if let Some(sight) = sight
         && !sight.rests
         && sight.first >= QUIET_BEFORE
@@ -80,7 +76,7 @@ pub(super) fn fitted(
         notes,
     };
     if let Some(sight) = sight {
-        let (plans, range) = lively::lively(data, sight, &base);
+        let (plans, range) = transient::plans(data, sight, &base);
         let Some((best, _)) = plans.first() else {
             return Err(Refusal::new(
                 "the start and the end of the quick change cannot be found".into(),
@@ -107,13 +103,13 @@ pub(super) fn fitted(
         };
         let margin = if range.end < n { 5 } else { 1 };
         speed.window = (begin, data.passages[range.end - margin].time);
-        speed.smoothness = best.lively.map(|lively| {
-            let to = lively.lock.min(speed.window.1);
-            Smoothness::of(&speed.parts, &stiffer, (lively.engage, to))
+        speed.smoothness = best.transient.map(|knots| {
+            let to = knots.lock.min(speed.window.1);
+            Smoothness::of(&speed.parts, &stiffer, (knots.engage, to))
         });
         speed.change = Some(summary(data, sight, &plans));
     }
-    data.livelier = fit::livelier(data, &base);
+    data.unsteady = fit::unsteady(data, &base);
     let (nodes, start) = base.nodes(data, 0..n);
     speed.base = Track::new(nodes, start, base.quiet[2], noise.memory);
     if !(speed.base.is_finite() && speed.parts.iter().all(|(_, track)| track.is_finite())) {
@@ -134,11 +130,11 @@ pub(super) fn fitted(
 
 /// Instants of the knots from the plans that are left.
 fn summary(data: &Data, sight: &Sight, plans: &[(Plan, f64)]) -> Change {
-    let moments = |value: &dyn Fn(&Lively) -> f64| {
+    let moments = |value: &dyn Fn(&Knots) -> f64| {
         let known = || {
             plans
                 .iter()
-                .filter_map(|(plan, weight)| plan.lively.as_ref().map(|l| (value(l), *weight)))
+                .filter_map(|(plan, weight)| plan.transient.as_ref().map(|l| (value(l), *weight)))
         };
         let mean: f64 = known().map(|(x, w)| w * x).sum();
         let variance: f64 = known().map(|(x, w)| w * (x - mean).powi(2)).sum();

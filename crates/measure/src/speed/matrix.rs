@@ -264,19 +264,3 @@ pub(super) fn taken_back(g: &mut Vector, c: &mut Matrix, dt: f64, memory: &Memor
     }
     symmetric(c);
 }
-
-/// Lower triangle `l` with `l lᵀ = p` of a matrix that may be singular.
-pub(super) fn root(p: &Matrix) -> Matrix {
-    let mut l = [[0.0; N]; N];
-    for j in 0..N {
-        let pivot = p[j][j] - (0..j).map(|k| l[j][k] * l[j][k]).sum::<f64>();
-        if pivot <= 1e-14 * p[j][j].abs() {
-            continue;
-        }
-        l[j][j] = pivot.sqrt();
-        for i in j + 1..N {
-            l[i][j] = (p[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>()) / l[j][j];
-        }
-    }
-    l
-}

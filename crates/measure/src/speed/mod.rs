@@ -1,11 +1,11 @@
 //! Angle, speed and acceleration of a shaft from the pulses of its wheel, or from a speed that an instrument shows.
 //!
 //! ```text
-//! pulses ─▶ quiet parts: noise and liveliness by likelihood ─▶ knots: engagement and end, by likelihood
+//! pulses ─▶ quiet parts: noise and density of the snap by likelihood ─▶ knots: engagement and end, by likelihood
 //!        ─▶ filter and smoother, averaged over what the likelihood leaves open ─▶ state and covariance at any instant
 //! ```
 //! The motion is a cubic of time whose snap is white noise: a spline of the seventh degree through the pulses, as stiff as
-//! the pulses themselves ask for. A quick change of speed (a clutch that engages) has its own liveliness between two knots,
+//! the pulses themselves ask for. A quick change of speed (a clutch that engages) has its own density of the snap between two knots,
 //! at which acceleration and jerk may jump. From rest the speed is zero until the engagement, the angle is anywhere
 //! between two marks, and what jumps first drives the shaft forward. How softly a clutch began before its first marks is
 //! open: starts without a jump, with one of the jerk and with one of the acceleration are all carried along, and the
@@ -15,23 +15,25 @@
 //! **What it does not model**: a shaft that turns back; a speed ripple quicker than two marks can show; noise of the instants with a memory longer
 //! than a few pulses; more than one quick change in a record (give the window of the one that is wanted).
 
-mod answer;
 mod breakaway;
 mod bridge;
 mod channel;
 mod design;
 mod fit;
 mod fitted;
-mod lively;
 mod matrix;
+mod motion;
 mod node;
 mod plan;
+mod settings;
+mod smoothed;
 mod smoothness;
 mod spread;
 mod stiffest;
 mod stop;
 mod too_few;
 mod track;
+mod transient;
 
 use crate::pulse::{Pitch, Pulses, Refusal};
 use breakaway::Breakaway;
@@ -39,130 +41,15 @@ use bridge::Bridge;
 pub use channel::{Channel, Instrument, Shown, smooth_channel};
 pub use design::marks_needed;
 use fitted::{QUIET_BEFORE, fitted};
+pub use motion::{Change, Motion};
 use plan::Data;
-use smoothness::Smoothness;
+pub use settings::{SpeedSettings, Transient};
+pub use smoothed::Speed;
 use stiffest::Stiffest;
 use stop::Stop;
 use too_few::{carried, enough, needed, seen, stated};
-use track::Track;
 
-/// Where a quick change of speed is looked for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Transient {
-    /// The steepest rise of speed of the record, if there is one.
-    Auto,
-    /// Within an interval, s.
-    Within(f64, f64),
-    /// Nowhere: the speed changes slowly throughout.
-    None,
-}
-
-/// What is asked of the pulses.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpeedSettings {
-    /// Where a quick change of speed is looked for.
-    pub transient: Transient,
-    /// Largest uncertainty of the acceleration in the quick change, root mean square over it, as a part of the peak;
-    /// pulses that cannot carry it are refused. None: take what there is.
-    pub wanted: Option<f64>,
-    /// How long the quick change lasts, s, where it is known: tells how many marks are needed when there are too few.
-    pub duration: Option<f64>,
-    /// Standard uncertainty of a delay that all pulses have in common (pickup, filter), s. Pulses cannot show it.
-    pub latency: f64,
-    /// Standard uncertainty (root mean square) of an acceleration ripple once per revolution while the wheel was calibrated,
-    /// rad/s²: unbalance under gravity, a belt. It cannot be told from an eccentric wheel. Without effect where no
-    /// calibration is used.
-    pub ripple: f64,
-}
-
-impl Default for SpeedSettings {
-    /// One quick change at most, any uncertainty, no delay and no ripple.
-    fn default() -> Self {
-        SpeedSettings {
-            transient: Transient::Auto,
-            wanted: None,
-            duration: None,
-            latency: 0.0,
-            ripple: 0.0,
-        }
-    }
-}
-
-/// The motion at an instant.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion {
-    /// Instant, s.
-    pub time: f64,
-    /// Angle from the first mark that passed, rad.
-    pub angle: f64,
-    /// Speed, rad/s.
-    pub speed: f64,
-    /// Acceleration, rad/s².
-    pub acceleration: f64,
-    /// Covariance of angle, speed and acceleration, in the units of their products.
-    pub covariance: [[f64; 3]; 3],
-}
-
-impl Motion {
-    /// Standard uncertainty of the speed, rad/s.
-    pub fn speed_uncertainty(&self) -> f64 {
-        self.covariance[1][1].max(0.0).sqrt()
-    }
-
-    /// Standard uncertainty of the acceleration, rad/s².
-    pub fn acceleration_uncertainty(&self) -> f64 {
-        self.covariance[2][2].max(0.0).sqrt()
-    }
-}
-
-/// A quick change of speed that was found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Change {
-    /// Instant of the engagement and its standard uncertainty, s.
-    pub engagement: (f64, f64),
-    /// Instant at which the change ends and its standard uncertainty, s; none where the record ends before it.
-    pub end: Option<(f64, f64)>,
-    /// Whether the shaft rested before.
-    pub from_rest: bool,
-    /// Probability that the acceleration jumps at the engagement, rather than its slope only.
-    pub jump: f64,
-    /// Pulses between engagement and end.
-    pub pulses: usize,
-}
-
-/// The motion of a shaft over a record, with covariance.
-#[derive(Clone, Debug)]
-pub struct Speed {
-    base: Track,
-    /// Tracks of the quick change with their weights, and the interval in which they hold, in units.
-    parts: Vec<(f64, Track)>,
-    window: (f64, f64),
-    /// Factors on the deviations within the quick change.
-    smoothness: Option<Smoothness>,
-    origin: f64,
-    unit: f64,
-    latency: f64,
-    /// What the variances cannot be less than; none where there is a quick change, whose are larger.
-    stiffest: Option<Stiffest>,
-    /// How the shaft comes to rest after the last mark, where it does.
-    stop: Option<Stop>,
-    /// What the friction seen there hides of a start from rest.
-    breakaway: Option<Breakaway>,
-    /// Silences of the pickup.
-    bridges: Vec<Bridge>,
-    /// Standard deviation of an order-one error that the calibration may hold, rad.
-    eccentricity: f64,
-    /// The quick change, where there is one.
-    pub change: Option<Change>,
-    /// Factor on the stated uncertainty of the instants that the pulses themselves ask for.
-    pub timing_factor: f64,
-    /// Standard deviation of the angle of a mark that does not depend on speed, rad.
-    pub angle_noise: f64,
-    /// What was found, and what should not be trusted.
-    pub notes: Vec<String>,
-}
-
-/// Part of the pulses that are in step with the sampling from which on it is told.
+/// Part of the pulses that are in step with the sampling from which on it is reported.
 const IN_STEP: f64 = 0.4;
 
 /// Fewest pulses that are smoothed at all.
@@ -254,11 +141,17 @@ pub fn smooth(
         settings.ripple.max(0.0) / (p.speed * p.speed).max(1e-12)
     });
     if speed.change.is_none() {
-        speed.stiffest = Stiffest::of(pulses, &speed);
+        let angles = pulses.times.iter().zip(&pulses.uncertainties);
+        let deviations: Vec<f64> = angles
+            .map(|(time, timing)| speed.at(*time).speed * timing * speed.timing_factor)
+            .collect();
+        speed.stiffest = Stiffest::of_angles(&pulses.times, &deviations);
     }
-    speed.bridges = Bridge::all(pulses, &speed);
-    speed.stop = Stop::of(pulses, &speed);
-    speed.breakaway = Breakaway::of(pulses, &speed);
+    speed.bridges = Bridge::all(pulses, |time| speed.at(time));
+    speed.stop = Stop::of(pulses, |time| speed.at(time));
+    if let (Some(change), Some(stop)) = (speed.change.filter(|c| c.from_rest), &speed.stop) {
+        speed.breakaway = Breakaway::of(pulses, &change, stop, |time| speed.at(time));
+    }
     if speed.stop.is_none() {
         speed.notes.extend(fell_silent(pulses, &speed));
     }

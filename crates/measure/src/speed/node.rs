@@ -43,7 +43,7 @@ pub(super) struct Node {
     pub pulse: Option<Sight>,
     /// Variance added to each state, before the pulse.
     pub added: Option<[f64; 4]>,
-    /// A motion that begins anew, before the pulse: what was before tells nothing of it.
+    /// A motion that begins anew, before the pulse: it does not follow from what was before.
     pub fresh: Option<Fresh>,
 }
 

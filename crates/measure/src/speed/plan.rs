@@ -41,8 +41,8 @@ pub(super) struct Data {
     pub channel: bool,
     /// Instants of the first passages behind a silence of the pickup; nothing is carried over to them.
     pub fresh: Vec<f64>,
-    /// Stretches that are livelier than the part of the record they lie in, side by side and in order.
-    pub livelier: Vec<Livelier>,
+    /// Stretches that are less steady than the part of the record they lie in, side by side and in order.
+    pub unsteady: Vec<Unsteady>,
 }
 
 /// Largest part of the first pulse that is taken for hidden: the angle before it is 20 pitches then.
@@ -50,7 +50,7 @@ const MOST_UNSEEN: f64 = 0.966;
 
 /// A stretch with a density of its own.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Livelier {
+pub(super) struct Unsteady {
     pub from: f64,
     pub to: f64,
     pub density: f64,
@@ -133,7 +133,7 @@ impl Data {
             fresh: (pulses.gaps.iter())
                 .map(|gap| (pulses.times[gap.pulse] - origin) / unit)
                 .collect(),
-            livelier: Vec::new(),
+            unsteady: Vec::new(),
         }
     }
 
@@ -144,11 +144,11 @@ impl Data {
         }
     }
 
-    /// Density of the livelier stretch that an instant lies in; 0 where there is none.
-    fn livelier_at(&self, time: f64) -> f64 {
-        let next = self.livelier.partition_point(|stretch| stretch.to < time);
+    /// Density of the unsteady stretch that an instant lies in; 0 where there is none.
+    fn unsteady_at(&self, time: f64) -> f64 {
+        let next = self.unsteady.partition_point(|stretch| stretch.to < time);
         let stretch = self
-            .livelier
+            .unsteady
             .get(next)
             .filter(|stretch| stretch.from <= time);
         stretch.map_or(0.0, |stretch| stretch.density)
@@ -194,7 +194,7 @@ impl Noise {
 /// What may jump at an instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Knot {
-    /// Nothing: only the liveliness changes.
+    /// Nothing: only the density of the snap changes.
     Soft,
     /// The jerk.
     Kink,
@@ -202,9 +202,9 @@ pub(super) enum Knot {
     Jump,
 }
 
-/// Two knots with a lively motion between them.
+/// Two knots with a quick change between them.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Lively {
+pub(super) struct Knots {
     /// Engagement.
     pub engage: f64,
     /// End, where there is one.
@@ -213,7 +213,7 @@ pub(super) struct Lively {
     pub change: f64,
     /// Density of the snap between.
     pub density: f64,
-    /// A start that is livelier, where it is.
+    /// A start that is less steady than the rest, where it is.
     pub head: Option<Head>,
     /// What may jump at the engagement.
     pub start: Knot,
@@ -221,7 +221,7 @@ pub(super) struct Lively {
     pub stop: Knot,
 }
 
-impl Lively {
+impl Knots {
     /// Variance that a knot adds to acceleration and jerk. Its size is that of a change of speed `change` within the length:
     /// an even acceleration jumps by its mean, one that rises or falls evenly has the jerk of twice the mean over the length.
     /// It does not follow the density: a clutch whose torque rises evenly is as quiet between its knots as it is loud at
@@ -237,7 +237,7 @@ impl Lively {
         }
     }
 
-    /// The same for the engagement: a start that is livelier than the whole change may reach the mean acceleration before the
+    /// The same for the engagement: a start that is less steady than the whole change may reach the mean acceleration before the
     /// first mark.
     fn started(&self) -> [f64; 4] {
         let mut added = self.added(self.start);
@@ -261,7 +261,7 @@ impl Lively {
     }
 }
 
-/// A start that is livelier than the whole change, the more the shorter ago it was: after a time τ the acceleration a of
+/// A start that is less steady than the whole change, the more the shorter ago it was: after a time τ the acceleration a of
 /// the change wanders by the root of `share` while that time passes once more, which is a snap of the density
 /// `share a²/τ³`.
 #[derive(Clone, Copy, Debug)]
@@ -278,9 +278,9 @@ const STEEPEST: f64 = 4.0;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plan {
     pub noise: Noise,
-    /// Densities before the lively part, while it settles, and after that; the same where there is none.
+    /// Densities before the quick change, while it settles, and after that; the same where there is none.
     pub quiet: [f64; 3],
-    pub lively: Option<Lively>,
+    pub transient: Option<Knots>,
     /// When it has settled.
     pub settled: f64,
     /// Whether the shaft rests before the engagement.
@@ -288,11 +288,22 @@ pub(super) struct Plan {
 }
 
 impl Plan {
+    /// A record, or a part of one, without a quick change.
+    pub fn steady(noise: Noise, density: f64) -> Plan {
+        Plan {
+            noise,
+            quiet: [density; 3],
+            transient: None,
+            settled: 0.0,
+            rests: false,
+        }
+    }
+
     /// Density of the part of the record that an instant lies in.
     pub fn density(&self, time: f64) -> f64 {
-        match &self.lively {
-            Some(lively) if time > lively.engage && time <= lively.lock => lively.density_at(time),
-            Some(lively) if time <= lively.engage => self.quiet[0],
+        match &self.transient {
+            Some(knots) if time > knots.engage && time <= knots.lock => knots.density_at(time),
+            Some(knots) if time <= knots.engage => self.quiet[0],
             Some(_) if time <= self.settled => self.quiet[1],
             _ => self.quiet[2],
         }
@@ -305,35 +316,35 @@ impl Plan {
 
     fn nodes_of(&self, data: &Data, passages: &[Passage]) -> (Vec<Node>, Belief) {
         let mut nodes = Vec::with_capacity(passages.len() + 2);
-        let mut knots: Vec<(f64, Option<[f64; 4]>)> = Vec::new();
+        let mut joints: Vec<(f64, Option<[f64; 4]>)> = Vec::new();
         let first = passages[0];
         let mut start = match data.channel {
             true => shown(first.value, data.pitch),
             false => moving(first.value, first.speed, data.pitch),
         };
         let clock = self.noise.memory.spread * self.noise.memory.spread;
-        if let Some(lively) = &self.lively {
+        if let Some(knots) = &self.transient {
             // A channel that shows the rest before the engagement begins there: nothing moves before.
-            if self.rests && (data.channel || lively.engage <= first.time) {
-                start = resting(data, lively);
-                knots.push((lively.engage, None));
-            } else if lively.engage > first.time {
-                knots.push((lively.engage, Some(lively.started())));
+            if self.rests && (data.channel || knots.engage <= first.time) {
+                start = resting(data, knots);
+                joints.push((knots.engage, None));
+            } else if knots.engage > first.time {
+                joints.push((knots.engage, Some(knots.started())));
             }
-            if lively.lock > first.time {
-                knots.push((lively.lock, Some(lively.added(lively.stop))));
+            if knots.lock > first.time {
+                joints.push((knots.lock, Some(knots.added(knots.stop))));
             }
         }
         if !data.channel {
             start.covariance[4][4] = clock;
         }
-        let density = |time: f64| self.density(time).max(data.livelier_at(time));
-        let mut knots = knots.into_iter().peekable();
+        let density = |time: f64| self.density(time).max(data.unsteady_at(time));
+        let mut joints = joints.into_iter().peekable();
         let mut gaps = data.fresh.partition_point(|&time| time <= first.time);
         for passage in &passages[self.at_rest(data, passages)..] {
             let passed = data.fresh[gaps..].partition_point(|&time| time <= passage.time);
             gaps += passed;
-            while let Some((time, added)) = knots.next_if(|knot| knot.0 <= passage.time) {
+            while let Some((time, added)) = joints.next_if(|joint| joint.0 <= passage.time) {
                 nodes.push(Node {
                     time,
                     density: density(time),
@@ -368,9 +379,9 @@ impl Plan {
 
     /// How many of some passages show a shaft that rests before its engagement; marks do not pass then.
     fn at_rest(&self, data: &Data, passages: &[Passage]) -> usize {
-        match self.lively {
-            Some(lively) if self.rests && data.channel => {
-                passages.partition_point(|p| p.time <= lively.engage)
+        match self.transient {
+            Some(knots) if self.rests && data.channel => {
+                passages.partition_point(|p| p.time <= knots.engage)
             }
             _ => 0,
         }
@@ -379,6 +390,12 @@ impl Plan {
     /// Log likelihood of some passages.
     pub fn likelihood(&self, data: &Data, range: std::ops::Range<usize>) -> f64 {
         self.likelihood_of(data, &data.passages[range])
+    }
+
+    /// The same of several parts, none of which follows from another.
+    pub fn likelihood_in(&self, data: &Data, parts: &[std::ops::Range<usize>]) -> f64 {
+        let all = parts.iter();
+        all.map(|part| self.likelihood(data, part.clone())).sum()
     }
 
     /// Log likelihood of a choice of passages.
@@ -406,7 +423,7 @@ impl Plan {
 
     /// The state that leads a motion from rest, where one does: what jumps first cannot turn the shaft back.
     fn leading(&self) -> Option<usize> {
-        match self.lively.filter(|_| self.rests)?.start {
+        match self.transient.filter(|_| self.rests)?.start {
             Knot::Soft => None,
             Knot::Kink => Some(3),
             Knot::Jump => Some(2),
@@ -439,8 +456,8 @@ fn shown(value: f64, largest: f64) -> Belief {
 }
 
 /// Belief at the engagement from rest: no speed, an angle anywhere before the first mark.
-fn resting(data: &Data, lively: &Lively) -> Belief {
-    let added = lively.started();
+fn resting(data: &Data, knots: &Knots) -> Belief {
+    let added = knots.started();
     let mut covariance = [[0.0; N]; N];
     // A channel counts its angle from here.
     let passed = if data.channel { 0.0 } else { data.before };

@@ -58,9 +58,9 @@ struct Compared {
 pub(super) fn stiffer(plan: &Plan) -> Plan {
     let mut plan = *plan;
     plan.quiet = plan.quiet.map(|density| density / STIFFER);
-    if let Some(lively) = &mut plan.lively {
-        lively.density /= STIFFER;
-        if let Some(head) = &mut lively.head {
+    if let Some(knots) = &mut plan.transient {
+        knots.density /= STIFFER;
+        if let Some(head) = &mut knots.head {
             head.share /= STIFFER;
         }
     }

@@ -1,17 +1,15 @@
-//! What the pulses of a record without a quick change cannot tell better than: the deviations of the stiffest fit.
+//! The least deviations of a record without a quick change: those of the stiffest fit.
 //!
 //! ```text
 //! φ(t) = Σₖ cₖ xᵏ, k = 0 … 3, by least squares through all pulses;  x = (t - t̄)/h;  weights 1/(Ω u)²
 //! ```
 //! The smoothing spline of a speed that changes evenly becomes this cubic; its own covariance is then a difference of numbers
-//! that are nearly alike and may be lost in rounding. A spline that is less stiff tells less, so that the larger deviation
+//! that are nearly alike and may be lost in rounding. A spline that is less stiff leaves more open, so that the larger deviation
 //! of the two is the true one.
 //!
 //! **Does not model**: errors of the marks, and noise of the instants that is correlated.
 
-use super::Speed;
 use crate::linear::inverse;
-use crate::pulse::Pulses;
 
 /// Coefficients of the cubic.
 const SIZE: usize = 4;
@@ -27,49 +25,38 @@ pub(super) struct Stiffest {
 }
 
 impl Stiffest {
-    /// None where pulses are too few for a cubic.
-    pub fn of(pulses: &Pulses, speed: &Speed) -> Option<Stiffest> {
-        let (from, to) = (*pulses.times.first()?, *pulses.times.last()?);
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let mut square = [[0.0; SIZE]; SIZE];
-        for (time, uncertainty) in pulses.times.iter().zip(&pulses.uncertainties) {
-            let spread = speed.at(*time).speed * uncertainty * speed.timing_factor;
-            let powers = powers((time - middle) / half);
-            let weight = 1.0 / (spread * spread);
-            if !weight.is_finite() {
-                continue;
-            }
-            for (i, line) in square.iter_mut().enumerate() {
-                for (j, value) in line.iter_mut().enumerate() {
-                    *value += weight * powers[i] * powers[j];
-                }
-            }
-        }
-        Stiffest::with(middle, half, square)
+    /// That of angles at some instants, s, with their deviations, rad. None where they are too few for a cubic.
+    pub fn of_angles(times: &[f64], deviations: &[f64]) -> Option<Stiffest> {
+        Stiffest::of(times, deviations, 0)
     }
 
-    /// The same of speeds at some instants, s, with their deviations, rad/s. They say nothing of the angle.
+    /// The same of speeds, rad/s. They say nothing of the angle.
     pub fn of_speeds(times: &[f64], deviations: &[f64]) -> Option<Stiffest> {
+        Stiffest::of(times, deviations, 1)
+    }
+
+    /// From derivatives of the angle of an order, 0 or 1.
+    fn of(times: &[f64], deviations: &[f64], order: i32) -> Option<Stiffest> {
         let (from, to) = (*times.first()?, *times.last()?);
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         let mut square = [[0.0; SIZE]; SIZE];
         for (time, deviation) in times.iter().zip(deviations) {
-            let weight = 1.0 / (deviation * half).powi(2);
+            let weight = 1.0 / (deviation * half.powi(order)).powi(2);
             if !weight.is_finite() {
                 continue;
             }
-            let row = rates((time - middle) / half);
+            let x = (time - middle) / half;
+            let row = if order == 0 { powers(x) } else { rates(x) };
             for (i, line) in square.iter_mut().enumerate() {
                 for (j, value) in line.iter_mut().enumerate() {
                     *value += weight * row[i] * row[j];
                 }
             }
         }
-        square[0][0] = square[1][1];
-        Stiffest::with(middle, half, square)
-    }
-
-    fn with(middle: f64, half: f64, square: [[f64; SIZE]; SIZE]) -> Option<Stiffest> {
+        if order == 1 {
+            // The angle takes part in no speed: any variance of it will do.
+            square[0][0] = square[1][1];
+        }
         Some(Stiffest {
             middle,
             half,

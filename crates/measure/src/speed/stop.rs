@@ -11,7 +11,7 @@
 //!
 //! **Does not model**: a shaft that rocks back at its stop.
 
-use super::{Motion, Speed};
+use super::motion::Motion;
 use crate::pulse::Pulses;
 
 /// The last mark of a shaft that comes to rest.
@@ -32,11 +32,11 @@ const SILENCE: f64 = 3.0;
 const SLOWEST: f64 = 0.1;
 
 impl Stop {
-    /// The stop of a record, where it has one.
-    pub fn of(pulses: &Pulses, speed: &Speed) -> Option<Stop> {
+    /// The stop of a record, where it has one, given its motion.
+    pub fn of(pulses: &Pulses, motion: impl Fn(f64) -> Motion) -> Option<Stop> {
         let n = pulses.times.len();
         let (before, end) = (pulses.times[n.checked_sub(2)?], pulses.times[n - 1]);
-        let mut last = speed.at(end);
+        let mut last = motion(end);
         // A shaft that creeps over its last mark may seem to turn back there by what the noise leaves.
         let mean = pulses.pitch() / (end - before);
         last.speed = last.speed.max(SLOWEST * mean);
@@ -51,10 +51,9 @@ impl Stop {
         })
     }
 
-    /// The stop of a shaft that a channel shows at rest behind the last instant of a record, until the end of what was watched, s;
-    /// `before` is the instant before the last one.
-    pub fn seen(before: f64, speed: &Speed, watched: f64) -> Option<Stop> {
-        let mut last = speed.at(speed.range().1);
+    /// The stop of a shaft that a channel shows at rest behind the `last` motion of a record, until the end of what was watched,
+    /// s; `before` is the instant before the last one.
+    pub fn seen(before: f64, mut last: Motion, watched: f64) -> Option<Stop> {
         // What noise leaves of the last speed may turn back, or not brake.
         last.speed = last.speed.max(0.0);
         let brakes = last.speed > 0.0 && last.acceleration < 0.0;
@@ -74,21 +73,8 @@ impl Stop {
         -self.last.acceleration
     }
 
-    /// The instant that an instant's motion follows from, s: the last mark behind it; and how much is left of what was open
-    /// there of angle, speed and acceleration. It fades as the shaft comes to rest, but for the angle.
-    pub fn source(&self, time: f64) -> (f64, [f64; 3]) {
-        if time <= self.last.time {
-            return (time, [1.0; 3]);
-        }
-        let left = 1.0 - ((time - self.last.time) / self.length).min(1.0);
-        (self.last.time, [1.0, left, left])
-    }
-
-    /// Deviations of angle, speed and acceleration at an instant, s, that the pulses do not tell of.
-    pub fn hidden(&self, time: f64) -> [f64; 3] {
-        if time <= self.before {
-            return [0.0; 3];
-        }
+    /// Deviations of angle, speed and acceleration that the pulses do not show, at an instant behind the last but one mark, s.
+    fn hidden(&self, time: f64) -> [f64; 3] {
         let y = (time - self.before) / (self.last.time + self.length - self.before);
         let behind = (1.0 - y).exp();
         [
@@ -115,7 +101,8 @@ impl Stop {
             } else {
                 0.0
             };
-            let (_, fades) = self.source(motion.time);
+            // What was open at the last mark fades as the shaft comes to rest, but for the angle.
+            let fades = [1.0, left, left];
             for (i, fade) in fades.into_iter().enumerate() {
                 for (j, other) in fades.into_iter().enumerate() {
                     motion.covariance[i][j] = self.last.covariance[i][j] * fade * other;

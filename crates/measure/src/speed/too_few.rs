@@ -1,20 +1,15 @@
 //! Quick changes of which the pulses show too little, and what would show more.
 
+use super::design::{FEWEST_WITHIN, marks_needed, offered};
 use super::fit::Sight;
+use super::motion::Change;
 use super::plan::Data;
-use super::{Change, Speed, SpeedSettings, design, marks_needed};
+use super::settings::SpeedSettings;
+use super::smoothed::Speed;
 use crate::pulse::{Gap, Pulses, Refusal};
 
 /// Fewest pulses within a quick change that are looked at.
 const FEWEST_LOOKED_AT: usize = 4;
-
-/// Fewest pulses within a quick change whose answer is given.
-///
-/// A change from rest has five unknowns at least: the angle at which it begins and the time, the acceleration and its slope,
-/// the end. Angle and speed behind it are known. What is left of n pulses, n - 3, shows how the change goes, and with it
-/// the band: of a deviation from ν degrees of freedom a band of two holds nine tenths from ν = 5 on (Student: 0.898), which
-/// are eight pulses. `tests/few_marks.rs` shows that it does.
-pub(super) const FEWEST_WITHIN: usize = 8;
 
 /// Refuses a quick change in which the pickup was silent.
 pub(super) fn seen(pulses: &Pulses, data: &Data, sight: &Sight) -> Result<(), Refusal> {
@@ -87,7 +82,7 @@ pub(super) fn carried(
     let jump = (end.speed - begin.speed).abs();
     // Pulses that came are at most one fewer than pitches that passed; one more is for what is not known of the end.
     let turned = (end.angle - begin.angle).abs();
-    let enough = design::offered((FEWEST_WITHIN + 1) as f64 * std::f64::consts::TAU / turned);
+    let enough = offered((FEWEST_WITHIN + 1) as f64 * std::f64::consts::TAU / turned);
     let timing = stated(pulses) * speed.timing_factor;
     let exact = settings
         .wanted

@@ -5,7 +5,7 @@
 //! e      of pulses: error of the instants with a memory, a first-order Markov process; of a speed channel: what its instrument
 //!        shows of the speed, ė = (speed - e)/τ
 //! pulse  z = angle + speed e + noise of variance r;   channel  z = e + noise, or speed + noise where the instrument has no lag
-//! knot   variance added to any state at an instant: what it was before tells less, or nothing, of what it is after
+//! knot   variance added to any state at an instant: what it is after follows less, or not at all, from what it was before
 //! ```
 //! Forward: a Kalman filter. Backward: the adjoint recursion of Bryson and Frazier, which inverts no matrix, so that a
 //! start from rest with exactly known speed, and intervals of any length, do no harm.
@@ -14,7 +14,7 @@
 #![allow(clippy::needless_range_loop)] // rows and columns by number read like the formula
 
 use super::matrix::{
-    Matrix, Memory, N, Vector, advance, carry, drift, gathered, minus, plus, root, taken_back,
+    Matrix, Memory, N, Vector, advance, carry, drift, gathered, minus, plus, taken_back,
 };
 use super::node::{Belief, Node};
 use crate::state_space::{applied, product, seen_back, transposed};
@@ -30,7 +30,6 @@ pub(super) struct Track {
     /// Adjoint just before each node: gradient and curvature of the misfit of all that follows.
     gradient: Vec<Vector>,
     curvature: Vec<Matrix>,
-    updates: Vec<Update>,
     /// Density after the last node.
     density: f64,
     memory: Memory,
@@ -55,7 +54,7 @@ impl Update {
     }
 }
 
-/// What a pass forward tells of the start.
+/// What follows from a pass forward.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
     /// Logarithm of the likelihood, up to a constant.
@@ -173,7 +172,6 @@ impl Track {
             filtered,
             gradient,
             curvature,
-            updates,
             density,
             memory,
         }
@@ -287,7 +285,7 @@ impl Track {
 
     /// Belief at an instant not before the first node.
     ///
-    /// Among the first pulses what was open and what they tell nearly cancel: there the motion is no better known than behind them.
+    /// Among the first pulses what was open and what they show nearly cancel: there the motion is no better known than behind them.
     fn within(&self, time: f64) -> Belief {
         let mut belief = self.smoothed(time);
         if let Some(settled) = self.settled(time) {
@@ -308,141 +306,6 @@ impl Track {
             mean: std::array::from_fn(|i| belief.mean[i] - shift[i]),
             covariance: minus(p, &shrink),
         }
-    }
-
-    /// Covariance of the states at two instants, the first one not after the second, from all pulses.
-    pub fn between(&self, first: f64, second: f64) -> Matrix {
-        let begin = self.begin();
-        if first >= begin {
-            return self.between_within(first, second);
-        }
-        if self.rests() {
-            // The angle at rest is the one at the start.
-            let both = self.between_within(begin, second.max(begin));
-            return std::array::from_fn(|i| {
-                std::array::from_fn(|j| {
-                    let moves = i == 0 && (j == 0 || second >= begin);
-                    if moves { both[i][j] } else { 0.0 }
-                })
-            });
-        }
-        if second < begin {
-            return product(&self.back(first - second), &self.at(second).covariance);
-        }
-        product(
-            &self.back(first - begin),
-            &self.between_within(begin, second),
-        )
-    }
-
-    /// The same for instants not before the first node.
-    fn between_within(&self, first: f64, second: f64) -> Matrix {
-        let (from, _, _) = self.around(first);
-        let (to, _, curvature) = self.around(second);
-        // How an error at the first instant is carried through forecasts and updates to the second.
-        let mut carried = drift(0.0, &self.memory);
-        let mut time = first;
-        let mut k = self.times.partition_point(|&t| t <= first);
-        while k < self.nodes.len() && self.nodes[k].time <= second {
-            carried = product(&drift(self.nodes[k].time - time, &self.memory), &carried);
-            time = self.nodes[k].time;
-            if self.nodes[k].fresh.is_some() {
-                carried = [[0.0; N]; N];
-            }
-            if let Some(pulse) = &self.nodes[k].pulse {
-                let gain = self.updates[k].gain;
-                let row = applied(&transposed(&carried), &pulse.row);
-                for i in 0..N {
-                    for j in 0..N {
-                        carried[i][j] -= gain[i] * row[j];
-                    }
-                }
-            }
-            k += 1;
-        }
-        carried = product(&drift(second - time, &self.memory), &carried);
-        let ahead = product(&from.covariance, &transposed(&carried));
-        let seen = product(&curvature, &to.covariance);
-        minus(&ahead, &product(&ahead, &seen))
-    }
-
-    /// A path drawn at random from the belief, at increasing instants.
-    ///
-    /// A motion and its pulses are made up from the model and smoothed like the measured ones; their error is added to the
-    /// smoothed measurement. Source: Durbin and Koopman, Biometrika 89, 2002 (from memory).
-    pub fn draw(&self, times: &[f64], normal: &mut dyn FnMut() -> f64) -> Vec<Vector> {
-        let mut shake = |p: &Matrix| -> Vector {
-            let noise: Vector = std::array::from_fn(|_| normal());
-            applied(&root(p), &noise)
-        };
-        let moved = shake(&self.start.covariance);
-        let mut x: Vector = std::array::from_fn(|i| self.start.mean[i] + moved[i]);
-        let mut made = self.nodes.clone();
-        let mut time = self.begin();
-        let (early, late) = times.split_at(times.partition_point(|t| *t < time));
-        let mut path = vec![[0.0; N]; early.len()];
-        let (mut later, mut before) = (x, time);
-        for (state, &t) in path.iter_mut().zip(early).rev() {
-            if self.rests() {
-                state[0] = x[0];
-                continue;
-            }
-            let noise = shake(&self.lost(before - t));
-            let free = applied(&self.back(t - before), &later);
-            *state = std::array::from_fn(|i| free[i] + noise[i]);
-            (later, before) = (*state, t);
-        }
-        let step =
-            |x: &mut Vector, dt: f64, density: f64, shake: &mut dyn FnMut(&Matrix) -> Vector| {
-                if dt > 0.0 {
-                    let noise = shake(&gathered(dt, density, &self.memory));
-                    let free = applied(&drift(dt, &self.memory), x);
-                    *x = std::array::from_fn(|i| free[i] + noise[i]);
-                }
-            };
-        let mut wanted = late.iter().peekable();
-        for node in &mut made {
-            while let Some(&&t) = wanted.peek()
-                && t < node.time
-            {
-                step(&mut x, t - time, node.density, &mut shake);
-                time = time.max(t);
-                path.push(x);
-                wanted.next();
-            }
-            step(&mut x, node.time - time, node.density, &mut shake);
-            time = node.time;
-            if let Some(added) = node.added {
-                let noise = shake(&std::array::from_fn(|i| {
-                    std::array::from_fn(|j| if i == j && i < 4 { added[i] } else { 0.0 })
-                }));
-                x = std::array::from_fn(|i| x[i] + noise[i]);
-            }
-            if let Some(fresh) = &node.fresh {
-                let belief = fresh.belief(&self.memory);
-                let noise = shake(&belief.covariance);
-                x = std::array::from_fn(|i| belief.mean[i] + noise[i]);
-            }
-            if let Some(pulse) = &mut node.pulse {
-                let mut only = [[0.0; N]; N];
-                only[0][0] = pulse.variance;
-                pulse.value = pulse.of(&x) + shake(&only)[0];
-            }
-        }
-        for &t in wanted {
-            step(&mut x, t - time, self.density, &mut shake);
-            time = time.max(t);
-            path.push(x);
-        }
-        let again = Track::new(made, self.start, self.density, self.memory);
-        times
-            .iter()
-            .zip(path)
-            .map(|(&t, made)| {
-                let (measured, estimated) = (self.at(t).mean, again.at(t).mean);
-                std::array::from_fn(|i| measured[i] + made[i] - estimated[i])
-            })
-            .collect()
     }
 }
 
@@ -472,6 +335,7 @@ pub(super) fn mixed(parts: impl Iterator<Item = (f64, Belief)> + Clone) -> Belie
 mod tests {
     use super::super::node::Sight;
     use super::*;
+    use nalgebra::{DMatrix, DVector};
 
     /// Ten marks of an accelerated start, with noise of the angle.
     fn marks() -> Vec<Node> {
@@ -530,5 +394,75 @@ mod tests {
         let left = variance - variance * variance * pass.curvature;
         assert!((found - first.mean[2]).abs() < 1e-9, "{found} {first:?}");
         assert!((left - first.covariance[2][2]).abs() < 1e-9, "{left}");
+    }
+
+    /// Of angles of marks `z` and a state `x(t)` that are normal together the state given the marks has the mean
+    /// `E x + C S⁻¹ (z - E z)` and the covariance `P - C S⁻¹ Cᵀ`, with C and S from `P(t₁) F(t₂ - t₁)ᵀ` between two instants.
+    #[test]
+    fn the_smoother_finds_the_conditional_normal_law() {
+        let mut nodes = marks();
+        nodes[3].added = Some([0.0, 0.0, 0.5, 0.5]);
+        let track = Track::new(nodes.clone(), start(0.5), 0.05, MEMORY);
+        let unseen = |time: f64| {
+            let (mut belief, mut now) = (start(0.5), nodes[0].time);
+            let mut to = |belief: &mut Belief, time: f64| {
+                let Belief { mean, covariance } = belief;
+                advance(mean, covariance, time - now, 0.05, &MEMORY);
+                now = time;
+            };
+            for node in nodes.iter().filter(|node| node.time <= time) {
+                to(&mut belief, node.time);
+                for (i, added) in node.added.iter().flatten().enumerate() {
+                    belief.covariance[i][i] += added;
+                }
+            }
+            to(&mut belief, time);
+            belief
+        };
+        let between = |a: f64, b: f64| {
+            let path = drift((b - a).abs(), &MEMORY);
+            let forward = product(&unseen(a.min(b)).covariance, &transposed(&path));
+            if a > b { transposed(&forward) } else { forward }
+        };
+        let seen: Vec<(f64, Sight)> = (nodes.iter())
+            .filter_map(|node| Some((node.time, node.pulse?)))
+            .collect();
+        let n = seen.len();
+        let spread = DMatrix::from_fn(n, n, |i, j| {
+            let both = between(seen[i].0, seen[j].0);
+            let noise = if i == j { seen[i].1.variance } else { 0.0 };
+            seen[i].1.of(&seen[j].1.seen(&both)) + noise
+        });
+        let inverse = spread.try_inverse().expect("a covariance");
+        let missed = DVector::from_fn(n, |i, _| {
+            seen[i].1.value - seen[i].1.of(&unseen(seen[i].0).mean)
+        });
+        for time in [0.4, 0.5, 1.6, 2.7, 4.0, 4.3] {
+            let (found, own) = (track.at(time), unseen(time));
+            let cross = DMatrix::from_fn(N, n, |state, i| {
+                seen[i].1.seen(&between(time, seen[i].0))[state]
+            });
+            let gain = &cross * &inverse;
+            let (shift, shrink) = (&gain * &missed, &gain * cross.transpose());
+            for i in 0..N {
+                let deviation = own.covariance[i][i].sqrt();
+                let mean = own.mean[i] + shift[i];
+                // Rounding, against what was open before the marks.
+                assert!(
+                    (found.mean[i] - mean).abs() <= 1e-9 * deviation,
+                    "{time} {i}: {} {mean}",
+                    found.mean[i]
+                );
+                for j in 0..N {
+                    let covariance = own.covariance[i][j] - shrink[(i, j)];
+                    let scale = deviation * own.covariance[j][j].sqrt();
+                    assert!(
+                        (found.covariance[i][j] - covariance).abs() <= 1e-9 * scale,
+                        "{time} {i} {j}: {} {covariance}",
+                        found.covariance[i][j]
+                    );
+                }
+            }
+        }
     }
 }

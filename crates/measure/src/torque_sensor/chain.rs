@@ -1,6 +1,7 @@
 //! The chain of states that is filtered and smoothed, for one sensor, one engagement and one growth of the disturbance.
 
 use super::Swing;
+use crate::normal::MEDIAN_OF_SIZE;
 use crate::simplex;
 use crate::state_space::{
     Filter, GAUSS, Matrix, Observation, Vector, applied, exponential, gathered_noise, identity,
@@ -175,7 +176,7 @@ impl<'a> Chain<'a> {
             .collect();
         seconds.sort_by(f64::total_cmp);
         let middle = seconds.get(seconds.len() / 2).copied().unwrap_or(1.0);
-        let noise = (middle / 0.6745 / 6.0_f64.sqrt()).max(1e-6);
+        let noise = (middle / MEDIAN_OF_SIZE / 6.0_f64.sqrt()).max(1e-6);
         // A change of one spread in 0.5 s in the slow part, in 20 ms in the fast part: T = √(q t³/3).
         let slow = 3.0 / 0.5_f64.powi(3);
         let fast = 3.0 / 0.02_f64.powi(3);

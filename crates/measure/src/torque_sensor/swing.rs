@@ -1,6 +1,7 @@
 //! The fit of a decaying swing about a level.
 
 use crate::linear::solved;
+use crate::normal::MEDIAN_OF_SIZE;
 use crate::simplex;
 use std::f64::consts::TAU;
 
@@ -138,7 +139,7 @@ impl Data<'_> {
         thirds.sort_by(f64::total_cmp);
         thirds
             .get(thirds.len() / 2)
-            .map_or(0.0, |v| v / 0.6745 / 20.0_f64.sqrt())
+            .map_or(0.0, |v| v / MEDIAN_OF_SIZE / 20.0_f64.sqrt())
     }
 
     /// Variances of ln f, of the damping's variable and of the level, residuals correlated up to 15 values apart.

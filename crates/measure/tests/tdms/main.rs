@@ -229,10 +229,10 @@ fn every_numeric_type_is_read_in_both_byte_orders() {
             );
         }
         assert_eq!(file.channels()[12].name, "g/11 (imaginary)");
-        let told = |note: &measure::recording::Note| {
+        let reported = |note: &measure::recording::Note| {
             note.channel.as_deref() == Some("g/11") && note.text.contains("g/11 (real)")
         };
-        assert!(file.notes().iter().any(told), "{:?}", file.notes());
+        assert!(file.notes().iter().any(reported), "{:?}", file.notes());
     }
 }
 

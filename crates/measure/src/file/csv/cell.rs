@@ -70,7 +70,7 @@ pub(super) enum Cell {
     Text,
 }
 
-/// Reads a cell; `comma` tells that it stands before the decimals.
+/// Reads a cell; `comma`: whether it stands before the decimals.
 pub(super) fn read(cell: &[u8], comma: bool) -> Cell {
     if let Some(number) = plain_number(cell, comma) {
         return Cell::Number(number);

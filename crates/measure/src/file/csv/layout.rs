@@ -299,7 +299,7 @@ fn name_and_unit(head: &str) -> (String, String) {
     of(head, "")
 }
 
-/// What the lines above a table tell: `name: value`, `name = value`, or two cells.
+/// What the lines above a table state: `name: value`, `name = value`, or two cells.
 fn properties(lines: &[Vec<u8>], form: (Between, bool)) -> Vec<Property> {
     let mut found = Vec::new();
     for line in lines {
@@ -360,7 +360,7 @@ mod tests {
     }
 
     #[test]
-    fn separators_and_decimals_are_told_apart() {
+    fn separators_and_decimals_are_distinguished() {
         let cases = [
             ("a,b\n1.5,2\n3,4\n", Between::Byte(b','), false, 2),
             ("a;b\n1,5;2,5\n3,0;4\n", Between::Byte(b';'), true, 2),
@@ -404,8 +404,8 @@ mod tests {
         let found = layout("Logger 7\nSample rate,1000\nOperator: nobody\n\n# t,F\n0,1\n1,2\n");
         assert_eq!(heads(&found), [("t", ""), ("F", "")]);
         assert_eq!(found.first, 5);
-        let told: Vec<&str> = found.properties.iter().map(|p| p.name.as_str()).collect();
-        assert_eq!(told, ["Sample rate", "Operator"]);
+        let names: Vec<&str> = found.properties.iter().map(|p| p.name.as_str()).collect();
+        assert_eq!(names, ["Sample rate", "Operator"]);
         assert_eq!(found.properties[0].value, Value::Number(1000.0));
     }
 

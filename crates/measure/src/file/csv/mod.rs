@@ -6,7 +6,7 @@
 //!
 //! A column of times, known by its name (`time`, `t`, `Zeit` …) or by being the first in a unit of time, is the clock;
 //! equal spacing within the rounding of its numbers makes the clock uniform. Without one, a line such as
-//! `Sample rate: 1000` before the table tells it.
+//! `Sample rate: 1000` before the table states it.
 //!
 //! Opening reads the whole file once and keeps where every some thousand lines start; values are read on demand. An
 //! empty cell and one that is no number are not-a-number, and are noted with column and line; so is a last line without a
@@ -276,12 +276,12 @@ impl<S: Read + Seek> Csv<S> {
         slack
     }
 
-    /// Reads the cells of a line into a row; tells whether it is one of values.
+    /// Reads the cells of a line into a row; returns whether it is one of values.
     fn take_row(
         &mut self,
         line: &[u8],
         row: &mut Vec<f64>,
-        mut told: Option<(&mut Vec<Faults>, &mut Lost, u64)>,
+        mut report: Option<(&mut Vec<Faults>, &mut Lost, u64)>,
     ) -> bool {
         row.clear();
         if line.trim_ascii().is_empty() || layout::is_remark(line) {
@@ -328,12 +328,12 @@ impl<S: Read + Seek> Csv<S> {
         });
         // A head that stands in the middle, where the logger started again.
         if values == 0 && texts > 1 {
-            if let Some((_, lost, number)) = &mut told {
+            if let Some((_, lost, number)) = &mut report {
                 count(&mut lost.left_out, *number);
             }
             return false;
         }
-        if let Some((faults, lost, number)) = told {
+        if let Some((faults, lost, number)) = report {
             for (column, text) in wrong {
                 faults[column].add(text, number);
             }
@@ -496,8 +496,8 @@ impl<S: Read + Seek> Recording for Csv<S> {
     }
 
     fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
-        let told = self.channels.get(channel);
-        if told.is_none_or(|told| told.content == Content::Text) {
+        let entry = self.channels.get(channel);
+        if entry.is_none_or(|entry| entry.content == Content::Text) {
             let path = self.source.path();
             return Err(refuse_number(path, channel, &self.channels));
         }
@@ -527,8 +527,8 @@ impl<S: Read + Seek> Recording for Csv<S> {
         first: u64,
         count: usize,
     ) -> Result<Vec<String>, FileError> {
-        let told = self.channels.get(channel);
-        if told.is_none_or(|told| told.content != Content::Text) {
+        let entry = self.channels.get(channel);
+        if entry.is_none_or(|entry| entry.content != Content::Text) {
             return Err(refuse_text(self.source.path(), channel, &self.channels));
         }
         let there = self.rows.saturating_sub(first).min(count as u64);

@@ -2,7 +2,7 @@
 
 use crate::recording::Instant;
 
-/// What a text of a time tells.
+/// What a text of a time states.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Moment {
     /// An instant of the calendar, without regard to a time zone.

@@ -382,7 +382,7 @@ struct Blocks {
     count: u64,
 }
 
-/// What the head of a block tells of the table to which it belongs.
+/// What the head of a block states of the table to which it belongs.
 struct Owner {
     /// Address of the header of the table.
     at: u64,

@@ -398,7 +398,7 @@ fn packed<'a, S: Read + Seek>(
     })
 }
 
-/// Fills `values` along a line from the index `first` on; what cannot be read is NaN. Tells whether all could be.
+/// Fills `values` along a line from the index `first` on; what cannot be read is NaN. Returns whether all could be.
 pub(super) fn read_line<S: Read + Seek>(
     storage: &mut Storage<S>,
     cache: &mut Cache,

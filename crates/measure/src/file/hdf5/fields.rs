@@ -1,6 +1,6 @@
 //! Fields of a piece of an HDF5 file, read one after the other.
 
-/// A place in a piece of the file; every read tells whether the bytes are there.
+/// A place in a piece of the file; every read says whether the bytes are there.
 #[derive(Clone, Copy)]
 pub(super) struct Fields<'a> {
     bytes: &'a [u8],

@@ -74,7 +74,7 @@ pub(super) fn read(body: &[u8], element: usize) -> Option<Result<Vec<Filter>, St
     Some(Ok(filters))
 }
 
-/// Undoes the filters of a chunk of `size` bytes; bit k of `left_out` tells that filter k was not applied.
+/// Undoes the filters of a chunk of `size` bytes; bit k of `left_out`: filter k was not applied.
 pub(super) fn undo(
     filters: &[Filter],
     left_out: u32,

@@ -29,7 +29,7 @@ pub(super) mod kind {
 /// One message of an object.
 #[derive(Clone, Debug)]
 pub(super) struct Message {
-    /// What it tells; see [`kind`].
+    /// What it holds; see [`kind`].
     pub kind: u16,
     /// Whether its body stands elsewhere.
     pub shared: bool,
@@ -60,17 +60,21 @@ impl<S: Read + Seek> Storage<S> {
             (|| {
                 (fields.u8()? == 1).then_some(())?;
                 fields.skip(1)?;
-                let told = fields.u16()?;
+                let stated = fields.u16()?;
                 fields.skip(4)?;
                 let size = u64::from(fields.u32()?);
-                Some((Layout::Old, (address.checked_add(16)?, size, 0), Some(told)))
+                Some((
+                    Layout::Old,
+                    (address.checked_add(16)?, size, 0),
+                    Some(stated),
+                ))
             })()
         };
-        let (layout, first, told) = first.ok_or_else(|| self.damaged(address, WHAT))?;
+        let (layout, first, stated) = first.ok_or_else(|| self.damaged(address, WHAT))?;
         // Pieces of the header: address, size, and the bytes of it before the messages.
         let mut pieces = vec![first];
         // All messages are at least as many as those of the first piece.
-        let mut spare = told.map_or(usize::MAX, usize::from);
+        let mut spare = stated.map_or(usize::MAX, usize::from);
         while let Some((at, size, before)) = pieces.pop() {
             let bytes = match layout {
                 Layout::Old => self.piece(at, size, WHAT)?,
@@ -101,7 +105,7 @@ impl<S: Read + Seek> Storage<S> {
                 }
             }
             // Only the newer form leaves a gap, of less than a message has before its body.
-            if told.is_some() && fields.left() > 0 {
+            if stated.is_some() && fields.left() > 0 {
                 return Err(self.damaged(at, WHAT));
             }
             spare = usize::MAX;

@@ -213,12 +213,13 @@ impl<S: Read + Seek> Storage<S> {
             };
             if heap.summed && matches!(kind, BlockKind::Direct(_)) {
                 // The sum is taken with zeros in its own place.
-                let Some(told) = bytes.get_mut(head..head + 4) else {
+                let Some(checksum) = bytes.get_mut(head..head + 4) else {
                     return Err(self.damaged(address, WHAT));
                 };
-                let told = std::mem::take(<&mut [u8; 4]>::try_from(told).expect("four bytes"));
+                let checksum =
+                    std::mem::take(<&mut [u8; 4]>::try_from(checksum).expect("four bytes"));
                 let end = bytes.len();
-                bytes.extend(told);
+                bytes.extend(checksum);
                 self.verify(address, &bytes, end, WHAT)?;
                 bytes.truncate(end);
             }

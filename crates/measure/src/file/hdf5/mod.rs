@@ -22,7 +22,7 @@
 //!
 //! A dataset of one direction is a channel; one of two directions is a channel for every column of the longer
 //! direction; a compound is a channel for every member that is a number. Single values and attributes become
-//! properties. The unit is the attribute `unit` or `units`, and the clock is told by attributes or single values such
+//! properties. The unit is the attribute `unit` or `units`, and the clock is given by attributes or single values such
 //! as `dt` or `sampling_rate` (taken in s and 1/s), or by a channel named `time` or `t` in the same group.
 //!
 //! Left out, with a note: values of more than two directions, references, lists of variable length, virtual and
@@ -72,8 +72,8 @@ pub struct Hdf5<S> {
     channels: Vec<Channel>,
     /// The line of each channel.
     lines: Vec<Line>,
-    /// Whether damage of each channel was told.
-    told: Vec<bool>,
+    /// Whether damage of each channel was reported.
+    reported: Vec<bool>,
     properties: Vec<Property>,
     notes: Vec<Note>,
 }
@@ -100,7 +100,7 @@ impl<S: Read + Seek> Hdf5<S> {
         let mut file = Hdf5 {
             storage,
             cache: Cache::default(),
-            told: vec![false; found.channels.len()],
+            reported: vec![false; found.channels.len()],
             datasets: found.datasets,
             channels: found.channels,
             lines: found.lines,
@@ -111,7 +111,7 @@ impl<S: Read + Seek> Hdf5<S> {
         Ok(file)
     }
 
-    /// Gives a clock to channels whose own attributes tell none.
+    /// Gives a clock to channels whose own attributes state none.
     fn set_clocks(&mut self) {
         let rounding: Vec<Option<f64>> = (self.channels.iter().zip(&self.lines))
             .map(|(channel, line)| {
@@ -148,11 +148,12 @@ impl<S: Read + Seek> Recording for Hdf5<S> {
     }
 
     fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
-        let (Some(told), Some(line)) = (self.channels.get(channel), self.lines.get(channel)) else {
+        let (Some(entry), Some(line)) = (self.channels.get(channel), self.lines.get(channel))
+        else {
             let path = self.storage.source.path();
             return Err(refuse_number(path, channel, &self.channels));
         };
-        let there = told.count.saturating_sub(first).min(values.len() as u64) as usize;
+        let there = entry.count.saturating_sub(first).min(values.len() as u64) as usize;
         if there == 0 {
             return Ok(0);
         }
@@ -164,10 +165,10 @@ impl<S: Read + Seek> Recording for Hdf5<S> {
             first,
             &mut values[..there],
         );
-        if !whole && !self.told[channel] {
-            self.told[channel] = true;
+        if !whole && !self.reported[channel] {
+            self.reported[channel] = true;
             self.notes.push(Note {
-                channel: Some(told.name.clone()),
+                channel: Some(entry.name.clone()),
                 text: "a part is damaged or cut off; its values are not-a-number".to_string(),
             });
         }

@@ -13,7 +13,7 @@ pub(super) const SIGNATURE: &[u8; 8] = b"\x89HDF\r\n\x1a\n";
 /// Largest piece of structure that is read at once; real ones are far smaller.
 const LARGEST_PIECE: u64 = 64 << 20;
 
-/// A file with the sizes that its superblock tells.
+/// A file with the sizes that its superblock states.
 #[derive(Debug)]
 pub(super) struct Storage<S> {
     /// The bytes.
@@ -108,10 +108,10 @@ impl<S: Read + Seek> Storage<S> {
         end: usize,
         what: &str,
     ) -> Result<(), FileError> {
-        let told = bytes.get(end..).and_then(|rest| rest.first_chunk());
-        match told {
+        let stated = bytes.get(end..).and_then(|rest| rest.first_chunk());
+        match stated {
             None => Err(self.damaged(address, what)),
-            Some(told) if lookup3(&bytes[..end]) == u32::from_le_bytes(*told) => Ok(()),
+            Some(stated) if lookup3(&bytes[..end]) == u32::from_le_bytes(*stated) => Ok(()),
             Some(_) => {
                 let at = self.base.saturating_add(address);
                 let found = format!("{what} does not match its checksum");

@@ -134,8 +134,8 @@ pub(super) fn survey<S: Read + Seek>(
     Ok(found)
 }
 
-/// The interval that one of these properties tells.
-fn told_interval(properties: &[Property]) -> Option<f64> {
+/// The interval that one of these properties states.
+fn stated_interval(properties: &[Property]) -> Option<f64> {
     properties.iter().find_map(|property| match property.value {
         Value::Number(value) => clock::interval_of(&property.name, value),
         _ => None,
@@ -172,10 +172,10 @@ impl Found {
     }
 
     fn take_properties(&mut self, prefix: &str, properties: Vec<Property>) {
-        let told = properties
+        let named = properties
             .into_iter()
             .filter(|property| !property.name.starts_with("MATLAB_"));
-        self.properties.extend(told.map(|property| Property {
+        self.properties.extend(named.map(|property| Property {
             name: format!("{prefix}{}", property.name),
             value: property.value,
         }));
@@ -295,7 +295,7 @@ impl Found {
         .into_iter()
         .find_map(text)
         .unwrap_or_default();
-        let clock = told_interval(&attributes).map(|interval| {
+        let clock = stated_interval(&attributes).map(|interval| {
             let first = attributes.iter().find_map(|property| {
                 let names = ["t0", "x0", "start_offset", "wf_start_offset"];
                 match property.value {

@@ -93,7 +93,7 @@ impl<S: Read + Seek> Storage<S> {
             return Ok(Vec::new());
         };
         let node = node as usize;
-        // A child is told with its records and, above the parents of leaves, with all below it; how many bytes these
+        // A child is stated with its records and, above the parents of leaves, with all below it; how many bytes these
         // counts take follows from the most that there can be.
         let leaf = ((node - 10) / record) as u64;
         let count_size = size_of(leaf);

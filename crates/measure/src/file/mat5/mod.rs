@@ -32,8 +32,8 @@ const PIECE: usize = 1 << 18;
 
 /// Whether a file that starts with these bytes is MAT of version 5.
 pub fn is_mat5(head: &[u8]) -> bool {
-    let told = head.get(124..128);
-    matches!(told, Some([0, 1, b'I', b'M'] | [1, 0, b'M', b'I']))
+    let mark = head.get(124..128);
+    matches!(mark, Some([0, 1, b'I', b'M'] | [1, 0, b'M', b'I']))
 }
 
 /// A MAT file that is open for reading.
@@ -44,8 +44,8 @@ pub struct Mat5<S> {
     values: Vec<Values>,
     properties: Vec<Property>,
     notes: Vec<Note>,
-    /// Whether damage of each channel was told.
-    told: Vec<bool>,
+    /// Whether damage of each channel was reported.
+    reported: Vec<bool>,
     /// Places that were read last, of which channel.
     places: Vec<(usize, Stream)>,
 }
@@ -87,7 +87,7 @@ impl<S: Read + Seek> Mat5<S> {
         let mut file = Mat5 {
             source,
             big_endian,
-            told: vec![false; found.channels.len()],
+            reported: vec![false; found.channels.len()],
             channels: found.channels,
             values: found.values,
             properties: found.properties,
@@ -102,16 +102,16 @@ impl<S: Read + Seek> Mat5<S> {
         Ok(file)
     }
 
-    /// Fills `values` from the index `first` on; tells whether all were there.
+    /// Fills `values` from the index `first` on; returns whether all were there.
     fn fill(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<bool, FileError> {
         values.fill(f64::NAN);
-        let told = &self.values[channel];
-        let size = told.stored.size();
-        let step = told.step.saturating_mul(size as u64);
+        let layout = &self.values[channel];
+        let size = layout.stored.size();
+        let step = layout.step.saturating_mul(size as u64);
         let known = self.places.iter().position(|(known, _)| *known == channel);
         let mut place = match known {
             Some(known) => self.places.remove(known).1,
-            None => Stream::new(told.start, told.end, told.packed),
+            None => Stream::new(layout.start, layout.end, layout.packed),
         };
         // Values that stand apart are read with what is between them, unless that is much.
         let at_once = match step {
@@ -124,10 +124,10 @@ impl<S: Read + Seek> Mat5<S> {
             let index = first + (piece * at_once) as u64;
             let from = index
                 .saturating_mul(step)
-                .saturating_add(told.first.saturating_mul(size as u64))
-                .saturating_add(told.at);
+                .saturating_add(layout.first.saturating_mul(size as u64))
+                .saturating_add(layout.at);
             if place.at() > from {
-                place = Stream::new(told.start, told.end, told.packed);
+                place = Stream::new(layout.start, layout.end, layout.packed);
             }
             bytes.resize((values.len() - 1) * step as usize + size, 0);
             let mut read = 0;
@@ -137,7 +137,7 @@ impl<S: Read + Seek> Mat5<S> {
             whole &= read == bytes.len();
             for (k, value) in values.iter_mut().enumerate() {
                 let bytes = bytes[..read].get(k * step as usize..).unwrap_or(&[]);
-                *value = told.stored.number(bytes, self.big_endian);
+                *value = layout.stored.number(bytes, self.big_endian);
             }
             if !whole {
                 break;
@@ -165,16 +165,16 @@ impl<S: Read + Seek> Recording for Mat5<S> {
     }
 
     fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
-        let Some(told) = self.channels.get(channel) else {
+        let Some(entry) = self.channels.get(channel) else {
             let path = self.source.path();
             return Err(refuse_number(path, channel, &self.channels));
         };
-        let there = told.count.saturating_sub(first).min(values.len() as u64) as usize;
+        let there = entry.count.saturating_sub(first).min(values.len() as u64) as usize;
         if there == 0 {
             return Ok(0);
         }
-        if !self.fill(channel, first, &mut values[..there])? && !self.told[channel] {
-            self.told[channel] = true;
+        if !self.fill(channel, first, &mut values[..there])? && !self.reported[channel] {
+            self.reported[channel] = true;
             self.notes.push(Note {
                 channel: Some(self.channels[channel].name.clone()),
                 text: "a part is damaged or cut off; its values are not-a-number".to_string(),

@@ -96,7 +96,7 @@ impl Stream {
         Ok(done)
     }
 
-    /// Goes forward to a place; tells whether it is there.
+    /// Goes forward to a place; returns whether it is there.
     pub fn go_to<S: Read + Seek>(
         &mut self,
         source: &mut Source<S>,

@@ -46,9 +46,9 @@ pub(super) fn survey<S: Read + Seek>(
             break;
         };
         let start = at + 8;
-        let told_end = start + tag.size;
-        let end = told_end.min(source.length());
-        if told_end > source.length() {
+        let stated_end = start + tag.size;
+        let end = stated_end.min(source.length());
+        if stated_end > source.length() {
             let text = format!(
                 "byte {at}: {} bytes are stated, {} are there; the file was cut off",
                 tag.size,
@@ -77,9 +77,9 @@ pub(super) fn survey<S: Read + Seek>(
         }
         // A packed variable is not padded.
         at = if tag.kind == 15 {
-            told_end
+            stated_end
         } else {
-            told_end.next_multiple_of(8)
+            stated_end.next_multiple_of(8)
         };
     }
     Ok(found)

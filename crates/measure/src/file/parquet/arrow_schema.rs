@@ -254,7 +254,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn base64_as_its_standard_tells() {
+    fn base64_by_its_standard() {
         // Test vectors of RFC 4648, section 10.
         for (bytes, text) in [
             ("", ""),

@@ -39,7 +39,7 @@ impl Kind {
             unsigned: false,
         };
         let logical = column.logical_type_ref();
-        // Files of old writers tell only the kind that was converted.
+        // Files of old writers state only the kind that was converted.
         let old_instant = match column.converted_type() {
             ConvertedType::TIMESTAMP_MILLIS => Some(1e3),
             ConvertedType::TIMESTAMP_MICROS => Some(1e6),
@@ -108,7 +108,7 @@ impl Cursor {
         }
     }
 
-    /// Goes forward to a row; tells whether it is there.
+    /// Goes forward to a row; returns whether it is there.
     pub fn go_to(&mut self, row: u64) -> Result<bool, ParquetError> {
         let rows = row.saturating_sub(self.row) as usize;
         if rows == 0 {

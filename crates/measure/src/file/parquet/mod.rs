@@ -177,7 +177,7 @@ fn guarded<T>(act: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, String
     }
 }
 
-/// Where the bytes of a column in a row group stand; none where the file tells no such place.
+/// Where the bytes of a column in a row group stand; none where the file states no such place.
 fn range(chunk: &ColumnChunkMetaData) -> Option<(u64, u64)> {
     let start = chunk.dictionary_page_offset();
     let start = u64::try_from(start.unwrap_or(chunk.data_page_offset())).ok()?;
@@ -408,7 +408,7 @@ impl<S: Read + Seek + Send + 'static> Parquet<S> {
     }
 }
 
-/// What the metadata of a file tells of it and its columns.
+/// What the metadata of a file states of it and its columns.
 #[derive(Default)]
 struct About {
     columns: Vec<(String, String, String)>,
@@ -448,10 +448,10 @@ impl About {
     fn take_schema(&mut self, text: &str) {
         for (name, metadata) in arrow_schema::decoded(text).unwrap_or_default() {
             let find = |keys: [&str; 3]| {
-                let told = metadata
+                let entry = metadata
                     .iter()
                     .find(|(key, _)| keys.contains(&key.as_str()));
-                told.map(|(_, value)| value.clone()).unwrap_or_default()
+                entry.map(|(_, value)| value.clone()).unwrap_or_default()
             };
             let unit = find(["unit", "units", "Unit"]);
             let meaning = find(["meaning", "description", "comment"]);
@@ -488,11 +488,11 @@ impl<S: Read + Seek + Send + 'static> Recording for Parquet<S> {
     }
 
     fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
-        let told = self.channels.get(channel);
-        let Some(told) = told.filter(|told| told.content != Content::Text) else {
+        let entry = self.channels.get(channel);
+        let Some(entry) = entry.filter(|entry| entry.content != Content::Text) else {
             return Err(refuse_number(&self.path, channel, &self.channels));
         };
-        let there = told.count.saturating_sub(first).min(values.len() as u64) as usize;
+        let there = entry.count.saturating_sub(first).min(values.len() as u64) as usize;
         let Column { kind, origin, .. } = self.columns[channel];
         let values = &mut values[..there];
         values.fill(f64::NAN);
@@ -527,11 +527,11 @@ impl<S: Read + Seek + Send + 'static> Recording for Parquet<S> {
         first: u64,
         count: usize,
     ) -> Result<Vec<String>, FileError> {
-        let told = self.channels.get(channel);
-        let Some(told) = told.filter(|told| told.content == Content::Text) else {
+        let entry = self.channels.get(channel);
+        let Some(entry) = entry.filter(|entry| entry.content == Content::Text) else {
             return Err(refuse_text(&self.path, channel, &self.channels));
         };
-        let there = told.count.saturating_sub(first).min(count as u64) as usize;
+        let there = entry.count.saturating_sub(first).min(count as u64) as usize;
         let mut texts: Vec<String> = Vec::new();
         while texts.len() < there {
             let (group, row) = self.group_of(first + texts.len() as u64);
@@ -571,7 +571,7 @@ mod tests {
     fn a_hook_knows_which_panics_are_caught() {
         // Bits: 1, a caught panic was said to be caught; 2, another one was said to be caught.
         let seen = Arc::new(AtomicUsize::new(0));
-        let told = seen.clone();
+        let flags = seen.clone();
         let own = std::thread::current().id();
         let before = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |panic| {
@@ -582,7 +582,7 @@ mod tests {
             let text = panic.payload().downcast_ref::<&str>().copied();
             let bit = if text == Some("inside") { 1 } else { 2 };
             if panic_is_caught() {
-                told.fetch_or(bit, Ordering::Relaxed);
+                flags.fetch_or(bit, Ordering::Relaxed);
             }
         }));
         let inside: Result<(), String> = guarded(|| panic!("inside"));

@@ -78,11 +78,11 @@ const OF_LEVELS: [u64; 2] = [3, 4];
 fn header(bytes: &[u8]) -> Option<Header> {
     let mut compact = Compact { bytes, at: 0 };
     let (mut whole, mut packed, mut values) = (None, None, 0);
-    let (mut page, mut kind_told) = (Page::Other, 0);
+    let (mut page, mut kind_stated) = (Page::Other, 0);
     let mut field = 0;
     while let Some(kind) = compact.field(&mut field)? {
         match (field, kind) {
-            (1, 5) => kind_told = compact.number()?,
+            (1, 5) => kind_stated = compact.number()?,
             (2, 5) => whole = Some(compact.number()?),
             (3, 5) => packed = Some(compact.number()?),
             (5 | 7 | 8, 12) => {
@@ -113,9 +113,9 @@ fn header(bytes: &[u8]) -> Option<Header> {
         }
     }
     let kinds_agree = match page {
-        Page::Data { .. } => matches!(kind_told, 0 | 3),
-        Page::Dictionary => kind_told == 2,
-        Page::Other => kind_told == 1,
+        Page::Data { .. } => matches!(kind_stated, 0 | 3),
+        Page::Dictionary => kind_stated == 2,
+        Page::Other => kind_stated == 1,
     };
     kinds_agree.then_some(())?;
     Some(Header {

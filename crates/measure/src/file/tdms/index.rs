@@ -8,7 +8,7 @@ use std::io::{Read, Seek};
 use std::sync::Arc;
 
 use super::layout::{Layout, Piece};
-use super::meta::{Cursor, RawIndex, Told, names};
+use super::meta::{Cursor, Placement, RawIndex, names};
 use crate::file::source::Source;
 use crate::recording::{Content, FileError, Note, Property, Value};
 
@@ -38,7 +38,7 @@ pub struct Object {
     pub names: Vec<String>,
     /// Its properties, the last value of each.
     pub properties: Vec<Property>,
-    /// What its values are, as first told; none where it has none.
+    /// What its values are, as first stated; none where it has none.
     pub content: Option<Content>,
     /// Its values are complex.
     pub complex: bool,
@@ -163,7 +163,7 @@ fn count_of(layout: &Layout, piece: &Piece, block: &Block) -> u64 {
 /// What is known of an object while the index is read.
 #[derive(Default)]
 struct State {
-    /// Where its raw data stood in the last segment that told.
+    /// Where its raw data stood in the last segment that stated it.
     raw: Option<RawIndex>,
     /// It is in the list of the present segment.
     active: bool,
@@ -221,12 +221,12 @@ impl Scan {
             _ => return Ok(None),
         };
         let body = at + LEAD_IN;
-        let told = if size == UNFINISHED {
+        let stated = if size == UNFINISHED {
             None
         } else {
             body.checked_add(size)
         };
-        let end = match told {
+        let end = match stated {
             Some(end) if end <= length => end,
             Some(end) => {
                 let missing = end - length;
@@ -268,7 +268,7 @@ impl Scan {
                 flags,
                 raw_at,
                 end - raw_at,
-                size != UNFINISHED && told == Some(end),
+                size != UNFINISHED && stated == Some(end),
             );
         }
         Ok(Some(end))
@@ -287,8 +287,8 @@ impl Scan {
         for _ in 0..cursor.u32()? {
             let path = cursor.text()?;
             let number = self.number_of(&path)?;
-            let told = cursor.raw_index()?;
-            self.place(number, told)?;
+            let stated = cursor.raw_index()?;
+            self.place(number, stated)?;
             for _ in 0..cursor.u32()? {
                 let (name, value) = cursor.property()?;
                 self.set(number, name, value);
@@ -313,10 +313,10 @@ impl Scan {
     }
 
     /// Puts an object into the list of the present segment, or takes it out.
-    fn place(&mut self, number: u32, told: Told) -> Result<(), String> {
+    fn place(&mut self, number: u32, stated: Placement) -> Result<(), String> {
         let state = &mut self.states[number as usize];
-        match told {
-            Told::None => {
+        match stated {
+            Placement::None => {
                 if state.active {
                     state.active = false;
                     self.list.retain(|&other| other != number);
@@ -324,14 +324,14 @@ impl Scan {
                 }
                 return Ok(());
             }
-            Told::Same if state.raw.is_none() => {
+            Placement::Same if state.raw.is_none() => {
                 let name = self.index.objects[number as usize].names.join("/");
                 return Err(format!(
                     "'{name}' repeats a raw data index that it never had"
                 ));
             }
-            Told::Same => {}
-            Told::New(raw) => {
+            Placement::Same => {}
+            Placement::New(raw) => {
                 if state.raw.as_ref() != Some(&raw) {
                     state.raw = Some(raw);
                     self.present = None;
@@ -451,7 +451,7 @@ impl Scan {
         Some(number)
     }
 
-    /// Whether a piece holds what its object held before; the first piece tells.
+    /// Whether a piece holds what its object held before; the first piece decides.
     fn keeps_content(&mut self, piece: &Piece, complaints: &mut Vec<(u32, String)>) -> bool {
         let Some(object) = self.index.objects.get_mut(piece.object as usize) else {
             return false;

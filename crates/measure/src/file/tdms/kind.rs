@@ -91,7 +91,7 @@ impl Kind {
         }
     }
 
-    /// Whether a channel of this type is told as two, real and imaginary part.
+    /// Whether a channel of this type is listed as two, real and imaginary part.
     pub fn is_complex(self) -> bool {
         matches!(self, Kind::Complex32 | Kind::Complex64)
     }

@@ -78,7 +78,7 @@ impl Layout {
 
     /// Lays out the objects of a segment, given in the order of its object list.
     ///
-    /// What cannot be laid out is told by `complain`, with the number of the object; none where no value of the segment can
+    /// What cannot be laid out is reported by `complain`, with the number of the object; none where no value of the segment can
     /// be placed.
     pub fn of(
         objects: &[(u32, &RawIndex)],

@@ -6,7 +6,7 @@ use crate::recording::{Instant, Value};
 /// What is wrong with meta data.
 pub type Wrong = String;
 
-/// Where the raw data of an object stand in a chunk, as its meta data tell.
+/// Where the raw data of an object stand in a chunk, as its meta data state.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RawIndex {
     /// Values of one type; `bytes` of all of them.
@@ -34,9 +34,9 @@ pub struct Scaler {
     pub scale: u32,
 }
 
-/// What meta data tell of where an object's raw data stand.
+/// Where an object's raw data stand, as meta data state.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Told {
+pub enum Placement {
     /// The object has none in this segment.
     None,
     /// As in the segment before.
@@ -115,14 +115,14 @@ impl<'a> Cursor<'a> {
     }
 
     /// Where the raw data of an object stand.
-    pub fn raw_index(&mut self) -> Result<Told, Wrong> {
+    pub fn raw_index(&mut self) -> Result<Placement, Wrong> {
         let first = self.u32()?;
         match first {
-            0xffff_ffff => Ok(Told::None),
-            0 => Ok(Told::Same),
+            0xffff_ffff => Ok(Placement::None),
+            0 => Ok(Placement::Same),
             FORMAT_CHANGING => self.daqmx(false),
             digital if DIGITAL_LINE.contains(&digital) => self.daqmx(true),
-            _ => self.plain().map(Told::New),
+            _ => self.plain().map(Placement::New),
         }
     }
 
@@ -146,7 +146,7 @@ impl<'a> Cursor<'a> {
         })
     }
 
-    fn daqmx(&mut self, digital: bool) -> Result<Told, Wrong> {
+    fn daqmx(&mut self, digital: bool) -> Result<Placement, Wrong> {
         let _type = self.u32()?;
         let _dimension = self.u32()?;
         let count = self.u64()?;
@@ -180,7 +180,7 @@ impl<'a> Cursor<'a> {
         for _ in 0..self.u32()? {
             widths.push(self.u32()?);
         }
-        Ok(Told::New(RawIndex::Daqmx {
+        Ok(Placement::New(RawIndex::Daqmx {
             count,
             scalers,
             widths,

@@ -3,8 +3,8 @@
 //! ```text
 //! file = segment, segment, …        segment = head, meta data, chunk, chunk, …
 //! ```
-//! The meta data of a segment name objects (the file, groups, channels), set their properties, and tell which of them have
-//! values in each chunk and how many; a segment that tells nothing repeats the one before. So a file can be written as the
+//! The meta data of a segment name objects (the file, groups, channels), set their properties, and state which of them have
+//! values in each chunk and how many; a segment that states nothing repeats the one before. So a file can be written as the
 //! measurement goes on, and is readable up to the place where a crash cut it.
 //!
 //! Source: National Instruments, "TDMS File Format Internal Structure" (white paper 5696, 2014); the layout of digital
@@ -12,7 +12,7 @@
 //!
 //! What is read: both byte orders, interleaved and contiguous values, whole numbers of 1 to 8 bytes, single, double and
 //! complex numbers, flags, texts, time stamps, raw data of DAQmx with its scales. Not read: extended (10 or 16 bytes) and
-//! fixed-point numbers. Scales for thermocouples, resistance thermometers, thermistors and strain gauges are told, not
+//! fixed-point numbers. Scales for thermocouples, resistance thermometers, thermistors and strain gauges are reported, not
 //! applied.
 
 mod index;
@@ -218,15 +218,24 @@ impl<S: Read + Seek> Tdms<S> {
         if channel.content != Some(Content::Number) {
             return Ok(None);
         }
-        let tells = |object: &&Object| object.property("NI_Number_Of_Scales").is_some();
+        let has_scales = |object: &&Object| object.property("NI_Number_Of_Scales").is_some();
         let group = || {
             objects
                 .iter()
                 .filter(|o| o.names.len() == 1 && o.names.first() == channel.names.first())
-                .find(tells)
+                .find(has_scales)
         };
-        let file = || objects.iter().filter(|o| o.names.is_empty()).find(tells);
-        let Some(object) = Some(channel).filter(tells).or_else(group).or_else(file) else {
+        let file = || {
+            objects
+                .iter()
+                .filter(|o| o.names.is_empty())
+                .find(has_scales)
+        };
+        let Some(object) = Some(channel)
+            .filter(has_scales)
+            .or_else(group)
+            .or_else(file)
+        else {
             return Ok(None);
         };
         let Some(scaling) = Scaling::of(&|name| object.property(name))? else {
@@ -464,7 +473,7 @@ impl Run {
     }
 }
 
-/// What the properties of an object tell of its channel; and what is wrong with them.
+/// What the properties of an object state of its channel; and what is wrong with them.
 fn describe(object: &Object) -> (Channel, Option<String>) {
     let text = |name: &str| match object.property(name) {
         Some(Value::Text(text)) => Some(text.clone()),

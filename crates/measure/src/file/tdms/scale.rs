@@ -1,4 +1,4 @@
-//! From the raw values of a device to the values that were measured: the scales that a file's properties tell.
+//! From the raw values of a device to the values that were measured: the scales of a file's properties.
 //!
 //! A scale takes the values of another by its number, or raw values; the last is the channel's.
 
@@ -51,9 +51,9 @@ pub struct Scaling {
 type Lookup<'a> = dyn Fn(&str) -> Option<&'a Value> + 'a;
 
 impl Scaling {
-    /// The scales that the properties tell; none where there are none.
+    /// The scales of the properties; none where there are none.
     ///
-    /// An error tells why they cannot be applied, or must not as the values are scaled already.
+    /// An error says why they cannot be applied, or must not as the values are scaled already.
     pub fn of(property: &Lookup) -> Result<Option<Scaling>, String> {
         let Some(count) = number(property, "NI_Number_Of_Scales").filter(|&count| count >= 1.0)
         else {
@@ -232,7 +232,7 @@ fn number(property: &Lookup, name: &str) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Scales one raw value by the scales that the properties tell.
+    /// Scales one raw value by the scales of the properties.
     fn scaled(properties: &[(&str, Value)], raw: f64) -> Result<Option<f64>, String> {
         let lookup = |name: &str| properties.iter().find(|p| p.0 == name).map(|p| &p.1);
         Ok(Scaling::of(&lookup)?.map(|mut scaling| {

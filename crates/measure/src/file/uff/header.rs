@@ -1,4 +1,4 @@
-//! The header of a set 58: what its eleven lines tell.
+//! The header of a set 58: its eleven lines.
 
 use std::collections::HashMap;
 
@@ -10,9 +10,9 @@ use crate::recording::{Instant, Property, Value};
 pub struct Header {
     /// Type of the values: 2 and 5 of single, 4 and 6 of double precision, 5 and 6 complex.
     pub ordinate: u64,
-    /// Number of values that is told.
+    /// Number of values that is stated.
     pub count: u64,
-    /// What else is told; the values are still to be found.
+    /// What else is stated; the values are still to be found.
     pub set: Set,
 }
 

@@ -199,7 +199,7 @@ impl<S: Read + Seek> Uff<S> {
     }
 }
 
-/// The unit of an axis, and what is to be told where the file lost it.
+/// The unit of an axis, and what is to be reported where the file lost it.
 fn unit(axis: &Axis, system: Option<u32>) -> (String, Option<String>) {
     let known = si_unit(axis.quantity);
     match (axis.unit.is_empty(), known, system) {

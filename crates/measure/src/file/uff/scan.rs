@@ -1,4 +1,4 @@
-//! The sets of a file: where they are, and what their headers tell.
+//! The sets of a file: where they are, and what their headers state.
 
 use std::collections::BTreeMap;
 use std::io::{Read, Seek};
@@ -23,7 +23,7 @@ const NOTES: usize = 100;
 pub struct Contents {
     /// The sets 58 in their order.
     pub sets: Vec<Set>,
-    /// What the set 151 tells of the file.
+    /// What the set 151 states of the file.
     pub properties: Vec<Property>,
     /// Number of the system of units by the set 164: 1 is SI.
     pub units: Option<u32>,
@@ -137,7 +137,7 @@ impl Contents {
             })
             .unwrap_or_default();
         let word = |number: usize| words.get(number).copied();
-        // A vendor may add lines to the header; the number of its lines tells.
+        // A vendor may add lines to the header; the number of its lines shows it.
         let count = word(2)
             .filter(|&lines| lines > HEADER as u64 && lines <= 100)
             .map_or(HEADER, |lines| lines as usize);
@@ -176,8 +176,8 @@ impl Contents {
                 header.set.name(),
                 "is left out: its numbers are not of IEEE 754",
             );
-            let told = word(3).unwrap_or(0).min(source.length() - at);
-            return self.other(source, at + told, "58b");
+            let stated = word(3).unwrap_or(0).min(source.length() - at);
+            return self.other(source, at + stated, "58b");
         }
         let after = match binary {
             None => self.text(source, at, &mut header)?,
@@ -245,9 +245,9 @@ impl Contents {
         Ok(at)
     }
 
-    /// Number of values where `told` are told and `there` are there.
-    fn counted(&mut self, name: Option<String>, told: u64, there: u64) -> u64 {
-        if told == 0 && there > 0 {
+    /// Number of values where `stated` are stated and `there` are there.
+    fn counted(&mut self, name: Option<String>, stated: u64, there: u64) -> u64 {
+        if stated == 0 && there > 0 {
             self.note(
                 name,
                 format!(
@@ -256,20 +256,20 @@ impl Contents {
             );
             return there;
         }
-        if told > there {
+        if stated > there {
             self.note(
                 name,
-                format!("its header states {told} values, {there} are there"),
+                format!("its header states {stated} values, {there} are there"),
             );
-        } else if told < there {
+        } else if stated < there {
             self.note(
                 name,
                 format!(
-                    "its header states {told} values, {there} are there: the last are left out"
+                    "its header states {stated} values, {there} are there: the last are left out"
                 ),
             );
         }
-        told.min(there)
+        stated.min(there)
     }
 
     /// Finds where the bytes of a set end, and so how wide its numbers are.
@@ -278,7 +278,7 @@ impl Contents {
         source: &mut Source<S>,
         at: u64,
         big: bool,
-        told: Option<u64>,
+        stated: Option<u64>,
         header: &mut Header,
     ) -> Result<u64, FileError> {
         let name = header.set.name();
@@ -301,7 +301,7 @@ impl Contents {
         let mut bytes = None;
         // Where the mark that closes the set follows, there the values end.
         let mut ends = Vec::new();
-        ends.extend(told.filter(|&bytes| bytes > 0));
+        ends.extend(stated.filter(|&bytes| bytes > 0));
         ends.extend(widths.iter().map(|&width| size(width)));
         for end in ends.into_iter().filter(|&end| end <= left) {
             if closes(source, at + end)? {
@@ -311,7 +311,7 @@ impl Contents {
         }
         if let Some(&wide) = widths
             .iter()
-            .find(|&&width| Some(size(width)) == bytes.or(told))
+            .find(|&&width| Some(size(width)) == bytes.or(stated))
         {
             abscissa = wide;
         }
@@ -324,7 +324,8 @@ impl Contents {
             self.note(name.clone(), format!("its set is not closed: {missing}"));
         }
         let bytes = bytes.unwrap_or_else(|| {
-            told.filter(|&bytes| bytes > 0)
+            stated
+                .filter(|&bytes| bytes > 0)
                 .unwrap_or(size(abscissa))
                 .min(left)
         });

@@ -7,9 +7,9 @@ use crate::recording::Property;
 pub struct Axis {
     /// Number of the quantity in the format's list.
     pub quantity: u32,
-    /// What it is called; empty where not told.
+    /// What it is called; empty where not stated.
     pub label: String,
-    /// Its unit; empty where not told.
+    /// Its unit; empty where not stated.
     pub unit: String,
 }
 
@@ -32,7 +32,7 @@ pub enum Body {
 pub struct Set {
     /// The five lines of remarks; empty where they say nothing.
     pub remarks: [String; 5],
-    /// What else the header tells.
+    /// What else the header states.
     pub properties: Vec<Property>,
     /// Values have a real and an imaginary part.
     pub complex: bool,

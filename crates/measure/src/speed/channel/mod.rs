@@ -3,7 +3,7 @@
 //! ```text
 //! instrument   τ ė = Ω - e,  τ = 1/(2π f);   shown at t:  e(t - delay), rounded to steps, with noise
 //! samples ─▶ rest, quick change at first sight ─▶ means: close in the change, wide apart else
-//!         ─▶ noise and liveliness by likelihood, more noise where it lasts longer than a mean ─▶ filter and smoother as for pulses
+//!         ─▶ noise and density of the snap by likelihood, more noise where it lasts longer than a mean ─▶ filter and smoother as for pulses
 //! ```
 //! The motion, its knots and what is averaged over are those of pulses; seen is the fifth state, what the instrument makes of the
 //! speed, in place of the angle of marks. The angle is counted from the engagement, or from the first sample.
@@ -14,13 +14,16 @@
 
 mod samples;
 
+use super::design::FEWEST_WITHIN;
 use super::fit::{self, Sight};
 use super::fitted::{QUIET_BEFORE, fitted};
 use super::matrix::{Memory, N};
 use super::plan::{Data, Noise, Passage, Plan};
-use super::too_few::FEWEST_WITHIN;
+use super::settings::{SpeedSettings, Transient};
+use super::smoothed::Speed;
+use super::stiffest::Stiffest;
+use super::stop::Stop;
 use super::track::forward;
-use super::{Speed, SpeedSettings, Stiffest, Stop, Transient};
 use crate::pulse::Refusal;
 use crate::simplex;
 use crate::state_space::colour;
@@ -88,7 +91,7 @@ const COLOURED: f64 = 1.2;
 /// acceleration is less certain than [`SpeedSettings::wanted`].
 ///
 /// Forty made-up records a case, from models other than this one (`tests/speed_channel.rs`): bands of two standard deviations hold
-/// the speed at 95.6 to 96.9 % of all instants, the acceleration at 96.6 to 98.6 %, the engagement in 37 to 40 of 40.
+/// the speed at 95.6 to 97.0 % of all instants, the acceleration at 96.6 to 98.6 %, the engagement in 38 to 40 of 40.
 pub fn smooth_channel(channel: &Channel, settings: &SpeedSettings) -> Result<Shown, Refusal> {
     let sound = channel.interval > 0.0 && channel.interval.is_finite() && channel.first.is_finite();
     let instrument = &channel.instrument;
@@ -112,7 +115,7 @@ pub fn smooth_channel(channel: &Channel, settings: &SpeedSettings) -> Result<Sho
     };
     let samples = Samples::new(
         channel.values.iter().map(|v| sign * v).collect(),
-        instrument,
+        instrument.resolution,
     );
     let n = samples.len();
     let begin = channel.first - instrument.delay;
@@ -193,7 +196,7 @@ pub fn smooth_channel(channel: &Channel, settings: &SpeedSettings) -> Result<Sho
     let last = data.passages.len() - 1;
     if end < n {
         let before = data.seconds(data.passages[last - 1].time);
-        speed.stop = Stop::seen(before, &speed, clock.time(n as f64));
+        speed.stop = Stop::seen(before, speed.at(speed.range().1), clock.time(n as f64));
     }
     if let (Some(change), Some(sight)) = (&mut speed.change, &sight)
         && !change.from_rest
@@ -334,7 +337,7 @@ fn data(
         calibrated: false,
         channel: true,
         fresh: Vec::new(),
-        livelier: Vec::new(),
+        unsteady: Vec::new(),
     })
 }
 
@@ -342,19 +345,9 @@ fn data(
 fn sight(data: &Data, rise: &Rise, clock: &Clock) -> Sight {
     let at =
         |sample: usize, lags: f64| data.units(clock.time(sample as f64 - 0.5) - lags * clock.lag);
-    let (engage, lock) = (at(rise.from, 1.0), at(rise.to, 1.0));
-    let first = data.passages.partition_point(|p| p.time <= engage);
-    let after = data.passages.partition_point(|p| p.time < lock);
-    Sight {
-        engage,
-        lock,
-        most: at(rise.most, 3.0).min(lock),
-        first,
-        after,
-        rests: rise.rests,
-        change: (rise.high - rise.low) * data.unit,
-        ends: after + 3 < data.passages.len(),
-    }
+    let times = (at(rise.from, 1.0), at(rise.most, 3.0), at(rise.to, 1.0));
+    let change = (rise.high - rise.low) * data.unit;
+    Sight::new(data, times, rise.rests, change)
 }
 
 /// The part of the means that is quiet: behind the change and what settles, or before it where that is longer.
@@ -388,38 +381,23 @@ fn quieted(
     // What is stated is not fitted.
     let width = if stated { 1e-3 } else { 1.5 };
     if range.len() < FEWEST {
-        return (noise(0.0), 1e-12 * speed * speed);
+        return (noise(0.0), fit::usual_density(speed));
     }
     let parts = fit::stretches(range);
     let cost = |x: &[f64; 2]| {
-        let plan = Plan {
-            noise: noise(x[0]),
-            quiet: [x[1].exp(); 3],
-            lively: None,
-            settled: 0.0,
-            rests: false,
-        };
-        let fit: f64 = parts
-            .iter()
-            .map(|part| plan.likelihood(data, part.clone()))
-            .sum();
-        let belief = (x[0] / width).powi(2) + ((x[1] - (1e-6 * speed).ln()) / 14.0).powi(2);
+        let plan = Plan::steady(noise(x[0]), x[1].exp());
+        let fit = plan.likelihood_in(data, &parts);
+        let belief = (x[0] / width).powi(2) + fit::unusual(x[1], speed);
         0.5 * belief - fit
     };
-    let start = [0.0, (1e-12 * speed * speed).ln()];
+    let start = [0.0, fit::usual_density(speed).ln()];
     let (best, _) = simplex::lowest(start, [0.5 * width.min(1.0), 4.0], 0.05, 120, cost);
     (noise(best[0]), best[1].exp())
 }
 
 /// How much more slow noise there is in a quiet part than its white one would have, as a variance; 1 where it is white.
 fn lasting(data: &Data, range: std::ops::Range<usize>, noise: Noise, density: f64) -> f64 {
-    let plan = Plan {
-        noise,
-        quiet: [density; 3],
-        lively: None,
-        settled: 0.0,
-        rests: false,
-    };
+    let plan = Plan::steady(noise, density);
     let most = 2000.min(range.len());
     let (nodes, start) = plan.nodes(data, range.end - most..range.end);
     let mut innovations = Vec::with_capacity(nodes.len());

@@ -1,6 +1,5 @@
 //! Samples of a speed: their means, the steps and the noise they show, the quick change and the rest in them.
 
-use super::Instrument;
 use crate::pulse::quantile;
 
 /// Part of the differences between neighbours that are none from which on the values come in steps.
@@ -44,8 +43,9 @@ pub(super) struct Rise {
 }
 
 impl Samples {
-    pub fn new(values: Vec<f64>, instrument: &Instrument) -> Samples {
-        let step = instrument.resolution.unwrap_or_else(|| steps(&values));
+    /// `resolution` is the step where it is known, rad/s.
+    pub fn new(values: Vec<f64>, resolution: Option<f64>) -> Samples {
+        let step = resolution.unwrap_or_else(|| steps(&values));
         let (mut sums, mut counts, mut changes) = (vec![0.0], vec![0], vec![0]);
         let mut before = f64::NAN;
         let (mut sum, mut count, mut changed) = (0.0, 0, 0);

@@ -1,25 +1,25 @@
-//! Knots and liveliness of a quick change by their likelihood.
+//! Knots of a quick change and the density of its snap by their likelihood.
 //!
 //! ```text
 //! scan       engagement × density for each interval between marks that the end may lie in
 //! climb      from the best of each a little, from the best of these to the top, for each start and each end
 //! weight     points about each summit, by likelihood and what was expected: what they leave open is averaged over
 //! ```
-//! The likelihood has many summits where marks are few: one for each interval of the end, a late engagement with a lively
+//! The likelihood has many summits where marks are few: one for each interval of the end, a late engagement with a quick
 //! motion beside an early one that is silent. A summit that is missed is a wrong answer with a narrow band.
 
 use super::fit::{STRETCH, Sight};
-use super::plan::{Data, Head, Knot, Lively, Passage, Plan};
+use super::plan::{Data, Head, Knot, Knots, Passage, Plan};
 use super::spread::spread;
 use crate::simplex;
 
-/// Passages beyond the lively part that take part in its fit.
+/// Passages beyond the quick change that take part in its fit.
 const BEYOND: usize = 40;
 
 /// Fall of the logarithm of the likelihood at a width: that of two and a half standard deviations of a normal density.
 const STEEP: f64 = 3.0;
 
-/// Passages that tell the knots and the density: all near the knots, some between where there are many.
+/// Passages that show the knots and the density: all near the knots, some between where there are many.
 fn thinned(data: &Data, sight: &Sight, range: std::ops::Range<usize>) -> Vec<Passage> {
     const ALL: usize = 24;
     const BETWEEN: usize = 40;
@@ -39,7 +39,7 @@ fn thinned(data: &Data, sight: &Sight, range: std::ops::Range<usize>) -> Vec<Pas
 }
 
 /// Widths of a likelihood about its best along each parameter, from the widest ones: exact pulses leave much less open, and
-/// points that all lie far away would tell nothing.
+/// points that all lie far away would show nothing.
 fn widths(
     best: &[f64; 3],
     value: f64,
@@ -195,7 +195,7 @@ fn thinner(mut parts: Vec<(Plan, f64)>) -> Vec<(Plan, f64)> {
         return parts;
     };
     let sum: f64 = parts.iter().map(|p| p.1).sum();
-    let engage = |plan: &Plan| plan.lively.map_or(0.0, |lively| lively.engage);
+    let engage = |plan: &Plan| plan.transient.map_or(0.0, |knots| knots.engage);
     parts.sort_by(|a, b| engage(&a.0).total_cmp(&engage(&b.0)));
     let mut kept = vec![(best, 0.0)];
     let mut reached = 0.0;
@@ -211,14 +211,14 @@ fn thinner(mut parts: Vec<(Plan, f64)>) -> Vec<(Plan, f64)> {
     kept
 }
 
-/// Whether a change has so many marks that its start may be livelier than the whole: a motor that follows an even ramp with
+/// Whether a change has so many marks that its start may be less steady than the whole: a motor that follows an even ramp with
 /// a lag.
 fn is_long(sight: &Sight) -> bool {
     sight.after.saturating_sub(sight.first) > 3 * STRETCH
 }
 
-/// Plans for the lively part with their weights, the best one first.
-pub(super) fn lively(
+/// Plans for the quick change with their weights, the best one first.
+pub(super) fn plans(
     data: &Data,
     sight: &Sight,
     base: &Plan,
@@ -243,7 +243,7 @@ pub(super) fn lively(
         first - 4.0 * length
     };
     let latest = (sight.lock + length).min(data.passages[to - 1].time);
-    // Of a shaft at rest no mark tells when it began to turn, only that it did before its first one; a channel shows the rest.
+    // Of a shaft at rest no mark shows when it began to turn, only that it did before its first one; a channel shows the rest.
     let unseen = sight.rests && !data.channel;
     let plan = |x: &[f64; 3], (start, stop, head): (Knot, Knot, f64)| -> Option<Plan> {
         let engage = if unseen {
@@ -257,7 +257,7 @@ pub(super) fn lively(
             && (lock < latest || !sight.ends)
             && x[0].abs() < 200.0;
         (inside && x[1].abs() < 20.0 && x[2].abs() < 5.0).then(|| Plan {
-            lively: Some(Lively {
+            transient: Some(Knots {
                 engage,
                 lock: if sight.ends { lock } else { last + length },
                 change: sight.change,
