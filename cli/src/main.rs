@@ -33,6 +33,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     measured_quietly();
+    full_files_are_errors();
     let arguments = Arguments::parse();
     let exit = match perform(&arguments.command) {
         Ok(exit) => exit,
@@ -55,6 +56,17 @@ fn measured_quietly() {
             usual(panic);
         }
     }));
+}
+
+/// A file that meets the limit of its size ends a program by a signal, without a word. Once somebody listens to that, the write
+/// fails as on a full disk: what could be written is kept, and the error says so.
+fn full_files_are_errors() {
+    #[cfg(unix)]
+    {
+        let met = std::sync::Arc::default();
+        // where it cannot be listened to, the signal ends the program as before
+        let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, met);
+    }
 }
 
 fn perform(command: &Command) -> Result<Exit, Box<Problem>> {

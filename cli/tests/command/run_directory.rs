@@ -193,6 +193,26 @@ fn the_report_is_drawn_again_and_side_by_side() {
         assert!(!place.path(name).exists());
     }
 
+    let kept = fs::read(place.path("a/report.html")).unwrap();
+    for (file, contents) in [
+        ("summary.json", "garbage"),
+        ("summary.json", ""),
+        ("summary.json", "{}"),
+        ("summary.json", "[]"),
+        ("scenario.toml", "= garbage"),
+        ("scenario.toml", ""),
+    ] {
+        let damaged = place.path("a").join(file);
+        let whole = fs::read(&damaged).unwrap();
+        fs::write(&damaged, contents).unwrap();
+        let name = format!("a/{file}");
+        for call in [&["report", "a"][..], &["report", "a", "b", "--out", "c.html"]] {
+            place.call(call).refused(&["AB0006", &name]);
+        }
+        assert_eq!(fs::read(place.path("a/report.html")).unwrap(), kept);
+        fs::write(&damaged, whole).unwrap();
+    }
+
     fs::write(place.path("b/history.parquet"), "PAR1 is not enough PAR1").unwrap();
     place
         .call(&["report", "b"])

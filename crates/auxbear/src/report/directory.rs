@@ -16,6 +16,7 @@ use crate::run::Outcome;
 use crate::scenario::Scenario;
 use measure::file::open_file;
 use measure::recording::Channel;
+use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
 use std::io::{ErrorKind, Read, Write};
@@ -251,6 +252,18 @@ pub fn free_path(name: &str) -> PathBuf {
         .unwrap_or(first)
 }
 
+/// Most bytes of a summary or scenario that is read.
+const MOST_BYTES: u64 = 1 << 29;
+
+/// What every summary has: without it a page would show a run without results.
+#[derive(serde::Deserialize)]
+struct Head {
+    #[serde(rename = "format")]
+    _format: String,
+    #[serde(rename = "quantities")]
+    _quantities: BTreeMap<String, serde::de::IgnoredAny>,
+}
+
 /// Reads a run directory back.
 pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
     const NEEDED: &str = "a run directory, as auxbear run writes it, is needed";
@@ -264,13 +277,25 @@ pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
         };
         Box::new(Problem::at_path(code, path, found, NEEDED))
     };
-    let text = |name: &str| -> Result<String, Box<Problem>> {
+    let text = |name: &str, damage: fn(&str) -> Option<String>| -> Result<String, Box<Problem>> {
         let path = path.join(name);
+        let of_directory = |found: String| {
+            Box::new(Problem::at_path(Code::FileUnreadable, &path, found, NEEDED))
+        };
         let mut text = String::new();
-        open_file(&path)
-            .and_then(|mut file| file.read_to_string(&mut text))
+        let file = open_file(&path).map_err(|error| unreadable(&path, &error))?;
+        let length = file.metadata().map_or(0, |about| about.len());
+        if length > MOST_BYTES {
+            let found = format!("{length} bytes, of which a run writes at most {MOST_BYTES}");
+            return Err(of_directory(found));
+        }
+        file.take(MOST_BYTES)
+            .read_to_string(&mut text)
             .map_err(|error| unreadable(&path, &error))?;
-        Ok(text)
+        match damage(&text) {
+            None => Ok(text),
+            Some(damage) => Err(of_directory(damage)),
+        }
     };
     if !exists(path) {
         let missing = ErrorKind::NotFound.into();
@@ -301,8 +326,19 @@ pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
     Ok(PageRun {
         name: name_of(path),
         directory: path.display().to_string(),
-        summary_json: text(SUMMARY)?,
-        scenario_toml: text(SCENARIO)?,
+        summary_json: text(SUMMARY, |text| {
+            let head: Result<Head, _> = serde_json::from_str(text);
+            let error = head.err()?;
+            Some(format!("what cannot be read as a summary ({error})"))
+        })?,
+        scenario_toml: text(SCENARIO, |text| {
+            let table: Result<toml::Table, _> = toml::from_str(text);
+            match table {
+                Ok(table) if table.contains_key("format") => None,
+                Ok(_) => Some("a text without the key format".to_string()),
+                Err(error) => Some(format!("what is no scenario ({})", error.message())),
+            }
+        })?,
         columns: columns?,
     })
 }

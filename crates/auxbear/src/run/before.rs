@@ -5,6 +5,8 @@ use crate::result::outcome::{Warning, warning};
 use crate::run::{Built, Machine};
 use crate::scenario::{AuxiliaryBearing, Bearing};
 use crate::simulate::bearing::warnings::preload_left;
+use crate::simulate::rig::warnings::preload_of_rig;
+use crate::simulate::spin_up::warnings::preload_of_spin_up;
 
 impl Machine<'_> {
     /// What the user should know before the run.
@@ -21,14 +23,16 @@ impl Machine<'_> {
                 let parts = drop.auxiliary_bearings.iter();
                 let of_part = |part: &AuxiliaryBearing| {
                     let mut list = of_bearing(&part.name, &part.bearing, load, drop.rotor.speed);
-                    list.extend(preload_left(&part.name, &part.bearing, load, None));
+                    list.extend(preload_left(&part.name, &part.bearing, ("weight", load), None));
                     list
                 };
                 parts.flat_map(of_part).collect()
             }
             Built::SpinUp(spin_up, _) => {
                 let load = spin_up.radial_load.largest_until(spin_up.run.duration);
-                of_bearing("", &spin_up.bearing, load, spin_up.target_speed())
+                let mut list = of_bearing("", &spin_up.bearing, load, spin_up.target_speed());
+                list.extend(preload_of_spin_up(&spin_up.bearing, load));
+                list
             }
             Built::Torque(asked) => {
                 let load = asked.torque.loads.iter().copied().fold(0.0, f64::max);
@@ -36,7 +40,11 @@ impl Machine<'_> {
                     .into_iter()
                     .collect()
             }
-            Built::Rig(rig, _) => of_bearing("", &rig.bearing, rig.load.radial_load, rig.speed),
+            Built::Rig(rig, _) => {
+                let mut list = of_bearing("", &rig.bearing, rig.load.radial_load, rig.speed);
+                list.extend(preload_of_rig(rig));
+                list
+            }
             Built::Signals(_) | Built::Identify(_) => Vec::new(),
         }
     }

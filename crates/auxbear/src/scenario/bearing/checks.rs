@@ -1,5 +1,7 @@
 //! Checks between the values of a bearing.
 
+use crate::catalogue::designation::PAIRS;
+use crate::scenario::bearing::kind::BearingType;
 use crate::catalogue::geometry::{Geometry, millimetres, rating_beyond_balls};
 use crate::problem::Code;
 use crate::scenario::bearing::kind::Fidelity;
@@ -21,6 +23,24 @@ const MOST_CLEARANCE: f64 = 0.1;
 const FEWEST_BALLS: usize = 3;
 
 impl Context<'_> {
+    /// Two rows share their loads by an angle of load and a tilt that no ring of balls in the plane has.
+    pub(crate) fn one_row(&self, bearing: &Bearing) -> Check {
+        if bearing.kind != BearingType::AngularContactDoubleRow {
+            return Ok(());
+        }
+        let path = "bearing.type";
+        let found = format!(
+            "{}, which would be computed as a single row",
+            self.text(path)
+        );
+        Err(Box::new(self.problem(
+            Code::NotModelled,
+            path,
+            found,
+            PAIRS.to_string(),
+        )))
+    }
+
     /// Everything about a bearing that moves; the bore is that of the key named, the load whether any presses on it.
     pub(crate) fn bearing(
         &self,

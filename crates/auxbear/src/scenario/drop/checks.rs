@@ -1,9 +1,7 @@
 //! Checks of a drop.
 
-use crate::catalogue::designation::PAIRS;
 use crate::catalogue::geometry::millimetres;
 use crate::problem::Code;
-use crate::scenario::bearing::kind::BearingType;
 use crate::scenario::bearing::separation::Separation;
 use crate::scenario::checks::{Check, Context};
 use crate::scenario::drop::{AuxiliaryBearing, Drop};
@@ -21,7 +19,7 @@ impl Context<'_> {
                 values,
                 file: self.file,
             };
-            own.one_row(part)?;
+            own.one_row(&part.bearing)?;
             let bore = part.contact.bore_diameter;
             own.bearing(&part.bearing, Some(("contact.bore_diameter", bore)), true)?;
             own.air_clearance(part)?;
@@ -50,24 +48,6 @@ impl Context<'_> {
                     .to_string(),
             ),
         ))
-    }
-
-    /// Two rows share the loads of a drop by an angle of load and a tilt that no ring of balls in the plane has.
-    fn one_row(&self, part: &AuxiliaryBearing) -> Check {
-        if part.bearing.kind != BearingType::AngularContactDoubleRow {
-            return Ok(());
-        }
-        let path = "bearing.type";
-        let found = format!(
-            "{}, which would be computed as a single row",
-            self.text(path)
-        );
-        Err(Box::new(self.problem(
-            Code::NotModelled,
-            path,
-            found,
-            PAIRS.to_string(),
-        )))
     }
 
     fn air_clearance(&self, part: &AuxiliaryBearing) -> Check {

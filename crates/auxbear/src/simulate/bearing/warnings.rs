@@ -82,8 +82,13 @@ pub(crate) fn cage_inertia(bearing: &Bearing) -> Option<Warning> {
 
 /// An energy ledger that does not close, however the run ended.
 pub(crate) fn residual(quantities: &[Quantity]) -> Option<Warning> {
+    residual_beyond(LARGEST_RESIDUAL, quantities)
+}
+
+/// An energy ledger that misses more than a share of what was turned over.
+pub(crate) fn residual_beyond(most: f64, quantities: &[Quantity]) -> Option<Warning> {
     let residual = number(quantities, "energy_residual")?;
-    (residual.abs() > LARGEST_RESIDUAL).then(|| {
+    (residual.abs() > most).then(|| {
         warning(
             "AB1006",
             format!(
@@ -241,11 +246,14 @@ fn angular_contact(bearing: &Bearing) -> String {
     )
 }
 
-/// A radial load beyond what the axial preload holds: the weight at rest, or the largest of the run with its instant.
+/// A radial load beyond what the axial preload holds: a steady one, such as the weight, or the largest of the run with its
+/// instant.
+///
+/// - `steady`: what it is, and its size, N
 pub(crate) fn preload_left(
     name: &str,
     bearing: &Bearing,
-    weight: f64,
+    (what, steady): (&str, f64),
     peak: Option<(f64, f64)>,
 ) -> Option<Warning> {
     let preload = bearing.axial_preload;
@@ -258,12 +266,15 @@ pub(crate) fn preload_left(
             "{force:.0} N at {:.2} ms, {:.1} times that{}",
             time * 1e3,
             force / most,
-            match weight > most {
-                true => format!("; the weight of {weight:.0} N alone exceeds it"),
+            match steady > most {
+                true => format!("; the {what} of {steady:.0} N alone exceeds it"),
                 false => String::new(),
             }
         ),
-        _ if weight > most => format!("exceeded by the weight of {weight:.0} N alone"),
+        _ if steady > most => format!(
+            "exceeded by the {what} of {steady:.0} N alone, {:.1} times that",
+            steady / most
+        ),
         _ => return None,
     };
     let name = match name {

@@ -3,13 +3,15 @@
 use crate::result::assumptions::speed_rating;
 use crate::result::outcome::Warning;
 use crate::result::outcome::warning;
-use crate::scenario::{Fidelity, Moment, Scenario};
+use crate::scenario::{Accuracy, Fidelity, Method, Moment, Scenario};
 use crate::simulate::bearing::pressure::Pressures;
 use crate::simulate::bearing::warnings as shared;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::Finished;
 use crate::simulate::drop::quantities::name;
+use crate::simulate::ending::DESIGN;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
+use model::system::machine::tangents::Known;
 
 /// Contacts after which pocket and bounce chaos shows in the later ones.
 const CHAOTIC_CONTACTS: usize = 10;
@@ -17,6 +19,48 @@ const CHAOTIC_CONTACTS: usize = 10;
 const BENDING_SHARE: f64 = 0.7;
 /// Hunt-Crossley damping a·ḋ above which the law leaves its valid range.
 const LARGEST_DAMPING: f64 = 0.5;
+
+/// What the energy ledger may miss at screening accuracy.
+const SCREENING_RESIDUAL: f64 = 2e-4;
+
+/// Steps that are not those that were asked for, or coarser ones than the accuracy means.
+fn accuracy(context: &Context) -> Vec<Warning> {
+    let run = &context.drop.run;
+    let mut list = Vec::new();
+    if let (Accuracy::Design, Some(tolerance)) = (run.accuracy, run.tolerance)
+        && tolerance > DESIGN
+    {
+        list.push(warning(
+            "AB1123",
+            format!(
+                "run.tolerance = {tolerance:e} is larger than the {DESIGN:e} of design accuracy: the energy ledger may miss more than a \
+                 millionth, and first impacts more than their spread."
+            ),
+        ));
+    }
+    let known = context.machine.tangents();
+    let what = match known {
+        Known::All => return list,
+        Known::Races => {
+            "what keeps the balls apart (a free cage, its land, neighbours) has no tangents"
+        }
+        Known::Nothing => "balls that roll have nothing stiff",
+    };
+    let text = match (run.method, run.accuracy) {
+        (Method::Implicit, _) if known == Known::Nothing => {
+            format!("run.method = \"implicit\" was asked for, but {what}: explicit steps were taken.")
+        }
+        (Method::Implicit, _) => format!(
+            "run.method = \"implicit\": {what}, so these steps are as short as explicit ones and cost several times more."
+        ),
+        (Method::Auto, Accuracy::Screening) => format!(
+            "run.accuracy = \"screening\" took explicit steps, because {what}: they are hardly quicker than those of design."
+        ),
+        _ => return list,
+    };
+    list.push(warning("AB1124", text));
+    list
+}
 
 /// All warnings of a run, the gravest first.
 pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -> Vec<Warning> {
@@ -50,10 +94,14 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
         let peak = peaks
             .map(|peak| (peak.value, peak.time))
             .reduce(|a, b| if b.0 > a.0 { b } else { a });
-        shared::preload_left(name, &context.given(k).bearing, weight, peak)
+        shared::preload_left(name, &context.given(k).bearing, ("weight", weight), peak)
     }));
     list.extend(each(&|k| loads(context, members, k)));
-    list.extend(shared::residual(&name(context)));
+    list.extend(match drop.run.accuracy {
+        Accuracy::Design => shared::residual(&name(context)),
+        Accuracy::Screening => shared::residual_beyond(SCREENING_RESIDUAL, &name(context)),
+    });
+    list.extend(accuracy(context));
     if drop.rotor.planes > 1 {
         list.push(warning(
             "AB1007",

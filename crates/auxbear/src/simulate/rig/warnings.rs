@@ -59,6 +59,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     list.extend(speed_rating(bearing, speed));
     list.extend(shared::lift_off(bearing, speed));
     list.extend(shared::pressure(bearing, &context.pressures()));
+    list.extend(preload_of_rig(context.rig));
     list.extend(shared::film_rise(&context.bearing()));
     list.extend(shared::law_range(
         bearing,
@@ -73,6 +74,13 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     list.extend(shared::kind(bearing));
     list.extend(shared::assumed(scenario, None, bearing));
     list
+}
+
+/// A dead weight beyond what the axial preload holds. Where the housing stays in the middle it does not reach the balls.
+pub(crate) fn preload_of_rig(rig: &Rig) -> Option<Warning> {
+    rig.load.hanging_mass?;
+    let load = ("dead weight", rig.load.radial_load);
+    shared::preload_left("", &rig.bearing, load, None)
 }
 
 /// Marks that pass more quickly than their channel is sampled.

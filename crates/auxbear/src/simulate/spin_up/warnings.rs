@@ -3,11 +3,19 @@
 use crate::result::assumptions::speed_rating;
 use crate::result::outcome::warning;
 use crate::result::outcome::{Quantity, Warning};
-use crate::scenario::Scenario;
+use crate::scenario::{Bearing, Scenario};
 use crate::simulate::bearing::warnings as shared;
 use crate::simulate::spin_up::context::Context;
 use crate::simulate::spin_up::quantities::rolling_start_to_end;
 use model::system::spin_up::layout::{APPLIED_LOAD, INNER};
+
+/// A radial load beyond what the axial preload holds. Where the inner race is held no load reaches the balls.
+pub(crate) fn preload_of_spin_up(bearing: &Bearing, load: f64) -> Option<Warning> {
+    if bearing.inner_race_centre_held {
+        return None;
+    }
+    shared::preload_left("", bearing, ("radial load", load), None)
+}
 
 /// All warnings of a run, the gravest first.
 pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]) -> Vec<Warning> {
@@ -27,6 +35,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     let pressures = (run.pressure_factors).pressures(races, record.largest_pocket_force);
     list.extend(shared::pressure(bearing, &pressures));
     list.extend(shared::films(&run, bearing));
+    list.extend(preload_of_spin_up(bearing, load));
     list.extend(shared::law_range(bearing, speed, load));
     list.extend(shared::film_rise(&run));
     list.extend(shared::residual(quantities));
