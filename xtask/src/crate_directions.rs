@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use toml::Table;
 
 /// Each folder with a package, and the workspace crates it may name.
-const ALLOWED: [(&str, &[&str]); 11] = [
+const ALLOWED: [(&str, &[&str]); 12] = [
     ("crates/number", &[]),
     ("crates/units", &[]),
     ("crates/physics", &["number"]),
@@ -14,10 +14,11 @@ const ALLOWED: [(&str, &[&str]); 11] = [
     ("crates/measure", &["number", "units"]),
     ("crates/measure/fuzz", &["measure"]),
     ("crates/identify", &["measure", "physics"]),
+    ("crates/rotor", &[]),
     (
         "crates/auxbear",
         &[
-            "identify", "measure", "model", "number", "physics", "solve", "units",
+            "identify", "measure", "model", "number", "physics", "rotor", "solve", "units",
         ],
     ),
     ("cli", &["auxbear"]),
