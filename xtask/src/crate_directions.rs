@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use toml::Table;
 
 /// Each folder with a package, and the workspace crates it may name.
-const ALLOWED: [(&str, &[&str]); 12] = [
+const ALLOWED: [(&str, &[&str]); 13] = [
     ("crates/number", &[]),
     ("crates/units", &[]),
     ("crates/physics", &["number"]),
@@ -15,12 +15,19 @@ const ALLOWED: [(&str, &[&str]); 12] = [
     ("crates/measure", &["number", "units"]),
     ("crates/measure/fuzz", &["measure"]),
     ("crates/identify", &["measure", "physics"]),
+    ("crates/rotor", &[]),
     (
         "crates/auxbear",
         &[
             "identify",
             "levitation",
-            "measure", "model", "number", "physics", "solve", "units",
+            "measure",
+            "model",
+            "number",
+            "physics",
+            "rotor",
+            "solve",
+            "units",
         ],
     ),
     ("cli", &["auxbear"]),
