@@ -6,7 +6,7 @@
 
 use crate::plant::{Coordinates, Plant};
 use crate::{C64, Levitation, LinearControl, Refused, eigen};
-use nalgebra::{ComplexField, DMatrix, DVector, RowDVector};
+use nalgebra::{DMatrix, RowDVector};
 
 /// A rotor held by its magnets, linearised.
 #[derive(Debug, Clone)]
@@ -143,7 +143,8 @@ impl<T: Coordinates> ClosedLoop<T> {
 
     /// M⁻¹ times columns.
     pub(crate) fn over_mass(&self, right: DMatrix<T>) -> Result<DMatrix<T>, Refused> {
-        if self.plant.mass.is_identity(0.0) {
+        let size = self.plant.size();
+        if self.plant.mass == DMatrix::identity(size, size) {
             return Ok(right);
         }
         let factor = self.plant.mass.clone().lu();
@@ -211,35 +212,6 @@ impl<T: Coordinates> ClosedLoop<T> {
         out.view_mut((0, size), (size, size)).fill_with_identity();
         out.rows_mut(size, size).copy_from(&self.over_mass(right)?);
         T::eigenvalues(out)
-    }
-
-    /// Displacement per force of magnets at one complex frequency: M s² + D s + K with k_s, without the controller's share
-    /// through displacements, with what velocities induce.
-    pub(crate) fn open_dynamics(&self, s: C64, over_velocity: &DMatrix<C64>) -> DMatrix<C64> {
-        let act = self.act.map(T::complex);
-        let stiffness = self.open_stiffness().map(T::complex);
-        let (mass, damping) = (&self.plant.mass, &self.plant.damping);
-        let mut out = stiffness;
-        out.zip_zip_apply(mass, damping, |value, m, d| {
-            *value += s * (s * m.complex() + d.complex());
-        });
-        if over_velocity.iter().any(|value| *value != C64::from(0.0)) {
-            out -= self.force_over_current().map(T::complex) * over_velocity * act * s;
-        }
-        out
-    }
-
-    /// Response (complex amplitudes of the coordinates) to forces e^{st} on the coordinates, and the currents, A.
-    pub fn response(&self, s: C64, forces: &DVector<C64>) -> Result<(DVector<C64>, DVector<C64>), Refused> {
-        let (over_displacement, over_velocity) =
-            self.control.response(s).ok_or(Refused::Singular)?;
-        let observe = self.observe.map(T::complex);
-        let act = self.act.map(T::complex);
-        let closed = self.open_dynamics(s, &over_velocity)
-            - self.force_over_current().map(T::complex) * &over_displacement * &observe;
-        let answer = closed.lu().solve(forces).ok_or(Refused::Singular)?;
-        let currents = over_displacement * (observe * &answer) + over_velocity * (act * &answer) * s;
-        Ok((answer, currents))
     }
 }
 

@@ -16,13 +16,17 @@
 mod checks;
 mod closed_loop;
 mod eigen;
+mod frequency;
 mod levitation;
 mod linear_control;
 mod parts;
 mod plant;
+pub mod response;
+pub mod sensitivity;
 mod state_space;
 
 pub use closed_loop::{ClosedLoop, Pole, Verdict, ZERO, verdict};
+pub use frequency::Frequencies;
 pub use levitation::{Levitation, Signals};
 pub use linear_control::LinearControl;
 pub use parts::{Actuator, Amplifier, Axis, Control, Refused, Sensor, Timing};

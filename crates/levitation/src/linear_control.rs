@@ -1,6 +1,7 @@
 //! The matrices of sensors, controller, delay and amplifiers, taken from the rates that a time run uses.
 
-use crate::{C64, Levitation};
+use crate::state_space::resolvent;
+use crate::{C64, Levitation, Refused};
 use nalgebra::{DMatrix, DVector};
 
 /// ẋ = A x + B_y y + B_v v + constant, i = C x + D y + constant.
@@ -63,16 +64,30 @@ impl LinearControl {
     /// `None` at a pole.
     #[must_use]
     pub fn response(&self, s: C64) -> Option<(DMatrix<C64>, DMatrix<C64>)> {
-        let mut left = self.a.map(|value| C64::from(-value));
-        for state in 0..left.nrows() {
-            left[(state, state)] += s;
-        }
-        let out = self.currents.map(C64::from);
-        let factor = left.lu();
-        let over_displacement = &out * factor.solve(&self.by_displacement.map(C64::from))?;
-        let over_velocity = &out * factor.solve(&self.by_velocity.map(C64::from))?;
+        let displacements = self.by_displacement.ncols();
+        let inputs = displacements + self.by_velocity.ncols();
+        let mut right = DMatrix::zeros(self.a.nrows(), inputs);
+        let (mut first, mut second) = right.columns_range_pair_mut(..displacements, displacements..);
+        first.copy_from(&self.by_displacement.map(C64::from));
+        second.copy_from(&self.by_velocity.map(C64::from));
+        let both = self.currents.map(C64::from) * resolvent(&self.a, s, right)?;
+        let over_displacement = both.columns(0, displacements);
+        let over_velocity = both.columns(displacements, inputs - displacements).into();
         let through = self.through.map(C64::from);
         Some((over_displacement + through, over_velocity))
+    }
+
+    /// States under steady oscillation e^{st} of displacements and velocities.
+    pub(crate) fn steady(
+        &self,
+        s: C64,
+        displacements: &DVector<C64>,
+        velocities: &DVector<C64>,
+    ) -> Result<DVector<C64>, Refused> {
+        let right = self.by_displacement.map(C64::from) * displacements
+            + self.by_velocity.map(C64::from) * velocities;
+        let found = resolvent(&self.a, s, DMatrix::from_columns(&[right]));
+        Ok(found.ok_or(Refused::Singular)?.column(0).into())
     }
 }
 

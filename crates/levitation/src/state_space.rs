@@ -256,11 +256,7 @@ impl StateSpace {
     /// C (s - A)⁻¹ B + D; `None` where s is a pole.
     #[must_use]
     pub fn response(&self, s: C64) -> Option<DMatrix<C64>> {
-        let mut left = self.a.map(|value| C64::from(-value));
-        for state in 0..self.states() {
-            left[(state, state)] += s;
-        }
-        let inner = left.lu().solve(&self.b.map(C64::from))?;
+        let inner = resolvent(&self.a, s, self.b.map(C64::from))?;
         Some(self.c.map(C64::from) * inner + self.d.map(C64::from))
     }
 
@@ -273,12 +269,22 @@ impl StateSpace {
     /// Gain at rest; `None` where a constant input never settles, as with an integrator.
     #[must_use]
     pub fn static_gain(&self) -> Option<DMatrix<f64>> {
-        let inner = self.a.clone().lu().solve(&self.b)?;
-        let gain = &self.d - &self.c * inner;
-        gain.iter()
-            .all(|value| value.is_finite())
-            .then_some(gain)
+        let gain = self.response(C64::from(0.0))?.map(|value| value.re);
+        let finite = gain.iter().all(|value| value.is_finite());
+        finite.then_some(gain)
     }
+}
+
+/// (s - A)⁻¹ times columns; `None` where s is an eigenvalue of A.
+pub(crate) fn resolvent(a: &DMatrix<f64>, s: C64, right: DMatrix<C64>) -> Option<DMatrix<C64>> {
+    if a.is_empty() {
+        return Some(right);
+    }
+    let mut left = a.map(|value| C64::from(-value));
+    for state in 0..left.nrows() {
+        left[(state, state)] += s;
+    }
+    left.lu().solve(&right)
 }
 
 /// out = left x + right u, row by row.

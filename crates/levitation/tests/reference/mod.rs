@@ -1,0 +1,105 @@
+//! The levitated rotor of the reference files as this crate's parts.
+
+use crate::published;
+use levitation::{
+    Actuator, Amplifier, Axis, C64, ClosedLoop, Control, Levitation, Plant, Sensor, StateSpace, Timing,
+};
+use nalgebra::DMatrix;
+use physics::magnet::Magnet;
+use serde_json::Value;
+
+/// Coordinates of the rotor.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Basis {
+    /// All.
+    Whole,
+}
+
+/// A file with its rotor.
+pub struct File {
+    pub file: Value,
+    pub rotor: rotor::Rotor,
+}
+
+/// A pair as a complex number.
+pub fn complex(value: &Value) -> C64 {
+    C64::new(value[0].as_f64().unwrap(), value[1].as_f64().unwrap())
+}
+
+impl File {
+    fn read(name: &str, beta: &str) -> Self {
+        let path = format!(
+            "{}/../../../shared/cases/reference/{name}.json",
+            env!("CARGO_MANIFEST_DIR")
+        );
+        let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+        let mut rotor = published::case("ross_amb_rotor_freefree").rotor.free();
+        for element in &mut rotor.elements {
+            element.damping_of_stiffness += file[beta].as_f64().unwrap();
+        }
+        Self { file, rotor }
+    }
+    pub fn levitated() -> Self {
+        Self::read("machine_levitated", "beta_external")
+    }
+    pub fn drop() -> Self {
+        Self::read("machine_drop_flexible", "beta_added")
+    }
+    pub fn results(&self) -> &[Value] {
+        self.file["results"].as_array().unwrap()
+    }
+
+    /// Magnets with both axes at an angle of the frame.
+    pub fn levitation(&self, angle: f64) -> Levitation {
+        let number = |v: &Value, key: &str| v[key].as_f64().unwrap();
+        let index = |v: &Value, key: &str| v[key].as_u64().unwrap() as usize;
+        let (mut sensors, mut actuators, mut channels) = (Vec::new(), Vec::new(), Vec::new());
+        let mut delay = 0.0;
+        for (magnet, m) in self.file["magnets"].as_array().unwrap().iter().enumerate() {
+            let c = &m["controller"];
+            delay = number(c, "delay_s");
+            for turned in [0.0, std::f64::consts::FRAC_PI_2] {
+                let axis = |node| Axis {
+                    name: format!("magnet {magnet} at {turned:.2}"),
+                    node,
+                    angle: angle + turned,
+                };
+                sensors.push(Sensor {
+                    axis: axis(index(m, "sensor_node")),
+                    corner: Some(number(c, "sensor_rad_s")),
+                    offset: 0.0,
+                    reference: 0.0,
+                });
+                actuators.push(Actuator {
+                    axis: axis(index(m, "actuator_node")),
+                    magnet: Magnet::Linear {
+                        current_stiffness: number(m, "ki"),
+                        position_stiffness: number(m, "ks"),
+                    },
+                    amplifier: Amplifier::Current {
+                        bandwidth: number(c, "amplifier_rad_s"),
+                    },
+                });
+                let pid = StateSpace::pid(
+                    number(c, "Kp"),
+                    number(c, "Ki"),
+                    number(c, "Kd"),
+                    number(c, "Td"),
+                );
+                channels.push(pid.unwrap());
+            }
+        }
+        let nodes = self.rotor.nodes.len();
+        let control = Control::Channels(channels);
+        Levitation::new(nodes, sensors, control, Timing::Continuous { delay }, actuators).unwrap()
+    }
+
+    pub fn closed(&self, basis: Basis, speed: f64) -> ClosedLoop<C64> {
+        let plane = self.levitation(0.0).one_plane().unwrap();
+        let dynamics = self.rotor.complex_dynamics(speed).unwrap();
+        let size = dynamics.mass.nrows();
+        let nodes = DMatrix::from_fn(self.rotor.nodes.len(), size, |n, c| if c == 2 * n {1.0} else {0.0});
+        let plant = Plant { mass: dynamics.mass, damping: dynamics.damping, stiffness: dynamics.stiffness, nodes };
+        ClosedLoop::new(plant, &plane)
+    }
+}
