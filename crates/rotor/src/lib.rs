@@ -20,19 +20,31 @@
 //! supports that hold the slope of a node.
 
 mod assembly;
+mod basis;
+mod campbell;
 mod element;
+mod error;
 mod material;
 mod mesh;
+mod modes;
 mod parts;
 mod properties;
+mod response;
+mod stiffness_map;
 mod support;
 
 pub use assembly::{Dynamics, Matrices};
+pub use basis::Basis;
+pub use campbell::{Branch, Campbell, Critical};
 pub use element::{Annulus, Element, ElementMatrices};
+pub use error::RotorError;
 pub use material::{MATERIALS, Material};
 pub use mesh::{Layer, Mesh, MeshError, mesh};
+pub use modes::{Analysis, Mode, Whirl};
 pub use parts::{Disk, Housing, PointMass, Rotor, Unbalance};
 pub use properties::{Properties, properties};
+pub use response::{Responder, Response, Sag, held, sag};
+pub use stiffness_map::{MapPoint, stiffness_map};
 pub use support::{Block, Coefficients, Place, Support};
 
 /// A complex number in double precision.

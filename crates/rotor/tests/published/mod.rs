@@ -26,11 +26,21 @@ pub struct Case {
     pub file: Value,
 }
 
+fn folder() -> &'static str {
+    concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/cases/rotor")
+}
+
+/// Whether the files are not here, outside the reference's own place.
+pub fn absent() -> bool {
+    let absent = !std::path::Path::new(folder()).is_dir();
+    if absent {
+        println!("NOT RUN: {} is absent", folder());
+    }
+    absent
+}
+
 pub fn json(name: &str) -> Value {
-    let path = format!(
-        "{}/../../../shared/cases/rotor/{name}.json",
-        env!("CARGO_MANIFEST_DIR")
-    );
+    let path = format!("{}/{name}.json", folder());
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
