@@ -30,7 +30,7 @@ pub use frequency::Frequencies;
 pub use levitation::{Levitation, Signals};
 pub use linear_control::LinearControl;
 pub use parts::{Actuator, Amplifier, Axis, Control, Refused, Sensor, Timing};
-pub use plant::{Coordinates, Plant};
+pub use plant::{Coordinates, Plant, weight};
 pub use state_space::StateSpace;
 
 /// A complex number in double precision.

@@ -1,7 +1,8 @@
 //! What the magnets hold: M q̈ + D q̇ + K q = F at one speed.
 
 use crate::{C64, Refused, eigen};
-use nalgebra::{ComplexField, DMatrix, RowDVector};
+use nalgebra::{ComplexField, DMatrix, DVector, RowDVector};
+use rotor::{Analysis, Dynamics, Matrices, Rotor};
 
 /// Coordinates of a rotor: complex w = x + jy, one list for both planes, or real, the x-plane first and then the y-plane.
 pub trait Coordinates: ComplexField<RealField = f64> {
@@ -70,7 +71,48 @@ pub struct Plant<T: Coordinates> {
     pub nodes: DMatrix<f64>,
 }
 
+impl Plant<C64> {
+    /// A rotor in the coordinates of its analysis at a speed, rad/s; `None` where a support treats x and y differently.
+    #[must_use]
+    pub fn turning(analysis: &Analysis, nodes: usize, speed: f64) -> Option<Self> {
+        let dynamics = analysis.complex_dynamics(speed)?;
+        Some(Self::of(dynamics, analysis, nodes))
+    }
+}
+
+impl Plant<f64> {
+    /// A rotor in the coordinates of its analysis at a speed, rad/s, both planes.
+    #[must_use]
+    pub fn planes(analysis: &Analysis, nodes: usize, speed: f64) -> Self {
+        Self::of(analysis.real_dynamics(speed), analysis, nodes)
+    }
+}
+
+/// Forces of weight on the coordinates of both planes, N: gravity (x, y) in m/s² times the mass that each coordinate of a plane
+/// carries, Φᵀ M 1 over displacements of nodes. Housings stand on the ground.
+#[must_use]
+pub fn weight(rotor: &Rotor, analysis: &Analysis, gravity: [f64; 2]) -> DVector<f64> {
+    let mut shift = DVector::zeros(rotor.size());
+    for node in 0..rotor.nodes.len() {
+        shift[rotor.displacement(node)] = 1.0;
+    }
+    let carried = analysis.basis.shapes.tr_mul(&(Matrices::new(rotor).mass * shift));
+    let size = carried.len();
+    DVector::from_fn(2 * size, |at, _| carried[at % size] * gravity[at / size])
+}
+
 impl<T: Coordinates> Plant<T> {
+    fn of(dynamics: Dynamics<T>, analysis: &Analysis, nodes: usize) -> Self {
+        let shapes = &analysis.basis.shapes;
+        Self {
+            mass: dynamics.mass,
+            damping: dynamics.damping,
+            stiffness: dynamics.stiffness,
+            // displacement and slope of each node stand in turn
+            nodes: DMatrix::from_fn(nodes, shapes.ncols(), |node, k| shapes[(2 * node, k)]),
+        }
+    }
+
     /// Number of coordinates.
     #[must_use]
     pub fn size(&self) -> usize {

@@ -2,19 +2,9 @@
 
 use crate::plant::Coordinates;
 use crate::{C64, ClosedLoop, Frequencies, Levitation, Plant, Refused};
-use nalgebra::{DMatrix, DVector, RowDVector};
+use nalgebra::{DMatrix, DVector};
 use physics::magnet::Magnet;
-
-/// An unbalance u e^{j(Ωt + δ)} at a node.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Unbalance {
-    /// Its node.
-    pub node: usize,
-    /// u, kg m.
-    pub amount: f64,
-    /// δ, rad.
-    pub phase: f64,
-}
+use rotor::Unbalance;
 
 /// A motion with the spin: w = forward e^{jΩt} + backward e^{-jΩt} at each node, currents likewise.
 #[derive(Debug, Clone)]
@@ -285,11 +275,4 @@ pub fn start(
             .map(|(a, b)| a + b)
             .collect(),
     })
-}
-
-/// Forces of weight on the coordinates of both planes: acceleration (x, y) times the mass carried by each coordinate of one plane.
-#[must_use]
-pub fn weight(carried: &RowDVector<f64>, gravity: [f64; 2]) -> DVector<f64> {
-    let size = carried.len();
-    DVector::from_fn(2 * size, |at, _| carried[at % size] * gravity[at / size])
 }

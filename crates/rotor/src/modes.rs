@@ -100,6 +100,19 @@ impl Analysis {
         self.turns
     }
 
+    /// The system at a speed (rad/s) over complex coordinates of the basis; `None` where a support treats x and y differently.
+    #[must_use]
+    pub fn complex_dynamics(&self, speed: f64) -> Option<Dynamics<C64>> {
+        let whole = || self.matrices.complex(&self.carried, speed);
+        self.turns.then(whole)
+    }
+
+    /// The system at a speed (rad/s) over real coordinates of the basis: the x-plane first, then the y-plane.
+    #[must_use]
+    pub fn real_dynamics(&self, speed: f64) -> Dynamics<f64> {
+        self.matrices.real(&self.carried, speed)
+    }
+
     /// The system at a speed over complex numbers; in real coordinates where a support treats x and y differently.
     pub(crate) fn dynamics(&self, speed: f64) -> Dynamics<C64> {
         if self.turns {

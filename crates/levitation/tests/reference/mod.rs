@@ -4,8 +4,8 @@ use crate::published;
 use levitation::{
     Actuator, Amplifier, Axis, C64, ClosedLoop, Control, Levitation, Plant, Sensor, StateSpace, Timing,
 };
-use nalgebra::DMatrix;
 use physics::magnet::Magnet;
+use rotor::{Analysis, Matrices, Unbalance};
 use serde_json::Value;
 
 /// Coordinates of the rotor.
@@ -13,6 +13,8 @@ use serde_json::Value;
 pub enum Basis {
     /// All.
     Whole,
+    /// Free modes to 6e4 rad/s and residual flexibility.
+    Reduced,
 }
 
 /// A file with its rotor.
@@ -94,12 +96,43 @@ impl File {
         Levitation::new(nodes, sensors, control, Timing::Continuous { delay }, actuators).unwrap()
     }
 
-    pub fn closed(&self, basis: Basis, speed: f64) -> ClosedLoop<C64> {
+    /// The rotor in a basis: all coordinates, or free modes to 6e4 rad/s with residual flexibility of its loaded nodes.
+    pub fn analysis(&self, basis: Basis) -> Analysis {
+        let matrices = Matrices::new(&self.rotor);
+        let mut coordinates = rotor::Basis::full(&self.rotor, &matrices).unwrap();
+        if basis == Basis::Reduced {
+            let node = |v: &Value| 2 * v.as_u64().unwrap() as usize;
+            let list = |key: &str| self.file[key].as_array().unwrap().iter();
+            let mut kept: Vec<usize> = list("magnets")
+                .flat_map(|m| [node(&m["actuator_node"]), node(&m["sensor_node"])])
+                .chain(list("unbalance").map(|u| node(&u["node"])))
+                .collect();
+            kept.sort_unstable();
+            kept.dedup();
+            coordinates = coordinates.reduced(6e4, &kept);
+        }
+        Analysis::new(&self.rotor, &matrices, coordinates)
+    }
+
+    /// Over complex coordinates.
+    pub fn turning(&self, basis: Basis, speed: f64) -> ClosedLoop<C64> {
         let plane = self.levitation(0.0).one_plane().unwrap();
-        let dynamics = self.rotor.complex_dynamics(speed).unwrap();
-        let size = dynamics.mass.nrows();
-        let nodes = DMatrix::from_fn(self.rotor.nodes.len(), size, |n, c| if c == 2 * n {1.0} else {0.0});
-        let plant = Plant { mass: dynamics.mass, damping: dynamics.damping, stiffness: dynamics.stiffness, nodes };
-        ClosedLoop::new(plant, &plane)
+        let nodes = self.rotor.nodes.len();
+        ClosedLoop::new(Plant::turning(&self.analysis(basis), nodes, speed).unwrap(), &plane)
+    }
+
+    /// Both planes.
+    pub fn plant(&self, basis: Basis, speed: f64) -> Plant<f64> {
+        Plant::planes(&self.analysis(basis), self.rotor.nodes.len(), speed)
+    }
+
+    pub fn unbalance(&self) -> Vec<Unbalance> {
+        let list = self.file["unbalance"].as_array().unwrap().iter();
+        list.map(|u| Unbalance {
+            node: u["node"].as_u64().unwrap() as usize,
+            amount: u["kg_m"].as_f64().unwrap(),
+            phase: u["phase_rad"].as_f64().unwrap(),
+        })
+        .collect()
     }
 }
