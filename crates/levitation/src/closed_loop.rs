@@ -5,8 +5,8 @@
 //! M q̈ + D q̇ + K q = bᵀ(k_i i + k_s b q) + F,   ẋ = A x + B_y c q + B_v b q̇,   i = C x + D_y c q
 
 use crate::plant::{Coordinates, Plant};
-use crate::{C64, Levitation, LinearControl, Refused, eigen};
-use nalgebra::{DMatrix, RowDVector};
+use crate::{C64, Levitation, LinearControl, Refused, Resolvent};
+use nalgebra::{DMatrix, DVector, RowDVector};
 
 /// A rotor held by its magnets, linearised.
 #[derive(Debug, Clone)]
@@ -18,7 +18,9 @@ pub struct ClosedLoop<T: Coordinates> {
     /// Rows of the magnet axes.
     pub(crate) act: DMatrix<T>,
     /// k_i and k_s of the magnet axes.
-    pub(crate) slopes: Vec<(f64, f64)>,
+    slopes: Vec<(f64, f64)>,
+    matrix: DMatrix<T>,
+    resolvent: Resolvent,
 }
 
 /// An eigenvalue.
@@ -59,9 +61,8 @@ pub const ZERO: f64 = 1e-4;
 
 impl<T: Coordinates> ClosedLoop<T> {
     /// A rotor with its levitation about the centres of the magnets. Over complex coordinates the levitation must be
-    /// [`one_plane`](Levitation::one_plane) of the machine's.
-    #[must_use]
-    pub fn new(plant: Plant<T>, levitation: &Levitation) -> Self {
+    /// [`one_plane`](Levitation::one_plane) of the machine's. Refused where the mass matrix is singular.
+    pub fn new(plant: Plant<T>, levitation: &Levitation) -> Result<Self, Refused> {
         let slopes = levitation.actuators().iter().map(|actuator| {
             let magnet = &actuator.magnet;
             (magnet.current_stiffness(), magnet.position_stiffness())
@@ -70,19 +71,28 @@ impl<T: Coordinates> ClosedLoop<T> {
     }
 
     /// The same with other slopes (k_i, k_s) of the magnet axes, as those about a static position.
-    #[must_use]
-    pub fn about(plant: Plant<T>, levitation: &Levitation, slopes: Vec<(f64, f64)>) -> Self {
+    pub fn about(
+        plant: Plant<T>,
+        levitation: &Levitation,
+        slopes: Vec<(f64, f64)>,
+    ) -> Result<Self, Refused> {
         let rows = |axes: Vec<&crate::Axis>| {
             let rows = axes.iter().map(|axis| plant.row(axis.node, axis.angle));
             stacked(rows.collect(), plant.size())
         };
-        Self {
+        let empty = DMatrix::zeros(0, 0);
+        let mut out = Self {
             observe: rows(levitation.sensors().iter().map(|s| &s.axis).collect()),
             act: rows(levitation.actuators().iter().map(|a| &a.axis).collect()),
             control: LinearControl::new(levitation),
+            resolvent: Resolvent::new(&empty),
+            matrix: empty,
             slopes,
             plant,
-        }
+        };
+        out.matrix = out.composed()?;
+        out.resolvent = Resolvent::new(&out.matrix);
+        Ok(out)
     }
 
     /// Number of states: coordinates, their rates, those of the controller.
@@ -115,7 +125,41 @@ impl<T: Coordinates> ClosedLoop<T> {
     }
 
     /// ẋ = matrix · x of the closed loop.
-    pub fn matrix(&self) -> Result<DMatrix<T>, Refused> {
+    #[must_use]
+    pub fn matrix(&self) -> &DMatrix<T> {
+        &self.matrix
+    }
+
+    /// The closed loop at complex frequencies.
+    #[must_use]
+    pub fn resolvent(&self) -> &Resolvent {
+        &self.resolvent
+    }
+
+    /// Amplitudes of the states under forces e^{st} on the coordinates.
+    pub fn response(&self, s: C64, forces: DVector<C64>) -> Result<DVector<C64>, Refused> {
+        let size = self.plant.size();
+        let factor = self.plant.mass.map(T::complex).lu();
+        let mut right = DVector::zeros(self.states());
+        let accelerations = factor.solve(&forces).ok_or(Refused::Singular)?;
+        right.rows_mut(size, size).copy_from(&accelerations);
+        self.resolvent.solve(s, &right)
+    }
+
+    /// What a signal added to each sensor's does to the states' rates, the offset of the sensor: [0, M⁻¹bᵀk_i D, B_y].
+    pub(crate) fn disturbance(&self) -> Result<DMatrix<T>, Refused> {
+        let size = self.plant.size();
+        let of = |m: &DMatrix<f64>| m.map(T::from_real);
+        let sensors = self.observe.nrows();
+        let mut out = DMatrix::zeros(self.states(), sensors);
+        let forces = self.force_over_current() * of(&self.control.through);
+        out.rows_mut(size, size).copy_from(&self.over_mass(forces)?);
+        out.rows_mut(2 * size, self.control.a.nrows())
+            .copy_from(&of(&self.control.by_displacement));
+        Ok(out)
+    }
+
+    fn composed(&self) -> Result<DMatrix<T>, Refused> {
         let size = self.plant.size();
         let control = &self.control;
         let of = |m: &DMatrix<f64>| m.map(T::from_real);
@@ -154,8 +198,7 @@ impl<T: Coordinates> ClosedLoop<T> {
     /// Eigenvalues of the closed loop by modulus, each with its direction; of a conjugate pair over real coordinates one stands,
     /// its sign that of its whirl.
     pub fn poles(&self) -> Result<Vec<Pole>, Refused> {
-        let matrix = self.matrix()?;
-        let mut values = T::eigenvalues(matrix.clone())?;
+        let mut values = T::eigenvalues(self.matrix.clone())?;
         values.sort_by(|a, b| a.norm().total_cmp(&b.norm()).then(a.im.total_cmp(&b.im)));
         if T::COMPLEX {
             let pole = |value| Pole {
@@ -164,13 +207,12 @@ impl<T: Coordinates> ClosedLoop<T> {
             };
             return Ok(values.into_iter().map(pole).collect());
         }
-        let real = matrix.map(|value| value.real());
         let upper = values.into_iter().filter(|value| value.im >= 0.0);
-        Ok(upper.map(|value| self.directed(&real, value)).collect())
+        Ok(upper.map(|value| self.directed(value)).collect())
     }
 
     /// Direction of a motion Re(v e^{λt}) over real coordinates, Im λ > 0: w = ½(X + jY)e^{λt} + ½ conj(X - jY) e^{λ̄t}.
-    fn directed(&self, matrix: &DMatrix<f64>, value: C64) -> Pole {
+    fn directed(&self, value: C64) -> Pole {
         let circle = Pole {
             value,
             turning: 1.0,
@@ -178,7 +220,7 @@ impl<T: Coordinates> ClosedLoop<T> {
         if !circle.oscillates() {
             return circle;
         }
-        let Some(vector) = eigen::vector(matrix, value) else {
+        let Some(vector) = self.vector(value) else {
             return circle;
         };
         let half = self.plant.size() / 2;
@@ -200,6 +242,22 @@ impl<T: Coordinates> ClosedLoop<T> {
                 turning: 1.0 - share,
             }
         }
+    }
+
+    /// The vector of an eigenvalue by inverse iteration; `None` where the steps break down.
+    fn vector(&self, value: C64) -> Option<DVector<C64>> {
+        // beside the eigenvalue by far less than the distance to any other, so that the factor exists
+        let beside = value * C64::new(1.0 + 1e-11, 1e-11);
+        // entries of uneven size and phase: no direction is left out
+        let mut vector = DVector::from_fn(self.states(), |index, _| {
+            C64::from_polar(1.0 + 0.3 * (index as f64).sin(), 0.7 * index as f64)
+        });
+        for _ in 0..3 {
+            vector = self.resolvent.solve(beside, &vector).ok()?;
+            let norm = vector.norm();
+            vector.unscale_mut(norm);
+        }
+        vector.iter().all(|v| v.is_finite()).then_some(vector)
     }
 
     /// Eigenvalues without the controller: currents at zero, the magnets' k_s on.

@@ -60,34 +60,6 @@ pub(crate) fn balance<T: ComplexField<RealField = f64>>(matrix: &mut DMatrix<T>)
     }
 }
 
-/// The eigenvector of a real matrix at an eigenvalue, by inverse iteration; `None` where the steps break down.
-pub(crate) fn vector(matrix: &DMatrix<f64>, value: C64) -> Option<DVector<C64>> {
-    let mut balanced = matrix.clone();
-    let scales = balance(&mut balanced);
-    let size = balanced.nrows();
-    let largest = balanced.camax();
-    // beside the eigenvalue by round-off, so that the factor exists
-    let shift = value + C64::new(largest * f64::EPSILON, largest * f64::EPSILON);
-    let mut left = balanced.map(C64::from);
-    for index in 0..size {
-        left[(index, index)] -= shift;
-    }
-    let factor = left.lu();
-    // no direction is left out: entries of uneven size and phase
-    let mut vector = DVector::from_fn(size, |index, _| {
-        C64::from_polar(1.0 + 0.3 * (index as f64).sin(), 0.7 * index as f64)
-    });
-    for _ in 0..3 {
-        vector = factor.solve(&vector)?;
-        let norm = vector.norm();
-        if !norm.is_finite() || norm == 0.0 {
-            return None;
-        }
-        vector.unscale_mut(norm);
-    }
-    Some(vector.component_mul(&scales.map(C64::from)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -111,8 +83,5 @@ mod tests {
         assert!((nearest - expected).norm() < 1e-7, "{nearest}");
         let again = complex(matrix.map(C64::from)).unwrap();
         assert!(again.iter().any(|value| (value - expected).norm() < 1e-7));
-        let v = vector(&matrix, nearest).unwrap();
-        let left = matrix.map(C64::from) * &v - v.map(|entry| entry * nearest);
-        assert!(left.rows(0, 1).norm() < 1e-9 * v.norm() * 30.0);
     }
 }

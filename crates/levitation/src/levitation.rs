@@ -6,7 +6,7 @@
 //! States in this order: sensors, controller, delay or held commands, currents. A linear analysis takes its matrices from
 //! [`Levitation::rate`] itself ([`LinearControl`](crate::LinearControl)).
 //!
-//! With sampled control the controller's states rest between samples: at k T_s [`Levitation::sample`], at k T_s + T_c
+//! With sampled control the controller steps by the bilinear rule and its rest between samples: at k T_s [`Levitation::sample`], at k T_s + T_c
 //! [`Levitation::release`] change the states; nothing else jumps.
 
 use crate::parts::{Actuator, Amplifier, Control, Refused, Sensor, Timing};
@@ -33,8 +33,20 @@ struct Block {
     outputs: Range<usize>,
     states: Range<usize>,
     filter: StateSpace,
-    /// The same in steps of the sampling period.
-    stepped: Option<StateSpace>,
+    /// The same in steps of the sampling period, and what one unit of input takes from its states at a start.
+    stepped: Option<(StateSpace, nalgebra::DMatrix<f64>)>,
+}
+
+impl Block {
+    /// What it gives at an instant, or at a sample.
+    fn output<R: Real>(&self, states: &[R], signals: &mut Signals<R>) {
+        let filter = self.stepped.as_ref().map_or(&self.filter, |(stepped, _)| stepped);
+        filter.output(
+            &states[self.states.clone()],
+            &signals.errors[self.inputs.clone()],
+            &mut signals.wanted[self.outputs.clone()],
+        );
+    }
 }
 
 /// Where states stand.
@@ -83,7 +95,7 @@ impl Levitation {
             let state = (sensor.corner).map(|_| layout.add(format!("{}.signal", sensor.axis.name)));
             layout.sensors.push(state);
         }
-        let blocks = blocks(&sensors, control, timing, &mut layout);
+        let blocks = blocks(&sensors, control, timing, &mut layout)?;
         let delay = match timing {
             Timing::Continuous { delay } if delay > 0.0 => Some(StateSpace::pade("delay", delay)?),
             _ => None,
@@ -213,11 +225,7 @@ impl Levitation {
             signals.errors[index] = R::splat(sensor.reference) - signal;
         }
         for block in &self.blocks {
-            block.filter.output(
-                &states[block.states.clone()],
-                &signals.errors[block.inputs.clone()],
-                &mut signals.wanted[block.outputs.clone()],
-            );
+            block.output(states, signals);
         }
         match (&self.delay, self.timing) {
             (_, Timing::Sampled { .. }) => {
@@ -246,7 +254,9 @@ impl Levitation {
     pub fn sample<R: Real>(&self, states: &mut [R], displacements: &[R], signals: &mut Signals<R>) {
         self.read(states, displacements, signals);
         for block in &self.blocks {
-            let Some(stepped) = &block.stepped else { continue };
+            let Some((stepped, _)) = &block.stepped else {
+                continue;
+            };
             let before = states[block.states.clone()].to_vec();
             let inputs = &signals.errors[block.inputs.clone()];
             stepped.rates(&before, inputs, &mut states[block.states.clone()]);
@@ -277,6 +287,39 @@ impl Levitation {
             (sensor.offset, sensor.reference) = (0.0, 0.0);
         }
         self.centred(sensors)
+    }
+
+    /// States of the time run from those of linear analysis: a delay becomes commands that are held.
+    pub(crate) fn adopted(&self, states: &[f64], displacements: &[f64]) -> Vec<f64> {
+        let Timing::Sampled { .. } = self.timing else {
+            return states.to_vec();
+        };
+        let linear = self.unlimited();
+        let mut signals = linear.signals();
+        linear.read(states, displacements, &mut signals);
+        let mut out = vec![0.0; self.states()];
+        // sensors and controller stand first in both, currents last
+        let first = self.blocks.last().map_or(0, |block| block.states.end);
+        out[..first].copy_from_slice(&states[..first]);
+        for block in &self.blocks {
+            let Some((_, entry)) = &block.stepped else {
+                continue;
+            };
+            let inputs = &signals.errors[block.inputs.clone()];
+            let taken = entry * nalgebra::DVector::from_column_slice(inputs);
+            for (state, taken) in out[block.states.clone()].iter_mut().zip(taken.iter()) {
+                *state -= taken;
+            }
+        }
+        for (index, (computed, held)) in self.layout.held.iter().enumerate() {
+            (out[*computed], out[*held]) = (signals.wanted[index], signals.commands[index]);
+        }
+        for (index, at) in self.layout.currents.iter().enumerate() {
+            if let Some(at) = at {
+                out[*at] = signals.currents[index];
+            }
+        }
+        out
     }
 
     /// As [`Levitation::linear`], with offsets and references kept.
@@ -376,10 +419,10 @@ fn blocks(
     control: Control,
     timing: Timing,
     layout: &mut Layout,
-) -> Vec<Block> {
+) -> Result<Vec<Block>, Refused> {
     let stepped = |filter: &StateSpace| match timing {
-        Timing::Sampled { period, .. } => Some(filter.stepped(period)),
-        Timing::Continuous { .. } => None,
+        Timing::Sampled { period, .. } => filter.stepped(period).ok_or(Refused::Singular).map(Some),
+        Timing::Continuous { .. } => Ok(None),
     };
     let mut block = |filter: StateSpace, inputs: Range<usize>, name: &str| {
         let first = layout.names.len();
@@ -387,16 +430,16 @@ fn blocks(
             layout.add(format!("{name}.{state}"));
         }
         let outputs = inputs.start..inputs.start + filter.outputs();
-        Block {
+        Ok(Block {
             outputs,
             inputs,
             states: first..layout.names.len(),
-            stepped: stepped(&filter),
+            stepped: stepped(&filter)?,
             filter,
-        }
+        })
     };
     match control {
-        Control::Matrix(filter) => vec![block(filter, 0..sensors.len(), "controller")],
+        Control::Matrix(filter) => Ok(vec![block(filter, 0..sensors.len(), "controller")?]),
         Control::Channels(filters) => filters
             .into_iter()
             .zip(sensors)

@@ -16,21 +16,21 @@
 mod checks;
 mod closed_loop;
 mod eigen;
-mod frequency;
 mod levitation;
 mod linear_control;
 mod parts;
 mod plant;
+mod resolvent;
 pub mod response;
 pub mod sensitivity;
 mod state_space;
 
 pub use closed_loop::{ClosedLoop, Pole, Verdict, ZERO, verdict};
-pub use frequency::Frequencies;
 pub use levitation::{Levitation, Signals};
 pub use linear_control::LinearControl;
 pub use parts::{Actuator, Amplifier, Axis, Control, Refused, Sensor, Timing};
 pub use plant::{Coordinates, Plant, weight};
+pub use resolvent::{Resolvent, Transfer};
 pub use state_space::StateSpace;
 
 /// A complex number in double precision.

@@ -1,7 +1,6 @@
 //! The matrices of sensors, controller, delay and amplifiers, taken from the rates that a time run uses.
 
-use crate::state_space::resolvent;
-use crate::{C64, Levitation, Refused};
+use crate::Levitation;
 use nalgebra::{DMatrix, DVector};
 
 /// ẋ = A x + B_y y + B_v v + constant, i = C x + D y + constant.
@@ -58,36 +57,6 @@ impl LinearControl {
             constant_rates,
             constant_currents,
         }
-    }
-
-    /// Currents over displacements of the sensors, A/m, and over velocities of the magnet axes, A s/m, at a complex frequency;
-    /// `None` at a pole.
-    #[must_use]
-    pub fn response(&self, s: C64) -> Option<(DMatrix<C64>, DMatrix<C64>)> {
-        let displacements = self.by_displacement.ncols();
-        let inputs = displacements + self.by_velocity.ncols();
-        let mut right = DMatrix::zeros(self.a.nrows(), inputs);
-        let (mut first, mut second) = right.columns_range_pair_mut(..displacements, displacements..);
-        first.copy_from(&self.by_displacement.map(C64::from));
-        second.copy_from(&self.by_velocity.map(C64::from));
-        let both = self.currents.map(C64::from) * resolvent(&self.a, s, right)?;
-        let over_displacement = both.columns(0, displacements);
-        let over_velocity = both.columns(displacements, inputs - displacements).into();
-        let through = self.through.map(C64::from);
-        Some((over_displacement + through, over_velocity))
-    }
-
-    /// States under steady oscillation e^{st} of displacements and velocities.
-    pub(crate) fn steady(
-        &self,
-        s: C64,
-        displacements: &DVector<C64>,
-        velocities: &DVector<C64>,
-    ) -> Result<DVector<C64>, Refused> {
-        let right = self.by_displacement.map(C64::from) * displacements
-            + self.by_velocity.map(C64::from) * velocities;
-        let found = resolvent(&self.a, s, DMatrix::from_columns(&[right]));
-        Ok(found.ok_or(Refused::Singular)?.column(0).into())
     }
 }
 

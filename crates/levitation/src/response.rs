@@ -1,7 +1,7 @@
 //! Answers of the closed loop: to unbalance, to constant loads, to an impulse.
 
 use crate::plant::Coordinates;
-use crate::{C64, ClosedLoop, Frequencies, Levitation, Plant, Refused};
+use crate::{C64, ClosedLoop, Levitation, Plant, Refused};
 use nalgebra::{DMatrix, DVector};
 use physics::magnet::Magnet;
 use rotor::Unbalance;
@@ -24,8 +24,7 @@ pub fn unbalance<T: Coordinates>(
     speed: f64,
 ) -> Result<Synchronous, Refused> {
     let forces = turning_forces(closed.plant(), unbalance, speed);
-    let frequencies = Frequencies::new(closed);
-    let (answer, currents) = frequencies.response(C64::new(0.0, speed), &forces)?;
+    let answer = closed.response(C64::new(0.0, speed), forces)?;
     let nodes = closed.plant().nodes.map(C64::from);
     let size = nodes.ncols();
     let x = &nodes * answer.rows(0, size);
@@ -40,7 +39,7 @@ pub fn unbalance<T: Coordinates>(
     Ok(Synchronous {
         forward: forward.iter().copied().collect(),
         backward: backward.iter().copied().collect(),
-        currents: currents.iter().copied().collect(),
+        currents: closed.currents_of(&answer, T::complex),
     })
 }
 
@@ -79,7 +78,7 @@ pub fn free<T: Coordinates>(
     times: &[f64],
 ) -> Result<Vec<DVector<T>>, Refused> {
     let step = common_step(times);
-    let transition = (closed.matrix()? * T::from_real(step)).exp();
+    let transition = (closed.matrix() * T::from_real(step)).exp();
     let mut state = start.clone();
     let (mut done, mut out) = (0, Vec::new());
     for time in times {
@@ -118,11 +117,16 @@ impl<T: Coordinates> ClosedLoop<T> {
     /// Currents in a state, A.
     #[must_use]
     pub fn currents(&self, state: &DVector<T>) -> Vec<T> {
+        self.currents_of(state, |value| value)
+    }
+
+    /// Currents in a state over other numbers, those of amplitudes.
+    fn currents_of<U: Coordinates>(&self, state: &DVector<U>, of: impl Fn(T) -> U) -> Vec<U> {
         let size = self.plant().size();
-        let of = |m: &DMatrix<f64>| m.map(T::from_real);
+        let real = |m: &DMatrix<f64>| m.map(U::from_real);
         let own = state.rows(2 * size, self.control.a.nrows());
-        let signals = of(&self.control.through) * (&self.observe * state.rows(0, size));
-        let all = of(&self.control.currents) * own + signals;
+        let displacements = self.observe.map(of) * state.rows(0, size);
+        let all = real(&self.control.currents) * own + real(&self.control.through) * displacements;
         all.iter().cloned().collect()
     }
 }
@@ -154,7 +158,7 @@ pub fn equilibrium(
         .collect();
     let mut beside = vec![0.0; slopes.len()];
     for _ in 0..SEARCH {
-        let closed = ClosedLoop::about(plant.clone(), levitation, slopes.clone());
+        let closed = ClosedLoop::about(plant.clone(), levitation, slopes.clone())?;
         let found = at_rest(&closed, &(loads + closed.act.tr_mul(&DVector::from_vec(beside.clone()))))?;
         let mut moved = false;
         for (index, actuator) in levitation.actuators().iter().enumerate() {
@@ -186,7 +190,7 @@ fn at_rest(closed: &ClosedLoop<f64>, loads: &DVector<f64>) -> Result<Equilibrium
     let size = closed.plant().size();
     let control = &closed.control;
     let own = control.a.nrows();
-    let matrix = closed.matrix()?;
+    let matrix = closed.matrix();
     // at rest q̇ is zero: rows of q̈ and of the controller, columns of q and of the controller
     let mut left = DMatrix::zeros(size + own, size + own);
     left.columns_mut(0, size)
@@ -237,7 +241,7 @@ pub struct Start {
     /// Their rates.
     pub rates: DVector<f64>,
     /// States of the levitation, in its own order.
-    pub states: DVector<f64>,
+    pub states: Vec<f64>,
     /// Control currents of the magnet axes, A.
     pub currents: Vec<f64>,
 }
@@ -258,19 +262,22 @@ pub fn start(
     let rest = equilibrium(plant, levitation, loads)?;
     let slopes = levitation.actuators().iter().enumerate();
     let slopes = slopes.map(|(k, a)| a.magnet.slopes(rest.currents[k], rest.gaps[k]));
-    let closed = ClosedLoop::about(plant.clone(), levitation, slopes.collect());
+    let closed = ClosedLoop::about(plant.clone(), levitation, slopes.collect())?;
     let forces = turning_forces(plant, imbalance, speed);
     let s = C64::new(0.0, speed);
-    let (turning, currents) = Frequencies::new(&closed).response(s, &forces)?;
-    let displacements = closed.observe.map(C64::from) * &turning;
-    let velocities = closed.act.map(C64::from) * &turning * s;
-    let states = closed.control.steady(s, &displacements, &velocities)?;
+    let turning = closed.response(s, forces)?;
+    let currents = DVector::from_vec(closed.currents_of(&turning, C64::from));
+    let size = plant.size();
+    let part = |from: usize, size: usize| turning.rows(from, size).into_owned();
     let phase = C64::from_polar(1.0, angle);
     let now = |amplitudes: &DVector<C64>| amplitudes.map(|value| (value * phase).re);
+    let coordinates = rest.coordinates + now(&part(0, size));
+    let states = rest.states.clone() + now(&part(2 * size, rest.states.len()));
+    let displacements = &closed.observe * &coordinates;
     Ok(Start {
-        coordinates: rest.coordinates + now(&turning),
-        rates: now(&(turning * s)),
-        states: rest.states + now(&states),
+        states: levitation.adopted(states.as_slice(), displacements.as_slice()),
+        rates: now(&part(size, size)),
+        coordinates,
         currents: (rest.currents.iter().zip(now(&currents).iter()))
             .map(|(a, b)| a + b)
             .collect(),

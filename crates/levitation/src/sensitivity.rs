@@ -1,7 +1,9 @@
 //! How near each axis comes to instability: S = 1/(1 + L), its peak over a band, and the open loop L.
 
 use crate::plant::Coordinates;
-use crate::{C64, ClosedLoop, Frequencies, Pole, Refused};
+use crate::resolvent::Transfer;
+use crate::{C64, ClosedLoop, Pole, Refused};
+use nalgebra::DMatrix;
 use std::f64::consts::{PI, TAU};
 
 /// Points of a grid over a decade.
@@ -82,17 +84,44 @@ pub struct Sensitivity {
     pub peaks: Vec<Peak>,
 }
 
-/// S of one real axis at a time, all others closed. Over complex coordinates ½(S_c(jω) + conj S_c(-jω)) on the diagonal: S_c alone
-/// is that of a motion that turns.
-pub fn at<T: Coordinates>(frequencies: &Frequencies, omega: f64) -> Result<Vec<C64>, Refused> {
-    let own = frequencies.sensitivity(C64::new(0.0, omega))?;
-    let diagonal = own.diagonal();
-    if !T::COMPLEX {
-        return Ok(diagonal.iter().copied().collect());
+/// S of one axis at a time, all others closed, at any frequency: e/d for a signal d added to that of one sensor,
+/// S = 1 + c (jω - A)⁻¹ b on the diagonal, c the rows of the sensors and b what d does to the closed loop A.
+///
+/// That is (1 - P k)⁻¹ with P from force to sensor, k_s in it, and k from sensor to force. Over complex coordinates a real axis has
+/// ½(S_c(jω) + conj S_c(-jω)): S_c alone is that of a motion that turns.
+pub struct Axes<'a> {
+    transfer: Transfer<'a>,
+    complex: bool,
+}
+
+impl<'a> Axes<'a> {
+    /// Of a closed loop.
+    pub fn new<T: Coordinates>(closed: &'a ClosedLoop<T>) -> Result<Self, Refused> {
+        let sensors = closed.observe.nrows();
+        let mut rows = DMatrix::zeros(sensors, closed.states());
+        rows.columns_mut(0, closed.plant().size())
+            .copy_from(&closed.observe.map(T::complex));
+        let columns = closed.disturbance()?.map(T::complex);
+        Ok(Self {
+            transfer: closed.resolvent().between(&rows, &columns),
+            complex: T::COMPLEX,
+        })
     }
-    let mirrored = frequencies.sensitivity(C64::new(0.0, -omega))?.diagonal();
-    let half = |(plus, minus): (&C64, &C64)| (plus + minus.conj()) * 0.5;
-    Ok(diagonal.iter().zip(mirrored.iter()).map(half).collect())
+
+    /// S of every axis at a frequency, rad/s.
+    pub fn at(&self, omega: f64) -> Result<Vec<C64>, Refused> {
+        let diagonal = |omega: f64| -> Result<Vec<C64>, Refused> {
+            let own = self.transfer.at(C64::new(0.0, omega))?;
+            Ok(own.diagonal().iter().map(|value| value + 1.0).collect())
+        };
+        let plus = diagonal(omega)?;
+        if !self.complex {
+            return Ok(plus);
+        }
+        let minus = diagonal(-omega)?;
+        let half = |(plus, minus): (&C64, &C64)| (plus + minus.conj()) * 0.5;
+        Ok(plus.iter().zip(&minus).map(half).collect())
+    }
 }
 
 /// The open loop L = 1/S - 1 of an axis with all others closed: its distance from -1 is 1/|S|.
@@ -108,18 +137,18 @@ impl Sensitivity {
         poles: &[Pole],
         band: Band,
     ) -> Result<Self, Refused> {
-        let frequencies = Frequencies::new(closed);
+        let axes = Axes::new(closed)?;
         let grid = band.grid(poles);
         let mut values: Vec<Vec<C64>> = Vec::new();
         for omega in &grid {
-            let row = at::<T>(&frequencies, *omega)?;
+            let row = axes.at(*omega)?;
             values.resize(row.len(), Vec::new());
             for (axis, value) in values.iter_mut().zip(row) {
                 axis.push(value);
             }
         }
         let search = |(axis, values): (usize, &Vec<C64>)| {
-            let size = |omega| Ok(at::<T>(&frequencies, omega)?[axis].norm());
+            let size = |omega| Ok(axes.at(omega)?[axis].norm());
             largest(&grid, values, size)
         };
         let peaks = values.iter().enumerate().map(search).collect::<Result<_, _>>()?;

@@ -203,21 +203,27 @@ impl StateSpace {
         }
     }
 
-    /// The same filter in steps of `period`, its input held between them: x_{k+1} = A x_k + B u_k, exactly.
+    /// The same filter in steps of a period T by the bilinear rule, s = (2/T)(z - 1)/(z + 1), and what has to be taken from its
+    /// states for every unit of input when steps begin in the middle of a motion.
+    ///
+    /// With M = (1 - AT/2)⁻¹: A' = M(1 + AT/2), B' = T M²B, C' = C, D' = D + CMB T/2; x' = x - MB T/2 u.
     #[must_use]
-    pub fn stepped(&self, period: f64) -> Self {
-        let (states, inputs) = (self.states(), self.inputs());
-        let mut both = DMatrix::zeros(states + inputs, states + inputs);
-        both.view_mut((0, 0), (states, states))
-            .copy_from(&(&self.a * period));
-        both.view_mut((0, states), (states, inputs))
-            .copy_from(&(&self.b * period));
-        let exponential = both.exp();
-        Self {
-            a: exponential.view((0, 0), (states, states)).into(),
-            b: exponential.view((0, states), (states, inputs)).into(),
-            ..self.clone()
-        }
+    pub fn stepped(&self, period: f64) -> Option<(Self, DMatrix<f64>)> {
+        let one = DMatrix::identity(self.states(), self.states());
+        let half = &self.a * (0.5 * period);
+        let factor = match half.is_empty() {
+            true => half.clone(),
+            false => (&one - &half).try_inverse()?,
+        };
+        let entry = &factor * &self.b * (0.5 * period);
+        let filter = Self {
+            a: &factor * (one + half),
+            b: &factor * &entry * 2.0,
+            c: self.c.clone(),
+            d: &self.d + &self.c * &entry,
+            names: self.names.clone(),
+        };
+        Some((filter, entry))
     }
 
     /// Number of states.
@@ -276,7 +282,7 @@ impl StateSpace {
 }
 
 /// (s - A)⁻¹ times columns; `None` where s is an eigenvalue of A.
-pub(crate) fn resolvent(a: &DMatrix<f64>, s: C64, right: DMatrix<C64>) -> Option<DMatrix<C64>> {
+fn resolvent(a: &DMatrix<f64>, s: C64, right: DMatrix<C64>) -> Option<DMatrix<C64>> {
     if a.is_empty() {
         return Some(right);
     }
@@ -385,15 +391,23 @@ mod tests {
     }
 
     #[test]
-    fn steps_with_a_held_input_are_exact() {
-        let filter = StateSpace::low_pass("", 300.0).unwrap().stepped(1e-3);
-        let mut state = [0.0];
-        for _ in 0..5 {
-            let before = state;
-            filter.rates(&before, &[2.0], &mut state);
+    fn steps_are_the_bilinear_rule_and_begin_where_the_filter_is() {
+        let period = 1e-3;
+        let filter = StateSpace::pid(2.0, 300.0, 0.1, 4e-3).unwrap();
+        let (stepped, entry) = filter.stepped(period).unwrap();
+        for omega in [1.0, 200.0, 2000.0] {
+            let z = (J * omega * period).exp();
+            let s = 2.0 / period * (z - 1.0) / (z + 1.0);
+            // C'(z - A')⁻¹B' + D' is the response of the stepped matrices at z
+            assert!(close(at(&stepped, z), at(&filter, s)));
         }
-        let mut out = [0.0];
-        filter.output(&state, &[2.0], &mut out);
-        assert!((out[0] - 2.0 * (1.0 - (-1.5_f64).exp())).abs() < 1e-14);
+        // a constant state of the derivative under a constant input stays
+        let (x, u) = ([0.0, 5.0], [5.0]);
+        let start: Vec<f64> = (0..2).map(|k| x[k] - entry[(k, 0)] * u[0]).collect();
+        let (mut next, mut y) = ([0.0; 2], [0.0]);
+        stepped.rates(&start, &u, &mut next);
+        stepped.output(&start, &u, &mut y);
+        assert!((next[1] - start[1]).abs() < 1e-14 && (next[0] - start[0] - 5.0 * period).abs() < 1e-14);
+        assert!((y[0] - 10.0).abs() < 1e-12);
     }
 }

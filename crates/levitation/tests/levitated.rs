@@ -8,8 +8,8 @@ mod published;
 mod reference;
 
 use levitation::response::{equilibrium, impulse, start, unbalance};
-use levitation::sensitivity::{Band, Sensitivity, at};
-use levitation::{C64, ClosedLoop, Frequencies, Verdict, verdict, weight};
+use levitation::sensitivity::{Axes, Band, Sensitivity};
+use levitation::{C64, ClosedLoop, Verdict, verdict, weight};
 use reference::{Basis, File, complex};
 use serde_json::Value;
 use std::f64::consts::TAU;
@@ -72,9 +72,9 @@ fn sensitivity_of_one_axis_with_all_others_closed() {
         for result in file.results() {
             let speed = number(result, "speed_rad_s");
             let closed = file.turning(basis, speed);
-            let frequencies = Frequencies::new(&closed);
+            let axes = Axes::new(&closed).unwrap();
             for sample in list(result, "sensitivity_samples") {
-                let ours = at::<C64>(&frequencies, number(sample, "rad_s")).unwrap();
+                let ours = axes.at(number(sample, "rad_s")).unwrap();
                 for (ours, wanted) in ours.iter().zip(list(sample, "S")) {
                     let wanted = wanted.as_f64().unwrap();
                     assert!((ours.norm() / wanted - 1.0).abs() < samples, "{speed} {sample}");
@@ -207,7 +207,7 @@ fn start_of_a_drop() {
             assert!((i - complex(wanted)).norm() < 1e-6, "{i}");
         }
         // the states stand still against the turning part: their rates are those of the closed loop
-        let closed = ClosedLoop::new(plant.clone(), &levitation);
+        let closed = ClosedLoop::new(plant.clone(), &levitation).unwrap();
         assert_eq!(ours.states.len(), closed.states() - 4 * size);
     }
 }

@@ -53,13 +53,19 @@ impl File {
 
     /// Magnets with both axes at an angle of the frame.
     pub fn levitation(&self, angle: f64) -> Levitation {
+        self.changed(angle, Timing::Continuous { delay: 5e-5 }, |_| ())
+    }
+
+    /// The same with another timing and with magnets changed as the file writes them.
+    pub fn changed(&self, angle: f64, timing: Timing, change: impl Fn(&mut Value)) -> Levitation {
         let number = |v: &Value, key: &str| v[key].as_f64().unwrap();
         let index = |v: &Value, key: &str| v[key].as_u64().unwrap() as usize;
         let (mut sensors, mut actuators, mut channels) = (Vec::new(), Vec::new(), Vec::new());
-        let mut delay = 0.0;
         for (magnet, m) in self.file["magnets"].as_array().unwrap().iter().enumerate() {
-            let c = &m["controller"];
-            delay = number(c, "delay_s");
+            let mut m = m.clone();
+            assert_eq!(m["controller"]["delay_s"], 5e-5);
+            change(&mut m);
+            let (m, c) = (&m, &m["controller"]);
             for turned in [0.0, std::f64::consts::FRAC_PI_2] {
                 let axis = |node| Axis {
                     name: format!("magnet {magnet} at {turned:.2}"),
@@ -93,7 +99,7 @@ impl File {
         }
         let nodes = self.rotor.nodes.len();
         let control = Control::Channels(channels);
-        Levitation::new(nodes, sensors, control, Timing::Continuous { delay }, actuators).unwrap()
+        Levitation::new(nodes, sensors, control, timing, actuators).unwrap()
     }
 
     /// The rotor in a basis: all coordinates, or free modes to 6e4 rad/s with residual flexibility of its loaded nodes.
@@ -118,7 +124,7 @@ impl File {
     pub fn turning(&self, basis: Basis, speed: f64) -> ClosedLoop<C64> {
         let plane = self.levitation(0.0).one_plane().unwrap();
         let nodes = self.rotor.nodes.len();
-        ClosedLoop::new(Plant::turning(&self.analysis(basis), nodes, speed).unwrap(), &plane)
+        ClosedLoop::new(Plant::turning(&self.analysis(basis), nodes, speed).unwrap(), &plane).unwrap()
     }
 
     /// Both planes.
