@@ -96,6 +96,20 @@ pub enum Code {
     DuplicateBearing,
     /// AB0402
     RatingContradictsBalls,
+    /// AB2000
+    NoSuchNode,
+    /// AB2001
+    RotorGeometry,
+    /// AB2002
+    UnknownMaterial,
+    /// AB2003
+    TooManyModes,
+    /// AB2004
+    NotHeld,
+    /// AB2005
+    ImportFormat,
+    /// AB2006
+    SectionTable,
 }
 
 impl Code {
@@ -364,6 +378,48 @@ impl Code {
             "AB0402",
             "Load rating contradicts the balls",
             "The static load rating is absurd for bearings with such balls: a digit or a unit is wrong.",
+        ),
+        (
+            Code::NoSuchNode,
+            "AB2000",
+            "No such place on the rotor",
+            "A part sits at a node or housing that the file does not name, or at a position beside the shaft.",
+        ),
+        (
+            Code::RotorGeometry,
+            "AB2001",
+            "Impossible rotor geometry",
+            "Pieces of shaft fill the same place, leave a gap, or have a bore as large as themselves.",
+        ),
+        (
+            Code::UnknownMaterial,
+            "AB2002",
+            "Unknown material",
+            "A piece of shaft is of a material that is neither known by name nor given in the file.",
+        ),
+        (
+            Code::TooManyModes,
+            "AB2003",
+            "More modes than there are",
+            "More modes are asked for than the rotor has that oscillate; more elements give more.",
+        ),
+        (
+            Code::NotHeld,
+            "AB2004",
+            "Rotor without support",
+            "The supports leave a motion of the rotor free, so it has no position at rest.",
+        ),
+        (
+            Code::ImportFormat,
+            "AB2005",
+            "Not a rotor that can be imported",
+            "The file is not of a program and version whose rotors are understood.",
+        ),
+        (
+            Code::SectionTable,
+            "AB2006",
+            "Table of sections cannot be read",
+            "A table of sections lacks a column, a unit in its header, or a number in a row.",
         ),
     ];
 

@@ -1,9 +1,9 @@
 //! Coordinates in which a rotor is small: free modes and what they leave out at the nodes that carry something.
 //!
 //! q = Φη with the rigid motions exactly at zero, the elastic modes of the free shaft at rest up to a cut, and for each node
-//! that carries a support, a seal, an unbalance (or whatever the user names) the residual flexibility: the deflection under
-//! a force there less what the kept modes give (Rubin's basis). All are made orthonormal once: M → 1, K → ω². One real Φ
-//! serves both planes. Housings are coordinates of their own.
+//! that carries a support, a seal or an unbalance the residual flexibility: the deflection under a force there less what the
+//! kept modes give (Rubin's basis). The same of the gyroscopic moments of the slow modes. All are made orthonormal once:
+//! M → 1, K → ω². One real Φ serves both planes. Housings are coordinates of their own.
 //!
 //! The frequencies are Rayleigh quotients of the stiffness matrix, not what the eigen-solver returns: of a matrix with
 //! entries up to ω² = 10¹⁴ it leaves an error of 10⁻² in every ω², and of rigid motions ±10⁻⁴.
@@ -81,19 +81,23 @@ impl Basis {
         })
     }
 
-    /// The modes up to `cut` (rad/s) and the residual flexibility at the coordinates `kept`.
+    /// The modes up to `cut` (rad/s) and the residual flexibility under each of these forces, a column each.
     #[must_use]
-    pub fn reduced(&self, cut: f64, kept: &[usize]) -> Self {
+    pub fn reduced(&self, cut: f64, forces: &DMatrix<f64>) -> Self {
         let modes = self.frequencies.partition_point(|omega| *omega <= cut);
         let above = self.frequencies.len() - modes;
-        if above <= kept.len() {
-            return self.clone();
+        if above <= forces.ncols() || forces.ncols() == 0 {
+            return match forces.ncols() {
+                0 => self.first(modes),
+                _ => self.clone(),
+            };
         }
-        // Residual flexibility in the coordinates of the modes above the cut: φ_k(node)/ω_k².
+        // Residual flexibility in the coordinates of the modes above the cut: φ_kᵀF/ω_k².
         let omega = |k: usize| self.frequencies[modes + k];
-        let mut residual = DMatrix::from_fn(above, kept.len(), |k, j| {
-            self.shapes[(kept[j], modes + k)] / omega(k).powi(2)
-        });
+        let mut residual = self.shapes.columns(modes, above).tr_mul(forces);
+        for (k, mut row) in residual.row_iter_mut().enumerate() {
+            row /= omega(k).powi(2);
+        }
         for mut column in residual.column_iter_mut() {
             let length = column.norm();
             if length > 0.0 {
@@ -102,7 +106,7 @@ impl Basis {
         }
         let gram = SymmetricEigen::new(residual.tr_mul(&residual));
         let largest = gram.eigenvalues.amax();
-        let directions: Vec<DVector<f64>> = (0..kept.len())
+        let directions: Vec<DVector<f64>> = (0..forces.ncols())
             .filter(|j| gram.eigenvalues[*j] > SAME_DIRECTION * largest)
             .map(|j| &residual * gram.eigenvectors.column(j) / gram.eigenvalues[j].sqrt())
             .collect();
@@ -129,6 +133,29 @@ impl Basis {
             shapes,
             frequencies,
         }
+    }
+
+    /// The first coordinates alone.
+    fn first(&self, count: usize) -> Self {
+        Self {
+            shapes: self.shapes.columns(0, count).into_owned(),
+            frequencies: self.frequencies[..count].to_vec(),
+        }
+    }
+
+    /// The modes up to `cut` (rad/s) with the residual flexibility that an analysis of frequencies up to `limit` (rad/s)
+    /// needs: at the nodes that carry something, and under the gyroscopic moments of the modes up to `limit`.
+    ///
+    /// Without the moments the lowest modes of a fast rotor with disks are wrong by 10⁻⁵ and more.
+    #[must_use]
+    pub fn for_analysis(&self, rotor: &Rotor, matrices: &Matrices, cut: f64, limit: f64) -> Self {
+        let kept = unit_forces(rotor.size(), &rotor.kept());
+        let slow = self.frequencies.partition_point(|omega| *omega <= limit);
+        let moments = &matrices.gyroscopic * self.shapes.columns(0, slow);
+        let mut forces = DMatrix::zeros(rotor.size(), kept.ncols() + slow);
+        forces.columns_mut(0, kept.ncols()).copy_from(&kept);
+        forces.columns_mut(kept.ncols(), slow).copy_from(&moments);
+        self.reduced(cut, &forces)
     }
 
     /// Number of coordinates.
@@ -190,6 +217,16 @@ impl Rotor {
         nodes.dedup();
         nodes.into_iter().map(|n| self.displacement(n)).collect()
     }
+}
+
+/// A unit force at each of these coordinates.
+#[must_use]
+pub fn unit_forces(size: usize, coordinates: &[usize]) -> DMatrix<f64> {
+    let mut out = DMatrix::zeros(size, coordinates.len());
+    for (j, i) in coordinates.iter().enumerate() {
+        out[(*i, j)] = 1.0;
+    }
+    out
 }
 
 /// Rigid motions of the shaft: the same displacement everywhere, and a turn about the middle.

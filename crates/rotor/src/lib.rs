@@ -34,7 +34,7 @@ mod stiffness_map;
 mod support;
 
 pub use assembly::{Dynamics, Matrices};
-pub use basis::Basis;
+pub use basis::{Basis, unit_forces};
 pub use campbell::{Branch, Campbell, Critical};
 pub use element::{Annulus, Element, ElementMatrices};
 pub use error::RotorError;

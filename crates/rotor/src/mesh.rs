@@ -18,6 +18,8 @@ pub struct Layer {
     pub end: Annulus,
     /// What it is made of.
     pub material: Material,
+    /// Longest element that it is divided into, m.
+    pub longest: f64,
     /// Whether it bends with the shaft ([`Element::carries`]).
     pub carries: bool,
     /// [`Element::damping_of_mass`], 1/s.
@@ -65,12 +67,12 @@ impl Mesh {
     }
 }
 
-/// Nodes and elements of layers, with a node at each of `positions` (m) and no span longer than `longest` (m).
+/// Nodes and elements of layers, with a node at each of `positions` (m).
 ///
 /// # Errors
 ///
 /// Where layers fill the same place, leave a gap, or a position is beside the shaft.
-pub fn mesh(layers: &[Layer], positions: &[f64], longest: f64) -> Result<Mesh, MeshError> {
+pub fn mesh(layers: &[Layer], positions: &[f64]) -> Result<Mesh, MeshError> {
     conflict(layers)?;
     let ends = layers.iter().flat_map(|layer| [layer.from, layer.to]);
     let marks = merged(ends.chain(positions.iter().copied()));
@@ -97,6 +99,8 @@ pub fn mesh(layers: &[Layer], positions: &[f64], longest: f64) -> Result<Mesh, M
         if !covering.iter().any(|layer| layer.carries) {
             return Err(MeshError::Gap(from, to));
         }
+        let longest = covering.iter().map(|layer| layer.longest);
+        let longest = longest.fold(f64::INFINITY, f64::min);
         // A span that is longer by rounding alone is not split.
         let pieces = ((to - from) / longest - 1e-9).ceil().max(1.0) as usize;
         for piece in 0..pieces {

@@ -53,8 +53,8 @@ pub struct Analysis {
     /// The coordinates.
     pub basis: Basis,
     /// Matrices in those coordinates.
-    matrices: Matrices,
-    carried: Carried,
+    pub(crate) matrices: Matrices,
+    pub(crate) carried: Carried,
     turns: bool,
     nodes: usize,
 }

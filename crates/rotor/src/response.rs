@@ -1,11 +1,11 @@
-//! Response to unbalance, sag under weight, loads of supports: the whole rotor, no reduction.
+//! Response to unbalance, sag under weight, loads of supports.
 //!
 //! Unbalance: (K - jΩD_i - Ω²M + jΩ(D_e + D_i - jΩG)) Q = Σ u Ω² e^{jδ} at its nodes, w(t) = f e^{jφ} + conj(b) e^{-jφ} with φ
 //! the angle of the rotor; b = 0 where every support turns with the rotor.
 
 use crate::assembly::Carried;
 use crate::modes::split;
-use crate::{C64, Matrices, Place, Rotor, RotorError, Unbalance};
+use crate::{Analysis, C64, Matrices, Place, Rotor, RotorError, Unbalance};
 use nalgebra::{DMatrix, DVector};
 
 /// How a rotor whirls under its unbalance at one speed.
@@ -47,9 +47,22 @@ pub struct Responder {
     matrices: Matrices,
     carried: Carried,
     turns: bool,
+    /// The coordinates that it is solved in; the rotor's own without.
+    basis: Option<DMatrix<f64>>,
 }
 
 impl Responder {
+    /// Of a rotor in the coordinates of an analysis.
+    #[must_use]
+    pub fn within(rotor: &Rotor, analysis: &Analysis) -> Self {
+        Self {
+            matrices: analysis.matrices.clone(),
+            carried: analysis.carried.clone(),
+            turns: rotor.turns(),
+            basis: Some(analysis.basis.shapes.clone()),
+        }
+    }
+
     /// Of a rotor.
     #[must_use]
     pub fn new(rotor: &Rotor) -> Self {
@@ -57,6 +70,7 @@ impl Responder {
             matrices: Matrices::new(rotor),
             carried: Carried::new(rotor),
             turns: rotor.turns(),
+            basis: None,
         }
     }
 
@@ -69,7 +83,15 @@ impl Responder {
         let size = self.matrices.mass.nrows();
         let mut force = DVector::<C64>::zeros(size);
         for one in all {
-            force[2 * one.node] += C64::from_polar(one.amount * speed * speed, one.phase);
+            let push = C64::from_polar(one.amount * speed * speed, one.phase);
+            match &self.basis {
+                None => force[2 * one.node] += push,
+                Some(basis) => {
+                    for (to, share) in force.iter_mut().zip(basis.row(2 * one.node).iter()) {
+                        *to += push * share;
+                    }
+                }
+            }
         }
         let (forward, backward) = if self.turns {
             let system = self.matrices.complex(&self.carried, speed);
@@ -94,10 +116,16 @@ impl Responder {
             let part = |from: usize| solution.rows(from, size).into_owned();
             split(&part(0), &part(size))
         };
+        let lift = |part: DVector<C64>| match &self.basis {
+            None => part,
+            Some(basis) => DVector::from_fn(basis.nrows(), |i, _| {
+                (0..part.len()).map(|k| part[k] * basis[(i, k)]).sum()
+            }),
+        };
         Ok(Response {
             speed,
-            forward,
-            backward,
+            forward: lift(forward),
+            backward: lift(backward),
         })
     }
 }

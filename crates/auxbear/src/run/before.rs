@@ -37,7 +37,7 @@ impl Machine<'_> {
                     .collect()
             }
             Built::Rig(rig, _) => of_bearing("", &rig.bearing, rig.load.radial_load, rig.speed),
-            Built::Signals(_) | Built::Identify(_) => Vec::new(),
+            Built::Signals(_) | Built::Identify(_) | Built::Rotor(_) => Vec::new(),
         }
     }
 }

@@ -1,0 +1,134 @@
+//! A bent rotor with what carries it, and what is asked of it.
+
+pub(crate) mod build;
+pub(crate) mod keys;
+pub(crate) mod part_keys;
+pub(crate) mod parts;
+
+use crate::problem::Problem;
+use crate::scenario::document::Document;
+use crate::scenario::section::Section;
+use crate::scenario::values::Values;
+pub use build::{DrawnPiece, RotorModel};
+
+/// A rotor and what is asked of it. Speeds in rad/s.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RotorAnalysis {
+    /// The rotor.
+    pub model: RotorModel,
+    /// Rated speed.
+    pub speed: f64,
+    /// Lowest speed looked at.
+    pub speed_from: f64,
+    /// Highest speed looked at.
+    pub speed_to: f64,
+    /// Number of speeds.
+    pub speed_count: usize,
+    /// Highest frequency looked at, rad/s.
+    pub frequency_to: f64,
+    /// Number of modes shown at the rated speed.
+    pub modes: usize,
+    /// Modes of the free rotor up to this frequency are kept, rad/s.
+    pub cutoff: f64,
+    /// Gravity x + jy, m/s².
+    pub gravity: rotor::C64,
+    /// Lowest and highest operating speed.
+    pub operating: (f64, f64),
+    /// Least separation of a critical speed from the operating speeds, as a share.
+    pub separation_margin: Option<f64>,
+    /// Amplification below which a critical speed needs no separation.
+    pub exempt_amplification: Option<f64>,
+    /// Stiffnesses of the map, N/m: from, to, number.
+    pub map: (f64, f64, usize),
+}
+
+impl RotorAnalysis {
+    /// The typed values of a document, checked.
+    pub(crate) fn of(document: &Document, values: &Values) -> Result<RotorAnalysis, Box<Problem>> {
+        let parts = parts::resolve(document, values)?;
+        let model = build::model(&parts, values)?;
+        let analysis = Section {
+            values,
+            path: "analysis",
+        };
+        let speed = values.number("rotor.speed").unwrap_or_default();
+        let speed_to = analysis.maybe("speed_to").unwrap_or(1.5 * speed.abs());
+        let speed_from = analysis.number("speed_from");
+        let frequency_to = analysis
+            .maybe("frequency_to")
+            .unwrap_or(1.5 * speed_to.max(speed.abs()));
+        let followed = frequency_to.max(speed_to);
+        let typical = build::typical_stiffness(&model.rotor, speed);
+        let map = |name: &str, factor: f64| analysis.maybe(name).unwrap_or(typical * factor);
+        let angle = analysis.number("gravity_angle");
+        let operating = |name: &str| analysis.maybe(name).unwrap_or(speed.abs());
+        let this = RotorAnalysis {
+            model,
+            speed,
+            speed_from,
+            speed_to,
+            speed_count: analysis.count("speed_count") as usize,
+            frequency_to,
+            modes: analysis.count("modes") as usize,
+            cutoff: analysis.maybe("cutoff").unwrap_or(6.0 * followed),
+            gravity: rotor::C64::from_polar(analysis.number("gravity"), angle),
+            operating: (operating("operating_from"), operating("operating_to")),
+            separation_margin: analysis.maybe("separation_margin"),
+            exempt_amplification: analysis.maybe("exempt_amplification"),
+            map: (
+                map("map_from", 1e-2),
+                map("map_to", 1e2),
+                analysis.count("map_count") as usize,
+            ),
+        };
+        this.check(values)?;
+        Ok(this)
+    }
+
+    /// Refuses ranges that are none.
+    fn check(&self, values: &Values) -> Result<(), Box<Problem>> {
+        for (low, high, path, what) in [
+            (
+                self.speed_from,
+                self.speed_to,
+                "analysis.speed_to",
+                "speed_from",
+            ),
+            (self.map.0, self.map.1, "analysis.map_to", "map_from"),
+        ] {
+            if high <= low {
+                return Err(Box::new(
+                    values.problem(
+                        crate::problem::Code::OutOfRange,
+                        path,
+                        values.place(path),
+                        values
+                            .text(path)
+                            .unwrap_or_else(|| format!("{high} by its default")),
+                        format!("more than analysis.{what} is needed"),
+                    ),
+                ));
+            }
+        }
+        if self.operating.1 < self.operating.0 {
+            let path = "analysis.operating_to";
+            return Err(Box::new(values.problem(
+                crate::problem::Code::OutOfRange,
+                path,
+                values.place(path),
+                values.text(path).unwrap_or_default(),
+                "at least analysis.operating_from is needed",
+            )));
+        }
+        Ok(())
+    }
+
+    /// The speeds looked at, rad/s.
+    pub fn speeds(&self) -> Vec<f64> {
+        let last = (self.speed_count - 1) as f64;
+        let span = self.speed_to - self.speed_from;
+        (0..self.speed_count)
+            .map(|k| self.speed_from + span * k as f64 / last)
+            .collect()
+    }
+}
