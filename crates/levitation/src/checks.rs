@@ -24,7 +24,9 @@ pub(crate) fn all(
     }
     let needed = (sensors.len(), actuators.len());
     let found = match control {
-        Control::Channels(filters) if filters.iter().all(|f| (f.inputs(), f.outputs()) == (1, 1)) => {
+        Control::Channels(filters)
+            if filters.iter().all(|f| (f.inputs(), f.outputs()) == (1, 1)) =>
+        {
             (filters.len(), filters.len())
         }
         Control::Channels(filters) => (
@@ -129,9 +131,8 @@ fn positive(axis: &Axis, what: &'static str, value: f64) -> Result<(), Refused> 
 
 /// Whether sensors and magnets come in pairs at right angles that differ in nothing else, each sensor along its magnet.
 pub(crate) fn pairs_alike(sensors: &[Sensor], actuators: &[Actuator]) -> bool {
-    let square = |a: &Axis, b: &Axis| {
-        a.node == b.node && (b.angle - a.angle - FRAC_PI_2).abs() < 1e-12
-    };
+    let square =
+        |a: &Axis, b: &Axis| a.node == b.node && (b.angle - a.angle - FRAC_PI_2).abs() < 1e-12;
     let along = |(sensor, actuator): (&Sensor, &Actuator)| {
         (sensor.axis.angle - actuator.axis.angle).abs() < 1e-12
     };

@@ -167,7 +167,9 @@ impl<T: Coordinates> ClosedLoop<T> {
         let stiffness = self.open_stiffness() - &force * of(&control.through) * &self.observe;
         let mut right = DMatrix::zeros(size, self.states());
         right.columns_mut(0, size).copy_from(&-stiffness);
-        right.columns_mut(size, size).copy_from(&-self.plant.damping.clone());
+        right
+            .columns_mut(size, size)
+            .copy_from(&-self.plant.damping.clone());
         right
             .columns_mut(2 * size, control.a.nrows())
             .copy_from(&(force * of(&control.currents)));
@@ -264,8 +266,12 @@ impl<T: Coordinates> ClosedLoop<T> {
     pub fn open_loop(&self) -> Result<Vec<C64>, Refused> {
         let size = self.plant.size();
         let mut right = DMatrix::zeros(size, 2 * size);
-        right.columns_mut(0, size).copy_from(&-self.open_stiffness());
-        right.columns_mut(size, size).copy_from(&-self.plant.damping.clone());
+        right
+            .columns_mut(0, size)
+            .copy_from(&-self.open_stiffness());
+        right
+            .columns_mut(size, size)
+            .copy_from(&-self.plant.damping.clone());
         let mut out = DMatrix::zeros(2 * size, 2 * size);
         out.view_mut((0, size), (size, size)).fill_with_identity();
         out.rows_mut(size, size).copy_from(&self.over_mass(right)?);
@@ -280,7 +286,9 @@ pub fn verdict(poles: &[Pole]) -> Verdict {
     if zeros > 0 {
         return Verdict::ZeroStiffness(zeros);
     }
-    let largest = poles.iter().max_by(|a, b| a.value.re.total_cmp(&b.value.re));
+    let largest = poles
+        .iter()
+        .max_by(|a, b| a.value.re.total_cmp(&b.value.re));
     match largest {
         Some(pole) if pole.value.re > 0.0 => Verdict::Unstable(pole.value),
         _ => Verdict::Stable,

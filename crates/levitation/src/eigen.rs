@@ -72,13 +72,18 @@ mod tests {
             4,
             4,
             &[
-                0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, -slow, 0.0, -3.0, 0.5, 0.0, -fast, 0.5, -10.0,
+                0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, -slow, 0.0, -3.0, 0.5, 0.0, -fast, 0.5,
+                -10.0,
             ],
         );
         let mut values = real(matrix.clone()).unwrap();
         values.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
         let expected = C64::new(-1.5, (900.0_f64 - 2.25).sqrt());
-        let nearest = if values[0].im > 0.0 { values[0] } else { values[1] };
+        let nearest = if values[0].im > 0.0 {
+            values[0]
+        } else {
+            values[1]
+        };
         // the coupling shifts it by (0.5 λ)² / fast, nothing
         assert!((nearest - expected).norm() < 1e-7, "{nearest}");
         let again = complex(matrix.map(C64::from)).unwrap();

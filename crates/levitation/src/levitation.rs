@@ -40,7 +40,10 @@ struct Block {
 impl Block {
     /// What it gives at an instant, or at a sample.
     fn output<R: Real>(&self, states: &[R], signals: &mut Signals<R>) {
-        let filter = self.stepped.as_ref().map_or(&self.filter, |(stepped, _)| stepped);
+        let filter = self
+            .stepped
+            .as_ref()
+            .map_or(&self.filter, |(stepped, _)| stepped);
         filter.output(
             &states[self.states.clone()],
             &signals.errors[self.inputs.clone()],
@@ -189,7 +192,12 @@ impl Levitation {
         match self.timing {
             Timing::Sampled { .. } => {
                 let held = self.layout.held.iter().flat_map(|(a, b)| [*a, *b]);
-                for at in self.blocks.iter().flat_map(|b| b.states.clone()).chain(held) {
+                for at in self
+                    .blocks
+                    .iter()
+                    .flat_map(|b| b.states.clone())
+                    .chain(held)
+                {
                     rates[at] = R::zero();
                 }
             }
@@ -197,7 +205,9 @@ impl Levitation {
                 for block in &self.blocks {
                     let inputs = &signals.errors[block.inputs.clone()];
                     let own = &mut rates[block.states.clone()];
-                    block.filter.rates(&states[block.states.clone()], inputs, own);
+                    block
+                        .filter
+                        .rates(&states[block.states.clone()], inputs, own);
                 }
                 for (axis, at) in self.layout.delays.iter().enumerate() {
                     let Some(delay) = &self.delay else { continue };
@@ -347,9 +357,10 @@ impl Levitation {
     pub fn one_plane(&self) -> Option<Self> {
         let equal = checks::pairs_alike(&self.sensors, &self.actuators)
             && self.blocks.len() == self.sensors.len()
-            && self.blocks.chunks(2).all(|pair| {
-                pair.len() == 2 && pair[0].filter.same_matrices(&pair[1].filter)
-            });
+            && self
+                .blocks
+                .chunks(2)
+                .all(|pair| pair.len() == 2 && pair[0].filter.same_matrices(&pair[1].filter));
         equal.then(|| {
             let even = |index: &usize| index % 2 == 0;
             let pick = |count: usize| (0..count).filter(even);

@@ -96,7 +96,10 @@ pub fn weight(rotor: &Rotor, analysis: &Analysis, gravity: [f64; 2]) -> DVector<
     for node in 0..rotor.nodes.len() {
         shift[rotor.displacement(node)] = 1.0;
     }
-    let carried = analysis.basis.shapes.tr_mul(&(Matrices::new(rotor).mass * shift));
+    let carried = analysis
+        .basis
+        .shapes
+        .tr_mul(&(Matrices::new(rotor).mass * shift));
     let size = carried.len();
     DVector::from_fn(2 * size, |at, _| carried[at % size] * gravity[at / size])
 }

@@ -32,11 +32,18 @@ impl Resolvent {
         let mut balanced = matrix.clone();
         let scales = eigen::balance(&mut balanced);
         let (turn, form) = match balanced.nrows() {
-            0 | 1 => (DMatrix::identity(balanced.nrows(), balanced.nrows()), balanced),
+            0 | 1 => (
+                DMatrix::identity(balanced.nrows(), balanced.nrows()),
+                balanced,
+            ),
             _ => Hessenberg::new(balanced).unpack(),
         };
         Self {
-            rows: form.transpose().iter().map(|v| v.clone().complex()).collect(),
+            rows: form
+                .transpose()
+                .iter()
+                .map(|v| v.clone().complex())
+                .collect(),
             turn: turn.map(T::complex),
             scales,
         }
@@ -138,7 +145,11 @@ mod tests {
         let size = 7;
         let matrix = DMatrix::from_fn(size, size, |i, j| {
             let value = ((3 * i + 5 * j + i * j) as f64).sin();
-            if i == j { 0.0 } else { value * 10.0_f64.powi(i as i32 - j as i32) }
+            if i == j {
+                0.0
+            } else {
+                value * 10.0_f64.powi(i as i32 - j as i32)
+            }
         });
         let resolvent = Resolvent::new(&matrix);
         let right = DVector::from_fn(size, |i, _| C64::new(1.0, i as f64));

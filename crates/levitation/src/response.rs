@@ -94,7 +94,11 @@ pub fn free<T: Coordinates>(
 
 /// A step that divides every instant to a millionth of itself, a thousandth of the first at least.
 fn common_step(times: &[f64]) -> f64 {
-    let first = times.iter().copied().filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
+    let first = times
+        .iter()
+        .copied()
+        .filter(|t| *t > 0.0)
+        .fold(f64::INFINITY, f64::min);
     let divides = |step: f64| {
         let odd = |time: &f64| ((time / step).round() - time / step).abs() > 1e-6;
         !times.iter().any(odd)
@@ -111,7 +115,9 @@ impl<T: Coordinates> ClosedLoop<T> {
         let size = nodes.ncols();
         let planes = self.plant().size() / size;
         let parts = (0..planes).map(|plane| &nodes * state.rows(plane * size, size));
-        parts.flat_map(|part| part.iter().cloned().collect::<Vec<_>>()).collect()
+        parts
+            .flat_map(|part| part.iter().cloned().collect::<Vec<_>>())
+            .collect()
     }
 
     /// Currents in a state, A.
@@ -159,7 +165,10 @@ pub fn equilibrium(
     let mut beside = vec![0.0; slopes.len()];
     for _ in 0..SEARCH {
         let closed = ClosedLoop::about(plant.clone(), levitation, slopes.clone())?;
-        let found = at_rest(&closed, &(loads + closed.act.tr_mul(&DVector::from_vec(beside.clone()))))?;
+        let found = at_rest(
+            &closed,
+            &(loads + closed.act.tr_mul(&DVector::from_vec(beside.clone()))),
+        )?;
         let mut moved = false;
         for (index, actuator) in levitation.actuators().iter().enumerate() {
             let (current, gap) = (found.currents[index], found.gaps[index]);
@@ -201,9 +210,14 @@ fn at_rest(closed: &ClosedLoop<f64>, loads: &DVector<f64>) -> Result<Equilibrium
     let mut right = DVector::zeros(size + own);
     let accelerations = closed.over_mass(DMatrix::from_columns(&[forces]))?;
     right.rows_mut(0, size).copy_from(&-accelerations.column(0));
-    right.rows_mut(size, own).copy_from(&-control.constant_rates.clone());
+    right
+        .rows_mut(size, own)
+        .copy_from(&-control.constant_rates.clone());
     let found = solve_scaled(left, right)?;
-    let (coordinates, states) = (found.rows(0, size).into_owned(), found.rows(size, own).into_owned());
+    let (coordinates, states) = (
+        found.rows(0, size).into_owned(),
+        found.rows(size, own).into_owned(),
+    );
     let currents = &control.currents * &states
         + &control.through * (&closed.observe * &coordinates)
         + &control.constant_currents;

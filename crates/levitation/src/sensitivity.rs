@@ -51,7 +51,8 @@ impl Band {
     pub fn grid(&self, poles: &[Pole]) -> Vec<f64> {
         let decades = (self.to / self.from).log10();
         let count = (decades * PER_DECADE).ceil().max(2.0) as usize;
-        let even = (0..=count).map(|k| self.from * 10.0_f64.powf(decades * k as f64 / count as f64));
+        let even =
+            (0..=count).map(|k| self.from * 10.0_f64.powf(decades * k as f64 / count as f64));
         let near = poles.iter().flat_map(|pole| {
             let (at, width) = (pole.value.im.abs(), pole.value.re.abs());
             AROUND.map(|step| at + step * width)
@@ -151,7 +152,11 @@ impl Sensitivity {
             let size = |omega| Ok(axes.at(omega)?[axis].norm());
             largest(&grid, values, size)
         };
-        let peaks = values.iter().enumerate().map(search).collect::<Result<_, _>>()?;
+        let peaks = values
+            .iter()
+            .enumerate()
+            .map(search)
+            .collect::<Result<_, _>>()?;
         Ok(Self {
             grid,
             values,
@@ -210,7 +215,11 @@ fn golden(
             at_high = size(high)?;
         }
     }
-    let peak = if at_low > at_high { (at_low, low) } else { (at_high, high) };
+    let peak = if at_low > at_high {
+        (at_low, low)
+    } else {
+        (at_high, high)
+    };
     Ok(Peak {
         size: peak.0,
         at: peak.1,
@@ -273,7 +282,9 @@ mod tests {
             largest(&grid, &values, |omega| Ok(height(omega).norm())).unwrap()
         };
         let found = search(band.grid(&[pole]));
-        assert!((found.size - 6.0 - hill(1007.03)).abs() < 1e-7 && (found.at - 1007.03).abs() < 1e-4);
+        assert!(
+            (found.size - 6.0 - hill(1007.03)).abs() < 1e-7 && (found.at - 1007.03).abs() < 1e-4
+        );
         // a grid alone sees the broad hill
         assert!(search(band.grid(&[])).at < 110.0);
     }

@@ -349,10 +349,17 @@ mod tests {
         for (num, den) in cases {
             let filter = StateSpace::rational("filter", num, den).unwrap();
             for s in [J * 10.0, J * 2500.0, C64::new(-3.0, 700.0)] {
-                assert!(close(at(&filter, s), quotient(num, den, s)), "{num:?} {den:?}");
+                assert!(
+                    close(at(&filter, s), quotient(num, den, s)),
+                    "{num:?} {den:?}"
+                );
             }
         }
-        for (num, den) in [(&[1.0, 0.0][..], &[1.0][..]), (&[1.0], &[0.0]), (&[1.0], &[1.0; 4])] {
+        for (num, den) in [
+            (&[1.0, 0.0][..], &[1.0][..]),
+            (&[1.0], &[0.0]),
+            (&[1.0], &[1.0; 4]),
+        ] {
             assert!(matches!(
                 StateSpace::rational("", num, den),
                 Err(Refused::Filter { .. })
@@ -365,7 +372,8 @@ mod tests {
         let pid = StateSpace::pid(8000.0, 8e4, 22.0, 4.5e-5).unwrap();
         assert_eq!(pid.names(), ["integral", "derivative"]);
         assert!(pid.static_gain().is_none());
-        let notch = StateSpace::rational("notch", &[1.0, 30.0, 6.3e6], &[1.0, 900.0, 6.3e6]).unwrap();
+        let notch =
+            StateSpace::rational("notch", &[1.0, 30.0, 6.3e6], &[1.0, 900.0, 6.3e6]).unwrap();
         let row = pid.then(&notch).then(&StateSpace::gain(0.5));
         assert_eq!(row.states(), 4);
         for omega in [3.0, 655.0, 2e4] {
@@ -407,7 +415,9 @@ mod tests {
         let (mut next, mut y) = ([0.0; 2], [0.0]);
         stepped.rates(&start, &u, &mut next);
         stepped.output(&start, &u, &mut y);
-        assert!((next[1] - start[1]).abs() < 1e-14 && (next[0] - start[0] - 5.0 * period).abs() < 1e-14);
+        assert!(
+            (next[1] - start[1]).abs() < 1e-14 && (next[0] - start[0] - 5.0 * period).abs() < 1e-14
+        );
         assert!((y[0] - 10.0).abs() < 1e-12);
     }
 }

@@ -7,8 +7,8 @@ mod reference;
 use levitation::response::{equilibrium, impulse, start};
 use levitation::sensitivity::Axes;
 use levitation::{
-    Actuator, Amplifier, Axis, C64, ClosedLoop, Control, Levitation, LinearControl, Plant, Refused, Sensor,
-    StateSpace, Timing, Verdict, ZERO, verdict, weight,
+    Actuator, Amplifier, Axis, C64, ClosedLoop, Control, Levitation, LinearControl, Plant, Refused,
+    Sensor, StateSpace, Timing, Verdict, ZERO, verdict, weight,
 };
 use nalgebra::{DMatrix, DVector};
 use number::Dual;
@@ -89,8 +89,16 @@ fn rates(plant: &Plant<f64>, levitation: &Levitation, state: &[f64], sign: f64) 
     let (v, own) = rest.split_at(size);
     let (q, v) = (DVector::from_row_slice(q), DVector::from_row_slice(v));
     let along = |axis: &Axis, of: &DVector<f64>| (plant.row(axis.node, axis.angle) * of)[0];
-    let sensed: Vec<f64> = levitation.sensors().iter().map(|s| along(&s.axis, &q)).collect();
-    let moved: Vec<f64> = levitation.actuators().iter().map(|a| along(&a.axis, &v)).collect();
+    let sensed: Vec<f64> = levitation
+        .sensors()
+        .iter()
+        .map(|s| along(&s.axis, &q))
+        .collect();
+    let moved: Vec<f64> = levitation
+        .actuators()
+        .iter()
+        .map(|a| along(&a.axis, &v))
+        .collect();
     let mut signals = levitation.signals();
     let mut own_rates = vec![0.0; own.len()];
     levitation.rate(own, &sensed, &moved, &mut signals, &mut own_rates);
@@ -137,10 +145,17 @@ fn a_time_run_of_the_rates_is_the_motion_that_the_matrices_say_and_the_sign_of_k
         let ours = DVector::from_vec(advance(&state, 2e-6, 2000, rate));
         let (a, b) = (closed.displacements(&ours), closed.displacements(wanted));
         let largest = b.iter().fold(0.0_f64, |most, w| most.max(w.abs()));
-        a.iter().zip(&b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs())) / largest
+        a.iter()
+            .zip(&b)
+            .fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
+            / largest
     };
     assert!(distance(1.0) < 1e-5, "{}", distance(1.0));
-    assert!(distance(-1.0) > 0.05, "a flipped k_s must be seen: {}", distance(-1.0));
+    assert!(
+        distance(-1.0) > 0.05,
+        "a flipped k_s must be seen: {}",
+        distance(-1.0)
+    );
 }
 
 #[test]
@@ -178,7 +193,9 @@ fn a_start_moves_on_as_the_steady_motion_that_it_is_cut_from() {
     }
     let wanted = joined(&later);
     for part in [0..2 * 18, 2 * 18..4 * 18, 4 * 18..wanted.len()] {
-        let largest = wanted[part.clone()].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let largest = wanted[part.clone()]
+            .iter()
+            .fold(0.0_f64, |m, v| m.max(v.abs()));
         let worst = part.map(|k| (y[k] - wanted[k]).abs()).fold(0.0, f64::max);
         assert!(worst < 1e-5 * largest, "{worst:e} of {largest:e}");
     }
@@ -195,8 +212,13 @@ fn both_planes_say_what_one_complex_plane_says_whatever_the_frame() {
         let real = ClosedLoop::new(file.plant(Basis::Reduced, SPEED), &levitation).unwrap();
         let poles = real.poles().unwrap();
         for wanted in turning.iter().filter(|pole| pole.oscillates()) {
-            let nearest = poles.iter().find(|pole| same(pole.value, wanted.value, 1e-9));
-            assert!(nearest.is_some_and(|pole| pole.turning > 1.0 - 1e-9), "{wanted:?}");
+            let nearest = poles
+                .iter()
+                .find(|pole| same(pole.value, wanted.value, 1e-9));
+            assert!(
+                nearest.is_some_and(|pole| pole.turning > 1.0 - 1e-9),
+                "{wanted:?}"
+            );
         }
         let (one, both) = (Axes::new(&complex).unwrap(), Axes::new(&real).unwrap());
         for omega in [30.0, 655.0, 2516.0, 7025.0] {
@@ -217,7 +239,9 @@ fn sensitivity_needs_both_senses_and_the_plant_with_ks() {
     let ours = Axes::new(&closed).unwrap().at(2516.0).unwrap();
     let off = |values: &[C64]| {
         let pairs = values.iter().zip(wanted);
-        pairs.map(|(ours, wanted)| (ours.norm() / wanted - 1.0).abs()).fold(0.0, f64::max)
+        pairs
+            .map(|(ours, wanted)| (ours.norm() / wanted - 1.0).abs())
+            .fold(0.0, f64::max)
     };
     assert!(off(&ours) < 4e-5);
     // one sense alone: S_c from (1 - P k)⁻¹ by hand
@@ -240,14 +264,26 @@ fn sensitivity_needs_both_senses_and_the_plant_with_ks() {
         let (t, square) = (s * 2.5e-5, s * s * 2.5e-9 / 12.0);
         let k = -pid / lag * (square - t + 1.0) / (square + t + 1.0) * 40.0;
         let closed = DMatrix::identity(2, 2) - p * k;
-        closed.try_inverse().unwrap().diagonal().iter().copied().collect()
+        closed
+            .try_inverse()
+            .unwrap()
+            .diagonal()
+            .iter()
+            .copied()
+            .collect()
     };
     let mean = |ks: f64| -> Vec<C64> {
         let (plus, minus) = (by_hand(2516.0, ks), by_hand(-2516.0, ks));
-        plus.iter().zip(&minus).map(|(a, b)| (a + b.conj()) * 0.5).collect()
+        plus.iter()
+            .zip(&minus)
+            .map(|(a, b)| (a + b.conj()) * 0.5)
+            .collect()
     };
     assert!(off(&mean(1.6e5)) < 4e-5);
-    assert!(off(&by_hand(2516.0, 1.6e5)) > 0.02, "one sense alone must be seen");
+    assert!(
+        off(&by_hand(2516.0, 1.6e5)) > 0.02,
+        "one sense alone must be seen"
+    );
     assert!(off(&mean(0.0)) > 1e-3, "a plant without k_s must be seen");
 }
 
@@ -266,14 +302,21 @@ fn unequal_axes_have_no_complex_plane_and_whirl_on_ellipses() {
     assert!(levitation.one_plane().is_none());
     let closed = ClosedLoop::new(file.plant(Basis::Reduced, SPEED), &levitation).unwrap();
     let poles = closed.poles().unwrap();
-    assert!(poles.iter().any(|pole| pole.oscillates() && pole.turning < 0.99));
+    assert!(
+        poles
+            .iter()
+            .any(|pole| pole.oscillates() && pole.turning < 0.99)
+    );
 }
 
 #[test]
 fn zero_static_stiffness_is_found_and_named() {
     let file = File::levitated();
     let check = &file.file["zero_stiffness_check"];
-    for (key, collocated) in [("sensors_of_this_file", false), ("sensors_at_the_actuator_nodes", true)] {
+    for (key, collocated) in [
+        ("sensors_of_this_file", false),
+        ("sensors_at_the_actuator_nodes", true),
+    ] {
         let levitation = file.changed(0.0, DELAYED, |magnet| {
             magnet["controller"]["Kp"] = check["Kp"].clone();
             magnet["controller"]["Ki"] = 0.0.into();
@@ -288,15 +331,25 @@ fn zero_static_stiffness_is_found_and_named() {
         let wanted = &check[key];
         let zeros = wanted["eigenvalues_at_zero"].as_u64().unwrap() as usize;
         assert_eq!(verdict(&poles), Verdict::ZeroStiffness(zeros));
-        let next = poles.iter().find(|pole| pole.value.norm() >= ZERO).unwrap().value;
-        assert!(same(next, reference::complex(&wanted["next"]), 1e-6), "{next}");
+        let next = poles
+            .iter()
+            .find(|pole| pole.value.norm() >= ZERO)
+            .unwrap()
+            .value;
+        assert!(
+            same(next, reference::complex(&wanted["next"]), 1e-6),
+            "{next}"
+        );
         let rest = poles.iter().filter(|pole| pole.value.norm() >= ZERO);
         let largest = rest.map(|pole| pole.value.re).fold(f64::MIN, f64::max);
         let wanted = wanted["largest_other_real_part"].as_f64().unwrap();
         assert!((largest / wanted - 1.0).abs() < 1e-6);
         // the reason: k_i K_p = k_s without an integrator
         let stiffness = levitation.static_stiffness();
-        assert!(stiffness.iter().all(|k| k.abs() < 1e-9 * 1.6e5), "{stiffness:?}");
+        assert!(
+            stiffness.iter().all(|k| k.abs() < 1e-9 * 1.6e5),
+            "{stiffness:?}"
+        );
     }
     // with the integrator the loop is stiff without bound at rest
     assert_eq!(file.levitation(0.0).static_stiffness(), [f64::INFINITY; 4]);
@@ -344,12 +397,21 @@ fn one_filter_from_all_sensors_to_all_magnets_equals_channels_where_it_is_diagon
     // K_p + K_d s/(1 + T_d s) on both axes as matrices
     let (kp, kd, td) = (8000.0, 22.0, 4.5e-5);
     let both = |value: f64| DMatrix::identity(2, 2) * value;
-    let matrix = StateSpace::new("k", both(-1.0 / td), both(1.0 / td), both(-kd / td), both(kp + kd / td));
+    let matrix = StateSpace::new(
+        "k",
+        both(-1.0 / td),
+        both(1.0 / td),
+        both(-kd / td),
+        both(kp + kd / td),
+    );
     let matrix = Control::Matrix(matrix.unwrap());
     let channels = Control::Channels(vec![StateSpace::pid(kp, 0.0, kd, td).unwrap(); 2]);
     let poles = |control| {
         let levitation = Levitation::new(1, sensors.clone(), control, DELAYED, actuators.clone());
-        ClosedLoop::new(mass.plant(), &levitation.unwrap()).unwrap().poles().unwrap()
+        ClosedLoop::new(mass.plant(), &levitation.unwrap())
+            .unwrap()
+            .poles()
+            .unwrap()
     };
     let (a, b) = (poles(matrix), poles(channels));
     assert_eq!(a.len(), b.len());
@@ -379,7 +441,13 @@ fn a_voltage_amplifier_converts_what_it_gives_the_rotor_and_ends_at_its_limit() 
     let mut signals = levitation.signals();
     let mut rates = vec![0.0; states.len()];
     let velocity = 0.3;
-    levitation.rate(&states, &[0.0; 2], &[velocity, 0.0], &mut signals, &mut rates);
+    levitation.rate(
+        &states,
+        &[0.0; 2],
+        &[velocity, 0.0],
+        &mut signals,
+        &mut rates,
+    );
     // u i = R i² + L i i̇ + power to the rotor, k_i i ẋ; the wanted voltage -360 V is beyond the limit
     let voltage = -limit;
     let rest = voltage * 1.2 - resistance * 1.44 - inductance * 1.2 * rates[at];
@@ -397,7 +465,11 @@ fn a_pair_carries_its_load_off_the_centre_and_gives_up_at_its_limits() {
     let pair = OpposedPair::of_stiffness(40.0, 1.6e5, 0.4e-3, 3.0);
     mass.magnet = Magnet::Pair(pair);
     let find = |mass: &Mass, load: f64| {
-        equilibrium(&mass.plant(), &mass.levitation(), &DVector::from_vec(vec![0.0, -load]))
+        equilibrium(
+            &mass.plant(),
+            &mass.levitation(),
+            &DVector::from_vec(vec![0.0, -load]),
+        )
     };
     // without an integrator the rotor sags, and the pair is not linear there
     mass.channel = StateSpace::pid(8000.0, 0.0, 22.0, 4.5e-5).unwrap();
@@ -421,7 +493,9 @@ fn offsets_move_the_rotor_against_them_and_references_with_them() {
         (sensors[0].offset, sensors[0].reference) = (offset, reference);
         let control = Control::Channels(vec![mass.channel.clone(); 2]);
         let levitation = Levitation::new(1, sensors, control, mass.timing, actuators).unwrap();
-        equilibrium(&mass.plant(), &levitation, &DVector::zeros(2)).unwrap().gaps[0]
+        equilibrium(&mass.plant(), &levitation, &DVector::zeros(2))
+            .unwrap()
+            .gaps[0]
     };
     assert!((rest(1e-5, 0.0) + 1e-5).abs() < 1e-15);
     assert!((rest(0.0, 1e-5) - 1e-5).abs() < 1e-15);
@@ -431,7 +505,10 @@ fn offsets_move_the_rotor_against_them_and_references_with_them() {
 fn a_sampled_loop_has_the_eigenvalues_of_its_delay() {
     let mut mass = Mass::usual();
     let (period, computation) = (1e-5, 4e-6);
-    mass.timing = Timing::Sampled { period, computation };
+    mass.timing = Timing::Sampled {
+        period,
+        computation,
+    };
     mass.channel = StateSpace::pid(8000.0, 0.0, 22.0, 2e-4).unwrap();
     let (plant, levitation) = (mass.plant(), mass.levitation());
     assert_eq!(levitation.timing().delay(), 9e-6);
@@ -451,15 +528,29 @@ fn a_sampled_loop_has_the_eigenvalues_of_its_delay() {
         let y = advance(&y, (period - computation) / 8.0, 8, rate);
         map.set_column(column, &DVector::from_vec(y));
     }
-    let values: Vec<C64> = map.complex_eigenvalues().iter().map(|z| z.ln() / period).collect();
+    let values: Vec<C64> = map
+        .complex_eigenvalues()
+        .iter()
+        .map(|z| z.ln() / period)
+        .collect();
     for pole in mass.closed().poles().unwrap() {
         // slow against the samples: the delay holds to the square of |λ| T_s
         if pole.value.norm() > 2e3 {
             continue;
         }
-        let near = values.iter().map(|v| (v - pole.value).norm()).fold(f64::INFINITY, f64::min);
-        let conjugate = values.iter().map(|v| (v - pole.value.conj()).norm()).fold(f64::INFINITY, f64::min);
-        assert!(near.min(conjugate) < 2e-3 * pole.value.norm(), "{} {near}", pole.value);
+        let near = values
+            .iter()
+            .map(|v| (v - pole.value).norm())
+            .fold(f64::INFINITY, f64::min);
+        let conjugate = values
+            .iter()
+            .map(|v| (v - pole.value.conj()).norm())
+            .fold(f64::INFINITY, f64::min);
+        assert!(
+            near.min(conjugate) < 2e-3 * pole.value.norm(),
+            "{} {near}",
+            pole.value
+        );
     }
 }
 
@@ -473,22 +564,37 @@ fn what_cannot_be_is_refused_with_its_place() {
     };
     let channels = |count| Control::Channels(vec![mass.channel.clone(); count]);
     let text = build(1, &sensors, channels(1), DELAYED, &actuators);
-    assert!(text.contains("from 1 signals to 1 commands; 2 sensor axes"), "{text}");
+    assert!(
+        text.contains("from 1 signals to 1 commands; 2 sensor axes"),
+        "{text}"
+    );
     let mut far = sensors.clone();
     far[1].axis.node = 7;
     let text = build(3, &far, channels(2), DELAYED, &actuators);
-    assert!(text.contains("at node 7; the rotor has nodes 0 to 2"), "{text}");
+    assert!(
+        text.contains("at node 7; the rotor has nodes 0 to 2"),
+        "{text}"
+    );
     let back = Timing::Continuous { delay: -1e-5 };
     let text = build(1, &sensors, channels(2), back, &actuators);
-    assert!(text.contains("delay -0.00001 s; allowed is 0 or more"), "{text}");
-    let late = Timing::Sampled { period: 1e-4, computation: 2e-4 };
+    assert!(
+        text.contains("delay -0.00001 s; allowed is 0 or more"),
+        "{text}"
+    );
+    let late = Timing::Sampled {
+        period: 1e-4,
+        computation: 2e-4,
+    };
     let text = build(1, &sensors, channels(2), late, &actuators);
     assert!(text.contains("time to compute"), "{text}");
     let mut odd = actuators.clone();
     odd[0].magnet = Magnet::Pair(OpposedPair::of_stiffness(40.0, 1.6e5, 0.4e-3, 1.0));
     let text = build(1, &sensors, channels(2), DELAYED, &odd);
     assert!(text.contains("a bias of 1.6 A above"), "{text}");
-    odd[0].magnet = Magnet::Linear { current_stiffness: 40.0, position_stiffness: -1.6e5 };
+    odd[0].magnet = Magnet::Linear {
+        current_stiffness: 40.0,
+        position_stiffness: -1.6e5,
+    };
     assert!(build(1, &sensors, channels(2), DELAYED, &odd).contains("must be above 0"));
     let (two, three) = (DMatrix::zeros(2, 2), DMatrix::zeros(3, 2));
     let wrong = StateSpace::new("k", two.clone(), two.clone(), two, three);

@@ -29,8 +29,14 @@ fn nodes(value: &Value) -> Vec<usize> {
 
 /// Largest deviation over the largest of the same kind.
 fn share(pairs: &[(C64, C64)]) -> f64 {
-    let largest = pairs.iter().map(|(_, wanted)| wanted.norm()).fold(0.0, f64::max);
-    let worst = pairs.iter().map(|(ours, wanted)| (ours - wanted).norm()).fold(0.0, f64::max);
+    let largest = pairs
+        .iter()
+        .map(|(_, wanted)| wanted.norm())
+        .fold(0.0, f64::max);
+    let worst = pairs
+        .iter()
+        .map(|(ours, wanted)| (ours - wanted).norm())
+        .fold(0.0, f64::max);
     worst / largest
 }
 
@@ -50,7 +56,10 @@ fn eigenvalues_of_the_whole_and_of_the_reduced_rotor() {
                 let share = if wanted.re < -2.5e4 { filters } else { near };
                 worst = worst.max(nearest / (share * wanted.norm() + 1e-5));
             }
-            println!("{speed}: {worst:.2e} of the tolerance, {} states", closed.states());
+            println!(
+                "{speed}: {worst:.2e} of the tolerance, {} states",
+                closed.states()
+            );
             assert!(worst < 1.0);
         }
     }
@@ -68,7 +77,10 @@ fn without_controller_the_rotor_leaves_its_centre() {
 #[test]
 fn sensitivity_of_one_axis_with_all_others_closed() {
     let file = File::levitated();
-    for (basis, samples, peaks) in [(Basis::Whole, 1e-6, None), (Basis::Reduced, 4e-5, Some(4e-5))] {
+    for (basis, samples, peaks) in [
+        (Basis::Whole, 1e-6, None),
+        (Basis::Reduced, 4e-5, Some(4e-5)),
+    ] {
         for result in file.results() {
             let speed = number(result, "speed_rad_s");
             let closed = file.turning(basis, speed);
@@ -77,18 +89,27 @@ fn sensitivity_of_one_axis_with_all_others_closed() {
                 let ours = axes.at(number(sample, "rad_s")).unwrap();
                 for (ours, wanted) in ours.iter().zip(list(sample, "S")) {
                     let wanted = wanted.as_f64().unwrap();
-                    assert!((ours.norm() / wanted - 1.0).abs() < samples, "{speed} {sample}");
+                    assert!(
+                        (ours.norm() / wanted - 1.0).abs() < samples,
+                        "{speed} {sample}"
+                    );
                 }
             }
             let Some(tolerance) = peaks else { continue };
             let poles = closed.poles().unwrap();
-            let band = Band { from: TAU, to: TAU * 3000.0 };
+            let band = Band {
+                from: TAU,
+                to: TAU * 3000.0,
+            };
             let now = std::time::Instant::now();
             let found = Sensitivity::new(&closed, &poles, band).unwrap();
             println!("{} points in {:?}", found.grid.len(), now.elapsed());
             for (ours, wanted) in found.peaks.iter().zip(list(result, "sensitivity_peak")) {
                 assert!((ours.size / number(wanted, "S") - 1.0).abs() < tolerance);
-                assert!((ours.at / number(wanted, "at_rad_s") - 1.0).abs() < 1e-4, "{ours:?}");
+                assert!(
+                    (ours.at / number(wanted, "at_rad_s") - 1.0).abs() < 1e-4,
+                    "{ours:?}"
+                );
             }
         }
     }
@@ -101,7 +122,10 @@ fn peaks_of_the_whole_rotor() {
     let closed = file.turning(Basis::Whole, number(result, "speed_rad_s"));
     for (axis, wanted) in list(result, "sensitivity_peak").iter().enumerate() {
         let near = number(wanted, "at_rad_s");
-        let band = Band { from: 0.98 * near, to: 1.02 * near };
+        let band = Band {
+            from: 0.98 * near,
+            to: 1.02 * near,
+        };
         let ours = Sensitivity::new(&closed, &[], band).unwrap().peaks[axis];
         assert!((ours.size / number(wanted, "S") - 1.0).abs() < 1e-5);
         assert!((ours.at / near - 1.0).abs() < 1e-4);
@@ -113,7 +137,9 @@ fn unbalance_response() {
     let file = File::levitated();
     for (basis, tolerance) in [(Basis::Whole, 1e-6), (Basis::Reduced, 2e-5)] {
         for result in file.results() {
-            let Some(reference) = result.get("unbalance_response") else { continue };
+            let Some(reference) = result.get("unbalance_response") else {
+                continue;
+            };
             let speed = number(result, "speed_rad_s");
             let ours = unbalance(&file.turning(basis, speed), &file.unbalance(), speed).unwrap();
             let moved = nodes(reference).into_iter().zip(list(reference, "w"));
@@ -141,14 +167,30 @@ fn impulse_response() {
         for (row, state) in rows.iter().zip(&states) {
             let w = closed.displacements(state);
             let own = nodes(reference).into_iter().zip(list(row, "w"));
-            moved.push(own.map(|(n, wanted)| (w[n], complex(wanted))).collect::<Vec<_>>());
-            let own = closed.currents(state).into_iter().zip(list(row, "current_A"));
-            currents.push(own.map(|(i, wanted)| (i, complex(wanted))).collect::<Vec<_>>());
+            moved.push(
+                own.map(|(n, wanted)| (w[n], complex(wanted)))
+                    .collect::<Vec<_>>(),
+            );
+            let own = closed
+                .currents(state)
+                .into_iter()
+                .zip(list(row, "current_A"));
+            currents.push(
+                own.map(|(i, wanted)| (i, complex(wanted)))
+                    .collect::<Vec<_>>(),
+            );
         }
         for kind in [moved, currents] {
-            let largest = kind.iter().flatten().map(|(_, w)| w.norm()).fold(0.0, f64::max);
+            let largest = kind
+                .iter()
+                .flatten()
+                .map(|(_, w)| w.norm())
+                .fold(0.0, f64::max);
             for (row, time) in kind.iter().zip(&times) {
-                let worst = row.iter().map(|(ours, w)| (ours - w).norm()).fold(0.0, f64::max);
+                let worst = row
+                    .iter()
+                    .map(|(ours, w)| (ours - w).norm())
+                    .fold(0.0, f64::max);
                 println!("{time}: {:.1e}", worst / largest);
                 assert!(worst / largest < if *time < 1e-3 { early } else { late });
             }
@@ -191,9 +233,14 @@ fn start_of_a_drop() {
         let size = analysis.basis.len();
         let shapes = &analysis.basis.shapes;
         for (key, values) in [("q", &ours.coordinates), ("qd", &ours.rates)] {
-            let (x, y) = (shapes * values.rows(0, size), shapes * values.rows(size, size));
+            let (x, y) = (
+                shapes * values.rows(0, size),
+                shapes * values.rows(size, size),
+            );
             let pairs = list(reference, key).iter().enumerate();
-            let pairs: Vec<_> = pairs.map(|(k, w)| (C64::new(x[k], y[k]), complex(w))).collect();
+            let pairs: Vec<_> = pairs
+                .map(|(k, w)| (C64::new(x[k], y[k]), complex(w)))
+                .collect();
             // displacements and slopes are kinds of their own
             for kind in [0, 1] {
                 let own: Vec<_> = pairs.iter().copied().skip(kind).step_by(2).collect();

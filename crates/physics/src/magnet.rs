@@ -164,8 +164,7 @@ impl<R: Real> Magnet<R> {
         let twice = R::splat(2.0) * pair.force_constant;
         (
             twice * (free(near) / near_gap.square() + free(far) / far_gap.square()),
-            twice
-                * ((near / near_gap).square() / near_gap + (far / far_gap).square() / far_gap),
+            twice * ((near / near_gap).square() / near_gap + (far / far_gap).square() / far_gap),
         )
     }
 }
@@ -214,9 +213,13 @@ mod tests {
                 Dual::variable(displacement, 1),
                 lift(1.0),
             );
-            let (over_current, over_displacement) = Magnet::Pair(PAIR).slopes(current, displacement);
+            let (over_current, over_displacement) =
+                Magnet::Pair(PAIR).slopes(current, displacement);
             assert!(same(over_current, force.partial[0], 1e-13), "{current}");
-            assert!(same(over_displacement, force.partial[1], 1e-13), "{current}");
+            assert!(
+                same(over_displacement, force.partial[1], 1e-13),
+                "{current}"
+            );
         }
     }
 

@@ -1,8 +1,10 @@
 //! The levitated rotor of the reference files as this crate's parts.
+#![allow(dead_code)] // each test uses its part
 
 use crate::published;
 use levitation::{
-    Actuator, Amplifier, Axis, C64, ClosedLoop, Control, Levitation, Plant, Sensor, StateSpace, Timing,
+    Actuator, Amplifier, Axis, C64, ClosedLoop, Control, Levitation, Plant, Sensor, StateSpace,
+    Timing,
 };
 use physics::magnet::Magnet;
 use rotor::{Analysis, Matrices, Unbalance};
@@ -115,7 +117,8 @@ impl File {
                 .collect();
             kept.sort_unstable();
             kept.dedup();
-            coordinates = coordinates.reduced(6e4, &kept);
+            let forces = rotor::unit_forces(self.rotor.size(), &kept);
+            coordinates = coordinates.reduced(6e4, &forces);
         }
         Analysis::new(&self.rotor, &matrices, coordinates)
     }
@@ -124,7 +127,11 @@ impl File {
     pub fn turning(&self, basis: Basis, speed: f64) -> ClosedLoop<C64> {
         let plane = self.levitation(0.0).one_plane().unwrap();
         let nodes = self.rotor.nodes.len();
-        ClosedLoop::new(Plant::turning(&self.analysis(basis), nodes, speed).unwrap(), &plane).unwrap()
+        ClosedLoop::new(
+            Plant::turning(&self.analysis(basis), nodes, speed).unwrap(),
+            &plane,
+        )
+        .unwrap()
     }
 
     /// Both planes.
