@@ -81,11 +81,14 @@ const OF_ROTOR: &[&str] = &[
     "separation_verdict",
     "first_unstable_speed",
     "largest_sag",
+    "levitation.slowest_eigenvalue",
+    "levitation.largest_sensitivity",
+    "levitation.zone",
     "coordinates",
     "reduction_error",
 ];
 /// Of each critical speed, place and support of a rotor.
-const OF_ROTOR_PARTS: [(&str, &[&str]); 3] = [
+const OF_ROTOR_PARTS: [(&str, &[&str]); 4] = [
     (
         "critical_",
         &["speed", "amplification", "separation", "verdict"],
@@ -95,6 +98,15 @@ const OF_ROTOR_PARTS: [(&str, &[&str]); 3] = [
         &["peak_amplitude", "peak_speed", "rated_amplitude"],
     ),
     ("load.", &[]),
+    (
+        "levitation.",
+        &[
+            "static_stiffness",
+            "static_current",
+            "sensitivity_peak",
+            "phase_margin",
+        ],
+    ),
 ];
 /// Of each test of an identification.
 const OF_TESTS: &[&str] = &[

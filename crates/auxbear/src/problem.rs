@@ -110,6 +110,22 @@ pub enum Code {
     ImportFormat,
     /// AB2006
     SectionTable,
+    /// AB2070
+    ControllerSize,
+    /// AB2071
+    ControllerTime,
+    /// AB2072
+    ControllerFilter,
+    /// AB2073
+    MagnetValues,
+    /// AB2074
+    UnstableLevitation,
+    /// AB2075
+    ZeroStaticStiffness,
+    /// AB2076
+    CurrentLimit,
+    /// AB2077
+    LevitationParts,
 }
 
 impl Code {
@@ -420,6 +436,54 @@ impl Code {
             "AB2006",
             "Table of sections cannot be read",
             "A table of sections lacks a column, a unit in its header, or a number in a row.",
+        ),
+        (
+            Code::ControllerSize,
+            "AB2070",
+            "Controller of another size",
+            "Matrices of a controller do not fit each other, or the sensors and magnets that are there.",
+        ),
+        (
+            Code::ControllerTime,
+            "AB2071",
+            "Impossible time of a controller",
+            "A delay, sampling period or computing time cannot be, or differs between controllers.",
+        ),
+        (
+            Code::ControllerFilter,
+            "AB2072",
+            "Filter that cannot be built",
+            "Coefficients of a filter or a matrix cannot be read, or ask for a filter without bound at high frequency.",
+        ),
+        (
+            Code::MagnetValues,
+            "AB2073",
+            "Values of a magnet contradict each other",
+            "Stiffnesses, gap, bias and largest current of a magnet cannot all be true.",
+        ),
+        (
+            Code::UnstableLevitation,
+            "AB2074",
+            "Unstable levitation",
+            "The closed loop of rotor, magnets and controller has an eigenvalue that grows.",
+        ),
+        (
+            Code::ZeroStaticStiffness,
+            "AB2075",
+            "Zero static stiffness",
+            "The closed loop holds the rotor nowhere: an eigenvalue is zero.",
+        ),
+        (
+            Code::CurrentLimit,
+            "AB2076",
+            "Magnets too weak for the weight",
+            "The coils cannot carry the control current that holds the rotor at rest.",
+        ),
+        (
+            Code::LevitationParts,
+            "AB2077",
+            "Magnet, sensor and controller do not fit",
+            "A magnet has no sensor or controller, or one of them belongs to no magnet.",
         ),
     ];
 

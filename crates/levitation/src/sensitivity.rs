@@ -75,7 +75,7 @@ pub struct Peak {
 }
 
 /// S of every sensor axis over a grid.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Sensitivity {
     /// Frequencies, rad/s.
     pub grid: Vec<f64>,
@@ -132,6 +132,18 @@ pub fn open_loop(sensitivity: C64) -> C64 {
 }
 
 impl Sensitivity {
+    /// The same with each axis twice: over complex coordinates one stands for two that are alike.
+    #[must_use]
+    pub fn of_both_axes(self) -> Self {
+        let twice = |index: usize| [index, index];
+        let all = || (0..self.peaks.len()).flat_map(twice);
+        Self {
+            values: all().map(|index| self.values[index].clone()).collect(),
+            peaks: all().map(|index| self.peaks[index]).collect(),
+            grid: self.grid,
+        }
+    }
+
     /// Over a band, with peaks searched about the eigenvalues of the loop.
     pub fn new<T: Coordinates>(
         closed: &ClosedLoop<T>,

@@ -90,9 +90,7 @@ impl Document {
         if let Some((key, value)) = root.get_ref().get_key_value(LIMIT) {
             document.limits = tables(text, key.span().start, value.get_ref());
         }
-        if let Some(DeValue::Table(rotor)) = root.get_ref().get("rotor").map(|v| v.get_ref()) {
-            document.add_parts(text, rotor)?;
-        }
+        document.add_parts(text, root.get_ref())?;
         for set in sets {
             document.add_override(set)?;
         }
@@ -220,32 +218,47 @@ impl Document {
     }
 
     /// Reads the parts of a bent rotor.
-    fn add_parts(&mut self, text: &str, rotor: &DeTable<'_>) -> Result<(), Box<Problem>> {
+    fn add_parts(&mut self, text: &str, root: &DeTable<'_>) -> Result<(), Box<Problem>> {
         for kind in PARTS {
-            let Some((key, value)) = rotor.get_key_value(kind.word) else {
+            let table = root.get(kind.table()).map(|value| value.get_ref());
+            let Some(DeValue::Table(table)) = table else {
+                continue;
+            };
+            let Some((key, value)) = table.get_key_value(kind.word) else {
                 continue;
             };
             let start = key.span().start;
             let place = Place::of_offset(text, start);
-            let path = format!("rotor.{}", kind.word);
+            let path = kind.path();
             let refuse = |code, found: String, allowed: String| {
                 let problem = Problem::new(code, &self.file, found, allowed);
                 Err(Box::new(problem.at(place).on_key(&path)))
             };
             if self.system != SystemName::Rotor {
+                if let Some(absent) = not_modelled::of(&path) {
+                    let found = "a key of what is not modelled yet".to_string();
+                    let told = Problem::new(Code::NotModelled, &self.file, found, absent.allowed());
+                    let told = told.at(place).on_key(&path);
+                    return Err(Box::new(told.with_hint(absent.hint())));
+                }
                 let found = "a section that has no effect".to_string();
                 let allowed = "it is used only with system = \"rotor\"".to_string();
                 return refuse(Code::UnusedKey, found, allowed);
             }
-            if !matches!(value.get_ref(), DeValue::Array(_)) {
-                let found = raw(value.get_ref()).text();
-                return refuse(
-                    Code::WrongType,
-                    found,
-                    format!("tables [[{path}]] are needed"),
-                );
-            }
-            for keys in tables(text, start, value.get_ref()) {
+            let written = match value.get_ref() {
+                DeValue::Array(_) => tables(text, start, value.get_ref()),
+                DeValue::Table(single) if kind.alone => {
+                    let mut keys = Vec::new();
+                    collect(text, single, "", &mut keys);
+                    vec![keys]
+                }
+                other => {
+                    let found = raw(other).text();
+                    let allowed = format!("tables [[{path}]] are needed");
+                    return refuse(Code::WrongType, found, allowed);
+                }
+            };
+            for keys in written {
                 let first = keys.iter().map(|(_, _, place)| *place);
                 self.parts.push(WrittenPart {
                     kind: kind.word,
@@ -267,13 +280,19 @@ impl Document {
         let number = named.parse::<usize>().ok();
         let at = (parts.iter().position(|part| part.name() == Some(named)))
             .or_else(|| number?.checked_sub(1).filter(|at| *at < parts.len()));
+        let (at, keys) = match (at, keys) {
+            // a single part needs no name
+            (None, []) if parts.len() == 1 => (Some(0), std::slice::from_ref(named)),
+            other => other,
+        };
         let (Some(at), [key]) = (at, keys) else {
             let names: Vec<String> = (1..)
                 .zip(&parts)
                 .map(|(number, part)| part.name().map_or(number.to_string(), str::to_string))
                 .collect();
             let allowed = format!(
-                "rotor.{kind}.NAME.KEY is needed, with one of the names or numbers {}",
+                "{}.{kind}.NAME.KEY is needed, with one of the names or numbers {}",
+                path[0],
                 names.join(", ")
             );
             let problem = Problem::new(Code::UnknownKey, &self.file, quoted(named), allowed);

@@ -52,7 +52,7 @@ fn root(system: SystemName) -> Value {
     properties(&mut root, "").insert(LIMIT.to_string(), limits(system));
     if system == SystemName::Rotor {
         for kind in PARTS {
-            properties(&mut root, "rotor").insert(kind.word.to_string(), parts(kind, system));
+            properties(&mut root, kind.table()).insert(kind.word.to_string(), parts(kind, system));
         }
         require(&mut root, "rotor.section");
     }

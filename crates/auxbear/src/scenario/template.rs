@@ -64,15 +64,15 @@ fn describe_parts(out: &mut String) {
         };
         let first = kind.starting.first().copied().unwrap_or_default();
         out.push_str(&format!(
-            "{}[[rotor.{}]]\n\n",
+            "{}[[{}]]\n\n",
             if first.is_empty() { "# " } else { "" },
-            kind.word
+            kind.path()
         ));
         for key in kind.keys {
             describe_as(out, key, SystemName::Rotor, given(first, key));
         }
         for part in kind.starting.iter().skip(1) {
-            out.push_str(&format!("[[rotor.{}]]\n", kind.word));
+            out.push_str(&format!("[[{}]]\n", kind.path()));
             for line in kind.keys.iter().filter_map(|key| given(part, key)) {
                 out.push_str(&format!("{line}\n"));
             }

@@ -20,7 +20,6 @@ mod levitated;
 mod machine;
 mod points;
 pub mod reference;
-mod rotor_file;
 mod shipped;
 mod simulation;
 

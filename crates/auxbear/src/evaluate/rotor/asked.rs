@@ -1,5 +1,6 @@
 //! What is asked of a rotor, ready to be computed, and what is found.
 
+use crate::evaluate::rotor::levitated::{self, Levitated};
 use crate::problem::{Code, Problem};
 use crate::scenario::RotorAnalysis;
 use crate::scenario::UNNAMED;
@@ -25,6 +26,8 @@ pub(crate) struct Asked<'a> {
     pub(crate) within: Analysis,
     /// Whether supports hold it at rest.
     pub(crate) held: bool,
+    /// The closed loop with its magnets.
+    pub(crate) levitated: Option<Levitated>,
 }
 
 /// What was found.
@@ -58,7 +61,12 @@ impl<'a> Asked<'a> {
         let within = Analysis::new(rotor, &matrices, basis);
         let held = rotor::held(rotor, analysis.speed).is_ok();
         let supported = rotor.bearings().count() > 0;
-        let needs = if supported {
+        let levitated = (analysis.model.levitation.as_ref())
+            .map(|model| levitated::find(analysis, model, &full, &matrices))
+            .transpose()?;
+        let needs = if levitated.is_some() {
+            None
+        } else if supported {
             Some("a rotor on supports that leave a motion free")
         } else if !rotor.unbalance.is_empty() {
             Some("unbalance, but no [[rotor.support]]")
@@ -78,6 +86,7 @@ impl<'a> Asked<'a> {
             matrices,
             within,
             held,
+            levitated,
         };
         this.modes().map_err(|error| match error {
             RotorError::TooManyModes { asked, there } => {
@@ -140,7 +149,7 @@ impl<'a> Asked<'a> {
         let criticals = self.within.criticals(&diagram);
         let responder = Responder::within(rotor, &self.within);
         let respond = |speed: f64| responder.unbalance(&rotor.unbalance, speed).ok();
-        let (responses, deflections) = match rotor.unbalance.is_empty() {
+        let (responses, deflections) = match rotor.unbalance.is_empty() || !self.held {
             true => (Vec::new(), Vec::new()),
             false => {
                 let shown = criticals.iter().take(DEFLECTIONS).map(|one| one.speed);

@@ -6,6 +6,7 @@
 
 pub(crate) mod asked;
 pub(crate) mod drawing;
+pub(crate) mod levitated;
 pub(crate) mod quantities;
 pub(crate) mod warnings;
 

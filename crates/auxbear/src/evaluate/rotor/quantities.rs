@@ -1,7 +1,7 @@
 //! The named results of the analysis of a rotor.
 
 use crate::evaluate::rotor::asked::{Asked, Found, word};
-use crate::evaluate::rotor::{drawing, sense, warnings::grows};
+use crate::evaluate::rotor::{drawing, levitated, sense, warnings::grows};
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Value};
 use rotor::{C64, Critical, Mode, Place, Whirl};
@@ -17,6 +17,9 @@ pub(crate) fn name(asked: &Asked, found: &Found) -> Vec<Quantity> {
     map(&mut list, found);
     reduction(&mut list, asked, found);
     drawing::name(&mut list, asked);
+    if let Some(levitated) = &asked.levitated {
+        levitated::name(&mut list, asked.analysis, levitated);
+    }
     list.0
 }
 

@@ -51,7 +51,7 @@ pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
             ),
         ));
     }
-    if !asked.held {
+    if !asked.held && asked.levitated.is_none() {
         out.push(warning(
             "AB2023",
             "The rotor has no support: modes are those of the free rotor, and there is no sag, no response and no stiffness map."

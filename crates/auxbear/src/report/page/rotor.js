@@ -78,6 +78,8 @@ function rotorDrawing(run, overlays, width) {
     const [x, y] = [toX(at), toY(-surface(at))];
     return [drawing("path", { d: `M${x - 7} ${y + 2}H${x + 7}M${x - 7} ${y + 6}H${x + 7}`, stroke: "#8a4fae", "stroke-width": 2 }), label(at, wordsAt(run, "seal_names")[k], (k + 1) % 2)];
   });
+  const magnets = listAt(run, "magnet_positions").map((at) => [1, -1].map((side) => drawing("rect", { x: toX(at) - 7, y: side > 0 ? toY(surface(at)) - 15 : toY(-surface(at)) + 3, width: 14, height: 12, fill: "#c2571a", "fill-opacity": 0.85 }, drawing("title", {}, "magnet"))));
+  const sensors = listAt(run, "sensor_positions").map((at) => drawing("path", { d: `M${toX(at)} ${toY(surface(at)) - 2}l-4 -9h8Z`, fill: "#22303c" }, drawing("title", {}, "position sensor")));
   const unbalances = listAt(run, "unbalance_positions").map((at) => drawing("circle", { cx: toX(at), cy: toY(surface(at)) - 6, r: 4, fill: "#b3261e" }, drawing("title", {}, "unbalance")));
   const weights = listAt(run, "mass_positions").map((at) => drawing("rect", { x: toX(at) - 4, y: toY(surface(at)) - 10, width: 8, height: 8, fill: "#55677a" }, drawing("title", {}, "point mass")));
   const nodes = z.map((at) => drawing("circle", { cx: toX(at), cy: middle, r: z.length > 80 ? 1 : 1.7, fill: NODE_DOT }));
@@ -92,7 +94,7 @@ function rotorDrawing(run, overlays, width) {
     const path = values.map((value, k) => `${k ? "L" : "M"}${toX(z[k]).toFixed(1)} ${(middle - (value / largest) * (tall / 2) * 0.95).toFixed(1)}`);
     return drawing("path", { d: path.join(""), fill: "none", stroke: colour, "stroke-width": 2, "stroke-dasharray": dash || null });
   });
-  return drawing("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img" }, axis, bodies, disks, overlays.length ? null : [weights, unbalances], supports, seals, nodes, lines);
+  return drawing("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img" }, axis, bodies, disks, overlays.length ? null : [weights, unbalances], magnets, sensors, supports, seals, nodes, lines);
 }
 
 function rotorPicture(run, overlays) {
@@ -118,7 +120,7 @@ function rotorSection(runs) {
     ];
     const sagging = listAt(run, "sag");
     const loads = Object.keys(run.quantities).filter((name) => name.startsWith("load."));
-    const note = "To scale along the shaft. Grey: shaft, another colour for each other material; dashed: sleeves; blue: disks, sized by their mass where the file gives no diameter; green: supports; violet: seals; red: unbalance; dots: nodes.";
+    const note = "To scale along the shaft. Grey: shaft, another colour for each other material; dashed: sleeves; blue: disks, sized by their mass where the file gives no diameter; green: supports; violet: seals; orange: magnets, with sensors as black wedges; red: unbalance; dots: nodes.";
     return [
       figure(shareOfRun(run, runs, "Rotor to scale"), note, rotorPicture(run, [])),
       figure(shareOfRun(run, runs, "Mass properties"), null, plainTable(["", ""], rows)),
@@ -232,6 +234,53 @@ function stiffnessMapSection(runs) {
   return section("stiffness-map", "Stiffness map", runs.map((run) => stiffnessMapFigures(run, runs)));
 }
 
+// Axes of magnets: words, and the beginning of their results.
+function magnetAxes(run) {
+  return wordsAt(run, "levitation.axes").map((label, index) => ({ label, begin: `levitation.${label.replace(/[. ]/g, "_")}`, colour: LINE_COLOURS[index % LINE_COLOURS.length], dash: index % 2 ? "7 4" : null }));
+}
+
+const ZONE_BOUNDS = [[3, "A below"], [4, "B below"], [5, "C below"]];
+
+function sensitivityCurves(run, at) {
+  const x = listAt(run, `levitation.${at}.frequencies`);
+  const zones = ZONE_BOUNDS.map(([bound, label]) => ({ label, x: [x[0], x[x.length - 1]], y: [bound, bound], colour: "#8995a0", dash: "2 3" }));
+  const lines = magnetAxes(run).map(({ label, begin, colour, dash }) => ({ label, x, y: listAt(run, `${begin}.${at}.sensitivity`), colour, dash }));
+  return curves({ series: [...lines, ...zones], across: "frequency [Hz]", upright: "|S|", logarithmic: true, decades: true, height: 320 });
+}
+
+// Open loops near -1; what lies far outside is left out.
+function nyquistCurves(run, at) {
+  const near = (value) => (isNumber(value) && Math.abs(value) <= 4 ? value : null);
+  const lines = magnetAxes(run).map(({ label, begin, colour, dash }) => {
+    const [re, im] = ["real", "imaginary"].map((part) => listAt(run, `${begin}.${at}.open_loop_${part}`));
+    const kept = re.map((value, k) => (near(value) === null || near(im[k]) === null ? null : k)).filter((k) => k !== null);
+    return { label, x: kept.map((k) => re[k]), y: kept.map((k) => im[k]), colour, dash };
+  });
+  return curves({ series: [...lines, { label: "-1", x: [-1], y: [0], colour: "#b3261e", line: false, dots: true, radius: 5 }], across: "Re L", upright: "Im L", height: 380 });
+}
+
+function levitationFigures(run, runs) {
+  const [re, im, damping] = ["real_parts", "imaginary_parts", "damping_ratios"].map((part) => listAt(run, `levitation.pole_${part}`));
+  const poles = re.map((value, k) => [`${numberText(value, 6)} 1/s`, `${numberText(im[k], 6)} rad/s`, Math.abs(im[k]) > 0.02 * Math.hypot(value, im[k]) ? (im[k] > 0 ? "with positive spin" : "against positive spin") : "–", percentText(damping[k], 3)]);
+  const rows = magnetAxes(run).map(({ label, begin }) => {
+    const at = (name) => numberOf(run, `${begin}.${name}`);
+    const stiffness = at("static_stiffness");
+    return [label, stiffness === null ? quantityOf(run, `${begin}.static_stiffness`).why : siText(stiffness, "N/m"), engineeringText(at("static_current"), "A", 4), engineeringText(at("static_displacement"), "m", 4), engineeringText(at("unbalance_current"), "A", 4), numberText(at("standstill.sensitivity_peak"), 4), numberText(at("rated.sensitivity_peak"), 4), `${numberText(at("rated.sensitivity_peak_frequency"), 4)} Hz`, quantityOf(run, `${begin}.rated.zone`).value];
+  });
+  const rated = speedText(numberOf(run, "rated_speed"));
+  return [
+    figure(shareOfRun(run, runs, "Axes of the magnets"), "Static state under weight; amplitude of the current under all unbalances; largest |S| of one axis with all others closed. Zones are quoted from memory of ISO 14839-3.", plainTable(["axis", "static stiffness", "static current", "static displacement", "unbalance current", "peak |S| at standstill", "at speed", "at", "zone"], rows)),
+    figure(shareOfRun(run, runs, "Sensitivity at standstill"), null, sensitivityCurves(run, "standstill")),
+    figure(shareOfRun(run, runs, `Sensitivity at ${rated}`), null, sensitivityCurves(run, "rated")),
+    figure(shareOfRun(run, runs, `Open loops at ${rated}`), "One axis opened, all others closed: the distance from -1 is 1/|S|.", nyquistCurves(run, "rated")),
+    figure(shareOfRun(run, runs, `Poles of the closed loop at ${rated}`), "Those of filters and integrators included, up to the highest frequency of the sensitivity.", curves({ series: [{ x: re.map((value) => -value), y: im, colour: LINE_COLOURS[0], line: false, dots: true, radius: 3 }], across: "decay -Re λ [1/s]", upright: "Im λ [rad/s]", height: 320 }), plainTable(["Re λ", "Im λ", "sense", "damping ratio"], poles)),
+  ];
+}
+
+function levitationSection(runs) {
+  return section("levitation", "Magnets and controller", runs.map((run) => levitationFigures(run, runs)));
+}
+
 function rotorVerdict(run) {
   const first = quantityOf(run, "first_critical_speed");
   const verdict = quantityOf(run, "separation_verdict").value;
@@ -246,6 +295,7 @@ function rotorVerdict(run) {
     tile("First critical speed", isNumber(first.value) ? engineeringText(first.value, "rad/s", 5) : "–", [isNumber(first.value) ? `${numberText(first.value, 5)} rad/s` : first.why]),
     tile("Separation", typeof verdict === "string" ? verdict : "–", [typeof verdict === "string" ? "critical speeds against analysis.separation_margin" : quantityOf(run, "separation_verdict").why], typeof verdict === "string" ? verdictState(run, verdict === "fail") : null),
     tile("Stability", isNumber(unstable.value) ? engineeringText(unstable.value, "rad/s", 5) : "stable", [isNumber(unstable.value) ? "from this speed on a mode grows" : unstable.why], verdictState(run, grows)),
+    typeof quantityOf(run, "levitation.zone").value === "string" ? tile("Largest sensitivity", numberText(numberOf(run, "levitation.largest_sensitivity"), 3), [`zone ${quantityOf(run, "levitation.zone").value}, slowest eigenvalue ${numberText(numberOf(run, "levitation.slowest_eigenvalue"), 3)} 1/s`]) : null,
     tile("First free bending mode", isNumber(bending) ? `${numberText(bending, 5)} rad/s` : "–", ["of the free rotor at rest"]),
     tile("Largest sag", engineeringText(numberOf(run, "largest_sag"), "m", 4), ["under its weight"]),
     tile("Error of the reduction", numberOf(run, "reduction_error") === null ? "none" : numberText(numberOf(run, "reduction_error"), 2), [numberOf(run, "reduction_error") === null ? "all coordinates are kept" : "of eigenvalues at the highest speed"]),
@@ -272,6 +322,7 @@ register("rotor", {
     [21, campbellSection, runs],
     [22, shapeSection, runs],
     [23, rotorResponseSection, runs.filter((run) => responsePlaces(run).length)],
-    [24, stiffnessMapSection, runs.filter((run) => listAt(run, "map_stiffnesses").length)],
+    [24, levitationSection, runs.filter((run) => wordsAt(run, "levitation.axes").length)],
+    [25, stiffnessMapSection, runs.filter((run) => listAt(run, "map_stiffnesses").length)],
   ].filter(([, , part]) => part.length),
 });

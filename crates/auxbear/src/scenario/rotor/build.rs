@@ -2,6 +2,7 @@
 
 use crate::problem::{Code, Problem, did_you_mean};
 use crate::scenario::key::quoted;
+use crate::scenario::rotor::levitation::{self, LevitationModel};
 use crate::scenario::rotor::parts::Part;
 use crate::scenario::values::Values;
 use rotor::{
@@ -27,6 +28,8 @@ pub struct RotorModel {
     pub unbalance: Vec<String>,
     /// Named nodes with their index.
     pub nodes: Vec<(String, usize)>,
+    /// Magnets, sensors and controllers.
+    pub levitation: Option<LevitationModel>,
 }
 
 /// A piece of shaft or sleeve as it is drawn.
@@ -39,6 +42,17 @@ pub struct DrawnPiece {
 }
 
 type Built<T> = Result<T, Box<Problem>>;
+
+/// Parts that sit at a place of the shaft, each of which is a node.
+const ATTACHED: [&str; 7] = [
+    "disk",
+    "mass",
+    "support",
+    "seal",
+    "unbalance",
+    "magnet",
+    "sensor",
+];
 
 /// The rotor of all parts.
 pub(crate) fn model(parts: &[Part], values: &Values) -> Built<RotorModel> {
@@ -57,10 +71,7 @@ pub(crate) fn model(parts: &[Part], values: &Values) -> Built<RotorModel> {
             .collect(),
     };
     let mut positions: Vec<f64> = places.names.iter().map(|(_, at)| *at).collect();
-    let attached: Vec<&Part> = ["disk", "mass", "support", "seal", "unbalance"]
-        .iter()
-        .flat_map(|word| of(word))
-        .collect();
+    let attached: Vec<&Part> = ATTACHED.iter().flat_map(|word| of(word)).collect();
     for part in &attached {
         positions.push(places.position(part)?);
     }
@@ -124,7 +135,9 @@ pub(crate) fn model(parts: &[Part], values: &Values) -> Built<RotorModel> {
     let nodes = nodes.filter_map(|(name, at)| Some((name.clone(), mesh.node(*at)?)));
     let disk_sizes = of("disk");
     let disk_sizes = disk_sizes.iter();
+    let levitation = levitation::model(&of, &node, rotor.nodes.len())?;
     Ok(RotorModel {
+        levitation,
         disks: named(&of("disk")),
         disk_sizes: disk_sizes
             .map(|part| (part.number("outer_diameter"), part.number("width")))

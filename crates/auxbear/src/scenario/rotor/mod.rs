@@ -2,6 +2,7 @@
 
 pub(crate) mod build;
 pub(crate) mod keys;
+pub(crate) mod levitation;
 pub(crate) mod part_keys;
 pub(crate) mod parts;
 
@@ -10,6 +11,7 @@ use crate::scenario::document::Document;
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
 pub use build::{DrawnPiece, RotorModel};
+pub use levitation::LevitationModel;
 
 /// A rotor and what is asked of it. Speeds in rad/s.
 #[derive(Clone, Debug, PartialEq)]

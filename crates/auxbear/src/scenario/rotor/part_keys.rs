@@ -1,4 +1,4 @@
-//! The keys of the parts of a bent rotor: arrays of tables `[[rotor.section]]`, `[[rotor.disk]]` and so on.
+//! The keys of the parts of a bent rotor: arrays of tables `[[rotor.section]]`, `[[levitation.magnet]]` and so on.
 
 use crate::scenario::key::{Key, Kind, Range};
 
@@ -8,6 +8,8 @@ pub(crate) struct PartKind {
     /// Its word: `section` of `[[rotor.section]]`.
     pub(crate) word: &'static str,
     pub(crate) doc: &'static str,
+    /// Whether a single one may stand as a plain table.
+    pub(crate) alone: bool,
     pub(crate) keys: &'static [Key],
     /// Parts of the starting file: values of keys as written, without quotes.
     pub(crate) starting: &'static [&'static [(&'static str, &'static str)]],
@@ -47,6 +49,18 @@ macro_rules! at {
     };
 }
 
+/// A key of a part of the levitation.
+macro_rules! lev {
+    ($part:literal, $name:literal, $kind:expr, $example:literal, $doc:expr) => {
+        Key::new(
+            concat!("levitation.", $part, ".", $name),
+            $kind,
+            $example,
+            $doc,
+        )
+    };
+}
+
 const FOUR: &str = "Coefficients are constant, or one for each of speeds.";
 
 /// Stiffness and damping of a support, over speed where a table is given.
@@ -76,6 +90,7 @@ pub(crate) const PARTS: &[PartKind] = &[
     PartKind {
         word: "material",
         doc: "A material of your own. Known by name are steel, stainless_steel, titanium, aluminium and nickel_alloy.",
+        alone: false,
         keys: &[
             key!("material", "name", Kind::Text, "shaft_steel", "Its name."),
             key!("material", "youngs_modulus", Kind::Quantity("Pa"), "211 GPa", "Young's modulus.").positive(),
@@ -88,6 +103,7 @@ pub(crate) const PARTS: &[PartKind] = &[
     PartKind {
         word: "node",
         doc: "A place on the shaft with a name.",
+        alone: false,
         keys: &[
             key!("node", "name", Kind::Text, "drive_end", "Its name."),
             key!("node", "at", Kind::Quantity("m"), "0.1 m", "Position along the shaft."),
@@ -97,6 +113,7 @@ pub(crate) const PARTS: &[PartKind] = &[
     PartKind {
         word: "section",
         doc: "A piece of shaft, solid, hollow or tapered. Pieces follow each other; one that lies over another gives from.",
+        alone: false,
         keys: &[
             name!("section", "journal"),
             key!("section", "from", Kind::Quantity("m"), "0 m", "Position of its left end.").optional("it begins where the section before it ends, the first at 0"),
@@ -116,6 +133,7 @@ pub(crate) const PARTS: &[PartKind] = &[
     PartKind {
         word: "sleeve",
         doc: "A ring on the shaft that adds mass and inertia but no stiffness. One that is shrunk on so that it bends with the shaft is a section.",
+        alone: false,
         keys: &[
             name!("sleeve", "landing_sleeve"),
             key!("sleeve", "from", Kind::Quantity("m"), "0.1 m", "Position of its left end."),
@@ -129,6 +147,7 @@ pub(crate) const PARTS: &[PartKind] = &[
     PartKind {
         word: "disk",
         doc: "A rigid disk: its mass and inertia, or its dimensions and material.",
+        alone: false,
         keys: &[
             name!("disk", "impeller"),
             at!("disk"),
@@ -145,6 +164,7 @@ pub(crate) const PARTS: &[PartKind] = &[
     PartKind {
         word: "mass",
         doc: "A mass without inertia on the shaft.",
+        alone: false,
         keys: &[
             name!("mass", "coupling_half"),
             at!("mass"),
@@ -155,6 +175,7 @@ pub(crate) const PARTS: &[PartKind] = &[
     PartKind {
         word: "housing",
         doc: "A housing or pedestal: a mass that supports stand on, on a mount of its own.",
+        alone: false,
         keys: coefficients![
             "housing",
             key!("housing", "name", Kind::Text, "pedestal", "Its name, for rotor.support.on."),
@@ -165,6 +186,7 @@ pub(crate) const PARTS: &[PartKind] = &[
     PartKind {
         word: "support",
         doc: "A linear support: two-by-two stiffness and damping, constant or over speed.",
+        alone: false,
         keys: coefficients![
             "support",
             name!("support", "drive_end_bearing"),
@@ -179,6 +201,7 @@ pub(crate) const PARTS: &[PartKind] = &[
     PartKind {
         word: "seal",
         doc: "A seal: coefficients as a support's, but no static load.",
+        alone: false,
         keys: coefficients![
             "seal",
             name!("seal", "balance_piston"),
@@ -190,6 +213,7 @@ pub(crate) const PARTS: &[PartKind] = &[
     PartKind {
         word: "unbalance",
         doc: "An unbalance plane. All act together.",
+        alone: false,
         keys: &[
             name!("unbalance", "impeller_unbalance"),
             at!("unbalance"),
@@ -198,10 +222,77 @@ pub(crate) const PARTS: &[PartKind] = &[
         ],
         starting: &[&[("at", "0.4 m"), ("amount", "20 g mm")]],
     },
+    PartKind {
+        word: "magnet",
+        doc: "A radial magnet with two axes at right angles.",
+        alone: false,
+        keys: &[
+            lev!("magnet", "name", Kind::Text, "drive_end", "Its name, in results and messages."),
+            lev!("magnet", "at", Kind::Text, "0.25 m", "Where it sits: a position along the shaft, or the name of a [[rotor.node]]."),
+            lev!("magnet", "angle", Kind::Quantity("rad"), "45 deg", "Direction of its first axis from x; the second is a right angle ahead.").default("45 deg", "the usual frame"),
+            lev!("magnet", "current_stiffness", Kind::Quantity("N/A"), "40 N/A", "Force over control current of an axis, k_i.").positive(),
+            lev!("magnet", "position_stiffness", Kind::Quantity("N/m"), "1.6e5 N/m", "Force over displacement of an axis, k_s; it pushes away from the centre.").positive(),
+            lev!("magnet", "gap", Kind::Quantity("m"), "0.4 mm", "Gap g₀ of an opposed pair with bias current; static position and forces are then those of the pair.").positive().optional("the force is linear"),
+            lev!("magnet", "bias_current", Kind::Quantity("A"), "1.6 A", "Bias current of the pair, g₀k_s/k_i; given, it is checked.").positive().optional("it follows from gap and stiffnesses"),
+            lev!("magnet", "largest_current", Kind::Quantity("A"), "3.2 A", "Largest current of a coil, of a linear magnet largest control current.").positive().optional("no limit"),
+            lev!("magnet", "amplifier_bandwidth", Kind::Quantity("1/s"), "2 kHz", "Corner of a current amplifier.").positive().optional("the current is the command").excludes("levitation.magnet.inductance"),
+            lev!("magnet", "inductance", Kind::Quantity("H"), "20 mH", "Inductance of an axis: a voltage amplifier.").positive().optional("a current amplifier"),
+            lev!("magnet", "resistance", Kind::Quantity("ohm"), "1.5 ohm", "Resistance of an axis.").positive().optional("needed beside inductance"),
+            lev!("magnet", "amplifier_gain", Kind::Quantity("ohm"), "300 ohm", "Volts of the amplifier for each ampere that lacks.").positive().optional("the command is the voltage itself, gains are of V instead of A"),
+            lev!("magnet", "largest_voltage", Kind::Quantity("V"), "150 V", "Largest voltage of the amplifier.").positive().optional("no limit"),
+        ],
+        starting: &[],
+    },
+    PartKind {
+        word: "sensor",
+        doc: "A position sensor, its two axes along those of its magnet.",
+        alone: false,
+        keys: &[
+            lev!("sensor", "magnet", Kind::Text, "drive_end", "Name of its magnet.").optional("it is that of every magnet without its own"),
+            lev!("sensor", "at", Kind::Text, "0.23 m", "Where it sits: a position along the shaft, or the name of a [[rotor.node]]."),
+            lev!("sensor", "bandwidth", Kind::Quantity("1/s"), "8 kHz", "Its corner, first order.").positive().optional("it follows at once"),
+            lev!("sensor", "offset_1", Kind::Quantity("m"), "5 um", "What its first axis shows too much.").default("0 m", "calibrated"),
+            lev!("sensor", "offset_2", Kind::Quantity("m"), "5 um", "What its second axis shows too much.").default("0 m", "calibrated"),
+        ],
+        starting: &[],
+    },
+    PartKind {
+        word: "controller",
+        doc: "A controller: a PID with filters on each axis, or matrices from all sensors to all magnets.",
+        alone: true,
+        keys: &[
+            lev!("controller", "magnet", Kind::Text, "drive_end", "Name of its magnet.").optional("it is that of every magnet without its own"),
+            lev!("controller", "proportional", Kind::Quantity("A/m"), "8000 A/m", "Gain of the displacement.").default("0 A/m", "none"),
+            lev!("controller", "integral", Kind::Quantity("A/(m s)"), "8e4 A/(m s)", "Gain of its integral.").default("0 A/(m s)", "none"),
+            lev!("controller", "derivative", Kind::Quantity("A s/m"), "22 A s/m", "Gain of its rate.").default("0 A s/m", "none"),
+            lev!("controller", "derivative_time", Kind::Quantity("s"), "45 us", "Time constant that ends the derivative.").positive().optional("needed beside derivative"),
+            lev!("controller", "filters", Kind::Texts, "[\"1 30 6.3e6 / 1 900 6.3e6\"]", "Filters behind the PID, each coefficients of s over coefficients of s, the highest power first, of second order at most, s in 1/s.").optional("no filter"),
+            lev!("controller", "a", Kind::Text, "-1000 0; 0 -1000", "Matrix A of ẋ = A x + B e, rows between semicolons; e the errors of all sensor axes in the order of the magnets, m and s.").optional("no states"),
+            lev!("controller", "b", Kind::Text, "1000 0; 0 1000", "Matrix B.").optional("0"),
+            lev!("controller", "c", Kind::Text, "1 0; 0 1", "Matrix C of commands = C x + D e, A or V.").optional("0"),
+            lev!("controller", "d", Kind::Text, "8000 0; 0 8000", "Matrix D; given, the controller is that of the matrices.").optional("PID and filters"),
+            lev!("controller", "delay", Kind::Quantity("s"), "50 us", "Delay of the commands.").not_negative().default("0 s", "none"),
+            lev!("controller", "sampling_period", Kind::Quantity("s"), "50 us", "Period of a sampled controller; its delay is half of it and computing_time.").positive().optional("the controller runs at every instant"),
+            lev!("controller", "computing_time", Kind::Quantity("s"), "25 us", "From a sample to its command.").not_negative().default("0 s", "none"),
+        ],
+        starting: &[],
+    },
 ];
 
 /// The kind of part at a path: `rotor.section`.
 pub(crate) fn kind_at(path: &str) -> Option<&'static PartKind> {
-    let word = path.strip_prefix("rotor.")?;
-    PARTS.iter().find(|kind| kind.word == word)
+    PARTS.iter().find(|kind| kind.path() == path)
+}
+
+impl PartKind {
+    /// The table it stands in: `rotor` of `[[rotor.section]]`.
+    pub(crate) fn table(&self) -> &'static str {
+        let path = self.keys.first().map_or("rotor", |key| key.path);
+        path.split('.').next().unwrap_or("rotor")
+    }
+
+    /// Table and word: `rotor.section`.
+    pub(crate) fn path(&self) -> String {
+        format!("{}.{}", self.table(), self.word)
+    }
 }

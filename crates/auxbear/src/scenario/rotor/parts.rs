@@ -57,6 +57,14 @@ impl Part {
         }
     }
 
+    /// A list of texts; empty where it is not given.
+    pub(crate) fn texts(&self, name: &str) -> &[String] {
+        match self.known.get(name).map(|known| &known.value) {
+            Some(Value::Texts(list)) => list,
+            _ => &[],
+        }
+    }
+
     pub(crate) fn series(&self, name: &str) -> Option<&[f64]> {
         match &self.known.get(name)?.value {
             Value::Numbers(list) => Some(list),
@@ -72,7 +80,7 @@ impl Part {
         found: impl Into<String>,
         allowed: impl Into<String>,
     ) -> Problem {
-        let mut path = format!("rotor.{}.{}", self.kind.word, self.label);
+        let mut path = format!("{}.{}", self.kind.path(), self.label);
         if !name.is_empty() {
             path = format!("{path}.{name}");
         }
@@ -85,7 +93,7 @@ impl Part {
 
     /// The part as a file has it.
     fn toml(&self) -> String {
-        let mut out = format!("[[rotor.{}]]\n", self.kind.word);
+        let mut out = format!("[[{}]]\n", self.kind.path());
         for key in self.kind.keys {
             let Some(known) = self.known.get(key.name()) else {
                 continue;
@@ -154,8 +162,8 @@ fn read(
         let Some(key) = kind.keys.iter().find(|key| key.name() == name) else {
             let names = || kind.keys.iter().map(Key::name);
             let allowed = format!(
-                "[[rotor.{}]] takes {}",
-                kind.word,
+                "[[{}]] takes {}",
+                kind.path(),
                 names().collect::<Vec<_>>().join(", ")
             );
             let (code, found) = match name.is_empty() {
@@ -171,7 +179,7 @@ fn read(
             place: *place,
         };
         let known = values.read(key, &given).map_err(|mut problem| {
-            problem.key = Some(format!("rotor.{}.{}.{name}", kind.word, part.label));
+            problem.key = Some(format!("{}.{}.{name}", kind.path(), part.label));
             problem
         })?;
         part.known.insert(key.name(), known);
