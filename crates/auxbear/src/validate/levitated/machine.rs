@@ -82,7 +82,8 @@ impl Machine {
             rotor,
         };
         let nodes = machine.rotor.nodes.len();
-        match machine.loaded().find(|node| *node >= nodes) {
+        let lost = machine.loaded().find(|node| *node >= nodes);
+        match lost {
             Some(node) => Err(format!("node {node}, of {nodes} nodes")),
             None => Ok(machine),
         }
