@@ -19,6 +19,7 @@ mod friction_kinds;
 mod machine;
 mod points;
 pub mod reference;
+mod rotors;
 mod shipped;
 mod simulation;
 
