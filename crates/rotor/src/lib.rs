@@ -49,3 +49,6 @@ pub use support::{Block, Coefficients, Place, Support};
 
 /// A complex number in double precision.
 pub type C64 = nalgebra::Complex<f64>;
+
+/// A real matrix.
+pub type RealMatrix = nalgebra::DMatrix<f64>;

@@ -178,3 +178,91 @@ fn conflict(layers: &[Layer]) -> Result<(), MeshError> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn layer(from: f64, to: f64, outer: f64, inner: f64) -> Layer {
+        let section = Annulus { outer, inner };
+        Layer {
+            from,
+            to,
+            start: section,
+            end: section,
+            material: Material::new(206e9, 0.3, 7850.0),
+            longest: f64::INFINITY,
+            carries: true,
+            damping_of_mass: 0.0,
+            damping_of_stiffness: 0.0,
+            damping_rotating: 0.0,
+        }
+    }
+
+    #[test]
+    fn nodes_stand_where_something_begins_and_spans_are_divided() {
+        let mut first = layer(0.0, 0.3, 0.05, 0.0);
+        first.longest = 0.1;
+        let layers = [
+            first,
+            layer(0.3, 0.5, 0.04, 0.0),
+            layer(0.1, 0.2, 0.08, 0.05),
+        ];
+        let mesh = mesh(&layers, &[0.4]).unwrap();
+        let expected = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5];
+        assert_eq!(mesh.nodes.len(), expected.len());
+        assert!(
+            mesh.nodes
+                .iter()
+                .zip(expected)
+                .all(|(a, b)| (a - b).abs() < 1e-12)
+        );
+        // five spans, one of them with a layer over it
+        assert_eq!(mesh.elements.len(), 6);
+        assert_eq!(mesh.elements.iter().filter(|e| e.left == 1).count(), 2);
+        assert_eq!(mesh.node(0.4), Some(4));
+        assert_eq!(mesh.node(0.45), None);
+    }
+
+    #[test]
+    fn a_divided_taper_keeps_its_volume() {
+        let mut whole = layer(0.0, 0.4, 0.10, 0.02);
+        whole.end = Annulus {
+            outer: 0.06,
+            inner: 0.04,
+        };
+        let mass = |longest: f64| {
+            let cut = mesh(&[Layer { longest, ..whole }], &[]).unwrap();
+            let rotor = crate::Rotor {
+                nodes: cut.nodes,
+                elements: cut.elements,
+                ..Default::default()
+            };
+            crate::properties(&rotor).mass
+        };
+        assert!((mass(0.4) / mass(0.03) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_cannot_be_is_refused() {
+        let solid = layer(0.0, 0.3, 0.05, 0.0);
+        let over = |layer: Layer| mesh(&[solid, layer], &[]);
+        assert!(matches!(
+            over(layer(0.1, 0.2, 0.06, 0.04)),
+            Err(MeshError::Conflict(0, 1, _))
+        ));
+        assert!(over(layer(0.1, 0.2, 0.06, 0.05)).is_ok());
+        assert_eq!(
+            over(layer(0.4, 0.5, 0.05, 0.0)),
+            Err(MeshError::Gap(0.3, 0.4))
+        );
+        assert_eq!(mesh(&[solid], &[0.31]), Err(MeshError::Outside(0.31)));
+        assert_eq!(mesh(&[], &[]), Err(MeshError::Empty));
+        // A layer that only adds mass holds nothing together.
+        let sleeve = Layer {
+            carries: false,
+            ..layer(0.3, 0.4, 0.05, 0.0)
+        };
+        assert_eq!(over(sleeve), Err(MeshError::Gap(0.3, 0.4)));
+    }
+}

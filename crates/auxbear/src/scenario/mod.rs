@@ -63,7 +63,7 @@ pub use rig::{
     BallPass, Engagement, Logger, RawFormat, Rig, RigArm, RigFlywheel, RigLoad, RigMotor,
     RigPickup, RigPickupKind, RigProgram, RigShaft, RigTemperature,
 };
-pub use rotor::{DrawnPiece, LevitationModel, RotorAnalysis, RotorModel};
+pub use rotor::{DrawnPiece, LevitationModel, RotorAnalysis, RotorModel, parts_of_rotors};
 pub use run::{Method, Run};
 pub use schema::schema;
 pub use signals::analysis::{

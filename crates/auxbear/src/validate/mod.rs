@@ -20,6 +20,7 @@ mod levitated;
 mod machine;
 mod points;
 pub mod reference;
+mod rotors;
 mod shipped;
 mod simulation;
 

@@ -11,6 +11,8 @@ use rotor::{
 
 /// A rotor of at most so many coordinates keeps all of them.
 const SMALL: usize = 40;
+/// Up to so many coordinates a reduction is held against all of them, beyond against a basis of three times the cut.
+const MEDIUM: usize = 240;
 /// Critical speeds of each sense in the stiffness map.
 const MAPPED: usize = 5;
 /// Largest number of criticals at which the deflection is shown.
@@ -160,7 +162,7 @@ impl<'a> Asked<'a> {
                 )
             }
         };
-        let (from, to, count) = asked.map;
+        let (from, to, count) = (asked.map_from, asked.map_to, asked.map_count);
         let stiffnesses: Vec<f64> = (0..count)
             .map(|k| from * (to / from).powf(k as f64 / (count - 1) as f64))
             .collect();
@@ -171,7 +173,15 @@ impl<'a> Asked<'a> {
         let kept = rotor.kept();
         let reduced = self.within.basis.len() < self.full.len();
         let reduction_error = reduced.then(|| {
-            let whole = Analysis::new(rotor, &self.matrices, self.full.clone());
+            let reference = match self.full.len() {
+                few if few <= MEDIUM => self.full.clone(),
+                _ => {
+                    let cutoff = 3.0 * asked.cutoff;
+                    let followed = asked.frequency_to.max(asked.speed_to);
+                    (self.full).for_analysis(rotor, &self.matrices, cutoff, followed)
+                }
+            };
+            let whole = Analysis::new(rotor, &self.matrices, reference);
             whole.error_of(&diagram, diagram.speeds.len() - 1, asked.frequency_to)
         });
         let top = asked.frequency_to.max(asked.speed_to);
@@ -180,7 +190,7 @@ impl<'a> Asked<'a> {
         Ok(Found {
             modes: self.modes()?,
             sag: (self.held)
-                .then(|| rotor::sag(rotor, asked.speed, asked.gravity))
+                .then(|| rotor::sag(rotor, asked.speed, asked.weight()))
                 .transpose()?,
             reduction_error: reduction_error.transpose()?,
             receptance_error,

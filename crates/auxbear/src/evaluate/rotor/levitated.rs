@@ -67,7 +67,7 @@ pub(crate) fn find(
     let (Some(rated), Some(still)) = (found.pop(), found.pop()) else {
         return Err(failed("no speed"));
     };
-    let gravity = [analysis.gravity.re, analysis.gravity.im];
+    let gravity = [analysis.weight().re, analysis.weight().im];
     let loads = weight(rotor, &within, gravity);
     let rest = equilibrium(
         &Plant::planes(&within, nodes, 0.0),

@@ -84,7 +84,7 @@ fn criticals(list: &mut List, asked: &Asked, found: &Found) {
     let mut verdict = None;
     for (number, one) in (1..).zip(all) {
         let begin = format!("critical_{number}");
-        let separation = one.separation(analysis.operating.0, analysis.operating.1);
+        let separation = one.separation(analysis.operating_from, analysis.operating_to);
         list.number(&format!("{begin}.speed"), "rad/s", Ok(one.speed), &CRITICAL);
         list.number(
             &format!("{begin}.damping_ratio"),
@@ -293,7 +293,7 @@ fn responses(list: &mut List, asked: &Asked, found: &Found) {
 fn sag(list: &mut List, asked: &Asked, found: &Found) {
     let none = || "the rotor has no support".to_string();
     let nodes = asked.rotor().nodes.len();
-    let down = asked.analysis.gravity;
+    let down = asked.analysis.weight();
     let along = |z: C64| match down.norm() {
         0.0 => 0.0,
         size => (z * down.conj()).re / size,

@@ -231,16 +231,8 @@ fn pieces<'a>(
         let material = part.text("material").unwrap_or_default().to_string();
         out.push((part, DrawnPiece { material, layer }));
     }
-    // A section that says nothing of elements is divided as the rotor says.
-    let whole = out
-        .iter()
-        .fold(0.0_f64, |far, (_, piece)| far.max(piece.layer.to))
-        - out
-            .iter()
-            .fold(f64::INFINITY, |near, (_, piece)| near.min(piece.layer.from));
-    let longest = values
-        .number("rotor.longest_element")
-        .unwrap_or(whole / 40.0);
+    let layers = out.iter().map(|(_, piece)| &piece.layer);
+    let longest = divided(layers, values);
     for (part, piece) in &mut out {
         if piece.layer.carries && part.number("elements").is_none() {
             piece.layer.longest = longest;
@@ -248,6 +240,23 @@ fn pieces<'a>(
     }
     Ok(out)
 }
+
+/// Longest element of a section that says nothing of elements, m.
+pub(crate) fn longest_element(model: &RotorModel, values: &Values) -> f64 {
+    divided(model.pieces.iter().map(|piece| &piece.layer), values)
+}
+
+fn divided<'a>(layers: impl Iterator<Item = &'a Layer>, values: &Values) -> f64 {
+    let (mut near, mut far) = (f64::INFINITY, f64::NEG_INFINITY);
+    for layer in layers {
+        (near, far) = (near.min(layer.from), far.max(layer.to));
+    }
+    let given = values.number("rotor.longest_element");
+    given.unwrap_or((far - near) / ELEMENTS)
+}
+
+/// Elements of a whole shaft that does not say how long they are.
+const ELEMENTS: f64 = 40.0;
 
 /// A material by name: the file's own, or one that is known.
 fn material(part: &Part, own: &[&Part]) -> Built<Material> {
@@ -315,6 +324,9 @@ impl Places {
     }
 }
 
+/// Most elements of a shaft: dense matrices of twice as many coordinates take seconds then.
+const MOST_ELEMENTS: f64 = 500.0;
+
 /// The mesh, or what is wrong with the pieces.
 fn mesh(
     layers: &[Layer],
@@ -325,6 +337,23 @@ fn mesh(
     places: &Places,
     values: &Values,
 ) -> Built<Mesh> {
+    let pieces_of = |layer: &Layer| ((layer.to - layer.from) / layer.longest).ceil().max(1.0);
+    let elements: f64 = layers.iter().map(pieces_of).sum();
+    if elements > MOST_ELEMENTS {
+        let found = format!("{elements} elements");
+        let allowed = format!(
+            "at most {MOST_ELEMENTS} are needed; rotor.longest_element and elements give their number"
+        );
+        let path = "rotor.longest_element";
+        let place = values.place(path);
+        return Err(Box::new(values.problem(
+            Code::RotorGeometry,
+            path,
+            place,
+            found,
+            allowed,
+        )));
+    }
     rotor::mesh(layers, positions).map_err(|error| {
         let metres = |z: f64| number_text((z * 1e9).round() / 1e9);
         match error {

@@ -8,10 +8,16 @@ pub(crate) mod parts;
 
 use crate::problem::Problem;
 use crate::scenario::document::Document;
+use crate::scenario::key::Key;
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
 pub use build::{DrawnPiece, RotorModel};
 pub use levitation::LevitationModel;
+
+/// The kinds of parts of a bent rotor, with their keys: `section` of `[[rotor.section]]`.
+pub fn parts_of_rotors() -> impl Iterator<Item = (&'static str, &'static [Key])> {
+    part_keys::PARTS.iter().map(|kind| (kind.word, kind.keys))
+}
 
 /// A rotor and what is asked of it. Speeds in rad/s.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,16 +38,26 @@ pub struct RotorAnalysis {
     pub modes: usize,
     /// Modes of the free rotor up to this frequency are kept, rad/s.
     pub cutoff: f64,
-    /// Gravity x + jy, m/s².
-    pub gravity: rotor::C64,
-    /// Lowest and highest operating speed.
-    pub operating: (f64, f64),
+    /// Longest element of what does not say it itself, m.
+    pub longest_element: f64,
+    /// Gravity across the shaft, m/s².
+    pub gravity: f64,
+    /// Direction of gravity from x, rad.
+    pub gravity_angle: f64,
+    /// Lowest operating speed.
+    pub operating_from: f64,
+    /// Highest operating speed.
+    pub operating_to: f64,
     /// Least separation of a critical speed from the operating speeds, as a share.
     pub separation_margin: Option<f64>,
     /// Amplification below which a critical speed needs no separation.
     pub exempt_amplification: Option<f64>,
-    /// Stiffnesses of the map, N/m: from, to, number.
-    pub map: (f64, f64, usize),
+    /// Lowest stiffness of the map, N/m.
+    pub map_from: f64,
+    /// Highest stiffness of the map, N/m.
+    pub map_to: f64,
+    /// Number of stiffnesses of the map.
+    pub map_count: usize,
 }
 
 impl RotorAnalysis {
@@ -62,10 +78,8 @@ impl RotorAnalysis {
         let followed = frequency_to.max(speed_to);
         let typical = build::typical_stiffness(&model.rotor, speed);
         let map = |name: &str, factor: f64| analysis.maybe(name).unwrap_or(typical * factor);
-        let angle = analysis.number("gravity_angle");
         let operating = |name: &str| analysis.maybe(name).unwrap_or(speed.abs());
         let this = RotorAnalysis {
-            model,
             speed,
             speed_from,
             speed_to,
@@ -73,15 +87,17 @@ impl RotorAnalysis {
             frequency_to,
             modes: analysis.count("modes") as usize,
             cutoff: analysis.maybe("cutoff").unwrap_or(6.0 * followed),
-            gravity: rotor::C64::from_polar(analysis.number("gravity"), angle),
-            operating: (operating("operating_from"), operating("operating_to")),
+            longest_element: build::longest_element(&model, values),
+            model,
+            gravity: analysis.number("gravity"),
+            gravity_angle: analysis.number("gravity_angle"),
+            operating_from: operating("operating_from"),
+            operating_to: operating("operating_to"),
             separation_margin: analysis.maybe("separation_margin"),
             exempt_amplification: analysis.maybe("exempt_amplification"),
-            map: (
-                map("map_from", 1e-2),
-                map("map_to", 1e2),
-                analysis.count("map_count") as usize,
-            ),
+            map_from: map("map_from", 1e-2),
+            map_to: map("map_to", 1e2),
+            map_count: analysis.count("map_count") as usize,
         };
         this.check(values)?;
         Ok(this)
@@ -96,7 +112,7 @@ impl RotorAnalysis {
                 "analysis.speed_to",
                 "speed_from",
             ),
-            (self.map.0, self.map.1, "analysis.map_to", "map_from"),
+            (self.map_from, self.map_to, "analysis.map_to", "map_from"),
         ] {
             if high <= low {
                 return Err(Box::new(
@@ -112,7 +128,7 @@ impl RotorAnalysis {
                 ));
             }
         }
-        if self.operating.1 < self.operating.0 {
+        if self.operating_to < self.operating_from {
             let path = "analysis.operating_to";
             return Err(Box::new(values.problem(
                 crate::problem::Code::OutOfRange,
@@ -123,6 +139,11 @@ impl RotorAnalysis {
             )));
         }
         Ok(())
+    }
+
+    /// Gravity x + jy, m/s².
+    pub fn weight(&self) -> rotor::C64 {
+        rotor::C64::from_polar(self.gravity, self.gravity_angle)
     }
 
     /// The speeds looked at, rad/s.
