@@ -9,7 +9,7 @@ use std::path::PathBuf;
 #[command(
     name = "auxbear",
     version,
-    after_help = "Start with `auxbear new drop my_drop.toml` (or spin_up, torque, rig, signals, identify), then `auxbear run my_drop.toml`.\n\
+    after_help = "Start with `auxbear new drop my_drop.toml` (or spin_up, torque, rig, signals, identify, rotor), then `auxbear run my_drop.toml`.\n\
                   Exit status: 0 done, 1 the run failed, 2 the input is wrong, 130 interrupted."
 )]
 pub struct Arguments {
@@ -27,6 +27,10 @@ pub enum Command {
     Signals(Measured),
     /// Find what measured tests show of a bearing: friction, loss, slip, and which explanation they support
     Identify(Measured),
+    /// Analyse a bent rotor: modes, critical speeds, response to unbalance; write a run directory
+    Rotor(Measured),
+    /// Make a rotor file of this program from a rotor saved by ROSS, or from a table of sections
+    Import(Import),
     /// Read and check a file, print it with every default and its unit; run nothing
     Check {
         /// Scenario file
@@ -37,14 +41,14 @@ pub enum Command {
     },
     /// Write a commented starting file
     New {
-        /// What to describe: drop, spin_up, torque, signals, rig or identify
+        /// What to describe: drop, spin_up, torque, signals, rig, identify or rotor
         kind: String,
         /// File to write; printed if none is given, or for -
         path: Option<PathBuf>,
     },
     /// Print the JSON Schema of a kind of file, by which editors complete and check it
     Schema {
-        /// Kind of file: drop, spin_up, torque, signals, rig or identify
+        /// Kind of file: drop, spin_up, torque, signals, rig, identify or rotor
         kind: String,
     },
     /// Draw the HTML report of one run again, or of several side by side
@@ -115,7 +119,7 @@ pub struct Run {
 
 #[derive(Debug, Args)]
 pub struct Measured {
-    /// File that says what is measured; `auxbear new signals` and `auxbear new identify` write one to start from
+    /// File of this kind; `auxbear new signals`, `auxbear new identify` and `auxbear new rotor` write one to start from
     pub file: PathBuf,
     /// Run directory to write [runs/NAME of the file, with a number where that is taken]
     #[arg(long, value_name = "DIR")]
@@ -126,6 +130,15 @@ pub struct Measured {
     /// Print no progress and no tables; warnings and problems are printed all the same
     #[arg(long)]
     pub quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Import {
+    /// Rotor saved by ROSS 2 (TOML or JSON), or a table of sections (CSV) with units in its header
+    pub file: PathBuf,
+    /// File to write [printed if none is given]
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

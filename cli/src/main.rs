@@ -7,6 +7,7 @@ mod bearings;
 mod console;
 mod digits;
 mod exit;
+mod import;
 mod limits;
 mod measured;
 mod progress;
@@ -75,6 +76,8 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
         Command::Torque(wish) => return torque::perform(wish),
         Command::Signals(wish) => return measured::perform(wish, SystemName::Signals),
         Command::Identify(wish) => return measured::perform(wish, SystemName::Identify),
+        Command::Rotor(wish) => return measured::perform(wish, SystemName::Rotor),
+        Command::Import(wish) => import::perform(wish)?,
         Command::Check { file, set } => {
             let scenario = Scenario::read(file, set, &BuiltIn)?;
             let busy = Busy::building(&scenario);

@@ -1,4 +1,4 @@
-//! `auxbear signals` and `auxbear identify`: what measurements show, by a file of their own system.
+//! `auxbear signals`, `auxbear identify` and `auxbear rotor`: each takes files of its own system alone.
 
 use crate::arguments::Measured;
 use crate::exit::Exit;

@@ -25,6 +25,7 @@ impl Busy {
         let what = match scenario.system.name() {
             SystemName::Signals | SystemName::Identify => "reading the measurement files",
             SystemName::Rig => "searching the engagement that gives the wanted acceleration",
+            SystemName::Rotor => "reducing the rotor",
             SystemName::Drop | SystemName::SpinUp | SystemName::Torque => "building the machine",
         };
         let (held, dropped) = channel::<()>();

@@ -9,7 +9,7 @@ use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 /// Kinds of files that the command will know, so that asking for one is no spelling mistake.
-const PLANNED: [&str; 2] = ["rotor", "study"];
+const PLANNED: [&str; 1] = ["study"];
 
 /// Prints or writes the starting file of a kind.
 pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {

@@ -73,6 +73,41 @@ const OF_IDENTIFY: &[&str] = &[
     "rotor_friction_coefficient",
     "rotor_friction_coefficient_deviation",
 ];
+const OF_ROTOR: &[&str] = &[
+    "mass",
+    "mass_centre",
+    "free_bending_frequencies",
+    "first_critical_speed",
+    "separation_verdict",
+    "first_unstable_speed",
+    "largest_sag",
+    "levitation.slowest_eigenvalue",
+    "levitation.largest_sensitivity",
+    "levitation.zone",
+    "coordinates",
+    "reduction_error",
+];
+/// Of each critical speed, place and support of a rotor.
+const OF_ROTOR_PARTS: [(&str, &[&str]); 4] = [
+    (
+        "critical_",
+        &["speed", "amplification", "separation", "verdict"],
+    ),
+    (
+        "response.",
+        &["peak_amplitude", "peak_speed", "rated_amplitude"],
+    ),
+    ("load.", &[]),
+    (
+        "levitation.",
+        &[
+            "static_stiffness",
+            "static_current",
+            "sensitivity_peak",
+            "phase_margin",
+        ],
+    ),
+];
 /// Of each test of an identification.
 const OF_TESTS: &[&str] = &[
     "name",
@@ -97,6 +132,7 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
         "signals" => OF_SIGNALS,
         "rig" => OF_RIG,
         "identify" => OF_IDENTIFY,
+        "rotor" => OF_ROTOR,
         _ => OF_DROP,
     };
     let pictures = outcome.pictures.iter();
@@ -129,6 +165,18 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
             rows.push([format!("  {name}"), value(quantity)]);
         }
     }
+    if outcome.system == "rotor" {
+        for quantity in &outcome.quantities {
+            let part = OF_ROTOR_PARTS.iter().find(|(begin, ends)| {
+                let end = quantity.name.rsplit('.').next().unwrap_or_default();
+                quantity.name.starts_with(begin) && (ends.is_empty() || ends.contains(&end))
+            });
+            if part.is_some() && !matches!(quantity.value, Value::None { .. } | Value::List(_)) {
+                let name = quantity.name.replace(['_', '.'], " ");
+                rows.push([format!("  {name}"), value(quantity)]);
+            }
+        }
+    }
     let mut text = format!("{}\n{}", outcome.title, console::table(&rows));
     let next = outcome.quantities.iter().find(|q| q.name == NEXT_TESTS);
     if let Some(Value::Text(next)) = next.map(|q| &q.value) {
@@ -155,7 +203,7 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
         },
         work.seconds,
         match outcome.system {
-            "signals" | "identify" => String::new(),
+            "signals" | "identify" | "rotor" => String::new(),
             _ => format!(", {} steps", work.steps),
         }
     ));

@@ -5,19 +5,29 @@ use std::collections::BTreeMap;
 use toml::Table;
 
 /// Each folder with a package, and the workspace crates it may name.
-const ALLOWED: [(&str, &[&str]); 11] = [
+const ALLOWED: [(&str, &[&str]); 13] = [
     ("crates/number", &[]),
     ("crates/units", &[]),
     ("crates/physics", &["number"]),
     ("crates/solve", &["number"]),
     ("crates/model", &["number", "physics", "solve"]),
+    ("crates/levitation", &["number", "physics", "rotor"]),
     ("crates/measure", &["number", "units"]),
     ("crates/measure/fuzz", &["measure"]),
     ("crates/identify", &["measure", "physics"]),
+    ("crates/rotor", &[]),
     (
         "crates/auxbear",
         &[
-            "identify", "measure", "model", "number", "physics", "solve", "units",
+            "identify",
+            "levitation",
+            "measure",
+            "model",
+            "number",
+            "physics",
+            "rotor",
+            "solve",
+            "units",
         ],
     ),
     ("cli", &["auxbear"]),

@@ -6,7 +6,7 @@ use crate::rust_text::{code_only, is_word};
 const SOURCE: &str = "crates/auxbear/src/";
 
 /// The modules in their order; each may use those to its left.
-const ORDER: [&str; 11] = [
+const ORDER: [&str; 12] = [
     "problem",
     "catalogue",
     "scenario",
@@ -17,6 +17,7 @@ const ORDER: [&str; 11] = [
     "evaluate",
     "run",
     "report",
+    "import",
     "validate",
 ];
 

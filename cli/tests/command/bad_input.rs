@@ -255,8 +255,8 @@ fn a_dash_is_the_standard_output() {
 fn starting_files_of_other_kinds() {
     let place = Place::new();
     place
-        .call(&["new", "rotor"])
-        .refused(&["AB0112", "\"rotor\"", "planned"]);
+        .call(&["new", "study"])
+        .refused(&["AB0112", "\"study\"", "planned"]);
     place
         .call(&["new", "drpo"])
         .refused(&["AB0108", "Did you mean \"drop\"?"]);

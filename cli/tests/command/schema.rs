@@ -6,7 +6,9 @@ use serde_json::Value;
 #[test]
 fn every_kind_of_file_has_a_schema() {
     let place = Place::new();
-    for kind in ["drop", "spin_up", "torque", "signals", "rig", "identify"] {
+    for kind in [
+        "drop", "spin_up", "torque", "signals", "rig", "identify", "rotor",
+    ] {
         let text = place.call(&["schema", kind]).done().out;
         let schema: Value = serde_json::from_str(&text).unwrap();
         assert!(schema["$schema"].as_str().unwrap().contains("2020-12"));
@@ -21,7 +23,7 @@ fn other_kinds_are_distinguished() {
     let place = Place::new();
     for (kind, code, words) in [
         ("drp", "AB0108", "Did you mean \"drop\"?"),
-        ("rotor", "AB0112", "planned"),
+        ("study", "AB0112", "planned"),
     ] {
         let called = place.call(&["schema", kind]);
         assert_eq!(called.code, Some(2), "{called:?}");

@@ -16,13 +16,14 @@
 //! ```
 //!
 //! Modules, each using only those before it: [`problem`], [`catalogue`], [`scenario`], [`options`], [`result`], then
-//! [`simulate`], [`analyse`] and [`evaluate`] side by side, [`mod@run`], [`report`], [`validate`].
+//! [`simulate`], [`analyse`] and [`evaluate`] side by side, [`mod@run`], [`report`], [`import`], [`validate`].
 
 #![forbid(unsafe_code)]
 
 pub mod analyse;
 pub mod catalogue;
 pub mod evaluate;
+pub mod import;
 pub mod options;
 pub mod problem;
 pub mod report;

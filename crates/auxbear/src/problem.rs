@@ -96,6 +96,36 @@ pub enum Code {
     DuplicateBearing,
     /// AB0402
     RatingContradictsBalls,
+    /// AB2000
+    NoSuchNode,
+    /// AB2001
+    RotorGeometry,
+    /// AB2002
+    UnknownMaterial,
+    /// AB2003
+    TooManyModes,
+    /// AB2004
+    NotHeld,
+    /// AB2005
+    ImportFormat,
+    /// AB2006
+    SectionTable,
+    /// AB2070
+    ControllerSize,
+    /// AB2071
+    ControllerTime,
+    /// AB2072
+    ControllerFilter,
+    /// AB2073
+    MagnetValues,
+    /// AB2074
+    UnstableLevitation,
+    /// AB2075
+    ZeroStaticStiffness,
+    /// AB2076
+    CurrentLimit,
+    /// AB2077
+    LevitationParts,
 }
 
 impl Code {
@@ -364,6 +394,96 @@ impl Code {
             "AB0402",
             "Load rating contradicts the balls",
             "The static load rating is absurd for bearings with such balls: a digit or a unit is wrong.",
+        ),
+        (
+            Code::NoSuchNode,
+            "AB2000",
+            "No such place on the rotor",
+            "A part sits at a node or housing that the file does not name, or at a position beside the shaft.",
+        ),
+        (
+            Code::RotorGeometry,
+            "AB2001",
+            "Impossible rotor geometry",
+            "Pieces of shaft fill the same place, leave a gap, or have a bore as large as themselves.",
+        ),
+        (
+            Code::UnknownMaterial,
+            "AB2002",
+            "Unknown material",
+            "A piece of shaft is of a material that is neither known by name nor given in the file.",
+        ),
+        (
+            Code::TooManyModes,
+            "AB2003",
+            "More modes than there are",
+            "More modes are asked for than the rotor has that oscillate; more elements give more.",
+        ),
+        (
+            Code::NotHeld,
+            "AB2004",
+            "Rotor without support",
+            "The supports leave a motion of the rotor free, so it has no position at rest.",
+        ),
+        (
+            Code::ImportFormat,
+            "AB2005",
+            "Not a rotor that can be imported",
+            "The file is not of a program and version whose rotors are understood.",
+        ),
+        (
+            Code::SectionTable,
+            "AB2006",
+            "Table of sections cannot be read",
+            "A table of sections lacks a column, a unit in its header, or a number in a row.",
+        ),
+        (
+            Code::ControllerSize,
+            "AB2070",
+            "Controller of another size",
+            "Matrices of a controller do not fit each other, or the sensors and magnets that are there.",
+        ),
+        (
+            Code::ControllerTime,
+            "AB2071",
+            "Impossible time of a controller",
+            "A delay, sampling period or computing time cannot be, or differs between controllers.",
+        ),
+        (
+            Code::ControllerFilter,
+            "AB2072",
+            "Filter that cannot be built",
+            "Coefficients of a filter or a matrix cannot be read, or ask for a filter without bound at high frequency.",
+        ),
+        (
+            Code::MagnetValues,
+            "AB2073",
+            "Values of a magnet contradict each other",
+            "Stiffnesses, gap, bias and largest current of a magnet cannot all be true.",
+        ),
+        (
+            Code::UnstableLevitation,
+            "AB2074",
+            "Unstable levitation",
+            "The closed loop of rotor, magnets and controller has an eigenvalue that grows.",
+        ),
+        (
+            Code::ZeroStaticStiffness,
+            "AB2075",
+            "Zero static stiffness",
+            "The closed loop holds the rotor nowhere: an eigenvalue is zero.",
+        ),
+        (
+            Code::CurrentLimit,
+            "AB2076",
+            "Magnets too weak for the weight",
+            "The coils cannot carry the control current that holds the rotor at rest.",
+        ),
+        (
+            Code::LevitationParts,
+            "AB2077",
+            "Magnet, sensor and controller do not fit",
+            "A magnet has no sensor or controller, or one of them belongs to no magnet.",
         ),
     ];
 

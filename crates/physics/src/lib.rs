@@ -29,6 +29,7 @@
 //! | [`rolling`] | a bearing whose balls roll: the source paper's equations 6-19 |
 //! | [`spin_up_energy`] | what a bearing dissipates while it is spun up: equation 21, printed and put right |
 //! | [`kinematics`] | speeds of cage and balls, passing frequencies |
+//! | [`magnet`] | force of a radial magnet: linear, or an opposed pair with bias, gap and limited currents |
 //! | [`unbalance`] | whirl of an unbalanced rotor on a linear support |
 
 #![forbid(unsafe_code)]
@@ -46,6 +47,7 @@ pub mod kinematics;
 pub mod lubricant;
 pub mod lubricant_state;
 pub mod lubricant_traction;
+pub mod magnet;
 pub mod materials;
 pub mod moment_curve;
 pub mod moment_parts;

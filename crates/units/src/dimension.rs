@@ -1,16 +1,16 @@
-//! Dimensions: exponents of length, mass, time, temperature and angle.
+//! Dimensions: exponents of length, mass, time, temperature, angle and electric current.
 
 use crate::rational::Rational;
 use std::fmt;
 
-/// Exponents of length, mass, time, temperature and angle.
+/// Exponents of length, mass, time, temperature, angle and electric current.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Dimension {
-    exponents: [Rational; 5],
+    exponents: [Rational; 6],
 }
 
 /// SI symbols of the base dimensions, in the order of the exponents.
-const BASE: [&str; 5] = ["m", "kg", "s", "K", "rad"];
+const BASE: [&str; 6] = ["m", "kg", "s", "K", "rad", "A"];
 
 /// Dimensions with a name and a preferred SI unit; exponents of length, mass, time, temperature, angle.
 const NAMED: [([i64; 5], &str, &str); 35] = [
@@ -49,6 +49,17 @@ const NAMED: [([i64; 5], &str, &str); 35] = [
     ([0, 0, 0, -1, 0], "temperature coefficient", "1/K"),
     ([0, 0, 2, 0, 0], "time squared", "s^2"),
     ([0, 0, -2, 0, 0], "inverse time squared", "1/s^2"),
+];
+
+/// The same of electric quantities; the last exponent is of electric current.
+const ELECTRIC: [([i64; 6], &str, &str); 7] = [
+    ([0, 0, 0, 0, 0, 1], "electric current", "A"),
+    ([2, 1, -3, 0, 0, -1], "voltage", "V"),
+    ([2, 1, -3, 0, 0, -2], "resistance", "ohm"),
+    ([2, 1, -2, 0, 0, -2], "inductance", "H"),
+    ([1, 1, -2, 0, 0, -1], "force over current", "N/A"),
+    ([-1, 0, 0, 0, 0, 1], "current over displacement", "A/m"),
+    ([-1, 0, 1, 0, 0, 1], "current over velocity", "A s/m"),
 ];
 
 impl Dimension {
@@ -95,8 +106,23 @@ impl Dimension {
     /// Kinematic viscosity, m^2/s.
     pub const KINEMATIC_VISCOSITY: Dimension = Dimension::of([2, 0, -1, 0, 0]);
 
+    /// Electric current, A.
+    pub const CURRENT: Dimension = Dimension::electric([0, 0, 0, 0, 0, 1]);
+    /// Voltage, V.
+    pub const VOLTAGE: Dimension = Dimension::electric([2, 1, -3, 0, 0, -1]);
+    /// Electric resistance, Ω.
+    pub const RESISTANCE: Dimension = Dimension::electric([2, 1, -3, 0, 0, -2]);
+    /// Inductance, H.
+    pub const INDUCTANCE: Dimension = Dimension::electric([2, 1, -2, 0, 0, -2]);
+
     /// From whole exponents of length, mass, time, temperature, angle.
     pub(crate) const fn of(exponents: [i64; 5]) -> Dimension {
+        let [length, mass, time, temperature, angle] = exponents;
+        Dimension::electric([length, mass, time, temperature, angle, 0])
+    }
+
+    /// The same with electric current.
+    const fn electric(exponents: [i64; 6]) -> Dimension {
         Dimension {
             exponents: [
                 Rational::integer(exponents[0]),
@@ -104,17 +130,18 @@ impl Dimension {
                 Rational::integer(exponents[2]),
                 Rational::integer(exponents[3]),
                 Rational::integer(exponents[4]),
+                Rational::integer(exponents[5]),
             ],
         }
     }
 
-    /// From exponents of length, mass, time, temperature, angle.
-    pub const fn from_exponents(exponents: [Rational; 5]) -> Dimension {
+    /// From exponents of length, mass, time, temperature, angle, electric current.
+    pub const fn from_exponents(exponents: [Rational; 6]) -> Dimension {
         Dimension { exponents }
     }
 
-    /// Exponents of length, mass, time, temperature, angle.
-    pub const fn exponents(self) -> [Rational; 5] {
+    /// Exponents of length, mass, time, temperature, angle, electric current.
+    pub const fn exponents(self) -> [Rational; 6] {
         self.exponents
     }
 
@@ -152,20 +179,26 @@ impl Dimension {
     /// The word an engineer uses, for the common dimensions: "length", "angular speed", "contact stiffness".
     pub fn name(self) -> Option<&'static str> {
         match self.named() {
-            Some((_, name, _)) => Some(name),
+            Some((name, _)) => Some(name),
             None => self.length_power_under_force().map(|_| "contact stiffness"),
         }
     }
 
-    fn named(self) -> Option<([i64; 5], &'static str, &'static str)> {
-        NAMED
-            .into_iter()
-            .find(|(exponents, _, _)| Dimension::of(*exponents) == self)
+    /// Name and preferred unit.
+    fn named(self) -> Option<(&'static str, &'static str)> {
+        let mechanical = NAMED.iter().map(|known| (Dimension::of(known.0), known));
+        let mechanical = mechanical.map(|(own, known)| (own, (known.1, known.2)));
+        let electric = ELECTRIC
+            .iter()
+            .map(|known| (Dimension::electric(known.0), known));
+        let electric = electric.map(|(own, known)| (own, (known.1, known.2)));
+        let mut all = mechanical.chain(electric);
+        all.find(|(own, _)| *own == self).map(|(_, known)| known)
     }
 
     /// The SI unit as text, for example `rad/s` or `N/m^(10/9)`; reading it back gives this dimension and the factor 1.
     pub fn si_unit(self) -> String {
-        if let Some((_, _, unit)) = self.named() {
+        if let Some((_, unit)) = self.named() {
             return unit.to_string();
         }
         if let Some(n) = self.length_power_under_force()
@@ -239,6 +272,24 @@ mod tests {
                 assert_ne!(other.1, *name);
             }
         }
+    }
+
+    #[test]
+    fn electric_units_read_back_with_factor_one_and_multiply_to_mechanical_ones() {
+        for (exponents, name, text) in ELECTRIC {
+            let unit = Unit::parse(text).unwrap();
+            assert_eq!(unit.dimension(), Dimension::electric(exponents), "{name}");
+            assert_eq!(
+                (unit.to_si(1.0), unit.dimension().name()),
+                (1.0, Some(name))
+            );
+        }
+        let power = Dimension::VOLTAGE.times(Dimension::CURRENT);
+        assert_eq!(power, Some(Dimension::POWER));
+        assert_eq!(
+            Unit::parse("V s/m").unwrap().dimension(),
+            Unit::parse("N/A").unwrap().dimension()
+        );
     }
 
     #[test]

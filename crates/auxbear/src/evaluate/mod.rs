@@ -1,3 +1,4 @@
 //! Laws evaluated without motion.
 
+pub(crate) mod rotor;
 pub mod torque;

@@ -72,6 +72,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("page/signals.js"),
     include_str!("page/rig.js"),
     include_str!("page/identify.js"),
+    include_str!("page/rotor.js"),
     include_str!("page/tables.js"),
     include_str!("page/start.js"),
 ];

@@ -45,7 +45,7 @@ impl Machine<'_> {
                 list.extend(preload_of_rig(rig));
                 list
             }
-            Built::Signals(_) | Built::Identify(_) => Vec::new(),
+            Built::Signals(_) | Built::Identify(_) | Built::Rotor(_) => Vec::new(),
         }
     }
 }

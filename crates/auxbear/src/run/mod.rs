@@ -8,7 +8,7 @@
 mod before;
 
 use crate::analyse::{identify, signals};
-use crate::evaluate::torque;
+use crate::evaluate::{rotor, torque};
 pub use crate::options::Options;
 use crate::problem::Problem;
 use crate::result::limits;
@@ -38,6 +38,7 @@ enum Built<'a> {
     Signals(Arc<signals::Asked>),
     Rig(&'a Rig, Box<rig::build::Built>),
     Identify(Box<identify::Asked<'a>>),
+    Rotor(Box<rotor::Asked<'a>>),
 }
 
 /// Builds the machine that the scenario describes; runs nothing.
@@ -55,6 +56,7 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
         System::Identify(of) => {
             identify::Asked::of(of).map(|asked| Built::Identify(Box::new(asked)))
         }
+        System::Rotor(of) => rotor::Asked::of(of).map(|asked| Built::Rotor(Box::new(asked))),
         System::Rig(of) => rig::build::rig(of).map(|built| Built::Rig(of, Box::new(built))),
     };
     let system = system.map_err(|problem| scenario.locate(problem))?;
@@ -94,6 +96,7 @@ impl Machine<'_> {
             Built::Torque(asked) => torque::run(self.scenario, asked),
             Built::Signals(asked) => signals::run(self.scenario, asked, options),
             Built::Identify(asked) => identify::run(self.scenario, asked, options),
+            Built::Rotor(asked) => rotor::run(self.scenario, asked),
             Built::Rig(of, built) => rig::run(self.scenario, of, built, options),
         }
     }

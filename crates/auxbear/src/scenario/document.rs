@@ -6,6 +6,8 @@ use crate::scenario::meant;
 use crate::scenario::not_modelled;
 pub(crate) use crate::scenario::raw::{Raw, as_toml};
 use crate::scenario::raw::{Written, collect, raw, table_raw, tables};
+use crate::scenario::rotor::part_keys::{PARTS, kind_at};
+use crate::scenario::rotor::parts::WrittenPart;
 use crate::scenario::several::{self, AUXILIARY_BEARING, LIMIT, VARY};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
@@ -38,6 +40,8 @@ pub(crate) struct Document {
     pub(crate) vary: Vec<Written>,
     /// What results must hold: the keys of each limit.
     pub(crate) limits: Vec<Vec<Written>>,
+    /// Parts of a bent rotor.
+    pub(crate) parts: Vec<WrittenPart>,
 }
 
 /// An auxiliary bearing of several: its name, and the values that it alone has.
@@ -68,6 +72,7 @@ impl Document {
             own: Vec::new(),
             vary: Vec::new(),
             limits: Vec::new(),
+            parts: Vec::new(),
         };
         let mut entries = Vec::new();
         flatten(root.get_ref(), &[], &mut entries);
@@ -85,6 +90,7 @@ impl Document {
         if let Some((key, value)) = root.get_ref().get_key_value(LIMIT) {
             document.limits = tables(text, key.span().start, value.get_ref());
         }
+        document.add_parts(text, root.get_ref())?;
         for set in sets {
             document.add_override(set)?;
         }
@@ -211,6 +217,92 @@ impl Document {
         Ok(())
     }
 
+    /// Reads the parts of a bent rotor.
+    fn add_parts(&mut self, text: &str, root: &DeTable<'_>) -> Result<(), Box<Problem>> {
+        for kind in PARTS {
+            let table = root.get(kind.table()).map(|value| value.get_ref());
+            let Some(DeValue::Table(table)) = table else {
+                continue;
+            };
+            let Some((key, value)) = table.get_key_value(kind.word) else {
+                continue;
+            };
+            let start = key.span().start;
+            let place = Place::of_offset(text, start);
+            let path = kind.path();
+            let refuse = |code, found: String, allowed: String| {
+                let problem = Problem::new(code, &self.file, found, allowed);
+                Err(Box::new(problem.at(place).on_key(&path)))
+            };
+            if self.system != SystemName::Rotor {
+                if let Some(absent) = not_modelled::of(&path) {
+                    let found = "a key of what is not modelled yet".to_string();
+                    let told = Problem::new(Code::NotModelled, &self.file, found, absent.allowed());
+                    let told = told.at(place).on_key(&path);
+                    return Err(Box::new(told.with_hint(absent.hint())));
+                }
+                let found = "a section that has no effect".to_string();
+                let allowed = "it is used only with system = \"rotor\"".to_string();
+                return refuse(Code::UnusedKey, found, allowed);
+            }
+            let written = match value.get_ref() {
+                DeValue::Array(_) => tables(text, start, value.get_ref()),
+                DeValue::Table(single) if kind.alone => {
+                    let mut keys = Vec::new();
+                    collect(text, single, "", &mut keys);
+                    vec![keys]
+                }
+                other => {
+                    let found = raw(other).text();
+                    let allowed = format!("tables [[{path}]] are needed");
+                    return refuse(Code::WrongType, found, allowed);
+                }
+            };
+            for keys in written {
+                let first = keys.iter().map(|(_, _, place)| *place);
+                self.parts.push(WrittenPart {
+                    kind: kind.word,
+                    place: first.min_by_key(|place| place.line()).unwrap_or(place),
+                    keys,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// An override of a value of a part: `rotor.disk.impeller.mass`, the name or the number of the part before its key.
+    fn add_to_part(&mut self, path: &[String], raw: Raw) -> Result<(), Box<Problem>> {
+        let [_, kind, named, keys @ ..] = path else {
+            return Ok(());
+        };
+        let of_kind = |part: &&mut WrittenPart| part.kind == kind;
+        let mut parts: Vec<&mut WrittenPart> = self.parts.iter_mut().filter(of_kind).collect();
+        let number = named.parse::<usize>().ok();
+        let at = (parts.iter().position(|part| part.name() == Some(named)))
+            .or_else(|| number?.checked_sub(1).filter(|at| *at < parts.len()));
+        let (at, keys) = match (at, keys) {
+            // a single part needs no name
+            (None, []) if parts.len() == 1 => (Some(0), std::slice::from_ref(named)),
+            other => other,
+        };
+        let (Some(at), [key]) = (at, keys) else {
+            let names: Vec<String> = (1..)
+                .zip(&parts)
+                .map(|(number, part)| part.name().map_or(number.to_string(), str::to_string))
+                .collect();
+            let allowed = format!(
+                "{}.{kind}.NAME.KEY is needed, with one of the names or numbers {}",
+                path[0],
+                names.join(", ")
+            );
+            let problem = Problem::new(Code::UnknownKey, &self.file, quoted(named), allowed);
+            return Err(Box::new(problem.at(Place::Set).on_key(path.join("."))));
+        };
+        parts[at].keys.retain(|(other, ..)| other != key);
+        parts[at].keys.push((key.clone(), raw, Place::Set));
+        Ok(())
+    }
+
     fn only_drops_vary(&self, place: Place) -> Result<(), Box<Problem>> {
         if self.system == SystemName::Drop {
             return Ok(());
@@ -289,6 +381,12 @@ impl Document {
             let keys = keys.map(|(key, raw)| (key.to_string(), raw, Place::Set));
             self.limits.push(keys.to_vec());
             return Ok(());
+        }
+        if path.len() > 2
+            && self.system == SystemName::Rotor
+            && kind_at(&path[..2].join(".")).is_some()
+        {
+            return self.add_to_part(&path, raw);
         }
         if path[0] == AUXILIARY_BEARING {
             return self.add_to_bearing(&path, raw, typed.to_string());
@@ -489,7 +587,8 @@ fn flatten(table: &DeTable<'_>, prefix: &[String], entries: &mut Vec<Entry>) {
         let mut path = prefix.to_vec();
         path.push(key.get_ref().to_string());
         let dotted = path.join(".");
-        if [AUXILIARY_BEARING, VARY, LIMIT].contains(&dotted.as_str()) {
+        if [AUXILIARY_BEARING, VARY, LIMIT].contains(&dotted.as_str()) || kind_at(&dotted).is_some()
+        {
             continue;
         }
         let Range { start, .. } = key.span();

@@ -32,6 +32,8 @@ pub enum Kind {
     Table(&'static str, &'static str),
     /// A list of quantities of the dimension of this SI unit; a single one needs no brackets.
     Quantities(&'static str),
+    /// The same where values may be equal: what goes over the entries of another list.
+    Series(&'static str),
     /// A list of these words; likewise.
     Words(&'static [&'static str]),
     /// A list of any texts; likewise.
@@ -272,6 +274,7 @@ impl Key {
             | Kind::Switch
             | Kind::Table(..)
             | Kind::Quantities(_)
+            | Kind::Series(_)
             | Kind::Words(_)
             | Kind::Texts => text.to_string(),
         }
@@ -312,6 +315,13 @@ impl Key {
             Kind::Quantities(unit) => {
                 let noun = noun(unit);
                 format!("a list is needed, each entry another {noun}{range}, e.g. {example}")
+            }
+            Kind::Series(unit) => {
+                let noun = noun(unit);
+                format!(
+                    "{} {noun}{range}, or a list of them, is needed, e.g. {example}",
+                    article(&noun)
+                )
             }
             Kind::Words(words) => {
                 let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();

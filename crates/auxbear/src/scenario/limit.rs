@@ -286,6 +286,7 @@ pub(crate) fn example(system: SystemName) -> (&'static str, &'static str) {
         SystemName::SpinUp | SystemName::Rig => ("peak_outer_race_moment", "most = \"0.5 N m\""),
         SystemName::Torque => ("friction_moment", "most = \"50 N mm\""),
         SystemName::Signals => ("peak_speed", "most = \"3000 rpm\""),
+        SystemName::Rotor => ("first_critical_speed", "least = \"9000 rpm\""),
         SystemName::Identify => ("explanation_fit_probability", "least = 0.05"),
     }
 }

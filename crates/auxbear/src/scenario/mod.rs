@@ -6,7 +6,7 @@
 //! ```text
 //! text + overrides ──document──▶ system; key, raw value, place
 //!                  ──resolve───▶ one value per key: given ▸ catalogue ▸ default ▸ derived
-//!                  ──drop, spin_up, torque, signals, rig, identify──▶ typed SI values  ──checks──▶ Scenario
+//!                  ──drop, spin_up, torque, signals, rig, identify, rotor──▶ typed SI values  ──checks──▶ Scenario
 //! ```
 
 pub(crate) mod bearing;
@@ -28,6 +28,7 @@ pub(crate) mod read_rows;
 pub(crate) mod resolve;
 pub(crate) mod resolved;
 pub(crate) mod rig;
+pub(crate) mod rotor;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod section;
@@ -62,6 +63,7 @@ pub use rig::{
     BallPass, Engagement, Logger, RawFormat, Rig, RigArm, RigFlywheel, RigLoad, RigMotor,
     RigPickup, RigPickupKind, RigProgram, RigShaft, RigTemperature,
 };
+pub use rotor::{DrawnPiece, LevitationModel, RotorAnalysis, RotorModel, parts_of_rotors};
 pub use run::{Accuracy, Method, Run};
 pub use schema::schema;
 pub use signals::analysis::{
@@ -106,6 +108,8 @@ pub enum System {
     Rig(Box<Rig>),
     /// What measured tests tell.
     Identify(Box<Identify>),
+    /// A bent rotor.
+    Rotor(Box<RotorAnalysis>),
 }
 
 impl System {
@@ -118,6 +122,7 @@ impl System {
             System::Signals(_) => SystemName::Signals,
             System::Rig(_) => SystemName::Rig,
             System::Identify(_) => SystemName::Identify,
+            System::Rotor(_) => SystemName::Rotor,
         }
     }
 
@@ -156,6 +161,7 @@ impl System {
                 context.rig(&rig)?;
                 System::Rig(rig)
             }
+            SystemName::Rotor => System::Rotor(Box::new(RotorAnalysis::of(document, values)?)),
             SystemName::Torque => {
                 let laws = torque::compared_laws(document, values, bearings);
                 let torque = Torque::from_values(values, laws)?;
@@ -255,6 +261,7 @@ impl Scenario {
             _ => Vec::new(),
         };
         let limits = limit::of(&document)?;
+        let parts = rotor::parts::toml(&document, &values[0]);
         let mut notes: Vec<notes::Note> = Vec::new();
         for note in values.iter().flat_map(values::Values::notes) {
             // what is of the whole file is noted of each of several bearings
@@ -269,6 +276,7 @@ impl Scenario {
             system,
             resolved: values::Values::resolved(&values)
                 .varied(&vary)
+                .of_parts(parts)
                 .limited(limits.iter().map(Limit::toml).collect()),
             vary,
             limits,

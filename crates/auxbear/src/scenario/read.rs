@@ -185,7 +185,7 @@ impl Values {
             (Kind::Table(first, second), Raw::List(rows)) => {
                 self.read_rows(key, [first, second], rows, place)
             }
-            (Kind::Quantities(_) | Kind::Words(_) | Kind::Texts, raw) => {
+            (Kind::Quantities(_) | Kind::Series(_) | Kind::Words(_) | Kind::Texts, raw) => {
                 self.read_list(key, raw, place)
             }
             (Kind::Count, Raw::Integer(text, value)) => match value {

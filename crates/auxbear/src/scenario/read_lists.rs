@@ -37,7 +37,7 @@ impl Values {
         let mut texts: Vec<String> = Vec::new();
         for (number, entry) in entries.iter().enumerate().map(|(i, entry)| (i + 1, entry)) {
             let text = match (key.kind, entry) {
-                (Kind::Quantities(unit), entry) => {
+                (Kind::Quantities(unit) | Kind::Series(unit), entry) => {
                     let (si, text) = cell(entry, unit).map_err(|(code, found, hint)| {
                         let found = found.trim_end_matches(',');
                         wrong(code, format!("{found}{}", where_in(number)), hint)
@@ -64,7 +64,8 @@ impl Values {
                     return Err(wrong(Code::WrongType, found, None));
                 }
             };
-            if let Some(first) = texts.iter().position(|known| known == text) {
+            let alike = texts.iter().position(|known| known == text);
+            if let Some(first) = alike.filter(|_| !matches!(key.kind, Kind::Series(_))) {
                 let found = format!("{} as entries {} and {number}", quoted(text), first + 1);
                 return Err(wrong(Code::Conflict, found, None));
             }
@@ -72,7 +73,7 @@ impl Values {
         }
         let listed: Vec<String> = texts.iter().map(|text| quoted(text)).collect();
         let value = match key.kind {
-            Kind::Quantities(_) => Value::Numbers(numbers),
+            Kind::Quantities(_) | Kind::Series(_) => Value::Numbers(numbers),
             Kind::Words(_) => Value::Words(words),
             _ => Value::Texts(texts),
         };

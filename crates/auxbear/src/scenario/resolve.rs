@@ -287,13 +287,13 @@ impl Values {
         )
     }
 
-    fn fall_back(&self, key: &Key, fallback: &Fallback) -> Result<Known, Box<Problem>> {
+    pub(crate) fn fall_back(&self, key: &Key, fallback: &Fallback) -> Result<Known, Box<Problem>> {
         let raw = match key.kind {
             Kind::Count => Raw::Integer(fallback.text.to_string(), fallback.text.parse().ok()),
             Kind::Switch => Raw::Switch(fallback.text == "true"),
             Kind::Coefficient => (fallback.text.parse())
                 .map_or_else(|_| Raw::Text(fallback.text.to_string()), Raw::Float),
-            Kind::Quantities(_) | Kind::Words(_) | Kind::Texts => {
+            Kind::Quantities(_) | Kind::Series(_) | Kind::Words(_) | Kind::Texts => {
                 as_toml(fallback.text).unwrap_or(Raw::Text(fallback.text.to_string()))
             }
             _ => Raw::Text(fallback.text.to_string()),

@@ -48,6 +48,8 @@ pub struct Resolved {
     vary: Vec<String>,
     /// What results must hold, a table each.
     limits: Vec<String>,
+    /// Parts of a bent rotor, a table each.
+    parts: Vec<String>,
 }
 
 impl Resolved {
@@ -56,7 +58,13 @@ impl Resolved {
             values,
             vary: Vec::new(),
             limits: Vec::new(),
+            parts: Vec::new(),
         }
+    }
+    /// The same with the parts of a bent rotor, each as a file has it.
+    pub(crate) fn of_parts(mut self, parts: Vec<String>) -> Resolved {
+        self.parts = parts;
+        self
     }
     /// The same with what results must hold, each limit as a file has it.
     pub(crate) fn limited(mut self, limits: Vec<String>) -> Resolved {
@@ -115,6 +123,9 @@ impl Resolved {
             out.push_str(&line(key, value));
             out.push('\n');
         }
+        for part in &self.parts {
+            out.push_str(&format!("\n{part}"));
+        }
         if !self.vary.is_empty() {
             out.push_str(&format!("\n[{VARY}]\n{}\n", self.vary.join("\n")));
         }
@@ -125,7 +136,7 @@ impl Resolved {
     }
 }
 
-fn line(key: &Key, value: &ResolvedValue) -> String {
+pub(crate) fn line(key: &Key, value: &ResolvedValue) -> String {
     let name = key.name();
     let Some(text) = &value.text else {
         let note = comment(&value.provenance.note());

@@ -15,6 +15,7 @@
 
 use crate::scenario::key::{Condition, Key, Kind, Otherwise, Presence, Range};
 use crate::scenario::read::FILLED_IN;
+use crate::scenario::rotor::part_keys::{PARTS, PartKind};
 use crate::scenario::several::{AUXILIARY_BEARING, LIMIT, VARY, of_each_bearing};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
@@ -49,6 +50,12 @@ fn root(system: SystemName) -> Value {
         properties(&mut root, key.section()).insert(key.name().to_string(), value(key, system));
     }
     properties(&mut root, "").insert(LIMIT.to_string(), limits(system));
+    if system == SystemName::Rotor {
+        for kind in PARTS {
+            properties(&mut root, kind.table()).insert(kind.word.to_string(), parts(kind, system));
+        }
+        require(&mut root, "rotor.section");
+    }
     let mut rules = exclusions(system);
     // what each of several auxiliary bearings may have of its own needs not stand in the head of the file
     let mut single = Vec::new();
@@ -114,6 +121,18 @@ fn add_bearings(root: &mut Value, system: SystemName) {
         "description": "What repeated runs vary: dotted paths in quotes, each with one of lognormal, normal, uniform, triangular, choice.",
     });
     properties(root, "").insert(VARY.to_string(), vary);
+}
+
+/// The array of parts of one kind.
+fn parts(kind: &PartKind, system: SystemName) -> Value {
+    let mut one = object(kind.doc);
+    for key in kind.keys {
+        properties(&mut one, "").insert(key.name().to_string(), value(key, system));
+        if key.presence == Presence::Required {
+            require(&mut one, key.name());
+        }
+    }
+    json!({ "type": "array", "items": one, "description": kind.doc })
 }
 
 /// The array of what results must hold.
@@ -423,7 +442,7 @@ fn plain(key: &Key, system: SystemName) -> Value {
         Kind::Word(words) => json!({ "enum": words }),
         Kind::Switch => json!({ "type": "boolean" }),
         Kind::Text => json!({ "type": "string" }),
-        Kind::Quantities(_) => one_or_several(&quantity),
+        Kind::Quantities(_) | Kind::Series(_) => one_or_several(&quantity),
         Kind::Words(words) => one_or_several(&json!({ "enum": words })),
         Kind::Texts => one_or_several(&json!({ "type": "string" })),
         Kind::Table(..) => json!({
@@ -467,7 +486,7 @@ fn typed(key: &Key, text: &str) -> Value {
             .map_or(Value::Null, |value| json!(value)),
         Kind::Switch => json!(text == "true"),
         // a list of texts, or of lists of texts, which TOML and JSON write alike
-        Kind::Table(..) | Kind::Quantities(_) | Kind::Words(_) | Kind::Texts => {
+        Kind::Table(..) | Kind::Quantities(_) | Kind::Series(_) | Kind::Words(_) | Kind::Texts => {
             serde_json::from_str(text).unwrap_or(Value::Null)
         }
         _ => json!(text),

@@ -15,6 +15,8 @@ pub enum SystemName {
     Rig,
     /// What measured tests tell of a bearing.
     Identify,
+    /// A bent rotor: modes, critical speeds, response to unbalance.
+    Rotor,
 }
 
 impl SystemName {
@@ -26,12 +28,14 @@ impl SystemName {
         SystemName::Signals,
         SystemName::Rig,
         SystemName::Identify,
+        SystemName::Rotor,
     ];
     /// Their words, in the same order.
-    pub(crate) const WORDS: &'static [&'static str] =
-        &["drop", "spin_up", "torque", "signals", "rig", "identify"];
+    pub(crate) const WORDS: &'static [&'static str] = &[
+        "drop", "spin_up", "torque", "signals", "rig", "identify", "rotor",
+    ];
     /// Words of systems that are planned, so that asking for one is no spelling mistake.
-    pub(crate) const PLANNED: &'static [&'static str] = &["rotor"];
+    pub(crate) const PLANNED: &'static [&'static str] = &["machine"];
 
     /// The word in a file: `spin_up`.
     pub fn word(self) -> &'static str {

@@ -21,6 +21,7 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
         .chain(crate::scenario::signals::keys_analysis::SECTIONS)
         .chain(crate::scenario::rig::keys::SECTIONS)
         .chain(crate::scenario::identify::keys::SECTIONS)
+        .chain(crate::scenario::rotor::keys::SECTIONS)
         .chain(crate::scenario::bearing::keys::SECTIONS)
         .chain(crate::scenario::bearing::keys_cage::SECTIONS)
         .chain(crate::scenario::bearing::keys::TRACTION_SECTIONS)
@@ -34,6 +35,7 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
 pub fn keys() -> impl Iterator<Item = &'static Key> {
     HEAD.iter()
         .chain(crate::scenario::drop::keys::KEYS)
+        .chain(crate::scenario::rotor::keys::KEYS)
         .chain(crate::scenario::spin_up::keys::KEYS)
         .chain(crate::scenario::torque::keys::KEYS)
         .chain(crate::scenario::signals::keys::KEYS)
@@ -75,7 +77,7 @@ pub fn presence(key: &Key, system: SystemName) -> Presence {
         SystemName::Torque => crate::scenario::torque::keys::PRESENCES,
         SystemName::SpinUp => crate::scenario::spin_up::keys::PRESENCES,
         SystemName::Rig => crate::scenario::rig::keys::PRESENCES,
-        SystemName::Drop | SystemName::Signals | SystemName::Identify => &[],
+        SystemName::Drop | SystemName::Signals | SystemName::Identify | SystemName::Rotor => &[],
     };
     let own = own.iter().find(|(path, _)| *path == key.path);
     own.map_or(key.presence, |(_, presence)| *presence)
@@ -90,7 +92,7 @@ pub(crate) fn starts_with(key: &Key, system: SystemName) -> bool {
         SystemName::Signals => crate::scenario::signals::keys::GIVEN.contains(&key.path),
         SystemName::Rig => crate::scenario::rig::keys::GIVEN.contains(&key.path),
         SystemName::Identify => crate::scenario::identify::keys::GIVEN.contains(&key.path),
-        SystemName::Drop | SystemName::SpinUp | SystemName::Torque => false,
+        SystemName::Drop | SystemName::SpinUp | SystemName::Torque | SystemName::Rotor => false,
     }
 }
 
@@ -119,7 +121,7 @@ const HEAD: &[Key] = &[
         "system",
         Kind::Word(SystemName::WORDS),
         "drop",
-        "What is simulated: drop, a levitated rotor that is released onto its auxiliary bearing; spin_up, an inner race that is brought to speed; torque, the torque of a bearing without motion; signals, speed and torque from a measurement; rig, a test on a rig with the raw file of its logger; identify, what measured tests show of a bearing.",
+        "What is simulated: drop, a levitated rotor that is released onto its auxiliary bearing; spin_up, an inner race that is brought to speed; torque, the torque of a bearing without motion; signals, speed and torque from a measurement; rig, a test on a rig with the raw file of its logger; identify, what measured tests show of a bearing; rotor, modes, critical speeds and response of a bent rotor.",
     ),
     Key::new(
         "title",

@@ -1,7 +1,8 @@
 //! The commented starting file, written from the table of keys.
 
-use crate::scenario::key::{Condition, Key, Otherwise, Presence};
+use crate::scenario::key::{Condition, Key, Kind, Otherwise, Presence, quoted};
 use crate::scenario::limit;
+use crate::scenario::rotor::part_keys::PARTS;
 use crate::scenario::several::LIMIT;
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
@@ -18,6 +19,7 @@ pub fn template(kind: &str) -> Option<String> {
         SystemName::Signals => "Speed, torque and cage speed from a measurement.",
         SystemName::Rig => "A test on a rig, and the raw file of its logger.",
         SystemName::Identify => "What measured tests show of a bearing.",
+        SystemName::Rotor => "Modes, critical speeds and response to unbalance of a bent rotor.",
         SystemName::Torque => "The torque of a bearing over speed, load and acceleration.",
     };
     let mut out = String::new();
@@ -45,8 +47,46 @@ pub fn template(kind: &str) -> Option<String> {
         }
         describe(&mut out, key, system);
     }
+    if system == SystemName::Rotor {
+        describe_parts(&mut out);
+    }
     limit_example(&mut out, system);
     Some(out.trim_end().to_string() + "\n")
+}
+
+/// Parts of a bent rotor: the keys of each kind once, and the parts of the example.
+fn describe_parts(out: &mut String) {
+    for kind in PARTS {
+        comment(out, kind.doc);
+        let given = |part: &[(&str, &str)], key: &Key| {
+            let own = part.iter().find(|(name, _)| *name == key.name());
+            own.map(|(_, text)| format!("{} = {}", key.name(), key.literal(&in_form(key, text))))
+        };
+        let first = kind.starting.first().copied().unwrap_or_default();
+        out.push_str(&format!(
+            "{}[[{}]]\n\n",
+            if first.is_empty() { "# " } else { "" },
+            kind.path()
+        ));
+        for key in kind.keys {
+            describe_as(out, key, SystemName::Rotor, given(first, key));
+        }
+        for part in kind.starting.iter().skip(1) {
+            out.push_str(&format!("[[{}]]\n", kind.path()));
+            for line in kind.keys.iter().filter_map(|key| given(part, key)) {
+                out.push_str(&format!("{line}\n"));
+            }
+            out.push('\n');
+        }
+    }
+}
+
+/// A single value of a series needs quotes of its own.
+fn in_form(key: &Key, text: &str) -> String {
+    match key.kind {
+        Kind::Series(_) => quoted(text),
+        _ => text.to_string(),
+    }
 }
 
 /// What results must hold stands at the end, as lines that are not read.
@@ -65,6 +105,11 @@ fn limit_example(out: &mut String, system: SystemName) {
 }
 
 fn describe(out: &mut String, key: &Key, system: SystemName) {
+    describe_as(out, key, system, None);
+}
+
+/// A key with its words; with a line of its own in the place of its example, which is then read.
+fn describe_as(out: &mut String, key: &Key, system: SystemName, own: Option<String>) {
     let mut doc = key.doc.to_string();
     let conditions: Vec<String> = key
         .when
@@ -130,6 +175,10 @@ fn describe(out: &mut String, key: &Key, system: SystemName) {
         }
     };
     comment(out, &doc);
+    let of_part =
+        own.is_some() || key.path.matches('.').count() == 2 && system == SystemName::Rotor;
+    let active = if of_part { own.is_some() } else { active };
+    let text = own.unwrap_or(text);
     out.push_str(if active { "" } else { "# " });
     out.push_str(&text);
     out.push_str("\n\n");

@@ -16,9 +16,11 @@ mod compare;
 mod drops;
 mod film_kinds;
 mod friction_kinds;
+mod levitated;
 mod machine;
 mod points;
 pub mod reference;
+mod rotors;
 mod shipped;
 mod simulation;
 
@@ -77,16 +79,17 @@ fn of_file(path: &Path, simulator: &dyn Simulator) -> Vec<Row> {
         .extension()
         .is_some_and(|extension| extension == "json");
     if is_json {
-        of_json(&text, simulator)
+        of_json(&text, path, simulator)
     } else {
         of_toml(&text, simulator)
     }
 }
 
-fn of_json(text: &str, simulator: &dyn Simulator) -> Vec<Row> {
+fn of_json(text: &str, path: &Path, simulator: &dyn Simulator) -> Vec<Row> {
     match serde_json::from_str(text) {
         Err(error) => vec![Row::damaged(format!("not JSON: {error}"))],
-        Ok(value) => reference::rows(&value, simulator)
+        Ok(value) => levitated::rows(&value, path)
+            .or_else(|| reference::rows(&value, simulator))
             .unwrap_or_else(|| vec![Row::not_run("a JSON file of no known format")]),
     }
 }

@@ -1,14 +1,14 @@
 //! Files of an independent reference implementation, read as they are.
 //!
 //! They name no format; their keys distinguish them: contacts (`hertz.json`), rolling moments (`rolling.json`), whole
-//! states with their derivative (`derivative_points*.json`), drops (`drop_*.json`). Laws are compared here; states
-//! and drops go to the [`Simulator`] and are compared in `points.rs` and `drops.rs`.
+//! states with their derivative (`derivative_points*.json`), drops (`drop_*.json`), rotors element by element. Laws are
+//! compared here, rotors in `rotors.rs`; states and drops go to the [`Simulator`] and are compared in `points.rs` and `drops.rs`.
 //! A file with hundreds of numbers becomes one row per quantity: the one that deviates most.
 
 use super::compare::{Worst, never, part};
 use super::report::{Row, Tolerance};
 use super::simulator::Simulator;
-use super::{drops, points};
+use super::{drops, points, rotors};
 use physics::hertz::{BallRace, EllipseFactors, PointContact, Race, maximum_pressure};
 use physics::materials::{BEARING_STEEL, Material, contact_modulus};
 use physics::palmgren::Palmgren;
@@ -28,6 +28,10 @@ pub fn rows(value: &Value, simulator: &dyn Simulator) -> Option<Vec<Row>> {
         hertz(value)
     } else if has(&["points", "per_ball_cols", "quadratures"]) {
         points::rows(value, simulator)
+    } else if has(&["model", "eigenvalues"]) {
+        rotors::rows(value)
+    } else if has(&["input", "M", "K", "G"]) {
+        rotors::element(value)
     } else if has(&["params", "y0", "mean", "sd"]) {
         drops::rows(value, simulator)
     } else {

@@ -13,6 +13,7 @@ mod lubricant_state;
 mod notes;
 mod pressure_limits;
 mod resolved;
+mod rotor;
 mod schema;
 mod several;
 mod spin_up;

@@ -3,7 +3,9 @@
 //! The judge below knows the words of JSON Schema that the schema uses, and panics at any other.
 
 use auxbear::catalogue;
-use auxbear::scenario::{BuiltIn, Scenario, SystemName, keys_of, schema, sections_of, template};
+use auxbear::scenario::{
+    BuiltIn, Scenario, SystemName, keys_of, parts_of_rotors, schema, sections_of, template,
+};
 use regex_lite::Regex;
 use serde_json::{Value, json};
 use std::fs;
@@ -141,6 +143,9 @@ fn the_schema_has_every_section_and_key_and_no_other() {
         let mut known: Vec<String> = keys_of(*system).map(|key| key.path.to_string()).collect();
         known.extend(sections_of(*system).map(|section| section.path.to_string()));
         known.push("limit".to_string());
+        if *system == SystemName::Rotor {
+            known.extend(parts_of_rotors().map(|(word, _)| format!("rotor.{word}")));
+        }
         if *system == SystemName::Drop {
             known.extend(["auxiliary_bearing", "vary"].map(String::from));
         }

@@ -39,6 +39,7 @@ fn base(system: SystemName, path: &str) -> String {
         SystemName::Torque => String::new(),
         SystemName::Signals => return measurement(path),
         SystemName::Rig => rig(path),
+        SystemName::Rotor => return rotor(),
         SystemName::Identify => {
             "[identify]\ncoast_down = [\"a.toml\"]\nradial_load = \"60 N\"\n".to_string()
         }
@@ -52,6 +53,14 @@ fn base(system: SystemName, path: &str) -> String {
         "format = \"auxbear.scenario/1\"\nsystem = \"{}\"\n{own}{bearing}",
         system.word()
     )
+}
+
+/// A bent rotor.
+fn rotor() -> String {
+    "format = \"auxbear.scenario/1\"\nsystem = \"rotor\"\n\
+     [rotor]\nspeed = \"9000 rpm\"\n\
+     [[rotor.section]]\nlength = \"0.8 m\"\nouter_diameter = \"40 mm\"\nmaterial = \"steel\"\n"
+        .to_string()
 }
 
 /// A measurement in which the key has a meaning.
@@ -177,6 +186,8 @@ fn choices(path: &str) -> Vec<String> {
         "rotor.brake_torque" => &["rotor.spin=braked"],
         "rotor.brake_start" => &["rotor.spin=braked", "rotor.brake_torque=1 N m"],
         "drive.rotor_polar_inertia" => &["drive.rotor_spin=free"],
+        "analysis.operating_to" => &["analysis.operating_from=1e-6 rad/s"],
+        "analysis.map_to" => &["analysis.map_from=1e-6 N/m"],
         // it would be the largest speed of the torque as well
         "bearing.limiting_speed" => &["torque.speed_to=200 rad/s"],
         "torque.temperatures" => &[
@@ -419,6 +430,7 @@ fn unlike_any_other(path: &str, kind: Kind, range: Range, example: &str) -> Opti
                 "bearing.cage.land_diameter" => 0.0401234,
                 "bearing.moment.outer_diameter" => 0.0512345,
                 "levitation.stiffness" => 1_234_567.0,
+                "rotor.longest_element" => 0.0345678,
                 "bearing.static_load_rating" => 6543.21,
                 "torque.speed_to" | "rig.logger.total_rate" => 1234.567,
                 "run.output_interval" => 0.000345678,

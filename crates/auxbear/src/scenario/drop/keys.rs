@@ -14,8 +14,8 @@ const DROP: &[SystemName] = &[SystemName::Drop];
 pub(crate) const SECTIONS: &[Section] = &[
     Section {
         path: "rotor",
-        doc: "The rigid rotor. Angles and speeds count counter-clockwise, x points right and y up.",
-        systems: DROP,
+        doc: "The rotor. Angles and speeds count counter-clockwise, x points right and y up.",
+        systems: &[SystemName::Drop, SystemName::Rotor],
     },
     Section {
         path: "gravity",
@@ -53,14 +53,16 @@ const BRAKED: Condition = Condition {
 };
 
 pub(crate) const KEYS: &[Key] = &[
-    Key::new("rotor.mass", Kind::Quantity("kg"), "8 kg", "Mass of the whole rotor.").positive(),
+    Key::new("rotor.mass", Kind::Quantity("kg"), "8 kg", "Mass of the whole rotor.").positive()
+    .only(DROP),
     Key::new(
         "rotor.polar_inertia",
         Kind::Quantity("kg m^2"),
         "0.01 kg m^2",
         "Moment of inertia of the whole rotor about its axis.",
     )
-    .positive(),
+    .positive()
+    .only(DROP),
     Key::new(
         "rotor.unbalance",
         Kind::Quantity("kg m"),
@@ -69,7 +71,8 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .not_negative()
     .optional("rotor.unbalance_eccentricity counts")
-    .excludes("rotor.unbalance_eccentricity"),
+    .excludes("rotor.unbalance_eccentricity")
+    .only(DROP),
     Key::new(
         "rotor.unbalance_eccentricity",
         Kind::Quantity("m"),
@@ -77,19 +80,21 @@ pub(crate) const KEYS: &[Key] = &[
         "Distance of the centre of mass from the geometric centre.",
     )
     .not_negative()
-    .default("0 m", "a balanced rotor"),
+    .default("0 m", "a balanced rotor")
+    .only(DROP),
     Key::new(
         "rotor.unbalance_angle",
         Kind::Quantity("rad"),
         "30 deg",
         "Direction of the unbalance at the release, from x.",
     )
-    .default("0 rad", "the unbalance points along x at the release"),
+    .default("0 rad", "the unbalance points along x at the release")
+    .only(DROP),
     Key::new(
         "rotor.speed",
         Kind::Quantity("rad/s"),
         "12000 rpm",
-        "Spin of the rotor at the release; the sign is the direction, counter-clockwise positive.",
+        "Spin of the rotor, at the release or as rated; the sign is the direction, counter-clockwise positive.",
     ),
     Key::new(
         "rotor.spin",
@@ -97,7 +102,8 @@ pub(crate) const KEYS: &[Key] = &[
         "free",
         "What happens to the spin after the release: free, braked by a torque, or held at its speed by a drive.",
     )
-    .default("free", "neither drive nor brake acts after the release"),
+    .default("free", "neither drive nor brake acts after the release")
+    .only(DROP),
     Key::new(
         "rotor.brake_torque",
         Kind::Quantity("N m"),
@@ -105,7 +111,8 @@ pub(crate) const KEYS: &[Key] = &[
         "Size of the braking torque; it acts against the spin until the rotor stands.",
     )
     .not_negative()
-    .when(&[BRAKED]),
+    .when(&[BRAKED])
+    .only(DROP),
     Key::new(
         "rotor.brake_start",
         Kind::Quantity("s"),
@@ -114,7 +121,8 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .not_negative()
     .default("0 s", "braking starts at the release")
-    .when(&[BRAKED]),
+    .when(&[BRAKED])
+    .only(DROP),
     Key::new(
         "rotor.planes",
         Kind::Count,
@@ -122,7 +130,8 @@ pub(crate) const KEYS: &[Key] = &[
         "Number of identical auxiliary bearings that share the rotor. The motion is taken as parallel, so one plane with its share of mass and inertia is simulated. Pairs at two places are 4 bearings, each with half of the mount of its place.",
     )
     .within(Range::FromTo(1.0, 4.0))
-    .default("1", "one auxiliary bearing carries the whole rotor"),
+    .default("1", "one auxiliary bearing carries the whole rotor")
+    .only(DROP),
     Key::new(
         "rotor.first_bending_frequency",
         Kind::Quantity("rad/s"),
@@ -130,7 +139,8 @@ pub(crate) const KEYS: &[Key] = &[
         "First free-free bending natural frequency at rest. A run whose speed is near or above it warns that a rigid rotor is indicative only.",
     )
     .positive()
-    .optional("no warning about bending can be given"),
+    .optional("no warning about bending can be given")
+    .only(DROP),
     Key::new(
         "gravity.acceleration",
         Kind::Quantity("m/s^2"),

@@ -1,0 +1,237 @@
+//! What is asked of a rotor, ready to be computed, and what is found.
+
+use crate::evaluate::rotor::levitated::{self, Levitated};
+use crate::problem::{Code, Problem};
+use crate::scenario::RotorAnalysis;
+use crate::scenario::UNNAMED;
+use rotor::{
+    Analysis, Basis, Campbell, Critical, MapPoint, Matrices, Mode, Place, Responder, Response,
+    Rotor, RotorError, Sag,
+};
+
+/// A rotor of at most so many coordinates keeps all of them.
+const SMALL: usize = 40;
+/// Up to so many coordinates a reduction is held against all of them, beyond against a basis of three times the cut.
+const MEDIUM: usize = 240;
+/// Critical speeds of each sense in the stiffness map.
+const MAPPED: usize = 5;
+/// Largest number of criticals at which the deflection is shown.
+const DEFLECTIONS: usize = 4;
+
+/// A rotor with what its analyses need.
+pub(crate) struct Asked<'a> {
+    pub(crate) analysis: &'a RotorAnalysis,
+    /// All modes of the free rotor.
+    pub(crate) full: Basis,
+    pub(crate) matrices: Matrices,
+    /// The rotor in the coordinates of the diagrams.
+    pub(crate) within: Analysis,
+    /// Whether supports hold it at rest.
+    pub(crate) held: bool,
+    /// The closed loop with its magnets.
+    pub(crate) levitated: Option<Levitated>,
+}
+
+/// What was found.
+pub(crate) struct Found {
+    pub(crate) diagram: Campbell,
+    pub(crate) criticals: Vec<Critical>,
+    /// Modes at the rated speed.
+    pub(crate) modes: Vec<Mode>,
+    /// Response at each speed of the diagram; empty without unbalance.
+    pub(crate) responses: Vec<Option<Response>>,
+    /// Responses at the rated speed and at critical speeds, whose shapes are shown.
+    pub(crate) deflections: Vec<Response>,
+    pub(crate) sag: Option<Sag>,
+    pub(crate) map: Vec<MapPoint>,
+    /// Error of the eigenvalues at the highest speed against all coordinates; `None` where all are kept.
+    pub(crate) reduction_error: Option<f64>,
+    pub(crate) receptance_error: Option<f64>,
+}
+
+impl<'a> Asked<'a> {
+    /// Everything wrong with what is asked is told here.
+    pub(crate) fn of(analysis: &'a RotorAnalysis) -> Result<Self, Box<Problem>> {
+        let rotor = &analysis.model.rotor;
+        let matrices = Matrices::new(rotor);
+        let full = Basis::full(rotor, &matrices).map_err(|error| no_answer(error, "rotor"))?;
+        let followed = analysis.frequency_to.max(analysis.speed_to);
+        let basis = match full.len() {
+            small if small <= SMALL => full.clone(),
+            _ => full.for_analysis(rotor, &matrices, analysis.cutoff, followed),
+        };
+        let within = Analysis::new(rotor, &matrices, basis);
+        let held = rotor::held(rotor, analysis.speed).is_ok();
+        let supported = rotor.bearings().count() > 0;
+        let levitated = (analysis.model.levitation.as_ref())
+            .map(|model| levitated::find(analysis, model, &full, &matrices))
+            .transpose()?;
+        let needs = if levitated.is_some() {
+            None
+        } else if supported {
+            Some("a rotor on supports that leave a motion free")
+        } else if !rotor.unbalance.is_empty() {
+            Some("unbalance, but no [[rotor.support]]")
+        } else if analysis.separation_margin.is_some() {
+            Some("a separation margin, but no [[rotor.support]]")
+        } else {
+            None
+        };
+        if let Some(found) = needs.filter(|_| !held) {
+            let allowed = "supports with stiffness in x and y at two nodes at least are needed; without support, unbalance and margin the free rotor is analysed";
+            let problem = Problem::new(Code::NotHeld, UNNAMED, found, allowed);
+            return Err(Box::new(problem.on_key("rotor.support")));
+        }
+        let this = Self {
+            analysis,
+            full,
+            matrices,
+            within,
+            held,
+            levitated,
+        };
+        this.modes().map_err(|error| match error {
+            RotorError::TooManyModes { asked, there } => {
+                let found = format!("{asked} modes at {} rad/s", units::number_text(analysis.speed));
+                let allowed = format!("at most {there} are needed: so many oscillate in the coordinates kept; analysis.cutoff and more elements give more");
+                let problem = Problem::new(Code::TooManyModes, UNNAMED, found, allowed);
+                Box::new(problem.on_key("analysis.modes"))
+            }
+            other => no_answer(other, "rotor"),
+        })?;
+        Ok(this)
+    }
+
+    pub(crate) fn rotor(&self) -> &Rotor {
+        &self.analysis.model.rotor
+    }
+
+    fn modes(&self) -> Result<Vec<Mode>, RotorError> {
+        self.within.modes(self.analysis.speed, self.analysis.modes)
+    }
+
+    /// Places whose response is shown: named nodes, disks, supports, unbalances; a node once, by its first name.
+    pub(crate) fn watched(&self) -> Vec<(String, usize)> {
+        let (model, rotor) = (&self.analysis.model, self.rotor());
+        let mut out: Vec<(String, usize)> = Vec::new();
+        let mut add = |label: String, node: usize| {
+            if out.iter().all(|(known, at)| *at != node && *known != label) {
+                out.push((label, node));
+            }
+        };
+        for (name, node) in &model.nodes {
+            add(name.clone(), *node);
+        }
+        for (name, disk) in model.disks.iter().zip(&rotor.disks) {
+            add(word("disk", name), disk.node);
+        }
+        for (name, support) in model.supports.iter().zip(&rotor.supports) {
+            if let Place::Node(node) = support.at {
+                add(
+                    word(if support.seal { "seal" } else { "support" }, name),
+                    node,
+                );
+            }
+        }
+        for (name, unbalance) in model.unbalance.iter().zip(&rotor.unbalance) {
+            add(word("unbalance", name), unbalance.node);
+        }
+        out
+    }
+
+    /// Computes everything.
+    pub(crate) fn find(&self) -> Result<Found, RotorError> {
+        let (asked, rotor) = (self.analysis, self.rotor());
+        let coarse = self.within.campbell(&asked.speeds(), asked.frequency_to)?;
+        let criticals = self.within.criticals(&coarse);
+        let diagram = match rotor.unbalance.is_empty() {
+            true => coarse,
+            false => (self.within).campbell(&refined(&coarse, &criticals), asked.frequency_to)?,
+        };
+        let criticals = self.within.criticals(&diagram);
+        let responder = Responder::within(rotor, &self.within);
+        let respond = |speed: f64| responder.unbalance(&rotor.unbalance, speed).ok();
+        let (responses, deflections) = match rotor.unbalance.is_empty() || !self.held {
+            true => (Vec::new(), Vec::new()),
+            false => {
+                let shown = criticals.iter().take(DEFLECTIONS).map(|one| one.speed);
+                let shown = std::iter::once(asked.speed).chain(shown);
+                (
+                    diagram.speeds.iter().map(|speed| respond(*speed)).collect(),
+                    shown.filter_map(respond).collect(),
+                )
+            }
+        };
+        let (from, to, count) = (asked.map_from, asked.map_to, asked.map_count);
+        let stiffnesses: Vec<f64> = (0..count)
+            .map(|k| from * (to / from).powf(k as f64 / (count - 1) as f64))
+            .collect();
+        let map = match self.held {
+            true => rotor::stiffness_map(rotor, &self.within.basis, &stiffnesses, MAPPED)?,
+            false => Vec::new(),
+        };
+        let kept = rotor.kept();
+        let reduced = self.within.basis.len() < self.full.len();
+        let reduction_error = reduced.then(|| {
+            let reference = match self.full.len() {
+                few if few <= MEDIUM => self.full.clone(),
+                _ => {
+                    let cutoff = 3.0 * asked.cutoff;
+                    let followed = asked.frequency_to.max(asked.speed_to);
+                    (self.full).for_analysis(rotor, &self.matrices, cutoff, followed)
+                }
+            };
+            let whole = Analysis::new(rotor, &self.matrices, reference);
+            whole.error_of(&diagram, diagram.speeds.len() - 1, asked.frequency_to)
+        });
+        let top = asked.frequency_to.max(asked.speed_to);
+        let receptance_error = (reduced && !kept.is_empty())
+            .then(|| (self.within.basis).receptance_error(&self.full, &kept, 0.01 * top, top));
+        Ok(Found {
+            modes: self.modes()?,
+            sag: (self.held)
+                .then(|| rotor::sag(rotor, asked.speed, asked.weight()))
+                .transpose()?,
+            reduction_error: reduction_error.transpose()?,
+            receptance_error,
+            criticals,
+            responses,
+            deflections,
+            map,
+            diagram,
+        })
+    }
+}
+
+/// A label for results: the name, or the kind with the number.
+pub(crate) fn word(kind: &str, name: &str) -> String {
+    match name.parse::<usize>() {
+        Ok(number) => format!("{kind}_{number}"),
+        Err(_) => name.replace(['.', ' '], "_"),
+    }
+}
+
+/// Speeds close to criticals, where responses peak, between those of the diagram.
+fn refined(diagram: &Campbell, criticals: &[Critical]) -> Vec<f64> {
+    let mut speeds = diagram.speeds.clone();
+    let (Some(first), Some(last)) = (speeds.first().copied(), speeds.last().copied()) else {
+        return speeds;
+    };
+    for critical in criticals {
+        // A peak is as wide as its damping; without damping it has no width.
+        let width = critical.mode.damping_ratio().abs().clamp(1e-5, 0.05);
+        for steps in [-4.0, -2.0, -1.0, -0.5, 0.5, 1.0, 2.0, 4.0] {
+            speeds.push(critical.speed * (1.0 + steps * width));
+        }
+    }
+    speeds.retain(|speed| (first..=last).contains(speed));
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * b.abs());
+    speeds
+}
+
+fn no_answer(error: RotorError, key: &str) -> Box<Problem> {
+    let needed = "a rotor with mass everywhere is needed";
+    let problem = Problem::new(Code::Impossible, UNNAMED, error.to_string(), needed);
+    Box::new(problem.on_key(key))
+}

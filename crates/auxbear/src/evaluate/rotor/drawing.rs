@@ -1,0 +1,80 @@
+//! What the page needs to draw a rotor to scale, as lists.
+
+use crate::evaluate::rotor::asked::Asked;
+use crate::evaluate::rotor::quantities::GIVEN;
+use crate::result::list::List;
+use crate::result::outcome::Value;
+use rotor::Place;
+
+/// Positions, diameters and names of all parts.
+pub(crate) fn name(list: &mut List, asked: &Asked) {
+    let (model, rotor) = (&asked.analysis.model, asked.rotor());
+    let z = |node: usize| rotor.nodes[node];
+    let mut numbers = |name: &str, unit, values: Vec<f64>| {
+        list.push(name, unit, Value::List(values), &GIVEN);
+    };
+    numbers("node_positions", "m", rotor.nodes.clone());
+    let layers = || model.pieces.iter().map(|piece| &piece.layer);
+    for (name, value) in [
+        ("piece_starts", (|l| l.from) as fn(&rotor::Layer) -> f64),
+        ("piece_ends", |l| l.to),
+        ("piece_outer_starts", |l| l.start.outer),
+        ("piece_outer_ends", |l| l.end.outer),
+        ("piece_inner_starts", |l| l.start.inner),
+        ("piece_inner_ends", |l| l.end.inner),
+    ] {
+        numbers(name, "m", layers().map(value).collect());
+    }
+    let carries = layers().map(|l| f64::from(u8::from(l.carries)));
+    numbers("piece_carries", "1", carries.collect());
+    numbers(
+        "disk_positions",
+        "m",
+        rotor.disks.iter().map(|d| z(d.node)).collect(),
+    );
+    numbers(
+        "disk_masses",
+        "kg",
+        rotor.disks.iter().map(|d| d.mass).collect(),
+    );
+    let sizes = |part: fn(&(Option<f64>, Option<f64>)) -> Option<f64>| -> Vec<f64> {
+        // zero: not given, to be drawn by its mass
+        model
+            .disk_sizes
+            .iter()
+            .map(|size| part(size).unwrap_or_default())
+            .collect()
+    };
+    numbers("disk_diameters", "m", sizes(|size| size.0));
+    numbers("disk_widths", "m", sizes(|size| size.1));
+    for (name, seal) in [("support_positions", false), ("seal_positions", true)] {
+        let places = rotor.supports.iter().filter(|support| support.seal == seal);
+        let at = places.filter_map(|support| match support.at {
+            Place::Node(node) => Some(z(node)),
+            Place::Housing(_) => None,
+        });
+        numbers(name, "m", at.collect());
+    }
+    numbers(
+        "mass_positions",
+        "m",
+        rotor.masses.iter().map(|m| z(m.node)).collect(),
+    );
+    let unbalance = rotor.unbalance.iter().map(|u| z(u.node));
+    numbers("unbalance_positions", "m", unbalance.collect());
+    let mut text = |name: &str, words: Vec<String>| {
+        list.push(name, "", Value::Text(words.join("\n")), &GIVEN);
+    };
+    text(
+        "piece_materials",
+        model.pieces.iter().map(|p| p.material.clone()).collect(),
+    );
+    text("disk_names", model.disks.clone());
+    let supports = |seal: bool| {
+        let all = model.supports.iter().zip(&rotor.supports);
+        let own = all.filter(|(_, s)| s.seal == seal && matches!(s.at, Place::Node(_)));
+        own.map(|(name, _)| name.clone()).collect()
+    };
+    text("support_names", supports(false));
+    text("seal_names", supports(true));
+}

@@ -1,0 +1,593 @@
+//! The closed loop of a rotor on magnets: refused where it does not hold, else poles, sensitivity, static and turning state.
+
+use crate::problem::{Code, Problem};
+use crate::result::list::{List, Origin};
+use crate::result::outcome::Value;
+use crate::scenario::{LevitationModel, RotorAnalysis, UNNAMED};
+use levitation::response::{Equilibrium, Synchronous, equilibrium, unbalance};
+use levitation::sensitivity::{Band, Sensitivity, margins, open_loop, zone};
+use levitation::{C64, ClosedLoop, Coordinates, Plant, Pole, Refused, Verdict, verdict, weight};
+use rotor::{Analysis, Basis, Matrices, Rotor};
+
+/// Static stiffness below this share of k_s is none.
+const NO_STIFFNESS: f64 = 1e-6;
+/// Largest frequency of the coordinates over that of the band: residual flexibilities have the rest.
+const BEYOND: f64 = 4.0;
+
+/// What was found of the closed loop.
+pub(crate) struct Levitated {
+    poles: Vec<Pole>,
+    band: Band,
+    /// At standstill, at the rated speed.
+    sensitivity: [Sensitivity; 2],
+    rest: Equilibrium,
+    turning: Option<Synchronous>,
+    coordinates: usize,
+}
+
+/// Analyses the closed loop. Everything that keeps it from holding the rotor is told here.
+pub(crate) fn find(
+    analysis: &RotorAnalysis,
+    model: &LevitationModel,
+    full: &Basis,
+    matrices: &Matrices,
+) -> Result<Levitated, Box<Problem>> {
+    let rotor = &analysis.model.rotor;
+    let band = Band::of_speed(analysis.speed);
+    let basis = basis(
+        rotor,
+        model,
+        full,
+        matrices,
+        analysis.cutoff.max(BEYOND * band.to),
+    );
+    let within = Analysis::new(rotor, matrices, basis);
+    let plane = model.levitation.one_plane().filter(|_| rotor.turns());
+    let nodes = rotor.nodes.len();
+    let told = |error: Refused| failed(&error.to_string());
+    let loops = |speed: f64| -> Result<Looped, Refused> {
+        let turning = plane.as_ref().and_then(|plane| {
+            let plant = Plant::turning(&within, nodes, speed)?;
+            Some(
+                ClosedLoop::new(plant, plane)
+                    .and_then(|closed| looped(&closed, analysis, speed, band)),
+            )
+        });
+        turning.unwrap_or_else(|| {
+            let closed = ClosedLoop::new(Plant::planes(&within, nodes, speed), &model.levitation)?;
+            looped(&closed, analysis, speed, band)
+        })
+    };
+    let mut found = Vec::new();
+    for speed in [0.0, analysis.speed] {
+        let one = loops(speed).map_err(told)?;
+        holds(model, &one.poles, speed)?;
+        found.push(one);
+    }
+    let (Some(rated), Some(still)) = (found.pop(), found.pop()) else {
+        return Err(failed("no speed"));
+    };
+    let gravity = [analysis.weight().re, analysis.weight().im];
+    let loads = weight(rotor, &within, gravity);
+    let rest = equilibrium(
+        &Plant::planes(&within, nodes, 0.0),
+        &model.levitation,
+        &loads,
+    )
+    .map_err(|error| weak(&error.to_string()))?;
+    strong(model, &rest)?;
+    Ok(Levitated {
+        poles: rated.poles,
+        band,
+        sensitivity: [still.sensitivity, rated.sensitivity],
+        turning: rated.turning,
+        rest,
+        coordinates: within.basis.len(),
+    })
+}
+
+/// One speed.
+struct Looped {
+    poles: Vec<Pole>,
+    sensitivity: Sensitivity,
+    turning: Option<Synchronous>,
+}
+
+fn looped<T: Coordinates>(
+    closed: &ClosedLoop<T>,
+    analysis: &RotorAnalysis,
+    speed: f64,
+    band: Band,
+) -> Result<Looped, Refused> {
+    let poles = closed.poles()?;
+    let planes = &analysis.model.rotor.unbalance;
+    let turning = (!planes.is_empty() && speed != 0.0).then(|| unbalance(closed, planes, speed));
+    let mut sensitivity = match verdict(&poles) {
+        Verdict::Stable => Sensitivity::new(closed, &poles, band)?,
+        _ => Sensitivity::default(),
+    };
+    let mut turning = turning.transpose()?;
+    if T::COMPLEX {
+        // one number stands for both axes
+        sensitivity = sensitivity.of_both_axes();
+        if let Some(turning) = &mut turning {
+            turning.currents = turning.currents.iter().flat_map(|i| [*i, *i]).collect();
+        }
+    }
+    Ok(Looped {
+        poles,
+        sensitivity,
+        turning,
+    })
+}
+
+/// Free modes and residual flexibility of what carries supports, unbalances, magnets and sensors, and of gyroscopic moments.
+fn basis(
+    rotor: &Rotor,
+    model: &LevitationModel,
+    full: &Basis,
+    matrices: &Matrices,
+    cut: f64,
+) -> Basis {
+    let mut kept = rotor.kept();
+    let nodes = model
+        .magnets
+        .iter()
+        .flat_map(|(_, at, sensed)| [*at, *sensed]);
+    kept.extend(nodes.map(|node| rotor.displacement(node)));
+    kept.sort_unstable();
+    kept.dedup();
+    let slow = full
+        .frequencies
+        .partition_point(|omega| *omega <= cut / BEYOND);
+    let moments = &matrices.gyroscopic * full.shapes.columns(0, slow);
+    let mut forces = rotor::unit_forces(rotor.size(), &kept);
+    let first = forces.ncols();
+    forces = forces.insert_columns(first, slow, 0.0);
+    forces.columns_mut(first, slow).copy_from(&moments);
+    full.reduced(cut, &forces)
+}
+
+/// Refuses a loop that does not hold its rotor.
+fn holds(model: &LevitationModel, poles: &[Pole], speed: f64) -> Result<(), Box<Problem>> {
+    let at = format!("at {} rad/s", units::number_text(speed));
+    let problem = match verdict(poles) {
+        Verdict::Stable => return Ok(()),
+        Verdict::Unstable(value) => {
+            let found = format!(
+                "an unstable loop {at}: eigenvalue {:.6} {:+.6}j 1/s",
+                value.re, value.im
+            );
+            let allowed =
+                "eigenvalues with negative real parts are needed: gains, filters and delay decide";
+            Problem::new(Code::UnstableLevitation, UNNAMED, found, allowed)
+        }
+        Verdict::ZeroStiffness(count) => {
+            let soft = model.levitation.static_stiffness();
+            let soft = soft.iter().zip(model.levitation.actuators());
+            let soft = soft.filter(|(k, a)| k.abs() < NO_STIFFNESS * a.magnet.position_stiffness());
+            let names: Vec<&str> = soft.map(|(_, a)| a.axis.name.as_str()).collect();
+            let found = format!("zero static stiffness {at}: {count} eigenvalues below 1e-4 1/s");
+            let allowed = match names.is_empty() {
+                true => "a loop that holds the rotor at rest is needed".to_string(),
+                false => format!(
+                    "more proportional gain than position_stiffness/current_stiffness, or an integral gain, is needed: without one they are equal on {}",
+                    names.join(", ")
+                ),
+            };
+            Problem::new(Code::ZeroStaticStiffness, UNNAMED, found, allowed)
+        }
+    };
+    Err(Box::new(problem.on_key("levitation.controller")))
+}
+
+/// Refuses coils that cannot carry the weight.
+fn strong(model: &LevitationModel, rest: &Equilibrium) -> Result<(), Box<Problem>> {
+    for (index, limit) in model.largest_currents.iter().enumerate() {
+        let Some(limit) = limit.filter(|limit| rest.currents[index].abs() > *limit) else {
+            continue;
+        };
+        let name = &model.levitation.actuators()[index].axis.name;
+        return Err(weak(&format!(
+            "{:.4} A of control current on axis {name} to hold the weight, {limit:.4} A there",
+            rest.currents[index].abs()
+        )));
+    }
+    Ok(())
+}
+
+fn weak(found: &str) -> Box<Problem> {
+    let allowed = "coils whose largest current, less the bias, holds the weight are needed";
+    let problem = Problem::new(Code::CurrentLimit, UNNAMED, found, allowed);
+    Box::new(problem.on_key("levitation.magnet.largest_current"))
+}
+
+fn failed(text: &str) -> Box<Problem> {
+    let needed = "another levitation is needed";
+    let problem = Problem::new(Code::Impossible, UNNAMED, text, needed);
+    Box::new(problem.on_key("levitation"))
+}
+
+/// The named results.
+pub(crate) fn name(list: &mut List, analysis: &RotorAnalysis, found: &Levitated) {
+    let Some(model) = &analysis.model.levitation else {
+        return;
+    };
+    let z = |node: usize| analysis.model.rotor.nodes[node];
+    let positions = model
+        .magnets
+        .iter()
+        .map(|(_, at, sensed)| (z(*at), z(*sensed)));
+    let (magnets, sensors): (Vec<f64>, Vec<f64>) = positions.unzip();
+    list.push("magnet_positions", "m", Value::List(magnets), &GIVEN);
+    list.push("sensor_positions", "m", Value::List(sensors), &GIVEN);
+    let slowest = found
+        .poles
+        .iter()
+        .map(|pole| pole.value.re)
+        .fold(f64::MIN, f64::max);
+    list.number("levitation.slowest_eigenvalue", "1/s", Ok(slowest), &POLES);
+    let shown: Vec<&Pole> = found
+        .poles
+        .iter()
+        .filter(|p| p.value.im.abs() <= found.band.to)
+        .collect();
+    let mut poles = |name: &str, unit, value: fn(&Pole) -> f64| {
+        list.push(
+            name,
+            unit,
+            Value::List(shown.iter().map(|p| value(p)).collect()),
+            &POLES,
+        );
+    };
+    poles("levitation.pole_real_parts", "1/s", |pole| pole.value.re);
+    poles("levitation.pole_imaginary_parts", "rad/s", |pole| {
+        pole.value.im
+    });
+    poles("levitation.pole_damping_ratios", "", Pole::damping_ratio);
+    list.number(
+        "levitation.coordinates",
+        "",
+        Ok(found.coordinates as f64),
+        &POLES,
+    );
+    let peaks = found.sensitivity.iter().flat_map(|one| &one.peaks);
+    let largest = peaks.map(|peak| peak.size).fold(0.0, f64::max);
+    list.number(
+        "levitation.largest_sensitivity",
+        "",
+        Ok(largest),
+        &SENSITIVITY,
+    );
+    let letter = zone(largest).to_string();
+    list.push("levitation.zone", "", Value::Text(letter), &SENSITIVITY);
+    let names = model
+        .levitation
+        .actuators()
+        .iter()
+        .map(|a| a.axis.name.as_str());
+    let names: Vec<&str> = names.collect();
+    list.push("levitation.axes", "", Value::Text(names.join("\n")), &GIVEN);
+    for (index, label) in names.iter().enumerate() {
+        axis(
+            list,
+            model,
+            found,
+            index,
+            &format!("levitation.{}", label.replace(['.', ' '], "_")),
+        );
+    }
+    for (at, one) in ["standstill", "rated"].iter().zip(&found.sensitivity) {
+        let hertz = one.grid.iter().map(|omega| omega / std::f64::consts::TAU);
+        list.push(
+            &format!("levitation.{at}.frequencies"),
+            "Hz",
+            Value::List(hertz.collect()),
+            &SENSITIVITY,
+        );
+    }
+}
+
+/// The results of one axis.
+fn axis(list: &mut List, model: &LevitationModel, found: &Levitated, index: usize, begin: &str) {
+    let stiffness = model.levitation.static_stiffness().get(index).copied();
+    let stiffness = match stiffness {
+        Some(k) if k.is_infinite() => Err("without bound: the controller integrates".to_string()),
+        Some(k) => Ok(k),
+        None => Err("one filter serves all axes".to_string()),
+    };
+    list.number(
+        &format!("{begin}.static_stiffness"),
+        "N/m",
+        stiffness,
+        &STATIC,
+    );
+    list.number(
+        &format!("{begin}.static_current"),
+        "A",
+        Ok(found.rest.currents[index]),
+        &STATIC,
+    );
+    list.number(
+        &format!("{begin}.static_displacement"),
+        "m",
+        Ok(found.rest.gaps[index]),
+        &STATIC,
+    );
+    let turning = (found.turning.as_ref())
+        .map(|turning| turning.currents[index].norm())
+        .ok_or_else(|| "no [[rotor.unbalance]] is given".to_string());
+    list.number(
+        &format!("{begin}.unbalance_current"),
+        "A",
+        turning,
+        &TURNING,
+    );
+    for (at, one) in ["standstill", "rated"].iter().zip(&found.sensitivity) {
+        let begin = format!("{begin}.{at}");
+        let (peak, values) = (one.peaks[index], &one.values[index]);
+        list.number(
+            &format!("{begin}.sensitivity_peak"),
+            "",
+            Ok(peak.size),
+            &SENSITIVITY,
+        );
+        let hertz = peak.at / std::f64::consts::TAU;
+        list.number(
+            &format!("{begin}.sensitivity_peak_frequency"),
+            "Hz",
+            Ok(hertz),
+            &SENSITIVITY,
+        );
+        let letter = zone(peak.size).to_string();
+        list.push(
+            &format!("{begin}.zone"),
+            "",
+            Value::Text(letter),
+            &SENSITIVITY,
+        );
+        let open: Vec<C64> = values.iter().map(|s| open_loop(*s)).collect();
+        let margins = margins(&open);
+        let none = || "the open loop does not cross there within the band".to_string();
+        for (name, unit, value) in [
+            ("phase_margin", "rad", margins.phase),
+            ("gain_margin_up", "", margins.upper_gain),
+            ("gain_margin_down", "", margins.lower_gain),
+        ] {
+            list.number(
+                &format!("{begin}.{name}"),
+                unit,
+                value.ok_or_else(none),
+                &SENSITIVITY,
+            );
+        }
+        let mut curve = |name: &str, values: Vec<f64>| {
+            list.push(
+                &format!("{begin}.{name}"),
+                "",
+                Value::List(values),
+                &SENSITIVITY,
+            );
+        };
+        curve("sensitivity", values.iter().map(|s| s.norm()).collect());
+        curve("open_loop_real", open.iter().map(|l| l.re).collect());
+        curve("open_loop_imaginary", open.iter().map(|l| l.im).collect());
+    }
+}
+
+const GIVEN: Origin = Origin {
+    law: "",
+    source: "the scenario",
+    valid: "",
+};
+const LINEAR: &str = "small motion about the centres of the magnets; samples as a delay, no limit of current and voltage";
+const POLES: Origin = Origin {
+    law: "eigenvalues of rotor, magnets, amplifiers, controller, delay and sensors as one system; Im λ > 0 turns with positive spin",
+    source: "crates/levitation/src/closed_loop.rs",
+    valid: LINEAR,
+};
+const SENSITIVITY: Origin = Origin {
+    law: "S = 1/(1 + L) of one axis with all others closed; zones A below 3, B below 4, C below 5, D",
+    source: "crates/levitation/src/sensitivity.rs; ISO 14839-3 (zones and band from memory, to be verified)",
+    valid: LINEAR,
+};
+const STATIC: Origin = Origin {
+    law: "k_i C(0) - k_s of an axis; position and currents under weight with the full force law",
+    source: "crates/levitation/src/response.rs",
+    valid: "a rotor at rest",
+};
+const TURNING: Origin = Origin {
+    law: "synchronous response of the closed loop at the rated speed; amplitude",
+    source: "crates/levitation/src/response.rs",
+    valid: LINEAR,
+};
+
+#[cfg(test)]
+mod tests {
+    use super::super::asked::Asked;
+    use super::*;
+    use crate::scenario::{BuiltIn, Scenario, System};
+
+    const SMALL: &str = r#"
+format = "auxbear.scenario/1"
+system = "rotor"
+[rotor]
+speed = "9000 rpm"
+damping_of_stiffness = "1 us"
+[[rotor.section]]
+length = "0.5 m"
+outer_diameter = "40 mm"
+material = "steel"
+elements = 10
+[[rotor.unbalance]]
+at = "0.25 m"
+amount = "10 g mm"
+[levitation.controller]
+proportional = "8000 A/m"
+integral = "8e4 A/(m s)"
+derivative = "22 A s/m"
+derivative_time = "45 us"
+delay = "50 us"
+[[levitation.sensor]]
+magnet = "left"
+at = "0.08 m"
+bandwidth = "8 kHz"
+[[levitation.sensor]]
+magnet = "right"
+at = "0.42 m"
+[[levitation.magnet]]
+name = "left"
+at = "0.1 m"
+current_stiffness = "40 N/A"
+position_stiffness = "1.6e5 N/m"
+gap = "0.5 mm"
+largest_current = "5 A"
+amplifier_bandwidth = "2 kHz"
+[[levitation.magnet]]
+name = "right"
+at = "0.4 m"
+current_stiffness = "40 N/A"
+position_stiffness = "1.6e5 N/m"
+amplifier_bandwidth = "2 kHz"
+"#;
+
+    /// What becomes of the file with some words replaced.
+    fn outcome(changes: &[(&str, &str)]) -> Result<Vec<(String, Value)>, Problem> {
+        let mut text = SMALL.to_string();
+        for (from, to) in changes {
+            assert!(text.contains(from), "{from}");
+            text = text.replace(from, to);
+        }
+        let scenario = Scenario::parse(&text, "small.toml", &[], &BuiltIn).map_err(|p| *p)?;
+        let System::Rotor(analysis) = &scenario.system else {
+            panic!("a rotor");
+        };
+        let asked = Asked::of(analysis).map_err(|problem| *problem)?;
+        let mut list = List(Vec::new());
+        name(&mut list, analysis, asked.levitated.as_ref().unwrap());
+        Ok(list.0.into_iter().map(|q| (q.name, q.value)).collect())
+    }
+    fn number(found: &[(String, Value)], name: &str) -> f64 {
+        match found.iter().find(|(own, _)| own == name) {
+            Some((_, Value::Number(value))) => *value,
+            other => panic!("{name}: {other:?}"),
+        }
+    }
+
+    #[test]
+    fn a_small_rotor_on_two_magnets() {
+        let found = outcome(&[]).unwrap();
+        assert!(number(&found, "levitation.slowest_eigenvalue") < -5.0);
+        let peak = number(&found, "levitation.left_1.rated.sensitivity_peak");
+        assert!((1.0..3.0).contains(&peak), "{peak}");
+        // half the weight of 4.93 kg on each magnet, shared by both axes at 45°; sensors outboard change a little
+        let current = number(&found, "levitation.right_1.static_current").abs();
+        let wanted = 0.5 * 7810.0 * 0.5 * 0.04 * 0.04 * std::f64::consts::FRAC_PI_4 * 9.80665
+            / 2.0_f64.sqrt()
+            / 40.0;
+        assert!((current / wanted - 1.0).abs() < 0.05, "{current} {wanted}");
+        let stiff = found
+            .iter()
+            .find(|(name, _)| name == "levitation.left_2.static_stiffness");
+        assert!(matches!(&stiff.unwrap().1, Value::None { why } if why.contains("integrates")));
+    }
+
+    #[test]
+    fn matrices_and_samples_are_read_too() {
+        let matrices = "a = \"-22222 0 0 0; 0 -22222 0 0; 0 0 -22222 0; 0 0 0 -22222\"\n\
+            b = \"22222 0 0 0; 0 22222 0 0; 0 0 22222 0; 0 0 0 22222\"\n\
+            c = \"-488884 0 0 0; 0 -488884 0 0; 0 0 -488884 0; 0 0 0 -488884\"\n\
+            d = \"496884 0 0 0; 0 496884 0 0; 0 0 496884 0; 0 0 0 496884\"\nproportional";
+        let of_matrix = outcome(&[("proportional", matrices)]).unwrap();
+        let of_pid = outcome(&[
+            ("integral = \"8e4 A/(m s)\"", ""),
+            (
+                "derivative_time = \"45 us\"",
+                "derivative_time = \"45.0004500045 us\"",
+            ),
+        ])
+        .unwrap();
+        let name = "levitation.left_1.rated.sensitivity_peak";
+        let (a, b) = (number(&of_matrix, name), number(&of_pid, name));
+        assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
+        let sampled = outcome(&[(
+            "delay = \"50 us\"",
+            "sampling_period = \"50 us\"\ncomputing_time = \"25 us\"",
+        )]);
+        let (a, b) = (
+            number(&sampled.unwrap(), name),
+            number(&outcome(&[]).unwrap(), name),
+        );
+        assert!((a / b - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_cannot_hold_the_rotor_is_told_with_its_code() {
+        let no_integral = ("integral = \"8e4 A/(m s)\"", "");
+        let cases: [(&[(&str, &str)], Code, &str); 11] = [
+            (
+                &[("8000 A/m", "3000 A/m"), no_integral],
+                Code::UnstableLevitation,
+                "eigenvalue",
+            ),
+            (
+                &[("8000 A/m", "4000 A/m"), no_integral],
+                Code::ZeroStaticStiffness,
+                "left 1",
+            ),
+            (
+                &[("\"5 A\"", "\"2.2 A\"")],
+                Code::CurrentLimit,
+                "A of control current on axis left 1",
+            ),
+            (
+                &[("\"5 A\"", "\"1 A\"")],
+                Code::MagnetValues,
+                "2.0000 A follow",
+            ),
+            (
+                &[(
+                    "gap = \"0.5 mm\"",
+                    "gap = \"0.5 mm\"\nbias_current = \"3 A\"",
+                )],
+                Code::MagnetValues,
+                "2.0000 A is needed",
+            ),
+            (
+                &[("at = \"0.08 m\"", "at = \"0.8 m\"")],
+                Code::NoSuchNode,
+                "beside the shaft",
+            ),
+            (
+                &[("magnet = \"left\"", "magnet = \"lift\"")],
+                Code::LevitationParts,
+                "left, right",
+            ),
+            (
+                &[("delay = \"50 us\"", "d = \"1 0; 0 1\"")],
+                Code::ControllerSize,
+                "2 signals to 2 commands",
+            ),
+            (
+                &[("delay = \"50 us\"", "filters = [\"1 0 0 / 1 2\"]")],
+                Code::ControllerFilter,
+                "3 coefficients over 2",
+            ),
+            (
+                &[(
+                    "delay = \"50 us\"",
+                    "sampling_period = \"50 us\"\ncomputing_time = \"1 ms\"",
+                )],
+                Code::ControllerTime,
+                "time to compute",
+            ),
+            (&[("50 us", "-50 us")], Code::OutOfRange, "not below 0"),
+        ];
+        for (changes, code, words) in cases {
+            let problem = outcome(changes).unwrap_err();
+            let text = format!("{} {}", problem.found, problem.allowed);
+            assert_eq!(problem.code, code, "{changes:?}: {text}");
+            assert!(text.contains(words), "{changes:?}: {text}");
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! A bent rotor: mass properties, modes, critical speeds, response to unbalance, sag, stiffness map.
+//!
+//! The computations stand in the crate `rotor`; here they are asked for, named and turned into columns. Nothing is integrated.
+//!
+//! Not modelled: torsion, axial motion, stress stiffening, shafts that are not round, supports that hold the slope.
+
+pub(crate) mod asked;
+pub(crate) mod drawing;
+pub(crate) mod levitated;
+pub(crate) mod quantities;
+pub(crate) mod warnings;
+
+pub(crate) use crate::evaluate::rotor::asked::Asked;
+use crate::evaluate::rotor::asked::Found;
+use crate::result::outcome::{Column, Outcome, Picture, Stop, Work};
+use crate::scenario::Scenario;
+use rotor::Whirl;
+use std::time::Instant;
+
+/// Computes everything and names it.
+pub(crate) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
+    let clock = Instant::now();
+    let found = asked.find();
+    let (history, quantities, stop) = match &found {
+        Ok(found) => (
+            history(asked, found),
+            quantities::name(asked, found),
+            Stop {
+                reason: "finished",
+                time: 0.0,
+                text: "Everything asked for was computed.".to_string(),
+            },
+        ),
+        Err(error) => (
+            Vec::new(),
+            Vec::new(),
+            Stop {
+                reason: "diverged",
+                time: 0.0,
+                text: format!("The analysis has no answer: {error}."),
+            },
+        ),
+    };
+    Outcome {
+        system: "rotor",
+        title: scenario
+            .title
+            .clone()
+            .unwrap_or_else(|| "Rotor".to_string()),
+        quantities,
+        history,
+        contacts: Vec::new(),
+        warnings: found.map_or(Vec::new(), |found| warnings::of(asked, &found)),
+        stop,
+        work: Work {
+            members: 1,
+            seconds: clock.elapsed().as_secs_f64(),
+            ..Work::default()
+        },
+        members: Vec::new(),
+        drawn: Vec::new(),
+        limits: Vec::new(),
+        pictures: vec![Picture {
+            bearing: String::new(),
+            clearance: None,
+            pressure_limit: None,
+            rolling_cage_ratio: 0.0,
+            balls: 0,
+        }],
+        files: Vec::new(),
+    }
+}
+
+/// Whirl as a number: forward 1, backward -1, planar 0.
+fn sense(whirl: Whirl) -> f64 {
+    match whirl {
+        Whirl::Forward => 1.0,
+        Whirl::Backward => -1.0,
+        Whirl::Planar => 0.0,
+    }
+}
+
+/// The curves over speed, which is the first column.
+fn history(asked: &Asked, found: &Found) -> Vec<Column> {
+    let diagram = &found.diagram;
+    let mut columns = vec![Column {
+        name: "speed".to_string(),
+        unit: "rad/s",
+        meaning: "speed of the rotor".to_string(),
+        values: diagram.speeds.clone(),
+    }];
+    let mut add = |name: String, unit, meaning: String, values: Vec<f64>| {
+        columns.push(Column {
+            name,
+            unit,
+            meaning,
+            values,
+        });
+    };
+    for (number, branch) in (1..).zip(&diagram.branches) {
+        let column = |value: fn(&rotor::Mode) -> f64| -> Vec<f64> {
+            let modes = branch.modes.iter();
+            modes
+                .map(|mode| mode.as_ref().map_or(f64::NAN, value))
+                .collect()
+        };
+        add(
+            format!("branch_{number}.frequency"),
+            "rad/s",
+            format!("damped natural frequency of branch {number}"),
+            column(rotor::Mode::frequency),
+        );
+        add(
+            format!("branch_{number}.damping_ratio"),
+            "1",
+            format!("damping ratio of branch {number}"),
+            column(rotor::Mode::damping_ratio),
+        );
+        add(
+            format!("branch_{number}.whirl"),
+            "1",
+            format!("whirl of branch {number}: 1 forward, -1 backward, 0 planar"),
+            column(|mode| sense(mode.whirl)),
+        );
+    }
+    for (label, node) in asked.watched() {
+        let at = asked.rotor().displacement(node);
+        let of = |value: &dyn Fn(&rotor::Response) -> f64| -> Vec<f64> {
+            let all = found.responses.iter();
+            all.map(|one| one.as_ref().map_or(f64::NAN, value))
+                .collect()
+        };
+        if found.responses.is_empty() {
+            continue;
+        }
+        add(
+            format!("response.{label}.amplitude"),
+            "m",
+            format!("response to unbalance at {label}: half the longer axis of the orbit"),
+            of(&|response| response.amplitude(at)),
+        );
+        add(
+            format!("response.{label}.lag"),
+            "rad",
+            format!("how far x at {label} is behind the mark that phases count from"),
+            of(&|response| response.lag(at)),
+        );
+    }
+    columns
+}

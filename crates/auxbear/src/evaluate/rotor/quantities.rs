@@ -1,0 +1,429 @@
+//! The named results of the analysis of a rotor.
+
+use crate::evaluate::rotor::asked::{Asked, Found, word};
+use crate::evaluate::rotor::{drawing, levitated, sense, warnings::grows};
+use crate::result::list::{List, Origin};
+use crate::result::outcome::{Quantity, Value};
+use rotor::{C64, Critical, Mode, Place, Whirl};
+
+/// All named results, in the order of the report.
+pub(crate) fn name(asked: &Asked, found: &Found) -> Vec<Quantity> {
+    let mut list = List(Vec::new());
+    body(&mut list, asked);
+    criticals(&mut list, asked, found);
+    modes(&mut list, asked, found);
+    responses(&mut list, asked, found);
+    sag(&mut list, asked, found);
+    map(&mut list, found);
+    reduction(&mut list, asked, found);
+    drawing::name(&mut list, asked);
+    if let Some(levitated) = &asked.levitated {
+        levitated::name(&mut list, asked.analysis, levitated);
+    }
+    list.0
+}
+
+fn body(list: &mut List, asked: &Asked) {
+    let body = rotor::properties(asked.rotor());
+    let nodes = &asked.rotor().nodes;
+    let length =
+        nodes.last().copied().unwrap_or_default() - nodes.first().copied().unwrap_or_default();
+    for (name, unit, value) in [
+        ("mass", "kg", body.mass),
+        ("mass_centre", "m", body.centre),
+        ("polar_inertia", "kg m^2", body.polar),
+        ("transverse_inertia", "kg m^2", body.transverse),
+        ("length", "m", length),
+    ] {
+        list.number(name, unit, Ok(value), &BODY);
+    }
+    list.push(
+        "rated_speed",
+        "rad/s",
+        Value::Number(asked.analysis.speed),
+        &GIVEN,
+    );
+    list.push(
+        "node_count",
+        "",
+        Value::Number(nodes.len() as f64),
+        &ELEMENT,
+    );
+}
+
+/// A word for a sense of whirl.
+pub(crate) fn whirl_word(whirl: Whirl) -> &'static str {
+    match whirl {
+        Whirl::Forward => "forward",
+        Whirl::Backward => "backward",
+        Whirl::Planar => "planar",
+    }
+}
+
+fn criticals(list: &mut List, asked: &Asked, found: &Found) {
+    let analysis = asked.analysis;
+    let all = &found.criticals;
+    let none = "no mode whirls once a turn up to analysis.speed_to".to_string();
+    let first = all.iter().find(|one| one.mode.whirl != Whirl::Backward);
+    let first = first.map(|one| one.speed).ok_or(none);
+    list.number("first_critical_speed", "rad/s", first, &CRITICAL);
+    list.push(
+        "critical_speeds",
+        "rad/s",
+        Value::List(all.iter().map(|one| one.speed).collect()),
+        &CRITICAL,
+    );
+    let senses = all.iter().map(|one| whirl_word(one.mode.whirl));
+    let senses: Vec<&str> = senses.collect();
+    list.push(
+        "critical_whirls",
+        "",
+        Value::Text(senses.join("\n")),
+        &CRITICAL,
+    );
+    let mut verdict = None;
+    for (number, one) in (1..).zip(all) {
+        let begin = format!("critical_{number}");
+        let separation = one.separation(analysis.operating_from, analysis.operating_to);
+        list.number(&format!("{begin}.speed"), "rad/s", Ok(one.speed), &CRITICAL);
+        list.number(
+            &format!("{begin}.damping_ratio"),
+            "",
+            Ok(one.mode.damping_ratio()),
+            &MODE,
+        );
+        let amplification = match one.amplification() {
+            Some(finite) if finite.is_finite() => Ok(finite),
+            Some(_) => Err("the mode has no damping".to_string()),
+            None => Err("the mode grows".to_string()),
+        };
+        list.number(
+            &format!("{begin}.amplification"),
+            "",
+            amplification,
+            &AMPLIFICATION,
+        );
+        list.number(
+            &format!("{begin}.separation"),
+            "",
+            Ok(separation),
+            &SEPARATION,
+        );
+        if let Some(margin) = analysis.separation_margin {
+            let word = judged(one, separation, margin, analysis.exempt_amplification);
+            if word != "no excitation" {
+                let failed = verdict == Some("fail") || word == "fail";
+                verdict = Some(if failed { "fail" } else { "pass" });
+            }
+            list.push(
+                &format!("{begin}.verdict"),
+                "",
+                Value::Text(word.to_string()),
+                &SEPARATION,
+            );
+        }
+    }
+    let text = match (analysis.separation_margin, verdict) {
+        (None, _) => Value::None {
+            why: "analysis.separation_margin is not given".to_string(),
+        },
+        (Some(_), verdict) => Value::Text(verdict.unwrap_or("pass").to_string()),
+    };
+    list.push("separation_verdict", "", text, &SEPARATION);
+    list.number("first_unstable_speed", "rad/s", unstable(found), &STABILITY);
+}
+
+/// The verdict on one critical speed. What whirls backward is not excited by unbalance of a rotor on equal supports.
+fn judged(one: &Critical, separation: f64, margin: f64, exempt: Option<f64>) -> &'static str {
+    if one.mode.whirl == Whirl::Backward {
+        "no excitation"
+    } else if separation >= margin {
+        "pass"
+    } else if exempt.is_some_and(|most| one.amplification().is_some_and(|own| own < most)) {
+        "damped"
+    } else {
+        "fail"
+    }
+}
+
+/// The lowest speed from which a mode grows, between two speeds of the diagram on a straight line.
+fn unstable(found: &Found) -> Result<f64, String> {
+    let speeds = &found.diagram.speeds;
+    let mut first: Option<f64> = None;
+    for branch in &found.diagram.branches {
+        for (at, mode) in branch.modes.iter().enumerate() {
+            let Some(mode) = mode.as_ref().filter(|mode| grows(mode)) else {
+                continue;
+            };
+            let before = at.checked_sub(1).and_then(|k| branch.modes[k].as_ref());
+            let speed = match before.map(|before| before.eigenvalue.re) {
+                Some(before) if before < 0.0 => {
+                    let share = before / (before - mode.eigenvalue.re);
+                    speeds[at - 1] + share * (speeds[at] - speeds[at - 1])
+                }
+                _ => speeds[at],
+            };
+            first = Some(first.map_or(speed, |known| known.min(speed)));
+            break;
+        }
+    }
+    first.ok_or_else(|| "no mode grows up to analysis.speed_to".to_string())
+}
+
+/// The larger of both senses of a mode, turned so that its largest displacement is real.
+fn shape(part: &rotor::Mode, nodes: usize) -> Vec<f64> {
+    let power = |v: &[C64]| -> f64 { v.iter().map(|z| z.norm_sqr()).sum() };
+    let pick = |v: &dyn Fn(usize) -> C64| -> Vec<C64> { (0..nodes).map(v).collect() };
+    let forward = pick(&|node| part.forward[2 * node]);
+    let backward = pick(&|node| part.backward[2 * node]);
+    let own = if power(&forward) >= power(&backward) {
+        forward
+    } else {
+        backward
+    };
+    let largest = own.iter().copied().fold(C64::default(), |most, z| {
+        if z.norm() > most.norm() { z } else { most }
+    });
+    let turn = match largest.norm() {
+        0.0 => C64::default(),
+        size => largest.conj() / (size * size),
+    };
+    own.iter().map(|z| (z * turn).re).collect()
+}
+
+fn modes(list: &mut List, asked: &Asked, found: &Found) {
+    let nodes = asked.rotor().nodes.len();
+    let free = &asked.full;
+    let housings = asked.rotor().housings.len();
+    let bending: Vec<usize> = (housings + 2..free.len())
+        .take(asked.analysis.modes)
+        .collect();
+    list.push(
+        "free_bending_frequencies",
+        "rad/s",
+        Value::List(bending.iter().map(|k| free.frequencies[*k]).collect()),
+        &MODE,
+    );
+    for (number, k) in (1..).zip(&bending) {
+        let values: Vec<f64> = (0..nodes).map(|node| free.shapes[(2 * node, *k)]).collect();
+        let most = values
+            .iter()
+            .fold(0.0_f64, |a, b| if b.abs() > a.abs() { *b } else { a });
+        let scaled = values.iter().map(|v| v / most).collect();
+        list.push(
+            &format!("free_mode_{number}.shape"),
+            "",
+            Value::List(scaled),
+            &MODE,
+        );
+    }
+    for (number, mode) in (1..).zip(&found.modes) {
+        let begin = format!("mode_{number}");
+        let frequency = Ok(mode.frequency());
+        list.number(&format!("{begin}.frequency"), "rad/s", frequency, &MODE);
+        let ratio = Ok(mode.damping_ratio());
+        list.number(&format!("{begin}.damping_ratio"), "", ratio, &MODE);
+        let word = whirl_word(mode.whirl).to_string();
+        list.push(&format!("{begin}.whirl"), "", Value::Text(word), &MODE);
+        list.push(
+            &format!("{begin}.shape"),
+            "",
+            Value::List(shape(mode, nodes)),
+            &MODE,
+        );
+    }
+    let branches = found.diagram.branches.iter().map(|branch| {
+        let senses = branch
+            .modes
+            .iter()
+            .flatten()
+            .map(|mode: &Mode| sense(mode.whirl));
+        senses.sum::<f64>().signum()
+    });
+    list.push("branch_senses", "", Value::List(branches.collect()), &MODE);
+}
+
+fn responses(list: &mut List, asked: &Asked, found: &Found) {
+    for (label, node) in asked.watched() {
+        let at = asked.rotor().displacement(node);
+        let known = || found.responses.iter().flatten();
+        let peak = known().max_by(|a, b| a.amplitude(at).total_cmp(&b.amplitude(at)));
+        let none = || "no [[rotor.unbalance]] is given".to_string();
+        let begin = format!("response.{label}");
+        let amplitude = peak.map(|one| one.amplitude(at)).ok_or_else(none);
+        list.number(
+            &format!("{begin}.peak_amplitude"),
+            "m",
+            amplitude,
+            &RESPONSE,
+        );
+        let speed = peak.map(|one| one.speed).ok_or_else(none);
+        list.number(&format!("{begin}.peak_speed"), "rad/s", speed, &RESPONSE);
+        let rated = found.deflections.first();
+        let value = rated.map(|one| one.amplitude(at)).ok_or_else(none);
+        list.number(&format!("{begin}.rated_amplitude"), "m", value, &RESPONSE);
+    }
+    for (number, response) in (1..).zip(&found.deflections) {
+        let begin = format!("deflection_{number}");
+        list.number(
+            &format!("{begin}.speed"),
+            "rad/s",
+            Ok(response.speed),
+            &RESPONSE,
+        );
+        let nodes = 0..asked.rotor().nodes.len();
+        let planes = nodes.map(|node| response.planes(2 * node));
+        let (mut x, mut y, mut largest) = (Vec::new(), Vec::new(), Vec::new());
+        for (node, (re, im)) in planes.enumerate() {
+            x.push(re.re);
+            y.push(im.re);
+            largest.push(response.amplitude(2 * node));
+        }
+        for (name, values) in [("x", x), ("y", y), ("amplitude", largest)] {
+            list.push(
+                &format!("{begin}.{name}"),
+                "m",
+                Value::List(values),
+                &RESPONSE,
+            );
+        }
+    }
+}
+
+fn sag(list: &mut List, asked: &Asked, found: &Found) {
+    let none = || "the rotor has no support".to_string();
+    let nodes = asked.rotor().nodes.len();
+    let down = asked.analysis.weight();
+    let along = |z: C64| match down.norm() {
+        0.0 => 0.0,
+        size => (z * down.conj()).re / size,
+    };
+    let of_nodes = found
+        .sag
+        .as_ref()
+        .map(|sag| -> Vec<f64> { (0..nodes).map(|node| along(sag.shape[2 * node])).collect() });
+    let largest = of_nodes
+        .as_ref()
+        .map(|all| all.iter().copied().fold(0.0, f64::max));
+    list.number("largest_sag", "m", largest.ok_or_else(none), &SAG);
+    let value = of_nodes.map_or_else(|| Value::None { why: none() }, Value::List);
+    list.push("sag", "m", value, &SAG);
+    let all = asked
+        .analysis
+        .model
+        .supports
+        .iter()
+        .zip(&asked.rotor().supports);
+    for (index, (name, support)) in all.enumerate() {
+        if support.seal {
+            continue;
+        }
+        let kind = match support.at {
+            Place::Node(_) => "support",
+            Place::Housing(_) => "housing",
+        };
+        let load = found.sag.as_ref().map(|sag| sag.loads[index].norm());
+        let label = format!("load.{}", word(kind, name));
+        list.number(&label, "N", load.ok_or_else(none), &SAG);
+    }
+}
+
+fn map(list: &mut List, found: &Found) {
+    let stiffness = found.map.iter().map(|point| point.stiffness);
+    list.push(
+        "map_stiffnesses",
+        "N/m",
+        Value::List(stiffness.collect()),
+        &MAP,
+    );
+    for (name, part) in [
+        (
+            "forward",
+            (|point| &point.forward) as fn(&rotor::MapPoint) -> &Vec<f64>,
+        ),
+        ("backward", |point| &point.backward),
+    ] {
+        // a critical speed that is there at every stiffness
+        let count = found.map.iter().map(|point| part(point).len()).min();
+        for number in 0..count.unwrap_or_default() {
+            let speeds = found.map.iter().map(|point| part(point)[number]);
+            let values = Value::List(speeds.collect());
+            list.push(&format!("map_{name}_{}", number + 1), "rad/s", values, &MAP);
+        }
+    }
+}
+
+fn reduction(list: &mut List, asked: &Asked, found: &Found) {
+    let coordinates = asked.within.basis.len() as f64;
+    list.push("coordinates", "", Value::Number(coordinates), &REDUCTION);
+    let all = || "all coordinates are kept".to_string();
+    let error = found.reduction_error.ok_or_else(all);
+    list.number("reduction_error", "", error, &REDUCTION);
+    let none =
+        || "all coordinates are kept, or none carries a support, seal or unbalance".to_string();
+    let error = found.receptance_error.ok_or_else(none);
+    list.number("receptance_error", "", error, &REDUCTION);
+}
+
+pub(crate) const GIVEN: Origin = Origin {
+    law: "",
+    source: "the scenario",
+    valid: "",
+};
+const RANGE: &str =
+    "small motion of a round shaft; no torsion, no axial motion, no stress stiffening";
+const BODY: Origin = Origin {
+    law: "sums over elements and disks of their mass matrices in rigid motion",
+    source: "crates/rotor/src/properties.rs",
+    valid: "supports and housings do not count; inertias about the mass centre",
+};
+const ELEMENT: Origin = Origin {
+    law: "two-node Timoshenko elements with consistent mass, Cowper's shear coefficient",
+    source: "crates/rotor/src/element.rs; Cowper 1966",
+    valid: RANGE,
+};
+const MODE: Origin = Origin {
+    law: "λ of λ²M + λ(D_e + D_i - jΩG) + K - jΩD_i with supports; damping ratio -Re λ/|λ|",
+    source: "crates/rotor/src/modes.rs",
+    valid: RANGE,
+};
+const CRITICAL: Origin = Origin {
+    law: "|Im λ(Ω)| = Ω, searched between the speeds of the diagram",
+    source: "crates/rotor/src/campbell.rs",
+    valid: RANGE,
+};
+const AMPLIFICATION: Origin = Origin {
+    law: "1/(2ζ) of the mode at its critical speed",
+    source: "a single mode; the width of a peak of the response gives nearly the same",
+    valid: "modes that stand apart, ζ below 0.3",
+};
+const SEPARATION: Origin = Origin {
+    law: "distance from the operating speeds over the nearer one; 0 within them; verdict against analysis.separation_margin",
+    source: "the user's limits, in the manner of API 617",
+    valid: "forward and planar critical speeds; backward ones get no verdict",
+};
+const STABILITY: Origin = Origin {
+    law: "Re λ = 0 between two speeds of the diagram, on a straight line",
+    source: "crates/rotor/src/modes.rs",
+    valid: "linear supports and seals",
+};
+const RESPONSE: Origin = Origin {
+    law: "(K - jΩD_i - Ω²M + jΩ(D_e + D_i - jΩG)) Q = Σ u Ω² e^{jδ}; half the longer axis of the orbit",
+    source: "crates/rotor/src/response.rs",
+    valid: "speeds of the diagram and points close to critical speeds; linear supports",
+};
+const SAG: Origin = Origin {
+    law: "K q = weight, with the stiffness of the supports at the rated speed",
+    source: "crates/rotor/src/response.rs",
+    valid: "a rotor at rest; seals do not carry",
+};
+const MAP: Origin = Origin {
+    law: "K x = Ω²(M ∓ G)x with one stiffness for all supports",
+    source: "crates/rotor/src/stiffness_map.rs",
+    valid: "undamped; seals left out, mounts of housings as they are",
+};
+const REDUCTION: Origin = Origin {
+    law: "free modes up to analysis.cutoff, residual flexibility at supports, seals, unbalances and of gyroscopic moments",
+    source: "crates/rotor/src/basis.rs; Rubin 1975 (from memory)",
+    valid: "eigenvalues against all coordinates at the highest speed; receptances of the free rotor at rest",
+};

@@ -1,0 +1,67 @@
+//! What the user should know of an analysis of a rotor.
+
+use crate::evaluate::rotor::asked::{Asked, Found};
+use crate::result::outcome::{Warning, warning};
+use units::number_text;
+
+/// Error of eigenvalues in the reduced coordinates from which a warning is given.
+const REDUCTION: f64 = 1e-5;
+
+pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
+    let mut out = Vec::new();
+    let analysis = asked.analysis;
+    let all = analysis.model.supports.iter().zip(&asked.rotor().supports);
+    for (name, support) in all {
+        let Some((low, high)) = support.coefficients.range() else {
+            continue;
+        };
+        if analysis.speed_from < low || analysis.speed_to > high {
+            out.push(warning(
+                "AB2020",
+                format!(
+                    "The table of {name} goes from {} to {} rad/s, the diagrams from {} to {} rad/s: beyond the table its \
+                     coefficients stay what they are at its ends.",
+                    number_text(low),
+                    number_text(high),
+                    number_text(analysis.speed_from),
+                    number_text(analysis.speed_to)
+                ),
+            ));
+        }
+    }
+    let growing = found.modes.iter().find(|mode| grows(mode));
+    if let Some(mode) = growing {
+        out.push(warning(
+            "AB2021",
+            format!(
+                "At the rated speed the mode of {:.1} rad/s grows: its damping ratio is {:.2e}. The rotor whirls until something \
+                 that is not modelled here limits it.",
+                mode.frequency(),
+                mode.damping_ratio()
+            ),
+        ));
+    }
+    if let Some(error) = found.reduction_error.filter(|error| *error > REDUCTION) {
+        out.push(warning(
+            "AB2022",
+            format!(
+                "In the {} coordinates kept, eigenvalues are wrong by up to {error:.1e} at the highest speed. A higher \
+                 analysis.cutoff keeps more.",
+                asked.within.basis.len()
+            ),
+        ));
+    }
+    if !asked.held && asked.levitated.is_none() {
+        out.push(warning(
+            "AB2023",
+            "The rotor has no support: modes are those of the free rotor, and there is no sag, no response and no stiffness map."
+                .to_string(),
+        ));
+    }
+    out
+}
+
+/// Whether a mode grows by more than round-off.
+pub(crate) fn grows(mode: &rotor::Mode) -> bool {
+    mode.damping_ratio() < -1e-9
+}

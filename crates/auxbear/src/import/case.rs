@@ -1,0 +1,151 @@
+//! Reference files of rotors: a model element by element, with eigenvalues and what else was computed.
+
+use crate::import::draft::{Draft, DraftSupport};
+use rotor::{Annulus, Block, C64, Disk, Element, Material, Place, PointMass};
+use serde_json::Value;
+
+/// The draft of a reference file.
+pub(crate) fn draft(file: &Value) -> Result<Draft, String> {
+    let model = &file["model"];
+    let list = |key: &str| {
+        let list = model[key].as_array();
+        list.ok_or(format!("a model without {key}"))
+    };
+    let number = |value: &Value, key: &str| {
+        let value = value[key].as_f64().filter(|value| value.is_finite());
+        value.ok_or(format!("an entry without {key}"))
+    };
+    let name = file["case"].as_str().unwrap_or("rotor");
+    let mut draft = Draft {
+        kind: "reference file of a rotor".to_string(),
+        title: file["description"].as_str().unwrap_or(name).to_string(),
+        ..Draft::default()
+    };
+    let positions = list("node_positions_m")?.iter().map(Value::as_f64);
+    let positions: Option<Vec<f64>> = positions.collect();
+    draft.nodes = positions.ok_or("a node without position")?;
+    let count = draft.nodes.len();
+    let place = |n: usize| match n.checked_sub(count) {
+        Some(housing) => Place::Housing(housing),
+        None => Place::Node(n),
+    };
+    let shaft_node = |value: &Value, key: &str| match number(value, key)? as usize {
+        n if n < count => Ok(n),
+        n => Err(format!("node {n}, which the shaft does not have")),
+    };
+    for element in list("shaft_elements")? {
+        let material = Material {
+            young: number(element, "E")?,
+            shear: number(element, "G")?,
+            density: number(element, "rho")?,
+        };
+        let left = shaft_node(element, "n_l")?;
+        let own = draft.material("shaft", material);
+        draft.pieces.push((
+            own,
+            Element {
+                left,
+                length: number(element, "L")?,
+                start: Annulus {
+                    outer: number(element, "odl")?,
+                    inner: number(element, "idl")?,
+                },
+                end: Annulus {
+                    outer: number(element, "odr")?,
+                    inner: number(element, "idr")?,
+                },
+                material,
+                carries: true,
+                damping_of_mass: number(element, "alpha")?,
+                damping_of_stiffness: number(element, "beta")?,
+                damping_rotating: 0.0,
+            },
+        ));
+    }
+    for (index, disk) in list("disks")?.iter().enumerate() {
+        let disk = Disk {
+            node: shaft_node(disk, "n")?,
+            mass: number(disk, "m")?,
+            polar: number(disk, "Ip")?,
+            diametral: number(disk, "Id")?,
+        };
+        draft.disks.push((format!("disk_{}", index + 1), disk));
+    }
+    for (index, mass) in list("point_masses")?.iter().enumerate() {
+        let m = number(mass, "m")?;
+        match place(number(mass, "n")? as usize) {
+            Place::Node(node) => draft
+                .masses
+                .push((format!("mass_{}", index + 1), PointMass { node, mass: m })),
+            Place::Housing(housing) => {
+                draft
+                    .housings
+                    .resize(draft.housings.len().max(housing + 1), 0.0);
+                draft.housings[housing] += m;
+            }
+        }
+    }
+    if draft.housings.contains(&0.0) {
+        return Err("a housing without mass".to_string());
+    }
+    for (index, bearing) in list("bearings")?.iter().enumerate() {
+        let one = |key: String| {
+            let list = bearing[&key].as_array();
+            match list.map(Vec::as_slice) {
+                Some([value]) => value.as_f64().ok_or(format!("a bearing with a bad {key}")),
+                Some([]) | None => Ok(0.0),
+                Some(_) => Err(format!("a bearing with several values of {key}")),
+            }
+        };
+        let matrix = |letter: &str| -> Result<[[f64; 2]; 2], String> {
+            let of = |end: &str| one(format!("{letter}{end}"));
+            Ok([[of("xx")?, of("xy")?], [of("yx")?, of("yy")?]])
+        };
+        let block = Block {
+            stiffness: matrix("k")?,
+            damping: matrix("c")?,
+            mass: matrix("m")?,
+        };
+        let on = bearing["n_link"].as_u64().map(|n| place(n as usize));
+        let on = match on {
+            Some(Place::Node(_)) => {
+                return Err("a bearing between two nodes of the shaft".to_string());
+            }
+            Some(Place::Housing(housing)) => Some(housing),
+            None => None,
+        };
+        let at = place(number(bearing, "n")? as usize);
+        if [Some(at), on.map(Place::Housing)]
+            .iter()
+            .flatten()
+            .any(|p| matches!(p, Place::Housing(h) if *h >= draft.housings.len()))
+        {
+            return Err("a bearing at a node that is not there".to_string());
+        }
+        let support = DraftSupport {
+            at,
+            on,
+            rows: vec![(0.0, block)],
+            seal: false,
+        };
+        draft
+            .supports
+            .push((format!("bearing_{}", index + 1), support));
+    }
+    for entry in file["eigenvalues"].as_array().into_iter().flatten() {
+        let modes = entry["modes"].as_array().into_iter().flatten();
+        let lateral = modes.filter(|mode| mode["kind"] == "lateral");
+        let values = lateral.map(|mode| Ok(C64::new(number(mode, "re")?, number(mode, "im")?)));
+        let values: Result<Vec<C64>, String> = values.collect();
+        draft.stated.push((number(entry, "speed_rad_s")?, values?));
+    }
+    draft.speed = draft
+        .stated
+        .iter()
+        .map(|(speed, _)| *speed)
+        .fold(0.0, f64::max);
+    if draft.speed == 0.0 {
+        draft.speed = 100.0;
+    }
+    Ok(draft)
+}

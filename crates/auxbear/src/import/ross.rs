@@ -1,0 +1,322 @@
+//! Rotors saved by ROSS 2: a table of parameters and one of each element, named by its class and tag, in SI.
+//!
+//! Versions 2.1 and later write `ross_version`; version 2.0 does not, and is known by its bearings with axial coefficients,
+//! which versions 1 did not write. A key that TOML cannot hold as nothing is left out, in JSON it is null.
+
+use crate::import::draft::{Draft, DraftSupport};
+use rotor::{Annulus, Block, Disk, Element, Material, Place, PointMass};
+use serde_json::{Map, Value};
+
+/// Keys of elements that say nothing of motion across the shaft.
+const OF_LOOKS: [&str; 4] = ["tag", "color", "scale_factor", "shear_method_calc"];
+
+/// The draft of a saved rotor.
+pub(super) fn draft(value: &Value) -> Result<Draft, String> {
+    let Some(all) = value.as_object() else {
+        return Err("no table of elements".to_string());
+    };
+    let version = version(all)?;
+    let mut draft = Draft {
+        kind: format!("rotor of ROSS {version}"),
+        title: format!("Rotor of ROSS {version}"),
+        ..Draft::default()
+    };
+    let classes = |wanted: &[&str]| -> Vec<(&str, &str, &Map<String, Value>)> {
+        let elements = all.iter().filter_map(|(name, value)| {
+            let (class, tag) = name.split_once('_')?;
+            Some((class, tag, value.as_object()?))
+        });
+        elements
+            .filter(|(class, ..)| wanted.contains(class))
+            .collect()
+    };
+    speed(&mut draft, value.get("parameters"));
+    let mut shaft = classes(&["ShaftElement", "ShaftTaperedElement"]);
+    shaft.sort_by(|a, b| {
+        number(a.2, "n")
+            .unwrap_or(0.0)
+            .total_cmp(&number(b.2, "n").unwrap_or(0.0))
+    });
+    if shaft.is_empty() {
+        return Err("a ROSS file without shaft elements".to_string());
+    }
+    lay_out(&mut draft, &shaft)?;
+    for (_, tag, element) in classes(&["DiskElement"]) {
+        let disk = Disk {
+            node: node(&draft, element, tag)?,
+            mass: needed(element, "m", tag)?,
+            polar: needed(element, "Ip", tag)?,
+            diametral: needed(element, "Id", tag)?,
+        };
+        draft.disks.push((tag.to_string(), disk));
+    }
+    let points = classes(&["PointMass"]);
+    let count = draft.nodes.len();
+    // nodes beyond the shaft are housings, in their order
+    let mut housings: Vec<usize> = (points.iter())
+        .filter_map(|(_, _, element)| number(element, "n").map(|n| n as usize))
+        .filter(|n| *n >= count)
+        .collect();
+    housings.sort_unstable();
+    housings.dedup();
+    draft.housings = vec![0.0; housings.len()];
+    for (_, tag, element) in points {
+        let (x, y) = (number(element, "mx"), number(element, "my"));
+        let mass = number(element, "m")
+            .or(x)
+            .ok_or(format!("no mass of {tag}"))?;
+        if x.is_some_and(|x| x != mass) || y.is_some_and(|y| y != mass) {
+            draft.notes.push(format!(
+                "{tag}: different masses in x and y; {mass} kg is taken in both"
+            ));
+        }
+        let at = needed(element, "n", tag)? as usize;
+        match housings.iter().position(|n| *n == at) {
+            Some(housing) => draft.housings[housing] += mass,
+            None => draft
+                .masses
+                .push((tag.to_string(), PointMass { node: at, mass })),
+        }
+    }
+    let known = [
+        "ShaftElement",
+        "ShaftTaperedElement",
+        "DiskElement",
+        "PointMass",
+    ];
+    for (name, value) in all {
+        let Some((class, tag)) = name.split_once('_').filter(|(class, _)| !class.is_empty()) else {
+            continue;
+        };
+        let Some(element) = value.as_object().filter(|_| !known.contains(&class)) else {
+            continue;
+        };
+        if name == "ross_version" {
+            continue;
+        }
+        if !element.contains_key("kxx") {
+            draft
+                .notes
+                .push(format!("{class} {tag}: not understood, left out"));
+            continue;
+        }
+        let support = support(&mut draft, class, tag, element, &housings)?;
+        draft.supports.push((tag.to_string(), support));
+    }
+    Ok(draft)
+}
+
+/// The version, where it is one that is understood.
+fn version(all: &Map<String, Value>) -> Result<String, String> {
+    match all.get("ross_version").map(Value::as_str) {
+        Some(Some(version)) if version.starts_with("2.") => Ok(version.to_string()),
+        Some(Some(version)) => Err(format!("ROSS version {version}, which is not known here")),
+        Some(None) => Err("a ross_version that is no text".to_string()),
+        None => {
+            let axial = |value: &Value| value.get("kxx").is_some() && value.get("kzz").is_some();
+            match all.values().any(axial) {
+                true => Ok("2.0".to_string()),
+                false => {
+                    Err("a ROSS file without ross_version, so of an unknown version".to_string())
+                }
+            }
+        }
+    }
+}
+
+fn speed(draft: &mut Draft, parameters: Option<&Value>) {
+    let given = |key: &str| parameters.and_then(|all| all.get(key)?.as_f64());
+    draft.speed = given("rated_w").or(given("max_w")).unwrap_or(0.0);
+    if draft.speed == 0.0 {
+        draft.speed = 100.0;
+        draft.notes.push(
+            "no rated speed: rotor.speed = 100 rad/s is a place-holder to be replaced".to_string(),
+        );
+    }
+}
+
+/// Nodes and pieces of the shaft.
+fn lay_out(draft: &mut Draft, shaft: &[(&str, &str, &Map<String, Value>)]) -> Result<(), String> {
+    let mut next = 0;
+    for (index, (_, tag, element)) in shaft.iter().enumerate() {
+        let n = number(element, "n").map_or(index, |n| n as usize);
+        let length = needed(element, "L", tag)?;
+        if n > next || n + 1 < next {
+            return Err(format!(
+                "shaft elements that do not follow each other at {tag}"
+            ));
+        }
+        if draft.nodes.is_empty() {
+            draft.nodes.push(0.0);
+        }
+        if n == next {
+            let end = draft.nodes[n] + length;
+            draft.nodes.push(end);
+            next += 1;
+        }
+        let (idl, odl) = (needed(element, "idl", tag)?, needed(element, "odl", tag)?);
+        let material = element.get("material").and_then(Value::as_object);
+        let material = material.ok_or(format!("no material of {tag}"))?;
+        let name = material
+            .get("name")
+            .and_then(Value::as_str)
+            .unwrap_or("material");
+        let numbers = Material {
+            young: needed(material, "E", tag)?,
+            shear: needed(material, "G_s", tag)?,
+            density: needed(material, "rho", tag)?,
+        };
+        let own = draft.material(name, numbers);
+        draft.pieces.push((
+            own,
+            Element {
+                left: n,
+                length,
+                start: Annulus {
+                    outer: odl,
+                    inner: idl,
+                },
+                end: Annulus {
+                    outer: number(element, "odr").unwrap_or(odl),
+                    inner: number(element, "idr").unwrap_or(idl),
+                },
+                material: numbers,
+                carries: true,
+                damping_of_mass: number(element, "alpha").unwrap_or_default(),
+                damping_of_stiffness: number(element, "beta").unwrap_or_default(),
+                damping_rotating: 0.0,
+            },
+        ));
+        for key in ["axial_force", "torque"] {
+            if number(element, key).is_some_and(|value| value != 0.0) {
+                draft.notes.push(format!(
+                    "ShaftElement {tag}: {key} is left out, which is not modelled"
+                ));
+            }
+        }
+        for key in ["shear_effects", "rotary_inertia", "gyroscopic"] {
+            if element.get(key).and_then(Value::as_bool) == Some(false) {
+                draft.notes.push(format!(
+                    "ShaftElement {tag}: {key} = false; here it is always taken into account"
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn support(
+    draft: &mut Draft,
+    class: &str,
+    tag: &str,
+    element: &Map<String, Value>,
+    housings: &[usize],
+) -> Result<DraftSupport, String> {
+    let count = draft.nodes.len();
+    let place = |n: usize| match housings.iter().position(|own| *own == n) {
+        Some(housing) => Ok(Place::Housing(housing)),
+        None if n < count => Ok(Place::Node(n)),
+        None => Err(format!(
+            "{class} {tag} at node {n}, which has neither shaft nor mass"
+        )),
+    };
+    let at = place(needed(element, "n", tag)? as usize)?;
+    let on = match number(element, "n_link")
+        .map(|n| place(n as usize))
+        .transpose()?
+    {
+        None => None,
+        Some(Place::Housing(housing)) => Some(housing),
+        Some(Place::Node(_)) => {
+            return Err(format!("{class} {tag} between two nodes of the shaft"));
+        }
+    };
+    let frequency = element.get("frequency").map(values).unwrap_or_default();
+    let rows = frequency.len().max(1);
+    let entry = |key: &str, row: usize| -> Result<f64, String> {
+        let list = element.get(key).map(values).unwrap_or_default();
+        match list.as_slice() {
+            [] => Ok(0.0),
+            [one] => Ok(*one),
+            list => list.get(row).copied().ok_or(format!(
+                "{class} {tag}: fewer values of {key} than of frequency"
+            )),
+        }
+    };
+    let mut table = Vec::new();
+    for row in 0..rows {
+        let matrix = |letter: char| -> Result<[[f64; 2]; 2], String> {
+            let of = |end: &str| entry(&format!("{letter}{end}"), row);
+            Ok([[of("xx")?, of("xy")?], [of("yx")?, of("yy")?]])
+        };
+        let block = Block {
+            stiffness: matrix('k')?,
+            damping: matrix('c')?,
+            mass: matrix('m')?,
+        };
+        table.push((frequency.get(row).copied().unwrap_or_default(), block));
+    }
+    if !table.windows(2).all(|pair| pair[0].0 < pair[1].0) {
+        return Err(format!("{class} {tag}: frequencies that do not rise"));
+    }
+    if rows > 1 {
+        draft.notes.push(format!(
+            "{class} {tag}: its table over frequency is taken as one over speed"
+        ));
+    }
+    for key in ["kzz", "czz", "mzz"] {
+        let list = element.get(key).map(values).unwrap_or_default();
+        if list.iter().any(|value| *value != 0.0) {
+            draft.notes.push(format!(
+                "{class} {tag}: {key} is left out, there is no axial motion"
+            ));
+        }
+    }
+    let seal = class.contains("Seal");
+    if !["BearingElement", "SealElement"].contains(&class) {
+        let others: Vec<&str> = element
+            .keys()
+            .map(String::as_str)
+            .filter(|key| !OF_LOOKS.contains(key))
+            .collect();
+        let what = if seal { "seal" } else { "support" };
+        draft.notes.push(format!(
+            "{class} {tag}: taken as a linear {what} by its saved coefficients, of {} keys",
+            others.len()
+        ));
+    }
+    Ok(DraftSupport {
+        at,
+        on,
+        rows: table,
+        seal,
+    })
+}
+
+/// The node of an element.
+fn node(draft: &Draft, element: &Map<String, Value>, tag: &str) -> Result<usize, String> {
+    let n = needed(element, "n", tag)? as usize;
+    match n < draft.nodes.len() {
+        true => Ok(n),
+        false => Err(format!("{tag} at node {n}, which the shaft does not have")),
+    }
+}
+
+/// One number or the only one of a list.
+fn number(element: &Map<String, Value>, key: &str) -> Option<f64> {
+    values(element.get(key)?).first().copied()
+}
+
+fn needed(element: &Map<String, Value>, key: &str, tag: &str) -> Result<f64, String> {
+    let value = number(element, key).filter(|value| value.is_finite());
+    value.ok_or(format!("no {key} of {tag}"))
+}
+
+/// The numbers of a list, or one; numbers in texts as well.
+fn values(value: &Value) -> Vec<f64> {
+    match value {
+        Value::Array(list) => list.iter().flat_map(values).collect(),
+        Value::String(text) => text.trim().parse().into_iter().collect(),
+        other => other.as_f64().into_iter().collect(),
+    }
+}

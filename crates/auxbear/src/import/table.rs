@@ -1,0 +1,260 @@
+//! Tables of sections: a header with units, a row for each piece of shaft, from left to right.
+//!
+//! | column | needed | meaning |
+//! |---|---|---|
+//! | `length [mm]` | yes | length of the piece |
+//! | `outer diameter [mm]`, `outer diameter end [mm]` | the first | at its left and its right end |
+//! | `inner diameter [mm]`, `inner diameter end [mm]` | no | bore |
+//! | `material` | or the next three | a name that the program knows |
+//! | `youngs modulus [GPa]`, `density [kg/m^3]`, `poisson ratio` | | of the row |
+//! | `disk mass [kg]`, `disk polar inertia [kg m^2]`, `disk diametral inertia [kg m^2]` | no | a disk at the left end of the row |
+
+use crate::import::draft::Draft;
+use crate::problem::{Code, Place, Problem, did_you_mean};
+use calamine::{Reader, Xlsx};
+use rotor::{Annulus, Disk, Element, MATERIALS, Material};
+use std::io::Cursor;
+use units::Unit;
+
+/// Columns with the SI unit of their dimension; empty where there is none.
+const COLUMNS: [(&str, &str); 12] = [
+    ("length", "m"),
+    ("outer diameter", "m"),
+    ("outer diameter end", "m"),
+    ("inner diameter", "m"),
+    ("inner diameter end", "m"),
+    ("material", ""),
+    ("youngs modulus", "Pa"),
+    ("density", "kg/m^3"),
+    ("poisson ratio", ""),
+    ("disk mass", "kg"),
+    ("disk polar inertia", "kg m^2"),
+    ("disk diametral inertia", "kg m^2"),
+];
+
+/// Rows of a text: columns apart by tabs, semicolons or commas, whichever the first row has.
+pub(super) fn of_text(text: &str) -> Vec<Vec<String>> {
+    let lines = || {
+        text.lines()
+            .filter(|line| !line.trim().is_empty() && !line.starts_with('#'))
+    };
+    let first = lines().next().unwrap_or_default();
+    let apart = ['\t', ';', ',']
+        .into_iter()
+        .find(|c| first.contains(*c))
+        .unwrap_or(',');
+    let cell = |cell: &str| cell.trim().trim_matches('"').trim().to_string();
+    lines()
+        .map(|line| line.split(apart).map(cell).collect())
+        .collect()
+}
+
+/// Rows of the first sheet of a workbook.
+pub(super) fn of_workbook(bytes: &[u8]) -> Result<Vec<Vec<String>>, String> {
+    let damaged = |error: calamine::XlsxError| format!("a workbook that cannot be read ({error})");
+    let mut book: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(damaged)?;
+    let sheet = book
+        .worksheet_range_at(0)
+        .ok_or("a workbook without a sheet")?
+        .map_err(damaged)?;
+    let rows = sheet.rows().map(|row| {
+        row.iter()
+            .map(|cell| cell.to_string().trim().to_string())
+            .collect()
+    });
+    Ok(rows
+        .filter(|row: &Vec<String>| row.iter().any(|cell| !cell.is_empty()))
+        .collect())
+}
+
+/// A column of the header: which it is, and what its numbers are multiplied with.
+struct Column {
+    name: &'static str,
+    unit: Option<Unit>,
+}
+
+/// The draft of a table.
+pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Problem>> {
+    let problem = |line: usize, found: String, allowed: &str| {
+        Problem::new(Code::SectionTable, file, found, allowed).at(Place::Line { line, column: 1 })
+    };
+    let Some((head, rows)) = rows.split_first() else {
+        let found = "an empty table".to_string();
+        return Err(Box::new(problem(
+            1,
+            found,
+            "a header and a row for each section are needed",
+        )));
+    };
+    let mut notes = Vec::new();
+    let mut columns: Vec<Option<Column>> = Vec::new();
+    for text in head {
+        columns.push(column(text).map_err(|(found, allowed)| {
+            let names = COLUMNS.iter().map(|column| column.0);
+            let hint = did_you_mean(text, names);
+            Box::new(problem(1, found, &allowed).with_hint(hint))
+        })?);
+        if columns.last().is_some_and(Option::is_none) && !text.is_empty() {
+            notes.push(format!("column \"{text}\": not understood, left out"));
+        }
+    }
+    let has = |name: &str| columns.iter().flatten().any(|column| column.name == name);
+    for name in ["length", "outer diameter"] {
+        if !has(name) {
+            let found = format!("a header without {name}");
+            let allowed = "columns \"length [mm]\" and \"outer diameter [mm]\" are needed";
+            return Err(Box::new(problem(1, found, allowed)));
+        }
+    }
+    let mut draft = Draft {
+        kind: "table of sections".to_string(),
+        title: "Rotor of a table of sections".to_string(),
+        speed: 100.0,
+        nodes: vec![0.0],
+        divide: true,
+        ..Draft::default()
+    };
+    notes.push("rotor.speed = 100 rad/s is a place-holder to be replaced".to_string());
+    notes.push("a table has no supports: add [[rotor.support]]".to_string());
+    for (line, row) in (2..).zip(rows) {
+        let at = |name: &str| {
+            columns
+                .iter()
+                .position(|c| c.as_ref().is_some_and(|c| c.name == name))
+        };
+        let text = |name: &str| {
+            at(name)
+                .and_then(|k| row.get(k))
+                .filter(|text| !text.is_empty())
+        };
+        let number = |name: &str| -> Result<Option<f64>, Box<Problem>> {
+            let Some(written) = text(name) else {
+                return Ok(None);
+            };
+            let value: Option<f64> = written.replace(',', ".").parse().ok();
+            let value = value
+                .filter(|value: &f64| value.is_finite() && *value >= 0.0)
+                .ok_or_else(|| {
+                    Box::new(problem(
+                        line,
+                        format!("\"{written}\" as {name}"),
+                        "a number not below 0 is needed",
+                    ))
+                })?;
+            let unit = at(name).and_then(|k| columns[k].as_ref()?.unit.clone());
+            Ok(Some(unit.map_or(value, |unit| unit.to_si(value))))
+        };
+        let needed = |name: &str| -> Result<f64, Box<Problem>> {
+            number(name)?.filter(|value| *value > 0.0).ok_or_else(|| {
+                Box::new(problem(
+                    line,
+                    format!("a row without {name}"),
+                    "a number above 0 is needed in each row",
+                ))
+            })
+        };
+        let (length, outer) = (needed("length")?, needed("outer diameter")?);
+        let inner = number("inner diameter")?.unwrap_or(0.0);
+        let own = [number("youngs modulus")?, number("density")?];
+        let name = text("material").map_or("", String::as_str);
+        let known = MATERIALS.iter().find(|m| m.0 == name);
+        let material = match (own, known) {
+            ([Some(young), Some(density)], _) => {
+                Material::new(young, number("poisson ratio")?.unwrap_or(0.3), density)
+            }
+            (_, Some((_, young, poisson, density, _))) => Material::new(*young, *poisson, *density),
+            _ => {
+                let found = format!("a row without material (\"{name}\")");
+                let names: Vec<&str> = MATERIALS.iter().map(|m| m.0).collect();
+                let allowed = format!(
+                    "a column material with one of {}, or columns \"youngs modulus [GPa]\" and \"density [kg/m^3]\", is needed",
+                    names.join(", ")
+                );
+                return Err(Box::new(problem(line, found, &allowed)));
+            }
+        };
+        let index = draft.material(name, material);
+        let left = draft.nodes.len() - 1;
+        if let Some(mass) = number("disk mass")?.filter(|mass| *mass > 0.0) {
+            let disk = Disk {
+                node: left,
+                mass,
+                polar: number("disk polar inertia")?.unwrap_or(0.0),
+                diametral: number("disk diametral inertia")?.unwrap_or(0.0),
+            };
+            draft
+                .disks
+                .push((format!("disk_{}", draft.disks.len() + 1), disk));
+        }
+        draft.nodes.push(draft.nodes[left] + length);
+        draft.pieces.push((
+            index,
+            Element {
+                left,
+                length,
+                start: Annulus { outer, inner },
+                end: Annulus {
+                    outer: number("outer diameter end")?.unwrap_or(outer),
+                    inner: number("inner diameter end")?.unwrap_or(inner),
+                },
+                material,
+                carries: true,
+                damping_of_mass: 0.0,
+                damping_of_stiffness: 0.0,
+                damping_rotating: 0.0,
+            },
+        ));
+    }
+    if draft.pieces.is_empty() {
+        let found = "a header without rows".to_string();
+        return Err(Box::new(problem(
+            1,
+            found,
+            "a row for each section is needed",
+        )));
+    }
+    draft.notes = notes;
+    Ok(draft)
+}
+
+/// A column of a header: `outer diameter [mm]`; `None` for one that is not known.
+fn column(text: &str) -> Result<Option<Column>, (String, String)> {
+    let (name, unit) = match text.split_once(['[', '(']) {
+        Some((name, rest)) => (name, Some(rest.trim_end_matches([']', ')']).trim())),
+        None => (text, None),
+    };
+    let plain = name
+        .trim()
+        .to_lowercase()
+        .replace(['_', '-'], " ")
+        .replace('\'', "");
+    let Some((name, si)) = COLUMNS.iter().find(|column| column.0 == plain) else {
+        return Ok(None);
+    };
+    if si.is_empty() {
+        return Ok(Some(Column { name, unit: None }));
+    }
+    let allowed = format!(
+        "a header with a unit is needed, e.g. \"{name} [{}]\"",
+        match *si {
+            "m" => "mm",
+            "Pa" => "GPa",
+            other => other,
+        }
+    );
+    let Some(unit) = unit else {
+        return Err((format!("the column \"{text}\" without a unit"), allowed));
+    };
+    let parsed = Unit::parse(unit).ok();
+    let wanted = Unit::parse(si).ok().map(|unit| unit.dimension());
+    match parsed.filter(|unit| Some(unit.dimension()) == wanted) {
+        Some(unit) => Ok(Some(Column {
+            name,
+            unit: Some(unit),
+        })),
+        None => Err((
+            format!("the column \"{text}\", whose unit is none of its dimension"),
+            allowed,
+        )),
+    }
+}

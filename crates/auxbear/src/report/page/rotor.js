@@ -1,0 +1,328 @@
+// The pictures of the analysis of a rotor: the rotor to scale, shapes, Campbell diagram, response, stiffness map, margins.
+
+const SENSE_COLOURS = { forward: "#1f5fa8", backward: "#c2571a", planar: "#5d6b78" };
+const STEEL_FILL = "#d5dde4";
+const OTHER_FILLS = ["#e6d9c6", "#d9e3cf", "#e4d3dd"];
+const NODE_DOT = "#22303c";
+
+function listAt(run, name) {
+  return list(quantityOf(run, name).value);
+}
+
+function wordsAt(run, name) {
+  const { value } = quantityOf(run, name);
+  return typeof value === "string" && value ? value.split("\n") : [];
+}
+
+// Numbers that several results share: mode_1, mode_2 …
+function numbered(run, begin, end) {
+  const found = [];
+  for (let number = 1; `${begin}_${number}${end}` in run.quantities; number++) found.push(number);
+  return found;
+}
+
+// The rotor to scale; curves drawn over it: [{values (a node each), colour, dash, label}].
+function rotorDrawing(run, overlays, width) {
+  const margin = { left: 58, right: 24, top: 30, bottom: 40 };
+  const z = listAt(run, "node_positions");
+  const part = (name) => listAt(run, `piece_${name}`);
+  const [starts, ends, outer, outerEnd, inner, innerEnd, carries] = ["starts", "ends", "outer_starts", "outer_ends", "inner_starts", "inner_ends", "carries"].map(part);
+  const diskAt = listAt(run, "disk_positions");
+  const masses = listAt(run, "disk_masses");
+  const given = listAt(run, "disk_diameters");
+  const widths = listAt(run, "disk_widths");
+  const [first, last] = [z[0], z[z.length - 1]];
+  const length = last - first || 1;
+  const thickest = Math.max(...outer, ...outerEnd);
+  const heaviest = Math.max(...masses, 0);
+  // a disk of which only the mass is known is drawn by its mass, no larger than twice the shaft
+  const diameters = diskAt.map((_, k) => given[k] || thickest * (1.15 + 0.85 * Math.cbrt(masses[k] / heaviest)));
+  const highest = Math.max(thickest, ...diameters);
+  const scale = (width - margin.left - margin.right) / length;
+  // to scale unless the rotor is a needle or a plate
+  const tall = Math.min(Math.max(highest * scale, 70), 420);
+  const upright = tall / highest;
+  const height = margin.top + tall + margin.bottom + 34;
+  const middle = margin.top + tall / 2;
+  const toX = (at) => margin.left + (at - first) * scale;
+  const toY = (radius) => middle - radius * upright;
+  const materials = wordsAt(run, "piece_materials");
+  const kinds = [...new Set(materials)];
+  const fill = (k) => (kinds.indexOf(materials[k]) <= 0 ? STEEL_FILL : OTHER_FILLS[(kinds.indexOf(materials[k]) - 1) % OTHER_FILLS.length]);
+  const half = (k, side) => {
+    const points = [[starts[k], outer[k]], [ends[k], outerEnd[k]], [ends[k], innerEnd[k]], [starts[k], inner[k]]];
+    return drawing("polygon", { points: points.map(([at, d]) => `${toX(at).toFixed(1)},${toY((side * d) / 2).toFixed(1)}`).join(" "), fill: fill(k), stroke: "#7b8894", "stroke-width": 0.8, "stroke-dasharray": carries[k] ? null : "3 2" });
+  };
+  const bodies = starts.map((_, k) => [half(k, 1), half(k, -1)]);
+  const disks = diskAt.map((at, k) => {
+    const thick = Math.max((widths[k] || 0) * scale, 5);
+    const tip = toY(diameters[k] / 2);
+    return drawing("rect", { x: toX(at) - thick / 2, y: tip, width: thick, height: 2 * (middle - tip), fill: "#8fa3b5", "fill-opacity": 0.55, stroke: "#55677a", "stroke-width": 0.8 }, drawing("title", {}, `${wordsAt(run, "disk_names")[k] || ""}: ${engineeringText(masses[k], "kg", 4)}`));
+  });
+  const surface = (at) => {
+    let most = 0;
+    starts.forEach((from, k) => {
+      if (at < from - 1e-9 || at > ends[k] + 1e-9) return;
+      const share = (at - from) / (ends[k] - from);
+      most = Math.max(most, outer[k] + (outerEnd[k] - outer[k]) * share);
+    });
+    return most / 2;
+  };
+  const below = margin.top + tall;
+  const label = (at, words, row) => drawing("text", { x: toX(at), y: below + 24 + 12 * row, "text-anchor": "middle", "font-size": 10.5, fill: PALE_INK }, words);
+  const supports = listAt(run, "support_positions").map((at, k) => {
+    const [x, y] = [toX(at), toY(-surface(at))];
+    return [drawing("path", { d: `M${x} ${y}L${x - 8} ${y + 14}L${x + 8} ${y + 14}Z`, fill: "#2f8f5b", "fill-opacity": 0.85 }), label(at, wordsAt(run, "support_names")[k], k % 2)];
+  });
+  const seals = listAt(run, "seal_positions").map((at, k) => {
+    const [x, y] = [toX(at), toY(-surface(at))];
+    return [drawing("path", { d: `M${x - 7} ${y + 2}H${x + 7}M${x - 7} ${y + 6}H${x + 7}`, stroke: "#8a4fae", "stroke-width": 2 }), label(at, wordsAt(run, "seal_names")[k], (k + 1) % 2)];
+  });
+  const magnets = listAt(run, "magnet_positions").map((at) => [1, -1].map((side) => drawing("rect", { x: toX(at) - 7, y: side > 0 ? toY(surface(at)) - 15 : toY(-surface(at)) + 3, width: 14, height: 12, fill: "#c2571a", "fill-opacity": 0.85 }, drawing("title", {}, "magnet"))));
+  const sensors = listAt(run, "sensor_positions").map((at) => drawing("path", { d: `M${toX(at)} ${toY(surface(at)) - 2}l-4 -9h8Z`, fill: "#22303c" }, drawing("title", {}, "position sensor")));
+  const unbalances = listAt(run, "unbalance_positions").map((at) => drawing("circle", { cx: toX(at), cy: toY(surface(at)) - 6, r: 4, fill: "#b3261e" }, drawing("title", {}, "unbalance")));
+  const weights = listAt(run, "mass_positions").map((at) => drawing("rect", { x: toX(at) - 4, y: toY(surface(at)) - 10, width: 8, height: 8, fill: "#55677a" }, drawing("title", {}, "point mass")));
+  const nodes = z.map((at) => drawing("circle", { cx: toX(at), cy: middle, r: z.length > 80 ? 1 : 1.7, fill: NODE_DOT }));
+  const axis = [
+    drawing("line", { x1: margin.left - 14, x2: width - margin.right + 10, y1: middle, y2: middle, stroke: "#8995a0", "stroke-dasharray": "10 3 2 3" }),
+    axisSteps(first * 1e3, last * 1e3, Math.max(3, width / 110)).map((mm) => [drawing("line", { x1: toX(mm / 1e3), x2: toX(mm / 1e3), y1: height - 30, y2: height - 25, stroke: "#8995a0" }), drawing("text", { x: toX(mm / 1e3), y: height - 12, "text-anchor": "middle", "font-size": 11, fill: INK }, numberText(mm, 6))]),
+    drawing("line", { x1: toX(first), x2: toX(last), y1: height - 30, y2: height - 30, stroke: "#8995a0" }),
+    drawing("text", { x: 4, y: height - 12, "font-size": 11, fill: INK }, "z [mm]"),
+  ];
+  const lines = overlays.map(({ values, colour, dash }) => {
+    const largest = Math.max(...values.map(Math.abs)) || 1;
+    const path = values.map((value, k) => `${k ? "L" : "M"}${toX(z[k]).toFixed(1)} ${(middle - (value / largest) * (tall / 2) * 0.95).toFixed(1)}`);
+    return drawing("path", { d: path.join(""), fill: "none", stroke: colour, "stroke-width": 2, "stroke-dasharray": dash || null });
+  });
+  return drawing("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img" }, axis, bodies, disks, overlays.length ? null : [weights, unbalances], magnets, sensors, supports, seals, nodes, lines);
+}
+
+function rotorPicture(run, overlays) {
+  const holder = element("div", { class: "curves" });
+  resizable.push(() => holder.replaceChildren(rotorDrawing(run, overlays, holder.clientWidth || 900)));
+  const keys = overlays.filter(({ label }) => label).map((line) => element("span", { class: "curve-key" }, curveSample(line), line.label));
+  return [holder, element("p", { class: "curve-keys" }, keys)];
+}
+
+function senseDash(sense) {
+  return sense === "backward" ? "7 4" : sense === "planar" ? "2 3" : null;
+}
+
+function rotorSection(runs) {
+  return section("rotor", "The rotor", runs.map((run) => {
+    const rows = [
+      ["mass", engineeringText(numberOf(run, "mass"), "kg", 5)],
+      ["mass centre", engineeringText(numberOf(run, "mass_centre"), "m", 5)],
+      ["polar inertia", siText(numberOf(run, "polar_inertia"), "kg m^2")],
+      ["transverse inertia", siText(numberOf(run, "transverse_inertia"), "kg m^2")],
+      ["length", engineeringText(numberOf(run, "length"), "m", 5)],
+      ["nodes, coordinates of the diagrams", `${numberText(numberOf(run, "node_count"))}, ${numberText(numberOf(run, "coordinates"))}`],
+    ];
+    const sagging = listAt(run, "sag");
+    const loads = Object.keys(run.quantities).filter((name) => name.startsWith("load."));
+    const note = "To scale along the shaft. Grey: shaft, another colour for each other material; dashed: sleeves; blue: disks, sized by their mass where the file gives no diameter; green: supports; violet: seals; orange: magnets, with sensors as black wedges; red: unbalance; dots: nodes.";
+    return [
+      figure(shareOfRun(run, runs, "Rotor to scale"), note, rotorPicture(run, [])),
+      figure(shareOfRun(run, runs, "Mass properties"), null, plainTable(["", ""], rows)),
+      sagging.length && numberOf(run, "largest_sag")
+        ? figure(shareOfRun(run, runs, "Sag under its weight"), `Largest ${engineeringText(numberOf(run, "largest_sag"), "m", 4)}, in the direction of gravity.`, curves({ series: [{ x: listAt(run, "node_positions").map((at) => 1e3 * at), y: sagging.map((value) => -1e6 * value), colour: LINE_COLOURS[0] }], across: "z [mm]", upright: "sag [µm]", height: 200 }), plainTable(["support", "load"], loads.map((name) => [name.slice(5), engineeringText(numberOf(run, name), "N", 4)])))
+        : null,
+    ];
+  }));
+}
+
+// The branches of the diagram: number and prevailing sense.
+function branchesOf(run) {
+  const senses = listAt(run, "branch_senses");
+  return senses.map((_, index) => index + 1).map((number) => ({ number, sense: senses[number - 1] > 0 ? "forward" : senses[number - 1] < 0 ? "backward" : "planar" }));
+}
+
+function campbellFigures(run, runs) {
+  const speed = overSpeed(run, "speed");
+  if (!speed) return [notInThisRun("no diagram was computed", run)];
+  const branches = branchesOf(run);
+  const seen = new Set();
+  const series = branches.map(({ number, sense }) => {
+    const label = seen.has(sense) ? null : sense;
+    seen.add(sense);
+    return { label, x: speed, y: overSpeed(run, `branch_${number}.frequency`) || [], colour: SENSE_COLOURS[sense], dash: senseDash(sense), gaps: true };
+  });
+  const top = Math.max(...series.flatMap((line) => line.y.filter(isNumber)), 0);
+  const line = speed.filter((value) => value <= 1.02 * top);
+  const criticals = numbered(run, "critical", ".speed").map((number) => numberOf(run, `critical_${number}.speed`));
+  const rated = numberOf(run, "rated_speed");
+  const diagram = curves({
+    series: [...series, { label: "once a turn", x: line, y: line, colour: "#8995a0", dash: "2 3" }, { label: "critical speeds", x: criticals, y: criticals, colour: "#b3261e", line: false, dots: true, radius: 4 }],
+    across: "speed of the rotor [rad/s]", above: IN_RPM, upright: "frequency [rad/s]", right: { label: "frequency [Hz]", factor: 1 / (2 * Math.PI) }, marks: rated ? [{ at: rated, words: "rated" }] : [], height: 420,
+  });
+  const damped = branches.map(({ number, sense }) => ({ x: speed, y: (overSpeed(run, `branch_${number}.damping_ratio`) || []).map((value) => (isNumber(value) ? 100 * value : null)), colour: SENSE_COLOURS[sense], dash: senseDash(sense), gaps: true }));
+  const any = damped.some((one) => one.y.some((value) => isNumber(value) && Math.abs(value) > 1e-6));
+  const rows = numbered(run, "critical", ".speed").map((number) => {
+    const at = (name) => numberOf(run, `critical_${number}.${name}`);
+    const amplification = at("amplification");
+    const verdict = quantityOf(run, `critical_${number}.verdict`).value;
+    return [number, engineeringText(at("speed"), "rad/s", 5), `${numberText(at("speed"), 5)} rad/s`, wordsAt(run, "critical_whirls")[number - 1], amplification === null ? quantityOf(run, `critical_${number}.amplification`).why : numberText(amplification, 3), percentText(at("separation"), 3), verdict ? element("strong", { class: verdict === "fail" ? "failed" : null }, verdict) : "–"];
+  });
+  return [
+    figure(shareOfRun(run, runs, "Campbell diagram"), "Damped natural frequencies over speed, each followed from speed to speed. Blue: with the spin; orange, dashed: against it; grey: along a line, or at rest. Where one meets the dotted line the rotor whirls once a turn.", diagram),
+    any ? figure(shareOfRun(run, runs, "Damping of these modes"), "Below zero a mode grows.", curves({ series: damped, across: "speed of the rotor [rad/s]", above: IN_RPM, upright: "damping ratio [%]", marks: rated ? [{ at: rated, words: "rated" }] : [], level: { at: 0, words: "grows below" }, height: 260 })) : null,
+    figure(shareOfRun(run, runs, "Critical speeds and their separation"), "Amplification 1/(2ζ) of the mode. Separation from the operating speeds, as a share of the nearer one.", rows.length ? plainTable(["", "speed", "", "whirl", "amplification", "separation", "verdict"], rows) : notInThisRun("no mode whirls once a turn up to the highest speed", run)),
+  ];
+}
+
+function campbellSection(runs) {
+  return section("campbell", "Frequencies and critical speeds", runs.map((run) => campbellFigures(run, runs)));
+}
+
+function shapeFigures(run, runs) {
+  const modes = numbered(run, "mode", ".shape");
+  const free = numbered(run, "free_mode", ".shape");
+  const pictures = modes.map((number) => {
+    const sense = quantityOf(run, `mode_${number}.whirl`).value;
+    const words = `${numberText(numberOf(run, `mode_${number}.frequency`), 5)} rad/s, ${sense}, ζ ${percentText(numberOf(run, `mode_${number}.damping_ratio`), 3)}`;
+    return figure(shareOfRun(run, runs, `Mode ${number}: ${words}`), null, rotorPicture(run, [{ values: listAt(run, `mode_${number}.shape`), colour: SENSE_COLOURS[sense] || INK, dash: senseDash(sense) }]));
+  });
+  const frequencies = listAt(run, "free_bending_frequencies");
+  const bending = free.slice(0, 4).map((number, index) => ({ values: listAt(run, `free_mode_${number}.shape`), colour: LINE_COLOURS[index % LINE_COLOURS.length], label: `${numberText(frequencies[number - 1], 5)} rad/s` }));
+  return [
+    bending.length ? figure(shareOfRun(run, runs, "First bending modes of the free rotor at rest"), "Without supports, seals and damping.", rotorPicture(run, bending)) : null,
+    element("h3", {}, shareOfRun(run, runs, `Modes at ${speedText(numberOf(run, "rated_speed"))}`)),
+    element("div", { class: "pair" }, pictures),
+  ];
+}
+
+function shapeSection(runs) {
+  return section("shapes", "Mode shapes", runs.map((run) => shapeFigures(run, runs)));
+}
+
+function responsePlaces(run) {
+  return [...run.columns.keys()].map((name) => /^response\.(.+)\.amplitude$/.exec(name)).filter(Boolean).map(([, place]) => place);
+}
+
+function rotorResponseFigures(run, runs) {
+  const speed = overSpeed(run, "speed");
+  const places = responsePlaces(run);
+  const of = (end, scale, logarithmic) => places.map((place, index) => ({ label: place, x: speed, y: (overSpeed(run, `response.${place}.${end}`) || []).map((value) => (isNumber(value) ? scale * value : null)), colour: LINE_COLOURS[index % LINE_COLOURS.length], dash: index >= LINE_COLOURS.length ? "7 4" : null, gaps: !logarithmic }));
+  const rated = numberOf(run, "rated_speed");
+  const axes = { across: "speed of the rotor [rad/s]", above: IN_RPM, marks: rated ? [{ at: rated, words: "rated" }] : [] };
+  // of a phase that goes round, the jump is a gap and no line
+  const lags = of("lag", 180 / Math.PI).map((line) => ({ ...line, label: null, y: line.y.map((value, row) => (row && isNumber(value) && isNumber(line.y[row - 1]) && Math.abs(value - line.y[row - 1]) > 180 ? null : value)) }));
+  const rows = places.map((place) => [place, engineeringText(numberOf(run, `response.${place}.peak_amplitude`), "m", 4), engineeringText(numberOf(run, `response.${place}.peak_speed`), "rad/s", 5), engineeringText(numberOf(run, `response.${place}.rated_amplitude`), "m", 4)]);
+  const deflected = numbered(run, "deflection", ".speed").map((number, index) => ({ number, colour: LINE_COLOURS[index % LINE_COLOURS.length], label: `${engineeringText(numberOf(run, `deflection_${number}.speed`), "rad/s", 5)}${number === 1 ? " (rated)" : ""}` }));
+  const z = listAt(run, "node_positions").map((at) => 1e3 * at);
+  const shapes = deflected.map(({ number, colour, label }) => ({ label, colour, x: z, y: listAt(run, `deflection_${number}.amplitude`).map((value) => 1e6 * value) }));
+  return [
+    figure(shareOfRun(run, runs, "Amplitude"), "Half the longer axis of the orbit under all unbalances together.", curves({ series: of("amplitude", 1e6, true), ...axes, upright: "amplitude [µm]", logarithmic: true, height: 340 })),
+    figure(shareOfRun(run, runs, "Phase"), "How far the displacement in x is behind the mark on the rotor that angles count from.", curves({ series: lags, ...axes, upright: "lag [°]", height: 260 })),
+    figure(shareOfRun(run, runs, "Peaks"), null, plainTable(["place", "largest amplitude", "at", "at the rated speed"], rows)),
+    shapes.length ? figure(shareOfRun(run, runs, "Deflected shapes"), "Amplitude along the shaft, at the rated and at critical speeds.", curves({ series: shapes, across: "z [mm]", upright: "amplitude [µm]", logarithmic: true, height: 300 })) : null,
+  ];
+}
+
+function rotorResponseSection(runs) {
+  return section("response", "Response to unbalance", runs.map((run) => rotorResponseFigures(run, runs)));
+}
+
+function stiffnessMapFigures(run, runs) {
+  const x = listAt(run, "map_stiffnesses");
+  const of = (sense) => numbered(run, `map_${sense}`, "").map((number) => ({ label: number === 1 ? sense : null, x, y: listAt(run, `map_${sense}_${number}`), colour: SENSE_COLOURS[sense], dash: senseDash(sense) }));
+  const rated = numberOf(run, "rated_speed");
+  return [figure(shareOfRun(run, runs, "Undamped critical speeds over the stiffness of the supports"), "Every support of the shaft has the same stiffness; mounts of housings stay, seals are left out.", curves({ series: [...of("forward"), ...of("backward"), { label: "rated speed", x, y: x.map(() => Math.abs(rated)), colour: "#8995a0", dash: "2 3" }], across: "stiffness of each support [N/m]", upright: "critical speed [rad/s]", right: { label: "", factor: 1 }, logarithmic: true, decades: true, height: 380 }))];
+}
+
+function stiffnessMapSection(runs) {
+  return section("stiffness-map", "Stiffness map", runs.map((run) => stiffnessMapFigures(run, runs)));
+}
+
+// Axes of magnets: words, and the beginning of their results.
+function magnetAxes(run) {
+  return wordsAt(run, "levitation.axes").map((label, index) => ({ label, begin: `levitation.${label.replace(/[. ]/g, "_")}`, colour: LINE_COLOURS[index % LINE_COLOURS.length], dash: index % 2 ? "7 4" : null }));
+}
+
+const ZONE_BOUNDS = [[3, "A below"], [4, "B below"], [5, "C below"]];
+
+function sensitivityCurves(run, at) {
+  const x = listAt(run, `levitation.${at}.frequencies`);
+  const zones = ZONE_BOUNDS.map(([bound, label]) => ({ label, x: [x[0], x[x.length - 1]], y: [bound, bound], colour: "#8995a0", dash: "2 3" }));
+  const lines = magnetAxes(run).map(({ label, begin, colour, dash }) => ({ label, x, y: listAt(run, `${begin}.${at}.sensitivity`), colour, dash }));
+  return curves({ series: [...lines, ...zones], across: "frequency [Hz]", upright: "|S|", logarithmic: true, decades: true, height: 320 });
+}
+
+// Open loops near -1; what lies far outside is left out.
+function nyquistCurves(run, at) {
+  const near = (value) => (isNumber(value) && Math.abs(value) <= 4 ? value : null);
+  const lines = magnetAxes(run).map(({ label, begin, colour, dash }) => {
+    const [re, im] = ["real", "imaginary"].map((part) => listAt(run, `${begin}.${at}.open_loop_${part}`));
+    const kept = re.map((value, k) => (near(value) === null || near(im[k]) === null ? null : k)).filter((k) => k !== null);
+    return { label, x: kept.map((k) => re[k]), y: kept.map((k) => im[k]), colour, dash };
+  });
+  return curves({ series: [...lines, { label: "-1", x: [-1], y: [0], colour: "#b3261e", line: false, dots: true, radius: 5 }], across: "Re L", upright: "Im L", height: 380 });
+}
+
+function levitationFigures(run, runs) {
+  const [re, im, damping] = ["real_parts", "imaginary_parts", "damping_ratios"].map((part) => listAt(run, `levitation.pole_${part}`));
+  const poles = re.map((value, k) => [`${numberText(value, 6)} 1/s`, `${numberText(im[k], 6)} rad/s`, Math.abs(im[k]) > 0.02 * Math.hypot(value, im[k]) ? (im[k] > 0 ? "with positive spin" : "against positive spin") : "–", percentText(damping[k], 3)]);
+  const rows = magnetAxes(run).map(({ label, begin }) => {
+    const at = (name) => numberOf(run, `${begin}.${name}`);
+    const stiffness = at("static_stiffness");
+    return [label, stiffness === null ? quantityOf(run, `${begin}.static_stiffness`).why : siText(stiffness, "N/m"), engineeringText(at("static_current"), "A", 4), engineeringText(at("static_displacement"), "m", 4), engineeringText(at("unbalance_current"), "A", 4), numberText(at("standstill.sensitivity_peak"), 4), numberText(at("rated.sensitivity_peak"), 4), `${numberText(at("rated.sensitivity_peak_frequency"), 4)} Hz`, quantityOf(run, `${begin}.rated.zone`).value];
+  });
+  const rated = speedText(numberOf(run, "rated_speed"));
+  return [
+    figure(shareOfRun(run, runs, "Axes of the magnets"), "Static state under weight; amplitude of the current under all unbalances; largest |S| of one axis with all others closed. Zones are quoted from memory of ISO 14839-3.", plainTable(["axis", "static stiffness", "static current", "static displacement", "unbalance current", "peak |S| at standstill", "at speed", "at", "zone"], rows)),
+    figure(shareOfRun(run, runs, "Sensitivity at standstill"), null, sensitivityCurves(run, "standstill")),
+    figure(shareOfRun(run, runs, `Sensitivity at ${rated}`), null, sensitivityCurves(run, "rated")),
+    figure(shareOfRun(run, runs, `Open loops at ${rated}`), "One axis opened, all others closed: the distance from -1 is 1/|S|.", nyquistCurves(run, "rated")),
+    figure(shareOfRun(run, runs, `Poles of the closed loop at ${rated}`), "Those of filters and integrators included, up to the highest frequency of the sensitivity.", curves({ series: [{ x: re.map((value) => -value), y: im, colour: LINE_COLOURS[0], line: false, dots: true, radius: 3 }], across: "decay -Re λ [1/s]", upright: "Im λ [rad/s]", height: 320 }), plainTable(["Re λ", "Im λ", "sense", "damping ratio"], poles)),
+  ];
+}
+
+function levitationSection(runs) {
+  return section("levitation", "Magnets and controller", runs.map((run) => levitationFigures(run, runs)));
+}
+
+function rotorVerdict(run) {
+  const first = quantityOf(run, "first_critical_speed");
+  const verdict = quantityOf(run, "separation_verdict").value;
+  const unstable = quantityOf(run, "first_unstable_speed");
+  const rated = numberOf(run, "rated_speed");
+  const bending = listAt(run, "free_bending_frequencies")[0];
+  const grows = isNumber(unstable.value) && unstable.value <= Math.abs(rated);
+  return element(
+    "div",
+    { class: "tiles" },
+    stateTile(run),
+    tile("First critical speed", isNumber(first.value) ? engineeringText(first.value, "rad/s", 5) : "–", [isNumber(first.value) ? `${numberText(first.value, 5)} rad/s` : first.why]),
+    tile("Separation", typeof verdict === "string" ? verdict : "–", [typeof verdict === "string" ? "critical speeds against analysis.separation_margin" : quantityOf(run, "separation_verdict").why], typeof verdict === "string" ? verdictState(run, verdict === "fail") : null),
+    tile("Stability", isNumber(unstable.value) ? engineeringText(unstable.value, "rad/s", 5) : "stable", [isNumber(unstable.value) ? "from this speed on a mode grows" : unstable.why], verdictState(run, grows)),
+    typeof quantityOf(run, "levitation.zone").value === "string" ? tile("Largest sensitivity", numberText(numberOf(run, "levitation.largest_sensitivity"), 3), [`zone ${quantityOf(run, "levitation.zone").value}, slowest eigenvalue ${numberText(numberOf(run, "levitation.slowest_eigenvalue"), 3)} 1/s`]) : null,
+    tile("First free bending mode", isNumber(bending) ? `${numberText(bending, 5)} rad/s` : "–", ["of the free rotor at rest"]),
+    tile("Largest sag", engineeringText(numberOf(run, "largest_sag"), "m", 4), ["under its weight"]),
+    tile("Error of the reduction", numberOf(run, "reduction_error") === null ? "none" : numberText(numberOf(run, "reduction_error"), 2), [numberOf(run, "reduction_error") === null ? "all coordinates are kept" : "of eigenvalues at the highest speed"]),
+  );
+}
+
+function rotorLine(run) {
+  const facts = [
+    `${engineeringText(numberOf(run, "mass"), "kg", 4)}, ${engineeringText(numberOf(run, "length"), "m", 4)} long`,
+    `rated ${speedText(numberOf(run, "rated_speed"))}`,
+    `${listAt(run, "support_positions").length} supports`,
+    listAt(run, "disk_positions").length ? `${listAt(run, "disk_positions").length} disks` : null,
+  ].filter(Boolean);
+  return element("p", { class: "machine" }, facts.join(" · "));
+}
+
+register("rotor", {
+  line: rotorLine,
+  verdict: rotorVerdict,
+  time: null,
+  facts: false,
+  sections: (runs) => [
+    [20, rotorSection, runs],
+    [21, campbellSection, runs],
+    [22, shapeSection, runs],
+    [23, rotorResponseSection, runs.filter((run) => responsePlaces(run).length)],
+    [24, levitationSection, runs.filter((run) => wordsAt(run, "levitation.axes").length)],
+    [25, stiffnessMapSection, runs.filter((run) => listAt(run, "map_stiffnesses").length)],
+  ].filter(([, , part]) => part.length),
+});

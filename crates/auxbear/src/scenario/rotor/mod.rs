@@ -1,0 +1,157 @@
+//! A bent rotor with what carries it, and what is asked of it.
+
+pub(crate) mod build;
+pub(crate) mod keys;
+pub(crate) mod levitation;
+pub(crate) mod part_keys;
+pub(crate) mod parts;
+
+use crate::problem::Problem;
+use crate::scenario::document::Document;
+use crate::scenario::key::Key;
+use crate::scenario::section::Section;
+use crate::scenario::values::Values;
+pub use build::{DrawnPiece, RotorModel};
+pub use levitation::LevitationModel;
+
+/// The kinds of parts of a bent rotor, with their keys: `section` of `[[rotor.section]]`.
+pub fn parts_of_rotors() -> impl Iterator<Item = (&'static str, &'static [Key])> {
+    part_keys::PARTS.iter().map(|kind| (kind.word, kind.keys))
+}
+
+/// A rotor and what is asked of it. Speeds in rad/s.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RotorAnalysis {
+    /// The rotor.
+    pub model: RotorModel,
+    /// Rated speed.
+    pub speed: f64,
+    /// Lowest speed looked at.
+    pub speed_from: f64,
+    /// Highest speed looked at.
+    pub speed_to: f64,
+    /// Number of speeds.
+    pub speed_count: usize,
+    /// Highest frequency looked at, rad/s.
+    pub frequency_to: f64,
+    /// Number of modes shown at the rated speed.
+    pub modes: usize,
+    /// Modes of the free rotor up to this frequency are kept, rad/s.
+    pub cutoff: f64,
+    /// Longest element of what does not say it itself, m.
+    pub longest_element: f64,
+    /// Gravity across the shaft, m/s².
+    pub gravity: f64,
+    /// Direction of gravity from x, rad.
+    pub gravity_angle: f64,
+    /// Lowest operating speed.
+    pub operating_from: f64,
+    /// Highest operating speed.
+    pub operating_to: f64,
+    /// Least separation of a critical speed from the operating speeds, as a share.
+    pub separation_margin: Option<f64>,
+    /// Amplification below which a critical speed needs no separation.
+    pub exempt_amplification: Option<f64>,
+    /// Lowest stiffness of the map, N/m.
+    pub map_from: f64,
+    /// Highest stiffness of the map, N/m.
+    pub map_to: f64,
+    /// Number of stiffnesses of the map.
+    pub map_count: usize,
+}
+
+impl RotorAnalysis {
+    /// The typed values of a document, checked.
+    pub(crate) fn of(document: &Document, values: &Values) -> Result<RotorAnalysis, Box<Problem>> {
+        let parts = parts::resolve(document, values)?;
+        let model = build::model(&parts, values)?;
+        let analysis = Section {
+            values,
+            path: "analysis",
+        };
+        let speed = values.number("rotor.speed").unwrap_or_default();
+        let speed_to = analysis.maybe("speed_to").unwrap_or(1.5 * speed.abs());
+        let speed_from = analysis.number("speed_from");
+        let frequency_to = analysis
+            .maybe("frequency_to")
+            .unwrap_or(1.5 * speed_to.max(speed.abs()));
+        let followed = frequency_to.max(speed_to);
+        let typical = build::typical_stiffness(&model.rotor, speed);
+        let map = |name: &str, factor: f64| analysis.maybe(name).unwrap_or(typical * factor);
+        let operating = |name: &str| analysis.maybe(name).unwrap_or(speed.abs());
+        let this = RotorAnalysis {
+            speed,
+            speed_from,
+            speed_to,
+            speed_count: analysis.count("speed_count") as usize,
+            frequency_to,
+            modes: analysis.count("modes") as usize,
+            cutoff: analysis.maybe("cutoff").unwrap_or(6.0 * followed),
+            longest_element: build::longest_element(&model, values),
+            model,
+            gravity: analysis.number("gravity"),
+            gravity_angle: analysis.number("gravity_angle"),
+            operating_from: operating("operating_from"),
+            operating_to: operating("operating_to"),
+            separation_margin: analysis.maybe("separation_margin"),
+            exempt_amplification: analysis.maybe("exempt_amplification"),
+            map_from: map("map_from", 1e-2),
+            map_to: map("map_to", 1e2),
+            map_count: analysis.count("map_count") as usize,
+        };
+        this.check(values)?;
+        Ok(this)
+    }
+
+    /// Refuses ranges that are none.
+    fn check(&self, values: &Values) -> Result<(), Box<Problem>> {
+        for (low, high, path, what) in [
+            (
+                self.speed_from,
+                self.speed_to,
+                "analysis.speed_to",
+                "speed_from",
+            ),
+            (self.map_from, self.map_to, "analysis.map_to", "map_from"),
+        ] {
+            if high <= low {
+                return Err(Box::new(
+                    values.problem(
+                        crate::problem::Code::OutOfRange,
+                        path,
+                        values.place(path),
+                        values
+                            .text(path)
+                            .unwrap_or_else(|| format!("{high} by its default")),
+                        format!("more than analysis.{what} is needed"),
+                    ),
+                ));
+            }
+        }
+        if self.operating_to < self.operating_from {
+            let path = "analysis.operating_to";
+            return Err(Box::new(values.problem(
+                crate::problem::Code::OutOfRange,
+                path,
+                values.place(path),
+                values.text(path).unwrap_or_default(),
+                "at least analysis.operating_from is needed",
+            )));
+        }
+        Ok(())
+    }
+
+    /// Gravity x + jy, m/s².
+    pub fn weight(&self) -> rotor::C64 {
+        rotor::C64::from_polar(self.gravity, self.gravity_angle)
+    }
+
+    /// The speeds looked at, rad/s.
+    pub fn speeds(&self) -> Vec<f64> {
+        let last = (self.speed_count - 1) as f64;
+        let span = self.speed_to - self.speed_from;
+        (0..self.speed_count)
+            .map(|k| self.speed_from + span * k as f64 / last)
+            .collect()
+    }
+}

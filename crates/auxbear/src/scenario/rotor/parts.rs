@@ -1,0 +1,215 @@
+//! Parts of a rotor as tables of a file: read, completed with defaults, written again.
+
+use crate::problem::{Code, Place, Problem, did_you_mean};
+use crate::scenario::document::{Document, Given, Raw};
+use crate::scenario::key::{Key, Presence, quoted};
+use crate::scenario::raw::Written;
+use crate::scenario::resolved::{ResolvedValue, line};
+use crate::scenario::rotor::part_keys::{PARTS, PartKind};
+use crate::scenario::values::{Known, Value, Values};
+use std::collections::BTreeMap;
+
+/// A part as the text has it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct WrittenPart {
+    /// Word of its kind.
+    pub(crate) kind: &'static str,
+    pub(crate) keys: Vec<Written>,
+    pub(crate) place: Place,
+}
+
+impl WrittenPart {
+    /// Its name, where it has one.
+    pub(crate) fn name(&self) -> Option<&str> {
+        self.keys.iter().find_map(|(key, raw, _)| match raw {
+            Raw::Text(name) if key == "name" => Some(name.as_str()),
+            _ => None,
+        })
+    }
+}
+
+/// A part with all its values.
+#[derive(Clone, Debug)]
+pub(crate) struct Part {
+    pub(crate) kind: &'static PartKind,
+    /// Its name, else its number from 1.
+    pub(crate) label: String,
+    pub(crate) known: BTreeMap<&'static str, Known>,
+    pub(crate) place: Place,
+    pub(crate) file: String,
+}
+
+impl Part {
+    /// Number of a key, SI.
+    pub(crate) fn number(&self, name: &str) -> Option<f64> {
+        self.known.get(name)?.value.number()
+    }
+
+    /// A number that reading has made sure of.
+    pub(crate) fn needed(&self, name: &str) -> f64 {
+        self.number(name).unwrap_or_default()
+    }
+
+    pub(crate) fn text(&self, name: &str) -> Option<&str> {
+        match &self.known.get(name)?.value {
+            Value::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// A list of texts; empty where it is not given.
+    pub(crate) fn texts(&self, name: &str) -> &[String] {
+        match self.known.get(name).map(|known| &known.value) {
+            Some(Value::Texts(list)) => list,
+            _ => &[],
+        }
+    }
+
+    pub(crate) fn series(&self, name: &str) -> Option<&[f64]> {
+        match &self.known.get(name)?.value {
+            Value::Numbers(list) => Some(list),
+            _ => None,
+        }
+    }
+
+    /// A problem with one of its keys, or with the part for an empty name.
+    pub(crate) fn problem(
+        &self,
+        code: Code,
+        name: &str,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Problem {
+        let mut path = format!("{}.{}", self.kind.path(), self.label);
+        if !name.is_empty() {
+            path = format!("{path}.{name}");
+        }
+        let place = self.known.get(name).map(|known| known.place);
+        let place = place.filter(|place| *place != Place::Whole);
+        Problem::new(code, &self.file, found, allowed)
+            .at(place.unwrap_or(self.place))
+            .on_key(path)
+    }
+
+    /// The part as a file has it.
+    fn toml(&self) -> String {
+        let mut out = format!("[[{}]]\n", self.kind.path());
+        for key in self.kind.keys {
+            let Some(known) = self.known.get(key.name()) else {
+                continue;
+            };
+            let value = ResolvedValue {
+                path: key.path,
+                bearing: None,
+                text: Some(known.text.clone()),
+                value_si: known.value.number(),
+                unit: key.unit().to_string(),
+                provenance: known.provenance.clone(),
+                place: known.place,
+            };
+            out.push_str(&line(key, &value));
+            out.push('\n');
+        }
+        out
+    }
+}
+
+/// All parts of a document, completed.
+pub(crate) fn resolve(document: &Document, values: &Values) -> Result<Vec<Part>, Box<Problem>> {
+    let mut all: Vec<Part> = Vec::new();
+    for kind in PARTS {
+        let of_kind = document.parts.iter().filter(|part| part.kind == kind.word);
+        for (number, written) in (1..).zip(of_kind) {
+            let part = read(kind, number, written, values)?;
+            let same = |other: &&Part| other.kind.word == kind.word && other.label == part.label;
+            if all.iter().any(|other| same(&other)) {
+                let found = format!("the name {} twice", quoted(&part.label));
+                let allowed = "a name of its own for each is needed";
+                return Err(Box::new(part.problem(
+                    Code::Conflict,
+                    "name",
+                    found,
+                    allowed,
+                )));
+            }
+            all.push(part);
+        }
+    }
+    Ok(all)
+}
+
+/// The parts of a document as its resolved file has them.
+pub(crate) fn toml(document: &Document, values: &Values) -> Vec<String> {
+    let parts = resolve(document, values).unwrap_or_default();
+    parts.iter().map(Part::toml).collect()
+}
+
+fn read(
+    kind: &'static PartKind,
+    number: usize,
+    written: &WrittenPart,
+    values: &Values,
+) -> Result<Part, Box<Problem>> {
+    let label = written.name().map_or(number.to_string(), str::to_string);
+    let mut part = Part {
+        kind,
+        label,
+        known: BTreeMap::new(),
+        place: written.place,
+        file: values.file.clone(),
+    };
+    for (name, raw, place) in &written.keys {
+        let Some(key) = kind.keys.iter().find(|key| key.name() == name) else {
+            let names = || kind.keys.iter().map(Key::name);
+            let allowed = format!(
+                "[[{}]] takes {}",
+                kind.path(),
+                names().collect::<Vec<_>>().join(", ")
+            );
+            let (code, found) = match name.is_empty() {
+                true => (Code::WrongType, raw.text()),
+                false => (Code::UnknownKey, "an unknown key".to_string()),
+            };
+            let problem = part.problem(code, name, found, allowed).at(*place);
+            return Err(Box::new(problem.with_hint(did_you_mean(name, names()))));
+        };
+        let given = Given {
+            raw: raw.clone(),
+            typed: None,
+            place: *place,
+        };
+        let known = values.read(key, &given).map_err(|mut problem| {
+            problem.key = Some(format!("{}.{}.{name}", kind.path(), part.label));
+            problem
+        })?;
+        part.known.insert(key.name(), known);
+    }
+    for key in kind.keys {
+        let other = key.excludes.and_then(|path| path.rsplit('.').next());
+        if part.known.contains_key(key.name()) {
+            if let Some(other) = other.filter(|other| part.known.contains_key(other)) {
+                let found = format!("this and {other}, which give the same thing");
+                let allowed = "one of the two is needed";
+                return Err(Box::new(part.problem(
+                    Code::Conflict,
+                    key.name(),
+                    found,
+                    allowed,
+                )));
+            }
+            continue;
+        }
+        match key.presence {
+            Presence::Required => {
+                let problem = part.problem(Code::MissingKey, key.name(), "no value", key.needed());
+                return Err(Box::new(problem));
+            }
+            Presence::Default(fallback) => {
+                part.known
+                    .insert(key.name(), values.fall_back(key, &fallback)?);
+            }
+            _ => {}
+        }
+    }
+    Ok(part)
+}

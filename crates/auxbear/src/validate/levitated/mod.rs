@@ -1,0 +1,519 @@
+//! Levitated rotors: closed loops (`machine_levitated.json`) and the start of a drop (`machine_drop_flexible.json`).
+//!
+//! A closed loop is compared in all coordinates of the rotor and in the reduced basis that runs use, each with the tolerances that
+//! the files give for it. Complex numbers are compared part by part, each part with 1/√2 of the tolerance.
+
+mod machine;
+
+use super::compare::{Worst, part};
+use super::report::{Row, Tolerance};
+use levitation::response::{equilibrium, impulse, start, unbalance};
+use levitation::sensitivity::{Axes, Band, Sensitivity};
+use levitation::{C64, ClosedLoop, Refused, ZERO, weight};
+use machine::Machine;
+use rotor::Analysis;
+use serde_json::Value;
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, TAU};
+use std::path::Path;
+
+const GRAVITY: [f64; 2] = [0.0, -9.81];
+
+/// Rows of a file; `None` when its keys are those of another.
+pub(super) fn rows(value: &Value, path: &Path) -> Option<Vec<Row>> {
+    let top = value.as_object()?;
+    let has = |keys: &[&str]| keys.iter().all(|key| top.contains_key(*key));
+    let found = if has(&["magnets", "results", "beta_external"]) {
+        closed_loop(value, path)
+    } else if has(&["magnets", "start", "beta_added", "bearings"]) {
+        start_of_drop(value, path)
+    } else {
+        return None;
+    };
+    let damaged = |error| {
+        let row = Row::wrong(format!("wrong: {error}"));
+        vec![Row {
+            damaged: true,
+            ..row
+        }]
+    };
+    Some(found.unwrap_or_else(damaged))
+}
+
+/// The tolerances of the files for a basis.
+#[derive(Clone, Copy)]
+struct Accept {
+    name: &'static str,
+    /// Free modes up to this, rad/s.
+    cut: f64,
+    eigenvalues: f64,
+    /// Of roots of filters far from the origin.
+    filters: f64,
+    sensitivity: f64,
+    peaks: f64,
+    unbalance: f64,
+    impulse: f64,
+    early_impulse: f64,
+}
+
+const WHOLE: Accept = Accept {
+    name: "all coordinates",
+    cut: f64::INFINITY,
+    eigenvalues: 1e-6,
+    filters: 1e-6,
+    sensitivity: 1e-6,
+    peaks: 1e-5,
+    unbalance: 1e-6,
+    impulse: 1e-6,
+    early_impulse: 1e-6,
+};
+const REDUCED: Accept = Accept {
+    name: "free modes to 6e4 rad/s and residual flexibility",
+    cut: 6e4,
+    eigenvalues: 1e-5,
+    filters: 2e-4,
+    sensitivity: 4e-5,
+    peaks: 4e-5,
+    unbalance: 2e-5,
+    impulse: 1e-3,
+    early_impulse: 5e-3,
+};
+
+/// Adds both parts of a complex number, compared with a tolerance on its distance.
+fn add(worst: &mut Worst, name: &str, unit: &str, pair: (C64, C64), allowed: f64, why: &str) {
+    let (ours, wanted) = pair;
+    let tolerance = Tolerance::Absolute(allowed * FRAC_1_SQRT_2);
+    for (word, ours, wanted) in [
+        ("real", ours.re, wanted.re),
+        ("imaginary", ours.im, wanted.im),
+    ] {
+        let name = format!("{name}, {word} part");
+        worst.add(Row::compared(name, unit, wanted, ours, tolerance, why));
+    }
+}
+
+fn complex(pair: &Value) -> C64 {
+    let at = |index: usize| pair[index].as_f64().unwrap_or(f64::NAN);
+    C64::new(at(0), at(1))
+}
+fn list<'a>(value: &'a Value, key: &str) -> &'a [Value] {
+    value[key].as_array().map_or(&[], Vec::as_slice)
+}
+fn number(value: &Value, key: &str) -> Result<f64, String> {
+    value[key]
+        .as_f64()
+        .ok_or_else(|| format!("{key} is no number"))
+}
+fn largest<'a>(all: impl Iterator<Item = &'a Value>) -> f64 {
+    all.map(|pair| complex(pair).norm()).fold(0.0, f64::max)
+}
+fn told(error: Refused) -> String {
+    error.to_string()
+}
+/// Nodes of a list, of so many that there are.
+fn nodes(value: &Value, count: usize) -> Result<Vec<usize>, String> {
+    let all: Vec<usize> = part(&value["nodes"])?;
+    match all.iter().find(|node| **node >= count) {
+        Some(node) => Err(format!("node {node}, of {count} nodes")),
+        None => Ok(all),
+    }
+}
+
+fn closed_loop(value: &Value, path: &Path) -> Result<Vec<Row>, String> {
+    let beta = [
+        number(value, "beta_external")?,
+        number(value, "beta_internal")?,
+    ];
+    let machine = Machine::of(value, path, beta)?;
+    let mut worst = Worst::default();
+    for accept in [WHOLE, REDUCED] {
+        let analysis = machine.analysis(accept.cut)?;
+        for result in list(value, "results") {
+            let speed = number(result, "speed_rad_s")?;
+            let closed = machine.turning(&analysis, speed)?;
+            let why = format!("{speed:.1} rad/s; {}; tolerance of the file", accept.name);
+            at_speed(&closed, result, accept, &why, &mut worst)?;
+            turning_unbalance(&machine, &closed, result, accept, &why, &mut worst)?;
+        }
+        if let Some(struck) = value.get("impulse_response") {
+            let closed = machine.turning(&analysis, number(struck, "speed_rad_s")?)?;
+            after_impulse(&closed, struck, accept, &mut worst)?;
+        }
+    }
+    let whole = machine.analysis(f64::INFINITY)?;
+    if let Some(wanted) = value["open_loop_largest_real_part"].as_f64() {
+        let open = machine.turning(&whole, 0.0)?.open_loop().map_err(told)?;
+        let ours = open.iter().map(|value| value.re).fold(f64::MIN, f64::max);
+        let why = "largest Re λ without control current, at standstill; tolerance of the file";
+        let name = "open loop, largest real part";
+        worst.add(Row::compared(
+            name,
+            "1/s",
+            wanted,
+            ours,
+            Tolerance::Relative(1e-6),
+            why,
+        ));
+    }
+    if let Some(standing) = value.get("static_values") {
+        at_rest(&machine, &whole, standing, &mut worst)?;
+    }
+    if let Some(check) = value.get("zero_stiffness_check") {
+        zero_stiffness(&machine, &whole, check, &mut worst)?;
+    }
+    Ok(worst.into_rows())
+}
+
+fn at_speed(
+    closed: &ClosedLoop<C64>,
+    result: &Value,
+    accept: Accept,
+    why: &str,
+    worst: &mut Worst,
+) -> Result<(), String> {
+    let basis = accept.name;
+    let poles = closed.poles().map_err(told)?;
+    for wanted in list(result, "eigenvalues").iter().map(complex) {
+        let distance = |pole: &&levitation::Pole| (pole.value - wanted).norm();
+        let nearest = poles
+            .iter()
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let ours = nearest.ok_or("a loop without eigenvalues")?.value;
+        let share = if wanted.re < -2.5e4 {
+            accept.filters
+        } else {
+            accept.eigenvalues
+        };
+        let allowed = share * wanted.norm() + 1e-5;
+        let name = format!("eigenvalues, {basis}");
+        add(worst, &name, "1/s", (ours, wanted), allowed, why);
+    }
+    let axes = Axes::new(closed).map_err(told)?;
+    for sample in list(result, "sensitivity_samples") {
+        let ours = axes.at(number(sample, "rad_s")?).map_err(told)?;
+        for (ours, wanted) in ours.iter().zip(list(sample, "S")) {
+            let wanted = wanted.as_f64().unwrap_or(f64::NAN);
+            let tolerance = Tolerance::Relative(accept.sensitivity);
+            let name = format!("sensitivity, {basis}");
+            worst.add(Row::compared(name, "", wanted, ours.norm(), tolerance, why));
+        }
+    }
+    let band = Band {
+        from: TAU,
+        to: TAU * 3000.0,
+    };
+    let found = Sensitivity::new(closed, &poles, band).map_err(told)?;
+    for wanted in list(result, "sensitivity_peak") {
+        let ours = found.peaks.get(number(wanted, "magnet")? as usize);
+        let ours = ours.ok_or("a peak of no magnet")?;
+        for (word, unit, key, ours, share) in [
+            ("peak", "", "S", ours.size, accept.peaks),
+            ("frequency of peak", "rad/s", "at_rad_s", ours.at, 1e-4),
+        ] {
+            let name = format!("sensitivity, {word}, {basis}");
+            let tolerance = Tolerance::Relative(share);
+            worst.add(Row::compared(
+                name,
+                unit,
+                number(wanted, key)?,
+                ours,
+                tolerance,
+                why,
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn turning_unbalance(
+    machine: &Machine,
+    closed: &ClosedLoop<C64>,
+    result: &Value,
+    accept: Accept,
+    why: &str,
+    worst: &mut Worst,
+) -> Result<(), String> {
+    let Some(wanted) = result.get("unbalance_response") else {
+        return Ok(());
+    };
+    let ours = unbalance(closed, &machine.unbalance, number(result, "speed_rad_s")?);
+    let ours = ours.map_err(told)?;
+    let (w, currents) = (list(wanted, "w"), list(wanted, "current_A"));
+    let allowed = accept.unbalance * largest(w.iter());
+    for (node, w) in nodes(wanted, ours.forward.len())?.into_iter().zip(w) {
+        let name = format!("unbalance response, {}", accept.name);
+        add(
+            worst,
+            &name,
+            "m",
+            (ours.forward[node], complex(w)),
+            allowed,
+            why,
+        );
+    }
+    let allowed = accept.unbalance * largest(currents.iter());
+    for (ours, wanted) in ours.currents.iter().zip(currents) {
+        let name = format!("unbalance current, {}", accept.name);
+        add(worst, &name, "A", (*ours, complex(wanted)), allowed, why);
+    }
+    Ok(())
+}
+
+fn after_impulse(
+    closed: &ClosedLoop<C64>,
+    struck: &Value,
+    accept: Accept,
+    worst: &mut Worst,
+) -> Result<(), String> {
+    let text = struck["text"].as_str().unwrap_or_default();
+    let count = closed.plant().nodes.nrows();
+    let node = number_after(text, "node").filter(|node| (*node as usize) < count);
+    let (Some(size), Some(node)) = (number_after(text, "impulse"), node) else {
+        return Err("an impulse_response whose text has no \"impulse … node …\"".into());
+    };
+    let rows = list(struck, "rows");
+    let times: Result<Vec<f64>, String> = rows.iter().map(|row| number(row, "t")).collect();
+    let times = times?;
+    let states = impulse(closed, node as usize, size, &times).map_err(told)?;
+    let moved = largest(rows.iter().flat_map(|row| list(row, "w")));
+    let current = largest(rows.iter().flat_map(|row| list(row, "current_A")));
+    let nodes = nodes(struck, count)?;
+    for ((row, state), time) in rows.iter().zip(&states).zip(times) {
+        let share = if time < 1e-3 {
+            accept.early_impulse
+        } else {
+            accept.impulse
+        };
+        let why = format!(
+            "{time} s after {size} N s at node {node}; {}; tolerance of the file",
+            accept.name
+        );
+        let w = closed.displacements(state);
+        for (node, wanted) in nodes.iter().zip(list(row, "w")) {
+            let name = format!("impulse response, {}", accept.name);
+            add(
+                worst,
+                &name,
+                "m",
+                (w[*node], complex(wanted)),
+                share * moved,
+                &why,
+            );
+        }
+        for (ours, wanted) in closed
+            .currents(state)
+            .into_iter()
+            .zip(list(row, "current_A"))
+        {
+            let name = format!("impulse current, {}", accept.name);
+            add(
+                worst,
+                &name,
+                "A",
+                (ours, complex(wanted)),
+                share * current,
+                &why,
+            );
+        }
+    }
+    Ok(())
+}
+
+/// The first number behind a word: "impulse 0.02 N s".
+fn number_after(text: &str, word: &str) -> Option<f64> {
+    let mut words = text.split(|letter: char| letter.is_whitespace() || letter == ',');
+    words.by_ref().find(|own| *own == word)?;
+    words
+        .next()?
+        .parse()
+        .ok()
+        .filter(|value: &f64| *value >= 0.0)
+}
+
+fn at_rest(
+    machine: &Machine,
+    analysis: &Analysis,
+    standing: &Value,
+    worst: &mut Worst,
+) -> Result<(), String> {
+    let loads = weight(&machine.rotor, analysis, GRAVITY);
+    let plant = machine.planes(analysis, 0.0);
+    let ours = equilibrium(&plant, &machine.levitation()?, &loads).map_err(told)?;
+    let why = "under gravity with integrators; tolerance of the file";
+    let (w, currents) = (list(standing, "w"), list(standing, "current_A"));
+    let allowed = 1e-6 * largest(w.iter()) + 1e-13;
+    for (node, wanted) in nodes(standing, machine.rotor.nodes.len())?
+        .into_iter()
+        .zip(w)
+    {
+        let along = |angle: f64| (plant.row(node, angle) * &ours.coordinates)[0];
+        let pair = (C64::new(along(0.0), along(FRAC_PI_2)), complex(wanted));
+        add(worst, "static position", "m", pair, allowed, why);
+    }
+    let allowed = 1e-6 * largest(currents.iter());
+    for (pair, wanted) in ours.currents.chunks(2).zip(currents) {
+        let pair = (C64::new(pair[0], pair[1]), complex(wanted));
+        add(worst, "static current", "A", pair, allowed, why);
+    }
+    Ok(())
+}
+
+fn zero_stiffness(
+    machine: &Machine,
+    analysis: &Analysis,
+    check: &Value,
+    worst: &mut Worst,
+) -> Result<(), String> {
+    for (collocated, key) in [
+        (false, "sensors_of_this_file"),
+        (true, "sensors_at_the_actuator_nodes"),
+    ] {
+        let mut magnets = machine.magnets.clone();
+        for magnet in &mut magnets {
+            (magnet.controller.Kp, magnet.controller.Ki) = (number(check, "Kp")?, 0.0);
+            if collocated {
+                magnet.sensor_node = magnet.actuator_node;
+            }
+        }
+        let changed = Machine {
+            rotor: machine.rotor.clone(),
+            magnets,
+            unbalance: Vec::new(),
+        };
+        let poles = changed.turning(analysis, 0.0)?.poles().map_err(told)?;
+        let (zeros, others): (Vec<C64>, Vec<C64>) =
+            (poles.iter().map(|pole| pole.value)).partition(|value| value.norm() < ZERO);
+        let wanted = &check[key];
+        let why = format!(
+            "{}: K_p = k_s/k_i, K_i = 0 at standstill; tolerance of the file",
+            key.replace('_', " ")
+        );
+        let next = complex(&wanted["next"]);
+        let pair = (*others.first().ok_or("nothing but zeros")?, next);
+        let name = "next eigenvalue without static stiffness";
+        add(worst, name, "1/s", pair, 1e-6 * next.norm(), &why);
+        let largest = others.iter().map(|value| value.re).fold(f64::MIN, f64::max);
+        for (name, unit, key, ours, tolerance) in [
+            (
+                "eigenvalues at zero without static stiffness",
+                "",
+                "eigenvalues_at_zero",
+                zeros.len() as f64,
+                Tolerance::Absolute(0.0),
+            ),
+            (
+                "largest other real part without static stiffness",
+                "1/s",
+                "largest_other_real_part",
+                largest,
+                Tolerance::Relative(1e-6),
+            ),
+        ] {
+            worst.add(Row::compared(
+                name,
+                unit,
+                number(wanted, key)?,
+                ours,
+                tolerance,
+                why.as_str(),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The start of a drop in closed form; the drop itself is not run.
+fn start_of_drop(value: &Value, path: &Path) -> Result<Vec<Row>, String> {
+    let machine = Machine::of(value, path, [number(value, "beta_added")?, 0.0])?;
+    let (speed, gravity) = (number(value, "Om")?, part(&value["gravity"])?);
+    let analysis = machine.analysis(f64::INFINITY)?;
+    let loads = weight(&machine.rotor, &analysis, gravity);
+    let plant = machine.planes(&analysis, speed);
+    let levitation = machine.levitation()?;
+    let ours = start(&plant, &levitation, &loads, &machine.unbalance, speed, 0.0).map_err(told)?;
+    let (size, shapes) = (analysis.basis.len(), &analysis.basis.shapes);
+    let why = "static position and synchronous motion in closed form; 1e-6 of the largest of its kind: the reference is of double precision";
+    let mut worst = Worst::default();
+    for (name, key, units, values) in [
+        ("position", "q", ["m", "rad"], &ours.coordinates),
+        ("velocity", "qd", ["m/s", "rad/s"], &ours.rates),
+    ] {
+        let wanted = list(&value["start"], key);
+        if wanted.len() != shapes.nrows() {
+            return Err(format!("a start of another size than {}", shapes.nrows()));
+        }
+        let plane = |from: usize| shapes * values.rows(from, size);
+        let (x, y) = (plane(0), plane(size));
+        for (kind, word) in ["displacement", "slope"].into_iter().enumerate() {
+            let allowed = 1e-6 * largest(wanted.iter().skip(kind).step_by(2));
+            for (k, wanted) in wanted.iter().enumerate().skip(kind).step_by(2) {
+                let name = format!("{name} at the start, {word}");
+                let pair = (C64::new(x[k], y[k]), complex(wanted));
+                add(&mut worst, &name, units[kind], pair, allowed, why);
+            }
+        }
+    }
+    let currents = list(&value["start"], "control_current_A");
+    let allowed = 1e-6 * largest(currents.iter());
+    for (pair, wanted) in ours.currents.chunks(2).zip(currents) {
+        let pair = (C64::new(pair[0], pair[1]), complex(wanted));
+        add(&mut worst, "current at the start", "A", pair, allowed, why);
+    }
+    let mut rows = worst.into_rows();
+    let why = "the drop of a bent rotor onto its bearings is not modelled yet";
+    rows.push(Row::not_run(why).of("quantities of the drop", ""));
+    Ok(rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::report::Verdict;
+    use super::*;
+
+    fn reference(name: &str) -> Option<(Value, std::path::PathBuf)> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/cases/reference");
+        let path = folder.join(format!("{name}.json"));
+        let Ok(text) = std::fs::read_to_string(&path) else {
+            println!("DID NOT RUN: the reference files are not beside this repository");
+            return None;
+        };
+        Some((serde_json::from_str(&text).unwrap(), path))
+    }
+    fn failed(rows: &[Row]) -> Vec<&str> {
+        let failed = rows.iter().filter(|row| row.verdict == Verdict::Fail);
+        failed.map(|row| row.quantity.as_str()).collect()
+    }
+
+    #[test]
+    fn the_levitated_rotor_passes_and_a_changed_gain_does_not() {
+        let Some((mut file, path)) = reference("machine_levitated") else {
+            return;
+        };
+        // one speed: the others are compared by `auxbear validate`
+        file["results"].as_array_mut().unwrap().drain(..2);
+        let found = rows(&file, &path).unwrap();
+        assert_eq!(failed(&found), Vec::<&str>::new());
+        assert!(found.len() > 30, "{}", found.len());
+        file["magnets"][0]["ks"] = 1.6001e5.into();
+        file.as_object_mut().unwrap().remove("impulse_response");
+        let failed_now = rows(&file, &path).unwrap();
+        assert!(failed(&failed_now).len() > 10);
+    }
+
+    #[test]
+    fn the_start_of_a_drop_passes_and_what_is_wrong_with_a_file_is_told() {
+        let Some((mut file, path)) = reference("machine_drop_flexible") else {
+            return;
+        };
+        let found = rows(&file, &path).unwrap();
+        assert_eq!(failed(&found), Vec::<&str>::new());
+        file["magnets"][0]["sensor_node"] = 53.into();
+        let wrong = rows(&file, &path).unwrap();
+        assert!(wrong[0].damaged && wrong[0].why.contains("node 53, of 53 nodes"));
+        let lost = rows(&file, Path::new("/nowhere/case.json")).unwrap();
+        assert!(
+            lost[0]
+                .why
+                .contains("ross_amb_rotor_freefree.json is neither beside")
+        );
+    }
+}

@@ -1,0 +1,414 @@
+//! A bent rotor: its tables, what is refused, what an analysis finds, rotors of other programs.
+
+use auxbear::import::import;
+use auxbear::result::outcome::{Outcome, Value};
+use auxbear::run::{Options, run};
+use auxbear::scenario::{BuiltIn, Scenario, System};
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+
+/// Rotor 5.9.1 of Friswell, Penny, Garvey, Lees, Dynamics of Rotating Machines (2010), as the ROSS project has it.
+const ROTOR: &str = r#"format = "auxbear.scenario/1"
+system = "rotor"
+[rotor]
+speed = "4000 rpm"
+[analysis]
+speed_to = "9550 rpm"
+modes = 4
+[[rotor.material]]
+name = "book_steel"
+youngs_modulus = "211 GPa"
+shear_modulus = "81.2 GPa"
+density = "7810 kg/m^3"
+[[rotor.section]]
+length = "1.5 m"
+outer_diameter = "50 mm"
+material = "book_steel"
+elements = 6
+[[rotor.disk]]
+name = "one"
+at = "0.5 m"
+width = "70 mm"
+outer_diameter = "280 mm"
+inner_diameter = "50 mm"
+material = "book_steel"
+[[rotor.disk]]
+name = "two"
+at = "1 m"
+width = "70 mm"
+outer_diameter = "350 mm"
+inner_diameter = "50 mm"
+material = "book_steel"
+[[rotor.support]]
+at = "0 m"
+stiffness = "1 MN/m"
+[[rotor.support]]
+at = "1.5 m"
+stiffness = "1 MN/m"
+"#;
+
+fn parsed(text: &str, sets: &[&str]) -> Result<Scenario, String> {
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_string()).collect();
+    Scenario::parse(text, "rotor.toml", &sets, &BuiltIn).map_err(|problem| problem.to_string())
+}
+
+/// The message of a rotor with one text in the place of another.
+fn message(old: &str, new: &str) -> String {
+    assert!(ROTOR.contains(old), "{old}");
+    let text = ROTOR.replacen(old, new, 1);
+    let built = parsed(&text, &[]).and_then(|scenario| {
+        let built = auxbear::run::build(&scenario);
+        built.map(|_| ()).map_err(|problem| problem.to_string())
+    });
+    built.expect_err(new)
+}
+
+fn analysed(text: &str, sets: &[&str]) -> Outcome {
+    let scenario = parsed(text, sets).unwrap();
+    run(&scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap()
+}
+
+fn value(outcome: &Outcome, name: &str) -> Value {
+    let found = outcome.quantities.iter().find(|q| q.name == name);
+    found.unwrap_or_else(|| panic!("{name}")).value.clone()
+}
+
+fn number(outcome: &Outcome, name: &str) -> f64 {
+    match value(outcome, name) {
+        Value::Number(number) => number,
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+/// The book prints 85.39, 87.80, 251.78 and 294.71 rad/s; six digits are those of ROSS 2.3.0.
+#[test]
+fn frequencies_and_critical_speeds_are_those_of_the_book() {
+    let outcome = analysed(ROTOR, &[]);
+    let expected = [85.389467, 87.798, 251.78, 294.71];
+    for (number_of_mode, expected) in (1..).zip(expected) {
+        let ours = number(&outcome, &format!("mode_{number_of_mode}.frequency"));
+        assert!((ours / expected - 1.0).abs() < 5e-5, "{ours} {expected}");
+    }
+    let Value::List(criticals) = value(&outcome, "critical_speeds") else {
+        panic!("a list");
+    };
+    let expected = [
+        86.40781088510448,
+        86.90424992843776,
+        260.5174968682817,
+        288.61681386790144,
+    ];
+    for (ours, expected) in criticals.iter().zip(expected) {
+        assert!((ours / expected - 1.0).abs() < 1e-8, "{ours} {expected}");
+    }
+    assert_eq!(
+        value(&outcome, "mode_1.whirl"),
+        Value::Text("backward".to_string())
+    );
+    assert!((number(&outcome, "mass") / 107.1173374750693 - 1.0).abs() < 1e-12);
+    assert!(outcome.stop.complete());
+}
+
+#[test]
+fn an_override_reaches_a_part_by_name_or_number() {
+    let heavier = [
+        "rotor.disk.one.width=0.14 m",
+        "rotor.support.2.stiffness=2 MN/m",
+    ];
+    let System::Rotor(changed) = parsed(ROTOR, &heavier).unwrap().system else {
+        panic!("a rotor");
+    };
+    let System::Rotor(plain) = parsed(ROTOR, &[]).unwrap().system else {
+        panic!("a rotor");
+    };
+    let (one, other) = (&changed.model.rotor, &plain.model.rotor);
+    assert!((one.disks[0].mass / other.disks[0].mass - 2.0).abs() < 1e-12);
+    assert_eq!(one.supports[1].coefficients.at(0.0).stiffness[1][1], 2e6);
+    assert_eq!(one.supports[0], other.supports[0]);
+    let unknown = parsed(ROTOR, &["rotor.disk.three.mass=1 kg"]).unwrap_err();
+    assert!(
+        unknown.contains("AB0101") && unknown.contains("one, two"),
+        "{unknown}"
+    );
+}
+
+#[test]
+fn the_resolved_file_is_the_same_rotor() {
+    let scenario = parsed(ROTOR, &["rotor.disk.one.width=0.14 m"]).unwrap();
+    let again = parsed(&scenario.resolved.toml(), &[]).unwrap();
+    assert_eq!(scenario.system, again.system);
+}
+
+#[test]
+fn what_cannot_be_a_rotor_is_refused() {
+    const SUPPORT: &str = "[[rotor.support]]\nat = \"1.5 m\"\nstiffness = \"1 MN/m\"\n";
+    const OVER: &str = "[[rotor.section]]\nname = \"collar\"\nfrom = \"0.2 m\"\nlength = \"0.1 m\"\nouter_diameter = \"80 mm\"\nmaterial = \"steel\"\n";
+    for (old, new, wanted) in [
+        ("at = \"1 m\"", "at = \"wheel\"", "AB2000"),
+        ("at = \"1 m\"", "at = \"1.6 m\"", "beside the shaft"),
+        ("elements = 6\n", &format!("elements = 6\n{OVER}"), "AB2001"),
+        ("elements = 6", "elements = 900", "at most 500"),
+        ("elements = 6", "inner_diameter = \"60 mm\"", "AB2001"),
+        (
+            "material = \"book_steel\"\nelements",
+            "elements",
+            "rotor.section.1.material: found no value",
+        ),
+        (
+            "material = \"book_steel\"\nelements",
+            "material = \"stel\"\nelements",
+            "Did you mean \"steel\"?",
+        ),
+        (
+            "outer_diameter = \"50 mm\"",
+            "outer_diameter = \"-50 mm\"",
+            "AB0106",
+        ),
+        (
+            "outer_diameter = \"50 mm\"",
+            "outer_diameter = 50",
+            "AB0103",
+        ),
+        ("modes = 4", "modes = 60", "AB2003"),
+        (SUPPORT, "", "AB2004"),
+        ("width = \"70 mm\"\n", "", "a disk without width"),
+        ("name = \"two\"", "name = \"one\"", "AB0109"),
+        (
+            "length = \"1.5 m\"",
+            "lenght = \"1.5 m\"",
+            "Did you mean \"length\"?",
+        ),
+        (
+            SUPPORT,
+            &SUPPORT.replace("stiffness", "on = \"floor\"\nstiffness"),
+            "the file has none",
+        ),
+        (
+            SUPPORT,
+            &SUPPORT.replace("\"1 MN/m\"", "[\"1 MN/m\", \"2 MN/m\"]"),
+            "or speeds as well",
+        ),
+        (
+            SUPPORT,
+            &SUPPORT.replace("stiffness", "speeds = [\"9 rpm\", \"5 rpm\"]\nstiffness"),
+            "AB0114",
+        ),
+        (
+            "[[rotor.disk]]\nname = \"one\"",
+            "[rotor.mass]\nname = \"one\"",
+            "tables [[rotor.mass]] are needed",
+        ),
+    ] {
+        let told = message(old, new);
+        assert!(told.contains(wanted), "{new}: {told}");
+    }
+    let of_drop = ROTOR.replace("system = \"rotor\"", "system = \"drop\"");
+    let told = parsed(&of_drop, &[]).unwrap_err();
+    assert!(told.contains("AB0110"), "{told}");
+    let unbalanced = ROTOR.split("[[rotor.support]]").next().unwrap();
+    let unbalanced =
+        format!("{unbalanced}[[rotor.unbalance]]\nat = \"1 m\"\namount = \"1 g mm\"\n");
+    let scenario = parsed(&unbalanced, &[]).unwrap();
+    let told = auxbear::run::build(&scenario)
+        .map(|_| ())
+        .unwrap_err()
+        .to_string();
+    assert!(
+        told.contains("AB2004") && told.contains("unbalance"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_free_rotor_has_modes_and_says_what_it_has_not() {
+    let free = ROTOR.split("[[rotor.support]]").next().unwrap();
+    let outcome = analysed(free, &[]);
+    assert!(
+        outcome
+            .warnings
+            .iter()
+            .any(|warning| warning.code == "AB2023")
+    );
+    assert!(matches!(value(&outcome, "largest_sag"), Value::None { .. }));
+    assert!(number(&outcome, "mode_1.frequency") > 0.0);
+}
+
+#[test]
+fn a_margin_gives_each_critical_speed_its_verdict() {
+    let sets = ["analysis.separation_margin=0.2", "rotor.speed=2700 rpm"];
+    let outcome = analysed(ROTOR, &sets);
+    // 282.7 rad/s: the forward ones at 86.9 and 288.6 rad/s are far and near, backward ones are not excited
+    assert_eq!(
+        value(&outcome, "separation_verdict"),
+        Value::Text("fail".to_string())
+    );
+    let verdicts: Vec<Value> = (1..=4)
+        .map(|k| value(&outcome, &format!("critical_{k}.verdict")))
+        .collect();
+    let words = ["no excitation", "pass", "no excitation", "fail"];
+    assert_eq!(verdicts, words.map(|word| Value::Text(word.to_string())));
+    let separation = number(&outcome, "critical_4.separation");
+    let speed = 2700.0 * std::f64::consts::PI / 30.0;
+    assert!((separation - (288.61681386790144 / speed - 1.0)).abs() < 1e-8);
+}
+
+fn file(name: &str, text: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("auxbear-import-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join(name);
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+/// A rotor in the form in which ROSS 2 saves it.
+fn saved(version: &str) -> String {
+    let shaft = |n: usize| {
+        format!(
+            "\"ShaftElement_Shaft Element {n}\": {{\"L\": 0.25, \"idl\": 0.0, \"odl\": 0.05, \"idr\": 0.0, \"odr\": 0.05, \
+             \"material\": {{\"name\": \"Steel\", \"rho\": 7810.0, \"E\": 211e9, \"G_s\": 81.2e9, \"color\": \"#525252\"}}, \
+             \"n\": {n}, \"axial_force\": {n}, \"torque\": 0, \"shear_effects\": true, \"rotary_inertia\": true, \
+             \"gyroscopic\": true, \"tag\": \"Shaft Element {n}\", \"alpha\": 0.0, \"beta\": 0.0}}"
+        )
+    };
+    format!(
+        "{{{version} \"parameters\": {{\"min_w\": null, \"max_w\": null, \"rated_w\": 300.0}}, {}, {}, \
+         \"DiskElement_Disk 0\": {{\"n\": 1, \"m\": 32.6, \"Id\": 0.178, \"Ip\": 0.33, \"tag\": \"Disk 0\"}}, \
+         \"BearingElement_de\": {{\"n\": 0, \"n_link\": 3, \"kxx\": [1e6], \"kyy\": [0.8e6], \"kxy\": [0.0], \"kyx\": [0.0], \
+         \"cxx\": [100.0], \"cyy\": [100.0], \"cxy\": [0.0], \"cyx\": [0.0], \"mxx\": [0.0], \"myy\": [0.0], \"kzz\": [5.0], \
+         \"frequency\": null}}, \
+         \"BearingElement_floor\": {{\"n\": 3, \"n_link\": null, \"kxx\": 2e6, \"kyy\": 2e6, \"cxx\": 800.0, \"cyy\": 800.0}}, \
+         \"SealElement_seal\": {{\"n\": 2, \"kxx\": [1e5, 2e5], \"kyy\": [1e5, 2e5], \"kxy\": [1e4, 1e4], \"kyx\": [-1e4, -1e4], \
+         \"cxx\": [50.0, 60.0], \"cyy\": [50.0, 60.0], \"frequency\": [0.0, 400.0]}}, \
+         \"PointMass_pedestal\": {{\"n\": 3, \"m\": 5.0, \"mx\": 5.0, \"my\": 5.0}}, \
+         \"CouplingElement_c\": {{\"n\": 0}}}}",
+        shaft(0),
+        shaft(1)
+    )
+}
+
+#[test]
+fn a_rotor_saved_by_ross_is_written_without_loss() {
+    let path = file("saved.json", &saved("\"ross_version\": \"2.3.0\","));
+    let imported = import(&path).unwrap();
+    assert!(imported.kind.contains("ROSS 2.3.0"));
+    for words in ["axial_force", "kzz", "CouplingElement c", "over frequency"] {
+        assert!(
+            imported.notes.iter().any(|note| note.contains(words)),
+            "{words}: {:?}",
+            imported.notes
+        );
+    }
+    assert_eq!(imported.eigenvalues.len(), 2);
+    for compared in &imported.eigenvalues {
+        assert!(
+            compared.before.len() == 8 && compared.deviation() < 1e-12,
+            "{}",
+            compared.deviation()
+        );
+    }
+    let System::Rotor(rotor) = parsed(&imported.toml, &[]).unwrap().system else {
+        panic!("a rotor");
+    };
+    let model = &rotor.model.rotor;
+    assert_eq!((model.housings.len(), model.supports.len()), (1, 3));
+    let seal = model.supports.iter().find(|support| support.seal).unwrap();
+    assert_eq!(
+        seal.coefficients.at(200.0).stiffness,
+        [[1.5e5, 1e4], [-1e4, 1.5e5]]
+    );
+    assert_eq!(rotor.speed, 300.0);
+}
+
+#[test]
+fn a_rotor_of_an_unknown_version_is_refused() {
+    for (version, wanted) in [
+        ("\"ross_version\": \"3.0.0\",", "ROSS version 3.0.0"),
+        ("\"ross_version\": \"1.6.1\",", "ROSS version 1.6.1"),
+    ] {
+        let path = file("version.json", &saved(version));
+        let told = import(&path).map(|_| ()).unwrap_err().to_string();
+        assert!(told.contains("AB2005") && told.contains(wanted), "{told}");
+    }
+    // without a version it is that of 2.0 where bearings have axial coefficients, else unknown
+    assert!(import(&file("two.json", &saved(""))).is_ok());
+    let older = saved("").replace("\"kzz\": [5.0], ", "");
+    let told = import(&file("older.json", &older))
+        .map(|_| ())
+        .unwrap_err()
+        .to_string();
+    assert!(
+        told.contains("AB2005") && told.contains("unknown version"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_table_of_sections_becomes_a_shaft() {
+    const TABLE: &str = "length [mm];outer diameter [mm];inner diameter [mm];material;disk mass [kg];note\n\
+                         100;40;0;steel;;end\n250;60;12;steel;4.5;\n100;40;;titanium;;\n";
+    let imported = import(&file("shaft.csv", TABLE)).unwrap();
+    let System::Rotor(rotor) = parsed(&imported.toml, &[]).unwrap().system else {
+        panic!("a rotor");
+    };
+    let body = rotor::properties(&rotor.model.rotor);
+    let quarter = std::f64::consts::FRAC_PI_4;
+    let expected = quarter
+        * (7850.0 * (0.1 * 0.04_f64.powi(2) + 0.25 * (0.06_f64.powi(2) - 0.012_f64.powi(2)))
+            + 4430.0 * 0.1 * 0.04_f64.powi(2))
+        + 4.5;
+    assert!((body.mass / expected - 1.0).abs() < 1e-12);
+    assert_eq!(
+        rotor.model.rotor.nodes[rotor.model.rotor.disks[0].node],
+        0.1
+    );
+    assert!(imported.notes.iter().any(|note| note.contains("\"note\"")));
+    for (old, new, wanted) in [
+        (
+            "length [mm]",
+            "length",
+            "the column \"length\" without a unit",
+        ),
+        (
+            "length [mm]",
+            "length [kg]",
+            "unit is none of its dimension",
+        ),
+        ("length [mm]", "len [mm]", "a header without length"),
+        ("100;40;0;steel", "100;-40;0;steel", "AB2006"),
+        ("titanium", "wood", "a row without material"),
+    ] {
+        let told = import(&file("wrong.csv", &TABLE.replacen(old, new, 1)))
+            .map(|_| ())
+            .unwrap_err();
+        let told = told.to_string();
+        assert!(
+            told.contains("AB2006") && told.contains(wanted),
+            "{new}: {told}"
+        );
+    }
+}
+
+#[test]
+fn the_reference_rotors_are_imported_with_their_eigenvalues() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/cases/rotor");
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        println!("NOT RUN: {folder} is absent");
+        return;
+    };
+    let mut seen = 0;
+    for path in entries.map(|entry| entry.unwrap().path()) {
+        let Ok(imported) = import(&path) else {
+            continue;
+        };
+        for compared in &imported.eigenvalues {
+            assert!(
+                compared.stated && compared.deviation() < 1e-6,
+                "{}: {}",
+                path.display(),
+                compared.deviation()
+            );
+        }
+        seen += 1;
+    }
+    assert_eq!(seen, 8);
+}

@@ -1,0 +1,152 @@
+//! What a levitation must fulfil before it is built.
+
+use crate::parts::{Actuator, Amplifier, Axis, Control, Refused, Sensor, Timing};
+use physics::magnet::Magnet;
+use std::f64::consts::FRAC_PI_2;
+
+/// Refuses what cannot be.
+pub(crate) fn all(
+    nodes: usize,
+    sensors: &[Sensor],
+    control: &Control,
+    timing: Timing,
+    actuators: &[Actuator],
+) -> Result<(), Refused> {
+    let axes = sensors.iter().map(|sensor| &sensor.axis);
+    for axis in axes.chain(actuators.iter().map(|actuator| &actuator.axis)) {
+        if axis.node >= nodes {
+            return Err(Refused::Node {
+                axis: axis.name.clone(),
+                node: axis.node,
+                nodes,
+            });
+        }
+    }
+    let needed = (sensors.len(), actuators.len());
+    let found = match control {
+        Control::Channels(filters)
+            if filters.iter().all(|f| (f.inputs(), f.outputs()) == (1, 1)) =>
+        {
+            (filters.len(), filters.len())
+        }
+        Control::Channels(filters) => (
+            filters.iter().map(crate::StateSpace::inputs).sum(),
+            filters.iter().map(crate::StateSpace::outputs).sum(),
+        ),
+        Control::Matrix(filter) => (filter.inputs(), filter.outputs()),
+    };
+    if found != needed {
+        return Err(Refused::ControllerSize { found, needed });
+    }
+    times(timing)?;
+    for sensor in sensors {
+        if let Some(corner) = sensor.corner {
+            positive(&sensor.axis, "corner of the sensor, rad/s", corner)?;
+        }
+    }
+    actuators.iter().try_for_each(magnet)
+}
+
+fn times(timing: Timing) -> Result<(), Refused> {
+    let refused = |what, value, allowed| {
+        Err(Refused::Time {
+            what,
+            value,
+            allowed,
+        })
+    };
+    match timing {
+        Timing::Continuous { delay } if !(delay >= 0.0 && delay.is_finite()) => {
+            refused("delay", delay, "0 or more")
+        }
+        Timing::Sampled { period, .. } if !(period > 0.0 && period.is_finite()) => {
+            refused("sampling period", period, "above 0")
+        }
+        Timing::Sampled {
+            period,
+            computation,
+        } if !(0.0..=period).contains(&computation) => refused(
+            "time to compute",
+            computation,
+            "from 0 to the sampling period",
+        ),
+        _ => Ok(()),
+    }
+}
+
+fn magnet(actuator: &Actuator) -> Result<(), Refused> {
+    let axis = &actuator.axis;
+    match actuator.magnet {
+        Magnet::Linear {
+            current_stiffness,
+            position_stiffness,
+        } => {
+            positive(axis, "force over current, N/A", current_stiffness)?;
+            positive(axis, "force over displacement, N/m", position_stiffness)?;
+        }
+        Magnet::Pair(pair) => {
+            positive(axis, "force constant, N m²/A²", pair.force_constant)?;
+            positive(axis, "bias current, A", pair.bias_current)?;
+            positive(axis, "gap, m", pair.gap)?;
+            if pair.bias_current > pair.largest_current {
+                return Err(Refused::Bias {
+                    axis: axis.name.clone(),
+                    bias: pair.bias_current,
+                    largest: pair.largest_current,
+                });
+            }
+        }
+    }
+    match actuator.amplifier {
+        Amplifier::Direct => Ok(()),
+        Amplifier::Current { bandwidth } => {
+            positive(axis, "bandwidth of the amplifier, rad/s", bandwidth)
+        }
+        Amplifier::Voltage {
+            inductance,
+            resistance,
+            gain,
+            largest_voltage,
+        } => {
+            positive(axis, "inductance, H", inductance)?;
+            positive(axis, "resistance, Ω", resistance)?;
+            positive(axis, "gain of the amplifier, V/A", gain.unwrap_or(1.0))?;
+            // without a limit it is infinite
+            let limit = largest_voltage.min(f64::MAX);
+            positive(axis, "largest voltage, V", limit)
+        }
+    }
+}
+
+fn positive(axis: &Axis, what: &'static str, value: f64) -> Result<(), Refused> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(Refused::NotPositive {
+        axis: axis.name.clone(),
+        what,
+        value,
+    })
+}
+
+/// Whether sensors and magnets come in pairs at right angles that differ in nothing else, each sensor along its magnet.
+pub(crate) fn pairs_alike(sensors: &[Sensor], actuators: &[Actuator]) -> bool {
+    let square =
+        |a: &Axis, b: &Axis| a.node == b.node && (b.angle - a.angle - FRAC_PI_2).abs() < 1e-12;
+    let along = |(sensor, actuator): (&Sensor, &Actuator)| {
+        (sensor.axis.angle - actuator.axis.angle).abs() < 1e-12
+    };
+    sensors.len() == actuators.len()
+        && sensors.iter().zip(actuators).all(along)
+        && sensors.chunks(2).all(|pair| {
+            pair.len() == 2
+                && square(&pair[0].axis, &pair[1].axis)
+                && pair[0].corner == pair[1].corner
+        })
+        && actuators.chunks(2).all(|pair| {
+            pair.len() == 2
+                && square(&pair[0].axis, &pair[1].axis)
+                && pair[0].magnet == pair[1].magnet
+                && pair[0].amplifier == pair[1].amplifier
+        })
+}

@@ -1,0 +1,281 @@
+//! Force of a radial magnet: linear, or an opposed pair with bias, gap and limited currents.
+//!
+//! ```text
+//!     ┌───┐ i₀ - i                 f > 0 pulls towards +x, where the gap g₀ - x closes
+//!     │   │──gap g₀ + x──┐
+//!     └───┘            ( rotor )──gap g₀ - x──┌───┐       the nearer magnet pulls harder: without control
+//!                                             │   │       current f has the sign of x and pushes the rotor
+//!                                     i₀ + i  └───┘       away from the centre, k_s > 0
+//! ```
+//! Power to the rotor is f·v, v the velocity of its axis against the magnet; a magnet is a source of either sign.
+//! Without current changes the force has the potential -½k_s x² (linear), -k[(i₀+i)²/(g₀-x) + (i₀-i)²/(g₀+x)] (pair).
+
+use number::Real;
+
+/// The force law of one axis of a magnet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Magnet<R> {
+    /// f = k_i i + k_s x.
+    Linear {
+        /// Force over current k_i, N/A.
+        current_stiffness: R,
+        /// Force over displacement k_s, N/m; positive pushes away.
+        position_stiffness: R,
+    },
+    /// Two magnets that pull against each other.
+    Pair(OpposedPair<R>),
+}
+
+/// Two magnets that pull against each other about a bias current.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OpposedPair<R> {
+    /// Force constant k of one magnet, N m²/A².
+    pub force_constant: R,
+    /// Bias current i₀ of both, A.
+    pub bias_current: R,
+    /// Gap g₀ of both with the rotor in the centre, m.
+    pub gap: R,
+    /// Largest current of a coil, A.
+    pub largest_current: R,
+}
+
+/// Force constant of a magnet from its shape, N m²/A².
+///
+/// Formula: k = μ₀N²A cos α/4
+///
+/// - `turns` N of one magnet, both poles together; `pole_area` A of one pole, m²; `half_pole_angle` α, rad
+///
+/// Source: G. Schweitzer, E. Maslen, Magnetic Bearings, 2009, chapter 4 (from memory).
+/// Valid: no saturation, no stray flux, iron of infinite permeability.
+pub fn force_constant(turns: f64, pole_area: f64, half_pole_angle: f64) -> f64 {
+    const MU_0: f64 = 4.0e-7 * std::f64::consts::PI;
+    MU_0 * turns * turns * pole_area * half_pole_angle.cos() / 4.0
+}
+
+impl<R: Real> OpposedPair<R> {
+    /// The pair that has given stiffnesses about its centre: i₀ = g₀k_s/k_i, k = k_i g₀²/(4i₀).
+    ///
+    /// - `current_stiffness` k_i, N/A; `position_stiffness` k_s, N/m; `gap` g₀, m; `largest_current`, A
+    ///
+    /// Source: the two stiffnesses of the pair, solved for bias and constant.
+    /// Valid: k_i, k_s and g₀ above zero.
+    pub fn of_stiffness(
+        current_stiffness: R,
+        position_stiffness: R,
+        gap: R,
+        largest_current: R,
+    ) -> Self {
+        let bias_current = gap * position_stiffness / current_stiffness;
+        Self {
+            force_constant: current_stiffness * gap.square() / (R::splat(4.0) * bias_current),
+            bias_current,
+            gap,
+            largest_current,
+        }
+    }
+
+    /// Currents of both coils, A: between nothing and the largest; `bias_share` of the bias is there.
+    #[inline(always)]
+    fn coils(&self, current: R, bias_share: R) -> (R, R) {
+        let bias = self.bias_current * bias_share;
+        let clip = |coil: R| coil.max(R::zero()).min(self.largest_current);
+        (clip(bias + current), clip(bias - current))
+    }
+}
+
+impl<R: Real> Magnet<R> {
+    /// Force over current at the centre, N/A.
+    ///
+    /// Formula: k_i, or 4k i₀/g₀²
+    ///
+    /// Source: derivative of the law at i = 0, x = 0.
+    /// Valid: bias below the largest current.
+    pub fn current_stiffness(&self) -> R {
+        match *self {
+            Self::Linear {
+                current_stiffness, ..
+            } => current_stiffness,
+            Self::Pair(pair) => {
+                R::splat(4.0) * pair.force_constant * pair.bias_current / pair.gap.square()
+            }
+        }
+    }
+
+    /// Force over displacement at the centre, N/m; positive pushes away.
+    ///
+    /// Formula: k_s, or 4k i₀²/g₀³, so that k_s/k_i = i₀/g₀
+    ///
+    /// Source: derivative of the law at i = 0, x = 0.
+    /// Valid: bias below the largest current.
+    pub fn position_stiffness(&self) -> R {
+        match *self {
+            Self::Linear {
+                position_stiffness, ..
+            } => position_stiffness,
+            Self::Pair(pair) => self.current_stiffness() * pair.bias_current / pair.gap,
+        }
+    }
+
+    /// Force on the rotor along the axis, N.
+    ///
+    /// Formula: k_i e i + k_s e² x, or k[(e i₀ + i)²/(g₀ - x)² - (e i₀ - i)²/(g₀ + x)²], coil currents within [0, i_max]
+    ///
+    /// - `current` i, A; `displacement` x of the rotor's axis from the magnet's, m
+    /// - `bias_share` e of the bias that is there: 1 while on, decaying to 0 after a loss of power
+    ///
+    /// Source: reluctance force of two magnets (G. Schweitzer, E. Maslen, Magnetic Bearings, 2009, from memory).
+    /// Valid: |x| < g₀; no saturation of iron, no eddy currents, no hysteresis.
+    #[inline(always)]
+    pub fn force(&self, current: R, displacement: R, bias_share: R) -> R {
+        match *self {
+            Self::Linear {
+                current_stiffness,
+                position_stiffness,
+            } => {
+                bias_share
+                    * (current_stiffness * current + position_stiffness * bias_share * displacement)
+            }
+            Self::Pair(pair) => {
+                let (near, far) = pair.coils(current, bias_share);
+                let (near_gap, far_gap) = (pair.gap - displacement, pair.gap + displacement);
+                pair.force_constant * ((near / near_gap).square() - (far / far_gap).square())
+            }
+        }
+    }
+
+    /// Slopes of the force with full bias: over current, N/A, and over displacement, N/m.
+    ///
+    /// Formula: derivatives of [`Magnet::force`]; a coil at a limit adds nothing to the first
+    ///
+    /// - `current` i, A; `displacement` x, m
+    ///
+    /// Source: derivative of the law.
+    /// Valid: as the force.
+    pub fn slopes(&self, current: R, displacement: R) -> (R, R) {
+        let Self::Pair(pair) = *self else {
+            return (self.current_stiffness(), self.position_stiffness());
+        };
+        let free = |coil: R| {
+            let inside = coil.greater(R::zero()) & coil.less(pair.largest_current);
+            R::select(inside, coil, R::zero())
+        };
+        let (near, far) = pair.coils(current, R::one());
+        let (near_gap, far_gap) = (pair.gap - displacement, pair.gap + displacement);
+        let twice = R::splat(2.0) * pair.force_constant;
+        (
+            twice * (free(near) / near_gap.square() + free(far) / far_gap.square()),
+            twice * ((near / near_gap).square() / near_gap + (far / far_gap).square() / far_gap),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use number::Dual;
+
+    const PAIR: OpposedPair<f64> = OpposedPair {
+        force_constant: 1.2e-5,
+        bias_current: 2.0,
+        gap: 0.4e-3,
+        largest_current: 4.0,
+    };
+
+    fn same(a: f64, b: f64, share: f64) -> bool {
+        (a - b).abs() <= share * b.abs()
+    }
+
+    #[test]
+    fn stiffnesses_are_the_slopes_at_the_centre_and_their_ratio_is_bias_over_gap() {
+        let magnet = Magnet::Pair(PAIR);
+        let (over_current, over_displacement) = magnet.slopes(0.0, 0.0);
+        assert!(same(over_current, 4.0 * 1.2e-5 * 2.0 / 0.16e-6, 1e-14));
+        assert!(same(over_current, magnet.current_stiffness(), 1e-14));
+        assert!(same(over_displacement, magnet.position_stiffness(), 1e-14));
+        assert!(same(over_displacement / over_current, 2.0 / 0.4e-3, 1e-14));
+        let again = OpposedPair::of_stiffness(over_current, over_displacement, 0.4e-3, 4.0);
+        assert!(same(again.force_constant, PAIR.force_constant, 1e-14));
+        assert!(same(again.bias_current, PAIR.bias_current, 1e-14));
+    }
+
+    #[test]
+    fn slopes_equal_forward_derivatives_also_where_a_coil_is_at_a_limit() {
+        let lift = |value: f64| Dual::<2>::splat(value);
+        let magnet = Magnet::Pair(OpposedPair {
+            force_constant: lift(PAIR.force_constant),
+            bias_current: lift(PAIR.bias_current),
+            gap: lift(PAIR.gap),
+            largest_current: lift(PAIR.largest_current),
+        });
+        for (current, displacement) in [(0.3, 5e-5), (-1.1, 2e-4), (2.5, -1e-4), (-2.2, 0.0)] {
+            let force = magnet.force(
+                Dual::variable(current, 0),
+                Dual::variable(displacement, 1),
+                lift(1.0),
+            );
+            let (over_current, over_displacement) =
+                Magnet::Pair(PAIR).slopes(current, displacement);
+            assert!(same(over_current, force.partial[0], 1e-13), "{current}");
+            assert!(
+                same(over_displacement, force.partial[1], 1e-13),
+                "{current}"
+            );
+        }
+    }
+
+    #[test]
+    fn both_laws_push_away_and_the_pair_is_odd_and_linear_near_its_centre() {
+        let pair = Magnet::Pair(PAIR);
+        let linear = Magnet::Linear {
+            current_stiffness: pair.current_stiffness(),
+            position_stiffness: pair.position_stiffness(),
+        };
+        for magnet in [pair, linear] {
+            assert!(magnet.force(0.0, 1e-5, 1.0) > 0.0 && magnet.force(0.0, -1e-5, 1.0) < 0.0);
+            assert!(magnet.force(0.1, 0.0, 1.0) > 0.0);
+        }
+        let (i, x) = (1.1, 1.3e-4);
+        assert!(same(pair.force(-i, -x, 1.0), -pair.force(i, x, 1.0), 1e-15));
+        let (i, x) = (1e-4, 1e-8);
+        // relative terms of third order: (x/g₀)² of 1e-9
+        assert!(same(pair.force(i, x, 1.0), linear.force(i, x, 1.0), 1e-8));
+    }
+
+    #[test]
+    fn a_constant_current_does_no_work_around_a_closed_path() {
+        // f·v integrated over x = 2e-4 sin s is zero: what the magnet gives outwards it takes back
+        let magnet = Magnet::Pair(PAIR);
+        let steps = 4000;
+        let mut work = 0.0;
+        let mut outward = 0.0;
+        for step in 0..steps {
+            let s = std::f64::consts::TAU * (f64::from(step) + 0.5) / f64::from(steps);
+            let power = magnet.force(0.4, 2e-4 * s.sin(), 1.0) * 2e-4 * s.cos();
+            work += power;
+            outward += power.abs();
+        }
+        assert!(work.abs() < 1e-12 * outward);
+    }
+
+    #[test]
+    fn without_bias_nothing_of_the_displacement_stays() {
+        let linear = Magnet::Linear {
+            current_stiffness: 40.0,
+            position_stiffness: 1.6e5,
+        };
+        assert_eq!(linear.force(0.0, 1e-4, 0.0), 0.0);
+        assert_eq!(Magnet::Pair(PAIR).force(0.0, 1e-4, 0.0), 0.0);
+        assert!(same(linear.force(1.0, 1e-4, 0.5), 20.0 + 4.0, 1e-15));
+    }
+
+    #[test]
+    fn the_force_ends_at_the_largest_current() {
+        let magnet = Magnet::Pair(PAIR);
+        let most = PAIR.force_constant * (4.0 / PAIR.gap).powi(2);
+        assert!(same(magnet.force(2.0, 0.0, 1.0), most, 1e-14));
+        assert!(same(magnet.force(50.0, 0.0, 1.0), most, 1e-14));
+        // 100 turns, 1 cm², 22.5 degrees
+        let k = force_constant(100.0, 1e-4, 22.5_f64.to_radians());
+        assert!(same(k, 2.9025e-7, 1e-4));
+    }
+}

@@ -1,0 +1,342 @@
+//! Eigenvalues and shapes of a rotor at a speed, free or supported.
+//!
+//! λ of λ²M + λ(D_e + D_i - jΩG) + K - jΩD_i, supports and seals included, from the first-order form in the coordinates of a
+//! [`Basis`], scaled so that both halves have the size of a speed: undamped it is then skew, and round-off stays at a
+//! few 10⁻¹⁶ of the highest frequency. Where every support turns with the rotor the complex form is solved: Im λ > 0
+//! turns with the spin (forward), Im λ < 0 against it. Else the real form, whose shapes tell the sense.
+
+use crate::assembly::Carried;
+use crate::{Basis, C64, Dynamics, Matrices, Rotor, RotorError};
+use nalgebra::{ComplexField, DMatrix, DVector, Schur};
+
+/// Sense of whirl.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Whirl {
+    /// With the spin.
+    Forward,
+    /// Against the spin.
+    Backward,
+    /// Along a line, or at rest, where there is no sense.
+    Planar,
+}
+
+/// A mode at a speed: w(t) = f e^{λt} + conj(b) e^{conj(λ)t} at each node.
+#[derive(Debug, Clone)]
+pub struct Mode {
+    /// λ with Im λ not below zero, 1/s.
+    pub eigenvalue: C64,
+    /// Part f that turns with the spin, in the rotor's own coordinates; largest displacement 1 with the other part.
+    pub forward: DVector<C64>,
+    /// Part b that turns against the spin.
+    pub backward: DVector<C64>,
+    /// Sense of whirl.
+    pub whirl: Whirl,
+}
+
+impl Mode {
+    /// Damped frequency, rad/s.
+    #[must_use]
+    pub fn frequency(&self) -> f64 {
+        self.eigenvalue.im
+    }
+
+    /// Damping ratio, -Re λ/|λ|; negative where it grows.
+    #[must_use]
+    pub fn damping_ratio(&self) -> f64 {
+        -self.eigenvalue.re / self.eigenvalue.norm()
+    }
+}
+
+/// A rotor in coordinates that it is analysed in.
+#[derive(Debug, Clone)]
+pub struct Analysis {
+    /// The coordinates.
+    pub basis: Basis,
+    /// Matrices in those coordinates.
+    pub(crate) matrices: Matrices,
+    pub(crate) carried: Carried,
+    turns: bool,
+    nodes: usize,
+}
+
+/// Below this share of |λ| the imaginary part is no oscillation.
+const OSCILLATION: f64 = 0.01;
+/// Below this, rad/s, it is a rigid motion.
+const RIGID_BELOW: f64 = 0.01;
+/// Difference of the shares of both senses below which a whirl is planar.
+const PLANAR: f64 = 1e-3;
+
+impl Analysis {
+    /// A rotor in a basis.
+    #[must_use]
+    pub fn new(rotor: &Rotor, matrices: &Matrices, basis: Basis) -> Self {
+        let mut own = matrices.project(&basis.shapes);
+        own.mass = DMatrix::identity(basis.len(), basis.len());
+        let squares = basis.frequencies.iter().map(|omega| omega * omega);
+        own.stiffness = DMatrix::from_diagonal(&DVector::from_iterator(basis.len(), squares));
+        Self {
+            matrices: own,
+            carried: Carried::new(rotor).project(&basis.shapes),
+            turns: rotor.turns(),
+            nodes: rotor.nodes.len(),
+            basis,
+        }
+    }
+
+    /// A rotor in all its coordinates.
+    ///
+    /// # Errors
+    ///
+    /// Where the mass matrix is not positive.
+    pub fn full(rotor: &Rotor) -> Result<Self, RotorError> {
+        let matrices = Matrices::new(rotor);
+        let basis = Basis::full(rotor, &matrices)?;
+        Ok(Self::new(rotor, &matrices, basis))
+    }
+
+    /// Whether eigenvalues carry the sense of whirl in their sign.
+    #[must_use]
+    pub fn turns(&self) -> bool {
+        self.turns
+    }
+
+    /// The system at a speed (rad/s) over complex coordinates of the basis; `None` where a support treats x and y differently.
+    #[must_use]
+    pub fn complex_dynamics(&self, speed: f64) -> Option<Dynamics<C64>> {
+        let whole = || self.matrices.complex(&self.carried, speed);
+        self.turns.then(whole)
+    }
+
+    /// The system at a speed (rad/s) over real coordinates of the basis: the x-plane first, then the y-plane.
+    #[must_use]
+    pub fn real_dynamics(&self, speed: f64) -> Dynamics<f64> {
+        self.matrices.real(&self.carried, speed)
+    }
+
+    /// The system at a speed over complex numbers; in real coordinates where a support treats x and y differently.
+    pub(crate) fn dynamics(&self, speed: f64) -> Dynamics<C64> {
+        if self.turns {
+            return self.matrices.complex(&self.carried, speed);
+        }
+        let real = self.matrices.real(&self.carried, speed);
+        Dynamics {
+            mass: real.mass.map(C64::from),
+            damping: real.damping.map(C64::from),
+            stiffness: real.stiffness.map(C64::from),
+        }
+    }
+
+    /// All eigenvalues at a speed, 1/s; of conjugate pairs of the real form the one with Im λ ≥ 0.
+    ///
+    /// # Errors
+    ///
+    /// Where the eigen-solver does not converge or the mass matrix is singular.
+    pub fn eigenvalues(&self, speed: f64) -> Result<Vec<C64>, RotorError> {
+        if self.turns {
+            let state = state_matrix(&self.matrices.complex(&self.carried, speed))?;
+            let (_, triangle) = schur(state)?.unpack();
+            return Ok(triangle.diagonal().iter().copied().collect());
+        }
+        let state = state_matrix(&self.matrices.real(&self.carried, speed))?;
+        let all = schur(state)?.complex_eigenvalues();
+        Ok(all.iter().copied().filter(|z| z.im >= 0.0).collect())
+    }
+
+    /// Eigenvalues that oscillate, by rising frequency |Im λ|.
+    ///
+    /// # Errors
+    ///
+    /// As [`Analysis::eigenvalues`].
+    pub fn oscillations(&self, speed: f64) -> Result<Vec<C64>, RotorError> {
+        let mut all = self.eigenvalues(speed)?;
+        all.retain(|z| z.im.abs() > OSCILLATION * z.norm() && z.im.abs() > RIGID_BELOW);
+        all.sort_by(|a, b| a.im.abs().total_cmp(&b.im.abs()));
+        Ok(all)
+    }
+
+    /// The lowest `count` modes at a speed.
+    ///
+    /// # Errors
+    ///
+    /// As [`Analysis::eigenvalues`], and where there are fewer modes.
+    pub fn modes(&self, speed: f64, count: usize) -> Result<Vec<Mode>, RotorError> {
+        let all = self.oscillations(speed)?;
+        if all.len() < count {
+            return Err(RotorError::TooManyModes {
+                asked: count,
+                there: all.len(),
+            });
+        }
+        let dynamics = self.dynamics(speed);
+        let vectors = all[..count].iter().enumerate().map(|(k, eigenvalue)| {
+            let vector = dynamics.vector(*eigenvalue, &dynamics.start(k))?;
+            Ok(self.mode(*eigenvalue, &vector, speed))
+        });
+        vectors.collect()
+    }
+
+    /// The vector of an eigenvalue at a speed.
+    pub(crate) fn vector(
+        &self,
+        eigenvalue: C64,
+        speed: f64,
+        k: usize,
+    ) -> Result<DVector<C64>, RotorError> {
+        let dynamics = self.dynamics(speed);
+        dynamics.vector(eigenvalue, &dynamics.start(k))
+    }
+
+    /// A mode from its eigenvalue and vector in the coordinates of the analysis.
+    pub(crate) fn mode(&self, eigenvalue: C64, vector: &DVector<C64>, speed: f64) -> Mode {
+        let (mut forward, mut backward) = self.senses(vector, eigenvalue.im < 0.0);
+        let largest = (0..self.nodes)
+            .map(|node| forward[2 * node].norm() + backward[2 * node].norm())
+            .fold(0.0, f64::max);
+        if largest > 0.0 {
+            forward /= C64::from(largest);
+            backward /= C64::from(largest);
+        }
+        let power = |part: &DVector<C64>| -> f64 {
+            (0..self.nodes).map(|node| part[2 * node].norm_sqr()).sum()
+        };
+        let (with, against) = (power(&forward), power(&backward));
+        let whirl = if speed == 0.0 || (with - against).abs() < PLANAR * (with + against) {
+            Whirl::Planar
+        } else if (with > against) == (speed > 0.0) {
+            Whirl::Forward
+        } else {
+            Whirl::Backward
+        };
+        Mode {
+            eigenvalue: C64::new(eigenvalue.re, eigenvalue.im.abs()),
+            forward,
+            backward,
+            whirl,
+        }
+    }
+
+    /// Both senses of a vector of the analysis, in the rotor's own coordinates.
+    pub(crate) fn senses(
+        &self,
+        vector: &DVector<C64>,
+        against: bool,
+    ) -> (DVector<C64>, DVector<C64>) {
+        let shapes = &self.basis.shapes;
+        let lift = |part: DVector<C64>| {
+            DVector::from_fn(shapes.nrows(), |i, _| {
+                (0..part.len()).map(|k| part[k] * shapes[(i, k)]).sum()
+            })
+        };
+        if self.turns {
+            let zero = DVector::zeros(shapes.nrows());
+            return match against {
+                false => (lift(vector.clone()), zero),
+                true => (zero, lift(vector.map(|z| z.conj()))),
+            };
+        }
+        let size = self.basis.len();
+        let (x, y) = (vector.rows(0, size), vector.rows(size, size));
+        split(&lift(x.into_owned()), &lift(y.into_owned()))
+    }
+}
+
+/// Both senses of x = Re(X e^{jωt}), y = Re(Y e^{jωt}): f = (X + jY)/2, b = (X - jY)/2.
+pub(crate) fn split(x: &DVector<C64>, y: &DVector<C64>) -> (DVector<C64>, DVector<C64>) {
+    let j = C64::i();
+    (
+        x.zip_map(y, |x, y| (x + j * y) * 0.5),
+        x.zip_map(y, |x, y| (x - j * y) * 0.5),
+    )
+}
+
+impl Dynamics<C64> {
+    /// λ²M + λC + K.
+    fn at(&self, eigenvalue: C64) -> DMatrix<C64> {
+        let square = eigenvalue * eigenvalue;
+        let mut out = self.stiffness.clone();
+        for ((to, m), c) in out.iter_mut().zip(&self.mass).zip(&self.damping) {
+            *to += square * m + eigenvalue * c;
+        }
+        out
+    }
+
+    /// A start vector that no mode is orthogonal to by symmetry; another for another `k`.
+    fn start(&self, k: usize) -> DVector<C64> {
+        DVector::from_fn(self.mass.nrows(), |i, _| {
+            let phase = (i as f64 + 1.0) * (1.0 + 0.37 * k as f64);
+            C64::new(phase.cos(), (1.7 * phase).sin())
+        })
+    }
+
+    /// The vector of an eigenvalue by inverse iteration.
+    fn vector(&self, eigenvalue: C64, start: &DVector<C64>) -> Result<DVector<C64>, RotorError> {
+        // Beside the eigenvalue, so that the factor exists: far below the distance to any other.
+        let beside = eigenvalue * C64::new(1.0 + 1e-11, 1e-11) + 1e-11;
+        let factor = self.at(beside).lu();
+        let mut vector = start.clone();
+        for _ in 0..3 {
+            let image = self.slope(eigenvalue, &vector);
+            vector = factor.solve(&image).ok_or(RotorError::NotConverged)?;
+            let length = vector.norm();
+            vector /= C64::from(length);
+        }
+        Ok(vector)
+    }
+
+    /// (2λM + C)x.
+    fn slope(&self, eigenvalue: C64, vector: &DVector<C64>) -> DVector<C64> {
+        (&self.mass * vector) * (eigenvalue * 2.0) + &self.damping * vector
+    }
+
+    /// The eigenvalue and vector that Newton's iteration finds from those of a system nearby; `None` where it finds none.
+    pub(crate) fn follow(&self, from: C64, vector: &DVector<C64>) -> Option<(C64, DVector<C64>)> {
+        const STEPS: usize = 12;
+        let (mut value, mut vector) = (from, vector.clone());
+        for _ in 0..STEPS {
+            let image = self.slope(value, &vector);
+            let next = match self.at(value).lu().solve(&image) {
+                Some(next) if next.iter().all(|z| z.re.is_finite() && z.im.is_finite()) => next,
+                // The value is exact to the last digit: its factor does not exist.
+                _ => return Some((value, vector)),
+            };
+            let share = vector.dotc(&next);
+            let step = C64::from(1.0) / share;
+            vector = &next / C64::from(next.norm());
+            value -= step;
+            if step.norm() <= 1e-13 * value.norm() {
+                return Some((value, vector));
+            }
+        }
+        None
+    }
+}
+
+/// The first-order form: ż₁ = Wη̇, η̈ = -M⁻¹(K W⁻¹z₁ + Cη̇) with z₁ = Wη and W the frequencies of the single coordinates.
+fn state_matrix<T: ComplexField<RealField = f64>>(
+    dynamics: &Dynamics<T>,
+) -> Result<DMatrix<T>, RotorError> {
+    let size = dynamics.mass.nrows();
+    let factor = dynamics.mass.clone().lu();
+    let solve = |m: &DMatrix<T>| factor.solve(m).ok_or(RotorError::NoMass);
+    let (stiffness, damping) = (solve(&dynamics.stiffness)?, solve(&dynamics.damping)?);
+    let scale = |i: usize| stiffness[(i, i)].clone().modulus().sqrt().max(1.0);
+    let mut out = DMatrix::zeros(2 * size, 2 * size);
+    for i in 0..size {
+        out[(i, size + i)] = T::from_real(scale(i));
+        for j in 0..size {
+            out[(size + i, j)] = -stiffness[(i, j)].clone() / T::from_real(scale(j));
+            out[(size + i, size + j)] = -damping[(i, j)].clone();
+        }
+    }
+    Ok(out)
+}
+
+fn schur<T: ComplexField<RealField = f64>>(
+    state: DMatrix<T>,
+) -> Result<Schur<T, nalgebra::Dyn>, RotorError> {
+    if state.iter().any(|z| !z.clone().modulus().is_finite()) {
+        return Err(RotorError::NotConverged);
+    }
+    let most = 200 * state.nrows();
+    Schur::try_new(state, f64::EPSILON, most).ok_or(RotorError::NotConverged)
+}

@@ -1,0 +1,254 @@
+//! Response to unbalance, sag under weight, loads of supports.
+//!
+//! Unbalance: (K - jΩD_i - Ω²M + jΩ(D_e + D_i - jΩG)) Q = Σ u Ω² e^{jδ} at its nodes, w(t) = f e^{jφ} + conj(b) e^{-jφ} with φ
+//! the angle of the rotor; b = 0 where every support turns with the rotor.
+
+use crate::assembly::Carried;
+use crate::modes::split;
+use crate::{Analysis, C64, Matrices, Place, Rotor, RotorError, Unbalance};
+use nalgebra::{DMatrix, DVector};
+
+/// How a rotor whirls under its unbalance at one speed.
+#[derive(Debug, Clone)]
+pub struct Response {
+    /// The speed, rad/s.
+    pub speed: f64,
+    /// f of each coordinate, m and rad: turns with the spin.
+    pub forward: DVector<C64>,
+    /// b of each coordinate: turns against it.
+    pub backward: DVector<C64>,
+}
+
+impl Response {
+    /// Half the longer axis of the orbit at a coordinate, m.
+    #[must_use]
+    pub fn amplitude(&self, coordinate: usize) -> f64 {
+        self.forward[coordinate].norm() + self.backward[coordinate].norm()
+    }
+
+    /// X of x = Re(X e^{jφ}) and Y of y = Re(Y e^{jφ}).
+    #[must_use]
+    pub fn planes(&self, coordinate: usize) -> (C64, C64) {
+        let (f, b) = (self.forward[coordinate], self.backward[coordinate]);
+        (f + b, C64::i() * (b - f))
+    }
+
+    /// How far the x-displacement is behind the mark that phases count from, rad in 0..2π.
+    #[must_use]
+    pub fn lag(&self, coordinate: usize) -> f64 {
+        let (x, _) = self.planes(coordinate);
+        (-x.arg()).rem_euclid(std::f64::consts::TAU)
+    }
+}
+
+/// A rotor at hand for many speeds.
+#[derive(Debug, Clone)]
+pub struct Responder {
+    matrices: Matrices,
+    carried: Carried,
+    turns: bool,
+    /// The coordinates that it is solved in; the rotor's own without.
+    basis: Option<DMatrix<f64>>,
+}
+
+impl Responder {
+    /// Of a rotor in the coordinates of an analysis.
+    #[must_use]
+    pub fn within(rotor: &Rotor, analysis: &Analysis) -> Self {
+        Self {
+            matrices: analysis.matrices.clone(),
+            carried: analysis.carried.clone(),
+            turns: rotor.turns(),
+            basis: Some(analysis.basis.shapes.clone()),
+        }
+    }
+
+    /// Of a rotor.
+    #[must_use]
+    pub fn new(rotor: &Rotor) -> Self {
+        Self {
+            matrices: Matrices::new(rotor),
+            carried: Carried::new(rotor),
+            turns: rotor.turns(),
+            basis: None,
+        }
+    }
+
+    /// The response to unbalances at a speed, rad/s.
+    ///
+    /// # Errors
+    ///
+    /// Where the response has no bound: a critical speed without damping, or a free rotor at rest.
+    pub fn unbalance(&self, all: &[Unbalance], speed: f64) -> Result<Response, RotorError> {
+        let size = self.matrices.mass.nrows();
+        let mut force = DVector::<C64>::zeros(size);
+        for one in all {
+            let push = C64::from_polar(one.amount * speed * speed, one.phase);
+            match &self.basis {
+                None => force[2 * one.node] += push,
+                Some(basis) => {
+                    for (to, share) in force.iter_mut().zip(basis.row(2 * one.node).iter()) {
+                        *to += push * share;
+                    }
+                }
+            }
+        }
+        let (forward, backward) = if self.turns {
+            let system = self.matrices.complex(&self.carried, speed);
+            let solution = dynamic(&system.mass, &system.damping, &system.stiffness, speed)
+                .lu()
+                .solve(&force)
+                .ok_or(RotorError::NotHeld)?;
+            let zero = DVector::zeros(size);
+            (solution, zero)
+        } else {
+            let system = self.matrices.real(&self.carried, speed);
+            let [mass, damping, stiffness] =
+                [&system.mass, &system.damping, &system.stiffness].map(|m| m.map(C64::from));
+            let mut both = DVector::zeros(2 * size);
+            both.rows_mut(0, size).copy_from(&force);
+            both.rows_mut(size, size)
+                .copy_from(&force.map(|f| -C64::i() * f));
+            let solution = dynamic(&mass, &damping, &stiffness, speed)
+                .lu()
+                .solve(&both)
+                .ok_or(RotorError::NotHeld)?;
+            let part = |from: usize| solution.rows(from, size).into_owned();
+            split(&part(0), &part(size))
+        };
+        let lift = |part: DVector<C64>| match &self.basis {
+            None => part,
+            Some(basis) => DVector::from_fn(basis.nrows(), |i, _| {
+                (0..part.len()).map(|k| part[k] * basis[(i, k)]).sum()
+            }),
+        };
+        Ok(Response {
+            speed,
+            forward: lift(forward),
+            backward: lift(backward),
+        })
+    }
+}
+
+/// K - Ω²M + jΩC.
+fn dynamic(
+    mass: &DMatrix<C64>,
+    damping: &DMatrix<C64>,
+    stiffness: &DMatrix<C64>,
+    speed: f64,
+) -> DMatrix<C64> {
+    let mut out = stiffness.clone();
+    for ((to, m), c) in out.iter_mut().zip(mass).zip(damping) {
+        *to += C64::i() * speed * c - m * (speed * speed);
+    }
+    out
+}
+
+/// The rotor at rest under its weight.
+#[derive(Debug, Clone)]
+pub struct Sag {
+    /// x + jy of each coordinate, m and rad.
+    pub shape: DVector<C64>,
+    /// Force of each support on what it holds, x + jy, N; zero of seals.
+    pub loads: Vec<C64>,
+}
+
+/// Sag and loads under gravity (x + jy, m/s²) with the stiffness that the supports have at a speed, rad/s.
+///
+/// Seals do not count; the shaft does not turn.
+///
+/// # Errors
+///
+/// Where the supports leave a motion free.
+pub fn sag(rotor: &Rotor, speed: f64, gravity: C64) -> Result<Sag, RotorError> {
+    let size = rotor.size();
+    held(rotor, speed)?;
+    let matrices = Matrices::new(rotor);
+    let weight = {
+        let mut shift = DVector::zeros(size);
+        for node in 0..rotor.nodes.len() {
+            shift[2 * node] = 1.0;
+        }
+        for housing in 0..rotor.housings.len() {
+            shift[rotor.coordinate(Place::Housing(housing))] = 1.0;
+        }
+        &matrices.mass * shift
+    };
+    let mut standing = rotor.clone();
+    standing.supports.retain(|support| !support.seal);
+    let still = Matrices {
+        damping_rotating: DMatrix::zeros(size, size),
+        ..matrices
+    };
+    let stiffness = still.real(&Carried::new(&standing), speed).stiffness;
+    let mut force = DVector::zeros(2 * size);
+    force.rows_mut(0, size).copy_from(&(&weight * gravity.re));
+    force
+        .rows_mut(size, size)
+        .copy_from(&(&weight * gravity.im));
+    let solution = stiffness.lu().solve(&force).ok_or(RotorError::NotHeld)?;
+    let shape = DVector::from_fn(size, |i, _| C64::new(solution[i], solution[size + i]));
+    let loads = rotor.supports.iter().map(|support| {
+        if support.seal {
+            return C64::default();
+        }
+        let ground = support.on.map_or(C64::default(), |h| {
+            shape[rotor.coordinate(Place::Housing(h))]
+        });
+        let across = shape[rotor.coordinate(support.at)] - ground;
+        let k = support.coefficients.at(speed).stiffness;
+        -C64::new(
+            k[0][0] * across.re + k[0][1] * across.im,
+            k[1][0] * across.re + k[1][1] * across.im,
+        )
+    });
+    Ok(Sag {
+        loads: loads.collect(),
+        shape,
+    })
+}
+
+/// Refuses a rotor whose supports (without seals) leave a rigid motion of shaft or housings free at a speed, rad/s.
+///
+/// # Errors
+///
+/// [`RotorError::NotHeld`].
+pub fn held(rotor: &Rotor, speed: f64) -> Result<(), RotorError> {
+    let mut standing = rotor.clone();
+    standing.supports.retain(|support| !support.seal);
+    let size = rotor.size();
+    let (first, last) = match (rotor.nodes.first(), rotor.nodes.last()) {
+        (Some(first), Some(last)) => (*first, *last),
+        _ => return Err(RotorError::NotHeld),
+    };
+    let (middle, half) = (0.5 * (first + last), (0.5 * (last - first)).max(1e-3));
+    let motions = 2 + rotor.housings.len();
+    let mut basis = DMatrix::zeros(size, motions);
+    for (node, z) in rotor.nodes.iter().enumerate() {
+        basis[(2 * node, 0)] = 1.0;
+        basis[(2 * node, 1)] = (z - middle) / half;
+        basis[(2 * node + 1, 1)] = 1.0 / half;
+    }
+    for housing in 0..rotor.housings.len() {
+        basis[(rotor.coordinate(Place::Housing(housing)), 2 + housing)] = 1.0;
+    }
+    let carried = Carried::new(&standing).project(&basis);
+    let mut stiffness = DMatrix::zeros(2 * motions, 2 * motions);
+    for (row, support) in &carried.rows {
+        let k = support.coefficients.at(speed).stiffness;
+        let product = row.tr_mul(row);
+        for (i, line) in k.iter().enumerate() {
+            for (j, value) in line.iter().enumerate() {
+                let mut part = stiffness.view_mut((i * motions, j * motions), (motions, motions));
+                part += &product * *value;
+            }
+        }
+    }
+    let values = stiffness.singular_values();
+    let (smallest, largest) = (values.min(), values.max());
+    if largest > 0.0 && smallest > 1e-10 * largest {
+        Ok(())
+    } else {
+        Err(RotorError::NotHeld)
+    }
+}
