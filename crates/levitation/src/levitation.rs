@@ -362,7 +362,7 @@ impl Levitation {
                 .chunks(2)
                 .all(|pair| pair.len() == 2 && pair[0].filter.same_matrices(&pair[1].filter));
         equal.then(|| {
-            let even = |index: &usize| index % 2 == 0;
+            let even = |index: &usize| index.is_multiple_of(2);
             let pick = |count: usize| (0..count).filter(even);
             let sensors = pick(self.sensors.len()).map(|at| self.sensors[at].clone());
             let blocks = pick(self.blocks.len()).map(|at| self.blocks[at].clone());

@@ -20,6 +20,9 @@ pub struct Branch {
 
 type State = (C64, DVector<C64>);
 
+/// A branch on its way: its states so far, the last of them, and its slope over speed.
+type Runner = (Vec<Option<State>>, State, Option<C64>);
+
 /// Frequencies over speed.
 #[derive(Debug, Clone)]
 pub struct Campbell {
@@ -84,7 +87,7 @@ impl Analysis {
         let mut branches = Vec::new();
         let last = speeds.len().saturating_sub(1);
         for (start, step) in [(0, 1_isize), (last, -1)] {
-            let mut runners: Vec<(Vec<Option<State>>, State, Option<C64>)> = Vec::new();
+            let mut runners: Vec<Runner> = Vec::new();
             for (k, value) in all.get(start).into_iter().flatten().enumerate() {
                 if taken[start][k] || value.im.abs() > HEADROOM * limit {
                     continue;
@@ -133,7 +136,7 @@ impl Analysis {
         speed: f64,
         all: &[C64],
         taken: &mut [bool],
-        runners: &[(Vec<Option<State>>, State, Option<C64>)],
+        runners: &[Runner],
     ) -> Result<Vec<Option<State>>, RotorError> {
         let dynamics = self.dynamics(speed);
         let mut out: Vec<Option<State>> = vec![None; runners.len()];
