@@ -76,7 +76,7 @@ const OF_IDENTIFY: &[&str] = &[
 const OF_ROTOR: &[&str] = &[
     "mass",
     "mass_centre",
-    "free_bending_frequencies",
+    "first_bending_frequency",
     "first_critical_speed",
     "separation_verdict",
     "first_unstable_speed",

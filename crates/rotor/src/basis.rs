@@ -39,7 +39,7 @@ impl Basis {
         let factor = mass.clone().cholesky().ok_or(RotorError::NoMass)?.unpack();
         let solve = |m: &DMatrix<f64>| factor.solve_lower_triangular(m).ok_or(RotorError::NoMass);
         let reduced = solve(&solve(&stiffness)?.transpose())?;
-        let eigen = SymmetricEigen::new((&reduced + reduced.transpose()) * 0.5);
+        let eigen = symmetric((&reduced + reduced.transpose()) * 0.5)?;
         let mut order: Vec<usize> = (0..shaft).collect();
         order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
         // The rigid motions are known: they replace the two of the solver, and the others are made orthogonal to them.
@@ -82,15 +82,18 @@ impl Basis {
     }
 
     /// The modes up to `cut` (rad/s) and the residual flexibility under each of these forces, a column each.
-    #[must_use]
-    pub fn reduced(&self, cut: f64, forces: &DMatrix<f64>) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// Where numbers leave double precision.
+    pub fn reduced(&self, cut: f64, forces: &DMatrix<f64>) -> Result<Self, RotorError> {
         let modes = self.frequencies.partition_point(|omega| *omega <= cut);
         let above = self.frequencies.len() - modes;
         if above <= forces.ncols() || forces.ncols() == 0 {
-            return match forces.ncols() {
+            return Ok(match forces.ncols() {
                 0 => self.first(modes),
                 _ => self.clone(),
-            };
+            });
         }
         // Residual flexibility in the coordinates of the modes above the cut: φ_kᵀF/ω_k².
         let omega = |k: usize| self.frequencies[modes + k];
@@ -104,7 +107,7 @@ impl Basis {
                 column /= length;
             }
         }
-        let gram = SymmetricEigen::new(residual.tr_mul(&residual));
+        let gram = symmetric(residual.tr_mul(&residual))?;
         let largest = gram.eigenvalues.amax();
         let directions: Vec<DVector<f64>> = (0..forces.ncols())
             .filter(|j| gram.eigenvalues[*j] > SAME_DIRECTION * largest)
@@ -117,7 +120,7 @@ impl Basis {
             let squares = DMatrix::from_fn(above, directions.ncols(), |k, j| {
                 omega(k).powi(2) * directions[(k, j)]
             });
-            let eigen = SymmetricEigen::new(directions.tr_mul(&squares));
+            let eigen = symmetric(directions.tr_mul(&squares))?;
             let mut order: Vec<usize> = (0..directions.ncols()).collect();
             order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
             let turned = &directions * eigen.eigenvectors;
@@ -129,10 +132,10 @@ impl Basis {
                 frequencies.push(eigen.eigenvalues[j].max(0.0).sqrt());
             }
         }
-        Self {
+        Ok(Self {
             shapes,
             frequencies,
-        }
+        })
     }
 
     /// The first coordinates alone.
@@ -147,8 +150,17 @@ impl Basis {
     /// needs: at the nodes that carry something, and under the gyroscopic moments of the modes up to `limit`.
     ///
     /// Without the moments the lowest modes of a fast rotor with disks are wrong by 10⁻⁵ and more.
-    #[must_use]
-    pub fn for_analysis(&self, rotor: &Rotor, matrices: &Matrices, cut: f64, limit: f64) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// Where numbers leave double precision.
+    pub fn for_analysis(
+        &self,
+        rotor: &Rotor,
+        matrices: &Matrices,
+        cut: f64,
+        limit: f64,
+    ) -> Result<Self, RotorError> {
         let kept = unit_forces(rotor.size(), &rotor.kept());
         let slow = self.frequencies.partition_point(|omega| *omega <= limit);
         let moments = &matrices.gyroscopic * self.shapes.columns(0, slow);
@@ -227,6 +239,17 @@ pub fn unit_forces(size: usize, coordinates: &[usize]) -> DMatrix<f64> {
         out[(*i, j)] = 1.0;
     }
     out
+}
+
+/// Eigenvalues and vectors of a symmetric matrix.
+pub(crate) fn symmetric(
+    matrix: DMatrix<f64>,
+) -> Result<SymmetricEigen<f64, nalgebra::Dyn>, RotorError> {
+    if !matrix.iter().all(|value| value.is_finite()) {
+        return Err(RotorError::NotConverged);
+    }
+    let most = 200 * matrix.nrows();
+    SymmetricEigen::try_new(matrix, f64::EPSILON, most).ok_or(RotorError::NotConverged)
 }
 
 /// Rigid motions of the shaft: the same displacement everywhere, and a turn about the middle.

@@ -244,6 +244,9 @@ pub fn held(rotor: &Rotor, speed: f64) -> Result<(), RotorError> {
             }
         }
     }
+    if !stiffness.iter().all(|value| value.is_finite()) {
+        return Err(RotorError::NotConverged);
+    }
     let values = stiffness.singular_values();
     let (smallest, largest) = (values.min(), values.max());
     if largest > 0.0 && smallest > 1e-10 * largest {

@@ -4,8 +4,9 @@
 //! forward critical speed obeys K x = Ω²(M - G)x, a backward one K x = Ω²(M + G)x.
 
 use crate::assembly::Carried;
+use crate::basis::symmetric;
 use crate::{Basis, Matrices, Place, Rotor, RotorError};
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::DMatrix;
 
 /// Critical speeds at one stiffness.
 #[derive(Debug, Clone)]
@@ -56,7 +57,7 @@ pub fn stiffness_map(
             let both = factor
                 .solve_lower_triangular(&half.transpose())
                 .ok_or(RotorError::NotHeld)?;
-            let eigen = SymmetricEigen::new((&both + both.transpose()) * 0.5);
+            let eigen = symmetric((&both + both.transpose()) * 0.5)?;
             let mut found: Vec<f64> = (eigen.eigenvalues.iter())
                 .filter(|value| **value > 0.0)
                 .map(|value| 1.0 / value.sqrt())

@@ -261,7 +261,7 @@ fn support(
     }
     if rows > 1 {
         draft.notes.push(format!(
-            "{class} {tag}: its table over frequency is taken as one over speed"
+            "{class} {tag}: its table over frequency is taken as one over speed, linear between its rows (ROSS: a spline)"
         ));
     }
     for key in ["kzz", "czz", "mzz"] {

@@ -21,8 +21,8 @@ const HARD_EIGENVALUE: f64 = 1e-6;
 const RESPONSE: f64 = 1e-9;
 /// Of static loads and sag: the files hold the rotor in supports of 1e20 N/m with 9.8065 m/s².
 const STATIC: f64 = 1e-5;
-/// Highest own frequency of a single element, rad/s, from which eigenvalues are hard.
-const STIFF_ELEMENT: f64 = 3e6;
+/// Highest frequency of the free rotor, rad/s, from which dense solvers lose digits on the lowest ones.
+const STIFF: f64 = 1e6;
 
 /// Rows of a whole rotor.
 pub(super) fn rows(file: &Value) -> Result<Vec<Row>, String> {
@@ -32,7 +32,7 @@ pub(super) fn rows(file: &Value) -> Result<Vec<Row>, String> {
     body(file, &rotor, &mut worst)?;
     matrices(file, &rotor, &mut worst)?;
     let analysis = Analysis::full(&rotor).map_err(|error| error.to_string())?;
-    let (tolerance, why) = match hard(&rotor) {
+    let (tolerance, why) = match hard(&rotor, &analysis) {
         true => (
             HARD_EIGENVALUE,
             "short stiff elements, or pairs that nearly fall together: dense solvers lose digits",
@@ -95,13 +95,9 @@ pub(super) fn element(file: &Value) -> Result<Vec<Row>, String> {
 }
 
 /// Whether dense solvers lose digits on the lowest modes.
-fn hard(rotor: &Rotor) -> bool {
-    // the frequency of an element's transverse mode, of order sqrt(K/M) of its own matrices
-    let own = |element: &Element| {
-        let m = element.matrices();
-        (m.stiffness[(1, 1)] / m.mass[(1, 1)]).sqrt()
-    };
-    let stiff = rotor.elements.iter().map(own).fold(0.0, f64::max) > STIFF_ELEMENT;
+fn hard(rotor: &Rotor, analysis: &Analysis) -> bool {
+    let highest = analysis.basis.frequencies.last().copied();
+    let stiff = highest.is_some_and(|highest| highest > STIFF);
     // k_xy without its counterpart makes defective pairs of isotropic rotors
     let lone = rotor.supports.iter().any(|support| {
         let k = support.coefficients.at(0.0).stiffness;

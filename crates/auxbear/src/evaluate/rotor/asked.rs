@@ -38,7 +38,9 @@ pub(crate) struct Found {
     pub(crate) criticals: Vec<Critical>,
     /// Modes at the rated speed.
     pub(crate) modes: Vec<Mode>,
-    /// Response at each speed of the diagram; empty without unbalance.
+    /// Speeds of the diagram, and of responses close to critical speeds between them.
+    pub(crate) speeds: Vec<f64>,
+    /// Response at each of these speeds; empty without unbalance.
     pub(crate) responses: Vec<Option<Response>>,
     /// Responses at the rated speed and at critical speeds, whose shapes are shown.
     pub(crate) deflections: Vec<Response>,
@@ -58,7 +60,8 @@ impl<'a> Asked<'a> {
         let followed = analysis.frequency_to.max(analysis.speed_to);
         let basis = match full.len() {
             small if small <= SMALL => full.clone(),
-            _ => full.for_analysis(rotor, &matrices, analysis.cutoff, followed),
+            _ => (full.for_analysis(rotor, &matrices, analysis.cutoff, followed))
+                .map_err(|error| no_answer(error, "rotor"))?,
         };
         let within = Analysis::new(rotor, &matrices, basis);
         let held = rotor::held(rotor, analysis.speed).is_ok();
@@ -110,31 +113,50 @@ impl<'a> Asked<'a> {
         self.within.modes(self.analysis.speed, self.analysis.modes)
     }
 
-    /// Places whose response is shown: named nodes, disks, supports, unbalances; a node once, by its first name.
+    /// Places whose response is shown: named nodes, disks, supports, unbalances, a node once, by its first name; parts without
+    /// a name where nothing has one.
     pub(crate) fn watched(&self) -> Vec<(String, usize)> {
+        let all = self.places();
+        let named: Vec<(String, usize)> = all
+            .iter()
+            .filter(|(_, _, named)| *named)
+            .map(|(label, node, _)| (label.clone(), *node))
+            .collect();
+        match named.is_empty() {
+            true => all
+                .into_iter()
+                .map(|(label, node, _)| (label, node))
+                .collect(),
+            false => named,
+        }
+    }
+
+    /// Label, node and whether it has a name.
+    fn places(&self) -> Vec<(String, usize, bool)> {
         let (model, rotor) = (&self.analysis.model, self.rotor());
-        let mut out: Vec<(String, usize)> = Vec::new();
-        let mut add = |label: String, node: usize| {
-            if out.iter().all(|(known, at)| *at != node && *known != label) {
-                out.push((label, node));
+        let mut out: Vec<(String, usize, bool)> = Vec::new();
+        let mut add = |kind: &str, name: &str, node: usize| {
+            let (label, named) = (word(kind, name), name.parse::<usize>().is_err());
+            if out
+                .iter()
+                .all(|(known, at, _)| *at != node && *known != label)
+            {
+                out.push((label, node, named));
             }
         };
         for (name, node) in &model.nodes {
-            add(name.clone(), *node);
+            add("node", name, *node);
         }
         for (name, disk) in model.disks.iter().zip(&rotor.disks) {
-            add(word("disk", name), disk.node);
+            add("disk", name, disk.node);
         }
         for (name, support) in model.supports.iter().zip(&rotor.supports) {
             if let Place::Node(node) = support.at {
-                add(
-                    word(if support.seal { "seal" } else { "support" }, name),
-                    node,
-                );
+                add(if support.seal { "seal" } else { "support" }, name, node);
             }
         }
         for (name, unbalance) in model.unbalance.iter().zip(&rotor.unbalance) {
-            add(word("unbalance", name), unbalance.node);
+            add("unbalance", name, unbalance.node);
         }
         out
     }
@@ -142,13 +164,12 @@ impl<'a> Asked<'a> {
     /// Computes everything.
     pub(crate) fn find(&self) -> Result<Found, RotorError> {
         let (asked, rotor) = (self.analysis, self.rotor());
-        let coarse = self.within.campbell(&asked.speeds(), asked.frequency_to)?;
-        let criticals = self.within.criticals(&coarse);
-        let diagram = match rotor.unbalance.is_empty() {
-            true => coarse,
-            false => (self.within).campbell(&refined(&coarse, &criticals), asked.frequency_to)?,
-        };
+        let diagram = self.within.campbell(&asked.speeds(), asked.frequency_to)?;
         let criticals = self.within.criticals(&diagram);
+        let speeds = match rotor.unbalance.is_empty() {
+            true => diagram.speeds.clone(),
+            false => refined(&diagram, &criticals),
+        };
         let responder = Responder::within(rotor, &self.within);
         let respond = |speed: f64| responder.unbalance(&rotor.unbalance, speed).ok();
         let (responses, deflections) = match rotor.unbalance.is_empty() || !self.held {
@@ -157,7 +178,7 @@ impl<'a> Asked<'a> {
                 let shown = criticals.iter().take(DEFLECTIONS).map(|one| one.speed);
                 let shown = std::iter::once(asked.speed).chain(shown);
                 (
-                    diagram.speeds.iter().map(|speed| respond(*speed)).collect(),
+                    speeds.iter().map(|speed| respond(*speed)).collect(),
                     shown.filter_map(respond).collect(),
                 )
             }
@@ -172,18 +193,19 @@ impl<'a> Asked<'a> {
         };
         let kept = rotor.kept();
         let reduced = self.within.basis.len() < self.full.len();
-        let reduction_error = reduced.then(|| {
+        let error_of_reduction = || -> Result<f64, RotorError> {
             let reference = match self.full.len() {
                 few if few <= MEDIUM => self.full.clone(),
                 _ => {
                     let cutoff = 3.0 * asked.cutoff;
                     let followed = asked.frequency_to.max(asked.speed_to);
-                    (self.full).for_analysis(rotor, &self.matrices, cutoff, followed)
+                    (self.full).for_analysis(rotor, &self.matrices, cutoff, followed)?
                 }
             };
             let whole = Analysis::new(rotor, &self.matrices, reference);
             whole.error_of(&diagram, diagram.speeds.len() - 1, asked.frequency_to)
-        });
+        };
+        let reduction_error = reduced.then(error_of_reduction);
         let top = asked.frequency_to.max(asked.speed_to);
         let receptance_error = (reduced && !kept.is_empty())
             .then(|| (self.within.basis).receptance_error(&self.full, &kept, 0.01 * top, top));
@@ -195,6 +217,7 @@ impl<'a> Asked<'a> {
             reduction_error: reduction_error.transpose()?,
             receptance_error,
             criticals,
+            speeds,
             responses,
             deflections,
             map,

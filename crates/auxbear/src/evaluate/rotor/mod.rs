@@ -87,7 +87,7 @@ fn history(asked: &Asked, found: &Found) -> Vec<Column> {
         name: "speed".to_string(),
         unit: "rad/s",
         meaning: "speed of the rotor".to_string(),
-        values: diagram.speeds.clone(),
+        values: found.speeds.clone(),
     }];
     let mut add = |name: String, unit, meaning: String, values: Vec<f64>| {
         columns.push(Column {
@@ -99,9 +99,16 @@ fn history(asked: &Asked, found: &Found) -> Vec<Column> {
     };
     for (number, branch) in (1..).zip(&diagram.branches) {
         let column = |value: fn(&rotor::Mode) -> f64| -> Vec<f64> {
-            let modes = branch.modes.iter();
-            modes
-                .map(|mode| mode.as_ref().map_or(f64::NAN, value))
+            // speeds close to critical ones are of the responses alone
+            let at = |speed: &f64| {
+                diagram
+                    .speeds
+                    .binary_search_by(|own| own.total_cmp(speed))
+                    .ok()
+            };
+            let mode = |speed: &f64| branch.modes[at(speed)?].as_ref().map(value);
+            (found.speeds.iter())
+                .map(|speed| mode(speed).unwrap_or(f64::NAN))
                 .collect()
         };
         add(

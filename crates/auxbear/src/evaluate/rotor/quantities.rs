@@ -204,6 +204,9 @@ fn modes(list: &mut List, asked: &Asked, found: &Found) {
         Value::List(bending.iter().map(|k| free.frequencies[*k]).collect()),
         &MODE,
     );
+    let first = bending.first().map(|k| free.frequencies[*k]);
+    let none = "a rotor without elements does not bend".to_string();
+    list.number("first_bending_frequency", "rad/s", first.ok_or(none), &MODE);
     for (number, k) in (1..).zip(&bending) {
         let values: Vec<f64> = (0..nodes).map(|node| free.shapes[(2 * node, *k)]).collect();
         let most = values

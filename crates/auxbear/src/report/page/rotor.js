@@ -145,7 +145,7 @@ function campbellFigures(run, runs) {
   const series = branches.map(({ number, sense }) => {
     const label = seen.has(sense) ? null : sense;
     seen.add(sense);
-    return { label, x: speed, y: overSpeed(run, `branch_${number}.frequency`) || [], colour: SENSE_COLOURS[sense], dash: senseDash(sense), gaps: true };
+    return { label, x: speed, y: overSpeed(run, `branch_${number}.frequency`) || [], colour: SENSE_COLOURS[sense], dash: senseDash(sense) };
   });
   const top = Math.max(...series.flatMap((line) => line.y.filter(isNumber)), 0);
   const line = speed.filter((value) => value <= 1.02 * top);
@@ -155,7 +155,7 @@ function campbellFigures(run, runs) {
     series: [...series, { label: "once a turn", x: line, y: line, colour: "#8995a0", dash: "2 3" }, { label: "critical speeds", x: criticals, y: criticals, colour: "#b3261e", line: false, dots: true, radius: 4 }],
     across: "speed of the rotor [rad/s]", above: IN_RPM, upright: "frequency [rad/s]", right: { label: "frequency [Hz]", factor: 1 / (2 * Math.PI) }, marks: rated ? [{ at: rated, words: "rated" }] : [], height: 420,
   });
-  const damped = branches.map(({ number, sense }) => ({ x: speed, y: (overSpeed(run, `branch_${number}.damping_ratio`) || []).map((value) => (isNumber(value) ? 100 * value : null)), colour: SENSE_COLOURS[sense], dash: senseDash(sense), gaps: true }));
+  const damped = branches.map(({ number, sense }) => ({ x: speed, y: (overSpeed(run, `branch_${number}.damping_ratio`) || []).map((value) => (isNumber(value) ? 100 * value : null)), colour: SENSE_COLOURS[sense], dash: senseDash(sense) }));
   const any = damped.some((one) => one.y.some((value) => isNumber(value) && Math.abs(value) > 1e-6));
   const rows = numbered(run, "critical", ".speed").map((number) => {
     const at = (name) => numberOf(run, `critical_${number}.${name}`);
@@ -286,7 +286,7 @@ function rotorVerdict(run) {
   const verdict = quantityOf(run, "separation_verdict").value;
   const unstable = quantityOf(run, "first_unstable_speed");
   const rated = numberOf(run, "rated_speed");
-  const bending = listAt(run, "free_bending_frequencies")[0];
+  const bending = numberOf(run, "first_bending_frequency");
   const grows = isNumber(unstable.value) && unstable.value <= Math.abs(rated);
   return element(
     "div",

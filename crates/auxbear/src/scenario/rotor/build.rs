@@ -211,6 +211,16 @@ fn pieces<'a>(
         let from = part.number("from").unwrap_or(end);
         let length = part.needed("length");
         end = from + length;
+        if !(from.abs() <= FARTHEST && (SHORTEST..=FARTHEST).contains(&length)) {
+            let found = format!("{} m from {} m on", number_text(length), number_text(from));
+            let allowed = "a length from 1 um to 1 km, within 1 km of the origin, is needed";
+            return Err(Box::new(part.problem(
+                Code::RotorGeometry,
+                "length",
+                found,
+                allowed,
+            )));
+        }
         let damping = |name: &str| match carries {
             true => part.number(name).unwrap_or_else(|| default(name)),
             false => 0.0,
@@ -323,6 +333,10 @@ impl Places {
         Err(Box::new(problem.with_hint(did_you_mean(text, names()))))
     }
 }
+
+/// Shortest piece and farthest end of a shaft, m: beyond them there is no rotor, and numbers leave double precision.
+const SHORTEST: f64 = 1e-6;
+const FARTHEST: f64 = 1e3;
 
 /// Most elements of a shaft: dense matrices of twice as many coordinates take seconds then.
 const MOST_ELEMENTS: f64 = 500.0;
