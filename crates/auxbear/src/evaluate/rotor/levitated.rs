@@ -40,7 +40,7 @@ pub(crate) fn find(
         full,
         matrices,
         analysis.cutoff.max(BEYOND * band.to),
-    );
+    )?;
     let within = Analysis::new(rotor, matrices, basis);
     let plane = model.levitation.one_plane().filter(|_| rotor.turns());
     let nodes = rotor.nodes.len();
@@ -128,7 +128,7 @@ fn basis(
     full: &Basis,
     matrices: &Matrices,
     cut: f64,
-) -> Basis {
+) -> Result<Basis, Box<Problem>> {
     let mut kept = rotor.kept();
     let nodes = model
         .magnets
@@ -145,7 +145,8 @@ fn basis(
     let first = forces.ncols();
     forces = forces.insert_columns(first, slow, 0.0);
     forces.columns_mut(first, slow).copy_from(&moments);
-    full.reduced(cut, &forces)
+    let reduced = full.reduced(cut, &forces);
+    reduced.map_err(|error| failed(&error.to_string()))
 }
 
 /// Refuses a loop that does not hold its rotor.
