@@ -132,7 +132,11 @@ fn parts(kind: &PartKind, system: SystemName) -> Value {
             require(&mut one, key.name());
         }
     }
-    json!({ "type": "array", "items": one, "description": kind.doc })
+    let several = json!({ "type": "array", "items": one });
+    match kind.alone {
+        true => json!({ "anyOf": [several, one], "description": kind.doc }),
+        false => json!({ "type": "array", "items": one, "description": kind.doc }),
+    }
 }
 
 /// The array of what results must hold.

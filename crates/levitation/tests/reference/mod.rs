@@ -118,7 +118,7 @@ impl File {
             kept.sort_unstable();
             kept.dedup();
             let forces = rotor::unit_forces(self.rotor.size(), &kept);
-            coordinates = coordinates.reduced(6e4, &forces);
+            coordinates = coordinates.reduced(6e4, &forces).unwrap();
         }
         Analysis::new(&self.rotor, &matrices, coordinates)
     }

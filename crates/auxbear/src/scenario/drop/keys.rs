@@ -24,8 +24,8 @@ pub(crate) const SECTIONS: &[Section] = &[
     },
     Section {
         path: "levitation",
-        doc: "The magnetic bearing at one plane while it is on: a linear spring and damper that also carries the weight. It is switched off at time 0.",
-        systems: DROP,
+        doc: "The magnetic bearing. Of a drop, at one plane while it is on: a linear spring and damper that also carries the weight, switched off at time 0. Of a bent rotor: its magnets, sensors and controllers.",
+        systems: &[SystemName::Drop, SystemName::Rotor],
     },
     Section {
         path: "contact",
@@ -162,28 +162,32 @@ pub(crate) const KEYS: &[Key] = &[
         "1e6 N/m",
         "Stiffness of the levitation at one plane.",
     )
-    .positive(),
+    .positive()
+    .only(DROP),
     Key::new(
         "levitation.damping",
         Kind::Quantity("N s/m"),
         "1000 N s/m",
         "Damping of the levitation at one plane.",
     )
-    .not_negative(),
+    .not_negative()
+    .only(DROP),
     Key::new(
         "levitation.offset_x",
         Kind::Quantity("m"),
         "0.02 mm",
         "Centre of levitation from the centre of the auxiliary bearing, along x.",
     )
-    .default("0 m", "levitated in the centre of the auxiliary bearing"),
+    .default("0 m", "levitated in the centre of the auxiliary bearing")
+    .only(DROP),
     Key::new(
         "levitation.offset_y",
         Kind::Quantity("m"),
         "-0.02 mm",
         "Centre of levitation from the centre of the auxiliary bearing, along y.",
     )
-    .default("0 m", "levitated in the centre of the auxiliary bearing"),
+    .default("0 m", "levitated in the centre of the auxiliary bearing")
+    .only(DROP),
     Key::new(
         "contact.radial_air_clearance",
         Kind::Quantity("m"),

@@ -14,9 +14,9 @@ use crate::scenario::values::Values;
 pub use build::{DrawnPiece, RotorModel};
 pub use levitation::LevitationModel;
 
-/// The kinds of parts of a bent rotor, with their keys: `section` of `[[rotor.section]]`.
-pub fn parts_of_rotors() -> impl Iterator<Item = (&'static str, &'static [Key])> {
-    part_keys::PARTS.iter().map(|kind| (kind.word, kind.keys))
+/// The kinds of parts of a bent rotor, with their keys: `rotor.section` of `[[rotor.section]]`.
+pub fn parts_of_rotors() -> impl Iterator<Item = (String, &'static [Key])> {
+    part_keys::PARTS.iter().map(|kind| (kind.path(), kind.keys))
 }
 
 /// A rotor and what is asked of it. Speeds in rad/s.

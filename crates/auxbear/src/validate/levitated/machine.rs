@@ -144,7 +144,9 @@ impl Machine {
                 .collect();
             kept.sort_unstable();
             kept.dedup();
-            basis = basis.reduced(cut, &rotor::unit_forces(self.rotor.size(), &kept));
+            let forces = rotor::unit_forces(self.rotor.size(), &kept);
+            let reduced = basis.reduced(cut, &forces);
+            basis = reduced.map_err(|error| error.to_string())?;
         }
         Ok(Analysis::new(&self.rotor, &matrices, basis))
     }
