@@ -20,8 +20,15 @@ pub struct Branch {
 
 type State = (C64, DVector<C64>);
 
-/// A branch on its way: its states so far, the last of them, and its slope over speed.
-type Runner = (Vec<Option<State>>, State, Option<C64>);
+/// A branch on its way from speed to speed.
+struct Runner {
+    /// Where it was at each speed.
+    states: Vec<Option<State>>,
+    /// Where it was last.
+    last: State,
+    /// How far it went in the last step.
+    step: C64,
+}
 
 /// Frequencies over speed.
 #[derive(Debug, Clone)]
@@ -96,21 +103,25 @@ impl Analysis {
                 let state = (*value, self.vector(*value, speeds[start], k)?);
                 let mut states = vec![None; speeds.len()];
                 states[start] = Some(state.clone());
-                runners.push((states, state, None));
+                runners.push(Runner {
+                    states,
+                    last: state,
+                    step: C64::default(),
+                });
             }
             let mut at = start;
             while let Some(next) = at.checked_add_signed(step).filter(|n| *n < speeds.len()) {
                 let found = self.carry(speeds[next], &all[next], &mut taken[next], &runners)?;
                 for (runner, state) in runners.iter_mut().zip(found) {
                     if let Some(state) = &state {
-                        runner.2 = Some(state.0 - runner.1.0);
-                        runner.1.clone_from(state);
+                        runner.step = state.0 - runner.last.0;
+                        runner.last.clone_from(state);
                     }
-                    runner.0[next] = state;
+                    runner.states[next] = state;
                 }
                 at = next;
             }
-            branches.extend(runners.into_iter().map(|(states, ..)| states));
+            branches.extend(runners.into_iter().map(|runner| runner.states));
         }
         let inside = |states: &Vec<Option<State>>| {
             (states.iter().flatten()).any(|(value, _)| value.im.abs() <= limit)
@@ -140,8 +151,9 @@ impl Analysis {
     ) -> Result<Vec<Option<State>>, RotorError> {
         let dynamics = self.dynamics(speed);
         let mut out: Vec<Option<State>> = vec![None; runners.len()];
-        for (k, (_, (value, vector), slope)) in runners.iter().enumerate() {
-            let ahead = value + slope.unwrap_or_default();
+        for (k, runner) in runners.iter().enumerate() {
+            let (value, vector) = &runner.last;
+            let ahead = value + runner.step;
             let found = [ahead, *value].iter().find_map(|from| {
                 let (value, vector) = dynamics.follow(*from, vector)?;
                 let same = |(at, z): &(usize, &C64)| {
@@ -155,8 +167,9 @@ impl Analysis {
                 out[k] = Some((all[at], vector));
             }
         }
-        for (k, (_, (value, _), slope)) in runners.iter().enumerate() {
-            let ahead = value + slope.unwrap_or_default();
+        for (k, runner) in runners.iter().enumerate() {
+            let (value, _) = &runner.last;
+            let ahead = value + runner.step;
             let free = (0..all.len()).filter(|at| !taken[*at]);
             let distance = |at: &usize| (all[*at] - ahead).norm();
             if out[k].is_none()

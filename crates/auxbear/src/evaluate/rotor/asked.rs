@@ -8,6 +8,7 @@ use rotor::{
     Analysis, Basis, Campbell, Critical, MapPoint, Matrices, Mode, Place, Responder, Response,
     Rotor, RotorError, Sag,
 };
+use std::sync::OnceLock;
 
 /// A rotor of at most so many coordinates keeps all of them.
 const SMALL: usize = 40;
@@ -30,6 +31,7 @@ pub(crate) struct Asked<'a> {
     pub(crate) held: bool,
     /// The closed loop with its magnets.
     pub(crate) levitated: Option<Levitated>,
+    found: OnceLock<Result<Found, RotorError>>,
 }
 
 /// What was found.
@@ -92,6 +94,7 @@ impl<'a> Asked<'a> {
             within,
             held,
             levitated,
+            found: OnceLock::new(),
         };
         this.modes().map_err(|error| match error {
             RotorError::TooManyModes { asked, there } => {
@@ -161,8 +164,12 @@ impl<'a> Asked<'a> {
         out
     }
 
-    /// Computes everything.
-    pub(crate) fn find(&self) -> Result<Found, RotorError> {
+    /// Everything, computed once: limits ask for the names of the results before they are printed.
+    pub(crate) fn found(&self) -> &Result<Found, RotorError> {
+        self.found.get_or_init(|| self.find())
+    }
+
+    fn find(&self) -> Result<Found, RotorError> {
         let (asked, rotor) = (self.analysis, self.rotor());
         let diagram = self.within.campbell(&asked.speeds(), asked.frequency_to)?;
         let criticals = self.within.criticals(&diagram);

@@ -20,8 +20,8 @@ use std::time::Instant;
 /// Computes everything and names it.
 pub(crate) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
     let clock = Instant::now();
-    let found = asked.find();
-    let (history, quantities, stop) = match &found {
+    let found = asked.found();
+    let (history, quantities, stop) = match found {
         Ok(found) => (
             history(asked, found),
             quantities::name(asked, found),
@@ -50,7 +50,10 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
         quantities,
         history,
         contacts: Vec::new(),
-        warnings: found.map_or(Vec::new(), |found| warnings::of(asked, &found)),
+        warnings: match found {
+            Ok(found) => warnings::of(asked, found),
+            Err(_) => Vec::new(),
+        },
         stop,
         work: Work {
             members: 1,

@@ -4,6 +4,7 @@ use crate::evaluate::rotor::asked::{Asked, Found, word};
 use crate::evaluate::rotor::{drawing, levitated, sense, warnings::grows};
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Value};
+use crate::scenario::RotorAnalysis;
 use rotor::{C64, Critical, Mode, Place, Whirl};
 
 /// All named results, in the order of the report.
@@ -110,7 +111,7 @@ fn criticals(list: &mut List, asked: &Asked, found: &Found) {
             &SEPARATION,
         );
         if let Some(margin) = analysis.separation_margin {
-            let word = judged(one, separation, margin, analysis.exempt_amplification);
+            let word = judged(one, separation, analysis, margin);
             if word != "no excitation" {
                 let failed = verdict == Some("fail") || word == "fail";
                 verdict = Some(if failed { "fail" } else { "pass" });
@@ -134,8 +135,9 @@ fn criticals(list: &mut List, asked: &Asked, found: &Found) {
 }
 
 /// The verdict on one critical speed. What whirls backward is not excited by unbalance of a rotor on equal supports.
-fn judged(one: &Critical, separation: f64, margin: f64, exempt: Option<f64>) -> &'static str {
-    if one.mode.whirl == Whirl::Backward {
+fn judged(one: &Critical, separation: f64, analysis: &RotorAnalysis, margin: f64) -> &'static str {
+    let exempt = analysis.exempt_amplification;
+    if one.mode.whirl == Whirl::Backward && analysis.model.rotor.turns() {
         "no excitation"
     } else if separation >= margin {
         "pass"
@@ -325,7 +327,8 @@ fn sag(list: &mut List, asked: &Asked, found: &Found) {
             Place::Node(_) => "support",
             Place::Housing(_) => "housing",
         };
-        let load = found.sag.as_ref().map(|sag| sag.loads[index].norm());
+        // against gravity: what it carries; below zero it holds down
+        let load = found.sag.as_ref().map(|sag| -along(sag.loads[index]));
         let label = format!("load.{}", word(kind, name));
         list.number(&label, "N", load.ok_or_else(none), &SAG);
     }
@@ -403,7 +406,7 @@ const AMPLIFICATION: Origin = Origin {
 const SEPARATION: Origin = Origin {
     law: "distance from the operating speeds over the nearer one; 0 within them; verdict against analysis.separation_margin",
     source: "the user's limits, in the manner of API 617",
-    valid: "forward and planar critical speeds; backward ones get no verdict",
+    valid: "backward ones get no verdict where every support treats all directions alike: unbalance does not drive them",
 };
 const STABILITY: Origin = Origin {
     law: "Re λ = 0 between two speeds of the diagram, on a straight line",
