@@ -5,9 +5,8 @@ use crate::scenario::key::{Key, quoted};
 use crate::scenario::meant;
 use crate::scenario::not_modelled;
 pub(crate) use crate::scenario::raw::{Raw, as_toml};
-use crate::scenario::raw::{Written, collect, raw, table_raw, tables};
+use crate::scenario::raw::{Written, WrittenPart, collect, override_part, raw, table_raw, tables};
 use crate::scenario::rotor::part_keys::{PARTS, kind_at};
-use crate::scenario::rotor::parts::WrittenPart;
 use crate::scenario::several::{self, AUXILIARY_BEARING, LIMIT, VARY};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
@@ -270,39 +269,6 @@ impl Document {
         Ok(())
     }
 
-    /// An override of a value of a part: `rotor.disk.impeller.mass`, the name or the number of the part before its key.
-    fn add_to_part(&mut self, path: &[String], raw: Raw) -> Result<(), Box<Problem>> {
-        let [_, kind, named, keys @ ..] = path else {
-            return Ok(());
-        };
-        let of_kind = |part: &&mut WrittenPart| part.kind == kind;
-        let mut parts: Vec<&mut WrittenPart> = self.parts.iter_mut().filter(of_kind).collect();
-        let number = named.parse::<usize>().ok();
-        let at = (parts.iter().position(|part| part.name() == Some(named)))
-            .or_else(|| number?.checked_sub(1).filter(|at| *at < parts.len()));
-        let (at, keys) = match (at, keys) {
-            // a single part needs no name
-            (None, []) if parts.len() == 1 => (Some(0), std::slice::from_ref(named)),
-            other => other,
-        };
-        let (Some(at), [key]) = (at, keys) else {
-            let names: Vec<String> = (1..)
-                .zip(&parts)
-                .map(|(number, part)| part.name().map_or(number.to_string(), str::to_string))
-                .collect();
-            let allowed = format!(
-                "{}.{kind}.NAME.KEY is needed, with one of the names or numbers {}",
-                path[0],
-                names.join(", ")
-            );
-            let problem = Problem::new(Code::UnknownKey, &self.file, quoted(named), allowed);
-            return Err(Box::new(problem.at(Place::Set).on_key(path.join("."))));
-        };
-        parts[at].keys.retain(|(other, ..)| other != key);
-        parts[at].keys.push((key.clone(), raw, Place::Set));
-        Ok(())
-    }
-
     fn only_drops_vary(&self, place: Place) -> Result<(), Box<Problem>> {
         if self.system == SystemName::Drop {
             return Ok(());
@@ -386,7 +352,7 @@ impl Document {
             && self.system == SystemName::Rotor
             && kind_at(&path[..2].join(".")).is_some()
         {
-            return self.add_to_part(&path, raw);
+            return override_part(&mut self.parts, &self.file, &path, raw);
         }
         if path[0] == AUXILIARY_BEARING {
             return self.add_to_bearing(&path, raw, typed.to_string());

@@ -6,7 +6,7 @@ use crate::scenario::RotorAnalysis;
 use crate::scenario::UNNAMED;
 use rotor::{
     Analysis, Basis, Campbell, Critical, MapPoint, Matrices, Mode, Place, Responder, Response,
-    Rotor, RotorError, Sag,
+    Rotor, RotorError, Sag, Whirl,
 };
 use std::sync::OnceLock;
 
@@ -264,4 +264,13 @@ fn no_answer(error: RotorError, key: &str) -> Box<Problem> {
     let needed = "a rotor with mass everywhere is needed";
     let problem = Problem::new(Code::Impossible, UNNAMED, error.to_string(), needed);
     Box::new(problem.on_key(key))
+}
+
+/// Whirl as a number: forward 1, backward -1, planar 0.
+pub(crate) fn sense(whirl: Whirl) -> f64 {
+    match whirl {
+        Whirl::Forward => 1.0,
+        Whirl::Backward => -1.0,
+        Whirl::Planar => 0.0,
+    }
 }

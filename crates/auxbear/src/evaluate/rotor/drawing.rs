@@ -1,8 +1,7 @@
 //! What the page needs to draw a rotor to scale, as lists.
 
 use crate::evaluate::rotor::asked::Asked;
-use crate::evaluate::rotor::quantities::GIVEN;
-use crate::result::list::List;
+use crate::result::list::{List, Origin};
 use crate::result::outcome::Value;
 use rotor::Place;
 
@@ -37,16 +36,12 @@ pub(crate) fn name(list: &mut List, asked: &Asked) {
         "kg",
         rotor.disks.iter().map(|d| d.mass).collect(),
     );
-    let sizes = |part: fn(&(Option<f64>, Option<f64>)) -> Option<f64>| -> Vec<f64> {
-        // zero: not given, to be drawn by its mass
-        model
-            .disk_sizes
-            .iter()
-            .map(|size| part(size).unwrap_or_default())
-            .collect()
-    };
-    numbers("disk_diameters", "m", sizes(|size| size.0));
-    numbers("disk_widths", "m", sizes(|size| size.1));
+    // zero: not given, to be drawn by its mass
+    let (diameters, widths) = (model.disk_sizes.iter())
+        .map(|(diameter, width)| (diameter.unwrap_or_default(), width.unwrap_or_default()))
+        .unzip();
+    numbers("disk_diameters", "m", diameters);
+    numbers("disk_widths", "m", widths);
     for (name, seal) in [("support_positions", false), ("seal_positions", true)] {
         let places = rotor.supports.iter().filter(|support| support.seal == seal);
         let at = places.filter_map(|support| match support.at {
@@ -78,3 +73,10 @@ pub(crate) fn name(list: &mut List, asked: &Asked) {
     text("support_names", supports(false));
     text("seal_names", supports(true));
 }
+
+/// What the file gives as it is.
+pub(crate) const GIVEN: Origin = Origin {
+    law: "",
+    source: "the scenario",
+    valid: "",
+};
