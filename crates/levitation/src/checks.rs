@@ -1,6 +1,7 @@
 //! What a levitation must fulfil before it is built.
 
-use crate::parts::{Actuator, Amplifier, Axis, Control, Refused, Sensor, Timing};
+use crate::Refused;
+use crate::parts::{Actuator, Amplifier, Axis, Control, Sensor, Timing};
 use physics::magnet::Magnet;
 use std::f64::consts::FRAC_PI_2;
 

@@ -9,8 +9,8 @@
 //! With sampled control the controller steps by the bilinear rule and its rest between samples: at k T_s [`Levitation::sample`], at k T_s + T_c
 //! [`Levitation::release`] change the states; nothing else jumps.
 
-use crate::parts::{Actuator, Amplifier, Control, Refused, Sensor, Timing};
-use crate::{StateSpace, checks};
+use crate::parts::{Actuator, Amplifier, Control, Sensor, Timing};
+use crate::{Refused, StateSpace, checks};
 use number::Real;
 use std::ops::Range;
 

@@ -20,6 +20,7 @@ mod levitation;
 mod linear_control;
 mod parts;
 mod plant;
+mod refused;
 mod resolvent;
 pub mod response;
 pub mod sensitivity;
@@ -28,8 +29,9 @@ mod state_space;
 pub use closed_loop::{ClosedLoop, Pole, Verdict, ZERO, verdict};
 pub use levitation::{Levitation, Signals};
 pub use linear_control::LinearControl;
-pub use parts::{Actuator, Amplifier, Axis, Control, Refused, Sensor, Timing};
+pub use parts::{Actuator, Amplifier, Axis, Control, Sensor, Timing};
 pub use plant::{Coordinates, Plant, weight};
+pub use refused::Refused;
 pub use resolvent::{Resolvent, Transfer};
 pub use state_space::StateSpace;
 
