@@ -13,6 +13,8 @@
 //!
 //! What it does not model: saturation and hysteresis of iron, eddy currents, coupling between the axes of a magnet, noise of sensors.
 
+#![forbid(unsafe_code)]
+
 mod checks;
 mod closed_loop;
 mod eigen;

@@ -226,6 +226,10 @@ impl Document {
             let Some((key, value)) = table.get_key_value(kind.word) else {
                 continue;
             };
+            // rotor.mass of a drop is a mass, not a part
+            if self.system != SystemName::Rotor && !is_part(value.get_ref()) {
+                continue;
+            }
             let start = key.span().start;
             let place = Place::of_offset(text, start);
             let path = kind.path();
@@ -547,14 +551,19 @@ fn quoted_words(words: &[&str]) -> String {
     words.join(", ")
 }
 
+/// Whether a value is written as parts are: tables.
+fn is_part(value: &DeValue<'_>) -> bool {
+    matches!(value, DeValue::Array(_) | DeValue::Table(_))
+}
+
 /// Lists all keys and sections below a table.
 fn flatten(table: &DeTable<'_>, prefix: &[String], entries: &mut Vec<Entry>) {
     for (key, value) in table {
         let mut path = prefix.to_vec();
         path.push(key.get_ref().to_string());
         let dotted = path.join(".");
-        if [AUXILIARY_BEARING, VARY, LIMIT].contains(&dotted.as_str()) || kind_at(&dotted).is_some()
-        {
+        let is_list = [AUXILIARY_BEARING, VARY, LIMIT].contains(&dotted.as_str());
+        if is_list || (kind_at(&dotted).is_some() && is_part(value.get_ref())) {
             continue;
         }
         let Range { start, .. } = key.span();

@@ -433,10 +433,7 @@ fn disk(part: &Part, node: usize, materials: &[&Part]) -> Built<Disk> {
     if INERTIA.iter().any(&given) || !DIMENSIONS.iter().all(&given) {
         let lacking: Vec<&str> = match INERTIA.iter().any(&given) {
             true => INERTIA.into_iter().filter(|name| !given(name)).collect(),
-            false => DIMENSIONS
-                .into_iter()
-                .filter(|name| !given(name))
-                .collect(),
+            false => DIMENSIONS.into_iter().filter(|name| !given(name)).collect(),
         };
         let found = format!("a disk without {}", lacking.join(", "));
         let allowed = "mass, polar_inertia and diametral_inertia, or width, outer_diameter and material, are needed";

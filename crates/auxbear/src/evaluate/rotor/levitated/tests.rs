@@ -47,18 +47,21 @@ position_stiffness = "1.6e5 N/m"
 amplifier_bandwidth = "2 kHz"
 "#;
 
+/// Words of the file, and what stands in their place.
+type Change = (&'static str, &'static str);
+
 /// What becomes of the file with some words replaced.
-fn outcome(changes: &[(&str, &str)]) -> Result<Vec<(String, Value)>, Problem> {
+fn outcome(changes: &[Change]) -> Result<Vec<(String, Value)>, Box<Problem>> {
     let mut text = SMALL.to_string();
     for (from, to) in changes {
         assert!(text.contains(from), "{from}");
         text = text.replace(from, to);
     }
-    let scenario = Scenario::parse(&text, "small.toml", &[], &BuiltIn).map_err(|p| *p)?;
+    let scenario = Scenario::parse(&text, "small.toml", &[], &BuiltIn)?;
     let System::Rotor(analysis) = &scenario.system else {
         panic!("a rotor");
     };
-    let asked = Asked::of(analysis).map_err(|problem| *problem)?;
+    let asked = Asked::of(analysis)?;
     let mut list = List(Vec::new());
     name(&mut list, analysis, asked.levitated.as_ref().unwrap());
     Ok(list.0.into_iter().map(|q| (q.name, q.value)).collect())
@@ -154,7 +157,7 @@ fn matrices_and_samples_are_read_too() {
 #[test]
 fn what_cannot_hold_the_rotor_is_told_with_its_code() {
     let no_integral = ("integral = \"8e4 A/(m s)\"", "");
-    let cases: [(&[(&str, &str)], Code, &str); 11] = [
+    let cases: [(&[Change], Code, &str); 11] = [
         (
             &[("8000 A/m", "3000 A/m"), no_integral],
             Code::UnstableLevitation,
