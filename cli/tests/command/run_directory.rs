@@ -206,7 +206,10 @@ fn the_report_is_drawn_again_and_side_by_side() {
         let whole = fs::read(&damaged).unwrap();
         fs::write(&damaged, contents).unwrap();
         let name = format!("a/{file}");
-        for call in [&["report", "a"][..], &["report", "a", "b", "--out", "c.html"]] {
+        for call in [
+            &["report", "a"][..],
+            &["report", "a", "b", "--out", "c.html"],
+        ] {
             place.call(call).refused(&["AB0006", &name]);
         }
         assert_eq!(fs::read(place.path("a/report.html")).unwrap(), kept);

@@ -279,9 +279,8 @@ pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
     };
     let text = |name: &str, damage: fn(&str) -> Option<String>| -> Result<String, Box<Problem>> {
         let path = path.join(name);
-        let of_directory = |found: String| {
-            Box::new(Problem::at_path(Code::FileUnreadable, &path, found, NEEDED))
-        };
+        let of_directory =
+            |found: String| Box::new(Problem::at_path(Code::FileUnreadable, &path, found, NEEDED));
         let mut text = String::new();
         let file = open_file(&path).map_err(|error| unreadable(&path, &error))?;
         let length = file.metadata().map_or(0, |about| about.len());

@@ -23,7 +23,12 @@ impl Machine<'_> {
                 let parts = drop.auxiliary_bearings.iter();
                 let of_part = |part: &AuxiliaryBearing| {
                     let mut list = of_bearing(&part.name, &part.bearing, load, drop.rotor.speed);
-                    list.extend(preload_left(&part.name, &part.bearing, ("weight", load), None));
+                    list.extend(preload_left(
+                        &part.name,
+                        &part.bearing,
+                        ("weight", load),
+                        None,
+                    ));
                     list
                 };
                 parts.flat_map(of_part).collect()

@@ -32,7 +32,7 @@
 
 use crate::motion::Wrench;
 use number::{Gather, Mask, Real, Vec2, constants};
-use physics::contact::{NormalForce, ball_race, ball_race_energy, linear_contact};
+use physics::contact::{NormalForce, ball_race, linear_contact};
 use physics::traction::{SlidingContact, TractionLaw};
 
 constants! {
@@ -563,61 +563,13 @@ impl<R: Real> BallConstants<R> {
     pub(super) fn pocket_penetration(&self, offset: R) -> R {
         offset.abs() * self.pocket_radius - self.pocket_gap
     }
-
-    /// Energy stored around a ball, J: (two Hertz contacts and the pocket, weight).
-    #[inline(always)]
-    pub fn energy(
-        &self,
-        inner: &RaceMotion<R>,
-        outer: &RaceMotion<R>,
-        pocket: &PocketMotion<R>,
-        ball: &BallMotion<R>,
-    ) -> (R, R) {
-        let (sine, cosine) = ball.azimuth.sin_cos();
-        let e_r = Vec2::new(cosine, sine);
-        let position = e_r * ball.radius;
-        let from_outer = position - outer.position;
-        let inner_distance = (position - inner.position).length_squared().sqrt();
-        let outer_distance = from_outer.length_squared().sqrt();
-        let sine = e_r.cross(from_outer) / outer_distance;
-        let offset = pocket_angle(ball.azimuth, pocket.angle) + sine.asin_small();
-        let pressed = self.pocket_penetration(offset).max(R::zero());
-        (
-            ball_race_energy(
-                self.inner_stiffness,
-                self.inner_track + self.inner_track_growth * inner.spin.square() + self.radius
-                    - inner_distance,
-            ) + ball_race_energy(
-                self.outer_stiffness,
-                outer_distance + self.radius - self.outer_track,
-            ) + R::splat(0.5) * self.pocket_stiffness * pressed.square(),
-            -(self.mass * self.gravity.dot(position)),
-        )
-    }
-
-    /// Kinetic energy of a ball, J: (translation, spin).
-    #[inline(always)]
-    pub fn kinetic_energy(&self, ball: &BallMotion<R>) -> (R, R) {
-        let half = R::splat(0.5);
-        let orbital = ball.radius * ball.orbit_speed;
-        (
-            half * self.mass * (ball.radial_speed.square() + orbital.square()),
-            half * ball.spin.square() / self.inverse_inertia,
-        )
-    }
-
-    /// Angular momentum of a ball about the origin, N m s.
-    #[inline(always)]
-    pub fn angular_momentum(&self, ball: &BallMotion<R>) -> R {
-        self.mass * ball.radius.square() * ball.orbit_speed + ball.spin / self.inverse_inertia
-    }
 }
 
 /// Angle of a ball from the middle of its pocket about the origin, between -π and π.
 ///
 /// The azimuth counts about the outer race's centre, which adds the small arc sine of e_r × (b - c_o)/|b - c_o|.
 #[inline(always)]
-fn pocket_angle<R: Real>(azimuth: R, pocket: R) -> R {
+pub(super) fn pocket_angle<R: Real>(azimuth: R, pocket: R) -> R {
     let angle = azimuth - pocket;
     let turns = angle * R::splat(0.5 / std::f64::consts::PI);
     angle - turns.round() * R::splat(2.0 * std::f64::consts::PI)

@@ -248,11 +248,11 @@ impl<R: Real> Planar<R> {
         // the place of a cage that is free to move, and the lubricant, have no tangents
         let place = (self.row.first - 2) / 2;
         for k in 2..2 + place {
-            side[k + place] = side[k + place] * inverse_g;
+            side[k + place] *= inverse_g;
             side[k] = (side[k] + side[k + place]) * inverse_g;
         }
         for own in &mut side[self.row.first + OF_BALL * self.row.balls..] {
-            *own = *own * inverse_g;
+            *own *= inverse_g;
         }
     }
     /// Changes of the heats of pocket damping and of pocket friction along a vector over the bearing's own states.

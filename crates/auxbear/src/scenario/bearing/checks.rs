@@ -1,9 +1,9 @@
 //! Checks between the values of a bearing.
 
 use crate::catalogue::designation::PAIRS;
-use crate::scenario::bearing::kind::BearingType;
 use crate::catalogue::geometry::{Geometry, millimetres, rating_beyond_balls};
 use crate::problem::Code;
+use crate::scenario::bearing::kind::BearingType;
 use crate::scenario::bearing::kind::Fidelity;
 use crate::scenario::bearing::moment::{AccelerationLoss, Moment, RatedBearing};
 use crate::scenario::bearing::{Bearing, Traction};

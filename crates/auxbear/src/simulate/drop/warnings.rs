@@ -48,7 +48,9 @@ fn accuracy(context: &Context) -> Vec<Warning> {
     };
     let text = match (run.method, run.accuracy) {
         (Method::Implicit, _) if known == Known::Nothing => {
-            format!("run.method = \"implicit\" was asked for, but {what}: explicit steps were taken.")
+            format!(
+                "run.method = \"implicit\" was asked for, but {what}: explicit steps were taken."
+            )
         }
         (Method::Implicit, _) => format!(
             "run.method = \"implicit\": {what}, so these steps are as short as explicit ones and cost several times more."

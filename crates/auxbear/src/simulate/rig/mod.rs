@@ -13,7 +13,7 @@ mod columns;
 mod context;
 mod quantities;
 mod raw_file;
-mod warnings;
+pub(crate) mod warnings;
 
 use crate::options::Options;
 use crate::result::outcome::{Outcome, Picture, Work};

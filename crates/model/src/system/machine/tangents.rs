@@ -322,7 +322,7 @@ impl<R: Real> Tangents<R> for Machines<R> {
                     * inverse_g;
                 let rows = touched(k);
                 for i in 0..6 {
-                    of_border[rows[i]] = of_border[rows[i]] - contact.along_normal[i] * q;
+                    of_border[rows[i]] -= contact.along_normal[i] * q;
                 }
             }
         }
@@ -374,9 +374,10 @@ impl<R: Real> Tangents<R> for Machines<R> {
                     vector[at.inner + 5] * inner_radius,
                 ];
                 let (mut closing, mut slip) = (R::zero(), R::zero());
-                for i in 0..6 {
-                    closing += contact.along_normal[i] * z[i];
-                    slip += contact.along_slip[i] * z[i];
+                let along = contact.along_normal.iter().zip(&contact.along_slip);
+                for ((normal, tangential), z) in along.zip(&z) {
+                    closing += *normal * *z;
+                    slip += *tangential * *z;
                 }
                 rates[at.heat + CONTACT_HEAT] += contact.heats[0] * closing;
                 rates[at.heat + CONTACT_HEAT + 1] += contact.heats[1] * slip;
@@ -421,11 +422,11 @@ fn factor<R: Real>(a: &mut [R], n: usize) {
             let factor = below * inverse;
             // the columns behind still hold the unscaled entries
             for j in k + 1..=i {
-                a[i * n + j] = a[i * n + j] - factor * a[j * n + k];
+                a[i * n + j] -= factor * a[j * n + k];
             }
         }
         for i in k + 1..n {
-            a[i * n + k] = a[i * n + k] * inverse;
+            a[i * n + k] *= inverse;
         }
         a[k * (n + 1)] = inverse;
     }
@@ -437,17 +438,17 @@ fn solve<R: Real>(a: &[R], n: usize, side: &mut [R]) {
     for i in 1..n {
         let mut value = side[i];
         for j in 0..i {
-            value = value - a[i * n + j] * side[j];
+            value -= a[i * n + j] * side[j];
         }
         side[i] = value;
     }
     for i in 0..n {
-        side[i] = side[i] * a[i * (n + 1)];
+        side[i] *= a[i * (n + 1)];
     }
     for i in (0..n).rev() {
         let mut value = side[i];
         for j in i + 1..n {
-            value = value - a[j * n + i] * side[j];
+            value -= a[j * n + i] * side[j];
         }
         side[i] = value;
     }
