@@ -7,8 +7,9 @@ mod machines;
 
 use machines::{inlets, lubricant, oil, planar, reference, separate, separations, settings};
 use model::bearing::{BearingConstants, SharedMoment, SteadyMoment};
-use model::system::machine::{MachineConstants, Machines, RotorMachine};
-use number::{Level, Real, Task};
+use model::system::machine::simulate::{Runs, Shape, Steps, simulate_on};
+use model::system::machine::{MachineConstants, RotorMachine};
+use number::Level;
 use physics::palmgren::Palmgren;
 use physics::traction::{DryTraction, FourParameterTraction, Traction};
 use solve::{Ending, Flow, Machine, Observer, Step};
@@ -29,43 +30,50 @@ impl Observer<RotorMachine> for Bits {
     }
 }
 
-/// A run of machines side by side by explicit steps, and if so by linearly implicit ones behind it: how each ended, and the bits
-/// of what was seen on the way.
-struct Side<'a>(&'a [RotorMachine], f64, bool);
-impl Task for Side<'_> {
-    type Output = Vec<(Ending, Vec<u64>)>;
-    fn run<R: Real>(self) -> Self::Output {
-        let Side(machines, end, implicit) = self;
-        let starts: Vec<_> = machines.iter().map(RotorMachine::start).collect();
-        let machines: Vec<_> = machines.iter().collect();
-        let mut seen: Vec<_> = machines.iter().map(|_| Bits::default()).collect();
-        let never = AtomicBool::new(false);
-        let run = if implicit {
-            solve::run_implicit::<R, Machines<R>, _>
-        } else {
-            solve::run::<R, Machines<R>, _>
-        };
-        let tolerance = if implicit { 1e-2 } else { 1e-4 };
-        let settings = settings(end, tolerance);
-        let endings = run(&machines, &starts, &mut seen, &settings, &never);
-        endings
-            .into_iter()
-            .zip(seen.into_iter().map(|bits| bits.0))
-            .collect()
+/// A run of machines on a level, in a shape, by some steps: how each ended, and the bits of what was seen on the way.
+fn seen(
+    (level, shape): (Level, Shape),
+    machines: &[RotorMachine],
+    end: f64,
+    steps: Steps,
+) -> Vec<(Ending, Vec<u64>)> {
+    let starts: Vec<_> = machines.iter().map(RotorMachine::start).collect();
+    let machines: Vec<_> = machines.iter().collect();
+    let mut seen: Vec<_> = machines.iter().map(|_| Bits::default()).collect();
+    let mut observers: Vec<&mut dyn Observer<RotorMachine>> = Vec::new();
+    for bits in &mut seen {
+        observers.push(bits);
     }
+    let tolerance = match steps {
+        Steps::Explicit => 1e-4,
+        Steps::Implicit => 1e-2,
+    };
+    let runs = Runs {
+        machines: &machines,
+        starts: &starts,
+        settings: settings(end, tolerance),
+        steps,
+        interrupt: &AtomicBool::new(false),
+    };
+    let endings = simulate_on(level, shape, runs, &mut observers);
+    endings
+        .into_iter()
+        .zip(seen.into_iter().map(|bits| bits.0))
+        .collect()
 }
 
 /// Asserts that each machine ends alone at every level as it does without a vector unit, and on the lane it has
 /// among the others, by both methods.
 fn same_bits(machines: &[RotorMachine], end: f64) {
-    same_bits_of(machines, end, false);
-    same_bits_of(machines, end, true);
+    for steps in [Steps::Explicit, Steps::Implicit] {
+        same_bits_by(steps, machines, end);
+    }
 }
 
-fn same_bits_of(machines: &[RotorMachine], end: f64, implicit: bool) {
+fn same_bits_by(steps: Steps, machines: &[RotorMachine], end: f64) {
     let alone = |level: Level, machine: &RotorMachine| {
-        let mut runs = level.run_one(Side(std::slice::from_ref(machine), end, implicit));
-        runs.remove(0)
+        let machine = std::slice::from_ref(machine);
+        seen((level, Shape::Balls), machine, end, steps).remove(0)
     };
     let expected: Vec<_> = machines
         .iter()
@@ -80,7 +88,7 @@ fn same_bits_of(machines: &[RotorMachine], end: f64, implicit: bool) {
             );
         }
         for (from, batch) in machines.chunks(level.lanes()).enumerate() {
-            let runs = level.run_many(Side(batch, end, implicit));
+            let runs = seen((level, Shape::Machines), batch, end, steps);
             for (lane, run) in runs.iter().enumerate() {
                 let machine = from * level.lanes() + lane;
                 assert_equal(run, &expected[machine], &format!("lane {lane}, {level:?}"));

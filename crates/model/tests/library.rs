@@ -8,11 +8,11 @@
 mod machines;
 
 use differential_equations::prelude::{IVP, ImplicitRungeKutta, Matrix, ODE};
-use machines::{Blind, INNER, heat_of, planar, reference, settings};
-use model::system::machine::{Machines, RotorMachine};
+use machines::{Blind, INNER, by, heat_of, planar, reference, settings};
+use model::system::machine::RotorMachine;
+use model::system::machine::simulate::Steps;
 use physics::traction::{TanhTraction, Traction};
 use solve::{Machine, Settings, Stop};
-use std::sync::atomic::AtomicBool;
 
 /// Channels of the reference drop: the library's method wants their number when it is compiled.
 const CHANNELS: usize = 89;
@@ -62,14 +62,7 @@ impl ODE<f64, Channels> for Scaled<'_> {
 
 /// The end of a run by linearly implicit steps.
 fn by_our_steps(machine: &RotorMachine, start: &[f64], settings: &Settings) -> Vec<f64> {
-    let endings = solve::run_implicit::<f64, Machines<f64>, _>(
-        &[machine],
-        &[start.to_vec()],
-        &mut [Blind],
-        settings,
-        &AtomicBool::new(false),
-    );
-    let ending = endings.into_iter().next().expect("one machine");
+    let ending = by(Steps::Implicit, machine, start, settings, &mut Blind);
     assert_eq!(ending.stop, Stop::Finished);
     println!("ours: {:?}", ending.work);
     ending.state

@@ -42,6 +42,12 @@ pub trait Observer<M: Machine> {
     fn step(&mut self, step: &mut Step<M>) -> Flow;
 }
 
+impl<M: Machine> Observer<M> for &mut (dyn Observer<M> + '_) {
+    fn step(&mut self, step: &mut Step<M>) -> Flow {
+        (**self).step(step)
+    }
+}
+
 /// Why a machine stopped.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stop {

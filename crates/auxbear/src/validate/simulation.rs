@@ -15,6 +15,7 @@ use model::rotor::Rotor;
 use model::schedule::Schedule;
 use model::system::machine::layout::ROTOR;
 use model::system::machine::rate::rotor_motion;
+use model::system::machine::simulate::Steps;
 use model::system::machine::{MachineConstants, RotorMachine};
 use number::Vec2;
 use physics::traction::{FourParameterTraction, TanhTraction, Traction};
@@ -151,7 +152,7 @@ fn simulate(
                 largest_step: 1e-3,
                 step_limit: 100_000_000,
             },
-            implicit: false,
+            steps: Steps::Explicit,
             interval: duration,
             threads: None,
             interrupt: &AtomicBool::new(false),

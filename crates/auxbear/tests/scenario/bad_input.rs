@@ -160,7 +160,7 @@ fn values_out_of_range_are_refused() {
     );
     assert_eq!(
         set_message("run.tolerance=nan"),
-        "error[AB0106]: drop.toml, --set: run.tolerance: found NaN; a bare number from 1e-12 to 0.01 is needed, e.g. 1e-4"
+        "error[AB0106]: drop.toml, --set: run.tolerance: found NaN; a bare number from 1e-12 to 0.1 is needed, e.g. 1e-4"
     );
     assert_eq!(
         set_message("contact.exponent=20/9"),

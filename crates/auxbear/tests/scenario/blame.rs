@@ -351,15 +351,15 @@ fn a_resolved_file_keeps_the_origin_of_every_value_as_long_as_it_is_that_value()
             assert_eq!((one.path, &one.provenance), (other.path, &other.provenance));
         }
         assert_eq!(again.resolved.toml(), toml);
-        let line = "tolerance = { value = ";
+        let line = "largest_step = { value = ";
         let (before, after) = toml.split_once(line).unwrap();
         let rest = after.split_once(',').unwrap().1;
         let changed = read(
-            &format!("{before}{line}2e-6,{rest}"),
-            &["run.largest_step=0.5 ms"],
+            &format!("{before}{line}\"0.2 ms\",{rest}"),
+            &["run.output_interval=0.5 ms"],
         )
         .unwrap();
-        for path in ["run.tolerance", "run.largest_step"] {
+        for path in ["run.largest_step", "run.output_interval"] {
             assert_eq!(
                 changed.resolved.get(path).unwrap().provenance.mark(),
                 "given",

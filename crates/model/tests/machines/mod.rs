@@ -20,8 +20,9 @@ use model::mount::Mount;
 use model::rotor::Rotor;
 use model::schedule::Schedule;
 use model::system::machine::layout::ROTOR;
-use model::system::machine::{MachineConstants, Machines, RotorMachine};
-use number::Vec2;
+use model::system::machine::simulate::{Runs, Shape, Steps, simulate_on};
+use model::system::machine::{MachineConstants, RotorMachine};
+use number::{Level, Vec2};
 use physics::angular_contact::spin_inertia;
 use physics::film::EntrainedContact;
 use physics::hertz::{BallRace, PointContact, Race};
@@ -403,21 +404,32 @@ impl Observer<RotorMachine> for Blind {
     }
 }
 
-/// Runs a machine from a state under an observer; it must finish.
-pub fn observe<O: Observer<RotorMachine>>(
+/// Runs a machine from a state by some steps under an observer, in plain numbers.
+pub fn by(
+    steps: Steps,
     machine: &RotorMachine,
     start: &[f64],
     settings: &Settings,
-    observer: &mut O,
+    observer: &mut dyn Observer<RotorMachine>,
 ) -> Ending {
-    let ending = solve::run::<f64, Machines<f64>, O>(
-        &[machine],
-        &[start.to_vec()],
-        std::slice::from_mut(observer),
-        settings,
-        &AtomicBool::new(false),
-    )
-    .remove(0);
+    let runs = Runs {
+        machines: &[machine],
+        starts: &[start.to_vec()],
+        settings: *settings,
+        steps,
+        interrupt: &AtomicBool::new(false),
+    };
+    simulate_on(Level::Baseline, Shape::Balls, runs, &mut [observer]).remove(0)
+}
+
+/// Runs a machine from a state by explicit steps under an observer; it must finish.
+pub fn observe(
+    machine: &RotorMachine,
+    start: &[f64],
+    settings: &Settings,
+    observer: &mut dyn Observer<RotorMachine>,
+) -> Ending {
+    let ending = by(Steps::Explicit, machine, start, settings, observer);
     assert_eq!(ending.stop, solve::Stop::Finished);
     assert!(ending.state.iter().all(|value| value.is_finite()));
     ending

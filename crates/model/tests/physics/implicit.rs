@@ -1,15 +1,15 @@
 //! Linearly implicit steps: no part's stiffness is missing from their tangents, and a drop is the same drop.
 
-use crate::machines::{inlets, oil, planar, reference, settings, tilt_contacts};
+use crate::machines::{by, inlets, oil, planar, reference, settings, tilt_contacts};
 use crate::relatives::grease;
 use crate::several::twins;
 use model::bearing::{BearingConstants, SharedMoment, SteadyMoment};
 use model::system::machine::record::Record;
+use model::system::machine::simulate::Steps;
 use model::system::machine::tangents::Known;
 use model::system::machine::{MachineConstants, Machines, RotorMachine};
 use physics::traction::{DryTraction, TanhTraction, Traction};
 use solve::{Batch, Ending, Flow, Machine, Observer, Step, Stop, Tangents};
-use std::sync::atomic::AtomicBool;
 
 /// The reference machine with another reference speed of traction, m/s.
 fn with_reference_speed(reference_speed: f64) -> MachineConstants {
@@ -171,22 +171,17 @@ fn tangents_miss_no_stiffness_where_screening_takes_its_steps() {
     for (name, constants) in variants() {
         let machine = RotorMachine::new(constants);
         assert_eq!(machine.tangents(), Known::All);
-        let mut states = [States {
+        let mut states = States {
             every: 40,
             seen: 0,
             kept: Vec::new(),
-        }];
+        };
         // free fall, the first contact, spin-up
         let settings = settings(0.03, SCREENING);
-        let endings = solve::run_implicit::<f64, Machines<f64>, _>(
-            &[&machine],
-            &[machine.start()],
-            &mut states,
-            &settings,
-            &AtomicBool::new(false),
-        );
-        assert_eq!(endings[0].stop, Stop::Finished, "{name}");
-        let kept = &states[0].kept;
+        let start = machine.start();
+        let ending = by(Steps::Implicit, &machine, &start, &settings, &mut states);
+        assert_eq!(ending.stop, Stop::Finished, "{name}");
+        let kept = &states.kept;
         assert!(kept.len() > 10, "{name}: {}", kept.len());
         let mut all: Vec<_> = (kept.iter())
             .map(|(length, state)| missing(&machine, *length, state))
@@ -195,7 +190,7 @@ fn tangents_miss_no_stiffness_where_screening_takes_its_steps() {
         let (median, worst) = (&all[all.len() / 2], &all[all.len() - 1]);
         println!(
             "{name}: median {:.3}, worst {:.3} ({}), {} steps",
-            median.0, worst.0, worst.1, endings[0].work.accepted
+            median.0, worst.0, worst.1, ending.work.accepted
         );
         assert!(median.0 < USUALLY && worst.0 < MOST, "{name}: {all:?}");
     }
@@ -212,21 +207,13 @@ fn drop(
     constants: MachineConstants,
     end: f64,
     tolerance: f64,
-    implicit: bool,
+    steps: Steps,
 ) -> (Record, Ending, f64) {
     let machine = RotorMachine::new(constants);
     let start = machine.start();
     let mut record = Record::new(&machine, end, end / 10.0, false);
-    let never = AtomicBool::new(false);
     let settings = settings(end, tolerance);
-    let run = if implicit {
-        solve::run_implicit::<f64, Machines<f64>, _>
-    } else {
-        solve::run::<f64, Machines<f64>, _>
-    };
-    let records = std::slice::from_mut(&mut record);
-    let starts = std::slice::from_ref(&start);
-    let ending = run(&[&machine], starts, records, &settings, &never).remove(0);
+    let ending = by(steps, &machine, &start, &settings, &mut record);
     assert_eq!(ending.stop, Stop::Finished);
     let balance = machine.balance(&start, &ending.state);
     let residual = balance.energy_residual() / balance.heat();
@@ -236,8 +223,8 @@ fn drop(
 #[test]
 fn an_implicit_drop_is_the_explicit_one() {
     // both converge to the same first impact, start of the second contact and spin-up time; late contacts are chaotic
-    let (explicit, _, _) = drop(with_reference_speed(0.1), 0.03, 1e-6, false);
-    let (implicit, ending, residual) = drop(with_reference_speed(0.1), 0.03, 1e-4, true);
+    let (explicit, _, _) = drop(with_reference_speed(0.1), 0.03, 1e-6, Steps::Explicit);
+    let (implicit, ending, residual) = drop(with_reference_speed(0.1), 0.03, 1e-4, Steps::Implicit);
     let peak = |record: &Record| record.bearings[0].contacts[0].peak_force;
     let second = |record: &Record| record.bearings[0].contacts[1].start;
     let half = |record: &Record| {
@@ -256,8 +243,8 @@ fn an_implicit_drop_is_the_explicit_one() {
 
 #[test]
 fn stiff_friction_costs_an_implicit_drop_little_more() {
-    let (_, plain, _) = drop(with_reference_speed(0.1), 0.018, 1e-4, true);
-    let (record, stiff, residual) = drop(with_reference_speed(0.001), 0.018, 1e-4, true);
+    let (_, plain, _) = drop(with_reference_speed(0.1), 0.018, 1e-4, Steps::Implicit);
+    let (record, stiff, residual) = drop(with_reference_speed(0.001), 0.018, 1e-4, Steps::Implicit);
     assert!(
         stiff.work.accepted < 2 * plain.work.accepted,
         "{:?} {:?}",
@@ -277,7 +264,7 @@ fn stiff_friction_costs_an_implicit_drop_little_more() {
 fn steps_of_the_implicit_method_allocate_nothing_more() {
     let allocations = |end: f64| {
         let before = crate::counting::ALLOCATIONS.get();
-        drop(with_reference_speed(0.01), end, 1e-3, true);
+        drop(with_reference_speed(0.01), end, 1e-3, Steps::Implicit);
         crate::counting::ALLOCATIONS.get() - before
     };
     // growth of nothing but the run's length

@@ -1,13 +1,13 @@
 //! The slow state of the lubricant in a drop: implicit steps, and what is paid where there is none.
 
-use crate::machines::{lubricant, planar, reference, settings};
+use crate::machines::{by, lubricant, planar, reference, settings};
 use crate::relatives::grease;
 use model::bearing::lubricant_state::STATES;
 use model::bearing::{SharedMoment, SteadyMoment};
 use model::system::machine::record::Record;
-use model::system::machine::{MachineConstants, Machines, RotorMachine};
+use model::system::machine::simulate::Steps;
+use model::system::machine::{MachineConstants, RotorMachine};
 use solve::{Ending, Stop};
-use std::sync::atomic::AtomicBool;
 
 /// The reference machine with a grease whose films warm within milliseconds.
 fn warming() -> MachineConstants {
@@ -29,28 +29,28 @@ fn warming() -> MachineConstants {
 
 fn implicit(machine: &RotorMachine, end: f64, tolerance: f64) -> (Ending, Record) {
     let mut record = Record::new(machine, end, 1e-3, false);
-    let ending = solve::run_implicit::<f64, Machines<f64>, _>(
-        &[machine],
-        &[machine.start()],
-        std::slice::from_mut(&mut record),
-        &settings(end, tolerance),
-        &AtomicBool::new(false),
-    )
-    .remove(0);
+    let settings = settings(end, tolerance);
+    let ending = by(
+        Steps::Implicit,
+        machine,
+        &machine.start(),
+        &settings,
+        &mut record,
+    );
     assert_eq!(ending.stop, Stop::Finished);
     (ending, record)
 }
 
 fn explicit(machine: &RotorMachine, end: f64, tolerance: f64) -> (Ending, Record) {
     let mut record = Record::new(machine, end, 1e-3, false);
-    let ending = solve::run::<f64, Machines<f64>, _>(
-        &[machine],
-        &[machine.start()],
-        std::slice::from_mut(&mut record),
-        &settings(end, tolerance),
-        &AtomicBool::new(false),
-    )
-    .remove(0);
+    let settings = settings(end, tolerance);
+    let ending = by(
+        Steps::Explicit,
+        machine,
+        &machine.start(),
+        &settings,
+        &mut record,
+    );
     assert_eq!(ending.stop, Stop::Finished);
     (ending, record)
 }

@@ -3,7 +3,8 @@
 use crate::machines::{planar_bearing, rolling_bearing, settings, vec2};
 use model::bearing::{BearingConstants, PlanarConstants, SharedMoment, SteadyMoment};
 use model::system::spin_up::record::Record;
-use model::system::spin_up::{Drive, InnerRace, SpinUp, SpinUpConstants, SpinUpMachine};
+use model::system::spin_up::simulate::simulate;
+use model::system::spin_up::{Drive, InnerRace, SpinUpConstants, SpinUpMachine};
 use model::table::Table;
 use physics::palmgren::Palmgren;
 use solve::{Ending, Observer, Settings, Stop};
@@ -78,20 +79,13 @@ pub fn rolling() -> model::bearing::RollingConstants {
 }
 
 /// Runs a machine under an observer; it must finish.
-pub fn observe<O: Observer<SpinUpMachine>>(
+pub fn observe(
     machine: &SpinUpMachine,
     start: &[f64],
     settings: &Settings,
-    observer: &mut O,
+    observer: &mut dyn Observer<SpinUpMachine>,
 ) -> Ending {
-    let ending = solve::run::<f64, SpinUp<f64>, O>(
-        &[machine],
-        &[start.to_vec()],
-        std::slice::from_mut(observer),
-        settings,
-        &AtomicBool::new(false),
-    )
-    .remove(0);
+    let ending = simulate(machine, start, settings, observer, &AtomicBool::new(false));
     assert_eq!(ending.stop, Stop::Finished);
     assert!(ending.state.iter().all(|value| value.is_finite()));
     ending

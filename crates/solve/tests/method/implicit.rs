@@ -98,8 +98,9 @@ impl<const PERCENT: u32, const POINTS: bool> Tangents<f64> for Sloped<PERCENT, P
             side.swap(k, pivot);
             for i in k + 1..n {
                 let factor = a[i][k] / a[k][k];
-                for j in k..n {
-                    a[i][j] -= factor * a[k][j];
+                let pivot_row = a[k].clone();
+                for (value, above) in a[i].iter_mut().zip(&pivot_row).skip(k) {
+                    *value -= factor * above;
                 }
                 side[i] -= factor * side[k];
             }

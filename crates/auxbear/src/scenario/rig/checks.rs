@@ -9,7 +9,6 @@ const MOST_VALUES: f64 = 1e8;
 
 impl Context<'_> {
     pub(crate) fn rig(&self, rig: &Rig) -> Check {
-        self.one_row(&rig.bearing)?;
         self.bearing(&rig.bearing, None, rig.load.hanging_mass.is_some())?;
         match rig.program {
             RigProgram::SpinUp {

@@ -15,7 +15,6 @@ impl Context<'_> {
             Drive::Torque { .. } | Drive::Speed(_) => None,
         };
         let loaded = spin_up.radial_load.largest() > 0.0;
-        self.one_row(&spin_up.bearing)?;
         self.bearing(&spin_up.bearing, bore, loaded)?;
         self.some_speed(spin_up)?;
         self.some_drive(spin_up)?;

@@ -218,7 +218,14 @@ pub(crate) fn kind(bearing: &Bearing) -> Vec<Warning> {
              nothing but the friction law."
                 .to_string(),
         )),
-        BearingType::AngularContact | BearingType::AngularContactDoubleRow => {
+        BearingType::AngularContact => list.push(warning("AB1019", angular_contact(bearing))),
+        BearingType::AngularContactDoubleRow => {
+            list.push(warning(
+                "AB1125",
+                "A double row is computed as a single row of ball_count balls: loads, pressures and friction of balls that share two rows \
+                 are not those of this run."
+                    .to_string(),
+            ));
             list.push(warning("AB1019", angular_contact(bearing)));
         }
     }
@@ -228,12 +235,6 @@ pub(crate) fn kind(bearing: &Bearing) -> Vec<Warning> {
 /// What a contact angle in the plane takes for granted.
 fn angular_contact(bearing: &Bearing) -> String {
     let angle = bearing.contact_angle.to_degrees();
-    let rows = match bearing.kind {
-        BearingType::AngularContactDoubleRow => {
-            " Its two rows are computed as one, of ball_count balls."
-        }
-        _ => "",
-    };
     let held = if bearing.axial_preload > 0.0 {
         let most = radial_load_that_unloads_a_ball(bearing.axial_preload, bearing.contact_angle);
         format!("keeps it (locked, at rest up to a radial load of {most:.0} N)")
@@ -242,7 +243,7 @@ fn angular_contact(bearing: &Bearing) -> String {
     };
     format!(
         "The contact angle of {angle:.1} deg is computed in the plane and stays as it is: that holds while an axial preload {held}. \
-         Axial motion, tilt and the balls' spin about their contacts are left out.{rows}"
+         Axial motion, tilt and the balls' spin about their contacts are left out."
     )
 }
 

@@ -3,9 +3,10 @@
 //! A member's result depends on its constants and its start alone, bit for bit: not on the lane, the company, the
 //! vector unit or the number of threads.
 
+use model::system::machine::RotorMachine;
 use model::system::machine::record::Record;
-use model::system::machine::{Machines, RotorMachine};
-use number::{Level, Real, Task};
+use model::system::machine::simulate::{Runs, Steps, simulate};
+use number::Level;
 use rayon::prelude::*;
 use solve::{Ending, Flow, Observer, Settings, Step};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -38,8 +39,8 @@ pub struct Finished {
 pub struct Plan<'a> {
     /// Of the integration.
     pub settings: Settings,
-    /// True for linearly implicit steps; needs balls with states of their own.
-    pub implicit: bool,
+    /// Explicit or linearly implicit.
+    pub steps: Steps,
     /// Time between rows, s.
     pub interval: f64,
     /// Number of threads; all cores if none.
@@ -79,27 +80,15 @@ pub fn run(members: &[Member], plan: &Plan) -> Vec<Finished> {
 
 /// Runs members that lanes may share.
 fn run_of_a_kind(members: &[Member], plan: &Plan) -> Vec<Finished> {
-    let level = Level::detect();
     let done = AtomicU64::new(0);
     let report = Report {
         done: &done,
         members: members.len(),
         progress: plan.progress,
     };
-    let chunk = |members: &[Member]| {
-        let task = Chunk {
-            members,
-            plan,
-            report: &report,
-        };
-        if members.len() == 1 {
-            level.run_one(task)
-        } else {
-            level.run_many(task)
-        }
-    };
+    let chunk = |members: &[Member]| side_by_side(members, plan, &report);
     let threads = plan.threads.unwrap_or_else(rayon::current_num_threads);
-    let together = together(members.len(), level.lanes(), threads);
+    let together = together(members.len(), Level::detect().lanes(), threads);
     let all = || -> Vec<Finished> { members.par_chunks(together).flat_map_iter(chunk).collect() };
     match plan.threads {
         _ if members.len() <= together => chunk(members),
@@ -122,39 +111,28 @@ fn together(members: usize, lanes: usize, threads: usize) -> usize {
     lanes * turns.clamp(1, MOST_TURNS)
 }
 
-/// The members that share the lanes of a vector register: each lane takes the next one when it is free.
-struct Chunk<'a> {
-    members: &'a [Member],
-    plan: &'a Plan<'a>,
-    report: &'a Report<'a>,
-}
-
-impl Task for Chunk<'_> {
-    type Output = Vec<Finished>;
-    fn run<R: Real>(self) -> Vec<Finished> {
-        let Chunk {
-            members,
-            plan,
-            report,
-        } = self;
-        let machines: Vec<&RotorMachine> = members.iter().map(|m| &m.machine).collect();
-        let starts: Vec<Vec<f64>> = members.iter().map(|m| m.start.clone()).collect();
-        let mut watched: Vec<Watched> = (members.iter())
-            .map(|member| Watched::of(member, plan, report))
-            .collect();
-        let settings = &plan.settings;
-        let endings = if plan.implicit {
-            let run = solve::run_implicit::<R, Machines<R>, _>;
-            run(&machines, &starts, &mut watched, settings, plan.interrupt)
-        } else {
-            let run = solve::run::<R, Machines<R>, _>;
-            run(&machines, &starts, &mut watched, settings, plan.interrupt)
-        };
-        let parts = watched.into_iter().zip(endings).zip(members);
-        parts
-            .map(|((watched, ending), member)| watched.finish(ending, member))
-            .collect()
-    }
+/// Runs members that share the lanes of a vector register: each lane takes the next one when it is free.
+fn side_by_side(members: &[Member], plan: &Plan, report: &Report) -> Vec<Finished> {
+    let machines: Vec<&RotorMachine> = members.iter().map(|m| &m.machine).collect();
+    let starts: Vec<Vec<f64>> = members.iter().map(|m| m.start.clone()).collect();
+    let mut watched: Vec<Watched> = (members.iter())
+        .map(|member| Watched::of(member, plan, report))
+        .collect();
+    let runs = Runs {
+        machines: &machines,
+        starts: &starts,
+        settings: plan.settings,
+        steps: plan.steps,
+        interrupt: plan.interrupt,
+    };
+    let mut observers: Vec<&mut dyn Observer<RotorMachine>> = (watched.iter_mut())
+        .map(|watched| watched as &mut dyn Observer<RotorMachine>)
+        .collect();
+    let endings = simulate(runs, &mut observers);
+    let parts = watched.into_iter().zip(endings).zip(members);
+    parts
+        .map(|((watched, ending), member)| watched.finish(ending, member))
+        .collect()
 }
 
 /// Adds up the thousandths of all members.

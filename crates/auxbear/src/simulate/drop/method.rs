@@ -14,6 +14,7 @@ use crate::simulate::drop::build::Built;
 use crate::simulate::ending::DESIGN;
 use model::auxiliary_bearing::AuxiliaryBearingConstants;
 use model::bearing::{BearingConstants, PlanarConstants};
+use model::system::machine::simulate::Steps;
 use model::system::machine::tangents::Known;
 
 /// λ/ω above which linearly implicit steps are the quicker ones at design accuracy; measured on the reference drop with
@@ -31,23 +32,26 @@ pub(crate) const IMPLICIT: &str = "ROS34PW2, linearly implicit";
 
 /// How the steps of a drop are taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Steps {
-    /// True for linearly implicit ones.
-    pub implicit: bool,
+pub(crate) struct Stepping {
+    /// Explicit or linearly implicit.
+    pub steps: Steps,
     /// Tolerance, where none is given.
     pub tolerance: f64,
 }
 
-impl Steps {
+impl Stepping {
     /// Name of the method, for people.
     pub fn name(self) -> &'static str {
-        if self.implicit { IMPLICIT } else { EXPLICIT }
+        match self.steps {
+            Steps::Explicit => EXPLICIT,
+            Steps::Implicit => IMPLICIT,
+        }
     }
 }
 
 /// The steps of a drop. At design accuracy linearly implicit ones pay where friction is stiff; at screening accuracy wherever they
 /// know all that is stiff. Balls that roll have nothing stiff.
-pub(crate) fn steps(drop: &Drop, built: &Built, known: Known) -> Steps {
+pub(crate) fn stepping(drop: &Drop, built: &Built, known: Known) -> Stepping {
     let screening = drop.run.accuracy == Accuracy::Screening;
     let implicit = known != Known::Nothing
         && match drop.run.method {
@@ -55,15 +59,17 @@ pub(crate) fn steps(drop: &Drop, built: &Built, known: Known) -> Steps {
             Method::Implicit => true,
             Method::Auto => (screening && known == Known::All) || is_stiff(drop, built),
         };
-    let tolerance = match (screening, implicit) {
-        (false, _) => DESIGN,
-        (true, true) => SCREENING,
-        (true, false) => SCREENING_EXPLICIT,
+    let steps = if implicit {
+        Steps::Implicit
+    } else {
+        Steps::Explicit
     };
-    Steps {
-        implicit,
-        tolerance,
-    }
+    let tolerance = match (screening, steps) {
+        (false, _) => DESIGN,
+        (true, Steps::Implicit) => SCREENING,
+        (true, Steps::Explicit) => SCREENING_EXPLICIT,
+    };
+    Stepping { steps, tolerance }
 }
 
 /// Whether sliding friction is too stiff for explicit steps.

@@ -16,7 +16,7 @@ use crate::simulate::drop::build::Built;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{Finished, Member, Plan};
 use crate::simulate::drop::members::Varied;
-use crate::simulate::drop::method::Steps;
+use crate::simulate::drop::method::Stepping;
 use crate::simulate::ending::{settings_at, stop};
 use std::time::Instant;
 
@@ -30,13 +30,13 @@ pub(crate) fn run(
 ) -> Outcome {
     let count = drop.repeat.count.max(1) as usize;
     let members: Vec<Member> = members::of(drop, built, varied);
-    let steps = method::steps(drop, built, members[0].machine.tangents());
+    let stepping = method::stepping(drop, built, members[0].machine.tangents());
     let clock = Instant::now();
     let finished = ensemble::run(
         &members,
         &Plan {
-            settings: settings_at(&drop.run, steps.tolerance),
-            implicit: steps.implicit,
+            settings: settings_at(&drop.run, stepping.tolerance),
+            steps: stepping.steps,
             interval: drop.run.output_interval,
             threads: options.threads,
             interrupt: options.interrupt,
@@ -99,7 +99,7 @@ pub(crate) fn run(
         contacts: contacts(&first),
         warnings: warnings::of(scenario, &first, &finished),
         stop: worst_stop(&finished),
-        work: work(&finished, seconds, steps),
+        work: work(&finished, seconds, stepping),
         members: table,
         drawn,
         limits: Vec::new(),
@@ -196,11 +196,11 @@ fn worst_stop(finished: &[Finished]) -> Stop {
     }
 }
 
-fn work(finished: &[Finished], seconds: f64, steps: Steps) -> Work {
+fn work(finished: &[Finished], seconds: f64, stepping: Stepping) -> Work {
     let mut work = Work {
         members: finished.len(),
         seconds,
-        method: Some(steps.name()),
+        method: Some(stepping.name()),
         ..Work::default()
     };
     for member in finished {

@@ -80,7 +80,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
         };
         names.iter().enumerate().flat_map(named).collect()
     };
-    let mut list = each(&|k| whirl(context, k));
+    let mut list = each(&|k| whirl(context, members, k));
     list.extend(each(&|k| {
         let bearing = &context.given(k).bearing;
         let rating = speed_rating(bearing, drop.rotor.speed);
@@ -139,18 +139,28 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
     list
 }
 
-/// A rotor that runs round the bore against its spin.
-fn whirl(context: &Context, k: usize) -> Vec<Warning> {
-    let turns = context.record(k).whirl_turns * context.machine.constants.speed.signum();
-    if turns > -1.0 {
+/// A rotor that runs round the bore against its spin, in any member.
+fn whirl(context: &Context, members: &[Finished], k: usize) -> Vec<Warning> {
+    let sense = context.machine.constants.speed.signum();
+    let turns = |member: &Finished| member.record.bearings[k].whirl_turns * sense;
+    let whirling = members.iter().enumerate().map(|(at, m)| (at, turns(m)));
+    let whirling: Vec<(usize, f64)> = whirling.filter(|(_, turns)| *turns <= -1.0).collect();
+    let Some((worst, most)) = (whirling.iter().copied()).min_by(|a, b| a.1.total_cmp(&b.1)) else {
         return Vec::new();
-    }
+    };
+    let who = match members.len() {
+        1 => "the rotor runs".to_string(),
+        count => format!(
+            "in {} of {count} members, and in member {worst} the rotor runs",
+            whirling.len()
+        ),
+    };
     vec![warning(
         "AB1014",
         format!(
-            "Backward whirl: the rotor runs {:.0} turns round the bore against its spin. Contact forces of this kind \
+            "Backward whirl: {who} {:.0} turns round the bore against its spin. Contact forces of this kind \
              destroy bearings and shafts.",
-            -turns
+            -most
         ),
     )]
 }

@@ -13,8 +13,9 @@ use crate::simulate::drop::method;
 use crate::simulate::ending::{settings, stop};
 use crate::simulate::spin_up::build::Built;
 use crate::simulate::spin_up::context::Context;
+use model::system::spin_up::SpinUpMachine;
 use model::system::spin_up::record::Record;
-use model::system::spin_up::{SpinUp as System, SpinUpMachine};
+use model::system::spin_up::simulate::simulate;
 use solve::{Ending, Flow, Observer, Step};
 use std::time::Instant;
 
@@ -70,7 +71,6 @@ pub(crate) fn run(
     }
 }
 
-/// Runs one machine alone, in plain numbers: the vector unit would save a second here and cost minutes of building.
 fn integrate(
     machine: &SpinUpMachine,
     start: &[f64],
@@ -79,23 +79,14 @@ fn integrate(
 ) -> (Record, Ending) {
     let settings = settings(&spin_up.run);
     let end = settings.end;
-    let mut watched = [Watched {
+    let mut watched = Watched {
         record: Record::new(machine, end, spin_up.run.output_interval, true),
         progress: options.progress,
         reported: 0,
         end,
-    }];
-    let mut endings = solve::run::<f64, System<f64>, _>(
-        &[machine],
-        &[start.to_vec()],
-        &mut watched,
-        &settings,
-        options.interrupt,
-    );
-    let [watched] = watched;
+    };
+    let ending = simulate(machine, start, &settings, &mut watched, options.interrupt);
     let mut record = watched.record;
-    // one machine, one ending
-    let ending = endings.remove(0);
     record.finish(machine, ending.time, &ending.state);
     (record, ending)
 }

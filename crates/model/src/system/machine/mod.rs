@@ -16,6 +16,7 @@
 //! | [`ledger`] | energies, momentum, what closes |
 //! | [`tangents`] | what is stiff, for linearly implicit steps |
 //! | [`record`] | what is watched and kept of a run |
+//! | [`simulate`] | a run, alone or in lanes |
 //!
 //! The auxiliary bearing is a part: [`auxiliary_bearing`](crate::auxiliary_bearing).
 //!
@@ -27,6 +28,7 @@ pub mod layout;
 pub mod ledger;
 pub mod rate;
 pub mod record;
+pub mod simulate;
 pub mod start;
 pub mod tangents;
 

@@ -15,6 +15,7 @@
 //! | [`rate`] | the equations of motion |
 //! | [`ledger`] | energies, momentum, what closes; the energy by the outer race, (21) |
 //! | [`record`] | what is watched and kept of a run |
+//! | [`simulate`] | a run |
 //! | [`capacity`] | whether traction can turn the balls against the steady moment |
 //!
 //! The inner race may move in the plane under its load and weight, or be held in the middle: the concentric rig of the
@@ -29,6 +30,7 @@ pub mod layout;
 pub mod ledger;
 pub mod rate;
 pub mod record;
+pub mod simulate;
 
 pub use super::refusal::Refusal;
 use crate::bearing::Bearing;
