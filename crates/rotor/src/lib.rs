@@ -19,6 +19,8 @@
 //! What it does not model: torsion and axial motion, stress stiffening, shafts that are not round, large tilt,
 //! supports that hold the slope of a node.
 
+#![forbid(unsafe_code)]
+
 mod assembly;
 mod basis;
 mod campbell;

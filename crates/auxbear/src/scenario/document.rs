@@ -6,8 +6,8 @@ use crate::scenario::meant;
 use crate::scenario::not_modelled;
 pub(crate) use crate::scenario::raw::{Raw, as_toml};
 use crate::scenario::raw::{Written, collect, raw, table_raw, tables};
-use crate::scenario::rotor::part_keys::{PARTS, kind_at};
-use crate::scenario::rotor::parts::WrittenPart;
+use crate::scenario::rotor::part_keys::kind_at;
+use crate::scenario::rotor::written::{self, WrittenPart};
 use crate::scenario::several::{self, AUXILIARY_BEARING, LIMIT, VARY};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
@@ -91,7 +91,7 @@ impl Document {
             document.limits = tables(text, key.span().start, value.get_ref());
         }
         if let Some(DeValue::Table(rotor)) = root.get_ref().get("rotor").map(|v| v.get_ref()) {
-            document.add_parts(text, rotor)?;
+            document.parts = written::read_all(text, rotor, file, document.system)?;
         }
         for set in sets {
             document.add_override(set)?;
@@ -219,71 +219,6 @@ impl Document {
         Ok(())
     }
 
-    /// Reads the parts of a bent rotor.
-    fn add_parts(&mut self, text: &str, rotor: &DeTable<'_>) -> Result<(), Box<Problem>> {
-        for kind in PARTS {
-            let Some((key, value)) = rotor.get_key_value(kind.word) else {
-                continue;
-            };
-            let start = key.span().start;
-            let place = Place::of_offset(text, start);
-            let path = format!("rotor.{}", kind.word);
-            let refuse = |code, found: String, allowed: String| {
-                let problem = Problem::new(code, &self.file, found, allowed);
-                Err(Box::new(problem.at(place).on_key(&path)))
-            };
-            if self.system != SystemName::Rotor {
-                let found = "a section that has no effect".to_string();
-                let allowed = "it is used only with system = \"rotor\"".to_string();
-                return refuse(Code::UnusedKey, found, allowed);
-            }
-            if !matches!(value.get_ref(), DeValue::Array(_)) {
-                let found = raw(value.get_ref()).text();
-                return refuse(
-                    Code::WrongType,
-                    found,
-                    format!("tables [[{path}]] are needed"),
-                );
-            }
-            for keys in tables(text, start, value.get_ref()) {
-                let first = keys.iter().map(|(_, _, place)| *place);
-                self.parts.push(WrittenPart {
-                    kind: kind.word,
-                    place: first.min_by_key(|place| place.line()).unwrap_or(place),
-                    keys,
-                });
-            }
-        }
-        Ok(())
-    }
-
-    /// An override of a value of a part: `rotor.disk.impeller.mass`, the name or the number of the part before its key.
-    fn add_to_part(&mut self, path: &[String], raw: Raw) -> Result<(), Box<Problem>> {
-        let [_, kind, named, keys @ ..] = path else {
-            return Ok(());
-        };
-        let of_kind = |part: &&mut WrittenPart| part.kind == kind;
-        let mut parts: Vec<&mut WrittenPart> = self.parts.iter_mut().filter(of_kind).collect();
-        let number = named.parse::<usize>().ok();
-        let at = (parts.iter().position(|part| part.name() == Some(named)))
-            .or_else(|| number?.checked_sub(1).filter(|at| *at < parts.len()));
-        let (Some(at), [key]) = (at, keys) else {
-            let names: Vec<String> = (1..)
-                .zip(&parts)
-                .map(|(number, part)| part.name().map_or(number.to_string(), str::to_string))
-                .collect();
-            let allowed = format!(
-                "rotor.{kind}.NAME.KEY is needed, with one of the names or numbers {}",
-                names.join(", ")
-            );
-            let problem = Problem::new(Code::UnknownKey, &self.file, quoted(named), allowed);
-            return Err(Box::new(problem.at(Place::Set).on_key(path.join("."))));
-        };
-        parts[at].keys.retain(|(other, ..)| other != key);
-        parts[at].keys.push((key.clone(), raw, Place::Set));
-        Ok(())
-    }
-
     fn only_drops_vary(&self, place: Place) -> Result<(), Box<Problem>> {
         if self.system == SystemName::Drop {
             return Ok(());
@@ -367,7 +302,7 @@ impl Document {
             && self.system == SystemName::Rotor
             && kind_at(&path[..2].join(".")).is_some()
         {
-            return self.add_to_part(&path, raw);
+            return written::set(&mut self.parts, &self.file, &path, raw);
         }
         if path[0] == AUXILIARY_BEARING {
             return self.add_to_bearing(&path, raw, typed.to_string());

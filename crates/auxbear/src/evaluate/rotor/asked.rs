@@ -5,7 +5,7 @@ use crate::scenario::RotorAnalysis;
 use crate::scenario::UNNAMED;
 use rotor::{
     Analysis, Basis, Campbell, Critical, MapPoint, Matrices, Mode, Place, Responder, Response,
-    Rotor, RotorError, Sag,
+    Rotor, RotorError, Sag, Whirl,
 };
 use std::sync::OnceLock;
 
@@ -229,6 +229,15 @@ pub(crate) fn word(kind: &str, name: &str) -> String {
     match name.parse::<usize>() {
         Ok(number) => format!("{kind}_{number}"),
         Err(_) => name.replace(['.', ' '], "_"),
+    }
+}
+
+/// Whirl as a number: forward 1, backward -1, planar 0.
+pub(crate) fn sense(whirl: Whirl) -> f64 {
+    match whirl {
+        Whirl::Forward => 1.0,
+        Whirl::Backward => -1.0,
+        Whirl::Planar => 0.0,
     }
 }
 

@@ -1,10 +1,16 @@
 //! What the page needs to draw a rotor to scale, as lists.
 
 use crate::evaluate::rotor::asked::Asked;
-use crate::evaluate::rotor::quantities::GIVEN;
-use crate::result::list::List;
+use crate::result::list::{List, Origin};
 use crate::result::outcome::Value;
 use rotor::Place;
+
+/// What the scenario says.
+pub(crate) const GIVEN: Origin = Origin {
+    law: "",
+    source: "the scenario",
+    valid: "",
+};
 
 /// Positions, diameters and names of all parts.
 pub(crate) fn name(list: &mut List, asked: &Asked) {

@@ -10,10 +10,9 @@ pub(crate) mod quantities;
 pub(crate) mod warnings;
 
 pub(crate) use crate::evaluate::rotor::asked::Asked;
-use crate::evaluate::rotor::asked::Found;
+use crate::evaluate::rotor::asked::{Found, sense};
 use crate::result::outcome::{Column, Outcome, Picture, Stop, Work};
 use crate::scenario::Scenario;
-use rotor::Whirl;
 use std::time::Instant;
 
 /// Computes everything and names it.
@@ -70,15 +69,6 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
             balls: 0,
         }],
         files: Vec::new(),
-    }
-}
-
-/// Whirl as a number: forward 1, backward -1, planar 0.
-fn sense(whirl: Whirl) -> f64 {
-    match whirl {
-        Whirl::Forward => 1.0,
-        Whirl::Backward => -1.0,
-        Whirl::Planar => 0.0,
     }
 }
 

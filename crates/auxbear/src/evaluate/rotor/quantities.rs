@@ -1,7 +1,8 @@
 //! The named results of the analysis of a rotor.
 
-use crate::evaluate::rotor::asked::{Asked, Found, word};
-use crate::evaluate::rotor::{drawing, sense, warnings::grows};
+use crate::evaluate::rotor::asked::{Asked, Found, sense, word};
+use crate::evaluate::rotor::drawing::{self, GIVEN};
+use crate::evaluate::rotor::warnings::grows;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Value};
 use crate::scenario::RotorAnalysis;
@@ -368,11 +369,6 @@ fn reduction(list: &mut List, asked: &Asked, found: &Found) {
     list.number("receptance_error", "", error, &REDUCTION);
 }
 
-pub(crate) const GIVEN: Origin = Origin {
-    law: "",
-    source: "the scenario",
-    valid: "",
-};
 const RANGE: &str =
     "small motion of a round shaft; no torsion, no axial motion, no stress stiffening";
 const BODY: Origin = Origin {

@@ -4,6 +4,7 @@ pub(crate) mod build;
 pub(crate) mod keys;
 pub(crate) mod part_keys;
 pub(crate) mod parts;
+pub(crate) mod written;
 
 use crate::problem::Problem;
 use crate::scenario::document::Document;

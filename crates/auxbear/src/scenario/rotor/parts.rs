@@ -1,32 +1,13 @@
 //! Parts of a rotor as tables of a file: read, completed with defaults, written again.
 
 use crate::problem::{Code, Place, Problem, did_you_mean};
-use crate::scenario::document::{Document, Given, Raw};
+use crate::scenario::document::{Document, Given};
 use crate::scenario::key::{Key, Presence, quoted};
-use crate::scenario::raw::Written;
 use crate::scenario::resolved::{ResolvedValue, line};
 use crate::scenario::rotor::part_keys::{PARTS, PartKind};
+use crate::scenario::rotor::written::WrittenPart;
 use crate::scenario::values::{Known, Value, Values};
 use std::collections::BTreeMap;
-
-/// A part as the text has it.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct WrittenPart {
-    /// Word of its kind.
-    pub(crate) kind: &'static str,
-    pub(crate) keys: Vec<Written>,
-    pub(crate) place: Place,
-}
-
-impl WrittenPart {
-    /// Its name, where it has one.
-    pub(crate) fn name(&self) -> Option<&str> {
-        self.keys.iter().find_map(|(key, raw, _)| match raw {
-            Raw::Text(name) if key == "name" => Some(name.as_str()),
-            _ => None,
-        })
-    }
-}
 
 /// A part with all its values.
 #[derive(Clone, Debug)]
