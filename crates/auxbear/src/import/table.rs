@@ -138,7 +138,7 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
                         "a number not below 0 is needed",
                     ))
                 })?;
-            let unit = at(name).and_then(|k| columns[k].as_ref()?.unit.clone());
+            let unit = at(name).and_then(|k| columns[k].as_ref()?.unit);
             Ok(Some(unit.map_or(value, |unit| unit.to_si(value))))
         };
         let needed = |name: &str| -> Result<f64, Box<Problem>> {

@@ -43,16 +43,12 @@ pub(crate) fn name(list: &mut List, asked: &Asked) {
         "kg",
         rotor.disks.iter().map(|d| d.mass).collect(),
     );
-    let sizes = |part: fn(&(Option<f64>, Option<f64>)) -> Option<f64>| -> Vec<f64> {
-        // zero: not given, to be drawn by its mass
-        model
-            .disk_sizes
-            .iter()
-            .map(|size| part(size).unwrap_or_default())
-            .collect()
-    };
-    numbers("disk_diameters", "m", sizes(|size| size.0));
-    numbers("disk_widths", "m", sizes(|size| size.1));
+    // zero: not given, to be drawn by its mass
+    let sizes = || model.disk_sizes.iter();
+    let diameters = sizes().map(|size| size.0.unwrap_or_default());
+    numbers("disk_diameters", "m", diameters.collect());
+    let widths = sizes().map(|size| size.1.unwrap_or_default());
+    numbers("disk_widths", "m", widths.collect());
     for (name, seal) in [("support_positions", false), ("seal_positions", true)] {
         let places = rotor.supports.iter().filter(|support| support.seal == seal);
         let at = places.filter_map(|support| match support.at {

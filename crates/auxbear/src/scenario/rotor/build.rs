@@ -409,7 +409,7 @@ fn disk(part: &Part, node: usize, materials: &[&Part]) -> Built<Disk> {
     const INERTIA: [&str; 3] = ["mass", "polar_inertia", "diametral_inertia"];
     const DIMENSIONS: [&str; 3] = ["width", "outer_diameter", "material"];
     let given = |name: &&str| part.known.contains_key(*name);
-    if INERTIA.iter().all(|name| given(&name)) {
+    if INERTIA.iter().all(given) {
         return Ok(Disk {
             node,
             mass: part.needed("mass"),
@@ -417,13 +417,10 @@ fn disk(part: &Part, node: usize, materials: &[&Part]) -> Built<Disk> {
             diametral: part.needed("diametral_inertia"),
         });
     }
-    if INERTIA.iter().any(|name| given(&name)) || !DIMENSIONS.iter().all(|name| given(&name)) {
-        let lacking: Vec<&str> = match INERTIA.iter().any(|name| given(&name)) {
-            true => INERTIA.into_iter().filter(|name| !given(&name)).collect(),
-            false => DIMENSIONS
-                .into_iter()
-                .filter(|name| !given(&name))
-                .collect(),
+    if INERTIA.iter().any(given) || !DIMENSIONS.iter().all(given) {
+        let lacking: Vec<&str> = match INERTIA.iter().any(given) {
+            true => INERTIA.into_iter().filter(|name| !given(name)).collect(),
+            false => DIMENSIONS.into_iter().filter(|name| !given(name)).collect(),
         };
         let found = format!("a disk without {}", lacking.join(", "));
         let allowed = "mass, polar_inertia and diametral_inertia, or width, outer_diameter and material, are needed";
