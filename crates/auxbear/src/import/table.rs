@@ -10,7 +10,7 @@
 //! | `disk mass [kg]`, `disk polar inertia [kg m^2]`, `disk diametral inertia [kg m^2]` | no | a disk at the left end of the row |
 
 use crate::import::draft::Draft;
-use crate::problem::{Code, Place, Problem, did_you_mean};
+use crate::problem::{Code, Place, Problem};
 use calamine::{Reader, Xlsx};
 use rotor::{Annulus, Disk, Element, MATERIALS, Material};
 use std::io::Cursor;
@@ -89,11 +89,8 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
     let mut notes = Vec::new();
     let mut columns: Vec<Option<Column>> = Vec::new();
     for text in head {
-        columns.push(column(text).map_err(|(found, allowed)| {
-            let names = COLUMNS.iter().map(|column| column.0);
-            let hint = did_you_mean(text, names);
-            Box::new(problem(1, found, &allowed).with_hint(hint))
-        })?);
+        columns
+            .push(column(text).map_err(|(found, allowed)| Box::new(problem(1, found, &allowed)))?);
         if columns.last().is_some_and(Option::is_none) && !text.is_empty() {
             notes.push(format!("column \"{text}\": not understood, left out"));
         }

@@ -5,8 +5,9 @@ use crate::scenario::key::{Key, quoted};
 use crate::scenario::meant;
 use crate::scenario::not_modelled;
 pub(crate) use crate::scenario::raw::{Raw, as_toml};
-use crate::scenario::raw::{Written, WrittenPart, collect, override_part, raw, table_raw, tables};
-use crate::scenario::rotor::part_keys::{PARTS, kind_at};
+use crate::scenario::raw::{Written, collect, raw, table_raw, tables};
+use crate::scenario::rotor::part_keys::kind_at;
+use crate::scenario::rotor::written::{self, WrittenPart, is_part};
 use crate::scenario::several::{self, AUXILIARY_BEARING, LIMIT, VARY};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
@@ -89,7 +90,7 @@ impl Document {
         if let Some((key, value)) = root.get_ref().get_key_value(LIMIT) {
             document.limits = tables(text, key.span().start, value.get_ref());
         }
-        document.add_parts(text, root.get_ref())?;
+        document.parts = written::read_all(text, root.get_ref(), file, document.system)?;
         for set in sets {
             document.add_override(set)?;
         }
@@ -216,63 +217,6 @@ impl Document {
         Ok(())
     }
 
-    /// Reads the parts of a bent rotor.
-    fn add_parts(&mut self, text: &str, root: &DeTable<'_>) -> Result<(), Box<Problem>> {
-        for kind in PARTS {
-            let table = root.get(kind.table()).map(|value| value.get_ref());
-            let Some(DeValue::Table(table)) = table else {
-                continue;
-            };
-            let Some((key, value)) = table.get_key_value(kind.word) else {
-                continue;
-            };
-            // rotor.mass of a drop is a mass, not a part
-            if self.system != SystemName::Rotor && !is_part(value.get_ref()) {
-                continue;
-            }
-            let start = key.span().start;
-            let place = Place::of_offset(text, start);
-            let path = kind.path();
-            let refuse = |code, found: String, allowed: String| {
-                let problem = Problem::new(code, &self.file, found, allowed);
-                Err(Box::new(problem.at(place).on_key(&path)))
-            };
-            if self.system != SystemName::Rotor {
-                if let Some(absent) = not_modelled::of(&path) {
-                    let found = "a key of what is not modelled yet".to_string();
-                    let told = Problem::new(Code::NotModelled, &self.file, found, absent.allowed());
-                    let told = told.at(place).on_key(&path);
-                    return Err(Box::new(told.with_hint(absent.hint())));
-                }
-                let found = "a section that has no effect".to_string();
-                let allowed = "it is used only with system = \"rotor\"".to_string();
-                return refuse(Code::UnusedKey, found, allowed);
-            }
-            let written = match value.get_ref() {
-                DeValue::Array(_) => tables(text, start, value.get_ref()),
-                DeValue::Table(single) if kind.alone => {
-                    let mut keys = Vec::new();
-                    collect(text, single, "", &mut keys);
-                    vec![keys]
-                }
-                other => {
-                    let found = raw(other).text();
-                    let allowed = format!("tables [[{path}]] are needed");
-                    return refuse(Code::WrongType, found, allowed);
-                }
-            };
-            for keys in written {
-                let first = keys.iter().map(|(_, _, place)| *place);
-                self.parts.push(WrittenPart {
-                    kind: kind.word,
-                    place: first.min_by_key(|place| place.line()).unwrap_or(place),
-                    keys,
-                });
-            }
-        }
-        Ok(())
-    }
-
     fn only_drops_vary(&self, place: Place) -> Result<(), Box<Problem>> {
         if self.system == SystemName::Drop {
             return Ok(());
@@ -356,7 +300,7 @@ impl Document {
             && self.system == SystemName::Rotor
             && kind_at(&path[..2].join(".")).is_some()
         {
-            return override_part(&mut self.parts, &self.file, &path, raw);
+            return written::set(&mut self.parts, &self.file, &path, raw);
         }
         if path[0] == AUXILIARY_BEARING {
             return self.add_to_bearing(&path, raw, typed.to_string());
@@ -549,11 +493,6 @@ fn find_system(
 fn quoted_words(words: &[&str]) -> String {
     let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
     words.join(", ")
-}
-
-/// Whether a value is written as parts are: tables.
-fn is_part(value: &DeValue<'_>) -> bool {
-    matches!(value, DeValue::Array(_) | DeValue::Table(_))
 }
 
 /// Lists all keys and sections below a table.

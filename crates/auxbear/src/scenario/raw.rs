@@ -1,7 +1,6 @@
 //! Raw values: what stands in a text or an override, before it is known what it means.
 
-use crate::problem::{Code, Place, Problem};
-use crate::scenario::key::quoted;
+use crate::problem::Place;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -125,61 +124,4 @@ pub(crate) fn raw(value: &DeValue<'_>) -> Raw {
 pub(crate) fn as_toml(typed: &str) -> Option<Raw> {
     let value = DeValue::parse(typed).ok()?;
     Some(raw(value.get_ref()))
-}
-
-/// A part as the text has it.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct WrittenPart {
-    /// Word of its kind.
-    pub(crate) kind: &'static str,
-    pub(crate) keys: Vec<Written>,
-    pub(crate) place: Place,
-}
-
-impl WrittenPart {
-    /// Its name, where it has one.
-    pub(crate) fn name(&self) -> Option<&str> {
-        self.keys.iter().find_map(|(key, raw, _)| match raw {
-            Raw::Text(name) if key == "name" => Some(name.as_str()),
-            _ => None,
-        })
-    }
-}
-
-/// An override of a value of a part: `rotor.disk.impeller.mass`, the name or the number of the part before its key.
-pub(crate) fn override_part(
-    parts: &mut [WrittenPart],
-    file: &str,
-    path: &[String],
-    raw: Raw,
-) -> Result<(), Box<Problem>> {
-    let [_, kind, named, keys @ ..] = path else {
-        return Ok(());
-    };
-    let of_kind = |part: &&mut WrittenPart| part.kind == kind;
-    let mut parts: Vec<&mut WrittenPart> = parts.iter_mut().filter(of_kind).collect();
-    let number = named.parse::<usize>().ok();
-    let at = (parts.iter().position(|part| part.name() == Some(named)))
-        .or_else(|| number?.checked_sub(1).filter(|at| *at < parts.len()));
-    let (at, keys) = match (at, keys) {
-        // a single part needs no name
-        (None, []) if parts.len() == 1 => (Some(0), std::slice::from_ref(named)),
-        other => other,
-    };
-    let (Some(at), [key]) = (at, keys) else {
-        let names: Vec<String> = (1..)
-            .zip(&parts)
-            .map(|(number, part)| part.name().map_or(number.to_string(), str::to_string))
-            .collect();
-        let allowed = format!(
-            "{}.{kind}.NAME.KEY is needed, with one of the names or numbers {}",
-            path[0],
-            names.join(", ")
-        );
-        let problem = Problem::new(Code::UnknownKey, file, quoted(named), allowed);
-        return Err(Box::new(problem.at(Place::Set).on_key(path.join("."))));
-    };
-    parts[at].keys.retain(|(other, ..)| other != key);
-    parts[at].keys.push((key.clone(), raw, Place::Set));
-    Ok(())
 }

@@ -241,6 +241,15 @@ pub(crate) fn word(kind: &str, name: &str) -> String {
     }
 }
 
+/// Whirl as a number: forward 1, backward -1, planar 0.
+pub(crate) fn sense(whirl: Whirl) -> f64 {
+    match whirl {
+        Whirl::Forward => 1.0,
+        Whirl::Backward => -1.0,
+        Whirl::Planar => 0.0,
+    }
+}
+
 /// Speeds close to criticals, where responses peak, between those of the diagram.
 fn refined(diagram: &Campbell, criticals: &[Critical]) -> Vec<f64> {
     let mut speeds = diagram.speeds.clone();
@@ -264,13 +273,4 @@ fn no_answer(error: RotorError, key: &str) -> Box<Problem> {
     let needed = "a rotor with mass everywhere is needed";
     let problem = Problem::new(Code::Impossible, UNNAMED, error.to_string(), needed);
     Box::new(problem.on_key(key))
-}
-
-/// Whirl as a number: forward 1, backward -1, planar 0.
-pub(crate) fn sense(whirl: Whirl) -> f64 {
-    match whirl {
-        Whirl::Forward => 1.0,
-        Whirl::Backward => -1.0,
-        Whirl::Planar => 0.0,
-    }
 }

@@ -5,6 +5,13 @@ use crate::result::list::{List, Origin};
 use crate::result::outcome::Value;
 use rotor::Place;
 
+/// What the scenario says.
+pub(crate) const GIVEN: Origin = Origin {
+    law: "",
+    source: "the scenario",
+    valid: "",
+};
+
 /// Positions, diameters and names of all parts.
 pub(crate) fn name(list: &mut List, asked: &Asked) {
     let (model, rotor) = (&asked.analysis.model, asked.rotor());
@@ -37,11 +44,11 @@ pub(crate) fn name(list: &mut List, asked: &Asked) {
         rotor.disks.iter().map(|d| d.mass).collect(),
     );
     // zero: not given, to be drawn by its mass
-    let (diameters, widths) = (model.disk_sizes.iter())
-        .map(|(diameter, width)| (diameter.unwrap_or_default(), width.unwrap_or_default()))
-        .unzip();
-    numbers("disk_diameters", "m", diameters);
-    numbers("disk_widths", "m", widths);
+    let sizes = || model.disk_sizes.iter();
+    let diameters = sizes().map(|size| size.0.unwrap_or_default());
+    numbers("disk_diameters", "m", diameters.collect());
+    let widths = sizes().map(|size| size.1.unwrap_or_default());
+    numbers("disk_widths", "m", widths.collect());
     for (name, seal) in [("support_positions", false), ("seal_positions", true)] {
         let places = rotor.supports.iter().filter(|support| support.seal == seal);
         let at = places.filter_map(|support| match support.at {
@@ -73,10 +80,3 @@ pub(crate) fn name(list: &mut List, asked: &Asked) {
     text("support_names", supports(false));
     text("seal_names", supports(true));
 }
-
-/// What the file gives as it is.
-pub(crate) const GIVEN: Origin = Origin {
-    law: "",
-    source: "the scenario",
-    valid: "",
-};

@@ -5,6 +5,7 @@ pub(crate) mod keys;
 pub(crate) mod levitation;
 pub(crate) mod part_keys;
 pub(crate) mod parts;
+pub(crate) mod written;
 
 use crate::problem::Problem;
 use crate::scenario::document::Document;

@@ -3,9 +3,9 @@
 use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::document::{Document, Given};
 use crate::scenario::key::{Key, Presence, quoted};
-use crate::scenario::raw::WrittenPart;
 use crate::scenario::resolved::{ResolvedValue, line};
 use crate::scenario::rotor::part_keys::{PARTS, PartKind};
+use crate::scenario::rotor::written::WrittenPart;
 use crate::scenario::values::{Known, Value, Values};
 use std::collections::BTreeMap;
 
