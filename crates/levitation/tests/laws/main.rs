@@ -1,7 +1,9 @@
 //! Signs, limits and equalities of the levitation: each sign shown to fail when it is flipped.
 
-#[path = "../../rotor/tests/published/mod.rs"]
+mod mass;
+#[path = "../../../rotor/tests/published/mod.rs"]
 mod published;
+#[path = "../reference/mod.rs"]
 mod reference;
 
 use levitation::response::{equilibrium, impulse, start};
@@ -10,73 +12,13 @@ use levitation::{
     Actuator, Amplifier, Axis, C64, ClosedLoop, Control, Levitation, LinearControl, Plant, Refused,
     Sensor, StateSpace, Timing, Verdict, ZERO, verdict, weight,
 };
+use mass::{DELAYED, Mass};
 use nalgebra::{DMatrix, DVector};
 use number::Dual;
 use physics::magnet::{Magnet, OpposedPair};
 use reference::{Basis, File};
 
 const SPEED: f64 = 1_256.637_061_435_917_3;
-const DELAYED: Timing = Timing::Continuous { delay: 5e-5 };
-
-/// A mass that moves along x and y over two magnet axes, sensors at the same node.
-struct Mass {
-    mass: f64,
-    magnet: Magnet<f64>,
-    amplifier: Amplifier,
-    timing: Timing,
-    channel: StateSpace,
-}
-
-impl Mass {
-    fn usual() -> Self {
-        Self {
-            mass: 3.0,
-            magnet: Magnet::Linear {
-                current_stiffness: 40.0,
-                position_stiffness: 1.6e5,
-            },
-            amplifier: Amplifier::Current { bandwidth: 12e3 },
-            timing: DELAYED,
-            channel: StateSpace::pid(8000.0, 8e4, 22.0, 4.5e-5).unwrap(),
-        }
-    }
-    fn plant(&self) -> Plant<f64> {
-        Plant {
-            mass: DMatrix::identity(2, 2) * self.mass,
-            damping: DMatrix::zeros(2, 2),
-            stiffness: DMatrix::zeros(2, 2),
-            nodes: DMatrix::identity(1, 1),
-        }
-    }
-    fn axes(&self) -> (Vec<Sensor>, Vec<Actuator>) {
-        let axis = |angle| Axis {
-            name: format!("axis {angle:.1}"),
-            node: 0,
-            angle,
-        };
-        let angles = [0.3, 0.3 + std::f64::consts::FRAC_PI_2];
-        let sensor = |angle| Sensor {
-            axis: axis(angle),
-            corner: Some(5e4),
-            offset: 0.0,
-            reference: 0.0,
-        };
-        let actuator = |angle| Actuator {
-            axis: axis(angle),
-            magnet: self.magnet,
-            amplifier: self.amplifier,
-        };
-        (angles.map(sensor).to_vec(), angles.map(actuator).to_vec())
-    }
-    fn levitation(&self) -> Levitation {
-        let (sensors, actuators) = self.axes();
-        let control = Control::Channels(vec![self.channel.clone(); 2]);
-        Levitation::new(1, sensors, control, self.timing, actuators).unwrap()
-    }
-    fn closed(&self) -> ClosedLoop<f64> {
-        ClosedLoop::new(self.plant(), &self.levitation()).unwrap()
-    }
-}
 
 fn same(a: C64, b: C64, share: f64) -> bool {
     (a - b).norm() <= share * b.norm()
