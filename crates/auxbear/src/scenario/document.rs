@@ -75,7 +75,7 @@ impl Document {
             parts: Vec::new(),
         };
         let mut entries = Vec::new();
-        flatten(root.get_ref(), &[], &mut entries);
+        flatten(document.system, root.get_ref(), &[], &mut entries);
         entries.sort_by_key(|entry| entry.start);
         for entry in entries {
             let place = Place::of_offset(text, entry.start);
@@ -169,7 +169,7 @@ impl Document {
                 return Err(Box::new(problem(Code::Conflict, at, found, NAME)));
             }
             let mut entries = Vec::new();
-            flatten(table, &[], &mut entries);
+            flatten(self.system, table, &[], &mut entries);
             entries.retain(|entry| entry.path != ["name"]);
             entries.sort_by_key(|entry| entry.start);
             all.push((name, entries));
@@ -496,13 +496,14 @@ fn quoted_words(words: &[&str]) -> String {
 }
 
 /// Lists all keys and sections below a table.
-fn flatten(table: &DeTable<'_>, prefix: &[String], entries: &mut Vec<Entry>) {
+fn flatten(system: SystemName, table: &DeTable<'_>, prefix: &[String], entries: &mut Vec<Entry>) {
     for (key, value) in table {
         let mut path = prefix.to_vec();
         path.push(key.get_ref().to_string());
         let dotted = path.join(".");
         let is_list = [AUXILIARY_BEARING, VARY, LIMIT].contains(&dotted.as_str());
-        if is_list || (kind_at(&dotted).is_some() && is_part(value.get_ref())) {
+        if is_list || (kind_at(&dotted).is_some_and(|kind| is_part(system, kind, value.get_ref())))
+        {
             continue;
         }
         let Range { start, .. } = key.span();
@@ -523,7 +524,7 @@ fn flatten(table: &DeTable<'_>, prefix: &[String], entries: &mut Vec<Entry>) {
                     raw: None,
                 });
                 if is_section {
-                    flatten(inner, &path, entries);
+                    flatten(system, inner, &path, entries);
                 }
             }
             other => entries.push(Entry {

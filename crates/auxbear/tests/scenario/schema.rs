@@ -395,5 +395,5 @@ fn quantities_that_the_program_reads_have_the_right_form() {
 
 #[test]
 fn a_kind_that_is_not_built_has_no_schema() {
-    assert!(schema("rotor").is_none() && schema("drops").is_none());
+    assert!(schema("gearbox").is_none() && schema("drops").is_none());
 }

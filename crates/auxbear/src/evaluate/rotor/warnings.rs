@@ -58,6 +58,14 @@ pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
                 .to_string(),
         ));
     }
+    if asked.levitated.is_some() {
+        out.push(warning(
+            "AB2024",
+            "The Campbell diagram, critical speeds, modes and their damping are those of the shaft without its magnets. What the closed loop \
+             does stands in its poles at the rated speed and in its response to unbalance."
+                .to_string(),
+        ));
+    }
     out
 }
 

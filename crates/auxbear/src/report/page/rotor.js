@@ -164,7 +164,7 @@ function campbellFigures(run, runs) {
     return [number, engineeringText(at("speed"), "rad/s", 5), `${numberText(at("speed"), 5)} rad/s`, wordsAt(run, "critical_whirls")[number - 1], amplification === null ? quantityOf(run, `critical_${number}.amplification`).why : numberText(amplification, 3), percentText(at("separation"), 3), verdict ? element("strong", { class: verdict === "fail" ? "failed" : null }, verdict) : "–"];
   });
   return [
-    figure(shareOfRun(run, runs, "Campbell diagram"), "Damped natural frequencies over speed, each followed from speed to speed. Blue: with the spin; orange, dashed: against it; grey: along a line, or at rest. Where one meets the dotted line the rotor whirls once a turn.", diagram),
+    figure(shareOfRun(run, runs, "Campbell diagram"), (isLevitated(run) ? "Of the shaft without its magnets. " : "") + "Damped natural frequencies over speed, each followed from speed to speed. Blue: with the spin; orange, dashed: against it; grey: along a line, or at rest. Where one meets the dotted line the rotor whirls once a turn.", diagram),
     any ? figure(shareOfRun(run, runs, "Damping of these modes"), "Below zero a mode grows.", curves({ series: damped, across: "speed of the rotor [rad/s]", above: IN_RPM, upright: "damping ratio [%]", marks: rated ? [{ at: rated, words: "rated" }] : [], level: { at: 0, words: "grows below" }, height: 260 })) : null,
     figure(shareOfRun(run, runs, "Critical speeds and their separation"), "Amplification 1/(2ζ) of the mode. Separation from the operating speeds, as a share of the nearer one.", rows.length ? plainTable(["", "speed", "", "whirl", "amplification", "separation", "verdict"], rows) : notInThisRun("no mode whirls once a turn up to the highest speed", run)),
   ];
@@ -277,6 +277,10 @@ function levitationFigures(run, runs) {
   ];
 }
 
+function isLevitated(run) {
+  return wordsAt(run, "levitation.axes").length > 0;
+}
+
 function levitationSection(runs) {
   return section("levitation", "Magnets and controller", runs.map((run) => levitationFigures(run, runs)));
 }
@@ -287,14 +291,16 @@ function rotorVerdict(run) {
   const unstable = quantityOf(run, "first_unstable_speed");
   const rated = numberOf(run, "rated_speed");
   const bending = numberOf(run, "first_bending_frequency");
+  // the diagrams know no controller
+  const without = isLevitated(run) ? "of the shaft without its magnets" : null;
   const grows = isNumber(unstable.value) && unstable.value <= Math.abs(rated);
   return element(
     "div",
     { class: "tiles" },
     stateTile(run),
-    tile("First critical speed", isNumber(first.value) ? engineeringText(first.value, "rad/s", 5) : "–", [isNumber(first.value) ? `${numberText(first.value, 5)} rad/s` : first.why]),
+    tile("First critical speed", isNumber(first.value) ? engineeringText(first.value, "rad/s", 5) : "–", [isNumber(first.value) ? `${numberText(first.value, 5)} rad/s` : first.why, without].filter(Boolean)),
     tile("Separation", typeof verdict === "string" ? verdict : "–", [typeof verdict === "string" ? "critical speeds against analysis.separation_margin" : quantityOf(run, "separation_verdict").why], typeof verdict === "string" ? verdictState(run, verdict === "fail") : null),
-    tile("Stability", isNumber(unstable.value) ? engineeringText(unstable.value, "rad/s", 5) : "stable", [isNumber(unstable.value) ? "from this speed on a mode grows" : unstable.why], verdictState(run, grows)),
+    tile("Stability", isNumber(unstable.value) ? engineeringText(unstable.value, "rad/s", 5) : "stable", [isNumber(unstable.value) ? "from this speed on a mode grows" : unstable.why, without].filter(Boolean), without ? null : verdictState(run, grows)),
     typeof quantityOf(run, "levitation.zone").value === "string" ? tile("Largest sensitivity", numberText(numberOf(run, "levitation.largest_sensitivity"), 3), [`zone ${quantityOf(run, "levitation.zone").value}, slowest eigenvalue ${numberText(numberOf(run, "levitation.slowest_eigenvalue"), 3)} 1/s`]) : null,
     tile("First free bending mode", isNumber(bending) ? `${numberText(bending, 5)} rad/s` : "–", ["of the free rotor at rest"]),
     tile("Largest sag", engineeringText(numberOf(run, "largest_sag"), "m", 4), ["under its weight"]),
@@ -322,7 +328,7 @@ register("rotor", {
     [21, campbellSection, runs],
     [22, shapeSection, runs],
     [23, rotorResponseSection, runs.filter((run) => responsePlaces(run).length)],
-    [24, levitationSection, runs.filter((run) => wordsAt(run, "levitation.axes").length)],
+    [24, levitationSection, runs.filter(isLevitated)],
     [25, stiffnessMapSection, runs.filter((run) => listAt(run, "map_stiffnesses").length)],
   ].filter(([, , part]) => part.length),
 });

@@ -44,7 +44,7 @@ pub(crate) fn read_all(
             continue;
         };
         // rotor.mass of a drop is a mass, not a part
-        if system != SystemName::Rotor && !is_part(value.get_ref()) {
+        if system != SystemName::Rotor && !is_part(system, kind, value.get_ref()) {
             continue;
         }
         let start = key.span().start;
@@ -78,9 +78,18 @@ pub(crate) fn read_all(
     Ok(parts)
 }
 
-/// Whether a value is that of a part and not of a key.
-pub(crate) fn is_part(value: &DeValue<'_>) -> bool {
-    matches!(value, DeValue::Array(_) | DeValue::Table(_))
+/// Whether something is written as parts of a kind are: as tables, but not as the value of a key with its source.
+pub(crate) fn is_part(system: SystemName, kind: &PartKind, value: &DeValue<'_>) -> bool {
+    let meant = system == SystemName::Rotor;
+    match value {
+        DeValue::Array(list) => {
+            let is_table =
+                |item: &toml::Spanned<DeValue<'_>>| matches!(item.get_ref(), DeValue::Table(_));
+            meant || (!list.is_empty() && list.iter().all(is_table))
+        }
+        DeValue::Table(single) => (meant || kind.alone) && !single.contains_key("value"),
+        _ => false,
+    }
 }
 
 /// What is said of a part in a file of another system.
