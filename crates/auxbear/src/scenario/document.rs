@@ -129,9 +129,9 @@ impl Document {
                 .at(Place::of_offset(text, start))
                 .on_key(AUXILIARY_BEARING)
         };
-        if self.system != SystemName::Drop {
+        if !self.system.falls() {
             let found = "a section that has no effect".to_string();
-            let allowed = "it is used only with system = \"drop\"";
+            let allowed = "it is used only with system = \"drop\" or \"machine\"";
             return Err(Box::new(problem(Code::UnusedKey, start, found, allowed)));
         }
         let DeValue::Array(list) = value else {
@@ -218,14 +218,14 @@ impl Document {
     }
 
     fn only_drops_vary(&self, place: Place) -> Result<(), Box<Problem>> {
-        if self.system == SystemName::Drop {
+        if self.system.falls() {
             return Ok(());
         }
         let problem = Problem::new(
             Code::UnusedKey,
             &self.file,
             "a section that has no effect",
-            "it is used only with system = \"drop\", whose runs are repeated",
+            "it is used only with system = \"drop\" or \"machine\", whose runs are repeated",
         );
         Err(Box::new(problem.at(place).on_key(VARY)))
     }
@@ -297,7 +297,7 @@ impl Document {
             return Ok(());
         }
         if path.len() > 2
-            && self.system == SystemName::Rotor
+            && self.system.has_shaft()
             && kind_at(&path[..2].join(".")).is_some()
         {
             return written::set(&mut self.parts, &self.file, &path, raw);

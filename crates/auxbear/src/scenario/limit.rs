@@ -208,10 +208,10 @@ impl Given {
                     });
                 }
                 ("share", raw) => {
-                    if document.system != SystemName::Drop {
+                    if !document.system.falls() {
                         let found = "a key that has no effect".to_string();
                         let allowed =
-                            "it is used only with system = \"drop\", whose runs are repeated";
+                            "it is used only with system = \"drop\" or \"machine\", whose runs are repeated";
                         return Err(wrong(Code::UnusedKey, found, allowed));
                     }
                     let allowed = "a share above 0 and not above 1 is needed, e.g. 0.95";
@@ -282,7 +282,7 @@ fn amount(raw: &Raw) -> Result<(f64, Dimension, String), Refused> {
 /// A limit of a system's own results, for its starting file: result, bound.
 pub(crate) fn example(system: SystemName) -> (&'static str, &'static str) {
     match system {
-        SystemName::Drop => ("peak_contact_force", "most = \"5 kN\""),
+        SystemName::Drop | SystemName::Machine => ("peak_contact_force", "most = \"5 kN\""),
         SystemName::SpinUp | SystemName::Rig => ("peak_outer_race_moment", "most = \"0.5 N m\""),
         SystemName::Torque => ("friction_moment", "most = \"50 N mm\""),
         SystemName::Signals => ("peak_speed", "most = \"3000 rpm\""),

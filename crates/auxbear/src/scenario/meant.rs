@@ -51,7 +51,7 @@ pub(crate) fn allowed_near(path: &[String], system: SystemName) -> String {
 /// What an unknown key was probably meant to be.
 pub(crate) fn meant(path: &[String], system: SystemName) -> Option<String> {
     let name = path.last()?;
-    if system == SystemName::Drop && is_another_bearing(&path[0]) {
+    if system.falls() && is_another_bearing(&path[0]) {
         return Some(OTHERS.to_string());
     }
     if let Some(hint) = confused(name, system) {
@@ -142,7 +142,7 @@ const DIAMETERS: &str = "The file takes diameters: bearing.ball_diameter, bearin
 /// Names that are commonly confused, by the last part of the path.
 fn confused(name: &str, system: SystemName) -> Option<&'static str> {
     let name = name.to_lowercase();
-    if system != SystemName::Drop {
+    if !system.falls() {
         return confused_without_rotor(&name);
     }
     if ["clearance", "air_gap", "airgap", "preload", "internal_play"]

@@ -51,7 +51,10 @@ pub use bearing::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 pub use bearing::separation::{Cage, FullComplement, Guidance, Land, Separation};
 pub use bearing::source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
 pub use bearing::{Bearing, Drag, OilFilm, Traction};
-pub use drop::{AuxiliaryBearing, Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor, Spin};
+pub use drop::{
+    AuxiliaryBearing, BearingPlace, Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor, Shaft,
+    Spin,
+};
 pub use identify::{Explanations, Identify, RotorFriction};
 pub(crate) use key::quoted;
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
@@ -96,7 +99,7 @@ const MEASUREMENTS: [&str; 11] = [
 #[allow(clippy::large_enum_variant)] // one of them stands in memory at a time
 #[derive(Clone, Debug, PartialEq)]
 pub enum System {
-    /// A levitated rotor is released onto its auxiliary bearing.
+    /// A levitated rotor, rigid or bent, is released onto its auxiliary bearings.
     Drop(Drop),
     /// The inner race of a bearing is brought to speed.
     SpinUp(SpinUp),
@@ -116,6 +119,7 @@ impl System {
     /// Its name.
     pub fn name(&self) -> SystemName {
         match self {
+            System::Drop(drop) if drop.shaft.is_some() => SystemName::Machine,
             System::Drop(_) => SystemName::Drop,
             System::SpinUp(_) => SystemName::SpinUp,
             System::Torque(_) => SystemName::Torque,
@@ -138,6 +142,11 @@ impl System {
         let system = match document.system {
             SystemName::Drop => {
                 let drop = Drop::from_values(all);
+                context.drop(&drop, all)?;
+                System::Drop(drop)
+            }
+            SystemName::Machine => {
+                let drop = Drop::of_shaft(document, all)?;
                 context.drop(&drop, all)?;
                 System::Drop(drop)
             }

@@ -82,7 +82,7 @@ impl Values {
     /// A shaft whose weight no radial bearing carries.
     fn vertical(&self) -> Option<Note> {
         let gravity = self.number("gravity.acceleration")?;
-        (self.system() == SystemName::Drop && gravity < LEAST_GRAVITY).then(|| Note {
+        (self.system().falls() && gravity < LEAST_GRAVITY).then(|| Note {
             code: "AB1095",
             text: format!(
                 "A vertical shaft ({gravity} m/s^2 across it): what carries the weight, the axial drop onto the thrust faces, is not \

@@ -50,7 +50,7 @@ fn root(system: SystemName) -> Value {
         properties(&mut root, key.section()).insert(key.name().to_string(), value(key, system));
     }
     properties(&mut root, "").insert(LIMIT.to_string(), limits(system));
-    if system == SystemName::Rotor {
+    if system.has_shaft() {
         for kind in PARTS {
             properties(&mut root, kind.table()).insert(kind.word.to_string(), parts(kind, system));
         }
@@ -77,7 +77,7 @@ fn root(system: SystemName) -> Value {
             others => rules.push(one_of_them(key, others)),
         }
     }
-    if system == SystemName::Drop {
+    if system.falls() {
         add_bearings(&mut root, system);
         single.push(needed);
         rules.push(
@@ -94,7 +94,7 @@ fn root(system: SystemName) -> Value {
 
 /// Whether a key may belong to one of several auxiliary bearings.
 fn several(system: SystemName, key: &Key) -> bool {
-    system == SystemName::Drop && of_each_bearing(key.path)
+    system.falls() && of_each_bearing(key.path)
 }
 
 /// The array of several auxiliary bearings, and what repeated runs vary.
@@ -155,7 +155,7 @@ fn limits(system: SystemName) -> Value {
         ("most", with("Bound that the result must not exceed.")),
         ("least", with("Bound that the result must not fall below.")),
     ];
-    if system == SystemName::Drop {
+    if system.falls() {
         let share = json!({ "anyOf": [
             { "type": "number", "exclusiveMinimum": 0, "maximum": 1 },
             { "type": "string", "pattern": QUANTITY },

@@ -17,6 +17,8 @@ pub enum SystemName {
     Identify,
     /// A bent rotor: modes, critical speeds, response to unbalance.
     Rotor,
+    /// A bent rotor that is released onto its auxiliary bearings.
+    Machine,
 }
 
 impl SystemName {
@@ -29,13 +31,14 @@ impl SystemName {
         SystemName::Rig,
         SystemName::Identify,
         SystemName::Rotor,
+        SystemName::Machine,
     ];
     /// Their words, in the same order.
     pub(crate) const WORDS: &'static [&'static str] = &[
-        "drop", "spin_up", "torque", "signals", "rig", "identify", "rotor",
+        "drop", "spin_up", "torque", "signals", "rig", "identify", "rotor", "machine",
     ];
     /// Words of systems that are planned, so that asking for one is no spelling mistake.
-    pub(crate) const PLANNED: &'static [&'static str] = &["machine"];
+    pub(crate) const PLANNED: &'static [&'static str] = &[];
 
     /// The word in a file: `spin_up`.
     pub fn word(self) -> &'static str {
@@ -46,6 +49,16 @@ impl SystemName {
     pub fn of(word: &str) -> Option<SystemName> {
         let all = SystemName::ALL.iter().copied();
         all.into_iter().find(|system| system.word() == word)
+    }
+
+    /// Whether a levitated rotor falls.
+    pub(crate) fn falls(self) -> bool {
+        FALLING.contains(&self)
+    }
+
+    /// Whether its rotor is a shaft of parts.
+    pub(crate) fn has_shaft(self) -> bool {
+        SHAFT.contains(&self)
     }
 
     /// Systems in words, for messages: `"drop" or "spin_up"`.
@@ -59,10 +72,22 @@ impl SystemName {
 }
 
 /// Systems in which something moves.
-pub(crate) const MOVING: &[SystemName] = &[SystemName::Drop, SystemName::SpinUp, SystemName::Rig];
+pub(crate) const MOVING: &[SystemName] = &[
+    SystemName::Drop,
+    SystemName::SpinUp,
+    SystemName::Rig,
+    SystemName::Machine,
+];
+
+/// Systems in which a levitated rotor falls.
+pub(crate) const FALLING: &[SystemName] = &[SystemName::Drop, SystemName::Machine];
+
+/// Systems whose rotor is a shaft of parts.
+pub(crate) const SHAFT: &[SystemName] = &[SystemName::Rotor, SystemName::Machine];
 
 /// Systems in which the inner race is a body of its own, not a part of a shaft.
-pub(crate) const FREE_RACE: &[SystemName] = &[SystemName::Drop, SystemName::SpinUp];
+pub(crate) const FREE_RACE: &[SystemName] =
+    &[SystemName::Drop, SystemName::SpinUp, SystemName::Machine];
 
 /// Systems with a bearing.
 pub(crate) const WITH_BEARING: &[SystemName] = &[
@@ -71,6 +96,7 @@ pub(crate) const WITH_BEARING: &[SystemName] = &[
     SystemName::Torque,
     SystemName::Rig,
     SystemName::Identify,
+    SystemName::Machine,
 ];
 
 /// Systems with a friction moment of a bearing.
@@ -79,4 +105,5 @@ pub(crate) const WITH_MOMENT: &[SystemName] = &[
     SystemName::SpinUp,
     SystemName::Torque,
     SystemName::Rig,
+    SystemName::Machine,
 ];

@@ -5,7 +5,7 @@
 
 use crate::scenario::key::{Key, Kind, Presence, Range, Section};
 use crate::scenario::run::{Accuracy, Method};
-use crate::scenario::system::{MOVING, SystemName, WITH_BEARING};
+use crate::scenario::system::{FALLING, MOVING, SystemName, WITH_BEARING};
 use crate::scenario::words::Words;
 
 /// Format name of the scenario files that this version writes.
@@ -77,7 +77,11 @@ pub fn presence(key: &Key, system: SystemName) -> Presence {
         SystemName::Torque => crate::scenario::torque::keys::PRESENCES,
         SystemName::SpinUp => crate::scenario::spin_up::keys::PRESENCES,
         SystemName::Rig => crate::scenario::rig::keys::PRESENCES,
-        SystemName::Drop | SystemName::Signals | SystemName::Identify | SystemName::Rotor => &[],
+        SystemName::Drop
+        | SystemName::Signals
+        | SystemName::Identify
+        | SystemName::Rotor
+        | SystemName::Machine => &[],
     };
     let own = own.iter().find(|(path, _)| *path == key.path);
     own.map_or(key.presence, |(_, presence)| *presence)
@@ -92,7 +96,11 @@ pub(crate) fn starts_with(key: &Key, system: SystemName) -> bool {
         SystemName::Signals => crate::scenario::signals::keys::GIVEN.contains(&key.path),
         SystemName::Rig => crate::scenario::rig::keys::GIVEN.contains(&key.path),
         SystemName::Identify => crate::scenario::identify::keys::GIVEN.contains(&key.path),
-        SystemName::Drop | SystemName::SpinUp | SystemName::Torque | SystemName::Rotor => false,
+        SystemName::Drop
+        | SystemName::SpinUp
+        | SystemName::Torque
+        | SystemName::Rotor
+        | SystemName::Machine => false,
     }
 }
 
@@ -121,7 +129,7 @@ const HEAD: &[Key] = &[
         "system",
         Kind::Word(SystemName::WORDS),
         "drop",
-        "What is simulated: drop, a levitated rotor that is released onto its auxiliary bearing; spin_up, an inner race that is brought to speed; torque, the torque of a bearing without motion; signals, speed and torque from a measurement; rig, a test on a rig with the raw file of its logger; identify, what measured tests show of a bearing; rotor, modes, critical speeds and response of a bent rotor.",
+        "What is simulated: drop, a levitated rotor that is released onto its auxiliary bearing; spin_up, an inner race that is brought to speed; torque, the torque of a bearing without motion; signals, speed and torque from a measurement; rig, a test on a rig with the raw file of its logger; identify, what measured tests show of a bearing; rotor, modes, critical speeds and response of a bent rotor; machine, a bent rotor that is released onto its auxiliary bearings.",
     ),
     Key::new(
         "title",
@@ -166,7 +174,7 @@ const RUN: &[Key] = &[
         "design: the energy ledger closes to a millionth of what is turned over. screening: for ensembles and long runs, several times quicker; means within some 1e-4 of those of design, the ledger within 2e-4.",
     )
     .default("design", "numbers that a design may rest on")
-    .only(&[SystemName::Drop]),
+    .only(FALLING),
     Key::new(
         "run.tolerance",
         Kind::Coefficient,
@@ -201,5 +209,5 @@ const RUN: &[Key] = &[
         "Time integration: explicit steps are bound by stability, implicit ones are not; auto takes implicit steps where sliding friction is too stiff for explicit ones.",
     )
     .default("auto", "the quicker one at equal error, judged by the friction rate of a ball in the first impact")
-    .only(&[SystemName::Drop]),
+    .only(FALLING),
 ];

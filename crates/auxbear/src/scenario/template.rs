@@ -3,7 +3,7 @@
 use crate::scenario::key::{Condition, Key, Kind, Otherwise, Presence, quoted};
 use crate::scenario::limit;
 use crate::scenario::rotor::part_keys::PARTS;
-use crate::scenario::several::LIMIT;
+use crate::scenario::several::{AUXILIARY_BEARING, LIMIT};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
 
@@ -20,6 +20,7 @@ pub fn template(kind: &str) -> Option<String> {
         SystemName::Rig => "A test on a rig, and the raw file of its logger.",
         SystemName::Identify => "What measured tests show of a bearing.",
         SystemName::Rotor => "Modes, critical speeds and response to unbalance of a bent rotor.",
+        SystemName::Machine => "A bent rotor drops onto its auxiliary bearings.",
         SystemName::Torque => "The torque of a bearing over speed, load and acceleration.",
     };
     let mut out = String::new();
@@ -47,15 +48,18 @@ pub fn template(kind: &str) -> Option<String> {
         }
         describe(&mut out, key, system);
     }
-    if system == SystemName::Rotor {
-        describe_parts(&mut out);
+    if system.has_shaft() {
+        describe_parts(&mut out, system);
+    }
+    if system == SystemName::Machine {
+        describe_bearings(&mut out);
     }
     limit_example(&mut out, system);
     Some(out.trim_end().to_string() + "\n")
 }
 
 /// Parts of a bent rotor: the keys of each kind once, and the parts of the example.
-fn describe_parts(out: &mut String) {
+fn describe_parts(out: &mut String, system: SystemName) {
     for kind in PARTS {
         comment(out, kind.doc);
         let given = |part: &[(&str, &str)], key: &Key| {
@@ -69,7 +73,7 @@ fn describe_parts(out: &mut String) {
             kind.path()
         ));
         for key in kind.keys {
-            describe_as(out, key, SystemName::Rotor, given(first, key));
+            describe_as(out, key, system, given(first, key));
         }
         for part in kind.starting.iter().skip(1) {
             out.push_str(&format!("[[{}]]\n", kind.path()));
@@ -78,6 +82,18 @@ fn describe_parts(out: &mut String) {
             }
             out.push('\n');
         }
+    }
+}
+
+/// The auxiliary bearings of the example, at the nodes of its rotor.
+fn describe_bearings(out: &mut String) {
+    let doc = "Auxiliary bearings, each at a node of the rotor. What they have in common stands above, what differs below each: any key of [contact], [mount] and [bearing].";
+    comment(out, doc);
+    for node in ["drive_end", "other_end"] {
+        out.push_str(&format!(
+            "[[{AUXILIARY_BEARING}]]\nname = {0}\n[{AUXILIARY_BEARING}.contact]\nnode = {0}\n\n",
+            quoted(node)
+        ));
     }
 }
 
@@ -99,7 +115,7 @@ fn limit_example(out: &mut String, system: SystemName) {
     out.push_str(&format!(
         "# [[{LIMIT}]]\n# quantity = \"{quantity}\"\n# {bound}\n"
     ));
-    if system == SystemName::Drop {
+    if system.falls() {
         out.push_str("# share = 0.95 # of repeated runs; without it all of them\n");
     }
 }
@@ -129,7 +145,8 @@ fn describe_as(out: &mut String, key: &Key, system: SystemName, own: Option<Stri
     let holds = key.when.iter().all(|condition| holds(condition, system));
     let line = |text: &str| format!("{} = {}", key.name(), key.literal(text));
     let (active, text) = match table::presence(key, system) {
-        Presence::Required => (holds, line(example)),
+        // each bearing says it where it is named
+        Presence::Required => (holds && key.path != "contact.node", line(example)),
         Presence::FromBearing => {
             doc.push_str(" Not needed with a bearing.name that the catalogue knows.");
             // the starting file names a bearing: dimensions of an example would be those of another one once the name changes
@@ -176,7 +193,7 @@ fn describe_as(out: &mut String, key: &Key, system: SystemName, own: Option<Stri
     };
     comment(out, &doc);
     let of_part =
-        own.is_some() || key.path.matches('.').count() == 2 && system == SystemName::Rotor;
+        own.is_some() || key.path.matches('.').count() == 2 && system.has_shaft();
     let active = if of_part { own.is_some() } else { active };
     let text = own.unwrap_or(text);
     out.push_str(if active { "" } else { "# " });

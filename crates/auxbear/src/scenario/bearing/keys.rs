@@ -8,10 +8,9 @@ use crate::scenario::bearing::kind::BearingType;
 use crate::scenario::bearing::kind::Fidelity;
 use crate::scenario::bearing::separation::SeparationKind;
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
-use crate::scenario::system::{FREE_RACE, MOVING, SystemName, WITH_MOMENT};
+use crate::scenario::system::{FALLING, FREE_RACE, MOVING, WITH_MOMENT};
 use crate::scenario::words::Words;
 
-const DROP: &[SystemName] = &[SystemName::Drop];
 
 pub(crate) const SECTIONS: &[Section] = &[Section {
     path: "bearing",
@@ -29,7 +28,7 @@ pub(crate) const TRACTION_SECTIONS: &[Section] = &[
     Section {
         path: "bearing.drag",
         doc: "Drag of balls and cage to ground. Real lubricant drags against the rings; these values exist to reproduce reference cases.",
-        systems: DROP,
+        systems: FALLING,
     },
 ];
 
@@ -289,7 +288,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Torque from ground on the inner race, counter-clockwise positive.",
     )
     .default("0 N m", "nothing but rotor and balls drives the inner race")
-    .only(DROP),
+    .only(FALLING),
     Key::new(
         "bearing.first_ball_angle",
         Kind::Quantity("rad"),

@@ -14,7 +14,7 @@ const SPREAD: f64 = 6.0;
 impl Context<'_> {
     pub(crate) fn drop(&self, drop: &Drop, all: &[Values]) -> Check {
         self.planes(drop)?;
-        for (part, values) in drop.auxiliary_bearings.iter().zip(all) {
+        for (k, (part, values)) in drop.auxiliary_bearings.iter().zip(all).enumerate() {
             let own = Context {
                 values,
                 file: self.file,
@@ -24,7 +24,10 @@ impl Context<'_> {
             own.bearing(&part.bearing, Some(("contact.bore_diameter", bore)), true)?;
             own.air_clearance(part)?;
             own.perturbed_balls(drop, part)?;
-            own.levitated_orbit(drop, part)?;
+            // what a bent rotor does on its magnets is known when they are computed
+            if drop.shaft.is_none() {
+                own.levitated_orbit(drop, part, drop.share(k))?;
+            }
         }
         let parts = drop.auxiliary_bearings.iter();
         self.output(&drop.run, parts.map(|part| part.bearing.ball_count).sum())
@@ -92,11 +95,11 @@ impl Context<'_> {
     }
 
     /// The geometric centre of the levitated rotor circles the centre of levitation; it must not touch before the release.
-    fn levitated_orbit(&self, drop: &Drop, part: &AuxiliaryBearing) -> Check {
+    fn levitated_orbit(&self, drop: &Drop, part: &AuxiliaryBearing, share: f64) -> Check {
         let levitation = &drop.levitation;
         let clearance = part.contact.radial_air_clearance;
         let offset = levitation.offset_x.hypot(levitation.offset_y);
-        let whirl = levitated_whirl_radius(drop);
+        let whirl = levitated_whirl_radius(drop, share);
         let repeat = &drop.repeat;
         let (spread, narrowest) = if repeat.count > 1 {
             let narrowing = (-SPREAD * repeat.radial_air_clearance_deviation).exp();
@@ -136,8 +139,7 @@ impl Context<'_> {
             return Ok(());
         }
         let rotor = &drop.rotor;
-        let share = drop.share() * rotor.mass;
-        let resonance = (levitation.stiffness / share).sqrt();
+        let resonance = (levitation.stiffness / (share * rotor.mass)).sqrt();
         let near = (0.7..1.4).contains(&(rotor.speed.abs() / resonance));
         let hint = near.then(|| {
             format!(
@@ -167,12 +169,12 @@ impl Context<'_> {
 }
 
 /// Radius of the whirl of the levitated rotor's geometric centre at one plane, m.
-fn levitated_whirl_radius(drop: &Drop) -> f64 {
+fn levitated_whirl_radius(drop: &Drop, share: f64) -> f64 {
     let (rotor, levitation) = (&drop.rotor, &drop.levitation);
     let (along, ahead) = whirl(
         levitation.stiffness,
         levitation.damping,
-        drop.share() * rotor.mass,
+        share * rotor.mass,
         rotor.speed,
         rotor.unbalance_eccentricity,
     );

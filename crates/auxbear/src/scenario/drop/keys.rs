@@ -5,37 +5,39 @@ use crate::scenario::drop::UnbalanceAngle;
 use crate::scenario::key::{
     Condition, Fallback, Key, Kind, LANDING_FRICTION, Otherwise, Range, Section,
 };
-use crate::scenario::system::SystemName;
+use crate::scenario::system::{FALLING, SystemName};
 use crate::scenario::words::Words;
 
-/// The systems of this page.
+/// Systems whose rotor does not bend.
 const DROP: &[SystemName] = &[SystemName::Drop];
+/// Systems whose rotor bends.
+const MACHINE: &[SystemName] = &[SystemName::Machine];
 
 pub(crate) const SECTIONS: &[Section] = &[
     Section {
         path: "rotor",
         doc: "The rotor. Angles and speeds count counter-clockwise, x points right and y up.",
-        systems: &[SystemName::Drop, SystemName::Rotor],
+        systems: &[SystemName::Drop, SystemName::Rotor, SystemName::Machine],
     },
     Section {
         path: "gravity",
         doc: "Weight of the rotor.",
-        systems: DROP,
+        systems: FALLING,
     },
     Section {
         path: "levitation",
         doc: "The magnetic bearing. Of a drop, at one plane while it is on: a linear spring and damper that also carries the weight, switched off at time 0. Of a bent rotor: its magnets, sensors and controllers.",
-        systems: &[SystemName::Drop, SystemName::Rotor],
+        systems: &[SystemName::Drop, SystemName::Rotor, SystemName::Machine],
     },
     Section {
         path: "contact",
         doc: "Contact of the rotor with the bore of the inner race.",
-        systems: DROP,
+        systems: FALLING,
     },
     Section {
         path: "mount",
         doc: "The spring and damper between outer race and ground, equal in all directions.",
-        systems: DROP,
+        systems: FALLING,
     },
 ];
 
@@ -43,7 +45,7 @@ pub(crate) const SECTIONS: &[Section] = &[
 pub(crate) const REPEAT_SECTIONS: &[Section] = &[Section {
     path: "repeat",
     doc: "Repeated runs from slightly different starts: what differs between them is chaos, not physics. With deviations of the machine they show what its tolerances do.",
-    systems: DROP,
+    systems: FALLING,
 }];
 
 const BRAKED: Condition = Condition {
@@ -89,7 +91,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Direction of the unbalance at the release, from x.",
     )
     .default("0 rad", "the unbalance points along x at the release")
-    .only(DROP),
+    .only(FALLING),
     Key::new(
         "rotor.speed",
         Kind::Quantity("rad/s"),
@@ -103,7 +105,7 @@ pub(crate) const KEYS: &[Key] = &[
         "What happens to the spin after the release: free, braked by a torque, or held at its speed by a drive.",
     )
     .default("free", "neither drive nor brake acts after the release")
-    .only(DROP),
+    .only(FALLING),
     Key::new(
         "rotor.brake_torque",
         Kind::Quantity("N m"),
@@ -112,7 +114,7 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .not_negative()
     .when(&[BRAKED])
-    .only(DROP),
+    .only(FALLING),
     Key::new(
         "rotor.brake_start",
         Kind::Quantity("s"),
@@ -122,7 +124,34 @@ pub(crate) const KEYS: &[Key] = &[
     .not_negative()
     .default("0 s", "braking starts at the release")
     .when(&[BRAKED])
-    .only(DROP),
+    .only(FALLING),
+    Key::new(
+        "rotor.drag",
+        Kind::Quantity("N m s"),
+        "1e-4 N m s",
+        "Drag on the spin that grows with it: the torque is this times the speed.",
+    )
+    .not_negative()
+    .default("0 N m s", "a rotor in vacuum")
+    .only(MACHINE),
+    Key::new(
+        "rotor.windage",
+        Kind::Quantity("N m s^2"),
+        "1e-8 N m s^2",
+        "Drag on the spin that grows with its square, as of gas about the rotor.",
+    )
+    .not_negative()
+    .default("0 N m s^2", "a rotor in vacuum")
+    .only(MACHINE),
+    Key::new(
+        "rotor.cutoff",
+        Kind::Quantity("rad/s"),
+        "60000 rad/s",
+        "Modes of the free rotor up to this frequency are coordinates of the run, with the residual flexibility at each place that carries something.",
+    )
+    .positive()
+    .default("60000 rad/s", "first impacts of a rotor whose first mode bends at 655 rad/s within half a percent of those of all modes")
+    .only(MACHINE),
     Key::new(
         "rotor.planes",
         Kind::Count,
@@ -173,6 +202,15 @@ pub(crate) const KEYS: &[Key] = &[
     .not_negative()
     .only(DROP),
     Key::new(
+        "levitation.decay_time",
+        Kind::Quantity("s"),
+        "5 ms",
+        "Time in which the currents of all magnets, that of the bias too, decay to 1/e after the loss of power.",
+    )
+    .not_negative()
+    .default("0 s", "the currents are gone at once")
+    .only(MACHINE),
+    Key::new(
         "levitation.offset_x",
         Kind::Quantity("m"),
         "0.02 mm",
@@ -211,6 +249,29 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .positive()
     .optional("no friction work per area of the landing surface is given"),
+    Key::new(
+        "contact.node",
+        Kind::Text,
+        "drive_end",
+        "Name of the [[rotor.node]] at which the bearing stands.",
+    )
+    .only(MACHINE),
+    Key::new(
+        "contact.misalignment_x",
+        Kind::Quantity("m"),
+        "0.02 mm",
+        "Centre of the bearing from the line about which the rotor is levitated, along x.",
+    )
+    .default("0 m", "the bearing stands on the line of levitation")
+    .only(MACHINE),
+    Key::new(
+        "contact.misalignment_y",
+        Kind::Quantity("m"),
+        "-0.02 mm",
+        "The same along y.",
+    )
+    .default("0 m", "the bearing stands on the line of levitation")
+    .only(MACHINE),
     Key::new(
         "contact.exponent",
         Kind::Exponent,

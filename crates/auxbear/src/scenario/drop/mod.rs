@@ -2,12 +2,16 @@
 
 pub(crate) mod checks;
 pub(crate) mod keys;
+mod shaft;
 
+use crate::problem::Problem;
 use crate::scenario::bearing::{Bearing, bearing};
+use crate::scenario::document::Document;
 use crate::scenario::run::Run;
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
 use crate::scenario::words::words;
+pub use shaft::{BearingPlace, Shaft};
 
 words! {
     /// What becomes of the rotor's spin, as a word.
@@ -34,8 +38,10 @@ words! {
 /// A levitated rotor that is released onto its auxiliary bearings. All values are SI.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drop {
-    /// The rigid rotor.
+    /// The rotor as a whole; a rigid one where there is no shaft.
     pub rotor: Rotor,
+    /// The rotor as it bends.
+    pub shaft: Option<Box<Shaft>>,
     /// Weight.
     pub gravity: Gravity,
     /// The magnetic bearing before the release.
@@ -61,7 +67,7 @@ pub struct AuxiliaryBearing {
     pub bearing: Bearing,
 }
 
-/// The rigid rotor as a whole, shared by all planes.
+/// The rotor as a whole, shared by all planes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rotor {
     /// Mass of the whole rotor, kg.
@@ -174,30 +180,83 @@ pub struct Repeat {
 }
 
 impl Drop {
-    /// What one auxiliary bearing carries of the rotor.
-    pub fn share(&self) -> f64 {
-        1.0 / (f64::from(self.rotor.planes) * self.auxiliary_bearings.len() as f64)
+    /// What an auxiliary bearing carries of the rotor's weight.
+    pub fn share(&self, bearing: usize) -> f64 {
+        match &self.shaft {
+            Some(shaft) => shaft.places[bearing].share.abs(),
+            None => 1.0 / (f64::from(self.rotor.planes) * self.auxiliary_bearings.len() as f64),
+        }
+    }
+
+    /// A bent rotor with the values of each auxiliary bearing.
+    pub(crate) fn of_shaft(document: &Document, all: &[Values]) -> Result<Drop, Box<Problem>> {
+        let shaft = Shaft::of(document, all)?;
+        let whole = shaft.properties();
+        let values = &all[0];
+        let rotor = Section {
+            values,
+            path: "rotor",
+        };
+        let moments = shaft.model.rotor.unbalance.iter();
+        let moment: rotor::C64 = moments
+            .map(|plane| rotor::C64::from_polar(plane.amount, plane.phase))
+            .sum();
+        let rotor = Rotor {
+            mass: whole.mass,
+            polar_inertia: whole.polar,
+            unbalance_eccentricity: moment.norm() / whole.mass,
+            unbalance_angle: rotor.number("unbalance_angle"),
+            speed: rotor.number("speed"),
+            spin: spin(&rotor),
+            planes: 1,
+            first_bending_frequency: None,
+        };
+        Ok(Drop {
+            shaft: Some(Box::new(shaft)),
+            // nothing of a linear spring about a point
+            ..Drop::of_rotor(
+                rotor,
+                Levitation {
+                    stiffness: 0.0,
+                    damping: 0.0,
+                    offset_x: 0.0,
+                    offset_y: 0.0,
+                },
+                all,
+            )
+        })
     }
 
     /// Of the values of each auxiliary bearing.
     pub(crate) fn from_values(all: &[Values]) -> Drop {
         let values = &all[0];
+        let levitation = Section {
+            values,
+            path: "levitation",
+        };
+        let levitation = Levitation {
+            stiffness: levitation.number("stiffness"),
+            damping: levitation.number("damping"),
+            offset_x: levitation.number("offset_x"),
+            offset_y: levitation.number("offset_y"),
+        };
+        let path = "rotor";
+        Drop::of_rotor(rotor(&Section { values, path }), levitation, all)
+    }
+
+    fn of_rotor(rotor: Rotor, levitation: Levitation, all: &[Values]) -> Drop {
+        let values = &all[0];
         let section = |path| Section { values, path };
         let gravity = section("gravity");
-        let levitation = section("levitation");
         let repeat = section("repeat");
         Drop {
-            rotor: rotor(&section("rotor")),
+            rotor,
+            shaft: None,
             gravity: Gravity {
                 acceleration: gravity.number("acceleration"),
                 direction: gravity.number("direction"),
             },
-            levitation: Levitation {
-                stiffness: levitation.number("stiffness"),
-                damping: levitation.number("damping"),
-                offset_x: levitation.number("offset_x"),
-                offset_y: levitation.number("offset_y"),
-            },
+            levitation,
             auxiliary_bearings: (all.iter()).map(auxiliary_bearing).collect(),
             run: Run::from_values(values),
             repeat: Repeat {
@@ -237,16 +296,20 @@ fn rotor(rotor: &Section<'_>) -> Rotor {
         unbalance_eccentricity: rotor.number("unbalance_eccentricity"),
         unbalance_angle: rotor.number("unbalance_angle"),
         speed: rotor.number("speed"),
-        spin: match rotor.choice("spin") {
-            SpinKind::Free => Spin::Free,
-            SpinKind::Held => Spin::Held,
-            SpinKind::Braked => Spin::Braked {
-                torque: rotor.number("brake_torque"),
-                start: rotor.number("brake_start"),
-            },
-        },
+        spin: spin(rotor),
         planes: rotor.count("planes") as u32,
         first_bending_frequency: rotor.maybe("first_bending_frequency"),
+    }
+}
+
+fn spin(rotor: &Section<'_>) -> Spin {
+    match rotor.choice("spin") {
+        SpinKind::Free => Spin::Free,
+        SpinKind::Held => Spin::Held,
+        SpinKind::Braked => Spin::Braked {
+            torque: rotor.number("brake_torque"),
+            start: rotor.number("brake_start"),
+        },
     }
 }
 

@@ -1,7 +1,7 @@
 //! The part of the table of keys that says what is asked of a bent rotor.
 
 use crate::scenario::key::{Key, Kind, Range, Section};
-use crate::scenario::system::SystemName;
+use crate::scenario::system::{SHAFT, SystemName};
 
 /// The systems of this page.
 const ROTOR: &[SystemName] = &[SystemName::Rotor];
@@ -22,7 +22,7 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .positive()
     .derived("a fortieth of the shaft")
-    .only(ROTOR),
+    .only(SHAFT),
     Key::new(
         "rotor.damping_of_mass",
         Kind::Quantity("1/s"),
@@ -31,7 +31,7 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .not_negative()
     .default("0 1/s", "shafts in air have none to speak of")
-    .only(ROTOR),
+    .only(SHAFT),
     Key::new(
         "rotor.damping_of_stiffness",
         Kind::Quantity("s"),
@@ -40,7 +40,7 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .not_negative()
     .default("0 s", "damping of the material turns with the shaft")
-    .only(ROTOR),
+    .only(SHAFT),
     Key::new(
         "rotor.damping_rotating",
         Kind::Quantity("s"),
@@ -49,7 +49,7 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .not_negative()
     .default("0 s", "a shaft of one piece has little; a built-up one must be judged")
-    .only(ROTOR),
+    .only(SHAFT),
     Key::new(
         "analysis.speed_from",
         Kind::Quantity("rad/s"),

@@ -44,13 +44,13 @@ pub(crate) fn read_all(
             continue;
         };
         // rotor.mass of a drop is a mass, not a part
-        if system != SystemName::Rotor && !is_part(system, kind, value.get_ref()) {
+        if !system.has_shaft() && !is_part(system, kind, value.get_ref()) {
             continue;
         }
         let start = key.span().start;
         let place = Place::of_offset(text, start);
         let refuse = |problem: Problem| Err(Box::new(problem.at(place).on_key(kind.path())));
-        if system != SystemName::Rotor {
+        if !system.has_shaft() {
             return refuse(no_effect(kind, file));
         }
         let written = match value.get_ref() {
@@ -80,7 +80,7 @@ pub(crate) fn read_all(
 
 /// Whether something is written as parts of a kind are: as tables, but not as the value of a key with its source.
 pub(crate) fn is_part(system: SystemName, kind: &PartKind, value: &DeValue<'_>) -> bool {
-    let meant = system == SystemName::Rotor;
+    let meant = system.has_shaft();
     match value {
         DeValue::Array(list) => {
             let is_table =
@@ -100,7 +100,7 @@ fn no_effect(kind: &PartKind, file: &str) -> Problem {
         return problem.with_hint(absent.hint());
     }
     let found = "a section that has no effect";
-    let allowed = "it is used only with system = \"rotor\"";
+    let allowed = "it is used only with system = \"rotor\" or \"machine\"";
     Problem::new(Code::UnusedKey, file, found, allowed)
 }
 

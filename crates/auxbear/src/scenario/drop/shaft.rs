@@ -1,0 +1,127 @@
+//! A rotor that bends, in a machine: its parts, where its bearings stand, what holds it until the release.
+
+use crate::problem::{Code, Problem, did_you_mean};
+use crate::scenario::document::Document;
+use crate::scenario::key::quoted;
+use crate::scenario::rotor::build::{self, RotorModel};
+use crate::scenario::rotor::parts;
+use crate::scenario::values::Values;
+use rotor::properties::{Properties, properties};
+
+/// A rotor that bends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shaft {
+    /// Its parts. Supports hold it until the release where there are no magnets.
+    pub model: RotorModel,
+    /// Modes of the free rotor up to this frequency are coordinates, rad/s.
+    pub cutoff: f64,
+    /// Drag over speed, N m s.
+    pub drag: f64,
+    /// Drag over the square of the speed, N m s².
+    pub windage: f64,
+    /// Time in which the currents of the magnets decay to 1/e, s.
+    pub decay_time: f64,
+    /// Where the auxiliary bearings stand, in their order.
+    pub places: Vec<BearingPlace>,
+}
+
+/// Where an auxiliary bearing stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BearingPlace {
+    /// Node of the rotor.
+    pub node: usize,
+    /// Its middle from the line of levitation, x and y, m.
+    pub misalignment: [f64; 2],
+    /// Its share of the rotor's weight by statics: of a rigid rotor on bearings that are equally stiff. Negative where it lifts.
+    pub share: f64,
+}
+
+impl Shaft {
+    /// The rotor of a file, with the values of each of its auxiliary bearings.
+    pub(crate) fn of(document: &Document, all: &[Values]) -> Result<Shaft, Box<Problem>> {
+        let values = &all[0];
+        let parts = parts::resolve(document, values)?;
+        for part in &parts {
+            if ["seal", "housing"].contains(&part.kind.word) {
+                let found = format!("a {} in a run", part.kind.word);
+                let allowed = "it is computed with system = \"rotor\" alone";
+                return Err(Box::new(part.problem(Code::NotModelled, "", found, allowed)));
+            }
+        }
+        let model = build::model(&parts, values)?;
+        let support = parts.iter().find(|part| part.kind.word == "support");
+        match (support, &model.levitation) {
+            (Some(part), Some(_)) => {
+                let found = "a support beside magnets";
+                let allowed = "one of the two is needed: what holds the rotor until the release and lets go";
+                return Err(Box::new(part.problem(Code::Conflict, "", found, allowed)));
+            }
+            (None, None) => {
+                let found = "nothing that holds the rotor until the release";
+                let allowed = "[[levitation.magnet]] with sensor and controller, or [[rotor.support]] as its springs and dampers, is needed";
+                let problem = Problem::new(Code::NotHeld, &values.file, found, allowed);
+                return Err(Box::new(problem));
+            }
+            _ => {}
+        }
+        let nodes = all.iter().map(|own| node(own, &model)).collect::<Result<Vec<_>, _>>()?;
+        let shares = shares(&model, &nodes);
+        let number = |values: &Values, path: &str| values.number(path).unwrap_or_default();
+        let places = (all.iter().zip(&nodes).zip(shares))
+            .map(|((own, node), share)| BearingPlace {
+                node: *node,
+                misalignment: ["contact.misalignment_x", "contact.misalignment_y"]
+                    .map(|path| number(own, path)),
+                share,
+            })
+            .collect();
+        Ok(Shaft {
+            model,
+            cutoff: number(values, "rotor.cutoff"),
+            drag: number(values, "rotor.drag"),
+            windage: number(values, "rotor.windage"),
+            decay_time: number(values, "levitation.decay_time"),
+            places,
+        })
+    }
+
+    /// Mass, centre and inertia of the rotor.
+    pub fn properties(&self) -> Properties {
+        properties(&self.model.rotor)
+    }
+}
+
+/// The node at which a bearing stands.
+fn node(values: &Values, model: &RotorModel) -> Result<usize, Box<Problem>> {
+    const PATH: &str = "contact.node";
+    let named = values.text(PATH).unwrap_or_default();
+    if let Some((_, node)) = model.nodes.iter().find(|(name, _)| *name == named) {
+        return Ok(*node);
+    }
+    let names = || model.nodes.iter().map(|(name, _)| name.as_str());
+    let allowed = match model.nodes.is_empty() {
+        true => "a [[rotor.node]] with this name is needed".to_string(),
+        false => format!(
+            "one of the names of [[rotor.node]] is needed: {}",
+            names().collect::<Vec<_>>().join(", ")
+        ),
+    };
+    let problem = values.problem(Code::NoSuchNode, PATH, values.place(PATH), quoted(&named), allowed);
+    Err(Box::new(problem.with_hint(did_you_mean(&named, names()))))
+}
+
+/// Shares of the weight: 1/n and what balances the moment about the middle of the bearings.
+fn shares(model: &RotorModel, nodes: &[usize]) -> Vec<f64> {
+    let places: Vec<f64> = nodes.iter().map(|node| model.rotor.nodes[*node]).collect();
+    let count = places.len() as f64;
+    let middle = places.iter().sum::<f64>() / count;
+    let spread: f64 = places.iter().map(|z| (z - middle).powi(2)).sum();
+    let lever = properties(&model.rotor).centre - middle;
+    places
+        .iter()
+        .map(|z| match spread > 0.0 {
+            true => 1.0 / count + lever * (z - middle) / spread,
+            false => 1.0 / count,
+        })
+        .collect()
+}

@@ -1,0 +1,301 @@
+//! From a bent rotor to the coordinates of the model, and the motion in which it is released.
+
+use crate::problem::{Code, Problem};
+use crate::scenario::{Drop, Shaft, Spin, UNNAMED};
+use crate::simulate::levitated;
+use levitation::response::start;
+use levitation::{ClosedLoop, Plant, weight};
+use model::levitation::{Fade, FadingMagnet};
+use model::rotor::{Coordinate, RotorConstants, Unbalance};
+use nalgebra::{DMatrix, DVector};
+use number::Vec2;
+use physics::magnet::Magnet;
+use rotor::{Analysis, Basis, C64, Matrices, Place, Responder, Rotor};
+
+/// A bent rotor in the coordinates of the model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BuiltShaft {
+    /// The rotor.
+    pub rotor: RotorConstants,
+    /// Row of each auxiliary bearing's node.
+    pub nodes: Vec<Vec<f64>>,
+    /// Magnets whose currents decay.
+    pub magnets: Vec<FadingMagnet>,
+    /// Where its coordinates are at the release, m √kg.
+    pub position: Vec<Vec2<f64>>,
+    /// Their rates, m √kg/s.
+    pub velocity: Vec<Vec2<f64>>,
+}
+
+impl BuiltShaft {
+    /// Displacement of a node's row at the release, m.
+    pub fn displacement(&self, row: &[f64]) -> Vec2<f64> {
+        let parts = row.iter().zip(&self.position);
+        parts.fold(Vec2::zero(), |sum, (share, at)| sum + *at * *share)
+    }
+}
+
+/// Builds a bent rotor.
+pub(crate) fn build(drop: &Drop, shaft: &Shaft, gravity: Vec2<f64>) -> Result<BuiltShaft, Box<Problem>> {
+    let rotor = &shaft.model.rotor;
+    let matrices = Matrices::new(rotor);
+    let basis = basis(shaft, rotor, &matrices)?;
+    let within = Analysis::new(rotor, &matrices, basis);
+    let loads = weight(rotor, &within, [gravity.x, gravity.y]);
+    let (position, velocity, currents) = match &shaft.model.levitation {
+        Some(_) => on_magnets(drop, shaft, &within, &loads)?,
+        None => {
+            let (position, velocity) = on_supports(drop, rotor, &matrices, &within, &loads)?;
+            (position, velocity, Vec::new())
+        }
+    };
+    let magnets = fading(shaft, &within.basis, &position, &currents);
+    let constants = constants(drop, shaft, &matrices, &within.basis);
+    let nodes = shaft.places.iter().map(|place| row(&within.basis, place.node)).collect();
+    Ok(BuiltShaft {
+        rotor: constants,
+        nodes,
+        magnets,
+        position,
+        velocity,
+    })
+}
+
+/// Free modes up to the cut, and the residual flexibility at each place that carries something.
+fn basis(shaft: &Shaft, rotor: &Rotor, matrices: &Matrices) -> Result<Basis, Box<Problem>> {
+    let full = Basis::full(rotor, matrices).map_err(|error| failed(&error.to_string()))?;
+    let mut kept = rotor.kept();
+    kept.extend(shaft.places.iter().map(|place| rotor.displacement(place.node)));
+    if let Some(levitation) = &shaft.model.levitation {
+        let nodes = levitation.magnets.iter().map(|(_, at, _)| *at);
+        kept.extend(nodes.map(|node| rotor.displacement(node)));
+    }
+    kept.sort_unstable();
+    kept.dedup();
+    let forces = rotor::unit_forces(rotor.size(), &kept);
+    let reduced = full.reduced(shaft.cutoff, &forces);
+    reduced.map_err(|error| failed(&error.to_string()))
+}
+
+/// Row of a node's displacement.
+fn row(basis: &Basis, node: usize) -> Vec<f64> {
+    basis.shapes.row(2 * node).iter().copied().collect()
+}
+
+fn constants(drop: &Drop, shaft: &Shaft, matrices: &Matrices, basis: &Basis) -> RotorConstants {
+    let rotor = &shaft.model.rotor;
+    let reduced = matrices.project(&basis.shapes);
+    let mut ones = DVector::zeros(rotor.size());
+    for node in 0..rotor.nodes.len() {
+        ones[rotor.displacement(node)] = 1.0;
+    }
+    let weights = basis.shapes.tr_mul(&(&matrices.mass * ones));
+    // a matrix without entries is none
+    let list = |matrix: &DMatrix<f64>| match matrix.amax() == 0.0 {
+        true => Vec::new(),
+        false => matrix.transpose().iter().copied().collect(),
+    };
+    let brake_torque = match drop.rotor.spin {
+        Spin::Braked { torque, .. } => torque,
+        Spin::Free | Spin::Held => 0.0,
+    };
+    let planes: Vec<Unbalance> = (rotor.unbalance.iter())
+        .map(|plane| Unbalance {
+            node: row(basis, plane.node),
+            product: plane.amount,
+            phase: plane.phase,
+        })
+        .collect();
+    RotorConstants {
+        coordinates: (basis.frequencies.iter().zip(weights.iter()))
+            .map(|(frequency, weight)| Coordinate {
+                frequency: *frequency,
+                mass: 1.0,
+                weight: *weight,
+                unbalance: Vec2::zero(),
+            })
+            .collect(),
+        gyroscopic: list(&reduced.gyroscopic),
+        damping: list(&reduced.damping),
+        damping_rotating: list(&reduced.damping_rotating),
+        polar_inertia: drop.rotor.polar_inertia,
+        drive_torque: 0.0,
+        drive_slope: 0.0,
+        drag: shaft.drag,
+        drag_square: shaft.windage,
+        brake_torque,
+        spin_held: drop.rotor.spin == Spin::Held,
+    }
+    .with_unbalance(&planes)
+}
+
+/// Position, velocity, and currents of the magnets.
+type Released = (Vec<Vec2<f64>>, Vec<Vec2<f64>>, Vec<f64>);
+
+/// The steady motion on magnets, which must hold the rotor.
+fn on_magnets(
+    drop: &Drop,
+    shaft: &Shaft,
+    within: &Analysis,
+    loads: &DVector<f64>,
+) -> Result<Released, Box<Problem>> {
+    let Some(model) = &shaft.model.levitation else {
+        return Err(failed("no magnets"));
+    };
+    let rotor = &shaft.model.rotor;
+    let speed = drop.rotor.speed;
+    let failed = |error: levitation::Refused| levitated::failed(&error.to_string());
+    let plant = Plant::planes(within, rotor.nodes.len(), speed);
+    let closed = ClosedLoop::new(plant.clone(), &model.levitation).map_err(failed)?;
+    levitated::holds(model, &closed.poles().map_err(failed)?, speed)?;
+    let angle = drop.rotor.unbalance_angle;
+    let start = start(&plant, &model.levitation, loads, &rotor.unbalance, speed, angle);
+    let start = start.map_err(|error| levitated::weak(&error.to_string()))?;
+    let size = within.basis.len();
+    let pairs = |list: &DVector<f64>| -> Vec<Vec2<f64>> {
+        (0..size).map(|k| Vec2::new(list[k], list[size + k])).collect()
+    };
+    Ok((pairs(&start.coordinates), pairs(&start.rates), start.currents))
+}
+
+/// The steady motion on springs and dampers that also carry the weight, as a levitation does: at rest no support is displaced.
+fn on_supports(
+    drop: &Drop,
+    rotor: &Rotor,
+    matrices: &Matrices,
+    within: &Analysis,
+    loads: &DVector<f64>,
+) -> Result<(Vec<Vec2<f64>>, Vec<Vec2<f64>>), Box<Problem>> {
+    let basis = &within.basis;
+    let size = basis.len();
+    let mut nodes: Vec<usize> = (rotor.supports.iter())
+        .filter_map(|support| match support.at {
+            Place::Node(node) => Some(node),
+            Place::Housing(_) => None,
+        })
+        .collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    let whole = size + nodes.len();
+    let mut system = DMatrix::zeros(whole, whole);
+    for (k, frequency) in basis.frequencies.iter().enumerate() {
+        system[(k, k)] = frequency * frequency;
+    }
+    for (s, node) in nodes.iter().enumerate() {
+        for (k, shape) in row(basis, *node).into_iter().enumerate() {
+            system[(size + s, k)] = shape;
+            system[(k, size + s)] = shape;
+        }
+    }
+    let factor = system.lu();
+    let sagging = |from: usize| -> Result<DVector<f64>, Box<Problem>> {
+        let mut side = DVector::zeros(whole);
+        side.rows_mut(0, size).copy_from(&loads.rows(from, size));
+        let found = factor.solve(&side).filter(|list| list.iter().all(|x| x.is_finite()));
+        found.ok_or_else(not_held)
+    };
+    let (x, y) = (sagging(0)?, sagging(size)?);
+    let speed = drop.rotor.speed;
+    let turning = Responder::within(rotor, within).unbalance(&rotor.unbalance, speed);
+    let turning = turning.map_err(|_| not_held())?;
+    let modal = |list: &DVector<C64>| -> DVector<C64> {
+        let moved = matrices.mass.map(C64::from) * list;
+        basis.shapes.map(C64::from).tr_mul(&moved)
+    };
+    let (forward, backward) = (modal(&turning.forward), modal(&turning.backward));
+    let phase = C64::from_polar(1.0, drop.rotor.unbalance_angle);
+    let spin = C64::new(0.0, speed);
+    let plane = |value: C64| Vec2::new(value.re, value.im);
+    let parts = |k: usize| (forward[k] * phase, (backward[k] * phase).conj());
+    Ok((0..size)
+        .map(|k| {
+            let (with, against) = parts(k);
+            (
+                Vec2::new(x[k], y[k]) + plane(with + against),
+                plane(spin * (with - against)),
+            )
+        })
+        .unzip())
+}
+
+/// The magnets as their currents decay: force and k_s about the release.
+fn fading(shaft: &Shaft, basis: &Basis, position: &[Vec2<f64>], currents: &[f64]) -> Vec<FadingMagnet> {
+    let Some(model) = shaft.model.levitation.as_ref().filter(|_| shaft.decay_time > 0.0) else {
+        return Vec::new();
+    };
+    let actuators = model.levitation.actuators();
+    (model.magnets.iter().enumerate())
+        .map(|(index, (_, node, _))| {
+            let node = row(basis, *node);
+            let pairs = node.iter().zip(position);
+            let at = pairs.fold(Vec2::zero(), |sum, (share, own)| sum + *own * *share);
+            let (mut force, mut stiffness) = (Vec2::zero(), 0.0);
+            for k in [2 * index, 2 * index + 1] {
+                let (sine, cosine) = actuators[k].axis.angle.sin_cos();
+                let along = Vec2::new(cosine, sine);
+                let gap = along.dot(at);
+                let (_, ks) = actuators[k].magnet.slopes(currents[k], gap);
+                let push = actuators[k].magnet.force(currents[k], gap, 1.0);
+                force += along * (push - ks * gap);
+                stiffness += 0.5 * ks;
+            }
+            FadingMagnet {
+                node,
+                fade: Fade {
+                    force,
+                    stiffness,
+                    decay_rate: 1.0 / shaft.decay_time,
+                    cut: 0.0,
+                },
+            }
+        })
+        .collect()
+}
+
+/// Refuses bearings that the rotor touches before its release, and those that let it reach a magnet.
+pub(crate) fn clear(drop: &Drop, shaft: &Shaft, built: &BuiltShaft) -> Result<(), Box<Problem>> {
+    use crate::catalogue::geometry::millimetres;
+    for (part, (place, row)) in (drop.auxiliary_bearings.iter()).zip(shaft.places.iter().zip(&built.nodes)) {
+        let clearance = part.contact.radial_air_clearance;
+        let [x, y] = place.misalignment;
+        let apart = (built.displacement(row) - Vec2::new(x, y)).length_squared().sqrt();
+        let key = "contact.radial_air_clearance";
+        let problem = |code, found: String, allowed: String| {
+            Err(Box::new(Problem::new(code, UNNAMED, found, allowed).on_key(
+                crate::scenario::path_of(Some(&part.name), key),
+            )))
+        };
+        if apart >= clearance {
+            return problem(
+                Code::ContactAtStart,
+                format!("a levitated rotor that is {} from the middle of the bearing at the release", millimetres(apart)),
+                format!("less than the radial air clearance of {} is needed", millimetres(clearance)),
+            );
+        }
+        let gaps = shaft.model.levitation.iter().flat_map(|model| model.levitation.actuators());
+        let gaps = gaps.filter_map(|actuator| match actuator.magnet {
+            Magnet::Pair(pair) => Some(pair.gap),
+            Magnet::Linear { .. } => None,
+        });
+        let smallest = gaps.fold(f64::INFINITY, f64::min);
+        if clearance >= smallest {
+            return problem(
+                Code::ClearanceTooLarge,
+                millimetres(clearance),
+                format!("less than the gap of the magnets, {}, is needed: the rotor would land on them", millimetres(smallest)),
+            );
+        }
+    }
+    Ok(())
+}
+
+fn not_held() -> Box<Problem> {
+    let found = "supports that do not hold the rotor";
+    let needed = "two places at least, with stiffness in every direction, are needed until the release";
+    Box::new(Problem::new(Code::NotHeld, UNNAMED, found, needed).on_key("rotor.support"))
+}
+
+fn failed(text: &str) -> Box<Problem> {
+    let needed = "another rotor is needed";
+    Box::new(Problem::new(Code::Impossible, UNNAMED, text, needed).on_key("rotor"))
+}
