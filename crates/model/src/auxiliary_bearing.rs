@@ -42,6 +42,10 @@ constants! {
 pub struct AuxiliaryBearingConstants {
     /// Its name; empty where it is the only one.
     pub name: String,
+    /// Row φ of the rotor's node in it: (1) of a point.
+    pub node: Vec<f64>,
+    /// Its middle, from the line about which the rotor is levitated, m: all its coordinates are counted from there.
+    pub datum: Vec2<f64>,
     /// Rotor against inner race.
     pub contact: JournalContact<f64>,
     /// Inner race and sleeve.
@@ -186,13 +190,11 @@ pub struct AuxiliaryBearing<R: Real> {
     inverse_outer_mass: R,
 }
 
-/// What the rotor does at the node, besides its motion.
+/// What the rotor does at the node.
 #[derive(Clone, Copy, Debug)]
 pub struct AtNode<R> {
-    /// The node.
+    /// Its motion.
     pub centre: GeometricCentre<R>,
-    /// Its acceleration, m/s²; only the probes see it.
-    pub acceleration: Vec2<R>,
     /// What the contact does at this motion.
     pub contact: ContactReaction<R>,
 }
@@ -269,13 +271,13 @@ impl<R: Real> AuxiliaryBearing<R> {
         (self.bearing).react(motion, &state[at.own()], &mut rate[at.own()], detail)
     }
 
-    /// Writes the rates of both races and of the ledger's heats and sources, and the probes where asked; returns the
-    /// moments from outside.
+    /// Writes the rates of both races and of the ledger's heats and sources, and the probes where asked, which alone see the
+    /// acceleration of the node; returns the moments from outside.
     #[inline(always)]
     pub fn accelerate(
         &self,
         at: &BearingAt,
-        node: &AtNode<R>,
+        (node, node_acceleration): (&AtNode<R>, Vec2<R>),
         gravity: Vec2<R>,
         motion: &Motion<R>,
         bearing: &BearingReaction<R>,
@@ -341,7 +343,7 @@ impl<R: Real> AuxiliaryBearing<R> {
                     contact,
                     &node.centre,
                     inner,
-                    node.acceleration - inner_acceleration,
+                    node_acceleration - inner_acceleration,
                 ),
                 contact.friction_force,
                 contact.slip_speed,

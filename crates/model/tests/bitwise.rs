@@ -5,7 +5,7 @@
 #[allow(dead_code)] // shared with the other tests
 mod machines;
 
-use machines::{inlets, lubricant, oil, planar, reference, separate, separations, settings};
+use machines::{inlets, lubricant, oil, planar, reference, separate, separations, settings, times_mass};
 use model::bearing::{BearingConstants, SharedMoment, SteadyMoment};
 use model::system::machine::simulate::{Runs, Shape, Steps, simulate_on};
 use model::system::machine::{MachineConstants, RotorMachine};
@@ -113,7 +113,7 @@ fn variant(number: usize) -> MachineConstants {
     let mut constants = reference();
     constants.speed *= 1.0 - 0.07 * x;
     constants.unbalance_angle = 0.4 * x;
-    constants.rotor.mass *= 1.0 + 0.05 * x;
+    times_mass(&mut constants, 1.0 + 0.05 * x);
     let part = &mut constants.bearings[0];
     part.contact.radial_clearance *= 1.0 - 0.03 * x;
     part.contact.friction *= 1.0 + 0.1 * x;

@@ -20,7 +20,7 @@ pub mod acceleration_loss;
 pub mod ball;
 pub mod ball_pair;
 pub mod ball_states;
-mod ball_sums;
+pub(crate) mod ball_sums;
 pub mod cage;
 pub mod energy;
 pub mod full_complement;

@@ -17,7 +17,7 @@ use model::contact::JournalContact;
 use model::levitation::Levitation;
 use model::motion::Motion;
 use model::mount::Mount;
-use model::rotor::Rotor;
+use model::rotor::RotorConstants;
 use model::schedule::Schedule;
 use model::system::machine::layout::ROTOR;
 use model::system::machine::simulate::{Runs, Shape, Steps, simulate_on};
@@ -274,21 +274,18 @@ pub fn reference() -> MachineConstants {
     let bearing = planar_bearing();
     let rotor_mass = 8.0;
     let mut constants = MachineConstants {
-        rotor: Rotor {
-            mass: rotor_mass,
-            polar_inertia: 0.01,
-            eccentricity: 5e-6,
-            brake_torque: 0.0,
-            spin_held: false,
-        },
+        rotor: RotorConstants::point(rotor_mass, 0.01, 5e-6),
         levitation: Levitation {
             stiffness: 1e6,
             damping: 1e3,
             centre: vec2(0.0, 0.0),
             carried: vec2(0.0, rotor_mass * G),
         },
+        magnets: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
+            node: vec![1.0],
+            datum: vec2(0.0, 0.0),
             contact: JournalContact {
                 radial_clearance: 0.25e-3,
                 bore_radius: 12.5e-3,
@@ -319,6 +316,18 @@ pub fn reference() -> MachineConstants {
     };
     balance_mount(&mut constants);
     constants
+}
+
+/// Multiplies the mass of a point rotor.
+pub fn times_mass(constants: &mut MachineConstants, factor: f64) {
+    let own = &mut constants.rotor.coordinates[0];
+    own.mass *= factor;
+    own.weight *= factor;
+}
+
+/// Takes the unbalance of a point rotor away.
+pub fn centred(constants: &mut MachineConstants) {
+    constants.rotor.coordinates[0].unbalance = vec2(0.0, 0.0);
 }
 
 /// Sets the free position of the mount so that the weight of the bearing is balanced at zero.
@@ -482,7 +491,7 @@ pub fn random_state(machine: &RotorMachine, random: &mut Random) -> Vec<f64> {
     // the geometric centre on either side of contact
     let distance = c.bearings[0].contact.radial_clearance + random.within(2e-5);
     let (sine, cosine) = random.within(PI).sin_cos();
-    let e = c.rotor.eccentricity;
+    let e = c.rotor.coordinates[0].unbalance.x;
     state[ROTOR] = state[INNER] + distance * cosine + e * angle.cos();
     state[ROTOR + 1] = state[INNER + 1] + distance * sine + e * angle.sin();
 

@@ -74,7 +74,7 @@ fn ball_centre(machine: &RotorMachine, state: &[f64], rate: &[f64], j: usize) ->
 fn centres(machine: &RotorMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, [Vec2<f64>; 3])> {
     let c = &machine.constants;
     let mut list: Vec<_> = [
-        (c.rotor.mass, ROTOR),
+        (c.rotor.mass(), ROTOR),
         (c.bearings[0].inner_race.mass, INNER),
         (c.bearings[0].outer_moving_mass(), OUTER),
     ]
@@ -139,7 +139,7 @@ fn spins(machine: &RotorMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, f64, 
 fn levitation(machine: &RotorMachine, state: &[f64]) -> (Vec2<f64>, Vec2<f64>) {
     let m = &machine.constants;
     let (s, c) = state[ROTOR + 4].sin_cos();
-    let e = m.rotor.eccentricity;
+    let e = m.rotor.coordinates[0].unbalance.x;
     let centre = pair(state, ROTOR) - vec2(c, s) * e;
     let velocity = pair(state, ROTOR + 2) - vec2(-s, c) * (e * state[ROTOR + 5]);
     let l = &m.levitation;

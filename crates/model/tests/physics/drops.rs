@@ -77,7 +77,7 @@ fn energy_and_angular_momentum_close_when_the_balls_roll() {
 /// A rotor without unbalance, levitated at rest in the middle.
 fn balanced() -> MachineConstants {
     let mut c = reference();
-    c.rotor.eccentricity = 0.0;
+    crate::machines::centred(&mut c);
     c
 }
 

@@ -16,7 +16,7 @@ const LOAD: f64 = 500.0;
 fn loaded(interference: f64, direction: f64) -> MachineConstants {
     let mut c = reference();
     c.speed = 0.0;
-    c.rotor.eccentricity = 0.0;
+    crate::machines::centred(&mut c);
     let bearing = planar(&mut c);
     bearing.ball.gravity = vec2(0.0, 0.0);
     bearing.ball.outer_track = bearing.ball.inner_track + 2.0 * bearing.ball.radius - interference;

@@ -189,7 +189,7 @@ fn a_cage_at_rest_lies_on_its_land_with_its_weight() {
         Separation::FreeCage(Some(land(LandRace::Outer, 0.05e-3))),
     );
     // the rotor stays up, pockets are wide, nothing turns
-    c.rotor.eccentricity = 0.0;
+    crate::machines::centred(&mut c);
     planar(&mut c).ball.pocket_gap = 1e-3;
     c.speed = 0.0;
     let weight = planar(&mut c).cage_mass * 9.81;

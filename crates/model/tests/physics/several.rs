@@ -1,6 +1,6 @@
 //! Several auxiliary bearings on one rotor.
 
-use crate::machines::{Random, random_state, reference, run, settings};
+use crate::machines::{Random, random_state, reference, run, settings, times_mass};
 use model::auxiliary_bearing::AuxiliaryBearingConstants;
 use model::system::machine::RotorMachine;
 use solve::Machine;
@@ -10,7 +10,7 @@ const NAMES: [&str; 2] = ["drive_end", "other_end"];
 /// The whole rotor on two bearings, each of which carries what that of the half machine does.
 pub fn twins(half: &RotorMachine) -> RotorMachine {
     let mut whole = half.constants.clone();
-    whole.rotor.mass *= 2.0;
+    times_mass(&mut whole, 2.0);
     whole.rotor.polar_inertia *= 2.0;
     whole.rotor.brake_torque *= 2.0;
     whole.levitation.stiffness *= 2.0;

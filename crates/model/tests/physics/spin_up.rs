@@ -15,7 +15,7 @@ fn driven(torque: f64) -> MachineConstants {
     let mut c = reference();
     weightless(&mut c);
     c.speed = 0.0;
-    c.rotor.eccentricity = 0.0;
+    crate::machines::centred(&mut c);
     c.bearings[0].inner_race.centre_held = true;
     c.bearings[0].inner_race.torque = torque;
     let bearing = planar(&mut c);

@@ -121,7 +121,7 @@ fn tilted() -> MachineConstants {
     let mut c = reference();
     let g = vec2(2.0, -9.6);
     c.gravity = g;
-    c.levitation.carried = -(g * c.rotor.mass);
+    c.levitation.carried = -(g * c.rotor.mass());
     c.levitation.centre = vec2(0.05e-3, -0.235e-3);
     c.bearings[0].inner_race.torque = 0.01;
     c.unbalance_angle = 0.4;

@@ -1,8 +1,8 @@
 //! Constants of a machine.
 
 use crate::auxiliary_bearing::AuxiliaryBearingConstants;
-use crate::levitation::Levitation;
-use crate::rotor::Rotor;
+use crate::levitation::{FadingMagnet, Levitation};
+use crate::rotor::RotorConstants;
 use crate::schedule::Schedule;
 use number::Vec2;
 
@@ -10,9 +10,11 @@ use number::Vec2;
 #[derive(Clone, Debug, PartialEq)]
 pub struct MachineConstants {
     /// The rotor, or its share of one of several equal bearings.
-    pub rotor: Rotor<f64>,
-    /// Levitation, active before release only.
+    pub rotor: RotorConstants,
+    /// Levitation of a point rotor, active before release only.
     pub levitation: Levitation<f64>,
+    /// Magnets whose currents decay after the release.
+    pub magnets: Vec<FadingMagnet>,
     /// The auxiliary bearings, one at least.
     pub bearings: Vec<AuxiliaryBearingConstants>,
     /// Gravity, m/s².
@@ -33,6 +35,20 @@ pub enum Event {
 }
 
 impl MachineConstants {
+    /// Why a machine cannot be computed.
+    pub(super) fn fault(&self) -> Option<&'static str> {
+        let rows = self.bearings.iter().map(|part| &part.node);
+        let mut rows = rows.chain(self.magnets.iter().map(|magnet| &magnet.node));
+        let count = self.rotor.coordinates.len();
+        let still = |row: &[f64]| row.iter().all(|shape| *shape == 0.0);
+        if self.bearings.is_empty() {
+            Some("a machine has a bearing")
+        } else if rows.any(|row| row.len() != count || still(row)) {
+            Some("a node has an entry for each coordinate, and moves with one of them")
+        } else {
+            self.rotor.fault()
+        }
+    }
     /// Chooses where the springs of all mounts are free, so that each carries its bearing's weight.
     pub fn balance_mounts(&mut self) {
         for part in &mut self.bearings {

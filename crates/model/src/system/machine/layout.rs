@@ -1,10 +1,11 @@
 //! Where everything stands in the state of a machine.
 //!
 //! ```text
-//!   rotor        x y (of G), ẋ ẏ, φ, ω
+//!   rotor        x of all coordinates (of G), y, ẋ, ẏ; φ, Ω
 //!   races        of each auxiliary bearing: inner x y, ẋ ẏ, φ_i, ω_i; outer x y, ẋ ẏ
 //!   bearings     own states of each
-//!   ledger       heats of each bearing; works of the sources, of the rotor first; external angular impulse
+//!   ledger       heats of the rotor, where it has any, and of each bearing; works of the sources, of the rotor first; external
+//!                angular impulse
 //!
 //!   probes       of each bearing, then the details of each
 //! ```
@@ -12,17 +13,31 @@
 use super::constants::MachineConstants;
 use crate::auxiliary_bearing::{self, BearingAt, lay_races, probe};
 use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
+use crate::rotor::RotorAt;
 use crate::system::layout;
 use std::ops::Deref;
 
 /// First channel of the rotor.
 pub const ROTOR: usize = 0;
-/// Channels of the rotor.
-pub const ROTOR_CHANNELS: usize = 6;
-const ROTOR_NAMES: [&str; ROTOR_CHANNELS] = ["x", "y", "x_speed", "y_speed", "angle", "speed"];
 
-/// Sources of the rotor, before those of the bearings.
+/// Sources of any rotor, before those of its fading magnets and of the bearings. Drive, brake and what holds the spin are one.
 pub const ROTOR_SOURCES: [&str; 2] = ["levitation", "rotor_torque"];
+
+/// Of the error scale of a coordinate: it counts as reaching at least so much of what that which reaches most does at the bearings.
+const LEAST_REACH: f64 = 0.1;
+
+/// What a rotor has in the ledger where there is such a thing, by its place among heats or sources.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RotorLedger {
+    /// Heat of damping that does not rotate.
+    pub damping: Option<usize>,
+    /// Heat of damping that rotates.
+    pub damping_rotating: Option<usize>,
+    /// Heat of drag.
+    pub drag: Option<usize>,
+    /// Work of the fading magnets.
+    pub magnets: Option<usize>,
+}
 
 /// Gravity that scales speeds where there is less, m/s²: a rotor in a vertical machine still touches.
 const LEAST_GRAVITY: f64 = 1.0;
@@ -31,6 +46,10 @@ const LEAST_GRAVITY: f64 = 1.0;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
     channels: layout::Layout,
+    /// Where the rotor stands.
+    pub rotor: RotorAt,
+    /// Where it stands in the ledger.
+    pub of_rotor: RotorLedger,
     /// Where each auxiliary bearing stands.
     pub bearings: Vec<BearingAt>,
     probes: usize,
@@ -49,14 +68,29 @@ impl Layout {
     pub fn of(constants: &MachineConstants) -> Self {
         let parts = &constants.bearings;
         let mut channels = layout::Layout::default();
-        channels.block("", ROTOR_NAMES.map(|name| format!("rotor.{name}")));
+        let own = &constants.rotor;
+        let rotor = RotorAt {
+            first: ROTOR,
+            coordinates: own.coordinates.len(),
+        };
+        channels.block("", rotor.names());
         let races: Vec<_> = (parts.iter())
             .map(|part| lay_races(&mut channels, &part.name))
             .collect();
-        let own: Vec<_> = (parts.iter())
+        let states: Vec<_> = (parts.iter())
             .map(|part| channels.bearing(&part.name, &part.bearing))
             .collect();
+        let mut heat = |there: bool, kind| there.then(|| channels.heats_of("", [kind]));
+        let mut of_rotor = RotorLedger {
+            damping: heat(!own.damping.is_empty(), "shaft_damping"),
+            damping_rotating: heat(!own.damping_rotating.is_empty(), "shaft_damping_rotating"),
+            drag: heat(own.drag != 0.0 || own.drag_square != 0.0, "rotor_drag"),
+            magnets: None,
+        };
         channels.sources_of("", ROTOR_SOURCES);
+        if !constants.magnets.is_empty() {
+            of_rotor.magnets = Some(channels.sources_of("", ["magnets"]));
+        }
         let mut probes = parts.len() * probe::COUNT;
         let mut bearings = Vec::with_capacity(parts.len());
         for (k, part) in parts.iter().enumerate() {
@@ -67,8 +101,8 @@ impl Layout {
             bearings.push(BearingAt {
                 inner: races[k].0,
                 outer: races[k].1,
-                bearing: own[k].start,
-                bearing_states: own[k].len(),
+                bearing: states[k].start,
+                bearing_states: states[k].len(),
                 balls,
                 heat: channels.heats_of(&part.name, kinds),
                 source: channels.sources_of(&part.name, auxiliary_bearing::SOURCES),
@@ -89,6 +123,8 @@ impl Layout {
         };
         Layout {
             channels,
+            rotor,
+            of_rotor,
             bearings,
             probes,
             watched_probes,
@@ -111,7 +147,8 @@ impl Layout {
     ///
     /// Lengths by a hundredth of the radial air clearance, speeds by a third of the fall through it, spins by the release speed,
     /// energies by the spin energy of the inner race brought to speed; the bearing's by
-    /// [`error_scale`](BearingConstants::error_scale). The rotor by the smallest clearance of its bearings.
+    /// [`error_scale`](BearingConstants::error_scale). The rotor by the smallest clearance of its bearings; its coordinates by what
+    /// they make of it at these.
     pub fn error_scale(&self, constants: &MachineConstants) -> Vec<f64> {
         let gravity = constants.gravity.length_squared().sqrt().max(LEAST_GRAVITY);
         let spin = constants.speed.abs().max(10.0);
@@ -130,7 +167,16 @@ impl Layout {
                 scale[body + 5] = spin;
             }
         };
-        body(&mut scale, ROTOR, smallest, true);
+        let rotor = self.rotor;
+        for (k, reach) in reaches(constants).into_iter().enumerate() {
+            for block in 0..2 {
+                scale[rotor.block(block).start + k] = 0.01 * smallest / reach;
+                scale[rotor.block(block + 2).start + k] = 0.3 * fall(smallest) / reach;
+            }
+        }
+        scale[rotor.angle()] = 1.0;
+        scale[rotor.spin()] = spin;
+        let mass = constants.rotor.mass();
         let (mut energy, mut impulse) = (f64::INFINITY, f64::INFINITY);
         for (at, part) in self.bearings.iter().zip(&constants.bearings) {
             let clearance = part.contact.radial_clearance;
@@ -139,8 +185,7 @@ impl Layout {
             body(&mut scale, at.outer, clearance, false);
             (part.bearing).error_scale(&mut scale[at.own()], spin, fall_speed);
             let inertia = part.inner_race.inertia;
-            let turned =
-                0.5 * inertia * spin * spin + 0.5 * constants.rotor.mass * fall_speed * fall_speed;
+            let turned = 0.5 * inertia * spin * spin + 0.5 * mass * fall_speed * fall_speed;
             let heats = self.heat(at.heat)..self.heat(at.heat + auxiliary_bearing::HEATS);
             scale[heats].fill(turned);
             scale[self.source(at.source)..self.source(at.source + 2)].fill(turned);
@@ -148,7 +193,28 @@ impl Layout {
             impulse = impulse.min(inertia * spin);
         }
         scale[self.source(0)..self.source(ROTOR_SOURCES.len())].fill(energy);
+        let own = self.of_rotor;
+        for heat in [own.damping, own.damping_rotating, own.drag].into_iter().flatten() {
+            scale[self.heat(heat)] = energy;
+        }
+        if let Some(magnets) = own.magnets {
+            scale[self.source(magnets)] = energy;
+        }
         scale[self.angular_impulse()] = impulse;
         scale
     }
+}
+
+/// What a unit of each coordinate moves the rotor by at that bearing where it moves it most.
+fn reaches(constants: &MachineConstants) -> Vec<f64> {
+    let at = |k: usize| {
+        let shapes = constants.bearings.iter().map(|part| part.node[k].abs());
+        shapes.fold(0.0, f64::max)
+    };
+    let reaches: Vec<f64> = (0..constants.rotor.coordinates.len()).map(at).collect();
+    let most = reaches.iter().copied().fold(0.0, f64::max);
+    reaches
+        .into_iter()
+        .map(|reach| reach.max(LEAST_REACH * most))
+        .collect()
 }

@@ -4,33 +4,32 @@
 //! change of angular momentum about the origin = external angular impulse.
 
 use super::RotorMachine;
-use super::rate::rotor_motion;
 use crate::system::energy::{Balance, Content, Flows};
 use number::Vec2;
 use solve::Machine;
 
 impl RotorMachine {
-    /// Energies and angular momentum at a state. The levitation is a source: it stores nothing.
+    /// Energies and angular momentum at a state: of the rotor about the origin, of each bearing about its datum. Levitation and
+    /// magnets are sources: they store nothing.
     pub fn content(&self, state: &[f64]) -> Content {
         let c = &self.constants;
-        let rotor = rotor_motion(state);
-        let centre = c.rotor.geometric_centre(&rotor);
-        let (translation, spin) = c.rotor.kinetic_energy(&rotor);
+        let motion = self.layout().rotor.motion(state);
+        let rotor = self.one.rotor.content(&motion, c.gravity);
         let half_square = |mass: f64, speed: Vec2<f64>| 0.5 * mass * speed.length_squared();
         let weight = |mass: f64, position: Vec2<f64>| -mass * c.gravity.dot(position);
         let mut content = Content {
-            translation,
-            spin,
+            translation: rotor.translation,
+            spin: rotor.spin,
             potential: 0.0,
-            angular_momentum: c.rotor.mass * rotor.position.cross(rotor.velocity)
-                + c.rotor.polar_inertia * rotor.spin,
+            angular_momentum: rotor.angular_momentum,
         };
         let parts = self.layout().bearings.iter().zip(&c.bearings);
         for (k, (at, part)) in parts.enumerate() {
             let races = at.motion(state);
             let (inner, outer) = (&races.inner, &races.outer);
             let (race, outer_mass) = (&part.inner_race, part.outer_moving_mass());
-            let contact = part.contact.react(&centre, rotor.spin, inner);
+            let centre = self.one.nodes[k].centre(&motion);
+            let contact = part.contact.react(&centre, motion.spin, inner);
             let bearing = part.bearing.energy(&races, &state[at.own()]);
             content.translation += half_square(race.mass, inner.velocity);
             content.translation += half_square(outer_mass, outer.velocity);
@@ -40,7 +39,7 @@ impl RotorMachine {
             content.potential += part.contact.energy(&contact);
             content.potential += part.mount.energy(outer.position);
             if k == 0 {
-                content.potential += weight(c.rotor.mass, rotor.position);
+                content.potential += rotor.weight + rotor.elastic;
             }
             if !race.centre_held {
                 content.potential += weight(race.mass, inner.position);

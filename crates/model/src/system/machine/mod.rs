@@ -1,7 +1,7 @@
 //! A levitated rotor falls onto its auxiliary bearings.
 //!
 //! ```text
-//!        rotor G, φ ──(levitation, until t = 0)
+//!        rotor η, φ ──(levitation, until t = 0; magnets whose currents decay)
 //!          │ ... at each auxiliary bearing:
 //!          │ contact: clearance c0, N, friction
 //!        inner race c_i, φ_i ── drive torque
@@ -15,26 +15,30 @@
 //! | [`start`] | the levitated state at release |
 //! | [`ledger`] | energies, momentum, what closes |
 //! | [`tangents`] | what is stiff, for linearly implicit steps |
+//! | [`rotor_rows`] | the rotor in these |
 //! | [`record`] | what is watched and kept of a run |
 //! | [`simulate`] | a run, alone or in lanes |
 //!
 //! The auxiliary bearing is a part: [`auxiliary_bearing`](crate::auxiliary_bearing).
 //!
-//! Assumes: a rotor that is a point with spin, so that all its bearings see the same motion. Bearings that are equal may be
-//! computed as one that carries its share of the rotor's mass, polar inertia and torques.
+//! The rotor is a part too: [`rotor`](crate::rotor). Each bearing meets it at a node of its own and counts its coordinates from
+//! a datum of its own. On a point rotor all see the same motion; equal bearings there may be computed as one that carries its
+//! share of the rotor's mass, polar inertia and torques.
 
 pub mod constants;
 pub mod layout;
 pub mod ledger;
 pub mod rate;
 pub mod record;
+pub mod rotor_rows;
 pub mod simulate;
 pub mod start;
+mod symmetric;
 pub mod tangents;
 
 use crate::auxiliary_bearing::AuxiliaryBearing;
-use crate::levitation::Levitation;
-use crate::rotor::Rotor;
+use crate::levitation::{Fade, Levitation};
+use crate::rotor::{GeometricCentre, Node, Rotor};
 pub use constants::{Event, MachineConstants};
 use layout::Layout;
 use number::{Gather, Real, Vec2};
@@ -73,12 +77,13 @@ pub struct RotorMachine {
 #[derive(Clone, Debug)]
 pub struct Machines<R: Real> {
     rotor: Rotor<R>,
-    levitation: Levitation<R>,
+    /// Of a point rotor, with its only node.
+    levitation: Option<(Node<R>, Levitation<R>)>,
+    magnets: Vec<(Node<R>, Fade<R>)>,
     gravity: Vec2<R>,
     bearings: Vec<AuxiliaryBearing<R>>,
-    /// Reciprocals, because a division costs as much as ten products.
-    inverse_mass: R,
-    inverse_polar_inertia: R,
+    /// The rotor's node in each.
+    nodes: Vec<Node<R>>,
     /// 1/L, L the radius of the first bore, 1/m.
     inverse_rotor_radius: R,
     layout: Layout,
@@ -92,9 +97,14 @@ impl RotorMachine {
     /// A machine, levitated or not.
     ///
     /// # Panics
-    /// When it has no auxiliary bearing.
+    /// When it has no auxiliary bearing, when lists do not have the length of its coordinates, and when a rotor that bends is to
+    /// be levitated.
     pub fn with_levitation(constants: MachineConstants, levitated: bool) -> Self {
-        assert!(!constants.bearings.is_empty(), "a machine has a bearing");
+        if let Some(fault) = constants.fault() {
+            panic!("{fault}");
+        }
+        let point = constants.rotor.coordinates.len() == 1;
+        assert!(point || !levitated, "levitation holds a point rotor");
         let layout = Layout::of(&constants);
         RotorMachine {
             one: Machines::of(&|_| &constants, layout.clone()),
@@ -108,20 +118,47 @@ impl RotorMachine {
     pub fn layout(&self) -> &Layout {
         &self.layout
     }
+    /// The rotor's geometric centre at its node in a bearing, from the datum of that.
+    #[inline(always)]
+    pub fn node(&self, bearing: usize, state: &[f64]) -> GeometricCentre<f64> {
+        self.one.nodes[bearing].centre(&self.layout.rotor.motion(state))
+    }
 }
 
 impl<R: Real> Machines<R> {
     fn of<'a>(constants: &dyn Fn(usize) -> &'a MachineConstants, layout: Layout) -> Self {
         let bearings = 0..constants(0).bearings.len();
+        let node = |k: usize| {
+            Node::gather(&|lane| {
+                let part = &constants(lane).bearings[k];
+                (&constants(lane).rotor, &part.node[..], part.datum)
+            })
+        };
+        let magnet = |k: usize| {
+            let node = Node::gather(&|lane| {
+                let of = constants(lane);
+                (&of.rotor, &of.magnets[k].node[..], Vec2::zero())
+            });
+            let fade = Gather::<R>::gather(&|lane| &constants(lane).magnets[k].fade);
+            (node, fade)
+        };
+        let point = constants(0).rotor.coordinates.len() == 1;
         Machines {
-            rotor: Gather::<R>::gather(&|lane| &constants(lane).rotor),
-            levitation: Gather::<R>::gather(&|lane| &constants(lane).levitation),
+            rotor: Rotor::gather(&|lane| &constants(lane).rotor),
+            levitation: point.then(|| {
+                let node =
+                    Node::gather(&|lane| (&constants(lane).rotor, &[1.0][..], Vec2::zero()));
+                (
+                    node,
+                    Gather::<R>::gather(&|lane| &constants(lane).levitation),
+                )
+            }),
+            magnets: (0..constants(0).magnets.len()).map(magnet).collect(),
+            nodes: bearings.clone().map(node).collect(),
             gravity: Gather::<R>::gather(&|lane| &constants(lane).gravity),
             bearings: bearings
                 .map(|k| AuxiliaryBearing::gather(&|lane| &constants(lane).bearings[k]))
                 .collect(),
-            inverse_mass: R::from_lanes(|lane| 1.0 / constants(lane).rotor.mass),
-            inverse_polar_inertia: R::from_lanes(|lane| 1.0 / constants(lane).rotor.polar_inertia),
             inverse_rotor_radius: R::from_lanes(|lane| {
                 1.0 / constants(lane).bearings[0].contact.bore_radius
             }),
@@ -173,12 +210,12 @@ impl Machine for RotorMachine {
     fn rate(
         &self,
         mode: &Mode<f64>,
-        _time: f64,
+        time: f64,
         state: &[f64],
         rate: &mut [f64],
         probe: &mut [f64],
     ) {
-        self.one.rate_of_change(mode, state, rate, probe);
+        self.one.rate_of_change(mode, time, state, rate, probe);
     }
 }
 
@@ -193,6 +230,10 @@ impl<R: Real> Batch<R> for Machines<R> {
         let layout = &machine(0).layout;
         for lane in 1..R::LANES {
             assert!(machine(lane).layout == *layout, "lanes share their layout");
+            let magnets = |lane: usize| machine(lane).constants.magnets.len();
+            assert!(magnets(lane) == magnets(0), "lanes share their magnets");
+            let held = |lane: usize| machine(lane).constants.rotor.spin_held;
+            assert!(held(lane) == held(0), "lanes share switches");
         }
         Machines::of(&|lane| &machine(lane).constants, layout.clone())
     }
@@ -203,7 +244,7 @@ impl<R: Real> Batch<R> for Machines<R> {
         }
     }
     #[inline(always)]
-    fn rate(&self, mode: &Mode<R>, _time: R, state: &[R], rate: &mut [R], probe: &mut [R]) {
-        self.rate_of_change(mode, state, rate, probe);
+    fn rate(&self, mode: &Mode<R>, time: R, state: &[R], rate: &mut [R], probe: &mut [R]) {
+        self.rate_of_change(mode, time, state, rate, probe);
     }
 }

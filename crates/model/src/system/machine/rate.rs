@@ -1,37 +1,33 @@
 //! The equations of motion of a machine.
 
-use super::layout::{ROTOR, ROTOR_CHANNELS, ROTOR_SOURCES};
+use super::layout::ROTOR_SOURCES;
 use super::{Machines, Mode};
-use crate::auxiliary_bearing::{AtNode, Outlet, write_body};
-use crate::contact::ContactReaction;
-use crate::motion::Wrench;
-use crate::rotor::{GeometricCentre, RotorMotion};
+use crate::auxiliary_bearing::{AtNode, Outlet};
+use crate::rotor::RotorMotion;
 use number::{Mask, Real, Vec2};
 
-/// Motion of the rotor in a state.
+/// So many nodes are kept from the forces on the rotor for the bearings; more than the usual two bearings compute theirs twice.
+const KEPT: usize = 2;
+
+/// Rates of the rotor's coordinates: of x, y, ẋ, ẏ.
 #[inline(always)]
-pub fn rotor_motion<R: Real>(state: &[R]) -> RotorMotion<R> {
-    let rotor = &state[ROTOR..ROTOR + ROTOR_CHANNELS];
-    RotorMotion {
-        position: Vec2::new(rotor[0], rotor[1]),
-        velocity: Vec2::new(rotor[2], rotor[3]),
-        angle: rotor[4],
-        spin: rotor[5],
-    }
+fn blocks<R>(rate: &mut [R], coordinates: usize) -> [&mut [R]; 4] {
+    let (x, rest) = rate.split_at_mut(coordinates);
+    let (y, rest) = rest.split_at_mut(coordinates);
+    let (vx, rest) = rest.split_at_mut(coordinates);
+    [x, y, vx, &mut rest[..coordinates]]
 }
 
 impl<R: Real> Machines<R> {
     /// What the rotor does at a bearing.
     #[inline(always)]
-    fn contact(
-        &self,
-        k: usize,
-        state: &[R],
-        centre: &GeometricCentre<R>,
-        spin: R,
-    ) -> ContactReaction<R> {
+    fn at_node(&self, k: usize, state: &[R], rotor: &RotorMotion<R>) -> AtNode<R> {
+        let centre = self.nodes[k].centre(rotor);
         let inner = self.layout.bearings[k].motion(state).inner;
-        self.bearings[k].contact(centre, spin, &inner)
+        AtNode {
+            contact: self.bearings[k].contact(&centre, rotor.spin, &inner),
+            centre,
+        }
     }
 
     /// The rate of change of the state, and the probes where asked.
@@ -39,6 +35,7 @@ impl<R: Real> Machines<R> {
     pub(super) fn rate_of_change(
         &self,
         mode: &Mode<R>,
+        time: R,
         state: &[R],
         rate: &mut [R],
         probe: &mut [R],
@@ -49,14 +46,40 @@ impl<R: Real> Machines<R> {
         let zero = R::zero();
 
         // what acts on the rotor
-        let rotor = rotor_motion(state);
-        let centre = self.rotor.geometric_centre(&rotor);
-        let levitation = self.levitation.force(centre.position, centre.velocity) * mode.levitation;
-        let mut on_rotor = Wrench::planar(levitation, centre.arm.cross(levitation));
-        let first = self.contact(0, state, &centre, rotor.spin);
-        on_rotor += first.on_journal;
-        for k in 1..self.bearings.len() {
-            on_rotor += self.contact(k, state, &centre, rotor.spin).on_journal;
+        let count = layout.rotor.coordinates;
+        let rotor = layout.rotor.motion(state);
+        let [x, y, force_x, force_y] = blocks(rate, count);
+        let shaft = self
+            .rotor
+            .react(&rotor, [&mut *force_x, &mut *force_y], [x, y]);
+        let mut moment = zero;
+        let (mut levitation, mut held_at) = ((zero, zero), zero);
+        if let (Some((node, law)), true) = (&self.levitation, mode.levitation.greater(zero).any()) {
+            let centre = node.centre(&rotor);
+            let force = law.force(centre.position, centre.velocity) * mode.levitation;
+            node.push(force, [&mut *force_x, &mut *force_y]);
+            moment = centre.arm.cross(force);
+            held_at = centre.position.cross(force);
+            levitation = (force.dot(centre.velocity), held_at);
+        }
+        let mut kept: [Option<AtNode<R>>; KEPT] = [None; KEPT];
+        for (k, node) in self.nodes.iter().enumerate() {
+            let there = self.at_node(k, state, &rotor);
+            let on_journal = &there.contact.on_journal;
+            node.push(on_journal.force, [&mut *force_x, &mut *force_y]);
+            moment += on_journal.moment;
+            if k < KEPT {
+                kept[k] = Some(there);
+            }
+        }
+        let (mut magnets, mut pulled) = (zero, zero);
+        for (node, fade) in &self.magnets {
+            let centre = node.centre(&rotor);
+            let force = fade.force(time, centre.position);
+            node.push(force, [&mut *force_x, &mut *force_y]);
+            moment += centre.arm.cross(force);
+            magnets += force.dot(centre.velocity);
+            pulled += centre.position.cross(force);
         }
         let braking = mode.brake.greater(zero);
         let brake = if braking.any() {
@@ -66,41 +89,53 @@ impl<R: Real> Machines<R> {
         };
 
         // rotor
-        let (rotor_torque, spin_rate) = if self.rotor.spin_held {
-            (-on_rotor.moment, zero)
-        } else {
-            (
-                brake,
-                (on_rotor.moment + brake) * self.inverse_polar_inertia,
-            )
-        };
-        let acceleration = on_rotor.force * self.inverse_mass + self.gravity;
-        write_body(rate, ROTOR, rotor.velocity, acceleration);
-        rate[ROTOR + 4] = rotor.spin;
-        rate[ROTOR + 5] = spin_rate;
-        rate[layout.source(0)] = levitation.dot(centre.velocity);
-        rate[layout.source(1)] = rotor_torque * rotor.spin;
+        let [x, y, acceleration_x, acceleration_y] = blocks(rate, count);
+        let (spin_rate, torques) = self.rotor.accelerate(
+            &rotor,
+            self.gravity,
+            (moment, brake),
+            &shaft,
+            [acceleration_x, acceleration_y],
+            [x, y],
+        );
+        rate[layout.rotor.angle()] = rotor.spin;
+        rate[layout.rotor.spin()] = spin_rate;
+        let of_rotor = &layout.of_rotor;
+        for (heat, value) in [
+            (of_rotor.damping, shaft.heats[0]),
+            (of_rotor.damping_rotating, shaft.heats[1]),
+            (of_rotor.drag, torques.drag * rotor.spin),
+        ] {
+            if let Some(heat) = heat {
+                rate[layout.heat(heat)] = value;
+            }
+        }
+        rate[layout.source(0)] = levitation.0;
+        rate[layout.source(1)] = torques.driving * rotor.spin;
         debug_assert!(ROTOR_SOURCES.len() == 2);
+        if let Some(source) = of_rotor.magnets {
+            rate[layout.source(source)] = magnets;
+        }
 
-        // auxiliary bearings; C = G + arm: its acceleration has the centripetal and the spin-up part of the eccentricity
-        let of_centre =
-            acceleration + centre.arm.turned() * spin_rate - centre.arm * rotor.spin.square();
-        let mut impulse = rotor.position.cross(self.gravity) * self.rotor.mass;
+        // auxiliary bearings: what they say of angular momentum is about their datum
+        let mut impulse = self.rotor.weight_moment(&rotor, self.gravity);
         for (k, (part, at)) in self.bearings.iter().zip(&layout.bearings).enumerate() {
             let motion = at.motion(state);
             let reaction = part.bearing(at, &motion, state, rate, probe);
-            let node = AtNode {
-                centre,
-                acceleration: of_centre,
-                contact: if k == 0 {
-                    first
-                } else {
-                    self.contact(k, state, &centre, rotor.spin)
-                },
+            let there = match kept.get(k) {
+                Some(Some(there)) => *there,
+                _ => self.at_node(k, state, &rotor),
+            };
+            let node = &self.nodes[k];
+            let acceleration = if probe.is_empty() {
+                Vec2::zero()
+            } else {
+                let [_, _, x, y] = blocks(rate, count);
+                node.acceleration(&there.centre, rotor.spin, [x, y], spin_rate)
             };
             let external = part.accelerate(
                 at,
-                &node,
+                (&there, acceleration),
                 self.gravity,
                 &motion,
                 &reaction,
@@ -115,13 +150,14 @@ impl<R: Real> Machines<R> {
                 impulse += moment;
             }
             if k == 0 {
-                impulse += centre.position.cross(levitation);
-                impulse += rotor_torque;
+                impulse += held_at;
+                impulse += torques.driving;
             }
             for moment in external.others {
                 impulse += moment;
             }
+            impulse += node.datum.cross(there.contact.on_journal.force);
         }
-        rate[layout.angular_impulse()] = impulse;
+        rate[layout.angular_impulse()] = impulse + (pulled + shaft.external - torques.drag);
     }
 }

@@ -4,8 +4,6 @@
 //! The rows are allocated before the run; only the list of contacts may grow during it.
 
 use super::RotorMachine;
-use super::layout::{ROTOR, ROTOR_CHANNELS};
-use super::rate::rotor_motion;
 use crate::auxiliary_bearing::BearingAt;
 use crate::auxiliary_bearing::probe::{
     BEARING_LOAD, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
@@ -75,6 +73,8 @@ pub struct BearingRecord {
     /// The watched forces at the start of the last step, N, and its length, s.
     last_forces: ([f64; WATCHED.len()], f64),
     clearance: f64,
+    /// Of the rotor's mass centre at the node, m.
+    eccentricity: f64,
     whirl_angle: Option<f64>,
     limits: Limits,
 }
@@ -148,12 +148,9 @@ impl Record {
             return;
         }
         self.next_look = step.end + self.look_interval;
-        let rotor = end_of_rotor(step);
-        let motion = rotor_motion(&rotor);
-        let (translation, _) = step.machine.constants.rotor.kinetic_energy(&motion);
-        self.largest_translation = self.largest_translation.max(translation);
+        self.largest_translation = self.largest_translation.max(translation_at_end(step));
         for bearing in &mut self.bearings {
-            bearing.whirl_of(step, &rotor);
+            bearing.whirl_of(step);
         }
     }
 }
@@ -188,6 +185,7 @@ impl BearingRecord {
             rises,
             last_forces: ([0.0; WATCHED.len()], f64::INFINITY),
             clearance: part.contact.radial_clearance,
+            eccentricity: machine.constants.rotor.eccentricity(&part.node),
             whirl_angle: None,
             limits: Limits {
                 mount_displacement: 0.1 * part.bearing.pitch_radius(),
@@ -253,12 +251,10 @@ impl BearingRecord {
         self.rotor_race_displacement
             .raise(end + self.clearance, step.end);
         if end > 0.0 {
-            let rotor = Vec2::new(step.end_state(ROTOR), step.end_state(ROTOR + 1));
             // nearer than this, the eccentric centre cannot be farther than ever before
-            let eccentricity = step.machine.constants.rotor.eccentricity;
-            let least = (self.rotor_displacement.value - eccentricity.abs()).max(0.0);
-            if rotor.length_squared() >= least * least {
-                let centre = step.machine.rotor_centre(&end_of_rotor(step));
+            let least = (self.rotor_displacement.value - self.eccentricity).max(0.0);
+            if mass_centre_at_end(step, bearing).length_squared() >= least * least {
+                let centre = centre_at_end(step, bearing);
                 self.rotor_displacement
                     .raise(centre.length_squared().sqrt(), step.end);
             }
@@ -407,8 +403,8 @@ impl BearingRecord {
         }
     }
 
-    /// Follows the whirl of the rotor, whose channels are given, about the inner race.
-    fn whirl_of(&mut self, step: &Step<RotorMachine>, rotor: &[f64]) {
+    /// Follows the whirl of the rotor about the inner race.
+    fn whirl_of(&mut self, step: &mut Step<RotorMachine>) {
         let gap = -step.end_probe(self.at.probe(PENETRATION));
         if gap > 0.5 * self.clearance {
             self.whirl_angle = None;
@@ -416,7 +412,7 @@ impl BearingRecord {
         }
         let inner = self.at.inner;
         let race = Vec2::new(step.end_state(inner), step.end_state(inner + 1));
-        let offset = step.machine.rotor_centre(rotor) - race;
+        let offset = centre_at_end(step, self.bearing) - race;
         let angle = offset.y.atan2(offset.x);
         if let Some(last) = self.whirl_angle {
             let turn = (angle - last) / (2.0 * std::f64::consts::PI);
@@ -440,9 +436,32 @@ fn may_peak(last_slope: f64, slope: f64, length: f64, least: f64) -> bool {
     at_start > 0.0 && at_end < 0.0 && -0.125 * curving * length > least
 }
 
-/// The rotor's own channels at the end of a step.
-fn end_of_rotor(step: &Step<RotorMachine>) -> [f64; ROTOR_CHANNELS] {
-    std::array::from_fn(|channel| step.end_state(ROTOR + channel))
+/// Position of the rotor's mass centre at the node in a bearing at the end of a step, from its datum.
+fn mass_centre_at_end(step: &Step<RotorMachine>, bearing: usize) -> Vec2<f64> {
+    let rotor = step.machine.layout().rotor;
+    let node = &step.machine.one.nodes[bearing];
+    let channels = rotor.block(0).zip(rotor.block(1));
+    let sum = (node.row.iter().zip(channels)).fold(Vec2::zero(), |sum, (shape, (x, y))| {
+        sum + Vec2::new(step.end_state(x), step.end_state(y)) * *shape
+    });
+    sum - node.datum
+}
+
+/// Position of its geometric centre there.
+fn centre_at_end(step: &mut Step<RotorMachine>, bearing: usize) -> Vec2<f64> {
+    let machine = step.machine;
+    let state = step.leading_state(1.0, machine.layout().rotor.channels());
+    machine.node(bearing, state).position
+}
+
+/// Kinetic energy of the rotor's mass centres at the end of a step.
+fn translation_at_end(step: &mut Step<RotorMachine>) -> f64 {
+    let machine = step.machine;
+    let rotor = machine.layout().rotor;
+    let motion = rotor.motion(step.leading_state(1.0, rotor.channels()));
+    (machine.one.rotor)
+        .content(&motion, machine.constants.gravity)
+        .translation
 }
 
 /// The contact of rotor and race at a fraction of a step; inlined, so that nothing is computed but what is asked for.
@@ -451,8 +470,8 @@ fn contact_at(step: &mut Step<RotorMachine>, bearing: usize, theta: f64) -> Cont
     let machine = step.machine;
     let at = &machine.layout().bearings[bearing];
     let state = step.leading_state(theta, at.outer + 4);
-    let rotor = rotor_motion(state);
-    let centre = machine.constants.rotor.geometric_centre(&rotor);
+    let rotor = machine.layout().rotor.motion(state);
+    let centre = machine.one.nodes[bearing].centre(&rotor);
     (machine.constants.bearings[bearing].contact).react(
         &centre,
         rotor.spin,
@@ -484,12 +503,6 @@ impl Observer<RotorMachine> for Record {
 }
 
 impl RotorMachine {
-    /// Position of the rotor's geometric centre, m.
-    pub fn rotor_centre(&self, state: &[f64]) -> Vec2<f64> {
-        (self.constants.rotor)
-            .geometric_centre(&rotor_motion(state))
-            .position
-    }
     /// Cage speed of a bearing at a state, rad/s.
     pub fn cage_speed(&self, bearing: usize, state: &[f64]) -> f64 {
         let at = &self.layout().bearings[bearing];

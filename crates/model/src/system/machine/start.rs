@@ -1,12 +1,11 @@
 //! The levitated state at release: a steady orbit above bearings at rest.
 
-use super::layout::ROTOR;
 use super::{MachineConstants, RotorMachine};
 use crate::bearing::BearingConstants;
 use number::Vec2;
 use physics::unbalance::whirl;
 
-/// The mass centre of a rotor that orbits steadily on its levitation: (position, velocity).
+/// The mass centre of a point rotor that orbits steadily on its levitation: (position, velocity).
 ///
 /// ```text
 ///   G = C_0 + e^(jφ) (k + jcΩ) e/(k + jcΩ - mΩ²)
@@ -16,11 +15,12 @@ use physics::unbalance::whirl;
 pub fn levitated_orbit(constants: &MachineConstants) -> (Vec2<f64>, Vec2<f64>) {
     let (rotor, levitation) = (&constants.rotor, &constants.levitation);
     let spin = constants.speed;
-    let e = rotor.eccentricity;
+    let own = &rotor.coordinates[0];
+    let e = own.unbalance.x;
     let (along, ahead) = whirl(
         levitation.stiffness,
         levitation.damping,
-        rotor.mass,
+        own.mass,
         spin,
         e,
     );
@@ -31,23 +31,59 @@ pub fn levitated_orbit(constants: &MachineConstants) -> (Vec2<f64>, Vec2<f64>) {
 }
 
 impl RotorMachine {
-    /// The state at release.
+    /// The state at release of a point rotor.
+    ///
+    /// # Panics
+    /// When the rotor bends: it [starts](Self::start_with) where it is said to.
     pub fn start(&self) -> Vec<f64> {
-        let mut state = vec![0.0; self.layout().dimension()];
+        assert!(
+            self.layout().rotor.coordinates == 1,
+            "a rotor that bends has no levitated orbit here"
+        );
         let (position, velocity) = levitated_orbit(&self.constants);
-        state[ROTOR] = position.x;
-        state[ROTOR + 1] = position.y;
-        state[ROTOR + 2] = velocity.x;
-        state[ROTOR + 3] = velocity.y;
-        state[ROTOR + 4] = self.constants.unbalance_angle;
-        state[ROTOR + 5] = self.constants.speed;
+        self.at_rest_around(&[position], &[velocity])
+    }
+
+    /// The state at release of a rotor whose axis has these coordinates η (m) with these rates (m/s); everything else is at rest.
+    ///
+    /// # Panics
+    /// When there are not so many coordinates.
+    pub fn start_with(&self, position: &[Vec2<f64>], velocity: &[Vec2<f64>]) -> Vec<f64> {
+        let constants = &self.constants;
+        let (sine, cosine) = constants.unbalance_angle.sin_cos();
+        let centres: Vec<_> = (constants.rotor.coordinates.iter())
+            .map(|own| own.unbalance * cosine + own.unbalance.turned() * sine)
+            .collect();
+        let moved = |list: &[Vec2<f64>], by: &dyn Fn(&Vec2<f64>) -> Vec2<f64>| -> Vec<Vec2<f64>> {
+            assert!(list.len() == centres.len(), "one for each coordinate");
+            let pairs = list.iter().zip(&centres);
+            pairs.map(|(value, centre)| *value + by(centre)).collect()
+        };
+        self.at_rest_around(
+            &moved(position, &|centre| *centre),
+            &moved(velocity, &|centre| centre.turned() * constants.speed),
+        )
+    }
+
+    /// The state of a rotor whose mass centres are at these coordinates, above bearings at rest.
+    fn at_rest_around(&self, position: &[Vec2<f64>], velocity: &[Vec2<f64>]) -> Vec<f64> {
+        let mut state = vec![0.0; self.layout().dimension()];
+        let rotor = self.layout().rotor;
+        for (first, list) in [(0, position), (2, velocity)] {
+            for (k, value) in list.iter().enumerate() {
+                state[rotor.block(first).start + k] = value.x;
+                state[rotor.block(first + 1).start + k] = value.y;
+            }
+        }
+        state[rotor.angle()] = self.constants.unbalance_angle;
+        state[rotor.spin()] = self.constants.speed;
         for (at, part) in self.layout().bearings.iter().zip(&self.constants.bearings) {
             part.bearing.rest(&mut state[at.own()]);
         }
         state
     }
 
-    /// Moves a start state: the rotor by `rotor` (m), each ball along its orbit by its `ball_angle` (rad), a function of
+    /// Moves a start state: the rotor as a whole by `rotor` (m), each ball along its orbit by its `ball_angle` (rad), a function of
     /// bearing and ball. Balls without states of their own stay.
     pub fn perturb(
         &self,
@@ -55,8 +91,12 @@ impl RotorMachine {
         rotor: Vec2<f64>,
         ball_angle: &dyn Fn(usize, usize) -> f64,
     ) {
-        state[ROTOR] += rotor.x;
-        state[ROTOR + 1] += rotor.y;
+        let at = self.layout().rotor;
+        for (k, own) in self.constants.rotor.coordinates.iter().enumerate() {
+            let share = own.weight / own.mass;
+            state[at.block(0).start + k] += rotor.x * share;
+            state[at.block(1).start + k] += rotor.y * share;
+        }
         let parts = self.layout().bearings.iter().zip(&self.constants.bearings);
         for (k, (at, part)) in parts.enumerate() {
             if let BearingConstants::Planar(bearing) = &part.bearing {

@@ -3,20 +3,22 @@
 //! ```text
 //!   (G - A) u = R        positions follow their velocities: u_q = (R_q + u_v)/G;  a spring joins its damper: c* = c + k/G
 //!
-//!   border   rotor u_ẋ, u_ẏ, L u_ω; of each auxiliary bearing u_ẋi, u_ẏi, R_i u_ωi, u_ẋo, u_ẏo, R_p u_ωc
+//!   border   rotor: see rotor_rows, then L u_ω; of each auxiliary bearing u_ẋi, u_ẏi, R_i u_ωi, u_ẋo, u_ẏo, R_p u_ωc
 //!            G m on its diagonal, c* of the mount; six rows of each bearing from its balls: bearing::tangents
 //!   rotor/race   normal     c* w wᵀ, w = (n, n·arm⊥/L, -n, 0)          n turns with the unbalance, by the known R_φ/G
 //!                friction   τ w wᵀ,  w = (-t, -(a_j + arm × t)/L, t, a_i/R_i),  τ = N ∂μ/∂u
 //! ```
-//! L is the radius of the first bore: it makes the spin a speed. Every element acts on both of its bodies.
+//! w over the node's velocity, spin and race. L is the radius of the first bore: it makes the spin a speed. Every element acts on
+//! both of its bodies.
 //!
-//! Left out: levitation, brake, how rotor friction follows the load, how the contact's direction turns with the whirl.
+//! Left out: levitation, magnets, gyroscopic moments, what damping and spin do from one coordinate to another, drive, drag, brake, how rotor friction follows the load, how the contact's direction turns with the whirl.
 
-use super::layout::ROTOR;
-use super::rate::rotor_motion;
+use super::rotor_rows::RotorRows;
+use super::symmetric::{factor, solve};
 use super::{Machines, Mode, RotorMachine};
 use crate::bearing::tangents::{BallTangents, KnownRates, ROWS};
 use crate::bearing::{self, BearingConstants, Planar, Separation};
+use crate::rotor::RotorMotion;
 use number::{Mask, Real, Vec2};
 use solve::Tangents;
 
@@ -32,8 +34,6 @@ pub enum Known {
     Nothing,
 }
 
-/// Rows of the rotor in the border.
-const ROTOR_ROWS: usize = 3;
 /// Heat of pocket damping among those of an auxiliary bearing; that of pocket friction follows.
 const POCKET_HEAT: usize = bearing::POCKET_FRICTION - 1;
 /// Heat of rotor/race damping among those of an auxiliary bearing; that of its friction follows.
@@ -43,6 +43,9 @@ const CONTACT_HEAT: usize = bearing::HEATS.len() + 1;
 #[derive(Debug)]
 pub struct Room<R: Real> {
     parts: Vec<Part<R>>,
+    rotor: RotorRows<R>,
+    /// Directions of a contact over the rows that it touches.
+    along: [Vec<R>; 2],
     /// Lower triangle of the border row by row, then its factors L and D⁻¹.
     border: Vec<R>,
     /// Right-hand side of the border, then its u.
@@ -57,7 +60,7 @@ struct Part<R: Real> {
     contact: Contact<R>,
 }
 
-/// Rotor and race where they touch. Directions over the rotor's rows, then those of the inner race.
+/// Rotor and race where they touch. Directions over the node, the spin, and the rows of the inner race.
 #[derive(Clone, Copy, Debug)]
 struct Contact<R> {
     /// Whether any lane touches; where none does, everything below is zero.
@@ -119,17 +122,13 @@ impl<R: Real> Machines<R> {
     fn rotor_radius(&self) -> R {
         self.bearings[0].contact.bore_radius
     }
-    fn border_rows(&self) -> usize {
-        ROTOR_ROWS + ROWS * self.bearings.len()
-    }
 
     /// The contact of rotor and race of a bearing at a state.
     #[inline(always)]
-    fn contact_tangent(&self, k: usize, state: &[R]) -> Contact<R> {
+    fn contact_tangent(&self, k: usize, rotor: &RotorMotion<R>, state: &[R]) -> Contact<R> {
         let zero = R::zero();
         let part = &self.bearings[k];
-        let rotor = rotor_motion(state);
-        let centre = self.rotor.geometric_centre(&rotor);
+        let centre = self.nodes[k].centre(rotor);
         let inner = self.layout.bearings[k].motion(state).inner;
         let reaction = part.contact.react(&centre, rotor.spin, &inner);
         if !reaction.penetration.greater(zero).any() {
@@ -165,24 +164,20 @@ impl<R: Real> Machines<R> {
     }
 }
 
-/// Rows of rotor and inner race of a bearing in the border.
-#[inline(always)]
-fn touched(k: usize) -> [usize; 6] {
-    let own = ROTOR_ROWS + ROWS * k;
-    [0, 1, 2, own, own + 1, own + 2]
-}
-
 impl<R: Real> Tangents<R> for Machines<R> {
     type Room = Room<R>;
 
     fn room(&self) -> Room<R> {
-        let rows = self.border_rows();
+        let rotor = RotorRows::new(&self.nodes);
+        let rows = rotor.count() + ROWS * self.bearings.len();
         let parts = (0..self.bearings.len()).map(|k| Part {
             balls: BallTangents::new(self.planar(k).balls()),
             contact: Contact::open(),
         });
         Room {
             parts: parts.collect(),
+            along: [0, 1].map(|_| vec![R::zero(); rotor.touched(0).len()]),
+            rotor,
             border: vec![R::zero(); rows * rows],
             side: vec![R::zero(); rows],
             inverse_g: R::one(),
@@ -200,31 +195,39 @@ impl<R: Real> Tangents<R> for Machines<R> {
 
     #[inline(always)]
     fn take(&self, _mode: &Mode<R>, state: &[R], room: &mut Room<R>) {
+        let rotor = self.layout.rotor.motion(state);
         for k in 0..self.bearings.len() {
             let at = &self.layout.bearings[k];
             let part = &mut room.parts[k];
             let motion = at.motion(state);
             self.planar(k)
                 .tangents(&motion, &state[at.own()], &mut part.balls);
-            part.contact = self.contact_tangent(k, state);
+            part.contact = self.contact_tangent(k, &rotor, state);
         }
     }
 
     #[inline(always)]
     fn factor(&self, room: &mut Room<R>, g: R) {
-        let n = self.border_rows();
         let inverse_g = g.recip();
         room.inverse_g = inverse_g;
-        let Room { parts, border, .. } = room;
+        let Room {
+            parts,
+            rotor: rows,
+            along: [along_normal, along_slip],
+            border,
+            side,
+            ..
+        } = room;
+        let n = side.len();
         for entry in border.iter_mut() {
             *entry = R::zero();
         }
         let rotor = &self.rotor;
-        border[0] = g * rotor.mass;
-        border[n + 1] = g * rotor.mass;
-        border[2 * n + 2] = g * rotor.polar_inertia * self.inverse_rotor_radius.square();
+        rows.factor(rotor, &self.nodes, [g, inverse_g], border, n);
+        let spin = rows.spin();
+        border[spin * (n + 1)] = g * rotor.polar_inertia * self.inverse_rotor_radius.square();
         for (k, part) in parts.iter_mut().enumerate() {
-            let own = ROTOR_ROWS + ROWS * k;
+            let own = rows.of_bearing(k);
             let (auxiliary, planar) = (&self.bearings[k], self.planar(k));
             let entries = planar.factor(&mut part.balls, [g, inverse_g]);
             let mut entry = 0;
@@ -251,25 +254,29 @@ impl<R: Real> Tangents<R> for Machines<R> {
             }
             let contact = &part.contact;
             if contact.touches {
-                let rows = touched(k);
+                let touched = rows.touched(k);
                 let damping = contact.damping + contact.stiffness * inverse_g;
-                for i in 0..6 {
-                    let of_normal = damping * contact.along_normal[i];
-                    let of_slip = contact.friction * contact.along_slip[i];
-                    for j in 0..=i {
-                        border[rows[i] * n + rows[j]] +=
-                            of_normal * contact.along_normal[j] + of_slip * contact.along_slip[j];
+                for (i, touch) in touched.iter().enumerate() {
+                    along_normal[i] = contact.along_normal[touch.entry] * touch.shape;
+                    along_slip[i] = contact.along_slip[touch.entry] * touch.shape;
+                }
+                for (i, row) in touched.iter().enumerate() {
+                    let of_normal = damping * along_normal[i];
+                    let of_slip = contact.friction * along_slip[i];
+                    for (j, column) in touched[..=i].iter().enumerate() {
+                        border[row.row * n + column.row] +=
+                            of_normal * along_normal[j] + of_slip * along_slip[j];
                     }
                 }
             }
         }
         if rotor.spin_held {
-            hold(border, n, 2);
+            hold(border, n, spin);
         }
         for (k, part) in self.bearings.iter().enumerate() {
             if part.inner_race.centre_held {
-                hold(border, n, ROTOR_ROWS + ROWS * k);
-                hold(border, n, ROTOR_ROWS + ROWS * k + 1);
+                hold(border, n, rows.of_bearing(k));
+                hold(border, n, rows.of_bearing(k) + 1);
             }
         }
         factor(border, n);
@@ -277,20 +284,22 @@ impl<R: Real> Tangents<R> for Machines<R> {
 
     #[inline(always)]
     fn solve(&self, room: &mut Room<R>, side: &mut [R]) {
-        let n = self.border_rows();
         let Room {
             parts,
+            rotor: rows,
             border,
             side: of_border,
             inverse_g,
+            ..
         } = room;
+        let n = of_border.len();
         let inverse_g = *inverse_g;
         let (l, inverse_l) = (self.rotor_radius(), self.inverse_rotor_radius);
-        let rotor = &self.rotor;
+        let (rotor, at_rotor) = (&self.rotor, &self.layout.rotor);
+        let (angle, spin) = (at_rotor.angle(), at_rotor.spin());
         let pair = |side: &[R], at: usize| Vec2::new(side[at], side[at + 1]);
-        of_border[0] = rotor.mass * side[ROTOR + 2];
-        of_border[1] = rotor.mass * side[ROTOR + 3];
-        of_border[2] = rotor.polar_inertia * side[ROTOR + 5] * inverse_l;
+        rows.side(rotor, &self.nodes, at_rotor, side, of_border);
+        of_border[rows.spin()] = rotor.polar_inertia * side[spin] * inverse_l;
         for (k, part) in parts.iter_mut().enumerate() {
             let at = &self.layout.bearings[k];
             let (auxiliary, planar) = (&self.bearings[k], self.planar(k));
@@ -312,43 +321,43 @@ impl<R: Real> Tangents<R> for Machines<R> {
                 scales.cage_inertia * side[at.bearing + 1] * scales.cage_radius[1],
             ];
             for row in 0..ROWS {
-                of_border[ROTOR_ROWS + ROWS * k + row] = own[row] + of_balls[row];
+                of_border[rows.of_bearing(k) + row] = own[row] + of_balls[row];
             }
             let contact = &part.contact;
             if contact.touches {
-                let apart = pair(side, ROTOR) - known.inner;
+                let (x, y) = (&side[at_rotor.block(0)], &side[at_rotor.block(1)]);
+                let apart = self.nodes[k].along(x, y) - known.inner;
                 let q = (contact.stiffness * contact.normal.dot(apart)
-                    + contact.turn * side[ROTOR + 4])
+                    + contact.turn * side[angle])
                     * inverse_g;
-                let rows = touched(k);
-                for i in 0..6 {
-                    of_border[rows[i]] -= contact.along_normal[i] * q;
+                for touch in rows.touched(k) {
+                    of_border[touch.row] -= contact.along_normal[touch.entry] * touch.shape * q;
                 }
             }
         }
         if rotor.spin_held {
-            of_border[2] = side[ROTOR + 5] * inverse_g * l;
+            of_border[rows.spin()] = side[spin] * inverse_g * l;
         }
         for (k, part) in self.bearings.iter().enumerate() {
             if part.inner_race.centre_held {
                 let held = pair(side, self.layout.bearings[k].inner + 2) * inverse_g;
-                of_border[ROTOR_ROWS + ROWS * k] = held.x;
-                of_border[ROTOR_ROWS + ROWS * k + 1] = held.y;
+                of_border[rows.of_bearing(k)] = held.x;
+                of_border[rows.of_bearing(k) + 1] = held.y;
             }
         }
         solve(border, n, of_border);
-        follow(side, ROTOR, [of_border[0], of_border[1]], inverse_g);
-        turn(side, ROTOR, of_border[2] * inverse_l, inverse_g);
+        rows.follow(rotor, &self.nodes, at_rotor, of_border, (side, inverse_g));
+        turn(side, angle, of_border[rows.spin()] * inverse_l, inverse_g);
         for (k, part) in parts.iter().enumerate() {
             let at = &self.layout.bearings[k];
             let planar = self.planar(k);
             let [_, inverse_inner_radius] = planar.border().inner_radius;
-            let own = ROTOR_ROWS + ROWS * k;
+            let own = rows.of_bearing(k);
             let mut z = [R::zero(); ROWS];
             z.copy_from_slice(&of_border[own..own + ROWS]);
             planar.back(&part.balls, inverse_g, &z, &mut side[at.own()]);
             follow(side, at.inner, [z[0], z[1]], inverse_g);
-            turn(side, at.inner, z[2] * inverse_inner_radius, inverse_g);
+            turn(side, at.inner + 4, z[2] * inverse_inner_radius, inverse_g);
             follow(side, at.outer, [z[3], z[4]], inverse_g);
         }
     }
@@ -356,6 +365,7 @@ impl<R: Real> Tangents<R> for Machines<R> {
     #[inline(always)]
     fn along(&self, room: &Room<R>, vector: &[R], rates: &mut [R]) {
         let l = self.rotor_radius();
+        let rotor = &self.layout.rotor;
         for (k, part) in room.parts.iter().enumerate() {
             let at = &self.layout.bearings[k];
             let planar = self.planar(k);
@@ -365,10 +375,12 @@ impl<R: Real> Tangents<R> for Machines<R> {
             let contact = &part.contact;
             if contact.touches {
                 let [inner_radius, _] = planar.border().inner_radius;
+                let (x, y) = (&vector[rotor.block(2)], &vector[rotor.block(3)]);
+                let node = self.nodes[k].along(x, y);
                 let z = [
-                    vector[ROTOR + 2],
-                    vector[ROTOR + 3],
-                    vector[ROTOR + 5] * l,
+                    node.x,
+                    node.y,
+                    vector[rotor.spin()] * l,
                     vector[at.inner + 2],
                     vector[at.inner + 3],
                     vector[at.inner + 5] * inner_radius,
@@ -395,11 +407,11 @@ fn follow<R: Real>(side: &mut [R], body: usize, velocity: [R; 2], inverse_g: R) 
     }
 }
 
-/// u of a body's spin, and of its angle.
+/// u of an angle and of its spin, which stands behind it.
 #[inline(always)]
-fn turn<R: Real>(side: &mut [R], body: usize, spin: R, inverse_g: R) {
-    side[body + 4] = (side[body + 4] + spin) * inverse_g;
-    side[body + 5] = spin;
+fn turn<R: Real>(side: &mut [R], angle: usize, spin: R, inverse_g: R) {
+    side[angle] = (side[angle] + spin) * inverse_g;
+    side[angle + 1] = spin;
 }
 
 /// Takes a row that does not move out of the border.
@@ -410,46 +422,4 @@ fn hold<R: Real>(border: &mut [R], n: usize, held: usize) {
         border[row * n + column] = R::zero();
     }
     border[held * (n + 1)] = R::one();
-}
-
-/// L D Lᵀ of a symmetric positive matrix in its lower triangle, without pivots; the reciprocals of D on the diagonal.
-#[inline(always)]
-fn factor<R: Real>(a: &mut [R], n: usize) {
-    for k in 0..n {
-        let inverse = a[k * (n + 1)].recip();
-        for i in k + 1..n {
-            let below = a[i * n + k];
-            let factor = below * inverse;
-            // the columns behind still hold the unscaled entries
-            for j in k + 1..=i {
-                a[i * n + j] -= factor * a[j * n + k];
-            }
-        }
-        for i in k + 1..n {
-            a[i * n + k] *= inverse;
-        }
-        a[k * (n + 1)] = inverse;
-    }
-}
-
-/// Solves with those factors, in place.
-#[inline(always)]
-fn solve<R: Real>(a: &[R], n: usize, side: &mut [R]) {
-    for i in 1..n {
-        let mut value = side[i];
-        for j in 0..i {
-            value -= a[i * n + j] * side[j];
-        }
-        side[i] = value;
-    }
-    for i in 0..n {
-        side[i] *= a[i * (n + 1)];
-    }
-    for i in (0..n).rev() {
-        let mut value = side[i];
-        for j in i + 1..n {
-            value -= a[j * n + i] * side[j];
-        }
-        side[i] = value;
-    }
 }

@@ -1,0 +1,125 @@
+//! Constants of a rotor.
+
+use number::Vec2;
+
+/// One modal coordinate, the same in both planes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinate {
+    /// Frequency ω of the free rotor at rest, rad/s; zero of rigid motions.
+    pub frequency: f64,
+    /// Modal mass, kg; 1 of coordinates made orthonormal.
+    pub mass: f64,
+    /// Entry of W = ΦᵀM1, kg.
+    pub weight: f64,
+    /// Entry of N at φ = 0, m: see [`RotorConstants::with_unbalance`].
+    pub unbalance: Vec2<f64>,
+}
+
+/// Mass times distance from the axis at a node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unbalance {
+    /// Row φ of the node.
+    pub node: Vec<f64>,
+    /// Product u, kg m.
+    pub product: f64,
+    /// Phase δ on the rotor, rad: its angle is φ + δ.
+    pub phase: f64,
+}
+
+/// Constants of a rotor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RotorConstants {
+    /// Its coordinates, one at least.
+    pub coordinates: Vec<Coordinate>,
+    /// Gyroscopic matrix G row by row, symmetric; empty where there is none.
+    pub gyroscopic: Vec<f64>,
+    /// Damping D_e that does not rotate, row by row, symmetric; empty where there is none.
+    pub damping: Vec<f64>,
+    /// Damping D_i that rotates with the shaft, row by row, symmetric; empty where there is none.
+    pub damping_rotating: Vec<f64>,
+    /// Polar moment of inertia I_G about the mass centre, kg m².
+    pub polar_inertia: f64,
+    /// Torque of the drive at rest, N m.
+    pub drive_torque: f64,
+    /// What it falls by with the spin, N m s.
+    pub drive_slope: f64,
+    /// Drag by the spin, N m s, never negative.
+    pub drag: f64,
+    /// Drag by its square, N m s², never negative.
+    pub drag_square: f64,
+    /// Torque that brakes the spin once the brake is on, N m, never negative.
+    pub brake_torque: f64,
+    /// True where a drive holds the spin whatever it takes.
+    pub spin_held: bool,
+}
+
+impl RotorConstants {
+    /// A rigid rotor of one plane that spins freely: mass (kg), polar inertia about its mass centre (kg m²), eccentricity of
+    /// that (m). Its nodes have the row (1).
+    pub fn point(mass: f64, polar_inertia: f64, eccentricity: f64) -> Self {
+        RotorConstants {
+            coordinates: vec![Coordinate {
+                frequency: 0.0,
+                mass,
+                weight: mass,
+                unbalance: Vec2::new(eccentricity, 0.0),
+            }],
+            gyroscopic: Vec::new(),
+            damping: Vec::new(),
+            damping_rotating: Vec::new(),
+            polar_inertia,
+            drive_torque: 0.0,
+            drive_slope: 0.0,
+            drag: 0.0,
+            drag_square: 0.0,
+            brake_torque: 0.0,
+            spin_held: false,
+        }
+    }
+    /// Adds unbalances to a rotor without any, whose polar inertia is that of the whole rotor about its axis, these masses in it.
+    ///
+    /// Formula: N = M⁻¹ Σ u e^{jδ} φ,  I_G = I_p - NᴴMN
+    #[must_use]
+    pub fn with_unbalance(mut self, planes: &[Unbalance]) -> Self {
+        for plane in planes {
+            let (sine, cosine) = plane.phase.sin_cos();
+            for (own, shape) in self.coordinates.iter_mut().zip(&plane.node) {
+                own.unbalance += Vec2::new(cosine, sine) * (plane.product * shape / own.mass);
+            }
+        }
+        let about_centre = |own: &Coordinate| own.mass * own.unbalance.length_squared();
+        self.polar_inertia -= self.coordinates.iter().map(about_centre).sum::<f64>();
+        self
+    }
+    /// Mass of the rotor, kg; exact where the coordinates hold its rigid translation.
+    pub fn mass(&self) -> f64 {
+        let share = |own: &Coordinate| own.weight * (own.weight / own.mass);
+        self.coordinates.iter().map(share).sum()
+    }
+    /// Largest distance of the mass centre from the axis, at a node, m.
+    pub fn eccentricity(&self, node: &[f64]) -> f64 {
+        self.arm(node).length_squared().sqrt()
+    }
+    /// -φ·N at φ = 0.
+    pub(super) fn arm(&self, node: &[f64]) -> Vec2<f64> {
+        let parts = self.coordinates.iter().zip(node);
+        -parts.fold(Vec2::zero(), |sum, (own, shape)| {
+            sum + own.unbalance * *shape
+        })
+    }
+    /// Why a rotor cannot be computed.
+    pub(crate) fn fault(&self) -> Option<&'static str> {
+        let n = self.coordinates.len();
+        let matrices = [&self.gyroscopic, &self.damping, &self.damping_rotating];
+        let whole = |matrix: &&Vec<f64>| matrix.is_empty() || matrix.len() == n * n;
+        if n == 0 {
+            Some("a rotor has a coordinate")
+        } else if !matrices.iter().all(whole) {
+            Some("a matrix has a row and a column for each coordinate")
+        } else if !self.coordinates.iter().all(|own| own.mass > 0.0) || self.polar_inertia <= 0.0 {
+            Some("masses and inertias are positive")
+        } else {
+            None
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! CPU time of drops: measured, not judged. `cargo test -p auxbear-model --test pace -- --ignored --nocapture`
+
+#[path = "machines/mod.rs"]
+#[allow(dead_code)] // shared with the other tests
+mod machines;
+
+use machines::{Blind, reference, settings};
+use model::system::machine::RotorMachine;
+use model::system::machine::simulate::{Runs, Shape, Steps, simulate_on};
+use number::Level;
+use solve::{Observer, Stop};
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+/// CPU seconds for each simulated second of each of so many equal machines, and steps of one.
+fn pace(
+    machine: &RotorMachine,
+    start: &[f64],
+    count: usize,
+    (steps, tolerance): (Steps, f64),
+    end: f64,
+) -> (f64, u64) {
+    let machines = vec![machine; count];
+    let starts = vec![start.to_vec(); count];
+    let mut watching: Vec<_> = (0..count).map(|_| Blind).collect();
+    let mut observers: Vec<&mut dyn Observer<RotorMachine>> = Vec::new();
+    for blind in &mut watching {
+        observers.push(blind);
+    }
+    let runs = Runs {
+        machines: &machines,
+        starts: &starts,
+        settings: settings(end, tolerance),
+        steps,
+        interrupt: &AtomicBool::new(false),
+    };
+    let shape = match count {
+        1 => Shape::Balls,
+        _ => Shape::Machines,
+    };
+    let clock = Instant::now();
+    let endings = simulate_on(Level::detect(), shape, runs, &mut observers);
+    let spent = clock.elapsed().as_secs_f64();
+    assert!(endings.iter().all(|ending| ending.stop == Stop::Finished));
+    (spent / (end * count as f64), endings[0].work.accepted)
+}
+
+/// Prints the best of several measurements.
+fn measure(name: &str, machine: &RotorMachine, start: &[f64], end: f64) {
+    for (method, way) in [
+        ("explicit 1e-4", (Steps::Explicit, 1e-4)),
+        ("implicit 3e-2", (Steps::Implicit, 3e-2)),
+    ] {
+        for count in [1, Level::detect().lanes()] {
+            let runs = (0..5).map(|_| pace(machine, start, count, way, end));
+            let best = runs.reduce(|a, b| if b.0 < a.0 { b } else { a });
+            let (cost, steps) = best.expect("five runs");
+            println!("{name}, {method}, {count} side by side: {cost:.3} s/s, {steps} steps");
+        }
+    }
+}
+
+#[test]
+#[ignore = "a measurement"]
+fn of_a_point_rotor() {
+    let machine = RotorMachine::new(reference());
+    measure("point", &machine, &machine.start(), 0.05);
+}
