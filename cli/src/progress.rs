@@ -26,7 +26,9 @@ impl Busy {
             SystemName::Signals | SystemName::Identify => "reading the measurement files",
             SystemName::Rig => "searching the engagement that gives the wanted acceleration",
             SystemName::Rotor => "reducing the rotor",
-            SystemName::Drop | SystemName::SpinUp | SystemName::Torque => "building the machine",
+            SystemName::Drop | SystemName::SpinUp | SystemName::Torque | SystemName::Machine => {
+                "building the machine"
+            },
         };
         let (held, dropped) = channel::<()>();
         thread::spawn(move || {

@@ -216,7 +216,7 @@ pub(super) fn shows(run: &PageRun) -> bool {
     let system = summary.as_ref().and_then(|summary| summary.get("system"));
     system
         .and_then(|system| system.as_str())
-        .is_none_or(|system| system == "drop")
+        .is_none_or(|system| ["drop", "machine"].contains(&system))
 }
 
 /// Instant of the largest contact force, from the contacts of the summary.

@@ -19,9 +19,9 @@ impl Machine<'_> {
     fn of_system(&self) -> Vec<Warning> {
         match &self.system {
             Built::Drop(drop, ..) => {
-                let load = drop.rotor.mass * drop.gravity.acceleration * drop.share();
-                let parts = drop.auxiliary_bearings.iter();
-                let of_part = |part: &AuxiliaryBearing| {
+                let parts = drop.auxiliary_bearings.iter().enumerate();
+                let of_part = |(k, part): (usize, &AuxiliaryBearing)| {
+                    let load = drop.rotor.mass * drop.gravity.acceleration * drop.share(k);
                     let mut list = of_bearing(&part.name, &part.bearing, load, drop.rotor.speed);
                     list.extend(preload_left(
                         &part.name,

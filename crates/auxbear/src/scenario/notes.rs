@@ -3,7 +3,6 @@
 
 use crate::catalogue::designation::{self, Designation};
 use crate::scenario::bearing::kind::BearingType;
-use crate::scenario::system::SystemName;
 use crate::scenario::table;
 use crate::scenario::values::Values;
 use units::display;

@@ -346,10 +346,13 @@ function orbitSection(runs) {
   return section("orbit", "Orbit", element("div", { class: "columns" }, figures, single ? contactTable(runs[0]) : null));
 }
 
-register("drop", {
+const dropPage = {
   line: machineLine,
   verdict,
   time: "time since release",
   facts: true,
   sections: (runs) => [[9.5, firstContactsSection, runs], [10, orbitSection, runs], [11, contactSection, runs], [50, speedSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs]],
-});
+};
+
+register("drop", { ...dropPage });
+register("machine", { ...dropPage });

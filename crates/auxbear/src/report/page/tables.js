@@ -209,7 +209,7 @@ function quantitySection(runs) {
   const note = repeated ? element("p", { class: "lead" }, `Value: the unperturbed run. Then mean ± standard deviation, smallest and largest value, and quantiles over all members: ${origin}. In the bands: thin, all members; thick, the middle 90 %; tick, median; dot, the unperturbed run.`) : null;
   const anyChaotic = runs.some((run) => names.some((name) => quantityOf(run, name).chaotic));
   const chaos = anyChaotic ? element("p", { class: "lead" }, element("span", { class: "mark mark-chaotic" }, "chaotic"), " marks what differs from start to start: read its band, not its value.") : null;
-  const once = !repeated && runs.some((run) => run.summary.system === "drop") ? element("p", { class: "lead" }, "Which of these tiny changes of the start change much is not known without repetition: auxbear run --repeat 64.") : null;
+  const once = !repeated && runs.some((run) => ["drop", "machine"].includes(run.summary.system)) ? element("p", { class: "lead" }, "Which of these tiny changes of the start change much is not known without repetition: auxbear run --repeat 64.") : null;
   return section("quantities", "Quantities", note, chaos, once, element("div", { class: "wide" }, table), runs.map(memberDetails));
 }
 

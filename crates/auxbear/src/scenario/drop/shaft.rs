@@ -6,7 +6,7 @@ use crate::scenario::key::quoted;
 use crate::scenario::rotor::build::{self, RotorModel};
 use crate::scenario::rotor::parts;
 use crate::scenario::values::Values;
-use rotor::properties::{Properties, properties};
+use rotor::{Properties, properties};
 
 /// A rotor that bends.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,10 +2,11 @@
 
 use crate::problem::Problem;
 use crate::scenario::several::path_of;
-use crate::scenario::{AuxiliaryBearing, Drop, Spin};
+use crate::scenario::{Drop, Spin};
 use crate::simulate::bearing;
 use crate::simulate::bearing::pressure::PressureFactors;
 use crate::simulate::bearing::steady::{SteadyFinding, SteadyPoint};
+use crate::simulate::drop::shaft::{self, BuiltShaft};
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::contact::JournalContact;
 use model::levitation::Levitation;
@@ -23,6 +24,8 @@ pub struct Built {
     pub constants: MachineConstants,
     /// What the model does not hold of each auxiliary bearing.
     pub bearings: Vec<BuiltBearing>,
+    /// A rotor that bends.
+    pub shaft: Option<BuiltShaft>,
 }
 
 /// What belongs to an auxiliary bearing besides the constants of the model.
@@ -36,10 +39,18 @@ pub struct BuiltBearing {
 
 /// Builds the constants of a drop: identical planes share the rotor equally, so that one of them is computed.
 pub fn drop(drop: &Drop) -> Result<Built, Box<Problem>> {
+    let shaft = match &drop.shaft {
+        Some(given) => {
+            let built = shaft::build(drop, given, gravity(drop))?;
+            shaft::clear(drop, given, &built)?;
+            Some(built)
+        }
+        None => None,
+    };
     let mut parts = Vec::new();
     let mut bearings = Vec::new();
-    for part in &drop.auxiliary_bearings {
-        let (mut constants, built) = auxiliary_bearing(drop, part).map_err(|mut problem| {
+    for (k, part) in drop.auxiliary_bearings.iter().enumerate() {
+        let (mut constants, built) = auxiliary_bearing(drop, k).map_err(|mut problem| {
             let of = Some(part.name.as_str()).filter(|name| !name.is_empty());
             problem.key = problem.key.map(|key| path_of(of, &key));
             problem
@@ -48,19 +59,31 @@ pub fn drop(drop: &Drop) -> Result<Built, Box<Problem>> {
         if drop.auxiliary_bearings.len() == 1 {
             constants.name.clear();
         }
+        if let (Some(given), Some(built)) = (&drop.shaft, &shaft) {
+            let [x, y] = given.places[k].misalignment;
+            constants.node = built.nodes[k].clone();
+            constants.datum = Vec2::new(x, y);
+        }
         parts.push(constants);
         bearings.push(built);
     }
+    let mut constants = constants(drop, parts);
+    if let Some(built) = &shaft {
+        constants.rotor = built.rotor.clone();
+        constants.magnets = built.magnets.clone();
+    }
     Ok(Built {
-        constants: constants(drop, parts),
+        constants,
         bearings,
+        shaft,
     })
 }
 
 fn auxiliary_bearing(
     drop: &Drop,
-    part: &AuxiliaryBearing,
+    k: usize,
 ) -> Result<(AuxiliaryBearingConstants, BuiltBearing), Box<Problem>> {
+    let part = &drop.auxiliary_bearings[k];
     let gravity = gravity(drop);
     let (sine, cosine) = drop.gravity.direction.sin_cos();
     let contacts = bearing::contacts::ball_contacts(&part.bearing)?;
@@ -77,7 +100,7 @@ fn auxiliary_bearing(
         },
         SteadyPoint {
             speed: drop.rotor.speed,
-            load: drop.rotor.mass * drop.share() * drop.gravity.acceleration,
+            load: drop.rotor.mass * drop.share(k) * drop.gravity.acceleration,
         },
     )?;
     let built = BuiltBearing {

@@ -42,27 +42,39 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
 fn of_rotor(context: &Context, run: &BearingRun) -> Vec<Column> {
     let mut table = Table::over(run);
     table.add("time", "s", "time since release", |row| row.time);
-    let centre = |row: &Row| context.machine.node(0, row.state).position;
-    table.add(
-        "rotor.x",
-        "m",
-        "rotor centre at the bearing plane, to the right",
-        |row| centre(row).x,
-    );
-    table.add(
-        "rotor.y",
-        "m",
-        "rotor centre at the bearing plane, upwards",
-        |row| centre(row).y,
-    );
+    if context.built.shaft.is_none() {
+        node(&mut table, context, 0);
+    }
     table.channel("rotor.speed", "rad/s", "spin of the rotor", context.machine.layout().rotor.spin());
     table.columns
+}
+
+/// The rotor at a bearing.
+fn node<'a>(table: &mut Table<'a>, context: &Context<'a>, k: usize) {
+    let machine = context.machine;
+    let centre = move |row: &Row| machine.node(k, row.state).position;
+    for (name, meaning, part) in [
+        (
+            "rotor.x",
+            "rotor centre at the bearing plane, to the right",
+            0,
+        ),
+        ("rotor.y", "rotor centre at the bearing plane, upwards", 1),
+    ] {
+        table.add(name, "m", meaning, move |row| {
+            let at = centre(row);
+            if part == 0 { at.x } else { at.y }
+        });
+    }
 }
 
 /// Columns of one auxiliary bearing.
 fn of_bearing(context: &Context, k: usize, run: &BearingRun) -> Vec<Column> {
     let at = context.machine.layout().bearings[k];
     let mut table = Table::over(run);
+    if context.built.shaft.is_some() {
+        node(&mut table, context, k);
+    }
     table.inner_race(at.inner);
     table.channel(
         "bearing.outer_race.x",

@@ -85,7 +85,11 @@ pub(crate) fn of(drop: &Drop, built: &Built, varied: &[Varied]) -> Vec<Member> {
                 Some(varied) => RotorMachine::new(varied.built.constants.clone()),
                 None => given.clone(),
             };
-            let mut start = machine.start();
+            let from = other.map_or(built, |varied| &varied.built);
+            let mut start = match &from.shaft {
+                Some(shaft) => machine.start_with(&shaft.position, &shaft.velocity),
+                None => machine.start(),
+            };
             if k > 0 {
                 perturb(drop, &machine, &mut start, k);
             }

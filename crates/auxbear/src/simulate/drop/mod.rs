@@ -7,6 +7,7 @@ pub mod ensemble;
 pub(crate) mod members;
 pub(crate) mod method;
 pub(crate) mod quantities;
+pub mod shaft;
 pub(crate) mod warnings;
 
 use crate::options::Options;
@@ -89,7 +90,7 @@ pub(crate) fn run(
         }
     }
     Outcome {
-        system: "drop",
+        system: scenario.system.name().word(),
         title: scenario
             .title
             .clone()

@@ -1,6 +1,8 @@
 //! From a bent rotor to the coordinates of the model, and the motion in which it is released.
 
 use crate::problem::{Code, Problem};
+use crate::catalogue::geometry::millimetres;
+use crate::scenario::several::path_of;
 use crate::scenario::{Drop, Shaft, Spin, UNNAMED};
 use crate::simulate::levitated;
 use levitation::response::start;
@@ -254,7 +256,6 @@ fn fading(shaft: &Shaft, basis: &Basis, position: &[Vec2<f64>], currents: &[f64]
 
 /// Refuses bearings that the rotor touches before its release, and those that let it reach a magnet.
 pub(crate) fn clear(drop: &Drop, shaft: &Shaft, built: &BuiltShaft) -> Result<(), Box<Problem>> {
-    use crate::catalogue::geometry::millimetres;
     for (part, (place, row)) in (drop.auxiliary_bearings.iter()).zip(shaft.places.iter().zip(&built.nodes)) {
         let clearance = part.contact.radial_air_clearance;
         let [x, y] = place.misalignment;
@@ -262,7 +263,7 @@ pub(crate) fn clear(drop: &Drop, shaft: &Shaft, built: &BuiltShaft) -> Result<()
         let key = "contact.radial_air_clearance";
         let problem = |code, found: String, allowed: String| {
             Err(Box::new(Problem::new(code, UNNAMED, found, allowed).on_key(
-                crate::scenario::path_of(Some(&part.name), key),
+                path_of(Some(&part.name), key),
             )))
         };
         if apart >= clearance {

@@ -89,8 +89,8 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
     }));
     list.extend(bending(context));
     list.extend(one_motion(context));
-    let weight = drop.rotor.mass * drop.gravity.acceleration * drop.share();
     list.extend(names.iter().enumerate().filter_map(|(k, name)| {
+        let weight = drop.rotor.mass * drop.gravity.acceleration * drop.share(k);
         let peaks =
             (members.iter()).filter_map(|member| member.record.bearings[k].peak_contact_force());
         let peak = peaks
@@ -189,7 +189,7 @@ fn bending(context: &Context) -> Option<Warning> {
 /// Several bearings under a rotor that does not tilt.
 fn one_motion(context: &Context) -> Option<Warning> {
     let count = context.drop.auxiliary_bearings.len();
-    (count > 1).then(|| {
+    (count > 1 && context.drop.shaft.is_none()).then(|| {
         warning(
             "AB1090",
             format!(
