@@ -11,10 +11,8 @@ use model::bearing::{BearingConstants, PlanarConstants, Separation};
 use model::contact::JournalContact;
 use model::levitation::Levitation;
 use model::mount::Mount;
-use model::rotor::Rotor;
+use model::rotor::RotorConstants;
 use model::schedule::Schedule;
-use model::system::machine::layout::ROTOR;
-use model::system::machine::rate::rotor_motion;
 use model::system::machine::simulate::Steps;
 use model::system::machine::{MachineConstants, RotorMachine};
 use number::Vec2;
@@ -68,8 +66,7 @@ impl Simulator for Simulation {
         let layout = drop.layout();
 
         let mut rates = reference_order(&drop, &rate);
-        let rotor = rotor_motion(&state);
-        let centre = drop.constants.rotor.geometric_centre(&rotor);
+        let centre = drop.node(0, &state);
         let levitation = if levitated { 1.0 } else { 0.0 };
         let heat = |name: &str| layout.heat_of(&rate, "", name).unwrap_or(f64::NAN);
         rates.extend([
@@ -117,7 +114,7 @@ impl Simulator for Simulation {
             dissipated_energy: Some(machine.flows(end).heat),
             inner_race_final_speed: Some(end[layout.bearings[0].inner + 5]),
             cage_final_speed: Some(machine.cage_speed(0, end)),
-            rotor_final_speed: Some(end[ROTOR + 5]),
+            rotor_final_speed: Some(end[layout.rotor.spin()]),
             max_rotor_race_displacement: Some(record.rotor_race_displacement.value),
             max_mount_displacement: Some(record.mount_displacement.value),
             contact_start_times: record
@@ -212,21 +209,18 @@ fn falling_machine(mass: f64, stiffness: f64, clearance: f64, gravity: f64) -> R
         lubricant: None,
     };
     let mut constants = MachineConstants {
-        rotor: Rotor {
-            mass,
-            polar_inertia: 1e-2,
-            eccentricity: 0.0,
-            brake_torque: 0.0,
-            spin_held: false,
-        },
+        rotor: RotorConstants::point(mass, 1e-2, 0.0),
         levitation: Levitation {
             stiffness: 1e6,
             damping: 0.0,
             centre: Vec2::zero(),
             carried: Vec2::zero(),
         },
+        magnets: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
+            node: vec![1.0],
+            datum: Vec2::zero(),
             contact: JournalContact {
                 radial_clearance: clearance,
                 bore_radius: 12.5e-3 + clearance,
@@ -280,21 +274,22 @@ fn constants(machine: &ReferenceMachine, speed: f64) -> Result<MachineConstants,
     };
     let radius = machine.ball_radius;
     let mut constants = MachineConstants {
-        rotor: Rotor {
-            mass: machine.rotor_mass,
-            polar_inertia: machine.rotor_inertia,
-            eccentricity: machine.unbalance_eccentricity,
-            brake_torque: 0.0,
-            spin_held: false,
-        },
+        rotor: RotorConstants::point(
+            machine.rotor_mass,
+            machine.rotor_inertia,
+            machine.unbalance_eccentricity,
+        ),
         levitation: Levitation {
             stiffness: machine.levitation_stiffness,
             damping: machine.levitation_damping,
             centre: Vec2::zero(),
             carried: -(gravity * machine.rotor_mass),
         },
+        magnets: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
+            node: vec![1.0],
+            datum: Vec2::zero(),
             contact: JournalContact {
                 radial_clearance: machine.radial_air_clearance,
                 bore_radius: machine.bore_radius,
@@ -445,10 +440,10 @@ fn per_ball(machine: &RotorMachine, state: &[f64]) -> Vec<Vec<f64>> {
 fn globals(machine: &RotorMachine, state: &[f64], probe: &[f64]) -> Vec<f64> {
     let constants = &machine.constants;
     let part = &constants.bearings[0];
-    let rotor = rotor_motion(state);
     let races = at(machine).motion(state);
-    let centre = constants.rotor.geometric_centre(&rotor);
-    let contact = part.contact.react(&centre, rotor.spin, &races.inner);
+    let centre = machine.node(0, state);
+    let spin = state[machine.layout().rotor.spin()];
+    let contact = part.contact.react(&centre, spin, &races.inner);
     let balls = reactions(machine, state);
     let mount = part.mount.force(races.outer.position, races.outer.velocity);
     vec![

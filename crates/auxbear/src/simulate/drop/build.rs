@@ -10,7 +10,7 @@ use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::contact::JournalContact;
 use model::levitation::Levitation;
 use model::mount::Mount;
-use model::rotor::Rotor;
+use model::rotor::RotorConstants;
 use model::schedule::Schedule;
 use model::system::machine::{Event, MachineConstants};
 use model::system::spin_up::InnerRace;
@@ -87,6 +87,8 @@ fn auxiliary_bearing(
     let contact = &part.contact;
     let constants = AuxiliaryBearingConstants {
         name: part.name.clone(),
+        node: vec![1.0],
+        datum: Vec2::zero(),
         contact: JournalContact {
             radial_clearance: contact.radial_air_clearance,
             bore_radius: 0.5 * contact.bore_diameter,
@@ -130,12 +132,14 @@ fn constants(drop: &Drop, bearings: Vec<AuxiliaryBearingConstants>) -> MachineCo
         Spin::Free | Spin::Held => (0.0, f64::INFINITY),
     };
     let mut constants = MachineConstants {
-        rotor: Rotor {
-            mass,
-            polar_inertia: drop.rotor.polar_inertia * share,
-            eccentricity: drop.rotor.unbalance_eccentricity,
+        rotor: RotorConstants {
             brake_torque,
             spin_held: drop.rotor.spin == Spin::Held,
+            ..RotorConstants::point(
+                mass,
+                drop.rotor.polar_inertia * share,
+                drop.rotor.unbalance_eccentricity,
+            )
         },
         // a magnetic bearing stands beside each auxiliary one
         levitation: Levitation {
@@ -144,6 +148,7 @@ fn constants(drop: &Drop, bearings: Vec<AuxiliaryBearingConstants>) -> MachineCo
             centre: Vec2::new(drop.levitation.offset_x, drop.levitation.offset_y),
             carried: -(gravity * mass),
         },
+        magnets: Vec::new(),
         bearings,
         gravity,
         speed: drop.rotor.speed,

@@ -8,7 +8,6 @@ use model::auxiliary_bearing::probe::{
     BEARING_LOAD, FRICTION_FORCE, MOUNT_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED,
 };
 use model::system::layout::of_part;
-use model::system::machine::layout::ROTOR;
 use model::system::sampling::Row;
 
 /// All columns; `time` first.
@@ -43,7 +42,7 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
 fn of_rotor(context: &Context, run: &BearingRun) -> Vec<Column> {
     let mut table = Table::over(run);
     table.add("time", "s", "time since release", |row| row.time);
-    let centre = |row: &Row| context.machine.rotor_centre(row.state);
+    let centre = |row: &Row| context.machine.node(0, row.state).position;
     table.add(
         "rotor.x",
         "m",
@@ -56,7 +55,12 @@ fn of_rotor(context: &Context, run: &BearingRun) -> Vec<Column> {
         "rotor centre at the bearing plane, upwards",
         |row| centre(row).y,
     );
-    table.channel("rotor.speed", "rad/s", "spin of the rotor", ROTOR + 5);
+    table.channel(
+        "rotor.speed",
+        "rad/s",
+        "spin of the rotor",
+        context.machine.layout().rotor.spin(),
+    );
     table.columns
 }
 

@@ -90,7 +90,7 @@ fn stiffness(
     bearing: &PlanarConstants,
 ) -> f64 {
     let fall = 2.0 * drop.gravity.acceleration * part.contact.radial_clearance;
-    let force = (fall * part.mount.stiffness * built.constants.rotor.mass).sqrt();
+    let force = (fall * part.mount.stiffness * built.constants.rotor.mass()).sqrt();
     let load = 5.0 * force / bearing.balls as f64;
     let ball = &bearing.ball;
     let slope = bearing.traction.slope_at_rest(load, 0.0);

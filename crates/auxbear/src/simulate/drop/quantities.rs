@@ -7,7 +7,6 @@ use crate::result::static_safety::StaticLoad;
 use crate::simulate::bearing::quantities::{End, LargestForces};
 use crate::simulate::drop::context::Context;
 use model::system::layout::of_part;
-use model::system::machine::layout::ROTOR;
 use std::f64::consts::PI;
 
 const EQUATIONS: &str =
@@ -29,7 +28,8 @@ pub(crate) fn name(context: &Context) -> Vec<Quantity> {
             ..quantity
         }));
     }
-    list.number("rotor_final_speed", "rad/s", Ok(state[ROTOR + 5]), &SPEED);
+    let spin = context.machine.layout().rotor.spin();
+    list.number("rotor_final_speed", "rad/s", Ok(state[spin]), &SPEED);
     let heat = context.machine.flows(state).heat;
     list.number("dissipated_energy", "J", Ok(heat), &ENERGY);
     let planes = context.drop.rotor.planes as f64;
