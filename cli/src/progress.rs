@@ -28,7 +28,7 @@ impl Busy {
             SystemName::Rotor => "reducing the rotor",
             SystemName::Drop | SystemName::SpinUp | SystemName::Torque | SystemName::Machine => {
                 "building the machine"
-            },
+            }
         };
         let (held, dropped) = channel::<()>();
         thread::spawn(move || {

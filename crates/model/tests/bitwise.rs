@@ -5,7 +5,9 @@
 #[allow(dead_code)] // shared with the other tests
 mod machines;
 
-use machines::{inlets, lubricant, oil, planar, reference, separate, separations, settings, times_mass};
+use machines::{
+    inlets, lubricant, oil, planar, reference, separate, separations, settings, times_mass,
+};
 use model::bearing::{BearingConstants, SharedMoment, SteadyMoment};
 use model::system::machine::simulate::{Runs, Shape, Steps, simulate_on};
 use model::system::machine::{MachineConstants, RotorMachine};

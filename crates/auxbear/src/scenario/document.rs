@@ -296,10 +296,7 @@ impl Document {
             self.limits.push(keys.to_vec());
             return Ok(());
         }
-        if path.len() > 2
-            && self.system.has_shaft()
-            && kind_at(&path[..2].join(".")).is_some()
-        {
+        if path.len() > 2 && self.system.has_shaft() && kind_at(&path[..2].join(".")).is_some() {
             return written::set(&mut self.parts, &self.file, &path, raw);
         }
         if path[0] == AUXILIARY_BEARING {

@@ -210,8 +210,7 @@ impl Given {
                 ("share", raw) => {
                     if !document.system.falls() {
                         let found = "a key that has no effect".to_string();
-                        let allowed =
-                            "it is used only with system = \"drop\" or \"machine\", whose runs are repeated";
+                        let allowed = "it is used only with system = \"drop\" or \"machine\", whose runs are repeated";
                         return Err(wrong(Code::UnusedKey, found, allowed));
                     }
                     let allowed = "a share above 0 and not above 1 is needed, e.g. 0.95";

@@ -52,8 +52,8 @@ pub use bearing::separation::{Cage, FullComplement, Guidance, Land, Separation};
 pub use bearing::source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
 pub use bearing::{Bearing, Drag, OilFilm, Traction};
 pub use drop::{
-    AuxiliaryBearing, BearingPlace, Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor, Shaft,
-    Spin,
+    AuxiliaryBearing, BearingPlace, Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor,
+    Shaft, Spin,
 };
 pub use identify::{Explanations, Identify, RotorFriction};
 pub(crate) use key::quoted;

@@ -192,8 +192,7 @@ fn describe_as(out: &mut String, key: &Key, system: SystemName, own: Option<Stri
         }
     };
     comment(out, &doc);
-    let of_part =
-        own.is_some() || key.path.matches('.').count() == 2 && system.has_shaft();
+    let of_part = own.is_some() || key.path.matches('.').count() == 2 && system.has_shaft();
     let active = if of_part { own.is_some() } else { active };
     let text = own.unwrap_or(text);
     out.push_str(if active { "" } else { "# " });

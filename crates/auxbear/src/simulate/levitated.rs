@@ -9,7 +9,11 @@ use levitation::{Pole, Verdict, verdict};
 const NO_STIFFNESS: f64 = 1e-6;
 
 /// Refuses a loop that does not hold its rotor.
-pub(crate) fn holds(model: &LevitationModel, poles: &[Pole], speed: f64) -> Result<(), Box<Problem>> {
+pub(crate) fn holds(
+    model: &LevitationModel,
+    poles: &[Pole],
+    speed: f64,
+) -> Result<(), Box<Problem>> {
     let at = format!("at {} rad/s", units::number_text(speed));
     let problem = match verdict(poles) {
         Verdict::Stable => return Ok(()),

@@ -76,16 +76,15 @@ impl<R: Real> Rotor<R> {
     /// # Panics
     /// When rotors differ in which of their matrices there are.
     pub fn gather<'a>(constants: &dyn Fn(usize) -> &'a RotorConstants) -> Self {
-        let lanes = |of: &dyn Fn(&RotorConstants) -> f64| {
-            R::from_lanes(|lane| of(constants(lane)))
-        };
+        let lanes = |of: &dyn Fn(&RotorConstants) -> f64| R::from_lanes(|lane| of(constants(lane)));
         let count = constants(0).coordinates.len();
         let each = |of: &dyn Fn(&Coordinate) -> f64| -> Vec<R> {
             let own = |k: usize| lanes(&|rotor| of(&rotor.coordinates[k]));
             (0..count).map(own).collect()
         };
         let unbalance = [each(&|own| own.unbalance.x), each(&|own| own.unbalance.y)];
-        let diagonal = |matrix: &[f64], k: usize| matrix.get(k * (count + 1)).copied().unwrap_or(0.0);
+        let diagonal =
+            |matrix: &[f64], k: usize| matrix.get(k * (count + 1)).copied().unwrap_or(0.0);
         let damping = (0..count).map(|k| {
             lanes(&|rotor| diagonal(&rotor.damping, k) + diagonal(&rotor.damping_rotating, k))
         });
@@ -100,8 +99,14 @@ impl<R: Real> Rotor<R> {
             unbalance,
             polar_inertia: lanes(&|rotor| rotor.polar_inertia),
             inverse_polar_inertia: lanes(&|rotor| 1.0 / rotor.polar_inertia),
-            drive: [lanes(&|rotor| rotor.drive_torque), lanes(&|rotor| rotor.drive_slope)],
-            drag: [lanes(&|rotor| rotor.drag), lanes(&|rotor| rotor.drag_square)],
+            drive: [
+                lanes(&|rotor| rotor.drive_torque),
+                lanes(&|rotor| rotor.drive_slope),
+            ],
+            drag: [
+                lanes(&|rotor| rotor.drag),
+                lanes(&|rotor| rotor.drag_square),
+            ],
             brake_torque: lanes(&|rotor| rotor.brake_torque),
             spin_held: constants(0).spin_held,
         }

@@ -4,6 +4,8 @@
 //! interference), 0.25 mm above its inner race, the outer race on a mount of 20 N/µm. The numbers are those of the
 //! reference drop of an independent implementation; 0.15 between rotor and race is arbitrary there and here.
 
+pub mod bent;
+
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::bearing::ball::{BallConstants, BallMotion};
 use model::bearing::ball_pair::BallPair;

@@ -11,7 +11,6 @@ use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Sec
 use crate::scenario::system::{FALLING, FREE_RACE, MOVING, WITH_MOMENT};
 use crate::scenario::words::Words;
 
-
 pub(crate) const SECTIONS: &[Section] = &[Section {
     path: "bearing",
     doc: "The auxiliary rolling bearing at one plane. What the catalogue knows of the bearing named need not be given; what is given here counts.",

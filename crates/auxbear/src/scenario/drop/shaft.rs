@@ -45,7 +45,12 @@ impl Shaft {
             if ["seal", "housing"].contains(&part.kind.word) {
                 let found = format!("a {} in a run", part.kind.word);
                 let allowed = "it is computed with system = \"rotor\" alone";
-                return Err(Box::new(part.problem(Code::NotModelled, "", found, allowed)));
+                return Err(Box::new(part.problem(
+                    Code::NotModelled,
+                    "",
+                    found,
+                    allowed,
+                )));
             }
         }
         let model = build::model(&parts, values)?;
@@ -53,7 +58,8 @@ impl Shaft {
         match (support, &model.levitation) {
             (Some(part), Some(_)) => {
                 let found = "a support beside magnets";
-                let allowed = "one of the two is needed: what holds the rotor until the release and lets go";
+                let allowed =
+                    "one of the two is needed: what holds the rotor until the release and lets go";
                 return Err(Box::new(part.problem(Code::Conflict, "", found, allowed)));
             }
             (None, None) => {
@@ -64,7 +70,10 @@ impl Shaft {
             }
             _ => {}
         }
-        let nodes = all.iter().map(|own| node(own, &model)).collect::<Result<Vec<_>, _>>()?;
+        let nodes = all
+            .iter()
+            .map(|own| node(own, &model))
+            .collect::<Result<Vec<_>, _>>()?;
         let shares = shares(&model, &nodes);
         let number = |values: &Values, path: &str| values.number(path).unwrap_or_default();
         let places = (all.iter().zip(&nodes).zip(shares))
@@ -106,7 +115,13 @@ fn node(values: &Values, model: &RotorModel) -> Result<usize, Box<Problem>> {
             names().collect::<Vec<_>>().join(", ")
         ),
     };
-    let problem = values.problem(Code::NoSuchNode, PATH, values.place(PATH), quoted(&named), allowed);
+    let problem = values.problem(
+        Code::NoSuchNode,
+        PATH,
+        values.place(PATH),
+        quoted(&named),
+        allowed,
+    );
     Err(Box::new(problem.with_hint(did_you_mean(&named, names()))))
 }
 

@@ -45,7 +45,12 @@ fn of_rotor(context: &Context, run: &BearingRun) -> Vec<Column> {
     if context.built.shaft.is_none() {
         node(&mut table, context, 0);
     }
-    table.channel("rotor.speed", "rad/s", "spin of the rotor", context.machine.layout().rotor.spin());
+    table.channel(
+        "rotor.speed",
+        "rad/s",
+        "spin of the rotor",
+        context.machine.layout().rotor.spin(),
+    );
     table.columns
 }
 

@@ -1,7 +1,7 @@
 //! From a bent rotor to the coordinates of the model, and the motion in which it is released.
 
-use crate::problem::{Code, Problem};
 use crate::catalogue::geometry::millimetres;
+use crate::problem::{Code, Problem};
 use crate::scenario::several::path_of;
 use crate::scenario::{Drop, Shaft, Spin, UNNAMED};
 use crate::simulate::levitated;
@@ -38,7 +38,11 @@ impl BuiltShaft {
 }
 
 /// Builds a bent rotor.
-pub(crate) fn build(drop: &Drop, shaft: &Shaft, gravity: Vec2<f64>) -> Result<BuiltShaft, Box<Problem>> {
+pub(crate) fn build(
+    drop: &Drop,
+    shaft: &Shaft,
+    gravity: Vec2<f64>,
+) -> Result<BuiltShaft, Box<Problem>> {
     let rotor = &shaft.model.rotor;
     let matrices = Matrices::new(rotor);
     let basis = basis(shaft, rotor, &matrices)?;
@@ -53,7 +57,11 @@ pub(crate) fn build(drop: &Drop, shaft: &Shaft, gravity: Vec2<f64>) -> Result<Bu
     };
     let magnets = fading(shaft, &within.basis, &position, &currents);
     let constants = constants(drop, shaft, &matrices, &within.basis);
-    let nodes = shaft.places.iter().map(|place| row(&within.basis, place.node)).collect();
+    let nodes = shaft
+        .places
+        .iter()
+        .map(|place| row(&within.basis, place.node))
+        .collect();
     Ok(BuiltShaft {
         rotor: constants,
         nodes,
@@ -67,7 +75,12 @@ pub(crate) fn build(drop: &Drop, shaft: &Shaft, gravity: Vec2<f64>) -> Result<Bu
 fn basis(shaft: &Shaft, rotor: &Rotor, matrices: &Matrices) -> Result<Basis, Box<Problem>> {
     let full = Basis::full(rotor, matrices).map_err(|error| failed(&error.to_string()))?;
     let mut kept = rotor.kept();
-    kept.extend(shaft.places.iter().map(|place| rotor.displacement(place.node)));
+    kept.extend(
+        shaft
+            .places
+            .iter()
+            .map(|place| rotor.displacement(place.node)),
+    );
     if let Some(levitation) = &shaft.model.levitation {
         let nodes = levitation.magnets.iter().map(|(_, at, _)| *at);
         kept.extend(nodes.map(|node| rotor.displacement(node)));
@@ -151,13 +164,26 @@ fn on_magnets(
     let closed = ClosedLoop::new(plant.clone(), &model.levitation).map_err(failed)?;
     levitated::holds(model, &closed.poles().map_err(failed)?, speed)?;
     let angle = drop.rotor.unbalance_angle;
-    let start = start(&plant, &model.levitation, loads, &rotor.unbalance, speed, angle);
+    let start = start(
+        &plant,
+        &model.levitation,
+        loads,
+        &rotor.unbalance,
+        speed,
+        angle,
+    );
     let start = start.map_err(|error| levitated::weak(&error.to_string()))?;
     let size = within.basis.len();
     let pairs = |list: &DVector<f64>| -> Vec<Vec2<f64>> {
-        (0..size).map(|k| Vec2::new(list[k], list[size + k])).collect()
+        (0..size)
+            .map(|k| Vec2::new(list[k], list[size + k]))
+            .collect()
     };
-    Ok((pairs(&start.coordinates), pairs(&start.rates), start.currents))
+    Ok((
+        pairs(&start.coordinates),
+        pairs(&start.rates),
+        start.currents,
+    ))
 }
 
 /// The steady motion on springs and dampers that also carry the weight, as a levitation does: at rest no support is displaced.
@@ -193,7 +219,9 @@ fn on_supports(
     let sagging = |from: usize| -> Result<DVector<f64>, Box<Problem>> {
         let mut side = DVector::zeros(whole);
         side.rows_mut(0, size).copy_from(&loads.rows(from, size));
-        let found = factor.solve(&side).filter(|list| list.iter().all(|x| x.is_finite()));
+        let found = factor
+            .solve(&side)
+            .filter(|list| list.iter().all(|x| x.is_finite()));
         found.ok_or_else(not_held)
     };
     let (x, y) = (sagging(0)?, sagging(size)?);
@@ -221,8 +249,18 @@ fn on_supports(
 }
 
 /// The magnets as their currents decay: force and k_s about the release.
-fn fading(shaft: &Shaft, basis: &Basis, position: &[Vec2<f64>], currents: &[f64]) -> Vec<FadingMagnet> {
-    let Some(model) = shaft.model.levitation.as_ref().filter(|_| shaft.decay_time > 0.0) else {
+fn fading(
+    shaft: &Shaft,
+    basis: &Basis,
+    position: &[Vec2<f64>],
+    currents: &[f64],
+) -> Vec<FadingMagnet> {
+    let Some(model) = shaft
+        .model
+        .levitation
+        .as_ref()
+        .filter(|_| shaft.decay_time > 0.0)
+    else {
         return Vec::new();
     };
     let actuators = model.levitation.actuators();
@@ -256,24 +294,38 @@ fn fading(shaft: &Shaft, basis: &Basis, position: &[Vec2<f64>], currents: &[f64]
 
 /// Refuses bearings that the rotor touches before its release, and those that let it reach a magnet.
 pub(crate) fn clear(drop: &Drop, shaft: &Shaft, built: &BuiltShaft) -> Result<(), Box<Problem>> {
-    for (part, (place, row)) in (drop.auxiliary_bearings.iter()).zip(shaft.places.iter().zip(&built.nodes)) {
+    for (part, (place, row)) in
+        (drop.auxiliary_bearings.iter()).zip(shaft.places.iter().zip(&built.nodes))
+    {
         let clearance = part.contact.radial_air_clearance;
         let [x, y] = place.misalignment;
-        let apart = (built.displacement(row) - Vec2::new(x, y)).length_squared().sqrt();
+        let apart = (built.displacement(row) - Vec2::new(x, y))
+            .length_squared()
+            .sqrt();
         let key = "contact.radial_air_clearance";
         let problem = |code, found: String, allowed: String| {
-            Err(Box::new(Problem::new(code, UNNAMED, found, allowed).on_key(
-                path_of(Some(&part.name), key),
-            )))
+            Err(Box::new(
+                Problem::new(code, UNNAMED, found, allowed).on_key(path_of(Some(&part.name), key)),
+            ))
         };
         if apart >= clearance {
             return problem(
                 Code::ContactAtStart,
-                format!("a levitated rotor that is {} from the middle of the bearing at the release", millimetres(apart)),
-                format!("less than the radial air clearance of {} is needed", millimetres(clearance)),
+                format!(
+                    "a levitated rotor that is {} from the middle of the bearing at the release",
+                    millimetres(apart)
+                ),
+                format!(
+                    "less than the radial air clearance of {} is needed",
+                    millimetres(clearance)
+                ),
             );
         }
-        let gaps = shaft.model.levitation.iter().flat_map(|model| model.levitation.actuators());
+        let gaps = shaft
+            .model
+            .levitation
+            .iter()
+            .flat_map(|model| model.levitation.actuators());
         let gaps = gaps.filter_map(|actuator| match actuator.magnet {
             Magnet::Pair(pair) => Some(pair.gap),
             Magnet::Linear { .. } => None,
@@ -283,7 +335,10 @@ pub(crate) fn clear(drop: &Drop, shaft: &Shaft, built: &BuiltShaft) -> Result<()
             return problem(
                 Code::ClearanceTooLarge,
                 millimetres(clearance),
-                format!("less than the gap of the magnets, {}, is needed: the rotor would land on them", millimetres(smallest)),
+                format!(
+                    "less than the gap of the magnets, {}, is needed: the rotor would land on them",
+                    millimetres(smallest)
+                ),
             );
         }
     }
@@ -292,7 +347,8 @@ pub(crate) fn clear(drop: &Drop, shaft: &Shaft, built: &BuiltShaft) -> Result<()
 
 fn not_held() -> Box<Problem> {
     let found = "supports that do not hold the rotor";
-    let needed = "two places at least, with stiffness in every direction, are needed until the release";
+    let needed =
+        "two places at least, with stiffness in every direction, are needed until the release";
     Box::new(Problem::new(Code::NotHeld, UNNAMED, found, needed).on_key("rotor.support"))
 }
 

@@ -194,7 +194,10 @@ impl Layout {
         }
         scale[self.source(0)..self.source(ROTOR_SOURCES.len())].fill(energy);
         let own = self.of_rotor;
-        for heat in [own.damping, own.damping_rotating, own.drag].into_iter().flatten() {
+        for heat in [own.damping, own.damping_rotating, own.drag]
+            .into_iter()
+            .flatten()
+        {
             scale[self.heat(heat)] = energy;
         }
         if let Some(magnets) = own.magnets {

@@ -146,8 +146,7 @@ impl<R: Real> Machines<R> {
         Machines {
             rotor: Rotor::gather(&|lane| &constants(lane).rotor),
             levitation: point.then(|| {
-                let node =
-                    Node::gather(&|lane| (&constants(lane).rotor, &[1.0][..], Vec2::zero()));
+                let node = Node::gather(&|lane| (&constants(lane).rotor, &[1.0][..], Vec2::zero()));
                 (
                     node,
                     Gather::<R>::gather(&|lane| &constants(lane).levitation),

@@ -170,10 +170,7 @@ impl<R: Real> RotorRows<R> {
     fn known(&self, rotor: &Rotor<R>, at: &RotorAt, side: &[R], k: usize) -> Vec2<R> {
         let of = |block: usize| side[at.block(block).start + k];
         let (mass, spring) = (rotor.mass[k], self.spring[k]);
-        Vec2::new(
-            mass * of(2) - spring * of(0),
-            mass * of(3) - spring * of(1),
-        )
+        Vec2::new(mass * of(2) - spring * of(0), mass * of(3) - spring * of(1))
     }
 
     /// Writes the rows' right-hand sides, but for that of the spin.

@@ -17,13 +17,7 @@ pub fn levitated_orbit(constants: &MachineConstants) -> (Vec2<f64>, Vec2<f64>) {
     let spin = constants.speed;
     let own = &rotor.coordinates[0];
     let e = own.unbalance.x;
-    let (along, ahead) = whirl(
-        levitation.stiffness,
-        levitation.damping,
-        own.mass,
-        spin,
-        e,
-    );
+    let (along, ahead) = whirl(levitation.stiffness, levitation.damping, own.mass, spin, e);
     let (sine, cosine) = constants.unbalance_angle.sin_cos();
     let radial = Vec2::new(cosine, sine);
     let orbit = radial * (along + e) + radial.turned() * ahead;
