@@ -1,6 +1,7 @@
 //! What a run hands over: plain data in SI.
 
 pub(crate) mod assumptions;
+pub(crate) mod drawing;
 pub mod limits;
 pub mod list;
 pub mod outcome;

@@ -51,6 +51,8 @@ pub struct RotorConstants {
     pub brake_torque: f64,
     /// True where a drive holds the spin whatever it takes.
     pub spin_held: bool,
+    /// Rows φ of places whose displacement is watched.
+    pub places: Vec<Vec<f64>>,
 }
 
 impl RotorConstants {
@@ -74,6 +76,7 @@ impl RotorConstants {
             drag_square: 0.0,
             brake_torque: 0.0,
             spin_held: false,
+            places: Vec::new(),
         }
     }
     /// Adds unbalances to a rotor without any, whose polar inertia is that of the whole rotor about its axis, these masses in it.
@@ -110,10 +113,13 @@ impl RotorConstants {
     /// Why a rotor cannot be computed.
     pub(crate) fn fault(&self) -> Option<&'static str> {
         let n = self.coordinates.len();
+        let rows = self.places.iter().all(|row| row.len() == n);
         let matrices = [&self.gyroscopic, &self.damping, &self.damping_rotating];
         let whole = |matrix: &&Vec<f64>| matrix.is_empty() || matrix.len() == n * n;
         if n == 0 {
             Some("a rotor has a coordinate")
+        } else if !rows {
+            Some("a place has an entry for each coordinate")
         } else if !matrices.iter().all(whole) {
             Some("a matrix has a row and a column for each coordinate")
         } else if !self.coordinates.iter().all(|own| own.mass > 0.0) || self.polar_inertia <= 0.0 {

@@ -5,7 +5,6 @@
 //! Not modelled: torsion, axial motion, stress stiffening, shafts that are not round, supports that hold the slope.
 
 pub(crate) mod asked;
-pub(crate) mod drawing;
 pub(crate) mod levitated;
 pub(crate) mod quantities;
 pub(crate) mod warnings;

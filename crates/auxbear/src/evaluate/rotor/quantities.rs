@@ -1,8 +1,8 @@
 //! The named results of the analysis of a rotor.
 
 use crate::evaluate::rotor::asked::{Asked, Found, sense, word};
-use crate::evaluate::rotor::drawing::{self, GIVEN};
 use crate::evaluate::rotor::{levitated, warnings::grows};
+use crate::result::drawing::{self, GIVEN};
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Value};
 use crate::scenario::RotorAnalysis;
@@ -18,7 +18,7 @@ pub(crate) fn name(asked: &Asked, found: &Found) -> Vec<Quantity> {
     sag(&mut list, asked, found);
     map(&mut list, found);
     reduction(&mut list, asked, found);
-    drawing::name(&mut list, asked);
+    drawing::name(&mut list, &asked.analysis.model);
     if let Some(levitated) = &asked.levitated {
         levitated::name(&mut list, asked.analysis, levitated);
     }

@@ -355,4 +355,3 @@ const dropPage = {
 };
 
 register("drop", { ...dropPage });
-register("machine", { ...dropPage });

@@ -79,6 +79,7 @@ function rotorDrawing(run, overlays, width) {
     return [drawing("path", { d: `M${x - 7} ${y + 2}H${x + 7}M${x - 7} ${y + 6}H${x + 7}`, stroke: "#8a4fae", "stroke-width": 2 }), label(at, wordsAt(run, "seal_names")[k], (k + 1) % 2)];
   });
   const magnets = listAt(run, "magnet_positions").map((at) => [1, -1].map((side) => drawing("rect", { x: toX(at) - 7, y: side > 0 ? toY(surface(at)) - 15 : toY(-surface(at)) + 3, width: 14, height: 12, fill: "#c2571a", "fill-opacity": 0.85 }, drawing("title", {}, "magnet"))));
+  const landings = listAt(run, "bearing_positions").map((at) => [1, -1].map((side) => drawing("rect", { x: toX(at) - 5, y: side > 0 ? toY(surface(at)) - 14 : toY(-surface(at)) + 4, width: 10, height: 10, fill: "#1f5fa8" }, drawing("title", {}, "auxiliary bearing"))));
   const sensors = listAt(run, "sensor_positions").map((at) => drawing("path", { d: `M${toX(at)} ${toY(surface(at)) - 2}l-4 -9h8Z`, fill: "#22303c" }, drawing("title", {}, "position sensor")));
   const unbalances = listAt(run, "unbalance_positions").map((at) => drawing("circle", { cx: toX(at), cy: toY(surface(at)) - 6, r: 4, fill: "#b3261e" }, drawing("title", {}, "unbalance")));
   const weights = listAt(run, "mass_positions").map((at) => drawing("rect", { x: toX(at) - 4, y: toY(surface(at)) - 10, width: 8, height: 8, fill: "#55677a" }, drawing("title", {}, "point mass")));
@@ -94,7 +95,7 @@ function rotorDrawing(run, overlays, width) {
     const path = values.map((value, k) => `${k ? "L" : "M"}${toX(z[k]).toFixed(1)} ${(middle - (value / largest) * (tall / 2) * 0.95).toFixed(1)}`);
     return drawing("path", { d: path.join(""), fill: "none", stroke: colour, "stroke-width": 2, "stroke-dasharray": dash || null });
   });
-  return drawing("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img" }, axis, bodies, disks, overlays.length ? null : [weights, unbalances], magnets, sensors, supports, seals, nodes, lines);
+  return drawing("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img" }, axis, bodies, disks, overlays.length ? null : [weights, unbalances], magnets, landings, sensors, supports, seals, nodes, lines);
 }
 
 function rotorPicture(run, overlays) {

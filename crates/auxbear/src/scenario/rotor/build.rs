@@ -28,6 +28,8 @@ pub struct RotorModel {
     pub unbalance: Vec<String>,
     /// Named nodes with their index.
     pub nodes: Vec<(String, usize)>,
+    /// Radial clearance of what stands around each of them, m.
+    pub clearances: Vec<Option<f64>>,
     /// Magnets, sensors and controllers.
     pub levitation: Option<LevitationModel>,
 }
@@ -145,6 +147,9 @@ pub(crate) fn model(parts: &[Part], values: &Values) -> Built<RotorModel> {
         supports: named(&[supports, seals, housings].concat()),
         unbalance: named(&of("unbalance")),
         nodes: nodes.collect(),
+        clearances: (of("node").iter())
+            .map(|part| part.number("clearance"))
+            .collect(),
         pieces: pieces.into_iter().map(|(_, piece)| piece).collect(),
         rotor,
     })

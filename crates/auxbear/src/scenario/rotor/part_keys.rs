@@ -107,6 +107,7 @@ pub(crate) const PARTS: &[PartKind] = &[
         keys: &[
             key!("node", "name", Kind::Text, "drive_end", "Its name."),
             key!("node", "at", Kind::Quantity("m"), "0.1 m", "Position along the shaft."),
+            key!("node", "clearance", Kind::Quantity("m"), "0.3 mm", "Radial clearance of what stands around the rotor here: a seal, a sensor, a magnet. A run on auxiliary bearings says what is left of it.").positive().optional("the least distance is not given"),
         ],
         starting: &[&[("name", "drive_end"), ("at", "0.1 m")], &[("name", "other_end"), ("at", "0.7 m")]],
     },

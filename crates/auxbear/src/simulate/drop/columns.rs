@@ -4,6 +4,7 @@ use crate::result::outcome::Column;
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::drop::context::Context;
+use crate::simulate::drop::shaft_results;
 use model::auxiliary_bearing::probe::{
     BEARING_LOAD, FRICTION_FORCE, MOUNT_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED,
 };
@@ -27,6 +28,7 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
                 }),
         );
     }
+    columns.extend(shaft_results::columns(context, &runs[0]));
     let start = &context.finished.start;
     let mut table = Table::over(&runs[0]);
     table.flows("release", machine.layout(), |part| {

@@ -8,6 +8,7 @@ pub(crate) mod members;
 pub(crate) mod method;
 pub(crate) mod quantities;
 pub mod shaft;
+pub(crate) mod shaft_results;
 pub(crate) mod warnings;
 
 use crate::options::Options;

@@ -6,6 +6,7 @@ use crate::result::outcome::{Quantity, Value};
 use crate::result::static_safety::StaticLoad;
 use crate::simulate::bearing::quantities::{End, LargestForces};
 use crate::simulate::drop::context::Context;
+use crate::simulate::drop::shaft_results;
 use model::system::layout::of_part;
 use std::f64::consts::PI;
 
@@ -28,6 +29,7 @@ pub(crate) fn name(context: &Context) -> Vec<Quantity> {
             ..quantity
         }));
     }
+    shaft_results::name(context, &mut list);
     let spin = context.machine.layout().rotor.spin();
     list.number("rotor_final_speed", "rad/s", Ok(state[spin]), &SPEED);
     let heat = context.machine.flows(state).heat;
@@ -227,7 +229,7 @@ fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, String>) {
 const FIRST_CONTACT: Origin = Origin {
     law: "gap d = |C - c_i| - c0 closes; gravity and the levitated orbit's speed at release",
     source: EVENT,
-    valid: "sudden, total loss of levitation at t = 0; rigid rotor",
+    valid: "sudden, total loss of levitation at t = 0",
 };
 const CONTACT_FORCE: Origin = Origin {
     law: "N = max(0, k dⁿ(1 + a ḋ)), largest of each contact",
@@ -262,12 +264,12 @@ const MOUNT_DISPLACEMENT: Origin = Origin {
 const ROTOR_DISPLACEMENT: Origin = Origin {
     law: "largest distance of the rotor centre from the origin, while in contact, at the steps",
     source: EVENT,
-    valid: "compare it with seals and other air gaps at this plane; rigid rotor",
+    valid: "compare it with seals and other air gaps at this plane",
 };
 const WHIRL: Origin = Origin {
     law: "net turns of the rotor about the inner race while outside half its clearance; below one turn: none",
     source: "definition",
-    valid: "rigid rotor; backward whirl of flexible rotors needs the flexible model",
+    valid: "a rotor that bends may whirl backward where a rigid one does not: system = \"machine\"",
 };
 const ENERGY: Origin = Origin {
     law: "time integral of friction force times sliding speed, and of every other loss",

@@ -21,6 +21,8 @@ pub struct BuiltShaft {
     pub rotor: RotorConstants,
     /// Row of each auxiliary bearing's node.
     pub nodes: Vec<Vec<f64>>,
+    /// Nodes whose displacement is watched, along the shaft.
+    pub places: Vec<usize>,
     /// Magnets whose currents decay.
     pub magnets: Vec<FadingMagnet>,
     /// Where its coordinates are at the release, m √kg.
@@ -56,7 +58,12 @@ pub(crate) fn build(
         }
     };
     let magnets = fading(shaft, &within.basis, &position, &currents);
-    let constants = constants(drop, shaft, &matrices, &within.basis);
+    let places = places(shaft);
+    let mut constants = constants(drop, shaft, &matrices, &within.basis);
+    constants.places = places
+        .iter()
+        .map(|node| row(&within.basis, *node))
+        .collect();
     let nodes = shaft
         .places
         .iter()
@@ -65,6 +72,7 @@ pub(crate) fn build(
     Ok(BuiltShaft {
         rotor: constants,
         nodes,
+        places,
         magnets,
         position,
         velocity,
@@ -90,6 +98,36 @@ fn basis(shaft: &Shaft, rotor: &Rotor, matrices: &Matrices) -> Result<Basis, Box
     let forces = rotor::unit_forces(rotor.size(), &kept);
     let reduced = full.reduced(shaft.cutoff, &forces);
     reduced.map_err(|error| failed(&error.to_string()))
+}
+
+/// Parts of the shaft between which its shape is seen.
+const PARTS: f64 = 16.0;
+
+/// Nodes by which the shape of the shaft is seen: ends, bearings, magnets, names, and some between.
+fn places(shaft: &Shaft) -> Vec<usize> {
+    let rotor = &shaft.model.rotor;
+    let (first, last) = (0, rotor.nodes.len() - 1);
+    let mut places = vec![first, last];
+    places.extend(shaft.places.iter().map(|place| place.node));
+    places.extend(shaft.model.nodes.iter().map(|(_, node)| *node));
+    let magnets = shaft
+        .model
+        .levitation
+        .iter()
+        .flat_map(|model| &model.magnets);
+    places.extend(magnets.map(|(_, at, _)| *at));
+    let apart = (rotor.nodes[last] - rotor.nodes[first]) / PARTS;
+    for (node, at) in rotor.nodes.iter().enumerate() {
+        if places
+            .iter()
+            .all(|other| (rotor.nodes[*other] - at).abs() > apart)
+        {
+            places.push(node);
+        }
+    }
+    places.sort_unstable();
+    places.dedup();
+    places
 }
 
 /// Row of a node's displacement.
@@ -140,6 +178,7 @@ fn constants(drop: &Drop, shaft: &Shaft, matrices: &Matrices, basis: &Basis) -> 
         drag_square: shaft.windage,
         brake_torque,
         spin_held: drop.rotor.spin == Spin::Held,
+        places: Vec::new(),
     }
     .with_unbalance(&planes)
 }

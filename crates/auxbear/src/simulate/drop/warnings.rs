@@ -9,6 +9,7 @@ use crate::simulate::bearing::warnings as shared;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::Finished;
 use crate::simulate::drop::quantities::name;
+use crate::simulate::drop::shaft_results;
 use crate::simulate::ending::DESIGN;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 use model::system::machine::tangents::Known;
@@ -81,6 +82,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
         names.iter().enumerate().flat_map(named).collect()
     };
     let mut list = each(&|k| whirl(context, members, k));
+    list.extend(shaft_results::warnings(context, members));
     list.extend(each(&|k| {
         let bearing = &context.given(k).bearing;
         let rating = speed_rating(bearing, drop.rotor.speed);

@@ -69,6 +69,8 @@ pub struct RotorMachine {
     pub constants: MachineConstants,
     layout: Layout,
     one: Machines<f64>,
+    /// What is watched of the rotor besides its bearings.
+    places: Vec<Node<f64>>,
     error_scale: Vec<f64>,
     levitated: bool,
 }
@@ -106,7 +108,9 @@ impl RotorMachine {
         let point = constants.rotor.coordinates.len() == 1;
         assert!(point || !levitated, "levitation holds a point rotor");
         let layout = Layout::of(&constants);
+        let place = |row: &Vec<f64>| Node::gather(&|_| (&constants.rotor, &row[..], Vec2::zero()));
         RotorMachine {
+            places: constants.rotor.places.iter().map(place).collect(),
             one: Machines::of(&|_| &constants, layout.clone()),
             error_scale: layout.error_scale(&constants),
             layout,
@@ -117,6 +121,11 @@ impl RotorMachine {
     /// Where everything stands in the state.
     pub fn layout(&self) -> &Layout {
         &self.layout
+    }
+    /// Displacement of the rotor's geometric centre at a watched place from the line of levitation, m.
+    pub fn place(&self, place: usize, state: &[f64]) -> Vec2<f64> {
+        let motion = self.layout.rotor.motion(state);
+        self.places[place].centre(&motion).position
     }
     /// The rotor's geometric centre at its node in a bearing, from the datum of that.
     #[inline(always)]

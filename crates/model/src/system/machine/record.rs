@@ -36,6 +36,8 @@ pub struct Record {
     pub bearings: Vec<BearingRecord>,
     /// Largest kinetic energy of the rotor's centre, J.
     pub largest_translation: f64,
+    /// Largest displacement of the rotor at each watched place, m; seen at 64 points a turn.
+    pub places: Vec<Peak>,
     rows: Rows,
     next_look: f64,
     look_interval: f64,
@@ -117,6 +119,7 @@ impl Record {
         Record {
             bearings: bearings.map(|k| BearingRecord::new(machine, k)).collect(),
             largest_translation: 0.0,
+            places: vec![Peak::NONE; machine.constants.rotor.places.len()],
             rows: Rows::new(machine, end, interval, keep_rows),
             next_look: 0.0,
             look_interval: 2.0 * std::f64::consts::PI / (WHIRL_POINTS * speed.abs().max(1.0)),
@@ -149,6 +152,12 @@ impl Record {
         }
         self.next_look = step.end + self.look_interval;
         self.largest_translation = self.largest_translation.max(translation_at_end(step));
+        let machine = step.machine;
+        let time = step.end;
+        for (k, peak) in self.places.iter_mut().enumerate() {
+            let state = step.leading_state(1.0, machine.layout().rotor.channels());
+            peak.raise(machine.place(k, state).length_squared().sqrt(), time);
+        }
         for bearing in &mut self.bearings {
             bearing.whirl_of(step);
         }

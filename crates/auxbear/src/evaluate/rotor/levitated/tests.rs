@@ -2,6 +2,7 @@
 
 use super::super::asked::Asked;
 use super::*;
+use crate::problem::Code;
 use crate::scenario::{BuiltIn, Scenario, System};
 
 const SMALL: &str = r#"

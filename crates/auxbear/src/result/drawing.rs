@@ -1,8 +1,8 @@
 //! What the page needs to draw a rotor to scale, as lists.
 
-use crate::evaluate::rotor::asked::Asked;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::Value;
+use crate::scenario::RotorModel;
 use rotor::Place;
 
 /// What the scenario says.
@@ -13,8 +13,8 @@ pub(crate) const GIVEN: Origin = Origin {
 };
 
 /// Positions, diameters and names of all parts.
-pub(crate) fn name(list: &mut List, asked: &Asked) {
-    let (model, rotor) = (&asked.analysis.model, asked.rotor());
+pub(crate) fn name(list: &mut List, model: &RotorModel) {
+    let rotor = &model.rotor;
     let z = |node: usize| rotor.nodes[node];
     let mut numbers = |name: &str, unit, values: Vec<f64>| {
         list.push(name, unit, Value::List(values), &GIVEN);

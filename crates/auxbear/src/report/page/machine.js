@@ -1,0 +1,121 @@
+// A bent rotor on its auxiliary bearings: the rotor to scale, and its shape as time goes by.
+
+const SHAPE_WAYS = [["y", "up [µm]"], ["x", "to the right [µm]"]];
+
+// Runs that are bearings of the same machine share its rotor: the first of them draws it.
+function machinesOf(runs) {
+  const seen = new Map();
+  for (const run of runs) {
+    const key = `${run.directory}|${run.summary.title || ""}`;
+    if (!seen.has(key)) seen.set(key, []);
+    seen.get(key).push(run);
+  }
+  return [...seen.values()];
+}
+
+// Displacements of the shaft at its places, in µm: a list of columns for each way.
+function shapeColumns(run) {
+  const count = listAt(run, "shape_positions").length;
+  const of = (way) => Array.from({ length: count }, (_, k) => columnOf(run, `shape.${k + 1}.${way}`));
+  return Object.fromEntries(SHAPE_WAYS.map(([way]) => [way, of(way)]));
+}
+
+// Where the shaft may move: the clearance of each bearing, counted from where it stands.
+function roomOfBearings(machine) {
+  const [at, x, y] = ["positions", "offsets_x", "offsets_y"].map((what) => listAt(machine[0], `bearing_${what}`));
+  return machine.map((run, k) => ({ z: at[k], name: run.summary.name || "", clearance: run.summary.clearance_radius_m || 0, offset: { x: x[k] || 0, y: y[k] || 0 }, colour: run.colour }));
+}
+
+function shapeDrawing(machine, shapes, row, width) {
+  const run = machine[0];
+  const z = listAt(run, "shape_positions");
+  const rooms = roomOfBearings(machine);
+  const reach = 1.25e6 * Math.max(...rooms.map((room) => room.clearance + Math.hypot(room.offset.x, room.offset.y)), 1e-6);
+  const margin = { left: 74, right: 24, top: 12, between: 22, bottom: 46 };
+  const tall = 150;
+  const height = margin.top + 2 * tall + margin.between + margin.bottom;
+  const [first, last] = [z[0], z[z.length - 1]];
+  const toX = (at) => margin.left + ((at - first) / (last - first || 1)) * (width - margin.left - margin.right);
+  const panels = SHAPE_WAYS.map(([way, words], panel) => {
+    const top = margin.top + panel * (tall + margin.between);
+    const toY = (value) => top + tall / 2 - (Math.max(-1.2 * reach, Math.min(1.2 * reach, value)) / reach) * (tall / 2);
+    const steps = axisSteps(-reach, reach, 4).filter((value) => Math.abs(value) <= reach);
+    const grid = steps.map((value) => [
+      drawing("line", { x1: margin.left, x2: width - margin.right, y1: toY(value), y2: toY(value), stroke: value === 0 ? "#8995a0" : "#e2e6ea", "stroke-dasharray": value === 0 ? "10 3 2 3" : null }),
+      drawing("text", { x: margin.left - 6, y: toY(value) + 4, "text-anchor": "end", "font-size": 11, fill: INK }, numberText(value, 4)),
+    ]);
+    const walls = rooms.map((room) => [1, -1].map((side) => {
+      const y = toY(1e6 * (room.offset[way] + side * room.clearance));
+      return drawing("line", { x1: toX(room.z) - 12, x2: toX(room.z) + 12, y1: y, y2: y, stroke: room.colour, "stroke-width": 3 }, drawing("title", {}, `${room.name}: clearance`));
+    }));
+    const points = z.map((at, k) => [toX(at), shapes[way][k] && isNumber(shapes[way][k][row]) ? toY(1e6 * shapes[way][k][row]) : null]).filter(([, y]) => y !== null);
+    const line = drawing("path", { d: points.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join(""), fill: "none", stroke: "#22303c", "stroke-width": 2.2 });
+    const dots = points.map(([x, y]) => drawing("circle", { cx: x, cy: y, r: 2, fill: "#22303c" }));
+    return [grid, walls, line, dots, drawing("text", { x: 14, y: top + tall / 2, "font-size": 11, fill: INK, transform: `rotate(-90 14 ${top + tall / 2})`, "text-anchor": "middle" }, words)];
+  });
+  const below = height - margin.bottom + 14;
+  const axis = axisSteps(first * 1e3, last * 1e3, Math.max(3, width / 110)).map((mm) => drawing("text", { x: toX(mm / 1e3), y: below, "text-anchor": "middle", "font-size": 11, fill: INK }, numberText(mm, 4)));
+  const names = rooms.map((room) => drawing("text", { x: toX(room.z), y: below + 26, "text-anchor": "middle", "font-size": 10.5, fill: room.colour }, room.name));
+  return drawing("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img" }, panels, axis, names, drawing("text", { x: 4, y: below, "font-size": 11, fill: INK }, "z [mm]"));
+}
+
+function shapeFigure(machine) {
+  const run = machine[0];
+  const shapes = shapeColumns(run);
+  const holder = element("div", { class: "curves" });
+  const readout = element("span", { class: "readout" }, "");
+  const slider = element("input", { type: "range", min: "0", max: String(run.time.length - 1), value: "0", class: "time", "aria-label": "time since release" });
+  let playing = null;
+  const draw = () => {
+    const row = Number(slider.value);
+    holder.replaceChildren(shapeDrawing(machine, shapes, row, holder.clientWidth || 900));
+    readout.textContent = ` ${numberText(1e3 * run.time[row], 5)} ms`;
+  };
+  const stop = () => {
+    clearInterval(playing);
+    playing = null;
+    button.textContent = "play";
+  };
+  const button = element("button", { type: "button", onclick: () => (playing ? stop() : play()) }, "play");
+  const play = () => {
+    if (Number(slider.value) >= run.time.length - 1) slider.value = "0";
+    button.textContent = "stop";
+    playing = setInterval(() => {
+      slider.value = String(Number(slider.value) + 1);
+      draw();
+      if (Number(slider.value) >= run.time.length - 1) stop();
+    }, 40);
+  };
+  slider.addEventListener("input", draw);
+  // the first contact says more than the rest above the bearings
+  const contacts = machine.flatMap((each) => each.contacts).map((contact) => contact.peak_time_s).filter(isNumber);
+  const instant = contacts.length ? Math.min(...contacts) : 0;
+  slider.value = String(Math.max(0, run.time.findIndex((time) => time >= instant)));
+  resizable.push(draw);
+  return [element("div", { class: "controls" }, button, slider, readout), holder];
+}
+
+function machineSection(runs) {
+  const machines = machinesOf(runs);
+  const of = (machine) => (machines.length > 1 ? `${machine[0].name}: ` : "");
+  return section(
+    "machine",
+    "The rotor on its bearings",
+    machines.map((machine) => [
+      figure(`${of(machine)}Rotor to scale`, "To scale along the shaft. Grey: shaft, another colour for each other material; dashed: sleeves; light blue: disks, sized by their mass where the file gives no diameter; orange: magnets; dark blue: auxiliary bearings; red: unbalance; dots: nodes.", rotorPicture(machine[0], [])),
+      columnOf(machine[0], "shape.1.x") ? figure(`${of(machine)}Shape of the shaft over time`, "Displacement of the shaft's axis from the line of levitation, at the rows of the history. Bars: clearance of each auxiliary bearing about where it stands at rest.", shapeFigure(machine)) : null,
+    ]),
+  );
+}
+
+function bentLine(run) {
+  const facts = [`rotor ${engineeringText(numberOf(run, "rotor_mass"), "kg", 4)}, bends at ${numberText(numberOf(run, "first_bending_frequency"), 4)} rad/s`];
+  const line = machineLine(run);
+  return element("p", { class: "machine" }, [...facts, line ? line.textContent : null].filter(Boolean).join(" · "));
+}
+
+register("machine", {
+  ...dropPage,
+  line: bentLine,
+  sections: (runs) => [[9, machineSection, runs], ...dropPage.sections(runs)],
+});

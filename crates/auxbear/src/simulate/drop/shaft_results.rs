@@ -1,0 +1,180 @@
+//! What a run shows of a bent rotor: its shape over time, and what is left of the clearances along it.
+
+use crate::result::drawing;
+use crate::result::list::{List, Origin};
+use crate::result::outcome::{Column, Value, Warning, warning};
+use crate::scenario::Shaft;
+use crate::simulate::bearing::columns::Table;
+use crate::simulate::bearing::run::BearingRun;
+use crate::simulate::drop::context::Context;
+use crate::simulate::drop::ensemble::Finished;
+use crate::simulate::drop::shaft::BuiltShaft;
+
+/// The results that only a bent rotor has.
+pub(crate) fn name(context: &Context, list: &mut List) {
+    let (Some(given), Some(built)) = (&context.drop.shaft, &context.built.shaft) else {
+        return;
+    };
+    for node in named(given, built) {
+        let peak = context.finished.record.places[node.place];
+        let named = |what: &str| format!("node.{}.{what}", node.name);
+        list.number(
+            &named("largest_displacement"),
+            "m",
+            Ok(peak.value),
+            &DISPLACEMENT,
+        );
+        let left = node.clearance.map(|clearance| clearance - peak.value);
+        let none = || "rotor.node.clearance is not given".to_string();
+        list.number(
+            &named("least_distance"),
+            "m",
+            left.ok_or_else(none),
+            &DISTANCE,
+        );
+    }
+    let mass = given.properties().mass;
+    list.number("rotor_mass", "kg", Ok(mass), &BASIS);
+    let coordinates = &built.rotor.coordinates;
+    let bends = coordinates
+        .iter()
+        .map(|own| own.frequency)
+        .find(|omega| *omega > 0.0);
+    let none = || "the rotor does not bend".to_string();
+    list.number(
+        "first_bending_frequency",
+        "rad/s",
+        bends.ok_or_else(none),
+        &BASIS,
+    );
+    let highest = coordinates.last().map_or(0.0, |own| own.frequency);
+    list.number("highest_frequency", "rad/s", Ok(highest), &BASIS);
+    list.number("coordinates", "", Ok(coordinates.len() as f64), &BASIS);
+    drawing::name(list, &given.model);
+    let rotor = &given.model.rotor;
+    let z = |nodes: &mut dyn Iterator<Item = usize>| -> Vec<f64> {
+        nodes.map(|node| rotor.nodes[node]).collect()
+    };
+    let places = z(&mut built.places.iter().copied());
+    list.push("shape_positions", "m", Value::List(places), &drawing::GIVEN);
+    let bearings = z(&mut given.places.iter().map(|place| place.node));
+    list.push(
+        "bearing_positions",
+        "m",
+        Value::List(bearings),
+        &drawing::GIVEN,
+    );
+    for (axis, name) in ["bearing_offsets_x", "bearing_offsets_y"]
+        .into_iter()
+        .enumerate()
+    {
+        let offsets = given.places.iter().map(|place| place.misalignment[axis]);
+        list.push(name, "m", Value::List(offsets.collect()), &drawing::GIVEN);
+    }
+    let magnets = given
+        .model
+        .levitation
+        .iter()
+        .flat_map(|model| &model.magnets);
+    let magnets = z(&mut magnets.map(|(_, at, _)| *at));
+    list.push(
+        "magnet_positions",
+        "m",
+        Value::List(magnets),
+        &drawing::GIVEN,
+    );
+}
+
+/// Displacements along the shaft.
+pub(crate) fn columns(context: &Context, run: &BearingRun) -> Vec<Column> {
+    let (Some(given), Some(built)) = (&context.drop.shaft, &context.built.shaft) else {
+        return Vec::new();
+    };
+    let machine = context.machine;
+    let mut table = Table::over(run);
+    for (place, node) in built.places.iter().enumerate() {
+        let z = 1e3 * given.model.rotor.nodes[*node];
+        for (axis, way) in [("x", "to the right"), ("y", "upwards")] {
+            let name = format!("shape.{}.{axis}", place + 1);
+            let meaning = format!("displacement of the shaft at {z:.1} mm, {way}");
+            table.add(&name, "m", &meaning, |row| {
+                let at = machine.place(place, row.state);
+                if axis == "x" { at.x } else { at.y }
+            });
+        }
+    }
+    table.columns
+}
+
+/// Clearances along the shaft that a run uses up, in any member.
+pub(crate) fn warnings(context: &Context, members: &[Finished]) -> Vec<Warning> {
+    let (Some(given), Some(built)) = (&context.drop.shaft, &context.built.shaft) else {
+        return Vec::new();
+    };
+    let mut list = Vec::new();
+    for node in named(given, built) {
+        let Some(clearance) = node.clearance else {
+            continue;
+        };
+        let peaks = members
+            .iter()
+            .map(|member| member.record.places[node.place]);
+        let touching = peaks.clone().filter(|peak| peak.value >= clearance).count();
+        let Some(worst) = peaks.reduce(|a, b| if b.value > a.value { b } else { a }) else {
+            continue;
+        };
+        if touching == 0 {
+            continue;
+        }
+        let who = match members.len() {
+            1 => String::new(),
+            count => format!(" in {touching} of {count} members,"),
+        };
+        list.push(warning(
+            "AB2030",
+            format!(
+                "At {} the rotor moves by{who} up to {:.0} µm ({:.2} ms), beyond the clearance of {:.0} µm: it touches what stands \
+                 there, and this contact is not computed.",
+                node.name,
+                1e6 * worst.value,
+                1e3 * worst.time,
+                1e6 * clearance
+            ),
+        ));
+    }
+    list
+}
+
+/// A named node among the watched places.
+struct Named<'a> {
+    name: &'a str,
+    place: usize,
+    clearance: Option<f64>,
+}
+
+fn named<'a>(given: &'a Shaft, built: &'a BuiltShaft) -> impl Iterator<Item = Named<'a>> {
+    let nodes = given.model.nodes.iter().zip(&given.model.clearances);
+    nodes.filter_map(|((name, node), clearance)| {
+        Some(Named {
+            name,
+            place: built.places.iter().position(|place| place == node)?,
+            clearance: *clearance,
+        })
+    })
+}
+
+const DISPLACEMENT: Origin = Origin {
+    law: "largest distance of the rotor's axis from the line of levitation, at 64 points a turn",
+    source: "crates/model/src/system/machine/record.rs",
+    valid: "small tilt; modes up to rotor.cutoff with residual flexibility",
+};
+const DISTANCE: Origin = Origin {
+    law: "clearance of the node less its largest displacement; negative: the rotor reaches what stands there",
+    source: "crates/model/src/system/machine/record.rs",
+    valid: "what stands around the rotor is centred on the line of levitation and touches nothing else",
+};
+const BASIS: Origin = Origin {
+    law: "free modes up to rotor.cutoff with the residual flexibility of every place that carries something (Rubin)",
+    source: "Rubin 1975 (from memory), crates/rotor/src/basis.rs",
+    valid: "a higher rotor.cutoff shows what is left out",
+};
