@@ -5,8 +5,9 @@
 #[allow(dead_code)] // shared with the other tests
 mod machines;
 
+use machines::bent::bent;
 use machines::{
-    inlets, lubricant, oil, planar, reference, separate, separations, settings, times_mass,
+    inlets, lubricant, oil, planar, reference, separate, separations, settings, times_mass, vec2,
 };
 use model::bearing::{BearingConstants, SharedMoment, SteadyMoment};
 use model::system::machine::simulate::{Runs, Shape, Steps, simulate_on};
@@ -32,6 +33,19 @@ impl Observer<RotorMachine> for Bits {
     }
 }
 
+/// The state at release: of a rotor that bends on an orbit of its rigid motions.
+fn start(machine: &RotorMachine) -> Vec<f64> {
+    let own = &machine.constants.rotor.coordinates;
+    if own.len() == 1 {
+        return machine.start();
+    }
+    let along = |size: f64| -> Vec<_> {
+        let shift = |k: usize| vec2(size * own[k].weight, 0.3 * size);
+        (0..own.len()).map(shift).collect()
+    };
+    machine.start_with(&along(2e-6), &along(2e-3))
+}
+
 /// A run of machines on a level, in a shape, by some steps: how each ended, and the bits of what was seen on the way.
 fn seen(
     (level, shape): (Level, Shape),
@@ -39,7 +53,7 @@ fn seen(
     end: f64,
     steps: Steps,
 ) -> Vec<(Ending, Vec<u64>)> {
-    let starts: Vec<_> = machines.iter().map(RotorMachine::start).collect();
+    let starts: Vec<_> = machines.iter().map(start).collect();
     let machines: Vec<_> = machines.iter().collect();
     let mut seen: Vec<_> = machines.iter().map(|_| Bits::default()).collect();
     let mut observers: Vec<&mut dyn Observer<RotorMachine>> = Vec::new();
@@ -137,6 +151,46 @@ fn machines_side_by_side_do_not_touch_each_other() {
     let machines: Vec<_> = (0..8).map(|i| RotorMachine::new(variant(i))).collect();
     let spread: Vec<_> = machines.iter().map(|m| m.start()[1]).collect();
     assert!(spread.windows(2).all(|pair| pair[0] != pair[1]));
+    same_bits(&machines, 0.01);
+}
+
+#[test]
+fn a_rotor_that_bends_has_the_same_bits() {
+    // lanes that differ in all numbers of the rotor, one more than a group; more coordinates than a group, and not a multiple
+    let machines: Vec<_> = (0..9)
+        .map(|i| {
+            let x = i as f64;
+            let (mut constants, _) = bent(1.2e5);
+            constants.speed *= 1.0 - 0.05 * x;
+            constants.unbalance_angle = 0.4 * x;
+            constants.rotor.drag = 1e-5 * (1.0 + x);
+            for own in &mut constants.rotor.coordinates {
+                own.frequency *= 1.0 - 0.01 * x;
+                own.weight *= 1.0 + 0.02 * x;
+                own.unbalance = own.unbalance * (1.0 + 0.1 * x);
+            }
+            for matrix in [
+                &mut constants.rotor.gyroscopic,
+                &mut constants.rotor.damping,
+                &mut constants.rotor.damping_rotating,
+            ] {
+                matrix.iter_mut().for_each(|entry| *entry *= 1.0 + 0.1 * x);
+            }
+            for part in &mut constants.bearings {
+                part.node
+                    .iter_mut()
+                    .for_each(|shape| *shape *= 1.0 + 0.02 * x);
+                part.datum = vec2(1e-6 * x, -2e-6 * x);
+                part.contact.friction *= 1.0 + 0.1 * x;
+            }
+            RotorMachine::new(constants)
+        })
+        .collect();
+    let coordinates = machines[0].layout().rotor.coordinates;
+    assert!(
+        coordinates > 8 && !coordinates.is_multiple_of(4),
+        "{coordinates}"
+    );
     same_bits(&machines, 0.01);
 }
 

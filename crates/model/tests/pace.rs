@@ -4,6 +4,13 @@
 #[allow(dead_code)] // shared with the other tests
 mod machines;
 
+#[path = "bent/drop.rs"]
+#[allow(dead_code)] // shared with the test of bent rotors
+mod drop;
+#[path = "bent/files.rs"]
+#[allow(dead_code)]
+mod files;
+
 use machines::{Blind, reference, settings};
 use model::system::machine::RotorMachine;
 use model::system::machine::simulate::{Runs, Shape, Steps, simulate_on};
@@ -65,4 +72,14 @@ fn measure(name: &str, machine: &RotorMachine, start: &[f64], end: f64) {
 fn of_a_point_rotor() {
     let machine = RotorMachine::new(reference());
     measure("point", &machine, &machine.start(), 0.05);
+}
+
+#[test]
+#[ignore = "a measurement"]
+fn of_a_bent_rotor() {
+    let Some((machine, start, _)) = drop::flexible(6e4) else {
+        return;
+    };
+    let name = format!("{} coordinates", machine.layout().rotor.coordinates);
+    measure(&name, &machine, &start, 0.05);
 }

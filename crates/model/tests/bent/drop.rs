@@ -1,10 +1,11 @@
 //! The drop of a 52-element rotor onto two bearings.
 //!
 //! Source: `shared/cases/reference/machine_drop_flexible.json`, an ensemble of 16 of an independent implementation in 50
-//! coordinates at a tolerance of 1e-8. The second bearing's mount has Maxwell branches there, which are not modelled here: what
-//! leans on that mount is compared within what it may change.
+//! coordinates at a tolerance of 1e-8; floors of the tolerances are those of the file. The second bearing's mount has Maxwell
+//! branches there (times of 0.3 and 0.03 ms), here the dampers that these are in slow motion: the rotor leaves it alike, and the
+//! first bearing is compared whole; of the second when it is first hit, not how.
 
-use crate::files::{list, machine, number, pairs, read, shaft, unbalance};
+use crate::files::{coordinates, list, machine, number, pairs, read, shaft, unbalance};
 use crate::machines::bent::Shaft;
 use crate::machines::{by, settings};
 use model::system::machine::RotorMachine;
@@ -27,8 +28,8 @@ pub fn flexible(cut: f64) -> Option<(RotorMachine, Vec<f64>, Value)> {
     rotor.unbalance = unbalance(&file);
     let shaft = Shaft::reduced(rotor, cut, &KEPT);
     let machine = RotorMachine::new(machine(&file, &shaft, number(&file, "Om")));
-    let position = shaft.coordinates(&pairs(&file["start"], "q"));
-    let velocity = shaft.coordinates(&pairs(&file["start"], "qd"));
+    let position = coordinates(&shaft, &pairs(&file["start"], "q"));
+    let velocity = coordinates(&shaft, &pairs(&file["start"], "qd"));
     let start = machine.start_with(&position, &velocity);
     Some((machine, start, file))
 }
@@ -63,23 +64,21 @@ fn first_impacts_are_those_of_the_reference() {
                 let key = format!("b{}_{name}", k + 1);
                 (number(&file["mean"], &key), number(&file["sd"], &key))
             };
+            let [first, second] = [0, 1].map(|i| bearing.contacts[i]);
             let ours = [
-                ("t_on_1", bearing.contacts[0].start, 1e-3),
-                ("peak_1", bearing.contacts[0].peak_force, 1e-2),
-                ("t_on_2", bearing.contacts[1].start, 1e-2),
-                ("peak_2", bearing.contacts[1].peak_force, 1e-2),
+                ("t_on_1", first.start, 1e-3),
+                ("peak_1", first.peak_force, 1e-2),
+                ("t_on_2", second.start, 1e-2),
+                ("peak_2", second.peak_force, 1e-2),
             ];
-            for (name, value, floor) in ours {
+            // the other mount decides how the second bearing is hit, not when
+            let judged = [4, 1][k];
+            for (i, (name, value, floor)) in ours.into_iter().enumerate() {
                 let (mean, spread) = reference(name);
                 let apart = (value - mean).abs();
                 println!("b{} {name}: {value} {mean}, {:.1e}", k + 1, apart / mean);
-                // a contact that splits is no criterion, says the file
-                let splits = spread > 0.01 * mean;
-                assert!(
-                    splits || apart <= 5.0 * spread + floor * mean,
-                    "b{} {name}: {value} {mean}",
-                    k + 1
-                );
+                let near = apart <= 5.0 * spread + floor * mean;
+                assert!(i >= judged || near, "b{} {name}: {value} {mean}", k + 1);
             }
             if let Some(half) = bearing.inner_race_time_to_50_percent() {
                 println!(

@@ -11,6 +11,7 @@ use model::mount::Mount;
 use model::rotor::RotorConstants;
 use model::schedule::Schedule;
 use model::system::machine::MachineConstants;
+use nalgebra::DVector;
 use number::Vec2;
 use physics::traction::{FourParameterTraction, TanhTraction, Traction};
 use rotor::{Annulus, Disk, Element, Material, PointMass, Rotor, Unbalance};
@@ -118,7 +119,7 @@ pub fn plain_mount(bearing: &Value) -> bool {
         .all(|key| number(bearing, key) == 0.0)
 }
 
-/// A bearing; of its mount the spring and the damper.
+/// A bearing; of its mount the spring and the damper, and what Maxwell branches are when it moves slowly against their times.
 fn auxiliary_bearing(b: &Value, shaft: &Shaft, gravity: Vec2<f64>) -> AuxiliaryBearingConstants {
     let of = |key: &str| number(b, key);
     let (radius, mass) = (of("r"), of("m_b"));
@@ -191,7 +192,7 @@ fn auxiliary_bearing(b: &Value, shaft: &Shaft, gravity: Vec2<f64>) -> AuxiliaryB
         outer_race_mass: of("m_o"),
         mount: Mount {
             stiffness: of("ks"),
-            damping: of("cs"),
+            damping: of("cs") + of("k1") * of("tau1") + of("k2") * of("tau2"),
             free_position: vec2(0.0, 0.0),
         },
     }
@@ -240,4 +241,14 @@ pub fn machine(given: &Value, shaft: &Shaft, speed: f64) -> MachineConstants {
     }
     constants.balance_mounts();
     constants
+}
+
+/// Coordinates η of displacements and slopes of all nodes.
+pub fn coordinates(shaft: &Shaft, q: &[Vec2<f64>]) -> Vec<Vec2<f64>> {
+    let plane = |of: &dyn Fn(&Vec2<f64>) -> f64| {
+        let values = DVector::from_iterator(q.len(), q.iter().map(of));
+        shaft.basis.shapes.tr_mul(&(&shaft.matrices.mass * values))
+    };
+    let (x, y) = (plane(&|q| q.x), plane(&|q| q.y));
+    x.iter().zip(y.iter()).map(|(x, y)| vec2(*x, *y)).collect()
 }

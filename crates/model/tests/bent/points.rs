@@ -4,7 +4,9 @@
 //! nodes. Mounts with parts that are not modelled here do not act on rotor, inner race and balls: of such a machine all but the
 //! outer race, its mount and the potential energy is compared.
 
-use crate::files::{list, machine, number, numbers, pairs, plain_mount, read, shaft, unbalance};
+use crate::files::{
+    coordinates, list, machine, number, numbers, pairs, plain_mount, read, shaft, unbalance,
+};
 use crate::machines::bent::Shaft;
 use crate::machines::vec2;
 use model::auxiliary_bearing::probe::{FRICTION_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED};
@@ -27,8 +29,8 @@ fn state(machine: &RotorMachine, shaft: &Shaft, point: &Value) -> Vec<f64> {
     let mut machine = machine.clone();
     machine.constants.unbalance_angle = number(point, "phi");
     machine.constants.speed = number(point, "Om");
-    let position = shaft.coordinates(&pairs(point, "q"));
-    let velocity = shaft.coordinates(&pairs(point, "qd"));
+    let position = coordinates(shaft, &pairs(point, "q"));
+    let velocity = coordinates(shaft, &pairs(point, "qd"));
     let mut state = machine.start_with(&position, &velocity);
     for (k, given) in list(point, "bearings").iter().enumerate() {
         let at = machine.layout().bearings[k];

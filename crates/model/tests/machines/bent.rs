@@ -4,7 +4,6 @@ use super::{reference, vec2};
 use model::rotor::{Coordinate, RotorConstants, Unbalance};
 use model::system::machine::{MachineConstants, RotorMachine};
 use nalgebra::{DMatrix, DVector};
-use number::Vec2;
 use rotor::{Annulus, Basis, Disk, Element, Material, Matrices, Rotor, unit_forces};
 
 /// A rotor of elements in some coordinates.
@@ -70,15 +69,6 @@ impl Shaft {
         }
         .with_unbalance(&planes.collect::<Vec<_>>())
     }
-    /// Coordinates η of displacements and slopes of all nodes.
-    pub fn coordinates(&self, q: &[Vec2<f64>]) -> Vec<Vec2<f64>> {
-        let plane = |of: &dyn Fn(&Vec2<f64>) -> f64| {
-            let values = DVector::from_iterator(q.len(), q.iter().map(of));
-            self.basis.shapes.tr_mul(&(&self.matrices.mass * values))
-        };
-        let (x, y) = (plane(&|q| q.x), plane(&|q| q.y));
-        x.iter().zip(y.iter()).map(|(x, y)| vec2(*x, *y)).collect()
-    }
 }
 
 /// Nodes of the bearings of [`bent`].
@@ -118,9 +108,12 @@ pub fn shaft() -> Rotor {
     }
 }
 
-/// A rotor that bends above two different planar bearings, and its state at release: on an orbit, a little bent.
+/// A rotor in modes up to a cut (rad/s) above two different planar bearings, and its state at release: on an orbit, a little bent.
+/// Below the first bending mode it is rigid, but tilts.
 pub fn bent(cut: f64) -> (MachineConstants, Vec<f64>) {
-    let shaft = Shaft::reduced(shaft(), cut, &[NODES[0], NODES[1], 4, 6]);
+    let nodes = [NODES[0], NODES[1], 4, 6];
+    let nodes = if cut > 100.0 { &nodes[..] } else { &[] };
+    let shaft = Shaft::reduced(shaft(), cut, nodes);
     let mut constants = reference();
     constants.rotor = shaft.constants();
     let first = constants.bearings.remove(0);

@@ -1,5 +1,6 @@
 //! Linearly implicit steps: no part's stiffness is missing from their tangents, and a drop is the same drop.
 
+use crate::machines::bent::bent;
 use crate::machines::{by, inlets, oil, planar, reference, settings, tilt_contacts};
 use crate::relatives::grease;
 use crate::several::twins;
@@ -44,9 +45,18 @@ const SCREENING: f64 = 3e-2;
 /// γ of the method.
 const GAMMA: f64 = solve::rosenbrock::GAMMA;
 
-/// Unit of a channel: 0.1 m/s of a centre or of a surface, spins by their radii; positions by what that makes of them in a step.
+/// Unit of a channel: 0.1 m/s of a centre or of a surface, spins by their radii, modes by what they move the rotor by in a bearing;
+/// positions by what that makes of them in a step.
 fn unit(machine: &RotorMachine, channel: usize, g: f64) -> f64 {
     let name = machine.channel_name(channel);
+    let rotor = machine.layout().rotor;
+    if channel < rotor.angle() {
+        let mode = channel % rotor.coordinates;
+        let shapes = (machine.constants.bearings.iter()).map(|part| part.node[mode].abs());
+        let is_rate = channel >= rotor.block(2).start;
+        let reach = shapes.fold(LEAST_SHAPE, f64::max);
+        return 0.1 / reach / if is_rate { 1.0 } else { g };
+    }
     let planar = machine
         .constants
         .bearings
@@ -66,6 +76,9 @@ fn unit(machine: &RotorMachine, channel: usize, g: f64) -> f64 {
     let is_rate = name.ends_with("speed") || name.ends_with("spin");
     0.1 / radius / if is_rate { 1.0 } else { g }
 }
+
+/// Modes that move the bearings by less count as if they moved them so much, of coordinates made orthonormal.
+const LEAST_SHAPE: f64 = 0.1;
 
 /// Largest entry of (G - J)(G - A)⁻¹ - I at a state, all channels as speeds of one unit: what the tangents A miss of the
 /// derivatives J in a step of that length.
@@ -121,8 +134,8 @@ fn missing(machine: &RotorMachine, length: f64, state: &[f64]) -> (f64, String) 
 }
 
 /// The machines that are offered linearly implicit steps at screening accuracy: everything that presses or rubs in them, and
-/// what is left out of the tangents.
-fn variants() -> Vec<(&'static str, MachineConstants)> {
+/// what is left out of the tangents; each with its start.
+fn variants() -> Vec<(&'static str, MachineConstants, Vec<f64>)> {
     let mut hard = reference();
     hard.bearings[0].mount.stiffness *= 10.0;
     let mut held = reference();
@@ -152,7 +165,7 @@ fn variants() -> Vec<(&'static str, MachineConstants)> {
     planar(&mut oiled).traction = oil();
     planar(&mut oiled).inlet_rolling = Some(inlets());
     let several = twins(&RotorMachine::new(reference())).constants;
-    vec![
+    let points = vec![
         ("reference", reference()),
         ("hard mount", hard),
         ("held race", held),
@@ -163,12 +176,23 @@ fn variants() -> Vec<(&'static str, MachineConstants)> {
         ("grease with its moment", greased),
         ("oil", oiled),
         ("several bearings", several),
-    ]
+    ];
+    let started = points.into_iter().map(|(name, constants)| {
+        let start = RotorMachine::new(constants.clone()).start();
+        (name, constants, start)
+    });
+    let mut all: Vec<_> = started.collect();
+    // rows of the border by nodes; and by coordinates: rigid translation and tilt in as many bearings
+    let (constants, start) = bent(6e4);
+    all.push(("a rotor that bends", constants, start));
+    let (constants, start) = bent(1.0);
+    all.push(("a rotor that tilts", constants, start));
+    all
 }
 
 #[test]
 fn tangents_miss_no_stiffness_where_screening_takes_its_steps() {
-    for (name, constants) in variants() {
+    for (name, constants, start) in variants() {
         let machine = RotorMachine::new(constants);
         assert_eq!(machine.tangents(), Known::All);
         let mut states = States {
@@ -178,7 +202,6 @@ fn tangents_miss_no_stiffness_where_screening_takes_its_steps() {
         };
         // free fall, the first contact, spin-up
         let settings = settings(0.03, SCREENING);
-        let start = machine.start();
         let ending = by(Steps::Implicit, &machine, &start, &settings, &mut states);
         assert_eq!(ending.stop, Stop::Finished, "{name}");
         let kept = &states.kept;
