@@ -61,7 +61,7 @@ const TABLE: &[Absent] = &[
                 *.couple_unbalance",
         what: "tilt and conical motion are not described: the rotor stays parallel to itself",
         point: 2,
-        instead: "Bearings that differ are tables [[auxiliary_bearing]], under one motion",
+        instead: "With system = \"machine\" the rotor is a shaft that tilts and bends, each bearing at a node of it (auxbear new machine)",
     },
     Absent {
         paths: "shaft rotor.shaft rotor.stiffness rotor.shaft_stiffness rotor.bending_stiffness rotor.damping \
@@ -69,7 +69,7 @@ const TABLE: &[Absent] = &[
                 *.youngs_modulus *.elastic_modulus",
         what: "a rotor that bends is not described",
         point: 2,
-        instead: "With rotor.first_bending_frequency a run says whether it matters",
+        instead: "With system = \"machine\" it does (auxbear new machine); with rotor.first_bending_frequency a drop says whether it matters",
     },
     Absent {
         paths: "heat thermal temperature *.heat rotor.temperature contact.temperature mount.temperature \
@@ -93,7 +93,7 @@ const TABLE: &[Absent] = &[
                 levitation.failure",
         what: "controllers, currents and faults of the magnetic bearing are not described: it is a spring and a damper until time 0, then off",
         point: 3,
-        instead: "levitation.stiffness and levitation.damping set the orbit before the release",
+        instead: "levitation.stiffness and levitation.damping set the orbit before the release; magnets and controllers are those of system = \"machine\"",
     },
     Absent {
         paths: "bearing.rows bearing.row bearing.paired bearing.pair bearing.arrangement bearing.duplex bearing.set \

@@ -2,6 +2,7 @@
 
 mod bad_file;
 mod bad_input;
+mod bases;
 mod blame;
 mod catalogue_file;
 mod contact_angle;

@@ -120,24 +120,24 @@ fn keys_and_sections_of_another_system_are_refused() {
     );
     assert_eq!(
         message("[drive]", "[rotor]"),
-        "error[AB0110]: spin_up.toml:4: rotor: found a section that has no effect; it is used only with system = \"drop\" or \"rotor\"; here it is \"spin_up\""
+        "error[AB0110]: spin_up.toml:4: rotor: found a section that has no effect; it is used only with system = \"drop\" or \"rotor\" or \"machine\"; here it is \"spin_up\""
     );
     assert_eq!(
         set_message("contact.friction_coefficient=0.2"),
-        "error[AB0110]: spin_up.toml, --set: contact.friction_coefficient: found a key that has no effect; it is used only with system = \"drop\"; here it is \"spin_up\". Did you mean \"drive.friction_coefficient\" or \"bearing.full_complement.friction_coefficient\"?"
+        "error[AB0110]: spin_up.toml, --set: contact.friction_coefficient: found a key that has no effect; it is used only with system = \"drop\" or \"machine\"; here it is \"spin_up\". Did you mean \"drive.friction_coefficient\" or \"bearing.full_complement.friction_coefficient\"?"
     );
     assert_eq!(
         set_message("rotor.speed=800 rad/s"),
-        "error[AB0110]: spin_up.toml, --set: rotor.speed: found a key that has no effect; it is used only with system = \"drop\" or \"rotor\"; here it is \"spin_up\". Did you mean \"drive.rotor_speed\"?"
+        "error[AB0110]: spin_up.toml, --set: rotor.speed: found a key that has no effect; it is used only with system = \"drop\" or \"rotor\" or \"machine\"; here it is \"spin_up\". Did you mean \"drive.rotor_speed\"?"
     );
     let shown = set_message("repeat.count=8");
-    assert!(shown.starts_with("error[AB0110]: spin_up.toml, --set: repeat.count: found a key that has no effect; it is used only with system = \"drop\"; here it is \"spin_up\". Only drops are repeated"), "{shown}");
+    assert!(shown.starts_with("error[AB0110]: spin_up.toml, --set: repeat.count: found a key that has no effect; it is used only with system = \"drop\" or \"machine\"; here it is \"spin_up\". Only drops are repeated"), "{shown}");
     let torque = template("torque").unwrap();
     let sets = ["bearing.fidelity=rolling".to_string()];
     let problem = Scenario::parse(&torque, "torque.toml", &sets, &BuiltIn).unwrap_err();
     assert_eq!(
         problem.to_string(),
-        "error[AB0110]: torque.toml, --set: bearing.fidelity: found a key that has no effect; it is used only with system = \"drop\" or \"spin_up\" or \"rig\"; here it is \"torque\""
+        "error[AB0110]: torque.toml, --set: bearing.fidelity: found a key that has no effect; it is used only with system = \"drop\" or \"spin_up\" or \"rig\" or \"machine\"; here it is \"torque\""
     );
 }
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod checks;
 pub(crate) mod keys;
+pub(crate) mod kinds;
 mod shaft;
 
 use crate::problem::Problem;
@@ -10,30 +11,8 @@ use crate::scenario::document::Document;
 use crate::scenario::run::Run;
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
-use crate::scenario::words::words;
+use kinds::{SpinKind, UnbalanceAngle};
 pub use shaft::{BearingPlace, Shaft};
-
-words! {
-    /// What becomes of the rotor's spin, as a word.
-    pub(crate) enum SpinKind {
-        /// Free.
-        Free = "free",
-        /// Braked.
-        Braked = "braked",
-        /// Held.
-        Held = "held",
-    }
-}
-
-words! {
-    /// Direction of the unbalance in repeated runs, as a word.
-    pub(crate) enum UnbalanceAngle {
-        /// As given.
-        AsGiven = "as given",
-        /// Random.
-        Random = "random",
-    }
-}
 
 /// A levitated rotor that is released onto its auxiliary bearings. All values are SI.
 #[derive(Clone, Debug, PartialEq)]

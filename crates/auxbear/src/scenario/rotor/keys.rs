@@ -1,7 +1,7 @@
 //! The part of the table of keys that says what is asked of a bent rotor.
 
 use crate::scenario::key::{Key, Kind, Range, Section};
-use crate::scenario::system::{SHAFT, SystemName};
+use crate::scenario::system::SystemName;
 
 /// The systems of this page.
 const ROTOR: &[SystemName] = &[SystemName::Rotor];
@@ -12,44 +12,8 @@ pub(crate) const SECTIONS: &[Section] = &[Section {
     systems: ROTOR,
 }];
 
-/// Keys that a bent rotor has beside its parts.
+/// What is asked of a bent rotor; its own keys stand with those of the rotor that falls.
 pub(crate) const KEYS: &[Key] = &[
-    Key::new(
-        "rotor.longest_element",
-        Kind::Quantity("m"),
-        "20 mm",
-        "Longest element that a section is divided into, where the section does not give their number. Frequencies converge with its square.",
-    )
-    .positive()
-    .derived("a fortieth of the shaft")
-    .only(SHAFT),
-    Key::new(
-        "rotor.damping_of_mass",
-        Kind::Quantity("1/s"),
-        "2.5 1/s",
-        "Damping of the shaft that does not turn with it, as a multiple of the mass matrix of its elements; disks have none.",
-    )
-    .not_negative()
-    .default("0 1/s", "shafts in air have none to speak of")
-    .only(SHAFT),
-    Key::new(
-        "rotor.damping_of_stiffness",
-        Kind::Quantity("s"),
-        "1 us",
-        "The same as a multiple of the stiffness matrix of its elements.",
-    )
-    .not_negative()
-    .default("0 s", "damping of the material turns with the shaft")
-    .only(SHAFT),
-    Key::new(
-        "rotor.damping_rotating",
-        Kind::Quantity("s"),
-        "1 us",
-        "Damping of material and shrink fits, which turns with the shaft, as a multiple of the stiffness matrix of its elements. Above a critical speed it drives whirl.",
-    )
-    .not_negative()
-    .default("0 s", "a shaft of one piece has little; a built-up one must be judged")
-    .only(SHAFT),
     Key::new(
         "analysis.speed_from",
         Kind::Quantity("rad/s"),

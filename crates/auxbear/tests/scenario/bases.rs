@@ -1,0 +1,150 @@
+//! A file of each system in which a key has a meaning.
+
+use auxbear::scenario::SystemName;
+
+const DROP: &str = r#"
+[rotor]
+mass = "8 kg"
+polar_inertia = "0.01 kg m^2"
+speed = "-12000 rpm"
+
+[levitation]
+stiffness = "1e6 N/m"
+damping = "1000 N s/m"
+
+[contact]
+radial_air_clearance = "0.25 mm"
+
+[mount]
+stiffness = "2e7 N/m"
+damping = "5000 N s/m"
+moving_mass = "150 g"
+"#;
+
+const MACHINE: &str = r#"
+[rotor]
+speed = "-12000 rpm"
+
+[contact]
+radial_air_clearance = "0.25 mm"
+node = "drive_end"
+
+[mount]
+stiffness = "2e7 N/m"
+damping = "5000 N s/m"
+moving_mass = "150 g"
+
+[[rotor.section]]
+length = "0.8 m"
+outer_diameter = "40 mm"
+material = "steel"
+
+[[rotor.node]]
+name = "drive_end"
+at = "0.2 m"
+
+[[rotor.support]]
+at = "0.1 m"
+stiffness = "1 MN/m"
+
+[[rotor.support]]
+at = "0.7 m"
+stiffness = "1 MN/m"
+"#;
+
+const BEARING: &str = r#"
+[bearing]
+name = "6005"
+cage_mass = "6 g"
+"#;
+
+/// A file of the system in which the key has a meaning.
+pub fn base(system: SystemName, path: &str) -> String {
+    let own = match system {
+        SystemName::Drop => DROP.to_string(),
+        SystemName::SpinUp => drive(path),
+        SystemName::Torque => String::new(),
+        SystemName::Signals => return measurement(path),
+        SystemName::Rig => rig(path),
+        SystemName::Rotor => return rotor(),
+        SystemName::Machine => MACHINE.to_string(),
+        SystemName::Identify => {
+            "[identify]\ncoast_down = [\"a.toml\"]\nradial_load = \"60 N\"\n".to_string()
+        }
+    };
+    let bearing = if path.starts_with("bearing.full_complement.") || path == "bearing.separation" {
+        BEARING.replace("cage_mass = \"6 g\"\n", "")
+    } else {
+        BEARING.to_string()
+    };
+    format!(
+        "format = \"auxbear.scenario/1\"\nsystem = \"{}\"\n{own}{bearing}",
+        system.word()
+    )
+}
+
+/// A bent rotor.
+fn rotor() -> String {
+    "format = \"auxbear.scenario/1\"\nsystem = \"rotor\"\n\
+     [rotor]\nspeed = \"9000 rpm\"\n\
+     [[rotor.section]]\nlength = \"0.8 m\"\nouter_diameter = \"40 mm\"\nmaterial = \"steel\"\n"
+        .to_string()
+}
+
+/// A measurement in which the key has a meaning.
+fn measurement(path: &str) -> String {
+    let sensor = match path.rsplit_once('.').map_or(path, |(_, name)| name) {
+        "tap_file" | "tap_channel" | "tap_start" => "tap_file = \"tap.tdms\"",
+        _ => "sensor_frequency = \"30 Hz\"\ndamping_ratio = 0.2",
+    };
+    let speed = match path {
+        "signals.speed.scale"
+        | "signals.speed.bandwidth"
+        | "signals.speed.delay"
+        | "signals.speed.resolution"
+        | "signals.speed.noise" => "kind = \"speed\"",
+        _ => "marks_per_revolution = 60",
+    };
+    format!(
+        "format = \"auxbear.scenario/1\"\nsystem = \"signals\"\n[signals]\nfile = \"a.tdms\"\n\
+         [signals.speed]\nchannel = \"tacho\"\n{speed}\n\
+         [signals.torque]\nchannel = \"torque\"\n{sensor}\n\
+         [signals.cage]\nchannel = \"balls\"\nball_count = 10\nrolling_ratio = 0.4\n"
+    )
+}
+
+/// A test on a rig that has the key.
+fn rig(path: &str) -> String {
+    let own = match path {
+        "rig.acceleration" => "program = \"ramp and hold\"\nacceleration = \"50 rad/s^2\"\n",
+        "rig.coasts" => "program = \"coast-down\"\n",
+        "rig.first_release_at" | "rig.engage_again_at" => {
+            "program = \"repeat after rest\"\npeak_acceleration = \"7200 rad/s^2\"\nengage_at = \"1 us\"\n\
+             first_release_at = \"2 us\"\nengage_again_at = \"3 s\"\n"
+        }
+        "rig.clutch.torque_rate" => "program = \"spin-up\"\nengage_at = \"1 us\"\n",
+        _ => "program = \"spin-up\"\npeak_acceleration = \"7200 rad/s^2\"\nengage_at = \"1 us\"\n",
+    };
+    format!("[rig]\nspeed = \"150 rad/s\"\n{own}[rig.load]\nradial_load = \"60 N\"\n")
+}
+
+/// A drive of the kind that has the key.
+fn drive(path: &str) -> String {
+    let unless = |other: &str, line: &'static str| if path == other { "" } else { line };
+    let own = match path {
+        "drive.torque" | "drive.torque_history" | "drive.reference_speed" => [
+            "kind = \"torque\"\nreference_speed = \"100 rad/s\"\n",
+            unless("drive.torque_history", "torque = \"1 N m\"\n"),
+        ],
+        "drive.final_speed" | "drive.acceleration" | "drive.speed_history" => [
+            "kind = \"speed\"\n",
+            unless("drive.speed_history", "final_speed = \"100 rad/s\"\n"),
+        ],
+        _ => [
+            "kind = \"sliding rotor\"\n",
+            "rotor_speed = \"1000 rad/s\"\n",
+        ],
+    };
+    let load = unless("drive.load_history", "radial_load = \"80 N\"\n");
+    format!("[drive]\n{load}{}", own.concat())
+}
