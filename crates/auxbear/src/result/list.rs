@@ -23,7 +23,15 @@ impl List {
             valid: origin.valid,
             chaotic: false,
             spread: None,
+            awaited: false,
         });
+    }
+    /// An instant that the run waits for, s; or why it did not come.
+    pub fn awaited(&mut self, name: &str, time: Result<f64, String>, origin: &Origin) {
+        self.number(name, "s", time, origin);
+        if let Some(last) = self.0.last_mut() {
+            last.awaited = true;
+        }
     }
     /// The results of a run that ended at an instant, s: none has a value where it ended before its first step.
     pub fn ended_at(mut self, time: f64) -> Vec<Quantity> {

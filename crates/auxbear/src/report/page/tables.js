@@ -160,7 +160,7 @@ function quantitySection(runs) {
   if (!names.length) return section("quantities", "Quantities", notInThisRun("the summary holds no quantities"));
   const repeated = runs.some((run) => names.some((name) => quantityOf(run, name).spread));
   const single = runs.length === 1;
-  for (const run of runs) for (const quantity of Object.values(run.quantities)) if (quantity && quantity.spread) quantity.all_members = list(run.summary.members).length;
+  for (const run of runs) for (const quantity of Object.values(run.quantities)) if (quantity && quantity.spread) quantity.all_members = run.summary.members_total || list(run.summary.members).length;
   const heads = ["Quantity"];
   if (single) heads.push("Value", "In SI units");
   else runs.forEach((run, index) => heads.push(run.short, ...(index ? [`(${run.letter} − A) / A`] : [])));
@@ -218,13 +218,13 @@ function memberDetails(run) {
   if (!members.length) return null;
   const plain = (cell) => (cell && typeof cell === "object" && !Array.isArray(cell) ? cell.value : cell);
   const names = [...new Set(members.flatMap(Object.keys))].filter((name) => members.some((member) => isNumber(plain(member[name]))));
-  const row = (member, index) => element("tr", {}, element("td", {}, index + 1), names.map((name) => element("td", {}, numberText(plain(member[name]), 6))));
+  const row = (member, index) => element("tr", {}, element("td", {}, index), names.map((name) => element("td", {}, numberText(plain(member[name]), 6))));
   const unit = (name) => unitText(quantityOf(run, name).unit);
   const heads = names.map((name) => element("th", {}, wordsOf(name) + (unit(name) ? ` [${unit(name)}]` : "")));
   return element(
     "details",
     { class: "screen-only" },
-    element("summary", {}, `${run.prefix}${members.length} members of the repeated run, in SI units`),
+    element("summary", {}, `${run.prefix}${run.summary.members_total ? `the first ${members.length} of ${run.summary.members_total}` : members.length} members of the repeated run, in SI units${run.summary.members_total ? "; summary.json and auxbear export have all" : ""}`),
     element("div", { class: "wide" }, element("table", { class: "numbers" }, element("thead", {}, element("tr", {}, element("th", {}, "member"), heads)), element("tbody", {}, members.map(row)))),
   );
 }
