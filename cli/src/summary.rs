@@ -198,7 +198,9 @@ fn steady(outcome: &Outcome) -> Vec<[String; 2]> {
         let speeds = list("steady_speeds")?;
         let torques = list(&format!("steady_{word}_torques"))?;
         let deviations = list(&format!("steady_{word}_deviations"))?;
-        let known: Vec<usize> = (0..torques.len()).filter(|k| torques[*k].is_finite()).collect();
+        let known: Vec<usize> = (0..torques.len())
+            .filter(|k| torques[*k].is_finite())
+            .collect();
         let places = [known.first(), known.get(known.len() / 2), known.last()];
         let told = places.into_iter().flatten().map(|&k| {
             format!(

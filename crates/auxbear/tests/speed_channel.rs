@@ -42,7 +42,14 @@ impl Folder {
     }
 
     /// The same at another rate, with a zero of the torque, N mm, that shows where the shaft stands.
-    fn coasts_at(&self, rate: f64, zero: f64, name: &str, seconds: f64, brake: impl Fn(f64) -> f64) {
+    fn coasts_at(
+        &self,
+        rate: f64,
+        zero: f64,
+        name: &str,
+        seconds: f64,
+        brake: impl Fn(f64) -> f64,
+    ) {
         let mut text = String::from("time [s],speed [rpm],torque [N mm]\n");
         let mut state = 11u64;
         let mut uniform = || {
@@ -220,8 +227,17 @@ fn the_guide_holds_for_a_logger_of_100_hz_and_a_zero_at_the_end() {
     let read = folder.outcome("coast.toml").unwrap();
     assert_eq!(read.stop.reason, "finished", "{}", read.stop.text);
     let told: Vec<&str> = read.warnings.iter().map(|w| w.text.as_str()).collect();
-    assert!(told.iter().any(|text| text.contains("quicker than 100 values a second")), "{told:?}");
-    assert!(!told.iter().any(|text| text.contains("zero of the reading is not known")), "{told:?}");
+    assert!(
+        told.iter()
+            .any(|text| text.contains("quicker than 100 values a second")),
+        "{told:?}"
+    );
+    assert!(
+        !told
+            .iter()
+            .any(|text| text.contains("zero of the reading is not known")),
+        "{told:?}"
+    );
     let column = |name: &str| &read.history.iter().find(|c| c.name == name).unwrap().values;
     let (time, torque) = (column("time"), column("torque"));
     let middle = time.iter().position(|t| *t > 4.0).unwrap();
@@ -240,7 +256,10 @@ fn the_guide_holds_for_a_logger_of_100_hz_and_a_zero_at_the_end() {
     let (two, four) = inside(curve, moment);
     assert!(two >= 0.8 && four == 1.0, "{two} {four}");
     // a stated zero that the rest contradicts is told, and the rest counts
-    folder.write("coast.toml", &format!("{text}zero_deviation = \"0.05 N mm\"\n"));
+    folder.write(
+        "coast.toml",
+        &format!("{text}zero_deviation = \"0.05 N mm\"\n"),
+    );
     let read = folder.outcome("coast.toml").unwrap();
     let told = read.warnings.iter().find(|w| w.code == "AB1127");
     assert!(told.unwrap().text.contains("14 times"), "{told:?}");

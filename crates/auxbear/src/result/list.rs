@@ -33,12 +33,16 @@ impl List {
             last.awaited = true;
         }
     }
-    /// The results of a run that ended at an instant, s: none has a value where it ended before its first step.
+    /// The results of a run that ended at an instant, s: no number has a value where it ended before its first step.
     pub fn ended_at(mut self, time: f64) -> Vec<Quantity> {
         if time == 0.0 {
             for quantity in &mut self.0 {
-                quantity.value = Value::None {
-                    why: "the run ended before its first step".to_string(),
+                let why = "the run ended before its first step".to_string();
+                // what kind of result it is stays known
+                quantity.value = match quantity.value {
+                    Value::List(_) => Value::List(Vec::new()),
+                    Value::Text(_) => Value::Text(format!("not known: {why}")),
+                    Value::Number(_) | Value::None { .. } => Value::None { why },
                 };
             }
         }

@@ -270,7 +270,10 @@ fn warnings_of_a_repeated_run_are_those_of_all_members() {
     let run = outcome(&text, &sets);
     let fast = |draws: &Vec<(String, String)>| {
         let speed = draws.first().map_or("9500 rpm", |(_, value)| value);
-        units::parse_quantity(speed).expect("it is a speed").value_si > 10_500.0 * std::f64::consts::PI / 30.0
+        units::parse_quantity(speed)
+            .expect("it is a speed")
+            .value_si
+            > 10_500.0 * std::f64::consts::PI / 30.0
     };
     let bending = run.drawn.iter().filter(|draws| fast(draws)).count();
     assert!((2..11).contains(&bending), "{bending}");

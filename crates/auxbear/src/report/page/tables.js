@@ -155,6 +155,9 @@ function hasValue({ value }) {
   return value !== null && value !== undefined;
 }
 
+// Values of a list that a narrow column of several runs has room for on paper.
+const LIST_ON_PAPER = 3;
+
 function quantitySection(runs) {
   const names = [...new Set(runs.flatMap((run) => Object.keys(run.quantities)))];
   if (!names.length) return section("quantities", "Quantities", notInThisRun("the summary holds no quantities"));
@@ -171,11 +174,14 @@ function quantitySection(runs) {
   };
   const rowOf = (name) => {
     const all = runs.map((run) => quantityOf(run, name));
-    const cells = [element("td", { class: "name" }, wordsOf(name), chaoticMark(statedOf(name)), element("code", {}, name))];
+    const cells = [element("td", { class: "name" }, wordsOf(name), chaoticMark(statedOf(name)), element("code", {}, breakable(name)))];
     if (single) cells.push(element("td", {}, quantityText(all[0])), element("td", { class: "small" }, siCell(all[0])));
     else {
       all.forEach((quantity, index) => {
-        cells.push(element("td", {}, quantityText(quantity), spreadCell(quantity)));
+        const { value } = quantity;
+        const many = Array.isArray(value) && value.length > LIST_ON_PAPER;
+        const text = many ? [element("span", { class: "screen-only" }, quantityText(quantity)), element("span", { class: "print-only" }, `${value.length} values`)] : quantityText(quantity);
+        cells.push(element("td", {}, text, spreadCell(quantity)));
         if (index) cells.push(element("td", { class: "difference" }, WITHOUT_SHARE.test(name) ? "–" : differenceText(all[0].value, quantity.value)));
       });
     }

@@ -56,6 +56,9 @@ pub(super) fn survey<S: Read + Seek>(
     let mut objects = 0;
     while let Some((prefix, address, depth)) = groups.pop() {
         if !seen.insert(address) {
+            let text =
+                "is another name of a group that is read under its first one; it is left out";
+            found.note(&prefix, text.to_string());
             continue;
         }
         let messages = match storage.messages(address) {
@@ -109,6 +112,9 @@ pub(super) fn survey<S: Read + Seek>(
             if messages.iter().any(|message| message.kind == kind::LAYOUT) {
                 if seen.insert(address) {
                     found.take_dataset(storage, name, &messages, matlab);
+                } else {
+                    let text = "is another name of values that are read under their first one; it is left out";
+                    found.note(&name, text.to_string());
                 }
             } else if depth < DEEPEST {
                 below.push((format!("{name}/"), address, depth + 1));
@@ -127,9 +133,14 @@ pub(super) fn survey<S: Read + Seek>(
             Some(path) => path.to_string(),
             None => format!("{prefix}{path}"),
         };
-        if !paths.contains(whole.trim_end_matches('/')) {
-            found.note(&name, format!("leads to {path}, which is not there"));
-        }
+        let text = match paths.contains(whole.trim_end_matches('/')) {
+            true => format!(
+                "is a link; its values are read as {}",
+                whole.trim_end_matches('/')
+            ),
+            false => format!("leads to {path}, which is not there"),
+        };
+        found.note(&name, text);
     }
     Ok(found)
 }
@@ -253,6 +264,11 @@ impl Found {
                         value: Value::Number(value),
                     })
                 });
+                let values: Vec<Property> = values.collect();
+                if !matlab {
+                    let text = "is a single value, a property of the file and no channel";
+                    self.note(&name, text.to_string());
+                }
                 return self.properties.extend(values);
             }
             [along] => (along, None),
