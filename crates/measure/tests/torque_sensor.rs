@@ -567,3 +567,28 @@ fn a_disturbance_that_stays_in_the_torque_is_in_its_band() {
     assert!((narrow as f64) < 0.7 * count as f64);
     assert!(wide as f64 > 0.95 * count as f64);
 }
+
+#[test]
+fn a_sensor_that_rings_at_another_frequency_than_stated_is_told() {
+    let spins = [FAST, MIDDLE, SLOW];
+    let mut seen = 0;
+    for (seed, arm) in (0..18).zip([22.0, 30.0, 45.0].into_iter().cycle()) {
+        let mut test = measured(arm, 900 + seed, spins[seed as usize / 3 % 3], true);
+        let right = invert(&test.input()).unwrap().shown_frequency;
+        assert_eq!(right, None, "{seed} {arm}");
+        let spin = seed as usize / 3 % 3;
+        for factor in [0.5, 0.7, 1.4, 2.0] {
+            test.sensor.frequency.value = factor * arm;
+            let shown = invert(&test.input()).unwrap().shown_frequency;
+            println!("{seed} {arm} Hz, spin-up {spin}, stated {factor}: {shown:?}");
+            seen += usize::from(shown.is_some());
+            // a damping ratio that belongs to another frequency pulls it a little
+            assert!(
+                shown.is_none_or(|shown| (shown / arm - 1.0).abs() < 0.15),
+                "{shown:?} {arm}"
+            );
+        }
+    }
+    // those not seen hardly ring: a slow engagement, or an arm that is as good as still
+    assert!(seen >= 48, "{seen} of 72");
+}

@@ -274,6 +274,25 @@ mod tests {
         let damaged: Vec<String> = report.problems().map(|problem| problem.file).collect();
         assert_eq!(damaged, ["broken.json", "broken.toml", "bytes", "empty"]);
     }
+    #[cfg(unix)]
+    #[test]
+    fn a_case_that_is_a_link_is_not_passed_over() {
+        let folder = folder("links");
+        fs::write(folder.join("inner/mine.txt"), "a = 1").unwrap();
+        let link = |name: &str, to: &str| {
+            std::os::unix::fs::symlink(folder.join(to), folder.join(name)).unwrap();
+        };
+        link("notes", "inner/mine.txt");
+        assert!(run(Some(&folder), &LawsOnly).is_ok());
+        link("mine.toml", "inner/mine.txt");
+        let told = run(Some(&folder), &LawsOnly).unwrap_err().to_string();
+        assert!(told.contains("mine.toml, which is a link"), "{told}");
+        fs::remove_file(folder.join("mine.toml")).unwrap();
+        link("more", "inner");
+        let told = run(Some(&folder), &LawsOnly).unwrap_err().to_string();
+        fs::remove_dir_all(&folder).unwrap();
+        assert!(told.contains("more, which is a link"), "{told}");
+    }
     #[test]
     fn no_folder_is_one_message() {
         let nowhere = run(Some(Path::new("/nowhere/cases")), &LawsOnly).unwrap_err();

@@ -182,6 +182,16 @@ fn a_wrong_limit_is_refused_before_the_run() {
             "not above 1",
         ),
         (
+            "quantity = \"contact_start_times\"\nmost = \"5 ms\"",
+            Code::UnknownQuantity,
+            "which is a list",
+        ),
+        (
+            "quantity = \"whirl_direction\"\nmost = 5",
+            Code::UnknownQuantity,
+            "which is a word",
+        ),
+        (
             "quantity = 7\nmost = \"5 kN\"",
             Code::WrongType,
             "name of a result",

@@ -32,6 +32,9 @@ pub(super) struct Found {
     pub datasets: Vec<Dataset>,
     pub properties: Vec<Property>,
     pub notes: Vec<Note>,
+    /// Other names of what is read, and single values: neither are channels.
+    aliases: Vec<String>,
+    singles: Vec<String>,
 }
 
 /// Walks through a file.
@@ -56,9 +59,7 @@ pub(super) fn survey<S: Read + Seek>(
     let mut objects = 0;
     while let Some((prefix, address, depth)) = groups.pop() {
         if !seen.insert(address) {
-            let text =
-                "is another name of a group that is read under its first one; it is left out";
-            found.note(&prefix, text.to_string());
+            found.aliases.push(prefix.trim_end_matches('/').to_string());
             continue;
         }
         let messages = match storage.messages(address) {
@@ -113,8 +114,7 @@ pub(super) fn survey<S: Read + Seek>(
                 if seen.insert(address) {
                     found.take_dataset(storage, name, &messages, matlab);
                 } else {
-                    let text = "is another name of values that are read under their first one; it is left out";
-                    found.note(&name, text.to_string());
+                    found.aliases.push(name);
                 }
             } else if depth < DEEPEST {
                 below.push((format!("{name}/"), address, depth + 1));
@@ -133,15 +133,12 @@ pub(super) fn survey<S: Read + Seek>(
             Some(path) => path.to_string(),
             None => format!("{prefix}{path}"),
         };
-        let text = match paths.contains(whole.trim_end_matches('/')) {
-            true => format!(
-                "is a link; its values are read as {}",
-                whole.trim_end_matches('/')
-            ),
-            false => format!("leads to {path}, which is not there"),
-        };
-        found.note(&name, text);
+        match paths.contains(whole.trim_end_matches('/')) {
+            true => found.aliases.push(format!("{name} (read as {})", whole.trim_end_matches('/'))),
+            false => found.note(&name, format!("leads to {path}, which is not there")),
+        }
     }
+    found.tell_what_is_no_channel();
     Ok(found)
 }
 
@@ -165,6 +162,25 @@ impl Found {
             channel: (!name.is_empty()).then(|| name.to_string()),
             text,
         });
+    }
+
+    /// One note each of what somebody may look for among the channels.
+    fn tell_what_is_no_channel(&mut self) {
+        const NAMED: usize = 8;
+        let lists = [
+            (std::mem::take(&mut self.aliases), "links or other names lead to what is read under its first name, and are no channels"),
+            (std::mem::take(&mut self.singles), "single values are properties of the file, and no channels"),
+        ];
+        for (names, what) in lists {
+            let rest = match names.len().saturating_sub(NAMED) {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            if !names.is_empty() {
+                let first = names[..NAMED.min(names.len())].join(", ");
+                self.note("", format!("{} {what}: {first}{rest}", names.len()));
+            }
+        }
     }
 
     /// The attributes of an object that can be read.
@@ -266,8 +282,7 @@ impl Found {
                 });
                 let values: Vec<Property> = values.collect();
                 if !matlab {
-                    let text = "is a single value, a property of the file and no channel";
-                    self.note(&name, text.to_string());
+                    self.singles.push(name.clone());
                 }
                 return self.properties.extend(values);
             }

@@ -5,7 +5,7 @@ use crate::problem::{Code, Problem};
 use measure::recording::{Channel, Content};
 
 /// Usual intervals in a step from which on values are missing.
-const LONG_GAP: f64 = 1.5;
+const LONG_GAP: f64 = 1.8;
 /// How far an instant may be from an even clock, in intervals: beyond, values are not at equal times.
 const UNEVEN: f64 = 0.1;
 /// Values read at a time from a channel that is a clock.
