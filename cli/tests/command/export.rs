@@ -99,6 +99,8 @@ fn what_a_killed_export_left_is_taken_over() {
     assert!(!place.path("page.html.partial").exists());
     let page = fs::read_to_string(place.path("page.html")).unwrap();
     assert!(page.ends_with("</html>\n"), "{}", &page[page.len() - 40..]);
-    place.call(&["report", "run", "--out", "page.html"]).refused(&["AB0301"]);
+    place
+        .call(&["report", "run", "--out", "page.html"])
+        .refused(&["AB0301"]);
     assert_eq!(fs::read_to_string(place.path("page.html")).unwrap(), page);
 }

@@ -266,7 +266,10 @@ fn times_that_fall_or_are_uneven_are_reported() {
     );
     let whole = table("N mm", &|_| None);
     let rows = whole.lines().enumerate();
-    let gap: String = rows.filter(|(line, _)| !(22..32).contains(line)).map(|(_, row)| format!("{row}\n")).collect();
+    let gap: String = rows
+        .filter(|(line, _)| !(22..32).contains(line))
+        .map(|(_, row)| format!("{row}\n"))
+        .collect();
     let shown = problem("run.csv", &gap, TORQUE);
     assert!(
         shown.contains("a gap of 0.011000 s behind 0.019000 s in channel"),

@@ -181,7 +181,8 @@ fn links_that_lead_nowhere_and_deep_groups_are_noted() {
     // The two hundred links to a channel that is there are one of them.
     assert_eq!(shown.len(), 4, "{shown:?}");
     assert!(
-        (shown.iter()).any(|note| note.contains("200 links or other names") && note.contains("(read as ")),
+        (shown.iter())
+            .any(|note| note.contains("200 links or other names") && note.contains("(read as ")),
         "{shown:?}"
     );
     assert_eq!(

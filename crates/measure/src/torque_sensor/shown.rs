@@ -8,7 +8,7 @@ use super::chain::{Chain, Hyper};
 
 /// Frequencies that are tried, over the stated one, and how many.
 const REACH: f64 = 5.0;
-const TRIED: usize = 30;
+const TRIED: usize = 24;
 /// Values in a period that a frequency needs to be told from others.
 const VALUES: f64 = 3.0;
 /// Logarithm of the likelihood by which another frequency must be better: that of white noise gains 2 at one time in twenty.
@@ -17,9 +17,9 @@ const SURE: f64 = 15.0;
 const APART: f64 = 0.1;
 const DEVIATIONS: f64 = 4.0;
 /// Calls of the likelihood by which the intensities follow a frequency.
-const CALLS: usize = 60;
+const CALLS: usize = 40;
 /// Halvings of the interval in which the best frequency lies.
-const FINER: usize = 5;
+const FINER: usize = 4;
 
 /// Frequency that the reading shows, Hz, where it is surely another than the stated one.
 ///
@@ -35,7 +35,17 @@ pub(super) fn frequency<'a>(
     interval: f64,
 ) -> Option<f64> {
     let at = |omega: f64| Swing { omega, ..stated };
-    let cost = |logarithm: f64| chain(at(logarithm.exp())).cost(hyper);
+    // each with the intensities that suit it: those of a wrong frequency let the torque swing
+    let fitted = |swing: Swing| {
+        let chain = chain(swing);
+        let guess = chain.guess();
+        let start = match chain.cost(&guess) < chain.cost(hyper) {
+            true => guess,
+            false => *hyper,
+        };
+        chain.cost(&chain.most_likely(start, CALLS))
+    };
+    let cost = |logarithm: f64| fitted(at(logarithm.exp()));
     let highest = (std::f64::consts::TAU / (VALUES * interval)).ln();
     let middle = stated.omega.ln();
     let (low, high) = (middle - REACH.ln(), highest.min(middle + REACH.ln()));
@@ -60,11 +70,6 @@ pub(super) fn frequency<'a>(
     if apart < APART.max(DEVIATIONS * deviation) {
         return None;
     }
-    // each with the intensities that suit it
-    let fitted = |swing: Swing| {
-        let chain = chain(swing);
-        chain.cost(&chain.most_likely(*hyper, CALLS))
-    };
-    let gain = (fitted(stated) - fitted(at(best.exp()))) / colour.max(1.0);
+    let gain = (fitted(stated) - least) / colour.max(1.0);
     (gain > SURE).then(|| best.exp() / std::f64::consts::TAU)
 }

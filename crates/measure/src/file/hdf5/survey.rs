@@ -134,7 +134,9 @@ pub(super) fn survey<S: Read + Seek>(
             None => format!("{prefix}{path}"),
         };
         match paths.contains(whole.trim_end_matches('/')) {
-            true => found.aliases.push(format!("{name} (read as {})", whole.trim_end_matches('/'))),
+            true => found
+                .aliases
+                .push(format!("{name} (read as {})", whole.trim_end_matches('/'))),
             false => found.note(&name, format!("leads to {path}, which is not there")),
         }
     }
@@ -168,8 +170,14 @@ impl Found {
     fn tell_what_is_no_channel(&mut self) {
         const NAMED: usize = 8;
         let lists = [
-            (std::mem::take(&mut self.aliases), "links or other names lead to what is read under its first name, and are no channels"),
-            (std::mem::take(&mut self.singles), "single values are properties of the file, and no channels"),
+            (
+                std::mem::take(&mut self.aliases),
+                "links or other names lead to what is read under its first name, and are no channels",
+            ),
+            (
+                std::mem::take(&mut self.singles),
+                "single values are properties of the file, and no channels",
+            ),
         ];
         for (names, what) in lists {
             let rest = match names.len().saturating_sub(NAMED) {
