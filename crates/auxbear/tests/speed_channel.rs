@@ -239,7 +239,7 @@ fn the_guide_holds_for_a_logger_of_100_hz_and_a_zero_at_the_end() {
         "{told:?}"
     );
     let column = |name: &str| &read.history.iter().find(|c| c.name == name).unwrap().values;
-    let (time, torque) = (column("time"), column("torque"));
+    let (time, torque) = (column("time"), column("torque.torque"));
     let middle = time.iter().position(|t| *t > 4.0).unwrap();
     let part = &torque[middle..middle + 100];
     let mean = part.iter().sum::<f64>() / 100.0;
