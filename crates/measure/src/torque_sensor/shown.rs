@@ -35,17 +35,21 @@ pub(super) fn frequency<'a>(
     interval: f64,
 ) -> Option<f64> {
     let at = |omega: f64| Swing { omega, ..stated };
-    // each with the intensities that suit it: those of a wrong frequency let the torque swing
+    // intensities that suit a wrong frequency let the torque swing: those of no knowledge are tried too
+    let start = |chain: &Chain| {
+        let guess = chain.guess();
+        let (own, other) = (chain.cost(hyper), chain.cost(&guess));
+        match other < own {
+            true => (other, guess),
+            false => (own, *hyper),
+        }
+    };
     let fitted = |swing: Swing| {
         let chain = chain(swing);
-        let guess = chain.guess();
-        let start = match chain.cost(&guess) < chain.cost(hyper) {
-            true => guess,
-            false => *hyper,
-        };
-        chain.cost(&chain.most_likely(start, CALLS))
+        let (_, hyper) = start(&chain);
+        chain.cost(&chain.most_likely(hyper, CALLS))
     };
-    let cost = |logarithm: f64| fitted(at(logarithm.exp()));
+    let cost = |logarithm: f64| start(&chain(at(logarithm.exp()))).0;
     let highest = (std::f64::consts::TAU / (VALUES * interval)).ln();
     let middle = stated.omega.ln();
     let (low, high) = (middle - REACH.ln(), highest.min(middle + REACH.ln()));
@@ -70,6 +74,6 @@ pub(super) fn frequency<'a>(
     if apart < APART.max(DEVIATIONS * deviation) {
         return None;
     }
-    let gain = (fitted(stated) - least) / colour.max(1.0);
+    let gain = (fitted(stated) - fitted(at(best.exp()))) / colour.max(1.0);
     (gain > SURE).then(|| best.exp() / std::f64::consts::TAU)
 }
