@@ -35,8 +35,13 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     measured_quietly();
     full_files_are_errors();
-    let arguments = Arguments::parse();
-    let exit = match perform(&arguments.command) {
+    let performed = match Arguments::try_parse() {
+        Ok(arguments) => perform(&arguments.command),
+        Err(told) if told.use_stderr() => told.exit(),
+        // help and version are results like any other
+        Err(told) => console::print(&told.render().to_string()).map(|()| Exit::Done),
+    };
+    let exit = match performed {
         Ok(exit) => exit,
         Err(problem) => {
             console::report(&problem.to_string());

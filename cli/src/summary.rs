@@ -151,6 +151,7 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
             }
         }
     }
+    rows.extend(steady(outcome));
     for quantity in &outcome.quantities {
         let of_test = quantity
             .name
@@ -177,7 +178,18 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
             }
         }
     }
-    let mut text = format!("{}\n{}", outcome.title, console::table(&rows));
+    let mut text = format!("{}\n", outcome.title);
+    if !outcome.stop.complete() {
+        let whose = match outcome.work.members {
+            1 => "",
+            _ => " of the unperturbed run",
+        };
+        text.push_str(&format!(
+            "NOT WHOLE, the values{whose} are those until it ended. {}\n",
+            outcome.stop.text
+        ));
+    }
+    text.push_str(&console::table(&rows));
     let next = outcome.quantities.iter().find(|q| q.name == NEXT_TESTS);
     if let Some(Value::Text(next)) = next.map(|q| &q.value) {
         text.push_str("the next test, the most informative first:\n");
@@ -187,9 +199,19 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
     }
     text.push_str(&limits::text(outcome));
     if outcome.quantities.iter().any(|q| q.spread.is_some()) {
-        text.push_str(
-            "± is one standard deviation over the perturbed starts (repeat.*): chaos, not tolerances of the machine\n",
-        );
+        let mut varied: Vec<&str> = Vec::new();
+        for (path, _) in outcome.drawn.iter().flatten() {
+            if !varied.contains(&path.as_str()) {
+                varied.push(path);
+            }
+        }
+        text.push_str(&match varied.is_empty() {
+            true => "± is one standard deviation over the perturbed starts (repeat.*): chaos, not tolerances of the machine\n".to_string(),
+            false => format!(
+                "± is one standard deviation over machines that differ in {}, and over the perturbed starts (repeat.*)\n",
+                varied.join(", ")
+            ),
+        });
     }
     let work = &outcome.work;
     text.push_str(&format!(
@@ -209,6 +231,42 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
     ));
     text.push_str(&format!("{}\n", path.join("report.html").display()));
     text
+}
+
+/// The torque of slow runs at the lowest, middle and highest speed at which it is known.
+fn steady(outcome: &Outcome) -> Vec<[String; 2]> {
+    let list = |name: &str| {
+        let known = outcome.quantities.iter().find(|q| q.name == name)?;
+        match &known.value {
+            Value::List(values) => Some(values.as_slice()),
+            _ => None,
+        }
+    };
+    let row = |(word, name): (&str, &str)| {
+        let speeds = list("steady_speeds")?;
+        let torques = list(&format!("steady_{word}_torques"))?;
+        let deviations = list(&format!("steady_{word}_deviations"))?;
+        let known: Vec<usize> = (0..torques.len())
+            .filter(|k| torques[*k].is_finite())
+            .collect();
+        let places = [known.first(), known.get(known.len() / 2), known.last()];
+        let told = places.into_iter().flatten().map(|&k| {
+            format!(
+                "{} ± {} at {}",
+                readable(torques[k], "N m"),
+                readable(deviations[k], "N m"),
+                readable(speeds[k], "rad/s")
+            )
+        });
+        let told: Vec<String> = told.collect();
+        (!told.is_empty()).then(|| [format!("  {name}"), told.join("; ")])
+    };
+    let curves = [
+        ("direct", "steady torque by the sensor"),
+        ("inertial", "steady torque by the slope of the speed"),
+        ("up", "steady torque while the speed rises"),
+    ];
+    curves.into_iter().filter_map(row).collect()
 }
 
 fn value(quantity: &Quantity) -> String {

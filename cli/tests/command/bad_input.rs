@@ -135,6 +135,8 @@ fn output_that_cannot_be_written_is_an_error() {
         &["bearings", "list"],
         &["new", "drop"],
         &["schema", "drop"],
+        &["--help"],
+        &["run", "--help"],
     ] {
         let place = Place::new();
         let full = fs::OpenOptions::new()

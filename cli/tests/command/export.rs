@@ -82,3 +82,25 @@ fn a_workbook_is_written_once() {
     place.call(&["export", "run", "--csv"]).refused(&["AB0006"]);
     assert!(!place.path("run/csv").exists());
 }
+
+/// What a killed process left is no obstacle, and nothing unfinished has the name that was asked for.
+#[test]
+fn what_a_killed_export_left_is_taken_over() {
+    let place = Place::new();
+    place.short_run(&["--out", "run"]).done();
+    fs::create_dir(place.path("run/csv.partial")).unwrap();
+    fs::write(place.path("run/csv.partial/run.csv"), "ti").unwrap();
+    fs::write(place.path("run/csv.partial/history.csv"), "ti").unwrap();
+    fs::write(place.path("page.html.partial"), "<html").unwrap();
+    place.call(&["export", "run", "--csv"]).done();
+    assert!(!place.path("run/csv.partial").exists());
+    assert!(rows(&place.path("run/csv/history.csv")).len() > 2);
+    place.call(&["report", "run", "--out", "page.html"]).done();
+    assert!(!place.path("page.html.partial").exists());
+    let page = fs::read_to_string(place.path("page.html")).unwrap();
+    assert!(page.ends_with("</html>\n"), "{}", &page[page.len() - 40..]);
+    place
+        .call(&["report", "run", "--out", "page.html"])
+        .refused(&["AB0301"]);
+    assert_eq!(fs::read_to_string(place.path("page.html")).unwrap(), page);
+}

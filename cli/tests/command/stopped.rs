@@ -80,6 +80,10 @@ fn an_interrupted_run_keeps_what_was_computed() {
         let called = Called::of(child.wait_with_output().unwrap());
         assert_eq!(called.code, Some(130), "{called:?}");
         assert!(called.err.contains("interrupted: "), "{called:?}");
+        assert!(
+            called.out.contains("NOT WHOLE, the values are"),
+            "{called:?}"
+        );
         assert_eq!(place.names(), ["run"]);
         let summary = place.summary("run");
         assert_eq!(summary["complete"], false);

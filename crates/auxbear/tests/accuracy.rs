@@ -37,9 +37,8 @@ fn outcome(machine: &[&str], accuracy: &str) -> Outcome {
 
 /// Mean of a result over the members, and of its size.
 fn mean(outcome: &Outcome, name: &str) -> [f64; 2] {
-    let values: Vec<f64> = (outcome.members.iter())
-        .filter_map(|member| member.iter().find(|(known, _)| known == name)?.1)
-        .collect();
+    let values = outcome.members.values(name);
+    let values: Vec<f64> = values.into_iter().flatten().collect();
     assert_eq!(values.len(), outcome.members.len(), "{name}");
     let count = values.len() as f64;
     [

@@ -264,6 +264,17 @@ fn times_that_fall_or_are_uneven_are_reported() {
         shown.contains("AB0305") && shown.contains("not at equal times"),
         "{shown}"
     );
+    let whole = table("N mm", &|_| None);
+    let rows = whole.lines().enumerate();
+    let gap: String = rows
+        .filter(|(line, _)| !(22..32).contains(line))
+        .map(|(_, row)| format!("{row}\n"))
+        .collect();
+    let shown = problem("run.csv", &gap, TORQUE);
+    assert!(
+        shown.contains("a gap of 0.011000 s behind 0.019000 s in channel"),
+        "{shown}"
+    );
 }
 
 #[test]

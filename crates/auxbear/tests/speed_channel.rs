@@ -38,6 +38,18 @@ impl Folder {
 
     /// A coast-down from 150 rad/s as time, rpm to a half, and the bearing's torque in N mm.
     fn coasts(&self, name: &str, seconds: f64, brake: impl Fn(f64) -> f64) {
+        self.coasts_at(RATE, 0.0, name, seconds, brake);
+    }
+
+    /// The same at another rate, with a zero of the torque, N mm, that shows where the shaft stands.
+    fn coasts_at(
+        &self,
+        rate: f64,
+        zero: f64,
+        name: &str,
+        seconds: f64,
+        brake: impl Fn(f64) -> f64,
+    ) {
         let mut text = String::from("time [s],speed [rpm],torque [N mm]\n");
         let mut state = 11u64;
         let mut uniform = || {
@@ -48,13 +60,14 @@ impl Folder {
         };
         let mut normal = || (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
         let mut speed = 150.0;
-        for k in 0..(seconds * RATE) as usize {
+        for k in 0..(seconds * rate) as usize {
             let rpm = speed * 30.0 / std::f64::consts::PI + 1.0 * normal();
             let shown = (2.0 * rpm).round() / 2.0;
-            let torque = 1e3 * moment(speed) + 0.2 * normal();
-            writeln!(text, "{:.4},{shown},{torque:.3}", k as f64 / RATE).unwrap();
-            let half = speed - 0.5 * brake(speed) / INERTIA / RATE;
-            speed = f64::max(speed - brake(half) / INERTIA / RATE, 0.0);
+            let felt = if speed > 0.0 { moment(speed) } else { 0.0 };
+            let torque = zero + 1e3 * felt + 0.2 * normal();
+            writeln!(text, "{:.4},{shown},{torque:.3}", k as f64 / rate).unwrap();
+            let half = speed - 0.5 * brake(speed) / INERTIA / rate;
+            speed = f64::max(speed - brake(half) / INERTIA / rate, 0.0);
         }
         self.write(name, &text);
     }
@@ -200,6 +213,56 @@ fn a_speed_and_a_torque_in_a_table_are_identified() {
     // What the sensor feels in a coast-down is M less the inertia of balls and cage: below 0.2 % here.
     let (two, four) = inside(curve, moment);
     assert!(two >= 0.8 && four == 1.0, "{two} {four}");
+}
+
+#[test]
+fn the_guide_holds_for_a_logger_of_100_hz_and_a_zero_at_the_end() {
+    let folder = Folder::new("guide_100_hz");
+    // it coasts for 8.0 s and stands for the rest
+    folder.coasts_at(100.0, 0.7, "coast.csv", 10.5, moment);
+    let torque = "[signals.torque]\nchannel = \"torque\"\nsensor_frequency = \"400 Hz\"\ndamping_ratio = 0.05\n";
+    let text = signals("coast.csv", torque).replace("200 Hz", "50 Hz");
+    folder.write("coast.toml", &text);
+    folder.write("identify.toml", IDENTIFY);
+    let read = folder.outcome("coast.toml").unwrap();
+    assert_eq!(read.stop.reason, "finished", "{}", read.stop.text);
+    let told: Vec<&str> = read.warnings.iter().map(|w| w.text.as_str()).collect();
+    assert!(
+        told.iter()
+            .any(|text| text.contains("quicker than 100 values a second")),
+        "{told:?}"
+    );
+    assert!(
+        !told
+            .iter()
+            .any(|text| text.contains("zero of the reading is not known")),
+        "{told:?}"
+    );
+    let column = |name: &str| &read.history.iter().find(|c| c.name == name).unwrap().values;
+    let (time, torque) = (column("time"), column("torque.torque"));
+    let middle = time.iter().position(|t| *t > 4.0).unwrap();
+    let part = &torque[middle..middle + 100];
+    let mean = part.iter().sum::<f64>() / 100.0;
+    // 4.5 s after 150 rad/s the speed is that of an exponential towards -300 rad/s
+    let expected = moment(450.0 * (-2e-5 / INERTIA * 4.5_f64).exp() - 300.0);
+    assert!((mean - expected).abs() < 5e-5, "{mean} {expected}");
+    let outcome = folder.outcome("identify.toml").unwrap();
+    assert_eq!(outcome.stop.reason, "finished", "{}", outcome.stop.text);
+    let curve = [
+        list(&outcome, "steady_moment_speeds"),
+        list(&outcome, "steady_moments"),
+        list(&outcome, "steady_moment_deviations"),
+    ];
+    let (two, four) = inside(curve, moment);
+    assert!(two >= 0.8 && four == 1.0, "{two} {four}");
+    // a stated zero that the rest contradicts is told, and the rest counts
+    folder.write(
+        "coast.toml",
+        &format!("{text}zero_deviation = \"0.05 N mm\"\n"),
+    );
+    let read = folder.outcome("coast.toml").unwrap();
+    let told = read.warnings.iter().find(|w| w.code == "AB1127");
+    assert!(told.unwrap().text.contains("14 times"), "{told:?}");
 }
 
 #[test]

@@ -259,6 +259,7 @@ mod tests {
             noise: 1e-3,
             calming: 1.0,
             log_likelihood: 0.0,
+            shown_frequency: None,
             notes: Vec::new(),
             time,
         }

@@ -57,6 +57,7 @@ fn torque(interval: f64) -> Torque {
         noise: 0.4e-3,
         calming: 1.0,
         log_likelihood: 0.0,
+        shown_frequency: None,
         notes: Vec::new(),
         time,
     }

@@ -137,6 +137,9 @@ fn units_clocks_and_properties_come_from_attributes() {
 fn what_is_left_out_is_reported() {
     for name in ["old.h5", "new.h5"] {
         let file = open(name);
+        let single =
+            |note: &measure::recording::Note| note.text.contains("no channels: run/scalar");
+        assert!(file.notes().iter().any(single), "{:?}", file.notes());
         for left_out in ["run/words", "run/cube"] {
             let shown =
                 |note: &&measure::recording::Note| note.channel.as_deref() == Some(left_out);

@@ -567,3 +567,13 @@ fn a_disturbance_that_stays_in_the_torque_is_in_its_band() {
     assert!((narrow as f64) < 0.7 * count as f64);
     assert!(wide as f64 > 0.95 * count as f64);
 }
+
+#[test]
+fn of_a_sensor_as_stated_no_other_frequency_is_told() {
+    let spins = [FAST, MIDDLE, SLOW];
+    for (seed, arm) in (0..18).zip([22.0, 30.0, 45.0].into_iter().cycle()) {
+        let test = measured(arm, 900 + seed, spins[seed as usize / 3 % 3], true);
+        let shown = invert(&test.input()).unwrap().shown_frequency;
+        assert_eq!(shown, None, "{seed} {arm}");
+    }
+}

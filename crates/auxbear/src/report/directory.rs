@@ -26,6 +26,8 @@ const SCENARIO: &str = "scenario.toml";
 const SUMMARY: &str = "summary.json";
 const HISTORY: &str = "history.parquet";
 const REPORT: &str = "report.html";
+/// What the folder of an export begins with.
+pub(super) const FIRST_TABLE: &str = "run.csv";
 
 /// Values of a channel that are written at once to a measurement file.
 const PIECE: usize = 16_384;
@@ -177,6 +179,11 @@ impl NewDirectory {
         let html = page::html(&[run]);
         written.push(self.file(REPORT, |file| file.write_all(html.as_bytes())));
         written.into_iter().collect::<Result<(), _>>()?;
+        self.named()
+    }
+
+    /// Gives the directory its name, when all files in it are whole.
+    pub(super) fn named(&self) -> Result<(), Box<Problem>> {
         // On some systems a rename would replace an empty directory that appeared meanwhile.
         if exists(&self.path) {
             return Err(taken(&self.path));
@@ -210,7 +217,7 @@ impl NewDirectory {
     }
 
     /// Writes one file, or nothing of it; a problem names the place where it would have stood.
-    fn file(
+    pub(super) fn file(
         &self,
         name: &str,
         fill: impl FnOnce(&mut File) -> std::io::Result<()>,
@@ -346,14 +353,33 @@ pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
 pub fn rewrite_report(path: &Path) -> Result<PathBuf, Box<Problem>> {
     let html = page::html(&[read(path)?]);
     let report = path.join(REPORT);
-    let fresh = path.join("report.html.partial");
-    fs::write(&fresh, html)
-        .and_then(|()| fs::rename(&fresh, &report))
+    aside(&report, |mut file| file.write_all(html.as_bytes()))?;
+    Ok(report)
+}
+
+/// Writes a new file, whole or not at all, also where the process is killed.
+pub(super) fn new_file(
+    path: &Path,
+    write: impl FnOnce(File) -> std::io::Result<()>,
+) -> Result<(), Box<Problem>> {
+    match exists(path) {
+        true => Err(taken(path)),
+        false => aside(path, write),
+    }
+}
+
+/// Writes a file as `FILE.partial`, which gets its name when it is whole. One that a killed process left is written over.
+fn aside(path: &Path, write: impl FnOnce(File) -> std::io::Result<()>) -> Result<(), Box<Problem>> {
+    let nameless = || misplaced(path, &ErrorKind::InvalidFilename.into());
+    let fresh = partial_of(path).ok_or_else(nameless)?;
+    let file = File::create(&fresh).map_err(|error| misplaced(path, &error))?;
+    write(file)
+        .and_then(|()| File::open(&fresh)?.sync_all())
+        .and_then(|()| fs::rename(&fresh, path))
         .map_err(|error| {
             let _ = fs::remove_file(&fresh);
-            failed(&report, &error)
-        })?;
-    Ok(report)
+            failed(path, &error)
+        })
 }
 
 /// Writes the page of one run directory, or of several side by side, to a new file; to a file `*.svg` one run's orbit,
@@ -395,14 +421,7 @@ pub fn write_report(file: &Path, directories: &[PathBuf]) -> Result<(), Box<Prob
             )));
         }
     };
-    let mut out = File::create_new(file).map_err(|error| match error.kind() {
-        ErrorKind::AlreadyExists => taken(file),
-        _ => misplaced(file, &error),
-    })?;
-    out.write_all(text.as_bytes()).map_err(|error| {
-        let _ = fs::remove_file(file);
-        failed(file, &error)
-    })
+    new_file(file, |mut out| out.write_all(text.as_bytes()))
 }
 
 /// True for anything of this name, a dangling link too.
@@ -455,11 +474,16 @@ fn is_at(held: &File, _: &Path) -> bool {
 }
 
 /// Removes what a killed process left in its partial directory; an error where that is not what such a one holds: no files
-/// yet, or a scenario and other files.
+/// yet, or a scenario or the first table of an export, and other files.
 fn empty_leftover(partial: &Path) -> std::io::Result<()> {
     let entries = fs::read_dir(partial)?.collect::<Result<Vec<_>, _>>()?;
     let foreign = |entry: &fs::DirEntry| !entry.file_type().is_ok_and(|kind| kind.is_file());
-    let is_ours = entries.is_empty() || entries.iter().any(|entry| entry.file_name() == SCENARIO);
+    let known = |entry: &fs::DirEntry| {
+        [SCENARIO, FIRST_TABLE]
+            .map(OsString::from)
+            .contains(&entry.file_name())
+    };
+    let is_ours = entries.is_empty() || entries.iter().any(known);
     if !is_ours || entries.iter().any(foreign) {
         return Err(ErrorKind::DirectoryNotEmpty.into());
     }

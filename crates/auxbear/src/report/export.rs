@@ -12,7 +12,7 @@
 //! All values are SI, the unit stands in the head of its column: `bearing.contact.force [N]`. Numbers have the digits that
 //! give them back bit for bit; what is not a finite number is an empty cell. A table without rows is left out.
 
-use super::directory::{failed, misplaced, read, taken};
+use super::directory::{NewDirectory, new_file, read};
 use super::page::PageRun;
 use super::table::{Cell, Table};
 use super::workbook;
@@ -22,8 +22,8 @@ use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::Value;
 use std::borrow::Cow;
 use std::fmt;
-use std::fs::{self, File};
-use std::io::{self, BufWriter, ErrorKind, Write};
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
 use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 
@@ -288,22 +288,16 @@ fn members(summary: &Summary) -> Table<'_> {
 
 /// Writes a folder of CSV files, whole or not at all.
 fn csv(folder: &Path, tables: &[Table]) -> Result<(), Box<Problem>> {
-    fs::create_dir(folder).map_err(|error| match error.kind() {
-        ErrorKind::AlreadyExists => taken(folder),
-        _ => misplaced(folder, &error),
-    })?;
+    let place = NewDirectory::reserve(folder)?;
     for table in tables {
-        let path = folder.join(format!("{}.csv", table.name));
-        let written = File::create_new(&path).and_then(|file| csv_table(file, table));
-        if let Err(error) = written {
-            let _ = fs::remove_dir_all(folder);
-            return Err(failed(&path, &error));
-        }
+        place.file(&format!("{}.csv", table.name), |file| {
+            csv_table(file, table)
+        })?;
     }
-    Ok(())
+    place.named()
 }
 
-fn csv_table(file: File, table: &Table) -> io::Result<()> {
+fn csv_table(file: &mut File, table: &Table) -> io::Result<()> {
     let mut out = BufWriter::new(file);
     let heads: Vec<String> = table.heads.iter().map(|head| quoted(head)).collect();
     writeln!(out, "{}", heads.join(","))?;
@@ -320,9 +314,7 @@ fn csv_table(file: File, table: &Table) -> io::Result<()> {
         }
         out.write_all(b"\n")?;
     }
-    out.into_inner()
-        .map_err(|error| error.into_error())?
-        .sync_all()
+    out.flush()
 }
 
 /// A text as a cell by RFC 4180.
@@ -343,12 +335,5 @@ fn xlsx(file: &Path, tables: &[Table]) -> Result<(), Box<Problem>> {
         let problem = Problem::at_path(Code::TooManyRows, file, found, needed);
         return Err(Box::new(problem));
     }
-    let out = File::create_new(file).map_err(|error| match error.kind() {
-        ErrorKind::AlreadyExists => taken(file),
-        _ => misplaced(file, &error),
-    })?;
-    workbook::write(out, tables).map_err(|error| {
-        let _ = fs::remove_file(file);
-        failed(file, &error)
-    })
+    new_file(file, |out| workbook::write(out, tables))
 }

@@ -15,6 +15,7 @@ pub mod directory;
 pub mod export;
 mod history;
 pub mod page;
+mod page_summary;
 pub mod picture;
 mod summary;
 mod table;

@@ -6,6 +6,7 @@
 //! Several runs share the room of one page: they have fewer rows, and many of them leave their single balls to their own pages.
 
 use super::closely;
+use super::page_summary::for_page;
 use measure::file::parquet::arrow_schema::base64;
 use std::collections::BTreeSet;
 
@@ -190,7 +191,7 @@ fn run_json(run: &PageRun, limit: usize, with_balls: bool) -> String {
         "{{\"name\":{},\"directory\":{},\"summary\":{},\"scenario\":{},\"rows\":{},\"rows_total\":{total},\"balls\":{with_balls},\"closely\":{{{}}},\"columns\":[{}]}}",
         json_text(&run.name),
         json_text(&run.directory),
-        json_text(&run.summary_json),
+        json_text(&for_page(&run.summary_json)),
         json_text(&run.scenario_toml),
         rows.len(),
         windows

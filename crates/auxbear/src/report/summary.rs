@@ -3,7 +3,7 @@
 //! No number in it is infinite or not-a-number: such a quantity is `null` with the reason.
 
 use crate::result::outcome::{
-    self, Contact, Judged, Outcome, Picture, Quantity, Spread, Value, Warning,
+    self, Contact, Judged, Members, Outcome, Picture, Quantity, Spread, Value, Warning,
 };
 use crate::scenario::{Provenance, ResolvedValue, Scenario};
 use serde::ser::SerializeMap;
@@ -22,12 +22,6 @@ pub(super) fn json(
         .quantities
         .iter()
         .map(|quantity| (quantity.name.as_str(), result(quantity)));
-    let members = outcome.members.iter().map(|member| {
-        let values = member
-            .iter()
-            .map(|(name, value)| (name.as_str(), value.and_then(finite)));
-        Named(values.collect())
-    });
     let summary = Summary {
         format: FORMAT,
         system: outcome.system,
@@ -44,7 +38,7 @@ pub(super) fn json(
         warnings: outcome.warnings.iter().map(warning).collect(),
         contacts: outcome.contacts.iter().map(contact).collect(),
         inputs: scenario.resolved.values.iter().map(input).collect(),
-        members: members.collect(),
+        members: &outcome.members,
         drawn: (outcome.drawn.iter())
             .map(|draws| {
                 let draws = draws.iter();
@@ -101,8 +95,11 @@ struct Summary<'a> {
     warnings: Vec<Message<'a>>,
     contacts: Vec<Touch>,
     inputs: Vec<Input<'a>>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    members: Vec<Named<'a, Option<f64>>>,
+    #[serde(
+        skip_serializing_if = "Members::is_empty",
+        serialize_with = "one_by_one"
+    )]
+    members: &'a Members,
     /// What each of these members drew.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     drawn: Vec<Named<'a, &'a str>>,
@@ -113,6 +110,11 @@ struct Summary<'a> {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     auxiliary_bearings: Vec<Drawn<'a>>,
     work: Work,
+}
+
+/// Members as objects, of which one exists at a time.
+fn one_by_one<S: Serializer>(members: &&Members, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq((0..members.len()).map(|k| Named(members.member(k).collect())))
 }
 
 /// What pictures need of a bearing.
@@ -333,6 +335,7 @@ mod tests {
             source: "",
             valid: "",
             chaotic: false,
+            awaited: false,
             spread: Some(Spread {
                 members: 2,
                 mean: f64::NAN,

@@ -23,6 +23,10 @@ use units::{Dimension, Unit};
 const CONFIDENCE: f64 = 0.95;
 /// Most members that are counted for how many would decide.
 const MOST_MEMBERS: usize = 100_000;
+/// The warning of runs that qualify no machine, and what is said instead of a verdict.
+const NO_QUALIFICATION: &str = "AB1095";
+const WITHHELD: &str =
+    "no verdict of a vertical shaft: what carries its weight is not in this run (AB1095)";
 /// Names of results that a message lists.
 const MOST_NAMES: usize = 8;
 
@@ -106,31 +110,42 @@ fn unknown(limit: &Limit, known: &[Quantity]) -> Box<Problem> {
 
 /// The verdicts of a run.
 pub(crate) fn of(limits: &[Limit], outcome: &Outcome) -> Vec<Judged> {
+    let no_qualification =
+        (outcome.warnings.iter()).any(|warning| warning.code == NO_QUALIFICATION);
     let judged = |limit: &Limit| {
         let mut quantities = outcome.quantities.iter();
         let quantity = quantities.find(|quantity| quantity.name == limit.quantity);
         let (unit, values, why) = match quantity {
             Some(quantity) => {
-                let (values, why) = values_of(quantity, outcome);
+                let (values, why) = values_of(quantity, limit.bound, outcome);
                 (quantity.unit, values, why)
             }
             None => ("", vec![None], "this run has no such result".to_string()),
         };
-        judge(limit, unit, &values, &why)
+        let judged = judge(limit, unit, &values, &why);
+        match no_qualification {
+            true => Judged {
+                verdict: Verdict::Undecided,
+                why: WITHHELD.to_string(),
+                ..judged
+            },
+            false => judged,
+        }
     };
     limits.iter().map(judged).collect()
 }
 
-/// The values of a result in each member that was asked for, and why some are not known.
-fn values_of(quantity: &Quantity, outcome: &Outcome) -> (Vec<Option<f64>>, String) {
+/// The values of a result in each member that was asked for, and why some are not known. An instant that did not come while
+/// the run lasted, which is longer than the bound, is infinite: whenever it comes, the bound is passed.
+fn values_of(quantity: &Quantity, bound: f64, outcome: &Outcome) -> (Vec<Option<f64>>, String) {
     let early = || outcome.stop.text.trim_end_matches('.').to_string();
+    let beyond = |lasted: f64| (quantity.awaited && lasted > bound).then_some(f64::INFINITY);
     let asked = outcome.work.members;
     if asked > 1 {
-        let of = |member: &Vec<(String, Option<f64>)>| {
-            let mut values = member.iter();
-            values.find(|(name, _)| *name == quantity.name)?.1
-        };
-        let mut values: Vec<Option<f64>> = outcome.members.iter().map(of).collect();
+        let members = &outcome.members;
+        let values = members.values(&quantity.name).into_iter();
+        let mut values: Vec<Option<f64>> =
+            values.map(|value| value.or(beyond(members.end))).collect();
         let why = match values.len() < asked {
             true => early(),
             false => "it does not exist in these".to_string(),
@@ -139,7 +154,11 @@ fn values_of(quantity: &Quantity, outcome: &Outcome) -> (Vec<Option<f64>>, Strin
         return (values, why);
     }
     match (&quantity.value, outcome.stop.complete()) {
-        (Value::None { why }, _) => (vec![None], why.clone()),
+        (Value::None { why }, _) => match (beyond(outcome.stop.time), quantity.awaited) {
+            (Some(late), _) => (vec![Some(late)], format!("{why}, which is past the bound")),
+            (None, true) => (vec![None], format!("{why}, which is not past the bound")),
+            (None, false) => (vec![None], why.clone()),
+        },
         (_, false) => (vec![None], early()),
         (Value::Number(value), true) => (vec![Some(*value)], String::new()),
         (Value::Text(_) | Value::List(_), true) => {
@@ -149,22 +168,35 @@ fn values_of(quantity: &Quantity, outcome: &Outcome) -> (Vec<Option<f64>>, Strin
     }
 }
 
-/// Judges the values of all members, of which those not known are none; `why` says why they are not.
+/// Judges the values of all members, of which those not known are none; `why` says why they are not, or of the only one why it
+/// is infinite.
 pub fn judge(limit: &Limit, unit: &'static str, values: &[Option<f64>], why: &str) -> Judged {
     let members = values.len();
     let holds = |value: &f64| limit.side.holds(*value, limit.bound);
     let known: Vec<f64> = values.iter().flatten().copied().collect();
     let hold = known.iter().filter(|value| holds(value)).count();
     let open = members - known.len();
-    let (verdict, reason) = match (members, limit.share) {
-        (0 | 1, share) if share >= 1.0 => match known.first() {
-            None => (Verdict::Undecided, why.to_string()),
-            Some(value) if holds(value) => (Verdict::Pass, room(limit, *value)),
-            Some(value) => (Verdict::Fail, room(limit, *value)),
-        },
+    let late = known.iter().filter(|value| value.is_infinite()).count();
+    let (verdict, mut reason) = match (members, limit.share) {
+        (0 | 1, share) if share >= 1.0 => {
+            let reason = |value: f64| match value.is_finite() {
+                true => room(limit, value),
+                false => why.to_string(),
+            };
+            match known.first() {
+                None => (Verdict::Undecided, why.to_string()),
+                Some(value) if holds(value) => (Verdict::Pass, reason(*value)),
+                Some(value) => (Verdict::Fail, reason(*value)),
+            }
+        }
         (_, share) if share >= 1.0 => of_all(members, hold, open, why),
         (_, share) => of_share(share, members, hold, open, why),
     };
+    if late > 0 && members > 1 {
+        reason.push_str(&format!(
+            "; in {late} it did not come while the run lasted, which is past the bound"
+        ));
+    }
     Judged {
         limit: limit.clone(),
         unit,
@@ -184,7 +216,10 @@ fn deciding(limit: &Limit, mut known: Vec<f64>, members: usize) -> Option<f64> {
     }
     // rounding of a share that is a whole number of members
     let place = (limit.share * members as f64 - 1e-9).ceil().max(1.0) as usize;
-    known.get(place - 1).copied()
+    known
+        .get(place - 1)
+        .copied()
+        .filter(|value| value.is_finite())
 }
 
 /// How far a value is from its bound.

@@ -23,14 +23,26 @@ impl List {
             valid: origin.valid,
             chaotic: false,
             spread: None,
+            awaited: false,
         });
     }
-    /// The results of a run that ended at an instant, s: none has a value where it ended before its first step.
+    /// An instant that the run waits for, s; or why it did not come.
+    pub fn awaited(&mut self, name: &str, time: Result<f64, String>, origin: &Origin) {
+        self.number(name, "s", time, origin);
+        if let Some(last) = self.0.last_mut() {
+            last.awaited = true;
+        }
+    }
+    /// The results of a run that ended at an instant, s: no number has a value where it ended before its first step.
     pub fn ended_at(mut self, time: f64) -> Vec<Quantity> {
         if time == 0.0 {
             for quantity in &mut self.0 {
-                quantity.value = Value::None {
-                    why: "the run ended before its first step".to_string(),
+                let why = "the run ended before its first step".to_string();
+                // what kind of result it is stays known
+                quantity.value = match quantity.value {
+                    Value::List(_) => Value::List(Vec::new()),
+                    Value::Text(_) => Value::Text(format!("not known: {why}")),
+                    Value::Number(_) | Value::None { .. } => Value::None { why },
                 };
             }
         }

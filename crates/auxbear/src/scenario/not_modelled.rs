@@ -72,7 +72,7 @@ const TABLE: &[Absent] = &[
         instead: "With system = \"machine\" it does (auxbear new machine); with rotor.first_bending_frequency a drop says whether it matters",
     },
     Absent {
-        paths: "heat thermal temperature *.heat rotor.temperature contact.temperature mount.temperature \
+        paths: "heat thermal temperature coolant cooling *.coolant *.heat rotor.temperature contact.temperature mount.temperature \
                 bearing.temperature *.heat_capacity *.thermal_conductivity *.thermal_expansion *.ambient_temperature",
         what: "heat is not described: nothing warms, fades or expands",
         point: 5,
@@ -90,7 +90,8 @@ const TABLE: &[Absent] = &[
                 levitation.pid levitation.kp levitation.ki levitation.kd levitation.ks levitation.gain \
                 levitation.current levitation.current_limit levitation.bias_current levitation.force_limit \
                 levitation.recovery levitation.relevitation levitation.off levitation.off_at levitation.on_at \
-                levitation.failure",
+                levitation.failure levitation.force levitation.load_capacity relevitation drop.relevitate \
+                drop.relevitation",
         what: "controllers, currents and faults of the magnetic bearing are not described: it is a spring and a damper until time 0, then off",
         point: 3,
         instead: "levitation.stiffness and levitation.damping set the orbit before the release; magnets and controllers are those of system = \"machine\"",
@@ -103,14 +104,26 @@ const TABLE: &[Absent] = &[
         instead: PAIRS,
     },
     Absent {
-        paths: "mount.friction mount.friction_coefficient mount.squeeze_film mount.tolerance_ring mount.stop \
+        paths: "foundation base pedestal support housing mount.friction mount.friction_coefficient mount.squeeze_film mount.tolerance_ring mount.stop \
                 mount.gap mount.hysteresis mount.exponent",
         what: "a mount is one spring and one damper, equal in all directions",
         point: 7,
         instead: "Give stiffness and damping at the amplitude that is expected, and vary them",
     },
     Absent {
-        paths: "seal seals windage gas process rotor.drag rotor.windage rotor.brake_curve rotor.braking_curve \
+        paths: "landing landing_sleeve sleeve landing.sleeve contact.sleeve contact.coating",
+        what: "a landing sleeve is no body of its own: it is one with the inner race",
+        point: 7,
+        instead: "Its bore and width are contact.bore_diameter and contact.width, its mass belongs to bearing.inner_race_mass and inner_race_inertia",
+    },
+    Absent {
+        paths: "*.starvation *.starved *.oil_quantity *.grease_fill *.relubrication",
+        what: "contacts have all the oil they need: starved films and the quantity of the lubricant are not described",
+        point: 6,
+        instead: "",
+    },
+    Absent {
+        paths: "motor generator drive_motor rotor.motor_torque seal seals windage gas process rotor.drag rotor.windage rotor.brake_curve rotor.braking_curve \
                 rotor.speed_curve rotor.load_torque",
         what: "forces of seals and gas, and torques over speed or time, are not described",
         point: 5,
@@ -162,6 +175,13 @@ mod tests {
             "bearing.count",
             "rotor.shaft.length",
             "mount.tolerance_ring",
+            "motor.torque",
+            "coolant.flow",
+            "foundation.mass",
+            "drop.relevitate",
+            "lubricant.starvation",
+            "landing.sleeve",
+            "levitation.force",
         ] {
             assert!(of(path).is_some(), "{path}");
         }

@@ -56,7 +56,8 @@ const RATING: [f64; 2] = [5.0, 25.0];
 const STIFFEST_MOUNT: f64 = 5e9;
 /// Sag of a mount under the weight of the rotor, m.
 const LARGEST_SAG: f64 = 1e-3;
-/// Gravity in the plane of the bearing below which the weight stands on the shaft, m/s².
+/// Gravity in the plane of the bearing below which the weight stands on the shaft, m/s²: a tenth of what acts along a shaft 6° from
+/// the vertical.
 const LEAST_GRAVITY: f64 = 1.0;
 
 impl Values {
@@ -84,7 +85,7 @@ impl Values {
         (self.system().falls() && gravity < LEAST_GRAVITY).then(|| Note {
             code: "AB1095",
             text: format!(
-                "A vertical shaft ({gravity} m/s^2 across it): what carries the weight, the axial drop onto the thrust faces, is not \
+                "A vertical shaft, or nearly so ({gravity} m/s^2 across it): what carries the weight, the axial drop onto the thrust faces, is not \
                  described, nor the friction of the loaded balls. Radial forces of such a run are no qualification of the machine."
             ),
         })

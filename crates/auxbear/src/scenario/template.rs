@@ -7,6 +7,14 @@ use crate::scenario::several::{AUXILIARY_BEARING, LIMIT};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
 
+/// What differs most from machine to machine and stands on no drawing: left as it is it counts as assumed.
+const EXAMPLES: &[&str] = &[
+    "rotor.polar_inertia",
+    "mount.stiffness",
+    "mount.damping",
+    "mount.moving_mass",
+];
+const LEFT: &str = "example of the starting file";
 /// Width of a comment line.
 const WIDTH: usize = 100;
 
@@ -145,6 +153,14 @@ fn describe_as(out: &mut String, key: &Key, system: SystemName, own: Option<Stri
     let holds = key.when.iter().all(|condition| holds(condition, system));
     let line = |text: &str| format!("{} = {}", key.name(), key.literal(text));
     let (active, text) = match table::presence(key, system) {
+        Presence::Required if EXAMPLES.contains(&key.path) => {
+            let value = key.literal(example);
+            let text = format!(
+                "{} = {{ value = {value}, assumed = \"{LEFT}\" }}",
+                key.name()
+            );
+            (holds, text)
+        }
         // each bearing says it where it is named
         Presence::Required => (holds && key.path != "contact.node", line(example)),
         Presence::FromBearing => {

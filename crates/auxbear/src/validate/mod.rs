@@ -138,7 +138,7 @@ fn files(folder: &Path) -> Result<BTreeMap<String, PathBuf>, Box<Problem>> {
             Code::FileUnreadable,
             folder,
             error.to_string(),
-            "a readable folder is needed",
+            "a readable folder of cases that are files is needed",
         ))
     })?;
     if paths.len() > MOST_FILES {
@@ -180,19 +180,26 @@ fn files(folder: &Path) -> Result<BTreeMap<String, PathBuf>, Box<Problem>> {
         .collect())
 }
 
-/// Files with a known ending in and below a folder; links are not followed.
+/// Files with a known ending in and below a folder. Links are not followed and pipes not read: where one would be a case, that is an
+/// error, since a case that is passed over must not look well.
 fn collect(folder: &Path, depth: usize, paths: &mut Vec<PathBuf>) -> std::io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
         let (kind, path) = (entry.file_type()?, entry.path());
+        let end = path.extension();
+        let is_case = end.is_some_and(|extension| extension == "toml" || extension == "json");
         if kind.is_dir() && depth < DEEPEST {
             collect(&path, depth + 1, paths)?;
-        } else if kind.is_file()
-            && path
-                .extension()
-                .is_some_and(|extension| extension == "toml" || extension == "json")
-        {
+        } else if kind.is_file() && is_case {
             paths.push(path);
+        } else if is_case || kind.is_symlink() && path.is_dir() {
+            let what = match (kind.is_symlink(), kind.is_dir()) {
+                (true, _) => "a link",
+                (_, true) => "a folder too deep to be read",
+                _ => "no file",
+            };
+            let told = format!("{}, which is {what}", path.display());
+            return Err(std::io::Error::other(told));
         }
         if paths.len() > MOST_FILES {
             break;
@@ -269,6 +276,25 @@ mod tests {
         // of another format is no damage
         let damaged: Vec<String> = report.problems().map(|problem| problem.file).collect();
         assert_eq!(damaged, ["broken.json", "broken.toml", "bytes", "empty"]);
+    }
+    #[cfg(unix)]
+    #[test]
+    fn a_case_that_is_a_link_is_not_passed_over() {
+        let folder = folder("links");
+        fs::write(folder.join("inner/mine.txt"), "a = 1").unwrap();
+        let link = |name: &str, to: &str| {
+            std::os::unix::fs::symlink(folder.join(to), folder.join(name)).unwrap();
+        };
+        link("notes", "inner/mine.txt");
+        assert!(run(Some(&folder), &LawsOnly).is_ok());
+        link("mine.toml", "inner/mine.txt");
+        let told = run(Some(&folder), &LawsOnly).unwrap_err().to_string();
+        assert!(told.contains("mine.toml, which is a link"), "{told}");
+        fs::remove_file(folder.join("mine.toml")).unwrap();
+        link("more", "inner");
+        let told = run(Some(&folder), &LawsOnly).unwrap_err().to_string();
+        fs::remove_dir_all(&folder).unwrap();
+        assert!(told.contains("more, which is a link"), "{told}");
     }
     #[test]
     fn no_folder_is_one_message() {

@@ -59,6 +59,40 @@ fn what_is_not_reached_is_not_decided() {
 }
 
 #[test]
+fn an_instant_that_the_run_outlasted_is_past_its_bound() {
+    // 15 ms are too short for the race, and longer than 10 ms
+    let text = limited("quantity = \"inner_race_time_to_95_percent\"\nmost = \"10 ms\"");
+    let late = judged(&text, &[]);
+    assert_eq!((late[0].verdict, late[0].value), (Verdict::Fail, None));
+    assert!(late[0].why.contains("past the bound"), "{}", late[0].why);
+    let least = limited("quantity = \"inner_race_time_to_95_percent\"\nleast = \"10 ms\"");
+    assert_eq!(judged(&least, &[])[0].verdict, Verdict::Pass);
+    // the run may have missed it by a little
+    let open = judged(&least, &["run.duration=9 ms"]);
+    assert_eq!(open[0].verdict, Verdict::Undecided);
+    let members = judged(&text, &["repeat.count=5"]);
+    assert_eq!(members[0].verdict, Verdict::Fail);
+    assert!(
+        members[0]
+            .why
+            .contains("5 of 5 members break it; in 5 it did not come"),
+        "{}",
+        members[0].why
+    );
+}
+
+#[test]
+fn a_vertical_shaft_gets_no_verdict() {
+    let text = limited("quantity = \"peak_contact_force\"\nmost = \"1 MN\"");
+    assert_eq!(judged(&text, &[])[0].verdict, Verdict::Pass);
+    for gravity in ["0", "0.4"] {
+        let limits = judged(&text, &[&format!("gravity.acceleration={gravity} m/s^2")]);
+        assert_eq!(limits[0].verdict, Verdict::Undecided);
+        assert!(limits[0].why.contains("AB1095"), "{}", limits[0].why);
+    }
+}
+
+#[test]
 fn members_too_few_for_the_share_do_not_decide() {
     let text = limited("quantity = \"first_impact_force\"\nmost = \"5 kN\"\nshare = 0.8");
     let few = judged(&text, &["repeat.count=6"]);
@@ -146,6 +180,16 @@ fn a_wrong_limit_is_refused_before_the_run() {
             "quantity = \"peak_contact_force\"\nmost = \"5 kN\"\nshare = 1.5",
             Code::OutOfRange,
             "not above 1",
+        ),
+        (
+            "quantity = \"contact_start_times\"\nmost = \"5 ms\"",
+            Code::UnknownQuantity,
+            "which is a list",
+        ),
+        (
+            "quantity = \"whirl_direction\"\nmost = 5",
+            Code::UnknownQuantity,
+            "which is a word",
         ),
         (
             "quantity = 7\nmost = \"5 kN\"",

@@ -22,6 +22,7 @@ use super::Swing;
 use super::blocks::Thin;
 use super::chain::{COSINE, Chain, Knots, Pass, RATE, SINE, Samples, TORQUE, ZERO, mixed};
 use super::input::Inversion;
+use super::shown;
 use crate::normal::below;
 use crate::state_space::{colour, correlation};
 use crate::uncertain::Uncertain;
@@ -53,6 +54,8 @@ pub struct Torque {
     pub calming: f64,
     /// Logarithm of the likelihood of the reading.
     pub log_likelihood: f64,
+    /// Frequency at which the reading rings after the engagement, Hz, where it is surely not that of the sensor as stated.
+    pub shown_frequency: Option<f64>,
     /// What is not trustworthy.
     pub notes: Vec<String>,
 }
@@ -175,6 +178,12 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
     let chain = whole(power);
     let likely = chain.smoothed(&hyper);
     let colour = colour(&likely.innovations);
+    let stated = &input.sensor.frequency;
+    let of = |swing| Chain::new(near, swing, knots, power, spread);
+    let shown_frequency = knot.and_then(|_| {
+        let stated = (swing, stated.deviation / stated.value);
+        shown::frequency(of, stated, &hyper, colour, samples.interval)
+    });
     let likelihood = |cost: f64| (-(cost - growths[0].1) / colour).exp();
     let sum: f64 = growths.iter().map(|g| likelihood(g.1)).sum();
     let others: Vec<(f64, Pass)> = (growths.iter().skip(1))
@@ -349,6 +358,7 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         noise,
         calming: hyper[3].exp(),
         log_likelihood: likely.log_likelihood,
+        shown_frequency,
         notes,
     })
 }

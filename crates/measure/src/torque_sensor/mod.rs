@@ -20,6 +20,7 @@ mod input;
 mod inversion;
 mod line;
 mod response;
+mod shown;
 mod swing;
 
 pub use design::{Design, DesignError, design_error};

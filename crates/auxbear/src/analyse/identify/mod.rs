@@ -25,7 +25,7 @@ mod read;
 
 use crate::options::Options;
 use crate::result::assumptions::assumptions;
-use crate::result::outcome::{Outcome, Picture, Stop, Warning, Work};
+use crate::result::outcome::{Members, Outcome, Picture, Stop, Warning, Work};
 use crate::scenario::Scenario;
 use found::Found;
 pub(crate) use read::Asked;
@@ -75,7 +75,7 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outc
             seconds: clock.elapsed().as_secs_f64(),
             ..Work::default()
         },
-        members: Vec::new(),
+        members: Members::default(),
         drawn: Vec::new(),
         limits: Vec::new(),
         pictures: vec![Picture {

@@ -32,7 +32,7 @@ use crate::analyse::signals::asked::{capital, sampled};
 use crate::analyse::signals::found::Found;
 use crate::options::Options;
 use crate::result::assumptions::assumptions;
-use crate::result::outcome::{Outcome, Picture, Stop, Warning, Work};
+use crate::result::outcome::{Members, Outcome, Picture, Stop, Warning, Work};
 use crate::scenario::{Scenario, SensorSource, SteadySignal};
 use identify::coasting::Windage;
 use std::sync::Arc;
@@ -196,6 +196,9 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
         };
         match heed(interrupt, torque) {
             Ok(torque) => {
+                for (code, doubt) in &torque.doubts {
+                    found.warn(code, "Torque", std::slice::from_ref(doubt));
+                }
                 found.warn("AB1043", "Torque", &torque.notes);
                 found.torque = Some(Arc::new(torque));
             }
@@ -283,7 +286,7 @@ pub(crate) fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) ->
             seconds: clock.elapsed().as_secs_f64(),
             ..Work::default()
         },
-        members: Vec::new(),
+        members: Members::default(),
         drawn: Vec::new(),
         limits: Vec::new(),
         pictures: vec![Picture {

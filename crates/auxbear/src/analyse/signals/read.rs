@@ -186,9 +186,12 @@ impl<'a> Source<'a> {
                 0 => "a file with channels is needed".to_string(),
                 _ => format!("it has the channels {}", known.join(", ")),
             };
-            let found = format!("which has no channel \"{name}\"{}", self.unread());
+            let found = format!("which has no channel \"{name}\"");
             let problem = self.problem(Code::UnknownChannel, key, found, needed);
-            return Err(Box::new(problem.with_hint(did_you_mean(name, names()))));
+            let hints = [did_you_mean(name, names()), self.unread(name)];
+            let hints: Vec<String> = hints.into_iter().flatten().collect();
+            let hint = (!hints.is_empty()).then(|| hints.join(" "));
+            return Err(Box::new(problem.with_hint(hint)));
         };
         let channel = channels[index].clone();
         let found = match (channel.content, channel.count) {
@@ -196,29 +199,34 @@ impl<'a> Source<'a> {
             (_, 0) => "which holds no values",
             _ => return Ok((index, channel)),
         };
-        let found = format!("channel \"{name}\", {found}{}", self.unread());
-        Err(self.problem(
-            Code::UnknownChannel,
-            key,
-            found,
-            "a channel of numbers is needed",
-        ))
+        let found = format!("channel \"{name}\", {found}");
+        let needed = "a channel of numbers is needed";
+        let problem = self.problem(Code::UnknownChannel, key, found, needed);
+        Err(Box::new(problem.with_hint(self.unread(name))))
     }
 
-    /// What the reader found wrong with the file, for a message that misses something; a file cut by a crash tells it here.
-    fn unread(&self) -> String {
-        let notes = self.notes();
-        let more = match notes.len() {
-            0..=2 => String::new(),
-            all => format!("; and {} more", all - 2),
+    /// What the reader found wrong with the file, for a message that misses a channel: of this one first. A file cut by a crash
+    /// tells it here.
+    fn unread(&self, name: &str) -> Option<String> {
+        const TOLD: usize = 3;
+        let own = |channel: &Option<String>| {
+            let end = |path: &str| path.rsplit('/').next().unwrap_or_default().to_string();
+            channel
+                .as_ref()
+                .is_some_and(|other| end(other) == end(name))
         };
-        match notes.as_slice() {
-            [] => String::new(),
-            some => {
-                let first: Vec<&str> = some.iter().take(2).map(String::as_str).collect();
-                format!(" (what was read of it: {}{more})", first.join("; "))
-            }
-        }
+        let mut notes: Vec<_> = self.recording.notes().iter().collect();
+        notes.sort_by_key(|note| !own(&note.channel));
+        let first = notes.iter().take(TOLD).map(|note| match &note.channel {
+            Some(channel) => format!("{channel} {}", note.text),
+            None => note.text.clone(),
+        });
+        let more = match notes.len().saturating_sub(TOLD) {
+            0 => String::new(),
+            more => format!("; and {more} more"),
+        };
+        let told: Vec<String> = first.collect();
+        (!told.is_empty()).then(|| format!("What was not read: {}{more}", told.join("; ")))
     }
 
     /// Seconds from the earliest start of the file to that of a channel, and its delay by the converter: columns of times are

@@ -296,6 +296,13 @@ impl Found {
         watched.min(last + SILENT_MARKS * pulses.pitch() / speed.max(f64::MIN_POSITIVE))
     }
 
+    /// When a shaft that rests at the end was last seen to turn, s; of marks none.
+    pub fn stop(&self) -> Option<f64> {
+        match &self.seen {
+            Seen::Channel(channel) => channel.stop,
+            Seen::Marks { .. } => None,
+        }
+    }
     /// Angle without a sign of turning from which on the shaft counts as stopped, rad: some marks; of a channel none where it
     /// shows the rest, and any where it does not.
     pub fn silence(&self) -> f64 {

@@ -3,6 +3,7 @@
 use crate::analyse::signals::read::Series;
 use crate::analyse::signals::{design, shaft, spectrum};
 use crate::scenario::{Disturbance, SensorSource, TorqueSignal};
+use identify::signals::zero_at_rest;
 use measure::converter::{Fault, faults};
 use measure::spectrum::Spectrum;
 use measure::torque_sensor::{
@@ -20,6 +21,13 @@ const ORDERS: f64 = 4.0;
 /// Damping ratio from which on nothing swings.
 const NO_SWING: f64 = 1.0;
 
+/// Values in a period of a sensor as quick as the record shows, and the damping at which its reading is flat up to there.
+const IN_A_PERIOD: f64 = 2.001;
+const FLAT: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Shortest rest whose mean is a zero, s, and the deviations of a stated zero beyond which that contradicts it.
+const REST: f64 = 0.1;
+const CONTRADICTS: f64 = 5.0;
+
 /// Torque, and the reading it was found from.
 pub(crate) struct Found {
     /// The torque; none where no sensor is known.
@@ -32,6 +40,8 @@ pub(crate) struct Found {
     pub design: Result<Vec<DesignError>, String>,
     /// Why a part of the torque is not told, its peak with it; none where all of it is.
     pub hidden: Option<String>,
+    /// What contradicts what is stated of the sensor: with its code.
+    pub doubts: Vec<(&'static str, String)>,
 }
 
 /// Values that are not to be trusted.
@@ -173,10 +183,13 @@ impl Found {
         tap: Option<&Series>,
         shaft: Option<&shaft::Found>,
     ) -> Result<Found, String> {
-        let mut notes = Vec::new();
+        let (mut notes, mut doubts) = (Vec::new(), Vec::new());
         let sensor = sensor(wish, tap, &mut notes)?;
         let torque = match sensor {
-            Some(sensor) => Some(inverted(series, faulty, wish, sensor, shaft, &mut notes)?),
+            Some(sensor) => {
+                let told = (&mut notes, &mut doubts);
+                Some(inverted(series, faulty, wish, sensor, shaft, told)?)
+            }
             None => {
                 notes.push("neither sensor_frequency nor tap_file is given: the reading is shown as it is, the swing of the sensor in it".to_string());
                 None
@@ -194,6 +207,7 @@ impl Found {
             });
         Ok(Found {
             hidden,
+            doubts,
             design: design::errors(wish, torque.as_ref(), sensor, shaft),
             torque,
             sensor,
@@ -258,14 +272,51 @@ fn sensor(
     }
 }
 
+/// A sensor as quick as the record shows: a quicker one follows at once, and its reading is the torque up to there.
+fn resolved(sensor: Sensor, interval: f64, notes: &mut Vec<String>) -> Sensor {
+    let most = 1.0 / (IN_A_PERIOD * interval);
+    if sensor.frequency.value <= most {
+        return sensor;
+    }
+    notes.push(format!(
+        "the sensor of {:.0} Hz is quicker than {:.0} values a second show: it is taken to follow at once, and a torque that changes within {:.0} ms is smeared; nothing is known of its swing after a sudden change",
+        sensor.frequency.value,
+        1.0 / interval,
+        2e3 * IN_A_PERIOD * interval
+    ));
+    Sensor {
+        frequency: Uncertain::exact(most),
+        damping_ratio: Uncertain::exact(FLAT),
+    }
+}
+
+/// Time after which a sensor swings by less than a hundredth of what it did, s.
+fn settling_time(sensor: &Sensor) -> f64 {
+    let decay = sensor.damping_ratio.value.min(1.0) * TAU * sensor.frequency.value;
+    (100.0_f64.ln() / decay).min(1.0)
+}
+
+/// Mean of the readings before the engagement with its deviation; none of a short rest.
+fn resting<'a>(readings: impl Iterator<Item = &'a f64>, interval: f64) -> Option<Uncertain> {
+    let known: Vec<f64> = readings.copied().filter(|v| v.is_finite()).collect();
+    let count = known.len() as f64;
+    if count * interval < REST || known.len() < 8 {
+        return None;
+    }
+    let mean = known.iter().sum::<f64>() / count;
+    let square = known.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count;
+    Some(Uncertain::new(mean, square.sqrt()))
+}
+
 fn inverted(
     series: &Series,
     faulty: &Faulty,
     wish: &TorqueSignal,
     sensor: Sensor,
     shaft: Option<&shaft::Found>,
-    notes: &mut Vec<String>,
+    (notes, doubts): (&mut Vec<String>, &mut Vec<(&'static str, String)>),
 ) -> Result<Torque, String> {
+    let (stated, sensor) = (sensor, resolved(sensor, series.interval, notes));
     let turning = shaft
         .filter(|_| wish.disturbance != Disturbance::None)
         .map(shaft::Found::shaft);
@@ -296,6 +347,41 @@ fn inverted(
         .and_then(|shaft| shaft.speed.change)
         .filter(|change| change.from_rest);
     let cut = faulty.cut(from, to);
+    // Where nothing is known of the zero, all of the reading may be one.
+    let span = (high - low).max(high.abs()).max(low.abs());
+    let mut zero = Uncertain::new(0.0, wish.zero_deviation.unwrap_or(span));
+    let rest = match change {
+        Some(change) => {
+            let end = change.engagement.0 - 3.0 * change.engagement.1;
+            let at = (0..reading.len()).filter(|k| series.time(from + k) < end);
+            resting(at.filter_map(|k| reading.get(k)), series.interval)
+        }
+        None => shaft.and_then(shaft::Found::stop).and_then(|stop| {
+            let settled = stop + settling_time(&stated);
+            let times: Vec<f64> = (from..to).map(|k| series.time(k)).collect();
+            zero_at_rest(&times, reading, settled)
+        }),
+    };
+    if let (Some(rest), Some(stated)) = (rest, wish.zero_deviation)
+        && wish.disturbance != Disturbance::RunOut
+        && rest.value.abs() > CONTRADICTS * stated.hypot(rest.deviation)
+    {
+        doubts.push((
+            "AB1127",
+            format!(
+                "while the shaft rests the reading is {:.4} N mm, which is {:.0} times the zero_deviation stated, {:.4} N mm: the zero has moved, or a run-out holds it (signals.torque.disturbance = \"run-out\"); the rest counts",
+                1e3 * rest.value,
+                rest.value.abs() / stated,
+                1e3 * stated
+            ),
+        ));
+        zero.deviation = stated.hypot(rest.value);
+    }
+    if let (Some(rest), None) = (rest, change)
+        && rest.deviation < zero.deviation
+    {
+        zero = rest;
+    }
     let input = Inversion {
         sensor,
         first: series.time(from),
@@ -307,11 +393,7 @@ fn inverted(
         lock: change
             .and_then(|change| change.end)
             .map(|(time, deviation)| Uncertain::new(time, deviation)),
-        // Where nothing is known of the zero, all of the reading may be one.
-        zero: Uncertain::new(
-            0.0,
-            (wish.zero_deviation).unwrap_or((high - low).max(high.abs()).max(low.abs())),
-        ),
+        zero,
         zero_wander: 0.0,
         scale_deviation: wish.scale_deviation,
         disturbance_power: match wish.disturbance {
@@ -320,7 +402,7 @@ fn inverted(
             Disturbance::RunOut => Some(0.0),
         },
     };
-    if !input.rests_at_first() && wish.zero_deviation.is_none() {
+    if !input.rests_at_first() && wish.zero_deviation.is_none() && rest.is_none() {
         notes.push("the shaft does not rest at first and zero_deviation is not given: the zero of the reading is not known".to_string());
     }
     if let (Some(why), true) = (
@@ -333,6 +415,13 @@ fn inverted(
     }
     let mut torque = invert(&input)?;
     notes.extend(torque.notes.iter().cloned());
+    doubts.extend(torque.shown_frequency.map(|shown| {
+        let text = format!(
+            "after the engagement the reading rings at {shown:.1} Hz, and {:.1} Hz is stated of the sensor (signals.torque.sensor_frequency): the torque while it rings is that of the one stated; a tap tells which is right (signals.torque.tap_file)",
+            sensor.frequency.value
+        );
+        ("AB1128", text)
+    }));
     if turning.is_none() && wish.disturbance != Disturbance::None {
         torque.hold_what_swings();
         notes.push(

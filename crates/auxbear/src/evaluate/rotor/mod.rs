@@ -11,7 +11,7 @@ pub(crate) mod warnings;
 
 pub(crate) use crate::evaluate::rotor::asked::Asked;
 use crate::evaluate::rotor::asked::{Found, sense};
-use crate::result::outcome::{Column, Outcome, Picture, Stop, Work};
+use crate::result::outcome::{Column, Members, Outcome, Picture, Stop, Work};
 use crate::scenario::Scenario;
 use std::time::Instant;
 
@@ -58,7 +58,7 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
             seconds: clock.elapsed().as_secs_f64(),
             ..Work::default()
         },
-        members: Vec::new(),
+        members: Members::default(),
         drawn: Vec::new(),
         limits: Vec::new(),
         pictures: vec![Picture {

@@ -15,7 +15,7 @@ pub(crate) mod warnings;
 
 pub(crate) use crate::evaluate::torque::asked::Asked;
 use crate::evaluate::torque::asked::{Moments, law_of, name_of};
-use crate::result::outcome::{Column, Outcome, Picture, Stop, Work};
+use crate::result::outcome::{Column, Members, Outcome, Picture, Stop, Work};
 
 use crate::scenario::Scenario;
 use physics::friction::MomentParts;
@@ -48,7 +48,7 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
             seconds: clock.elapsed().as_secs_f64(),
             ..Work::default()
         },
-        members: Vec::new(),
+        members: Members::default(),
         drawn: Vec::new(),
         limits: Vec::new(),
         pictures: vec![Picture {

@@ -32,6 +32,12 @@ function meanNote(quantity) {
   return spread && isNumber(spread.mean) ? `mean ${spreadText(quantity).mean} of ${spread.members}` : null;
 }
 
+// The worst of all members by a measure of their values; of a single run its own.
+function worstOf(quantity, measure) {
+  const { min, max } = quantity.spread || {};
+  return Math.max(...[quantity.value, min, max].filter(isNumber).map(measure));
+}
+
 function quantityTile(run, title, name, note, state) {
   const quantity = quantityOf(run, name);
   if (!isNumber(quantity.value)) return tile(title, "–", ["not in this run: " + (quantity.why || "no reason given")]);
@@ -80,11 +86,14 @@ function whirlTile(run) {
   const quantity = quantityOf(run, "whirl_direction");
   if (typeof quantity.value !== "string") return tile("Whirl", "–", ["not in this run: " + (quantity.why || "no reason given")]);
   const turns = quantityOf(run, "whirl_turns");
-  const sense = turns.value < 0 ? "backward" : "forward";
+  const spin = Math.sign(numberOf(run, "rotor_final_speed")) || 1;
+  const sense = turns.value * spin < 0 ? "backward" : "forward";
   const count = isNumber(turns.value) ? `${numberText(Math.abs(turns.value), 3)} net turns, ${sense}, in the inner race` : null;
   const rule = quantity.value === "none" ? "below one turn there is no whirl" : null;
   const mean = meanNote(turns);
-  return tile("Whirl", quantity.value, [count, rule, mean && `${mean} members; forward is positive`], verdictState(run, quantity.value === "backward"));
+  const back = worstOf(turns, (value) => -value * spin);
+  const others = quantity.value !== "backward" && back >= 1 ? `BACKWARD in other members: ${numberText(back, 3)} turns in the worst` : null;
+  return tile("Whirl", quantity.value, [others, count, rule, mean && `${mean} members; counter-clockwise is positive`], verdictState(run, quantity.value === "backward" || back >= 1));
 }
 
 function displacementTile(run) {
@@ -97,8 +106,10 @@ function displacementTile(run) {
 // Each pressure counts by the limit of what touches there; the share is the largest.
 function pressureTile(run) {
   const share = numberOf(run, "hertz_pressure_share_of_limit");
-  const state = share === null ? null : verdictState(run, share > 1);
-  return quantityTile(run, "Peak Hertz pressure", "peak_hertz_pressure", (pressure) => pressureNote(run, pressure), () => state);
+  const worst = worstOf(quantityOf(run, "hertz_pressure_share_of_limit"), (value) => value);
+  const state = share === null ? null : verdictState(run, worst > 1);
+  const others = worst > share ? [`in the worst member ${percentText(worst)} of the limit`] : [];
+  return quantityTile(run, "Peak Hertz pressure", "peak_hertz_pressure", (pressure) => [pressureNote(run, pressure), others].flat(), () => state);
 }
 
 function verdict(run) {
@@ -116,7 +127,7 @@ function verdict(run) {
       "Energy residual",
       "energy_residual",
       () => "share of the energies that the ledger leaves unexplained",
-      (residual) => verdictState(run, Math.abs(residual) > RESIDUAL_TO_DOUBT),
+      () => verdictState(run, worstOf(quantityOf(run, "energy_residual"), Math.abs) > RESIDUAL_TO_DOUBT),
     ),
   );
 }
@@ -152,19 +163,15 @@ function spreadOrigin(run) {
   if (!repeated) return null;
   const [position, angle] = ["repeat.rotor_position_deviation", "repeat.ball_angle_deviation"].map((path) => inputOf(run, path));
   const by = [position && inputText(position.value), angle && inputText(angle.value)].filter(Boolean).join(" and ");
-  const varied = ["friction_coefficient", "mount_stiffness", "radial_air_clearance"].filter((name) => Number((inputOf(run, `repeat.${name}_deviation`) || {}).value) > 0).map((name) => name.replaceAll("_", " "));
-  if ((inputOf(run, "repeat.unbalance_angle") || {}).value === "random") varied.push("direction of the unbalance");
-  const drawn = list(run.summary.drawn).flatMap((draws) => Object.keys(draws || {}));
-  const known = ["contact.friction_coefficient", "mount.stiffness", "contact.radial_air_clearance", "rotor.unbalance_angle"];
-  varied.push(...new Set(drawn.filter((path) => !known.some((other) => path.endsWith(other)) || !varied.length)));
-  if (varied.length) return `spread of machines that differ in ${varied.join(", ")}, and of starts perturbed by ${by} (see repeat.*)`;
+  const varied = [...new Set(list(run.summary.drawn).flatMap((draws) => Object.keys(draws || {})))];
+  if (varied.length) return `spread of machines that differ in ${varied.join(", ")}, and of starts perturbed by ${by || "tiny amounts"} (see repeat.*)`;
   return `spread of starts perturbed by ${by || "tiny amounts"} (see repeat.*): shows numerical chaos, not tolerances of the machine`;
 }
 
 // How grave a warning is: 0 the result is that of another machine, or destruction; 2 what is left out or to be kept in mind; 1 all
 // between, and every code that no list names.
-const GRAVE = new Set(["AB1001", "AB1002", "AB1005", "AB1006", "AB1014", "AB1017", "AB1029", "AB1032", "AB1042", "AB1044", "AB1060", "AB1070", "AB1090", "AB1092", "AB1094", "AB1095", "AB1096"]);
-const REMARKS = new Set(["AB1007", "AB1008", "AB1010", "AB1011", "AB1012", "AB1020", "AB1022", "AB1023", "AB1052", "AB1062", "AB1071", "AB1093"]);
+const GRAVE = new Set(["AB1001", "AB1002", "AB1005", "AB1006", "AB1014", "AB1017", "AB1029", "AB1032", "AB1042", "AB1044", "AB1060", "AB1070", "AB1090", "AB1092", "AB1094", "AB1095", "AB1096", "AB1127", "AB1128", "AB2021", "AB2030"]);
+const REMARKS = new Set(["AB1007", "AB1008", "AB1010", "AB1011", "AB1012", "AB1020", "AB1022", "AB1023", "AB1052", "AB1062", "AB1071", "AB1093", "AB1126"]);
 const ASSUMED = "AB1013";
 
 function graveness({ code }) {

@@ -155,12 +155,15 @@ function hasValue({ value }) {
   return value !== null && value !== undefined;
 }
 
+// Values of a list that a narrow column of several runs has room for on paper.
+const LIST_ON_PAPER = 3;
+
 function quantitySection(runs) {
   const names = [...new Set(runs.flatMap((run) => Object.keys(run.quantities)))];
   if (!names.length) return section("quantities", "Quantities", notInThisRun("the summary holds no quantities"));
   const repeated = runs.some((run) => names.some((name) => quantityOf(run, name).spread));
   const single = runs.length === 1;
-  for (const run of runs) for (const quantity of Object.values(run.quantities)) if (quantity && quantity.spread) quantity.all_members = list(run.summary.members).length;
+  for (const run of runs) for (const quantity of Object.values(run.quantities)) if (quantity && quantity.spread) quantity.all_members = run.summary.members_total || list(run.summary.members).length;
   const heads = ["Quantity"];
   if (single) heads.push("Value", "In SI units");
   else runs.forEach((run, index) => heads.push(run.short, ...(index ? [`(${run.letter} − A) / A`] : [])));
@@ -171,11 +174,14 @@ function quantitySection(runs) {
   };
   const rowOf = (name) => {
     const all = runs.map((run) => quantityOf(run, name));
-    const cells = [element("td", { class: "name" }, wordsOf(name), chaoticMark(statedOf(name)), element("code", {}, name))];
+    const cells = [element("td", { class: "name" }, wordsOf(name), chaoticMark(statedOf(name)), element("code", {}, breakable(name)))];
     if (single) cells.push(element("td", {}, quantityText(all[0])), element("td", { class: "small" }, siCell(all[0])));
     else {
       all.forEach((quantity, index) => {
-        cells.push(element("td", {}, quantityText(quantity), spreadCell(quantity)));
+        const { value } = quantity;
+        const many = Array.isArray(value) && value.length > LIST_ON_PAPER;
+        const text = many ? [element("span", { class: "screen-only" }, quantityText(quantity)), element("span", { class: "print-only" }, `${value.length} values`)] : quantityText(quantity);
+        cells.push(element("td", {}, text, spreadCell(quantity)));
         if (index) cells.push(element("td", { class: "difference" }, WITHOUT_SHARE.test(name) ? "–" : differenceText(all[0].value, quantity.value)));
       });
     }
@@ -218,13 +224,13 @@ function memberDetails(run) {
   if (!members.length) return null;
   const plain = (cell) => (cell && typeof cell === "object" && !Array.isArray(cell) ? cell.value : cell);
   const names = [...new Set(members.flatMap(Object.keys))].filter((name) => members.some((member) => isNumber(plain(member[name]))));
-  const row = (member, index) => element("tr", {}, element("td", {}, index + 1), names.map((name) => element("td", {}, numberText(plain(member[name]), 6))));
+  const row = (member, index) => element("tr", {}, element("td", {}, index), names.map((name) => element("td", {}, numberText(plain(member[name]), 6))));
   const unit = (name) => unitText(quantityOf(run, name).unit);
   const heads = names.map((name) => element("th", {}, wordsOf(name) + (unit(name) ? ` [${unit(name)}]` : "")));
   return element(
     "details",
     { class: "screen-only" },
-    element("summary", {}, `${run.prefix}${members.length} members of the repeated run, in SI units`),
+    element("summary", {}, `${run.prefix}${run.summary.members_total ? `the first ${members.length} of ${run.summary.members_total}` : members.length} members of the repeated run, in SI units${run.summary.members_total ? "; summary.json and auxbear export have all" : ""}`),
     element("div", { class: "wide" }, element("table", { class: "numbers" }, element("thead", {}, element("tr", {}, element("th", {}, "member"), heads)), element("tbody", {}, members.map(row)))),
   );
 }

@@ -302,7 +302,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Undamped natural frequency of the sensor with what it carries. Give this with the damping ratio, or a tap.",
     )
     .positive()
-    .optional("a tap measures it, or the reading is taken as it is")
+    .optional("a tap measures it; without either the reading is shown, and slow runs are read from it, but no torque without its swing")
     .excludes("signals.torque.tap_file"),
     Key::new(
         "signals.torque.damping_ratio",
@@ -311,7 +311,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Damping ratio of the sensor.",
     )
     .within(Range::FromTo(0.0, 10.0))
-    .optional("a tap measures it, or the reading is taken as it is")
+    .optional("a tap measures it; without either the reading is shown, and slow runs are read from it, but no torque without its swing")
     .excludes("signals.torque.tap_file"),
     Key::new(
         "signals.torque.frequency_deviation",

@@ -35,13 +35,6 @@ pub struct Pressures {
 }
 
 impl Pressures {
-    /// The larger of each.
-    pub fn or(self, other: Pressures) -> Pressures {
-        Pressures {
-            races: self.races.max(other.races),
-            neighbours: (self.neighbours.zip(other.neighbours)).map(|(own, other)| own.max(other)),
-        }
-    }
     /// Between neighbouring balls, with its limit, Pa.
     pub fn of_neighbours(&self, bearing: &Bearing) -> Option<(f64, f64)> {
         self.neighbours.zip(bearing.neighbour_pressure_limit())

@@ -53,7 +53,7 @@ impl List {
             "cage_time_to_95_percent_of_rolling".to_string(),
         ];
         for (name, (time, why)) in names.iter().zip(times.into_iter().zip(never)) {
-            self.number(name, "s", time.ok_or(why), origin);
+            self.awaited(name, time.ok_or(why), origin);
         }
     }
 

@@ -11,7 +11,7 @@ use physics::friction_range::OperatingPoint;
 use physics::hertz::rim_tension;
 
 /// Relative energy residual above which the run's tolerance is too loose.
-const LARGEST_RESIDUAL: f64 = 1e-6;
+pub(crate) const LARGEST_RESIDUAL: f64 = 1e-6;
 
 /// Temperature rise of the films over which d ln ν/dT of an oil changes by a quarter, K.
 const WARMEST_FILMS: f64 = 20.0;
@@ -82,12 +82,11 @@ pub(crate) fn cage_inertia(bearing: &Bearing) -> Option<Warning> {
 
 /// An energy ledger that does not close, however the run ended.
 pub(crate) fn residual(quantities: &[Quantity]) -> Option<Warning> {
-    residual_beyond(LARGEST_RESIDUAL, quantities)
+    residual_beyond(LARGEST_RESIDUAL, number(quantities, "energy_residual")?)
 }
 
 /// An energy ledger that misses more than a share of what was turned over.
-pub(crate) fn residual_beyond(most: f64, quantities: &[Quantity]) -> Option<Warning> {
-    let residual = number(quantities, "energy_residual")?;
+pub(crate) fn residual_beyond(most: f64, residual: f64) -> Option<Warning> {
     (residual.abs() > most).then(|| {
         warning(
             "AB1006",

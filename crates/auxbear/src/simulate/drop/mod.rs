@@ -12,7 +12,7 @@ pub(crate) mod shaft_results;
 pub(crate) mod warnings;
 
 use crate::options::Options;
-use crate::result::outcome::{Contact, Outcome, Picture, Spread, Stop, Value, Work};
+use crate::result::outcome::{Contact, Members, Outcome, Picture, Spread, Stop, Work};
 use crate::scenario::{Drop, Scenario};
 use crate::simulate::drop::build::Built;
 use crate::simulate::drop::context::Context;
@@ -58,9 +58,10 @@ pub(crate) fn run(
         finished: &finished[k],
         members: count,
     };
-    let first = context(0);
-    let mut named = quantities::name(&first);
-    let mut table = Vec::new();
+    let contexts: Vec<Context> = (0..count).map(context).collect();
+    let first = &contexts[0];
+    let mut named = quantities::name(first);
+    let mut table = Members::ended_at(drop.run.duration);
     let mut drawn = Vec::new();
     if count > 1 {
         // a member that did not end as planned would pull every mean
@@ -69,21 +70,13 @@ pub(crate) fn run(
             let draws = |k: usize| k.checked_sub(1).map(|k| varied[k].drawn.clone());
             drawn = whole().map(|k| draws(k).unwrap_or_default()).collect();
         }
-        table = whole()
-            .map(|k| {
-                quantities::name(&context(k))
-                    .into_iter()
-                    .filter_map(|q| match q.value {
-                        Value::Number(value) => Some((q.name, Some(value))),
-                        Value::None { .. } => Some((q.name, None)),
-                        Value::List(_) | Value::Text(_) => None,
-                    })
-                    .collect()
-            })
-            .collect();
+        for k in whole() {
+            table.push(quantities::name(&contexts[k]));
+        }
         let least = chaotic_from(scenario, drop);
         for quantity in &mut named {
-            quantity.spread = spread(&table, &quantity.name);
+            quantity.spread =
+                Spread::of(table.values(&quantity.name).into_iter().flatten().collect());
             let deviation = quantity.spread.map_or(0.0, |of| of.relative_deviation());
             quantity.chaotic = least.is_some_and(|least| deviation > least)
                 // what a ledger misses is an error of the integration, and has no size of its own
@@ -97,16 +90,16 @@ pub(crate) fn run(
             .clone()
             .unwrap_or_else(|| "Drop of a levitated rotor".to_string()),
         quantities: named,
-        history: columns::history(&first),
-        contacts: contacts(&first),
-        warnings: warnings::of(scenario, &first, &finished),
+        history: columns::history(first),
+        contacts: contacts(first),
+        warnings: warnings::of(scenario, &contexts),
         stop: worst_stop(&finished),
         work: work(&finished, seconds, stepping),
         members: table,
         drawn,
         limits: Vec::new(),
         pictures: (0..drop.auxiliary_bearings.len())
-            .map(|k| picture(&first, k))
+            .map(|k| picture(first, k))
             .collect(),
         files: Vec::new(),
     }
@@ -130,14 +123,6 @@ fn chaotic_from(scenario: &Scenario, drop: &Drop) -> Option<f64> {
     let repeat = &drop.repeat;
     let of_starts = (repeat.rotor_position_deviation / smallest).max(repeat.ball_angle_deviation);
     Some(SEEN.max(AMPLIFIED * of_starts))
-}
-
-fn spread(members: &[Vec<(String, Option<f64>)>], name: &str) -> Option<Spread> {
-    let values: Vec<f64> = members
-        .iter()
-        .filter_map(|member| member.iter().find(|(n, _)| n == name)?.1)
-        .collect();
-    Spread::of(values)
 }
 
 /// What pictures need of an auxiliary bearing.

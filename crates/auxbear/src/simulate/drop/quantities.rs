@@ -57,9 +57,8 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
 
     // contacts
     let first = record.contacts.first();
-    list.number(
+    list.awaited(
         "time_to_first_contact",
-        "s",
         first.map(|c| c.start).ok_or_else(no_contact),
         &FIRST_CONTACT,
     );
@@ -199,7 +198,7 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
 const ROUNDING: f64 = 1e-12;
 
 /// Largest residuals of the run, relative: (energy, angular momentum).
-fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, String>) {
+pub(crate) fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, String>) {
     let machine = context.machine;
     let record = &context.finished.record;
     let ending = &context.finished.ending;

@@ -7,7 +7,6 @@ use crate::scenario::Shaft;
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::ensemble::Finished;
 use crate::simulate::drop::shaft::BuiltShaft;
 
 /// The results that only a bent rotor has.
@@ -106,43 +105,28 @@ pub(crate) fn columns(context: &Context, run: &BearingRun) -> Vec<Column> {
     table.columns
 }
 
-/// Clearances along the shaft that a run uses up, in any member.
-pub(crate) fn warnings(context: &Context, members: &[Finished]) -> Vec<Warning> {
-    let (Some(given), Some(built)) = (&context.drop.shaft, &context.built.shaft) else {
-        return Vec::new();
-    };
-    let mut list = Vec::new();
-    for node in named(given, built) {
-        let Some(clearance) = node.clearance else {
-            continue;
-        };
-        let peaks = members
-            .iter()
-            .map(|member| member.record.places[node.place]);
-        let touching = peaks.clone().filter(|peak| peak.value >= clearance).count();
-        let Some(worst) = peaks.reduce(|a, b| if b.value > a.value { b } else { a }) else {
-            continue;
-        };
-        if touching == 0 {
-            continue;
-        }
-        let who = match members.len() {
-            1 => String::new(),
-            count => format!(" in {touching} of {count} members,"),
-        };
-        list.push(warning(
-            "AB2030",
-            format!(
-                "At {} the rotor moves by{who} up to {:.0} µm ({:.2} ms), beyond the clearance of {:.0} µm: it touches what stands \
-                 there, and this contact is not computed.",
-                node.name,
-                1e6 * worst.value,
-                1e3 * worst.time,
-                1e6 * clearance
-            ),
-        ));
-    }
-    list
+/// Number of nodes with a name.
+pub(crate) fn named_nodes(context: &Context) -> usize {
+    let shaft = context.drop.shaft.as_ref();
+    shaft.map_or(0, |shaft| shaft.model.nodes.len())
+}
+
+/// A clearance along the shaft that a member uses up, and by how much.
+pub(crate) fn reached(context: &Context, node: usize) -> Option<(f64, Warning)> {
+    let (given, built) = (context.drop.shaft.as_ref()?, context.built.shaft.as_ref()?);
+    let node = named(given, built).nth(node)?;
+    let (peak, clearance) = (context.finished.record.places[node.place], node.clearance?);
+    (peak.value >= clearance).then(|| {
+        let text = format!(
+            "At {} the rotor moves by up to {:.0} µm ({:.2} ms), beyond the clearance of {:.0} µm: it touches what stands there, and \
+             this contact is not computed.",
+            node.name,
+            1e6 * peak.value,
+            1e3 * peak.time,
+            1e6 * clearance
+        );
+        (peak.value - clearance, warning("AB2030", text))
+    })
 }
 
 /// A named node among the watched places.

@@ -4,11 +4,9 @@ use crate::result::assumptions::speed_rating;
 use crate::result::outcome::Warning;
 use crate::result::outcome::warning;
 use crate::scenario::{Accuracy, Fidelity, Method, Moment, Scenario};
-use crate::simulate::bearing::pressure::Pressures;
 use crate::simulate::bearing::warnings as shared;
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::ensemble::Finished;
-use crate::simulate::drop::quantities::name;
+use crate::simulate::drop::quantities::residuals;
 use crate::simulate::drop::shaft_results;
 use crate::simulate::ending::DESIGN;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
@@ -65,8 +63,55 @@ fn accuracy(context: &Context) -> Vec<Warning> {
     list
 }
 
-/// All warnings of a run, the gravest first.
-pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -> Vec<Warning> {
+/// A warning of one member, and how grave it is there.
+type Graded = (f64, Warning);
+
+/// Judges every member: a warning of any of them once, as the one has it where it is gravest, with the number of those that have it.
+fn judged(contexts: &[Context], of: impl Fn(&Context) -> Vec<Graded>) -> Vec<Warning> {
+    let mut found: Vec<(usize, usize, Graded)> = Vec::new();
+    for (k, context) in contexts.iter().enumerate() {
+        for (grade, warning) in of(context) {
+            let mut known = found.iter_mut();
+            match known.find(|(.., (_, other))| other.code == warning.code) {
+                Some((count, member, gravest)) => {
+                    *count += 1;
+                    if grade > gravest.0 {
+                        (*member, *gravest) = (k, (grade, warning));
+                    }
+                }
+                None => found.push((1, k, (grade, warning))),
+            }
+        }
+    }
+    let told = |(count, member, (_, mut warning)): (usize, usize, Graded)| {
+        if contexts.len() > 1 {
+            warning.text.push_str(&format!(
+                " In {count} of {} members; the numbers are those of member {member}.",
+                contexts.len()
+            ));
+        }
+        warning
+    };
+    found.into_iter().map(told).collect()
+}
+
+/// Warnings from rows, which of repeated runs the first member alone keeps.
+fn of_rows(contexts: &[Context], mut list: Vec<Warning>) -> Vec<Warning> {
+    for warning in list.iter_mut().filter(|_| contexts.len() > 1) {
+        let text = " Judged in the unperturbed run alone: the other members keep no histories.";
+        warning.text.push_str(text);
+    }
+    list
+}
+
+/// All warnings of a run, the gravest first; `contexts` are its members.
+pub(crate) fn of(scenario: &Scenario, contexts: &[Context]) -> Vec<Warning> {
+    let context = &contexts[0];
+    // what follows from the machine alone is the same in all members where none is varied
+    let machines = match scenario.vary.is_empty() {
+        true => &contexts[..1],
+        false => contexts,
+    };
     let drop = context.drop;
     let names: Vec<&str> = context.parts().collect();
     let each = |of: &dyn Fn(usize) -> Vec<Warning>| -> Vec<Warning> {
@@ -81,30 +126,37 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
         };
         names.iter().enumerate().flat_map(named).collect()
     };
-    let mut list = each(&|k| whirl(context, members, k));
-    list.extend(shaft_results::warnings(context, members));
+    let mut list = each(&|k| judged(contexts, |member| whirl(member, k).into_iter().collect()));
+    for node in 0..shaft_results::named_nodes(context) {
+        list.extend(judged(contexts, |member| {
+            shaft_results::reached(member, node).into_iter().collect()
+        }));
+    }
     list.extend(each(&|k| {
-        let bearing = &context.given(k).bearing;
-        let rating = speed_rating(bearing, drop.rotor.speed);
-        let lift_off = shared::lift_off(bearing, drop.rotor.speed);
-        rating.into_iter().chain(lift_off).collect()
+        judged(machines, |member| beyond_speeds(member, k))
     }));
-    list.extend(bending(context));
+    list.extend(judged(machines, |member| {
+        bending(member).into_iter().collect()
+    }));
     list.extend(one_motion(context));
-    list.extend(names.iter().enumerate().filter_map(|(k, name)| {
-        let weight = drop.rotor.mass * drop.gravity.acceleration * drop.share(k);
-        let peaks =
-            (members.iter()).filter_map(|member| member.record.bearings[k].peak_contact_force());
-        let peak = peaks
-            .map(|peak| (peak.value, peak.time))
-            .reduce(|a, b| if b.0 > a.0 { b } else { a });
-        shared::preload_left(name, &context.given(k).bearing, ("weight", weight), peak)
+    list.extend(each(&|k| {
+        judged(contexts, |member| preload(member, k).into_iter().collect())
     }));
-    list.extend(each(&|k| loads(context, members, k)));
-    list.extend(match drop.run.accuracy {
-        Accuracy::Design => shared::residual(&name(context)),
-        Accuracy::Screening => shared::residual_beyond(SCREENING_RESIDUAL, &name(context)),
-    });
+    list.extend(each(&|k| {
+        let mut list = judged(contexts, |member| loads(member, k));
+        list.extend(of_rows(contexts, damping(context, k)));
+        list
+    }));
+    let most = match drop.run.accuracy {
+        Accuracy::Design => shared::LARGEST_RESIDUAL,
+        Accuracy::Screening => SCREENING_RESIDUAL,
+    };
+    list.extend(judged(contexts, |member| {
+        let residual = residuals(member).0.ok();
+        let graded =
+            |residual: f64| Some((residual.abs(), shared::residual_beyond(most, residual)?));
+        residual.and_then(graded).into_iter().collect()
+    }));
     list.extend(accuracy(context));
     if drop.rotor.planes > 1 {
         list.push(warning(
@@ -116,7 +168,17 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
             ),
         ));
     }
-    list.extend(each(&|k| of_bearing(scenario, context, k)));
+    list.extend(each(&|k| {
+        let run = context.bearing(k);
+        let mut list = shared::films(&run, &context.given(k).bearing);
+        list.extend(shared::film_rise(&run));
+        let mut list = of_rows(contexts, list);
+        list.extend(judged(machines, |member| {
+            skids(member, k).into_iter().collect()
+        }));
+        list.extend(of_bearing(scenario, context, k));
+        list
+    }));
     list.extend(each(&|k| {
         let contacts = context.record(k).contacts.len();
         let late = (contacts > CHAOTIC_CONTACTS && context.members == 1).then(|| {
@@ -131,6 +193,16 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
         let kind = shared::kind(&context.given(k).bearing);
         late.into_iter().chain(kind).collect()
     }));
+    if drop.rotor.first_bending_frequency.is_none() && drop.shaft.is_none() {
+        list.push(warning(
+            "AB1126",
+            format!(
+                "Whether the rotor bends was not checked: rotor.first_bending_frequency is not given. A rotor whose first free-free \
+                 bending mode lies below {:.0} rad/s is not rigid at this speed.",
+                drop.rotor.speed.abs() / BENDING_SHARE
+            ),
+        ));
+    }
     list.extend(shared::assumed(scenario, None, &context.given(0).bearing));
     list.extend(each(&|k| {
         let given = context.given(k);
@@ -141,34 +213,46 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, members: &[Finished]) -
     list
 }
 
-/// A rotor that runs round the bore against its spin, in any member.
-fn whirl(context: &Context, members: &[Finished], k: usize) -> Vec<Warning> {
-    let sense = context.machine.constants.speed.signum();
-    let turns = |member: &Finished| member.record.bearings[k].whirl_turns * sense;
-    let whirling = members.iter().enumerate().map(|(at, m)| (at, turns(m)));
-    let whirling: Vec<(usize, f64)> = whirling.filter(|(_, turns)| *turns <= -1.0).collect();
-    let Some((worst, most)) = (whirling.iter().copied()).min_by(|a, b| a.1.total_cmp(&b.1)) else {
-        return Vec::new();
-    };
-    let who = match members.len() {
-        1 => "the rotor runs".to_string(),
-        count => format!(
-            "in {} of {count} members, and in member {worst} the rotor runs",
-            whirling.len()
-        ),
-    };
-    vec![warning(
-        "AB1014",
-        format!(
-            "Backward whirl: {who} {:.0} turns round the bore against its spin. Contact forces of this kind \
-             destroy bearings and shafts.",
-            -most
-        ),
-    )]
+/// A rotor that runs round the bore against its spin.
+fn whirl(context: &Context, k: usize) -> Option<Graded> {
+    let back = -context.record(k).whirl_turns * context.machine.constants.speed.signum();
+    (back >= 1.0).then(|| {
+        let text = format!(
+            "Backward whirl: the rotor runs {back:.0} turns round the bore against its spin. Contact forces of this kind destroy \
+             bearings and shafts."
+        );
+        (back, warning("AB1014", text))
+    })
+}
+
+/// Speeds beyond those of the bearing and of its fit.
+fn beyond_speeds(context: &Context, k: usize) -> Vec<Graded> {
+    let (bearing, speed) = (&context.given(k).bearing, context.drop.rotor.speed);
+    let lift_off = shared::lift_off(bearing, speed);
+    let warnings = speed_rating(bearing, speed).into_iter().chain(lift_off);
+    warnings.map(|warning| (speed.abs(), warning)).collect()
+}
+
+/// A load beyond what the axial preload holds.
+fn preload(context: &Context, k: usize) -> Option<Graded> {
+    let drop = context.drop;
+    let weight = drop.rotor.mass * drop.gravity.acceleration * drop.share(k);
+    let peak = context.record(k).peak_contact_force();
+    let peak = peak.map(|peak| (peak.value, peak.time));
+    let bearing = &context.given(k).bearing;
+    let warning = shared::preload_left("", bearing, ("weight", weight), peak)?;
+    Some((peak.map_or(weight, |(force, _)| force.max(weight)), warning))
+}
+
+/// Balls that traction cannot turn.
+fn skids(context: &Context, k: usize) -> Option<Graded> {
+    let steady = context.built.bearings[k].steady.as_ref();
+    let warning = shared::skids(steady)?;
+    Some((steady.map_or(0.0, |steady| -steady.capacity), warning))
 }
 
 /// A rotor that bends where it is taken as rigid.
-fn bending(context: &Context) -> Option<Warning> {
+fn bending(context: &Context) -> Option<Graded> {
     let rotor = &context.drop.rotor;
     let bending = rotor.first_bending_frequency?;
     let speed = rotor.speed.abs();
@@ -178,13 +262,11 @@ fn bending(context: &Context) -> Option<Warning> {
         "is near"
     };
     (BENDING_SHARE * bending < speed).then(|| {
-        warning(
-            "AB1001",
-            format!(
-                "The first free-free bending mode ({bending:.0} rad/s) {side} the release speed ({speed:.0} rad/s): \
-                 this rigid rotor is indicative only."
-            ),
-        )
+        let text = format!(
+            "The first free-free bending mode ({bending:.0} rad/s) {side} the release speed ({speed:.0} rad/s): \
+             this rigid rotor is indicative only."
+        );
+        (speed / bending, warning("AB1001", text))
     })
 }
 
@@ -203,62 +285,54 @@ fn one_motion(context: &Context) -> Option<Warning> {
 }
 
 /// Pressures and forces beyond what bearing and laws stand.
-fn loads(context: &Context, members: &[Finished], k: usize) -> Vec<Warning> {
-    let given = context.given(k);
-    let bearing = &given.bearing;
+fn loads(context: &Context, k: usize) -> Vec<Graded> {
+    let bearing = &context.given(k).bearing;
     let record = context.record(k);
-    let at = context.machine.layout().bearings[k];
-    let mut list = Vec::new();
+    let races = [record.largest_inner_load, record.largest_outer_load];
     let factors = context.built.bearings[k].pressure_factors;
-    let pressures = (members.iter())
-        .map(|member| {
-            let record = &member.record.bearings[k];
-            let races = [record.largest_inner_load, record.largest_outer_load];
-            factors.pressures(races, record.largest_pocket_force)
-        })
-        .reduce(Pressures::or);
-    if let Some(pressures) = pressures {
-        list.extend(shared::pressure(bearing, &pressures));
-    }
-    let closing = (context.finished.record.rows())
-        .filter(|row| row.probe[at.probe(PENETRATION)] > 0.0)
-        .map(|row| row.probe[at.probe(PENETRATION_SPEED)].abs())
-        .fold(0.0, f64::max);
-    if given.contact.damping * closing > LARGEST_DAMPING {
-        list.push(warning(
-            "AB1004",
-            format!(
-                "The damping of rotor and race reaches a·ḋ = {:.2}: the Hunt-Crossley law is meant for values well \
-                 below 1.",
-                given.contact.damping * closing
-            ),
-        ));
-    }
+    let pressures = factors.pressures(races, record.largest_pocket_force);
+    let grade = |code| match code {
+        "AB1070" => pressures.neighbours.unwrap_or(0.0),
+        _ => pressures.races,
+    };
+    let warnings = shared::pressure(bearing, &pressures).into_iter();
+    let mut list: Vec<Graded> = warnings
+        .map(|warning| (grade(warning.code), warning))
+        .collect();
     if let (Moment::Palmgren { .. }, Some(rating)) = (&bearing.moment, bearing.static_load_rating)
         && let Some(peak) = record.peak_contact_force()
         && peak.value > rating
     {
-        list.push(warning(
-            "AB1005",
-            format!(
-                "The contact force of {:.0} N exceeds the static load rating of {rating:.0} N: Palmgren's moment is \
-                 outside its range.",
-                peak.value
-            ),
-        ));
+        let text = format!(
+            "The contact force of {:.0} N exceeds the static load rating of {rating:.0} N: Palmgren's moment is \
+             outside its range.",
+            peak.value
+        );
+        list.push((peak.value / rating, warning("AB1005", text)));
     }
     list
+}
+
+/// A contact law outside its range.
+fn damping(context: &Context, k: usize) -> Vec<Warning> {
+    let at = context.machine.layout().bearings[k];
+    let closing = (context.finished.record.rows())
+        .filter(|row| row.probe[at.probe(PENETRATION)] > 0.0)
+        .map(|row| row.probe[at.probe(PENETRATION_SPEED)].abs())
+        .fold(0.0, f64::max);
+    let reached = context.given(k).contact.damping * closing;
+    let text = format!(
+        "The damping of rotor and race reaches a·ḋ = {reached:.2}: the Hunt-Crossley law is meant for values well below 1."
+    );
+    let list = (reached > LARGEST_DAMPING).then(|| warning("AB1004", text));
+    list.into_iter().collect()
 }
 
 /// What the laws of a bearing leave open.
 fn of_bearing(scenario: &Scenario, context: &Context, k: usize) -> Vec<Warning> {
     let given = context.given(k);
     let bearing = &given.bearing;
-    let run = context.bearing(k);
-    let mut list = shared::films(&run, bearing);
-    list.extend(shared::film_rise(&run));
-    list.extend(shared::skids(context.built.bearings[k].steady.as_ref()));
-    list.extend(shared::cage_inertia(bearing));
+    let mut list: Vec<Warning> = shared::cage_inertia(bearing).into_iter().collect();
     list.extend(shared::rolling(bearing));
     list.extend(shared::no_moment(bearing));
     list.extend(shared::moment(scenario, &given.name, bearing));

@@ -16,7 +16,7 @@ mod raw_file;
 pub(crate) mod warnings;
 
 use crate::options::Options;
-use crate::result::outcome::{Outcome, Picture, Work};
+use crate::result::outcome::{Members, Outcome, Picture, Work};
 use crate::scenario::{Rig, RigProgram, Scenario};
 use crate::simulate::drop::method;
 use crate::simulate::ending::{settings, stop};
@@ -81,7 +81,7 @@ pub(crate) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
             seconds,
             method: Some(method::EXPLICIT),
         },
-        members: Vec::new(),
+        members: Members::default(),
         drawn: Vec::new(),
         limits: Vec::new(),
         pictures: vec![Picture {

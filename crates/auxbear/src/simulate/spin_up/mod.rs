@@ -7,7 +7,7 @@ pub(crate) mod quantities;
 pub(crate) mod warnings;
 
 use crate::options::Options;
-use crate::result::outcome::{Outcome, Picture, Work};
+use crate::result::outcome::{Members, Outcome, Picture, Work};
 use crate::scenario::{Scenario, SpinUp};
 use crate::simulate::drop::method;
 use crate::simulate::ending::{settings, stop};
@@ -57,7 +57,7 @@ pub(crate) fn run(
             seconds,
             method: Some(method::EXPLICIT),
         },
-        members: Vec::new(),
+        members: Members::default(),
         drawn: Vec::new(),
         limits: Vec::new(),
         pictures: vec![Picture {

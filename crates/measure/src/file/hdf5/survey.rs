@@ -32,6 +32,9 @@ pub(super) struct Found {
     pub datasets: Vec<Dataset>,
     pub properties: Vec<Property>,
     pub notes: Vec<Note>,
+    /// Other names of what is read, and single values: neither are channels.
+    aliases: Vec<String>,
+    singles: Vec<String>,
 }
 
 /// Walks through a file.
@@ -56,6 +59,7 @@ pub(super) fn survey<S: Read + Seek>(
     let mut objects = 0;
     while let Some((prefix, address, depth)) = groups.pop() {
         if !seen.insert(address) {
+            found.aliases.push(prefix.trim_end_matches('/').to_string());
             continue;
         }
         let messages = match storage.messages(address) {
@@ -109,6 +113,8 @@ pub(super) fn survey<S: Read + Seek>(
             if messages.iter().any(|message| message.kind == kind::LAYOUT) {
                 if seen.insert(address) {
                     found.take_dataset(storage, name, &messages, matlab);
+                } else {
+                    found.aliases.push(name);
                 }
             } else if depth < DEEPEST {
                 below.push((format!("{name}/"), address, depth + 1));
@@ -127,10 +133,14 @@ pub(super) fn survey<S: Read + Seek>(
             Some(path) => path.to_string(),
             None => format!("{prefix}{path}"),
         };
-        if !paths.contains(whole.trim_end_matches('/')) {
-            found.note(&name, format!("leads to {path}, which is not there"));
+        match paths.contains(whole.trim_end_matches('/')) {
+            true => found
+                .aliases
+                .push(format!("{name} (read as {})", whole.trim_end_matches('/'))),
+            false => found.note(&name, format!("leads to {path}, which is not there")),
         }
     }
+    found.tell_what_is_no_channel();
     Ok(found)
 }
 
@@ -154,6 +164,31 @@ impl Found {
             channel: (!name.is_empty()).then(|| name.to_string()),
             text,
         });
+    }
+
+    /// One note each of what somebody may look for among the channels.
+    fn tell_what_is_no_channel(&mut self) {
+        const NAMED: usize = 8;
+        let lists = [
+            (
+                std::mem::take(&mut self.aliases),
+                "links or other names lead to what is read under its first name, and are no channels",
+            ),
+            (
+                std::mem::take(&mut self.singles),
+                "single values are properties of the file, and no channels",
+            ),
+        ];
+        for (names, what) in lists {
+            let rest = match names.len().saturating_sub(NAMED) {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            if !names.is_empty() {
+                let first = names[..NAMED.min(names.len())].join(", ");
+                self.note("", format!("{} {what}: {first}{rest}", names.len()));
+            }
+        }
     }
 
     /// The attributes of an object that can be read.
@@ -253,6 +288,10 @@ impl Found {
                         value: Value::Number(value),
                     })
                 });
+                let values: Vec<Property> = values.collect();
+                if !matlab {
+                    self.singles.push(name.clone());
+                }
                 return self.properties.extend(values);
             }
             [along] => (along, None),

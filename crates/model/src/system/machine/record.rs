@@ -136,6 +136,10 @@ impl Record {
     }
     /// Adds the last state of a run as a row, where it is not one already.
     pub fn finish(&mut self, machine: &RotorMachine, time: f64, state: &[f64]) {
+        // of very many members the room that none needed would fill the memory
+        for bearing in &mut self.bearings {
+            bearing.contacts.shrink_to_fit();
+        }
         let (_, probe) = machine.inspect(state);
         self.rows.finish(&Row {
             time,

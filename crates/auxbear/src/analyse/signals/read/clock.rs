@@ -4,6 +4,8 @@ use crate::analyse::signals::read::{MOST_VALUES, Source, si_factor};
 use crate::problem::{Code, Problem};
 use measure::recording::{Channel, Content};
 
+/// Usual intervals in a step from which on values are missing.
+const LONG_GAP: f64 = 1.8;
 /// How far an instant may be from an even clock, in intervals: beyond, values are not at equal times.
 const UNEVEN: f64 = 0.1;
 /// Values read at a time from a channel that is a clock.
@@ -107,6 +109,7 @@ impl Source<'_> {
         let interval = (last - first) / (count - 1) as f64;
         let mut before = f64::NEG_INFINITY;
         let mut worst: Option<(usize, f64)> = None;
+        let (mut gap, mut steps) = ((0.0, 0.0), Vec::new());
         for begin in (0..count).step_by(PIECE) {
             let piece = self.read(key, clock, begin as u64, PIECE.min(count - begin))?;
             for (k, value) in piece.iter().enumerate() {
@@ -126,6 +129,14 @@ impl Source<'_> {
                 if time <= before {
                     return Err(self.backwards(key, &times.name, at, before, time));
                 }
+                if before.is_finite() {
+                    if time - before > gap.1 {
+                        gap = (before, time - before);
+                    }
+                    if steps.len() < PIECE {
+                        steps.push(time - before);
+                    }
+                }
                 before = time;
                 let away = ((time - first) / interval - at as f64).abs();
                 if away > UNEVEN && worst.is_none_or(|(_, most)| away > most) {
@@ -134,9 +145,17 @@ impl Source<'_> {
             }
         }
         if let Some((at, away)) = worst {
-            let found = format!(
-                "channel \"{name}\", whose values are not at equal times: value {at} is {away:.2} intervals off"
-            );
+            steps.sort_by(f64::total_cmp);
+            let usual = steps.get(steps.len() / 2).copied().unwrap_or(interval);
+            let found = match gap.1 > LONG_GAP * usual {
+                true => format!(
+                    "a gap of {:.6} s behind {:.6} s in channel \"{name}\", whose values otherwise come every {usual:.6} s",
+                    gap.1, gap.0
+                ),
+                false => format!(
+                    "channel \"{name}\", whose values are not at equal times: value {at} is {away:.2} intervals off"
+                ),
+            };
             let needed = "values at equal times are needed; instants of marks are read with kind = \"edges\"";
             return Err(self.problem(Code::ChannelClock, key, found, needed));
         }
