@@ -123,7 +123,7 @@ const TABLE: &[Absent] = &[
         instead: "",
     },
     Absent {
-        paths: "motor generator drive_motor rotor.motor_torque seal seals windage gas process rotor.drag rotor.windage rotor.brake_curve rotor.braking_curve \
+        paths: "motor generator drive_motor rotor.motor_torque seal seals windage gas process rotor.brake_curve rotor.braking_curve \
                 rotor.speed_curve rotor.load_torque",
         what: "forces of seals and gas, and torques over speed or time, are not described",
         point: 5,

@@ -352,7 +352,7 @@ fn the_starting_file_reads_without_a_problem() {
         for key in keys() {
             let shown = text.contains(&format!("\n{} = ", key.name()))
                 || text.contains(&format!("\n# {} = ", key.name()));
-            let of_part = *system == SystemName::Rotor
+            let of_part = [SystemName::Rotor, SystemName::Machine].contains(system)
                 && parts_of_rotors().any(|(_, keys)| keys.iter().any(|k| k.name() == key.name()));
             let namesake = of_part || keys_of(*system).any(|other| other.name() == key.name());
             assert_eq!(shown, namesake, "{} in {name}", key.path);

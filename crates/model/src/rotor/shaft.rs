@@ -15,7 +15,7 @@ use number::Real;
 /// A symmetric matrix over the coordinates.
 #[derive(Clone, Debug)]
 struct Matrix<R> {
-    /// Row by row.
+    /// Of each group of rows column by column; rows behind the last are zero. Of groups of one: row by row.
     entries: Vec<R>,
     /// Times N at φ = 0, x then y.
     of_unbalance: [Vec<R>; 2],
@@ -76,8 +76,14 @@ impl<R: Real> Matrix<R> {
                 .sum()
         };
         (length > 0).then(|| Matrix {
-            entries: (0..length)
-                .map(|k| R::from_lanes(|lane| of(constants(lane))[k]))
+            entries: (0..count)
+                .step_by(R::GROUP)
+                .flat_map(|from| (0..count * R::GROUP).map(move |k| (from, k)))
+                .map(|(from, k)| {
+                    let (column, row) = (k / R::GROUP, from + k % R::GROUP);
+                    let entry = |lane: usize| of(constants(lane))[row * count + column];
+                    R::from_lanes(|lane| if row < count { entry(lane) } else { 0.0 })
+                })
                 .collect(),
             of_unbalance: [0, 1].map(|part| {
                 (0..count)
@@ -91,8 +97,9 @@ impl<R: Real> Matrix<R> {
     fn times<const K: usize>(&self, from: usize, vectors: [&[R]; K]) -> [R::Group; K] {
         let count = vectors[0].len();
         let mut sums = [R::Group::zero(); K];
-        for (j, line) in self.entries.chunks_exact(count).enumerate() {
-            let entry = R::load_group(line, from);
+        let columns = &self.entries[from * count..(from + R::GROUP) * count];
+        for (j, column) in columns.chunks_exact(R::GROUP).enumerate() {
+            let entry = R::load_group(column, 0);
             for (sum, vector) in sums.iter_mut().zip(&vectors) {
                 *sum += entry * vector[j].grouped();
             }
@@ -131,10 +138,6 @@ impl<R: Real> Shaft<R> {
     #[inline(always)]
     pub fn turns(&self) -> bool {
         self.gyroscopic.is_some()
-    }
-    /// G row by row.
-    pub fn gyroscopic(&self) -> Option<&[R]> {
-        self.gyroscopic.as_ref().map(|matrix| &matrix.entries[..])
     }
 
     /// Forces on the coordinates into `force`, p into `spinning`; `own` are stiffnesses and inverse masses.
@@ -212,5 +215,12 @@ impl<R: Real> Shaft<R> {
             heats: [heat, heat_rotating],
             external,
         }
+    }
+}
+
+impl Shaft<f64> {
+    /// G row by row.
+    pub fn gyroscopic(&self) -> Option<&[f64]> {
+        self.gyroscopic.as_ref().map(|matrix| &matrix.entries[..])
     }
 }

@@ -66,10 +66,10 @@ impl Observer<RotorMachine> for Watch {
             self.samples
                 .push((state[rotor.spin()], state[rotor.angle()]));
         }
+        let machine = step.machine;
         let state = step.state(1.0);
         let (sine, cosine) = state[rotor.angle()].sin_cos();
-        let own = step.machine.constants.rotor.coordinates.iter().enumerate();
-        let state = &*step.state(1.0);
+        let own = machine.constants.rotor.coordinates.iter().enumerate();
         let disk = own
             .zip(&self.disk)
             .fold(Vec2::zero(), |sum, ((k, own), shape)| {

@@ -145,8 +145,7 @@ impl<R: Real> RotorRows<R> {
                 }
                 self.compliance[b * planes + c] = sum;
             }
-            self.compliance[b * (planes + 1)] =
-                self.compliance[b * (planes + 1)] * R::splat(1.0 + SEPARATE);
+            self.compliance[b * (planes + 1)] *= R::splat(1.0 + SEPARATE);
         }
         factor(&mut self.compliance, planes);
         for c in 0..planes {
