@@ -18,6 +18,8 @@ const APART: f64 = 0.1;
 const DEVIATIONS: f64 = 4.0;
 /// Calls of the likelihood by which the intensities follow a frequency.
 const CALLS: usize = 40;
+/// Logarithm by which the intensities of the torque are less than usual while frequencies are tried.
+const HELD: f64 = 9.0;
 /// Halvings of the interval in which the best frequency lies.
 const FINER: usize = 4;
 
@@ -35,21 +37,21 @@ pub(super) fn frequency<'a>(
     interval: f64,
 ) -> Option<f64> {
     let at = |omega: f64| Swing { omega, ..stated };
-    // intensities that suit a wrong frequency let the torque swing: those of no knowledge are tried too
-    let start = |chain: &Chain| {
-        let guess = chain.guess();
-        let (own, other) = (chain.cost(hyper), chain.cost(&guess));
-        match other < own {
-            true => (other, guess),
-            false => (own, *hyper),
-        }
+    // a torque that is free to swing suits any frequency: one that hardly may shows which is that of the sensor
+    let held = |chain: &Chain| {
+        let [noise, slow, fast, calming] = chain.guess();
+        [noise, slow - HELD, fast - HELD, calming]
     };
     let fitted = |swing: Swing| {
         let chain = chain(swing);
-        let (_, hyper) = start(&chain);
-        chain.cost(&chain.most_likely(hyper, CALLS))
+        let starts =
+            [*hyper, held(&chain)].map(|start| chain.cost(&chain.most_likely(start, CALLS)));
+        starts[0].min(starts[1])
     };
-    let cost = |logarithm: f64| start(&chain(at(logarithm.exp()))).0;
+    let cost = |logarithm: f64| {
+        let chain = chain(at(logarithm.exp()));
+        chain.cost(&held(&chain))
+    };
     let highest = (std::f64::consts::TAU / (VALUES * interval)).ln();
     let middle = stated.omega.ln();
     let (low, high) = (middle - REACH.ln(), highest.min(middle + REACH.ln()));
