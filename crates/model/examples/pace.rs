@@ -1,13 +1,13 @@
-//! CPU time of drops: measured, not judged. `cargo test -p auxbear-model --test pace -- --ignored --nocapture`
+//! CPU time of drops: measured, not judged. `cargo run --release -p auxbear-model --example pace`
 
-#[path = "machines/mod.rs"]
+#[path = "../tests/machines/mod.rs"]
 #[allow(dead_code)] // shared with the other tests
 mod machines;
 
-#[path = "bent/drop.rs"]
+#[path = "../tests/bent/drop.rs"]
 #[allow(dead_code)] // shared with the test of bent rotors
 mod drop;
-#[path = "bent/files.rs"]
+#[path = "../tests/bent/files.rs"]
 #[allow(dead_code)]
 mod files;
 
@@ -67,16 +67,9 @@ fn measure(name: &str, machine: &RotorMachine, start: &[f64], end: f64) {
     }
 }
 
-#[test]
-#[ignore = "a measurement"]
-fn of_a_point_rotor() {
+fn main() {
     let machine = RotorMachine::new(reference());
     measure("point", &machine, &machine.start(), 0.05);
-}
-
-#[test]
-#[ignore = "a measurement"]
-fn of_a_bent_rotor() {
     let Some((machine, start, _)) = drop::flexible(6e4) else {
         return;
     };
