@@ -5,7 +5,7 @@
 mod machines;
 
 #[path = "../tests/bent/drop.rs"]
-#[allow(dead_code)] // shared with the test of bent rotors
+#[allow(dead_code, unused_imports)] // its tests are not built here
 mod drop;
 #[path = "../tests/bent/files.rs"]
 #[allow(dead_code)]
