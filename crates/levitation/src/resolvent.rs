@@ -159,7 +159,7 @@ mod tests {
             let ours = resolvent.solve(s, &right).unwrap();
             assert!((&ours - &expected).norm() < 1e-11 * expected.norm());
             let row = DMatrix::from_fn(1, size, |_, j| C64::from(j as f64));
-            let column = DMatrix::from_columns(&[right.clone()]);
+            let column = DMatrix::from_columns(std::slice::from_ref(&right));
             let seen = resolvent.between(&row, &column).at(s).unwrap()[(0, 0)];
             let expected = (row * expected)[(0, 0)];
             assert!((seen - expected).norm() < 1e-10 * expected.norm());

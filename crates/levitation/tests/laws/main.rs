@@ -321,12 +321,12 @@ fn matrices_are_the_derivatives_of_the_rates() {
     let mut rates = vec![variable(0); states];
     let (own, inputs) = all.split_at(states);
     levitation.rate(own, &inputs[..2], &inputs[2..], &mut signals, &mut rates);
-    for row in 0..states {
+    for (row, rate) in rates.iter().enumerate() {
         for k in 0..states {
-            assert_eq!(rates[row].partial[k], linear.a[(row, k)]);
+            assert_eq!(rate.partial[k], linear.a[(row, k)]);
         }
-        assert_eq!(rates[row].partial[states], linear.by_displacement[(row, 0)]);
-        assert_eq!(rates[row].partial[states + 3], linear.by_velocity[(row, 1)]);
+        assert_eq!(rate.partial[states], linear.by_displacement[(row, 0)]);
+        assert_eq!(rate.partial[states + 3], linear.by_velocity[(row, 1)]);
     }
     assert_eq!(levitation.names().len(), states);
     assert!(levitation.names().contains(&"axis 0.3.integral".to_owned()));

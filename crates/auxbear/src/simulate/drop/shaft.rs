@@ -50,11 +50,11 @@ pub(crate) fn build(
     let basis = basis(shaft, rotor, &matrices)?;
     let within = Analysis::new(rotor, &matrices, basis);
     let loads = weight(rotor, &within, [gravity.x, gravity.y]);
-    let (position, velocity, currents) = match &shaft.model.levitation {
+    let ((position, velocity), currents) = match &shaft.model.levitation {
         Some(_) => on_magnets(drop, shaft, &within, &loads)?,
         None => {
-            let (position, velocity) = on_supports(drop, rotor, &matrices, &within, &loads)?;
-            (position, velocity, Vec::new())
+            let steady = on_supports(drop, rotor, &matrices, &within, &loads)?;
+            (steady, Vec::new())
         }
     };
     let magnets = fading(shaft, &within.basis, &position, &currents);
@@ -183,8 +183,8 @@ fn constants(drop: &Drop, shaft: &Shaft, matrices: &Matrices, basis: &Basis) -> 
     .with_unbalance(&planes)
 }
 
-/// Position, velocity, and currents of the magnets.
-type Released = (Vec<Vec2<f64>>, Vec<Vec2<f64>>, Vec<f64>);
+/// Coordinates and their rates.
+type Steady = (Vec<Vec2<f64>>, Vec<Vec2<f64>>);
 
 /// The steady motion on magnets, which must hold the rotor.
 fn on_magnets(
@@ -192,7 +192,7 @@ fn on_magnets(
     shaft: &Shaft,
     within: &Analysis,
     loads: &DVector<f64>,
-) -> Result<Released, Box<Problem>> {
+) -> Result<(Steady, Vec<f64>), Box<Problem>> {
     let Some(model) = &shaft.model.levitation else {
         return Err(failed("no magnets"));
     };
@@ -219,8 +219,7 @@ fn on_magnets(
             .collect()
     };
     Ok((
-        pairs(&start.coordinates),
-        pairs(&start.rates),
+        (pairs(&start.coordinates), pairs(&start.rates)),
         start.currents,
     ))
 }
@@ -232,7 +231,7 @@ fn on_supports(
     matrices: &Matrices,
     within: &Analysis,
     loads: &DVector<f64>,
-) -> Result<(Vec<Vec2<f64>>, Vec<Vec2<f64>>), Box<Problem>> {
+) -> Result<Steady, Box<Problem>> {
     let basis = &within.basis;
     let size = basis.len();
     let mut nodes: Vec<usize> = (rotor.supports.iter())
