@@ -241,10 +241,10 @@ fn the_guide_holds_for_a_logger_of_100_hz_and_a_zero_at_the_end() {
     let column = |name: &str| &read.history.iter().find(|c| c.name == name).unwrap().values;
     let (time, torque) = (column("time"), column("torque.torque"));
     let middle = time.iter().position(|t| *t > 4.0).unwrap();
-    let part = &torque[middle..middle + 100];
-    let mean = part.iter().sum::<f64>() / 100.0;
-    // 4.5 s after 150 rad/s the speed is that of an exponential towards -300 rad/s
-    let expected = moment(450.0 * (-2e-5 / INERTIA * 4.5_f64).exp() - 300.0);
+    let mean = |list: &[f64]| list[middle..middle + 100].iter().sum::<f64>() / 100.0;
+    let (at, mean) = (mean(time), mean(torque));
+    // after 150 rad/s the speed is that of an exponential towards -300 rad/s
+    let expected = moment(450.0 * (-2e-5 / INERTIA * at).exp() - 300.0);
     assert!((mean - expected).abs() < 5e-5, "{mean} {expected}");
     let outcome = folder.outcome("identify.toml").unwrap();
     assert_eq!(outcome.stop.reason, "finished", "{}", outcome.stop.text);

@@ -148,7 +148,7 @@ impl Layout {
     /// Lengths by a hundredth of the radial air clearance, speeds by a third of the fall through it, spins by the release speed,
     /// energies by the spin energy of the inner race brought to speed; the bearing's by
     /// [`error_scale`](BearingConstants::error_scale). The rotor by the smallest clearance of its bearings; its coordinates by what
-    /// they make of it at these.
+    /// they make of it at these, those that swing quickly by their speed over their frequency.
     pub fn error_scale(&self, constants: &MachineConstants) -> Vec<f64> {
         let gravity = constants.gravity.length_squared().sqrt().max(LEAST_GRAVITY);
         let spin = constants.speed.abs().max(10.0);
@@ -169,9 +169,13 @@ impl Layout {
         };
         let rotor = self.rotor;
         for (k, reach) in reaches(constants).into_iter().enumerate() {
+            let speed = 0.3 * fall(smallest);
+            // of a quick coordinate, what its spring holds: as much as its speed
+            let frequency = constants.rotor.coordinates[k].frequency;
+            let length = (0.01 * smallest).min(speed / frequency);
             for block in 0..2 {
-                scale[rotor.block(block).start + k] = 0.01 * smallest / reach;
-                scale[rotor.block(block + 2).start + k] = 0.3 * fall(smallest) / reach;
+                scale[rotor.block(block).start + k] = length / reach;
+                scale[rotor.block(block + 2).start + k] = speed / reach;
             }
         }
         scale[rotor.angle()] = 1.0;
