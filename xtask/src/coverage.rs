@@ -26,7 +26,7 @@ const TABLES: &[Table] = &[
         package: "auxbear-measure",
         binary: "speed_coverage",
         tests: &[""],
-        seeds: 400,
+        seeds: 100,
     },
     Table {
         subject: "The engagement of a soft clutch",
@@ -75,35 +75,35 @@ const TABLES: &[Table] = &[
         package: "auxbear-identify",
         binary: "moment",
         tests: &[""],
-        seeds: 400,
+        seeds: 100,
     },
     Table {
         subject: "The loss of accelerated balls",
         package: "auxbear-identify",
         binary: "loss",
         tests: &[""],
-        seeds: 400,
+        seeds: 100,
     },
     Table {
         subject: "Energy of a spin-up",
         package: "auxbear-identify",
         binary: "energy",
         tests: &[""],
-        seeds: 400,
+        seeds: 100,
     },
     Table {
         subject: "Cage and slip",
         package: "auxbear-identify",
         binary: "cage",
         tests: &[""],
-        seeds: 400,
+        seeds: 100,
     },
     Table {
         subject: "Friction of the rotor on the race",
         package: "auxbear-identify",
         binary: "rotor",
         tests: &[""],
-        seeds: 400,
+        seeds: 100,
     },
     Table {
         subject: "Explanations: verdicts and fit",
@@ -183,12 +183,17 @@ fn measured(repository: &Repository, table: &Table) -> Result<(String, bool), St
         .output()
         .map_err(|error| format!("cargo test: {error}"))?;
     let printed = String::from_utf8_lossy(&output.stdout);
-    let mut text = format!(
-        "\n`crates/{}/tests/{}`, {} seeds.\n",
+    let folder = format!(
+        "crates/{}/tests/{}",
         table.package.trim_start_matches("auxbear-"),
-        table.binary,
-        table.seeds
+        table.binary
     );
+    let alone = format!("{folder}.rs");
+    let file = match repository.root.join(&alone).exists() {
+        true => alone,
+        false => format!("{folder}/main.rs"),
+    };
+    let mut text = format!("\n`{file}`, {} seeds.\n", table.seeds);
     for test in tests(&printed) {
         if test.lines.is_empty() && test.passed {
             continue;
@@ -214,7 +219,8 @@ struct Ran {
 /// its own behind the last.
 fn tests(output: &str) -> Vec<Ran> {
     let mut found: Vec<Ran> = Vec::new();
-    for line in output.lines() {
+    // behind the tests stands what failed, once more
+    for line in output.lines().take_while(|line| *line != "failures:") {
         let rest = match line
             .strip_prefix("test ")
             .and_then(|line| line.split_once(" ... "))
