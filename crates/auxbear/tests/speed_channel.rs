@@ -245,7 +245,8 @@ fn the_guide_holds_for_a_logger_of_100_hz_and_a_zero_at_the_end() {
     let (at, mean) = (mean(time), mean(torque));
     // after 150 rad/s the speed is that of an exponential towards -300 rad/s
     let expected = moment(450.0 * (-2e-5 / INERTIA * at).exp() - 300.0);
-    assert!((mean - expected).abs() < 5e-5, "{mean} {expected}");
+    // 32 values of 0.2 N mm each, and the zero of those at rest: two deviations are 0.08 N mm
+    assert!((mean - expected).abs() < 1e-4, "{mean} {expected}");
     let outcome = folder.outcome("identify.toml").unwrap();
     assert_eq!(outcome.stop.reason, "finished", "{}", outcome.stop.text);
     let curve = [
@@ -262,7 +263,8 @@ fn the_guide_holds_for_a_logger_of_100_hz_and_a_zero_at_the_end() {
     );
     let read = folder.outcome("coast.toml").unwrap();
     let told = read.warnings.iter().find(|w| w.code == "AB1127");
-    assert!(told.unwrap().text.contains("14 times"), "{told:?}");
+    let text = &told.expect("it is told").text;
+    assert!(text.contains("times the zero_deviation stated"), "{text}");
 }
 
 #[test]

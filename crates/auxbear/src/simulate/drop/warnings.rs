@@ -38,7 +38,11 @@ fn accuracy(context: &Context) -> Vec<Warning> {
         ));
     }
     let known = context.machine.tangents();
+    let quick = context.drop.shaft.is_some() && run.method == Method::Auto;
     let what = match known {
+        Known::All if quick => {
+            "the quick modes of a rotor that bends bind linearly implicit steps too"
+        }
         Known::All => return list,
         Known::Races => {
             "what keeps the balls apart (a free cage, its land, neighbours) has no tangents"
