@@ -3,13 +3,13 @@
 use crate::golden;
 use crate::pages;
 use crate::repository::{Outcome, Repository};
-use crate::shipped::{build, call, summary_in};
+use crate::shipped::{build_in, call, summary_in};
 use serde_json::Value;
 use std::path::Path;
 
-/// Builds the command as users do, then runs it on every file of `scenarios/`.
+/// Builds the command as the tests do, which saves a build, then runs it on every file of `scenarios/`.
 pub fn check(repository: &Repository) -> Outcome {
-    let program = match build(repository) {
+    let program = match build_in(repository, "test") {
         Ok(program) => program,
         Err(findings) => return Outcome::new("", findings),
     };

@@ -34,11 +34,17 @@ pub fn summary_of(
 
 /// Builds the command as users do.
 pub fn build(repository: &Repository) -> Result<PathBuf, Vec<String>> {
+    build_in(repository, "release")
+}
+
+/// Builds the command in a profile: `test` shares everything with the tests and gives the same bits.
+pub fn build_in(repository: &Repository, profile: &str) -> Result<PathBuf, Vec<String>> {
     let output = cargo(repository)
         .args([
             "build",
             "--quiet",
-            "--release",
+            "--profile",
+            profile,
             "--locked",
             "--message-format",
             "json-render-diagnostics",

@@ -17,7 +17,7 @@
 use crate::bearing::{self, Bearing, BearingConstants, BearingReaction, POCKET_FRICTION};
 use crate::contact::{ContactReaction, JournalContact};
 use crate::motion::{Body, Motion};
-use crate::mount::Mount;
+use crate::mount::{Mount, MountParts, MountReaction, WholeMount};
 use crate::rotor::GeometricCentre;
 use crate::system::layout::Layout;
 use number::{Gather, Real, Vec2, constants};
@@ -54,8 +54,10 @@ pub struct AuxiliaryBearingConstants {
     pub bearing: BearingConstants,
     /// Mass of the outer race with its housing, kg.
     pub outer_race_mass: f64,
-    /// Mount of the outer race.
+    /// Spring and damper of the mount of the outer race.
     pub mount: Mount<f64>,
+    /// What the mount has besides.
+    pub mount_parts: MountParts,
 }
 
 impl AuxiliaryBearingConstants {
@@ -64,7 +66,7 @@ impl AuxiliaryBearingConstants {
         self.outer_race_mass + self.bearing.mass_with_outer_race()
     }
     /// Chooses where the mount's spring is free so that it carries the bearing's weight with the outer race at the
-    /// origin. The weight of an inner race whose centre is held rests elsewhere.
+    /// origin; without a spring a force carries it. The weight of an inner race whose centre is held rests elsewhere.
     pub fn balance_mount(&mut self, gravity: Vec2<f64>) {
         let inner = if self.inner_race.centre_held {
             0.0
@@ -72,7 +74,11 @@ impl AuxiliaryBearingConstants {
             self.inner_race.mass
         };
         let mass = self.outer_moving_mass() + self.bearing.free_mass() + inner;
-        self.mount.free_position = -(gravity * (mass / self.mount.stiffness));
+        if self.mount.stiffness > 0.0 {
+            self.mount.free_position = -(gravity * (mass / self.mount.stiffness));
+        } else {
+            self.mount_parts.preload = -(gravity * mass);
+        }
     }
 }
 
@@ -124,6 +130,10 @@ pub struct BearingAt {
     pub bearing: usize,
     /// Number of these.
     pub bearing_states: usize,
+    /// First channel of the states of its mount.
+    pub mount: usize,
+    /// Number of these.
+    pub mount_states: usize,
     /// Number of balls.
     pub balls: usize,
     /// First of its heats among all.
@@ -141,6 +151,11 @@ impl BearingAt {
     #[inline(always)]
     pub fn own(&self) -> Range<usize> {
         self.bearing..self.bearing + self.bearing_states
+    }
+    /// Channels of the states of the mount.
+    #[inline(always)]
+    pub fn of_mount(&self) -> Range<usize> {
+        self.mount..self.mount + self.mount_states
     }
     /// Probe of a kind of [`probe`].
     #[inline(always)]
@@ -183,7 +198,7 @@ pub struct AuxiliaryBearing<R: Real> {
     pub(crate) contact: JournalContact<R>,
     pub(crate) inner_race: RaceConstants<R>,
     pub(crate) bearing: Bearing<R>,
-    pub(crate) mount: Mount<R>,
+    pub(crate) mount: WholeMount<R>,
     pub(crate) outer_moving_mass: R,
     /// Reciprocals, because a division costs as much as ten products.
     inverse_inner_mass: R,
@@ -231,7 +246,9 @@ impl<R: Real> AuxiliaryBearing<R> {
             contact: Gather::<R>::gather(&|lane| &constants(lane).contact),
             inner_race: Gather::<R>::gather(&|lane| &constants(lane).inner_race),
             bearing: Bearing::gather(&|lane| &constants(lane).bearing),
-            mount: Gather::<R>::gather(&|lane| &constants(lane).mount),
+            mount: WholeMount::gather(&|lane| {
+                (&constants(lane).mount, &constants(lane).mount_parts)
+            }),
             outer_moving_mass: lanes(&|c| c.outer_moving_mass()),
             inverse_inner_mass: lanes(&|c| 1.0 / c.inner_race.mass),
             inverse_outer_mass: lanes(&|c| 1.0 / c.outer_moving_mass()),
@@ -271,6 +288,20 @@ impl<R: Real> AuxiliaryBearing<R> {
         (self.bearing).react(motion, &state[at.own()], &mut rate[at.own()], detail)
     }
 
+    /// What the mount does at a motion of the outer race; writes the rates of its own states.
+    #[inline(always)]
+    pub fn mount(
+        &self,
+        at: &BearingAt,
+        motion: &Motion<R>,
+        state: &[R],
+        rate: &mut [R],
+    ) -> MountReaction<R> {
+        let outer = &motion.outer;
+        let (state, rate) = (&state[at.of_mount()], &mut rate[at.of_mount()]);
+        (self.mount).react((outer.position, outer.velocity), state, rate)
+    }
+
     /// Writes the rates of both races and of the ledger's heats and sources, and the probes where asked, which alone see the
     /// acceleration of the node; returns the moments from outside.
     #[inline(always)]
@@ -280,7 +311,7 @@ impl<R: Real> AuxiliaryBearing<R> {
         (node, node_acceleration): (&AtNode<R>, Vec2<R>),
         gravity: Vec2<R>,
         motion: &Motion<R>,
-        bearing: &BearingReaction<R>,
+        (bearing, on_outer): (&BearingReaction<R>, &MountReaction<R>),
         into: Outlet<'_, R>,
     ) -> External<R> {
         let Outlet {
@@ -293,7 +324,7 @@ impl<R: Real> AuxiliaryBearing<R> {
         let contact = &node.contact;
         let race = &self.inner_race;
         let (inner, outer) = (&motion.inner, &motion.outer);
-        let mount = self.mount.force(outer.position, outer.velocity);
+        let mount = on_outer.force;
 
         // inner race
         let inner_force = contact.on_bore.force + bearing.on_inner.force + gravity * race.mass;
@@ -325,11 +356,7 @@ impl<R: Real> AuxiliaryBearing<R> {
         let (kinds, rest) = heats.split_at_mut(of_bearing.len());
         kinds.copy_from_slice(&of_bearing);
         kinds[POCKET_FRICTION] += bearing.loss_heat(inner.spin, inner_spin_rate);
-        rest.copy_from_slice(&[
-            self.mount.heat(outer.velocity),
-            contact.damping_heat,
-            contact.friction_heat,
-        ]);
+        rest.copy_from_slice(&[on_outer.heat(), contact.damping_heat, contact.friction_heat]);
         rate[heat..heat + HEATS].copy_from_slice(&heats);
         rate[source] = race.torque * inner.spin;
         rate[source + 1] = bearing.growth_impulse * inner_spin_rate;

@@ -34,10 +34,14 @@ pub(crate) fn draft(file: &Value) -> Result<Draft, String> {
         n => Err(format!("node {n}, which the shaft does not have")),
     };
     for element in list("shaft_elements")? {
-        let material = Material {
-            young: number(element, "E")?,
-            shear: number(element, "G")?,
-            density: number(element, "rho")?,
+        let (young, density) = (number(element, "E")?, number(element, "rho")?);
+        let material = match number(element, "G") {
+            Ok(shear) => Material {
+                young,
+                shear,
+                density,
+            },
+            Err(_) => Material::new(young, number(element, "nu")?, density),
         };
         let left = shaft_node(element, "n_l")?;
         let own = draft.material("shaft", material);
@@ -58,7 +62,7 @@ pub(crate) fn draft(file: &Value) -> Result<Draft, String> {
                 carries: true,
                 damping_of_mass: number(element, "alpha")?,
                 damping_of_stiffness: number(element, "beta")?,
-                damping_rotating: 0.0,
+                damping_rotating: number(element, "beta_internal").unwrap_or(0.0),
             },
         ));
     }
@@ -88,7 +92,8 @@ pub(crate) fn draft(file: &Value) -> Result<Draft, String> {
     if draft.housings.contains(&0.0) {
         return Err("a housing without mass".to_string());
     }
-    for (index, bearing) in list("bearings")?.iter().enumerate() {
+    let bearings = model["bearings"].as_array().into_iter().flatten();
+    for (index, bearing) in bearings.enumerate() {
         let one = |key: String| {
             let list = bearing[&key].as_array();
             match list.map(Vec::as_slice) {

@@ -18,6 +18,7 @@ mod film_kinds;
 mod friction_kinds;
 mod levitated;
 mod machine;
+mod machines;
 mod points;
 pub mod reference;
 mod rotors;
@@ -89,6 +90,7 @@ fn of_json(text: &str, path: &Path, simulator: &dyn Simulator) -> Vec<Row> {
     match serde_json::from_str(text) {
         Err(error) => vec![Row::damaged(format!("not JSON: {error}"))],
         Ok(value) => levitated::rows(&value, path)
+            .or_else(|| machines::rows(&value, path, simulator))
             .or_else(|| reference::rows(&value, simulator))
             .unwrap_or_else(|| vec![Row::not_run("a JSON file of no known format")]),
     }

@@ -10,7 +10,7 @@ use model::bearing::ball::{BallConstants, BallMotion, BallReaction};
 use model::bearing::{BearingConstants, PlanarConstants, Separation};
 use model::contact::JournalContact;
 use model::levitation::Levitation;
-use model::mount::Mount;
+use model::mount::{Mount, MountParts};
 use model::rotor::RotorConstants;
 use model::schedule::Schedule;
 use model::system::machine::simulate::Steps;
@@ -30,6 +30,9 @@ const TOLERANCE: f64 = 1e-5;
 const CLOSED_FORM_TOLERANCE: f64 = 1e-8;
 
 impl Simulator for Simulation {
+    fn machines(&self) -> Result<(), String> {
+        Ok(())
+    }
     fn free_fall(&self, case: &FreeFall) -> Result<f64, String> {
         let machine = falling_machine(1.0, 1e7, case.clearance, case.gravity);
         let fall = (2.0 * case.clearance / case.gravity).sqrt();
@@ -167,7 +170,12 @@ fn simulate(
 }
 
 /// A rotor without spin, unbalance and friction above a race whose centre is held, on a linear contact.
-fn falling_machine(mass: f64, stiffness: f64, clearance: f64, gravity: f64) -> RotorMachine {
+pub(super) fn falling_machine(
+    mass: f64,
+    stiffness: f64,
+    clearance: f64,
+    gravity: f64,
+) -> RotorMachine {
     let gravity = Vec2::new(0.0, -gravity);
     let (ball_mass, radius) = (1e-3, 3e-3);
     let bearing = PlanarConstants {
@@ -243,6 +251,7 @@ fn falling_machine(mass: f64, stiffness: f64, clearance: f64, gravity: f64) -> R
                 damping: 0.0,
                 free_position: Vec2::zero(),
             },
+            mount_parts: MountParts::NONE,
         }],
         gravity,
         speed: 0.0,
@@ -254,7 +263,10 @@ fn falling_machine(mass: f64, stiffness: f64, clearance: f64, gravity: f64) -> R
 }
 
 /// The machine of a reference file.
-fn constants(machine: &ReferenceMachine, speed: f64) -> Result<MachineConstants, String> {
+pub(super) fn constants(
+    machine: &ReferenceMachine,
+    speed: f64,
+) -> Result<MachineConstants, String> {
     if machine.has_rotor != 1 {
         return Err("a machine without a rotor is no drop".to_string());
     }
@@ -346,6 +358,7 @@ fn constants(machine: &ReferenceMachine, speed: f64) -> Result<MachineConstants,
                 damping: machine.mount_damping,
                 free_position: Vec2::zero(),
             },
+            mount_parts: MountParts::NONE,
         }],
         gravity,
         speed,

@@ -7,7 +7,9 @@ use model::bearing::ball::BallConstants;
 use model::bearing::{BearingConstants, PlanarConstants, Separation};
 use model::contact::JournalContact;
 use model::levitation::{Fade, FadingMagnet, Levitation};
-use model::mount::Mount;
+use model::mount::{
+    FrictionRing, HardStop, Housing, MaxwellBranch, Mount, MountParts, SqueezeFilm,
+};
 use model::rotor::RotorConstants;
 use model::schedule::Schedule;
 use model::system::machine::MachineConstants;
@@ -112,14 +114,42 @@ pub fn unbalance(machine: &Value) -> Vec<Unbalance> {
         .collect()
 }
 
-/// Whether a bearing's mount is a spring with a damper on ground and nothing else.
-pub fn plain_mount(bearing: &Value) -> bool {
-    ["k1", "k2", "kf", "sfd", "hs_k", "m_h"]
-        .iter()
-        .all(|key| number(bearing, key) == 0.0)
+/// What a mount has besides spring and damper. A branch without stiffness stays: it keeps the place of its states.
+pub fn mount_parts(b: &Value) -> MountParts {
+    let of = |key: &str| number(b, key);
+    let mass = b["m_h"].as_f64().unwrap_or(0.0);
+    MountParts {
+        branches: [("k1", "tau1"), ("k2", "tau2")]
+            .map(|(stiffness, time)| MaxwellBranch {
+                stiffness: of(stiffness),
+                rate: 1.0 / of(time),
+            })
+            .to_vec(),
+        ring: Some(FrictionRing {
+            stiffness: of("kf"),
+            travel: of("ef"),
+            exponent: of("nf"),
+        }),
+        film: (of("sfd") > 0.0).then(|| SqueezeFilm {
+            factor: of("sfd"),
+            clearance: of("sfd_c"),
+            cavitates: of("sfd_pi") == 1.0,
+        }),
+        stop: (of("hs_k") > 0.0).then(|| HardStop {
+            stiffness: of("hs_k"),
+            gap: of("hs_gap"),
+            damping: of("hs_a"),
+        }),
+        housing: (mass > 0.0).then(|| Housing {
+            mass,
+            stiffness: of("kh"),
+            damping: of("ch"),
+        }),
+        ..MountParts::NONE
+    }
 }
 
-/// A bearing; of its mount the spring and the damper, and what Maxwell branches are when it moves slowly against their times.
+/// A bearing.
 fn auxiliary_bearing(b: &Value, shaft: &Shaft, gravity: Vec2<f64>) -> AuxiliaryBearingConstants {
     let of = |key: &str| number(b, key);
     let (radius, mass) = (of("r"), of("m_b"));
@@ -192,9 +222,10 @@ fn auxiliary_bearing(b: &Value, shaft: &Shaft, gravity: Vec2<f64>) -> AuxiliaryB
         outer_race_mass: of("m_o"),
         mount: Mount {
             stiffness: of("ks"),
-            damping: of("cs") + of("k1") * of("tau1") + of("k2") * of("tau2"),
+            damping: of("cs"),
             free_position: vec2(0.0, 0.0),
         },
+        mount_parts: mount_parts(b),
     }
 }
 

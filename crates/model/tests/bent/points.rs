@@ -1,12 +1,9 @@
 //! Accelerations, forces, heats and energies at the random states of the reference.
 //!
 //! Source: `shared/cases/reference/machine_rhs_points.json`, an independent implementation in the unreduced coordinates of nine
-//! nodes. Mounts with parts that are not modelled here do not act on rotor, inner race and balls: of such a machine all but the
-//! outer race, its mount and the potential energy is compared.
+//! nodes, with mounts of every part.
 
-use crate::files::{
-    coordinates, list, machine, number, numbers, pairs, plain_mount, read, shaft, unbalance,
-};
+use crate::files::{coordinates, list, machine, number, numbers, pairs, read, shaft, unbalance};
 use crate::machines::bent::Shaft;
 use crate::machines::vec2;
 use model::auxiliary_bearing::probe::{FRICTION_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED};
@@ -37,6 +34,11 @@ fn state(machine: &RotorMachine, shaft: &Shaft, point: &Value) -> Vec<f64> {
         state[at.inner..at.inner + 6].copy_from_slice(&numbers(given, "inner"));
         state[at.outer..at.outer + 4].copy_from_slice(&numbers(given, "outer"));
         state[at.bearing..at.bearing + 2].copy_from_slice(&numbers(given, "cage"));
+        let of_mount = &mut state[at.of_mount()];
+        of_mount[..6].copy_from_slice(&numbers(given, "mount"));
+        if of_mount.len() > 6 {
+            of_mount[6..].copy_from_slice(&numbers(given, "housing"));
+        }
         for (ball, values) in list(given, "balls").iter().enumerate() {
             let value = |i: usize| values[i].as_f64().expect("a number");
             let motion = BallMotion {
@@ -126,9 +128,19 @@ const HEATS: [(&str, &str); 10] = [
     ("mount_damper", "mount_damping"),
 ];
 
+/// Heats of the reference that make ours of a mount.
+const MOUNT_HEATS: [&str; 6] = [
+    "mount_damper",
+    "mount_maxwell",
+    "mount_ring",
+    "mount_sfd",
+    "mount_stop",
+    "housing_damper",
+];
+
 fn bearing(
     machine: &RotorMachine,
-    (k, given, plain): (usize, &Value, bool),
+    (k, given): (usize, &Value),
     (rate, probe): (&[f64], &[f64]),
     worst: &mut Worst,
 ) {
@@ -142,9 +154,30 @@ fn bearing(
     worst.add("race velocity", &inner[..2]);
     worst.add("race acceleration", &inner[2..4]);
     worst.add("race spin", &inner[4..]);
-    if plain {
-        let outer = against(&rate[at.outer..at.outer + 4], "d_outer");
-        worst.add("race acceleration", &outer[2..4]);
+    let outer = against(&rate[at.outer..at.outer + 4], "d_outer");
+    worst.add("race acceleration", &outer[2..4]);
+    let of_mount = &rate[at.of_mount()];
+    let parts = &machine.constants.bearings[k].mount_parts;
+    // the rates of what is absent mean nothing in the file
+    let theirs = numbers(given, "d_mount");
+    for (k, branch) in parts.branches.iter().enumerate() {
+        if branch.stiffness > 0.0 {
+            let both = |i| (of_mount[2 * k + i], theirs[2 * k + i]);
+            worst.add("mount", &[both(0), both(1)]);
+        }
+    }
+    if parts.ring.is_some_and(|ring| ring.stiffness > 0.0) {
+        worst.add(
+            "mount",
+            &[(of_mount[4], theirs[4]), (of_mount[5], theirs[5])],
+        );
+    }
+    if parts.housing.is_some() {
+        let housing = numbers(given, "d_housing");
+        worst.add(
+            "housing",
+            &[(of_mount[8], housing[2]), (of_mount[9], housing[3])],
+        );
     }
     worst.add(
         "cage",
@@ -180,11 +213,17 @@ fn bearing(
         );
     }
     let name = &machine.constants.bearings[k].name;
-    let heats: Vec<_> = HEATS[..if plain { 10 } else { 9 }]
+    let of_mount = MOUNT_HEATS.iter().map(|kind| number(&given["heats"], kind));
+    let of_mount: f64 = of_mount.sum();
+    let heats: Vec<_> = HEATS
         .iter()
         .map(|(theirs, ours)| {
             let own = layout.heat_of(rate, name, ours).expect("a kind of heat");
-            (own, number(&given["heats"], theirs))
+            let theirs = match *ours {
+                "mount_damping" => of_mount,
+                _ => number(&given["heats"], theirs),
+            };
+            (own, theirs)
         })
         .collect();
     worst.add("heat", &heats);
@@ -203,9 +242,6 @@ fn every_derivative_is_that_of_the_reference() {
         let shaft = Shaft::full(rotor);
         let machine = RotorMachine::new(machine(given, &shaft, 0.0));
         let layout = machine.layout();
-        let plain: Vec<bool> = list(given, "bearings").iter().map(plain_mount).collect();
-        let name = &given["name"];
-        println!("{name}: of mounts modelled {plain:?}");
         for point in list(given, "points") {
             points += 1;
             let state = state(&machine, &shaft, point);
@@ -217,12 +253,7 @@ fn every_derivative_is_that_of_the_reference() {
             worst.add("acceleration of a slope", &part(1));
             worst.add("spin", &[(rate[layout.rotor.spin()], number(point, "dOm"))]);
             for (k, of_point) in list(point, "bearings").iter().enumerate() {
-                bearing(
-                    &machine,
-                    (k, of_point, plain[k]),
-                    (&rate, &probe),
-                    &mut worst,
-                );
+                bearing(&machine, (k, of_point), (&rate, &probe), &mut worst);
                 touching += u32::from(number(of_point, "penetration") > 0.0);
             }
             let power = |key: &str| number(&point["machine_powers"], key);
@@ -240,29 +271,20 @@ fn every_derivative_is_that_of_the_reference() {
                 ],
             );
             pulled += u32::from(own.magnets.is_some());
-            // housings are not modelled
-            let housings = list(given, "bearings").iter().zip(list(point, "bearings"));
-            let theirs = housings.map(|(given, point)| {
-                let motion = numbers(point, "housing");
-                0.5 * number(given, "m_h") * (motion[2].powi(2) + motion[3].powi(2))
-            });
-            let kinetic = number(point, "kinetic") - theirs.sum::<f64>();
+            let kinetic = number(point, "kinetic");
             let content = machine.content(&state);
             worst.add(
                 "kinetic energy",
                 &[(content.translation + content.spin, kinetic)],
             );
-            if plain.iter().all(|plain| *plain) {
-                // the reference counts a preload beside the spring, from its middle
-                let preloads = machine.constants.bearings.iter().map(|part| &part.mount);
-                let preloads =
-                    preloads.map(|m| 0.5 * m.stiffness * m.free_position.length_squared());
-                let potential = content.potential - preloads.sum::<f64>();
-                worst.add(
-                    "potential energy",
-                    &[(potential, number(point, "potential"))],
-                );
-            }
+            // the reference counts a preload beside the spring, from its middle
+            let preloads = machine.constants.bearings.iter().map(|part| &part.mount);
+            let preloads = preloads.map(|m| 0.5 * m.stiffness * m.free_position.length_squared());
+            let potential = content.potential - preloads.sum::<f64>();
+            worst.add(
+                "potential energy",
+                &[(potential, number(point, "potential"))],
+            );
         }
     }
     println!("{points} points: {:#?}", worst.0);

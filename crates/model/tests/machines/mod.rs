@@ -18,7 +18,7 @@ use model::bearing::{
 use model::contact::JournalContact;
 use model::levitation::Levitation;
 use model::motion::Motion;
-use model::mount::Mount;
+use model::mount::{Mount, MountParts};
 use model::rotor::RotorConstants;
 use model::schedule::Schedule;
 use model::system::machine::layout::ROTOR;
@@ -310,6 +310,7 @@ pub fn reference() -> MachineConstants {
                 damping: 5e3,
                 free_position: vec2(0.0, 0.0),
             },
+            mount_parts: MountParts::NONE,
         }],
         gravity: vec2(0.0, -G),
         speed: 400.0 * PI,

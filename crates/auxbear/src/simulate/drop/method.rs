@@ -58,7 +58,7 @@ impl Stepping {
 /// know all that is stiff. Balls that roll have nothing stiff.
 pub(crate) fn stepping(drop: &Drop, built: &Built, known: Known) -> Stepping {
     let screening = drop.run.accuracy == Accuracy::Screening;
-    let implicit = known != Known::Nothing
+    let implicit = known < Known::Nothing
         && match drop.run.method {
             Method::Explicit => false,
             Method::Implicit => true,

@@ -131,12 +131,28 @@ fn places(shaft: &Shaft) -> Vec<usize> {
 }
 
 /// Row of a node's displacement.
-fn row(basis: &Basis, node: usize) -> Vec<f64> {
+pub(crate) fn row(basis: &Basis, node: usize) -> Vec<f64> {
     basis.shapes.row(2 * node).iter().copied().collect()
 }
 
 fn constants(drop: &Drop, shaft: &Shaft, matrices: &Matrices, basis: &Basis) -> RotorConstants {
-    let rotor = &shaft.model.rotor;
+    let brake_torque = match drop.rotor.spin {
+        Spin::Braked { torque, .. } => torque,
+        Spin::Free | Spin::Held => 0.0,
+    };
+    RotorConstants {
+        polar_inertia: drop.rotor.polar_inertia,
+        drag: shaft.drag,
+        drag_square: shaft.windage,
+        brake_torque,
+        spin_held: drop.rotor.spin == Spin::Held,
+        ..in_coordinates(&shaft.model.rotor, matrices, basis)
+    }
+    .with_unbalance(&planes(&shaft.model.rotor, basis))
+}
+
+/// A rotor in the coordinates of a basis, without unbalance, drive and drag.
+pub(crate) fn in_coordinates(rotor: &Rotor, matrices: &Matrices, basis: &Basis) -> RotorConstants {
     let reduced = matrices.project(&basis.shapes);
     let mut ones = DVector::zeros(rotor.size());
     for node in 0..rotor.nodes.len() {
@@ -148,19 +164,9 @@ fn constants(drop: &Drop, shaft: &Shaft, matrices: &Matrices, basis: &Basis) -> 
         true => Vec::new(),
         false => matrix.transpose().iter().copied().collect(),
     };
-    let brake_torque = match drop.rotor.spin {
-        Spin::Braked { torque, .. } => torque,
-        Spin::Free | Spin::Held => 0.0,
-    };
-    let planes: Vec<Unbalance> = (rotor.unbalance.iter())
-        .map(|plane| Unbalance {
-            node: row(basis, plane.node),
-            product: plane.amount,
-            phase: plane.phase,
-        })
-        .collect();
+    let coordinates = basis.frequencies.iter().zip(weights.iter());
     RotorConstants {
-        coordinates: (basis.frequencies.iter().zip(weights.iter()))
+        coordinates: coordinates
             .map(|(frequency, weight)| Coordinate {
                 frequency: *frequency,
                 mass: 1.0,
@@ -171,16 +177,18 @@ fn constants(drop: &Drop, shaft: &Shaft, matrices: &Matrices, basis: &Basis) -> 
         gyroscopic: list(&reduced.gyroscopic),
         damping: list(&reduced.damping),
         damping_rotating: list(&reduced.damping_rotating),
-        polar_inertia: drop.rotor.polar_inertia,
-        drive_torque: 0.0,
-        drive_slope: 0.0,
-        drag: shaft.drag,
-        drag_square: shaft.windage,
-        brake_torque,
-        spin_held: drop.rotor.spin == Spin::Held,
-        places: Vec::new(),
+        ..RotorConstants::point(1.0, rotor::properties(rotor).polar, 0.0)
     }
-    .with_unbalance(&planes)
+}
+
+/// The unbalances of a rotor in the coordinates of a basis.
+pub(crate) fn planes(rotor: &Rotor, basis: &Basis) -> Vec<Unbalance> {
+    let planes = rotor.unbalance.iter().map(|plane| Unbalance {
+        node: row(basis, plane.node),
+        product: plane.amount,
+        phase: plane.phase,
+    });
+    planes.collect()
 }
 
 /// Coordinates and their rates.

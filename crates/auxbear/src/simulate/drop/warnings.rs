@@ -48,9 +48,10 @@ fn accuracy(context: &Context) -> Vec<Warning> {
             "what keeps the balls apart (a free cage, its land, neighbours) has no tangents"
         }
         Known::Nothing => "balls that roll have nothing stiff",
+        Known::NotMounts => "parts of a mount besides spring and damper have no tangents",
     };
     let text = match (run.method, run.accuracy) {
-        (Method::Implicit, _) if known == Known::Nothing => {
+        (Method::Implicit, _) if known >= Known::Nothing => {
             format!(
                 "run.method = \"implicit\" was asked for, but {what}: explicit steps were taken."
             )

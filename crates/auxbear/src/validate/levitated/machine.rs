@@ -15,23 +15,23 @@ use std::path::Path;
 
 /// A magnet with its controller, alike on both axes.
 #[derive(Deserialize, Clone)]
-pub(super) struct Given {
-    pub(super) actuator_node: usize,
-    pub(super) sensor_node: usize,
+pub(in crate::validate) struct Given {
+    pub(in crate::validate) actuator_node: usize,
+    pub(in crate::validate) sensor_node: usize,
     ki: f64,
     ks: f64,
-    pub(super) controller: Law,
+    pub(in crate::validate) controller: Law,
 }
 
 #[derive(Deserialize, Clone)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)] // names of the files
-pub(super) struct Law {
-    pub(super) Kp: f64,
+pub(in crate::validate) struct Law {
+    pub(in crate::validate) Kp: f64,
     #[serde(default)]
     Kd: f64,
     #[serde(default)]
-    pub(super) Ki: f64,
+    pub(in crate::validate) Ki: f64,
     #[serde(default)]
     Td: f64,
     sensor_rad_s: Option<f64>,
@@ -56,15 +56,19 @@ struct Plane {
 }
 
 /// A rotor with magnets, and what unbalances it.
-pub(super) struct Machine {
-    pub(super) rotor: Rotor,
-    pub(super) magnets: Vec<Given>,
-    pub(super) unbalance: Vec<Unbalance>,
+pub(in crate::validate) struct Machine {
+    pub(in crate::validate) rotor: Rotor,
+    pub(in crate::validate) magnets: Vec<Given>,
+    pub(in crate::validate) unbalance: Vec<Unbalance>,
 }
 
 impl Machine {
     /// Of a file, with damping added to every element: to ground, and rotating.
-    pub(super) fn of(value: &Value, path: &Path, beta: [f64; 2]) -> Result<Self, String> {
+    pub(in crate::validate) fn of(
+        value: &Value,
+        path: &Path,
+        beta: [f64; 2],
+    ) -> Result<Self, String> {
         let mut rotor = named_rotor(value, path)?;
         for element in &mut rotor.elements {
             element.damping_of_stiffness += beta[0];
@@ -90,13 +94,13 @@ impl Machine {
     }
 
     /// Nodes of magnets, sensors and unbalances.
-    fn loaded(&self) -> impl Iterator<Item = usize> {
+    pub(in crate::validate) fn loaded(&self) -> impl Iterator<Item = usize> {
         let magnets = self.magnets.iter();
         let magnets = magnets.flat_map(|m| [m.actuator_node, m.sensor_node]);
         magnets.chain(self.unbalance.iter().map(|plane| plane.node))
     }
 
-    pub(super) fn levitation(&self) -> Result<Levitation, String> {
+    pub(in crate::validate) fn levitation(&self) -> Result<Levitation, String> {
         let (mut sensors, mut actuators, mut channels) = (Vec::new(), Vec::new(), Vec::new());
         for (number, given) in self.magnets.iter().enumerate() {
             let law = &given.controller;
@@ -135,7 +139,7 @@ impl Machine {
     }
 
     /// The rotor in free modes up to `cut` (rad/s) and residual flexibility of its loaded nodes; in all its modes without end.
-    pub(super) fn analysis(&self, cut: f64) -> Result<Analysis, String> {
+    pub(in crate::validate) fn analysis(&self, cut: f64) -> Result<Analysis, String> {
         let matrices = Matrices::new(&self.rotor);
         let mut basis = Basis::full(&self.rotor, &matrices).map_err(|error| error.to_string())?;
         if cut.is_finite() {
@@ -152,7 +156,7 @@ impl Machine {
     }
 
     /// Both axes of every magnet in one plane.
-    pub(super) fn turning(
+    pub(in crate::validate) fn turning(
         &self,
         analysis: &Analysis,
         speed: f64,
@@ -163,7 +167,7 @@ impl Machine {
         ClosedLoop::new(plant, &plane).map_err(|error| error.to_string())
     }
 
-    pub(super) fn planes(&self, analysis: &Analysis, speed: f64) -> Plant<f64> {
+    pub(in crate::validate) fn planes(&self, analysis: &Analysis, speed: f64) -> Plant<f64> {
         Plant::planes(analysis, self.rotor.nodes.len(), speed)
     }
 }

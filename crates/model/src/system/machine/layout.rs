@@ -3,7 +3,7 @@
 //! ```text
 //!   rotor        x of all coordinates (of G), y, ẋ, ẏ; φ, Ω
 //!   races        of each auxiliary bearing: inner x y, ẋ ẏ, φ_i, ω_i; outer x y, ẋ ẏ
-//!   bearings     own states of each
+//!   bearings     own states of each, then of each mount
 //!   ledger       heats of the rotor, where it has any, and of each bearing; works of the sources, of the rotor first; external
 //!                angular impulse
 //!
@@ -80,6 +80,9 @@ impl Layout {
         let states: Vec<_> = (parts.iter())
             .map(|part| channels.bearing(&part.name, &part.bearing))
             .collect();
+        let mounts: Vec<_> = (parts.iter())
+            .map(|part| channels.block(&part.name, part.mount_parts.state_names()))
+            .collect();
         let mut heat = |there: bool, kind| there.then(|| channels.heats_of("", [kind]));
         let mut of_rotor = RotorLedger {
             damping: heat(!own.damping.is_empty(), "shaft_damping"),
@@ -103,6 +106,8 @@ impl Layout {
                 outer: races[k].1,
                 bearing: states[k].start,
                 bearing_states: states[k].len(),
+                mount: mounts[k].start,
+                mount_states: mounts[k].len(),
                 balls,
                 heat: channels.heats_of(&part.name, kinds),
                 source: channels.sources_of(&part.name, auxiliary_bearing::SOURCES),
@@ -188,6 +193,8 @@ impl Layout {
             body(&mut scale, at.inner, clearance, true);
             body(&mut scale, at.outer, clearance, false);
             (part.bearing).error_scale(&mut scale[at.own()], spin, fall_speed);
+            let of_mount = &mut scale[at.of_mount()];
+            (part.mount_parts).error_scale(of_mount, 0.01 * clearance, 0.3 * fall_speed);
             let inertia = part.inner_race.inertia;
             let turned = 0.5 * inertia * spin * spin + 0.5 * mass * fall_speed * fall_speed;
             let heats = self.heat(at.heat)..self.heat(at.heat + auxiliary_bearing::HEATS);

@@ -4,6 +4,7 @@
 //! change of angular momentum about the origin = external angular impulse.
 
 use super::RotorMachine;
+use crate::mount::MountReaction;
 use crate::system::energy::{Balance, Content, Flows};
 use number::Vec2;
 use solve::Machine;
@@ -37,7 +38,10 @@ impl RotorMachine {
             content.spin += 0.5 * race.inertia * inner.spin * inner.spin;
             content.spin += bearing.spin;
             content.potential += part.contact.energy(&contact);
-            content.potential += part.mount.energy(outer.position);
+            let mount = &self.one.bearings[k].mount;
+            let [potential, kinetic] = mount.energy(outer.position, &state[at.of_mount()]);
+            content.potential += potential;
+            content.translation += kinetic;
             if k == 0 {
                 content.potential += rotor.weight + rotor.elastic;
             }
@@ -64,6 +68,13 @@ impl RotorMachine {
         Balance::between(start, end, |state| (self.content(state), self.flows(state)))
     }
 
+    /// What the mount of a bearing does at a state, for inspection.
+    pub fn mount(&self, bearing: usize, state: &[f64]) -> MountReaction<f64> {
+        let at = &self.layout().bearings[bearing];
+        let motion = at.motion(state);
+        let mut rate = vec![0.0; self.dimension()];
+        self.one.bearings[bearing].mount(at, &motion, state, &mut rate)
+    }
     /// The rate of change of a state, for inspection: (rate, probes).
     pub fn inspect(&self, state: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let mut rate = vec![0.0; self.dimension()];

@@ -122,6 +122,7 @@ impl<R: Real> Machines<R> {
         for (k, (part, at)) in self.bearings.iter().zip(&layout.bearings).enumerate() {
             let motion = at.motion(state);
             let reaction = part.bearing(at, &motion, state, rate, probe);
+            let mount = part.mount(at, &motion, state, rate);
             let there = match kept.get(k) {
                 Some(Some(there)) => *there,
                 _ => self.at_node(k, state, &rotor),
@@ -138,7 +139,7 @@ impl<R: Real> Machines<R> {
                 (&there, acceleration),
                 self.gravity,
                 &motion,
-                &reaction,
+                (&reaction, &mount),
                 Outlet {
                     heat: layout.heat(at.heat),
                     source: layout.source(at.source),

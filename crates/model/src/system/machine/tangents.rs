@@ -23,7 +23,7 @@ use number::{Mask, Real, Vec2};
 use solve::Tangents;
 
 /// What linearly implicit steps know of a machine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Known {
     /// All that presses and rubs.
     All,
@@ -32,6 +32,8 @@ pub enum Known {
     Races,
     /// Nothing: balls that roll have no states of their own.
     Nothing,
+    /// Nothing: parts of a mount besides spring and damper have no tangents.
+    NotMounts,
 }
 
 /// Heat of pocket damping among those of an auxiliary bearing; that of pocket friction follows.
@@ -100,7 +102,8 @@ impl RotorMachine {
         let bearings = self.constants.bearings.iter();
         bearings.fold(Known::All, |known, part| match &part.bearing {
             BearingConstants::Rolling(_) => Known::Nothing,
-            BearingConstants::Planar(_) if known == Known::Nothing => known,
+            _ if part.mount_parts.any() => Known::NotMounts,
+            BearingConstants::Planar(_) if known >= Known::Nothing => known,
             BearingConstants::Planar(bearing) => match bearing.separation {
                 Separation::CentredCage => known,
                 Separation::FreeCage(_) | Separation::Neighbours(_) => Known::Races,
@@ -239,7 +242,8 @@ impl<R: Real> Tangents<R> for Machines<R> {
             }
             let race = &auxiliary.inner_race;
             let scales = planar.border();
-            let mount = auxiliary.mount.damping + auxiliary.mount.stiffness * inverse_g;
+            let mount =
+                auxiliary.mount.spring.damping + auxiliary.mount.spring.stiffness * inverse_g;
             let outer = g * auxiliary.outer_moving_mass + mount;
             let masses = [
                 g * race.mass,
@@ -311,7 +315,7 @@ impl<R: Real> Tangents<R> for Machines<R> {
             let of_balls = planar.forward(&part.balls, &known, &mut side[at.own()]);
             let race = &auxiliary.inner_race;
             let scales = planar.border();
-            let outer = known.outer * (auxiliary.mount.stiffness * inverse_g);
+            let outer = known.outer * (auxiliary.mount.spring.stiffness * inverse_g);
             let own = [
                 race.mass * side[at.inner + 2],
                 race.mass * side[at.inner + 3],
