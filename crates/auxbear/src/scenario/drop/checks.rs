@@ -23,6 +23,7 @@ impl Context<'_> {
             let bore = part.contact.bore_diameter;
             own.bearing(&part.bearing, Some(("contact.bore_diameter", bore)), true)?;
             own.air_clearance(part)?;
+            own.mount(part)?;
             own.perturbed_balls(drop, part)?;
             // what a bent rotor does on its magnets is known when they are computed
             if drop.shaft.is_none() {
@@ -51,6 +52,60 @@ impl Context<'_> {
                     .to_string(),
             ),
         ))
+    }
+
+    /// Keys that make one part of a mount stand together; a squeeze film is kept from closing by a stop.
+    fn mount(&self, part: &AuxiliaryBearing) -> Check {
+        const TOGETHER: [&[&str]; 5] = [
+            &["mount.branch_stiffness", "mount.branch_time"],
+            &["mount.ring_stiffness", "mount.ring_travel"],
+            &[
+                "mount.film_viscosity",
+                "mount.film_radius",
+                "mount.film_length",
+                "mount.film_clearance",
+            ],
+            &["mount.stop_gap", "mount.stop_stiffness"],
+            &["mount.housing_mass", "mount.housing_stiffness"],
+        ];
+        let there = |path: &str| {
+            self.values.number(path).is_some() || !self.values.numbers(path).is_empty()
+        };
+        for paths in TOGETHER {
+            let lacking = paths.iter().find(|path| !there(path));
+            let given = paths.iter().find(|path| there(path));
+            if let (Some(lacking), Some(given)) = (lacking, given) {
+                return Err(Box::new(self.problem(
+                    Code::MissingKey,
+                    given,
+                    "this alone".to_string(),
+                    format!("{lacking} beside it is needed"),
+                )));
+            }
+        }
+        let [stiffnesses, times] = ["mount.branch_stiffness", "mount.branch_time"]
+            .map(|path| self.values.numbers(path).len());
+        if stiffnesses != times {
+            return Err(Box::new(self.problem(
+                Code::Conflict,
+                "mount.branch_time",
+                format!("{times} times for {stiffnesses} stiffnesses"),
+                "one time for each Maxwell branch is needed".to_string(),
+            )));
+        }
+        let Some(film) = part.mount.parts.film else {
+            return Ok(());
+        };
+        match part.mount.parts.stop {
+            Some(stop) if stop.gap < film.clearance => Ok(()),
+            _ => Err(Box::new(self.problem(
+                Code::Conflict,
+                "mount.film_clearance",
+                millimetres(film.clearance),
+                "a hard stop with a smaller mount.stop_gap is needed: the film cannot carry a race that reaches its wall"
+                    .to_string(),
+            ))),
+        }
     }
 
     fn air_clearance(&self, part: &AuxiliaryBearing) -> Check {

@@ -125,6 +125,24 @@ pub(crate) const KEYS: &[Key] = &[
     .when(&[BRAKED])
     .only(FALLING),
     Key::new(
+        "rotor.drive_torque",
+        Kind::Quantity("N m"),
+        "2 N m",
+        "Torque of a drive that stays on: this less rotor.drive_slope times the speed. A run-up through a critical speed needs one.",
+    )
+    .not_negative()
+    .default("0 N m", "the drive is off when the magnets are lost")
+    .only(MACHINE),
+    Key::new(
+        "rotor.drive_slope",
+        Kind::Quantity("N m s"),
+        "1e-3 N m s",
+        "Fall of the drive's torque with speed.",
+    )
+    .not_negative()
+    .default("0 N m s", "a drive of constant torque")
+    .only(MACHINE),
+    Key::new(
         "rotor.drag",
         Kind::Quantity("N m s"),
         "1e-4 N m s",
@@ -388,6 +406,133 @@ pub(crate) const KEYS: &[Key] = &[
         "Mass that moves with the outer race: the race itself and its housing or sleeve.",
     )
     .positive(),
+    Key::new(
+        "mount.branch_stiffness",
+        Kind::Series("N/m"),
+        "[\"8e6 N/m\", \"4e6 N/m\"]",
+        "Stiffness of each Maxwell branch, a spring and a damper in series beside spring and damper: an O-ring, whose stiffness rises with frequency.",
+    )
+    .not_negative()
+    .optional("none: stiffness does not depend on frequency"),
+    Key::new(
+        "mount.branch_time",
+        Kind::Series("s"),
+        "[\"0.3 ms\", \"0.03 ms\"]",
+        "Relaxation time of each Maxwell branch.",
+    )
+    .positive()
+    .optional("none"),
+    Key::new(
+        "mount.ring_stiffness",
+        Kind::Quantity("N/m"),
+        "2e7 N/m",
+        "Stiffness of a friction (tolerance) ring before it slips.",
+    )
+    .positive()
+    .optional("no friction ring"),
+    Key::new(
+        "mount.ring_travel",
+        Kind::Quantity("m"),
+        "10 um",
+        "Travel at which the friction ring slips; the slip force is mount.ring_stiffness times this.",
+    )
+    .positive()
+    .optional("no friction ring"),
+    Key::new(
+        "mount.ring_exponent",
+        Kind::Coefficient,
+        "8",
+        "How sharply the friction ring begins to slip: 2 is soft, large is dry friction with a spring in series.",
+    )
+    .within(Range::FromTo(2.0, 100.0))
+    .default("8", "smaller ones creep under small vibration about a load"),
+    Key::new(
+        "mount.film_viscosity",
+        Kind::Quantity("Pa s"),
+        "0.02 Pa s",
+        "Viscosity of a squeeze film around the outer race.",
+    )
+    .positive()
+    .optional("no squeeze film"),
+    Key::new(
+        "mount.film_radius",
+        Kind::Quantity("m"),
+        "30 mm",
+        "Radius of the squeeze film.",
+    )
+    .positive()
+    .optional("no squeeze film"),
+    Key::new(
+        "mount.film_length",
+        Kind::Quantity("m"),
+        "10 mm",
+        "Length of the squeeze film, between open ends.",
+    )
+    .positive()
+    .optional("no squeeze film"),
+    Key::new(
+        "mount.film_clearance",
+        Kind::Quantity("m"),
+        "0.1 mm",
+        "Radial clearance of the squeeze film.",
+    )
+    .positive()
+    .optional("no squeeze film"),
+    Key::new(
+        "mount.film_cavitates",
+        Kind::Switch,
+        "true",
+        "Whether the half of the squeeze film that opens carries nothing; false where it is flooded.",
+    )
+    .default("true", "ambient pressure at the ends"),
+    Key::new(
+        "mount.stop_gap",
+        Kind::Quantity("m"),
+        "50 um",
+        "Radial gap of a hard stop around the outer race.",
+    )
+    .not_negative()
+    .optional("no stop"),
+    Key::new(
+        "mount.stop_stiffness",
+        Kind::Quantity("N/m"),
+        "1e9 N/m",
+        "Stiffness of the hard stop.",
+    )
+    .positive()
+    .optional("no stop"),
+    Key::new(
+        "mount.stop_damping",
+        Kind::Quantity("s/m"),
+        "0.5 s/m",
+        "Hunt-Crossley damping a of the stop's force F = k d(1 + a ḋ).",
+    )
+    .not_negative()
+    .assumed("0.5 s/m", "as of contact.damping"),
+    Key::new(
+        "mount.housing_mass",
+        Kind::Quantity("kg"),
+        "20 kg",
+        "Mass of a housing that yields, under the mount.",
+    )
+    .positive()
+    .optional("the mount stands on ground"),
+    Key::new(
+        "mount.housing_stiffness",
+        Kind::Quantity("N/m"),
+        "1e8 N/m",
+        "Stiffness between that housing and ground.",
+    )
+    .positive()
+    .optional("the mount stands on ground"),
+    Key::new(
+        "mount.housing_damping",
+        Kind::Quantity("N s/m"),
+        "1e4 N s/m",
+        "Damping between that housing and ground.",
+    )
+    .not_negative()
+    .default("0 N s/m", "no loss but in the mount"),
 ];
 
 pub(crate) const REPEAT: &[Key] = &[

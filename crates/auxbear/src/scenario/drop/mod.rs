@@ -12,6 +12,7 @@ use crate::scenario::run::Run;
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
 use kinds::{SpinKind, UnbalanceAngle};
+use model::mount::{FrictionRing, HardStop, Housing, MaxwellBranch, MountParts, SqueezeFilm};
 pub use shaft::{BearingPlace, Shaft};
 
 /// A levitated rotor that is released onto its auxiliary bearings. All values are SI.
@@ -126,7 +127,7 @@ pub struct Contact {
     pub friction_reference_speed: f64,
 }
 
-/// Spring and damper between outer race and ground.
+/// What is between outer race and ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mount {
     /// Stiffness, N/m.
@@ -135,6 +136,8 @@ pub struct Mount {
     pub damping: f64,
     /// Mass of the outer race with what moves with it, kg.
     pub moving_mass: f64,
+    /// What it has besides spring and damper.
+    pub parts: MountParts,
 }
 
 /// Repeated runs from perturbed starts.
@@ -263,8 +266,58 @@ fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
             stiffness: mount.number("stiffness"),
             damping: mount.number("damping"),
             moving_mass: mount.number("moving_mass"),
+            parts: mount_parts(&mount),
         },
         bearing: bearing(values),
+    }
+}
+
+/// What a mount has besides spring and damper; what belongs together is [checked](checks) to be there.
+fn mount_parts(mount: &Section<'_>) -> MountParts {
+    let numbers = |name: &str| mount.values.numbers(&format!("mount.{name}"));
+    let times = numbers("branch_time");
+    let branches = numbers("branch_stiffness").into_iter().zip(times);
+    let film = ["viscosity", "radius", "length", "clearance"]
+        .map(|name| mount.maybe(&format!("film_{name}")));
+    MountParts {
+        branches: branches
+            .map(|(stiffness, time)| MaxwellBranch {
+                stiffness,
+                rate: 1.0 / time,
+            })
+            .collect(),
+        ring: (mount
+            .maybe("ring_stiffness")
+            .zip(mount.maybe("ring_travel")))
+        .map(|(stiffness, travel)| FrictionRing {
+            stiffness,
+            travel,
+            exponent: mount.number("ring_exponent"),
+        }),
+        film: match film {
+            [Some(viscosity), Some(radius), Some(length), Some(clearance)] => Some(SqueezeFilm {
+                factor: viscosity * radius * length.powi(3),
+                clearance,
+                cavitates: mount.switch("film_cavitates"),
+            }),
+            _ => None,
+        },
+        stop: (mount.maybe("stop_gap").zip(mount.maybe("stop_stiffness"))).map(
+            |(gap, stiffness)| HardStop {
+                stiffness,
+                gap,
+                damping: mount.number("stop_damping"),
+            },
+        ),
+        housing: (mount
+            .maybe("housing_mass")
+            .zip(mount.maybe("housing_stiffness")))
+        .map(|(mass, stiffness)| Housing {
+            mass,
+            stiffness,
+            damping: mount.number("housing_damping"),
+        }),
+        ..MountParts::NONE
     }
 }
 

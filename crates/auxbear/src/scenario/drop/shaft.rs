@@ -15,6 +15,10 @@ pub struct Shaft {
     pub model: RotorModel,
     /// Modes of the free rotor up to this frequency are coordinates, rad/s.
     pub cutoff: f64,
+    /// Torque of a drive at standstill, N m.
+    pub drive_torque: f64,
+    /// Its fall with speed, N m s.
+    pub drive_slope: f64,
     /// Drag over speed, N m s.
     pub drag: f64,
     /// Drag over the square of the speed, N m s².
@@ -87,6 +91,8 @@ impl Shaft {
         Ok(Shaft {
             model,
             cutoff: number(values, "rotor.cutoff"),
+            drive_torque: number(values, "rotor.drive_torque"),
+            drive_slope: number(values, "rotor.drive_slope"),
             drag: number(values, "rotor.drag"),
             windage: number(values, "rotor.windage"),
             decay_time: number(values, "levitation.decay_time"),

@@ -10,7 +10,7 @@ use crate::simulate::drop::shaft::{self, BuiltShaft};
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::contact::JournalContact;
 use model::levitation::Levitation;
-use model::mount::{Mount, MountParts};
+use model::mount::Mount;
 use model::rotor::RotorConstants;
 use model::schedule::Schedule;
 use model::system::machine::{Event, MachineConstants};
@@ -134,7 +134,7 @@ fn auxiliary_bearing(
             damping: part.mount.damping,
             free_position: Vec2::zero(),
         },
-        mount_parts: MountParts::NONE,
+        mount_parts: part.mount.parts.clone(),
     };
     Ok((constants, built))
 }

@@ -142,6 +142,8 @@ fn constants(drop: &Drop, shaft: &Shaft, matrices: &Matrices, basis: &Basis) -> 
     };
     RotorConstants {
         polar_inertia: drop.rotor.polar_inertia,
+        drive_torque: shaft.drive_torque,
+        drive_slope: shaft.drive_slope,
         drag: shaft.drag,
         drag_square: shaft.windage,
         brake_torque,

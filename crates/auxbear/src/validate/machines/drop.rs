@@ -21,6 +21,8 @@ const CUT: f64 = 6e4;
 const TOLERANCE: f64 = 1e-5;
 /// The first part of a drop, s.
 const FIRST: f64 = 0.05;
+/// Grid on which the file takes the largest displacements, s.
+const GRID: f64 = 5e-5;
 
 pub(super) fn rows(file: &Value, path: &Path) -> Result<Vec<Row>, String> {
     let mut rows = levitated::start_of_drop(file, path)?;
@@ -77,6 +79,7 @@ struct Counted {
     backward_time: f64,
     ninety: Option<f64>,
     node: f64,
+    outer: f64,
 }
 
 struct Watch {
@@ -84,6 +87,8 @@ struct Watch {
     speed: f64,
     bearings: Vec<Counted>,
     middle: f64,
+    /// Points of the grid so far.
+    points: f64,
 }
 
 impl Observer<RotorMachine> for Watch {
@@ -122,11 +127,19 @@ impl Observer<RotorMachine> for Watch {
             if own.ninety.is_none() && (0.0..=1.0).contains(&part) {
                 own.ninety = Some(step.start + part * length);
             }
-            let node = machine.node(k, step.state(1.0)).position;
-            own.node = own.node.max(node.length_squared().sqrt());
         }
-        let middle = machine.place(0, step.state(1.0));
-        self.middle = self.middle.max(middle.length_squared().sqrt());
+        while self.points * GRID <= step.end {
+            let state = step.state((self.points * GRID - step.start) / length);
+            for (k, own) in self.bearings.iter_mut().enumerate() {
+                let node = machine.node(k, state).position;
+                let outer = machine.layout().bearings[k].motion(state).outer.position;
+                own.node = own.node.max(node.length_squared().sqrt());
+                own.outer = own.outer.max(outer.length_squared().sqrt());
+            }
+            let middle = machine.place(0, state);
+            self.middle = self.middle.max(middle.length_squared().sqrt());
+            self.points += 1.0;
+        }
         self.record.step(step)
     }
 }
@@ -139,6 +152,7 @@ fn run(file: &Value, machine: &RotorMachine, start: Vec<f64>) -> Result<Vec<Row>
         speed: machine.constants.speed,
         bearings: vec![Counted::default(); layout.bearings.len()],
         middle: 0.0,
+        points: 0.0,
     };
     let runs = Runs {
         machines: &[machine],
@@ -202,11 +216,7 @@ fn run(file: &Value, machine: &RotorMachine, start: Vec<f64>) -> Result<Vec<Row>
             ),
             ("mount_heat", "J", heat("mount_damping")),
             ("largest_node_displacement", "m", Some(own.node)),
-            (
-                "largest_outer_displacement",
-                "m",
-                Some(record.mount_displacement.value),
-            ),
+            ("largest_outer_displacement", "m", Some(own.outer)),
         ] {
             found.push((format!("b{}_{key}", k + 1), unit, value));
         }

@@ -11,7 +11,7 @@ use serde_json::Value;
 use std::path::Path;
 
 /// Longest step, s: kinks of ring and stop cost its square.
-const STEP: f64 = 1e-6;
+const STEP: f64 = 5e-7;
 
 pub(super) fn rows(file: &Value, _: &Path) -> Result<Vec<Row>, String> {
     let mut worst = Worst::default();

@@ -1,14 +1,10 @@
 //! CPU time of drops: measured, not judged. `cargo run --release -p auxbear-model --example pace`
 
-#[path = "../tests/machines/mod.rs"]
+#[path = "../../tests/machines/mod.rs"]
 #[allow(dead_code)] // shared with the other tests
 mod machines;
 
-#[path = "../tests/bent/drop.rs"]
-#[allow(dead_code, unused_imports)] // its tests are not built here
 mod drop;
-#[path = "../tests/bent/files.rs"]
-#[allow(dead_code)]
 mod files;
 
 use machines::{Blind, reference, settings};
