@@ -105,10 +105,10 @@ const TABLE: &[Absent] = &[
     },
     Absent {
         paths: "foundation base pedestal support housing mount.friction mount.friction_coefficient mount.squeeze_film mount.tolerance_ring mount.stop \
-                mount.gap mount.hysteresis mount.exponent",
-        what: "a mount is one spring and one damper, equal in all directions",
+                mount.gap mount.hysteresis mount.exponent mount.o_ring",
+        what: "a mount is a sum of parts that are equal in all directions",
         point: 7,
-        instead: "Give stiffness and damping at the amplitude that is expected, and vary them",
+        instead: "Besides stiffness and damping: branch_stiffness and branch_time (O-ring), ring_stiffness and ring_travel (tolerance ring), film_…, stop_…, housing_… of [mount]",
     },
     Absent {
         paths: "landing landing_sleeve sleeve landing.sleeve contact.sleeve contact.coating",
@@ -125,9 +125,9 @@ const TABLE: &[Absent] = &[
     Absent {
         paths: "motor generator drive_motor rotor.motor_torque seal seals windage gas process rotor.brake_curve rotor.braking_curve \
                 rotor.speed_curve rotor.load_torque",
-        what: "forces of seals and gas, and torques over speed or time, are not described",
+        what: "forces of seals and gas, and tables of torque over speed or time, are not described",
         point: 5,
-        instead: "A constant torque is rotor.brake_torque with rotor.spin = \"braked\"",
+        instead: "A constant torque is rotor.brake_torque with rotor.spin = \"braked\"; a machine has rotor.drive_torque, drive_slope, drag and windage",
     },
 ];
 

@@ -445,7 +445,7 @@ pub(crate) const KEYS: &[Key] = &[
         "How sharply the friction ring begins to slip: 2 is soft, large is dry friction with a spring in series.",
     )
     .within(Range::FromTo(2.0, 100.0))
-    .default("8", "smaller ones creep under small vibration about a load"),
+    .optional("8: smaller ones creep under small vibration about a load"),
     Key::new(
         "mount.film_viscosity",
         Kind::Quantity("Pa s"),
@@ -479,12 +479,12 @@ pub(crate) const KEYS: &[Key] = &[
     .positive()
     .optional("no squeeze film"),
     Key::new(
-        "mount.film_cavitates",
+        "mount.film_flooded",
         Kind::Switch,
-        "true",
-        "Whether the half of the squeeze film that opens carries nothing; false where it is flooded.",
+        "false",
+        "Whether the half of the squeeze film that opens pulls as the other pushes: false where it cavitates, with ambient pressure at its ends.",
     )
-    .default("true", "ambient pressure at the ends"),
+    .optional("false"),
     Key::new(
         "mount.stop_gap",
         Kind::Quantity("m"),
@@ -508,7 +508,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Hunt-Crossley damping a of the stop's force F = k d(1 + a ḋ).",
     )
     .not_negative()
-    .assumed("0.5 s/m", "as of contact.damping"),
+    .optional("0.5 s/m, as of contact.damping"),
     Key::new(
         "mount.housing_mass",
         Kind::Quantity("kg"),
@@ -532,7 +532,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Damping between that housing and ground.",
     )
     .not_negative()
-    .default("0 N s/m", "no loss but in the mount"),
+    .optional("0 N s/m: no loss but in the mount"),
 ];
 
 pub(crate) const REPEAT: &[Key] = &[

@@ -272,6 +272,11 @@ fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
     }
 }
 
+/// Exponent of a friction ring where none is given: smaller ones creep under small vibration about a load.
+const RING_EXPONENT: f64 = 8.0;
+/// Damping of a hard stop where none is given, s/m.
+const STOP_DAMPING: f64 = 0.5;
+
 /// What a mount has besides spring and damper; what belongs together is [checked](checks) to be there.
 fn mount_parts(mount: &Section<'_>) -> MountParts {
     let numbers = |name: &str| mount.values.numbers(&format!("mount.{name}"));
@@ -292,13 +297,13 @@ fn mount_parts(mount: &Section<'_>) -> MountParts {
         .map(|(stiffness, travel)| FrictionRing {
             stiffness,
             travel,
-            exponent: mount.number("ring_exponent"),
+            exponent: mount.maybe("ring_exponent").unwrap_or(RING_EXPONENT),
         }),
         film: match film {
             [Some(viscosity), Some(radius), Some(length), Some(clearance)] => Some(SqueezeFilm {
                 factor: viscosity * radius * length.powi(3),
                 clearance,
-                cavitates: mount.switch("film_cavitates"),
+                cavitates: !mount.switch("film_flooded"),
             }),
             _ => None,
         },
@@ -306,7 +311,7 @@ fn mount_parts(mount: &Section<'_>) -> MountParts {
             |(gap, stiffness)| HardStop {
                 stiffness,
                 gap,
-                damping: mount.number("stop_damping"),
+                damping: mount.maybe("stop_damping").unwrap_or(STOP_DAMPING),
             },
         ),
         housing: (mount
@@ -315,7 +320,7 @@ fn mount_parts(mount: &Section<'_>) -> MountParts {
         .map(|(mass, stiffness)| Housing {
             mass,
             stiffness,
-            damping: mount.number("housing_damping"),
+            damping: mount.maybe("housing_damping").unwrap_or(0.0),
         }),
         ..MountParts::NONE
     }
