@@ -221,6 +221,108 @@ fn currents_that_decay_hold_the_rotor_a_while() {
     );
 }
 
+/// Before it touches anything: I_p dΩ/dt is drive less drag, at a speed that hardly changes.
+#[test]
+fn drag_and_drive_act_on_the_spin() {
+    let final_speed = |sets: &[&str]| {
+        let mut all = vec!["run.duration=5 ms"];
+        all.extend(sets);
+        number(&ran(STIFF, &all), "rotor_final_speed")
+    };
+    let free = final_speed(&[]);
+    let inertia = {
+        let braked = final_speed(&["rotor.spin=braked", "rotor.brake_torque=1 N m"]);
+        5e-3 / (free - braked)
+    };
+    let change = |torque: f64| torque * 5e-3 / inertia;
+    let drag = final_speed(&["rotor.drag=1e-3 N m s"]);
+    near(free - drag, change(1e-3 * free), 0.02);
+    let windage = final_speed(&["rotor.windage=1e-6 N m s^2"]);
+    near(free - windage, change(1e-6 * free * free), 0.02);
+    let driven = final_speed(&["rotor.drive_torque=2 N m", "rotor.drive_slope=1e-3 N m s"]);
+    near(driven - free, change(2.0 - 1e-3 * free), 0.02);
+}
+
+/// A film that hardly moves is a damper: its force at the middle is known in closed form. A stop and a soft ring do not act.
+#[test]
+fn parts_of_a_mount_reach_the_model() {
+    let peak = |sets: &[&str]| {
+        let mut all = vec!["run.duration=8 ms"];
+        all.extend(sets);
+        number(&ran(STIFF, &all), "a.first_impact_force")
+    };
+    let (plain, soft) = (peak(&[]), peak(&["mount.stiffness=1e6 N/m"]));
+    assert!(soft < 0.9 * plain, "{soft} {plain}");
+    let same = |sets: &[&str], share: f64| near(peak(sets), plain, share);
+    // a branch that relaxes slowly is a spring, one that relaxes at once is nothing
+    let slow = peak(&[
+        "mount.stiffness=1e6 N/m",
+        "mount.branch_stiffness=1.9e7 N/m",
+        "mount.branch_time=10 s",
+    ]);
+    near(slow, peak(&["mount.stiffness=2e7 N/m"]), 1e-3);
+    same(
+        &[
+            "mount.branch_stiffness=1e6 N/m",
+            "mount.branch_time=0.01 us",
+        ],
+        5e-3,
+    );
+    // a ring that never slips is a spring
+    let ring = peak(&[
+        "mount.stiffness=1e6 N/m",
+        "mount.ring_stiffness=1.9e7 N/m",
+        "mount.ring_travel=10 mm",
+    ]);
+    near(ring, peak(&["mount.stiffness=2e7 N/m"]), 1e-3);
+    // A of both films over c³: π A/c³ flooded, half of it where it cavitates
+    let film = [
+        "mount.film_viscosity=0.02 Pa s",
+        "mount.film_radius=30 mm",
+        "mount.film_length=10 mm",
+        "mount.film_clearance=1 mm",
+        "mount.stop_gap=0.9 mm",
+        "mount.stop_stiffness=1e8 N/m",
+    ];
+    let damping = std::f64::consts::PI * 0.02 * 30e-3 * 1e-6 / 1e-9;
+    let damper = format!("mount.damping={} N s/m", 5000.0 + damping);
+    let mut flooded = film.to_vec();
+    flooded.push("mount.film_flooded=true");
+    near(
+        peak(&flooded),
+        peak(&["mount.damping=5000 N s/m", &damper]),
+        1e-3,
+    );
+    // on a housing that hardly moves the mount stands as on ground
+    same(
+        &[
+            "mount.housing_mass=1e4 kg",
+            "mount.housing_stiffness=1e12 N/m",
+        ],
+        1e-3,
+    );
+    for (sets, expected) in [
+        (
+            &["mount.ring_travel=1 um"][..],
+            "mount.ring_travel: found this alone; mount.ring_stiffness beside it is needed",
+        ),
+        (
+            &[
+                "mount.branch_stiffness=[\"1e6 N/m\", \"2e6 N/m\"]",
+                "mount.branch_time=1 ms",
+            ],
+            "found 1 times for 2 stiffnesses",
+        ),
+        (
+            &film[..4],
+            "a hard stop with a smaller mount.stop_gap is needed",
+        ),
+    ] {
+        let found = parsed(STIFF, sets).expect_err(expected);
+        assert!(found.contains(expected), "{expected}\n{found}");
+    }
+}
+
 #[test]
 fn what_cannot_be_is_refused_with_its_place() {
     let message = |old: &str, new: &str| {

@@ -122,7 +122,9 @@ pub struct DropAnswer {
 /// The simulation as validation sees it. `Err` says why a case cannot be run: its rows become "not run".
 pub trait Simulator {
     /// Whether machines may be run here.
-    fn machines(&self) -> Result<(), String>;
+    fn machines(&self) -> Result<(), String> {
+        Err(LAWS_ONLY.into())
+    }
     /// Time to first contact, s.
     fn free_fall(&self, case: &FreeFall) -> Result<f64, String>;
     /// Largest contact force, N.
@@ -140,9 +142,6 @@ pub struct LawsOnly;
 const LAWS_ONLY: &str = "needs a simulation";
 
 impl Simulator for LawsOnly {
-    fn machines(&self) -> Result<(), String> {
-        Err(LAWS_ONLY.into())
-    }
     fn free_fall(&self, _: &FreeFall) -> Result<f64, String> {
         Err(LAWS_ONLY.into())
     }

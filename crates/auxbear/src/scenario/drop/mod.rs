@@ -2,6 +2,7 @@
 
 pub(crate) mod checks;
 pub(crate) mod keys;
+pub(crate) mod keys_mount;
 pub(crate) mod kinds;
 mod shaft;
 

@@ -15,23 +15,23 @@ use std::path::Path;
 
 /// A magnet with its controller, alike on both axes.
 #[derive(Deserialize, Clone)]
-pub(in crate::validate) struct Given {
-    pub(in crate::validate) actuator_node: usize,
-    pub(in crate::validate) sensor_node: usize,
+pub(crate) struct Given {
+    pub(crate) actuator_node: usize,
+    pub(crate) sensor_node: usize,
     ki: f64,
     ks: f64,
-    pub(in crate::validate) controller: Law,
+    pub(crate) controller: Law,
 }
 
 #[derive(Deserialize, Clone)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case)] // names of the files
-pub(in crate::validate) struct Law {
-    pub(in crate::validate) Kp: f64,
+pub(crate) struct Law {
+    pub(crate) Kp: f64,
     #[serde(default)]
     Kd: f64,
     #[serde(default)]
-    pub(in crate::validate) Ki: f64,
+    pub(crate) Ki: f64,
     #[serde(default)]
     Td: f64,
     sensor_rad_s: Option<f64>,
@@ -56,19 +56,15 @@ struct Plane {
 }
 
 /// A rotor with magnets, and what unbalances it.
-pub(in crate::validate) struct Machine {
-    pub(in crate::validate) rotor: Rotor,
-    pub(in crate::validate) magnets: Vec<Given>,
-    pub(in crate::validate) unbalance: Vec<Unbalance>,
+pub(crate) struct Machine {
+    pub(crate) rotor: Rotor,
+    pub(crate) magnets: Vec<Given>,
+    pub(crate) unbalance: Vec<Unbalance>,
 }
 
 impl Machine {
     /// Of a file, with damping added to every element: to ground, and rotating.
-    pub(in crate::validate) fn of(
-        value: &Value,
-        path: &Path,
-        beta: [f64; 2],
-    ) -> Result<Self, String> {
+    pub(crate) fn of(value: &Value, path: &Path, beta: [f64; 2]) -> Result<Self, String> {
         let mut rotor = named_rotor(value, path)?;
         for element in &mut rotor.elements {
             element.damping_of_stiffness += beta[0];
@@ -94,13 +90,13 @@ impl Machine {
     }
 
     /// Nodes of magnets, sensors and unbalances.
-    pub(in crate::validate) fn loaded(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn loaded(&self) -> impl Iterator<Item = usize> {
         let magnets = self.magnets.iter();
         let magnets = magnets.flat_map(|m| [m.actuator_node, m.sensor_node]);
         magnets.chain(self.unbalance.iter().map(|plane| plane.node))
     }
 
-    pub(in crate::validate) fn levitation(&self) -> Result<Levitation, String> {
+    pub(crate) fn levitation(&self) -> Result<Levitation, String> {
         let (mut sensors, mut actuators, mut channels) = (Vec::new(), Vec::new(), Vec::new());
         for (number, given) in self.magnets.iter().enumerate() {
             let law = &given.controller;
@@ -139,7 +135,7 @@ impl Machine {
     }
 
     /// The rotor in free modes up to `cut` (rad/s) and residual flexibility of its loaded nodes; in all its modes without end.
-    pub(in crate::validate) fn analysis(&self, cut: f64) -> Result<Analysis, String> {
+    pub(crate) fn analysis(&self, cut: f64) -> Result<Analysis, String> {
         let matrices = Matrices::new(&self.rotor);
         let mut basis = Basis::full(&self.rotor, &matrices).map_err(|error| error.to_string())?;
         if cut.is_finite() {
@@ -156,7 +152,7 @@ impl Machine {
     }
 
     /// Both axes of every magnet in one plane.
-    pub(in crate::validate) fn turning(
+    pub(crate) fn turning(
         &self,
         analysis: &Analysis,
         speed: f64,
@@ -167,7 +163,7 @@ impl Machine {
         ClosedLoop::new(plant, &plane).map_err(|error| error.to_string())
     }
 
-    pub(in crate::validate) fn planes(&self, analysis: &Analysis, speed: f64) -> Plant<f64> {
+    pub(crate) fn planes(&self, analysis: &Analysis, speed: f64) -> Plant<f64> {
         Plant::planes(analysis, self.rotor.nodes.len(), speed)
     }
 }

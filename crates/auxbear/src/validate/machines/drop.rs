@@ -2,7 +2,7 @@
 //! the file states.
 
 use super::given::{Coordinates, index, machine};
-use super::{list, number, pairs};
+use super::json::{list, number, pairs};
 use crate::validate::compare::never;
 use crate::validate::levitated;
 use crate::validate::report::{Row, Tolerance};

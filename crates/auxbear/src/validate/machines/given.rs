@@ -1,6 +1,6 @@
 //! Machines of the files as constants of the model.
 
-use super::{list, number, numbers};
+use super::json::{list, number, numbers};
 use crate::import::case;
 use crate::simulate::drop::shaft::{in_coordinates, planes, row};
 use crate::validate::compare::part;

@@ -1,7 +1,7 @@
 //! Mounts under prescribed motions: force, heat, stored energy and work; dynamic stiffness; tables of the squeeze film.
 
 use super::given::GivenMount;
-use super::{list, number, numbers, pair};
+use super::json::{list, number, numbers, pair};
 use crate::validate::compare::{Worst, part};
 use crate::validate::report::{Row, Tolerance};
 use model::mount::squeeze_film::Film;

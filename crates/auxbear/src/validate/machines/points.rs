@@ -1,7 +1,7 @@
 //! Accelerations, forces, heats and energies at random states of machines with mounts of every part, in all coordinates.
 
 use super::given::{Coordinates, machine, rotor};
-use super::{list, number, numbers, pairs};
+use super::json::{list, number, numbers, pairs};
 use crate::validate::compare::Worst;
 use crate::validate::report::{Row, Tolerance};
 use model::auxiliary_bearing::probe::{FRICTION_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED};

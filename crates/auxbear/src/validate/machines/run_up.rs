@@ -4,7 +4,7 @@
 //! machine needs is never touched.
 
 use super::given::{Coordinates, index, rotor};
-use super::{list, number, numbers};
+use super::json::{list, number, numbers};
 use crate::validate::compare::Worst;
 use crate::validate::report::{Row, Tolerance};
 use crate::validate::simulation::falling_machine;

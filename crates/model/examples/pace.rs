@@ -1,11 +1,8 @@
 //! CPU time of drops: measured, not judged. `cargo run --release -p auxbear-model --example pace`
 
-#[path = "../../tests/machines/mod.rs"]
+#[path = "../tests/machines/mod.rs"]
 #[allow(dead_code)] // shared with the other tests
 mod machines;
-
-mod drop;
-mod files;
 
 use machines::{Blind, reference, settings};
 use model::system::machine::RotorMachine;
@@ -66,9 +63,8 @@ fn measure(name: &str, machine: &RotorMachine, start: &[f64], end: f64) {
 fn main() {
     let machine = RotorMachine::new(reference());
     measure("point", &machine, &machine.start(), 0.05);
-    let Some((machine, start, _)) = drop::flexible(6e4) else {
-        return;
-    };
+    let (constants, start) = machines::bent::bent(6e4);
+    let machine = RotorMachine::new(constants);
     let name = format!("{} coordinates", machine.layout().rotor.coordinates);
     measure(&name, &machine, &start, 0.05);
 }
