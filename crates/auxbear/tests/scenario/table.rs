@@ -295,11 +295,52 @@ fn choices(path: &str) -> Vec<String> {
     list.iter().map(|set| set.to_string()).collect()
 }
 
+/// What stands together in a mount.
+const MOUNT: [(&str, &[&str]); 5] = [
+    (
+        "mount.branch_",
+        &[
+            "mount.branch_stiffness=[\"1e6 N/m\", \"2e6 N/m\"]",
+            "mount.branch_time=[\"2 ms\", \"1 ms\"]",
+        ],
+    ),
+    (
+        "mount.ring_",
+        &["mount.ring_stiffness=1e6 N/m", "mount.ring_travel=20 um"],
+    ),
+    (
+        "mount.film_",
+        &[
+            "mount.film_viscosity=0.1 Pa s",
+            "mount.film_radius=20 mm",
+            "mount.film_length=11 mm",
+            "mount.film_clearance=0.3 mm",
+            "mount.stop_gap=1 um",
+            "mount.stop_stiffness=1e9 N/m",
+        ],
+    ),
+    (
+        "mount.stop_",
+        &["mount.stop_gap=1 um", "mount.stop_stiffness=1e9 N/m"],
+    ),
+    (
+        "mount.housing_",
+        &["mount.housing_mass=3 kg", "mount.housing_stiffness=1e7 N/m"],
+    ),
+];
+
 /// The choices that the system has.
 fn choices_of(system: SystemName, path: &str) -> Vec<String> {
     let known =
         |set: &String| keys_of(system).any(|key| set.starts_with(&format!("{}=", key.path)));
-    choices(path).into_iter().filter(known).collect()
+    let beside = MOUNT.iter().filter(|(part, _)| path.starts_with(part));
+    let beside = beside.flat_map(|(_, sets)| sets.iter().map(|set| (*set).to_string()));
+    let own = format!("{path}=");
+    choices(path)
+        .into_iter()
+        .chain(beside.filter(|set| !set.starts_with(&own)))
+        .filter(known)
+        .collect()
 }
 
 /// A value that no other key has, and small enough for every check: its text and its size in SI.

@@ -93,19 +93,20 @@ impl Context<'_> {
                 "one time for each Maxwell branch is needed".to_string(),
             )));
         }
-        let Some(film) = part.mount.parts.film else {
+        let parts = &part.mount.parts;
+        let Some(clearance) = parts.film_clearance else {
             return Ok(());
         };
-        match part.mount.parts.stop {
-            Some(stop) if stop.gap < film.clearance => Ok(()),
-            _ => Err(Box::new(self.problem(
-                Code::Conflict,
-                "mount.film_clearance",
-                millimetres(film.clearance),
-                "a hard stop with a smaller mount.stop_gap is needed: the film cannot carry a race that reaches its wall"
-                    .to_string(),
-            ))),
+        if parts.stop_gap.is_some_and(|gap| gap < clearance) {
+            return Ok(());
         }
+        let allowed = "a hard stop with a smaller mount.stop_gap is needed: the film cannot carry a race that reaches its wall";
+        Err(Box::new(self.problem(
+            Code::Conflict,
+            "mount.film_clearance",
+            millimetres(clearance),
+            allowed.to_string(),
+        )))
     }
 
     fn air_clearance(&self, part: &AuxiliaryBearing) -> Check {

@@ -39,7 +39,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Relaxation time of each Maxwell branch.",
     )
     .positive()
-    .optional("none"),
+    .optional("no Maxwell branches"),
     Key::new(
         "mount.ring_stiffness",
         Kind::Quantity("N/m"),
@@ -102,7 +102,7 @@ pub(crate) const KEYS: &[Key] = &[
         "false",
         "Whether the half of the squeeze film that opens pulls as the other pushes: false where it cavitates, with ambient pressure at its ends.",
     )
-    .optional("false"),
+    .optional("false: it cavitates"),
     Key::new(
         "mount.stop_gap",
         Kind::Quantity("m"),
@@ -110,7 +110,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Radial gap of a hard stop around the outer race.",
     )
     .not_negative()
-    .optional("no stop"),
+    .optional("no hard stop"),
     Key::new(
         "mount.stop_stiffness",
         Kind::Quantity("N/m"),
@@ -118,7 +118,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Stiffness of the hard stop.",
     )
     .positive()
-    .optional("no stop"),
+    .optional("no hard stop"),
     Key::new(
         "mount.stop_damping",
         Kind::Quantity("s/m"),

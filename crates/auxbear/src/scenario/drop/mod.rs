@@ -4,6 +4,7 @@ pub(crate) mod checks;
 pub(crate) mod keys;
 pub(crate) mod keys_mount;
 pub(crate) mod kinds;
+pub mod mount;
 mod shaft;
 
 use crate::problem::Problem;
@@ -13,7 +14,7 @@ use crate::scenario::run::Run;
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
 use kinds::{SpinKind, UnbalanceAngle};
-use model::mount::{FrictionRing, HardStop, Housing, MaxwellBranch, MountParts, SqueezeFilm};
+use mount::MountParts;
 pub use shaft::{BearingPlace, Shaft};
 
 /// A levitated rotor that is released onto its auxiliary bearings. All values are SI.
@@ -267,63 +268,9 @@ fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
             stiffness: mount.number("stiffness"),
             damping: mount.number("damping"),
             moving_mass: mount.number("moving_mass"),
-            parts: mount_parts(&mount),
+            parts: MountParts::of(&mount),
         },
         bearing: bearing(values),
-    }
-}
-
-/// Exponent of a friction ring where none is given: smaller ones creep under small vibration about a load.
-const RING_EXPONENT: f64 = 8.0;
-/// Damping of a hard stop where none is given, s/m.
-const STOP_DAMPING: f64 = 0.5;
-
-/// What a mount has besides spring and damper; what belongs together is [checked](checks) to be there.
-fn mount_parts(mount: &Section<'_>) -> MountParts {
-    let numbers = |name: &str| mount.values.numbers(&format!("mount.{name}"));
-    let times = numbers("branch_time");
-    let branches = numbers("branch_stiffness").into_iter().zip(times);
-    let film = ["viscosity", "radius", "length", "clearance"]
-        .map(|name| mount.maybe(&format!("film_{name}")));
-    MountParts {
-        branches: branches
-            .map(|(stiffness, time)| MaxwellBranch {
-                stiffness,
-                rate: 1.0 / time,
-            })
-            .collect(),
-        ring: (mount
-            .maybe("ring_stiffness")
-            .zip(mount.maybe("ring_travel")))
-        .map(|(stiffness, travel)| FrictionRing {
-            stiffness,
-            travel,
-            exponent: mount.maybe("ring_exponent").unwrap_or(RING_EXPONENT),
-        }),
-        film: match film {
-            [Some(viscosity), Some(radius), Some(length), Some(clearance)] => Some(SqueezeFilm {
-                factor: viscosity * radius * length.powi(3),
-                clearance,
-                cavitates: !mount.switch("film_flooded"),
-            }),
-            _ => None,
-        },
-        stop: (mount.maybe("stop_gap").zip(mount.maybe("stop_stiffness"))).map(
-            |(gap, stiffness)| HardStop {
-                stiffness,
-                gap,
-                damping: mount.maybe("stop_damping").unwrap_or(STOP_DAMPING),
-            },
-        ),
-        housing: (mount
-            .maybe("housing_mass")
-            .zip(mount.maybe("housing_stiffness")))
-        .map(|(mass, stiffness)| Housing {
-            mass,
-            stiffness,
-            damping: mount.maybe("housing_damping").unwrap_or(0.0),
-        }),
-        ..MountParts::NONE
     }
 }
 

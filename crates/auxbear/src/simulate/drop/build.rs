@@ -6,6 +6,7 @@ use crate::scenario::{Drop, Spin};
 use crate::simulate::bearing;
 use crate::simulate::bearing::pressure::PressureFactors;
 use crate::simulate::bearing::steady::{SteadyFinding, SteadyPoint};
+use crate::simulate::drop::mount;
 use crate::simulate::drop::shaft::{self, BuiltShaft};
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::contact::JournalContact;
@@ -134,7 +135,7 @@ fn auxiliary_bearing(
             damping: part.mount.damping,
             free_position: Vec2::zero(),
         },
-        mount_parts: part.mount.parts.clone(),
+        mount_parts: mount::parts(&part.mount.parts),
     };
     Ok((constants, built))
 }

@@ -6,6 +6,7 @@ pub(crate) mod context;
 pub mod ensemble;
 pub(crate) mod members;
 pub(crate) mod method;
+mod mount;
 pub(crate) mod quantities;
 pub mod shaft;
 pub(crate) mod shaft_results;

@@ -500,16 +500,15 @@ mod tests {
         let Some((mut file, path)) = reference("machine_drop_flexible") else {
             return;
         };
-        let found = rows(&file, &path).unwrap();
+        let found = start_of_drop(&file, &path).unwrap();
         assert_eq!(failed(&found), Vec::<&str>::new());
         file["magnets"][0]["sensor_node"] = 53.into();
-        let wrong = rows(&file, &path).unwrap();
-        assert!(wrong[0].damaged && wrong[0].why.contains("node 53, of 53 nodes"));
-        let lost = rows(&file, Path::new("/nowhere/case.json")).unwrap();
+        let wrong = start_of_drop(&file, &path).unwrap_err();
+        assert!(wrong.contains("node 53, of 53 nodes"), "{wrong}");
+        let lost = start_of_drop(&file, Path::new("/nowhere/case.json")).unwrap_err();
         assert!(
-            lost[0]
-                .why
-                .contains("ross_amb_rotor_freefree.json is neither beside")
+            lost.contains("ross_amb_rotor_freefree.json is neither beside"),
+            "{lost}"
         );
     }
 }
