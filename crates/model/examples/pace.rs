@@ -4,10 +4,12 @@
 #[allow(dead_code)] // shared with the other tests
 mod machines;
 
-use machines::{Blind, reference, settings};
-use model::system::machine::RotorMachine;
+use machines::{Blind, planar, reference, settings};
+use model::bearing::{SharedMoment, SteadyMoment};
 use model::system::machine::simulate::{Runs, Shape, Steps, simulate_on};
+use model::system::machine::{MachineConstants, RotorMachine};
 use number::Level;
+use physics::palmgren::Palmgren;
 use solve::{Observer, Stop};
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -60,9 +62,32 @@ fn measure(name: &str, machine: &RotorMachine, start: &[f64], end: f64) {
     }
 }
 
+/// The reference machine with Palmgren's moment instead of its drag to the ground.
+fn greased() -> MachineConstants {
+    let mut constants = reference();
+    let bearing = planar(&mut constants);
+    (bearing.ball.orbit_drag, bearing.ball.spin_drag) = (0.0, 0.0);
+    bearing.moment = Some(SharedMoment {
+        law: SteadyMoment::Palmgren(Palmgren {
+            viscous_factor: 1.7,
+            viscosity: 100e-6,
+            pitch_diameter: 36e-3,
+            load_factor: 0.0007,
+            load_exponent: 0.5,
+            static_load_rating: 6550.0,
+        }),
+        axial_load: 0.0,
+        orbit_share: 0.5,
+        reference_spin: 1.0,
+    });
+    constants
+}
+
 fn main() {
     let machine = RotorMachine::new(reference());
     measure("point", &machine, &machine.start(), 0.05);
+    let machine = RotorMachine::new(greased());
+    measure("point, Palmgren", &machine, &machine.start(), 0.05);
     let (constants, start) = machines::bent::bent(6e4);
     let machine = RotorMachine::new(constants);
     let name = format!("{} coordinates", machine.layout().rotor.coordinates);

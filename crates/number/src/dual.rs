@@ -154,6 +154,11 @@ impl<const K: usize> Real for Dual<K> {
         (self.chain(s, c), self.chain(c, -s))
     }
     #[inline(always)]
+    fn two_thirds(self) -> Self {
+        let power = Real::two_thirds(self.value);
+        self.chain(power, 2.0 / 3.0 * power / self.value)
+    }
+    #[inline(always)]
     fn asin_small(self) -> Self {
         self.chain(
             Real::asin_small(self.value),
@@ -190,7 +195,7 @@ mod tests {
         let (s, c) = (x * y).sin_cos();
         let root = (x * x + y * y).sqrt();
         s * root / (c + R::splat(3.0)) + (x - y).tanh().exp() - root.ln() * x.abs()
-            + y.powf(x) * (s * R::splat(0.1)).asin_small()
+            + (y.powf(x) + y.two_thirds()) * (s * R::splat(0.1)).asin_small()
     }
 
     #[test]

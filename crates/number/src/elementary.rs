@@ -17,6 +17,8 @@ pub trait Bits: Real {
     fn mantissa_exponent(self) -> (Self, Self);
     /// True where a shifted integer is odd.
     fn odd_shifted(self) -> Self::Mask;
+    /// x^(-⅓) of a normal positive number, within 4 %.
+    fn near_inverse_cube_root(self) -> Self;
     /// `self`, with its sign changed where another number has the sign bit.
     fn negated_where_negative(self, other: Self) -> Self;
     /// `self`, with its sign changed where bit 1 of a shifted integer is set.
@@ -38,6 +40,8 @@ const HALF_PI: [f64; 3] = [
 
 /// 2^52: a number with this exponent has its integer in its low bits.
 pub(crate) const LOW_EXPONENT: f64 = 4_503_599_627_370_496.0;
+/// Its bits.
+pub(crate) const LOW_EXPONENT_BITS: u64 = 0x4330_0000_0000_0000;
 /// The bits of 1.0: exponent 0, mantissa 1.
 pub(crate) const ONE_BITS: u64 = 1023 << 52;
 /// The sign.
@@ -59,6 +63,16 @@ pub(crate) fn mantissa_exponent_f64(x: f64) -> (f64, f64) {
     // 2^52 + biased exponent, as a number, without an integer conversion.
     let exponent = f64::from_bits((bits >> 52) | 0x4330_0000_0000_0000) - LOW_EXPONENT - 1023.0;
     (mantissa, exponent)
+}
+/// The upper 44 bits of a positive number count exponent and mantissa, nearly its logarithm in 2^-32: a third of it, turned
+/// over, is that of the root. `LOW_EXPONENT` makes them a number and back.
+pub(crate) const ROOT_SLOPE: f64 = -1.0 / 3.0;
+/// What makes 2^52 + n, times the slope, 2^52 + 0x553ef0ff289 - n/3: the offset with the least error (from memory).
+pub(crate) const ROOT_OFFSET: f64 = 0x0553_ef0f_f289_u64 as f64 + LOW_EXPONENT * (4.0 / 3.0);
+#[inline(always)]
+pub(crate) fn near_inverse_cube_root_f64(x: f64) -> f64 {
+    let logarithm = f64::from_bits((x.to_bits() >> 20) | LOW_EXPONENT_BITS);
+    f64::from_bits((logarithm * ROOT_SLOPE + ROOT_OFFSET).to_bits() << 20)
 }
 #[inline(always)]
 pub(crate) fn odd_shifted_f64(shifted: f64) -> bool {
@@ -223,6 +237,21 @@ pub fn ln<R: Bits>(x: R) -> R {
     e * R::splat(LN2_HIGH) + (e * R::splat(LN2_LOW) + l)
 }
 
+/// x^⅔ of a normal positive number, without a division.
+#[inline(always)]
+pub fn two_thirds<R: Bits>(x: R) -> R {
+    // y = x^(-⅓) (1 - e)^(1/3), e = 1 - x y³: so much of the series of (1 - e)^(-1/3) that e = 0.1 leaves 1e-6, and that nothing
+    let y = x.near_inverse_cube_root();
+    let e = R::one() - x * y * (y * y);
+    let series = ((R::splat(35.0 / 243.0) * e + R::splat(14.0 / 81.0)) * e + R::splat(2.0 / 9.0))
+        * e
+        + R::splat(1.0 / 3.0);
+    let y = y + y * (e * series);
+    let e = R::one() - x * y * (y * y);
+    let y = y + y * (e * (R::splat(2.0 / 9.0) * e + R::splat(1.0 / 3.0)));
+    x * y
+}
+
 /// Arc sine for |x| ≤ 0.125.
 #[inline(always)]
 pub fn asin_small<R: Real>(x: R) -> R {
@@ -312,6 +341,17 @@ mod tests {
                 (s - x.sin()).abs().max((c - x.cos()).abs())
             };
             assert!(largest(-reach, reach, error) <= 2.3e-16);
+        }
+    }
+    #[test]
+    fn two_thirds_is_within_two_ulp() {
+        for (low, high) in [(1e-300, 1e300), (1e-9, 10.0), (1.0, 8.0), (2e3, 1e9)] {
+            assert!(largest(low, high, |x| ulp(two_thirds(x), x.cbrt() * x.cbrt())) <= 3.0);
+        }
+        // exact cubes: nothing is lost in the reference
+        for root in 1..2000 {
+            let root = f64::from(root);
+            assert!(ulp(two_thirds(root.powi(3)), root * root) <= 2.0);
         }
     }
     #[test]

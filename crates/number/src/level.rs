@@ -105,7 +105,7 @@ mod tests {
     /// Every operation on each lane; returns the bits of all lanes.
     struct Everything;
     impl Task for Everything {
-        type Output = Vec<[u64; 18]>;
+        type Output = Vec<[u64; 20]>;
         fn run<R: Real>(self) -> Self::Output {
             // the same number in every lane; then lane by lane other numbers
             let mut lanes = Vec::new();
@@ -119,7 +119,7 @@ mod tests {
         }
     }
 
-    fn everything<R: Real>(x: R, y: R) -> [R; 18] {
+    fn everything<R: Real>(x: R, y: R) -> [R; 20] {
         let (s, c) = (x * R::splat(7.0)).sin_cos();
         let positive = x.greater(R::zero());
         let small = x.abs().less(R::splat(0.5));
@@ -142,6 +142,8 @@ mod tests {
             x.sign_or_plus() * y.min(x),
             x.tanh_pair(y).0,
             x.tanh_pair(y).1,
+            y.two_thirds(),
+            (x * R::splat(40.0)).tanh_far_out(),
         ]
     }
 

@@ -140,6 +140,10 @@ impl<V: Bits> Real for Pair<V> {
         elementary::sin_cos(self)
     }
     #[inline(always)]
+    fn two_thirds(self) -> Self {
+        elementary::two_thirds(self)
+    }
+    #[inline(always)]
     fn asin_small(self) -> Self {
         elementary::asin_small(self)
     }
@@ -161,7 +165,7 @@ impl<V: Bits> Real for Pair<V> {
 }
 
 impl<V: Bits> Bits for Pair<V> {
-    halves! { exp2_shifted(); negated_where_negative(other); negated_by_bit_one(shifted); }
+    halves! { exp2_shifted(); near_inverse_cube_root(); negated_where_negative(other); negated_by_bit_one(shifted); }
     #[inline(always)]
     fn mantissa_exponent(self) -> (Self, Self) {
         let (first, second) = (self.0.mantissa_exponent(), self.1.mantissa_exponent());

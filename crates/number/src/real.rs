@@ -88,6 +88,8 @@ pub trait Real:
     fn tanh_pair(self, other: Self) -> (Self, Self);
     /// Sine and cosine of an angle in rad.
     fn sin_cos(self) -> (Self, Self);
+    /// x^⅔, for normal x > 0: less than half of the work of a power.
+    fn two_thirds(self) -> Self;
     /// Arc sine for |x| ≤ 0.125; meaningless beyond.
     fn asin_small(self) -> Self;
 
@@ -127,6 +129,15 @@ pub trait Real:
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         Self::select(other.greater(self), self, other)
+    }
+    /// tanh x with the same bits, where it is ±1 as a rule: nothing is computed where all lanes are beyond ±20.
+    #[inline(always)]
+    fn tanh_far_out(self) -> Self {
+        let near = !self.abs().greater(Self::splat(20.0));
+        if near.any() {
+            return self.tanh();
+        }
+        self.sign_or_plus()
     }
     /// self², cheaper to read than a product of long names.
     #[inline(always)]

@@ -100,6 +100,10 @@ macro_rules! scalar_real {
                 elementary::sin_cos(self)
             }
             #[inline(always)]
+            fn two_thirds(self) -> Self {
+                elementary::two_thirds(self)
+            }
+            #[inline(always)]
             fn asin_small(self) -> Self {
                 elementary::asin_small(self)
             }
@@ -122,6 +126,10 @@ macro_rules! scalar_real {
             fn mantissa_exponent(self) -> (Self, Self) {
                 let (mantissa, exponent) = elementary::mantissa_exponent_f64(self.lane(0));
                 ($make(mantissa), $make(exponent))
+            }
+            #[inline(always)]
+            fn near_inverse_cube_root(self) -> Self {
+                $make(elementary::near_inverse_cube_root_f64(self.lane(0)))
             }
             #[inline(always)]
             fn odd_shifted(self) -> bool {

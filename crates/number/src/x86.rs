@@ -4,7 +4,10 @@
 //! [`Level::run_one`](crate::Level::run_one) and its like start after they have seen that the machine has the instructions. That makes the
 //! intrinsics below sound. Their methods are inlined into functions compiled for the unit ([`Real::vectorized`]).
 
-use crate::elementary::{self, Bits, LOW_EXPONENT, ONE_BITS, ROUNDING, SIGN_BIT};
+use crate::elementary::{
+    self, Bits, LOW_EXPONENT, LOW_EXPONENT_BITS, ONE_BITS, ROOT_OFFSET, ROOT_SLOPE, ROUNDING,
+    SIGN_BIT,
+};
 use crate::real::Vectorized;
 use crate::scalar::group_of_one;
 use crate::single::Parts;
@@ -151,6 +154,10 @@ macro_rules! shared_methods {
             elementary::sin_cos(self)
         }
         #[inline(always)]
+        fn two_thirds(self) -> Self {
+            elementary::two_thirds(self)
+        }
+        #[inline(always)]
         fn asin_small(self) -> Self {
             elementary::asin_small(self)
         }
@@ -216,6 +223,19 @@ impl Bits for Four {
                     - Self::splat(LOW_EXPONENT)
                     - Self::splat(1023.0),
             )
+        }
+    }
+    #[inline(always)]
+    fn near_inverse_cube_root(self) -> Self {
+        // SAFETY: see the module.
+        unsafe {
+            let upper = _mm256_srli_epi64::<20>(_mm256_castpd_si256(self.0));
+            let logarithm = _mm256_or_si256(upper, _mm256_set1_epi64x(LOW_EXPONENT_BITS as i64));
+            let root = Four(_mm256_castsi256_pd(logarithm)) * Self::splat(ROOT_SLOPE)
+                + Self::splat(ROOT_OFFSET);
+            Four(_mm256_castsi256_pd(_mm256_slli_epi64::<20>(
+                _mm256_castpd_si256(root.0),
+            )))
         }
     }
     #[inline(always)]
@@ -339,6 +359,19 @@ impl Bits for Eight {
                     - Self::splat(LOW_EXPONENT)
                     - Self::splat(1023.0),
             )
+        }
+    }
+    #[inline(always)]
+    fn near_inverse_cube_root(self) -> Self {
+        // SAFETY: see the module.
+        unsafe {
+            let upper = _mm512_srli_epi64::<20>(_mm512_castpd_si512(self.0));
+            let logarithm = _mm512_or_si512(upper, _mm512_set1_epi64(LOW_EXPONENT_BITS as i64));
+            let root = Eight(_mm512_castsi512_pd(logarithm)) * Self::splat(ROOT_SLOPE)
+                + Self::splat(ROOT_OFFSET);
+            Eight(_mm512_castsi512_pd(_mm512_slli_epi64::<20>(
+                _mm512_castpd_si512(root.0),
+            )))
         }
     }
     #[inline(always)]

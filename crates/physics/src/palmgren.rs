@@ -208,7 +208,7 @@ impl<R: Real> PalmgrenCombined<R> {
 /// tanh(Ω/0.1 rad/s): the smooth sign that every continuous moment fades with at rest.
 #[inline(always)]
 pub(crate) fn fading<R: Real>(speed: R) -> R {
-    (speed * R::splat(1.0 / FADING_SPEED)).tanh()
+    (speed * R::splat(1.0 / FADING_SPEED)).tanh_far_out()
 }
 
 /// ν n in the unit of Palmgren's constants, mm²/s · rpm.
@@ -238,7 +238,7 @@ fn sign<R: Real>(x: R) -> R {
 fn viscous_magnitude<R: Real>(viscous_factor: R, viscosity: R, speed: R, pitch_diameter: R) -> R {
     // 2000^(2/3) = 158.7 lies below the floor of 160, so the power never meets 0.
     let product = viscosity_times_speed_mm2_s_rpm(viscosity, speed).max(R::splat(2000.0));
-    let power = product.powf(R::splat(2.0 / 3.0)).max(R::splat(160.0));
+    let power = product.two_thirds().max(R::splat(160.0));
     size_mm3_per_1000(viscous_factor, pitch_diameter) * R::splat(1e-7) * power
 }
 

@@ -16,8 +16,8 @@
 //!   pocket    ψ = R_p wrap(β - φ_c - seat), β azimuth about c_o;  s = sign ψ;  p = |ψ| - gap
 //!             on the ball  -s P R_p/|b - c_o| t - μ_c tanh(v/v0) P n,   v = (v_b - v_o)·n - s r (σ - ω_c)
 //! ```
-//! Every force stands once and is added with both signs. The steady moment's pairs are added elsewhere:
-//! [`steady_moment`](super::steady_moment).
+//! Every force stands once and is added with both signs. The steady moment's drag and couple on the ball come from
+//! elsewhere: [`steady_moment`](super::steady_moment).
 //!
 //! R_i = R_i0 + kΩ²: the inner race grows with its own speed.
 //!
@@ -208,6 +208,25 @@ impl<R: Real> BallReaction<R> {
                 entrainment: self.outer_entrainment,
             },
         ]
+    }
+}
+
+/// What the steady moment adds to the forces on a ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slowing<R> {
+    /// Drag along -t of the outer ring, on which the opposite acts at the ball, N.
+    pub drag: R,
+    /// Couple against the spin, N m; what it does to the races stands in [`steady_moment`](super::steady_moment).
+    pub couple: R,
+}
+
+impl<R: Real> Slowing<R> {
+    /// None.
+    pub fn none() -> Self {
+        Slowing {
+            drag: R::zero(),
+            couple: R::zero(),
+        }
     }
 }
 
@@ -407,16 +426,15 @@ impl<R: Real> BallConstants<R> {
         }
     }
 
-    /// Acceleration of a ball and its reactions on its three neighbours.
+    /// Acceleration of a ball and its reactions on its three neighbours: the inner race, the outer race, the pocket.
     #[inline(always)]
     pub fn react<L: TractionLaw<R>>(
         &self,
         traction: &L,
-        inner: &RaceMotion<R>,
-        outer: &RaceMotion<R>,
-        pocket: &PocketMotion<R>,
+        (inner, outer, pocket): (&RaceMotion<R>, &RaceMotion<R>, &PocketMotion<R>),
         ball: &BallMotion<R>,
         distances: &BallDistances<R>,
+        slowing: &Slowing<R>,
     ) -> BallReaction<R> {
         let zero = R::zero();
         let orbital = ball.radius * ball.orbit_speed;
@@ -473,13 +491,14 @@ impl<R: Real> BallConstants<R> {
         // the three force pairs
         let by_inner = n_i * q_i.force + t_i * inner_traction;
         let by_outer = n_o * (pocket_friction - q_o.force)
-            + t_o * (outer_traction + pocket_push * inverse_outer);
+            + t_o * (outer_traction + pocket_push * inverse_outer - slowing.drag);
         let drag = self.orbit_drag * orbital;
         let force = by_inner + by_outer - e_t * drag;
         let moment = at_o.ball_arm * outer_traction
             - at_i.ball_arm * inner_traction
             - pocket_moment
-            - self.spin_drag * ball.spin;
+            - self.spin_drag * ball.spin
+            - slowing.couple;
 
         let acceleration = force * self.inverse_mass + self.gravity;
         let two = R::splat(2.0);

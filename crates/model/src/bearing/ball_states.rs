@@ -7,8 +7,8 @@
 //! ```
 
 use super::ball::{BallConstants, BallDistances, BallMotion, RaceMotion};
-use crate::motion::Body;
-use number::{Real, Vec2};
+use crate::motion::{Body, Motion};
+use number::{Real, Vec2, Vectorized};
 
 /// States of a ball.
 pub const OF_BALL: usize = 5;
@@ -116,4 +116,49 @@ pub(super) fn distances<R: Real>(
     ball: &BallMotion<R>,
 ) -> BallDistances<R> {
     BallDistances::of(inner, outer, ball.radius, direction(ball.azimuth))
+}
+
+/// Directions and distances of all balls, written where their rates are written afterwards. A pass of its own: the roots and
+/// divisions of one ball keep no other ball waiting, and what follows need not repeat them.
+pub(super) struct Places<'a, R: Real> {
+    pub row: &'a BallRow<R>,
+    pub motion: &'a Motion<R>,
+    pub state: &'a [R],
+    pub rate: &'a mut [R],
+}
+
+impl<R: Real> Vectorized for Places<'_, R> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let BallRow { balls, first, .. } = *self.row;
+        let (inner, outer) = (race(&self.motion.inner), race(&self.motion.outer));
+        let lists = split(self.state, first, balls);
+        let kept = split_mut(self.rate, first, balls);
+        let mut from = 0;
+        while from < balls {
+            let (radius, azimuth) = (R::load_group(lists[0], from), R::load_group(lists[2], from));
+            let d = BallDistances::of(&inner, &outer, radius, direction(azimuth));
+            R::store_group(d.e_r.x, kept[0], from);
+            R::store_group(d.e_r.y, kept[1], from);
+            R::store_group(d.inner, kept[2], from);
+            R::store_group(d.outer, kept[3], from);
+            R::store_group(d.inverse_product, kept[4], from);
+            from += R::GROUP;
+        }
+    }
+}
+
+/// What [`Places`] keeps of the balls from an index on.
+#[inline(always)]
+pub(super) fn kept_distances<R: Real>(
+    kept: &[&[R]; OF_BALL],
+    from: usize,
+) -> BallDistances<R::Group> {
+    BallDistances {
+        e_r: Vec2::new(R::load_group(kept[0], from), R::load_group(kept[1], from)),
+        inner: R::load_group(kept[2], from),
+        outer: R::load_group(kept[3], from),
+        inverse_product: R::load_group(kept[4], from),
+    }
 }

@@ -14,9 +14,9 @@
 //!
 //! Does not model: what a ball leaves out ([`ball`](super::ball)), films in pockets and lands, heat.
 
-use super::ball::{BallDistances, PocketMotion, gather_group};
+use super::ball::{PocketMotion, Slowing, gather_group};
 use super::ball_states::{
-    BallRow, OF_BALL, direction, distances, load_ball, race, seats, split, split_mut,
+    BallRow, OF_BALL, Places, distances, kept_distances, load_ball, race, seats, split, split_mut,
 };
 use super::ball_sums::{BallSums, largest_part};
 use super::cage::{self, FreeCage};
@@ -38,6 +38,9 @@ enum Apart<R: Real> {
     Free(FreeCage<R>),
     Neighbours(FullComplement<R>),
 }
+
+/// So many balls have room for the steady moment's forces without an allocation.
+const FEW_BALLS: usize = 32;
 
 /// The planar bearing over `R`.
 #[derive(Clone, Debug)]
@@ -114,41 +117,69 @@ impl<R: Real> Planar<R> {
         detail: &mut [R],
     ) -> BearingReaction<R> {
         let of_lubricant = self.row.first + OF_BALL * self.row.balls;
-        let mut drag_factor = R::one();
-        let mut reaction = match &self.lubricant {
-            // the law is chosen once a call, not once a ball
-            None => match &self.traction {
-                Traction::Tanh(law) => self.apart(law, motion, state, rate, detail),
-                Traction::FourParameter(law) => self.apart(law, motion, state, rate, detail),
-                Traction::Dry(law) => self.apart(law, motion, state, rate, detail),
-                Traction::Lubricated(law) => self.apart(law, motion, state, rate, detail),
-            },
-            // here once a ball: the code of the sum stands once for all laws
-            Some(lubricant) => {
-                let factors = R::vectorized(lubricant_state::Act {
-                    lubricant,
-                    state: &state[of_lubricant..],
-                });
-                drag_factor = factors.drag;
-                let law = Warmed {
-                    law: &self.traction,
-                    factor: factors.traction.map(R::grouped),
-                };
-                self.apart(&law, motion, state, rate, detail)
-            }
+        let factors = match &self.lubricant {
+            None => None,
+            Some(lubricant) => Some(R::vectorized(lubricant_state::Act {
+                lubricant,
+                state: &state[of_lubricant..],
+            })),
         };
-        // apart from the sum above: without a steady moment nothing is paid, and the code above stands once a law
+        R::vectorized(Places {
+            row: &self.row,
+            motion,
+            state,
+            rate,
+        });
+        // apart from the sum below: without a steady moment nothing is paid, and the code below stands once a law
+        let (mut few, mut many);
+        let mut slowing: &mut [R] = &mut [];
+        let mut shared = None;
         if let Some(pairs) = &self.moment {
-            R::vectorized(steady_moment::Share {
+            slowing = if self.row.balls <= FEW_BALLS {
+                few = [R::zero(); 2 * FEW_BALLS];
+                &mut few[..2 * self.row.balls]
+            } else {
+                many = vec![R::zero(); 2 * self.row.balls];
+                &mut many
+            };
+            shared = Some(R::vectorized(steady_moment::Share {
                 row: &self.row,
                 pairs,
                 motion,
                 held_load,
-                drag_factor,
+                drag_factor: match &factors {
+                    Some(factors) => factors.drag,
+                    None => R::one(),
+                },
                 state,
-                rate,
-                reaction: &mut reaction,
-            });
+                kept: rate,
+                slowing,
+            }));
+        }
+        let sum = Sum {
+            bearing: self,
+            motion,
+            state,
+            slowing,
+            rate,
+            detail,
+        };
+        let mut reaction = match factors {
+            // the law is chosen once a call, not once a ball
+            None => match &self.traction {
+                Traction::Tanh(law) => sum.by(law),
+                Traction::FourParameter(law) => sum.by(law),
+                Traction::Dry(law) => sum.by(law),
+                Traction::Lubricated(law) => sum.by(law),
+            },
+            // here once a ball: the code of the sum stands once for all laws
+            Some(factors) => sum.by(&Warmed {
+                law: &self.traction,
+                factor: factors.traction.map(R::grouped),
+            }),
+        };
+        if let Some(shared) = shared {
+            shared.add_to(&mut reaction);
         }
         if let Some(couples) = &self.couples {
             R::vectorized(inlet_couples::Act {
@@ -269,26 +300,6 @@ impl<R: Real> Planar<R> {
         self.row.balls
     }
 
-    /// The sum over the balls as a task of its own: it is compiled once for all systems, apart from their steps.
-    #[inline(always)]
-    fn apart<L: TractionLaw<R::Group>>(
-        &self,
-        traction: &L,
-        motion: &Motion<R>,
-        state: &[R],
-        rate: &mut [R],
-        detail: &mut [R],
-    ) -> BearingReaction<R> {
-        R::vectorized(Sum {
-            bearing: self,
-            traction,
-            motion,
-            state,
-            rate,
-            detail,
-        })
-    }
-
     /// Sum of the elastic loads of all balls at the inner race, N.
     #[inline(always)]
     fn inner_elastic(&self, motion: &Motion<R>, state: &[R]) -> R {
@@ -336,34 +347,19 @@ impl<R: Real> Planar<R> {
     }
 
     #[inline(always)]
-    fn sum<L: TractionLaw<R::Group>>(
-        &self,
-        traction: &L,
-        motion: &Motion<R>,
-        state: &[R],
-        rate: &mut [R],
-        detail: &mut [R],
-    ) -> BearingReaction<R> {
+    fn sum<L: TractionLaw<R::Group>>(&self, traction: &L, sum: Sum<'_, R>) -> BearingReaction<R> {
+        let Sum {
+            motion,
+            state,
+            slowing,
+            rate,
+            detail,
+            ..
+        } = sum;
         let n = self.row.balls;
         let (cage_angle, cage_speed) = (state[0], state[1]);
         let lists = split(state, self.row.first, n);
-        let [d_radius, d_radial_speed, d_azimuth, d_orbit_speed, d_spin] =
-            split_mut(rate, self.row.first, n);
-
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
-        // all directions and distances first: the roots and divisions of one ball keep no other ball waiting; they
-        // stand where rates are written afterwards
-        let mut from = 0;
-        while from < n {
-            let (radius, azimuth) = (R::load_group(lists[0], from), R::load_group(lists[2], from));
-            let d = BallDistances::of(&inner, &outer, radius, direction(azimuth));
-            R::store_group(d.inverse_product, d_radius, from);
-            R::store_group(d.e_r.x, d_radial_speed, from);
-            R::store_group(d.inner, d_azimuth, from);
-            R::store_group(d.e_r.y, d_orbit_speed, from);
-            R::store_group(d.outer, d_spin, from);
-            from += R::GROUP;
-        }
         let mut largest = [<R::Group as Real>::zero(); 3];
         let mut sums = BallSums::<R, 15>::new(n);
         let mut from = 0;
@@ -373,16 +369,18 @@ impl<R: Real> Planar<R> {
                 angle: cage_angle.grouped() + R::load_group(&self.seats, from),
                 spin: cage_speed.grouped(),
             };
-            let distances = BallDistances {
-                e_r: Vec2::new(
-                    R::load_group(d_radial_speed, from),
-                    R::load_group(d_orbit_speed, from),
-                ),
-                inner: R::load_group(d_azimuth, from),
-                outer: R::load_group(d_spin, from),
-                inverse_product: R::load_group(d_radius, from),
-            };
-            let r = (self.row.ball).react(traction, &inner, &outer, &pocket, &ball, &distances);
+            let distances = kept_distances(&split(rate, self.row.first, n), from);
+            let mut slowed = Slowing::none();
+            if !slowing.is_empty() {
+                slowed = Slowing {
+                    drag: R::load_group(&slowing[..n], from),
+                    couple: R::load_group(&slowing[n..], from),
+                };
+            }
+            let around = (&inner, &outer, &pocket);
+            let r = (self.row.ball).react(traction, around, &ball, &distances, &slowed);
+            let [d_radius, d_radial_speed, d_azimuth, d_orbit_speed, d_spin] =
+                split_mut(rate, self.row.first, n);
             R::store_group(ball.radial_speed, d_radius, from);
             R::store_group(r.acceleration.radial, d_radial_speed, from);
             R::store_group(ball.orbit_speed, d_azimuth, from);
@@ -457,27 +455,39 @@ impl<R: Real> Planar<R> {
     }
 }
 
-/// [`Planar::sum`] as a task.
-struct Sum<'a, R: Real, L> {
+/// The sum over the balls, whose directions and distances [`Places`] has left in the rates.
+struct Sum<'a, R: Real> {
     bearing: &'a Planar<R>,
-    traction: &'a L,
     motion: &'a Motion<R>,
     state: &'a [R],
+    /// Drags and couples of the steady moment; empty where there is none.
+    slowing: &'a [R],
     rate: &'a mut [R],
     detail: &'a mut [R],
 }
 
-impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
+impl<R: Real> Sum<'_, R> {
+    /// As a task of its own: it is compiled once for all systems, apart from their steps.
+    #[inline(always)]
+    fn by<L: TractionLaw<R::Group>>(self, traction: &L) -> BearingReaction<R> {
+        R::vectorized(SumBy {
+            traction,
+            sum: self,
+        })
+    }
+}
+
+/// [`Planar::sum`] as a task.
+struct SumBy<'a, R: Real, L> {
+    traction: &'a L,
+    sum: Sum<'a, R>,
+}
+
+impl<R: Real, L: TractionLaw<R::Group>> Vectorized for SumBy<'_, R, L> {
     type Output = BearingReaction<R>;
     #[inline(always)]
     fn run(self) -> BearingReaction<R> {
-        self.bearing.sum(
-            self.traction,
-            self.motion,
-            self.state,
-            self.rate,
-            self.detail,
-        )
+        self.sum.bearing.sum(self.traction, self.sum)
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a planar bearing is made of: its constants, its states, what it stores.
 
-use super::ball::{BallConstants, BallMotion, BallReaction, PocketMotion};
+use super::ball::{BallConstants, BallMotion, BallReaction, PocketMotion, Slowing};
 use super::ball_pair::BallPair;
 use super::ball_states::{
     OF_BALL, OF_CENTRED_CAGE, OF_FREE_CAGE, distances, race, seat, split, split_mut,
@@ -160,11 +160,10 @@ impl PlanarConstants {
                 law: &self.traction,
                 factor: self.warmed_traction(state),
             },
-            &inner,
-            &outer,
-            &pocket,
+            (&inner, &outer, &pocket),
             &ball,
             &distances(&inner, &outer, &ball),
+            &Slowing::none(),
         )
     }
     /// Traction coefficient in a state of the bearing over that of the law, where the films warm.

@@ -32,10 +32,10 @@
 //! Assumes: χ_o (½ where nothing is known), and that M is shared by the load.
 //! Does not model: drag on the cage and its lands; the flow that carries lubricant around; the moment at standstill.
 
-use super::ball_states::{BallRow, add, distances, load_ball, race, split, split_mut};
+use super::ball_states::{BallRow, kept_distances, load_ball, race, split};
 use super::ball_sums::BallSums;
 use super::reaction::BearingReaction;
-use crate::motion::{Motion, Wrench};
+use crate::motion::Motion;
 use number::{Gather, Real, Vec2, Vectorized};
 pub use physics::friction::Friction as SteadyMoment;
 
@@ -263,8 +263,8 @@ impl<R: Real> PairsOfBall<'_, R> {
         }
         let share = ball.inner_load * self.per_load + self.idle_share;
         let orbit_drag = share * a.orbit * m0[0];
-        let (rolls_inner, rolls_outer) = (ball.on_inner * a.inverse_reference_spin)
-            .tanh_pair(ball.on_outer * a.inverse_reference_spin);
+        let rolls_inner = (ball.on_inner * a.inverse_reference_spin).tanh_far_out();
+        let rolls_outer = (ball.on_outer * a.inverse_reference_spin).tanh_far_out();
         let inner_couple = share * self.rolling * rolls_inner;
         let outer_couple = share * (self.rolling * rolls_outer + a.spin * m0[1]);
         BallPairs {
@@ -278,94 +278,28 @@ impl<R: Real> PairsOfBall<'_, R> {
     }
 }
 
-impl<R: Real> BallRow<R> {
-    /// Adds the pairs of the steady moment to the rates and to the reaction.
-    #[inline(always)]
-    fn share(&self, task: Share<'_, R>) {
-        let Share {
-            pairs,
-            motion,
-            held_load,
-            drag_factor,
-            state,
-            rate,
-            reaction,
-            ..
-        } = task;
-        let n = self.balls;
-        let speed = motion.inner.spin - motion.outer.spin;
-        let [x, y, inner_sum] = self.loads(motion, state);
-        let load = Vec2::new(x, y).length_squared().sqrt() + held_load;
-        let shared = pairs.share(speed, load, inner_sum, drag_factor);
+/// What the pairs do besides slowing the balls: moments on the races about their centres, N m, and heat, W.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shared<R> {
+    on_inner: R,
+    on_outer: R,
+    heat: R,
+    moment: R,
+}
 
-        let lists = split(state, self.first, n);
-        let [_, d_radial_speed, _, d_orbit_speed, d_spin] = split_mut(rate, self.first, n);
-        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
-        let mut sums = BallSums::<R, 5>::new(n);
-        let mut from = 0;
-        while from < n {
-            let ball = load_ball(&lists, from);
-            let place = self
-                .ball
-                .between(&inner, &outer, &ball, &distances(&inner, &outer, &ball));
-            let t = place.outer.n.turned();
-            let distance = place.outer.distance;
-            let p = shared.pairs(&BallPlace {
-                past: place.outer.past.dot(t) - outer.spin * distance,
-                inverse_distance: place.outer.inverse_distance,
-                on_inner: ball.spin - inner.spin,
-                on_outer: ball.spin - outer.spin,
-                inner_load: place.inner.normal.force,
-            });
-            let force = t * p.orbit_drag;
-            let slowing = force * self.ball.inverse_mass;
-            let sideways = slowing.dot(place.e_r.turned()) * place.inverse_radius;
-            let couple = p.inner_couple + p.outer_couple;
-            add(d_radial_speed, from, -(slowing.dot(place.e_r)));
-            add(d_orbit_speed, from, -(sideways));
-            add(d_spin, from, -(couple * self.ball.inverse_inertia));
-            sums.add(
-                from,
-                &[
-                    p.inner_couple,
-                    force.x,
-                    force.y,
-                    p.orbit_drag * distance + p.outer_couple,
-                    p.heat,
-                ],
-            );
-            from += R::GROUP;
-        }
-        let [on_inner, x, y, on_outer, heat] = sums.total();
-        reaction.on_inner.moment += on_inner;
-        reaction.on_outer += Wrench::planar(Vec2::new(x, y), on_outer);
-        reaction.heat.steady_moment = heat;
-        reaction.steady_moment = shared.moment;
-    }
-
-    /// Loads of all balls at the inner race: ΣQ_i n (two components), ΣQ_i, N.
+impl<R: Real> Shared<R> {
+    /// Adds it to a reaction, whose force on the outer race has the drag already.
     #[inline(always)]
-    fn loads(&self, motion: &Motion<R>, state: &[R]) -> [R; 3] {
-        let n = self.balls;
-        let lists = split(state, self.first, n);
-        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
-        let mut sums = BallSums::<R, 3>::new(n);
-        let mut from = 0;
-        while from < n {
-            let ball = load_ball(&lists, from);
-            let between =
-                self.ball
-                    .between(&inner, &outer, &ball, &distances(&inner, &outer, &ball));
-            let inner_load = between.inner.normal.force;
-            let push = between.inner.n * inner_load;
-            sums.add(from, &[push.x, push.y, inner_load]);
-            from += R::GROUP;
-        }
-        sums.total()
+    pub fn add_to(&self, reaction: &mut BearingReaction<R>) {
+        reaction.on_inner.moment += self.on_inner;
+        reaction.on_outer.moment += self.on_outer;
+        reaction.heat.steady_moment = self.heat;
+        reaction.steady_moment = self.moment;
     }
 }
 
-/// What the balls share, as a task: it is compiled once for all systems and traction laws.
+/// What the balls share, as a task: it is compiled once for all systems and traction laws. It leaves drag and couple of all
+/// balls, one list after the other, in `slowing`.
 pub(super) struct Share<'a, R: Real> {
     pub row: &'a BallRow<R>,
     pub pairs: &'a MomentPairs<R>,
@@ -373,14 +307,62 @@ pub(super) struct Share<'a, R: Real> {
     pub held_load: R,
     pub drag_factor: R,
     pub state: &'a [R],
-    pub rate: &'a mut [R],
-    pub reaction: &'a mut BearingReaction<R>,
+    /// As [`Places`](super::ball_states::Places) leaves it.
+    pub kept: &'a [R],
+    pub slowing: &'a mut [R],
 }
 
 impl<R: Real> Vectorized for Share<'_, R> {
-    type Output = ();
+    type Output = Shared<R>;
     #[inline(always)]
-    fn run(self) {
-        self.row.share(self);
+    fn run(self) -> Shared<R> {
+        let Share { row, motion, .. } = self;
+        let n = row.balls;
+        let speed = motion.inner.spin - motion.outer.spin;
+        let lists = split(self.state, row.first, n);
+        let kept = split(self.kept, row.first, n);
+        let (drags, couples) = self.slowing.split_at_mut(n);
+        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
+
+        // ΣQ_i n and ΣQ_i; each Q_i stands for a while where the drag will
+        let mut sums = BallSums::<R, 3>::new(n);
+        let mut from = 0;
+        while from < n {
+            let (ball, distances) = (load_ball(&lists, from), kept_distances(&kept, from));
+            let at = row.ball.between(&inner, &outer, &ball, &distances).inner;
+            let push = at.n * at.normal.force;
+            R::store_group(at.normal.force, drags, from);
+            sums.add(from, &[push.x, push.y, at.normal.force]);
+            from += R::GROUP;
+        }
+        let [x, y, inner_sum] = sums.total();
+        let load = Vec2::new(x, y).length_squared().sqrt() + self.held_load;
+        let shared = (self.pairs).share(speed, load, inner_sum, self.drag_factor);
+
+        let mut sums = BallSums::<R, 3>::new(n);
+        let mut from = 0;
+        while from < n {
+            let (ball, distances) = (load_ball(&lists, from), kept_distances(&kept, from));
+            let at = row.ball.between(&inner, &outer, &ball, &distances).outer;
+            let p = shared.pairs(&BallPlace {
+                past: at.past.dot(at.n.turned()) - outer.spin * at.distance,
+                inverse_distance: at.inverse_distance,
+                on_inner: ball.spin - inner.spin,
+                on_outer: ball.spin - outer.spin,
+                inner_load: R::load_group(drags, from),
+            });
+            R::store_group(p.orbit_drag, drags, from);
+            R::store_group(p.inner_couple + p.outer_couple, couples, from);
+            let on_outer = p.orbit_drag * at.distance + p.outer_couple;
+            sums.add(from, &[p.inner_couple, on_outer, p.heat]);
+            from += R::GROUP;
+        }
+        let [on_inner, on_outer, heat] = sums.total();
+        Shared {
+            on_inner,
+            on_outer,
+            heat,
+            moment: shared.moment,
+        }
     }
 }

@@ -22,7 +22,7 @@
 //! Left out: how friction follows the load (μ dQ), the tilt of the contact's normal against e_r, growth of the inner race, steady moment, rolling resistance of oil, the lubricant's slow state.
 //! For a cage that is centred on the outer race; others have no tangents here, and steps stay explicit.
 
-use super::ball::{BallConstants, PocketMotion, RaceMotion};
+use super::ball::{BallConstants, BallDistances, PocketMotion, RaceMotion};
 use super::ball_states::{BallRow, distances, grouped, load_ball, race, split, split_mut};
 use super::ball_sums::BallSums;
 use super::planar_constants::PlanarConstants;
@@ -169,13 +169,29 @@ impl<R: Real> BallTangents<R> {
         let lists = split(state, row.first, row.balls);
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
         let b = &row.ball;
+        // roots and divisions of one ball keep no other waiting; distances stand for a while where stiffness will
         let mut from = 0;
         while from < row.balls {
             let ball = load_ball(&lists, from);
-            let at = b.between(&inner, &outer, &ball, &distances(&inner, &outer, &ball));
-            let e_r = at.e_r;
-            self.set(Of::DirectionX, from, e_r.x);
-            self.set(Of::DirectionY, from, e_r.y);
+            let d = distances(&inner, &outer, &ball);
+            self.set(Of::DirectionX, from, d.e_r.x);
+            self.set(Of::DirectionY, from, d.e_r.y);
+            self.set(Of::InnerStiffness, from, d.inner);
+            self.set(Of::OuterStiffness, from, d.outer);
+            self.set(Of::InverseRadius, from, d.inverse_product);
+            from += R::GROUP;
+        }
+        let mut from = 0;
+        while from < row.balls {
+            let ball = load_ball(&lists, from);
+            let e_r = Vec2::new(self.of(Of::DirectionX, from), self.of(Of::DirectionY, from));
+            let distances = BallDistances {
+                e_r,
+                inner: self.of(Of::InnerStiffness, from),
+                outer: self.of(Of::OuterStiffness, from),
+                inverse_product: self.of(Of::InverseRadius, from),
+            };
+            let at = b.between(&inner, &outer, &ball, &distances);
             self.set(Of::Radius, from, ball.radius);
             self.set(Of::InverseRadius, from, at.inverse_radius);
 
