@@ -35,6 +35,7 @@ pub(crate) mod section;
 pub(crate) mod several;
 pub(crate) mod signals;
 pub(crate) mod spin_up;
+pub(crate) mod study_file;
 pub(crate) mod system;
 pub(crate) mod table;
 pub(crate) mod template;
@@ -77,6 +78,7 @@ pub use signals::{
     TorqueSignal,
 };
 pub use spin_up::{Course, Drive, SpeedCourse, SpinUp};
+pub use study_file::{STUDY_FORMAT, StudyFile, StudyInput};
 pub use system::SystemName;
 pub use table::{FORMAT, keys, keys_of, presence, sections, sections_of, systems};
 pub use template::template;
@@ -254,6 +256,32 @@ impl Scenario {
         Scenario::of(document, &BuiltIn)
     }
 
+    /// What a study varies of it: a path with its distribution as a table of one word.
+    pub(crate) fn varied(
+        &self,
+        path: &str,
+        raw: &document::Raw,
+        place: crate::problem::Place,
+    ) -> Result<Vary, Box<Problem>> {
+        let documents = self.document.of_each_bearing();
+        let values = (documents.iter())
+            .map(|document| values::Values::resolve(document, &BuiltIn))
+            .collect::<Result<Vec<_>, _>>()?;
+        vary::one(path, raw, place, &values)
+    }
+
+    /// Limits of its results from tables of another file.
+    pub(crate) fn limits_of(
+        &self,
+        file: &str,
+        tables: Vec<Vec<raw::Written>>,
+    ) -> Result<Vec<Limit>, Box<Problem>> {
+        let mut document = self.document.clone();
+        document.file = file.to_string();
+        document.limits = tables;
+        limit::of(&document)
+    }
+
     /// Resolves and checks what was read.
     fn of(
         document: document::Document,
@@ -322,7 +350,7 @@ fn measurement(path: &Path) -> Option<Box<Problem>> {
     )))
 }
 
-fn read_text(path: &Path) -> Result<String, Box<Problem>> {
+pub(crate) fn read_text(path: &Path) -> Result<String, Box<Problem>> {
     const NEEDED: &str = "the path of a scenario file is needed";
     let problem = |code, found: &str| Box::new(Problem::at_path(code, path, found, NEEDED));
     let unreadable = |error: std::io::Error| match error.kind() {
