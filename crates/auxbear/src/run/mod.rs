@@ -6,10 +6,12 @@
 //! `simulate` integrates motions, `analyse` reads measurements, `evaluate` computes laws without motion.
 
 mod before;
+mod each;
 
 use crate::analyse::{identify, signals};
 use crate::evaluate::{rotor, torque};
 pub use crate::options::Options;
+pub use each::{Single, each};
 use crate::problem::Problem;
 use crate::result::limits;
 use crate::result::outcome::Quantity;
@@ -102,7 +104,7 @@ impl Machine<'_> {
     }
 
     /// Names and units of what a run will find: a run that is interrupted before its first step has them all.
-    fn results_without_values(&self) -> Vec<Quantity> {
+    pub(crate) fn results_without_values(&self) -> Vec<Quantity> {
         let at_once = AtomicBool::new(true);
         let options = Options::unwatched(&at_once);
         let outcome = match &self.system {
