@@ -83,6 +83,17 @@ impl Table {
         table
     }
 
+    /// The same with results in the order of these names, others behind them by their names: however parts were computed
+    /// together, the table is the same.
+    pub fn ordered(mut self, names: &[&str]) -> Table {
+        let place = |column: &Column| {
+            let known = names.iter().position(|name| *name == column.name);
+            (known.unwrap_or(names.len()), column.name.clone())
+        };
+        self.columns[self.inputs..].sort_by_cached_key(place);
+        self
+    }
+
     /// Adds the members of another table behind these.
     pub fn append(&mut self, other: Table) {
         if self.columns.is_empty() {
@@ -106,6 +117,26 @@ impl Table {
         }
         for column in &mut self.columns {
             column.values.resize(self.members.len(), f64::NAN);
+        }
+    }
+
+    /// Some of the rows; results that none of these members has are left out, as if they were computed alone.
+    pub fn part(&self, rows: std::ops::Range<usize>) -> Table {
+        let members = self.members[rows.clone()].to_vec();
+        let failed = self.failed.iter().filter(|(member, _)| members.contains(member));
+        let columns = self.columns.iter().enumerate().map(|(at, column)| {
+            let values = column.values[rows.clone()].to_vec();
+            (at, Column { values, ..column.clone() })
+        });
+        let has = |column: &Column| column.values.iter().any(|value| !value.is_nan());
+        Table {
+            failed: failed.map(|(member, why)| (*member, why.clone())).collect(),
+            columns: columns
+                .filter(|(at, column)| *at < self.inputs || has(column))
+                .map(|(_, column)| column)
+                .collect(),
+            inputs: self.inputs,
+            members,
         }
     }
 
