@@ -78,7 +78,7 @@ pub use signals::{
     TorqueSignal,
 };
 pub use spin_up::{Course, Drive, SpeedCourse, SpinUp};
-pub use study_file::{STUDY_FORMAT, StudyFile, StudyInput};
+pub use study_file::{STUDY_FORMAT, STUDY_TEMPLATE, StudyFile, StudyInput};
 pub use system::SystemName;
 pub use table::{FORMAT, keys, keys_of, presence, sections, sections_of, systems};
 pub use template::template;

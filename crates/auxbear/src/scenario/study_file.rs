@@ -34,6 +34,8 @@ use toml::de::DeTable;
 
 /// The format of a study file.
 pub const STUDY_FORMAT: &str = "auxbear.study/1";
+/// The commented starting file of a study.
+pub const STUDY_TEMPLATE: &str = include_str!("study.toml");
 /// Members of a study, at most: each is a row in memory.
 const MOST_MEMBERS: usize = 1_000_000;
 /// Levels of an input of a factorial or a sweep, unless given.
@@ -104,7 +106,7 @@ impl StudyFile {
 
     fn parse(text: &str, file: &str, folder: Option<&Path>) -> Result<StudyFile, Box<Problem>> {
         let root = DeTable::parse(text).map_err(|error| Problem::of_toml(&error, text, file))?;
-        let page = Page { text, file };
+        let page = Page { file };
         let mut head = Section::new(&page, "");
         let (mut design, mut question) = (Section::new(&page, "design"), Section::new(&page, "question"));
         let (mut inputs, mut limits, mut correlations) = (Vec::new(), Vec::new(), Vec::new());
@@ -417,13 +419,11 @@ fn correlation_of(page: &Page, pairs: &[Pair], count: usize, kind: &str) -> Resu
 
 /// The file in messages.
 struct Page<'a> {
-    text: &'a str,
     file: &'a str,
 }
 
 impl Page<'_> {
     fn problem(&self, code: Code, place: Place, key: &str, found: impl Into<String>, allowed: impl Into<String>) -> Box<Problem> {
-        debug_assert!(!self.text.is_empty());
         Box::new(Problem::new(code, self.file, found, allowed).at(place).on_key(key))
     }
 }

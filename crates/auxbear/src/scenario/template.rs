@@ -4,6 +4,7 @@ use crate::scenario::key::{Condition, Key, Kind, Otherwise, Presence, quoted};
 use crate::scenario::limit;
 use crate::scenario::rotor::part_keys::PARTS;
 use crate::scenario::several::{AUXILIARY_BEARING, LIMIT};
+use crate::scenario::study_file::STUDY_TEMPLATE;
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
 
@@ -14,12 +15,17 @@ const EXAMPLES: &[&str] = &[
     "mount.damping",
     "mount.moving_mass",
 ];
+/// The kind of a study, which is no system.
+pub(crate) const STUDY: &str = "study";
 const LEFT: &str = "example of the starting file";
 /// Width of a comment line.
 const WIDTH: usize = 100;
 
 /// The commented starting file of a kind; `None` for a kind that is not built yet. It reads without a problem.
 pub fn template(kind: &str) -> Option<String> {
+    if kind == STUDY {
+        return Some(STUDY_TEMPLATE.to_string());
+    }
     let system = SystemName::of(kind)?;
     let about = match system {
         SystemName::Drop => "A levitated rotor drops onto its auxiliary bearing.",

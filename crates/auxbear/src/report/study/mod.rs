@@ -141,7 +141,7 @@ impl Directory {
                 let table = self.study.run(members(*part), options)?;
                 let all = 0..table.members.len();
                 Some((*part, table.part(all)))
-            };|part: &usize| Some((*part, self.study.run(members(*part), options)?));
+            };
             return parts.iter().map(each).collect();
         }
         let (first, last) = (*parts.first()?, *parts.last()?);
