@@ -8,6 +8,9 @@ use std::fs::{self, File};
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
+/// Kinds of files that the command will know, so that asking for one is no spelling mistake.
+const PLANNED: [&str; 2] = ["qualify", "mount"];
+
 /// Prints or writes the starting file of a kind.
 pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
     let text = template(kind).ok_or_else(|| unknown("auxbear new", kind))?;
@@ -38,6 +41,11 @@ pub fn unknown(command: &str, kind: &str) -> Box<Problem> {
         "a kind is needed: {}",
         built().collect::<Vec<_>>().join(", ")
     );
-    let problem = Problem::new(Code::UnknownWord, command, format!("\"{kind}\""), needed);
-    Box::new(problem.with_hint(did_you_mean(kind, built())))
+    Box::new(if PLANNED.contains(&kind) {
+        let found = format!("\"{kind}\", which is planned but not built yet");
+        Problem::new(Code::NotBuilt, command, found, needed)
+    } else {
+        Problem::new(Code::UnknownWord, command, format!("\"{kind}\""), needed)
+            .with_hint(did_you_mean(kind, built()))
+    })
 }

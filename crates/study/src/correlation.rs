@@ -45,7 +45,10 @@ impl Correlation {
         let normal: Vec<f64> = coordinates.iter().map(|u| quantile(*u)).collect();
         let mixed = |row: &Vec<f64>| row.iter().zip(&normal).map(|(l, z)| l * z).sum::<f64>();
         let inside = |u: f64| u.clamp(f64::EPSILON, 1.0 - f64::EPSILON);
-        self.factor.iter().map(|row| inside(below(mixed(row)))).collect()
+        self.factor
+            .iter()
+            .map(|row| inside(below(mixed(row))))
+            .collect()
     }
 }
 
@@ -61,7 +64,11 @@ mod tests {
         let points: Vec<Vec<f64>> = (0..count)
             .map(|k| {
                 let independent: Vec<f64> = (0..3).map(|column| uniform(3, k, column)).collect();
-                correlation.apply(&independent).into_iter().map(quantile).collect()
+                correlation
+                    .apply(&independent)
+                    .into_iter()
+                    .map(quantile)
+                    .collect()
             })
             .collect();
         let found = |a: usize, b: usize| {

@@ -164,7 +164,11 @@ fn trajectory(seed: u64, inputs: usize, k: usize) -> Vec<Coordinate> {
         .map(|input| {
             let start = below(LEVELS, seed, block, input as u64);
             let moved = (start + LEVELS / 2) % LEVELS;
-            let at = if turn(seed, inputs, block, input) < step { moved } else { start };
+            let at = if turn(seed, inputs, block, input) < step {
+                moved
+            } else {
+                start
+            };
             Coordinate::Share((at as f64 + 0.5) / LEVELS as f64)
         })
         .collect()
@@ -230,8 +234,9 @@ mod tests {
     fn a_sequence_has_one_member_in_each_part_of_a_power_of_two() {
         let design = Design::Sobol(5, 64);
         for input in 0..5 {
-            let mut parts: Vec<usize> =
-                (0..64).map(|k| (shares(&design, 9, k)[input] * 64.0) as usize).collect();
+            let mut parts: Vec<usize> = (0..64)
+                .map(|k| (shares(&design, 9, k)[input] * 64.0) as usize)
+                .collect();
             parts.sort_unstable();
             assert!(parts.into_iter().eq(0..64), "{input}");
         }
@@ -263,7 +268,9 @@ mod tests {
     fn a_trajectory_moves_one_input_at_a_time_by_half_the_range() {
         let design = Design::Morris(4, 50);
         for block in 0..50 {
-            let points: Vec<_> = (0..5).map(|step| shares(&design, 1, block * 5 + step)).collect();
+            let points: Vec<_> = (0..5)
+                .map(|step| shares(&design, 1, block * 5 + step))
+                .collect();
             for step in 0..4 {
                 let (input, up) = moved(1, 4, block, step);
                 for other in 0..4 {

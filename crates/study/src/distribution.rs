@@ -75,9 +75,19 @@ mod tests {
                 2.0 * (0.5 * s * s).exp() * ((s * s).exp() - 1.0).sqrt(),
                 2.0,
             ),
-            (Distribution::Uniform(-1.0, 2.0), 0.5, 3.0 / 12.0_f64.sqrt(), 0.5),
+            (
+                Distribution::Uniform(-1.0, 2.0),
+                0.5,
+                3.0 / 12.0_f64.sqrt(),
+                0.5,
+            ),
             // mean (a + b + c)/3, variance (a² + b² + c² - ab - bc - ca)/18; the median of 1, 2, 5 is 5 - √6
-            (Distribution::Triangular(1.0, 2.0, 5.0), 8.0 / 3.0, (13.0_f64 / 18.0).sqrt(), 5.0 - 6.0_f64.sqrt()),
+            (
+                Distribution::Triangular(1.0, 2.0, 5.0),
+                8.0 / 3.0,
+                (13.0_f64 / 18.0).sqrt(),
+                5.0 - 6.0_f64.sqrt(),
+            ),
             (Distribution::Discrete(5), 2.0, 2.0_f64.sqrt(), 2.0),
         ];
         let count = 200_000;
@@ -88,8 +98,14 @@ mod tests {
             let found = values.iter().sum::<f64>() / f64::from(count);
             let square = values.iter().map(|v| (v - found).powi(2)).sum::<f64>() / f64::from(count);
             // the middles of equal parts miss the ends of the tails by some 1e-4 of the variance
-            assert!((found - mean).abs() < 1e-4 * deviation, "{distribution:?} {found}");
-            assert!((square.sqrt() / deviation - 1.0).abs() < 2e-4, "{distribution:?}");
+            assert!(
+                (found - mean).abs() < 1e-4 * deviation,
+                "{distribution:?} {found}"
+            );
+            assert!(
+                (square.sqrt() / deviation - 1.0).abs() < 2e-4,
+                "{distribution:?}"
+            );
             assert!((distribution.quantile(0.5) - median).abs() < 1e-9);
         }
         // the quantile of one deviation

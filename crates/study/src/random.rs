@@ -63,7 +63,9 @@ mod tests {
         let count = 10_000;
         let of = |k: u64, column: u64| uniform(1, k, column) - 0.5;
         let product = |a: (u64, u64), b: (u64, u64)| {
-            let sum: f64 = (0..count).map(|k| of(k + a.0, a.1) * of(k + b.0, b.1)).sum();
+            let sum: f64 = (0..count)
+                .map(|k| of(k + a.0, a.1) * of(k + b.0, b.1))
+                .sum();
             sum / count as f64 * 12.0
         };
         // a correlation of 10000 pairs has deviation 0.01: 4 of these

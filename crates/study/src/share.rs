@@ -24,7 +24,10 @@ pub fn wilson(count: usize, members: usize) -> [f64; 2] {
     let middle = p + z * z / (2.0 * n);
     let half = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
     let scale = 1.0 + z * z / n;
-    [((middle - half) / scale).max(0.0), ((middle + half) / scale).min(1.0)]
+    [
+        ((middle - half) / scale).max(0.0),
+        ((middle + half) / scale).min(1.0),
+    ]
 }
 
 /// Whether so many that hold show that the share of all is reached.
@@ -135,7 +138,10 @@ mod tests {
     fn wilson_inverts_the_normal_test() {
         for (count, members) in [(3, 40), (0, 25), (25, 25), (5, 5000)] {
             let n = members as f64;
-            for end in wilson(count, members).into_iter().filter(|p| *p > 1e-12 && *p < 1.0 - 1e-12) {
+            for end in wilson(count, members)
+                .into_iter()
+                .filter(|p| *p > 1e-12 && *p < 1.0 - 1e-12)
+            {
                 let distance = (count as f64 / n - end).abs();
                 assert!((distance - TWO_SIDED * (end * (1.0 - end) / n).sqrt()).abs() < 1e-12);
             }

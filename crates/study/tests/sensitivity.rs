@@ -15,7 +15,9 @@ fn values(design: &Design, seed: u64, of: &dyn Fn(&[f64]) -> f64) -> Vec<Option<
         };
         design.member(seed, k).iter().map(share).collect()
     };
-    (0..design.members().unwrap()).map(|k| Some(of(&point(k)))).collect()
+    (0..design.members().unwrap())
+        .map(|k| Some(of(&point(k))))
+        .collect()
 }
 
 /// sin x1 + 7 sin² x2 + 0.1 x3⁴ sin x1 over (-π, π)³.
@@ -62,7 +64,10 @@ fn morris_and_sobol_rank_a_linear_model_alike() {
         assert_eq!(effect.count, 10);
         let share = slopes[input].powi(2) / square;
         for banded in [sobol[input].first, sobol[input].total] {
-            assert!((banded.value - share).abs() < 0.03, "{input} {banded:?} {share}");
+            assert!(
+                (banded.value - share).abs() < 0.03,
+                "{input} {banded:?} {share}"
+            );
         }
     }
     let ranked = |by: &dyn Fn(usize) -> f64| {
@@ -79,7 +84,8 @@ fn morris_and_sobol_rank_a_linear_model_alike() {
 #[test]
 fn a_failure_probability_of_a_thousandth_lies_in_its_bounds() {
     let normal = Distribution::Normal(0.0, 1.0);
-    let fails = |u: &[f64]| normal.quantile(u[0]) - normal.quantile(u[1]) > 3.090_232_3 * 2.0_f64.sqrt();
+    let fails =
+        |u: &[f64]| normal.quantile(u[0]) - normal.quantile(u[1]) > 3.090_232_3 * 2.0_f64.sqrt();
     let members = 5000;
     let covered = (0..200).filter(|seed| {
         let design = Design::MonteCarlo(2, members);

@@ -369,7 +369,10 @@ pub(super) fn new_file(
 }
 
 /// Writes a file as `FILE.partial`, which gets its name when it is whole. One that a killed process left is written over.
-pub(super) fn aside(path: &Path, write: impl FnOnce(File) -> std::io::Result<()>) -> Result<(), Box<Problem>> {
+pub(super) fn aside(
+    path: &Path,
+    write: impl FnOnce(File) -> std::io::Result<()>,
+) -> Result<(), Box<Problem>> {
     let nameless = || misplaced(path, &ErrorKind::InvalidFilename.into());
     let fresh = partial_of(path).ok_or_else(nameless)?;
     let file = File::create(&fresh).map_err(|error| misplaced(path, &error))?;

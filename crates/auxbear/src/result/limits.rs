@@ -18,7 +18,8 @@ use crate::problem::{Code, Problem, did_you_mean, question};
 use crate::result::outcome::{Judged, Outcome, Quantity, Value, Verdict};
 use crate::scenario::{Limit, Side};
 use study::share::{
-    CONFIDENCE, MOST_MEMBERS, at_least_shown, at_most_shown, more_members, shows_missed, shows_reached,
+    CONFIDENCE, MOST_MEMBERS, at_least_shown, at_most_shown, more_members, shows_missed,
+    shows_reached,
 };
 use units::{Dimension, Unit};
 

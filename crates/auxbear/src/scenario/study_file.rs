@@ -3,6 +3,7 @@
 //! ```toml
 //! format = "auxbear.study/1"
 //! scenario = "drop.toml"        # relative to this file
+//! set = ["run.accuracy=screening"]   # of the scenario, as after --set
 //! seed = 1
 //!
 //! [design]
@@ -108,7 +109,10 @@ impl StudyFile {
         let root = DeTable::parse(text).map_err(|error| Problem::of_toml(&error, text, file))?;
         let page = Page { file };
         let mut head = Section::new(&page, "");
-        let (mut design, mut question) = (Section::new(&page, "design"), Section::new(&page, "question"));
+        let (mut design, mut question) = (
+            Section::new(&page, "design"),
+            Section::new(&page, "question"),
+        );
         let (mut inputs, mut limits, mut correlations) = (Vec::new(), Vec::new(), Vec::new());
         for (key, value) in root.get_ref() {
             let start = key.span().start;
@@ -117,7 +121,11 @@ impl StudyFile {
                 "limit" => limits = tables(text, start, value.get_ref()),
                 "correlation" => correlations = tables(text, start, value.get_ref()),
                 word @ ("design" | "question") => {
-                    let section = if word == "design" { &mut design } else { &mut question };
+                    let section = if word == "design" {
+                        &mut design
+                    } else {
+                        &mut question
+                    };
                     match value.get_ref() {
                         toml::de::DeValue::Table(table) => {
                             collect(text, table, "", &mut section.list);
@@ -132,23 +140,36 @@ impl StudyFile {
                 }
                 other => {
                     let place = Place::of_offset(text, start);
-                    head.list.push((other.to_string(), raw(value.get_ref()), place));
+                    head.list
+                        .push((other.to_string(), raw(value.get_ref()), place));
                 }
             }
         }
-        head.known(&["format", "title", "description", "scenario", "seed"], &["design", "input", "limit", "correlation", "question"])?;
+        head.known(
+            &["format", "title", "description", "scenario", "set", "seed"],
+            &["design", "input", "limit", "correlation", "question"],
+        )?;
         let format = head.text("format")?;
         if format.as_ref().is_none_or(|(word, _)| word != STUDY_FORMAT) {
             let found = format.map_or("nothing".to_string(), |(word, _)| quoted(&word));
-            let allowed = format!("format = \"{STUDY_FORMAT}\" is needed; auxbear new study writes such a file");
+            let allowed = format!(
+                "format = \"{STUDY_FORMAT}\" is needed; auxbear new study writes such a file"
+            );
             return Err(page.problem(Code::UnknownFormat, Place::Whole, "format", found, allowed));
         }
         let (scenario, place) = head.text("scenario")?.ok_or_else(|| {
             let allowed = "scenario = \"drop.toml\" is needed: the file that is run many times";
-            page.problem(Code::MissingKey, Place::Whole, "scenario", "nothing", allowed)
+            page.problem(
+                Code::MissingKey,
+                Place::Whole,
+                "scenario",
+                "nothing",
+                allowed,
+            )
         })?;
         let scenario = folder.map_or(PathBuf::from(&scenario), |folder| folder.join(&scenario));
-        let scenario = Scenario::read(&scenario, &[], &BuiltIn)?;
+        let sets: Vec<String> = head.texts("set")?.into_iter().map(|(set, _)| set).collect();
+        let scenario = Scenario::read(&scenario, &sets, &BuiltIn)?;
         single(&scenario).map_err(|found| {
             let allowed = "a scenario of single runs is needed: what differs from run to run stands in the study file";
             page.problem(Code::StudyScenario, place, "scenario", found, allowed)
@@ -173,7 +194,10 @@ impl StudyFile {
             asked,
             added,
             inputs,
-            pairs: pairs.into_iter().map(|(a, b, rho, _)| (a, b, rho)).collect(),
+            pairs: pairs
+                .into_iter()
+                .map(|(a, b, rho, _)| (a, b, rho))
+                .collect(),
             correlation,
             limits,
             results,
@@ -207,21 +231,37 @@ impl StudyFile {
         if let Some(title) = &self.title {
             out.push_str(&format!("title = {}\n", quoted(title)));
         }
-        out.push_str(&format!("scenario = \"scenario.toml\"\nseed = {}\n", self.seed));
+        out.push_str(&format!(
+            "scenario = \"scenario.toml\"\nseed = {}\n",
+            self.seed
+        ));
         out.push_str(&format!("\n[design]\nkind = \"{}\"\n", self.kind));
         if !matches!(self.design, Design::Factorial(_) | Design::Sweep(_)) {
-            out.push_str(&format!("{} = {}\nadded = {}\n", count_key(self.kind), self.asked, self.added));
+            out.push_str(&format!(
+                "{} = {}\nadded = {}\n",
+                count_key(self.kind),
+                self.asked,
+                self.added
+            ));
         }
         for input in &self.inputs {
-            out.push_str(&format!("\n[[input]]\npath = {}\n{}\n", quoted(&input.vary.path), input.vary.distribution_toml()));
+            out.push_str(&format!(
+                "\n[[input]]\npath = {}\n{}\n",
+                quoted(&input.vary.path),
+                input.vary.distribution_toml()
+            ));
             if input.levels_given {
                 out.push_str(&format!("levels = {}\n", input.levels));
             }
         }
         for (a, b, coefficient) in &self.pairs {
-            let names = [a, b].map(|k| quoted(&self.inputs[*k].vary.path)).join(", ");
+            let names = [a, b]
+                .map(|k| quoted(&self.inputs[*k].vary.path))
+                .join(", ");
             let coefficient = units::number_text(*coefficient);
-            out.push_str(&format!("\n[[correlation]]\ninputs = [{names}]\ncoefficient = {coefficient}\n"));
+            out.push_str(&format!(
+                "\n[[correlation]]\ninputs = [{names}]\ncoefficient = {coefficient}\n"
+            ));
         }
         let own = self.limits.len() - self.scenario.limits.len();
         for limit in &self.limits[..own] {
@@ -238,10 +278,20 @@ impl StudyFile {
 /// Why a scenario is no single run; a study takes what repeats it upon itself.
 fn single(scenario: &Scenario) -> Result<(), String> {
     match &scenario.system {
-        System::Drop(drop) if drop.repeat.count > 1 => Err(format!("one with repeat.count = {}", drop.repeat.count)),
-        _ if !scenario.vary.is_empty() => Err("one that varies values itself, by [vary] or [repeat]".to_string()),
-        System::Drop(_) | System::SpinUp(_) | System::Rig(_) | System::Torque(_) | System::Rotor(_) => Ok(()),
-        System::Signals(_) | System::Identify(_) => Err("the analysis of a measurement".to_string()),
+        System::Drop(drop) if drop.repeat.count > 1 => {
+            Err(format!("one with repeat.count = {}", drop.repeat.count))
+        }
+        _ if !scenario.vary.is_empty() => {
+            Err("one that varies values itself, by [vary] or [repeat]".to_string())
+        }
+        System::Drop(_)
+        | System::SpinUp(_)
+        | System::Rig(_)
+        | System::Torque(_)
+        | System::Rotor(_) => Ok(()),
+        System::Signals(_) | System::Identify(_) => {
+            Err("the analysis of a measurement".to_string())
+        }
     }
 }
 
@@ -258,11 +308,18 @@ fn is_possible(design: &Design) -> bool {
         Design::Sobol(_, points) | Design::Saltelli(_, points) => *points,
         _ => 0,
     };
-    sequence <= MOST_SOBOL && design.members().is_some_and(|members| (1..=MOST_MEMBERS).contains(&members))
+    sequence <= MOST_SOBOL
+        && design
+            .members()
+            .is_some_and(|members| (1..=MOST_MEMBERS).contains(&members))
 }
 
 /// The design with its numbers, and how many members or blocks were asked for and added.
-fn shape(section: &mut Section, kind: &str, inputs: &[StudyInput]) -> Result<(Design, usize, usize), Box<Problem>> {
+fn shape(
+    section: &mut Section,
+    kind: &str,
+    inputs: &[StudyInput],
+) -> Result<(Design, usize, usize), Box<Problem>> {
     let count = inputs.len();
     let levels = || inputs.iter().map(|input| input.levels).collect();
     let complete = match kind {
@@ -281,8 +338,12 @@ fn shape(section: &mut Section, kind: &str, inputs: &[StudyInput]) -> Result<(De
     let (asked, place) = match (&complete, number) {
         (Some(_), _) => (0, Place::Whole),
         (None, Some((asked, place))) if asked > 0 => (asked, place),
-        (None, Some((_, place))) => return Err(section.wrong(Code::OutOfRange, place, key, "0", needed)),
-        (None, None) => return Err(section.wrong(Code::MissingKey, Place::Whole, key, "nothing", needed)),
+        (None, Some((_, place))) => {
+            return Err(section.wrong(Code::OutOfRange, place, key, "0", needed));
+        }
+        (None, None) => {
+            return Err(section.wrong(Code::MissingKey, Place::Whole, key, "nothing", needed));
+        }
     };
     let design = complete.or(match kind {
         "monte carlo" => Some(Design::MonteCarlo(count, asked)),
@@ -291,7 +352,13 @@ fn shape(section: &mut Section, kind: &str, inputs: &[StudyInput]) -> Result<(De
         "morris" => Some(Design::Morris(count, asked)),
         _ => Some(Design::Saltelli(count, asked)),
     });
-    let design = design.and_then(|design| if added > 0 { design.extended(added) } else { Some(design) });
+    let design = design.and_then(|design| {
+        if added > 0 {
+            design.extended(added)
+        } else {
+            Some(design)
+        }
+    });
     let columns = if kind == "saltelli" { 2 * count } else { count };
     let columns_fit = !["sobol", "saltelli"].contains(&kind) || columns <= MOST_SOBOL_INPUTS;
     match design.filter(|design| columns_fit && is_possible(design)) {
@@ -300,12 +367,23 @@ fn shape(section: &mut Section, kind: &str, inputs: &[StudyInput]) -> Result<(De
             let allowed = format!(
                 "at most {MOST_MEMBERS} members are possible; of sobol numbers {MOST_SOBOL} points of {MOST_SOBOL_INPUTS} columns, of which saltelli takes two an input"
             );
-            Err(section.wrong(Code::StudyDesign, place, key, "a design that is too large", allowed))
+            Err(section.wrong(
+                Code::StudyDesign,
+                place,
+                key,
+                "a design that is too large",
+                allowed,
+            ))
         }
     }
 }
 
-fn inputs_of(page: &Page, scenario: &Scenario, tables: Vec<Vec<Written>>, kind: &str) -> Result<Vec<StudyInput>, Box<Problem>> {
+fn inputs_of(
+    page: &Page,
+    scenario: &Scenario,
+    tables: Vec<Vec<Written>>,
+    kind: &str,
+) -> Result<Vec<StudyInput>, Box<Problem>> {
     let mut inputs: Vec<StudyInput> = Vec::new();
     for list in tables {
         let mut section = Section::new(page, "input");
@@ -313,45 +391,82 @@ fn inputs_of(page: &Page, scenario: &Scenario, tables: Vec<Vec<Written>>, kind: 
         let mut keys = vec!["path", "levels"];
         keys.extend(WORDS);
         section.known(&keys, &[])?;
-        let begin = section.list.first().map_or(Place::Whole, |(.., place)| *place);
+        let begin = section
+            .list
+            .first()
+            .map_or(Place::Whole, |(.., place)| *place);
         let (path, place) = section.text("path")?.ok_or_else(|| {
             let allowed = "path = \"contact.friction_coefficient\" is needed: the dotted path of a key of the scenario";
             section.wrong(Code::MissingKey, begin, "path", "nothing", allowed)
         })?;
         if inputs.iter().any(|known| known.vary.path == path) {
-            return Err(section.wrong(Code::Conflict, place, "path", quoted(&path), "each input once is needed"));
+            return Err(section.wrong(
+                Code::Conflict,
+                place,
+                "path",
+                quoted(&path),
+                "each input once is needed",
+            ));
         }
-        let given: Vec<&Written> = section.list.iter().filter(|(key, ..)| WORDS.contains(&key.as_str())).collect();
+        let given: Vec<&Written> = section
+            .list
+            .iter()
+            .filter(|(key, ..)| WORDS.contains(&key.as_str()))
+            .collect();
         let [(word, value, at)] = given.as_slice() else {
             let found = format!("{} distributions of {}", given.len(), quoted(&path));
             let allowed = format!("one of {} is needed", WORDS.join(", "));
             return Err(section.wrong(Code::Conflict, place, "path", found, allowed));
         };
         let distribution = Raw::Table(vec![(word.clone(), value.clone())]);
-        let vary = scenario.varied(&path, &distribution, *at).map_err(|mut problem| {
-            problem.file = page.file.to_string();
-            problem.key = Some(format!("input.{word} of {path}"));
-            problem
-        })?;
+        let vary = scenario
+            .varied(&path, &distribution, *at)
+            .map_err(|mut problem| {
+                problem.file = page.file.to_string();
+                problem.key = Some(format!("input.{word} of {path}"));
+                problem
+            })?;
         let levelled = ["factorial", "sweep"].contains(&kind);
         let given = section.count("levels")?;
         let levels = match (&vary.distribution, given) {
             (_, Some((_, place))) if !levelled => {
                 let allowed = "levels are those of a factorial or a sweep";
-                return Err(section.wrong(Code::UnusedKey, place, "levels", "a key that has no effect", allowed));
+                return Err(section.wrong(
+                    Code::UnusedKey,
+                    place,
+                    "levels",
+                    "a key that has no effect",
+                    allowed,
+                ));
             }
             (crate::scenario::Distribution::Choice(_), Some((_, place))) => {
                 let allowed = "a choice has its texts as levels";
-                return Err(section.wrong(Code::UnusedKey, place, "levels", "a key that has no effect", allowed));
+                return Err(section.wrong(
+                    Code::UnusedKey,
+                    place,
+                    "levels",
+                    "a key that has no effect",
+                    allowed,
+                ));
             }
             (crate::scenario::Distribution::Choice(texts), None) => texts.len(),
             (_, Some((levels, place))) if !(2..=1000).contains(&levels) => {
                 let allowed = "a whole number from 2 to 1000 is needed";
-                return Err(section.wrong(Code::OutOfRange, place, "levels", levels.to_string(), allowed));
+                return Err(section.wrong(
+                    Code::OutOfRange,
+                    place,
+                    "levels",
+                    levels.to_string(),
+                    allowed,
+                ));
             }
             (_, given) => given.map_or(LEVELS, |(levels, _)| levels),
         };
-        inputs.push(StudyInput { vary, levels, levels_given: given.is_some() });
+        inputs.push(StudyInput {
+            vary,
+            levels,
+            levels_given: given.is_some(),
+        });
     }
     if inputs.is_empty() {
         let allowed = "a table [[input]] with path and distribution is needed for each value that differs from run to run";
@@ -362,24 +477,50 @@ fn inputs_of(page: &Page, scenario: &Scenario, tables: Vec<Vec<Written>>, kind: 
 
 type Pair = (usize, usize, f64, Place);
 
-fn pairs_of(page: &Page, tables: Vec<Vec<Written>>, inputs: &[StudyInput]) -> Result<Vec<Pair>, Box<Problem>> {
+fn pairs_of(
+    page: &Page,
+    tables: Vec<Vec<Written>>,
+    inputs: &[StudyInput],
+) -> Result<Vec<Pair>, Box<Problem>> {
     let mut pairs: Vec<Pair> = Vec::new();
     for list in tables {
         let mut section = Section::new(page, "correlation");
         section.list = list;
         section.known(&["inputs", "coefficient"], &[])?;
-        let begin = section.list.first().map_or(Place::Whole, |(.., place)| *place);
+        let begin = section
+            .list
+            .first()
+            .map_or(Place::Whole, |(.., place)| *place);
         let names = section.texts("inputs")?;
         let of = |name: &str| inputs.iter().position(|input| input.vary.path == name);
         let places: Vec<Option<usize>> = names.iter().map(|(name, _)| of(name)).collect();
         let needed = "inputs = [\"…\", \"…\"] is needed: the paths of two inputs that are no choices, each pair once";
-        let choice = |k: usize| matches!(inputs[k].vary.distribution, crate::scenario::Distribution::Choice(_));
+        let choice = |k: usize| {
+            matches!(
+                inputs[k].vary.distribution,
+                crate::scenario::Distribution::Choice(_)
+            )
+        };
         let (a, b) = match places.as_slice() {
             [Some(a), Some(b)] if a != b && !choice(*a) && !choice(*b) => (*a.min(b), *a.max(b)),
-            _ => return Err(section.wrong(Code::UnknownWord, begin, "inputs", "other names", needed)),
+            _ => {
+                return Err(section.wrong(
+                    Code::UnknownWord,
+                    begin,
+                    "inputs",
+                    "other names",
+                    needed,
+                ));
+            }
         };
         if pairs.iter().any(|pair| (pair.0, pair.1) == (a, b)) {
-            return Err(section.wrong(Code::Conflict, begin, "inputs", "a pair given twice", needed));
+            return Err(section.wrong(
+                Code::Conflict,
+                begin,
+                "inputs",
+                "a pair given twice",
+                needed,
+            ));
         }
         let coefficient = section.list.iter().find(|(key, ..)| key == "coefficient");
         let value = coefficient.and_then(|(_, raw, _)| match raw {
@@ -391,28 +532,51 @@ fn pairs_of(page: &Page, tables: Vec<Vec<Written>>, inputs: &[StudyInput]) -> Re
             Some(value) => pairs.push((a, b, value, begin)),
             None => {
                 let allowed = "a bare number between -1 and 1 is needed";
-                return Err(section.wrong(Code::OutOfRange, begin, "coefficient", "no such number", allowed));
+                return Err(section.wrong(
+                    Code::OutOfRange,
+                    begin,
+                    "coefficient",
+                    "no such number",
+                    allowed,
+                ));
             }
         }
     }
     Ok(pairs)
 }
 
-fn correlation_of(page: &Page, pairs: &[Pair], count: usize, kind: &str) -> Result<Option<Correlation>, Box<Problem>> {
+fn correlation_of(
+    page: &Page,
+    pairs: &[Pair],
+    count: usize,
+    kind: &str,
+) -> Result<Option<Correlation>, Box<Problem>> {
     let Some((.., place)) = pairs.first() else {
         return Ok(None);
     };
     if ["factorial", "sweep", "morris", "saltelli"].contains(&kind) {
         let found = format!("correlated inputs of a {kind} design");
         let allowed = "its effects and indices belong to independent inputs; monte carlo, latin hypercube and sobol take correlated ones";
-        return Err(page.problem(Code::StudyCorrelation, *place, "correlation", found, allowed));
+        return Err(page.problem(
+            Code::StudyCorrelation,
+            *place,
+            "correlation",
+            found,
+            allowed,
+        ));
     }
     let plain: Vec<_> = pairs.iter().map(|(a, b, rho, _)| (*a, *b, *rho)).collect();
     match Correlation::of(count, &plain) {
         Some(correlation) => Ok(Some(correlation)),
         None => {
             let allowed = "coefficients that inputs can have together are needed (a positive definite matrix)";
-            Err(page.problem(Code::StudyCorrelation, *place, "correlation", "coefficients that contradict each other", allowed))
+            Err(page.problem(
+                Code::StudyCorrelation,
+                *place,
+                "correlation",
+                "coefficients that contradict each other",
+                allowed,
+            ))
         }
     }
 }
@@ -423,8 +587,19 @@ struct Page<'a> {
 }
 
 impl Page<'_> {
-    fn problem(&self, code: Code, place: Place, key: &str, found: impl Into<String>, allowed: impl Into<String>) -> Box<Problem> {
-        Box::new(Problem::new(code, self.file, found, allowed).at(place).on_key(key))
+    fn problem(
+        &self,
+        code: Code,
+        place: Place,
+        key: &str,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Box<Problem> {
+        Box::new(
+            Problem::new(code, self.file, found, allowed)
+                .at(place)
+                .on_key(key),
+        )
     }
 }
 
@@ -437,7 +612,11 @@ struct Section<'a> {
 
 impl<'a> Section<'a> {
     fn new(page: &'a Page<'a>, name: &'static str) -> Self {
-        Section { page, name, list: Vec::new() }
+        Section {
+            page,
+            name,
+            list: Vec::new(),
+        }
     }
 
     fn path(&self, key: &str) -> String {
@@ -447,13 +626,24 @@ impl<'a> Section<'a> {
         }
     }
 
-    fn wrong(&self, code: Code, place: Place, key: &str, found: impl Into<String>, allowed: impl Into<String>) -> Box<Problem> {
-        self.page.problem(code, place, &self.path(key), found, allowed)
+    fn wrong(
+        &self,
+        code: Code,
+        place: Place,
+        key: &str,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Box<Problem> {
+        self.page
+            .problem(code, place, &self.path(key), found, allowed)
     }
 
     /// Refuses keys that are not among these; `sections` are known besides.
     fn known(&self, keys: &[&str], sections: &[&str]) -> Result<(), Box<Problem>> {
-        let unknown = self.list.iter().find(|(key, ..)| !keys.contains(&key.as_str()));
+        let unknown = self
+            .list
+            .iter()
+            .find(|(key, ..)| !keys.contains(&key.as_str()));
         let Some((key, _, place)) = unknown else {
             return Ok(());
         };
@@ -472,7 +662,13 @@ impl<'a> Section<'a> {
         match self.get(key) {
             None => Ok(None),
             Some((Raw::Text(text), place)) => Ok(Some((text.clone(), place))),
-            Some((other, place)) => Err(self.wrong(Code::WrongType, place, key, other.text(), "a text in quotes is needed")),
+            Some((other, place)) => Err(self.wrong(
+                Code::WrongType,
+                place,
+                key,
+                other.text(),
+                "a text in quotes is needed",
+            )),
         }
     }
 
@@ -495,7 +691,9 @@ impl<'a> Section<'a> {
     fn count(&self, key: &str) -> Result<Option<(usize, Place)>, Box<Problem>> {
         match self.get(key) {
             None => Ok(None),
-            Some((Raw::Integer(_, Some(value)), place)) if *value >= 0 => Ok(Some((*value as usize, place))),
+            Some((Raw::Integer(_, Some(value)), place)) if *value >= 0 => {
+                Ok(Some((*value as usize, place)))
+            }
             Some((other, place)) => {
                 let allowed = "a whole number from 0 on is needed";
                 Err(self.wrong(Code::WrongType, place, key, other.text(), allowed))
@@ -513,7 +711,9 @@ impl<'a> Section<'a> {
             Some(word) => Ok(word),
             None => {
                 let problem = self.wrong(Code::UnknownWord, place, key, quoted(&text), allowed);
-                Err(Box::new((*problem).with_hint(did_you_mean(&text, words.iter().copied()))))
+                Err(Box::new(
+                    (*problem).with_hint(did_you_mean(&text, words.iter().copied())),
+                ))
             }
         }
     }

@@ -153,7 +153,11 @@ impl Vary {
 
     /// The value as a file has it.
     pub(crate) fn toml(&self) -> String {
-        format!("{} = {{ {} }}", quoted(&self.path), self.distribution_toml())
+        format!(
+            "{} = {{ {} }}",
+            quoted(&self.path),
+            self.distribution_toml()
+        )
     }
 
     /// The distribution as a file has it.
@@ -424,4 +428,3 @@ fn override_text(raw: &Raw) -> Option<String> {
         Raw::Table(_) | Raw::List(_) | Raw::Other(_) => None,
     }
 }
-

@@ -53,8 +53,18 @@ impl Study {
     pub fn shown(&self) -> Vec<String> {
         const FEW: usize = 4;
         let mut names: Vec<String> = match self.file.results.is_empty() {
-            false => self.file.results.iter().map(|(name, _)| name.clone()).collect(),
-            true => self.file.limits.iter().map(|limit| limit.quantity.clone()).collect(),
+            false => self
+                .file
+                .results
+                .iter()
+                .map(|(name, _)| name.clone())
+                .collect(),
+            true => self
+                .file
+                .limits
+                .iter()
+                .map(|limit| limit.quantity.clone())
+                .collect(),
         };
         let mut seen = Vec::new();
         names.retain(|name| !seen.contains(name) && (seen.push(name.clone()), true).1);
@@ -85,7 +95,12 @@ impl Study {
         let limits = self.file.limits.iter().map(|limit| {
             let unit = named.clone().find(|known| known.name == limit.quantity);
             let values = of(&limit.quantity);
-            limit_of(limit, unit.map_or("", |known| known.unit), &values, is_sample)
+            limit_of(
+                limit,
+                unit.map_or("", |known| known.unit),
+                &values,
+                is_sample,
+            )
         });
         let sensitivity = self.shown().into_iter().filter_map(|name| {
             let unit = named.clone().find(|known| known.name == name)?.unit;
@@ -119,7 +134,10 @@ impl Study {
                     (low <= high).then_some([low, high])
                 };
                 let ranges = levels.iter().map(range).collect();
-                Some(Sensitivity::Sweep(values.first().copied().flatten(), ranges))
+                Some(Sensitivity::Sweep(
+                    values.first().copied().flatten(),
+                    ranges,
+                ))
             }
             Design::Factorial(_)
             | Design::MonteCarlo(..)
@@ -130,7 +148,12 @@ impl Study {
 }
 
 /// A limit judged: by the bounds of a share where members are a sample, else by counting.
-fn limit_of(limit: &Limit, unit: &'static str, values: &[Option<f64>], is_sample: bool) -> StudyLimit {
+fn limit_of(
+    limit: &Limit,
+    unit: &'static str,
+    values: &[Option<f64>],
+    is_sample: bool,
+) -> StudyLimit {
     const LACKING: &str = "they failed, or have no such result";
     let mut judged = limits::judge(limit, unit, values, LACKING);
     let known = values.iter().flatten().count();

@@ -15,8 +15,8 @@ use crate::result::outcome::{Quantity, Value};
 use crate::run::{self, Options};
 use crate::scenario::{Scenario, StudyFile};
 use ::study::design::Coordinate;
-use table::{Column, Row, Table};
 use std::ops::Range;
+use table::{Column, Row, Table};
 
 /// Members of a part, which is kept when all of it is computed.
 pub const PART: usize = 64;

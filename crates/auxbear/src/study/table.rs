@@ -59,7 +59,10 @@ impl Table {
                     Value::None { .. } => f64::NAN,
                     Value::List(_) | Value::Text(_) => continue,
                 };
-                let known = table.columns.iter().position(|column| column.name == result.name);
+                let known = table
+                    .columns
+                    .iter()
+                    .position(|column| column.name == result.name);
                 let at = known.unwrap_or_else(|| {
                     table.columns.push(Column {
                         name: result.name.clone(),
@@ -123,10 +126,19 @@ impl Table {
     /// Some of the rows; results that none of these members has are left out, as if they were computed alone.
     pub fn part(&self, rows: std::ops::Range<usize>) -> Table {
         let members = self.members[rows.clone()].to_vec();
-        let failed = self.failed.iter().filter(|(member, _)| members.contains(member));
+        let failed = self
+            .failed
+            .iter()
+            .filter(|(member, _)| members.contains(member));
         let columns = self.columns.iter().enumerate().map(|(at, column)| {
             let values = column.values[rows.clone()].to_vec();
-            (at, Column { values, ..column.clone() })
+            (
+                at,
+                Column {
+                    values,
+                    ..column.clone()
+                },
+            )
         });
         let has = |column: &Column| column.values.iter().any(|value| !value.is_nan());
         Table {

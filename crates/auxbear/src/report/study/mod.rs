@@ -57,7 +57,12 @@ impl Directory {
             Ok(lock) => Some(lock),
             Err(TryLockError::WouldBlock) => {
                 let found = "a study that another process works on";
-                let problem = Problem::at_path(Code::StudyInUse, path, found, "one process a study is possible");
+                let problem = Problem::at_path(
+                    Code::StudyInUse,
+                    path,
+                    found,
+                    "one process a study is possible",
+                );
                 return Err(Box::new(problem));
             }
             Err(TryLockError::Error(_)) => None,
@@ -98,7 +103,11 @@ impl Directory {
     ///
     /// # Errors
     /// What cannot be written, and parts that cannot be read.
-    pub fn run(&self, options: &Options, progress: &(dyn Fn(f64) + Sync)) -> Result<Done, Box<Problem>> {
+    pub fn run(
+        &self,
+        options: &Options,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Done, Box<Problem>> {
         // a part that the design has grown beyond is computed anew, with the same numbers
         let mut open: Vec<usize> = Vec::new();
         for part in 0..part_count(&self.study) {
@@ -111,9 +120,16 @@ impl Directory {
         }
         let threads = options.threads.unwrap_or_else(rayon::current_num_threads);
         let at_once = (threads * A_THREAD).div_ceil(PART).max(1);
-        let mut done = self.study.members() - open.iter().map(|part| members_of(&self.study, *part).len()).sum::<usize>();
+        let mut done = self.study.members()
+            - open
+                .iter()
+                .map(|part| members_of(&self.study, *part).len())
+                .sum::<usize>();
         for parts in open.chunks(at_once) {
-            let count: usize = parts.iter().map(|part| members_of(&self.study, *part).len()).sum();
+            let count: usize = parts
+                .iter()
+                .map(|part| members_of(&self.study, *part).len())
+                .sum();
             let plan = Options {
                 progress: &|fraction| progress(done as f64 + fraction * count as f64),
                 ..*options
@@ -121,7 +137,9 @@ impl Directory {
             for tables in self.computed(parts, &plan).into_iter().flatten() {
                 let (part, table) = tables;
                 let place = part_path(&self.path, part);
-                aside(&place, |file| part::write(&file, &table).map_err(super::directory::io_error))?;
+                aside(&place, |file| {
+                    part::write(&file, &table).map_err(super::directory::io_error)
+                })?;
             }
             if options.interrupt.load(Ordering::Relaxed) {
                 break;
@@ -145,7 +163,9 @@ impl Directory {
             return parts.iter().map(each).collect();
         }
         let (first, last) = (*parts.first()?, *parts.last()?);
-        let all = self.study.run(members(first).start..members(last).end, options)?;
+        let all = self
+            .study
+            .run(members(first).start..members(last).end, options)?;
         let begin = members(first).start;
         let cut = |part: usize| {
             let range = members(part);
@@ -163,14 +183,19 @@ impl Directory {
                 table.append(part::read(&place, &self.study)?);
             }
         }
-        let names: Vec<&str> = (self.study.known.iter()).map(|known| known.name.as_str()).collect();
+        let names: Vec<&str> = (self.study.known.iter())
+            .map(|known| known.name.as_str())
+            .collect();
         let table = table.ordered(&names);
         let answer = self.study.answer(&table);
         let complete = table.members.len() == self.study.members();
         let json = summary::json(&self.study, &table, &answer, complete);
         text_file(&self.path.join(TABLE), &part::csv(&self.study, &table))?;
         text_file(&self.path.join(SUMMARY), &json)?;
-        text_file(&self.path.join(REPORT), &page::html(&self.study, &table, &answer))?;
+        text_file(
+            &self.path.join(REPORT),
+            &page::html(&self.study, &table, &answer),
+        )?;
         Ok(Done {
             failed: table.failed.len(),
             answer,
@@ -186,11 +211,18 @@ fn resumed(path: &Path, file: StudyFile) -> Result<StudyFile, Box<Problem>> {
         let path = path.join(name);
         fs::read_to_string(&path).map_err(|error| {
             let found = format!("what cannot be read ({error})");
-            Box::new(Problem::at_path(Code::StudyDamaged, &path, found, "a study directory is needed"))
+            Box::new(Problem::at_path(
+                Code::StudyDamaged,
+                &path,
+                found,
+                "a study directory is needed",
+            ))
         })
     };
     let before = read(STUDY)?;
-    let added = before.lines().find_map(|line| line.strip_prefix("added = ")?.trim().parse().ok());
+    let added = before
+        .lines()
+        .find_map(|line| line.strip_prefix("added = ")?.trim().parse().ok());
     let added: usize = added.unwrap_or(0);
     let file = match added.checked_sub(file.added) {
         Some(more @ 1..) => file.extended(more)?,
@@ -200,9 +232,18 @@ fn resumed(path: &Path, file: StudyFile) -> Result<StudyFile, Box<Problem>> {
         let at = before.lines().zip(now.lines()).position(|(a, b)| a != b);
         let at = at.unwrap_or(before.lines().count().min(now.lines().count()));
         let line = |text: &str| text.lines().nth(at).unwrap_or("nothing").to_string();
-        let found = format!("another study: there {name} has `{}`, now `{}`", line(before), line(now));
+        let found = format!(
+            "another study: there {name} has `{}`, now `{}`",
+            line(before),
+            line(now)
+        );
         let allowed = "a study goes on with the same files and version; another one needs another --out, more members --add";
-        Err(Box::new(Problem::at_path(Code::StudyChanged, &known, found, allowed)))
+        Err(Box::new(Problem::at_path(
+            Code::StudyChanged,
+            &known,
+            found,
+            allowed,
+        )))
     };
     let now = headed(&file);
     if before != now {
@@ -224,7 +265,9 @@ fn headed(file: &StudyFile) -> String {
 fn only_begun(path: &Path) -> bool {
     let known = |entry: fs::DirEntry| {
         let name = entry.file_name();
-        name == MEMBERS || name.to_string_lossy().starts_with("scenario.toml") || name == "study.toml.partial"
+        name == MEMBERS
+            || name.to_string_lossy().starts_with("scenario.toml")
+            || name == "study.toml.partial"
     };
     fs::read_dir(path).is_ok_and(|mut entries| entries.all(|entry| entry.is_ok_and(known)))
 }
@@ -251,4 +294,3 @@ fn damaged(path: &Path, found: impl Into<String>) -> Box<Problem> {
     let allowed = "a part as auxbear study writes it is needed; without the file its members are computed again";
     Box::new(Problem::at_path(Code::StudyDamaged, path, found, allowed))
 }
-

@@ -76,7 +76,10 @@ pub(super) fn read(path: &Path, study: &Study) -> Result<Table, Box<Problem>> {
     };
     let wanted = study.input_columns();
     let given = table.columns.iter().take(table.inputs);
-    if !given.map(|column| &column.name).eq(wanted.iter().map(|column| &column.name)) {
+    if !given
+        .map(|column| &column.name)
+        .eq(wanted.iter().map(|column| &column.name))
+    {
         return Err(damaged(path, "other inputs than those of this study"));
     }
     Ok(table)
@@ -103,7 +106,11 @@ pub(super) fn csv(study: &Study, table: &Table) -> String {
         for (at, column) in table.columns.iter().enumerate() {
             out.push(',');
             let value = column.values[row];
-            let input = study.file.inputs.get(at).map(|input| &input.vary.distribution);
+            let input = study
+                .file
+                .inputs
+                .get(at)
+                .map(|input| &input.vary.distribution);
             match input {
                 _ if !value.is_finite() => {}
                 Some(Distribution::Choice(texts)) => {

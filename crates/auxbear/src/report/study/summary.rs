@@ -76,15 +76,21 @@ fn limit(limit: &crate::study::answer::StudyLimit) -> Value {
 }
 
 fn sensitivities(study: &Study, of: &Sensitivity) -> Value {
-    let paths = study.file.inputs.iter().map(|input| input.vary.path.as_str());
+    let paths = study
+        .file
+        .inputs
+        .iter()
+        .map(|input| input.vary.path.as_str());
     let rows: Vec<Value> = match of {
         Sensitivity::Sweep(given, ranges) => (paths.zip(ranges))
             .map(|(path, range)| json!({"input": path, "given": given, "range": range}))
             .collect(),
         Sensitivity::Effects(effects) => (paths.zip(effects))
             .map(|(path, effect)| match effect {
-                Some(effect) => json!({"input": path, "mean_size": effect.mean_size, "mean": effect.mean,
-                    "standard_deviation": effect.deviation, "effects": effect.count}),
+                Some(effect) => {
+                    json!({"input": path, "mean_size": effect.mean_size, "mean": effect.mean,
+                    "standard_deviation": effect.deviation, "effects": effect.count})
+                }
                 None => json!({"input": path, "mean_size": null, "why": "fewer than two effects"}),
             })
             .collect(),
@@ -102,5 +108,7 @@ fn sensitivities(study: &Study, of: &Sensitivity) -> Value {
 /// What a member drew, as an override has it.
 fn drawn(study: &Study, member: usize) -> Map<String, Value> {
     let drawn = study.drawn(member).values.into_iter();
-    drawn.map(|(path, value)| (path, Value::String(value))).collect()
+    drawn
+        .map(|(path, value)| (path, Value::String(value)))
+        .collect()
 }

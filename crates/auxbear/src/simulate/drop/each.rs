@@ -66,7 +66,11 @@ pub(crate) fn run(all: &[One], options: &Options) -> Vec<(Vec<Quantity>, Stop)> 
     let finished: Vec<Vec<(Vec<Quantity>, Stop)>> =
         groups.par_iter().enumerate().map(of_group).collect();
     let mut list: Vec<Option<(Vec<Quantity>, Stop)>> = all.iter().map(|_| None).collect();
-    for (place, result) in groups.into_iter().flatten().zip(finished.into_iter().flatten()) {
+    for (place, result) in groups
+        .into_iter()
+        .flatten()
+        .zip(finished.into_iter().flatten())
+    {
         list[place] = Some(result);
     }
     list.into_iter().flatten().collect()
