@@ -116,6 +116,7 @@ pub fn listen(keeps: bool) {
             }
             Some(_) => return,
             None if keeps && !again => return,
+            None if keeps => {}
             // Nothing is computed yet that could be kept: the input is read, or the machine built.
             None => console::report("interrupted: nothing was computed yet"),
         }

@@ -36,6 +36,7 @@ pub(crate) mod several;
 pub(crate) mod signals;
 pub(crate) mod spin_up;
 pub(crate) mod study_file;
+pub(crate) mod study_section;
 pub(crate) mod system;
 pub(crate) mod table;
 pub(crate) mod template;
@@ -78,7 +79,7 @@ pub use signals::{
     TorqueSignal,
 };
 pub use spin_up::{Course, Drive, SpeedCourse, SpinUp};
-pub use study_file::{STUDY_FORMAT, STUDY_TEMPLATE, StudyFile, StudyInput};
+pub use study_file::{STUDY_FORMAT, StudyFile, StudyInput};
 pub use system::SystemName;
 pub use table::{FORMAT, keys, keys_of, presence, sections, sections_of, systems};
 pub use template::template;
@@ -263,6 +264,17 @@ impl Scenario {
         raw: &document::Raw,
         place: crate::problem::Place,
     ) -> Result<Vary, Box<Problem>> {
+        let section: Vec<&str> = path.splitn(3, '.').collect();
+        if section.len() == 3
+            && self.document.system.has_shaft()
+            && rotor::part_keys::kind_at(&section[..2].join(".")).is_some()
+        {
+            let vary = vary::of_part(path, raw, place, &self.document.file)?;
+            // the part and its key must be there
+            let middle = ::study::design::Coordinate::Share(0.5);
+            self.with(&vary.at(middle).0)?;
+            return Ok(vary);
+        }
         let documents = self.document.of_each_bearing();
         let values = (documents.iter())
             .map(|document| values::Values::resolve(document, &BuiltIn))

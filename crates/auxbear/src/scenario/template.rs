@@ -4,7 +4,6 @@ use crate::scenario::key::{Condition, Key, Kind, Otherwise, Presence, quoted};
 use crate::scenario::limit;
 use crate::scenario::rotor::part_keys::PARTS;
 use crate::scenario::several::{AUXILIARY_BEARING, LIMIT};
-use crate::scenario::study_file::STUDY_TEMPLATE;
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
 
@@ -15,6 +14,8 @@ const EXAMPLES: &[&str] = &[
     "mount.damping",
     "mount.moving_mass",
 ];
+/// The commented starting file of a study.
+const STUDY_TEMPLATE: &str = include_str!("study.toml");
 /// The kind of a study, which is no system.
 pub(crate) const STUDY: &str = "study";
 const LEFT: &str = "example of the starting file";

@@ -428,3 +428,63 @@ fn override_text(raw: &Raw) -> Option<String> {
         Raw::Table(_) | Raw::List(_) | Raw::Other(_) => None,
     }
 }
+
+/// A value of a part of a bent rotor that is varied: between values that are given, since none is taken from the part.
+pub(crate) fn of_part(
+    path: &str,
+    raw: &Raw,
+    place: Place,
+    file: &str,
+) -> Result<Vary, Box<Problem>> {
+    let needed = "uniform = [\"1 kg\", \"2 kg\"], triangular with three values or choice with texts is needed for a part of a rotor";
+    let problem = |code| {
+        Box::new(
+            Problem::new(code, file, raw.text(), needed)
+                .at(place)
+                .on_key(path),
+        )
+    };
+    let Raw::Table(parts) = raw else {
+        return Err(problem(Code::WrongType));
+    };
+    let [(word, Raw::List(list))] = parts.as_slice() else {
+        return Err(problem(Code::WrongType));
+    };
+    let number = |raw: &Raw| match raw {
+        Raw::Text(text) => (parse_quantity(text).ok()).map(|q| (q.value_si, Some(q.dimension))),
+        Raw::Float(value) => Some((*value, None)),
+        Raw::Integer(_, Some(value)) => Some((*value as f64, None)),
+        _ => None,
+    };
+    let (distribution, dimension) = if word == "choice" {
+        let texts: Option<Vec<String>> = list.iter().map(override_text).collect();
+        let texts = texts.filter(|texts| !texts.is_empty());
+        let texts = texts.ok_or_else(|| problem(Code::WrongType))?;
+        (Distribution::Choice(texts), None)
+    } else {
+        let numbers: Option<Vec<(f64, Option<Dimension>)>> = list.iter().map(number).collect();
+        let numbers = numbers.ok_or_else(|| problem(Code::UnreadableQuantity))?;
+        let rising = numbers
+            .windows(2)
+            .all(|pair| pair[0].0 <= pair[1].0 && pair[0].1 == pair[1].1);
+        match (word.as_str(), numbers.as_slice()) {
+            ("uniform", [(low, of), (high, _)]) if rising => {
+                (Distribution::Uniform(*low, *high), *of)
+            }
+            ("triangular", [(low, of), (middle, _), (high, _)]) if rising => {
+                (Distribution::Triangular(*low, *middle, *high), *of)
+            }
+            _ => return Err(problem(Code::OutOfRange)),
+        }
+    };
+    Ok(Vary {
+        path: path.to_string(),
+        distribution,
+        by_repeat: false,
+        targets: vec![Target {
+            path: path.to_string(),
+            base: None,
+            dimension,
+        }],
+    })
+}

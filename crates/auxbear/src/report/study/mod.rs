@@ -52,6 +52,20 @@ impl Directory {
     /// Where something else stands there, another process works on it, or its study, scenario or version is another.
     pub fn open(path: &Path, file: StudyFile, add: usize) -> Result<Directory, Box<Problem>> {
         let new = !exists(path);
+        Directory::begun(path, file, add, new).inspect_err(|_| {
+            // nothing stands in it yet, or it stays
+            if new {
+                let _ = fs::remove_dir(path);
+            }
+        })
+    }
+
+    fn begun(
+        path: &Path,
+        file: StudyFile,
+        add: usize,
+        new: bool,
+    ) -> Result<Directory, Box<Problem>> {
         fs::create_dir_all(path).map_err(|error| misplaced(path, &error))?;
         let lock = match locked(path) {
             Ok(lock) => Some(lock),
@@ -287,10 +301,4 @@ fn part_path(path: &Path, part: usize) -> PathBuf {
 /// Writes a text, whole or not at all.
 fn text_file(path: &Path, text: &str) -> Result<(), Box<Problem>> {
     aside(path, |mut file| file.write_all(text.as_bytes()))
-}
-
-/// A part that is not what this study wrote.
-fn damaged(path: &Path, found: impl Into<String>) -> Box<Problem> {
-    let allowed = "a part as auxbear study writes it is needed; without the file its members are computed again";
-    Box::new(Problem::at_path(Code::StudyDamaged, path, found, allowed))
 }

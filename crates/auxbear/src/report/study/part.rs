@@ -1,7 +1,6 @@
 //! `members/NNNN.parquet`: a part of the members, drawn inputs beside results; and all of them as one table of text.
 
-use super::damaged;
-use crate::problem::Problem;
+use crate::problem::{Code, Problem};
 use crate::report::history::{self, View};
 use crate::scenario::Distribution;
 use crate::study::Study;
@@ -124,4 +123,10 @@ pub(super) fn csv(study: &Study, table: &Table) -> String {
         out.push('\n');
     }
     out
+}
+
+/// A part that is not what this study wrote.
+fn damaged(path: &Path, found: impl Into<String>) -> Box<Problem> {
+    let allowed = "a part as auxbear study writes it is needed; without the file its members are computed again";
+    Box::new(Problem::at_path(Code::StudyDamaged, path, found, allowed))
 }
