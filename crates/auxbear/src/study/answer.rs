@@ -104,7 +104,14 @@ impl Study {
         });
         let sensitivity = self.shown().into_iter().filter_map(|name| {
             let unit = named.clone().find(|known| known.name == name)?.unit;
-            let of_it = self.sensitivity(&table.values(&name))?;
+            // a design knows its members by their numbers, and some may not be there yet
+            let mut values = vec![None; self.members()];
+            for (member, value) in table.members.iter().zip(table.values(&name)) {
+                if let Some(place) = values.get_mut(*member) {
+                    *place = value;
+                }
+            }
+            let of_it = self.sensitivity(&values)?;
             Some((name, unit, of_it))
         });
         Answer {
