@@ -21,6 +21,8 @@ pub struct Arguments {
 pub enum Command {
     /// Simulate what a file describes and write a run directory
     Run(Run),
+    /// Run a scenario many times with values that differ: sweep, Monte Carlo, sensitivity; go on where it stopped
+    Study(Study),
     /// Show the moments of one bearing over speed, load and acceleration, and write a run directory
     Torque(Torque),
     /// Compute speed, torque and cage speed from the channels of a measurement file, and write a run directory
@@ -41,7 +43,7 @@ pub enum Command {
     },
     /// Write a commented starting file
     New {
-        /// What to describe: drop, spin_up, torque, signals, rig, identify or rotor
+        /// What to describe: drop, spin_up, torque, signals, rig, identify, rotor or study
         kind: String,
         /// File to write; printed if none is given, or for -
         path: Option<PathBuf>,
@@ -112,6 +114,27 @@ pub struct Run {
     /// Number of threads [all cores]; the numbers do not depend on it
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub threads: Option<String>,
+    /// Print no progress and no tables; warnings and problems are printed all the same
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Study {
+    /// Study file; `auxbear new study` writes one to start from
+    pub file: PathBuf,
+    /// Study directory to begin or to go on with [runs/NAME of the file]; with --member the run directory
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Number of threads [all cores]; the numbers do not depend on it
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub threads: Option<String>,
+    /// Blocks to add to the design: members of monte carlo and sobol, whole hypercubes, trajectories or blocks of the others
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub add: Option<String>,
+    /// Run this member alone again, with its own run directory
+    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    pub member: Option<String>,
     /// Print no progress and no tables; warnings and problems are printed all the same
     #[arg(long)]
     pub quiet: bool,

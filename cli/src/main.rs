@@ -14,6 +14,7 @@ mod progress;
 mod run;
 mod schema;
 mod start;
+mod study;
 mod summary;
 mod torque;
 mod torque_tables;
@@ -78,6 +79,7 @@ fn full_files_are_errors() {
 fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
     match command {
         Command::Run(wish) => return run::perform(wish),
+        Command::Study(wish) => return study::perform(wish),
         Command::Torque(wish) => return torque::perform(wish),
         Command::Signals(wish) => return measured::perform(wish, SystemName::Signals),
         Command::Identify(wish) => return measured::perform(wish, SystemName::Identify),

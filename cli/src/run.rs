@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use std::{fs, process};
 
 /// Set by the first Ctrl-C.
-static INTERRUPT: AtomicBool = AtomicBool::new(false);
+pub static INTERRUPT: AtomicBool = AtomicBool::new(false);
 /// The unfinished run directory, once there is one.
 static PARTIAL: Mutex<Option<PathBuf>> = Mutex::new(None);
 
@@ -39,7 +39,7 @@ pub fn perform(wish: &Run) -> Result<Exit, Box<Problem>> {
 }
 
 /// The number of threads asked for.
-fn threads(text: &str) -> Result<NonZeroUsize, Box<Problem>> {
+pub fn threads(text: &str) -> Result<NonZeroUsize, Box<Problem>> {
     text.trim().parse().map_err(|_| {
         let found = format!("\"{text}\"");
         let needed = "a whole number from 1 on is needed; without it all cores are used";
@@ -54,7 +54,7 @@ pub fn execute(
     threads: Option<NonZeroUsize>,
     quiet: bool,
 ) -> Result<Exit, Box<Problem>> {
-    listen();
+    listen(false);
     let progress = Progress::new(quiet);
     let options = Options {
         threads: threads.map(usize::from),
@@ -100,8 +100,9 @@ fn exit_of(stop: &Stop) -> Exit {
 }
 
 /// The first Ctrl-C (or termination) ends the run and keeps what was computed; one that follows later, or one before there is
-/// anything to keep, ends the program and takes the unfinished directory away.
-fn listen() {
+/// anything to keep, ends the program and takes the unfinished directory away. What `keeps` its parts as they are computed has
+/// always something to keep.
+pub fn listen(keeps: bool) {
     let mut first = None;
     let handler = move || {
         let first = first.get_or_insert_with(Instant::now);
@@ -114,6 +115,8 @@ fn listen() {
                 let _ = fs::remove_dir_all(partial);
             }
             Some(_) => return,
+            None if keeps && !again => return,
+            None if keeps => {}
             // Nothing is computed yet that could be kept: the input is read, or the machine built.
             None => console::report("interrupted: nothing was computed yet"),
         }

@@ -9,7 +9,7 @@ use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 /// Kinds of files that the command will know, so that asking for one is no spelling mistake.
-const PLANNED: [&str; 1] = ["study"];
+const PLANNED: [&str; 2] = ["qualify", "mount"];
 
 /// Prints or writes the starting file of a kind.
 pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
@@ -35,7 +35,8 @@ pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
 
 /// What is wrong with a kind of file that a command does not have.
 pub fn unknown(command: &str, kind: &str) -> Box<Problem> {
-    let built = || SystemName::ALL.iter().map(|system| system.word());
+    let systems = || SystemName::ALL.iter().map(|system| system.word());
+    let built = || systems().chain(["study"]);
     let needed = format!(
         "a kind is needed: {}",
         built().collect::<Vec<_>>().join(", ")

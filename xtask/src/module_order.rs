@@ -6,7 +6,7 @@ use crate::rust_text::{code_only, is_word};
 const SOURCE: &str = "crates/auxbear/src/";
 
 /// The modules in their order; each may use those to its left.
-const ORDER: [&str; 12] = [
+const ORDER: [&str; 13] = [
     "problem",
     "catalogue",
     "scenario",
@@ -16,6 +16,7 @@ const ORDER: [&str; 12] = [
     "analyse",
     "evaluate",
     "run",
+    "study",
     "report",
     "import",
     "validate",

@@ -33,8 +33,12 @@ pub fn check(repository: &Repository) -> Outcome {
         let name = Path::new(file).file_stem().unwrap_or_default();
         let out = folder.join("runs").join(name);
         let out = out.to_string_lossy();
-        findings.extend(call(&folder, &program, &["check", file]));
-        let run = ["run", file, "--quiet", "--out", &out];
+        let is_study = (repository.text(file)).is_some_and(|text| text.contains("auxbear.study/"));
+        if !is_study {
+            findings.extend(call(&folder, &program, &["check", file]));
+        }
+        let command = if is_study { "study" } else { "run" };
+        let run = [command, file, "--quiet", "--out", &out];
         findings.extend(call(&folder, &program, &run));
         let summary = std::fs::read_to_string(Path::new(&*out).join("summary.json"));
         let faults = summary.map_or_else(
@@ -85,6 +89,13 @@ fn faults_of(summary: &str) -> Vec<String> {
     let mut faults = Vec::new();
     if summary["complete"] != true {
         faults.push(format!("not complete: {}", summary["stop"]));
+    }
+    if summary["members_failed"].is_number() {
+        // the results of a study are spreads of its members
+        if summary["members_failed"] != 0 {
+            faults.push(format!("members failed: {}", summary["failed"]));
+        }
+        return faults;
     }
     match summary["quantities"]["energy_residual"]["value"].as_f64() {
         Some(residual) if residual.abs() < LARGEST_RESIDUAL => {}

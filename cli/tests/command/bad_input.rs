@@ -257,8 +257,8 @@ fn a_dash_is_the_standard_output() {
 fn starting_files_of_other_kinds() {
     let place = Place::new();
     place
-        .call(&["new", "study"])
-        .refused(&["AB0112", "\"study\"", "planned"]);
+        .call(&["new", "mount"])
+        .refused(&["AB0112", "\"mount\"", "planned"]);
     place
         .call(&["new", "drpo"])
         .refused(&["AB0108", "Did you mean \"drop\"?"]);

@@ -10,12 +10,12 @@ fn help_names_what_is_there_and_nothing_else() {
     let called = place.call(&["--help"]).done();
     for command in [
         "run", "torque", "signals", "identify", "check", "new", "schema", "report", "validate",
-        "explain", "bearings", "rotor", "import",
+        "explain", "bearings", "rotor", "import", "study",
     ] {
         assert!(called.out.contains(&format!("\n  {command} ")), "{command}");
         place.call(&[command, "--help"]).done();
     }
-    for later in ["study", "studio"] {
+    for later in ["studio"] {
         assert!(!called.out.contains(&format!("\n  {later} ")), "{later}");
     }
 }

@@ -12,4 +12,5 @@ mod schema;
 mod signals;
 mod spin_up;
 mod stopped;
+mod study;
 mod torque;

@@ -23,7 +23,7 @@ fn other_kinds_are_distinguished() {
     let place = Place::new();
     for (kind, code, words) in [
         ("drp", "AB0108", "Did you mean \"drop\"?"),
-        ("study", "AB0112", "planned"),
+        ("mount", "AB0112", "planned"),
     ] {
         let called = place.call(&["schema", kind]);
         assert_eq!(called.code, Some(2), "{called:?}");

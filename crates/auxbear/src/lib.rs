@@ -16,7 +16,7 @@
 //! ```
 //!
 //! Modules, each using only those before it: [`problem`], [`catalogue`], [`scenario`], [`options`], [`result`], then
-//! [`simulate`], [`analyse`] and [`evaluate`] side by side, [`mod@run`], [`report`], [`import`], [`validate`].
+//! [`simulate`], [`analyse`] and [`evaluate`] side by side, [`mod@run`], [`mod@study`], [`report`], [`import`], [`validate`].
 
 #![forbid(unsafe_code)]
 
@@ -31,6 +31,7 @@ pub mod result;
 pub mod run;
 pub mod scenario;
 pub mod simulate;
+pub mod study;
 pub mod validate;
 
 pub use units;

@@ -123,6 +123,18 @@ pub enum Code {
     CurrentLimit,
     /// AB2077
     LevitationParts,
+    /// AB2200
+    StudyScenario,
+    /// AB2201
+    StudyDesign,
+    /// AB2202
+    StudyCorrelation,
+    /// AB2203
+    StudyChanged,
+    /// AB2204
+    StudyInUse,
+    /// AB2205
+    StudyDamaged,
 }
 
 impl Code {
@@ -481,6 +493,42 @@ impl Code {
             "AB2077",
             "Magnet, sensor and controller do not fit",
             "A magnet has no sensor or controller, or one of them belongs to no magnet.",
+        ),
+        (
+            Code::StudyScenario,
+            "AB2200",
+            "Scenario that no study can run",
+            "A study runs a scenario of single runs many times; this one repeats or varies itself, or reads a measurement.",
+        ),
+        (
+            Code::StudyDesign,
+            "AB2201",
+            "Impossible design",
+            "A design is too large, has no members, or cannot be extended.",
+        ),
+        (
+            Code::StudyCorrelation,
+            "AB2202",
+            "Correlated inputs that cannot be",
+            "Effects and indices belong to independent inputs, or the coefficients contradict each other.",
+        ),
+        (
+            Code::StudyChanged,
+            "AB2203",
+            "Another study has this directory",
+            "The study, its scenario or the version of the program differs from that which the directory was begun with.",
+        ),
+        (
+            Code::StudyInUse,
+            "AB2204",
+            "Study in use",
+            "Another process is working on this study.",
+        ),
+        (
+            Code::StudyDamaged,
+            "AB2205",
+            "Damaged study directory",
+            "A file of members cannot be read, or is not of this study.",
         ),
     ];
 

@@ -22,17 +22,17 @@ use std::fs::{self, File, TryLockError};
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
-const SCENARIO: &str = "scenario.toml";
-const SUMMARY: &str = "summary.json";
+pub(super) const SCENARIO: &str = "scenario.toml";
+pub(super) const SUMMARY: &str = "summary.json";
 const HISTORY: &str = "history.parquet";
-const REPORT: &str = "report.html";
+pub(super) const REPORT: &str = "report.html";
 /// What the folder of an export begins with.
 pub(super) const FIRST_TABLE: &str = "run.csv";
 
 /// Values of a channel that are written at once to a measurement file.
 const PIECE: usize = 16_384;
 
-const WRITABLE: &str = "a place with room and permission to write is needed";
+pub(super) const WRITABLE: &str = "a place with room and permission to write is needed";
 
 /// A run directory to be: its place is reserved as `DIR.partial`, and given back unless [`NewDirectory::finish`] is
 /// reached and succeeds.
@@ -369,7 +369,10 @@ pub(super) fn new_file(
 }
 
 /// Writes a file as `FILE.partial`, which gets its name when it is whole. One that a killed process left is written over.
-fn aside(path: &Path, write: impl FnOnce(File) -> std::io::Result<()>) -> Result<(), Box<Problem>> {
+pub(super) fn aside(
+    path: &Path,
+    write: impl FnOnce(File) -> std::io::Result<()>,
+) -> Result<(), Box<Problem>> {
     let nameless = || misplaced(path, &ErrorKind::InvalidFilename.into());
     let fresh = partial_of(path).ok_or_else(nameless)?;
     let file = File::create(&fresh).map_err(|error| misplaced(path, &error))?;
@@ -425,7 +428,7 @@ pub fn write_report(file: &Path, directories: &[PathBuf]) -> Result<(), Box<Prob
 }
 
 /// True for anything of this name, a dangling link too.
-fn exists(path: &Path) -> bool {
+pub(super) fn exists(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok()
 }
 
@@ -442,7 +445,7 @@ fn with_end(path: &Path, word: &str) -> Option<PathBuf> {
 }
 
 /// A directory, locked for this process. An error where another one holds it, or no directory can be locked here.
-fn locked(partial: &Path) -> Result<File, TryLockError> {
+pub(super) fn locked(partial: &Path) -> Result<File, TryLockError> {
     let held = File::open(partial).map_err(TryLockError::Error)?;
     held.try_lock()?;
     match is_at(&held, partial) {
@@ -528,7 +531,7 @@ pub fn failed(path: &Path, error: &std::io::Error) -> Box<Problem> {
 }
 
 /// The error of the system inside one of Parquet, where there is one; else its words.
-fn io_error(error: parquet::errors::ParquetError) -> std::io::Error {
+pub(super) fn io_error(error: parquet::errors::ParquetError) -> std::io::Error {
     use parquet::errors::ParquetError;
     match error {
         ParquetError::External(inner) => match inner.downcast::<std::io::Error>() {

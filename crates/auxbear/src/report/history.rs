@@ -32,10 +32,36 @@ struct About<'a> {
     meaning: &'a str,
 }
 
-/// Writes the columns, which have equal length.
+/// A column to be written.
+pub(super) struct View<'a> {
+    pub name: &'a str,
+    pub unit: &'a str,
+    pub meaning: &'a str,
+    pub values: &'a [f64],
+}
+
+/// Writes the columns of a history, which have equal length.
 pub(super) fn write(file: &File, columns: &[Column]) -> Result<(), ParquetError> {
+    let views: Vec<View> = (columns.iter())
+        .map(|column| View {
+            name: &column.name,
+            unit: column.unit,
+            meaning: &column.meaning,
+            values: &column.values,
+        })
+        .collect();
+    write_table(file, "history", &views, Vec::new())
+}
+
+/// Writes columns of equal length, and more under keys of the file.
+pub(super) fn write_table(
+    file: &File,
+    name: &str,
+    columns: &[View],
+    more: Vec<KeyValue>,
+) -> Result<(), ParquetError> {
     let schema = Arc::new(
-        Type::group_type_builder("history")
+        Type::group_type_builder(name)
             .with_fields(
                 columns
                     .iter()
@@ -45,7 +71,7 @@ pub(super) fn write(file: &File, columns: &[Column]) -> Result<(), ParquetError>
                         } else {
                             Repetition::OPTIONAL
                         };
-                        Type::primitive_type_builder(&column.name, Physical::DOUBLE)
+                        Type::primitive_type_builder(column.name, Physical::DOUBLE)
                             .with_repetition(repetition)
                             .build()
                             .map(Arc::new)
@@ -54,7 +80,7 @@ pub(super) fn write(file: &File, columns: &[Column]) -> Result<(), ParquetError>
             )
             .build()?,
     );
-    let mut writer = SerializedFileWriter::new(file, schema, Arc::new(properties(columns)?))?;
+    let mut writer = SerializedFileWriter::new(file, schema, Arc::new(properties(columns, more)?))?;
     let rows = columns.iter().map(|column| column.values.len()).max();
     for begin in (0..rows.unwrap_or(0)).step_by(GROUP_ROWS) {
         let mut group = writer.next_row_group()?;
@@ -80,20 +106,20 @@ pub(super) fn write(file: &File, columns: &[Column]) -> Result<(), ParquetError>
     Ok(())
 }
 
-fn is_whole(column: &Column) -> bool {
+fn is_whole(column: &View) -> bool {
     column.values.iter().all(|value| value.is_finite())
 }
 
-fn properties(columns: &[Column]) -> Result<WriterProperties, ParquetError> {
+fn properties(columns: &[View], more: Vec<KeyValue>) -> Result<WriterProperties, ParquetError> {
     let metadata: Vec<[(&str, &str); 2]> = columns
         .iter()
-        .map(|column| [("unit", column.unit), ("meaning", &column.meaning)])
+        .map(|column| [("unit", column.unit), ("meaning", column.meaning)])
         .collect();
     let fields: Vec<Field> = columns
         .iter()
         .zip(&metadata)
         .map(|(column, metadata)| Field {
-            name: &column.name,
+            name: column.name,
             nullable: !is_whole(column),
             metadata,
         })
@@ -101,22 +127,24 @@ fn properties(columns: &[Column]) -> Result<WriterProperties, ParquetError> {
     let about: Vec<About> = columns
         .iter()
         .map(|column| About {
-            name: &column.name,
+            name: column.name,
             unit: column.unit,
-            meaning: &column.meaning,
+            meaning: column.meaning,
         })
         .collect();
     let about =
         serde_json::to_string(&about).map_err(|error| ParquetError::External(Box::new(error)))?;
+    let mut keys = vec![
+        KeyValue::new(
+            arrow_schema::KEY.to_string(),
+            arrow_schema::encoded(&fields),
+        ),
+        KeyValue::new(COLUMNS.to_string(), about),
+    ];
+    keys.extend(more);
     Ok(WriterProperties::builder()
         .set_created_by(format!("auxbear {}", env!("CARGO_PKG_VERSION")))
-        .set_key_value_metadata(Some(vec![
-            KeyValue::new(
-                arrow_schema::KEY.to_string(),
-                arrow_schema::encoded(&fields),
-            ),
-            KeyValue::new(COLUMNS.to_string(), about),
-        ]))
+        .set_key_value_metadata(Some(keys))
         // Doubles of a simulation hardly repeat, so a dictionary only adds to them; their bytes of equal rank do.
         .set_dictionary_enabled(false)
         .set_encoding(Encoding::BYTE_STREAM_SPLIT)

@@ -1,4 +1,5 @@
-//! Reports: what a run leaves behind, and the page that shows it.
+//! | [`study`] | a study directory: parts of members, summary, page |
+//! | `summary`Reports: what a run leaves behind, and the page that shows it.
 //!
 //! | page | subject |
 //! |---|---|
@@ -17,6 +18,7 @@ mod history;
 pub mod page;
 mod page_summary;
 pub mod picture;
+pub mod study;
 mod summary;
 mod table;
 mod workbook;

@@ -47,7 +47,7 @@ pub struct PageColumn {
 }
 
 const TEMPLATE: &str = include_str!("page/page.html");
-const STYLE: &[&str] = &[
+pub(super) const STYLE: &[&str] = &[
     include_str!("page/vendor/uPlot.min.css"),
     include_str!("page/page.css"),
 ];
@@ -109,7 +109,7 @@ pub fn html(runs: &[PageRun]) -> String {
 }
 
 /// Replaces each `{{name}}` of the template once; the inserted text itself is never searched.
-fn fill(template: &str, parts: &[(&str, &str)]) -> String {
+pub(super) fn fill(template: &str, parts: &[(&str, &str)]) -> String {
     let mut page = String::new();
     let mut rest = template;
     while let Some((before, after)) = rest.split_once("{{") {
@@ -343,7 +343,7 @@ fn json_text(text: &str) -> String {
     json
 }
 
-fn escape_text(text: &str) -> String {
+pub(super) fn escape_text(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")

@@ -30,24 +30,24 @@ pub fn orbit_svg(run: &PageRun) -> String {
 }
 
 /// A panel and the values its edges stand for.
-struct Panel {
-    left: f64,
-    top: f64,
-    width: f64,
-    height: f64,
-    x: (f64, f64),
-    y: (f64, f64),
+pub(super) struct Panel {
+    pub left: f64,
+    pub top: f64,
+    pub width: f64,
+    pub height: f64,
+    pub x: (f64, f64),
+    pub y: (f64, f64),
 }
 
 impl Panel {
-    fn place(&self, x: f64, y: f64) -> (f64, f64) {
+    pub(super) fn place(&self, x: f64, y: f64) -> (f64, f64) {
         (
             self.left + self.width * (x - self.x.0) / (self.x.1 - self.x.0),
             self.top + self.height * (self.y.1 - y) / (self.y.1 - self.y.0),
         )
     }
 
-    fn axes(&self, svg: &mut String, title: &str, x_label: &str, y_label: &str) {
+    pub(super) fn axes(&self, svg: &mut String, title: &str, x_label: &str, y_label: &str) {
         let (right, bottom) = (self.left + self.width, self.top + self.height);
         text(
             svg,
@@ -423,14 +423,14 @@ fn colour(share: f64) -> String {
     )
 }
 
-fn text(svg: &mut String, x: f64, y: f64, anchor: &str, words: &str) {
+pub(super) fn text(svg: &mut String, x: f64, y: f64, anchor: &str, words: &str) {
     let _ = writeln!(
         svg,
         "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{words}</text>"
     );
 }
 
-fn line(svg: &mut String, from: (f64, f64), to: (f64, f64), colour: &str, style: &str) {
+pub(super) fn line(svg: &mut String, from: (f64, f64), to: (f64, f64), colour: &str, style: &str) {
     let _ = writeln!(
         svg,
         "<line x1=\"{:.1}\" y1=\"{:.1}\" x2=\"{:.1}\" y2=\"{:.1}\" stroke=\"{colour}\" {style}/>",

@@ -17,12 +17,12 @@
 use crate::problem::{Code, Problem, did_you_mean, question};
 use crate::result::outcome::{Judged, Outcome, Quantity, Value, Verdict};
 use crate::scenario::{Limit, Side};
+use study::share::{
+    CONFIDENCE, MOST_MEMBERS, at_least_shown, at_most_shown, more_members, shows_missed,
+    shows_reached,
+};
 use units::{Dimension, Unit};
 
-/// Confidence with which a share of runs is judged.
-const CONFIDENCE: f64 = 0.95;
-/// Most members that are counted for how many would decide.
-const MOST_MEMBERS: usize = 100_000;
 /// The warning of runs that qualify no machine, and what is said instead of a verdict.
 const NO_QUALIFICATION: &str = "AB1095";
 const WITHHELD: &str =
@@ -302,81 +302,6 @@ fn of_share(share: f64, members: usize, hold: usize, open: usize, why: &str) -> 
     )
 }
 
-/// Whether so many that hold show that the share of all is reached.
-fn shows_reached(share: f64, hold: usize, members: usize) -> bool {
-    chance_of_as_many(share, hold, members) <= 1.0 - CONFIDENCE
-}
-
-/// Whether so few that hold show that the share of all is missed.
-fn shows_missed(share: f64, hold: usize, members: usize) -> bool {
-    chance_of_as_many(1.0 - share, members - hold, members) <= 1.0 - CONFIDENCE
-}
-
-/// Least share of all runs that so many of the members show.
-fn at_least_shown(hold: usize, members: usize) -> f64 {
-    if hold == 0 {
-        return 0.0;
-    }
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        match shows_reached(middle, hold, members) {
-            true => low = middle,
-            false => high = middle,
-        }
-    }
-    low
-}
-
-/// Largest share of all runs that so many of the members allow.
-fn at_most_shown(hold: usize, members: usize) -> f64 {
-    1.0 - at_least_shown(members - hold, members)
-}
-
-/// How many more members would decide if the same share of them held; none if too many.
-fn more_members(share: f64, hold: usize, members: usize) -> Option<usize> {
-    let decided = |count: usize| {
-        let held = (hold as f64 / members as f64 * count as f64).round() as usize;
-        shows_reached(share, held, count) || shows_missed(share, held, count)
-    };
-    let (mut low, mut high) = (members, 2 * members.max(1));
-    while !decided(high) {
-        (low, high) = (high, 2 * high);
-        if low > MOST_MEMBERS {
-            return None;
-        }
-    }
-    while high - low > 1 {
-        let middle = low + (high - low) / 2;
-        match decided(middle) {
-            true => high = middle,
-            false => low = middle,
-        }
-    }
-    Some(high - members)
-}
-
-/// Probability that of `members` independent runs `hold` or more hold where each does with probability `share`.
-fn chance_of_as_many(share: f64, hold: usize, members: usize) -> f64 {
-    if hold == 0 || share >= 1.0 {
-        return 1.0;
-    }
-    if share <= 0.0 {
-        return 0.0;
-    }
-    // ln of the terms of the binomial law: their products leave the range of a number
-    let odds = (share / (1.0 - share)).ln();
-    let mut term = members as f64 * (1.0 - share).ln();
-    let mut sum = 0.0;
-    for k in 0..=members {
-        if k >= hold {
-            sum += term.exp();
-        }
-        term += ((members - k) as f64 / (k + 1) as f64).ln() + odds;
-    }
-    sum
-}
-
 /// A share to three digits.
 fn percent(share: f64) -> String {
     let text = format!("{:.2e}", 1e2 * share);
@@ -407,21 +332,6 @@ mod tests {
         values.extend(vec![Some(3.0); broken]);
         values.extend(vec![None; open]);
         judge(limit, "N", &values, "it ended early")
-    }
-
-    #[test]
-    fn the_bounds_are_those_of_tables() {
-        // Clopper and Pearson, one-sided 95 %: 0.05^(1/n) where all hold
-        for members in [1, 10, 59, 300] {
-            let shown = at_least_shown(members, members);
-            assert!((shown - 0.05_f64.powf(1.0 / members as f64)).abs() < 1e-12);
-            assert_eq!(at_most_shown(members, members), 1.0);
-        }
-        // the beta quantiles of 8 of 10 (R: qbeta(0.05, 8, 3), qbeta(0.95, 9, 2)): 0.4930987, 0.9632286
-        assert!((at_least_shown(8, 10) - 0.493_098_7).abs() < 1e-6);
-        assert!((at_most_shown(8, 10) - 0.963_228_6).abs() < 1e-6);
-        // a sum of thousands of terms is still a probability
-        assert!((chance_of_as_many(0.5, 1, 50_000) - 1.0).abs() < 1e-6);
     }
 
     #[test]

@@ -6,6 +6,7 @@
 //! `simulate` integrates motions, `analyse` reads measurements, `evaluate` computes laws without motion.
 
 mod before;
+mod each;
 
 use crate::analyse::{identify, signals};
 use crate::evaluate::{rotor, torque};
@@ -16,6 +17,7 @@ use crate::result::outcome::Quantity;
 pub use crate::result::outcome::{self, Outcome};
 use crate::scenario::{Drop, Rig, Scenario, SpinUp, System};
 use crate::simulate::{drop, rig, spin_up};
+pub use each::{Single, each};
 pub use measure::file::parquet::panic_is_caught;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -102,7 +104,7 @@ impl Machine<'_> {
     }
 
     /// Names and units of what a run will find: a run that is interrupted before its first step has them all.
-    fn results_without_values(&self) -> Vec<Quantity> {
+    pub(crate) fn results_without_values(&self) -> Vec<Quantity> {
         let at_once = AtomicBool::new(true);
         let options = Options::unwatched(&at_once);
         let outcome = match &self.system {

@@ -35,6 +35,8 @@ pub(crate) mod section;
 pub(crate) mod several;
 pub(crate) mod signals;
 pub(crate) mod spin_up;
+pub(crate) mod study_file;
+pub(crate) mod study_section;
 pub(crate) mod system;
 pub(crate) mod table;
 pub(crate) mod template;
@@ -77,6 +79,7 @@ pub use signals::{
     TorqueSignal,
 };
 pub use spin_up::{Course, Drive, SpeedCourse, SpinUp};
+pub use study_file::{STUDY_FORMAT, StudyFile, StudyInput};
 pub use system::SystemName;
 pub use table::{FORMAT, keys, keys_of, presence, sections, sections_of, systems};
 pub use template::template;
@@ -254,6 +257,43 @@ impl Scenario {
         Scenario::of(document, &BuiltIn)
     }
 
+    /// What a study varies of it: a path with its distribution as a table of one word.
+    pub(crate) fn varied(
+        &self,
+        path: &str,
+        raw: &document::Raw,
+        place: crate::problem::Place,
+    ) -> Result<Vary, Box<Problem>> {
+        let section: Vec<&str> = path.splitn(3, '.').collect();
+        if section.len() == 3
+            && self.document.system.has_shaft()
+            && rotor::part_keys::kind_at(&section[..2].join(".")).is_some()
+        {
+            let vary = vary::of_part(path, raw, place, &self.document.file)?;
+            // the part and its key must be there
+            let middle = ::study::design::Coordinate::Share(0.5);
+            self.with(&vary.at(middle).0)?;
+            return Ok(vary);
+        }
+        let documents = self.document.of_each_bearing();
+        let values = (documents.iter())
+            .map(|document| values::Values::resolve(document, &BuiltIn))
+            .collect::<Result<Vec<_>, _>>()?;
+        vary::one(path, raw, place, &values)
+    }
+
+    /// Limits of its results from tables of another file.
+    pub(crate) fn limits_of(
+        &self,
+        file: &str,
+        tables: Vec<Vec<raw::Written>>,
+    ) -> Result<Vec<Limit>, Box<Problem>> {
+        let mut document = self.document.clone();
+        document.file = file.to_string();
+        document.limits = tables;
+        limit::of(&document)
+    }
+
     /// Resolves and checks what was read.
     fn of(
         document: document::Document,
@@ -322,7 +362,7 @@ fn measurement(path: &Path) -> Option<Box<Problem>> {
     )))
 }
 
-fn read_text(path: &Path) -> Result<String, Box<Problem>> {
+pub(crate) fn read_text(path: &Path) -> Result<String, Box<Problem>> {
     const NEEDED: &str = "the path of a scenario file is needed";
     let problem = |code, found: &str| Box::new(Problem::at_path(code, path, found, NEEDED));
     let unreadable = |error: std::io::Error| match error.kind() {

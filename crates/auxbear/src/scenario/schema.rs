@@ -34,6 +34,9 @@ const FRACTION: &str = r"^\s*[+\-]?\d*\.?\d*\s*(/\s*[+\-]?\d+\s*)?$";
 
 /// The JSON Schema (draft 2020-12) of the files of a system; `None` for a kind that is not built yet.
 pub fn schema(kind: &str) -> Option<String> {
+    if kind == super::template::STUDY {
+        return Some(include_str!("study_schema.json").to_string());
+    }
     let system = SystemName::of(kind)?;
     // strings and numbers always serialise
     let text = serde_json::to_string_pretty(&root(system)).unwrap_or_default();

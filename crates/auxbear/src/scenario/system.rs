@@ -38,7 +38,7 @@ impl SystemName {
         "drop", "spin_up", "torque", "signals", "rig", "identify", "rotor", "machine",
     ];
     /// Words of systems that are planned, so that asking for one is no spelling mistake.
-    pub(crate) const PLANNED: &'static [&'static str] = &["study"];
+    pub(crate) const PLANNED: &'static [&'static str] = &["mount"];
 
     /// The word in a file: `spin_up`.
     pub fn word(self) -> &'static str {

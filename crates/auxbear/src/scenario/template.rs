@@ -14,12 +14,19 @@ const EXAMPLES: &[&str] = &[
     "mount.damping",
     "mount.moving_mass",
 ];
+/// The commented starting file of a study.
+const STUDY_TEMPLATE: &str = include_str!("study.toml");
+/// The kind of a study, which is no system.
+pub(crate) const STUDY: &str = "study";
 const LEFT: &str = "example of the starting file";
 /// Width of a comment line.
 const WIDTH: usize = 100;
 
 /// The commented starting file of a kind; `None` for a kind that is not built yet. It reads without a problem.
 pub fn template(kind: &str) -> Option<String> {
+    if kind == STUDY {
+        return Some(STUDY_TEMPLATE.to_string());
+    }
     let system = SystemName::of(kind)?;
     let about = match system {
         SystemName::Drop => "A levitated rotor drops onto its auxiliary bearing.",

@@ -20,6 +20,8 @@ use crate::scenario::table;
 use crate::scenario::values::Values;
 use measure::random::Random;
 use std::f64::consts::TAU;
+use study::design::Coordinate;
+use study::distribution::{self as law, triangular};
 use units::{Dimension, Quantity, parse_quantity};
 
 /// A value of the file that repeated runs draw.
@@ -99,8 +101,67 @@ impl Vary {
             .collect()
     }
 
+    /// What stands at a coordinate of a study: paths with their values, as an override has them, and the first of these as a number:
+    /// in SI, or the place of a text in its list. Nothing where the value is as given.
+    pub fn at(&self, coordinate: Coordinate) -> (Vec<(String, String)>, Option<f64>) {
+        if coordinate == Coordinate::Given {
+            return (Vec::new(), self.given());
+        }
+        let mut first = None;
+        let mut at = |target: &Target| {
+            let number = self.number_at(target.base.unwrap_or_default(), coordinate);
+            first.get_or_insert(number);
+            let text = match &self.distribution {
+                Distribution::Choice(texts) => texts[number as usize].clone(),
+                _ => target.text(number),
+            };
+            (target.path.clone(), text)
+        };
+        let values = self.targets.iter().map(&mut at).collect();
+        (values, first)
+    }
+
+    /// The value of the file as a number, where it is one.
+    fn given(&self) -> Option<f64> {
+        match &self.distribution {
+            Distribution::Choice(_) => None,
+            _ => self.targets[0].base,
+        }
+    }
+
+    fn number_at(&self, base: f64, coordinate: Coordinate) -> f64 {
+        let law = match &self.distribution {
+            Distribution::Lognormal(deviation) => law::Distribution::Lognormal(base, *deviation),
+            Distribution::Normal(deviation) => law::Distribution::Normal(base, *deviation),
+            Distribution::Uniform(low, high) => law::Distribution::Uniform(*low, *high),
+            Distribution::Triangular(low, middle, high) => {
+                law::Distribution::Triangular(*low, *middle, *high)
+            }
+            Distribution::Choice(texts) => law::Distribution::Discrete(texts.len()),
+        };
+        match coordinate {
+            Coordinate::Given => base,
+            Coordinate::Level(at, of) => law.level(at, of),
+            Coordinate::Share(u) => law.quantile(u),
+        }
+    }
+
+    /// SI unit of its values; empty of bare numbers and texts.
+    pub fn unit(&self) -> String {
+        (self.targets[0].dimension).map_or(String::new(), |dimension| dimension.si_unit())
+    }
+
     /// The value as a file has it.
     pub(crate) fn toml(&self) -> String {
+        format!(
+            "{} = {{ {} }}",
+            quoted(&self.path),
+            self.distribution_toml()
+        )
+    }
+
+    /// The distribution as a file has it.
+    pub(crate) fn distribution_toml(&self) -> String {
         let text = |value: &f64| {
             let dimension = self.targets[0].dimension;
             match dimension {
@@ -118,7 +179,7 @@ impl Vary {
             let texts: Vec<String> = values.iter().map(|value| text(value)).collect();
             texts.join(", ")
         };
-        let distribution = match &self.distribution {
+        match &self.distribution {
             Distribution::Lognormal(value) => format!("lognormal = {}", units::number_text(*value)),
             Distribution::Normal(value) => format!("normal = {}", text(value)),
             Distribution::Uniform(low, high) => format!("uniform = [{}]", list(&[low, high])),
@@ -129,8 +190,7 @@ impl Vary {
                 let texts: Vec<String> = texts.iter().map(|text| quoted(text)).collect();
                 format!("choice = [{}]", texts.join(", "))
             }
-        };
-        format!("{} = {{ {distribution} }}", quoted(&self.path))
+        }
     }
 }
 
@@ -144,19 +204,6 @@ impl Target {
             .to_string(),
             None => units::number_text(value),
         }
-    }
-}
-
-/// The value below which the share `u` of a triangular distribution lies.
-fn triangular(low: f64, middle: f64, high: f64, u: f64) -> f64 {
-    let width = high - low;
-    if width <= 0.0 {
-        return middle;
-    }
-    if u * width < middle - low {
-        low + (u * width * (middle - low)).sqrt()
-    } else {
-        high - ((1.0 - u) * width * (high - middle)).sqrt()
     }
 }
 
@@ -220,7 +267,13 @@ fn target(key: &Key, values: &Values) -> Option<Target> {
 
 const WORDS: &str = "one of lognormal, normal, uniform, triangular, choice is needed, e.g. { lognormal = 0.2 }, { uniform = [\"1 mm\", \"2 mm\"] }";
 
-fn one(path: &str, raw: &Raw, place: Place, all: &[Values]) -> Result<Vary, Box<Problem>> {
+/// One value that is varied, with its distribution as a table of one word.
+pub(crate) fn one(
+    path: &str,
+    raw: &Raw,
+    place: Place,
+    all: &[Values],
+) -> Result<Vary, Box<Problem>> {
     let shown = format!("{VARY}.{path}");
     let problem = |code, found: String, allowed: &str| {
         Box::new(
@@ -376,21 +429,62 @@ fn override_text(raw: &Raw) -> Option<String> {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::triangular;
-
-    #[test]
-    fn a_triangular_distribution_has_its_corners_and_its_mean() {
-        let at = |u: f64| triangular(1.0, 2.0, 5.0, u);
-        assert_eq!((at(0.0), at(1.0)), (1.0, 5.0));
-        // a quarter lies below the middle one
-        assert!((at(0.25) - 2.0).abs() < 1e-12);
-        let count = 100_000;
-        let mean: f64 = (0..count)
-            .map(|k| at((f64::from(k) + 0.5) / f64::from(count)))
-            .sum();
-        assert!((mean / f64::from(count) - 8.0 / 3.0).abs() < 1e-6);
-        assert_eq!(triangular(3.0, 3.0, 3.0, 0.4), 3.0);
-    }
+/// A value of a part of a bent rotor that is varied: between values that are given, since none is taken from the part.
+pub(crate) fn of_part(
+    path: &str,
+    raw: &Raw,
+    place: Place,
+    file: &str,
+) -> Result<Vary, Box<Problem>> {
+    let needed = "uniform = [\"1 kg\", \"2 kg\"], triangular with three values or choice with texts is needed for a part of a rotor";
+    let problem = |code| {
+        Box::new(
+            Problem::new(code, file, raw.text(), needed)
+                .at(place)
+                .on_key(path),
+        )
+    };
+    let Raw::Table(parts) = raw else {
+        return Err(problem(Code::WrongType));
+    };
+    let [(word, Raw::List(list))] = parts.as_slice() else {
+        return Err(problem(Code::WrongType));
+    };
+    let number = |raw: &Raw| match raw {
+        Raw::Text(text) => (parse_quantity(text).ok()).map(|q| (q.value_si, Some(q.dimension))),
+        Raw::Float(value) => Some((*value, None)),
+        Raw::Integer(_, Some(value)) => Some((*value as f64, None)),
+        _ => None,
+    };
+    let (distribution, dimension) = if word == "choice" {
+        let texts: Option<Vec<String>> = list.iter().map(override_text).collect();
+        let texts = texts.filter(|texts| !texts.is_empty());
+        let texts = texts.ok_or_else(|| problem(Code::WrongType))?;
+        (Distribution::Choice(texts), None)
+    } else {
+        let numbers: Option<Vec<(f64, Option<Dimension>)>> = list.iter().map(number).collect();
+        let numbers = numbers.ok_or_else(|| problem(Code::UnreadableQuantity))?;
+        let rising = numbers
+            .windows(2)
+            .all(|pair| pair[0].0 <= pair[1].0 && pair[0].1 == pair[1].1);
+        match (word.as_str(), numbers.as_slice()) {
+            ("uniform", [(low, of), (high, _)]) if rising => {
+                (Distribution::Uniform(*low, *high), *of)
+            }
+            ("triangular", [(low, of), (middle, _), (high, _)]) if rising => {
+                (Distribution::Triangular(*low, *middle, *high), *of)
+            }
+            _ => return Err(problem(Code::OutOfRange)),
+        }
+    };
+    Ok(Vary {
+        path: path.to_string(),
+        distribution,
+        by_repeat: false,
+        targets: vec![Target {
+            path: path.to_string(),
+            base: None,
+            dimension,
+        }],
+    })
 }

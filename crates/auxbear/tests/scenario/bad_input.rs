@@ -474,8 +474,8 @@ fn other_formats_and_systems_are_named() {
         "error[AB0111]: drop.toml:1: format: found the number 1; format = \"auxbear.scenario/1\" is needed"
     );
     assert_eq!(
-        message("system = \"drop\"", "system = \"study\""),
-        "error[AB0112]: drop.toml:2: system: found \"study\", which is planned but not built yet; one of \"drop\", \"spin_up\", \"torque\", \"signals\", \"rig\", \"identify\", \"rotor\", \"machine\" is needed"
+        message("system = \"drop\"", "system = \"mount\""),
+        "error[AB0112]: drop.toml:2: system: found \"mount\", which is planned but not built yet; one of \"drop\", \"spin_up\", \"torque\", \"signals\", \"rig\", \"identify\", \"rotor\", \"machine\" is needed"
     );
     assert_eq!(
         set_message("system=dorp"),

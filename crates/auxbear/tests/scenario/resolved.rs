@@ -358,7 +358,7 @@ fn the_starting_file_reads_without_a_problem() {
             assert_eq!(shown, namesake, "{} in {name}", key.path);
         }
     }
-    assert_eq!(template("study"), None);
+    assert_eq!(template("mount"), None);
 }
 
 proptest! {

@@ -55,8 +55,11 @@ pub(crate) fn varied(scenario: &Scenario, drop: &Drop) -> Result<Vec<Varied>, Bo
         .collect()
 }
 
+/// Values that are no real numbers, by their paths.
+pub(crate) type Kind = Vec<(String, Option<String>)>;
+
 /// Values that are no real numbers: machines that share them have the same laws and the same states.
-fn kind_of(scenario: &Scenario) -> Vec<(String, Option<String>)> {
+pub(crate) fn kind_of(scenario: &Scenario) -> Kind {
     let values = scenario.resolved.values.iter();
     values
         .filter(|value| value.is_of_kind())

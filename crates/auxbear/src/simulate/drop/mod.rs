@@ -3,6 +3,7 @@
 pub mod build;
 pub(crate) mod columns;
 pub(crate) mod context;
+pub(crate) mod each;
 pub mod ensemble;
 pub(crate) mod members;
 pub(crate) mod method;

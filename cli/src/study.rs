@@ -1,0 +1,211 @@
+//! `auxbear study`.
+
+use crate::arguments::Study as Wish;
+use crate::digits::readable;
+use crate::exit::Exit;
+use crate::{console, run};
+use auxbear::problem::{Code, Problem};
+use auxbear::report::directory::free_path;
+use auxbear::report::study::{Directory, Done};
+use auxbear::run::Options;
+use auxbear::scenario::StudyFile;
+use auxbear::study::Study;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+/// Time between lines of progress.
+const PAUSE: Duration = Duration::from_secs(2);
+
+/// Begins a study or goes on with it, or runs one of its members with its full report.
+pub fn perform(wish: &Wish) -> Result<Exit, Box<Problem>> {
+    let threads = wish.threads.as_deref().map(run::threads).transpose()?;
+    let file = StudyFile::read(&wish.file)?;
+    let name = wish
+        .file
+        .file_stem()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    let add = wish
+        .add
+        .as_deref()
+        .map(|text| whole(text, "--add"))
+        .transpose()?;
+    if let Some(text) = &wish.member {
+        let file = match add {
+            Some(more) => file.extended(more)?,
+            None => file,
+        };
+        let study = Study::new(file)?;
+        let k = whole(text, "--member")?;
+        if k >= study.members() {
+            let found = format!("member {k} of a study of {} members", study.members());
+            let allowed = format!("a number from 0 to {} is needed", study.members() - 1);
+            let problem = Problem::at_path(Code::OutOfRange, &wish.file, found, allowed);
+            return Err(Box::new(problem.on_key("--member")));
+        }
+        let scenario = study.scenario(k)?;
+        let path = wish
+            .out
+            .clone()
+            .unwrap_or_else(|| free_path(&format!("{name}-member-{k}")));
+        return run::execute(&scenario, &path, threads, wish.quiet);
+    }
+    let path = wish
+        .out
+        .clone()
+        .unwrap_or_else(|| Path::new("runs").join(&name));
+    run::listen(true);
+    let directory = Directory::open(&path, file, add.unwrap_or(0))?;
+    let pace = Pace::new(&directory, wish.quiet);
+    let options = Options {
+        threads: threads.map(usize::from),
+        interrupt: &run::INTERRUPT,
+        progress: &|_| {},
+    };
+    let done = directory.run(&options, &|members| pace.show(members))?;
+    if !wish.quiet {
+        console::print(&text(&path, &directory.study, &done))?;
+    }
+    if done.failed > 0 {
+        console::report(&format!(
+            "{} members failed: summary.json says why",
+            done.failed
+        ));
+    }
+    match done.complete {
+        true => Ok(Exit::Done),
+        false => {
+            let members = done.answer.members;
+            console::report(&format!(
+                "interrupted: {members} of {} members are kept; the same command goes on",
+                done.answer.asked
+            ));
+            Ok(Exit::Interrupted)
+        }
+    }
+}
+
+fn whole(text: &str, key: &str) -> Result<usize, Box<Problem>> {
+    text.trim().parse().map_err(|_| {
+        let needed = "a whole number is needed";
+        let problem = Problem::new(
+            Code::OutOfRange,
+            "auxbear study",
+            format!("\"{text}\""),
+            needed,
+        );
+        Box::new(problem.on_key(key))
+    })
+}
+
+/// Rate and remaining time, a line at a time.
+struct Pace {
+    begin: Instant,
+    there: f64,
+    all: usize,
+    last: Option<Mutex<Instant>>,
+}
+
+impl Pace {
+    fn new(directory: &Directory, quiet: bool) -> Pace {
+        let begin = Instant::now();
+        Pace {
+            begin,
+            there: directory.there as f64,
+            all: directory.study.members(),
+            last: (!quiet).then(|| Mutex::new(begin)),
+        }
+    }
+
+    fn show(&self, members: f64) {
+        let Some(Ok(mut last)) = self.last.as_ref().map(Mutex::lock) else {
+            return;
+        };
+        if last.elapsed() < PAUSE {
+            return;
+        }
+        *last = Instant::now();
+        let rate = (members - self.there) / self.begin.elapsed().as_secs_f64();
+        let left = (self.all as f64 - members) / rate;
+        let left = if left.is_finite() && left >= 0.0 {
+            readable(left, "s")
+        } else {
+            "unknown time".to_string()
+        };
+        console::report(&format!(
+            "study: {members:.0} of {} members, {rate:.1} members/s, {left} left",
+            self.all
+        ));
+    }
+}
+
+/// The verdicts and the results that are shown.
+fn text(path: &Path, study: &Study, done: &Done) -> String {
+    let answer = &done.answer;
+    let mut text = format!(
+        "{}: {} members of a {} design, {} failed\n",
+        PathBuf::from(path).display(),
+        answer.members,
+        study.file.kind,
+        done.failed
+    );
+    let limits: Vec<[String; 4]> = (answer.limits.iter())
+        .map(|limit| {
+            let judged = &limit.judged;
+            let beyond = limit.beyond.map_or(String::new(), |(share, [low, high])| {
+                format!(
+                    "; beyond it {} of members, 95 % interval {} to {}",
+                    percent(share),
+                    percent(low),
+                    percent(high)
+                )
+            });
+            [
+                format!("  {}", judged.verdict.word()),
+                judged.limit.quantity.replace(['_', '.'], " "),
+                format!(
+                    "{} {}",
+                    judged.limit.side.word(),
+                    readable(judged.limit.bound, judged.unit)
+                ),
+                format!("{}{beyond}", judged.why),
+            ]
+        })
+        .collect();
+    if !limits.is_empty() {
+        text.push_str(&format!("limits:\n{}", console::table(&limits)));
+    }
+    let shown = study.shown();
+    let mut rows = vec![["  result", "mean", "deviation", "5 %", "95 %"].map(str::to_string)];
+    for (name, unit, spread) in answer
+        .spreads
+        .iter()
+        .filter(|spread| shown.contains(&spread.0))
+    {
+        let Some(spread) = spread else { continue };
+        let number = |value: f64| readable(value, unit);
+        let name = format!("  {}", name.replace(['_', '.'], " "));
+        rows.push([
+            name,
+            number(spread.mean),
+            number(spread.standard_deviation),
+            number(spread.quantiles[0]),
+            number(spread.quantiles[2]),
+        ]);
+    }
+    if rows.len() > 1 {
+        text.push_str(&format!("results:\n{}", console::table(&rows)));
+    }
+    text
+}
+
+fn percent(share: f64) -> String {
+    format!(
+        "{} %",
+        format!("{:.3}", 100.0 * share)
+            .trim_end_matches('0')
+            .trim_end_matches('.')
+    )
+}

@@ -1,0 +1,236 @@
+//! Studies: the same table however they are computed, and what a study refuses.
+
+use crate::place::Place;
+use serde_json::Value;
+use std::fs;
+use std::thread::sleep;
+use std::time::Duration;
+
+/// A study of 130 members, in three parts, each until past the first contact.
+const STUDY: &str = r#"format = "auxbear.study/1"
+scenario = "drop.toml"
+set = ["run.duration=8 ms", "run.accuracy=screening"]
+seed = 3
+
+[design]
+kind = "monte carlo"
+members = 130
+
+[[input]]
+path = "contact.friction_coefficient"
+lognormal = 0.2
+
+[[input]]
+path = "rotor.mass"
+normal = "0.2 kg"
+
+[[limit]]
+quantity = "first_impact_force"
+most = "700 N"
+share = 0.9
+
+[question]
+results = ["first_impact_force"]
+"#;
+
+fn place(study: &str) -> Place {
+    let place = Place::new();
+    fs::write(place.path("study.toml"), study).unwrap();
+    place
+}
+
+fn table(place: &Place, directory: &str) -> String {
+    fs::read_to_string(place.path(directory).join("members.csv")).unwrap()
+}
+
+#[test]
+fn threads_parts_and_a_kill_leave_the_table_as_it_is() {
+    let place = place(STUDY);
+    place
+        .call(&["study", "study.toml", "--out", "one", "--threads", "1"])
+        .done();
+    let straight = table(&place, "one");
+    assert_eq!(straight.lines().count(), 131);
+    place
+        .call(&[
+            "study",
+            "study.toml",
+            "--out",
+            "two",
+            "--threads",
+            "2",
+            "--quiet",
+        ])
+        .done();
+    assert_eq!(table(&place, "two"), straight);
+
+    // killed once there is a part, whatever else it is doing
+    let words = ["study", "study.toml", "--out", "killed", "--threads", "1"];
+    let mut child = place.command(&words).spawn().unwrap();
+    let part = place.path("killed/members/0000.parquet");
+    while !part.exists() && child.try_wait().unwrap().is_none() {
+        sleep(Duration::from_millis(5));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    place.call(&words).done();
+    assert_eq!(table(&place, "killed"), straight);
+
+    // a part that is gone is computed again
+    fs::remove_file(place.path("two/members/0001.parquet")).unwrap();
+    place.call(&["study", "study.toml", "--out", "two"]).done();
+    assert_eq!(table(&place, "two"), straight);
+
+    let summary: Value = place.summary("one");
+    assert_eq!(summary["complete"], true);
+    assert_eq!(summary["members"], 130);
+    assert_eq!(summary["members_failed"], 0);
+    let limit = &summary["limits"][0];
+    let beyond = limit["share_beyond"]["value"].as_f64().unwrap();
+    let hold = limit["hold"].as_f64().unwrap();
+    assert!((beyond - (1.0 - hold / 130.0)).abs() < 1e-12);
+}
+
+#[test]
+fn more_members_keep_those_that_are_there() {
+    let short = STUDY.replace("members = 130", "members = 6");
+    let place = place(&short);
+    place.call(&["study", "study.toml", "--out", "s"]).done();
+    let before = table(&place, "s");
+    place
+        .call(&["study", "study.toml", "--out", "s", "--add", "3"])
+        .done();
+    let after = table(&place, "s");
+    assert!(after.starts_with(&before) && after.lines().count() == 10);
+    // the same command goes on with the longer design
+    place.call(&["study", "study.toml", "--out", "s"]).done();
+    assert_eq!(table(&place, "s"), after);
+
+    place
+        .call(&["study", "study.toml", "--member", "5", "--out", "m"])
+        .done();
+    let force = place.summary("m")["quantities"]["first_impact_force"]["value"]
+        .as_f64()
+        .unwrap();
+    let head: Vec<&str> = before.lines().next().unwrap().split(',').collect();
+    let at = head
+        .iter()
+        .position(|name| *name == "first_impact_force [N]")
+        .unwrap();
+    let row: Vec<&str> = before.lines().nth(6).unwrap().split(',').collect();
+    let of_study: f64 = row[at].parse().unwrap();
+    // a single run computes its balls side by side: sums in another order
+    assert!((force / of_study - 1.0).abs() < 1e-6, "{force} {of_study}");
+}
+
+#[test]
+fn what_a_study_refuses() {
+    let short = STUDY.replace("members = 130", "members = 2");
+    let place = place(&short);
+    place.call(&["study", "study.toml", "--out", "s"]).done();
+    let refused = |from: &str, to: &str, words: &[&str]| {
+        fs::write(place.path("study.toml"), short.replace(from, to)).unwrap();
+        place
+            .call(&["study", "study.toml", "--out", "s"])
+            .refused(words);
+    };
+    refused(
+        "seed = 3",
+        "seed = 4",
+        &["AB2203", "`seed = 3`", "`seed = 4`"],
+    );
+    refused("8 ms", "9 ms", &["AB2203", "scenario.toml", "duration"]);
+    refused(
+        "lognormal = 0.2",
+        "lognormal = 0.2\nnormal = 0.1",
+        &["AB0109", "study.toml:11"],
+    );
+    refused(
+        "rotor.mass",
+        "rotor.mas",
+        &["AB0101", "study.toml:15", "rotor.mas"],
+    );
+    refused("0.2 kg", "0.2 m", &["AB0105", "study.toml"]);
+    refused(
+        "monte carlo",
+        "monte karlo",
+        &["AB0108", "Did you mean \"monte carlo\"?"],
+    );
+    refused(
+        "\"first_impact_force\"]",
+        "\"first_force\"]",
+        &["AB0340", "question.results"],
+    );
+    refused("members = 2", "members = 0", &["AB0106", "design.members"]);
+    refused(
+        "\"run.duration",
+        "\"repeat.count=4\", \"run.duration",
+        &["AB2200", "repeat.count = 4"],
+    );
+    let correlated = "[question]\n".to_string();
+    let pair = "[[correlation]]\ninputs = [\"rotor.mass\", \"contact.friction_coefficient\"]\ncoefficient = 0.5\n\n[question]\n";
+    let saltelli = short
+        .replace("monte carlo", "saltelli")
+        .replace("members = 2", "blocks = 2");
+    fs::write(
+        place.path("study.toml"),
+        saltelli.replace(&correlated, pair),
+    )
+    .unwrap();
+    place
+        .call(&["study", "study.toml", "--out", "t"])
+        .refused(&["AB2202", "saltelli"]);
+    let sweep = short
+        .replace("monte carlo", "sweep")
+        .replace("members = 2\n", "");
+    fs::write(place.path("study.toml"), sweep).unwrap();
+    place
+        .call(&["study", "study.toml", "--out", "t", "--add", "1"])
+        .refused(&["AB2201", "--add"]);
+    assert!(!place.path("t").join("study.toml").exists());
+    fs::write(place.path("study.toml"), &short).unwrap();
+    let held = fs::File::open(place.path("s")).unwrap();
+    held.try_lock().unwrap();
+    place
+        .call(&["study", "study.toml", "--out", "s"])
+        .refused(&["AB2204"]);
+}
+
+#[test]
+fn a_failed_member_is_kept_with_its_reason() {
+    let study = STUDY.replace("members = 130", "members = 8").replace(
+        "path = \"rotor.mass\"\nnormal = \"0.2 kg\"",
+        "path = \"rotor.mass\"\nuniform = [\"-8 kg\", \"8 kg\"]",
+    );
+    let place = place(&study);
+    place.call(&["study", "study.toml", "--out", "s"]).done();
+    let summary = place.summary("s");
+    let failed = summary["failed"].as_array().unwrap();
+    assert!(!failed.is_empty() && failed.len() < 8, "{failed:?}");
+    assert!(failed[0]["why"].as_str().unwrap().contains("rotor.mass"));
+    assert!(
+        failed[0]["drawn"]["rotor.mass"]
+            .as_str()
+            .unwrap()
+            .starts_with('-')
+    );
+    assert_eq!(
+        summary["quantities"]["first_impact_force"]["members"],
+        8 - failed.len()
+    );
+}
+
+#[test]
+fn the_starting_file_is_a_study_of_the_starting_drop() {
+    let place = Place::new();
+    place.call(&["new", "study", "study.toml"]).done();
+    let text = fs::read_to_string(place.path("study.toml")).unwrap();
+    let short = text.replace("members = 64", "members = 2").replace(
+        "\"run.accuracy=screening\"",
+        "\"run.accuracy=screening\", \"run.duration=8 ms\"",
+    );
+    fs::write(place.path("study.toml"), short).unwrap();
+    place.call(&["study", "study.toml"]).done();
+    let page = fs::read_to_string(place.path("runs/study/report.html")).unwrap();
+    assert!(page.contains("<svg") && !page.contains("NaN") && !page.contains("inf"));
+}

@@ -1,0 +1,304 @@
+//! A study directory: `study.toml`, `scenario.toml`, `members/NNNN.parquet`, then `members.csv`, `summary.json`, `report.html`.
+//!
+//! Each part of the members is a file that gets its name when it is whole, so whatever ends the program, the next call goes on
+//! where files are missing. The directory is locked while a process works on it.
+
+mod page;
+mod part;
+mod summary;
+
+use super::directory::{REPORT, SCENARIO, SUMMARY, aside, exists, locked, misplaced};
+use crate::problem::{Code, Problem};
+use crate::run::Options;
+use crate::scenario::StudyFile;
+use crate::study::answer::Answer;
+use crate::study::table::Table;
+use crate::study::{PART, Study};
+use std::fs::{self, File, TryLockError};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+
+const STUDY: &str = "study.toml";
+const MEMBERS: &str = "members";
+const TABLE: &str = "members.csv";
+/// Members that a thread has at a time, so that its lanes stay full.
+const A_THREAD: usize = 64;
+
+/// A study with its directory, which no other process may use meanwhile.
+pub struct Directory {
+    path: PathBuf,
+    /// The study, with the blocks that were added.
+    pub study: Study,
+    /// Members that were there before.
+    pub there: usize,
+    _lock: Option<File>,
+}
+
+/// What a call left behind.
+pub struct Done {
+    /// What the members say.
+    pub answer: Answer,
+    /// Members that did not end as planned.
+    pub failed: usize,
+    /// Whether all members are there.
+    pub complete: bool,
+}
+
+impl Directory {
+    /// Begins a study, or goes on with one; `add` blocks are added to its design.
+    ///
+    /// # Errors
+    /// Where something else stands there, another process works on it, or its study, scenario or version is another.
+    pub fn open(path: &Path, file: StudyFile, add: usize) -> Result<Directory, Box<Problem>> {
+        let new = !exists(path);
+        Directory::begun(path, file, add, new).inspect_err(|_| {
+            // nothing stands in it yet, or it stays
+            if new {
+                let _ = fs::remove_dir(path);
+            }
+        })
+    }
+
+    fn begun(
+        path: &Path,
+        file: StudyFile,
+        add: usize,
+        new: bool,
+    ) -> Result<Directory, Box<Problem>> {
+        fs::create_dir_all(path).map_err(|error| misplaced(path, &error))?;
+        let lock = match locked(path) {
+            Ok(lock) => Some(lock),
+            Err(TryLockError::WouldBlock) => {
+                let found = "a study that another process works on";
+                let problem = Problem::at_path(
+                    Code::StudyInUse,
+                    path,
+                    found,
+                    "one process a study is possible",
+                );
+                return Err(Box::new(problem));
+            }
+            Err(TryLockError::Error(_)) => None,
+        };
+        let known = path.join(STUDY);
+        let is_empty = || fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_none());
+        let (file, changed) = if known.is_file() {
+            let before = resumed(path, file)?;
+            match add {
+                0 => (before, false),
+                more => (before.extended(more)?, true),
+            }
+        } else if new || is_empty() || only_begun(path) {
+            (if add > 0 { file.extended(add)? } else { file }, true)
+        } else {
+            return Err(super::directory::taken(path));
+        };
+        let study = Study::new(file)?;
+        if changed {
+            let members = path.join(MEMBERS);
+            fs::create_dir_all(&members).map_err(|error| misplaced(&members, &error))?;
+            let scenario = study.file.scenario.resolved.toml();
+            text_file(&path.join(SCENARIO), &scenario)?;
+            text_file(&known, &headed(&study.file))?;
+        }
+        let parts = part_count(&study);
+        let there = (0..parts).filter(|part| part_path(path, *part).exists());
+        let there = there.map(|part| members_of(&study, part).len()).sum();
+        Ok(Directory {
+            path: path.to_path_buf(),
+            study,
+            there,
+            _lock: lock,
+        })
+    }
+
+    /// Computes what is missing, part by part, and writes what all members say. `progress` is told the members done.
+    ///
+    /// # Errors
+    /// What cannot be written, and parts that cannot be read.
+    pub fn run(
+        &self,
+        options: &Options,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Done, Box<Problem>> {
+        // a part that the design has grown beyond is computed anew, with the same numbers
+        let mut open: Vec<usize> = Vec::new();
+        for part in 0..part_count(&self.study) {
+            let wanted = members_of(&self.study, part);
+            let place = part_path(&self.path, part);
+            let whole = place.exists() && part::count(&place)? == wanted.len();
+            if !whole {
+                open.push(part);
+            }
+        }
+        let threads = options.threads.unwrap_or_else(rayon::current_num_threads);
+        let at_once = (threads * A_THREAD).div_ceil(PART).max(1);
+        let mut done = self.study.members()
+            - open
+                .iter()
+                .map(|part| members_of(&self.study, *part).len())
+                .sum::<usize>();
+        for parts in open.chunks(at_once) {
+            let count: usize = parts
+                .iter()
+                .map(|part| members_of(&self.study, *part).len())
+                .sum();
+            let plan = Options {
+                progress: &|fraction| progress(done as f64 + fraction * count as f64),
+                ..*options
+            };
+            for tables in self.computed(parts, &plan).into_iter().flatten() {
+                let (part, table) = tables;
+                let place = part_path(&self.path, part);
+                aside(&place, |file| {
+                    part::write(&file, &table).map_err(super::directory::io_error)
+                })?;
+            }
+            if options.interrupt.load(Ordering::Relaxed) {
+                break;
+            }
+            done += count;
+            progress(done as f64);
+        }
+        self.told()
+    }
+
+    /// Some parts, computed together where they follow each other. None where this was interrupted.
+    fn computed(&self, parts: &[usize], options: &Options) -> Option<Vec<(usize, Table)>> {
+        let follow = parts.windows(2).all(|pair| pair[0] + 1 == pair[1]);
+        let members = |part: usize| members_of(&self.study, part);
+        if !follow {
+            let each = |part: &usize| {
+                let table = self.study.run(members(*part), options)?;
+                let all = 0..table.members.len();
+                Some((*part, table.part(all)))
+            };
+            return parts.iter().map(each).collect();
+        }
+        let (first, last) = (*parts.first()?, *parts.last()?);
+        let all = self
+            .study
+            .run(members(first).start..members(last).end, options)?;
+        let begin = members(first).start;
+        let cut = |part: usize| {
+            let range = members(part);
+            (part, all.part(range.start - begin..range.end - begin))
+        };
+        Some(parts.iter().copied().map(cut).collect())
+    }
+
+    /// Reads all parts and writes what they say.
+    fn told(&self) -> Result<Done, Box<Problem>> {
+        let mut table = Table::default();
+        for part in 0..part_count(&self.study) {
+            let place = part_path(&self.path, part);
+            if place.exists() {
+                table.append(part::read(&place, &self.study)?);
+            }
+        }
+        let names: Vec<&str> = (self.study.known.iter())
+            .map(|known| known.name.as_str())
+            .collect();
+        let table = table.ordered(&names);
+        let answer = self.study.answer(&table);
+        let complete = table.members.len() == self.study.members();
+        let json = summary::json(&self.study, &table, &answer, complete);
+        text_file(&self.path.join(TABLE), &part::csv(&self.study, &table))?;
+        text_file(&self.path.join(SUMMARY), &json)?;
+        text_file(
+            &self.path.join(REPORT),
+            &page::html(&self.study, &table, &answer),
+        )?;
+        Ok(Done {
+            failed: table.failed.len(),
+            answer,
+            complete,
+        })
+    }
+}
+
+/// The study as it stood in its directory, with the blocks that were added; refused where it is another.
+fn resumed(path: &Path, file: StudyFile) -> Result<StudyFile, Box<Problem>> {
+    let known = path.join(STUDY);
+    let read = |name: &str| {
+        let path = path.join(name);
+        fs::read_to_string(&path).map_err(|error| {
+            let found = format!("what cannot be read ({error})");
+            Box::new(Problem::at_path(
+                Code::StudyDamaged,
+                &path,
+                found,
+                "a study directory is needed",
+            ))
+        })
+    };
+    let before = read(STUDY)?;
+    let added = before
+        .lines()
+        .find_map(|line| line.strip_prefix("added = ")?.trim().parse().ok());
+    let added: usize = added.unwrap_or(0);
+    let file = match added.checked_sub(file.added) {
+        Some(more @ 1..) => file.extended(more)?,
+        _ => file,
+    };
+    let differs = |name: &str, before: &str, now: &str| {
+        let at = before.lines().zip(now.lines()).position(|(a, b)| a != b);
+        let at = at.unwrap_or(before.lines().count().min(now.lines().count()));
+        let line = |text: &str| text.lines().nth(at).unwrap_or("nothing").to_string();
+        let found = format!(
+            "another study: there {name} has `{}`, now `{}`",
+            line(before),
+            line(now)
+        );
+        let allowed = "a study goes on with the same files and version; another one needs another --out, more members --add";
+        Err(Box::new(Problem::at_path(
+            Code::StudyChanged,
+            &known,
+            found,
+            allowed,
+        )))
+    };
+    let now = headed(&file);
+    if before != now {
+        return differs(STUDY, &before, &now);
+    }
+    let (before, now) = (read(SCENARIO)?, file.scenario.resolved.toml());
+    if before != now {
+        return differs(SCENARIO, &before, &now);
+    }
+    Ok(file)
+}
+
+/// The resolved study with the version that computes it.
+fn headed(file: &StudyFile) -> String {
+    format!("# auxbear {}\n{}", env!("CARGO_PKG_VERSION"), file.toml())
+}
+
+/// Whether only what a process leaves that was killed at once stands there.
+fn only_begun(path: &Path) -> bool {
+    let known = |entry: fs::DirEntry| {
+        let name = entry.file_name();
+        name == MEMBERS
+            || name.to_string_lossy().starts_with("scenario.toml")
+            || name == "study.toml.partial"
+    };
+    fs::read_dir(path).is_ok_and(|mut entries| entries.all(|entry| entry.is_ok_and(known)))
+}
+
+fn part_count(study: &Study) -> usize {
+    study.members().div_ceil(PART)
+}
+
+fn members_of(study: &Study, part: usize) -> std::ops::Range<usize> {
+    part * PART..((part + 1) * PART).min(study.members())
+}
+
+fn part_path(path: &Path, part: usize) -> PathBuf {
+    path.join(MEMBERS).join(format!("{part:04}.parquet"))
+}
+
+/// Writes a text, whole or not at all.
+fn text_file(path: &Path, text: &str) -> Result<(), Box<Problem>> {
+    aside(path, |mut file| file.write_all(text.as_bytes()))
+}

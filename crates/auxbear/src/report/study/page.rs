@@ -1,0 +1,595 @@
+//! The page of a study: inputs and verdicts first, then what each result does, and which input matters.
+
+use crate::report::page::{STYLE, escape_text as plain};
+use crate::report::picture::{Panel, line, text};
+use crate::result::outcome::Verdict;
+use crate::scenario::{Limit, Side};
+use crate::study::Study;
+use crate::study::answer::{Answer, Sensitivity};
+use crate::study::table::{Column, Table};
+use std::fmt::Write;
+
+const BAR: &str = "#9db8d6";
+const DOT: &str = "#1f5fa8";
+const BOUND: &str = "#b3261e";
+const TOTAL: &str = "#c2571a";
+/// Dots of a picture, at most: every so-manieth member is drawn.
+const MOST_DOTS: usize = 1500;
+
+/// The page as one self-contained text without scripts.
+pub(super) fn html(study: &Study, table: &Table, answer: &Answer) -> String {
+    let title = study
+        .file
+        .title
+        .clone()
+        .unwrap_or_else(|| "Study".to_string());
+    let mut body = format!(
+        "<h1>{}</h1>\n<p class=\"subtitle\">{}</p>\n",
+        plain(&title),
+        plain(&subtitle(study, table, answer))
+    );
+    body.push_str(&inputs(study));
+    body.push_str(&verdicts(answer));
+    body.push_str(&spreads(study, answer));
+    for name in study.shown() {
+        body.push_str(&result(study, table, answer, &name));
+    }
+    body.push_str(&failed(table));
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:\">\n\
+         <title>{} · auxbear study</title>\n<style>\n{}\nfigure svg {{ max-width: 100%; height: auto; }}\n</style>\n</head>\n<body>\n<main>\n{body}</main>\n</body>\n</html>\n",
+        plain(&title),
+        STYLE.concat()
+    )
+}
+
+fn subtitle(study: &Study, table: &Table, answer: &Answer) -> String {
+    let mut text = format!(
+        "{} design, seed {}: {} members",
+        study.file.kind, study.file.seed, answer.members
+    );
+    if answer.members < answer.asked {
+        let _ = write!(
+            text,
+            " of {}, the others are not computed yet",
+            answer.asked
+        );
+    }
+    if !table.failed.is_empty() {
+        let _ = write!(
+            text,
+            "; {} failed and are left out of every number",
+            table.failed.len()
+        );
+    }
+    text
+}
+
+fn rows(head: &[&str], body: &[Vec<String>]) -> String {
+    let cells = |tag: &str, row: &[String]| {
+        row.iter()
+            .map(|cell| format!("<{tag}>{cell}</{tag}>"))
+            .collect::<String>()
+    };
+    let head: Vec<String> = head.iter().map(|text| plain(text)).collect();
+    let body: String = body
+        .iter()
+        .map(|row| format!("<tr>{}</tr>\n", cells("td", row)))
+        .collect();
+    format!(
+        "<div class=\"wide\"><table class=\"quantities\"><thead><tr>{}</tr></thead><tbody>\n{body}</tbody></table></div>\n",
+        cells("th", &head)
+    )
+}
+
+fn inputs(study: &Study) -> String {
+    let row = |input: &crate::scenario::StudyInput| {
+        let given = study
+            .file
+            .scenario
+            .resolved
+            .get(&input.vary.path)
+            .and_then(|value| value.text.clone());
+        vec![
+            format!("<code>{}</code>", plain(&input.vary.path)),
+            plain(&input.vary.distribution_toml()),
+            plain(&given.unwrap_or_default()),
+        ]
+    };
+    let body: Vec<Vec<String>> = study.file.inputs.iter().map(row).collect();
+    let mut out = format!(
+        "<h2>Inputs</h2>\n{}",
+        rows(&["input", "distribution", "as given"], &body)
+    );
+    for (a, b, coefficient) in &study.file.pairs {
+        let name = |k: &usize| plain(&study.file.inputs[*k].vary.path);
+        let _ = writeln!(
+            out,
+            "<p class=\"small\">Correlation of {} and {}: {coefficient}</p>",
+            name(a),
+            name(b)
+        );
+    }
+    out
+}
+
+fn verdicts(answer: &Answer) -> String {
+    let row = |limit: &crate::study::answer::StudyLimit| {
+        let judged = &limit.judged;
+        let word = match judged.verdict {
+            Verdict::Fail => format!("<b class=\"failed\">{}</b>", judged.verdict.word()),
+            _ => format!("<b>{}</b>", judged.verdict.word()),
+        };
+        let beyond = limit
+            .beyond
+            .map_or("–".to_string(), |(share, [low, high])| {
+                format!(
+                    "{} % ({} to {} %)",
+                    short(100.0 * share),
+                    short(100.0 * low),
+                    short(100.0 * high)
+                )
+            });
+        vec![
+            word,
+            plain(&judged.limit.quantity),
+            format!(
+                "{} {}",
+                judged.limit.side.word(),
+                amount(judged.limit.bound, judged.unit)
+            ),
+            judged
+                .value
+                .map_or("–".to_string(), |value| amount(value, judged.unit)),
+            beyond,
+            plain(&judged.why),
+        ]
+    };
+    if answer.limits.is_empty() {
+        return String::new();
+    }
+    let body: Vec<Vec<String>> = answer.limits.iter().map(row).collect();
+    let head = [
+        "verdict",
+        "result",
+        "limit",
+        "decides",
+        "beyond it, with 95 % interval",
+        "why",
+    ];
+    format!("<h2>Limits</h2>\n{}", rows(&head, &body))
+}
+
+fn spreads(study: &Study, answer: &Answer) -> String {
+    let shown = study.shown();
+    let row =
+        |(name, unit, spread): &(String, &'static str, Option<crate::result::outcome::Spread>)| {
+            let spread = spread.as_ref()?;
+            let number = |value: f64| amount(value, unit);
+            let mut cells = vec![
+                plain(name),
+                spread.members.to_string(),
+                number(spread.mean),
+                number(spread.standard_deviation),
+            ];
+            cells.extend(spread.quantiles.map(number));
+            cells.extend([number(spread.smallest), number(spread.largest)]);
+            Some(cells)
+        };
+    let head = [
+        "result",
+        "members",
+        "mean",
+        "deviation",
+        "5 %",
+        "median",
+        "95 %",
+        "smallest",
+        "largest",
+    ];
+    let of = |own: bool| -> Vec<Vec<String>> {
+        answer
+            .spreads
+            .iter()
+            .filter(|spread| shown.contains(&spread.0) == own)
+            .filter_map(row)
+            .collect()
+    };
+    format!(
+        "<h2>Results</h2>\n{}<details><summary>All other results</summary>\n{}</details>\n",
+        rows(&head, &of(true)),
+        rows(&head, &of(false))
+    )
+}
+
+fn failed(table: &Table) -> String {
+    if table.failed.is_empty() {
+        return String::new();
+    }
+    let body: Vec<Vec<String>> = table
+        .failed
+        .iter()
+        .take(100)
+        .map(|(k, why)| vec![k.to_string(), plain(why)])
+        .collect();
+    format!(
+        "<h2>Failed members</h2>\n{}",
+        rows(&["member", "why"], &body)
+    )
+}
+
+/// One result: its histogram, what it owes to each input, and its members over each input.
+fn result(study: &Study, table: &Table, answer: &Answer, name: &str) -> String {
+    let Some(column) = table.column(name) else {
+        return String::new();
+    };
+    let mut out = format!(
+        "<h2>{}</h2>\n<div class=\"pair\">\n",
+        plain(&name.replace(['_', '.'], " "))
+    );
+    let limits: Vec<&Limit> = study
+        .file
+        .limits
+        .iter()
+        .filter(|limit| limit.quantity == name)
+        .collect();
+    out.push_str(&figure(&histogram(column, &limits)));
+    if let Some((.., of)) = answer.sensitivity.iter().find(|(known, ..)| known == name) {
+        out.push_str(&figure(&sensitivity(study, column, of)));
+    }
+    for (at, input) in table.columns[..table.inputs].iter().enumerate() {
+        out.push_str(&figure(&scatter(
+            input,
+            column,
+            &limits,
+            &study.file.inputs[at].vary.path,
+        )));
+    }
+    out.push_str("</div>\n");
+    out
+}
+
+fn figure(svg: &str) -> String {
+    format!("<figure>{svg}</figure>\n")
+}
+
+const WIDTH: f64 = 620.0;
+const HEIGHT: f64 = 300.0;
+
+fn picture(height: f64, draw: impl FnOnce(&mut String)) -> String {
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" width=\"{WIDTH}\" height=\"{height}\" font-size=\"12\" fill=\"#22303c\">\n"
+    );
+    draw(&mut svg);
+    svg.push_str("</svg>");
+    svg
+}
+
+fn panel(x: (f64, f64), y: (f64, f64)) -> Panel {
+    Panel {
+        left: 78.0,
+        top: 32.0,
+        width: WIDTH - 100.0,
+        height: HEIGHT - 84.0,
+        x,
+        y,
+    }
+}
+
+/// Range of values with room on both sides.
+fn room(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (low, high) = values
+        .filter(|v| v.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+            (low.min(v), high.max(v))
+        });
+    let size = low.abs().max(high.abs());
+    match high - low {
+        width if width > 1e-9 * size => (low - 0.04 * width, high + 0.04 * width),
+        _ if size > 0.0 && size.is_finite() => (low - 0.05 * size, high + 0.05 * size),
+        _ => (-1.0, 1.0),
+    }
+}
+
+fn label(column: &Column) -> (f64, String) {
+    scaled(
+        &column.name.replace(['_', '.'], " "),
+        &column.unit,
+        column.values.iter().copied(),
+    )
+}
+
+/// A factor that gives numbers for people, and the label of an axis with its unit.
+fn scaled(name: &str, unit: &str, values: impl Iterator<Item = f64>) -> (f64, String) {
+    let most = values
+        .filter(|v| v.is_finite())
+        .fold(0.0_f64, |most, v| most.max(v.abs()));
+    let power = match unit {
+        "" | "1" => return (1.0, plain(name)),
+        "s" | "m" | "N" | "J" | "W" | "Pa" | "N m" if most > 0.0 => {
+            (most.log10() / 3.0 - 0.1).floor().clamp(-3.0, 3.0) as i32
+        }
+        _ => 0,
+    };
+    let prefix = ["n", "µ", "m", "", "k", "M", "G"][(power + 3) as usize];
+    match power {
+        1.. if unit == "s" || unit == "m" => (1.0, format!("{}, {unit}", plain(name))),
+        _ => (
+            1000_f64.powi(-power),
+            format!("{}, {prefix}{}", plain(name), plain(unit)),
+        ),
+    }
+}
+
+fn histogram(column: &Column, limits: &[&Limit]) -> String {
+    let (factor, label) = label(column);
+    let values: Vec<f64> = column
+        .values
+        .iter()
+        .filter(|v| v.is_finite())
+        .map(|v| v * factor)
+        .collect();
+    let bounds = limits.iter().map(|limit| limit.bound * factor);
+    let (low, high) = room(values.iter().copied());
+    let bins = ((values.len() as f64).sqrt().ceil() as usize).clamp(5, 40);
+    let mut counts = vec![0.0; bins];
+    for value in &values {
+        counts[(((value - low) / (high - low) * bins as f64) as usize).min(bins - 1)] += 1.0;
+    }
+    let most = counts.iter().copied().fold(1.0, f64::max);
+    let axes = panel(room(bounds.clone().chain([low, high])), (0.0, 1.08 * most));
+    picture(HEIGHT, |svg| {
+        axes.axes(svg, "Histogram", &label, "members");
+        for (k, count) in counts.iter().enumerate() {
+            let edge = |k: usize| low + (high - low) * k as f64 / bins as f64;
+            let ((left, top), (right, bottom)) =
+                (axes.place(edge(k), *count), axes.place(edge(k + 1), 0.0));
+            let _ = writeln!(
+                svg,
+                "<rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"{BAR}\" stroke=\"#ffffff\"/>",
+                right - left,
+                bottom - top
+            );
+        }
+        for limit in limits {
+            let at = axes.place(limit.bound * factor, axes.y.0);
+            line(
+                svg,
+                at,
+                (at.0, axes.top),
+                BOUND,
+                "stroke-width=\"1.5\" stroke-dasharray=\"5 3\"",
+            );
+            let anchor = if at.0 > WIDTH / 2.0 { "end" } else { "start" };
+            let shift = if at.0 > WIDTH / 2.0 { -5.0 } else { 5.0 };
+            text(
+                svg,
+                at.0 + shift,
+                axes.top + 14.0,
+                anchor,
+                bound_word(limit),
+            );
+        }
+    })
+}
+
+fn bound_word(limit: &Limit) -> &'static str {
+    match limit.side {
+        Side::Most => "at most",
+        Side::Least => "at least",
+    }
+}
+
+fn scatter(input: &Column, result: &Column, limits: &[&Limit], path: &str) -> String {
+    let named = Column {
+        name: path.to_string(),
+        ..input.clone()
+    };
+    let ((fx, lx), (fy, ly)) = (label(&named), label(result));
+    let both = input
+        .values
+        .iter()
+        .zip(&result.values)
+        .map(|(x, y)| (x * fx, y * fy));
+    let points: Vec<(f64, f64)> = both
+        .filter(|(x, y)| x.is_finite() && y.is_finite())
+        .collect();
+    let axes = panel(
+        room(points.iter().map(|p| p.0)),
+        room(points.iter().map(|p| p.1)),
+    );
+    let lx = match input.meaning.as_str() {
+        "drawn" => lx,
+        words => format!("{lx} ({})", plain(words)),
+    };
+    picture(HEIGHT, |svg| {
+        axes.axes(svg, "", &lx, &ly);
+        for limit in limits {
+            let bound = limit.bound * fy;
+            if axes.y.0 < bound && bound < axes.y.1 {
+                line(
+                    svg,
+                    axes.place(axes.x.0, bound),
+                    axes.place(axes.x.1, bound),
+                    BOUND,
+                    "stroke-width=\"1.5\" stroke-dasharray=\"5 3\"",
+                );
+            }
+        }
+        let every = points.len().div_ceil(MOST_DOTS).max(1);
+        for (x, y) in points.iter().step_by(every) {
+            let (x, y) = axes.place(*x, *y);
+            let _ = writeln!(
+                svg,
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2\" fill=\"{DOT}\" fill-opacity=\"0.55\"/>"
+            );
+        }
+    })
+}
+
+fn sensitivity(study: &Study, column: &Column, of: &Sensitivity) -> String {
+    let paths: Vec<&str> = study
+        .file
+        .inputs
+        .iter()
+        .map(|input| input.vary.path.as_str())
+        .collect();
+    match of {
+        Sensitivity::Effects(effects) => {
+            let known = || {
+                paths
+                    .iter()
+                    .zip(effects)
+                    .filter_map(|(path, effect)| Some((path, (*effect)?)))
+            };
+            let largest = known()
+                .map(|(_, e)| e.mean_size.max(e.deviation))
+                .fold(0.0, f64::max);
+            let (factor, _) = scaled("", &column.unit, [largest].into_iter());
+            let axes = panel(
+                room([0.0, factor * largest].into_iter()),
+                room([0.0, factor * largest].into_iter()),
+            );
+            let name = |what: &str| scaled(what, &column.unit, [largest].into_iter()).1;
+            picture(HEIGHT, |svg| {
+                axes.axes(
+                    svg,
+                    "Elementary effects, over the whole range of an input",
+                    &name("mean size μ*"),
+                    &name("deviation σ"),
+                );
+                for (path, effect) in known() {
+                    let (x, y) = axes.place(factor * effect.mean_size, factor * effect.deviation);
+                    let _ = writeln!(
+                        svg,
+                        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"{DOT}\"/>"
+                    );
+                    let (anchor, shift) = if x > 0.6 * WIDTH {
+                        ("end", -7.0)
+                    } else {
+                        ("start", 7.0)
+                    };
+                    text(svg, x + shift, y - 5.0, anchor, &plain(path));
+                }
+            })
+        }
+        Sensitivity::Indices(indices) => {
+            let rows: Vec<Bars> = (paths.iter().zip(indices))
+                .map(|(path, index)| Bars {
+                    name: path,
+                    bars: vec![
+                        (0.0, index.first.value, Some(index.first.band), DOT),
+                        (0.0, index.total.value, Some(index.total.band), TOTAL),
+                    ],
+                })
+                .collect();
+            bars(
+                &rows,
+                "Sobol indices with 95 % bands: blue first order, orange total",
+                "share of the variance",
+            )
+        }
+        Sensitivity::Sweep(given, ranges) => {
+            let (factor, label) = label(column);
+            let rows: Vec<Bars> = (paths.iter().zip(ranges))
+                .filter_map(|(path, range)| {
+                    range.map(|[low, high]| Bars {
+                        name: path,
+                        bars: vec![(factor * low, factor * high, None, DOT)],
+                    })
+                })
+                .collect();
+            let title = match given {
+                Some(value) => format!(
+                    "Range over each input alone; {} as given",
+                    amount(*value, &column.unit)
+                ),
+                None => "Range over each input alone".to_string(),
+            };
+            bars(&rows, &title, &label)
+        }
+    }
+}
+
+/// Bars of one input: from, to, band, colour.
+struct Bars<'a> {
+    name: &'a str,
+    bars: Vec<(f64, f64, Option<[f64; 2]>, &'static str)>,
+}
+
+fn bars(rows: &[Bars], title: &str, label: &str) -> String {
+    let ends = rows.iter().flat_map(|row| {
+        row.bars.iter().flat_map(|(from, to, band, _)| {
+            [*from, *to]
+                .into_iter()
+                .chain(band.iter().flatten().copied())
+        })
+    });
+    let row_height = 34.0;
+    let height = 96.0 + row_height * rows.len() as f64;
+    let axes = Panel {
+        left: 230.0,
+        top: 32.0,
+        width: WIDTH - 250.0,
+        height: height - 84.0,
+        x: room(ends),
+        y: (0.0, 1e9),
+    };
+    picture(height, |svg| {
+        let (top, bottom) = (axes.top, axes.top + axes.height);
+        // ticks of the values alone: the rows have names
+        let mut own = String::new();
+        axes.axes(&mut own, title, label, "");
+        svg.push_str(
+            &own.lines()
+                .filter(|line| !line.contains("text-anchor=\"end\""))
+                .map(|line| format!("{line}\n"))
+                .collect::<String>(),
+        );
+        for (k, row) in rows.iter().enumerate() {
+            let y = top + (bottom - top) * (k as f64 + 0.5) / rows.len() as f64;
+            text(svg, axes.left - 8.0, y + 4.0, "end", &plain(row.name));
+            let thick = 18.0 / row.bars.len() as f64;
+            for (at, (from, to, band, colour)) in row.bars.iter().enumerate() {
+                let (a, b) = (axes.place(*from, 0.0).0, axes.place(*to, 0.0).0);
+                let y = y - 9.0 + thick * at as f64;
+                let _ = writeln!(
+                    svg,
+                    "<rect x=\"{:.1}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"{colour}\" fill-opacity=\"0.6\"/>",
+                    a.min(b),
+                    (b - a).abs().max(1.0),
+                    thick - 1.0
+                );
+                if let Some([low, high]) = band {
+                    let middle = y + thick / 2.0 - 0.5;
+                    line(
+                        svg,
+                        (axes.place(*low, 0.0).0, middle),
+                        (axes.place(*high, 0.0).0, middle),
+                        "#22303c",
+                        "stroke-width=\"1.2\"",
+                    );
+                }
+            }
+        }
+    })
+}
+
+/// A number to four digits.
+fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    units::number_text(rounded)
+}
+
+/// A number with its unit, for people.
+fn amount(value: f64, unit: &str) -> String {
+    let (factor, label) = scaled("", unit, [value].into_iter());
+    format!(
+        "{} {}",
+        short(factor * value),
+        label.trim_start_matches(", ")
+    )
+    .trim()
+    .to_string()
+}

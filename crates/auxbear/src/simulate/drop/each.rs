@@ -1,0 +1,126 @@
+//! Many drops of machines that differ: each a single run, in lanes and threads with those of its kind.
+
+use crate::options::Options;
+use crate::problem::Problem;
+use crate::result::outcome::{Quantity, Stop};
+use crate::scenario::{Drop, Scenario};
+use crate::simulate::drop::build::{self, Built};
+use crate::simulate::drop::context::Context;
+use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
+use crate::simulate::drop::members::{Kind, kind_of};
+use crate::simulate::drop::method::{Stepping, stepping};
+use crate::simulate::drop::quantities;
+use crate::simulate::ending::{settings_at, stop};
+use model::system::machine::RotorMachine;
+use rayon::prelude::*;
+use std::sync::Mutex;
+
+/// A drop that is ready to run.
+pub(crate) struct One {
+    drop: Drop,
+    built: Built,
+    machine: RotorMachine,
+    stepping: Stepping,
+    kind: Kind,
+}
+
+/// Builds a drop of its scenario.
+pub(crate) fn one(scenario: &Scenario, drop: &Drop) -> Result<One, Box<Problem>> {
+    let built = build::drop(drop)?;
+    let machine = RotorMachine::new(built.constants.clone());
+    Ok(One {
+        stepping: stepping(drop, &built, machine.tangents()),
+        kind: kind_of(scenario),
+        drop: drop.clone(),
+        built,
+        machine,
+    })
+}
+
+/// Runs all of them; results and endings stand in their order.
+pub(crate) fn run(all: &[One], options: &Options) -> Vec<(Vec<Quantity>, Stop)> {
+    // those that can share lanes and settings
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for (k, one) in all.iter().enumerate() {
+        let fits = |group: &&mut Vec<usize>| {
+            let first = &all[group[0]];
+            first.kind == one.kind
+                && first.stepping == one.stepping
+                && first.drop.run == one.drop.run
+        };
+        match groups.iter_mut().find(fits) {
+            Some(group) => group.push(k),
+            None => groups.push(vec![k]),
+        }
+    }
+    let done = Mutex::new(vec![0.0; groups.len()]);
+    let of_group = |(at, group): (usize, &Vec<usize>)| {
+        let progress = |fraction: f64| {
+            if let Ok(mut done) = done.lock() {
+                done[at] = fraction * group.len() as f64;
+                (options.progress)(done.iter().sum::<f64>() / all.len() as f64);
+            }
+        };
+        together(all, group, options, &progress)
+    };
+    let finished: Vec<Vec<(Vec<Quantity>, Stop)>> =
+        groups.par_iter().enumerate().map(of_group).collect();
+    let mut list: Vec<Option<(Vec<Quantity>, Stop)>> = all.iter().map(|_| None).collect();
+    for (place, result) in groups
+        .into_iter()
+        .flatten()
+        .zip(finished.into_iter().flatten())
+    {
+        list[place] = Some(result);
+    }
+    list.into_iter().flatten().collect()
+}
+
+/// Drops of one kind.
+fn together(
+    all: &[One],
+    group: &[usize],
+    options: &Options,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Vec<(Vec<Quantity>, Stop)> {
+    let members: Vec<Member> = group.iter().map(|k| member(&all[*k])).collect();
+    let first = &all[group[0]];
+    let finished = ensemble::run(
+        &members,
+        &Plan {
+            settings: settings_at(&first.drop.run, first.stepping.tolerance),
+            steps: first.stepping.steps,
+            interval: first.drop.run.output_interval,
+            // those of the pool in which this is called
+            threads: None,
+            interrupt: options.interrupt,
+            progress,
+        },
+    );
+    let named = |(k, finished): (&usize, &Finished)| {
+        let one = &all[*k];
+        let context = Context {
+            drop: &one.drop,
+            built: &one.built,
+            machine: &one.machine,
+            finished,
+            members: 1,
+        };
+        (quantities::name(&context), stop(&finished.ending))
+    };
+    group.iter().zip(&finished).map(named).collect()
+}
+
+/// The machine with its start; its history is not kept.
+fn member(one: &One) -> Member {
+    let start = match &one.built.shaft {
+        Some(shaft) => one.machine.start_with(&shaft.position, &shaft.velocity),
+        None => one.machine.start(),
+    };
+    Member {
+        machine: one.machine.clone(),
+        start,
+        keep_rows: false,
+        kind: 0,
+    }
+}

@@ -1,0 +1,184 @@
+//! What the members of a study say: spread of each result, limits with their verdicts, which input matters.
+
+use super::Study;
+use super::table::Table;
+use crate::result::limits;
+use crate::result::outcome::{Judged, Spread, Value, Verdict};
+use crate::scenario::Limit;
+use ::study::design::Design;
+use ::study::elementary::{Effect, effects};
+use ::study::indices::{Index, indices};
+use ::study::share;
+
+/// Draws of the bands of indices, apart from those of the design.
+const BANDS: u64 = 0xd1b5_4a32_d192_ed03;
+
+/// What the members of a study say.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// Members computed.
+    pub members: usize,
+    /// Members of the design.
+    pub asked: usize,
+    /// Each result with its spread over the members that are a sample, or over all of a design that is none.
+    pub spreads: Vec<(String, &'static str, Option<Spread>)>,
+    /// Limits with their verdicts.
+    pub limits: Vec<StudyLimit>,
+    /// What each result that is shown owes to each input.
+    pub sensitivity: Vec<(String, &'static str, Sensitivity)>,
+}
+
+/// A limit with its verdict.
+#[derive(Clone, Debug)]
+pub struct StudyLimit {
+    /// The verdict.
+    pub judged: Judged,
+    /// Share of members beyond the bound with both ends of its 95 % interval; none where members are no sample or lack values.
+    pub beyond: Option<(f64, [f64; 2])>,
+}
+
+/// What a result owes to each input, in their order.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Sensitivity {
+    /// The result at the values given, and its smallest and largest value over the levels of each input alone.
+    Sweep(Option<f64>, Vec<Option<[f64; 2]>>),
+    /// Elementary effects.
+    Effects(Vec<Option<Effect>>),
+    /// Sobol indices.
+    Indices(Vec<Index>),
+}
+
+impl Study {
+    /// Names of the results that the page shows: those asked for, else those of limits, else the first ones.
+    pub fn shown(&self) -> Vec<String> {
+        const FEW: usize = 4;
+        let mut names: Vec<String> = match self.file.results.is_empty() {
+            false => self
+                .file
+                .results
+                .iter()
+                .map(|(name, _)| name.clone())
+                .collect(),
+            true => self
+                .file
+                .limits
+                .iter()
+                .map(|limit| limit.quantity.clone())
+                .collect(),
+        };
+        let mut seen = Vec::new();
+        names.retain(|name| !seen.contains(name) && (seen.push(name.clone()), true).1);
+        if names.is_empty() {
+            let numbers = |value: &Value| matches!(value, Value::Number(_) | Value::None { .. });
+            let all = self.known.iter().filter(|known| numbers(&known.value));
+            names.extend(all.take(FEW).map(|known| known.name.clone()));
+        }
+        names
+    }
+
+    /// What these members say.
+    pub fn answer(&self, table: &Table) -> Answer {
+        let design = &self.file.design;
+        let is_sample = (0..table.members.len()).any(|at| design.is_sample(table.members[at]));
+        let asked = |at: &usize| !is_sample || design.is_sample(table.members[*at]);
+        let some: Vec<usize> = (0..table.members.len()).filter(asked).collect();
+        let of = |name: &str| {
+            let values = table.values(name);
+            some.iter().map(|at| values[*at]).collect::<Vec<_>>()
+        };
+        let numbers = |value: &Value| matches!(value, Value::Number(_) | Value::None { .. });
+        let named = self.known.iter().filter(|known| numbers(&known.value));
+        let spreads = named.clone().map(|known| {
+            let values = of(&known.name).into_iter().flatten().collect();
+            (known.name.clone(), known.unit, Spread::of(values))
+        });
+        let limits = self.file.limits.iter().map(|limit| {
+            let unit = named.clone().find(|known| known.name == limit.quantity);
+            let values = of(&limit.quantity);
+            limit_of(
+                limit,
+                unit.map_or("", |known| known.unit),
+                &values,
+                is_sample,
+            )
+        });
+        let sensitivity = self.shown().into_iter().filter_map(|name| {
+            let unit = named.clone().find(|known| known.name == name)?.unit;
+            // a design knows its members by their numbers, and some may not be there yet
+            let mut values = vec![None; self.members()];
+            for (member, value) in table.members.iter().zip(table.values(&name)) {
+                if let Some(place) = values.get_mut(*member) {
+                    *place = value;
+                }
+            }
+            let of_it = self.sensitivity(&values)?;
+            Some((name, unit, of_it))
+        });
+        Answer {
+            members: table.members.len(),
+            asked: self.members(),
+            spreads: spreads.collect(),
+            limits: limits.collect(),
+            sensitivity: sensitivity.collect(),
+        }
+    }
+
+    fn sensitivity(&self, values: &[Option<f64>]) -> Option<Sensitivity> {
+        let seed = self.file.seed;
+        match &self.file.design {
+            Design::Morris(inputs, _) => Some(Sensitivity::Effects(effects(seed, *inputs, values))),
+            Design::Saltelli(inputs, _) => {
+                indices(seed ^ BANDS, *inputs, values).map(Sensitivity::Indices)
+            }
+            Design::Sweep(levels) => {
+                let mut next = 1;
+                let range = |count: &usize| {
+                    let own = values.get(next..next + count).unwrap_or_default();
+                    next += count;
+                    let found: Vec<f64> = own.iter().flatten().copied().collect();
+                    let low = found.iter().copied().fold(f64::INFINITY, f64::min);
+                    let high = found.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                    (low <= high).then_some([low, high])
+                };
+                let ranges = levels.iter().map(range).collect();
+                Some(Sensitivity::Sweep(
+                    values.first().copied().flatten(),
+                    ranges,
+                ))
+            }
+            Design::Factorial(_)
+            | Design::MonteCarlo(..)
+            | Design::LatinHypercube(..)
+            | Design::Sobol(..) => None,
+        }
+    }
+}
+
+/// A limit judged: by the bounds of a share where members are a sample, else by counting.
+fn limit_of(
+    limit: &Limit,
+    unit: &'static str,
+    values: &[Option<f64>],
+    is_sample: bool,
+) -> StudyLimit {
+    const LACKING: &str = "they failed, or have no such result";
+    let mut judged = limits::judge(limit, unit, values, LACKING);
+    let known = values.iter().flatten().count();
+    if !is_sample {
+        let broken = known - judged.hold;
+        judged.verdict = match (broken, values.len() - known) {
+            (0, 0) => Verdict::Pass,
+            (0, _) => Verdict::Undecided,
+            _ => Verdict::Fail,
+        };
+        judged.why = format!(
+            "{broken} of {known} members with a value break it; members of this design are no sample, so no probability follows"
+        );
+    }
+    let whole = is_sample && known == values.len() && known > 0;
+    let beyond = known - judged.hold;
+    StudyLimit {
+        beyond: whole.then(|| (beyond as f64 / known as f64, share::wilson(beyond, known))),
+        judged,
+    }
+}

@@ -1,0 +1,156 @@
+//! Many runs of one scenario: which values each member takes, what it gives, and what all of them say.
+//!
+//! | page | subject |
+//! |---|---|
+//! | here | a study ready to run; its members, one after the other in parts of [`PART`] |
+//! | [`table`] | drawn inputs beside results, a row a member |
+//! | [`answer`] | spread, limits and sensitivity from that table |
+
+pub mod answer;
+pub mod table;
+
+use crate::problem::Problem;
+use crate::result::limits;
+use crate::result::outcome::{Quantity, Value};
+use crate::run::{self, Options};
+use crate::scenario::{Scenario, StudyFile};
+use ::study::design::Coordinate;
+use std::ops::Range;
+use table::{Column, Row, Table};
+
+/// Members of a part, which is kept when all of it is computed.
+pub const PART: usize = 64;
+
+/// A study that is ready to run.
+pub struct Study {
+    /// What it asks.
+    pub file: StudyFile,
+    /// The results of a run, with unit and law, without values.
+    pub known: Vec<Quantity>,
+}
+
+/// What a member drew.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawn {
+    /// Paths with their values, as an override has them.
+    pub values: Vec<(String, String)>,
+    /// Each input as a number: in SI, or the place of a text in its list; not a number where it is as given and no number.
+    pub numbers: Vec<f64>,
+}
+
+impl Study {
+    /// Checks that the scenario can be run and has the results that are asked for.
+    ///
+    /// # Errors
+    /// What is wrong with scenario, limits or results.
+    pub fn new(file: StudyFile) -> Result<Study, Box<Problem>> {
+        let machine = run::build(&file.scenario)?;
+        let known = machine.results_without_values();
+        drop(machine);
+        let own = file.limits.len() - file.scenario.limits.len();
+        limits::check(&file.limits[..own], &known, &[]).map_err(|mut problem| {
+            problem.file.clone_from(&file.file);
+            problem
+        })?;
+        for (name, place) in &file.results {
+            let number = |known: &&Quantity| {
+                known.name == *name && matches!(known.value, Value::Number(_) | Value::None { .. })
+            };
+            if !known.iter().any(|quantity| number(&quantity)) {
+                use crate::problem::{Code, did_you_mean};
+                let names = known.iter().map(|known| known.name.as_str());
+                let problem = Problem::new(
+                    Code::UnknownQuantity,
+                    &file.file,
+                    format!("\"{name}\", which is no number among the results of this scenario"),
+                    "the name of a result is needed; summary.json of any such run lists them",
+                );
+                let problem = problem.at(*place).on_key("question.results");
+                return Err(Box::new(problem.with_hint(did_you_mean(name, names))));
+            }
+        }
+        Ok(Study { file, known })
+    }
+
+    /// Number of members.
+    pub fn members(&self) -> usize {
+        self.file.design.members().unwrap_or(0)
+    }
+
+    /// What member k draws.
+    pub fn drawn(&self, k: usize) -> Drawn {
+        let file = &self.file;
+        let mut coordinates = file.design.member(file.seed, k);
+        if let Some(correlation) = &file.correlation {
+            let share = |coordinate: &Coordinate| match coordinate {
+                Coordinate::Share(u) => *u,
+                _ => 0.5,
+            };
+            let independent: Vec<f64> = coordinates.iter().map(share).collect();
+            let mixed = correlation.apply(&independent);
+            coordinates = mixed.into_iter().map(Coordinate::Share).collect();
+        }
+        let mut drawn = Drawn {
+            values: Vec::new(),
+            numbers: Vec::new(),
+        };
+        for (input, coordinate) in file.inputs.iter().zip(coordinates) {
+            let (values, number) = input.vary.at(coordinate);
+            drawn.values.extend(values);
+            drawn.numbers.push(number.unwrap_or(f64::NAN));
+        }
+        drawn
+    }
+
+    /// The scenario of member k.
+    ///
+    /// # Errors
+    /// What a file with these values would be refused for.
+    pub fn scenario(&self, k: usize) -> Result<Scenario, Box<Problem>> {
+        self.file.scenario.with(&self.drawn(k).values)
+    }
+
+    /// Runs some members. None where this was interrupted.
+    pub fn run(&self, members: Range<usize>, options: &Options) -> Option<Table> {
+        let drawn: Vec<Drawn> = members.clone().map(|k| self.drawn(k)).collect();
+        let read = |drawn: &Drawn| self.file.scenario.with(&drawn.values);
+        let scenarios: Vec<_> = {
+            use rayon::prelude::*;
+            drawn.par_iter().map(read).collect()
+        };
+        let singles = run::each(&scenarios, options);
+        if options.interrupt.load(std::sync::atomic::Ordering::Relaxed) {
+            return None;
+        }
+        let rows = (members.zip(drawn).zip(singles)).map(|((member, drawn), single)| Row {
+            member,
+            inputs: drawn.numbers,
+            whole: single.stop.complete(),
+            why: (!single.stop.complete()).then_some(single.stop.text),
+            results: single.quantities,
+        });
+        Some(Table::of(self.input_columns(), rows.collect()))
+    }
+
+    /// Columns of the inputs, without values.
+    pub fn input_columns(&self) -> Vec<Column> {
+        let column = |input: &crate::scenario::StudyInput| {
+            let meaning = match &input.vary.distribution {
+                crate::scenario::Distribution::Choice(texts) => {
+                    let words: Vec<String> = (texts.iter().enumerate())
+                        .map(|(k, text)| format!("{k}: {text}"))
+                        .collect();
+                    words.join(", ")
+                }
+                _ => "drawn".to_string(),
+            };
+            Column {
+                name: format!("input.{}", input.vary.path),
+                unit: input.vary.unit(),
+                meaning,
+                values: Vec::new(),
+            }
+        };
+        self.file.inputs.iter().map(column).collect()
+    }
+}

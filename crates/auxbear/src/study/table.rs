@@ -1,0 +1,168 @@
+//! Drawn inputs beside results: a row a member, a column with unit an input or result.
+
+use crate::result::outcome::{Quantity, Value};
+use std::collections::BTreeMap;
+
+/// Members with what they drew and gave; what a member does not have is not a number.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// Members in their order.
+    pub members: Vec<usize>,
+    /// Inputs first, then results.
+    pub columns: Vec<Column>,
+    /// How many of the columns are inputs.
+    pub inputs: usize,
+    /// Members that did not end as planned, with the reason.
+    pub failed: BTreeMap<usize, String>,
+}
+
+/// An input or a result of all members.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Column {
+    /// Its name; inputs begin with `input.`.
+    pub name: String,
+    /// SI unit.
+    pub unit: String,
+    /// What it is.
+    pub meaning: String,
+    /// A value a member.
+    pub values: Vec<f64>,
+}
+
+/// One member.
+pub(super) struct Row {
+    pub member: usize,
+    pub inputs: Vec<f64>,
+    pub whole: bool,
+    pub why: Option<String>,
+    pub results: Vec<Quantity>,
+}
+
+impl Table {
+    pub(super) fn of(inputs: Vec<Column>, rows: Vec<Row>) -> Table {
+        let mut table = Table {
+            inputs: inputs.len(),
+            columns: inputs,
+            ..Table::default()
+        };
+        for row in rows {
+            table.members.push(row.member);
+            for (column, value) in table.columns.iter_mut().zip(row.inputs) {
+                column.values.push(value);
+            }
+            if let Some(why) = row.why {
+                table.failed.insert(row.member, why);
+            }
+            for result in &row.results {
+                let value = match result.value {
+                    Value::Number(value) => value,
+                    Value::None { .. } => f64::NAN,
+                    Value::List(_) | Value::Text(_) => continue,
+                };
+                let known = table
+                    .columns
+                    .iter()
+                    .position(|column| column.name == result.name);
+                let at = known.unwrap_or_else(|| {
+                    table.columns.push(Column {
+                        name: result.name.clone(),
+                        unit: result.unit.to_string(),
+                        meaning: result.law.to_string(),
+                        values: Vec::new(),
+                    });
+                    table.columns.len() - 1
+                });
+                // results of a run that ended early are those of another question
+                let value = if row.whole { value } else { f64::NAN };
+                let before = table.members.len() - 1;
+                table.columns[at].values.resize(before, f64::NAN);
+                table.columns[at].values.push(value);
+            }
+            let count = table.members.len();
+            for column in &mut table.columns {
+                column.values.resize(count, f64::NAN);
+            }
+        }
+        table
+    }
+
+    /// The same with results in the order of these names, others behind them by their names: however parts were computed
+    /// together, the table is the same.
+    pub fn ordered(mut self, names: &[&str]) -> Table {
+        let place = |column: &Column| {
+            let known = names.iter().position(|name| *name == column.name);
+            (known.unwrap_or(names.len()), column.name.clone())
+        };
+        self.columns[self.inputs..].sort_by_cached_key(place);
+        self
+    }
+
+    /// Adds the members of another table behind these.
+    pub fn append(&mut self, other: Table) {
+        if self.columns.is_empty() {
+            *self = other;
+            return;
+        }
+        let before = self.members.len();
+        self.members.extend(other.members);
+        self.failed.extend(other.failed);
+        for column in other.columns {
+            let known = self.columns.iter().position(|own| own.name == column.name);
+            let at = known.unwrap_or_else(|| {
+                let fresh = Column {
+                    values: vec![f64::NAN; before],
+                    ..column.clone()
+                };
+                self.columns.push(fresh);
+                self.columns.len() - 1
+            });
+            self.columns[at].values.extend(column.values);
+        }
+        for column in &mut self.columns {
+            column.values.resize(self.members.len(), f64::NAN);
+        }
+    }
+
+    /// Some of the rows; results that none of these members has are left out, as if they were computed alone.
+    pub fn part(&self, rows: std::ops::Range<usize>) -> Table {
+        let members = self.members[rows.clone()].to_vec();
+        let failed = self
+            .failed
+            .iter()
+            .filter(|(member, _)| members.contains(member));
+        let columns = self.columns.iter().enumerate().map(|(at, column)| {
+            let values = column.values[rows.clone()].to_vec();
+            (
+                at,
+                Column {
+                    values,
+                    ..column.clone()
+                },
+            )
+        });
+        let has = |column: &Column| column.values.iter().any(|value| !value.is_nan());
+        Table {
+            failed: failed.map(|(member, why)| (*member, why.clone())).collect(),
+            columns: columns
+                .filter(|(at, column)| *at < self.inputs || has(column))
+                .map(|(_, column)| column)
+                .collect(),
+            inputs: self.inputs,
+            members,
+        }
+    }
+
+    /// A column by its name.
+    pub fn column(&self, name: &str) -> Option<&Column> {
+        self.columns.iter().find(|column| column.name == name)
+    }
+
+    /// A result of each member; none of those that lack it.
+    pub fn values(&self, name: &str) -> Vec<Option<f64>> {
+        let finite = |value: &f64| value.is_finite().then_some(*value);
+        match self.column(name) {
+            Some(column) => column.values.iter().map(finite).collect(),
+            None => vec![None; self.members.len()],
+        }
+    }
+}
