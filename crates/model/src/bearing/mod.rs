@@ -19,6 +19,7 @@
 pub mod acceleration_loss;
 pub mod ball;
 pub mod ball_pair;
+pub mod ball_reaction;
 pub mod ball_states;
 pub(crate) mod ball_sums;
 pub mod cage;
