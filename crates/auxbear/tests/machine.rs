@@ -377,6 +377,40 @@ fn what_cannot_be_is_refused_with_its_place() {
     let both = shipped() + "\n[[rotor.support]]\nat = \"0.1 m\"\nstiffness = \"1e6 N/m\"\n";
     let found = parsed(&both, &[]).expect_err("both");
     assert!(found.contains("a support beside magnets"), "{found}");
+    for (sets, expected) in [
+        (
+            &["levitation.magnet.drive_end.largest_current=0.2 A"][..],
+            "AB2076",
+        ),
+        (
+            &["auxiliary_bearing.other_end.contact.node=auxiliary_a"],
+            "a rotor lands on two nodes at least",
+        ),
+    ] {
+        let built = parsed(&shipped(), sets).and_then(|scenario| {
+            auxbear::run::build(&scenario)
+                .map(|_| ())
+                .map_err(|p| p.to_string())
+        });
+        let found = built.expect_err(expected);
+        assert!(found.contains(expected), "{expected}\n{found}");
+    }
+    let grows = STIFF.replace("damping = \"1000 N s/m\"", "damping = \"-1000 N s/m\"");
+    let still = STIFF.replacen("stiffness = \"1e6 N/m\"", "stiffness = \"0 N/m\"", 1);
+    for (text, expected) in [
+        (grows, "a motion on the supports that grows"),
+        (still, "static stiffness"),
+    ] {
+        let built = parsed(&text, &[]).and_then(|scenario| {
+            auxbear::run::build(&scenario)
+                .map(|_| ())
+                .map_err(|p| p.to_string())
+        });
+        let found = built.expect_err(expected);
+        assert!(found.contains(expected), "{expected}\n{found}");
+    }
+    let few = ran(STIFF, &["rotor.cutoff=500 rad/s", "run.duration=1 ms"]);
+    assert!(few.warnings.iter().any(|warning| warning.code == "AB2031"));
     let soft = parsed(&shipped(), &["levitation.controller.derivative=0 A s/m"]).unwrap();
     let found = auxbear::run::build(&soft)
         .map(|_| ())

@@ -78,6 +78,20 @@ impl Shaft {
             .iter()
             .map(|own| node(own, &model))
             .collect::<Result<Vec<_>, _>>()?;
+        if nodes.len() > 1 && nodes.iter().all(|node| *node == nodes[0]) {
+            const PATH: &str = "contact.node";
+            let own = &all[1];
+            let found = "the node of all other bearings";
+            let needed = "a rotor lands on two nodes at least".to_string();
+            let problem = own.problem(
+                Code::Conflict,
+                PATH,
+                own.place(PATH),
+                found.to_string(),
+                needed,
+            );
+            return Err(Box::new(problem));
+        }
         let shares = shares(&model, &nodes);
         let number = |values: &Values, path: &str| values.number(path).unwrap_or_default();
         let places = (all.iter().zip(&nodes).zip(shares))

@@ -5,7 +5,7 @@ use crate::problem::{Code, Problem};
 use crate::scenario::several::path_of;
 use crate::scenario::{Drop, Shaft, Spin, UNNAMED};
 use crate::simulate::levitated;
-use levitation::response::start;
+use levitation::response::{equilibrium, start};
 use levitation::{ClosedLoop, Plant, weight};
 use model::levitation::{Fade, FadingMagnet};
 use model::rotor::{Coordinate, RotorConstants, Unbalance};
@@ -212,6 +212,12 @@ fn on_magnets(
     let plant = Plant::planes(within, rotor.nodes.len(), speed);
     let closed = ClosedLoop::new(plant.clone(), &model.levitation).map_err(failed)?;
     levitated::holds(model, &closed.poles().map_err(failed)?, speed)?;
+    let still = Plant::planes(within, rotor.nodes.len(), 0.0);
+    let rest = equilibrium(&still, &model.levitation, loads);
+    levitated::strong(
+        model,
+        &rest.map_err(|error| levitated::weak(&error.to_string()))?,
+    )?;
     let angle = drop.rotor.unbalance_angle;
     let start = start(
         &plant,
@@ -274,6 +280,7 @@ fn on_supports(
     };
     let (x, y) = (sagging(0)?, sagging(size)?);
     let speed = drop.rotor.speed;
+    hold(within, speed)?;
     let turning = Responder::within(rotor, within).unbalance(&rotor.unbalance, speed);
     let turning = turning.map_err(|_| not_held())?;
     let modal = |list: &DVector<C64>| -> DVector<C64> {
@@ -391,6 +398,29 @@ pub(crate) fn clear(drop: &Drop, shaft: &Shaft, built: &BuiltShaft) -> Result<()
         }
     }
     Ok(())
+}
+
+/// Refuses supports on which the rotor does not stay: a motion that grows, or one without stiffness.
+fn hold(within: &Analysis, speed: f64) -> Result<(), Box<Problem>> {
+    // beyond what rounding leaves of an undamped rotor
+    const NOTHING: f64 = 1e-4;
+    const ROUNDING: f64 = 1e-6;
+    let found = within.eigenvalues(speed).map_err(|_| not_held())?;
+    let at = format!("at {} rad/s", units::number_text(speed));
+    let found = match found.iter().max_by(|a, b| a.re.total_cmp(&b.re)) {
+        Some(value) if value.re > NOTHING + ROUNDING * value.norm() => format!(
+            "a motion on the supports that grows {at}: eigenvalue {:.6} {:+.6}j 1/s",
+            value.re, value.im
+        ),
+        _ if found.iter().any(|value| value.norm() < NOTHING) => {
+            format!("a motion without static stiffness {at}: an eigenvalue below 1e-4 1/s")
+        }
+        _ => return Ok(()),
+    };
+    let needed = "supports that hold the rotor until the release are needed";
+    Err(Box::new(
+        Problem::new(Code::NotHeld, UNNAMED, found, needed).on_key("rotor.support"),
+    ))
 }
 
 fn not_held() -> Box<Problem> {

@@ -8,6 +8,7 @@ use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::shaft::BuiltShaft;
+use physics::magnet::Magnet;
 
 /// The results that only a bent rotor has.
 pub(crate) fn name(context: &Context, list: &mut List) {
@@ -105,16 +106,18 @@ pub(crate) fn columns(context: &Context, run: &BearingRun) -> Vec<Column> {
     table.columns
 }
 
-/// Number of nodes with a name.
-pub(crate) fn named_nodes(context: &Context) -> usize {
-    let shaft = context.drop.shaft.as_ref();
-    shaft.map_or(0, |shaft| shaft.model.nodes.len())
+/// Number of places whose clearance may be watched.
+pub(crate) fn clearances(context: &Context) -> usize {
+    match (&context.drop.shaft, &context.built.shaft) {
+        (Some(given), Some(built)) => named(given, built).chain(magnets(given, built)).count(),
+        _ => 0,
+    }
 }
 
 /// A clearance along the shaft that a member uses up, and by how much.
 pub(crate) fn reached(context: &Context, node: usize) -> Option<(f64, Warning)> {
     let (given, built) = (context.drop.shaft.as_ref()?, context.built.shaft.as_ref()?);
-    let node = named(given, built).nth(node)?;
+    let node = named(given, built).chain(magnets(given, built)).nth(node)?;
     let (peak, clearance) = (context.finished.record.places[node.place], node.clearance?);
     (peak.value >= clearance).then(|| {
         let text = format!(
@@ -129,7 +132,28 @@ pub(crate) fn reached(context: &Context, node: usize) -> Option<(f64, Warning)> 
     })
 }
 
-/// A named node among the watched places.
+/// Modes up to fewer than so many times the speed and the first bending mode leave out what an impact bends.
+const FEW_MODES: f64 = 10.0;
+
+/// Modes that are too few for impacts.
+pub(crate) fn few_modes(context: &Context) -> Option<Warning> {
+    let (given, built) = (context.drop.shaft.as_ref()?, context.built.shaft.as_ref()?);
+    let bends = built.rotor.coordinates.iter().map(|own| own.frequency);
+    let bends = bends.into_iter().find(|omega| *omega > 0.0)?;
+    let needed = FEW_MODES * bends.max(context.drop.rotor.speed.abs());
+    (given.cutoff < needed).then(|| {
+        warning(
+            "AB2031",
+            format!(
+                "rotor.cutoff = {:.4e} rad/s keeps fewer modes than impacts bend: forces may be wrong by a factor. Ten times the speed or \
+                 the first bending mode, {needed:.4e} rad/s, is the least; compare with twice that.",
+                given.cutoff
+            ),
+        )
+    })
+}
+
+/// A place along the shaft with something around it.
 struct Named<'a> {
     name: &'a str,
     place: usize,
@@ -143,6 +167,25 @@ fn named<'a>(given: &'a Shaft, built: &'a BuiltShaft) -> impl Iterator<Item = Na
             name,
             place: built.places.iter().position(|place| place == node)?,
             clearance: *clearance,
+        })
+    })
+}
+
+/// Magnets whose gap is given.
+fn magnets<'a>(given: &'a Shaft, built: &'a BuiltShaft) -> impl Iterator<Item = Named<'a>> {
+    let models = given.model.levitation.iter();
+    models.flat_map(|model| {
+        let magnets = model.magnets.iter().enumerate();
+        magnets.filter_map(|(k, (name, node, _))| {
+            // both axes of a magnet stand beside each other
+            match model.levitation.actuators()[2 * k].magnet {
+                Magnet::Pair(pair) => Some(Named {
+                    name,
+                    place: built.places.iter().position(|place| place == node)?,
+                    clearance: Some(pair.gap),
+                }),
+                Magnet::Linear { .. } => None,
+            }
         })
     })
 }

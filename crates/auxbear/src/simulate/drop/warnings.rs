@@ -25,7 +25,7 @@ const SCREENING_RESIDUAL: f64 = 2e-4;
 /// Steps that are not those that were asked for, or coarser ones than the accuracy means.
 fn accuracy(context: &Context) -> Vec<Warning> {
     let run = &context.drop.run;
-    let mut list = Vec::new();
+    let mut list: Vec<Warning> = shaft_results::few_modes(context).into_iter().collect();
     if let (Accuracy::Design, Some(tolerance)) = (run.accuracy, run.tolerance)
         && tolerance > DESIGN
     {
@@ -132,7 +132,7 @@ pub(crate) fn of(scenario: &Scenario, contexts: &[Context]) -> Vec<Warning> {
         names.iter().enumerate().flat_map(named).collect()
     };
     let mut list = each(&|k| judged(contexts, |member| whirl(member, k).into_iter().collect()));
-    for node in 0..shaft_results::named_nodes(context) {
+    for node in 0..shaft_results::clearances(context) {
         list.extend(judged(contexts, |member| {
             shaft_results::reached(member, node).into_iter().collect()
         }));
