@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use toml::Table;
 
 /// Each folder with a package, and the workspace crates it may name.
-const ALLOWED: [(&str, &[&str]); 13] = [
+const ALLOWED: [(&str, &[&str]); 14] = [
     ("crates/number", &[]),
     ("crates/units", &[]),
     ("crates/physics", &["number"]),
@@ -17,6 +17,7 @@ const ALLOWED: [(&str, &[&str]); 13] = [
     ("crates/measure/fuzz", &["measure"]),
     ("crates/identify", &["measure", "physics"]),
     ("crates/rotor", &[]),
+    ("crates/thermal", &[]),
     (
         "crates/auxbear",
         &[
