@@ -29,6 +29,7 @@ const ALLOWED: [(&str, &[&str]); 14] = [
             "physics",
             "rotor",
             "solve",
+            "thermal",
             "units",
         ],
     ),

@@ -122,6 +122,54 @@ pub fn reference_viscosity(speed_rpm: f64, pitch_diameter_mm: f64) -> f64 {
     speed / pitch_diameter_mm.sqrt()
 }
 
+/// Basic life (C/P)^p, million turns.
+///
+/// Arguments: dynamic rating C and equivalent load P, N; exponent p, 3 for balls and 10/3 for rollers.
+///
+/// Source: ISO 281 (from memory: check before quoting).
+/// Valid: P ≤ 0.5 C.
+pub fn basic_life(rating: f64, load: f64, exponent: f64) -> f64 {
+    (rating / load).powf(exponent)
+}
+
+/// Hours of a life in million turns at a speed in 1/min.
+///
+/// Source: definition of the units.
+/// Valid: constant speed above 0.
+pub fn life_hours(millions: f64, speed_rpm: f64) -> f64 {
+    1e6 * millions / (60.0 * speed_rpm)
+}
+
+/// Load that uses as much life as given ones do: (Σ n P^p/Σ n)^(1/p), N.
+///
+/// Arguments: loads, N; turns under each, in any one unit; exponent p.
+///
+/// Source: derived; damage adds up.
+/// Valid: as [`basic_life`]; lists of one length, at least one turn.
+pub fn mean_load(loads: &[f64], turns: &[f64], exponent: f64) -> f64 {
+    let used: f64 = loads
+        .iter()
+        .zip(turns)
+        .map(|(load, turns)| turns * load.powf(exponent))
+        .sum();
+    (used / turns.iter().sum::<f64>()).powf(1.0 / exponent)
+}
+
+/// Life under conditions that alternate: Σ shares/Σ (share/life), in the unit of the lives.
+///
+/// Arguments: life under each condition alone; its share of time.
+///
+/// Source: derived; damage adds up.
+/// Valid: lists of one length, lives above 0.
+pub fn interval_life(lives: &[f64], shares: &[f64]) -> f64 {
+    let used: f64 = lives
+        .iter()
+        .zip(shares)
+        .map(|(life, share)| share / life)
+        .sum();
+    shares.iter().sum::<f64>() / used
+}
+
 /// Factor on the dynamic rating of a warm ring, linear between 1.0 to 150 °C, 0.95 at 175, 0.90 at 200, 0.75 at 250.
 ///
 /// Argument: °C. Source: NSK Rolling Bearings, table 5.3. Valid: to 250 °C, held beyond.
