@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 
 /// e^z K₀(z) and e^z K₁(z), by the trapezoid on ∫₀^∞ e^(−z(cosh t − 1)) cosh(νt) dt, which converges exponentially.
 ///
-/// Source: Abramowitz and Stegun 9.6.24. Valid: z > 0.
+/// Source: Abramowitz and Stegun 9.6.24 (from memory: check before quoting).
+/// Valid: z > 0.
 pub fn scaled_bessel(z: f64) -> [f64; 2] {
     let step = (0.6 / (1.0 + z).sqrt()).min(0.125);
     let (mut zero, mut one) = (0.5, 0.5);
@@ -43,7 +44,8 @@ fn falling(z: f64) -> f64 {
 /// Steady surface rise under a uniform band that moves: T* = πkvT/(2αq) at X = vx/2α from its middle, downstream
 /// positive, with Λ = vb/2α.
 ///
-/// Source: Jaeger 1942, closed: I₊(Λ+X) + I₋(Λ−X) in the band, differences of them outside. Valid: steady, Λ > 0.
+/// Source: heat-and-life, section 4; Jaeger 1942, closed: I₊(Λ+X) + I₋(Λ−X) in the band, differences of them outside.
+/// Valid: steady, Λ > 0.
 pub fn band_rise(half_length: f64, place: f64) -> f64 {
     if place.abs() <= half_length {
         rising(half_length + place) + falling(half_length - place)
@@ -56,7 +58,10 @@ pub fn band_rise(half_length: f64, place: f64) -> f64 {
 
 /// Where a band is hottest, and how hot: (X, T*).
 ///
-/// There e^s K₀ is equal at both ends of the integral. Source: derivative of [`band_rise`]. Valid: Λ > 0.
+/// There e^s K₀ is equal at both ends of the integral.
+///
+/// Source: derivative of [`band_rise`].
+/// Valid: Λ > 0.
 pub fn band_maximum(half_length: f64) -> (f64, f64) {
     let (mut low, mut high) = (0.0, half_length);
     for _ in 0..80 {
@@ -76,6 +81,9 @@ pub fn band_maximum(half_length: f64) -> (f64, f64) {
 /// Mean of [`band_rise`] over the band: (1/2Λ)∫₀^{2Λ} (I₊ + I₋) dz.
 ///
 /// The integrand begins as z ln z; z = 2Λu⁴ makes it smooth enough for Simpson's rule.
+///
+/// Source: heat-and-life, section 4; integral of [`band_rise`].
+/// Valid: steady, Λ > 0.
 pub fn band_mean(half_length: f64) -> f64 {
     let n = 400;
     let value = |i: i32| {
@@ -91,7 +99,10 @@ pub fn band_mean(half_length: f64) -> f64 {
 
 /// Largest and mean rise kT/(qa) of a circle of radius a under uniform flux: 2/√(π(1.273 + Pe)), 1.22/√(π(0.6575 + Pe)).
 ///
-/// Argument: Pe = va/2α. Source: Tian and Kennedy 1994. Valid: within 2.3 % and 3.8 % of the exact values.
+/// Argument: Pe = va/2α.
+///
+/// Source: heat-and-life, section 4; Tian and Kennedy 1994 (from memory: check before quoting).
+/// Valid: within 2.3 % and 3.8 % of the exact values.
 pub fn circle_fit(peclet: f64) -> [f64; 2] {
     [
         2.0 / (PI * (1.273 + peclet)).sqrt(),
@@ -102,6 +113,7 @@ pub fn circle_fit(peclet: f64) -> [f64; 2] {
 /// Mean rise kT/(qa) of a circle under uniform flux, exactly: (1/π)∫₀² [2 acos(r/2) − (r/2)√(4−r²)] e^(−Pe r) I₀(Pe r) dr.
 ///
 /// Source: derived, the pairs of points of a circle by their distance; e^(−x) I₀(x) as the mean of e^(−x(1 − cos θ)).
+/// Valid: steady, Pe ≥ 0.
 pub fn circle_mean(peclet: f64) -> f64 {
     let bessel = |x: f64| {
         let n = 64 + 8 * (x.sqrt() as i32);
@@ -127,7 +139,9 @@ pub fn circle_mean(peclet: f64) -> f64 {
 /// Flash of a surface that passes a patch: 2q√(t_c/π)/e, t_c = min(2b/v, t), K.
 ///
 /// Arguments: flux W/m², half-length b m, speed of the surface past the patch m/s, time since the touch s, effusivity.
-/// Source: Blok 1937. Valid: Λ = vb/2α > 5 (4 %).
+///
+/// Source: heat-and-life, section 4; derived.
+/// Valid: Λ = vb/2α > 5 (4 %).
 pub fn flash_rise(
     flux: f64,
     half_length: f64,
@@ -141,7 +155,10 @@ pub fn flash_rise(
 
 /// Share of the flash that stands above the surface's own mean: g = 1 − 0.7302√f − 0.2698 f^1.5.
 ///
-/// Argument: f = patch over track area of that body. Source: fit of [ζ(−½, f) − ζ(−½)]/√f. Valid: 0 to 1, within 0.009.
+/// Argument: f = patch over track area of that body.
+///
+/// Source: heat-and-life, section 4; fit of [ζ(−½, f) − ζ(−½)]/√f.
+/// Valid: 0 to 1, within 0.009.
 pub fn return_factor(share: f64) -> f64 {
     1.0 - 0.7302 * share.sqrt() - 0.2698 * share.powf(1.5)
 }

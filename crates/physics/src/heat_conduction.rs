@@ -15,10 +15,16 @@ pub struct ThermalMaterial {
 
 impl ThermalMaterial {
     /// Diffusivity α = k/(ρ c), m²/s.
+    ///
+    /// Source: definition.
+    /// Valid: any body.
     pub fn diffusivity(&self) -> f64 {
         self.conductivity / (self.density * self.specific_heat)
     }
     /// Effusivity e = √(k ρ c), W √s/(m² K): what a surface takes up in a short time.
+    ///
+    /// Source: heat-and-life, section 2; definition.
+    /// Valid: any body.
     pub fn effusivity(&self) -> f64 {
         (self.conductivity * self.density * self.specific_heat).sqrt()
     }
@@ -26,7 +32,8 @@ impl ThermalMaterial {
 
 /// Complement of the error function for x ≥ 0: power series below 2, continued fraction above.
 ///
-/// Source: Abramowitz and Stegun 7.1.6 and 7.1.14. Valid: x ≥ 0.
+/// Source: Abramowitz and Stegun 7.1.6 and 7.1.14 (from memory: check before quoting).
+/// Valid: x ≥ 0.
 pub fn erfc(x: f64) -> f64 {
     let gauss = (-x * x).exp();
     if x < 2.0 {
@@ -46,14 +53,18 @@ pub fn erfc(x: f64) -> f64 {
 
 /// Integral of erfc from x to infinity: e^(−x²)/√π − x erfc x.
 ///
-/// Source: Carslaw and Jaeger, appendix II. Valid: x ≥ 0.
+/// Source: heat-and-life, section 2; definition.
+/// Valid: x ≥ 0.
 pub fn ierfc(x: f64) -> f64 {
     (-x * x).exp() / PI.sqrt() - x * erfc(x)
 }
 
 /// Rise at a depth of a half-space under a constant flux: (2q√(αt)/k) ierfc(z/(2√(αt))), K.
 ///
-/// Arguments: flux W/m², time s, depth m. Source: Carslaw and Jaeger 2.9. Valid: depth well inside the body, time > 0.
+/// Arguments: flux W/m², time s, depth m.
+///
+/// Source: heat-and-life, section 2; derived.
+/// Valid: depth well inside the body, time > 0.
 pub fn half_space_rise(material: ThermalMaterial, flux: f64, time: f64, depth: f64) -> f64 {
     let spread = (material.diffusivity() * time).sqrt();
     2.0 * flux * spread / material.conductivity * ierfc(depth / (2.0 * spread))
@@ -63,7 +74,9 @@ pub fn half_space_rise(material: ThermalMaterial, flux: f64, time: f64, depth: f
 ///
 /// Arguments: flux W/m², thickness m, time s, depth m from the heated face. By images below αt = 0.05 L², where the
 /// series is rounding noise; by the series above.
-/// Source: Carslaw and Jaeger 3.8. Valid: 0 ≤ depth ≤ thickness, time > 0.
+///
+/// Source: heat-and-life, section 2; derived.
+/// Valid: 0 ≤ depth ≤ thickness, time > 0.
 pub fn slab_rise(
     material: ThermalMaterial,
     flux: f64,
@@ -98,7 +111,8 @@ pub fn slab_rise(
 
 /// Temperature of the common face of two half-spaces that touch: (e₁T₁ + e₂T₂)/(e₁ + e₂).
 ///
-/// Source: Carslaw and Jaeger 2.15. Valid: perfect contact, times before a back face is felt.
+/// Source: heat-and-life, section 2; derived.
+/// Valid: perfect contact, times before a back face is felt.
 pub fn touch_temperature(
     first: ThermalMaterial,
     second: ThermalMaterial,
@@ -110,6 +124,9 @@ pub fn touch_temperature(
 }
 
 /// Effusivity of two bodies in series: e₁e₂/(e₁ + e₂).
+///
+/// Source: heat-and-life, section 2; derived, equal flux from both sides.
+/// Valid: perfect contact.
 pub fn joint_effusivity(first: ThermalMaterial, second: ThermalMaterial) -> f64 {
     let (a, b) = (first.effusivity(), second.effusivity());
     a * b / (a + b)
@@ -117,7 +134,8 @@ pub fn joint_effusivity(first: ThermalMaterial, second: ThermalMaterial) -> f64 
 
 /// Flux between two half-spaces at a time after they touched: e₁₂ (T₁ − T₂)/√(πt), W/m².
 ///
-/// Source: Carslaw and Jaeger 2.15. Valid: as [`touch_temperature`].
+/// Source: heat-and-life, section 2; derived.
+/// Valid: as [`touch_temperature`].
 pub fn touch_flux(
     first: ThermalMaterial,
     second: ThermalMaterial,

@@ -1,6 +1,7 @@
 //! Rolling contact fatigue: rating loads of a ball, damage of any history, factors of life.
 
-/// Weibull slope e of bearings, 10/9. Source: Lundberg and Palmgren 1947.
+/// Weibull slope e of bearings, 10/9.
+/// Source: heat-and-life, section 8; Lundberg and Palmgren (from memory: check before quoting).
 pub const WEIBULL_SLOPE: f64 = 10.0 / 9.0;
 
 /// Geometry that the rating load of a ball asks for.
@@ -23,7 +24,9 @@ impl RatedBearing {
     ///
     /// Q_ci = C/(0.407 Z cos^0.7 α) · {1 + b^(10/3)}^0.3, Q_ce with 0.389 and b^(−10/3),
     /// b = 1.044 ((1−γ)/(1+γ))^1.72 (f_i(2f_e−1)/(f_e(2f_i−1)))^0.41.
-    /// Source: ISO/TS 16281. Valid: one row of balls, C of the standard.
+    ///
+    /// Source: heat-and-life, section 8; ISO/TS 16281.
+    /// Valid: one row of balls, C of the standard.
     pub fn ball_rating_loads(&self) -> [f64; 2] {
         let [inner, outer] = self.grooves;
         let bracket = 1.044
@@ -39,7 +42,8 @@ impl RatedBearing {
 
 /// Balls that pass a fixed point of the inner and of the outer ring per turn of the inner ring: Z(1 ± γ)/2.
 ///
-/// Source: kinematics of rolling. Valid: outer ring at rest, no slip of the cage.
+/// Source: kinematics of rolling.
+/// Valid: outer ring at rest, no slip of the cage.
 pub fn passages_per_turn(ball_count: f64, gamma: f64) -> [f64; 2] {
     [
         0.5 * ball_count * (1.0 + gamma),
@@ -51,7 +55,9 @@ pub fn passages_per_turn(ball_count: f64, gamma: f64) -> [f64; 2] {
 ///
 /// Arguments: S = Σ Q³ over all passages at each point of the ring, N³; passages z per turn; rating load Q_c N. S adds
 /// across drops before the power is taken.
-/// Source: derived; equals the L10r of ISO/TS 16281 for constant motion. Valid: P ≤ 0.5 C.
+///
+/// Source: derived; equals the L10r of ISO/TS 16281 for constant motion.
+/// Valid: P ≤ 0.5 C.
 pub fn ring_damage(sums: &[f64], passages: f64, rating_load: f64) -> f64 {
     let mean = sums
         .iter()
@@ -61,14 +67,18 @@ pub fn ring_damage(sums: &[f64], passages: f64, rating_load: f64) -> f64 {
     mean.powf(1.0 / WEIBULL_SLOPE) / (1e6 * rating_load.powi(3))
 }
 
-/// Damage of the bearing from that of its rings: (D_i^(10/9) + D_o^(10/9))^(9/10). Source: product of survivals.
+/// Damage of the bearing from that of its rings: (D_i^(10/9) + D_o^(10/9))^(9/10).
+///
+/// Source: product of survivals.
+/// Valid: both rings of one bearing, slope 10/9.
 pub fn bearing_damage(inner: f64, outer: f64) -> f64 {
     (inner.powf(WEIBULL_SLOPE) + outer.powf(WEIBULL_SLOPE)).powf(1.0 / WEIBULL_SLOPE)
 }
 
 /// Repetitions of a damage that the share `survival` of bearings outlives: [ln(1/S)/ln(1/0.9)]^(9/10)/D.
 ///
-/// Source: Weibull, slope 10/9. Valid: 0 < S < 1.
+/// Source: heat-and-life, section 8; Weibull, slope 10/9.
+/// Valid: 0 < S < 1.
 pub fn repetitions(damage: f64, survival: f64) -> f64 {
     weibull(survival, WEIBULL_SLOPE) / damage
 }
@@ -77,12 +87,18 @@ fn weibull(survival: f64, slope: f64) -> f64 {
     (survival.ln() / 0.9f64.ln()).powf(1.0 / slope)
 }
 
-/// Reliability factor of catalogues, a1 = [ln(1/S)/ln(1/0.9)]^(1/1.5). Source: Weibull, slope 1.5. Valid: S ≥ 0.9.
+/// Reliability factor of catalogues, a1 = [ln(1/S)/ln(1/0.9)]^(1/1.5).
+///
+/// Source: heat-and-life, section 8; Weibull, slope 1.5.
+/// Valid: S ≥ 0.9.
 pub fn reliability_factor(survival: f64) -> f64 {
     weibull(survival, 1.5)
 }
 
-/// Reliability factor of ISO 281:2007: 0.95 times [`reliability_factor`] + 0.05. Valid: S ≥ 0.9.
+/// Reliability factor of ISO 281:2007: 0.95 times [`reliability_factor`] + 0.05.
+///
+/// Source: heat-and-life, section 8; ISO 281:2007.
+/// Valid: S ≥ 0.9.
 pub fn reliability_factor_iso(survival: f64) -> f64 {
     0.95 * reliability_factor(survival) + 0.05
 }
@@ -90,7 +106,9 @@ pub fn reliability_factor_iso(survival: f64) -> f64 {
 /// Life factor a_ISO of radial ball bearings: 0.1[1 − (2.5671 − c/κ^x)^0.83 (e_C C_u/P)^⅓]^−9.3, 0.1 to 50.
 ///
 /// Arguments: viscosity ratio κ, e_C C_u/P. κ above 4 counts as 4, and below 0.1 gives 0.1.
-/// Source: ISO 281:2007. Valid: κ ≥ 0.1; below, no factor holds.
+///
+/// Source: heat-and-life, section 8; ISO 281:2007 (from memory: check before quoting).
+/// Valid: κ ≥ 0.1; below, no factor holds.
 pub fn iso_life_factor(kappa: f64, load_ratio: f64) -> f64 {
     if kappa < 0.1 {
         return 0.1;
@@ -112,7 +130,10 @@ pub fn iso_life_factor(kappa: f64, load_ratio: f64) -> f64 {
 
 /// Viscosity that a bearing asks for, ν₁, mm²/s: 45000 n^−0.83 d_m^−½ below 1000/min, 4500 n^−½ d_m^−½ above.
 ///
-/// Arguments: speed 1/min, pitch diameter mm. Source: ISO 281:2007. Valid: n > 0; steps by 2 % at 1000/min.
+/// Arguments: speed 1/min, pitch diameter mm.
+///
+/// Source: heat-and-life, section 8; ISO 281:2007 (from memory: check before quoting).
+/// Valid: n > 0; steps by 2 % at 1000/min.
 pub fn reference_viscosity(speed_rpm: f64, pitch_diameter_mm: f64) -> f64 {
     let speed = if speed_rpm < 1000.0 {
         45000.0 * speed_rpm.powf(-0.83)
@@ -172,7 +193,10 @@ pub fn interval_life(lives: &[f64], shares: &[f64]) -> f64 {
 
 /// Factor on the dynamic rating of a warm ring, linear between 1.0 to 150 °C, 0.95 at 175, 0.90 at 200, 0.75 at 250.
 ///
-/// Argument: °C. Source: NSK Rolling Bearings, table 5.3. Valid: to 250 °C, held beyond.
+/// Argument: °C.
+///
+/// Source: NSK Rolling Bearings, table 5.3.
+/// Valid: to 250 °C, held beyond.
 pub fn temperature_factor(celsius: f64) -> f64 {
     let table = [(150.0, 1.0), (175.0, 0.95), (200.0, 0.90), (250.0, 0.75)];
     if celsius <= 150.0 {

@@ -1,13 +1,19 @@
 //! Ball loads of a bearing under a radial load, quasi-static.
 
-/// Stiffness of ball and both races in series: (K_i^(−2/3) + K_o^(−2/3))^(−3/2), N/m^1.5. Source: Hertz, approaches add.
+/// Stiffness of ball and both races in series: (K_i^(−2/3) + K_o^(−2/3))^(−3/2), N/m^1.5.
+///
+/// Source: heat-and-life, section 5; H. Hertz 1881, approaches add.
+/// Valid: elastic contacts in series.
 pub fn joint_stiffness(inner: f64, outer: f64) -> f64 {
     (inner.powf(-2.0 / 3.0) + outer.powf(-2.0 / 3.0)).powf(-1.5)
 }
 
 /// Load of the ball at an angle from the load line: K max(0, δ cos φ − P_d/2)^1.5, N.
 ///
-/// Arguments: stiffness N/m^1.5, displacement δ m, diametral clearance P_d m, angle rad. Source: Stribeck.
+/// Arguments: stiffness N/m^1.5, displacement δ m, diametral clearance P_d m, angle rad.
+///
+/// Source: heat-and-life, section 7; H. Hertz 1881.
+/// Valid: quasi-static; elastic contacts, no centrifugal force.
 pub fn ball_load(stiffness: f64, displacement: f64, clearance: f64, angle: f64) -> f64 {
     let approach = displacement * angle.cos() - 0.5 * clearance;
     stiffness * approach.max(0.0).powf(1.5)
@@ -15,7 +21,10 @@ pub fn ball_load(stiffness: f64, displacement: f64, clearance: f64, angle: f64) 
 
 /// Displacement at which the balls at the given angles from the load line carry a load, m: weight Σ Q cos φ = load.
 ///
-/// `weight` is 1 for single balls, Z/n for a continuous zone on n points. Source: equilibrium. Valid: load > 0, at
+/// `weight` is 1 for single balls, Z/n for a continuous zone on n points.
+///
+/// Source: equilibrium.
+/// Valid: load > 0, at
 /// least one angle in the loaded half.
 pub fn displacement(load: f64, stiffness: f64, clearance: f64, angles: &[f64], weight: f64) -> f64 {
     let carried = |displacement: f64| -> f64 {

@@ -38,7 +38,8 @@ fn reversals(series: &[f64]) -> Vec<f64> {
 
 /// Cycles of a series in the order they close; what does not close counts in halves.
 ///
-/// Source: ASTM E1049-85, 5.4.4. Valid: finite numbers; the order of the whole history must be kept.
+/// Source: ASTM E1049-85, 5.4.4.
+/// Valid: finite numbers; the order of the whole history must be kept.
 pub fn rainflow(series: &[f64]) -> Vec<Cycle> {
     let mut cycles = Vec::new();
     let mut open: Vec<f64> = Vec::new();

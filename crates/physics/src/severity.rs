@@ -2,7 +2,9 @@
 
 /// Permanent indentation of ball and race over the ball's diameter: 5.25e-19 (Q/D²)² (1 − 1/(2f))/(1 ∓ γ).
 ///
-/// Arguments: load N, ball diameter m, groove radius over D, γ, `inner` for the inner race (−). Source: Palmgren.
+/// Arguments: load N, ball diameter m, groove radius over D, γ, `inner` for the inner race (−).
+///
+/// Source: heat-and-life, section 7; Palmgren (from memory: check before quoting).
 /// Valid: ratio 1e-5 to 1e-3, 58 HRC and more, slow loading.
 pub fn permanent_indentation(
     load: f64,
@@ -15,24 +17,36 @@ pub fn permanent_indentation(
     5.25e-19 * (load / (diameter * diameter)).powi(2) * (1.0 - 0.5 / groove) / side
 }
 
-/// Safety of a ball's load: Q_lim/Q = (p_lim/p)³. Source: Hertz, p ~ Q^(1/3). Valid: elastic contact.
+/// Safety of a ball's load: Q_lim/Q = (p_lim/p)³.
+///
+/// Source: heat-and-life, section 7; H. Hertz 1881, p ~ Q^(1/3).
+/// Valid: elastic contact.
 pub fn ball_load_safety(limit_pressure: f64, pressure: f64) -> f64 {
     (limit_pressure / pressure).powi(3)
 }
 
-/// Static safety s0 = C0/P0. Source: ISO 76.
+/// Static safety s0 = C0/P0.
+///
+/// Source: heat-and-life, section 7; ISO 76.
+/// Valid: P0 above 0.
 pub fn static_safety(static_rating: f64, equivalent_load: f64) -> f64 {
     static_rating / equivalent_load
 }
 
 /// Volume that sliding removes: V = k N s, m³.
 ///
-/// Arguments: wear coefficient k m²/N, force N, distance m. Source: Archard 1953. Valid: k of the pair and its film.
+/// Arguments: wear coefficient k m²/N, force N, distance m.
+///
+/// Source: heat-and-life, section 7; Archard (from memory: check before quoting).
+/// Valid: k of the pair and its film.
 pub fn wear_volume(coefficient: f64, force: f64, distance: f64) -> f64 {
     coefficient * force * distance
 }
 
 /// The same from the friction energy: V = (k/μ) E, m³.
+///
+/// Source: as [`wear_volume`], E = μ N s.
+/// Valid: as [`wear_volume`]; μ above 0.
 pub fn wear_volume_by_energy(coefficient: f64, friction: f64, energy: f64) -> f64 {
     coefficient / friction * energy
 }

@@ -83,3 +83,119 @@ fn by_kind(file: &Value, tally: &mut Tally) -> Result<(), String> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::validate::report::{Row, Verdict};
+    use serde_json::json;
+    use std::path::Path;
+
+    /// Files with the least number of quantities that must pass, and one number to spoil.
+    const FILES: [(&str, usize, &str); 7] = [
+        ("reference/heat_closed_forms", 14, "/rows/0/rise"),
+        ("reference/heat_moving_sources", 10, "/rows/0/mean"),
+        ("reference/heat_network", 4, "/rows/0/temperatures/1"),
+        ("reference/severity_life", 27, "/rows/0/load"),
+        ("published/rainflow_astm_e1049", 2, "/series/3"),
+        (
+            "published/life_catalogue_examples",
+            18,
+            "/rows/0/results/hours",
+        ),
+        (
+            "published/iso15312_thermal_reference_speeds",
+            1,
+            "/rows/7/C0_kN",
+        ),
+    ];
+
+    fn count(rows: &[Row], verdict: Verdict) -> usize {
+        rows.iter().filter(|row| row.verdict == verdict).count()
+    }
+
+    /// Every number of a value, by its place.
+    fn numbers(value: &Value, place: &str, found: &mut Vec<String>) {
+        match value {
+            Value::Number(_) => found.push(place.to_string()),
+            Value::Array(list) => list.iter().enumerate().for_each(|(at, inner)| {
+                numbers(inner, &format!("{place}/{at}"), found);
+            }),
+            Value::Object(table) => table.iter().for_each(|(key, inner)| {
+                numbers(inner, &format!("{place}/{key}"), found);
+            }),
+            _ => {}
+        }
+    }
+
+    #[test]
+    fn the_laws_meet_the_files_and_a_changed_file_fails() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/cases");
+        if !folder.is_dir() {
+            println!("DID NOT RUN: the cases are not beside this repository");
+            return;
+        }
+        for (name, least, spoilt) in FILES {
+            let text = std::fs::read_to_string(folder.join(format!("{name}.json"))).unwrap();
+            let mut value: Value = serde_json::from_str(&text).unwrap();
+            let found = rows(&value).unwrap();
+            for row in &found {
+                println!(
+                    "{name}: {} {:.1e} of {:.1e}, {}: {}",
+                    row.quantity,
+                    row.deviation.unwrap_or_default(),
+                    row.tolerance.unwrap_or_default(),
+                    row.verdict.word(),
+                    row.why,
+                );
+            }
+            assert_eq!(count(&found, Verdict::Fail), 0, "{name}");
+            let passed = count(&found, Verdict::Pass);
+            assert!(passed >= least, "{name}: {passed}");
+            let number = value.pointer_mut(spoilt).unwrap();
+            *number = json!(number.as_f64().unwrap() * 1.2 + 0.1);
+            let found = rows(&value).unwrap();
+            assert!(count(&found, Verdict::Fail) > 0, "{name}: {spoilt}");
+        }
+    }
+    #[test]
+    fn no_number_of_a_file_can_panic() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/cases");
+        if !folder.is_dir() {
+            println!("DID NOT RUN: the cases are not beside this repository");
+            return;
+        }
+        for (name, ..) in FILES {
+            let text = std::fs::read_to_string(folder.join(format!("{name}.json"))).unwrap();
+            let mut value: Value = serde_json::from_str(&text).unwrap();
+            if let Some(list) = value["rows"].as_array_mut() {
+                // one row of each kind, or a few
+                let mut kinds = Vec::new();
+                list.retain(|row| {
+                    let key = row.get("kind").or(row.get("name")).cloned();
+                    let kept = !kinds.contains(&key);
+                    kinds.push(key);
+                    kept
+                });
+            }
+            let mut places = Vec::new();
+            numbers(&value, "", &mut places);
+            for place in places {
+                for other in [
+                    json!(0),
+                    json!(-1),
+                    json!(1e300),
+                    json!(1e-300),
+                    json!("x"),
+                    json!([]),
+                ] {
+                    let mut changed = value.clone();
+                    *changed.pointer_mut(&place).unwrap() = other;
+                    for row in rows(&changed).unwrap_or_default() {
+                        assert!(!row.why.is_empty(), "{name}: {place}");
+                    }
+                }
+            }
+        }
+    }
+}
