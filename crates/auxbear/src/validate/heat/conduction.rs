@@ -1,7 +1,7 @@
 //! Rows of heat that flows: half-space, slab, bodies that touch, walls, fits, gas, radiation.
 
 use super::json::{exactly, number, positive, positives, within};
-use super::tally::Tally;
+use super::tally::{Compare, Tally};
 use physics::heat_conduction::{
     ThermalMaterial, half_space_rise, slab_rise, touch_flux, touch_temperature,
 };
@@ -10,9 +10,6 @@ use physics::heat_exchange::{
     free_molecular_air, pressed_joint, uniform_flux_resistance,
 };
 use serde_json::Value;
-
-/// Compares a row of its kind.
-type Compare = fn(&Value, &mut Tally) -> Result<(), String>;
 
 /// The comparison of a kind of row.
 pub(super) fn of_kind(kind: &str) -> Option<Compare> {

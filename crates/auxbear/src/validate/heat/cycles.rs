@@ -1,12 +1,9 @@
 //! Rainflow: rows with all cycles, and a printed example with counts by range.
 
 use super::json::{list, numbers, within};
-use super::tally::Tally;
+use super::tally::{Compare, Tally};
 use physics::rainflow::rainflow;
 use serde_json::Value;
-
-/// Compares a row of its kind.
-type Compare = fn(&Value, &mut Tally) -> Result<(), String>;
 
 /// Longest series: cycles are sought for each other, pair by pair.
 const LONGEST: usize = 5000;

@@ -1,16 +1,13 @@
 //! Rows of fatigue: factors of life, rating loads, damage of a drop.
 
 use super::json::{count, list, number, positive, within};
-use super::tally::Tally;
+use super::tally::{Compare, Tally};
 use physics::life::{
     RatedBearing, bearing_damage, iso_life_factor, passages_per_turn, reliability_factor,
     reliability_factor_iso, repetitions, ring_damage,
 };
 use physics::load_zone::{ball_load, displacement, joint_stiffness};
 use serde_json::Value;
-
-/// Compares a row of its kind.
-type Compare = fn(&Value, &mut Tally) -> Result<(), String>;
 
 /// Most balls.
 const MOST_BALLS: usize = 1000;

@@ -14,10 +14,7 @@ mod tally;
 
 use super::report::Row;
 use serde_json::Value;
-use tally::Tally;
-
-/// Compares a row of its kind.
-type Compare = fn(&Value, &mut Tally) -> Result<(), String>;
+use tally::{Compare, Tally};
 
 /// Rows of a file; `None` when its keys are those of another.
 pub(super) fn rows(value: &Value) -> Option<Vec<Row>> {
@@ -93,10 +90,10 @@ mod tests {
 
     /// Files with the least number of quantities that must pass, and one number to spoil.
     const FILES: [(&str, usize, &str); 7] = [
-        ("reference/heat_closed_forms", 14, "/rows/0/rise"),
+        ("reference/heat_closed_forms", 13, "/rows/0/rise"),
         ("reference/heat_moving_sources", 10, "/rows/0/mean"),
         ("reference/heat_network", 4, "/rows/0/temperatures/1"),
-        ("reference/severity_life", 27, "/rows/0/load"),
+        ("reference/severity_life", 26, "/rows/0/load"),
         ("published/rainflow_astm_e1049", 2, "/series/3"),
         (
             "published/life_catalogue_examples",
@@ -106,7 +103,7 @@ mod tests {
         (
             "published/iso15312_thermal_reference_speeds",
             1,
-            "/rows/7/C0_kN",
+            "/rows/7/outside_mm",
         ),
     ];
 
@@ -126,6 +123,25 @@ mod tests {
             }),
             _ => {}
         }
+    }
+
+    /// The file with one row alone, once for each kind of row.
+    fn of_one_row(file: &Value) -> Vec<Value> {
+        let Some(list) = file["rows"].as_array() else {
+            return vec![file.clone()];
+        };
+        let mut kinds = Vec::new();
+        let mut files = Vec::new();
+        for row in list {
+            let kind = row.get("kind").or(row.get("name"));
+            if !kinds.contains(&kind) {
+                kinds.push(kind);
+                let mut alone = file.clone();
+                alone["rows"] = json!([row]);
+                files.push(alone);
+            }
+        }
+        files
     }
 
     #[test]
@@ -167,32 +183,17 @@ mod tests {
         }
         for (name, ..) in FILES {
             let text = std::fs::read_to_string(folder.join(format!("{name}.json"))).unwrap();
-            let mut value: Value = serde_json::from_str(&text).unwrap();
-            if let Some(list) = value["rows"].as_array_mut() {
-                // one row of each kind, or a few
-                let mut kinds = Vec::new();
-                list.retain(|row| {
-                    let key = row.get("kind").or(row.get("name")).cloned();
-                    let kept = !kinds.contains(&key);
-                    kinds.push(key);
-                    kept
-                });
-            }
-            let mut places = Vec::new();
-            numbers(&value, "", &mut places);
-            for place in places {
-                for other in [
-                    json!(0),
-                    json!(-1),
-                    json!(1e300),
-                    json!(1e-300),
-                    json!("x"),
-                    json!([]),
-                ] {
-                    let mut changed = value.clone();
-                    *changed.pointer_mut(&place).unwrap() = other;
-                    for row in rows(&changed).unwrap_or_default() {
-                        assert!(!row.why.is_empty(), "{name}: {place}");
+            let value: Value = serde_json::from_str(&text).unwrap();
+            for value in of_one_row(&value) {
+                let mut places = Vec::new();
+                numbers(&value, "", &mut places);
+                for place in places {
+                    for other in [json!(0), json!(-1), json!(1e300), json!("x")] {
+                        let mut changed = value.clone();
+                        *changed.pointer_mut(&place).unwrap() = other;
+                        for row in rows(&changed).unwrap_or_default() {
+                            assert!(!row.why.is_empty(), "{name}: {place}");
+                        }
                     }
                 }
             }

@@ -1,12 +1,9 @@
 //! Rows of heat sources that move: bands, circles; ellipses have no law here yet.
 
 use super::json::{list, number, text, within};
-use super::tally::Tally;
+use super::tally::{Compare, Tally};
 use physics::flash::{band_maximum, band_mean, band_rise, circle_fit, circle_mean};
 use serde_json::Value;
-
-/// Compares a row of its kind.
-type Compare = fn(&Value, &mut Tally) -> Result<(), String>;
 
 /// Widest range of Λ and Pe in which integrals are taken.
 const LEAST: f64 = 1e-6;

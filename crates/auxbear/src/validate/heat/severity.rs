@@ -1,14 +1,11 @@
 //! Rows of severity: ball loads, indentation, wear.
 
 use super::json::{count, exactly, number, positive, within};
-use super::tally::Tally;
+use super::tally::{Compare, Tally};
 use physics::load_zone::{ball_load, displacement};
 use physics::severity::{permanent_indentation, wear_volume, wear_volume_by_energy};
 use serde_json::Value;
 use std::f64::consts::TAU;
-
-/// Compares a row of its kind.
-type Compare = fn(&Value, &mut Tally) -> Result<(), String>;
 
 /// Most balls.
 const MOST_BALLS: usize = 1000;

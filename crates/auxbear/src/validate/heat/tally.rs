@@ -5,6 +5,9 @@ use crate::validate::compare::Worst;
 use crate::validate::report::{Row, Tolerance};
 use serde_json::Value;
 
+/// Compares a row of a kind, or a file.
+pub(super) type Compare = fn(&Value, &mut Tally) -> Result<(), String>;
+
 /// Share and size by which a value may differ; it passes where either is met.
 #[derive(Clone, Copy)]
 pub(super) struct Allowed {
@@ -98,7 +101,10 @@ impl<'a> Tally<'a> {
         allowed: Allowed,
     ) {
         let reason = self.file["reason"].as_str().unwrap_or_default();
-        let why = format!("{}: {reason}", self.place);
+        let why = match reason {
+            "" => self.place.clone(),
+            _ => format!("{}: {reason}", self.place),
+        };
         let allowed = allowed.of(reference);
         let row = Row::compared(quantity, unit, reference, ours, allowed, why);
         self.worst.add(row);
