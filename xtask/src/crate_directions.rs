@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use toml::Table;
 
 /// Each folder with a package, and the workspace crates it may name.
-const ALLOWED: [(&str, &[&str]); 14] = [
+const ALLOWED: [(&str, &[&str]); 15] = [
     ("crates/number", &[]),
     ("crates/units", &[]),
     ("crates/physics", &["number"]),
@@ -18,6 +18,7 @@ const ALLOWED: [(&str, &[&str]); 14] = [
     ("crates/identify", &["measure", "physics"]),
     ("crates/rotor", &[]),
     ("crates/study", &["measure"]),
+    ("crates/thermal", &[]),
     (
         "crates/auxbear",
         &[
@@ -30,6 +31,7 @@ const ALLOWED: [(&str, &[&str]); 14] = [
             "rotor",
             "solve",
             "study",
+            "thermal",
             "units",
         ],
     ),

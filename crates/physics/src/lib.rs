@@ -17,6 +17,13 @@
 //! | [`lubricant_state`] | grease that builds up and breaks down, contact films that warm: factors on drag and traction |
 //! | [`lubricant_traction`] | sliding friction between ball and race from the lubricant |
 //! | [`inlet_rolling`] | rolling resistance of the oil in the inlet of a contact |
+//! | [`heat_conduction`] | heat that flows into half-spaces and slabs, bodies that touch |
+//! | [`heat_exchange`] | conductances: contacts, walls, fits, gas, radiation, surroundings |
+//! | [`flash`] | surface temperatures under heat that moves |
+//! | [`load_zone`] | loads of the balls under a radial load |
+//! | [`life`] | rolling contact fatigue: ratings, damage, factors |
+//! | [`severity`] | indentations, wear, safeties |
+//! | [`rainflow`] | cycles of a load history |
 //! | [`friction`] | steady friction moment of a rolling bearing: one interface to Palmgren's, the SKF model and a measured curve |
 //! | [`friction_range`] | where a friction law has been left |
 //! | [`palmgren`] | Palmgren's moment |
@@ -39,11 +46,16 @@ pub mod angular_contact;
 mod bearing_6005;
 pub mod contact;
 pub mod film;
+pub mod flash;
 pub mod friction;
 pub mod friction_range;
+pub mod heat_conduction;
+pub mod heat_exchange;
 pub mod hertz;
 pub mod inlet_rolling;
 pub mod kinematics;
+pub mod life;
+pub mod load_zone;
 pub mod lubricant;
 pub mod lubricant_state;
 pub mod lubricant_traction;
@@ -54,8 +66,10 @@ pub mod moment_parts;
 pub mod palmgren;
 pub mod palmgren_factors;
 mod power;
+pub mod rainflow;
 pub mod ring;
 pub mod rolling;
+pub mod severity;
 pub mod skf;
 pub mod skf_constants;
 pub mod sliding_contact;

@@ -16,6 +16,7 @@ mod compare;
 mod drops;
 mod film_kinds;
 mod friction_kinds;
+mod heat;
 mod levitated;
 mod machine;
 mod machines;
@@ -90,6 +91,7 @@ fn of_json(text: &str, path: &Path, simulator: &dyn Simulator) -> Vec<Row> {
     match serde_json::from_str(text) {
         Err(error) => vec![Row::damaged(format!("not JSON: {error}"))],
         Ok(value) => levitated::rows(&value, path)
+            .or_else(|| heat::rows(&value))
             .or_else(|| machines::rows(&value, path, simulator))
             .or_else(|| reference::rows(&value, simulator))
             .unwrap_or_else(|| vec![Row::not_run("a JSON file of no known format")]),

@@ -1,0 +1,202 @@
+//! Heat, severity and life: rows of closed forms, moving sources, ball loads, wear and fatigue by their `kind`; a network of
+//! bodies; printed counts of cycles; thermal reference speeds; worked life examples. Tolerances are those that each file states.
+
+mod catalogue;
+mod conduction;
+mod cycles;
+mod fatigue;
+mod json;
+mod moving;
+mod network;
+mod severity;
+mod surroundings;
+mod tally;
+
+use super::report::Row;
+use serde_json::Value;
+use tally::{Compare, Tally};
+
+/// Rows of a file; `None` when its keys are those of another.
+pub(super) fn rows(value: &Value) -> Option<Vec<Row>> {
+    let compare = of_file(value)?;
+    let mut tally = Tally::new(value);
+    Some(match compare(value, &mut tally) {
+        Ok(()) => tally.into_rows(),
+        Err(error) => {
+            let row = Row::wrong(format!("wrong: {error}"));
+            vec![Row {
+                damaged: true,
+                ..row
+            }]
+        }
+    })
+}
+
+/// The comparison of a whole file, by its keys.
+fn of_file(value: &Value) -> Option<Compare> {
+    let top = value.as_object()?;
+    let has = |keys: &[&str]| keys.iter().all(|key| top.contains_key(*key));
+    if has(&["capacity", "links", "grounds", "rows"]) {
+        return Some(network::compare);
+    }
+    if has(&["series", "results"]) && value["results"]["counts_by_range"].is_object() {
+        return Some(cycles::by_range);
+    }
+    let rows = top.get("rows")?.as_array()?;
+    let any = |of: &dyn Fn(&Value) -> bool| rows.iter().any(of);
+    if any(&|row| {
+        row["kind"]
+            .as_str()
+            .is_some_and(|kind| of_kind(kind).is_some())
+    }) {
+        Some(by_kind)
+    } else if any(&|row| row["reference_speed_rpm"].is_number() && row["bore_mm"].is_number()) {
+        Some(surroundings::compare)
+    } else if any(&catalogue::is_example) {
+        Some(catalogue::compare)
+    } else {
+        None
+    }
+}
+
+fn of_kind(kind: &str) -> Option<Compare> {
+    conduction::of_kind(kind)
+        .or_else(|| moving::of_kind(kind))
+        .or_else(|| severity::of_kind(kind))
+        .or_else(|| fatigue::of_kind(kind))
+        .or_else(|| cycles::of_kind(kind))
+}
+
+fn by_kind(file: &Value, tally: &mut Tally) -> Result<(), String> {
+    for (at, row) in json::list(file, "rows")?.iter().enumerate() {
+        let place = format!("row {}", at + 1);
+        let named = |error| format!("{place}: {error}");
+        let kind = json::text(row, "kind").map_err(named)?;
+        tally.place.clone_from(&place);
+        match of_kind(kind) {
+            Some(compare) => compare(row, tally).map_err(named)?,
+            None => tally.leave_out(kind, "a kind of row that is not known"),
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::validate::report::{Row, Verdict};
+    use serde_json::json;
+    use std::path::Path;
+
+    /// Files with the least number of quantities that must pass, and one number to spoil.
+    const FILES: [(&str, usize, &str); 7] = [
+        ("reference/heat_closed_forms", 13, "/rows/0/rise"),
+        ("reference/heat_moving_sources", 10, "/rows/0/mean"),
+        ("reference/heat_network", 4, "/rows/0/temperatures/1"),
+        ("reference/severity_life", 26, "/rows/0/load"),
+        ("published/rainflow_astm_e1049", 2, "/series/3"),
+        (
+            "published/life_catalogue_examples",
+            18,
+            "/rows/0/results/hours",
+        ),
+        (
+            "published/iso15312_thermal_reference_speeds",
+            1,
+            "/rows/7/outside_mm",
+        ),
+    ];
+
+    fn count(rows: &[Row], verdict: Verdict) -> usize {
+        rows.iter().filter(|row| row.verdict == verdict).count()
+    }
+
+    /// Every number of a value, by its place.
+    fn numbers(value: &Value, place: &str, found: &mut Vec<String>) {
+        match value {
+            Value::Number(_) => found.push(place.to_string()),
+            Value::Array(list) => list.iter().enumerate().for_each(|(at, inner)| {
+                numbers(inner, &format!("{place}/{at}"), found);
+            }),
+            Value::Object(table) => table.iter().for_each(|(key, inner)| {
+                numbers(inner, &format!("{place}/{key}"), found);
+            }),
+            _ => {}
+        }
+    }
+
+    /// The file with one row alone, once for each kind of row.
+    fn of_one_row(file: &Value) -> Vec<Value> {
+        let Some(list) = file["rows"].as_array() else {
+            return vec![file.clone()];
+        };
+        let mut kinds = Vec::new();
+        let mut files = Vec::new();
+        for row in list {
+            let kind = row.get("kind").or(row.get("name"));
+            if !kinds.contains(&kind) {
+                kinds.push(kind);
+                let mut alone = file.clone();
+                alone["rows"] = json!([row]);
+                files.push(alone);
+            }
+        }
+        files
+    }
+
+    #[test]
+    fn the_laws_meet_the_files_and_a_changed_file_fails() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/cases");
+        if !folder.is_dir() {
+            println!("DID NOT RUN: the cases are not beside this repository");
+            return;
+        }
+        for (name, least, spoilt) in FILES {
+            let text = std::fs::read_to_string(folder.join(format!("{name}.json"))).unwrap();
+            let mut value: Value = serde_json::from_str(&text).unwrap();
+            let found = rows(&value).unwrap();
+            for row in &found {
+                println!(
+                    "{name}: {} {:.1e} of {:.1e}, {}: {}",
+                    row.quantity,
+                    row.deviation.unwrap_or_default(),
+                    row.tolerance.unwrap_or_default(),
+                    row.verdict.word(),
+                    row.why,
+                );
+            }
+            assert_eq!(count(&found, Verdict::Fail), 0, "{name}");
+            let passed = count(&found, Verdict::Pass);
+            assert!(passed >= least, "{name}: {passed}");
+            let number = value.pointer_mut(spoilt).unwrap();
+            *number = json!(number.as_f64().unwrap() * 1.2 + 0.1);
+            let found = rows(&value).unwrap();
+            assert!(count(&found, Verdict::Fail) > 0, "{name}: {spoilt}");
+        }
+    }
+    #[test]
+    fn no_number_of_a_file_can_panic() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/cases");
+        if !folder.is_dir() {
+            println!("DID NOT RUN: the cases are not beside this repository");
+            return;
+        }
+        for (name, ..) in FILES {
+            let text = std::fs::read_to_string(folder.join(format!("{name}.json"))).unwrap();
+            let value: Value = serde_json::from_str(&text).unwrap();
+            for value in of_one_row(&value) {
+                let mut places = Vec::new();
+                numbers(&value, "", &mut places);
+                for place in places {
+                    for other in [json!(0), json!(-1), json!(1e300), json!("x")] {
+                        let mut changed = value.clone();
+                        *changed.pointer_mut(&place).unwrap() = other;
+                        for row in rows(&changed).unwrap_or_default() {
+                            assert!(!row.why.is_empty(), "{name}: {place}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
