@@ -148,7 +148,7 @@ fn what_a_study_refuses() {
     refused(
         "rotor.mass",
         "rotor.mas",
-        &["AB0101", "study.toml:15", "rotor.mas"],
+        &["AB0101", "study.toml:16", "rotor.mas"],
     );
     refused("0.2 kg", "0.2 m", &["AB0105", "study.toml"]);
     refused(

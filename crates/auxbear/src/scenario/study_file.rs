@@ -209,7 +209,7 @@ impl StudyFile {
     /// Where the design is complete as it is, or becomes too large.
     pub fn extended(mut self, more: usize) -> Result<StudyFile, Box<Problem>> {
         let longer = self.design.extended(more);
-        match longer.filter(|design| is_possible(design)) {
+        match longer.filter(is_possible) {
             Some(design) => self.design = design,
             None => {
                 let found = format!("{more} blocks more of a {} design", self.kind);

@@ -59,6 +59,10 @@ impl Motion {
 
 /// States of a mount, then its heat and the work done on it.
 type Path6 = [f64; 8];
+/// Rates of these, and the force on the race.
+type Rates<'a> = dyn Fn(f64, &Path6) -> (Path6, Vec2<f64>) + 'a;
+/// Force, ours and theirs; energies by name, ours and theirs.
+type Compared = (Vec2<f64>, Vec2<f64>, [(&'static str, f64, f64); 3]);
 
 fn of_series(file: &Value, series: &Value, worst: &mut Worst) -> Result<(), String> {
     let text = |key: &str| series[key].as_str().ok_or(format!("{key} is no text"));
@@ -79,7 +83,7 @@ fn of_series(file: &Value, series: &Value, worst: &mut Worst) -> Result<(), Stri
     let (start, _) = motion.at(0.0);
     let mut y = [start.x, start.y, start.x, start.y, 0.0, 0.0, 0.0, 0.0];
     let mut time = 0.0;
-    let mut found = Vec::new();
+    let mut found: Vec<Compared> = Vec::new();
     for row in list(series, "rows")? {
         let until = number(row, "t")?;
         let steps = ((until - time) / STEP).ceil().max(0.0);
@@ -99,7 +103,7 @@ fn of_series(file: &Value, series: &Value, worst: &mut Worst) -> Result<(), Stri
         ];
         found.push((force, Vec2::new(x, y_), energies));
     }
-    let most = |of: &dyn Fn(&(Vec2<f64>, Vec2<f64>, [(&str, f64, f64); 3])) -> f64| {
+    let most = |of: &dyn Fn(&Compared) -> f64| {
         found
             .iter()
             .map(of)
@@ -136,12 +140,7 @@ fn of_series(file: &Value, series: &Value, worst: &mut Worst) -> Result<(), Stri
 }
 
 /// One classical Runge-Kutta step.
-fn advance(
-    rates: &dyn Fn(f64, &Path6) -> (Path6, Vec2<f64>),
-    time: f64,
-    y: &Path6,
-    step: f64,
-) -> Path6 {
+fn advance(rates: &Rates, time: f64, y: &Path6, step: f64) -> Path6 {
     let moved =
         |by: &Path6, share: f64| -> Path6 { std::array::from_fn(|k| y[k] + share * step * by[k]) };
     let first = rates(time, y).0;

@@ -41,16 +41,17 @@ const MOUNT_HEATS: [&str; mount::HEATS.len()] = [
     "housing_damper",
 ];
 
-/// Pairs (ours, reference) of one point, by quantity and unit.
-#[derive(Default)]
-struct Classes(
-    Vec<(
-        &'static str,
-        &'static str,
-        (f64, &'static str),
-        Vec<(f64, f64)>,
-    )>,
+/// What is compared of one class: name, unit, tolerance and its reason, pairs (ours, reference).
+type Class = (
+    &'static str,
+    &'static str,
+    (f64, &'static str),
+    Vec<(f64, f64)>,
 );
+
+/// What is compared of one point.
+#[derive(Default)]
+struct Classes(Vec<Class>);
 
 impl Classes {
     fn add(
