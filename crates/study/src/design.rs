@@ -271,12 +271,11 @@ mod tests {
             let points: Vec<_> = (0..5)
                 .map(|step| shares(&design, 1, block * 5 + step))
                 .collect();
-            for step in 0..4 {
+            for (step, pair) in points.windows(2).enumerate() {
                 let (input, up) = moved(1, 4, block, step);
-                for other in 0..4 {
-                    let change = points[step + 1][other] - points[step][other];
-                    let wanted = if up { MOVE } else { -MOVE };
-                    assert_eq!(change, if other == input { wanted } else { 0.0 });
+                let wanted = if up { MOVE } else { -MOVE };
+                for (other, (before, after)) in pair[0].iter().zip(&pair[1]).enumerate() {
+                    assert_eq!(after - before, if other == input { wanted } else { 0.0 });
                 }
             }
         }
