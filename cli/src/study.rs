@@ -57,7 +57,7 @@ pub fn perform(wish: &Wish) -> Result<Exit, Box<Problem>> {
         .clone()
         .unwrap_or_else(|| Path::new("runs").join(&name));
     run::listen(true);
-    let directory = Directory::open(&path, file, add.unwrap_or(0))?;
+    let directory = Directory::open(&path, Study::new(file)?, add.unwrap_or(0))?;
     let pace = Pace::new(&directory, wish.quiet);
     let options = Options {
         threads: threads.map(usize::from),

@@ -50,9 +50,9 @@ impl Directory {
     ///
     /// # Errors
     /// Where something else stands there, another process works on it, or its study, scenario or version is another.
-    pub fn open(path: &Path, file: StudyFile, add: usize) -> Result<Directory, Box<Problem>> {
+    pub fn open(path: &Path, study: Study, add: usize) -> Result<Directory, Box<Problem>> {
         let new = !exists(path);
-        Directory::begun(path, file, add, new).inspect_err(|_| {
+        Directory::begun(path, study, add, new).inspect_err(|_| {
             // nothing stands in it yet, or it stays
             if new {
                 let _ = fs::remove_dir(path);
@@ -62,7 +62,7 @@ impl Directory {
 
     fn begun(
         path: &Path,
-        file: StudyFile,
+        study: Study,
         add: usize,
         new: bool,
     ) -> Result<Directory, Box<Problem>> {
@@ -83,6 +83,10 @@ impl Directory {
         };
         let known = path.join(STUDY);
         let is_empty = || fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_none());
+        let Study {
+            file,
+            known: quantities,
+        } = study;
         let (file, changed) = if known.is_file() {
             let before = resumed(path, file)?;
             match add {
@@ -94,7 +98,10 @@ impl Directory {
         } else {
             return Err(super::directory::taken(path));
         };
-        let study = Study::new(file)?;
+        let study = Study {
+            file,
+            known: quantities,
+        };
         if changed {
             let members = path.join(MEMBERS);
             fs::create_dir_all(&members).map_err(|error| misplaced(&members, &error))?;
