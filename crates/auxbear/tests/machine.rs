@@ -418,3 +418,40 @@ fn what_cannot_be_is_refused_with_its_place() {
         .to_string();
     assert!(found.contains("an unstable loop at 1256.6"), "{found}");
 }
+
+/// A rigid rotor of mass m on two springs has a mode at √(2k/m); released there it is told, elsewhere and well damped it is not.
+#[test]
+fn a_release_near_a_resonance_is_told() {
+    let text = STIFF.replace("damping = \"1000 N s/m\"", "damping = \"100 N s/m\"");
+    let told = |text: &str, speed: &str| {
+        let outcome = ran(
+            text,
+            &[&format!("rotor.speed={speed}"), "run.duration=1 ms"],
+        );
+        let told = outcome
+            .warnings
+            .iter()
+            .any(|warning| warning.code == "AB2032");
+        (outcome, told)
+    };
+    let (at, near_mode) = told(&text, "500 rad/s");
+    assert!(near_mode);
+    let mass = number(&at, "rotor_mass");
+    let frequency = (2e6 / mass).sqrt();
+    let ratio = 200.0 / (2.0 * mass * frequency);
+    let list = |name: &str| {
+        let found = at.quantities.iter().find(|q| q.name == name).unwrap();
+        match &found.value {
+            Value::List(list) => list.clone(),
+            other => panic!("{other:?}"),
+        }
+    };
+    let modes = list("levitated_mode_frequencies");
+    let ratios = list("levitated_mode_damping_ratios");
+    let damped = frequency * (1.0 - ratio * ratio).sqrt();
+    let close = |k: &usize| (modes[*k] / damped - 1.0).abs() < 1e-4;
+    let own = (0..modes.len()).find(close).unwrap();
+    near(ratios[own], ratio, 1e-3);
+    assert!(!told(&text, "700 rad/s").1);
+    assert!(!told(STIFF, "500 rad/s").1, "damped");
+}

@@ -103,6 +103,7 @@ pub(crate) const SYMBOLS: &[Symbol] = &[
     decimal("MN", Dimension::FORCE, 6),
     ratio("lbf", Dimension::FORCE, -13, 44_482_216_152_605.0, 1.0),
     decimal("Pa", Dimension::PRESSURE, 0),
+    decimal("mPa", Dimension::PRESSURE, -3), // before a second alone
     decimal("kPa", Dimension::PRESSURE, 3),
     decimal("MPa", Dimension::PRESSURE, 6),
     decimal("GPa", Dimension::PRESSURE, 9),

@@ -235,7 +235,12 @@ impl<'a> Reader<'a> {
             .find(|c: char| !is_symbol(c))
             .unwrap_or(self.rest.len());
         let (text, rest) = self.rest.split_at(end);
-        let known = find(text).ok_or_else(|| ParseError::UnknownUnit {
+        // a pressure of this name would be taken for the megapascal; a viscosity is meant as it stands
+        let second = |after: &str| after.starts_with('s') && !after[1..].starts_with(is_symbol);
+        let viscosity = second(rest.trim_start_matches([' ', '·', '*']));
+        let milli = find("mPa").filter(|_| viscosity);
+        let known = if text == "mPa" { milli } else { find(text) };
+        let known = known.ok_or_else(|| ParseError::UnknownUnit {
             unit: text.to_string(),
             nearest: nearest_names(text, SYMBOLS.iter().map(|symbol| symbol.text))
                 .first()

@@ -27,6 +27,8 @@ fn decimal_units_are_exact() {
     assert_eq!(si("2.5 µs"), 2.5e-6);
     assert_eq!(si("2.5 μs"), 2.5e-6);
     assert_eq!(si("4200 MPa"), 4.2e9);
+    assert_eq!(si("20 mPa s"), 0.02);
+    assert_eq!(si("20 mPa·s"), 0.02);
     assert_eq!(si("206 GPa"), 2.06e11);
     assert_eq!(si("40 g mm"), 4e-5);
     assert_eq!(si("100 mm^2/s"), 1e-4);
@@ -143,6 +145,10 @@ fn each_mistake_has_its_message() {
     assert_eq!(
         message("3 Mpa"),
         "the unknown unit \"Mpa\"; did you mean \"MPa\"?"
+    );
+    assert_eq!(
+        message("3 mPa"),
+        "the unknown unit \"mPa\"; did you mean \"MPa\"?"
     );
     assert_eq!(
         message("3 RPM"),

@@ -138,7 +138,7 @@ fn simulate(
     let member = Member {
         kind: 0,
         start: start.unwrap_or_else(|| machine.start()),
-        machine,
+        machine: machine.into(),
         keep_rows: false,
     };
     let mut finished = ensemble::run(

@@ -172,6 +172,11 @@ fn what_cannot_be_a_rotor_is_refused() {
         ("modes = 4", "modes = 60", "AB2003"),
         (SUPPORT, "", "AB2004"),
         ("width = \"70 mm\"\n", "", "a disk without width"),
+        (
+            "width = \"70 mm\"\n",
+            "mass = \"3 kg\"\npolar_inertia = \"0.1 kg m^2\"\ndiametral_inertia = \"0.04 kg m^2\"\n",
+            "no body has more than twice",
+        ),
         ("name = \"two\"", "name = \"one\"", "AB0109"),
         (
             "length = \"1.5 m\"",

@@ -60,12 +60,7 @@ impl Directory {
         })
     }
 
-    fn begun(
-        path: &Path,
-        study: Study,
-        add: usize,
-        new: bool,
-    ) -> Result<Directory, Box<Problem>> {
+    fn begun(path: &Path, study: Study, add: usize, new: bool) -> Result<Directory, Box<Problem>> {
         fs::create_dir_all(path).map_err(|error| misplaced(path, &error))?;
         let lock = match locked(path) {
             Ok(lock) => Some(lock),

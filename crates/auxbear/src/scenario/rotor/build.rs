@@ -423,16 +423,30 @@ fn mesh(
     })
 }
 
+/// What the rounding of given inertias may add to the ratio of a thin disk.
+const ROUNDED: f64 = 0.01;
+
 fn disk(part: &Part, node: usize, materials: &[&Part]) -> Built<Disk> {
     const INERTIA: [&str; 3] = ["mass", "polar_inertia", "diametral_inertia"];
     const DIMENSIONS: [&str; 3] = ["width", "outer_diameter", "material"];
     let given = |name: &&str| part.known.contains_key(*name);
     if INERTIA.iter().all(&given) {
+        let [mass, polar, diametral] = INERTIA.map(|name| part.needed(name));
+        if polar > 2.0 * diametral * (1.0 + ROUNDED) {
+            let found = format!("{polar} kg m^2 about the axis, {diametral} kg m^2 across it");
+            let allowed = "no body has more than twice as much about its axis as across it";
+            return Err(Box::new(part.problem(
+                Code::RotorGeometry,
+                "polar_inertia",
+                found,
+                allowed,
+            )));
+        }
         return Ok(Disk {
             node,
-            mass: part.needed("mass"),
-            polar: part.needed("polar_inertia"),
-            diametral: part.needed("diametral_inertia"),
+            mass,
+            polar,
+            diametral,
         });
     }
     if INERTIA.iter().any(&given) || !DIMENSIONS.iter().all(&given) {

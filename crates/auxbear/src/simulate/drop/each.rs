@@ -13,13 +13,13 @@ use crate::simulate::drop::quantities;
 use crate::simulate::ending::{settings_at, stop};
 use model::system::machine::RotorMachine;
 use rayon::prelude::*;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 /// A drop that is ready to run.
 pub(crate) struct One {
     drop: Drop,
     built: Built,
-    machine: RotorMachine,
+    machine: Arc<RotorMachine>,
     stepping: Stepping,
     kind: Kind,
 }
@@ -27,7 +27,7 @@ pub(crate) struct One {
 /// Builds a drop of its scenario.
 pub(crate) fn one(scenario: &Scenario, drop: &Drop) -> Result<One, Box<Problem>> {
     let built = build::drop(drop)?;
-    let machine = RotorMachine::new(built.constants.clone());
+    let machine = Arc::new(RotorMachine::new(built.constants.clone()));
     Ok(One {
         stepping: stepping(drop, &built, machine.tangents()),
         kind: kind_of(scenario),

@@ -9,13 +9,14 @@ use model::system::machine::simulate::{Runs, Steps, simulate};
 use number::Level;
 use rayon::prelude::*;
 use solve::{Ending, Flow, Observer, Settings, Step};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// One machine with its start.
 #[derive(Clone, Debug)]
 pub struct Member {
-    /// The machine.
-    pub machine: RotorMachine,
+    /// The machine, which members that differ in their start alone share.
+    pub machine: Arc<RotorMachine>,
     /// Its state at the start.
     pub start: Vec<f64>,
     /// Whether its history is kept.
@@ -113,7 +114,7 @@ fn together(members: usize, lanes: usize, threads: usize) -> usize {
 
 /// Runs members that share the lanes of a vector register: each lane takes the next one when it is free.
 fn side_by_side(members: &[Member], plan: &Plan, report: &Report) -> Vec<Finished> {
-    let machines: Vec<&RotorMachine> = members.iter().map(|m| &m.machine).collect();
+    let machines: Vec<&RotorMachine> = members.iter().map(|m| &*m.machine).collect();
     let starts: Vec<Vec<f64>> = members.iter().map(|m| m.start.clone()).collect();
     let mut watched: Vec<Watched> = (members.iter())
         .map(|member| Watched::of(member, plan, report))

@@ -8,6 +8,7 @@ use measure::random::Random;
 use model::bearing::BearingConstants;
 use model::system::machine::RotorMachine;
 use number::Vec2;
+use std::sync::Arc;
 
 /// A member whose machine differs from the one given.
 pub(crate) struct Varied {
@@ -80,12 +81,12 @@ fn member_problem(k: usize, drawn: &[(String, String)], mut problem: Problem) ->
 /// All members: the machine and start given, then others by numbers that depend on (seed, k) alone.
 pub(crate) fn of(drop: &Drop, built: &Built, varied: &[Varied]) -> Vec<Member> {
     let count = drop.repeat.count.max(1) as usize;
-    let given = RotorMachine::new(built.constants.clone());
+    let given = Arc::new(RotorMachine::new(built.constants.clone()));
     (0..count)
         .map(|k| {
             let other = k.checked_sub(1).and_then(|k| varied.get(k));
             let machine = match other {
-                Some(varied) => RotorMachine::new(varied.built.constants.clone()),
+                Some(varied) => Arc::new(RotorMachine::new(varied.built.constants.clone())),
                 None => given.clone(),
             };
             let from = other.map_or(built, |varied| &varied.built);

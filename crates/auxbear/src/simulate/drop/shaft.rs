@@ -29,6 +29,34 @@ pub struct BuiltShaft {
     pub position: Vec<Vec2<f64>>,
     /// Their rates, m √kg/s.
     pub velocity: Vec<Vec2<f64>>,
+    /// Modes of the rotor as it is held until the release, by rising frequency.
+    pub held: Vec<HeldMode>,
+}
+
+/// A mode of the rotor as it is held, at the speed of the release.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeldMode {
+    /// Frequency, rad/s; positive where its motion turns as the rotor spins.
+    pub frequency: f64,
+    /// Damping ratio.
+    pub damping_ratio: f64,
+    /// Whether unbalance excites it: it turns with the spin, or on an ellipse.
+    pub excited: bool,
+}
+
+/// Share of a motion that turns one way from which on it is a circle.
+const CIRCLE: f64 = 0.99;
+
+impl HeldMode {
+    /// From an eigenvalue and the share of its motion that turns as its sign says.
+    fn new(value: C64, turning: f64, speed: f64) -> HeldMode {
+        let with = value.im * speed.signum();
+        HeldMode {
+            frequency: with,
+            damping_ratio: -value.re / value.norm(),
+            excited: with > 0.0 || turning < CIRCLE,
+        }
+    }
 }
 
 impl BuiltShaft {
@@ -50,13 +78,14 @@ pub(crate) fn build(
     let basis = basis(shaft, rotor, &matrices)?;
     let within = Analysis::new(rotor, &matrices, basis);
     let loads = weight(rotor, &within, [gravity.x, gravity.y]);
-    let ((position, velocity), currents) = match &shaft.model.levitation {
+    let ((position, velocity), currents, mut held) = match &shaft.model.levitation {
         Some(_) => on_magnets(drop, shaft, &within, &loads)?,
         None => {
-            let steady = on_supports(drop, rotor, &matrices, &within, &loads)?;
-            (steady, Vec::new())
+            let (steady, held) = on_supports(drop, rotor, &matrices, &within, &loads)?;
+            (steady, Vec::new(), held)
         }
     };
+    held.sort_by(|a, b| a.frequency.abs().total_cmp(&b.frequency.abs()));
     let magnets = fading(shaft, &within.basis, &position, &currents);
     let places = places(shaft);
     let mut constants = constants(drop, shaft, &matrices, &within.basis);
@@ -76,6 +105,7 @@ pub(crate) fn build(
         magnets,
         position,
         velocity,
+        held,
     })
 }
 
@@ -202,7 +232,7 @@ fn on_magnets(
     shaft: &Shaft,
     within: &Analysis,
     loads: &DVector<f64>,
-) -> Result<(Steady, Vec<f64>), Box<Problem>> {
+) -> Result<(Steady, Vec<f64>, Vec<HeldMode>), Box<Problem>> {
     let Some(model) = &shaft.model.levitation else {
         return Err(failed("no magnets"));
     };
@@ -211,7 +241,11 @@ fn on_magnets(
     let failed = |error: levitation::Refused| levitated::failed(&error.to_string());
     let plant = Plant::planes(within, rotor.nodes.len(), speed);
     let closed = ClosedLoop::new(plant.clone(), &model.levitation).map_err(failed)?;
-    levitated::holds(model, &closed.poles().map_err(failed)?, speed)?;
+    let poles = closed.poles().map_err(failed)?;
+    levitated::holds(model, &poles, speed)?;
+    let held = poles.iter().filter(|pole| pole.oscillates());
+    let held = held.map(|pole| HeldMode::new(pole.value, pole.turning, speed));
+    let held = held.collect();
     let still = Plant::planes(within, rotor.nodes.len(), 0.0);
     let rest = equilibrium(&still, &model.levitation, loads);
     levitated::strong(
@@ -237,6 +271,7 @@ fn on_magnets(
     Ok((
         (pairs(&start.coordinates), pairs(&start.rates)),
         start.currents,
+        held,
     ))
 }
 
@@ -247,7 +282,7 @@ fn on_supports(
     matrices: &Matrices,
     within: &Analysis,
     loads: &DVector<f64>,
-) -> Result<Steady, Box<Problem>> {
+) -> Result<(Steady, Vec<HeldMode>), Box<Problem>> {
     let basis = &within.basis;
     let size = basis.len();
     let mut nodes: Vec<usize> = (rotor.supports.iter())
@@ -280,7 +315,7 @@ fn on_supports(
     };
     let (x, y) = (sagging(0)?, sagging(size)?);
     let speed = drop.rotor.speed;
-    hold(within, speed)?;
+    let held = hold(within, speed)?;
     let turning = Responder::within(rotor, within).unbalance(&rotor.unbalance, speed);
     let turning = turning.map_err(|_| not_held())?;
     let modal = |list: &DVector<C64>| -> DVector<C64> {
@@ -292,15 +327,14 @@ fn on_supports(
     let spin = C64::new(0.0, speed);
     let plane = |value: C64| Vec2::new(value.re, value.im);
     let parts = |k: usize| (forward[k] * phase, (backward[k] * phase).conj());
-    Ok((0..size)
-        .map(|k| {
-            let (with, against) = parts(k);
-            (
-                Vec2::new(x[k], y[k]) + plane(with + against),
-                plane(spin * (with - against)),
-            )
-        })
-        .unzip())
+    let steady = (0..size).map(|k| {
+        let (with, against) = parts(k);
+        (
+            Vec2::new(x[k], y[k]) + plane(with + against),
+            plane(spin * (with - against)),
+        )
+    });
+    Ok((steady.unzip(), held))
 }
 
 /// The magnets as their currents decay: force and k_s about the release.
@@ -401,7 +435,7 @@ pub(crate) fn clear(drop: &Drop, shaft: &Shaft, built: &BuiltShaft) -> Result<()
 }
 
 /// Refuses supports on which the rotor does not stay: a motion that grows, or one without stiffness.
-fn hold(within: &Analysis, speed: f64) -> Result<(), Box<Problem>> {
+fn hold(within: &Analysis, speed: f64) -> Result<Vec<HeldMode>, Box<Problem>> {
     // beyond what rounding leaves of an undamped rotor
     const NOTHING: f64 = 1e-4;
     const ROUNDING: f64 = 1e-6;
@@ -415,7 +449,15 @@ fn hold(within: &Analysis, speed: f64) -> Result<(), Box<Problem>> {
         _ if found.iter().any(|value| value.norm() < NOTHING) => {
             format!("a motion without static stiffness {at}: an eigenvalue below 1e-4 1/s")
         }
-        _ => return Ok(()),
+        _ => {
+            let modes = within.oscillations(speed).map_err(|_| not_held())?;
+            // eigenvalues of a rotor on unequal supports stand for both ways round
+            let turning = if within.turns() { 1.0 } else { 0.5 };
+            let modes = modes
+                .into_iter()
+                .map(|value| HeldMode::new(value, turning, speed));
+            return Ok(modes.collect());
+        }
     };
     let needed = "supports that hold the rotor until the release are needed";
     Err(Box::new(

@@ -50,6 +50,23 @@ pub(crate) fn name(context: &Context, list: &mut List) {
     let highest = coordinates.last().map_or(0.0, |own| own.frequency);
     list.number("highest_frequency", "rad/s", Ok(highest), &BASIS);
     list.number("coordinates", "", Ok(coordinates.len() as f64), &BASIS);
+    let most = SHOWN * context.drop.rotor.speed.abs();
+    let held = built.held.iter();
+    let shown: Vec<_> = held.filter(|mode| mode.frequency.abs() <= most).collect();
+    let frequencies = shown.iter().map(|mode| mode.frequency).collect();
+    list.push(
+        "levitated_mode_frequencies",
+        "rad/s",
+        Value::List(frequencies),
+        &HELD,
+    );
+    let damping = shown.iter().map(|mode| mode.damping_ratio).collect();
+    list.push(
+        "levitated_mode_damping_ratios",
+        "",
+        Value::List(damping),
+        &HELD,
+    );
     drawing::name(list, &given.model);
     let rotor = &given.model.rotor;
     let z = |nodes: &mut dyn Iterator<Item = usize>| -> Vec<f64> {
@@ -153,6 +170,39 @@ pub(crate) fn few_modes(context: &Context) -> Option<Warning> {
     })
 }
 
+/// A mode of the levitated rotor near the speed at which it is released, with its amplification.
+pub(crate) fn resonance(context: &Context) -> Option<(f64, Warning)> {
+    let (given, built) = (context.drop.shaft.as_ref()?, context.built.shaft.as_ref()?);
+    let speed = context.drop.rotor.speed.abs();
+    let near = built.held.iter().filter(|mode| {
+        mode.excited
+            && (mode.frequency.abs() - speed).abs() < NEAR * speed
+            && mode.damping_ratio < DAMPED
+    });
+    let worst = near.min_by(|a, b| a.damping_ratio.total_cmp(&b.damping_ratio))?;
+    let amplification = 0.5 / worst.damping_ratio.max(0.0);
+    let held = match given.model.levitation {
+        Some(_) => "on its magnets",
+        None => "on its supports",
+    };
+    let size = match amplification.is_finite() {
+        true => format!("an amplification of {amplification:.1}"),
+        false => "no damping".to_string(),
+    };
+    let text = format!(
+        "The speed at the release ({speed:.0} rad/s) is near a mode of the rotor {held} ({:.0} rad/s, {size}): it may turn with large          orbits before it falls, and small changes of speed or unbalance change the drop much.",
+        worst.frequency.abs()
+    );
+    Some((amplification, warning("AB2032", text)))
+}
+
+/// Distance between a speed and a mode, over the speed, within which they are near.
+const NEAR: f64 = 0.1;
+/// Damping ratio from which on a mode does not stand out: an amplification of 2.5.
+const DAMPED: f64 = 0.2;
+/// Modes up to so many times the speed are shown.
+const SHOWN: f64 = 3.0;
+
 /// A place along the shaft with something around it.
 struct Named<'a> {
     name: &'a str,
@@ -199,6 +249,12 @@ const DISTANCE: Origin = Origin {
     law: "clearance of the node less its largest displacement; negative: the rotor reaches what stands there",
     source: "crates/model/src/system/machine/record.rs",
     valid: "what stands around the rotor is centred on the line of levitation and touches nothing else",
+};
+const HELD: Origin = Origin {
+    law: "eigenvalues of the rotor on its magnets with their controllers, or on its supports, at the speed of the release, up to three \
+          times that speed; positive turns with the spin",
+    source: "crates/levitation/src/closed_loop.rs, crates/rotor/src/modes.rs",
+    valid: "small motion; samples as a delay; on unequal supports without magnets both ways round stand as positive",
 };
 const BASIS: Origin = Origin {
     law: "free modes up to rotor.cutoff with the residual flexibility of every place that carries something (Rubin)",

@@ -143,6 +143,9 @@ pub(crate) fn of(scenario: &Scenario, contexts: &[Context]) -> Vec<Warning> {
     list.extend(judged(machines, |member| {
         bending(member).into_iter().collect()
     }));
+    list.extend(judged(machines, |member| {
+        shaft_results::resonance(member).into_iter().collect()
+    }));
     list.extend(one_motion(context));
     list.extend(each(&|k| {
         judged(contexts, |member| preload(member, k).into_iter().collect())
