@@ -29,7 +29,7 @@ pub enum Command {
     Signals(Measured),
     /// Find what measured tests show of a bearing: friction, loss, slip, and which explanation they support
     Identify(Measured),
-    /// Analyse a bent rotor: modes, critical speeds, response to unbalance; write a run directory
+    /// Analyse a bent rotor, also that of a machine: modes, critical speeds, response to unbalance; write a run directory
     Rotor(Measured),
     /// Make a rotor file of this program from a rotor saved by ROSS, or from a table of sections
     Import(Import),

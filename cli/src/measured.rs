@@ -1,4 +1,4 @@
-//! `auxbear signals`, `auxbear identify` and `auxbear rotor`: each takes files of its own system alone.
+//! `auxbear signals`, `auxbear identify` and `auxbear rotor`: each takes files of its own system alone, the last one machines too.
 
 use crate::arguments::Measured;
 use crate::exit::Exit;
@@ -9,7 +9,12 @@ use auxbear::scenario::{BuiltIn, Scenario, SystemName};
 
 /// Computes what a file of this system asks for.
 pub fn perform(wish: &Measured, wanted: SystemName) -> Result<Exit, Box<Problem>> {
-    let scenario = Scenario::read(&wish.file, &wish.set, &BuiltIn)?;
+    let mut scenario = Scenario::read(&wish.file, &wish.set, &BuiltIn)?;
+    if wanted == SystemName::Rotor
+        && let Some(rotor) = scenario.rotor_alone()
+    {
+        scenario = rotor?;
+    }
     let system = scenario.system.name();
     if system != wanted {
         let problem = Problem::at_path(

@@ -455,3 +455,67 @@ fn a_release_near_a_resonance_is_told() {
     assert!(!told(&text, "700 rad/s").1);
     assert!(!told(STIFF, "500 rad/s").1, "damped");
 }
+
+/// What a run says of its severity follows from what else it says.
+#[test]
+fn severity_follows_from_forces_pressures_and_heats() {
+    let outcome = ran(
+        STIFF,
+        &["run.duration=20 ms", "contact.friction_coefficient=0.3"],
+    );
+    let of = |name: &str| number(&outcome, name);
+    let weight = 9.81 * of("rotor_mass") / 2.0;
+    for bearing in ["a", "b"] {
+        let own = |name: &str| of(&format!("{bearing}.{name}"));
+        near(
+            own("ball_load_safety"),
+            (4.2e9 / own("peak_hertz_pressure")).powi(3),
+            1e-12,
+        );
+        let contacts = outcome.contacts.iter().filter(|c| c.bearing == bearing);
+        let blows: f64 = contacts
+            .map(|c| (c.peak_force / weight - 1.0).max(0.0))
+            .sum();
+        assert!(blows > 1.0);
+        near(own("blow_index"), blows, 1e-6);
+        // the race of 20 g has at least half of what its bore lost by friction, and not all of it with its groove
+        let half = 0.5 * own("rotor_race_friction_energy") / (0.02 * 460.0);
+        let rise = own("inner_race_rise_without_cooling");
+        assert!(rise > half && rise < 2.0 * half, "{rise} {half}");
+    }
+    assert!(
+        outcome
+            .warnings
+            .iter()
+            .all(|warning| warning.code != "AB2300")
+    );
+    // a race that is held: all that the rotor loses goes on rubbing
+    let held = ran(
+        STIFF,
+        &[
+            "run.duration=60 ms",
+            "bearing.inner_race_inertia=1 kg m^2",
+            "contact.friction_coefficient=0.4",
+        ],
+    );
+    let rise = number(&held, "a.inner_race_rise_without_cooling");
+    let told = held.warnings.iter().any(|warning| warning.code == "AB2300");
+    assert!(rise > 100.0 && told, "{rise}");
+}
+
+/// The rotor of a machine is analysed as it stands in the machine's file.
+#[test]
+fn the_rotor_of_a_machine_is_analysed() {
+    let machine = parsed(STIFF, &[]).unwrap();
+    let rotor = machine.rotor_alone().unwrap().unwrap();
+    let outcome = run(&rotor, &Options::unwatched(&AtomicBool::new(false))).unwrap();
+    let mass = number(&outcome, "mass");
+    let (natural, ratio) = ((2e6 / mass).sqrt(), 1000.0 / (mass * (2e6 / mass).sqrt()));
+    near(
+        number(&outcome, "first_critical_speed"),
+        natural * (1.0 - ratio * ratio).sqrt(),
+        1e-3,
+    );
+    near(number(&outcome, "rated_speed"), 942.477_796, 1e-8);
+    assert!(rotor.rotor_alone().is_none());
+}

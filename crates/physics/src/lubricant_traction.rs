@@ -46,6 +46,7 @@ use crate::film::{EntrainedContact, FilmThickness, InletHeating, SLOWEST, logari
 use crate::hertz::PointContact;
 use crate::inlet_rolling::{InletResistance, InletRolling};
 use crate::lubricant::{HIGHEST_PRESSURE, LubricantError, LubricantState};
+use crate::materials::BEARING_STEEL_SPECIFIC_HEAT;
 use number::{Real, constants};
 use std::f64::consts::PI;
 
@@ -69,7 +70,7 @@ pub struct SurfaceHeat {
 /// Source: SNFA precision bearing catalogue, p. 109 (40 to 50 W/(m K)); specific heat from memory.
 pub const STEEL_SURFACE: SurfaceHeat = SurfaceHeat {
     conductivity: 45.0,
-    volumetric_heat: 7800.0 * 460.0,
+    volumetric_heat: 7800.0 * BEARING_STEEL_SPECIFIC_HEAT,
 };
 
 /// Silicon nitride: 35 W/(m K), 3190 kg/m³ · 700 J/(kg K).

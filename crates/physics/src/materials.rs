@@ -32,6 +32,11 @@ pub const BEARING_STEEL_SNFA: Material = Material {
     poisson_ratio: 0.30,
 };
 
+/// Specific heat of bearing steel, J/(kg K).
+///
+/// Source: 450 to 480 in handbooks (from memory).
+pub const BEARING_STEEL_SPECIFIC_HEAT: f64 = 460.0;
+
 /// Silicon nitride Si₃N₄ for balls of hybrid bearings: E 315 GPa, ν 0.26, 3190 kg/m³.
 ///
 /// Source: SNFA precision bearing catalogue, p. 109, table silicon nitride / bearing steel.

@@ -21,7 +21,7 @@ impl Machine<'_> {
             Built::Drop(drop, ..) => {
                 let parts = drop.auxiliary_bearings.iter().enumerate();
                 let of_part = |(k, part): (usize, &AuxiliaryBearing)| {
-                    let load = drop.rotor.mass * drop.gravity.acceleration * drop.share(k);
+                    let load = drop.weight(k);
                     let mut list = of_bearing(&part.name, &part.bearing, load, drop.rotor.speed);
                     list.extend(preload_left(
                         &part.name,

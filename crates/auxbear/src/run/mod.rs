@@ -13,8 +13,8 @@ use crate::evaluate::{rotor, torque};
 pub use crate::options::Options;
 use crate::problem::Problem;
 use crate::result::limits;
-use crate::result::outcome::Quantity;
 pub use crate::result::outcome::{self, Outcome};
+use crate::result::outcome::{Quantity, Warning};
 use crate::scenario::{Drop, Rig, Scenario, SpinUp, System};
 use crate::simulate::{drop, rig, spin_up};
 pub use each::{Single, each};
@@ -75,6 +75,9 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
     Ok(machine)
 }
 
+/// Backward whirl, a rotor that reaches what stands around it, a race that gets hot.
+const DESTRUCTION: [&str; 3] = ["AB1014", "AB2030", "AB2300"];
+
 impl Machine<'_> {
     /// Simulates it. A run that fails is an [`Outcome`] whose `stop` says where and why.
     pub fn run(&self, options: &Options) -> Outcome {
@@ -87,6 +90,9 @@ impl Machine<'_> {
                 .all(|other| other.code != warning.code)
         });
         outcome.warnings.splice(0..0, before);
+        // what destroys stands above what is doubtful
+        let destroys = |warning: &Warning| DESTRUCTION.contains(&warning.code);
+        outcome.warnings.sort_by_key(|warning| !destroys(warning));
         outcome.limits = limits::of(&self.scenario.limits, &outcome);
         outcome
     }

@@ -117,6 +117,29 @@ impl Document {
         self.own.iter().map(of).collect()
     }
 
+    /// The analysis of a machine's rotor: the values and parts that both systems have, under the same gravity.
+    pub(crate) fn rotor_alone(&self) -> Document {
+        let system = SystemName::Rotor;
+        let mut rotor = self.clone();
+        let gravity = [
+            ("gravity.acceleration", "analysis.gravity"),
+            ("gravity.direction", "analysis.gravity_angle"),
+        ];
+        for (from, to) in gravity {
+            if let Some(given) = rotor.values.remove(from) {
+                rotor.values.insert(to, given);
+            }
+        }
+        (rotor.values).retain(|path, _| table::keys_of(system).any(|key| key.path == *path));
+        if let Some(given) = rotor.values.get_mut("system") {
+            given.raw = Raw::Text(system.word().to_string());
+        }
+        rotor.own.clear();
+        rotor.vary.clear();
+        rotor.limits.clear();
+        Document { system, ..rotor }
+    }
+
     /// Reads the array of tables of several auxiliary bearings.
     fn add_bearings(
         &mut self,

@@ -257,6 +257,15 @@ impl Scenario {
         Scenario::of(document, &BuiltIn)
     }
 
+    /// The analysis of a machine's rotor, by default where a machine does not say what is asked; none of what is no machine.
+    ///
+    /// # Errors
+    /// What this rotor would be refused for.
+    pub fn rotor_alone(&self) -> Option<Result<Scenario, Box<Problem>>> {
+        (self.system.name() == SystemName::Machine)
+            .then(|| Scenario::of(self.document.rotor_alone(), &BuiltIn))
+    }
+
     /// What a study varies of it: a path with its distribution as a table of one word.
     pub(crate) fn varied(
         &self,

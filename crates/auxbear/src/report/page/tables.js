@@ -127,10 +127,10 @@ function differenceText(first, other) {
 const SUBJECTS = [
   ["Verdict", /^(explanation|probability_of_(?!\w+_form)|next_test)/],
   ["Residuals of the computation", /residual$/],
-  ["Energy and heat", /energy|heat|work|dissipat|power|path_term/],
-  ["Hertz pressure and loads of the balls", /pressure|ball_load|static_safety|skid_share/],
+  ["Energy and heat", /energy|heat|work|dissipat|power|path_term|without_cooling/],
+  ["Hertz pressure and loads of the balls", /pressure|ball_load|static_safety|skid_share|indentation/],
   ["Cage and balls", /cage|pocket|skid|slip|ball_ball|land_/],
-  ["Contact of rotor and race", /contact|impact|force|whirl/],
+  ["Contact of rotor and race", /contact|impact|force|whirl|blow/],
   ["Displacements", /displacement/],
   ["Steady moment", /^steady|_form$|coast_down|largest_parameter|effective_steady/],
   ["Moments", /moment|torque|traction_capacity|friction/],

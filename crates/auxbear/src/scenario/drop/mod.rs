@@ -172,6 +172,11 @@ impl Drop {
         }
     }
 
+    /// Weight of the rotor on an auxiliary bearing, N.
+    pub fn weight(&self, bearing: usize) -> f64 {
+        self.rotor.mass * self.gravity.acceleration * self.share(bearing)
+    }
+
     /// A bent rotor with the values of each auxiliary bearing.
     pub(crate) fn of_shaft(document: &Document, all: &[Values]) -> Result<Drop, Box<Problem>> {
         let shaft = Shaft::of(document, all)?;

@@ -7,6 +7,7 @@ pub(crate) mod film;
 pub mod pressure;
 pub(crate) mod quantities;
 pub(crate) mod run;
+pub(crate) mod severity;
 pub(crate) mod skid;
 pub mod steady;
 pub(crate) mod traction;

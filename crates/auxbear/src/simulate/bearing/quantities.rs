@@ -70,6 +70,7 @@ impl List {
         }
         let share = pressures.share_of_limit(bearing);
         pressure("hertz_pressure_share_of_limit", "1", share);
+        self.ball_load_severity(loads, pressures.races, bearing);
     }
 
     /// What the lubricant came to in a state at the end; nothing where it has no state.

@@ -181,6 +181,9 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
     );
     list.number("whirl_turns", "", Ok(turns), &WHIRL);
     list.losses(&run, &end, &ENERGY);
+    let weight = context.drop.weight(k);
+    list.blows(record.contacts.iter().map(|c| c.peak_force), weight);
+    list.warming(&end, given);
     let contact = &context.given(k).contact;
     let work = end.heat("rotor_race_friction");
     list.number(

@@ -4,6 +4,8 @@ use crate::result::assumptions::speed_rating;
 use crate::result::outcome::Warning;
 use crate::result::outcome::warning;
 use crate::scenario::{Accuracy, Fidelity, Method, Moment, Scenario};
+use crate::simulate::bearing::quantities::End;
+use crate::simulate::bearing::severity::inner_race_rise;
 use crate::simulate::bearing::warnings as shared;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::quantities::residuals;
@@ -138,6 +140,9 @@ pub(crate) fn of(scenario: &Scenario, contexts: &[Context]) -> Vec<Warning> {
         }));
     }
     list.extend(each(&|k| {
+        judged(contexts, |member| hot(member, k).into_iter().collect())
+    }));
+    list.extend(each(&|k| {
         judged(machines, |member| beyond_speeds(member, k))
     }));
     list.extend(judged(machines, |member| {
@@ -244,7 +249,7 @@ fn beyond_speeds(context: &Context, k: usize) -> Vec<Graded> {
 /// A load beyond what the axial preload holds.
 fn preload(context: &Context, k: usize) -> Option<Graded> {
     let drop = context.drop;
-    let weight = drop.rotor.mass * drop.gravity.acceleration * drop.share(k);
+    let weight = drop.weight(k);
     let peak = context.record(k).peak_contact_force();
     let peak = peak.map(|peak| (peak.value, peak.time));
     let bearing = &context.given(k).bearing;
@@ -319,6 +324,24 @@ fn loads(context: &Context, k: usize) -> Vec<Graded> {
         list.push((peak.value / rating, warning("AB1005", text)));
     }
     list
+}
+
+/// Rise of an inner race from which on what does not follow its warmth misleads: from 20 °C to the 120 °C of common rings, K.
+const HOT: f64 = 100.0;
+
+/// An inner race that gets hot.
+fn hot(context: &Context, k: usize) -> Option<Graded> {
+    let end = End {
+        part: context.parts().nth(k)?,
+        layout: context.machine.layout(),
+        state: &context.finished.ending.state,
+    };
+    let rise = inner_race_rise(&end, &context.given(k).bearing).filter(|rise| *rise > HOT)?;
+    let text = format!(
+        "Without cooling the inner race warms by {rise:.0} K: clearance, lubricant, friction and hardness change with that, and this run \
+         does not follow them."
+    );
+    Some((rise, warning("AB2300", text)))
 }
 
 /// A contact law outside its range.

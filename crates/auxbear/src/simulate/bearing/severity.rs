@@ -1,0 +1,123 @@
+//! How hard a run was on its bearing: safety of the ball loads, indentation, blows, warmth of the inner race.
+
+use crate::result::list::{List, Origin};
+use crate::scenario::{BallMaterial, Bearing};
+use crate::simulate::bearing::quantities::End;
+use model::system::sampling::Peak;
+use physics::materials::BEARING_STEEL_SPECIFIC_HEAT;
+use physics::severity::{ball_load_safety, permanent_indentation};
+
+/// Indentation over the ball's diameter between which its law holds.
+const RANGE: [f64; 2] = [1e-5, 1e-3];
+
+/// Heats of which half goes to the inner race.
+const AT_THE_INNER_RACE: [&str; 4] = [
+    "rotor_race_friction",
+    "rotor_race_damping",
+    "inner_contact_damping",
+    "inner_ball_slip",
+];
+
+/// Rise of the inner race, K, of which half of the heats at its surfaces is enough; none where it sits on a shaft.
+pub(crate) fn inner_race_rise(end: &End, bearing: &Bearing) -> Option<f64> {
+    let heat: f64 = AT_THE_INNER_RACE.iter().map(|kind| end.heat(kind)).sum();
+    let capacity = bearing.inner_race_mass * BEARING_STEEL_SPECIFIC_HEAT;
+    (capacity > 0.0).then(|| 0.5 * heat / capacity)
+}
+
+impl List {
+    /// Safety of the largest ball load, and what it leaves behind. The largest loads at inner and outer race, N, the largest
+    /// pressure there, Pa.
+    pub fn ball_load_severity(&mut self, loads: [Peak; 2], pressure: f64, bearing: &Bearing) {
+        let safety = match pressure > 0.0 {
+            true => Ok(ball_load_safety(bearing.hertz_pressure_limit, pressure)),
+            false => Err("no ball was loaded".to_string()),
+        };
+        self.number("ball_load_safety", "1", safety, &SAFETY);
+        self.number(
+            "largest_indentation",
+            "m",
+            indentation(loads, bearing),
+            &INDENTATION,
+        );
+    }
+
+    /// Blows beyond a load at rest: the largest force of each contact, and that load, N.
+    pub fn blows(&mut self, peaks: impl Iterator<Item = f64>, load: f64) {
+        let index = match load > 0.0 {
+            true => Ok(peaks.map(|peak| (peak / load - 1.0).max(0.0)).sum()),
+            false => Err("no weight lies on this bearing".to_string()),
+        };
+        self.number("blow_index", "1", index, &BLOWS);
+    }
+
+    /// What half of the heats at its surfaces warms the inner race by.
+    pub fn warming(&mut self, end: &End, bearing: &Bearing) {
+        let rise = inner_race_rise(end, bearing)
+            .ok_or_else(|| "bearing.inner_race_mass is 0: the race sits on a shaft".to_string());
+        self.number("inner_race_rise_without_cooling", "K", rise, &RISE);
+    }
+}
+
+/// The deeper one of both races, m, or why there is no law for it.
+fn indentation([inner, outer]: [Peak; 2], bearing: &Bearing) -> Result<f64, String> {
+    if bearing.ball_material == BallMaterial::SiliconNitride {
+        return Err("its law is for steel balls; ceramic ones indent the ring alone".to_string());
+    }
+    let diameter = bearing.ball_diameter;
+    let gamma = diameter * bearing.contact_angle.cos() / bearing.pitch_diameter;
+    let of = |load: Peak, groove, inner| {
+        permanent_indentation(load.value, diameter, groove, gamma, inner)
+    };
+    let ratio = of(inner, bearing.inner_groove_curvature, true).max(of(
+        outer,
+        bearing.outer_groove_curvature,
+        false,
+    ));
+    match ratio {
+        ratio if ratio < RANGE[0] => Err(format!(
+            "{ratio:.1e} of a ball's diameter, below the 1e-5 from which the law holds: hardly any"
+        )),
+        ratio if ratio > RANGE[1] => Err(format!(
+            "{ratio:.1e} of a ball's diameter, above the 1e-3 up to which the law holds: deep"
+        )),
+        ratio => Ok(ratio * diameter),
+    }
+}
+
+const SAFETY: Origin = Origin {
+    law: "(p_limit/p)³ = Q_limit/Q of the most loaded ball, p_limit = bearing.hertz_pressure_limit",
+    source: "H. Hertz 1881; crates/physics/src/severity.rs",
+    valid: "elastic contact; below 1 balls and races are dented. Hybrid bearings: the limit of steel unless another is given",
+};
+const INDENTATION: Origin = Origin {
+    law: "5.25e-19 Pa⁻² (Q/D²)² (1 − 1/(2f))/(1 ∓ γ) D of the largest ball load, the deeper race; ball and race together",
+    source: "Palmgren (from memory: check before quoting); crates/physics/src/severity.rs",
+    valid: "1e-5 to 1e-3 of D, 58 HRC and more, slow loading: impacts leave less; dents are not added up",
+};
+const BLOWS: Origin = Origin {
+    law: "Σ max(0, N/W − 1) over all contacts, N the largest force of each, W the share of the weight on this bearing",
+    source: "definition; 0 for a rotor that lies still",
+    valid: "compares drops of one machine; it is no limit by itself",
+};
+const RISE: Origin = Origin {
+    law: "half of the heats at bore and inner groove over 460 J/(kg K) times bearing.inner_race_mass",
+    source: "crates/auxbear/src/simulate/bearing/severity.rs; steel 450 to 480 J/(kg K)",
+    valid: "mean of a race that is not cooled, steel, runs longer than 0.1 s; surfaces are hotter. A rotor that slides fast takes more than \
+            half. The steady moment, clearance and viscosity do not follow it",
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::result::outcome::Value;
+
+    #[test]
+    fn a_rotor_that_lies_still_gives_no_blows() {
+        let mut list = List(Vec::new());
+        list.blows([80.0, 100.0].into_iter(), 100.0);
+        list.blows([150.0, 300.0].into_iter(), 100.0);
+        let values = list.0.iter().map(|one| one.value.clone());
+        assert!(values.eq([Value::Number(0.0), Value::Number(2.5)]));
+    }
+}
