@@ -19,6 +19,7 @@ use crate::contact::{ContactReaction, JournalContact};
 use crate::motion::{Body, Motion};
 use crate::mount::{Mount, MountParts, MountReaction, WholeMount};
 use crate::rotor::GeometricCentre;
+use crate::surface_heat::Surfaces;
 use crate::system::layout::Layout;
 use number::{Gather, Real, Vec2, constants};
 use std::ops::Range;
@@ -58,6 +59,8 @@ pub struct AuxiliaryBearingConstants {
     pub mount: Mount<f64>,
     /// What the mount has besides.
     pub mount_parts: MountParts,
+    /// Surfaces of rotor and race, where their heat is followed; it acts on nothing.
+    pub surfaces: Option<Surfaces>,
 }
 
 impl AuxiliaryBearingConstants {
@@ -156,6 +159,12 @@ impl BearingAt {
     #[inline(always)]
     pub fn of_mount(&self) -> Range<usize> {
         self.mount..self.mount + self.mount_states
+    }
+    /// Heat of the friction of rotor and race, among all.
+    #[inline(always)]
+    pub fn rotor_race_friction(&self) -> usize {
+        // the last of its own
+        self.heat + HEATS - 1
     }
     /// Probe of a kind of [`probe`].
     #[inline(always)]

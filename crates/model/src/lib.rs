@@ -18,5 +18,6 @@ pub mod mount;
 pub mod rotor;
 pub mod schedule;
 pub mod sensor;
+pub mod surface_heat;
 pub mod system;
 pub mod table;

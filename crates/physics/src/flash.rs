@@ -122,8 +122,8 @@ pub fn circle_mean(peclet: f64) -> f64 {
             .sum::<f64>()
             / f64::from(n)
     };
-    // r = 2 sin²(θ/2)·… would hide the root at 2; r = 2(1 − v²) takes it away.
-    let n = 400;
+    // r = 2 sin²(θ/2)·… would hide the root at 2; r = 2(1 − v²) takes it away; e^(−x) I₀(x) needs 1/Pe resolved at r = 0.
+    let n = 400 + 40 * (peclet.min(1e4) as i32);
     let value = |i: i32| {
         let v = f64::from(i) / f64::from(n);
         let r = 2.0 * (1.0 - v * v);

@@ -1,9 +1,23 @@
-//! Heat of a machine in slow time: nodes that store, conductances between them, grounds that take.
+//! Heat of a machine: nodes that store, conductances between them, grounds that take; surfaces that slide on each other.
 //!
 //! | module | subject |
 //! |---|---|
 //! | [`network`] | nodes and conductances, stepped exactly |
+//! | [`losses`] | what brakes and heats, at a speed and at temperatures |
+//! | [`coast_down`] | a rotor that runs out, in steps of its speed |
+//! | [`steady_speed`] | warming at constant speed; runaway |
+//! | [`warm_bearing`] | the losses of bearings whose oil and rings are warm |
+//! | [`clearance`] | the clearance of a warm bearing, its preload once closed |
+//! | [`layer`] | the heated layer of a body: surface above mean, stepped exactly |
+//! | [`rubbing_contact`] | two layers that rub: friction power shared so that both sides of the patch are equally hot |
 
 #![forbid(unsafe_code)]
 
+pub mod clearance;
+pub mod coast_down;
+pub mod layer;
+pub mod losses;
 pub mod network;
+pub mod rubbing_contact;
+pub mod steady_speed;
+pub mod warm_bearing;

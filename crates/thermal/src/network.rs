@@ -127,6 +127,23 @@ impl Network {
         })
     }
 
+    /// Capacity of a node, J/K.
+    pub fn capacity(&self, node: usize) -> f64 {
+        self.capacities[node]
+    }
+
+    /// −C⁻¹ G with the grounds: what the temperatures decay by, 1/s.
+    pub fn decay(&self) -> DMatrix<f64> {
+        let scale = |node: usize| self.capacities[node].sqrt();
+        let n = self.capacities.len();
+        DMatrix::from_fn(n, n, |row, column| {
+            let modes = (0..n).map(|mode| {
+                self.modes[(row, mode)] * self.rates[mode] * self.modes[(column, mode)]
+            });
+            -modes.sum::<f64>() * scale(column) / scale(row)
+        })
+    }
+
     /// Time constants 1/λ, s, shortest first; infinite for what only stores.
     pub fn time_constants(&self) -> Vec<f64> {
         let mut constants: Vec<f64> = self.rates.iter().map(|rate| 1.0 / rate).collect();

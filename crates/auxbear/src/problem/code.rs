@@ -390,7 +390,7 @@ impl Code {
             Code::UnknownQuantity,
             "AB0340",
             "Limit of no such result",
-            "A limit names a result that a run of this file does not have, or one that is not a single number.",
+            "A limit names a result that a run of this file does not have, or one that is not a single number, or one whose key is not given.",
         ),
         (
             Code::DuplicateBearing,

@@ -27,6 +27,8 @@ use units::{Dimension, Unit};
 const NO_QUALIFICATION: &str = "AB1095";
 const WITHHELD: &str =
     "no verdict of a vertical shaft: what carries its weight is not in this run (AB1095)";
+/// How the reason ends of a result that cannot be had because its key was left out: known before the run.
+const NOT_GIVEN: &str = " is not given";
 /// Names of results that a message lists.
 const MOST_NAMES: usize = 8;
 
@@ -50,6 +52,20 @@ pub(crate) fn check(
         if let Some(kind) = kind {
             let found = format!("\"{}\", which is {kind}", limit.quantity);
             let allowed = "the name of a result that is a number is needed".to_string();
+            return Err(Box::new(limit.problem(
+                Code::UnknownQuantity,
+                found,
+                allowed,
+            )));
+        }
+        if let Value::None { why } = &quantity.value
+            && why.ends_with(NOT_GIVEN)
+        {
+            let found = format!(
+                "\"{}\", which this run will not have: {why}",
+                limit.quantity
+            );
+            let allowed = "what it is computed from, or no limit of it, is needed".to_string();
             return Err(Box::new(limit.problem(
                 Code::UnknownQuantity,
                 found,

@@ -192,6 +192,11 @@ fn a_wrong_limit_is_refused_before_the_run() {
             "which is a word",
         ),
         (
+            "quantity = \"rotor_race_friction_energy_per_area\"\nmost = \"5 kJ/m^2\"",
+            Code::UnknownQuantity,
+            "contact.width is not given",
+        ),
+        (
             "quantity = 7\nmost = \"5 kN\"",
             Code::WrongType,
             "name of a result",

@@ -311,6 +311,7 @@ pub fn reference() -> MachineConstants {
                 free_position: vec2(0.0, 0.0),
             },
             mount_parts: MountParts::NONE,
+            surfaces: None,
         }],
         gravity: vec2(0.0, -G),
         speed: 400.0 * PI,

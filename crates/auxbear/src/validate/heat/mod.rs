@@ -2,15 +2,19 @@
 //! bodies; printed counts of cycles; thermal reference speeds; worked life examples. Tolerances are those that each file states.
 
 mod catalogue;
+mod coast;
 mod conduction;
 mod cycles;
 mod fatigue;
 mod json;
 mod moving;
 mod network;
+mod runaway;
 mod severity;
+mod skid;
 mod surroundings;
 mod tally;
+mod warm;
 
 use super::report::Row;
 use serde_json::Value;
@@ -42,6 +46,9 @@ fn of_file(value: &Value) -> Option<Compare> {
     if has(&["series", "results"]) && value["results"]["counts_by_range"].is_object() {
         return Some(cycles::by_range);
     }
+    if let Some(inputs) = top.get("cases").map(|cases| &cases[0]["inputs"]) {
+        return cases_of(inputs);
+    }
     let rows = top.get("rows")?.as_array()?;
     let any = |of: &dyn Fn(&Value) -> bool| rows.iter().any(of);
     if any(&|row| {
@@ -54,6 +61,20 @@ fn of_file(value: &Value) -> Option<Compare> {
         Some(surroundings::compare)
     } else if any(&catalogue::is_example) {
         Some(catalogue::compare)
+    } else {
+        None
+    }
+}
+
+/// The comparison of a file of cases, by the inputs of the first.
+fn cases_of(inputs: &Value) -> Option<Compare> {
+    let has = |key: &str| !inputs[key].is_null();
+    if has("E_stop") && has("race") {
+        Some(skid::compare)
+    } else if has("stop_speed") && has("share_M0") {
+        Some(coast::compare)
+    } else if has("Pd0") && has("share_M0") {
+        Some(runaway::compare)
     } else {
         None
     }
@@ -89,10 +110,21 @@ mod tests {
     use std::path::Path;
 
     /// Files with the least number of quantities that must pass, and one number to spoil.
-    const FILES: [(&str, usize, &str); 7] = [
+    const FILES: [(&str, usize, &str); 10] = [
         ("reference/heat_closed_forms", 13, "/rows/0/rise"),
         ("reference/heat_moving_sources", 10, "/rows/0/mean"),
         ("reference/heat_network", 4, "/rows/0/temperatures/1"),
+        ("reference/heat_coast", 13, "/cases/0/results/rows/5/inner"),
+        (
+            "reference/heat_runaway",
+            10,
+            "/cases/2/results/end_preload_per_ball",
+        ),
+        (
+            "reference/heat_skid",
+            14,
+            "/cases/1/results/rows/3/rotor_energy",
+        ),
         ("reference/severity_life", 26, "/rows/0/load"),
         ("published/rainflow_astm_e1049", 2, "/series/3"),
         (

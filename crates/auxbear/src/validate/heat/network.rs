@@ -48,7 +48,7 @@ pub(super) fn compare(file: &Value, tally: &mut Tally) -> Result<(), String> {
     Ok(())
 }
 
-fn names(file: &Value) -> Result<Vec<&str>, String> {
+pub(super) fn names(file: &Value) -> Result<Vec<&str>, String> {
     let mut names = Vec::new();
     for value in list(file, "nodes")? {
         let name = value.as_str().ok_or("a node has no name")?;
@@ -64,6 +64,7 @@ fn names(file: &Value) -> Result<Vec<&str>, String> {
     }
 }
 
+/// The network of a file: capacities and links by name, each ground with its temperature, or the ambient's.
 fn network(file: &Value, names: &[&str]) -> Result<Network, String> {
     let node = |value: &Value| {
         let found = names.iter().position(|name| value == name);

@@ -7,10 +7,11 @@ use super::RotorMachine;
 use crate::auxiliary_bearing::BearingAt;
 use crate::auxiliary_bearing::probe::{
     BEARING_LOAD, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
-    MOUNT_FORCE, NORMAL_FORCE, NORMAL_FORCE_RATE, PENETRATION, PENETRATION_SPEED,
+    MOUNT_FORCE, NORMAL_FORCE, NORMAL_FORCE_RATE, PENETRATION, PENETRATION_SPEED, SLIP_SPEED,
 };
 use crate::bearing::BearingConstants;
 use crate::contact::ContactReaction;
+use crate::surface_heat::{Motions, Seen, SurfaceHeat};
 use crate::system::sampling::{Peak, Rise, Row, Rows};
 use number::Vec2;
 use solve::watch::{maximum, root};
@@ -27,6 +28,8 @@ pub struct Contact {
     pub peak_force: f64,
     /// Its instant, s.
     pub peak_time: f64,
+    /// Largest temperature rise of the patch, K; 0 where surfaces are not followed.
+    pub peak_rise: f64,
 }
 
 /// Everything kept of one machine.
@@ -79,6 +82,10 @@ pub struct BearingRecord {
     eccentricity: f64,
     whirl_angle: Option<f64>,
     limits: Limits,
+    /// How hot its surfaces became, where they are given.
+    pub heat: Option<Box<SurfaceHeat>>,
+    /// Channel of the friction heat of rotor and race.
+    friction_heat: usize,
 }
 
 /// Where the equations stop being true.
@@ -204,6 +211,8 @@ impl BearingRecord {
                 mount_displacement: 0.1 * part.bearing.pitch_radius(),
                 penetration: 0.1 * part.contact.bore_radius,
             },
+            heat: part.surfaces.as_ref().map(|_| Box::default()),
+            friction_heat: machine.layout().flows().start + at.rotor_race_friction(),
         }
     }
 
@@ -280,6 +289,7 @@ impl BearingRecord {
                 end: None,
                 peak_force: step.start_probe(at.probe(NORMAL_FORCE)),
                 peak_time: step.start,
+                peak_rise: 0.0,
             });
         }
         let mut from = (0.0, start);
@@ -296,6 +306,7 @@ impl BearingRecord {
                     end: None,
                     peak_force: 0.0,
                     peak_time: step.time(begin),
+                    peak_rise: 0.0,
                 });
                 self.force_peak(step, begin, to.0);
             } else if from.1 > 0.0 {
@@ -416,6 +427,50 @@ impl BearingRecord {
         }
     }
 
+    /// Follows the heat of the surfaces that rub.
+    fn heat_of(&mut self, step: &mut Step<RotorMachine>) {
+        let machine = step.machine;
+        let part = &machine.constants.bearings[self.bearing];
+        let (Some(heat), Some(surfaces)) = (&mut self.heat, &part.surfaces) else {
+            return;
+        };
+        let at = self.at;
+        let both = |kind| {
+            [
+                step.start_probe(at.probe(kind)),
+                step.end_probe(at.probe(kind)),
+            ]
+        };
+        let seen = Seen {
+            times: [step.start, step.end],
+            forces: both(NORMAL_FORCE),
+            slips: both(SLIP_SPEED),
+            heats: [
+                step.start_state(self.friction_heat),
+                step.end_state(self.friction_heat),
+            ],
+        };
+        let contact = &part.contact;
+        if !heat.watch(surfaces, contact.bore_radius, &seen) {
+            return;
+        }
+        let channels = machine.layout().rotor.channels();
+        let state = step.leading_state(1.0, channels.max(at.inner + 6));
+        let rotor = machine.layout().rotor.motion(state);
+        let centre = machine.one.nodes[self.bearing].centre(&rotor);
+        let pair = |at: usize| Vec2::new(state[at], state[at + 1]);
+        let motions = Motions {
+            offset: centre.position - pair(at.inner),
+            velocity: centre.velocity - pair(at.inner + 2),
+            spins: [rotor.spin, state[at.inner + 5]],
+        };
+        let sizes = [contact.bore_radius, contact.radial_clearance];
+        heat.take(surfaces, sizes, &seen, &motions);
+        if let Some(contact) = self.contacts.last_mut() {
+            contact.peak_rise = heat.of_touch;
+        }
+    }
+
     /// Follows the whirl of the rotor about the inner race.
     fn whirl_of(&mut self, step: &mut Step<RotorMachine>) {
         let gap = -step.end_probe(self.at.probe(PENETRATION));
@@ -501,6 +556,7 @@ impl Observer<RotorMachine> for Record {
                 rise.watch(step);
             }
             bearing.mount_of(step);
+            bearing.heat_of(step);
         }
         self.rotor_of(step);
         self.rows.sample(step, RotorMachine::content);

@@ -1,0 +1,105 @@
+//! What the files of warm bearings have in common: nodes by name, capacities, links, grounds, oil, shares.
+
+use super::json::{list, number, positive, within};
+use serde_json::Value;
+use thermal::network::{Ground, Link, Network};
+
+/// Capacities and conductances lie between its inverse and it.
+const LARGEST: f64 = 1e13;
+
+/// A number of each node, by its name; what is not there is `otherwise`, where that is allowed.
+fn by_name(
+    value: &Value,
+    key: &str,
+    names: &[&str],
+    otherwise: Option<f64>,
+) -> Result<Vec<f64>, String> {
+    let of = &value[key];
+    let one = |name: &&str| match (&of[*name], otherwise) {
+        (Value::Null, Some(other)) => Ok(other),
+        _ => number(of, name).map_err(|error| format!("{key}: {error}")),
+    };
+    names.iter().map(one).collect()
+}
+
+/// A node by its name.
+pub(super) fn node(names: &[&str], value: &Value) -> Result<usize, String> {
+    let found = names.iter().position(|name| value == name);
+    found.ok_or_else(|| format!("{value} is no node"))
+}
+
+/// The network of a case; its grounds are all at the ambient temperature.
+pub(super) fn network(inputs: &Value, names: &[&str]) -> Result<Network, String> {
+    let ambient = within(inputs, "ambient", -273.0, 1e4)?;
+    let conductance = |value: &Value| {
+        let number = value.as_f64().filter(|g| (0.0..=LARGEST).contains(g));
+        number.ok_or_else(|| format!("conductance {value} is not 0 to {LARGEST}"))
+    };
+    let links = list(inputs, "links")?.iter().map(|link| {
+        Ok(Link {
+            nodes: [node(names, &link[0])?, node(names, &link[1])?],
+            conductance: conductance(&link[2])?,
+        })
+    });
+    let links = links.collect::<Result<Vec<_>, String>>()?;
+    let grounds = list(inputs, "grounds")?.iter().map(|ground| {
+        Ok(Ground {
+            node: node(names, &ground[0])?,
+            conductance: conductance(&ground[1])?,
+            temperature: ambient,
+        })
+    });
+    let grounds = grounds.collect::<Result<Vec<_>, String>>()?;
+    let capacities = by_name(inputs, "capacity", names, None)?;
+    if !capacities
+        .iter()
+        .all(|c| (1.0 / LARGEST..=LARGEST).contains(c))
+    {
+        return Err(format!("a capacity is not {} to {LARGEST}", 1.0 / LARGEST));
+    }
+    Network::new(&capacities, &links, &grounds).map_err(|error| error.to_string())
+}
+
+/// Shares of a loss over the nodes, which must add to one.
+pub(super) fn shares(inputs: &Value, key: &str, names: &[&str]) -> Result<Vec<f64>, String> {
+    let shares = by_name(inputs, key, names, Some(0.0))?;
+    let sum: f64 = shares.iter().sum();
+    if shares.iter().any(|share| *share < 0.0) || (sum - 1.0).abs() > 1e-9 {
+        return Err(format!(
+            "{key} adds to {sum}, not to 1, or has a negative share"
+        ));
+    }
+    Ok(shares)
+}
+
+/// The line of an oil through two points in °C and mm²/s.
+pub(super) fn oil(inputs: &Value) -> Result<physics::viscosity::WaltherLine<f64>, String> {
+    let points = list(inputs, "oil")?;
+    let point = |at: usize| -> Result<(f64, f64), String> {
+        let pair = points.get(at).and_then(Value::as_array);
+        let values = pair.map(|pair| pair.iter().filter_map(Value::as_f64).collect::<Vec<_>>());
+        match values.as_deref() {
+            Some([celsius, viscosity]) => Ok((celsius + 273.15, viscosity * 1e-6)),
+            _ => Err("oil needs two points of temperature and viscosity".to_string()),
+        }
+    };
+    let line = physics::viscosity::Viscosity::through(point(0)?, point(1)?);
+    Ok(line.map_err(|error| format!("oil: {error:?}"))?.line())
+}
+
+/// f0, pitch diameter and the rest of Palmgren's moment; without the load's part where the file has none.
+pub(super) fn palmgren(inputs: &Value) -> Result<physics::palmgren::Palmgren<f64>, String> {
+    let loaded = inputs["z"].is_number();
+    let of = |key: &str, otherwise: f64| match loaded {
+        true => positive(inputs, key),
+        false => Ok(otherwise),
+    };
+    Ok(physics::palmgren::Palmgren {
+        viscous_factor: within(inputs, "f0", 1e-6, 1e3)?,
+        viscosity: 0.0,
+        pitch_diameter: within(inputs, "dm", 1e-4, 10.0)?,
+        load_factor: of("z", 0.0)?,
+        load_exponent: of("y", 1.0)?,
+        static_load_rating: of("C0", 1.0)?,
+    })
+}

@@ -1,0 +1,136 @@
+//! The losses of warm bearings: Palmgren's moment with the viscosity of the lubricant node, and windage.
+//!
+//! ```text
+//!   M = n (M0(ν(T_lubricant), ω) + M1) + c_w ω²
+//! ```
+//!
+//! Losses by number: 0 is M0, 1 is M1, 2 is windage, whose heat leaves with the gas. Viscosity goes on along the line of
+//! the oil beyond its points, down to 2 mm²/s: a bearing that runs away leaves every range, and a run that stopped there
+//! would hide it.
+//!
+//! Source: heat-and-life, sections 5 and 6; the laws are those of `physics`.
+
+use crate::clearance::{ThermalClearance, preload};
+use crate::losses::Losses;
+use physics::palmgren::{FADING_SPEED, Palmgren};
+use physics::viscosity::WaltherLine;
+
+/// Ice point, K.
+const ICE_POINT: f64 = 273.15;
+/// Least viscosity, m²/s.
+const LEAST_VISCOSITY: f64 = 2e-6;
+
+/// Bearings that are all alike.
+#[derive(Clone, Debug)]
+pub struct WarmBearings {
+    /// How many brake.
+    pub count: f64,
+    /// Moment of one; its viscosity is not used.
+    pub moment: Palmgren<f64>,
+    /// Oil.
+    pub oil: WaltherLine<f64>,
+    /// Load of one.
+    pub load: BearingLoad,
+    /// Windage coefficient c_w, N m s².
+    pub windage: f64,
+    /// Node of the lubricant.
+    pub lubricant: usize,
+    /// Shares of M0 and of M1 over the nodes of one bearing; each adds to one.
+    pub shares: [Vec<f64>; 2],
+}
+
+/// Where M1 comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BearingLoad {
+    /// A radial load, N, with the factors of Palmgren's law.
+    Radial(f64),
+    /// Ball loads, some of them from rings that close: M1 = μ₁ (d_m/2) (ΣQ + Z Q), N m.
+    Closing {
+        /// μ₁.
+        coefficient: f64,
+        /// ΣQ of the radial load, N.
+        radial: f64,
+        /// Number of balls Z.
+        balls: f64,
+        /// Ball and both races in series, N/m^1.5.
+        stiffness: f64,
+        /// Clearance over temperatures.
+        clearance: ThermalClearance,
+        /// Nodes of inner ring, balls and outer ring.
+        nodes: [usize; 3],
+    },
+}
+
+impl WarmBearings {
+    /// Diametral clearance, m, and preload of each ball, N; none where the load is given.
+    pub fn closing(&self, temperatures: &[f64]) -> Option<(f64, f64)> {
+        match self.load {
+            BearingLoad::Radial(_) => None,
+            BearingLoad::Closing {
+                stiffness,
+                clearance,
+                nodes: [inner, balls, outer],
+                ..
+            } => {
+                let open = clearance.at(
+                    temperatures[inner],
+                    temperatures[balls],
+                    temperatures[outer],
+                );
+                Some((open, preload(stiffness, open)))
+            }
+        }
+    }
+
+    /// M0 and M1 of one bearing, N m.
+    pub fn of_one(&self, speed: f64, temperatures: &[f64]) -> [f64; 2] {
+        let kelvin = temperatures[self.lubricant] + ICE_POINT;
+        let viscosity = match kelvin > 0.0 {
+            true => self.oil.viscosity(kelvin).max(LEAST_VISCOSITY),
+            false => f64::NAN,
+        };
+        let moment = Palmgren {
+            viscosity,
+            ..self.moment
+        };
+        let carried = match self.load {
+            BearingLoad::Radial(load) => load,
+            BearingLoad::Closing { .. } => 0.0,
+        };
+        let parts = moment.parts(speed, carried);
+        let closing = match (self.load, self.closing(temperatures)) {
+            (
+                BearingLoad::Closing {
+                    coefficient,
+                    radial,
+                    balls,
+                    ..
+                },
+                Some((_, preload)),
+            ) => {
+                let loads = radial + balls * preload;
+                0.5 * coefficient
+                    * self.moment.pitch_diameter
+                    * loads
+                    * (speed / FADING_SPEED).tanh()
+            }
+            _ => 0.0,
+        };
+        [parts.speed_dependent, parts.load_dependent + closing]
+    }
+}
+
+impl Losses for WarmBearings {
+    fn count(&self) -> usize {
+        3
+    }
+    fn moments(&self, speed: f64, temperatures: &[f64], moments: &mut [f64]) {
+        let [first, second] = self.of_one(speed, temperatures);
+        moments[0] = self.count * first;
+        moments[1] = self.count * second;
+        moments[2] = self.windage * speed * speed.abs();
+    }
+    fn share(&self, loss: usize, node: usize) -> f64 {
+        self.shares.get(loss).map_or(0.0, |shares| shares[node])
+    }
+}
