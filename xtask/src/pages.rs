@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 
 /// One run of each kind, and one with several bearings.
 const OPENED: [&str; 7] = [
-    "amb_rig_drop",
+    "rigid_drop",
     "two_bearings_drop",
     "spin_up_6005",
     "torque_6005",
@@ -17,12 +17,8 @@ const OPENED: [&str; 7] = [
 
 /// Runs that a comparison shows: of one kind and of another.
 const COMPARED: [&[&str]; 2] = [
-    &[
-        "amb_rig_drop",
-        "angular_contact_drop",
-        "full_complement_drop",
-    ],
-    &["amb_rig_drop", "rig_test_2"],
+    &["rigid_drop", "angular_contact_drop", "full_complement_drop"],
+    &["rigid_drop", "rig_test_2"],
 ];
 
 const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];

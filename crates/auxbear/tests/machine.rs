@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 fn shipped() -> String {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/machine_drop.toml");
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/amb_rig_drop.toml");
     std::fs::read_to_string(path).unwrap()
 }
 

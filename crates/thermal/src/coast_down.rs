@@ -28,7 +28,7 @@ const GROWTH: f64 = 3.0;
 /// Temperature that counts as an error of 1, K.
 const SCALE: f64 = 50.0;
 /// Most steps of a run-out.
-const MOST_STEPS: usize = 1_000_000;
+const MOST_STEPS: usize = 50_000;
 
 /// Constants of a run-out.
 #[derive(Clone, Debug)]

@@ -13,7 +13,7 @@ pub struct Dimension {
 const BASE: [&str; 6] = ["m", "kg", "s", "K", "rad", "A"];
 
 /// Dimensions with a name and a preferred SI unit; exponents of length, mass, time, temperature, angle.
-const NAMED: [([i64; 5], &str, &str); 35] = [
+const NAMED: [([i64; 5], &str, &str); 37] = [
     ([0, 0, 0, 0, 0], "dimensionless number", "1"),
     ([1, 0, 0, 0, 0], "length", "m"),
     ([0, 1, 0, 0, 0], "mass", "kg"),
@@ -46,6 +46,8 @@ const NAMED: [([i64; 5], &str, &str); 35] = [
     ([1, 1, -3, -1, 0], "thermal conductivity", "W/(m K)"),
     ([2, 1, -3, -1, 0], "thermal conductance", "W/K"),
     ([2, 1, -2, -1, 0], "heat capacity", "J/K"),
+    ([2, 0, -2, -1, 0], "specific heat", "J/(kg K)"),
+    ([1, -1, 2, 0, 0], "wear coefficient", "m^2/N"),
     ([0, 0, 0, -1, 0], "temperature coefficient", "1/K"),
     ([0, 0, 2, 0, 0], "time squared", "s^2"),
     ([0, 0, -2, 0, 0], "inverse time squared", "1/s^2"),

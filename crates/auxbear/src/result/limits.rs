@@ -15,6 +15,7 @@
 //! is one that stands either way, or none.
 
 use crate::problem::{Code, Problem, did_you_mean, question};
+use crate::result::list::NOT_GIVEN;
 use crate::result::outcome::{Judged, Outcome, Quantity, Value, Verdict};
 use crate::scenario::{Limit, Side};
 use study::share::{
@@ -27,8 +28,6 @@ use units::{Dimension, Unit};
 const NO_QUALIFICATION: &str = "AB1095";
 const WITHHELD: &str =
     "no verdict of a vertical shaft: what carries its weight is not in this run (AB1095)";
-/// How the reason ends of a result that cannot be had because its key was left out: known before the run.
-const NOT_GIVEN: &str = " is not given";
 /// Names of results that a message lists.
 const MOST_NAMES: usize = 8;
 

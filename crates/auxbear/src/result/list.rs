@@ -9,6 +9,9 @@ pub(crate) struct Origin {
     pub valid: &'static str,
 }
 
+/// How the reason ends of a result that cannot be had because its key was left out: known before the run.
+pub(crate) const NOT_GIVEN: &str = " is not given";
+
 /// Named results in their order.
 pub(crate) struct List(pub Vec<Quantity>);
 
@@ -37,6 +40,9 @@ impl List {
     pub fn ended_at(mut self, time: f64) -> Vec<Quantity> {
         if time == 0.0 {
             for quantity in &mut self.0 {
+                if matches!(&quantity.value, Value::None { why } if why.ends_with(NOT_GIVEN)) {
+                    continue;
+                }
                 let why = "the run ended before its first step".to_string();
                 // what kind of result it is stays known
                 quantity.value = match quantity.value {

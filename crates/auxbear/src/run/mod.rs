@@ -75,8 +75,8 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
     Ok(machine)
 }
 
-/// Backward whirl, a rotor that reaches what stands around it, a race that gets hot.
-const DESTRUCTION: [&str; 3] = ["AB1014", "AB2030", "AB2300"];
+/// Backward whirl, a rotor that reaches what stands around it, a race or a contact that gets hot.
+const DESTRUCTION: [&str; 4] = ["AB1014", "AB2030", "AB2300", "AB2301"];
 
 impl Machine<'_> {
     /// Simulates it. A run that fails is an [`Outcome`] whose `stop` says where and why.

@@ -35,6 +35,7 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
 pub fn keys() -> impl Iterator<Item = &'static Key> {
     HEAD.iter()
         .chain(crate::scenario::drop::keys::KEYS)
+        .chain(crate::scenario::drop::keys_surface::KEYS)
         .chain(crate::scenario::drop::keys_mount::KEYS)
         .chain(crate::scenario::rotor::keys::KEYS)
         .chain(crate::scenario::spin_up::keys::KEYS)

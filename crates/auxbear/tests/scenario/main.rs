@@ -19,4 +19,5 @@ mod schema;
 mod several;
 mod spin_up;
 mod spin_up_runs;
+mod surfaces;
 mod table;

@@ -34,6 +34,11 @@ pub(crate) const SECTIONS: &[Section] = &[
         systems: FALLING,
     },
     Section {
+        path: "contact.surface",
+        doc: "Metal below the landing surfaces of rotor and inner race. Where contact.width is given, a run tells how hot they become; its motion follows nothing of it.",
+        systems: FALLING,
+    },
+    Section {
         path: "mount",
         doc: "The spring and damper between outer race and ground, equal in all directions.",
         systems: FALLING,
@@ -301,7 +306,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Axial width of the landing surface: that of the sleeve or of the inner race, whichever the rotor touches.",
     )
     .positive()
-    .optional("no friction work per area of the landing surface is given"),
+    .optional("neither temperatures nor friction work per area of the landing surface are given"),
     Key::new(
         "contact.node",
         Kind::Text,

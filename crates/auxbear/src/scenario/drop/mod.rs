@@ -3,6 +3,7 @@
 pub(crate) mod checks;
 pub(crate) mod keys;
 pub(crate) mod keys_mount;
+pub(crate) mod keys_surface;
 pub(crate) mod kinds;
 pub mod mount;
 mod shaft;
@@ -15,6 +16,7 @@ use crate::scenario::section::Section;
 use crate::scenario::values::Values;
 use kinds::{SpinKind, UnbalanceAngle};
 use mount::MountParts;
+use physics::heat_conduction::ThermalMaterial;
 pub use shaft::{BearingPlace, Shaft};
 
 /// A levitated rotor that is released onto its auxiliary bearings. All values are SI.
@@ -127,6 +129,21 @@ pub struct Contact {
     pub friction_coefficient: f64,
     /// Slip speed that regularises the friction, m/s.
     pub friction_reference_speed: f64,
+    /// Metal below the landing surface of the rotor, and below that of the race.
+    pub metals: [Metal; 2],
+    /// Contact modulus E*, Pa.
+    pub modulus: f64,
+    /// Wear coefficient k, m²/N.
+    pub wear_coefficient: Option<f64>,
+}
+
+/// What is below a surface that rubs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Metal {
+    /// What it is.
+    pub material: ThermalMaterial,
+    /// How deep, m; of the race where it is given.
+    pub depth: Option<f64>,
 }
 
 /// What is between outer race and ground.
@@ -313,5 +330,20 @@ fn contact(contact: &Section<'_>) -> Contact {
         damping: contact.number("damping"),
         friction_coefficient: contact.number("friction_coefficient"),
         friction_reference_speed: contact.number("friction_reference_speed"),
+        metals: ["rotor", "race"].map(|body| metal(contact, body)),
+        modulus: contact.number("surface.modulus"),
+        wear_coefficient: contact.maybe("surface.wear_coefficient"),
+    }
+}
+
+fn metal(contact: &Section<'_>, body: &str) -> Metal {
+    let number = |what: &str| contact.number(&format!("surface.{body}_{what}"));
+    Metal {
+        material: ThermalMaterial {
+            conductivity: number("conductivity"),
+            density: number("density"),
+            specific_heat: number("specific_heat"),
+        },
+        depth: contact.maybe(&format!("surface.{body}_layer")),
     }
 }

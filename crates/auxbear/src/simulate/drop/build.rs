@@ -8,6 +8,7 @@ use crate::simulate::bearing::pressure::PressureFactors;
 use crate::simulate::bearing::steady::{SteadyFinding, SteadyPoint};
 use crate::simulate::drop::mount;
 use crate::simulate::drop::shaft::{self, BuiltShaft};
+use crate::simulate::drop::surfaces;
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::contact::JournalContact;
 use model::levitation::Levitation;
@@ -136,6 +137,7 @@ fn auxiliary_bearing(
             free_position: Vec2::zero(),
         },
         mount_parts: mount::parts(&part.mount.parts),
+        surfaces: surfaces::built(part),
     };
     Ok((constants, built))
 }

@@ -11,6 +11,7 @@ mod mount;
 pub(crate) mod quantities;
 pub mod shaft;
 pub(crate) mod shaft_results;
+pub(crate) mod surfaces;
 pub(crate) mod warnings;
 
 use crate::options::Options;

@@ -1,12 +1,12 @@
 //! Every named result of a drop with its law, source and valid range.
 
 use crate::catalogue::geometry::digits;
-use crate::result::list::{List, Origin, relative};
+use crate::result::list::{List, NOT_GIVEN, Origin, relative};
 use crate::result::outcome::{Quantity, Value};
 use crate::result::static_safety::StaticLoad;
 use crate::simulate::bearing::quantities::{End, LargestForces};
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::shaft_results;
+use crate::simulate::drop::{shaft_results, surfaces};
 use model::system::layout::of_part;
 use std::f64::consts::PI;
 
@@ -192,9 +192,10 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
         contact
             .width
             .map(|width| work / (PI * contact.bore_diameter * width))
-            .ok_or_else(|| "contact.width is not given".to_string()),
+            .ok_or_else(|| format!("contact.width{NOT_GIVEN}")),
         &PER_AREA,
     );
+    surfaces::name(context, k, list);
 }
 
 /// What is turned over must exceed this share of the kinetic energy at the start to be compared with.

@@ -9,7 +9,7 @@ use crate::simulate::bearing::severity::inner_race_rise;
 use crate::simulate::bearing::warnings as shared;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::quantities::residuals;
-use crate::simulate::drop::shaft_results;
+use crate::simulate::drop::{shaft_results, surfaces};
 use crate::simulate::ending::DESIGN;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 use model::system::machine::tangents::Known;
@@ -140,7 +140,9 @@ pub(crate) fn of(scenario: &Scenario, contexts: &[Context]) -> Vec<Warning> {
         }));
     }
     list.extend(each(&|k| {
-        judged(contexts, |member| hot(member, k).into_iter().collect())
+        let mut list = judged(contexts, |member| hot(member, k).into_iter().collect());
+        list.extend(judged(contexts, |member| surfaces::judged(member, k)));
+        list
     }));
     list.extend(each(&|k| {
         judged(machines, |member| beyond_speeds(member, k))

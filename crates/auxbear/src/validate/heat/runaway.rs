@@ -12,7 +12,7 @@ use thermal::warm_bearing::{BearingLoad, WarmBearings};
 /// Error of a step, K.
 const STEP_ERROR: f64 = 1e-3;
 /// Most steps of a run.
-const MOST_STEPS: usize = 1_000_000;
+const MOST_STEPS: usize = 50_000;
 
 /// Compares a file.
 pub(super) fn compare(file: &Value, tally: &mut Tally) -> Result<(), String> {

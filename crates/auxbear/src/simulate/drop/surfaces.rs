@@ -1,0 +1,168 @@
+//! Surfaces of rotor and inner race: what they are made of, how hot they became, what was worn off.
+
+use crate::result::list::{List, NOT_GIVEN, Origin};
+use crate::result::outcome::{Value, Warning, warning};
+use crate::scenario::AuxiliaryBearing;
+use crate::simulate::drop::context::Context;
+use model::surface_heat::{SurfaceHeat, Surfaces};
+use physics::severity::wear_volume_by_energy;
+use std::f64::consts::PI;
+use thermal::layer::Layer;
+
+/// Depths that a race may have whose depth follows from its mass, m.
+const DEPTHS: (f64, f64) = (1e-3, 10e-3);
+/// Rise of the patch, K, from which on steel under it is no longer what it was.
+const CHANGES: f64 = 500.0;
+/// Time in the patch, s, from which on one place of the rotor is heated on its own.
+const STAYS: f64 = 5e-3;
+
+/// The surfaces of an auxiliary bearing, where the width of its landing surface is given.
+pub(crate) fn built(part: &AuxiliaryBearing) -> Option<Surfaces> {
+    let contact = &part.contact;
+    let length = contact.width?;
+    let [rotor, race] = contact.metals;
+    let bore = 0.5 * contact.bore_diameter;
+    // a ring of that mass: π ((R + h)² − R²) ρ L = m
+    let of_mass = || {
+        let square = part.bearing.inner_race_mass / (PI * race.material.density * length);
+        ((bore * bore + square).sqrt() - bore).clamp(DEPTHS.0, DEPTHS.1)
+    };
+    let rotor_depth = rotor.depth.unwrap_or(DEPTHS.1).min(bore);
+    let race_depth = race.depth.unwrap_or_else(of_mass);
+    Some(Surfaces {
+        layers: [
+            Layer::new(rotor.material, rotor_depth),
+            Layer::new(race.material, race_depth),
+        ],
+        length,
+        modulus: contact.modulus,
+    })
+}
+
+/// Names the results of the surfaces of a bearing.
+pub(crate) fn name(context: &Context, k: usize, list: &mut List) {
+    let record = context.record(k);
+    let contact = &context.given(k).contact;
+    let heat = record.heat.as_deref();
+    let of = |value: &dyn Fn(&SurfaceHeat) -> f64| {
+        let no_width = || format!("contact.width{NOT_GIVEN}");
+        let heat = heat.ok_or_else(no_width)?;
+        match record.contacts.is_empty() {
+            true => Err("rotor and inner race never touched in this run".to_string()),
+            false => Ok(value(heat)),
+        }
+    };
+    list.number(
+        "contact_temperature_rise",
+        "K",
+        of(&|heat| heat.contact.value),
+        &PATCH,
+    );
+    list.number(
+        "contact_temperature_time",
+        "s",
+        of(&|heat| heat.contact.time),
+        &PATCH,
+    );
+    let rises = record.contacts.iter().map(|contact| contact.peak_rise);
+    if heat.is_some() {
+        let rises = Value::List(rises.collect());
+        list.push("contact_temperature_rises", "K", rises, &PATCH);
+    }
+    for (body, place) in [("rotor", 0), ("race", 1)] {
+        let rise = of(&|heat| heat.surfaces[place].value);
+        list.number(&format!("{body}_surface_rise"), "K", rise, &SURFACE);
+        let taken = of(&|heat| heat.taken()[place]);
+        list.number(&format!("friction_heat_into_{body}"), "J", taken, &SHARE);
+    }
+    let pressure_speed = of(&|heat| heat.pressure_speed.value);
+    list.number(
+        "peak_pressure_times_speed",
+        "W/m^2",
+        pressure_speed,
+        &PRESSURE_SPEED,
+    );
+    list.number(
+        "sliding_distance",
+        "m",
+        of(&|heat| heat.distance),
+        &DISTANCE,
+    );
+
+    let coefficient = contact.wear_coefficient;
+    let coefficient =
+        coefficient.ok_or_else(|| format!("contact.surface.wear_coefficient{NOT_GIVEN}"));
+    let depth = |diameter: f64| {
+        let coefficient = coefficient.clone()?;
+        let work = of(&|heat| heat.taken().iter().sum())?;
+        match contact.friction_coefficient > 0.0 {
+            true => {
+                let volume = wear_volume_by_energy(coefficient, contact.friction_coefficient, work);
+                Ok(volume / (PI * diameter * contact.width.unwrap_or(f64::NAN)))
+            }
+            false => Err("without friction the ledger does not tell the sliding".to_string()),
+        }
+    };
+    list.number("wear_depth", "m", depth(contact.bore_diameter), &WEAR);
+}
+
+/// Surfaces that became so hot, or were heated at one place so long, that their numbers do not hold.
+pub(crate) fn judged(context: &Context, k: usize) -> Vec<(f64, Warning)> {
+    let Some(heat) = context.record(k).heat.as_deref() else {
+        return Vec::new();
+    };
+    let mut list = Vec::new();
+    let rise = heat.contact.value;
+    if rise > CHANGES {
+        let text = format!(
+            "Where rotor and race rub, the patch warms by {rise:.0} K ({:.2} ms): steel softens and transforms there, the surfaces may \
+             smear or seize, and the friction coefficient of this run no longer holds.",
+            1e3 * heat.contact.time
+        );
+        list.push((rise, warning("AB2301", text)));
+    }
+    if heat.longest_stay > STAYS {
+        let text = format!(
+            "One place of the rotor stays in the contact for {:.0} ms: a hot spot, which bends the shaft and adds to its unbalance. \
+             This run spreads its heat over the rotor's track and bends nothing.",
+            1e3 * heat.longest_stay
+        );
+        list.push((heat.longest_stay, warning("AB2302", text)));
+    }
+    list
+}
+
+const FILE: &str =
+    "crates/model/src/surface_heat.rs; heat flow: crates/thermal/src/rubbing_contact.rs";
+const PATCH: Origin = Origin {
+    law: "rise of both surfaces in the patch of a Hertz line contact, mean over the patch at its hottest edge: surface layers and flash, \
+          friction heat divided so that both sides are equally hot",
+    source: FILE,
+    valid: "30 % by the width of the patch; a factor 2 where tilt or wear has changed its shape; asperities are hotter; friction does not \
+            follow it",
+};
+const SURFACE: Origin = Origin {
+    law: "largest rise of the surface, averaged over the track that the patch has swept",
+    source: FILE,
+    valid: "runs up to 2 s: the layer gives nothing to the metal behind it",
+};
+const SHARE: Origin = Origin {
+    law: "friction heat that went into this body; both add to rotor_race_friction_energy",
+    source: FILE,
+    valid: "as contact_temperature_rise",
+};
+const PRESSURE_SPEED: Origin = Origin {
+    law: "largest N |u|/(2 R L), nominal pressure times sliding speed",
+    source: "crates/model/src/surface_heat.rs",
+    valid: "at steps; a measure of makers of landing sleeves, not a pressure of the contact",
+};
+const DISTANCE: Origin = Origin {
+    law: "∫|u| dt while rotor and race touch",
+    source: "crates/model/src/surface_heat.rs",
+    valid: "always",
+};
+const WEAR: Origin = Origin {
+    law: "(k/μ) E_friction over the landing surface of the race, k = contact.surface.wear_coefficient",
+    source: "Archard, by the friction heat; crates/physics/src/severity.rs",
+    valid: "volume worn off both bodies together, spread evenly; k is uncertain by decades",
+};
