@@ -136,6 +136,79 @@ pub fn circle_mean(peclet: f64) -> f64 {
     (value(0) + sum + value(n)) / (3.0 * f64::from(n)) / PI
 }
 
+/// How the flux of a patch is spread over it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flux {
+    /// q₀ everywhere.
+    Uniform,
+    /// q₀ √(1 − ρ²), as the pressure of Hertz.
+    Hertz,
+}
+
+/// Angles, and points along each, of [`ellipse_rise`].
+const ANGLES: usize = 1000;
+const POINTS: usize = 64;
+
+/// Steady surface rise under a moving ellipse on its axis along the motion: kT/(q₀b) at x/b from its middle, downstream
+/// positive: (1/2π)∫dθ∫₀^S f e^(−Pe s(1 + cos θ)) ds over the distances s to the edge at S(θ).
+///
+/// Arguments: x/b inside the ellipse; semi-axis across the motion over b, the one along it; Pe = vb/2α.
+///
+/// Source: derived, the moving point source of Carslaw and Jaeger (section 10.7, from memory) in polar coordinates about the point.
+/// Valid: steady, |x| < b.
+pub fn ellipse_rise(place: f64, aspect: f64, peclet: f64, flux: Flux) -> f64 {
+    let inside = 1.0 - place * place;
+    let of_angle = |k: usize| {
+        let theta = PI * (k as f64 + 0.5) / ANGLES as f64;
+        let (sine, cosine) = theta.sin_cos();
+        // 1 − ρ² = inside − 2 slope s − curve s²
+        let curve = cosine * cosine + (sine / aspect).powi(2);
+        let slope = place * cosine;
+        let edge = inside / (slope + (slope * slope + curve * inside).sqrt());
+        let rate = peclet * (1.0 + cosine);
+        match flux {
+            Flux::Uniform if rate * edge < 1e-8 => edge,
+            Flux::Uniform => -(-rate * edge).exp_m1() / rate,
+            Flux::Hertz => {
+                // s = S (1 − cos φ)/2 takes the root at the edge away and is dense at the point
+                let at = |j: usize| {
+                    let (sine, cosine) = (PI * (j as f64 + 0.5) / POINTS as f64).sin_cos();
+                    let s = 0.5 * edge * (1.0 - cosine);
+                    let rest = (inside - s * (2.0 * slope + curve * s)).max(0.0);
+                    rest.sqrt() * (-rate * s).exp() * 0.5 * edge * sine
+                };
+                (0..POINTS).map(at).sum::<f64>() * PI / POINTS as f64
+            }
+        }
+    };
+    (0..ANGLES).map(of_angle).sum::<f64>() / ANGLES as f64
+}
+
+/// Where an ellipse is hottest, and how hot: (x/b, kT/(q₀b)).
+///
+/// Source: the largest value of [`ellipse_rise`], by golden section.
+/// Valid: as [`ellipse_rise`].
+pub fn ellipse_maximum(aspect: f64, peclet: f64, flux: Flux) -> (f64, f64) {
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    let rise = |place| ellipse_rise(place, aspect, peclet, flux);
+    let (mut low, mut high) = (-0.5, 1.0 - 1e-9);
+    let mut inner = [high - golden * (high - low), low + golden * (high - low)];
+    let mut rises = inner.map(rise);
+    for _ in 0..42 {
+        if rises[0] > rises[1] {
+            high = inner[1];
+            inner = [high - golden * (high - low), inner[0]];
+            rises = [rise(inner[0]), rises[0]];
+        } else {
+            low = inner[0];
+            inner = [inner[1], low + golden * (high - low)];
+            rises = [rises[1], rise(inner[1])];
+        }
+    }
+    let place = 0.5 * (low + high);
+    (place, rise(place))
+}
+
 /// Flash of a surface that passes a patch: 2q√(t_c/π)/e, t_c = min(2b/v, t), K.
 ///
 /// Arguments: flux W/m², half-length b m, speed of the surface past the patch m/s, time since the touch s, effusivity.
@@ -183,6 +256,20 @@ mod tests {
         let fast = 400.0;
         assert!((band_rise(fast, fast) / (4.0 * PI * fast).sqrt() - 1.0).abs() < 0.03);
         assert!((band_mean(fast) / band_maximum(fast).1 - 2.0 / 3.0).abs() < 0.02);
+    }
+
+    #[test]
+    fn an_ellipse_at_rest_and_one_that_is_long_across_have_closed_forms() {
+        // at rest: 1 of a uniform circle, π/4 of Hertz's
+        let (place, rise) = ellipse_maximum(1.0, 0.0, Flux::Uniform);
+        assert!(place.abs() < 1e-4 && (rise - 1.0).abs() < 1e-9);
+        let (_, rise) = ellipse_maximum(1.0, 0.0, Flux::Hertz);
+        assert!((rise - 0.25 * PI).abs() < 1e-4);
+        // a band: kT/(q₀b) = T*/(π Pe)
+        let (place, rise) = ellipse_maximum(200.0, 5.0, Flux::Uniform);
+        let (band, largest) = band_maximum(5.0);
+        assert!((rise / (largest / (PI * 5.0)) - 1.0).abs() < 1e-3, "{rise}");
+        assert!((place - band / 5.0).abs() < 1e-3);
     }
 
     #[test]

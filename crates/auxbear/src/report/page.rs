@@ -60,6 +60,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("page/colour.js"),
     include_str!("page/run.js"),
     include_str!("page/limits.js"),
+    include_str!("page/severity.js"),
     include_str!("page/header.js"),
     include_str!("page/timeline.js"),
     include_str!("page/curves.js"),

@@ -127,7 +127,8 @@ function differenceText(first, other) {
 const SUBJECTS = [
   ["Verdict", /^(explanation|probability_of_(?!\w+_form)|next_test)/],
   ["Residuals of the computation", /residual$/],
-  ["Energy and heat", /energy|heat|work|dissipat|power|path_term|without_cooling/],
+  ["Surfaces of rotor and race", /^contact_temperature|surface_rise|^wear_|sliding_distance|pressure_times|heat_into/],
+  ["Energy and heat", /energy|heat|work|dissipat|power|path_term|without_cooling|heat_index/],
   ["Hertz pressure and loads of the balls", /pressure|ball_load|static_safety|skid_share|indentation/],
   ["Cage and balls", /cage|pocket|skid|slip|ball_ball|land_/],
   ["Contact of rotor and race", /contact|impact|force|whirl|blow/],

@@ -143,7 +143,7 @@ pub struct Metal {
     /// What it is.
     pub material: ThermalMaterial,
     /// How deep, m; of the race where it is given.
-    pub depth: Option<f64>,
+    pub layer: Option<f64>,
 }
 
 /// What is between outer race and ground.
@@ -344,6 +344,6 @@ fn metal(contact: &Section<'_>, body: &str) -> Metal {
             density: number("density"),
             specific_heat: number("specific_heat"),
         },
-        depth: contact.maybe(&format!("surface.{body}_layer")),
+        layer: contact.maybe(&format!("surface.{body}_layer")),
     }
 }

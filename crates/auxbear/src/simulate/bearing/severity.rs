@@ -10,6 +10,9 @@ use physics::severity::{ball_load_safety, permanent_indentation};
 /// Indentation over the ball's diameter between which its law holds.
 const RANGE: [f64; 2] = [1e-5, 1e-3];
 
+/// Rise of an inner race from which on what does not follow its warmth misleads: from 20 °C to the 120 °C of common rings, K.
+pub(crate) const HOT_RACE: f64 = 100.0;
+
 /// Heats of which half goes to the inner race.
 const AT_THE_INNER_RACE: [&str; 4] = [
     "rotor_race_friction",
@@ -33,7 +36,13 @@ impl List {
             true => Ok(ball_load_safety(bearing.hertz_pressure_limit, pressure)),
             false => Err("no ball was loaded".to_string()),
         };
+        let index = match &safety {
+            // no load, no dent
+            Err(_) => 0.0,
+            Ok(safety) => 1.0 / safety,
+        };
         self.number("ball_load_safety", "1", safety, &SAFETY);
+        self.number("indentation_index", "1", Ok(index), &INDENTATION_INDEX);
         self.number(
             "largest_indentation",
             "m",
@@ -55,7 +64,9 @@ impl List {
     pub fn warming(&mut self, end: &End, bearing: &Bearing) {
         let rise = inner_race_rise(end, bearing)
             .ok_or_else(|| "bearing.inner_race_mass is 0: the race sits on a shaft".to_string());
+        let index = rise.clone().map(|rise| rise / HOT_RACE);
         self.number("inner_race_rise_without_cooling", "K", rise, &RISE);
+        self.number("heat_index", "1", index, &HEAT_INDEX);
     }
 }
 
@@ -94,6 +105,16 @@ const INDENTATION: Origin = Origin {
     law: "5.25e-19 Pa⁻² (Q/D²)² (1 − 1/(2f))/(1 ∓ γ) D of the largest ball load, the deeper race; ball and race together",
     source: "Palmgren (from memory: check before quoting); crates/physics/src/severity.rs",
     valid: "1e-5 to 1e-3 of D, 58 HRC and more, slow loading: impacts leave less; dents are not added up",
+};
+const INDENTATION_INDEX: Origin = Origin {
+    law: "1/ball_load_safety: load of the most loaded ball over the load that dents",
+    source: "definition; H. Hertz 1881",
+    valid: "1 is the limit; impacts dent less than loads at rest",
+};
+const HEAT_INDEX: Origin = Origin {
+    law: "inner_race_rise_without_cooling over 100 K",
+    source: "rings keep their size up to 120 °C (NTN, NSK, Timken)",
+    valid: "1 is the limit of common rings that start at 20 °C",
 };
 const BLOWS: Origin = Origin {
     law: "Σ max(0, N/W − 1) over all contacts, N the largest force of each, W the share of the weight on this bearing",

@@ -27,8 +27,8 @@ pub(crate) fn built(part: &AuxiliaryBearing) -> Option<Surfaces> {
         let square = part.bearing.inner_race_mass / (PI * race.material.density * length);
         ((bore * bore + square).sqrt() - bore).clamp(DEPTHS.0, DEPTHS.1)
     };
-    let rotor_depth = rotor.depth.unwrap_or(DEPTHS.1).min(bore);
-    let race_depth = race.depth.unwrap_or_else(of_mass);
+    let rotor_depth = rotor.layer.unwrap_or(DEPTHS.1).min(bore);
+    let race_depth = race.layer.unwrap_or_else(of_mass);
     Some(Surfaces {
         layers: [
             Layer::new(rotor.material, rotor_depth),
@@ -57,6 +57,12 @@ pub(crate) fn name(context: &Context, k: usize, list: &mut List) {
         "K",
         of(&|heat| heat.contact.value),
         &PATCH,
+    );
+    list.number(
+        "contact_temperature_index",
+        "1",
+        of(&|heat| heat.contact.value / CHANGES),
+        &INDEX,
     );
     list.number(
         "contact_temperature_time",
@@ -140,6 +146,11 @@ const PATCH: Origin = Origin {
     source: FILE,
     valid: "30 % by the width of the patch; a factor 2 where tilt or wear has changed its shape; asperities are hotter; friction does not \
             follow it",
+};
+const INDEX: Origin = Origin {
+    law: "contact_temperature_rise over 500 K",
+    source: "tempering and transformation of bearing steel, rounded down",
+    valid: "1: the surface of steel changes; other materials and coatings have limits of their own",
 };
 const SURFACE: Origin = Origin {
     law: "largest rise of the surface, averaged over the track that the patch has swept",

@@ -5,7 +5,7 @@ use crate::result::outcome::Warning;
 use crate::result::outcome::warning;
 use crate::scenario::{Accuracy, Fidelity, Method, Moment, Scenario};
 use crate::simulate::bearing::quantities::End;
-use crate::simulate::bearing::severity::inner_race_rise;
+use crate::simulate::bearing::severity::{HOT_RACE, inner_race_rise};
 use crate::simulate::bearing::warnings as shared;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::quantities::residuals;
@@ -328,9 +328,6 @@ fn loads(context: &Context, k: usize) -> Vec<Graded> {
     list
 }
 
-/// Rise of an inner race from which on what does not follow its warmth misleads: from 20 °C to the 120 °C of common rings, K.
-const HOT: f64 = 100.0;
-
 /// An inner race that gets hot.
 fn hot(context: &Context, k: usize) -> Option<Graded> {
     let end = End {
@@ -338,7 +335,7 @@ fn hot(context: &Context, k: usize) -> Option<Graded> {
         layout: context.machine.layout(),
         state: &context.finished.ending.state,
     };
-    let rise = inner_race_rise(&end, &context.given(k).bearing).filter(|rise| *rise > HOT)?;
+    let rise = inner_race_rise(&end, &context.given(k).bearing).filter(|rise| *rise > HOT_RACE)?;
     let text = format!(
         "Without cooling the inner race warms by {rise:.0} K: clearance, lubricant, friction and hardness change with that, and this run \
          does not follow them."

@@ -1,8 +1,10 @@
-//! Rows of heat sources that move: bands, circles; ellipses have no law here yet.
+//! Rows of heat sources that move: bands, circles, ellipses.
 
 use super::json::{list, number, text, within};
 use super::tally::{Compare, Tally};
-use physics::flash::{band_maximum, band_mean, band_rise, circle_fit, circle_mean};
+use physics::flash::{
+    Flux, band_maximum, band_mean, band_rise, circle_fit, circle_mean, ellipse_maximum,
+};
 use serde_json::Value;
 
 /// Widest range of Λ and Pe in which integrals are taken.
@@ -43,8 +45,31 @@ fn band(row: &Value, tally: &mut Tally) -> Result<(), String> {
     Ok(())
 }
 
-fn ellipse(_: &Value, tally: &mut Tally) -> Result<(), String> {
-    tally.leave_out("ellipse", "no law of moving ellipses here");
+fn ellipse(row: &Value, tally: &mut Tally) -> Result<(), String> {
+    let flux = match text(row, "flux")? {
+        "uniform" => Flux::Uniform,
+        "hertz" => Flux::Hertz,
+        other => return Err(format!("flux {other} is neither uniform nor hertz")),
+    };
+    let aspect = within(row, "aspect", 1e-2, 1e2)?;
+    let (place, largest) = ellipse_maximum(aspect, within(row, "Pe", 0.0, 1e3)?, flux);
+    let allowed = tally.relative("ellipse")?;
+    tally.add_by(
+        "ellipse: largest",
+        "",
+        number(row, "max")?,
+        largest,
+        allowed,
+    );
+    let allowed = tally.absolute("max_at_ellipse")?;
+    let reference = number(row, "max_at")?;
+    tally.add_by(
+        "ellipse: place of the largest",
+        "",
+        reference,
+        place,
+        allowed,
+    );
     Ok(())
 }
 
