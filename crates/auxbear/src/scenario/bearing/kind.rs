@@ -12,6 +12,8 @@ pub enum Fidelity {
     Planar = "planar",
     /// Pure rolling.
     Rolling = "rolling",
+    /// No rolling bearing: a ring that does not turn.
+    Bushing = "bushing",
 }
 }
 
