@@ -38,9 +38,10 @@ fn its_ledger_and_angular_momentum_close_and_its_ring_does_not_turn() {
     let at = machine.layout().bearings[0];
     assert_eq!(at.inner, at.outer);
     assert_eq!(end[at.inner + 5], 0.0);
-    // the rotor is braked by all of the friction
+    // braked by the friction of its weight: 0.15 · 78 N · 12 mm/0.01 kg m² over the 23 ms after its fall, and blows
     let spin = machine.layout().rotor.spin();
-    assert!(end[spin] < 0.99 * start[spin], "{}", end[spin]);
+    let lost = start[spin] - end[spin];
+    assert!((0.2..0.8).contains(&lost), "{lost}");
 }
 
 #[test]
