@@ -9,6 +9,11 @@
 //!   (I_i + J) φ̈_i = contact + bearing + drive     J: what balls and cage add, where they have no states
 //!   m_o c̈_o = bearing + mount + m_o g             does not turn: the ground takes t_O
 //! ```
+//! A bearing without balls is a plain bushing: both races are one ring, which stands in the state as an inner race that does
+//! not turn. The rotor rubs on it, and the ground takes the moment of that friction:
+//! ```text
+//!   m_o c̈_o = contact + mount + m_o g             ω_i = 0
+//! ```
 //! The motion of a node of the rotor in, the wrench on that node out. States: those of both races and of the bearing, where
 //! [`BearingAt`] says.
 //!
@@ -49,9 +54,9 @@ pub struct AuxiliaryBearingConstants {
     pub datum: Vec2<f64>,
     /// Rotor against inner race.
     pub contact: JournalContact<f64>,
-    /// Inner race and sleeve.
+    /// Inner race and sleeve. Of a bushing it has no mass, and its inertia is only the measure of the errors of the ledger.
     pub inner_race: RaceConstants<f64>,
-    /// The bearing.
+    /// The bearing. Without balls it is a bushing ([`RollingConstants::bushing`](bearing::RollingConstants::bushing)).
     pub bearing: BearingConstants,
     /// Mass of the outer race with its housing, kg.
     pub outer_race_mass: f64,
@@ -64,6 +69,10 @@ pub struct AuxiliaryBearingConstants {
 }
 
 impl AuxiliaryBearingConstants {
+    /// Whether it is a bushing: one ring that does not turn.
+    pub fn is_bushing(&self) -> bool {
+        self.bearing.balls() == 0
+    }
     /// Mass that translates with the outer race, kg.
     pub fn outer_moving_mass(&self) -> f64 {
         self.outer_race_mass + self.bearing.mass_with_outer_race()
@@ -127,7 +136,7 @@ pub mod probe {
 pub struct BearingAt {
     /// First channel of the inner race: x y, ẋ ẏ, φ_i, ω_i.
     pub inner: usize,
-    /// First channel of the outer race: x y, ẋ ẏ.
+    /// First channel of the outer race: x y, ẋ ẏ; of a bushing that of the inner one.
     pub outer: usize,
     /// First channel of the bearing's own states, the angle of its cage.
     pub bearing: usize,
@@ -188,8 +197,8 @@ const INNER: [&str; 6] = ["x", "y", "x_speed", "y_speed", "angle", "speed"];
 /// Names of the channels of an outer race.
 const OUTER: [&str; 4] = ["x", "y", "x_speed", "y_speed"];
 
-/// Adds the races of an auxiliary bearing to a layout: first channels of the inner and of the outer one.
-pub fn lay_races(layout: &mut Layout, name: &str) -> (usize, usize) {
+/// Adds the races of an auxiliary bearing to a layout, or the ring of a bushing: first channels of the inner and of the outer one.
+pub fn lay_races(layout: &mut Layout, name: &str, bushing: bool) -> (usize, usize) {
     let named = |race: &str, names: &[&str]| -> Vec<String> {
         names
             .iter()
@@ -197,6 +206,9 @@ pub fn lay_races(layout: &mut Layout, name: &str) -> (usize, usize) {
             .collect()
     };
     let inner = layout.block(name, named("inner_race", &INNER));
+    if bushing {
+        return (inner.start, inner.start);
+    }
     let outer = layout.block(name, named("outer_race", &OUTER));
     (inner.start, outer.start)
 }
@@ -209,6 +221,7 @@ pub struct AuxiliaryBearing<R: Real> {
     pub(crate) bearing: Bearing<R>,
     pub(crate) mount: WholeMount<R>,
     pub(crate) outer_moving_mass: R,
+    bushing: bool,
     /// Reciprocals, because a division costs as much as ten products.
     inverse_inner_mass: R,
     inverse_outer_mass: R,
@@ -259,6 +272,7 @@ impl<R: Real> AuxiliaryBearing<R> {
                 (&constants(lane).mount, &constants(lane).mount_parts)
             }),
             outer_moving_mass: lanes(&|c| c.outer_moving_mass()),
+            bushing: constants(0).is_bushing(),
             inverse_inner_mass: lanes(&|c| 1.0 / c.inner_race.mass),
             inverse_outer_mass: lanes(&|c| 1.0 / c.outer_moving_mass()),
         }
@@ -323,6 +337,10 @@ impl<R: Real> AuxiliaryBearing<R> {
         (bearing, on_outer): (&BearingReaction<R>, &MountReaction<R>),
         into: Outlet<'_, R>,
     ) -> External<R> {
+        if self.bushing {
+            let node = (node, node_acceleration);
+            return self.accelerate_ring(at, node, gravity, &motion.inner, on_outer, into);
+        }
         let Outlet {
             heat,
             source,
@@ -410,6 +428,59 @@ impl<R: Real> AuxiliaryBearing<R> {
                 outer.position.cross(mount),
                 bearing.external_moment,
                 -outer_moment,
+            ],
+        }
+    }
+}
+
+impl<R: Real> AuxiliaryBearing<R> {
+    /// The same of a bushing.
+    #[inline(always)]
+    fn accelerate_ring(
+        &self,
+        at: &BearingAt,
+        (node, node_acceleration): (&AtNode<R>, Vec2<R>),
+        gravity: Vec2<R>,
+        ring: &Body<R>,
+        mount: &MountReaction<R>,
+        into: Outlet<'_, R>,
+    ) -> External<R> {
+        let (rate, zero) = (into.rate, R::zero());
+        let contact = &node.contact;
+        let force = contact.on_bore.force + mount.force + gravity * self.outer_moving_mass;
+        let acceleration = force * self.inverse_outer_mass;
+        write_body(rate, at.inner, ring.velocity, acceleration);
+        rate[at.inner + 4..at.inner + 6].fill(zero);
+
+        // ledger: neither balls nor a drive
+        let heats = &mut rate[into.heat..into.heat + HEATS];
+        let (of_balls, own) = heats.split_at_mut(bearing::HEATS.len());
+        of_balls.fill(zero);
+        own.copy_from_slice(&[mount.heat(), contact.damping_heat, contact.friction_heat]);
+        rate[into.source..into.source + SOURCES.len()].fill(zero);
+
+        if !into.probe.is_empty() {
+            let mut values = [zero; probe::COUNT];
+            values[probe::PENETRATION] = contact.penetration;
+            values[probe::PENETRATION_SPEED] = contact.penetration_speed;
+            values[probe::NORMAL_FORCE] = contact.normal_force;
+            let approach = node_acceleration - acceleration;
+            values[probe::NORMAL_FORCE_RATE] =
+                (self.contact).force_rate(contact, &node.centre, ring, approach);
+            values[probe::FRICTION_FORCE] = contact.friction_force;
+            values[probe::SLIP_SPEED] = contact.slip_speed;
+            values[probe::BEARING_LOAD] = contact.on_bore.force.length_squared().sqrt();
+            values[probe::MOUNT_FORCE] = mount.force.length_squared().sqrt();
+            into.probe[at.probe..at.probe + probe::COUNT].copy_from_slice(&values);
+        }
+        External {
+            weights: [zero, ring.position.cross(gravity) * self.outer_moving_mass],
+            others: [
+                zero,
+                zero,
+                ring.position.cross(mount.force),
+                zero,
+                -contact.on_bore.moment,
             ],
         }
     }

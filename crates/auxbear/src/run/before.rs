@@ -21,14 +21,12 @@ impl Machine<'_> {
             Built::Drop(drop, ..) => {
                 let parts = drop.auxiliary_bearings.iter().enumerate();
                 let of_part = |(k, part): (usize, &AuxiliaryBearing)| {
+                    let Some(bearing) = &part.bearing else {
+                        return Vec::new();
+                    };
                     let load = drop.weight(k);
-                    let mut list = of_bearing(&part.name, &part.bearing, load, drop.rotor.speed);
-                    list.extend(preload_left(
-                        &part.name,
-                        &part.bearing,
-                        ("weight", load),
-                        None,
-                    ));
+                    let mut list = of_bearing(&part.name, bearing, load, drop.rotor.speed);
+                    list.extend(preload_left(&part.name, bearing, ("weight", load), None));
                     list
                 };
                 parts.flat_map(of_part).collect()

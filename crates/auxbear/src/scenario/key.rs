@@ -106,6 +106,13 @@ pub struct Condition {
     pub reason: &'static str,
 }
 
+/// That there are balls.
+const WITH_BALLS: &[Condition] = &[Condition {
+    path: "bearing.fidelity",
+    values: &["planar", "rolling"],
+    reason: "a bushing has neither balls nor races; mount.moving_mass is its ring",
+}];
+
 /// One key of a scenario.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Key {
@@ -121,7 +128,7 @@ pub struct Key {
     pub example: &'static str,
     /// What it is, in one or two sentences.
     pub doc: &'static str,
-    /// The key has a meaning only under all of these conditions.
+    /// The key has a meaning only under all of these conditions, and those of [`Key::conditions`].
     pub when: &'static [Condition],
     /// The other key that gives the same thing.
     pub excludes: Option<&'static str>,
@@ -218,6 +225,13 @@ impl Key {
         otherwise: Otherwise,
     ) -> Key {
         self.present(Presence::DefaultWhen(condition, fallback, otherwise))
+    }
+
+    /// All that must hold: its own conditions, and of a rolling bearing that there are balls.
+    pub(crate) fn conditions(&self) -> impl Iterator<Item = &'static Condition> {
+        let of_balls = self.path.starts_with("bearing.") && self.path != "bearing.fidelity";
+        let balls = if of_balls { WITH_BALLS } else { &[] };
+        balls.iter().chain(self.when)
     }
 
     pub(crate) const fn when(mut self, conditions: &'static [Condition]) -> Key {

@@ -112,7 +112,7 @@ impl Values {
 
     /// The condition that keeps a key from having a meaning, followed to its root.
     pub(crate) fn unmet(&self, key: &Key) -> Option<Condition> {
-        key.when.iter().find_map(|condition| {
+        key.conditions().find_map(|condition| {
             if let Some(parent) = table::keys().find(|other| other.path == condition.path) {
                 if !table::systems(parent).contains(&self.system) {
                     // there is no choice to be made in this system

@@ -285,7 +285,7 @@ fn from_bearing(system: SystemName) -> Option<Value> {
 fn conditions(key: &Key, system: SystemName) -> Vec<Condition> {
     let choice =
         |condition: &&Condition| table::keys_of(system).any(|key| key.path == condition.path);
-    key.when.iter().filter(choice).copied().collect()
+    key.conditions().filter(choice).copied().collect()
 }
 
 /// Keys that have a meaning only with other values: one rule for all keys of the same conditions. First the rules of those of
@@ -503,8 +503,10 @@ fn typed(key: &Key, text: &str) -> Value {
 /// What the key is, what it takes, and what holds without it.
 fn description(key: &Key, system: SystemName) -> String {
     let mut words = key.doc.to_string();
+    // that balls need balls goes without saying
     let conditions: Vec<String> = conditions(key, system)
         .iter()
+        .filter(|condition| key.when.contains(condition))
         .map(Condition::text)
         .collect();
     if !conditions.is_empty() {

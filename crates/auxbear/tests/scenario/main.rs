@@ -4,6 +4,7 @@ mod bad_file;
 mod bad_input;
 mod bases;
 mod blame;
+mod bushing;
 mod catalogue_file;
 mod contact_angle;
 mod files;

@@ -197,6 +197,10 @@ impl BearingConstants {
     }
     /// Whether a kind of [`HEATS`] may be made in this bearing; other kinds always may.
     pub fn may_make(&self, heat: &str) -> bool {
+        if self.balls() == 0 {
+            // a bushing: neither balls nor cage
+            return !HEATS.contains(&heat);
+        }
         let separation = match self {
             BearingConstants::Rolling(_) => &Separation::CentredCage,
             BearingConstants::Planar(bearing) => &bearing.separation,

@@ -238,6 +238,32 @@ impl<R: Real> Rolling<R> {
 }
 
 impl RollingConstants {
+    /// No bearing between the races: those of a plain bushing of this bore radius are one ring.
+    pub fn bushing(bore_radius: f64) -> Self {
+        RollingConstants {
+            balls: 0,
+            ball: RollingBall {
+                series_stiffness: 0.0,
+                load_per_radial_force: 1.0,
+                damping_time: 0.0,
+                interference: 0.0,
+                inner_track_growth: 0.0,
+                mass_radius: 0.0,
+            },
+            set: RollingSet {
+                inner_track_radius: bore_radius,
+                ball_ratio: 0.0,
+                balls_mass: 0.0,
+                cage_mass: 0.0,
+            },
+            cage_mass: 0.0,
+            first_ball_angle: 0.0,
+            moment: SteadyMoment::None,
+            axial_load: 0.0,
+            loss: AccelerationLoss::None,
+            lubricant: None,
+        }
+    }
     /// The bearing whose balls roll that corresponds to one computed ball by ball: contacts in series, the law of its
     /// steady moment as a whole, no loss in the pockets.
     pub fn of(planar: &PlanarConstants) -> Self {

@@ -7,6 +7,7 @@ mod machines;
 
 mod allocation;
 mod balances;
+mod bushing;
 mod drops;
 mod implicit;
 mod loads;

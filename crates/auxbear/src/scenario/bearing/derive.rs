@@ -1,11 +1,12 @@
 //! Values that follow from others.
 
 use crate::problem::{Code, Place, Problem};
-use crate::scenario::bearing::kind::{BallMaterial, BearingType};
+use crate::scenario::bearing::kind::{BallMaterial, BearingType, Modelled};
 use crate::scenario::bearing::lubricant::Lubricant;
 use crate::scenario::bearing::moment::{EquivalentLoad, Lubricated, MomentLaw};
+use crate::scenario::key::quoted;
 use crate::scenario::provenance::Provenance;
-use crate::scenario::system::SystemName;
+use crate::scenario::system::{FALLING, SystemName};
 use crate::scenario::table;
 use crate::scenario::values::{
     COMPARED_LAWS, Known, LAW, LUBRICATION, Value, Values, quantity_text,
@@ -29,6 +30,7 @@ const EQUIVALENT_LOAD: &str = "bearing.moment.equivalent_load";
 const PRELOAD: &str = "bearing.axial_preload";
 pub(super) const ANGLE: &str = "bearing.contact_angle";
 const BALL_MASS: &str = "bearing.ball_mass";
+const FIDELITY: &str = "bearing.fidelity";
 
 /// Contact angle of a deep groove bearing under axial load, degrees: 0.9 cot(16.7 degrees) = 3.
 const DEEP_GROOVE_ANGLE: f64 = 16.7;
@@ -41,6 +43,23 @@ const LOAD_SHARE: f64 = 0.01;
 type Done = Result<(), Box<Problem>>;
 
 impl Values {
+    /// A bushing is what a rotor drops into; nothing of it follows from other values.
+    fn bushing(&self) -> Done {
+        if FALLING.contains(&self.system()) {
+            return Ok(());
+        }
+        let found = format!("{} where a bearing is driven", quoted("bushing"));
+        let needed = "\"planar\" or \"rolling\" is needed: a bushing does not turn".to_string();
+        let place = self.place(FIDELITY);
+        Err(Box::new(self.problem(
+            Code::Conflict,
+            FIDELITY,
+            place,
+            found,
+            needed,
+        )))
+    }
+
     /// Fills what follows from other values.
     pub(crate) fn derive(&mut self) -> Done {
         if let (Some(unbalance), Some(mass)) =
@@ -52,6 +71,9 @@ impl Values {
                 Value::Number(eccentricity),
                 "unbalance / mass",
             )?;
+        }
+        if self.chosen(FIDELITY) == Some(Modelled::Bushing) {
+            return self.bushing();
         }
         if self.lacks("bearing.cage_inertia")
             && let (Some(mass), Some(pitch)) = (

@@ -5,7 +5,7 @@ use crate::scenario::bearing::TractionLaw;
 use crate::scenario::bearing::fits::Growth;
 use crate::scenario::bearing::kind::BallMaterial;
 use crate::scenario::bearing::kind::BearingType;
-use crate::scenario::bearing::kind::Fidelity;
+use crate::scenario::bearing::kind::Modelled;
 use crate::scenario::bearing::separation::SeparationKind;
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
 use crate::scenario::system::{FALLING, FREE_RACE, MOVING, WITH_MOMENT};
@@ -65,6 +65,14 @@ const TANH_OR_DRY: &[Condition] = &[traction(&["tanh", "dry"])];
 
 pub(crate) const KEYS: &[Key] = &[
     Key::new(
+        "bearing.fidelity",
+        Kind::Word(Modelled::WORDS),
+        "planar",
+        "How the bearing is modelled: planar moves each ball and the cage with slip; rolling assumes pure rolling and is far faster; bushing has no balls, its ring (mount.moving_mass) does not turn and the rotor rubs on it: no other key of [bearing] then has an effect.",
+    )
+    .default("planar", "slip of the balls matters while a race is brought to speed")
+    .only(MOVING),
+    Key::new(
         "bearing.name",
         Kind::Text,
         "6005",
@@ -79,14 +87,6 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .default("deep groove", "the usual auxiliary bearing")
     .only(WITH_MOMENT),
-    Key::new(
-        "bearing.fidelity",
-        Kind::Word(Fidelity::WORDS),
-        "planar",
-        "How the bearing is modelled: planar moves each ball and the cage with slip; rolling assumes pure rolling and is far faster.",
-    )
-    .default("planar", "slip of the balls matters while a race is brought to speed")
-    .only(MOVING),
     Key::new("bearing.ball_count", Kind::Count, "10", "Number of balls.")
         .within(Range::FromTo(1.0, 60.0))
         .catalogued(),

@@ -6,12 +6,24 @@ use physics::palmgren_factors::FactorType;
 use physics::skf_constants::SkfType;
 
 words! {
-/// How the bearing is modelled.
+/// How a rolling bearing is modelled.
 pub enum Fidelity {
     /// Each ball and the cage move in the plane, with slip.
     Planar = "planar",
     /// Pure rolling.
     Rolling = "rolling",
+}
+}
+
+words! {
+/// What an auxiliary bearing is computed as.
+pub(crate) enum Modelled {
+    /// A rolling bearing, ball by ball.
+    Planar = "planar",
+    /// A rolling bearing whose balls roll.
+    Rolling = "rolling",
+    /// A ring that does not turn.
+    Bushing = "bushing",
 }
 }
 

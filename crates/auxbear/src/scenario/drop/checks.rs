@@ -2,6 +2,7 @@
 
 use crate::catalogue::geometry::millimetres;
 use crate::problem::Code;
+use crate::scenario::bearing::Bearing;
 use crate::scenario::bearing::separation::Separation;
 use crate::scenario::checks::{Check, Context};
 use crate::scenario::drop::{AuxiliaryBearing, Drop};
@@ -19,19 +20,24 @@ impl Context<'_> {
                 values,
                 file: self.file,
             };
-            own.one_row(&part.bearing)?;
-            let bore = part.contact.bore_diameter;
-            own.bearing(&part.bearing, Some(("contact.bore_diameter", bore)), true)?;
+            if let Some(bearing) = &part.bearing {
+                own.one_row(bearing)?;
+                let bore = part.contact.bore_diameter;
+                own.bearing(bearing, Some(("contact.bore_diameter", bore)), true)?;
+            }
             own.air_clearance(part)?;
             own.mount(part)?;
-            own.perturbed_balls(drop, part)?;
+            if let Some(bearing) = &part.bearing {
+                own.perturbed_balls(drop, bearing)?;
+            }
             // what a bent rotor does on its magnets is known when they are computed
             if drop.shaft.is_none() {
                 own.levitated_orbit(drop, part, drop.share(k))?;
             }
         }
-        let parts = drop.auxiliary_bearings.iter();
-        self.output(&drop.run, parts.map(|part| part.bearing.ball_count).sum())
+        let bearings = drop.auxiliary_bearings.iter();
+        let bearings = bearings.filter_map(|part| part.bearing.as_ref());
+        self.output(&drop.run, bearings.map(|bearing| bearing.ball_count).sum())
     }
 
     /// Planes count bearings that are alike; bearings with names are counted by their names.
@@ -126,8 +132,8 @@ impl Context<'_> {
     }
 
     /// A perturbed ball must stay in its pocket.
-    fn perturbed_balls(&self, drop: &Drop, part: &AuxiliaryBearing) -> Check {
-        let (repeat, bearing) = (&drop.repeat, &part.bearing);
+    fn perturbed_balls(&self, drop: &Drop, bearing: &Bearing) -> Check {
+        let repeat = &drop.repeat;
         let shift = SPREAD * repeat.ball_angle_deviation * 0.5 * bearing.pitch_diameter;
         let (free, path) = match &bearing.separation {
             Separation::Cage(cage) => (cage.pocket_gap, "bearing.cage.pocket_gap"),

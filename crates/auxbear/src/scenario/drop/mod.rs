@@ -9,6 +9,7 @@ pub mod mount;
 mod shaft;
 
 use crate::problem::Problem;
+use crate::scenario::bearing::kind::Modelled;
 use crate::scenario::bearing::{Bearing, bearing};
 use crate::scenario::document::Document;
 use crate::scenario::run::Run;
@@ -47,8 +48,8 @@ pub struct AuxiliaryBearing {
     pub contact: Contact,
     /// Spring and damper between outer race and ground.
     pub mount: Mount,
-    /// The bearing.
-    pub bearing: Bearing,
+    /// The rolling bearing; none where it is a plain bushing.
+    pub bearing: Option<Bearing>,
 }
 
 /// The rotor as a whole, shared by all planes.
@@ -292,7 +293,8 @@ fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
             moving_mass: mount.number("moving_mass"),
             parts: MountParts::of(&mount),
         },
-        bearing: bearing(values),
+        bearing: (values.chosen("bearing.fidelity") != Some(Modelled::Bushing))
+            .then(|| bearing(values)),
     }
 }
 

@@ -14,6 +14,11 @@ pub struct PressureFactors {
 }
 
 impl PressureFactors {
+    /// Of a bushing, which has no balls.
+    pub const NONE: PressureFactors = PressureFactors {
+        races: [0.0; 2],
+        neighbours: None,
+    };
     /// The pressures under the largest loads at the inner and the outer race and between balls, N.
     pub fn pressures(&self, races: [Peak; 2], neighbours: Peak) -> Pressures {
         let [inner, outer] = self.races;

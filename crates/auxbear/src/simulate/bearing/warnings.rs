@@ -328,12 +328,13 @@ pub(crate) fn lift_off(bearing: &Bearing, speed: f64) -> Option<Warning> {
 pub(crate) fn assumed(
     scenario: &Scenario,
     name: Option<&str>,
-    bearing: &Bearing,
+    bearing: Option<&Bearing>,
 ) -> Option<Warning> {
     // what only skidding balls have
     let planar = ["bearing.cage.", "bearing.traction.", "bearing.drag."];
     let counts = |path: &str| {
-        bearing.fidelity == Fidelity::Planar || !planar.iter().any(|p| path.starts_with(p))
+        bearing.is_none_or(|bearing| bearing.fidelity == Fidelity::Planar)
+            || !planar.iter().any(|p| path.starts_with(p))
     };
     let values = scenario.resolved.values.iter();
     let paths: Vec<&str> = values

@@ -2,7 +2,7 @@
 
 use crate::problem::Problem;
 use crate::scenario::several::path_of;
-use crate::scenario::{Drop, Spin};
+use crate::scenario::{AuxiliaryBearing, Drop, Spin};
 use crate::simulate::bearing;
 use crate::simulate::bearing::pressure::PressureFactors;
 use crate::simulate::bearing::steady::{SteadyFinding, SteadyPoint};
@@ -10,6 +10,7 @@ use crate::simulate::drop::mount;
 use crate::simulate::drop::shaft::{self, BuiltShaft};
 use crate::simulate::drop::surfaces;
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
+use model::bearing::{BearingConstants, RollingConstants};
 use model::contact::JournalContact;
 use model::levitation::Levitation;
 use model::mount::Mount;
@@ -86,17 +87,20 @@ fn auxiliary_bearing(
     k: usize,
 ) -> Result<(AuxiliaryBearingConstants, BuiltBearing), Box<Problem>> {
     let part = &drop.auxiliary_bearings[k];
+    let Some(given) = &part.bearing else {
+        return Ok(bushing(part));
+    };
     let gravity = gravity(drop);
     let (sine, cosine) = drop.gravity.direction.sin_cos();
-    let contacts = bearing::contacts::ball_contacts(&part.bearing)?;
-    let constants = bearing::build::bearing(&part.bearing, &contacts, gravity)?;
+    let contacts = bearing::contacts::ball_contacts(given)?;
+    let constants = bearing::build::bearing(given, &contacts, gravity)?;
     let steady = bearing::steady::steady(
         &constants,
-        &part.bearing,
+        given,
         &InnerRace {
-            mass: part.bearing.inner_race_mass,
-            inertia: part.bearing.inner_race_inertia,
-            centre_held: part.bearing.inner_race_centre_held,
+            mass: given.inner_race_mass,
+            inertia: given.inner_race_inertia,
+            centre_held: given.inner_race_centre_held,
             load_direction: Vec2::new(cosine, sine),
             gravity,
         },
@@ -109,8 +113,40 @@ fn auxiliary_bearing(
         pressure_factors: contacts.pressure_factors(),
         steady,
     };
+    let inner_race = RaceConstants {
+        mass: given.inner_race_mass,
+        inertia: given.inner_race_inertia,
+        centre_held: given.inner_race_centre_held,
+        torque: given.inner_race_torque,
+    };
+    Ok((around(part, inner_race, constants), built))
+}
+
+/// A plain bushing: its ring is the mass on the mount.
+fn bushing(part: &AuxiliaryBearing) -> (AuxiliaryBearingConstants, BuiltBearing) {
+    let radius = 0.5 * part.contact.bore_diameter;
+    let ring = RaceConstants {
+        mass: 0.0,
+        inertia: part.mount.moving_mass * radius * radius,
+        centre_held: false,
+        torque: 0.0,
+    };
+    let none = BearingConstants::Rolling(RollingConstants::bushing(radius));
+    let built = BuiltBearing {
+        pressure_factors: PressureFactors::NONE,
+        steady: None,
+    };
+    (around(part, ring, none), built)
+}
+
+/// Contact and mount around a bearing.
+fn around(
+    part: &AuxiliaryBearing,
+    inner_race: RaceConstants<f64>,
+    bearing: BearingConstants,
+) -> AuxiliaryBearingConstants {
     let contact = &part.contact;
-    let constants = AuxiliaryBearingConstants {
+    AuxiliaryBearingConstants {
         name: part.name.clone(),
         node: vec![1.0],
         datum: Vec2::zero(),
@@ -123,13 +159,8 @@ fn auxiliary_bearing(
             friction: contact.friction_coefficient,
             inverse_reference_speed: 1.0 / contact.friction_reference_speed,
         },
-        inner_race: RaceConstants {
-            mass: part.bearing.inner_race_mass,
-            inertia: part.bearing.inner_race_inertia,
-            centre_held: part.bearing.inner_race_centre_held,
-            torque: part.bearing.inner_race_torque,
-        },
-        bearing: constants,
+        inner_race,
+        bearing,
         outer_race_mass: part.mount.moving_mass,
         mount: Mount {
             stiffness: part.mount.stiffness,
@@ -138,8 +169,7 @@ fn auxiliary_bearing(
         },
         mount_parts: mount::parts(&part.mount.parts),
         surfaces: surfaces::built(part),
-    };
-    Ok((constants, built))
+    }
 }
 
 fn gravity(drop: &Drop) -> Vec2<f64> {

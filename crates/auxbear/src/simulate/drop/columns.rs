@@ -95,12 +95,14 @@ fn of_bearing(context: &Context, k: usize, run: &BearingRun) -> Vec<Column> {
         "outer race centre, upwards",
         at.outer + 1,
     );
-    table.add(
-        "bearing.cage.speed",
-        "rad/s",
-        "spin of the cage; without one the mean orbit speed of the balls",
-        |row| context.machine.cage_speed(k, row.state),
-    );
+    if context.given(k).bearing.is_some() {
+        table.add(
+            "bearing.cage.speed",
+            "rad/s",
+            "spin of the cage; without one the mean orbit speed of the balls",
+            |row| context.machine.cage_speed(k, row.state),
+        );
+    }
     table.probe(
         "bearing.contact.force",
         "N",

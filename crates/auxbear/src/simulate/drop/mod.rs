@@ -135,9 +135,9 @@ fn picture(context: &Context, k: usize) -> Picture {
     Picture {
         bearing: part.name.clone(),
         clearance: Some(given.contact.radial_air_clearance),
-        pressure_limit: Some(given.bearing.hertz_pressure_limit),
+        pressure_limit: (given.bearing.as_ref()).map(|bearing| bearing.hertz_pressure_limit),
         rolling_cage_ratio: part.bearing.rolling_cage_ratio(),
-        balls: given.bearing.ball_count,
+        balls: part.bearing.balls(),
     }
 }
 

@@ -93,26 +93,29 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
 
     // speeds
     let never = |what: &str| format!("{what} was not reached in {} ms", digits(1e3 * ending.time));
-    list.rises(
-        "inner_race",
-        [
-            record.inner_race_time_to_50_percent(),
-            record.inner_race_time_to_95_percent(),
-            record.cage_time_to_95_percent(),
-        ],
-        [
-            never("half of the rotor's release speed"),
-            never("95 % of the rotor's release speed"),
-            never("95 % of the rolling cage speed of the rotor's release speed"),
-        ],
-        &RISE,
-    );
-    let race_speed = state[machine.layout().bearings[k].inner + 5];
-    for (name, speed) in [
-        ("inner_race_final_speed", race_speed),
-        ("cage_final_speed", machine.cage_speed(k, state)),
-    ] {
-        list.number(name, "rad/s", Ok(speed), &SPEED);
+    let rolling = context.given(k).bearing.as_ref();
+    if rolling.is_some() {
+        list.rises(
+            "inner_race",
+            [
+                record.inner_race_time_to_50_percent(),
+                record.inner_race_time_to_95_percent(),
+                record.cage_time_to_95_percent(),
+            ],
+            [
+                never("half of the rotor's release speed"),
+                never("95 % of the rotor's release speed"),
+                never("95 % of the rolling cage speed of the rotor's release speed"),
+            ],
+            &RISE,
+        );
+        let race_speed = state[machine.layout().bearings[k].inner + 5];
+        for (name, speed) in [
+            ("inner_race_final_speed", race_speed),
+            ("cage_final_speed", machine.cage_speed(k, state)),
+        ] {
+            list.number(name, "rad/s", Ok(speed), &SPEED);
+        }
     }
 
     let end = End {
@@ -125,19 +128,20 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
         cage: [record.largest_pocket_force, record.largest_land_force],
     };
     let run = context.bearing(k);
-    let given = &context.given(k).bearing;
-    list.balls(&run, &forces, given, &end);
     let load = record.largest_bearing_load.value;
-    list.number("peak_bearing_load", "N", Ok(load), &LOAD);
-    list.static_safety(
-        &given.rated(),
-        &StaticLoad {
-            radial: load,
-            axial: given.axial_preload,
-            contact_angle: Some(given.contact_angle),
-        },
-        &SAFETY,
-    );
+    if let Some(given) = rolling {
+        list.balls(&run, &forces, given, &end);
+        list.number("peak_bearing_load", "N", Ok(load), &LOAD);
+        list.static_safety(
+            &given.rated(),
+            &StaticLoad {
+                radial: load,
+                axial: given.axial_preload,
+                contact_angle: Some(given.contact_angle),
+            },
+            &SAFETY,
+        );
+    }
     let force = record.largest_mount_force.value;
     list.number("peak_mount_force", "N", Ok(force), &MOUNT_FORCE);
 
@@ -183,7 +187,9 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
     list.losses(&run, &end, &ENERGY);
     let weight = context.drop.weight(k);
     list.blows(record.contacts.iter().map(|c| c.peak_force), weight);
-    list.warming(&end, given);
+    if let Some(given) = rolling {
+        list.warming(&end, given);
+    }
     let contact = &context.given(k).contact;
     let work = end.heat("rotor_race_friction");
     list.number(

@@ -24,7 +24,10 @@ pub(crate) fn built(part: &AuxiliaryBearing) -> Option<Surfaces> {
     let bore = 0.5 * contact.bore_diameter;
     // a ring of that mass: π ((R + h)² − R²) ρ L = m
     let of_mass = || {
-        let square = part.bearing.inner_race_mass / (PI * race.material.density * length);
+        // a bushing is one ring: the mass on its mount
+        let mass =
+            (part.bearing.as_ref()).map_or(part.mount.moving_mass, |race| race.inner_race_mass);
+        let square = mass / (PI * race.material.density * length);
         ((bore * bore + square).sqrt() - bore).clamp(DEPTHS.0, DEPTHS.1)
     };
     let rotor_depth = rotor.layer.unwrap_or(DEPTHS.1).min(bore);

@@ -185,7 +185,8 @@ pub(crate) fn of(scenario: &Scenario, contexts: &[Context]) -> Vec<Warning> {
     }
     list.extend(each(&|k| {
         let run = context.bearing(k);
-        let mut list = shared::films(&run, &context.given(k).bearing);
+        let given = context.given(k).bearing.as_ref();
+        let mut list = given.map_or(Vec::new(), |bearing| shared::films(&run, bearing));
         list.extend(shared::film_rise(&run));
         let mut list = of_rows(contexts, list);
         list.extend(judged(machines, |member| {
@@ -205,7 +206,7 @@ pub(crate) fn of(scenario: &Scenario, contexts: &[Context]) -> Vec<Warning> {
                 ),
             )
         });
-        let kind = shared::kind(&context.given(k).bearing);
+        let kind = (context.given(k).bearing.iter()).flat_map(shared::kind);
         late.into_iter().chain(kind).collect()
     }));
     if drop.rotor.first_bending_frequency.is_none() && drop.shaft.is_none() {
@@ -218,11 +219,16 @@ pub(crate) fn of(scenario: &Scenario, contexts: &[Context]) -> Vec<Warning> {
             ),
         ));
     }
-    list.extend(shared::assumed(scenario, None, &context.given(0).bearing));
+    list.extend(shared::assumed(
+        scenario,
+        None,
+        context.given(0).bearing.as_ref(),
+    ));
     list.extend(each(&|k| {
         let given = context.given(k);
         let own = Some(given.name.as_str()).filter(|name| !name.is_empty());
-        let assumed = own.and_then(|name| shared::assumed(scenario, Some(name), &given.bearing));
+        let assumed =
+            own.and_then(|name| shared::assumed(scenario, Some(name), given.bearing.as_ref()));
         assumed.into_iter().collect()
     }));
     list
@@ -242,7 +248,10 @@ fn whirl(context: &Context, k: usize) -> Option<Graded> {
 
 /// Speeds beyond those of the bearing and of its fit.
 fn beyond_speeds(context: &Context, k: usize) -> Vec<Graded> {
-    let (bearing, speed) = (&context.given(k).bearing, context.drop.rotor.speed);
+    let Some(bearing) = &context.given(k).bearing else {
+        return Vec::new();
+    };
+    let speed = context.drop.rotor.speed;
     let lift_off = shared::lift_off(bearing, speed);
     let warnings = speed_rating(bearing, speed).into_iter().chain(lift_off);
     warnings.map(|warning| (speed.abs(), warning)).collect()
@@ -254,7 +263,7 @@ fn preload(context: &Context, k: usize) -> Option<Graded> {
     let weight = drop.weight(k);
     let peak = context.record(k).peak_contact_force();
     let peak = peak.map(|peak| (peak.value, peak.time));
-    let bearing = &context.given(k).bearing;
+    let bearing = context.given(k).bearing.as_ref()?;
     let warning = shared::preload_left("", bearing, ("weight", weight), peak)?;
     Some((peak.map_or(weight, |(force, _)| force.max(weight)), warning))
 }
@@ -301,7 +310,9 @@ fn one_motion(context: &Context) -> Option<Warning> {
 
 /// Pressures and forces beyond what bearing and laws stand.
 fn loads(context: &Context, k: usize) -> Vec<Graded> {
-    let bearing = &context.given(k).bearing;
+    let Some(bearing) = &context.given(k).bearing else {
+        return Vec::new();
+    };
     let record = context.record(k);
     let races = [record.largest_inner_load, record.largest_outer_load];
     let factors = context.built.bearings[k].pressure_factors;
@@ -335,7 +346,8 @@ fn hot(context: &Context, k: usize) -> Option<Graded> {
         layout: context.machine.layout(),
         state: &context.finished.ending.state,
     };
-    let rise = inner_race_rise(&end, &context.given(k).bearing).filter(|rise| *rise > HOT_RACE)?;
+    let rise = inner_race_rise(&end, context.given(k).bearing.as_ref()?)
+        .filter(|rise| *rise > HOT_RACE)?;
     let text = format!(
         "Without cooling the inner race warms by {rise:.0} K: clearance, lubricant, friction and hardness change with that, and this run \
          does not follow them."
@@ -358,10 +370,25 @@ fn damping(context: &Context, k: usize) -> Vec<Warning> {
     list.into_iter().collect()
 }
 
+/// What a ring that does not turn does to a rotor, and what is not followed of it.
+fn bushing(context: &Context, k: usize) -> Warning {
+    let friction = context.given(k).contact.friction_coefficient;
+    warning(
+        "AB2330",
+        format!(
+            "The rotor rubs on a bushing with a friction coefficient of {friction}: no race comes to speed and ends that, so friction \
+             drives backward whirl for as long as the rotor turns. Whether a blow starts it depends on friction, damping and the release: \
+             vary them (--repeat). What warming and wear do to friction and clearance is not followed."
+        ),
+    )
+}
+
 /// What the laws of a bearing leave open.
 fn of_bearing(scenario: &Scenario, context: &Context, k: usize) -> Vec<Warning> {
     let given = context.given(k);
-    let bearing = &given.bearing;
+    let Some(bearing) = &given.bearing else {
+        return vec![bushing(context, k)];
+    };
     let mut list: Vec<Warning> = shared::cage_inertia(bearing).into_iter().collect();
     list.extend(shared::rolling(bearing));
     list.extend(shared::no_moment(bearing));

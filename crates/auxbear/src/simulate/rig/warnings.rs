@@ -72,7 +72,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     list.extend(shared::no_moment(bearing));
     list.extend(shared::moment(scenario, "", bearing));
     list.extend(shared::kind(bearing));
-    list.extend(shared::assumed(scenario, None, bearing));
+    list.extend(shared::assumed(scenario, None, Some(bearing)));
     list
 }
 

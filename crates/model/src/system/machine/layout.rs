@@ -75,7 +75,7 @@ impl Layout {
         };
         channels.block("", rotor.names());
         let races: Vec<_> = (parts.iter())
-            .map(|part| lay_races(&mut channels, &part.name))
+            .map(|part| lay_races(&mut channels, &part.name, part.is_bushing()))
             .collect();
         let states: Vec<_> = (parts.iter())
             .map(|part| channels.bearing(&part.name, &part.bearing))

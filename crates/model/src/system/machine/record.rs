@@ -537,7 +537,8 @@ fn translation_at_end(step: &mut Step<RotorMachine>) -> f64 {
 fn contact_at(step: &mut Step<RotorMachine>, bearing: usize, theta: f64) -> ContactReaction<f64> {
     let machine = step.machine;
     let at = &machine.layout().bearings[bearing];
-    let state = step.leading_state(theta, at.outer + 4);
+    // both races; the one ring of a bushing ends behind its spin
+    let state = step.leading_state(theta, (at.outer + 4).max(at.inner + 6));
     let rotor = machine.layout().rotor.motion(state);
     let centre = machine.one.nodes[bearing].centre(&rotor);
     (machine.constants.bearings[bearing].contact).react(

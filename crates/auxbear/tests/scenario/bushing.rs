@@ -1,0 +1,96 @@
+//! An auxiliary bearing that is a plain bushing.
+
+use crate::several::{HEAD, outcome, read};
+use auxbear::result::outcome::Value;
+
+/// Of one bearing, then of two of which the second is a ball bearing.
+const ALONE: &str = r#"
+[bearing]
+fidelity = "bushing"
+"#;
+const BESIDE_BALLS: &str = r#"
+[[auxiliary_bearing]]
+name = "ring"
+[auxiliary_bearing.bearing]
+fidelity = "bushing"
+
+[[auxiliary_bearing]]
+name = "balls"
+[auxiliary_bearing.bearing]
+name = "6005"
+operating_diametral_clearance = "-4 um"
+"#;
+
+/// A file without its ball bearing.
+fn with(bearings: &str) -> String {
+    let (before, rest) = HEAD.split_once("[bearing]").expect("it has a bearing");
+    let (_, run) = rest.split_once("[run]").expect("it has a run");
+    format!("{before}[run]{run}{bearings}")
+}
+
+#[test]
+fn it_runs_alone_repeated_and_beside_a_ball_bearing() {
+    let number = |outcome: &auxbear::run::Outcome, name: &str| {
+        let found = outcome.quantities.iter().find(|q| q.name == name);
+        match found.map(|q| &q.value) {
+            Some(Value::Number(value)) => Some(*value),
+            _ => None,
+        }
+    };
+    for (text, of_ring, of_balls) in [
+        (with(ALONE), "", None),
+        (with(BESIDE_BALLS), "ring.", Some("balls.")),
+    ] {
+        let outcome = outcome(&text, &[]);
+        let residual = number(&outcome, "energy_residual").expect("a residual");
+        assert!(residual.abs() < 1e-6, "{residual}");
+        let ring = |name: &str| number(&outcome, &format!("{of_ring}{name}"));
+        assert!(ring("peak_contact_force").is_some_and(|force| force > 100.0));
+        assert!(ring("rotor_race_friction_energy").is_some_and(|heat| heat > 0.0));
+        for name in ["peak_ball_load", "cage_final_speed", "inner_race_final_speed"] {
+            assert_eq!(ring(name), None, "{name} of a bushing");
+        }
+        if let Some(balls) = of_balls {
+            let load = number(&outcome, &format!("{balls}peak_ball_load"));
+            assert!(load.is_some_and(|load| load > 10.0), "{load:?}");
+        }
+        assert!(outcome.warnings.iter().any(|w| w.code == "AB2330"));
+    }
+    let repeated = outcome(&with(ALONE), &["repeat.count=5"]);
+    assert!(repeated.quantities.iter().any(|q| q.name.starts_with("peak_contact_force")));
+}
+
+#[test]
+fn at_screening_accuracy_it_runs_too() {
+    let outcome = outcome(&with(BESIDE_BALLS), &["run.accuracy=screening"]);
+    assert!(outcome.quantities.iter().any(|q| q.name == "ring.peak_contact_force"));
+}
+
+#[test]
+fn keys_of_balls_are_refused_with_their_reason() {
+    for key in ["name = \"6005\"", "ball_count = 10", "inner_race_mass = \"20 g\""] {
+        let text = format!("{}{key}\n", with(ALONE));
+        let problem = read(&text, &[]).expect_err("no balls").to_string();
+        assert!(problem.contains("no effect") && problem.contains("mount.moving_mass"), "{problem}");
+    }
+    let text = with("[bearing]\nfidelity = \"bush\"\n");
+    let problem = read(&text, &[]).expect_err("no such word").to_string();
+    assert!(problem.contains("bushing"), "{problem}");
+}
+
+#[test]
+fn a_spin_up_has_none() {
+    let text = r#"
+format = "auxbear.scenario/1"
+system = "spin_up"
+[drive]
+kind = "speed"
+final_speed = "150 rad/s"
+acceleration = "7200 rad/s^2"
+radial_load = "200 N"
+[bearing]
+fidelity = "bushing"
+"#;
+    let problem = read(text, &[]).expect_err("a bushing").to_string();
+    assert!(problem.contains("does not turn"), "{problem}");
+}
