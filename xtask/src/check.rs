@@ -3,7 +3,7 @@
 use crate::repository::{Outcome, Repository};
 use crate::{
     architecture, book, circles, crate_directions, documentation, licences, module_order,
-    scenarios, source_text, toolchain, validation_cases,
+    scenarios, source_text, suites, toolchain, validation_cases,
 };
 use std::process::ExitCode;
 use std::time::Instant;
@@ -19,7 +19,7 @@ pub enum Extent {
 
 type Guard = (&'static str, fn(&Repository) -> Outcome);
 
-const FAST: [Guard; 10] = [
+const FAST: [Guard; 11] = [
     ("crate directions", crate_directions::check),
     ("module order", module_order::check),
     ("no circles", circles::check),
@@ -28,6 +28,7 @@ const FAST: [Guard; 10] = [
     ("book", book::check),
     ("documentation rules", documentation::check),
     ("source text", source_text::check),
+    ("test files", suites::check),
     ("licences", licences::check),
     ("format", toolchain::format),
 ];

@@ -10,11 +10,11 @@ use std::process::ExitCode;
 
 const PAGE: &str = "book/src/coverage.md";
 
-/// A test binary, the tests of it that count something, and how many cases it tries in its long form.
+/// A module of a package's test suite, the tests of it that count something, and how many cases it tries in its long form.
 struct Table {
     subject: &'static str,
     package: &'static str,
-    binary: &'static str,
+    module: &'static str,
     /// Beginnings of the names of the tests.
     tests: &'static [&'static str],
     seeds: u64,
@@ -24,97 +24,97 @@ const TABLES: &[Table] = &[
     Table {
         subject: "Speed and acceleration from pulses",
         package: "auxbear-measure",
-        binary: "speed_coverage",
+        module: "speed_coverage",
         tests: &[""],
         seeds: 100,
     },
     Table {
         subject: "The engagement of a soft clutch",
         package: "auxbear-measure",
-        binary: "soft_clutch",
+        module: "soft_clutch",
         tests: &[""],
         seeds: 100,
     },
     Table {
         subject: "Few marks in the change",
         package: "auxbear-measure",
-        binary: "few_marks",
+        module: "few_marks",
         tests: &["eight_marks", "the_engagement"],
         seeds: 40,
     },
     Table {
         subject: "Few samples a mark",
         package: "auxbear-measure",
-        binary: "few_samples",
+        module: "few_samples",
         tests: &[""],
         seeds: 40,
     },
     Table {
         subject: "Pickups of other kinds",
         package: "auxbear-measure",
-        binary: "pickups",
+        module: "pickups",
         tests: &[""],
         seeds: 20,
     },
     Table {
         subject: "Torque by a swinging sensor",
         package: "auxbear-measure",
-        binary: "torque_sensor",
+        module: "torque_sensor",
         tests: &["two_deviations"],
         seeds: 100,
     },
     Table {
         subject: "Torque beside a disturbance",
         package: "auxbear-measure",
-        binary: "run_out",
+        module: "run_out",
         tests: &["the_band"],
         seeds: 20,
     },
     Table {
         subject: "The steady moment after coast-downs",
         package: "auxbear-identify",
-        binary: "moment",
+        module: "moment",
         tests: &[""],
         seeds: 100,
     },
     Table {
         subject: "The loss of accelerated balls",
         package: "auxbear-identify",
-        binary: "loss",
+        module: "loss",
         tests: &[""],
         seeds: 100,
     },
     Table {
         subject: "Energy of a spin-up",
         package: "auxbear-identify",
-        binary: "energy",
+        module: "energy",
         tests: &[""],
         seeds: 100,
     },
     Table {
         subject: "Cage and slip",
         package: "auxbear-identify",
-        binary: "cage",
+        module: "cage",
         tests: &[""],
         seeds: 100,
     },
     Table {
         subject: "Friction of the rotor on the race",
         package: "auxbear-identify",
-        binary: "rotor",
+        module: "rotor",
         tests: &[""],
         seeds: 100,
     },
     Table {
         subject: "Explanations: verdicts and fit",
         package: "auxbear-identify",
-        binary: "explain",
+        module: "explain",
         tests: &["right_as_often", "fit::the_probability"],
         seeds: 100,
     },
 ];
 
-/// Runs the tables, or those whose subject or binary contains a word, and writes the page; sections that do not run stay.
+/// Runs the tables, or those whose subject or module contains a word, and writes the page; sections that do not run stay.
 pub fn run(word: Option<&str>) -> ExitCode {
     match written(word) {
         Ok(true) => ExitCode::SUCCESS,
@@ -130,10 +130,10 @@ fn written(word: Option<&str>) -> Result<bool, String> {
     let repository = Repository::open()?;
     let before = repository.text(PAGE).unwrap_or_default();
     let asked = |table: &&Table| {
-        word.is_none_or(|word| table.binary == word || table.subject.contains(word))
+        word.is_none_or(|word| table.module == word || table.subject.contains(word))
     };
     if !TABLES.iter().any(|table| asked(&table)) {
-        let known: Vec<&str> = TABLES.iter().map(|table| table.binary).collect();
+        let known: Vec<&str> = TABLES.iter().map(|table| table.module).collect();
         return Err(format!(
             "no table of that name: there are {}",
             known.join(", ")
@@ -173,11 +173,12 @@ fn section<'a>(page: &'a str, heading: &str) -> Option<&'a str> {
 
 /// Runs a table; its text, and whether all its tests passed.
 fn measured(repository: &Repository, table: &Table) -> Result<(String, bool), String> {
+    let names = (table.tests.iter()).map(|name| format!("{}::{name}", table.module));
     let output = cargo(repository)
         .args(["test", "--release", "--locked"])
-        .args(["-p", table.package, "--test", table.binary, "--"])
+        .args(["-p", table.package, "--test", "suite", "--"])
         .args(["--nocapture", "--test-threads=1", "--format=pretty"])
-        .args(table.tests)
+        .args(names)
         .env("AUXBEAR_SEEDS", table.seeds.to_string())
         .stderr(std::process::Stdio::inherit())
         .output()
@@ -186,12 +187,12 @@ fn measured(repository: &Repository, table: &Table) -> Result<(String, bool), St
     let folder = format!(
         "crates/{}/tests/{}",
         table.package.trim_start_matches("auxbear-"),
-        table.binary
+        table.module
     );
     let alone = format!("{folder}.rs");
     let file = match repository.root.join(&alone).exists() {
         true => alone,
-        false => format!("{folder}/main.rs"),
+        false => format!("{folder}/mod.rs"),
     };
     let mut text = format!("\n`{file}`, {} seeds.\n", table.seeds);
     for test in tests(&printed) {

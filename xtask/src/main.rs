@@ -20,6 +20,7 @@ mod rust_text;
 mod scenarios;
 mod shipped;
 mod source_text;
+mod suites;
 mod toolchain;
 mod validation_cases;
 

@@ -1,12 +1,9 @@
 //! A measurement through its front: the made-up spin-up against the motion it was made from, and files that are wrong.
 
-#[path = "measurement_file/mod.rs"]
-mod measurement_file;
-
+use crate::measurement_file::{TORQUE, problem, table};
 use auxbear::result::outcome::{Outcome, Value};
 use auxbear::run::{Options, build, run};
 use auxbear::scenario::{BuiltIn, Scenario};
-use measurement_file::{TORQUE, problem, table};
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;

@@ -1,11 +1,8 @@
 //! Measurement files through their front: units of times, clocks, names, cuts.
 
-#[path = "measurement_file/mod.rs"]
-mod measurement_file;
-
+use crate::measurement_file::{TORQUE, problem, table};
 use auxbear::run::build;
 use auxbear::scenario::{BuiltIn, Scenario};
-use measurement_file::{TORQUE, problem, table};
 use std::fs;
 use std::path::Path;
 

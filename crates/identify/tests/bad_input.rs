@@ -1,7 +1,6 @@
 //! Whatever a file can hold is answered or refused with a sentence: nothing panics, nothing that is reported is not a number.
 
-mod made_up;
-
+use crate::made_up::{Random, set};
 use identify::data_checks::{CheckSettings, doubts};
 use identify::dissipation::dissipation;
 use identify::loss::{LossMap, LossSettings, Rolling, loss};
@@ -9,7 +8,6 @@ use identify::moment::{MomentSettings, SteadyMoment, moment};
 use identify::skid::{SkidSettings, skid};
 use identify::slip::{SlipSettings, cage_slip};
 use identify::{CageTrace, Measurement, SetDeviation};
-use made_up::{Random, set};
 use physics::rolling::RollingSet;
 use proptest::prelude::*;
 

@@ -1,12 +1,10 @@
 //! Slip of the cage and spin of the balls.
 
-mod made_up;
-
+use crate::made_up::{Random, covered, lagging_spin_up, rolling_spin_up, seeds, set, steady};
 use identify::moment::SteadyMoment;
 use identify::skid::{SkidSettings, skid};
 use identify::slip::{Established, SlipSettings, cage_slip};
 use identify::{CageTrace, Measurement};
-use made_up::{Random, covered, lagging_spin_up, rolling_spin_up, seeds, set, steady};
 
 /// A steady moment without error.
 fn exact() -> SteadyMoment {

@@ -1,11 +1,9 @@
 //! Doubts: each wrong set of tests is named with its numbers, and a sound one raises none.
 
-mod made_up;
-
+use crate::made_up::{Random, rolling_spin_up, set, steady};
 use identify::data_checks::{ByTemperature, CheckSettings, Doubt, doubts};
 use identify::moment::SteadyMoment;
 use identify::{CageTrace, Measurement};
-use made_up::{Random, rolling_spin_up, set, steady};
 use measure::uncertain::Uncertain;
 
 fn curve(factor: f64) -> SteadyMoment {

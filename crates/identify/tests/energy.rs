@@ -1,12 +1,10 @@
 //! The dissipated energy: closed forms, the direction in which the printed formula is wrong, and the band.
 
-mod made_up;
-
-use identify::dissipation::{dissipation, outer_moment_work, spin_up_window};
-use identify::{CageTrace, Measurement, SetDeviation};
-use made_up::{
+use crate::made_up::{
     Random, SENSOR, covered, lagging_spin_up, measured, profile, rolling_spin_up, seeds, set,
 };
+use identify::dissipation::{dissipation, outer_moment_work, spin_up_window};
+use identify::{CageTrace, Measurement, SetDeviation};
 
 const EXACT: SetDeviation = SetDeviation {
     balls_mass: 0.0,

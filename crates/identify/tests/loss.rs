@@ -1,14 +1,12 @@
 //! F of accelerated balls: known values come back, bands hold, and nothing is reported where nothing is known.
 
-mod made_up;
-
-use identify::loss::{Loss, LossMap, LossSettings, Rolling, State, loss};
-use identify::moment::{MomentSettings, moment};
-use identify::{Measurement, SetDeviation, SteadyMoment};
-use made_up::{
+use crate::made_up::{
     Random, coast_down, covered, friction, lagging_spin_up, rolling_spin_up, rolling_with, seeds,
     set, steady,
 };
+use identify::loss::{Loss, LossMap, LossSettings, Rolling, State, loss};
+use identify::moment::{MomentSettings, moment};
+use identify::{Measurement, SetDeviation, SteadyMoment};
 use measure::uncertain::Uncertain;
 
 /// A steady moment without error.
@@ -94,7 +92,7 @@ fn without_noise_it_is_the_formula() {
     let mut random = Random::new(1);
     let (mut test, truth) = rolling_spin_up(&mut random, 7200.0, 0.1, 0.0);
     // exact signals
-    let motion = made_up::profile(7200.0);
+    let motion = crate::made_up::profile(7200.0);
     let set = set();
     for (k, truth) in truth.iter().enumerate() {
         let (speed, rate) = motion(test.time[k]);

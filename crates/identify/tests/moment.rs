@@ -1,10 +1,8 @@
 //! The steady moment: forms distinguished, the band that holds the truth, limits and what is refused.
 
-mod made_up;
-
+use crate::made_up::{Random, SENSOR, Sensor, coast_down, coasting, covered, seeds, set, steady};
 use identify::Measurement;
 use identify::moment::{Form, MomentSettings, moment};
-use made_up::{Random, SENSOR, Sensor, coast_down, coasting, covered, seeds, set, steady};
 use physics::palmgren::viscous_moment;
 use physics::skf::{SkfContacts, SkfDeepGroove, SkfMoment};
 

@@ -1,10 +1,8 @@
 //! Sliding friction between rotor and race.
 
-mod made_up;
-
+use crate::made_up::{Random, covered, seeds, set, steady};
 use identify::SetDeviation;
 use identify::rotor_friction::{Race, RubbingSpinUp, rotor_friction};
-use made_up::{Random, covered, seeds, set, steady};
 use measure::uncertain::Uncertain;
 
 const BORE: f64 = 12.5e-3;

@@ -1,13 +1,10 @@
 //! The cage from a vibration through a ramp of the speed: aliases, rivals, slips that leave the range.
 
-#[path = "synthetic/rig.rs"]
-mod synthetic;
-
+use crate::synthetic::rig::Random;
 use measure::cage_speed::{CageSpeed, Line, from_vibration};
 use measure::order::orders;
 use measure::shaft::Shaft;
 use std::f64::consts::TAU;
-use synthetic::Random;
 
 const RATIO: f64 = 0.41;
 const BALLS: usize = 10;

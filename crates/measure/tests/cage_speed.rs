@@ -1,12 +1,9 @@
 //! Cage speed from passing balls and from vibration, against synthetic truth.
 
-#[path = "synthetic/rig.rs"]
-mod synthetic;
-
+use crate::synthetic::rig::{Random, SpinUp, median};
 use measure::cage_speed::{CageSpeed, Line, QuickChange, from_pulses, from_vibration};
 use measure::shaft::Shaft;
 use std::f64::consts::TAU;
-use synthetic::{Random, SpinUp, median};
 
 const RATIO: f64 = 0.41;
 const BALLS: usize = 10;

@@ -1,11 +1,8 @@
 //! Steps and faults of a converter.
 
-#[path = "synthetic/rig.rs"]
-mod synthetic;
-
+use crate::synthetic::rig::Random;
 use measure::converter::{Converter, Fault, Interval, faults};
 use std::f64::consts::TAU;
-use synthetic::Random;
 
 /// 14 bits, 42 000 conversions a second over 6 channels.
 fn converter() -> Converter {

@@ -1,12 +1,10 @@
 //! Tables of loggers and of pandas (see `peers/make_tables.py`) are read, and written tables come back.
 
-mod tables;
-
+use crate::tables::{all, bytes, channel, wave, waves};
 use measure::file::Writer;
 use measure::file::csv::{Csv, CsvWriter};
 use measure::recording::{Channel, Clock, Content, Recording, Value};
 use std::io::Cursor;
-use tables::{all, bytes, channel, wave, waves};
 
 fn open(text: impl AsRef<[u8]>) -> Csv<Cursor<Vec<u8>>> {
     Csv::from_source(Cursor::new(text.as_ref().to_vec()), "table.csv".as_ref()).unwrap()
@@ -267,10 +265,10 @@ fn no_damage_makes_the_reader_panic() {
     let text = "Name: x\nTime [s];Kraft [N];Text\n0,0;1,5;a\n0,1;;b\n0,2;2,5e3;c\n12:00:01;2024-01-01 10:00:00;d\n";
     let wide: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
     for bytes in [text.as_bytes().to_vec(), bytes("pandas.csv"), wide] {
-        tables::damage(&bytes, 3000, &mut |bytes| {
+        crate::tables::damage(&bytes, 3000, &mut |bytes| {
             let file = Csv::from_source(Cursor::new(bytes), "damaged.csv".as_ref());
             if let Ok(mut file) = file {
-                tables::touch(&mut file);
+                crate::tables::touch(&mut file);
             }
         });
     }

@@ -14,14 +14,11 @@
 //!
 //! With seven of 12 or 24 marks it was 82 to 100 % each, with five 79 % of the acceleration where the torque breaks away: refused.
 
-#[path = "synthetic/wheel.rs"]
-mod synthetic;
-
 use std::f64::consts::TAU;
 
+use crate::synthetic::wheel::{Truth, optical, shaped};
 use measure::pulse::{EdgeSettings, Pulses, Wheel, calibrate, edges, number};
 use measure::speed::{Speed, SpeedSettings, marks_needed, smooth};
-use synthetic::{Truth, optical, shaped};
 
 /// Samples per second of the pickup: one of four channels of a converter of 42 kHz.
 const RATE: f64 = 10_500.0;

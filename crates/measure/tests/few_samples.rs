@@ -13,14 +13,11 @@
 //! | 5.001 | 100 % | 0.1 rad/s | 100 % | 1.8 ms |
 //! | 6.3 | 100 % | 0.1 rad/s | 98 % | 0.4 ms |
 
-#[path = "synthetic/wheel.rs"]
-mod synthetic;
-
 use std::f64::consts::TAU;
 
+use crate::synthetic::wheel::{Truth, optical, shaped};
 use measure::pulse::{EdgeSettings, Marks, Wheel, calibrate, check_marks, edges, number};
 use measure::speed::{Change, Speed, SpeedSettings, smooth};
-use synthetic::{Truth, optical, shaped};
 
 const MARKS: usize = 100;
 const REACHED: f64 = 150.0;

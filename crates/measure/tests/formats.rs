@@ -1,10 +1,8 @@
 //! A file is opened by its content, and what is written under a name is read from it.
 
-mod tables;
-
+use crate::tables::{all, path, waves};
 use measure::file::{create, open};
 use measure::recording::{Channel, Clock};
-use tables::{all, path, waves};
 
 #[test]
 fn the_content_shows_the_format() {

@@ -1,11 +1,8 @@
 //! Frequency and damping of a sensor from a tap or a step, against synthetic truth.
 
-#[path = "synthetic/rig.rs"]
-mod synthetic;
-
+use crate::synthetic::rig::Random;
 use measure::torque_sensor::{Excitation, identify_free_response};
 use std::f64::consts::TAU;
-use synthetic::Random;
 
 const INTERVAL: f64 = 0.002;
 

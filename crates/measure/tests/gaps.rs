@@ -1,11 +1,8 @@
 //! Gaps in a train of pulses: how many marks they hold, and rests in which nobody can count.
 
-#[path = "synthetic/wheel.rs"]
-mod synthetic;
-
+use crate::synthetic::wheel::Random;
 use measure::pulse::{Edges, Wheel, number};
 use std::f64::consts::TAU;
-use synthetic::Random;
 
 const FULL: Wheel = Wheel {
     marks: 60,

@@ -1,11 +1,9 @@
 //! HDF5 and MAT 7.3 files that h5py wrote (see `peers/make_tables.py`) are read value by value.
 
-mod tables;
-
+use crate::tables::{all, bytes, channel, ramp, ramps, waves};
 use measure::file::hdf5::Hdf5;
 use measure::recording::{Clock, Recording, Value};
 use std::io::Cursor;
-use tables::{all, bytes, channel, ramp, ramps, waves};
 
 fn open(name: &str) -> Hdf5<Cursor<Vec<u8>>> {
     Hdf5::from_source(Cursor::new(bytes(name)), name.as_ref()).unwrap()
@@ -183,10 +181,10 @@ fn a_file_that_is_cut_gives_what_is_there_and_says_so() {
 #[test]
 fn no_damage_makes_the_reader_panic() {
     for name in ["old.h5", "new.h5", "v73.mat"] {
-        tables::damage(&bytes(name), 400, &mut |bytes| {
+        crate::tables::damage(&bytes(name), 400, &mut |bytes| {
             let file = Hdf5::from_source(Cursor::new(bytes), name.as_ref());
             if let Ok(mut file) = file {
-                tables::touch(&mut file);
+                crate::tables::touch(&mut file);
             }
         });
     }

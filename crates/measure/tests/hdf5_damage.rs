@@ -1,11 +1,9 @@
 //! What an HDF5 file carries of checksums is verified, and what cannot be read of it is noted.
 
-mod tables;
-
+use crate::tables::{all, bytes, channel, ramp, ramps, waves};
 use measure::file::hdf5::Hdf5;
 use measure::recording::{FileError, Recording};
 use std::io::Cursor;
-use tables::{all, bytes, channel, ramp, ramps, waves};
 
 fn open(bytes: Vec<u8>) -> Result<Hdf5<Cursor<Vec<u8>>>, FileError> {
     Hdf5::from_source(Cursor::new(bytes), "damaged.h5".as_ref())

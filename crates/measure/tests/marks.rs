@@ -1,13 +1,10 @@
 //! Marks per revolution: wrong ones are detected, right ones raise no alarm, whatever the speed is to the sampling.
 
-#[path = "synthetic/wheel.rs"]
-mod synthetic;
-
+use crate::synthetic::wheel::Random;
 use measure::pulse::{
     EdgeSettings, Edges, Marks, Pulses, Wheel, check_marks, edges, number, period,
 };
 use std::f64::consts::TAU;
-use synthetic::Random;
 
 const RATE: f64 = 10_000.0;
 

@@ -1,11 +1,9 @@
 //! MAT 5 files that scipy wrote, and one written by hand (see `peers/make_tables.py`), are read value by value.
 
-mod tables;
-
+use crate::tables::{all, bytes, channel, ramps, waves};
 use measure::file::mat5::Mat5;
 use measure::recording::{Clock, Recording, Value};
 use std::io::Cursor;
-use tables::{all, bytes, channel, ramps, waves};
 
 fn open(name: &str) -> Mat5<Cursor<Vec<u8>>> {
     Mat5::from_source(Cursor::new(bytes(name)), name.as_ref()).unwrap()
@@ -116,10 +114,10 @@ fn a_file_that_is_cut_gives_what_is_there_and_says_so() {
 #[test]
 fn no_damage_makes_the_reader_panic() {
     for name in ["packed.mat", "plain.mat", "big_endian.mat"] {
-        tables::damage(&bytes(name), 2000, &mut |bytes| {
+        crate::tables::damage(&bytes(name), 2000, &mut |bytes| {
             let file = Mat5::from_source(Cursor::new(bytes), name.as_ref());
             if let Ok(mut file) = file {
-                tables::touch(&mut file);
+                crate::tables::touch(&mut file);
             }
         });
     }

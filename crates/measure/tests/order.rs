@@ -1,12 +1,9 @@
 //! Orders at varying speed, against a signal whose orders are known.
 
-#[path = "synthetic/rig.rs"]
-mod synthetic;
-
+use crate::synthetic::rig::Random;
 use measure::order::orders;
 use measure::shaft::Shaft;
 use std::f64::consts::TAU;
-use synthetic::Random;
 
 const INTERVAL: f64 = 1.0 / 4200.0;
 

@@ -1,14 +1,12 @@
 //! Parquet files that pyarrow wrote (see `peers/make_tables.py`) are read value by value, and written files come back.
 
-mod tables;
-
+use crate::tables::{all, bytes, channel, ramps, wave, waves};
 use measure::file::Writer;
 use measure::file::parquet::{Parquet, ParquetWriter};
 use measure::recording::{Channel, Clock, Content, Instant, Property, Recording, Value};
 use std::io::Cursor;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use tables::{all, bytes, channel, ramps, wave, waves};
 
 fn open(name: &str) -> Parquet<Cursor<Vec<u8>>> {
     Parquet::from_source(Cursor::new(bytes(name)), name.as_ref()).unwrap()
@@ -147,10 +145,10 @@ fn written_columns_come_back_bit_for_bit_over_several_row_groups() {
 #[test]
 fn no_damage_makes_the_reader_panic() {
     for name in ["snappy.parquet", "gzip_v2.parquet"] {
-        tables::damage(&bytes(name), 2000, &mut |bytes| {
+        crate::tables::damage(&bytes(name), 2000, &mut |bytes| {
             let file = Parquet::from_source(Cursor::new(bytes), name.as_ref());
             if let Ok(mut file) = file {
-                tables::touch(&mut file);
+                crate::tables::touch(&mut file);
             }
         });
     }
@@ -175,7 +173,7 @@ fn a_page_without_its_dictionary_is_damage_and_no_panic() {
         before(info);
     }));
     let mut file = Parquet::from_source(Cursor::new(bytes), path.as_ref()).unwrap();
-    tables::touch(&mut file);
+    crate::tables::touch(&mut file);
     assert!(!panicked.load(Ordering::Relaxed));
     assert!(
         file.notes()

@@ -1,12 +1,9 @@
 //! Pickups whose pulses are not square, and pickups that fall silent.
 
-#[path = "synthetic/wheel.rs"]
-mod synthetic;
-
+use crate::synthetic::wheel::Random;
 use measure::pulse::{EdgeSettings, Pulses, Wheel, calibrate, edges, number};
 use measure::speed::{Speed, SpeedSettings, smooth};
 use std::f64::consts::TAU;
-use synthetic::Random;
 
 const STEP: f64 = 1e-5;
 const RATE: f64 = 20_000.0;

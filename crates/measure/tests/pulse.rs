@@ -1,17 +1,15 @@
 //! Edges, numbering and calibration, on made-up signals with known answers and on signals of others.
 
-#[path = "synthetic/wheel.rs"]
-mod synthetic;
-
+use crate::synthetic::wheel;
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
+use crate::synthetic::wheel::Random;
 use measure::pulse::{
     EdgeSettings, Edges, Flank, Marks, Pulses, Wheel, calibrate, check_marks, edges, number, period,
 };
 use measure::speed::{SpeedSettings, Transient, smooth};
 use proptest::prelude::*;
-use synthetic::Random;
 
 const FULL: fn(usize) -> Wheel = |marks| Wheel { marks, missing: 0 };
 
@@ -290,7 +288,7 @@ fn wheel_errors_are_found_within_their_stated_covariance() {
     let (mut square, mut count) = (0.0, 0.0);
     for seed in 0..20 {
         let mut random = Random::new(seed + 100);
-        let mut errors = synthetic::wheel(&mut random, 60, 1e-3, 2e-3);
+        let mut errors = wheel::wheel(&mut random, 60, 1e-3, 2e-3);
         let mean = errors.iter().sum::<f64>() / 60.0;
         errors.iter_mut().for_each(|e| *e -= mean);
         let pulses = coast(&errors, seed, 2e-6, 1.0);
@@ -312,7 +310,7 @@ fn wheel_errors_are_found_within_their_stated_covariance() {
 
 #[test]
 fn an_odd_mark_is_found() {
-    let mut errors = synthetic::wheel(&mut Random::new(5), 24, 3e-4, 0.0);
+    let mut errors = wheel::wheel(&mut Random::new(5), 24, 3e-4, 0.0);
     errors[17] += 0.02;
     assert_eq!(
         calibrate(&coast(&errors, 3, 1e-6, 1.0)).unwrap().odd,
@@ -329,7 +327,7 @@ fn too_few_revolutions_are_not_calibrated() {
 #[test]
 fn the_pattern_of_intervals_shows_the_marks_of_the_wheel() {
     for (marks, seed) in [(60, 1), (36, 2), (100, 3)] {
-        let errors = synthetic::wheel(&mut Random::new(seed), marks, 1e-3, 0.0);
+        let errors = wheel::wheel(&mut Random::new(seed), marks, 1e-3, 0.0);
         let pulses = coast(&errors, seed, 1e-6, 1.5);
         assert_eq!(period(&pulses), Some(marks));
         // What the user says does not matter: he may be wrong.
@@ -356,8 +354,8 @@ fn the_pattern_of_intervals_shows_the_marks_of_the_wheel() {
 #[test]
 fn sampled_pickups_do_not_mislead_about_the_marks() {
     for seed in 0..20 {
-        let truth = synthetic::spin_up(seed, 150.0, 7200.0, 0.6);
-        let samples = synthetic::pickup(&truth, seed, 60, 1e4);
+        let truth = wheel::spin_up(seed, 150.0, 7200.0, 0.6);
+        let samples = wheel::pickup(&truth, seed, 60, 1e4);
         let found = edges(0.0, 1e-4, &samples, &EdgeSettings::default()).unwrap();
         let pulses = number(&found, &FULL(60)).unwrap();
         assert!(pulses.notes.is_empty(), "{seed}: {:?}", pulses.notes);

@@ -1,13 +1,10 @@
 //! The growth of the disturbance once a turn: a run-out is there at rest too, an unbalance is not, and nobody may know which.
 
-#[path = "synthetic/rig.rs"]
-mod synthetic;
-
+use crate::synthetic::rig::{Random, SpinUp};
 use measure::shaft::Shaft;
 use measure::torque_sensor::{Inversion, Sensor, Torque, invert};
 use measure::uncertain::Uncertain;
 use std::f64::consts::TAU;
-use synthetic::{Random, SpinUp};
 
 const INTERVAL: f64 = 0.002;
 const RELEASE: f64 = 1.2;

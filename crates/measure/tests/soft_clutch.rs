@@ -4,14 +4,11 @@
 //! The acceleration jumps at the lock, and what the shaft does before its first marks is hidden: with 60 marks it takes a
 //! fifth to a third of the spin-up until the first one comes. The band of the engagement must say so.
 
-#[path = "synthetic/wheel.rs"]
-mod synthetic;
-
 use std::f64::consts::TAU;
 
+use crate::synthetic::wheel::Random;
 use measure::pulse::{Edges, Wheel, number};
 use measure::speed::{Speed, SpeedSettings, smooth};
-use synthetic::Random;
 
 /// Acceleration over the engagement, as a part of its peak; both from 0 to 1.
 type Shape = fn(f64) -> f64;

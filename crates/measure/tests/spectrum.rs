@@ -1,14 +1,11 @@
 //! Spectra against signals whose spectrum is known.
 
-#[path = "synthetic/rig.rs"]
-mod synthetic;
-
+use crate::synthetic::rig::Random;
 use measure::shaft::Shaft;
 use measure::spectrum::{
     AngularSettings, Segments, Window, order_spectrogram, spectrogram, spectrum,
 };
 use std::f64::consts::TAU;
-use synthetic::Random;
 
 const WINDOWS: [Window; 5] = [
     Window::Rectangular,

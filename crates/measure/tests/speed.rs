@@ -1,15 +1,10 @@
 //! The smoother: covariances that fit together, other motions than a spin-up from rest, refusals, cost.
 
-#[path = "synthetic/wheel.rs"]
-mod synthetic;
-
-#[path = "synthetic/pulses.rs"]
-mod made;
-
-use made::pulses;
+use crate::synthetic::pulses::pulses;
+use crate::synthetic::wheel;
+use crate::synthetic::wheel::Random;
 use measure::pulse::{EdgeSettings, Edges, Flank, Wheel, calibrate, edges, number};
 use measure::speed::{SpeedSettings, Transient, marks_needed, smooth};
-use synthetic::Random;
 
 #[test]
 fn constant_acceleration_is_found_within_the_band() {
@@ -142,9 +137,9 @@ fn a_slow_ramp_from_rest_and_a_coast_down() {
 fn a_record_that_ends_in_the_spin_up() {
     let mut inside = 0;
     for seed in 0..20 {
-        let truth = synthetic::spin_up(seed, 150.0, 1300.0, 0.1);
+        let truth = wheel::spin_up(seed, 150.0, 1300.0, 0.1);
         let cut = truth.engage + 0.6 * (truth.lock - truth.engage);
-        let times: Vec<f64> = synthetic::stamps(&truth, seed, 60)
+        let times: Vec<f64> = wheel::stamps(&truth, seed, 60)
             .into_iter()
             .filter(|t| *t < cut)
             .collect();
@@ -197,8 +192,8 @@ fn a_clutch_that_engages_on_a_turning_shaft() {
 
 #[test]
 fn the_shaft_rests_before_the_engagement() {
-    let truth = synthetic::spin_up(8, 150.0, 1300.0, 0.3);
-    let samples = synthetic::pickup(&truth, 8, 60, 1e4);
+    let truth = wheel::spin_up(8, 150.0, 1300.0, 0.3);
+    let samples = wheel::pickup(&truth, 8, 60, 1e4);
     let found = edges(0.0, 1e-4, &samples, &EdgeSettings::default()).unwrap();
     let train = number(
         &found,
@@ -223,13 +218,9 @@ fn the_shaft_rests_before_the_engagement() {
 
 #[test]
 fn one_mark_cannot_see_a_short_spin_up_and_the_message_says_how_many_could() {
-    let truth = synthetic::spin_up(4, 150.0, 11_500.0, 1.0);
-    let found = Edges::stamped(
-        synthetic::stamps(&truth, 4, 1),
-        1e-6,
-        Some((0.0, truth.end())),
-    )
-    .unwrap();
+    let truth = wheel::spin_up(4, 150.0, 11_500.0, 1.0);
+    let found =
+        Edges::stamped(wheel::stamps(&truth, 4, 1), 1e-6, Some((0.0, truth.end()))).unwrap();
     let train = number(
         &found,
         &Wheel {
@@ -262,13 +253,9 @@ fn one_mark_cannot_see_a_short_spin_up_and_the_message_says_how_many_could() {
 
 #[test]
 fn more_marks_or_better_instants_are_asked_for_when_the_band_is_too_wide() {
-    let truth = synthetic::spin_up(4, 150.0, 11_500.0, 0.4);
-    let found = Edges::stamped(
-        synthetic::stamps(&truth, 4, 24),
-        1e-6,
-        Some((0.0, truth.end())),
-    )
-    .unwrap();
+    let truth = wheel::spin_up(4, 150.0, 11_500.0, 0.4);
+    let found =
+        Edges::stamped(wheel::stamps(&truth, 4, 24), 1e-6, Some((0.0, truth.end()))).unwrap();
     let train = number(
         &found,
         &Wheel {
@@ -359,8 +346,8 @@ fn few_pulses_and_odd_numbers_are_refused_or_survived() {
 
 #[test]
 fn ten_seconds_of_sixty_marks_are_smoothed() {
-    let truth = synthetic::spin_up(6, 150.0, 7200.0, 9.85);
-    let samples = synthetic::pickup(&truth, 6, 60, 1e4);
+    let truth = wheel::spin_up(6, 150.0, 7200.0, 9.85);
+    let samples = wheel::pickup(&truth, 6, 60, 1e4);
     let found = edges(
         0.0,
         1e-4,

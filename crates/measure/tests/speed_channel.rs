@@ -1,12 +1,9 @@
 //! Do the bands of a speed channel hold the truth? Instruments with lag, delay, steps and noise, and motions other than the
 //! estimator's.
 
-#[path = "synthetic/wheel.rs"]
-mod synthetic;
-
+use crate::synthetic::wheel::{Random, Truth, spin_up};
 use measure::speed::{Channel, Instrument, Shown, SpeedSettings, smooth_channel};
 use std::f64::consts::TAU;
-use synthetic::{Random, Truth, spin_up};
 
 const SEEDS: u64 = 40;
 /// Instants at which a band is asked.

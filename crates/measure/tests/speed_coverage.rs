@@ -1,11 +1,8 @@
 //! Do the stated bands hold the truth? Four hundred made-up spin-ups a case, with models that differ from the estimator's.
 
-#[path = "synthetic/wheel.rs"]
-mod synthetic;
-
+use crate::synthetic::wheel::{Truth, pickup, spin_up, stamps};
 use measure::pulse::{EdgeSettings, Edges, Flank, Wheel, calibrate, edges, number};
 use measure::speed::{Speed, SpeedSettings, smooth};
-use synthetic::{Truth, pickup, spin_up, stamps};
 
 const SEEDS: u64 = 400;
 /// Instants in a spin-up, and a quarter of its length after it, at which the band is asked.

@@ -1,12 +1,9 @@
 //! A quick change in a record of ten seconds is found as well as in a short one.
 
-#[path = "synthetic/wheel.rs"]
-mod synthetic;
-
+use crate::synthetic::wheel::Random;
 use measure::pulse::{EdgeSettings, Wheel, calibrate, edges, number};
 use measure::speed::{SpeedSettings, smooth};
 use std::f64::consts::{PI, TAU};
-use synthetic::Random;
 
 const MARKS: usize = 60;
 const FULL: f64 = 150.0;

@@ -1,11 +1,6 @@
 //! Shafts that come from rest and to rest: what lies before the first and behind the last mark.
 
-#[path = "synthetic/pulses.rs"]
-mod made;
-#[path = "synthetic/wheel.rs"]
-mod synthetic;
-
-use made::pulses;
+use crate::synthetic::pulses::pulses;
 use measure::pulse::{Edges, Wheel, number};
 use measure::speed::{SpeedSettings, smooth};
 

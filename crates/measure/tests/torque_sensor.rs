@@ -1,13 +1,10 @@
 //! Torque from the reading of a sensor that swings, against synthetic truth.
 
-#[path = "synthetic/rig.rs"]
-mod synthetic;
-
+use crate::synthetic::rig::{Random, SpinUp, median};
 use measure::shaft::Shaft;
 use measure::torque_sensor::{Clipped, Design, Inversion, Sensor, design_error, invert};
 use measure::uncertain::Uncertain;
 use std::f64::consts::TAU;
-use synthetic::{Random, SpinUp, median};
 
 const INTERVAL: f64 = 0.002;
 

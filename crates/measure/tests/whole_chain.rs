@@ -1,8 +1,6 @@
 //! All estimators on ten seconds of six channels from one converter at 42 000 conversions a second, and on nonsense.
 
-#[path = "synthetic/rig.rs"]
-mod synthetic;
-
+use crate::synthetic::rig::{Random, SpinUp};
 use measure::cage_speed::{Line, QuickChange, from_pulses, from_vibration};
 use measure::converter::{Converter, faults};
 use measure::order::orders;
@@ -14,7 +12,6 @@ use measure::torque_sensor::{Clipped, Inversion, Sensor, identify_free_response,
 use measure::uncertain::Uncertain;
 use std::f64::consts::TAU;
 use std::time::Instant;
-use synthetic::{Random, SpinUp};
 
 /// Time that this thread has computed, s: as the system counts it, or by the clock where it does not.
 fn spent(start: Instant) -> f64 {

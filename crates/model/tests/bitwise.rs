@@ -1,12 +1,8 @@
 //! A machine gives the same bits whatever computes it: alone without a vector unit, alone with its balls in groups,
 //! or on any lane among other machines.
 
-#[path = "machines/mod.rs"]
-#[allow(dead_code)] // shared with the other tests
-mod machines;
-
-use machines::bent::bent;
-use machines::{
+use crate::machines::bent::bent;
+use crate::machines::{
     inlets, lubricant, oil, planar, reference, separate, separations, settings, times_mass, vec2,
 };
 use model::bearing::{BearingConstants, SharedMoment, SteadyMoment};

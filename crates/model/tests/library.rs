@@ -3,12 +3,8 @@
 //! The first impact of the reference drop with stiff friction, from shortly before contact: Radau IIA of order five
 //! (`differential-equations`), its Jacobian by differences, dense linear algebra. Nothing but [`Machine::rate`] is shared.
 
-#[path = "machines/mod.rs"]
-#[allow(dead_code)] // shared with the other tests
-mod machines;
-
+use crate::machines::{Blind, INNER, by, heat_of, planar, reference, settings};
 use differential_equations::prelude::{IVP, ImplicitRungeKutta, Matrix, ODE};
-use machines::{Blind, INNER, by, heat_of, planar, reference, settings};
 use model::system::machine::RotorMachine;
 use model::system::machine::simulate::Steps;
 use physics::traction::{TanhTraction, Traction};

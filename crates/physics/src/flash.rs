@@ -145,9 +145,10 @@ pub enum Flux {
     Hertz,
 }
 
-/// Angles, and points along each, of [`ellipse_rise`].
+/// Angles of [`ellipse_rise`], points along each, and how far these reach.
 const ANGLES: usize = 1000;
-const POINTS: usize = 64;
+const POINTS: usize = 48;
+const REACH: f64 = 3.0;
 
 /// Steady surface rise under a moving ellipse on its axis along the motion: kT/(q₀b) at x/b from its middle, downstream
 /// positive: (1/2π)∫dθ∫₀^S f e^(−Pe s(1 + cos θ)) ds over the distances s to the edge at S(θ).
@@ -170,14 +171,16 @@ pub fn ellipse_rise(place: f64, aspect: f64, peclet: f64, flux: Flux) -> f64 {
             Flux::Uniform if rate * edge < 1e-8 => edge,
             Flux::Uniform => -(-rate * edge).exp_m1() / rate,
             Flux::Hertz => {
-                // s = S (1 − cos φ)/2 takes the root at the edge away and is dense at the point
+                // s = S/(1 + e^(−π sinh τ)) is dense where the point is hot and where the ellipse ends
+                let step = 2.0 * REACH / POINTS as f64;
                 let at = |j: usize| {
-                    let (sine, cosine) = (PI * (j as f64 + 0.5) / POINTS as f64).sin_cos();
-                    let s = 0.5 * edge * (1.0 - cosine);
+                    let tau = step * (j as f64 + 0.5) - REACH;
+                    let share = 1.0 / (1.0 + (-PI * tau.sinh()).exp());
+                    let s = edge * share;
                     let rest = (inside - s * (2.0 * slope + curve * s)).max(0.0);
-                    rest.sqrt() * (-rate * s).exp() * 0.5 * edge * sine
+                    rest.sqrt() * (-rate * s).exp() * s * (1.0 - share) * PI * tau.cosh()
                 };
-                (0..POINTS).map(at).sum::<f64>() * PI / POINTS as f64
+                (0..POINTS).map(at).sum::<f64>() * step
             }
         }
     };

@@ -74,16 +74,16 @@ const TABLE: &[Absent] = &[
     Absent {
         paths: "heat thermal temperature coolant cooling *.coolant *.heat rotor.temperature contact.temperature mount.temperature \
                 bearing.temperature *.heat_capacity *.thermal_conductivity *.thermal_expansion *.ambient_temperature",
-        what: "heat is not described: nothing warms, fades or expands",
+        what: "temperatures of nodes are not described: nothing fades or expands",
         point: 5,
-        instead: "The temperature of the lubricant is bearing.moment.temperature; its slow state, with films that warm, is [bearing.lubricant_state]",
+        instead: "Surfaces that rub warm with contact.width and contact.surface; the temperature of the lubricant is bearing.moment.temperature; its slow state, with films that warm, is [bearing.lubricant_state]",
     },
     Absent {
-        paths: "life wear fatigue *.life *.wear *.wear_coefficient *.l10 *.dynamic_load_rating *.drops \
+        paths: "life wear fatigue *.life *.wear *.l10 *.dynamic_load_rating *.drops \
                 *.number_of_drops *.landings",
-        what: "wear, life and the number of drops are not described",
+        what: "life and the number of drops are not described",
         point: 11,
-        instead: "",
+        instead: "Wear of the landing surfaces is contact.surface.wear_coefficient",
     },
     Absent {
         paths: "controller magnet magnets amb magnetic_bearing levitation.controller levitation.control \

@@ -1,6 +1,6 @@
 //! Every wrong input gets its one message: file, line, key, what was found, what is needed, what was meant.
 
-use crate::files::{DROP, read_from};
+use super::files::{DROP, read_from};
 use auxbear::scenario::{BearingRecord, BearingSource, Provenance, Scenario};
 
 struct TwoBearings;

@@ -1,6 +1,6 @@
 //! A message blames the key that the user gave, with its line, and says what would put it right.
 
-use crate::files::read;
+use super::files::read;
 use auxbear::problem::Problem;
 use auxbear::run::{self, Machine, Options};
 use auxbear::scenario::Scenario;

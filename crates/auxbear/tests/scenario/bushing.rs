@@ -1,6 +1,6 @@
 //! An auxiliary bearing that is a plain bushing.
 
-use crate::several::{HEAD, outcome, read};
+use super::several::{HEAD, outcome, read};
 use auxbear::result::outcome::Value;
 
 /// Of one bearing, then of two of which the second is a ball bearing.
@@ -47,7 +47,11 @@ fn it_runs_alone_repeated_and_beside_a_ball_bearing() {
         let ring = |name: &str| number(&outcome, &format!("{of_ring}{name}"));
         assert!(ring("peak_contact_force").is_some_and(|force| force > 100.0));
         assert!(ring("rotor_race_friction_energy").is_some_and(|heat| heat > 0.0));
-        for name in ["peak_ball_load", "cage_final_speed", "inner_race_final_speed"] {
+        for name in [
+            "peak_ball_load",
+            "cage_final_speed",
+            "inner_race_final_speed",
+        ] {
             assert_eq!(ring(name), None, "{name} of a bushing");
         }
         if let Some(balls) = of_balls {
@@ -57,21 +61,38 @@ fn it_runs_alone_repeated_and_beside_a_ball_bearing() {
         assert!(outcome.warnings.iter().any(|w| w.code == "AB2330"));
     }
     let repeated = outcome(&with(ALONE), &["repeat.count=5"]);
-    assert!(repeated.quantities.iter().any(|q| q.name.starts_with("peak_contact_force")));
+    assert!(
+        repeated
+            .quantities
+            .iter()
+            .any(|q| q.name.starts_with("peak_contact_force"))
+    );
 }
 
 #[test]
 fn at_screening_accuracy_it_runs_too() {
     let outcome = outcome(&with(BESIDE_BALLS), &["run.accuracy=screening"]);
-    assert!(outcome.quantities.iter().any(|q| q.name == "ring.peak_contact_force"));
+    assert!(
+        outcome
+            .quantities
+            .iter()
+            .any(|q| q.name == "ring.peak_contact_force")
+    );
 }
 
 #[test]
 fn keys_of_balls_are_refused_with_their_reason() {
-    for key in ["name = \"6005\"", "ball_count = 10", "inner_race_mass = \"20 g\""] {
+    for key in [
+        "name = \"6005\"",
+        "ball_count = 10",
+        "inner_race_mass = \"20 g\"",
+    ] {
         let text = format!("{}{key}\n", with(ALONE));
         let problem = read(&text, &[]).expect_err("no balls").to_string();
-        assert!(problem.contains("no effect") && problem.contains("mount.moving_mass"), "{problem}");
+        assert!(
+            problem.contains("no effect") && problem.contains("mount.moving_mass"),
+            "{problem}"
+        );
     }
     let text = with("[bearing]\nfidelity = \"bush\"\n");
     let problem = read(&text, &[]).expect_err("no such word").to_string();

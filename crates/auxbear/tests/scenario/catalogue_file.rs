@@ -1,6 +1,6 @@
 //! A catalogue of one's own, named in a scenario.
 
-use crate::files::SPIN_UP;
+use super::files::SPIN_UP;
 use auxbear::scenario::{BuiltIn, Scenario, System};
 use std::fs;
 

@@ -1,6 +1,6 @@
 //! Balls at a contact angle: both fidelities are one bearing, and its energy by the outer race closes.
 
-use crate::files::read_from;
+use super::files::read_from;
 use auxbear::result::outcome::Value;
 use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::BuiltIn;

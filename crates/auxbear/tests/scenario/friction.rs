@@ -1,7 +1,7 @@
 //! Friction of the bearing as a whole: laws, tables by lubrication, viscosity by temperature, acceleration loss, and a
 //! user's own catalogue.
 
-use crate::files::{self, SPIN_UP, read};
+use super::files::{self, SPIN_UP, read};
 use auxbear::run::{self, Options};
 use auxbear::scenario::{AccelerationLoss, BuiltIn, Moment, Scenario, SpinUp, System};
 use physics::palmgren_factors::FactorSource;

@@ -1,6 +1,6 @@
 //! Limits of a file: what is read, refused, judged and written back.
 
-use crate::several::{HEAD, TWINS, outcome, read};
+use super::several::{HEAD, TWINS, outcome, read};
 use auxbear::problem::Code;
 use auxbear::result::outcome::{Judged, Value, Verdict};
 use auxbear::run::build;

@@ -1,6 +1,6 @@
 //! Traction from an oil, as a scenario gives it.
 
-use crate::files::{DROP, read};
+use super::files::{DROP, read};
 use auxbear::scenario::{Scenario, System, Traction};
 
 const OIL: &str = r#"
@@ -20,8 +20,20 @@ fn an_oil_is_read_with_what_is_assumed_of_it() {
     let System::Drop(drop) = &scenario.system else {
         panic!("a drop");
     };
-    let Traction::Lubricant(film) = drop.auxiliary_bearings[0].bearing.as_ref().unwrap().traction else {
-        panic!("{:?}", drop.auxiliary_bearings[0].bearing.as_ref().unwrap().traction);
+    let Traction::Lubricant(film) = drop.auxiliary_bearings[0]
+        .bearing
+        .as_ref()
+        .unwrap()
+        .traction
+    else {
+        panic!(
+            "{:?}",
+            drop.auxiliary_bearings[0]
+                .bearing
+                .as_ref()
+                .unwrap()
+                .traction
+        );
     };
     assert_eq!(film.oil, physics::lubricant::FVA_3);
     assert!((film.temperature - 333.15).abs() < 1e-9);

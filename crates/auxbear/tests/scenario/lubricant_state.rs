@@ -1,6 +1,6 @@
 //! The slow state of the lubricant in scenarios: what is read, what is refused.
 
-use crate::files::{SPIN_UP, read, spin_up};
+use super::files::{SPIN_UP, read, spin_up};
 use auxbear::scenario::LubricantState;
 use std::f64::consts::TAU;
 

@@ -1,6 +1,6 @@
 //! Values that are right in form and doubtful for the machine: each is told, and nothing else is.
 
-use crate::files::owned;
+use super::files::owned;
 use auxbear::catalogue;
 use auxbear::run;
 use auxbear::scenario::{BuiltIn, Provenance, Scenario, template};

@@ -1,6 +1,6 @@
 //! The resolved file: every value with its origin, and the same numbers bit for bit when it is read again.
 
-use crate::files::{must_read, owned as sets};
+use super::files::{must_read, owned as sets};
 use auxbear::scenario::{
     BallMaterial, BearingRecord, BearingSource, BuiltIn, Cage, Drop, Fidelity, Moment, NoBearings,
     Provenance, Scenario, Separation, Spin, System, SystemName, Traction, keys, keys_of,
@@ -105,7 +105,12 @@ fn assert_reads_back(scenario: &Scenario) -> Scenario {
 
 /// The cage of a drop's bearing.
 fn cage(drop: &Drop) -> &Cage {
-    match &drop.auxiliary_bearings[0].bearing.as_ref().unwrap().separation {
+    match &drop.auxiliary_bearings[0]
+        .bearing
+        .as_ref()
+        .unwrap()
+        .separation
+    {
         Separation::Cage(cage) => cage,
         Separation::FullComplement(_) => panic!("there is a cage"),
     }
@@ -121,13 +126,28 @@ fn a_short_file_is_filled_and_reads_back_bit_for_bit() {
     // 40 g mm on 8 kg is 5 µm; one rounding of the division.
     assert!((drop.rotor.unbalance_eccentricity - 5e-6).abs() < 1e-20);
     assert_eq!(cage(drop).mass, 0.006);
-    assert_eq!(drop.auxiliary_bearings[0].bearing.as_ref().unwrap().ball_count, 10);
     assert_eq!(
-        drop.auxiliary_bearings[0].bearing.as_ref().unwrap().inner_groove_curvature,
+        drop.auxiliary_bearings[0]
+            .bearing
+            .as_ref()
+            .unwrap()
+            .ball_count,
+        10
+    );
+    assert_eq!(
+        drop.auxiliary_bearings[0]
+            .bearing
+            .as_ref()
+            .unwrap()
+            .inner_groove_curvature,
         0.515
     );
     assert_eq!(
-        drop.auxiliary_bearings[0].bearing.as_ref().unwrap().outer_groove_curvature,
+        drop.auxiliary_bearings[0]
+            .bearing
+            .as_ref()
+            .unwrap()
+            .outer_groove_curvature,
         0.53
     );
     assert_eq!(drop.auxiliary_bearings[0].contact.bore_diameter, 0.025);
@@ -136,13 +156,31 @@ fn a_short_file_is_filled_and_reads_back_bit_for_bit() {
     // 6 g on a radius of 18 mm: 1.944e-6 kg m², two roundings.
     assert!((cage(drop).inertia / 1.944e-6 - 1.0).abs() < 1e-15);
     assert_eq!(
-        drop.auxiliary_bearings[0].bearing.as_ref().unwrap().hertz_pressure_limit,
+        drop.auxiliary_bearings[0]
+            .bearing
+            .as_ref()
+            .unwrap()
+            .hertz_pressure_limit,
         4.2e9
     );
     // π/6 (6.35 mm)³ of 7850 kg/m³
-    assert!((drop.auxiliary_bearings[0].bearing.as_ref().unwrap().ball_mass.unwrap() / 1.0524e-3 - 1.0).abs() < 0.01);
+    assert!(
+        (drop.auxiliary_bearings[0]
+            .bearing
+            .as_ref()
+            .unwrap()
+            .ball_mass
+            .unwrap()
+            / 1.0524e-3
+            - 1.0)
+            .abs()
+            < 0.01
+    );
     assert_eq!(drop.rotor.spin, Spin::Free);
-    assert_eq!(drop.auxiliary_bearings[0].bearing.as_ref().unwrap().moment, Moment::None);
+    assert_eq!(
+        drop.auxiliary_bearings[0].bearing.as_ref().unwrap().moment,
+        Moment::None
+    );
 
     let again = assert_reads_back(&scenario);
     assert_eq!(
@@ -301,7 +339,10 @@ fn choices_become_typed_values() {
         "bearing.ball_material=silicon nitride",
         "bearing.name=6005 hybrid",
     ] {
-        let hybrid = drop(&[hybrid]).auxiliary_bearings[0].bearing.clone().unwrap();
+        let hybrid = drop(&[hybrid]).auxiliary_bearings[0]
+            .bearing
+            .clone()
+            .unwrap();
         assert_eq!(hybrid.ball_material, BallMaterial::SiliconNitride);
         // its steel races dent at the limit for steel, which is assumed
         assert_eq!(hybrid.hertz_pressure_limit, 4.2e9);

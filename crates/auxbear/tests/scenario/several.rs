@@ -138,8 +138,20 @@ fn what_stands_below_a_name_counts_before_what_stands_for_all() {
         (first.name.as_str(), second.name.as_str()),
         ("drive_end", "other_end")
     );
-    assert_eq!(first.bearing.name.as_deref(), Some("6005"));
-    assert_eq!(second.bearing.name.as_deref(), Some("6004"));
+    assert_eq!(
+        first
+            .bearing
+            .as_ref()
+            .and_then(|bearing| bearing.name.as_deref()),
+        Some("6005")
+    );
+    assert_eq!(
+        second
+            .bearing
+            .as_ref()
+            .and_then(|bearing| bearing.name.as_deref()),
+        Some("6004")
+    );
     assert_eq!((first.mount.stiffness, second.mount.stiffness), (2e7, 4e7));
     assert_eq!(first.contact.friction_coefficient, 0.3);
     assert_eq!(second.contact.friction_coefficient, 0.15);

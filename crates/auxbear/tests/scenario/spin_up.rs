@@ -1,6 +1,6 @@
 //! Spin-up files: what they become, and the one message of each wrong one.
 
-use crate::files::{self, SPIN_UP, read_from};
+use super::files::{self, SPIN_UP, read_from};
 use auxbear::scenario::{
     BuiltIn, Course, Drive, NoBearings, Scenario, SpeedCourse, SpinUp, template,
 };

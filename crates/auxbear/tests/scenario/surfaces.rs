@@ -1,6 +1,6 @@
 //! The heat of the surfaces of rotor and inner race: what of it is booked, and that nothing of the motion knows it.
 
-use crate::several::{HEAD, TWINS, outcome};
+use super::several::{HEAD, TWINS, outcome};
 use auxbear::result::outcome::{Outcome, Value};
 
 const WIDTH: &str = "contact.width=12 mm";

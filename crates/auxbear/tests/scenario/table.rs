@@ -1,7 +1,7 @@
 //! The table of keys: documented, right in itself, and each number of it reaches the typed scenario.
 
-use crate::bases::base;
-use crate::files::must_read;
+use super::bases::base;
+use super::files::must_read;
 use auxbear::scenario::{
     BuiltIn, Kind, Presence, Range, Scenario, SystemName, keys, keys_of, parts_of_rotors, sections,
     sections_of, systems,

@@ -4,9 +4,9 @@ use identify::explain::{
     Conclusion, Explanation, Priors, Proposal, Refusal, Settings, Verdict, explain, next_test,
 };
 
-use crate::bearing::{Bearing, Lubricant, MOMENT};
-use crate::lab::{Campaign, Chance, Fault, Slow, TOP, Truth, course};
-use crate::{campaign, judge};
+use super::bearing::{Bearing, Lubricant, MOMENT};
+use super::lab::{Campaign, Chance, Fault, Slow, TOP, Truth, course};
+use super::{campaign, judge};
 
 /// A bearing that rolls, or slips where its traction limit is low.
 fn bearing(traction_limit: f64) -> Bearing {
@@ -27,7 +27,7 @@ fn bearing(traction_limit: f64) -> Bearing {
 fn the_fine_bearing_closes_its_angular_momentum_and_makes_no_cold() {
     for limit in [0.7, 6.0] {
         let (speed, fine_until, _) = course(7200.0);
-        let mut last: Option<crate::bearing::Row> = None;
+        let mut last: Option<super::bearing::Row> = None;
         for row in bearing(limit).run(speed, 1.0, fine_until) {
             if let Some(last) = last {
                 let change =

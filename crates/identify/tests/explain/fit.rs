@@ -12,8 +12,8 @@
 
 use identify::explain::{Explanation, Priors, Settings, explain};
 
-use crate::lab::Campaign;
-use crate::{campaign, runs};
+use super::lab::Campaign;
+use super::{campaign, runs};
 
 /// Probability of the fit of the true explanation.
 fn fit(campaign: &Campaign, truth: Explanation) -> f64 {

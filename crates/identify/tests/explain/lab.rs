@@ -5,7 +5,7 @@ use identify::explain::Explanation;
 use identify::{CageTrace, Measurement};
 use physics::rolling::RollingSet;
 
-use crate::bearing::{BALL_MASS, BALLS, Bearing, CAGE_MASS, Lubricant, MOMENT, RADIUS, RATIO, Row};
+use super::bearing::{BALL_MASS, BALLS, Bearing, CAGE_MASS, Lubricant, MOMENT, RADIUS, RATIO, Row};
 
 /// Numbers from a seed (xorshift and a sum of uniforms: nothing in common with the product's).
 pub struct Chance(u64);

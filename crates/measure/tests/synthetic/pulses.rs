@@ -1,6 +1,6 @@
 //! Pulses of a wheel without errors.
 
-use crate::synthetic::Random;
+use crate::synthetic::wheel::Random;
 use measure::pulse::{Edges, Pulses, Wheel, number};
 use std::f64::consts::TAU;
 

@@ -5,6 +5,7 @@
 //! reference drop of an independent implementation; 0.15 between rotor and race is arbitrary there and here.
 
 pub mod bent;
+pub mod counting;
 
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::bearing::ball::{BallConstants, BallMotion};

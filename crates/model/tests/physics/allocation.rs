@@ -1,6 +1,6 @@
 //! Nothing in a drop allocates once it runs.
 
-use crate::counting::ALLOCATIONS;
+use crate::machines::counting::ALLOCATIONS;
 use crate::machines::{reference, run, settings};
 use model::system::machine::RotorMachine;
 

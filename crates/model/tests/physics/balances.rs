@@ -3,11 +3,11 @@
 //! What acts from outside is computed here a second time, from the sections of the model's pages; everything inside
 //! must cancel.
 
+use super::relatives::{lubricant_factors, machines};
 use crate::machines::{
     BEARING, INNER, OUTER, Random, ball_of, bearing_part, let_roll, planar, race_motion,
     random_state, reference, vec2,
 };
-use crate::relatives::{lubricant_factors, machines};
 use model::auxiliary_bearing::probe::{COUNT as DETAIL, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD};
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::land::LandRace;

@@ -1,9 +1,9 @@
 //! Linearly implicit steps: no part's stiffness is missing from their tangents, and a drop is the same drop.
 
+use super::relatives::grease;
+use super::several::twins;
 use crate::machines::bent::bent;
 use crate::machines::{by, inlets, oil, planar, reference, settings, tilt_contacts};
-use crate::relatives::grease;
-use crate::several::twins;
 use model::bearing::{BearingConstants, SharedMoment, SteadyMoment};
 use model::system::machine::record::Record;
 use model::system::machine::simulate::Steps;
@@ -286,9 +286,9 @@ fn stiff_friction_costs_an_implicit_drop_little_more() {
 #[test]
 fn steps_of_the_implicit_method_allocate_nothing_more() {
     let allocations = |end: f64| {
-        let before = crate::counting::ALLOCATIONS.get();
+        let before = crate::machines::counting::ALLOCATIONS.get();
         drop(with_reference_speed(0.01), end, 1e-3, Steps::Implicit);
-        crate::counting::ALLOCATIONS.get() - before
+        crate::machines::counting::ALLOCATIONS.get() - before
     };
     // growth of nothing but the run's length
     assert_eq!(allocations(0.0075), allocations(0.015));

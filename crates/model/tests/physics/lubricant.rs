@@ -1,7 +1,7 @@
 //! The slow state of the lubricant in a drop: implicit steps, and what is paid where there is none.
 
+use super::relatives::grease;
 use crate::machines::{by, lubricant, planar, reference, settings};
-use crate::relatives::grease;
 use model::bearing::lubricant_state::STATES;
 use model::bearing::{SharedMoment, SteadyMoment};
 use model::system::machine::record::Record;

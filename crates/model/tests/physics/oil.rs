@@ -1,10 +1,10 @@
 //! A ball between races with oil: the inputs of its contacts, from points on the surfaces.
 
+use super::relatives::grease;
 use crate::machines::{
     BEARING, INNER, Random, ball_of, bearing_part, heat_of, inlets, oil, planar, race_motion,
     random_state, reference, vec2,
 };
-use crate::relatives::grease;
 use model::bearing::{BearingConstants, PlanarConstants, SharedMoment, SteadyMoment};
 use model::system::machine::RotorMachine;
 use number::Vec2;

@@ -1,6 +1,6 @@
 //! What closes: energy, angular momentum, heats, symmetry.
 
-use crate::bench::{Finished, LOAD, SPEED, balls, concentric, fidelities, rig, run};
+use super::bench::{Finished, LOAD, SPEED, balls, concentric, fidelities, rig, run};
 use crate::machines::{settings, vec2};
 use model::bearing::{BearingConstants, LubricantConstants};
 use model::system::rig::layout::{

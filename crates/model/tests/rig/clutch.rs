@@ -1,6 +1,6 @@
 //! The clutch: its heat, when it locks, when it gives way.
 
-use crate::bench::{SPEED, concentric, fidelities, frictionless, rolls, run, without_drag};
+use super::bench::{SPEED, concentric, fidelities, frictionless, rolls, run, without_drag};
 use model::bearing::BearingConstants;
 use model::system::rig::layout::{
     ACCELERATION, CLUTCH_CAPACITY, CLUTCH_HEAT, CLUTCH_SLIP, CLUTCH_TORQUE, FLYWHEEL, SHAFT,

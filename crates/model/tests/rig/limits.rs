@@ -1,6 +1,6 @@
 //! What is refused, and what cannot be found.
 
-use crate::bench::{SPEED, concentric, rolls};
+use super::bench::{SPEED, concentric, rolls};
 use model::bearing::BearingConstants;
 use model::system::rig::{
     Action, Engagement, Program, RampError, RigMachine, RigRefusal, Start, engagement_ramp,

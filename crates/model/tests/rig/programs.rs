@@ -1,6 +1,6 @@
 //! Programs: coast-down, spin-up, ramp and hold, repeat after rest; the engagement that gives an acceleration.
 
-use crate::bench::{
+use super::bench::{
     SPEED, balls, concentric, fidelities, frictionless, rig, rolls, run, without_drag,
 };
 use model::bearing::{BearingConstants, SteadyMoment};

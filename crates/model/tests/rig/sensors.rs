@@ -1,6 +1,6 @@
 //! The arm, the thermocouple, the converter.
 
-use crate::bench::{SPEED, concentric, fidelities, rig, rolls, run, run_with};
+use super::bench::{SPEED, concentric, fidelities, rig, rolls, run, run_with};
 use model::bearing::BearingConstants;
 use model::system::rig::layout::{ARM, CAGE_ANGLE, OUTER_MOMENT, SHAFT, TEMPERATURE, THERMOCOUPLE};
 use model::system::rig::taps::multiplexed;

@@ -1,7 +1,7 @@
 //! Spin-ups with the balls computed one by one.
 
+use super::rig::{Run, free_bearing, greased_bearing, machine, rolling, run};
 use crate::machines::{separations, vec2};
-use crate::rig::{Run, free_bearing, greased_bearing, machine, rolling, run};
 use model::bearing::{BearingConstants, PlanarConstants, Separation};
 use model::system::spin_up::layout::{
     BEARING, CAGE_SLIP, DETAIL, INNER, INNER_MOMENT, OUTER_MOMENT,
@@ -147,7 +147,7 @@ fn a_mirrored_machine_gives_a_mirrored_answer() {
         // equal steps: step control looks at components
         let settings = crate::machines::equal_steps(4e-3, 5e-7);
         let mut record = model::system::spin_up::record::Record::new(&machine, 4e-3, 1e-3, false);
-        let end = crate::rig::observe(&machine, &start, &settings, &mut record).state;
+        let end = super::rig::observe(&machine, &start, &settings, &mut record).state;
         let layout = machine.layout().clone();
         [
             // places by the size of the displacement, a rounding of which rings at 41 kHz

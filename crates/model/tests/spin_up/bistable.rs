@@ -1,7 +1,7 @@
 //! Two steady states at one speed and load: a traction law with a pronounced peak remembers how the bearing came there.
 
+use super::rig::{greased_bearing, machine, observe};
 use crate::machines::settings;
-use crate::rig::{greased_bearing, machine, observe};
 use model::bearing::BearingConstants;
 use model::system::spin_up::layout::{BEARING, CAGE_SLIP, INNER};
 use model::system::spin_up::record::Record;

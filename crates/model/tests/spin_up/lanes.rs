@@ -1,9 +1,9 @@
 //! A machine gives the same bits alone and on any lane among others, at every level of the vector unit; and its loop
 //! does not allocate.
 
-use crate::counting::ALLOCATIONS;
+use super::rig::{greased_bearing, machine, observe, palmgren, rolling, shared};
+use crate::machines::counting::ALLOCATIONS;
 use crate::machines::settings;
-use crate::rig::{greased_bearing, machine, observe, palmgren, rolling, shared};
 use model::bearing::{AccelerationLoss, BearingConstants, SteadyMoment};
 use model::system::spin_up::record::Record;
 use model::system::spin_up::{Drive, SlidingRotor, SpinUp, SpinUpConstants, SpinUpMachine};

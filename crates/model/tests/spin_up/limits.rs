@@ -1,6 +1,6 @@
 //! What is refused, and what tables do at their ends.
 
-use crate::rig::{free_bearing, greased_bearing, machine, rolling, run};
+use super::rig::{free_bearing, greased_bearing, machine, rolling, run};
 use model::bearing::{AccelerationLoss, BearingConstants, PlanarConstants, RollingConstants};
 use model::system::spin_up::{Drive, Refusal, SpinUpMachine};
 use model::table::{Table, TableError};

@@ -1,7 +1,7 @@
 //! The slow state of the lubricant: what it does to the moments of a bearing that turns, in both fidelities.
 
+use super::rig::{Run, greased_bearing, machine, palmgren, rolling, run};
 use crate::machines::lubricant;
-use crate::rig::{Run, greased_bearing, machine, palmgren, rolling, run};
 use model::bearing::{BearingConstants, LubricantAt, LubricantConstants, SteadyMoment};
 use model::system::sampling::Row;
 use model::system::spin_up::layout::{BEARING, INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT};

@@ -1,7 +1,7 @@
 //! Plateaus of speed, one after the other, and the moments of a bearing on each.
 
+use super::rig::{observe, race};
 use crate::machines::{settings, vec2};
-use crate::rig::{observe, race};
 use model::bearing::{BearingConstants, PlanarConstants};
 use model::system::spin_up::capacity::traction_capacity;
 use model::system::spin_up::layout::{INNER, INNER_LOAD_SUM};

@@ -1,7 +1,7 @@
 //! Balls that roll: closed forms of (18), (19), (20), (21), and the independent spin-up times.
 
+use super::rig::{Run, machine, palmgren, rolling, run};
 use crate::machines::vec2;
-use crate::rig::{Run, machine, palmgren, rolling, run};
 use model::bearing::{AccelerationLoss, BearingConstants, RollingConstants, SteadyMoment};
 use model::system::spin_up::layout::{
     ACCELERATION, DRIVE_MOMENT, INNER, INNER_MOMENT, OUTER_MOMENT, ROTOR,
@@ -333,7 +333,7 @@ fn late_means_begin_when_the_race_is_at_its_speed() {
     // a ramp of 50 ms; a turn of the cage takes 15.3 ms
     let of = |end: f64| {
         let mut bearing = rolling();
-        bearing.moment = SteadyMoment::Palmgren(crate::rig::palmgren());
+        bearing.moment = SteadyMoment::Palmgren(super::rig::palmgren());
         let constants = rolling_machine(bearing, Drive::ramp(20_000.0, 1000.0), 0.0);
         run(constants, end, 1e-6).record.late_means(1000.0)
     };

@@ -1,9 +1,9 @@
 //! The steady moment ball by ball: what a steady run gives back at every speed, and what happens where traction does not
 //! suffice.
 
+use super::plateaus::{Plateau, plateaus};
+use super::rig::{greased_bearing, shared};
 use crate::machines::{ball_pair, land, oil, vec2};
-use crate::plateaus::{Plateau, plateaus};
-use crate::rig::{greased_bearing, shared};
 use model::bearing::land::LandRace;
 use model::bearing::{PlanarConstants, Separation, SteadyMoment};
 use physics::moment_curve::MomentCurve;

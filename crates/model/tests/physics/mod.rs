@@ -1,10 +1,5 @@
 //! Physics sentences about parts and systems: each test's name is one.
 
-#[path = "../machines/counting.rs"]
-mod counting;
-#[path = "../machines/mod.rs"]
-mod machines;
-
 mod allocation;
 mod balances;
 mod bushing;

@@ -1,0 +1,36 @@
+//! All tests of the crate but that of its memory, in one binary.
+
+mod cage_ramp;
+mod cage_speed;
+mod converter;
+mod csv;
+mod few_marks;
+mod few_samples;
+mod formats;
+mod free_response;
+mod gaps;
+mod hdf5;
+mod hdf5_damage;
+mod inertia;
+mod marks;
+mod mat5;
+mod order;
+mod parquet;
+mod pickups;
+mod pulse;
+mod run_out;
+mod sensor_frequency;
+mod soft_clutch;
+mod spectrum;
+mod speed;
+mod speed_channel;
+mod speed_coverage;
+mod speed_long;
+mod speed_rest;
+mod synthetic;
+mod tables;
+mod tdms;
+mod torque_sensor;
+mod uff;
+mod wav;
+mod whole_chain;

@@ -1,0 +1,5 @@
+//! Measurements whose truth is known.
+
+pub mod pulses;
+pub mod rig;
+pub mod wheel;

@@ -1,0 +1,9 @@
+//! All tests of the crate, in one binary.
+
+mod bent;
+mod bitwise;
+mod library;
+mod machines;
+mod physics;
+mod rig;
+mod spin_up;

@@ -1,0 +1,7 @@
+//! All tests of the crate, in one binary.
+
+mod film_regimes;
+mod hertz_reference;
+mod lubricant_traction;
+mod rolling_reference;
+mod skf_published;
