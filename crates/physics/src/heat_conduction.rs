@@ -1,5 +1,6 @@
 //! Heat that flows into a body: half-space, slab, bodies that touch.
 
+use crate::materials::{BEARING_STEEL, BEARING_STEEL_SPECIFIC_HEAT, SILICON_NITRIDE};
 use std::f64::consts::PI;
 
 /// Conductivity, density and specific heat of a body.
@@ -12,6 +13,24 @@ pub struct ThermalMaterial {
     /// Specific heat c, J/(kg K).
     pub specific_heat: f64,
 }
+
+/// Bearing steel: 46 W/(m K), 7850 kg/m³, 460 J/(kg K).
+///
+/// Source: heat-and-life, section 9; 40 to 50 W/(m K), 450 to 480 J/(kg K).
+pub const STEEL_HEAT: ThermalMaterial = ThermalMaterial {
+    conductivity: 46.0,
+    density: BEARING_STEEL.density,
+    specific_heat: BEARING_STEEL_SPECIFIC_HEAT,
+};
+
+/// Silicon nitride: 35 W/(m K), 3190 kg/m³, 800 J/(kg K).
+///
+/// Source: heat-and-life, section 9; 30 to 40 W/(m K), 680 to 800 J/(kg K).
+pub const SILICON_NITRIDE_HEAT: ThermalMaterial = ThermalMaterial {
+    conductivity: 35.0,
+    density: SILICON_NITRIDE.density,
+    specific_heat: 800.0,
+};
 
 impl ThermalMaterial {
     /// Diffusivity α = k/(ρ c), m²/s.

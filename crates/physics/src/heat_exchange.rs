@@ -184,6 +184,23 @@ pub fn to_surroundings(bore: f64, outside: f64, width: f64) -> f64 {
     320.0 * area * (area / 0.05).max(1.0).powf(-0.34)
 }
 
+/// Heat transfer of a stream along a surface: 0.332 k Pr^⅓ √(u/(νx)), W/(m² K).
+///
+/// Arguments: speed of the stream m/s, length along it m, conductivity W/(m K), kinematic viscosity m²/s, ρc J/(m³ K).
+///
+/// Source: heat-and-life, section 2; laminar flat plate (a well-known book prints 0.0332, a tenth, which nobody settles).
+/// Valid: laminar; of a bearing u is a third of the cage's surface speed, x its pitch diameter.
+pub fn stream_transfer(
+    speed: f64,
+    length: f64,
+    conductivity: f64,
+    viscosity: f64,
+    volumetric_heat: f64,
+) -> f64 {
+    let prandtl = viscosity * volumetric_heat / conductivity;
+    0.332 * conductivity * prandtl.cbrt() * (speed / (viscosity * length)).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,6 +3,7 @@
 //! | module | subject |
 //! |---|---|
 //! | [`network`] | nodes and conductances, stepped exactly |
+//! | [`bearing_network`] | nodes and conductances of an auxiliary bearing |
 //! | [`losses`] | what brakes and heats, at a speed and at temperatures |
 //! | [`coast_down`] | a rotor that runs out, in steps of its speed |
 //! | [`steady_speed`] | warming at constant speed; runaway |
@@ -13,6 +14,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod bearing_network;
 pub mod clearance;
 pub mod coast_down;
 pub mod layer;

@@ -13,6 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use number::Vec2;
 use physics::magnet::Magnet;
 use rotor::{Analysis, Basis, C64, Matrices, Place, Responder, Rotor};
+use std::cmp::Ordering;
 
 /// A bent rotor in the coordinates of the model.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,6 +90,9 @@ pub(crate) fn build(
     let magnets = fading(shaft, &within.basis, &position, &currents);
     let places = places(shaft);
     let mut constants = constants(drop, shaft, &matrices, &within.basis);
+    if constants.polar_inertia.partial_cmp(&0.0) != Some(Ordering::Greater) {
+        return Err(too_unbalanced());
+    }
     constants.places = places
         .iter()
         .map(|node| row(&within.basis, *node))
@@ -470,6 +474,12 @@ fn not_held() -> Box<Problem> {
     let needed =
         "two places at least, with stiffness in every direction, are needed until the release";
     Box::new(Problem::new(Code::NotHeld, UNNAMED, found, needed).on_key("rotor.support"))
+}
+
+fn too_unbalanced() -> Box<Problem> {
+    let found = "unbalances that together leave the rotor no moment of inertia about its mass centre";
+    let needed = "smaller amounts are needed";
+    Box::new(Problem::new(Code::Impossible, UNNAMED, found, needed).on_key("rotor.unbalance"))
 }
 
 fn failed(text: &str) -> Box<Problem> {

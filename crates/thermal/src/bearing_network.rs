@@ -1,0 +1,322 @@
+//! The thermal network of an auxiliary bearing, the rotor that lies in it and the housing around it.
+//!
+//! ```text
+//!   rotor ── inner race ══ balls ══ outer race ── housing ── surroundings
+//!     │          │        │     │        │
+//!     │          └──── lubricant ── cage ┘            ══ contacts that roll: more with speed and load
+//!     └── surroundings
+//! ```
+//!
+//! Every ball conducts through the ellipses that it touches the races with, each in series with a film; a ball without load
+//! conducts to the outer race alone, which its centrifugal force presses it on. The lubricant streams past rings, balls and
+//! cage at a third of the cage's speed. Rotor and inner race roll on each other along a line of rough surfaces.
+//!
+//! The conductances are those of an instant: a run takes them anew at each of its steps.
+//!
+//! Source: heat-and-life, section 2.
+
+use crate::network::{Ground, Link, Network, NetworkError};
+use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
+use physics::heat_exchange::{
+    ContactConductance, line_half_width, pressed_joint, rolling_line_conductance, stream_transfer,
+};
+use physics::hertz::PointContact;
+use std::f64::consts::PI;
+
+/// The nodes, in their order.
+pub const NODES: [&str; 7] = [
+    "rotor",
+    "inner_race",
+    "balls",
+    "cage",
+    "lubricant",
+    "outer_race",
+    "housing",
+];
+/// The part of the rotor that warms with this bearing.
+pub const ROTOR: usize = 0;
+/// Sleeve and inner ring.
+pub const INNER_RACE: usize = 1;
+/// All balls.
+pub const BALLS: usize = 2;
+/// Cage.
+pub const CAGE: usize = 3;
+/// Oil or grease.
+pub const LUBRICANT: usize = 4;
+/// Outer ring.
+pub const OUTER_RACE: usize = 5;
+/// What the outer ring sits in.
+pub const HOUSING: usize = 6;
+
+/// Conductivity of oil, W/(m K), and its ρc, J/(m³ K). Source: heat-and-life, section 2; mineral oils.
+const OIL: (f64, f64) = (0.14, 1.67e6);
+/// Ground surfaces: roughness, m, slope of both combined, and hardness of the softer body, Pa. Source: heat-and-life,
+/// section 2.
+pub const GROUND_STEEL: (f64, f64, f64) = (0.8e-6, 0.1, 3e9);
+/// Between a ball and its pocket, W/K. Source: assumed, as in the example of heat-and-life; small beside the lubricant's.
+const POCKET: f64 = 5e-3;
+
+/// How rotor and inner race touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Landing {
+    /// A conductance, W/K.
+    Given(f64),
+    /// A line of ground steel under a load.
+    Line {
+        /// Force of the rotor on this bearing, N.
+        load: f64,
+        /// Radius of the bore, m.
+        bore: f64,
+        /// Radial clearance of the rotor in it, m.
+        clearance: f64,
+        /// Length along the axis, m.
+        length: f64,
+        /// Contact modulus E*, Pa.
+        modulus: f64,
+    },
+}
+
+/// Constants of the network of one bearing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BearingNetwork {
+    /// Heat capacities of the nodes, J/K.
+    pub capacities: [f64; 7],
+    /// Number of balls.
+    pub balls: f64,
+    /// Mass of a ball, kg.
+    pub ball_mass: f64,
+    /// Diameter of a ball, m.
+    pub ball_diameter: f64,
+    /// Pitch diameter, m.
+    pub pitch_diameter: f64,
+    /// Width of the bearing, m.
+    pub width: f64,
+    /// Contacts of a ball with inner and outer race.
+    pub contacts: [PointContact; 2],
+    /// Metal of the balls; the races are of steel.
+    pub ball: ThermalMaterial,
+    /// Film between balls and races, m.
+    pub film: f64,
+    /// Rotor on inner race.
+    pub landing: Landing,
+    /// Outer race to housing, W/K.
+    pub outer_seat: f64,
+    /// Housing to its surroundings, W/K.
+    pub surroundings: f64,
+    /// Rotor to its surroundings, W/K.
+    pub rotor_surroundings: f64,
+    /// Temperature of the surroundings, °C.
+    pub ambient: f64,
+}
+
+/// The state that the conductances follow.
+#[derive(Clone, Copy, Debug)]
+pub struct Operation<'a> {
+    /// Speed of rotor and inner race, rad/s.
+    pub speed: f64,
+    /// Load of each ball on the inner race, N.
+    pub loads: &'a [f64],
+    /// Kinematic viscosity of the lubricant, m²/s.
+    pub viscosity: f64,
+}
+
+impl BearingNetwork {
+    /// γ = D/d_m.
+    fn gamma(&self) -> f64 {
+        self.ball_diameter / self.pitch_diameter
+    }
+
+    /// The network at an instant.
+    ///
+    /// # Errors
+    /// A capacity or conductance that is none.
+    pub fn at(&self, operation: Operation<'_>) -> Result<Network, NetworkError> {
+        let link = |a: usize, b: usize, conductance: f64| Link {
+            nodes: [a, b],
+            conductance,
+        };
+        let [inner, outer] = self.races(operation);
+        let [to_inner, to_balls, to_cage, to_outer] = self.lubricant(operation);
+        let ground = |node: usize, conductance: f64| Ground {
+            node,
+            conductance,
+            temperature: self.ambient,
+        };
+        Network::new(
+            &self.capacities,
+            &[
+                link(ROTOR, INNER_RACE, self.landing(operation.speed.abs())),
+                link(INNER_RACE, BALLS, inner),
+                link(BALLS, OUTER_RACE, outer),
+                link(BALLS, CAGE, POCKET * self.balls),
+                link(INNER_RACE, LUBRICANT, to_inner),
+                link(BALLS, LUBRICANT, to_balls),
+                link(CAGE, LUBRICANT, to_cage),
+                link(OUTER_RACE, LUBRICANT, to_outer),
+                link(OUTER_RACE, HOUSING, self.outer_seat),
+            ],
+            &[
+                ground(HOUSING, self.surroundings),
+                ground(ROTOR, self.rotor_surroundings),
+            ],
+        )
+    }
+
+    /// All balls to the inner and to the outer race, W/K.
+    pub fn races(&self, operation: Operation<'_>) -> [f64; 2] {
+        let gamma = self.gamma();
+        let cage = 0.5 * operation.speed.abs() * (1.0 - gamma);
+        // both tracks pass the balls at one speed where they roll
+        let passing = 0.5 * cage * self.pitch_diameter * (1.0 + gamma);
+        let centrifugal = 0.5 * self.ball_mass * self.pitch_diameter * cage * cage;
+        let one = |contact: &PointContact, load: f64| match load > 0.0 {
+            true => {
+                let axes = [contact.semi_major(load), contact.semi_minor(load)];
+                ContactConductance::of_ellipse(axes[0], axes[1], passing, STEEL_HEAT, self.ball)
+                    .with_film(self.film, OIL.0, axes)
+            }
+            false => 0.0,
+        };
+        let loads = operation.loads.iter();
+        loads.fold([0.0; 2], |[inner, outer], &load| {
+            [
+                inner + one(&self.contacts[0], load),
+                outer + one(&self.contacts[1], load + centrifugal),
+            ]
+        })
+    }
+
+    /// Lubricant to inner race, balls, cage and outer race, W/K.
+    fn lubricant(&self, operation: Operation<'_>) -> [f64; 4] {
+        let (ball, pitch) = (self.ball_diameter, self.pitch_diameter);
+        let cage = 0.25 * operation.speed.abs() * (1.0 - self.gamma()) * pitch;
+        let transfer = stream_transfer(cage / 3.0, pitch, OIL.0, operation.viscosity, OIL.1);
+        let track = |diameter: f64| PI * diameter * self.width;
+        [
+            track(pitch - ball),
+            self.balls * PI * ball * ball,
+            track(pitch),
+            track(pitch + ball),
+        ]
+        .map(|area| transfer * area)
+    }
+
+    /// Rotor to inner race, W/K.
+    fn landing(&self, speed: f64) -> f64 {
+        match self.landing {
+            Landing::Given(conductance) => conductance,
+            Landing::Line {
+                load,
+                bore,
+                clearance,
+                length,
+                modulus,
+            } => {
+                let half = line_half_width(load, bore, clearance, length, modulus);
+                let (roughness, slope, hardness) = GROUND_STEEL;
+                let area = 2.0 * half * length;
+                let metal = [STEEL_HEAT.conductivity; 2];
+                let joint = area * pressed_joint(metal, roughness, slope, load / area, hardness);
+                let rolling = rolling_line_conductance(
+                    length,
+                    half,
+                    speed * bore,
+                    STEEL_HEAT,
+                    STEEL_HEAT,
+                );
+                joint * rolling / (joint + rolling)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use physics::hertz::{BallRace, Race};
+    use physics::materials::{BEARING_STEEL, contact_modulus};
+
+    /// A 6005.
+    fn bearing() -> BearingNetwork {
+        let modulus = contact_modulus(BEARING_STEEL, BEARING_STEEL);
+        let contact = |race, groove_curvature| {
+            let shape = BallRace {
+                ball_diameter: 6.35e-3,
+                pitch_diameter: 36e-3,
+                groove_curvature,
+                contact_angle: 0.0,
+                race,
+            };
+            PointContact::new(shape.curvature(), modulus).unwrap()
+        };
+        BearingNetwork {
+            capacities: [1800.0, 12.0, 4.8, 3.0, 5.0, 17.0, 200.0],
+            balls: 10.0,
+            ball_mass: 1.05e-3,
+            ball_diameter: 6.35e-3,
+            pitch_diameter: 36e-3,
+            width: 12e-3,
+            contacts: [contact(Race::Inner, 0.515), contact(Race::Outer, 0.525)],
+            ball: STEEL_HEAT,
+            film: 0.3e-6,
+            landing: Landing::Line {
+                load: 40.0,
+                bore: 12.5e-3,
+                clearance: 0.25e-3,
+                length: 12e-3,
+                modulus,
+            },
+            outer_seat: 6.0,
+            surroundings: 0.9,
+            rotor_surroundings: 0.0,
+            ambient: 25.0,
+        }
+    }
+
+    fn at(speed: f64, loads: &[f64]) -> Operation<'_> {
+        Operation {
+            speed,
+            loads,
+            viscosity: 2e-5,
+        }
+    }
+
+    #[test]
+    fn a_loaded_ball_conducts_as_the_printed_example_and_an_unloaded_one_not_at_all() {
+        // 100 N at 8.7 m/s with 0.3 µm of oil: 0.045 to 0.08 W/K
+        let bearing = bearing();
+        let gamma = 6.35f64 / 36.0;
+        let speed = 8.7 / (0.25 * 36e-3 * (1.0 - gamma * gamma));
+        let [inner, outer] = bearing.races(at(speed, &[100.0]));
+        assert!((0.045..0.08).contains(&inner), "{inner}");
+        assert!((0.045..0.09).contains(&outer), "{outer}");
+        let [none, pressed] = bearing.races(at(speed, &[0.0]));
+        assert!(none == 0.0 && pressed > 0.0);
+        assert_eq!(bearing.races(at(0.0, &[0.0])), [0.0; 2]);
+        // turning conducts better than standing
+        assert!(inner > bearing.races(at(0.0, &[100.0]))[0]);
+    }
+
+    #[test]
+    fn a_rough_line_insulates_in_proportion_to_the_load() {
+        // ground surfaces at 40 N: about 0.13 W/K
+        let bearing = bearing();
+        let found = bearing.landing(2000.0);
+        assert!((0.08..0.2).contains(&found), "{found}");
+        assert_eq!(bearing.landing(0.0), 0.0);
+    }
+
+    #[test]
+    fn heat_runs_from_the_races_to_the_surroundings_and_never_uphill() {
+        let network = bearing().at(at(1000.0, &[20.0; 10])).unwrap();
+        let mut powers = [0.0; 7];
+        powers[LUBRICANT] = 5.0;
+        let steady = network.steady(&powers).unwrap();
+        assert!(steady[LUBRICANT] > steady[OUTER_RACE]);
+        assert!(steady[OUTER_RACE] > steady[HOUSING]);
+        // all of it leaves through the housing
+        assert!((0.9 * (steady[HOUSING] - 25.0) - 5.0).abs() < 1e-9);
+        // nothing is colder than where the heat goes
+        assert!(steady.iter().all(|node| *node > 25.0));
+    }
+}
