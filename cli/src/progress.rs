@@ -26,9 +26,11 @@ impl Busy {
             SystemName::Signals | SystemName::Identify => "reading the measurement files",
             SystemName::Rig => "searching the engagement that gives the wanted acceleration",
             SystemName::Rotor => "reducing the rotor",
-            SystemName::Drop | SystemName::SpinUp | SystemName::Torque | SystemName::Machine => {
-                "building the machine"
-            }
+            SystemName::Drop
+            | SystemName::SpinUp
+            | SystemName::Torque
+            | SystemName::Machine
+            | SystemName::CoastDown => "building the machine",
         };
         let (held, dropped) = channel::<()>();
         thread::spawn(move || {

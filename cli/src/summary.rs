@@ -65,6 +65,26 @@ const OF_RIG: &[&str] = &[
     "angular_momentum_residual",
     "clipped_channels",
 ];
+const OF_COAST_DOWN: &[&str] = &[
+    "stop_time",
+    "rotor_energy",
+    "start_power",
+    "peak_inner_race_temperature",
+    "inner_race_limit_time",
+    "inner_race_heat_to_take",
+    "peak_outer_race_temperature",
+    "peak_cage_temperature",
+    "peak_lubricant_temperature",
+    "lubricant_heat_to_take",
+    "peak_housing_temperature",
+    "smallest_clearance",
+    "closing_time",
+    "peak_ball_load",
+    "peak_growth_rate",
+    "life_share",
+    "runs_until_ten_percent_fail",
+    "relative_heat_residual",
+];
 const OF_IDENTIFY: &[&str] = &[
     "explanation",
     "explanation_parameters",
@@ -133,6 +153,7 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
         "rig" => OF_RIG,
         "identify" => OF_IDENTIFY,
         "rotor" => OF_ROTOR,
+        "coast_down" => OF_COAST_DOWN,
         _ => OF_DROP,
     };
     let pictures = outcome.pictures.iter();

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// One run of each kind, and one with several bearings.
-const OPENED: [&str; 7] = [
+const OPENED: [&str; 8] = [
+    "coast_down_closing",
     "rigid_drop",
     "two_bearings_drop",
     "spin_up_6005",

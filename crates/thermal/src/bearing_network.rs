@@ -217,13 +217,8 @@ impl BearingNetwork {
                 let area = 2.0 * half * length;
                 let metal = [STEEL_HEAT.conductivity; 2];
                 let joint = area * pressed_joint(metal, roughness, slope, load / area, hardness);
-                let rolling = rolling_line_conductance(
-                    length,
-                    half,
-                    speed * bore,
-                    STEEL_HEAT,
-                    STEEL_HEAT,
-                );
+                let rolling =
+                    rolling_line_conductance(length, half, speed * bore, STEEL_HEAT, STEEL_HEAT);
                 joint * rolling / (joint + rolling)
             }
         }

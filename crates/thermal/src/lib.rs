@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`network`] | nodes and conductances, stepped exactly |
 //! | [`bearing_network`] | nodes and conductances of an auxiliary bearing |
+//! | [`load_zone`] | its balls under a radial load |
 //! | [`losses`] | what brakes and heats, at a speed and at temperatures |
 //! | [`coast_down`] | a rotor that runs out, in steps of its speed |
 //! | [`steady_speed`] | warming at constant speed; runaway |
@@ -18,6 +19,7 @@ pub mod bearing_network;
 pub mod clearance;
 pub mod coast_down;
 pub mod layer;
+pub mod load_zone;
 pub mod losses;
 pub mod network;
 pub mod rubbing_contact;

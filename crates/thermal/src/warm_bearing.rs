@@ -11,6 +11,7 @@
 //! Source: heat-and-life, sections 5 and 6; the laws are those of `physics`.
 
 use crate::clearance::{ThermalClearance, preload};
+use crate::load_zone::LoadZone;
 use crate::losses::Losses;
 use physics::palmgren::{FADING_SPEED, Palmgren};
 use physics::viscosity::WaltherLine;
@@ -40,7 +41,7 @@ pub struct WarmBearings {
 }
 
 /// Where M1 comes from.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum BearingLoad {
     /// A radial load, N, with the factors of Palmgren's law.
     Radial(f64),
@@ -59,13 +60,20 @@ pub enum BearingLoad {
         /// Nodes of inner ring, balls and outer ring.
         nodes: [usize; 3],
     },
+    /// The radial load that presses the balls as hard as they are at the clearance there is, with the factors of Palmgren's law.
+    Zone {
+        /// ΣQ of the radial load without preload, N.
+        unpreloaded: f64,
+        /// The balls.
+        zone: LoadZone,
+    },
 }
 
 impl WarmBearings {
     /// Diametral clearance, m, and preload of each ball, N; none where the load is given.
     pub fn closing(&self, temperatures: &[f64]) -> Option<(f64, f64)> {
-        match self.load {
-            BearingLoad::Radial(_) => None,
+        let (open, stiffness) = match &self.load {
+            BearingLoad::Radial(_) => return None,
             BearingLoad::Closing {
                 stiffness,
                 clearance,
@@ -73,13 +81,15 @@ impl WarmBearings {
                 ..
             } => {
                 let open = clearance.at(
-                    temperatures[inner],
-                    temperatures[balls],
-                    temperatures[outer],
+                    temperatures[*inner],
+                    temperatures[*balls],
+                    temperatures[*outer],
                 );
-                Some((open, preload(stiffness, open)))
+                (open, *stiffness)
             }
-        }
+            BearingLoad::Zone { zone, .. } => (zone.clearance_at(temperatures), zone.stiffness),
+        };
+        Some((open, preload(stiffness, open)))
     }
 
     /// M0 and M1 of one bearing, N m.
@@ -93,12 +103,16 @@ impl WarmBearings {
             viscosity,
             ..self.moment
         };
-        let carried = match self.load {
-            BearingLoad::Radial(load) => load,
+        let radial = match &self.load {
+            BearingLoad::Radial(load) => *load,
             BearingLoad::Closing { .. } => 0.0,
+            BearingLoad::Zone { unpreloaded, zone } => {
+                let loads = zone.loads(zone.clearance_at(temperatures));
+                zone.load * loads.iter().sum::<f64>() / unpreloaded
+            }
         };
-        let parts = moment.parts(speed, carried);
-        let closing = match (self.load, self.closing(temperatures)) {
+        let parts = moment.parts(speed, radial);
+        let closing = match (&self.load, self.closing(temperatures)) {
             (
                 BearingLoad::Closing {
                     coefficient,

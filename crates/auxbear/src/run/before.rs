@@ -48,6 +48,10 @@ impl Machine<'_> {
                 list.extend(preload_of_rig(rig));
                 list
             }
+            Built::CoastDown(run, _) => {
+                let load = above_the_rating(run.static_load_rating, run.radial_load);
+                load.into_iter().collect()
+            }
             Built::Signals(_) | Built::Identify(_) | Built::Rotor(_) => Vec::new(),
         }
     }

@@ -15,8 +15,8 @@ use crate::problem::Problem;
 use crate::result::limits;
 pub use crate::result::outcome::{self, Outcome};
 use crate::result::outcome::{Quantity, Warning};
-use crate::scenario::{Drop, Rig, Scenario, SpinUp, System};
-use crate::simulate::{drop, rig, spin_up};
+use crate::scenario::{CoastDown, Drop, Rig, Scenario, SpinUp, System};
+use crate::simulate::{coast_down, drop, rig, spin_up};
 pub use each::{Single, each};
 pub use measure::file::parquet::panic_is_caught;
 use std::sync::Arc;
@@ -41,6 +41,7 @@ enum Built<'a> {
     Rig(&'a Rig, Box<rig::build::Built>),
     Identify(Box<identify::Asked<'a>>),
     Rotor(Box<rotor::Asked<'a>>),
+    CoastDown(&'a CoastDown, Box<coast_down::build::Built>),
 }
 
 /// Builds the machine that the scenario describes; runs nothing.
@@ -57,6 +58,9 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
         System::Signals(of) => signals::Asked::of(of).map(|asked| Built::Signals(Arc::new(asked))),
         System::Identify(of) => {
             identify::Asked::of(of).map(|asked| Built::Identify(Box::new(asked)))
+        }
+        System::CoastDown(of) => {
+            coast_down::build::run_out(of).map(|built| Built::CoastDown(of, Box::new(built)))
         }
         System::Rotor(of) => rotor::Asked::of(of).map(|asked| Built::Rotor(Box::new(asked))),
         System::Rig(of) => rig::build::rig(of).map(|built| Built::Rig(of, Box::new(built))),
@@ -76,7 +80,7 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
 }
 
 /// Backward whirl, a rotor that reaches what stands around it, a race or a contact that gets hot.
-const DESTRUCTION: [&str; 4] = ["AB1014", "AB2030", "AB2300", "AB2301"];
+const DESTRUCTION: [&str; 6] = ["AB1014", "AB2030", "AB2300", "AB2301", "AB2310", "AB2311"];
 
 impl Machine<'_> {
     /// Simulates it. A run that fails is an [`Outcome`] whose `stop` says where and why.
@@ -105,6 +109,7 @@ impl Machine<'_> {
             Built::Signals(asked) => signals::run(self.scenario, asked, options),
             Built::Identify(asked) => identify::run(self.scenario, asked, options),
             Built::Rotor(asked) => rotor::run(self.scenario, asked),
+            Built::CoastDown(of, built) => coast_down::run(self.scenario, of, built, options),
             Built::Rig(of, built) => rig::run(self.scenario, of, built, options),
         }
     }

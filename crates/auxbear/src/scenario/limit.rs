@@ -283,6 +283,7 @@ pub(crate) fn example(system: SystemName) -> (&'static str, &'static str) {
     match system {
         SystemName::Drop | SystemName::Machine => ("peak_contact_force", "most = \"5 kN\""),
         SystemName::SpinUp | SystemName::Rig => ("peak_outer_race_moment", "most = \"0.5 N m\""),
+        SystemName::CoastDown => ("peak_inner_race_temperature", "most = \"120 degC\""),
         SystemName::Torque => ("friction_moment", "most = \"50 N mm\""),
         SystemName::Signals => ("peak_speed", "most = \"3000 rpm\""),
         SystemName::Rotor => ("first_critical_speed", "least = \"9000 rpm\""),

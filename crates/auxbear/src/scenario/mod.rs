@@ -6,11 +6,12 @@
 //! ```text
 //! text + overrides ──document──▶ system; key, raw value, place
 //!                  ──resolve───▶ one value per key: given ▸ catalogue ▸ default ▸ derived
-//!                  ──drop, spin_up, torque, signals, rig, identify, rotor──▶ typed SI values  ──checks──▶ Scenario
+//!                  ──drop, spin_up, torque, signals, rig, identify, rotor, coast_down──▶ typed SI values  ──checks──▶ Scenario
 //! ```
 
 pub(crate) mod bearing;
 pub(crate) mod checks;
+pub(crate) mod coast_down;
 pub(crate) mod document;
 pub(crate) mod drop;
 pub(crate) mod identify;
@@ -53,6 +54,7 @@ pub use bearing::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 pub use bearing::separation::{Cage, FullComplement, Guidance, Land, Separation};
 pub use bearing::source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
 pub use bearing::{Bearing, Drag, OilFilm, Traction};
+pub use coast_down::{Atmosphere, CageMaterial, CoastDown, Feedback, Heat};
 pub use drop::{
     AuxiliaryBearing, BearingPlace, Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor,
     Shaft, Spin,
@@ -116,6 +118,8 @@ pub enum System {
     Identify(Box<Identify>),
     /// A bent rotor.
     Rotor(Box<RotorAnalysis>),
+    /// A rotor that runs out on its warming bearings.
+    CoastDown(Box<CoastDown>),
 }
 
 impl System {
@@ -130,6 +134,7 @@ impl System {
             System::Rig(_) => SystemName::Rig,
             System::Identify(_) => SystemName::Identify,
             System::Rotor(_) => SystemName::Rotor,
+            System::CoastDown(_) => SystemName::CoastDown,
         }
     }
 
@@ -174,6 +179,11 @@ impl System {
                 System::Rig(rig)
             }
             SystemName::Rotor => System::Rotor(Box::new(RotorAnalysis::of(document, values)?)),
+            SystemName::CoastDown => {
+                let run = Box::new(CoastDown::from_values(values));
+                context.coast_down(&run)?;
+                System::CoastDown(run)
+            }
             SystemName::Torque => {
                 let laws = torque::compared_laws(document, values, bearings);
                 let torque = Torque::from_values(values, laws)?;

@@ -72,14 +72,14 @@ const TABLE: &[Absent] = &[
         instead: "With system = \"machine\" it does (auxbear new machine); with rotor.first_bending_frequency a drop says whether it matters",
     },
     Absent {
-        paths: "heat thermal temperature coolant cooling *.coolant *.heat rotor.temperature contact.temperature mount.temperature \
-                bearing.temperature *.heat_capacity *.thermal_conductivity *.thermal_expansion *.ambient_temperature",
-        what: "temperatures of nodes are not described: nothing fades or expands",
+        paths: "thermal temperature coolant cooling *.coolant *.heat rotor.temperature contact.temperature mount.temperature \
+                bearing.temperature *.heat_capacity *.thermal_conductivity *.thermal_expansion",
+        what: "heat acts on nothing here: nothing fades or expands",
         point: 5,
-        instead: "Surfaces that rub warm with contact.width and contact.surface; the temperature of the lubricant is bearing.moment.temperature; its slow state, with films that warm, is [bearing.lubricant_state]",
+        instead: "Surfaces that rub warm with contact.width and contact.surface, and system = \"coast_down\" follows temperatures until standstill; the temperature of the lubricant is bearing.moment.temperature; its slow state, with films that warm, is [bearing.lubricant_state]",
     },
     Absent {
-        paths: "life wear fatigue *.life *.wear *.l10 *.dynamic_load_rating *.drops \
+        paths: "life wear fatigue *.life *.wear *.l10 *.drops \
                 *.number_of_drops *.landings",
         what: "life and the number of drops are not described",
         point: 11,

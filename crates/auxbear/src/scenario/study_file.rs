@@ -287,7 +287,8 @@ fn single(scenario: &Scenario) -> Result<(), String> {
         | System::SpinUp(_)
         | System::Rig(_)
         | System::Torque(_)
-        | System::Rotor(_) => Ok(()),
+        | System::Rotor(_)
+        | System::CoastDown(_) => Ok(()),
         System::Signals(_) | System::Identify(_) => {
             Err("the analysis of a measurement".to_string())
         }

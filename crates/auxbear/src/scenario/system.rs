@@ -19,6 +19,8 @@ pub enum SystemName {
     Rotor,
     /// A bent rotor that is released onto its auxiliary bearings.
     Machine,
+    /// A rotor that runs out on its warming auxiliary bearings.
+    CoastDown,
 }
 
 impl SystemName {
@@ -32,10 +34,19 @@ impl SystemName {
         SystemName::Identify,
         SystemName::Rotor,
         SystemName::Machine,
+        SystemName::CoastDown,
     ];
     /// Their words, in the same order.
     pub(crate) const WORDS: &'static [&'static str] = &[
-        "drop", "spin_up", "torque", "signals", "rig", "identify", "rotor", "machine",
+        "drop",
+        "spin_up",
+        "torque",
+        "signals",
+        "rig",
+        "identify",
+        "rotor",
+        "machine",
+        "coast_down",
     ];
     /// Words of systems that are planned, so that asking for one is no spelling mistake.
     pub(crate) const PLANNED: &'static [&'static str] = &["mount"];
@@ -85,12 +96,30 @@ pub(crate) const FALLING: &[SystemName] = &[SystemName::Drop, SystemName::Machin
 /// Systems whose rotor is a shaft of parts.
 pub(crate) const SHAFT: &[SystemName] = &[SystemName::Rotor, SystemName::Machine];
 
+/// Systems whose balls carry loads by their contacts.
+pub(crate) const WITH_BALLS: &[SystemName] = &[
+    SystemName::Drop,
+    SystemName::SpinUp,
+    SystemName::Rig,
+    SystemName::Machine,
+    SystemName::CoastDown,
+];
+
+/// Systems in which the inner race has a mass of its own.
+pub(crate) const RACE_MASS: &[SystemName] = &[
+    SystemName::Drop,
+    SystemName::SpinUp,
+    SystemName::Machine,
+    SystemName::CoastDown,
+];
+
 /// Systems in which the inner race is a body of its own, not a part of a shaft.
 pub(crate) const FREE_RACE: &[SystemName] =
     &[SystemName::Drop, SystemName::SpinUp, SystemName::Machine];
 
 /// Systems with a bearing.
 pub(crate) const WITH_BEARING: &[SystemName] = &[
+    SystemName::CoastDown,
     SystemName::Drop,
     SystemName::SpinUp,
     SystemName::Torque,
@@ -101,6 +130,7 @@ pub(crate) const WITH_BEARING: &[SystemName] = &[
 
 /// Systems with a friction moment of a bearing.
 pub(crate) const WITH_MOMENT: &[SystemName] = &[
+    SystemName::CoastDown,
     SystemName::Drop,
     SystemName::SpinUp,
     SystemName::Torque,

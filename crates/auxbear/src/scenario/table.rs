@@ -27,6 +27,7 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
         .chain(crate::scenario::bearing::keys::TRACTION_SECTIONS)
         .chain(crate::scenario::bearing::keys_moment::SECTIONS)
         .chain(crate::scenario::bearing::keys_lubricant_state::SECTIONS)
+        .chain(crate::scenario::coast_down::keys::SECTIONS)
         .chain(RUN_SECTIONS)
         .chain(crate::scenario::drop::keys::REPEAT_SECTIONS)
 }
@@ -50,6 +51,7 @@ pub fn keys() -> impl Iterator<Item = &'static Key> {
         .chain(crate::scenario::bearing::keys::TRACTION)
         .chain(crate::scenario::bearing::keys_moment::KEYS)
         .chain(crate::scenario::bearing::keys_lubricant_state::KEYS)
+        .chain(crate::scenario::coast_down::keys::KEYS)
         .chain(RUN)
         .chain(crate::scenario::drop::keys::REPEAT)
 }
@@ -79,6 +81,7 @@ pub fn presence(key: &Key, system: SystemName) -> Presence {
         SystemName::Torque => crate::scenario::torque::keys::PRESENCES,
         SystemName::SpinUp => crate::scenario::spin_up::keys::PRESENCES,
         SystemName::Rig => crate::scenario::rig::keys::PRESENCES,
+        SystemName::CoastDown => crate::scenario::coast_down::keys::PRESENCES,
         SystemName::Drop
         | SystemName::Signals
         | SystemName::Identify
@@ -102,7 +105,8 @@ pub(crate) fn starts_with(key: &Key, system: SystemName) -> bool {
         | SystemName::SpinUp
         | SystemName::Torque
         | SystemName::Rotor
-        | SystemName::Machine => false,
+        | SystemName::Machine
+        | SystemName::CoastDown => false,
     }
 }
 
@@ -131,7 +135,7 @@ const HEAD: &[Key] = &[
         "system",
         Kind::Word(SystemName::WORDS),
         "drop",
-        "What is simulated: drop, a levitated rotor that is released onto its auxiliary bearing; spin_up, an inner race that is brought to speed; torque, the torque of a bearing without motion; signals, speed and torque from a measurement; rig, a test on a rig with the raw file of its logger; identify, what measured tests show of a bearing; rotor, modes, critical speeds and response of a bent rotor; machine, a bent rotor that is released onto its auxiliary bearings.",
+        "What is simulated: drop, a levitated rotor that is released onto its auxiliary bearing; spin_up, an inner race that is brought to speed; torque, the torque of a bearing without motion; signals, speed and torque from a measurement; rig, a test on a rig with the raw file of its logger; identify, what measured tests show of a bearing; rotor, modes, critical speeds and response of a bent rotor; machine, a bent rotor that is released onto its auxiliary bearings; coast_down, a rotor that runs out on its warming auxiliary bearings.",
     ),
     Key::new(
         "title",

@@ -36,6 +36,7 @@ pub fn template(kind: &str) -> Option<String> {
         SystemName::Identify => "What measured tests show of a bearing.",
         SystemName::Rotor => "Modes, critical speeds and response to unbalance of a bent rotor.",
         SystemName::Machine => "A bent rotor drops onto its auxiliary bearings.",
+        SystemName::CoastDown => "A rotor runs out on its auxiliary bearings, which warm.",
         SystemName::Torque => "The torque of a bearing over speed, load and acceleration.",
     };
     let mut out = String::new();

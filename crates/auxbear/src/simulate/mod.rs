@@ -6,10 +6,12 @@
 //! | [`mod@drop`] | a rotor falls onto its auxiliary bearing |
 //! | [`spin_up`] | the inner race is brought to speed |
 //! | [`rig`] | a test on a rig, and what its logger would have written |
+//! | [`coast_down`] | a rotor runs out on its warming bearings, in slow time |
 //! | `levitated` | levitations that do not hold their rotor |
 //! | `ending` | settings of the integration, and how a run ended |
 
 pub mod bearing;
+pub mod coast_down;
 pub mod drop;
 pub(crate) mod ending;
 pub(crate) mod levitated;

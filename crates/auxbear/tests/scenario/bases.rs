@@ -68,6 +68,7 @@ pub fn base(system: SystemName, path: &str) -> String {
         SystemName::Rig => rig(path),
         SystemName::Rotor => return rotor(),
         SystemName::Machine => MACHINE.to_string(),
+        SystemName::CoastDown => run_out(path),
         SystemName::Identify => {
             "[identify]\ncoast_down = [\"a.toml\"]\nradial_load = \"60 N\"\n".to_string()
         }
@@ -80,6 +81,19 @@ pub fn base(system: SystemName, path: &str) -> String {
     format!(
         "format = \"auxbear.scenario/1\"\nsystem = \"{}\"\n{own}{bearing}",
         system.word()
+    )
+}
+
+/// A run-out in which the key has a meaning; what is about the moment stands there already.
+fn run_out(path: &str) -> String {
+    let points = match path {
+        "bearing.moment.viscosity_points" => "",
+        _ => {
+            "[bearing.moment]\nviscosity_points = [[\"40 degC\", \"100 mm^2/s\"], [\"100 degC\", \"11 mm^2/s\"]]\n"
+        }
+    };
+    format!(
+        "[rotor]\nmass = \"8 kg\"\npolar_inertia = \"0.01 kg m^2\"\nspeed = \"-12000 rpm\"\n{points}"
     )
 }
 

@@ -6,6 +6,7 @@ mod bases;
 mod blame;
 mod bushing;
 mod catalogue_file;
+mod coast_down;
 mod contact_angle;
 mod files;
 mod friction;

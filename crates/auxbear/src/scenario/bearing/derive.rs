@@ -94,6 +94,9 @@ impl Values {
         if self.system() == SystemName::Torque {
             self.torque()?;
         }
+        if self.system() == SystemName::CoastDown {
+            self.run_out()?;
+        }
         if let Some(preload) = self.number(PRELOAD)
             && self.number(AXIAL_LOAD).is_some()
             && !self.is_given(AXIAL_LOAD)

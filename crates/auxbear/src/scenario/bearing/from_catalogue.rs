@@ -11,7 +11,10 @@ use crate::scenario::values::{Known, Value, Values, quantity_text};
 use std::path::{Path, PathBuf};
 
 /// Keys outside `[bearing]` that take a value of the rings.
-const OF_RINGS: [&str; 7] = [
+const OF_RINGS: [&str; 10] = [
+    "heat.bore_diameter",
+    "heat.outer_diameter",
+    "heat.width",
     "contact.bore_diameter",
     "drive.bore_diameter",
     "bearing.fits.bore_diameter",

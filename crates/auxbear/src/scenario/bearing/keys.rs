@@ -8,8 +8,13 @@ use crate::scenario::bearing::kind::BearingType;
 use crate::scenario::bearing::kind::Modelled;
 use crate::scenario::bearing::separation::SeparationKind;
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
-use crate::scenario::system::{FALLING, FREE_RACE, MOVING, WITH_MOMENT};
+use crate::scenario::system::{
+    FALLING, FREE_RACE, MOVING, RACE_MASS, SystemName, WITH_BALLS as LOADED, WITH_MOMENT,
+};
 use crate::scenario::words::Words;
+
+/// Where a life is given.
+const COAST_DOWN: &[SystemName] = &[SystemName::CoastDown];
 
 pub(crate) const SECTIONS: &[Section] = &[Section {
     path: "bearing",
@@ -133,7 +138,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Diametral internal clearance as mounted, after fits, at rest; negative is preload.",
     )
     .default("0 m", "neither clearance nor preload")
-    .only(MOVING),
+    .only(LOADED),
     Key::new(
         "bearing.unmounted_diametral_clearance",
         Kind::Quantity("m"),
@@ -159,7 +164,7 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .within(Range::Above(0.5))
     .assumed("0.52", "usual for deep groove ball bearings; makers differ")
-    .only(MOVING),
+    .only(LOADED),
     Key::new(
         "bearing.outer_groove_curvature",
         Kind::Coefficient,
@@ -168,7 +173,7 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .within(Range::Above(0.5))
     .assumed("0.53", "usual for deep groove ball bearings; makers differ")
-    .only(MOVING),
+    .only(LOADED),
     Key::new(
         "bearing.ball_material",
         Kind::Word(BallMaterial::WORDS),
@@ -186,6 +191,15 @@ pub(crate) const KEYS: &[Key] = &[
     .optional("no static safety, and no friction law that needs it")
     .only(WITH_MOMENT),
     Key::new(
+        "bearing.dynamic_load_rating",
+        Kind::Quantity("N"),
+        "11.9 kN",
+        "Dynamic load rating C.",
+    )
+    .positive()
+    .optional("no life is given")
+    .only(COAST_DOWN),
+    Key::new(
         "bearing.limiting_speed",
         Kind::Quantity("rad/s"),
         "28000 rpm",
@@ -202,7 +216,7 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .positive()
     .catalogued()
-    .only(FREE_RACE),
+    .only(RACE_MASS),
     Key::new(
         "bearing.inner_race_inertia",
         Kind::Quantity("kg m^2"),

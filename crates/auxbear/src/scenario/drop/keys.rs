@@ -9,6 +9,10 @@ use crate::scenario::words::Words;
 
 /// Systems whose rotor does not bend.
 const DROP: &[SystemName] = &[SystemName::Drop];
+/// Systems whose rotor is a mass with an inertia.
+const RIGID: &[SystemName] = &[SystemName::Drop, SystemName::CoastDown];
+/// Systems in which gas brakes the rotor.
+const IN_GAS: &[SystemName] = &[SystemName::Machine, SystemName::CoastDown];
 /// Systems whose rotor bends.
 const MACHINE: &[SystemName] = &[SystemName::Machine];
 
@@ -16,7 +20,12 @@ pub(crate) const SECTIONS: &[Section] = &[
     Section {
         path: "rotor",
         doc: "The rotor. Angles and speeds count counter-clockwise, x points right and y up.",
-        systems: &[SystemName::Drop, SystemName::Rotor, SystemName::Machine],
+        systems: &[
+            SystemName::Drop,
+            SystemName::Rotor,
+            SystemName::Machine,
+            SystemName::CoastDown,
+        ],
     },
     Section {
         path: "gravity",
@@ -60,7 +69,7 @@ const BRAKED: Condition = Condition {
 
 pub(crate) const KEYS: &[Key] = &[
     Key::new("rotor.mass", Kind::Quantity("kg"), "8 kg", "Mass of the whole rotor.").positive()
-    .only(DROP),
+    .only(RIGID),
     Key::new(
         "rotor.polar_inertia",
         Kind::Quantity("kg m^2"),
@@ -68,7 +77,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Moment of inertia of the whole rotor about its axis.",
     )
     .positive()
-    .only(DROP),
+    .only(RIGID),
     Key::new(
         "rotor.unbalance",
         Kind::Quantity("kg m"),
@@ -164,7 +173,7 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .not_negative()
     .default("0 N m s^2", "a rotor in vacuum")
-    .only(MACHINE),
+    .only(IN_GAS),
     Key::new(
         "rotor.cutoff",
         Kind::Quantity("rad/s"),
@@ -182,7 +191,7 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .within(Range::FromTo(1.0, 4.0))
     .default("1", "one auxiliary bearing carries the whole rotor")
-    .only(DROP),
+    .only(RIGID),
     Key::new(
         "rotor.first_bending_frequency",
         Kind::Quantity("rad/s"),

@@ -477,7 +477,8 @@ fn not_held() -> Box<Problem> {
 }
 
 fn too_unbalanced() -> Box<Problem> {
-    let found = "unbalances that together leave the rotor no moment of inertia about its mass centre";
+    let found =
+        "unbalances that together leave the rotor no moment of inertia about its mass centre";
     let needed = "smaller amounts are needed";
     Box::new(Problem::new(Code::Impossible, UNNAMED, found, needed).on_key("rotor.unbalance"))
 }

@@ -1,0 +1,141 @@
+// The pictures of a run-out with heat: temperatures with their limits, clearance and ball loads, heat made, taken and stored.
+
+const NODE_COLOURS = { rotor: "#1f5fa8", inner_race: "#c2571a", balls: "#8a4fae", cage: "#2f8f5b", lubricant: "#8a7410", outer_race: "#b0306a", housing: "#5d6b78" };
+
+// Hours of a long run-out, minutes of a shorter one, else seconds.
+function longTime(run) {
+  const last = lastNumber(run.time);
+  if (last >= 7200) return { factor: 1 / 3600, words: "time since the start [h]" };
+  if (last >= 600) return { factor: 1 / 60, words: "time since the start [min]" };
+  return { factor: 1, words: "time since the start [s]" };
+}
+
+function overTime(run, name, look, scale = 1, offset = 0) {
+  const values = columnOf(run, name);
+  if (!values) return [];
+  const { factor } = longTime(run);
+  return [{ ...look, x: run.time.map((time) => time * factor), y: values.map((value) => (isNumber(value) ? scale * value + offset : value)) }];
+}
+
+function nodesOf(run) {
+  return Object.keys(NODE_COLOURS).filter((node) => columnOf(run, `${node}.temperature`));
+}
+
+function limitMarks(run) {
+  const { factor } = longTime(run);
+  const first = nodesOf(run)
+    .map((node) => ({ at: numberOf(run, `${node}_limit_time`), words: `${wordsOf(node)} at its limit`, colour: SERIES_COLOURS.limit }))
+    .filter(({ at }) => at !== null);
+  const closes = numberOf(run, "closing_time");
+  const all = closes === null || closes === 0 ? first : [...first, { at: closes, words: "clearance closed", colour: SERIES_COLOURS.quiet }];
+  return all.map((mark) => ({ ...mark, at: mark.at * factor })).sort((one, other) => one.at - other.at);
+}
+
+function temperatureFigures(run, runs) {
+  const celsius = (node) => overTime(run, `${node}.temperature`, { label: wordsOf(node), colour: NODE_COLOURS[node] }, 1, -ZERO_CELSIUS);
+  const limit = inputOf(run, "heat.race_limit");
+  const note = `Bodies of one temperature each, of one bearing with its part of the rotor and its housing. Limits: races ${limit ? inputText(limit.value) : "as given"}; cage and lubricant as given. The rises are right within a factor of two where conductances were not given.`;
+  const across = longTime(run).words;
+  return [
+    figure(shareOfRun(run, runs, "Temperatures"), note, curves({ series: nodesOf(run).flatMap(celsius), across, upright: "temperature [°C]", marks: limitMarks(run), height: 330 })),
+    figure(shareOfRun(run, runs, "Speed"), null, curves({ series: overTime(run, "rotor.speed", { colour: SERIES_COLOURS.rotor }), across, upright: "speed [rad/s]", right: { label: "speed [rpm]", factor: RPM }, height: 200 })),
+  ];
+}
+
+function temperatureSection(runs) {
+  return section("temperatures", "Temperatures", runs.map((run) => temperatureFigures(run, runs)));
+}
+
+function closingFigures(run, runs) {
+  const across = longTime(run).words;
+  return [
+    figure(shareOfRun(run, runs, "Diametral clearance of the bearing"), "Rings and balls grow with their temperatures; below 0 the balls are preloaded.", curves({ series: overTime(run, "bearing.clearance", { colour: SERIES_COLOURS.race }, 1e6), across, upright: "clearance [µm]", level: { at: 0, words: "closed" }, height: 220 })),
+    figure(shareOfRun(run, runs, "Load of the most loaded ball"), null, curves({ series: overTime(run, "bearing.largest_ball_load", { colour: SERIES_COLOURS.rotor }), across, upright: "load [N]", height: 200 })),
+    figure(shareOfRun(run, runs, "Rate at which a disturbance of the temperatures grows"), "The speed of that instant held. Above 0 each kelvin makes more heat than it takes away: the bearing runs away.", curves({ series: overTime(run, "heat.growth_rate", { colour: SERIES_COLOURS.cage }), across, upright: "rate [1/s]", level: { at: 0, words: "runs away above" }, height: 200 })),
+  ];
+}
+
+function closingSection(runs) {
+  return section("closing", "Clearance", runs.map((run) => closingFigures(run, runs)));
+}
+
+// Heat made, and what becomes of it: bars whose two sides have one sum.
+function heatBars(run) {
+  const made = [
+    ["Speed-dependent moment M0", "speed_dependent_heat", HEAT_COLOURS.steady_moment],
+    ["Load-dependent moment M1", "load_dependent_heat", HEAT_COLOURS.ball_slip],
+  ].map(([words, name, colour]) => ({ words, colour, amount: numberOf(run, name) }));
+  const kept = nodesOf(run).map((node) => ({ words: `stored in the ${wordsOf(node)}`, colour: NODE_COLOURS[node], amount: numberOf(run, `stored_heat_in_${node}`) }));
+  const went = [{ words: "given to the surroundings", colour: SERIES_COLOURS.quiet, amount: numberOf(run, "heat_to_surroundings") }, ...kept];
+  const whole = made.reduce((sum, { amount }) => sum + (amount || 0), 0);
+  const row = ({ words, colour, amount }) =>
+    element("tr", {}, element("td", { class: "name" }, words), element("td", { class: "bar" }, element("div", { style: `width:${(100 * Math.abs(amount || 0)) / whole}%;background:${colour}` })), element("td", {}, engineeringText(amount, "J", 4)), element("td", {}, percentText((amount || 0) / whole)));
+  const head = (words) => element("tr", { class: "head" }, element("th", { colspan: 4 }, words));
+  return element("table", { class: "bars" }, element("tbody", {}, head("Made in the bearings"), made.map(row)), element("tbody", {}, head("Where it is at the end"), went.map(row)));
+}
+
+function heatFigures(run, runs) {
+  const across = longTime(run).words;
+  const held = listOf(run, "held_times");
+  const of = lastNumber(held) >= 7200 ? { factor: 1 / 3600, words: "time since the start, held [h]" } : { factor: 1, words: "time since the start, held [s]" };
+  const taken = nodesOf(run)
+    .map((node) => ({ label: wordsOf(node), colour: NODE_COLOURS[node], x: held.map((time) => time * of.factor), y: listOf(run, `${node}_powers_to_take`) }))
+    .filter(({ y }) => y.length);
+  const moments = [
+    ["speed_dependent", "M0, by speed and viscosity", HEAT_COLOURS.steady_moment],
+    ["load_dependent", "M1, by load", HEAT_COLOURS.ball_slip],
+    ["windage", "gas", SERIES_COLOURS.quiet],
+  ];
+  const spent = moments.flatMap(([name, label, colour]) => (name === "windage" && !numberOf(run, "windage_heat") ? [] : overTime(run, `${name}.moment`, { label, colour }, 1e3)));
+  return [
+    figure(shareOfRun(run, runs, "Heat made in all bearings"), null, curves({ series: overTime(run, "heat.power", { colour: SERIES_COLOURS.race }), across, upright: "power [W]", height: 220 })),
+    figure(shareOfRun(run, runs, "Moments that brake"), "Of all bearings.", curves({ series: spent, across, upright: "moment [N mm]", height: 220 })),
+    taken.length
+      ? figure(shareOfRun(run, runs, "Heat that must be taken away"), "To hold every node at its limit from the moment it gets there, all bearings together: what a coolant must take from the node itself.", curves({ series: taken, across: of.words, upright: "power [W]", height: 240 }))
+      : figure(shareOfRun(run, runs, "Heat that must be taken away"), null, notInThisRun("no node reaches its limit", run)),
+    figure(shareOfRun(run, runs, "Where the heat went"), null, heatBars(run)),
+  ];
+}
+
+function warmthSection(runs) {
+  return section("heat", "Heat", runs.map((run) => heatFigures(run, runs)));
+}
+
+function hottest(run) {
+  const peaks = nodesOf(run).map((node) => ({ node, peak: numberOf(run, `peak_${node}_temperature`) })).filter(({ peak }) => peak !== null);
+  return peaks.sort((one, other) => other.peak - one.peak)[0];
+}
+
+function runOutVerdict(run) {
+  const most = hottest(run);
+  const passed = nodesOf(run).filter((node) => numberOf(run, `${node}_limit_time`) !== null);
+  const clearance = numberOf(run, "smallest_clearance");
+  const growth = numberOf(run, "peak_growth_rate");
+  return element(
+    "div",
+    { class: "tiles" },
+    stateTile(run),
+    quantityTile(run, "Stands after", "stop_time", () => engineeringText(numberOf(run, "rotor_energy"), "J", 4) + " to lose"),
+    most ? tile("Hottest", `${numberText(most.peak - ZERO_CELSIUS, 3)} °C`, [wordsOf(most.node), passed.length ? `limit passed: ${passed.map(wordsOf).join(", ")}` : "every node below its limit"], verdictState(run, passed.length > 0)) : null,
+    tile("Smallest clearance", engineeringText(clearance, "m", 3), [growth > 0 && clearance < 0 ? "runs away" : clearance < 0 ? "preloaded by warmth" : "open"], verdictState(run, growth > 0 && clearance < 0)),
+    quantityTile(run, "Life used by one run-out", "life_share", () => "rolling fatigue alone; of L10"),
+    quantityTile(run, "Heat residual", "relative_heat_residual", () => "of the heat made", (residual) => verdictState(run, Math.abs(residual) > 1e-9)),
+  );
+}
+
+function runOutLine(run) {
+  const given = (path) => {
+    const input = inputOf(run, path);
+    return input && String(input.value) !== "not given" ? inputText(input.value).replace("^2", "²") : null;
+  };
+  const facts = [`rotor ${given("rotor.mass")}, ${given("rotor.polar_inertia")}`, `from ${given("rotor.speed")}`, `${given("rotor.planes")} × ${given("bearing.name") || "bearing without a name"}`, given("heat.atmosphere") && `in ${given("heat.atmosphere")}`, `follows: ${given("heat.feedback")}`];
+  return element("p", { class: "machine" }, facts.filter(Boolean).join(" · "));
+}
+
+register("coast_down", {
+  line: runOutLine,
+  verdict: runOutVerdict,
+  time: null,
+  facts: false,
+  sections: (runs) => [[20, temperatureSection, runs], [21, closingSection, runs], [22, warmthSection, runs]],
+});

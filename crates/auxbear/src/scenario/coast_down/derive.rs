@@ -1,0 +1,79 @@
+//! What of a run-out with heat follows from other values.
+
+use crate::problem::Problem;
+use crate::scenario::coast_down::Atmosphere;
+use crate::scenario::values::{Value, Values};
+use physics::heat_conduction::STEEL_HEAT;
+use physics::heat_exchange::{pressed_joint, to_surroundings};
+use std::f64::consts::PI;
+use thermal::bearing_network::GROUND_STEEL;
+
+/// Standard gravity, m/s².
+const GRAVITY: f64 = 9.80665;
+/// Mass of lubricant over outer diameter and width, kg/m².
+const GREASE: f64 = 5.0;
+/// Pressure of a fit of the outer race, Pa.
+const FIT_PRESSURE: f64 = 1e6;
+/// Radial clearance of the rotor over the bore of the race.
+const AIR_CLEARANCE: f64 = 0.01;
+
+type Done = Result<(), Box<Problem>>;
+
+impl Values {
+    /// Fills what follows from weight and geometry.
+    pub(crate) fn run_out(&mut self) -> Done {
+        let planes = self.number("rotor.planes").unwrap_or(1.0);
+        if let Some(mass) = self.number("rotor.mass") {
+            let share = mass / planes;
+            let load = "mass / planes times 9.80665 m/s²";
+            self.fill("coast_down.radial_load", share * GRAVITY, load)?;
+            let capacity = share * STEEL_HEAT.specific_heat;
+            let how = "mass / planes times 460 J/(kg K): all of the rotor";
+            self.fill("heat.rotor_capacity", capacity, how)?;
+        }
+        if let Some(temperature) = self.number("bearing.moment.temperature") {
+            let how = "bearing.moment.temperature";
+            self.fill("heat.start_temperature", temperature, how)?;
+        }
+        let size = |name: &str| self.number(&format!("heat.{name}"));
+        let (Some(bore), Some(outside), Some(width)) =
+            (size("bore_diameter"), size("outer_diameter"), size("width"))
+        else {
+            return Ok(());
+        };
+        let how = "0.005 g/mm² times outer_diameter and width";
+        self.fill("heat.lubricant_mass", GREASE * outside * width, how)?;
+        let ring = 0.25 * PI * 3.0 * outside * outside * width * STEEL_HEAT.density;
+        let how = "a steel ring around the bearing, outside twice its diameter; assumed";
+        self.fill(
+            "heat.housing_capacity",
+            ring * STEEL_HEAT.specific_heat,
+            how,
+        )?;
+        if self.number("heat.rotor_contact").is_none() {
+            let how = "1 % of bore_diameter; assumed";
+            self.fill("heat.radial_air_clearance", AIR_CLEARANCE * bore, how)?;
+        }
+        let (roughness, slope, hardness) = GROUND_STEEL;
+        let metal = [STEEL_HEAT.conductivity; 2];
+        let joint = pressed_joint(metal, roughness, slope, FIT_PRESSURE, hardness);
+        let how = "ground steel pressed with 1 MPa on π outer_diameter width; assumed";
+        self.fill("heat.outer_seat", joint * PI * outside * width, how)?;
+        if self.chosen("heat.atmosphere") != Some(Atmosphere::Vacuum) {
+            let how = "ISO 15312: 320 W/(m² K) of π width (outer_diameter + bore_diameter)";
+            self.fill(
+                "heat.surroundings",
+                to_surroundings(bore, outside, width),
+                how,
+            )?;
+        }
+        Ok(())
+    }
+
+    fn fill(&mut self, path: &'static str, value: f64, how: &str) -> Done {
+        match self.lacks(path) {
+            true => self.put_derived(path, Value::Number(value), how),
+            false => Ok(()),
+        }
+    }
+}

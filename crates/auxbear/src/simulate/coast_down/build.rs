@@ -1,0 +1,239 @@
+//! A run-out's machine: the network of one bearing, its losses, and the loads of its balls.
+
+use crate::problem::{Code, Problem};
+use crate::scenario::{CoastDown, Feedback, Moment, UNNAMED};
+use physics::heat_conduction::{SILICON_NITRIDE_HEAT, STEEL_HEAT};
+use physics::hertz::{BallRace, PointContact, Race};
+use physics::load_zone::joint_stiffness;
+use physics::materials::{BEARING_STEEL, contact_modulus};
+use physics::palmgren::Palmgren;
+use physics::viscosity::{Viscosity, WaltherLine};
+use std::f64::consts::{PI, TAU};
+use thermal::bearing_network::{
+    BALLS, BearingNetwork, INNER_RACE, LUBRICANT, Landing, NODES, OUTER_RACE,
+};
+use thermal::clearance::ThermalClearance;
+use thermal::load_zone::LoadZone;
+use thermal::warm_bearing::{BearingLoad, WarmBearings};
+
+/// Ice point, K.
+pub(super) const ICE_POINT: f64 = 273.15;
+/// Expansion of bearing steel and of silicon nitride, 1/K. Source: heat-and-life, section 9.
+const EXPANSION: [f64; 2] = [11.5e-6, 3.2e-6];
+/// Specific heat of oil and grease, J/(kg K). Source: mineral oils, 1800 to 2000.
+const OIL_SPECIFIC_HEAT: f64 = 1900.0;
+/// Capacity of a cage that is not there, J/K: a node needs one.
+const NO_CAGE: f64 = 0.1;
+/// Shares of the heat of M1: sliding at ball and race, half to each side. Source: heat-and-life, section 3.
+const SLIDING: [(usize, f64); 3] = [(INNER_RACE, 0.25), (BALLS, 0.5), (OUTER_RACE, 0.25)];
+
+/// The machine of a run-out.
+#[derive(Clone, Debug)]
+pub(crate) struct Built {
+    pub network: BearingNetwork,
+    pub losses: WarmBearings,
+    pub zone: LoadZone,
+    /// Whether the clearance follows the temperatures.
+    pub closes: bool,
+    /// The line of the lubricant, and where it is known.
+    pub viscosity: Viscosity,
+}
+
+/// Builds it.
+pub(crate) fn run_out(run: &CoastDown) -> Result<Built, Box<Problem>> {
+    let problem = |key: &str, found: String, needed: &str| {
+        Box::new(Problem::new(Code::Impossible, UNNAMED, found, needed.to_string()).on_key(key))
+    };
+    let heat = &run.heat;
+    let celsius = |kelvin: f64| kelvin - ICE_POINT;
+    let material = run.ball_material.data();
+    let modulus = contact_modulus(material, BEARING_STEEL);
+    let contact = |race, groove_curvature| {
+        let shape = BallRace {
+            ball_diameter: run.ball_diameter,
+            pitch_diameter: run.pitch_diameter,
+            groove_curvature,
+            contact_angle: 0.0,
+            race,
+        };
+        PointContact::new(shape.curvature(), modulus)
+            .map_err(|why| problem("bearing", why.to_string(), "another groove is needed"))
+    };
+    let [inner_groove, outer_groove] = run.groove_curvatures;
+    let contacts = [
+        contact(Race::Inner, inner_groove)?,
+        contact(Race::Outer, outer_groove)?,
+    ];
+    let stiffness = joint_stiffness(contacts[0].stiffness, contacts[1].stiffness);
+    let is_hybrid = run.ball_material == crate::scenario::BallMaterial::SiliconNitride;
+    let ball_mass =
+        (run.ball_mass).unwrap_or_else(|| run.ball_material.ball_mass(run.ball_diameter));
+    let balls = run.ball_count as f64;
+    let gap = run.ball_diameter;
+    let zone = LoadZone {
+        load: run.radial_load,
+        stiffness,
+        angles: (0..run.ball_count)
+            .map(|ball| TAU * ball as f64 / balls)
+            .collect(),
+        clearance: ThermalClearance {
+            at_reference: run.operating_diametral_clearance,
+            reference: celsius(heat.start_temperature),
+            tracks: [run.pitch_diameter - gap, run.pitch_diameter + gap],
+            ball: run.ball_diameter,
+            expansions: [
+                EXPANSION[0],
+                EXPANSION[usize::from(is_hybrid)],
+                EXPANSION[0],
+            ],
+        },
+        nodes: [INNER_RACE, BALLS, OUTER_RACE],
+    };
+    let points = &run.viscosity_points;
+    let [one, other] = [points[0], points[1]];
+    let viscosity = Viscosity::through((one[0], one[1]), (other[0], other[1])).map_err(|why| {
+        problem(
+            "bearing.moment.viscosity_points",
+            why.to_string(),
+            "two points of one oil are needed",
+        )
+    })?;
+    let losses = losses(run, &zone, viscosity)?;
+    // rings share the annulus between bore and outside at the pitch circle's shoulders
+    let shoulder = |side: f64| run.pitch_diameter + side * 0.6 * run.ball_diameter;
+    let annulus = |outer: f64, inner: f64| outer * outer - inner * inner;
+    let outer_mass = run.inner_race_mass * annulus(heat.outer_diameter, shoulder(1.0))
+        / annulus(shoulder(-1.0), heat.bore_diameter);
+    if outer_mass.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
+        return Err(problem(
+            "heat.outer_diameter",
+            "rings that leave no room for the balls".to_string(),
+            "a bore and an outer diameter of this bearing are needed",
+        ));
+    }
+    let steel = STEEL_HEAT.specific_heat;
+    let ball = match is_hybrid {
+        true => SILICON_NITRIDE_HEAT,
+        false => STEEL_HEAT,
+    };
+    let cage = (run.cage_mass * heat.cage_material.specific_heat()).max(NO_CAGE);
+    let network = BearingNetwork {
+        capacities: [
+            heat.rotor_capacity,
+            run.inner_race_mass * steel,
+            balls * ball_mass * ball.specific_heat,
+            cage,
+            heat.lubricant_mass * OIL_SPECIFIC_HEAT,
+            outer_mass * steel,
+            heat.housing_capacity,
+        ],
+        balls,
+        ball_mass,
+        ball_diameter: run.ball_diameter,
+        pitch_diameter: run.pitch_diameter,
+        width: heat.width,
+        contacts,
+        ball,
+        film: heat.film_thickness,
+        landing: match heat.rotor_contact {
+            Some(conductance) => Landing::Given(conductance),
+            None => Landing::Line {
+                load: run.radial_load,
+                bore: 0.5 * heat.bore_diameter,
+                clearance: heat
+                    .radial_air_clearance
+                    .unwrap_or(0.01 * heat.bore_diameter),
+                length: heat.width,
+                modulus: contact_modulus(BEARING_STEEL, BEARING_STEEL),
+            },
+        },
+        outer_seat: heat.outer_seat,
+        surroundings: heat.surroundings.unwrap_or(0.0),
+        rotor_surroundings: heat.rotor_surroundings,
+        ambient: celsius(heat.ambient_temperature),
+    };
+    Ok(Built {
+        network,
+        losses,
+        zone,
+        closes: heat.feedback == Feedback::Full,
+        viscosity,
+    })
+}
+
+/// Palmgren's two moments, the second by the loads of the balls where the rings may close.
+fn losses(
+    run: &CoastDown,
+    zone: &LoadZone,
+    viscosity: Viscosity,
+) -> Result<WarmBearings, Box<Problem>> {
+    let missing = |key: &str, needed: &str| {
+        Box::new(Problem::new(Code::NoLawData, UNNAMED, "no value", needed.to_string()).on_key(key))
+    };
+    let (
+        Moment::Palmgren {
+            f0,
+            f1_factor,
+            f1_exponent,
+            viscosity: at_start,
+            ..
+        },
+        Some(rating),
+    ) = (&run.moment, run.static_load_rating)
+    else {
+        return Err(missing(
+            "bearing.static_load_rating",
+            "the static load rating C0 is needed by Palmgren's law",
+        ));
+    };
+    let moment = Palmgren {
+        viscous_factor: *f0,
+        viscosity: *at_start,
+        pitch_diameter: run.pitch_diameter,
+        load_factor: *f1_factor,
+        load_exponent: *f1_exponent,
+        static_load_rating: rating,
+    };
+    let load = match run.heat.feedback {
+        Feedback::Full => BearingLoad::Zone {
+            unpreloaded: zone
+                .loads(zone.clearance.at_reference.max(0.0))
+                .iter()
+                .sum(),
+            zone: zone.clone(),
+        },
+        Feedback::Viscosity | Feedback::None => BearingLoad::Radial(run.radial_load),
+    };
+    let oil = match run.heat.feedback {
+        Feedback::None => WaltherLine {
+            a: (1e6 * at_start + 0.7).log10().log10(),
+            b: 0.0,
+        },
+        Feedback::Full | Feedback::Viscosity => viscosity.line(),
+    };
+    let mut viscous = vec![0.0; NODES.len()];
+    viscous[LUBRICANT] = 1.0;
+    let mut sliding = vec![0.0; NODES.len()];
+    for (node, share) in SLIDING {
+        sliding[node] = share;
+    }
+    Ok(WarmBearings {
+        count: f64::from(run.planes),
+        moment,
+        oil,
+        load,
+        windage: run.windage,
+        lubricant: LUBRICANT,
+        shares: [viscous, sliding],
+    })
+}
+
+/// Energy of the spin, J.
+pub(super) fn energy(run: &CoastDown) -> f64 {
+    0.5 * run.polar_inertia * run.speed * run.speed
+}
+
+/// Turns of a speed over a time.
+pub(super) fn turns(speed: f64, time: f64) -> f64 {
+    speed * time / (2.0 * PI)
+}

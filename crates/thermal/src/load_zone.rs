@@ -1,0 +1,88 @@
+//! The balls of a warm bearing under its radial load.
+
+use crate::clearance::ThermalClearance;
+use physics::load_zone::{ball_load, displacement};
+use std::f64::consts::TAU;
+
+/// A bearing whose balls share a radial load by the clearance that its temperatures leave.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadZone {
+    /// Radial load, N.
+    pub load: f64,
+    /// Ball and both races in series, N/m^1.5.
+    pub stiffness: f64,
+    /// Angles of the balls from the load line, rad.
+    pub angles: Vec<f64>,
+    /// Clearance over temperatures.
+    pub clearance: ThermalClearance,
+    /// Nodes of inner ring, balls and outer ring.
+    pub nodes: [usize; 3],
+}
+
+impl LoadZone {
+    /// Diametral clearance at the temperatures of a network in °C, m; negative: the balls are preloaded.
+    pub fn clearance_at(&self, temperatures: &[f64]) -> f64 {
+        let [inner, balls, outer] = self.nodes;
+        (self.clearance).at(
+            temperatures[inner],
+            temperatures[balls],
+            temperatures[outer],
+        )
+    }
+    /// Load of each ball at a clearance, N.
+    pub fn loads(&self, clearance: f64) -> Vec<f64> {
+        let moved = displacement(self.load, self.stiffness, clearance, &self.angles, 1.0);
+        let loads = self.angles.iter();
+        loads
+            .map(|angle| ball_load(self.stiffness, moved, clearance, *angle))
+            .collect()
+    }
+    /// Load of a ball at each of a number of places around the bearing at a clearance, N: balls that pass by, the load shared by as
+    /// many as there are.
+    pub fn all_round(&self, clearance: f64, places: usize) -> Vec<f64> {
+        let angles: Vec<f64> = (0..places)
+            .map(|place| TAU * place as f64 / places as f64)
+            .collect();
+        let weight = self.angles.len() as f64 / places as f64;
+        let moved = displacement(self.load, self.stiffness, clearance, &angles, weight);
+        let loads = angles.iter();
+        loads
+            .map(|angle| ball_load(self.stiffness, moved, clearance, *angle))
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rings_that_grow_apart_leave_the_load_to_few_balls_and_those_that_close_load_all() {
+        let zone = LoadZone {
+            load: 100.0,
+            stiffness: 8e9,
+            angles: (0..10).map(|k| 0.628_318_530_7 * f64::from(k)).collect(),
+            clearance: ThermalClearance {
+                at_reference: 5e-6,
+                reference: 20.0,
+                tracks: [29.65e-3, 42.35e-3],
+                ball: 6.35e-3,
+                expansions: [11.5e-6; 3],
+            },
+            nodes: [0, 1, 2],
+        };
+        let at = |inner: f64| zone.loads(zone.clearance_at(&[inner, inner, 20.0]));
+        let carrying = |loads: &[f64]| loads.iter().filter(|load| **load > 0.0).count();
+        assert!(carrying(&at(20.0)) < 6);
+        assert_eq!(carrying(&at(60.0)), 10);
+        // whatever closes, the radial load is carried
+        for inner in [20.0, 60.0] {
+            let sum: f64 = at(inner)
+                .iter()
+                .zip(&zone.angles)
+                .map(|(q, a)| q * a.cos())
+                .sum();
+            assert!((sum / 100.0 - 1.0).abs() < 1e-9, "{sum}");
+        }
+    }
+}
