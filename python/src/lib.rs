@@ -1,23 +1,37 @@
-//! The native part of the Python package `auxbear`.
+//! The native part of the Python package `auxbear`: what its pages in `python/auxbear/` call. No physics, no default values, and
+//! no more words than those pages need; they hold the documentation.
+//!
+//! | page | subject |
+//! |---|---|
+//! | `problem` | a problem of the library becomes the exception `auxbear.Problem` |
+//! | `watched` | work on a thread of its own, while the calling one looks for Ctrl-C and tells the progress |
+//! | `table` | columns of numbers as an Arrow stream |
+//! | `scenario` | what is simulated |
+//! | `outcome` | what comes out |
+//! | `study` | many runs |
+//! | `laws` | laws over arrays |
+
 #![forbid(unsafe_code)]
+
+mod outcome;
+mod problem;
+mod scenario;
+mod study;
+mod table;
+mod watched;
+
 use pyo3::prelude::*;
-#[pyclass(frozen)]
-struct A(f64);
-#[pymethods]
-impl A {
-    #[new]
-    fn new(x: f64) -> PyResult<Self> { Ok(A(x)) }
-    fn y(&self) -> f64 { self.0 }
-    fn __arrow_c_stream__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, pyo3::types::PyCapsule>> {
-        let b = arrow_array::RecordBatch::new_empty(std::sync::Arc::new(arrow_schema::Schema::empty()));
-        let s = b.schema();
-        let r = arrow_array::RecordBatchIterator::new([Ok(b)], s);
-        let s = arrow_array::ffi_stream::FFI_ArrowArrayStream::new(Box::new(r));
-        pyo3::types::PyCapsule::new(py, s, Some(c"arrow_array_stream".into()))
-    }
-}
+
 #[pymodule]
 mod _auxbear {
     #[pymodule_export]
-    use super::A;
+    use super::outcome::Outcome;
+    #[pymodule_export]
+    use super::scenario::{
+        Scenario, bearing_json, bearings_json, explain, schema, template, version,
+    };
+    #[pymodule_export]
+    use super::study::{Study, read_study};
+    #[pymodule_export]
+    use super::table::Table;
 }
