@@ -55,4 +55,4 @@ def _key(name: str) -> str:
 
 def _quantity(of: Any) -> str:
     units = f"{of.units:~}".replace(" ", "").replace("**", "^")
-    return f"{float(of.magnitude)!r} {units}"
+    return f"{float(of.magnitude)!r}".removesuffix(".0") + f" {units}"

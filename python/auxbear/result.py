@@ -120,7 +120,7 @@ class Table:
         try:
             return self._native.column(name)
         except KeyError:
-            raise _unknown("column", name, self.columns) from None
+            raise unknown("column", name, self.columns) from None
 
     def __contains__(self, name: object) -> bool:
         return name in self._native.names()
@@ -159,7 +159,7 @@ class Result(Mapping[str, Quantity]):
     def __getitem__(self, name: str) -> Quantity:
         told = self._native.quantity(name)
         if told is None:
-            raise _unknown("result", name, self._native.names())
+            raise unknown("result", name, self._native.names())
         return Quantity(name, told)
 
     def __iter__(self) -> Iterator[str]:
@@ -249,7 +249,8 @@ def _row(of: Quantity) -> str:
     return f'<tr title="{tip}"><td>{html.escape(of.name)}</td><td>{shown}</td><td>{html.escape(of.unit)}</td></tr>'
 
 
-def _unknown(what: str, name: object, known: list[str]) -> KeyError:
+def unknown(what: str, name: object, known: list[str]) -> KeyError:
+    """The exception for a name that is not there, with the names near it."""
     near = difflib.get_close_matches(str(name), known, 2)
     hint = f"; did you mean {' or '.join(near)}?" if near else ""
     return KeyError(f"no {what} {name!r}{hint}")

@@ -10,7 +10,7 @@ from typing import Any
 
 from auxbear import _auxbear, _progress, _toml
 from auxbear._progress import Progress
-from auxbear.result import Table
+from auxbear.result import Table, unknown
 from auxbear.scenario import Scenario
 
 
@@ -131,7 +131,10 @@ class StudyResult:
 
     def __getitem__(self, name: str) -> dict[str, Any]:
         """Mean and spread of a result over the members."""
-        return self.summary["quantities"][name]
+        known = self.summary["quantities"]
+        if name not in known:
+            raise unknown("result", name, list(known))
+        return known[name]
 
     def __repr__(self) -> str:
         return f"<auxbear.StudyResult {len(self.members)} of {self.study.members} members, {len(self.failed)} failed>"

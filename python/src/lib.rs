@@ -9,7 +9,6 @@
 //! | `scenario` | what is simulated |
 //! | `outcome` | what comes out |
 //! | `study` | many runs |
-//! | `laws` | laws over arrays |
 
 #![forbid(unsafe_code)]
 

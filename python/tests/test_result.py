@@ -103,9 +103,3 @@ def test_repeated_runs_have_members_and_spread(drop):
     assert forces[0] == float(repeated["first_impact_force"])
     assert repeated["first_impact_force"].spread.members == 8
     assert drop.run().members is None
-
-
-def test_a_run_that_fails_keeps_what_was_computed(drop):
-    failed = drop.copy().set("run.step_limit", 50).run()
-    assert not failed.complete and failed.stop
-    assert "not complete" in failed._repr_html_()

@@ -14,7 +14,7 @@ def test_a_dict_is_read_like_a_file():
     scenario = auxbear.Scenario(TORQUE, **{"torque.speed": "6000 rpm"})
     assert scenario.system == "torque"
     again = auxbear.Scenario.parse(scenario.toml())
-    assert again.toml() == scenario.toml()
+    assert again.values() == scenario.values()
     assert scenario.origin("torque.speed")[0] == "given"
 
 

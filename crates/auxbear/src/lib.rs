@@ -34,5 +34,4 @@ pub mod simulate;
 pub mod study;
 pub mod validate;
 
-pub use physics;
 pub use units;
