@@ -9,9 +9,11 @@
 //! | `scenario` | what is simulated |
 //! | `outcome` | what comes out |
 //! | `study` | many runs |
+//! | `laws` | laws over arrays |
 
 #![forbid(unsafe_code)]
 
+mod laws;
 mod outcome;
 mod problem;
 mod scenario;
@@ -23,6 +25,8 @@ use pyo3::prelude::*;
 
 #[pymodule]
 mod _auxbear {
+    #[pymodule_export]
+    use super::laws::{film, hertz, palmgren, race_acceleration};
     #[pymodule_export]
     use super::outcome::Outcome;
     #[pymodule_export]
