@@ -25,20 +25,20 @@ def test_hertz_has_its_powers_and_its_shape():
 def test_palmgren_is_the_law_of_a_torque():
     scenario = auxbear.Scenario(system="torque", bearing={"name": "6005", "moment": {"law": "palmgren"}})
     result = scenario.run()
-    values = scenario.values()
+    values, bearing = scenario.values(), auxbear.bearing("6005")["values"]
 
-    def number(path):
-        return float(values[path].split()[0])
+    def factor(key):
+        return float(values[f"bearing.moment.{key}"])
 
     moment = laws.palmgren(
         float(result["speed"]),
         float(result["radial_load"]),
-        viscous_factor=number("bearing.moment.f0"),
+        viscous_factor=factor("f0"),
         viscosity=float(result["viscosity"]),
-        pitch_diameter=1e-3 * number("bearing.pitch_diameter"),
-        load_factor=number("bearing.moment.f1_factor"),
-        load_exponent=number("bearing.moment.f1_exponent"),
-        static_load_rating=1e3 * number("bearing.static_load_rating"),
+        pitch_diameter=bearing["pitch_diameter"]["value"],
+        load_factor=factor("f1_factor"),
+        load_exponent=factor("f1_exponent"),
+        static_load_rating=bearing["static_load_rating"]["value"],
     )
     assert float(moment.sum) == pytest.approx(float(result["friction_moment"]), rel=1e-9)
 
