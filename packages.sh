@@ -9,6 +9,8 @@ packages=(
 )
 optional=(
     chromium # opens the reports that the check has made; the check says where it is absent
+    python3 # for the tests of the Python package; the check says where it is absent
+    python3-venv
 )
 
 if ! command -v dpkg-query >/dev/null; then

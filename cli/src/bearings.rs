@@ -2,9 +2,8 @@
 
 use crate::arguments::Bearings;
 use crate::console;
-use auxbear::catalogue::designation::{self, Designation};
 use auxbear::catalogue::{self, Bearing, Catalogue, Filter, FilterTexts, Origin};
-use auxbear::problem::{Code, Problem, did_you_mean};
+use auxbear::problem::Problem;
 use auxbear::units;
 use std::path::Path;
 
@@ -42,10 +41,16 @@ pub fn perform(command: &Bearings) -> Result<(), Box<Problem>> {
         } => {
             let name = name.join(" ");
             let catalogue = read(catalogue.as_deref())?;
-            let bearing = match catalogue.find(&name) {
-                Some(bearing) => bearing,
-                None => meant(&name, &catalogue)?,
-            };
+            let meant = catalogue.meant(&name, PLACE)?;
+            let bearing = meant.bearing;
+            if !meant.by_name {
+                let left_out = match meant.left_out.as_str() {
+                    "" => String::new(),
+                    words => format!(". Left out: {words}"),
+                };
+                let own = &bearing.name;
+                console::report(&format!("{name}: the {own} of the catalogue{left_out}"));
+            }
             console::print(&if *json {
                 catalogue::to_json([bearing])
             } else {
@@ -139,50 +144,5 @@ fn show(bearing: &Bearing) -> String {
     format!("{title}\n{assumed}\n\n{}", console::table(&rows))
 }
 
-/// The bearing that a designation of no name stands for; what is left out of it is told beside.
-fn meant<'a>(name: &str, catalogue: &'a Catalogue) -> Result<&'a Bearing, Box<Problem>> {
-    let known = |name: &str| catalogue.find(name).is_some();
-    match designation::read(name, &known) {
-        Some(Designation::Known {
-            name: own,
-            left_out,
-        }) => {
-            let left_out = match left_out.as_str() {
-                "" => String::new(),
-                words => format!(". Left out: {words}"),
-            };
-            console::report(&format!("{name}: the {own} of the catalogue{left_out}"));
-            catalogue.find(&own).ok_or_else(|| unknown(name, catalogue))
-        }
-        Some(Designation::Missing(why)) => Err(Box::new(Problem::new(
-            Code::UnknownBearing,
-            PLACE,
-            format!("\"{name}\", which is not in the catalogue"),
-            why,
-        ))),
-        None => Err(unknown(name, catalogue)),
-    }
-}
-
 /// What messages name as the file.
 const PLACE: &str = "auxbear bearings show";
-/// Most names that a message lists.
-const MOST_NAMES: usize = 8;
-
-fn unknown(name: &str, catalogue: &Catalogue) -> Box<Problem> {
-    let names = catalogue.names();
-    let near = did_you_mean(name, names.iter().map(String::as_str));
-    let listed = names[..names.len().min(MOST_NAMES)].join(", ");
-    Box::new(
-        Problem::new(
-            Code::UnknownBearing,
-            PLACE,
-            format!("\"{name}\", which is not in the catalogue"),
-            format!(
-                "one of its {} bearings is needed ({listed}, …); auxbear bearings list names them",
-                names.len()
-            ),
-        )
-        .with_hint(near),
-    )
-}

@@ -2,7 +2,7 @@
 
 use crate::repository::{Outcome, Repository};
 use crate::{
-    architecture, book, circles, crate_directions, documentation, licences, module_order,
+    architecture, book, circles, crate_directions, documentation, licences, module_order, python,
     scenarios, source_text, suites, toolchain, validation_cases,
 };
 use std::process::ExitCode;
@@ -33,10 +33,11 @@ const FAST: [Guard; 11] = [
     ("format", toolchain::format),
 ];
 
-const SLOW: [Guard; 4] = [
+const SLOW: [Guard; 5] = [
     ("lints", toolchain::lints),
     ("documentation pages", toolchain::pages),
     ("scenarios", scenarios::check),
+    ("Python", python::check),
     ("documentation examples", toolchain::examples),
 ];
 

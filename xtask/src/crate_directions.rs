@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use toml::Table;
 
 /// Each folder with a package, and the workspace crates it may name.
-const ALLOWED: [(&str, &[&str]); 15] = [
+const ALLOWED: [(&str, &[&str]); 16] = [
     ("crates/number", &[]),
     ("crates/units", &[]),
     ("crates/physics", &["number"]),
@@ -39,6 +39,7 @@ const ALLOWED: [(&str, &[&str]); 15] = [
         ],
     ),
     ("cli", &["auxbear"]),
+    ("python", &["auxbear"]),
     ("xtask", &[]),
 ];
 

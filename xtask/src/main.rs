@@ -15,6 +15,7 @@ mod golden;
 mod licences;
 mod module_order;
 mod pages;
+mod python;
 mod repository;
 mod rust_text;
 mod scenarios;

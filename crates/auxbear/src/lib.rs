@@ -34,4 +34,5 @@ pub mod simulate;
 pub mod study;
 pub mod validate;
 
+pub use physics;
 pub use units;

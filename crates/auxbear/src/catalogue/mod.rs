@@ -43,6 +43,7 @@ mod filter;
 pub(crate) mod geometry;
 mod json;
 mod key;
+mod meant;
 mod read;
 mod ring;
 mod value;
@@ -50,6 +51,7 @@ mod value;
 pub use bearing::{Bearing, Datum, FORMAT, Mark, Origin, Value};
 pub use filter::{Filter, FilterTexts};
 pub use json::to_json;
+pub use meant::Meant;
 pub use ring::Ring;
 
 use crate::problem::{Code, Problem};

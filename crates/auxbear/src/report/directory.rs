@@ -163,18 +163,12 @@ impl NewDirectory {
                     Attached::Recording(channels) => self.recording(&attachment.name, channels),
                 }),
         );
-        let columns = outcome.history.iter().map(|column| PageColumn {
-            name: column.name.clone(),
-            unit: column.unit.to_string(),
-            meaning: column.meaning.clone(),
-            values: column.values.clone(),
-        });
         let run = PageRun {
             name: name_of(&self.path),
             directory: self.path.display().to_string(),
             summary_json,
             scenario_toml,
-            columns: columns.collect(),
+            columns: columns_of(outcome),
         };
         let html = page::html(&[run]);
         written.push(self.file(REPORT, |file| file.write_all(html.as_bytes())));
@@ -242,6 +236,36 @@ impl Drop for NewDirectory {
             let _ = fs::remove_dir_all(&self.partial);
         }
     }
+}
+
+/// A finished run as its page needs it, without a run directory.
+///
+/// # Errors
+/// What cannot be told as JSON.
+pub fn page_run(
+    name: &str,
+    scenario: &Scenario,
+    outcome: &Outcome,
+) -> Result<PageRun, Box<Problem>> {
+    let summary_json = summary::json(scenario, outcome, &outcome.stop)
+        .map_err(|error| failed(Path::new(SUMMARY), &error.into()))?;
+    Ok(PageRun {
+        name: name.to_string(),
+        directory: String::new(),
+        summary_json,
+        scenario_toml: scenario.resolved.toml(),
+        columns: columns_of(outcome),
+    })
+}
+
+fn columns_of(outcome: &Outcome) -> Vec<PageColumn> {
+    let columns = outcome.history.iter().map(|column| PageColumn {
+        name: column.name.clone(),
+        unit: column.unit.to_string(),
+        meaning: column.meaning.clone(),
+        values: column.values.clone(),
+    });
+    columns.collect()
 }
 
 /// Writes the run directory of a finished run.

@@ -10,7 +10,6 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
 const FORMAT: &str = "auxbear.summary/1";
-const NOT_FINITE: &str = "what was computed is not a finite number";
 
 /// The summary of a run as JSON text; `stop` says how it ended.
 pub(super) fn json(
@@ -237,19 +236,13 @@ fn finite(value: f64) -> Option<f64> {
 }
 
 fn result(quantity: &Quantity) -> Found<'_> {
-    let (value, why) = match &quantity.value {
-        Value::Number(number) if number.is_finite() => (Json::Number(*number), None),
-        // A place without a number is null; an infinite number is a fault.
-        Value::List(list)
-            if list.is_empty()
-                || list.iter().any(|number| number.is_finite())
-                    && !list.iter().any(|number| number.is_infinite()) =>
-        {
-            (Json::List(list), None)
-        }
-        Value::Number(_) | Value::List(_) => (Json::Null, Some(NOT_FINITE)),
-        Value::Text(text) => (Json::Text(text), None),
-        Value::None { why } => (Json::Null, Some(why.as_str())),
+    let why = quantity.value.why_absent();
+    let value = match &quantity.value {
+        _ if why.is_some() => Json::Null,
+        Value::Number(number) => Json::Number(*number),
+        Value::List(list) => Json::List(list),
+        Value::Text(text) => Json::Text(text),
+        Value::None { .. } => Json::Null,
     };
     Found {
         value,
@@ -358,7 +351,7 @@ mod tests {
         ] {
             let printed = printed(value);
             assert!(printed["value"].is_null());
-            assert_eq!(printed["why"], NOT_FINITE);
+            assert_eq!(printed["why"], "what was computed is not a finite number");
             assert!(printed["spread"]["mean"].is_null() && printed["spread"]["min"] == 1.0);
         }
         let absent = printed(Value::None {

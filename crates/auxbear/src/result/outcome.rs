@@ -2,6 +2,8 @@
 
 use crate::scenario::Limit;
 
+const NOT_FINITE: &str = "what was computed is not a finite number";
+
 /// Everything known after a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
@@ -160,6 +162,23 @@ pub enum Value {
         /// The reason.
         why: String,
     },
+}
+
+impl Value {
+    /// Why there is no value to tell; none where there is one. A list may lack single numbers, which are not numbers there; an
+    /// infinite number is a fault.
+    pub fn why_absent(&self) -> Option<&str> {
+        let is_told = match self {
+            Value::Number(number) => number.is_finite(),
+            Value::List(list) => {
+                let has_one = list.is_empty() || list.iter().any(|number| number.is_finite());
+                has_one && !list.iter().any(|number| number.is_infinite())
+            }
+            Value::Text(_) => true,
+            Value::None { why } => return Some(why),
+        };
+        (!is_told).then_some(NOT_FINITE)
+    }
 }
 
 /// Mean and spread over members in which the quantity exists.

@@ -104,7 +104,11 @@ impl StudyFile {
         StudyFile::parse(text.trim_start_matches('\u{feff}'), &file, path.parent())
     }
 
-    fn parse(text: &str, file: &str, folder: Option<&Path>) -> Result<StudyFile, Box<Problem>> {
+    /// Reads a text; the name stands for the file in messages, and the scenario is looked for from the folder on.
+    ///
+    /// # Errors
+    /// What is wrong with it or its scenario, with file, line and key.
+    pub fn parse(text: &str, file: &str, folder: Option<&Path>) -> Result<StudyFile, Box<Problem>> {
         let root = DeTable::parse(text).map_err(|error| Problem::of_toml(&error, text, file))?;
         let page = Page { file };
         let mut head = Section::new(&page, "");

@@ -192,17 +192,7 @@ impl Directory {
 
     /// Reads all parts and writes what they say.
     fn told(&self) -> Result<Done, Box<Problem>> {
-        let mut table = Table::default();
-        for part in 0..part_count(&self.study) {
-            let place = part_path(&self.path, part);
-            if place.exists() {
-                table.append(part::read(&place, &self.study)?);
-            }
-        }
-        let names: Vec<&str> = (self.study.known.iter())
-            .map(|known| known.name.as_str())
-            .collect();
-        let table = table.ordered(&names);
+        let table = table_of(&self.path, &self.study)?;
         let answer = self.study.answer(&table);
         let complete = table.members.len() == self.study.members();
         let json = summary::json(&self.study, &table, &answer, complete);
@@ -218,6 +208,31 @@ impl Directory {
             complete,
         })
     }
+}
+
+/// Reads a study directory back: the study, and the members that are there.
+///
+/// # Errors
+/// Where no study directory stands there, or it is damaged.
+pub fn read(path: &Path) -> Result<(Study, Table), Box<Problem>> {
+    let study = Study::new(StudyFile::read(&path.join(STUDY))?)?;
+    let table = table_of(path, &study)?;
+    Ok((study, table))
+}
+
+/// The members that are there, with results in the order of a run.
+fn table_of(path: &Path, study: &Study) -> Result<Table, Box<Problem>> {
+    let mut table = Table::default();
+    for part in 0..part_count(study) {
+        let place = part_path(path, part);
+        if place.exists() {
+            table.append(part::read(&place, study)?);
+        }
+    }
+    let names: Vec<&str> = (study.known.iter())
+        .map(|known| known.name.as_str())
+        .collect();
+    Ok(table.ordered(&names))
 }
 
 /// The study as it stood in its directory, with the blocks that were added; refused where it is another.

@@ -1,0 +1,180 @@
+"""Laws over NumPy arrays.
+
+Every argument is a number or an array in SI; arrays are brought to one shape by NumPy's rules, and results have that shape. The
+laws are those of a run; the book tells their sources and ranges.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Literal, NamedTuple
+
+import numpy
+import numpy.typing
+
+from auxbear import _auxbear
+
+Numbers = numpy.typing.ArrayLike
+Array = numpy.typing.NDArray[numpy.float64]
+
+
+class Hertz(NamedTuple):
+    """A point contact under load."""
+
+    #: Approach of the bodies, m
+    approach: Array
+    #: Long semi-axis, m
+    semi_major: Array
+    #: Short semi-axis, m
+    semi_minor: Array
+    #: Maximum pressure, Pa
+    maximum_pressure: Array
+    #: K of Q = K δ^(3/2), N/m^(3/2)
+    stiffness: Array
+
+
+class Film(NamedTuple):
+    """Thickness of an oil film."""
+
+    #: In the middle of the contact, m
+    central: Array
+    #: Where it is thinnest, m
+    minimum: Array
+
+
+class Moment(NamedTuple):
+    """A steady friction moment in its two parts, each with the sign of the speed."""
+
+    #: M0, N m
+    speed_dependent: Array
+    #: M1, N m
+    load_dependent: Array
+
+    @property
+    def sum(self) -> Array:
+        """M, N m"""
+        return self.speed_dependent + self.load_dependent
+
+
+def hertz(
+    load: Numbers,
+    *,
+    ball_diameter: Numbers,
+    pitch_diameter: Numbers,
+    groove_curvature: Numbers,
+    contact_modulus: Numbers,
+    contact_angle: Numbers = 0.0,
+    race: Literal["inner", "outer"],
+) -> Hertz:
+    """The exact elastic contact of a ball in the groove of a race, after Hertz.
+
+    - ``load``: N, not negative
+    - ``ball_diameter``, ``pitch_diameter``: m
+    - ``groove_curvature``: groove radius over ball diameter, above 0.5
+    - ``contact_modulus``: E* of 1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂, Pa
+    - ``contact_angle``: rad
+    """
+    given = (load, ball_diameter, pitch_diameter, groove_curvature, contact_angle, contact_modulus)
+    return Hertz(*_each(_auxbear.hertz, given, _is_inner(race)))
+
+
+def film(
+    entrainment: Numbers,
+    load: Numbers,
+    *,
+    ball_diameter: Numbers,
+    pitch_diameter: Numbers,
+    groove_curvature: Numbers,
+    contact_modulus: Numbers,
+    viscosity: Numbers,
+    pressure_coefficient: Numbers,
+    contact_angle: Numbers = 0.0,
+    supply: Numbers = 1.0,
+    race: Literal["inner", "outer"],
+) -> Film:
+    """Thickness of the oil film between ball and race, the thickest of four regimes, before heating of the inlet.
+
+    - ``entrainment``: mean of the two surface speeds, m/s
+    - ``load``: N
+    - ``viscosity``: dynamic, at the inlet, Pa s
+    - ``pressure_coefficient``: of viscosity, 1/Pa
+    - ``supply``: share of the flooded thickness that starvation leaves, 1 flooded
+    - the others: as of ``hertz``
+    """
+    given = (
+        entrainment,
+        load,
+        ball_diameter,
+        pitch_diameter,
+        groove_curvature,
+        contact_angle,
+        contact_modulus,
+        viscosity,
+        pressure_coefficient,
+        supply,
+    )
+    return Film(*_each(_auxbear.film, given, _is_inner(race)))
+
+
+def palmgren(
+    speed: Numbers,
+    load: Numbers,
+    *,
+    viscous_factor: Numbers,
+    viscosity: Numbers,
+    pitch_diameter: Numbers,
+    load_factor: Numbers,
+    load_exponent: Numbers,
+    static_load_rating: Numbers,
+) -> Moment:
+    """Palmgren's moment: M0 = 1e-7 f0 (ν n)^⅔ d_m³, M1 = z (W/C0)^y W d_m, fading to 0 at rest.
+
+    - ``speed``: rad/s, either sign
+    - ``load``: radial load W, N
+    - ``viscous_factor``: f0
+    - ``viscosity``: kinematic ν, m²/s
+    - ``pitch_diameter``: d_m, m
+    - ``load_factor``, ``load_exponent``: z and y
+    - ``static_load_rating``: C0, N
+    """
+    given = (
+        speed,
+        load,
+        viscous_factor,
+        viscosity,
+        pitch_diameter,
+        load_factor,
+        load_exponent,
+        static_load_rating,
+    )
+    return Moment(*_each(_auxbear.palmgren, given))
+
+
+def race_acceleration(
+    *,
+    race_inertia: Numbers,
+    set_inertia: Numbers,
+    drive_moment: Numbers,
+    steady_moment: Numbers,
+) -> Array:
+    """Angular acceleration of an inner race that a rotor rubs along and whose balls roll, rad/s²: (T - M)/(I + J).
+
+    - ``race_inertia``: inner race with its sleeve, kg m²
+    - ``set_inertia``: of balls and cage, seen at the race, kg m²
+    - ``drive_moment``: bore radius times friction coefficient times load, N m
+    - ``steady_moment``: N m
+    """
+    given = (race_inertia, set_inertia, drive_moment, steady_moment)
+    return _each(_auxbear.race_acceleration, given)[0]
+
+
+def _is_inner(race: str) -> bool:
+    if race not in ("inner", "outer"):
+        raise ValueError(f'race="inner" or "outer" is needed, not {race!r}')
+    return race == "inner"
+
+
+def _each(law: Callable[..., list[Any]], given: tuple[Numbers, ...], *more: bool) -> list[Any]:
+    arrays = numpy.broadcast_arrays(*(numpy.asarray(one, dtype=float) for one in given))
+    flat = [numpy.ascontiguousarray(array).ravel() for array in arrays]
+    return [found.reshape(arrays[0].shape) for found in law(flat, *more)]

@@ -1,0 +1,40 @@
+//! The native part of the Python package `auxbear`: what its pages in `python/auxbear/` call. No physics, no default values, and
+//! no more words than those pages need; they hold the documentation.
+//!
+//! | page | subject |
+//! |---|---|
+//! | `problem` | a problem of the library becomes the exception `auxbear.Problem` |
+//! | `watched` | work on a thread of its own, while the calling one looks for Ctrl-C and tells the progress |
+//! | `table` | columns of numbers as an Arrow stream |
+//! | `scenario` | what is simulated |
+//! | `outcome` | what comes out |
+//! | `study` | many runs |
+//! | `laws` | laws over arrays |
+
+#![forbid(unsafe_code)]
+
+mod laws;
+mod outcome;
+mod problem;
+mod scenario;
+mod study;
+mod table;
+mod watched;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _auxbear {
+    #[pymodule_export]
+    use super::laws::{film, hertz, palmgren, race_acceleration};
+    #[pymodule_export]
+    use super::outcome::Outcome;
+    #[pymodule_export]
+    use super::scenario::{
+        Scenario, bearing_json, bearings_json, explain, schema, template, version,
+    };
+    #[pymodule_export]
+    use super::study::{Study, read_study};
+    #[pymodule_export]
+    use super::table::Table;
+}

@@ -1,0 +1,160 @@
+//! What is simulated, and what is known without a run: catalogue, starting files, schemas, codes.
+
+use crate::outcome::Outcome;
+use crate::problem::raised;
+use crate::watched::watched;
+use auxbear::catalogue::{self, Catalogue, Filter, FilterTexts};
+use auxbear::problem::explain::explain as page_of;
+use auxbear::run::build;
+use auxbear::scenario::{self, BuiltIn};
+use pyo3::prelude::*;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A scenario that was read and checked. It does not change.
+#[pyclass(frozen)]
+pub struct Scenario(pub Arc<scenario::Scenario>);
+
+#[pymethods]
+impl Scenario {
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Scenario> {
+        let read = py.detach(|| scenario::Scenario::read(&path, &[], &BuiltIn));
+        of(py, read)
+    }
+
+    #[staticmethod]
+    fn parse(py: Python<'_>, text: &str, name: &str) -> PyResult<Scenario> {
+        of(py, scenario::Scenario::parse(text, name, &[], &BuiltIn))
+    }
+
+    fn changed(&self, py: Python<'_>, changes: Vec<(String, String)>) -> PyResult<Scenario> {
+        of(py, self.0.with(&changes))
+    }
+
+    fn toml(&self) -> String {
+        self.0.resolved.toml()
+    }
+
+    fn system(&self) -> &'static str {
+        self.0.system.name().word()
+    }
+
+    fn title(&self) -> Option<&str> {
+        self.0.title.as_deref()
+    }
+
+    /// Path, value, mark and note of each value.
+    fn values(&self) -> Vec<(String, Option<&str>, &'static str, String)> {
+        let values = self.0.resolved.values.iter();
+        let one = |value: &'_ scenario::ResolvedValue| {
+            let provenance = &value.provenance;
+            (value.shown(), provenance.mark(), provenance.note())
+        };
+        values
+            .map(|value| {
+                let (path, mark, note) = one(value);
+                (path, value.text.as_deref(), mark, note)
+            })
+            .collect()
+    }
+
+    /// Builds the machine and returns code and text of each warning known before a run.
+    fn check(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, String)>> {
+        let warnings = py.detach(|| build(&self.0).map(|machine| machine.warnings()));
+        let warnings = warnings.map_err(|problem| raised(py, problem))?;
+        let pairs = warnings
+            .into_iter()
+            .map(|warning| (warning.code, warning.text));
+        Ok(pairs.collect())
+    }
+
+    #[pyo3(signature = (threads, progress))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        threads: Option<NonZeroUsize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Outcome> {
+        let found = watched(py, threads, progress, |options, _| {
+            build(&self.0).map(|machine| machine.run(options))
+        })?;
+        Outcome::of(
+            self.0.clone(),
+            found.map_err(|problem| raised(py, problem))?,
+        )
+    }
+}
+
+fn of(
+    py: Python<'_>,
+    read: Result<scenario::Scenario, Box<auxbear::problem::Problem>>,
+) -> PyResult<Scenario> {
+    match read {
+        Ok(read) => Ok(Scenario(Arc::new(read))),
+        Err(problem) => Err(raised(py, problem)),
+    }
+}
+
+#[pyfunction]
+pub fn template(kind: &str) -> Option<String> {
+    scenario::template(kind)
+}
+
+#[pyfunction]
+pub fn schema(kind: &str) -> Option<String> {
+    scenario::schema(kind)
+}
+
+#[pyfunction]
+pub fn explain(py: Python<'_>, code: &str) -> PyResult<String> {
+    page_of(code).map_err(|problem| raised(py, problem))
+}
+
+#[pyfunction]
+pub fn version() -> &'static str {
+    env!("CARGO_PKG_VERSION")
+}
+
+/// Bearings that are wanted, as JSON.
+#[pyfunction]
+pub fn bearings_json(
+    py: Python<'_>,
+    bore: Option<&str>,
+    speed: Option<&str>,
+    kind: Option<&str>,
+    material: Option<&str>,
+    file: Option<PathBuf>,
+) -> PyResult<String> {
+    let texts = FilterTexts {
+        bore,
+        speed,
+        kind,
+        material,
+    };
+    let found = Filter::read(&texts, "auxbear.bearings").and_then(|filter| {
+        let catalogue = catalogue_of(file.as_deref())?;
+        let wanted = catalogue.iter().filter(|bearing| filter.wants(bearing));
+        Ok(catalogue::to_json(wanted))
+    });
+    found.map_err(|problem| raised(py, problem))
+}
+
+/// The bearing that is meant by a designation, as JSON, and the parts of the designation that were left out.
+#[pyfunction]
+pub fn bearing_json(
+    py: Python<'_>,
+    name: &str,
+    file: Option<PathBuf>,
+) -> PyResult<(String, String)> {
+    let found = catalogue_of(file.as_deref()).and_then(|catalogue| {
+        let meant = catalogue.meant(name, "auxbear.bearing")?;
+        Ok((catalogue::to_json([meant.bearing]), meant.left_out))
+    });
+    found.map_err(|problem| raised(py, problem))
+}
+
+fn catalogue_of(file: Option<&Path>) -> Result<Catalogue, Box<auxbear::problem::Problem>> {
+    file.map_or(Ok(Catalogue::built_in()), Catalogue::with_file)
+}

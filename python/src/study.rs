@@ -1,0 +1,118 @@
+//! Many runs of one scenario.
+
+use crate::problem::raised;
+use crate::scenario::Scenario;
+use crate::table::{Column, Table};
+use crate::watched::watched;
+use auxbear::report::study::{Directory, read};
+use auxbear::scenario::StudyFile;
+use auxbear::study;
+use auxbear::study::table::Table as Members;
+use pyo3::exceptions::PyIndexError;
+use pyo3::prelude::*;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A study that was read and checked. It does not change.
+#[pyclass(frozen)]
+pub struct Study(StudyFile);
+
+#[pymethods]
+impl Study {
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Study> {
+        let read = py.detach(|| StudyFile::read(&path));
+        read.map(Study).map_err(|problem| raised(py, problem))
+    }
+
+    #[staticmethod]
+    fn parse(py: Python<'_>, text: &str, name: &str, folder: PathBuf) -> PyResult<Study> {
+        let read = py.detach(|| StudyFile::parse(text, name, Some(&folder)));
+        read.map(Study).map_err(|problem| raised(py, problem))
+    }
+
+    fn toml(&self) -> String {
+        self.0.toml()
+    }
+
+    fn title(&self) -> Option<&str> {
+        self.0.title.as_deref()
+    }
+
+    fn kind(&self) -> &'static str {
+        self.0.kind
+    }
+
+    fn members(&self) -> usize {
+        self.0.design.members().unwrap_or(0)
+    }
+
+    /// The paths that differ from member to member.
+    fn inputs(&self) -> Vec<&str> {
+        let inputs = self.0.inputs.iter();
+        inputs.map(|input| input.vary.path.as_str()).collect()
+    }
+
+    fn scenario(&self) -> Scenario {
+        Scenario(Arc::new(self.0.scenario.clone()))
+    }
+
+    /// The scenario of member k.
+    fn member(&self, py: Python<'_>, k: usize) -> PyResult<Scenario> {
+        if k >= self.members() {
+            let text = format!("member {k} of a study of {} members", self.members());
+            return Err(PyIndexError::new_err(text));
+        }
+        let scenario = study::Study::new(self.0.clone()).and_then(|study| study.scenario(k));
+        match scenario {
+            Ok(scenario) => Ok(Scenario(Arc::new(scenario))),
+            Err(problem) => Err(raised(py, problem)),
+        }
+    }
+
+    /// Begins the study of a directory or goes on with it.
+    #[pyo3(signature = (path, add, threads, progress))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        add: usize,
+        threads: Option<NonZeroUsize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<()> {
+        let file = self.0.clone();
+        let done = watched(py, threads, progress, |options, tell| {
+            let directory = Directory::open(&path, study::Study::new(file)?, add)?;
+            let all = directory.study.members() as f64;
+            directory.run(options, &|members| tell(members / all))
+        })?;
+        done.map(|_| ()).map_err(|problem| raised(py, problem))
+    }
+}
+
+/// The study of a directory with its members: inputs first, then results.
+#[pyfunction]
+pub fn read_study(py: Python<'_>, path: PathBuf) -> PyResult<(Study, Table)> {
+    let (study, members) = py
+        .detach(|| read(&path))
+        .map_err(|problem| raised(py, problem))?;
+    Ok((Study(study.file), Table::of(columns_of(members))?))
+}
+
+fn columns_of(members: Members) -> Vec<Column> {
+    let numbers = members.members.iter().map(|member| *member as f64);
+    let mut columns = vec![Column {
+        name: "member".to_string(),
+        unit: "1".to_string(),
+        meaning: "number of the member".to_string(),
+        values: numbers.collect(),
+    }];
+    columns.extend(members.columns.into_iter().map(|column| Column {
+        name: column.name,
+        unit: column.unit,
+        meaning: column.meaning,
+        values: column.values,
+    }));
+    columns
+}

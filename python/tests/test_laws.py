@@ -1,0 +1,74 @@
+"""Laws over arrays: the numbers of a run, shapes, limits, signs."""
+
+import auxbear
+import numpy
+import pytest
+from auxbear import laws
+
+BALL = dict(ball_diameter=6.6e-3, pitch_diameter=36e-3, groove_curvature=0.52, contact_modulus=1.13e11)
+
+
+def test_hertz_has_its_powers_and_its_shape():
+    load = numpy.array([[1.0, 8.0, 64.0]])
+    found = laws.hertz(load, **BALL, race="inner")
+    assert found.approach.shape == (1, 3)
+    # Q = K δ^1.5, p ~ Q^⅓, and the mean pressure is two thirds of the largest
+    numpy.testing.assert_allclose(found.stiffness * found.approach**1.5, load, rtol=1e-12)
+    pressure = found.maximum_pressure
+    numpy.testing.assert_allclose(pressure[0, 1:] / pressure[0, :-1], 2.0, rtol=1e-12)
+    area = numpy.pi * found.semi_major * found.semi_minor
+    numpy.testing.assert_allclose(pressure, 1.5 * load / area, rtol=1e-12)
+    outer = laws.hertz(load, **BALL, race="outer")
+    assert (outer.maximum_pressure < pressure).all()
+
+
+def test_palmgren_is_the_law_of_a_torque():
+    scenario = auxbear.Scenario(system="torque", bearing={"name": "6005", "moment": {"law": "palmgren"}})
+    result = scenario.run()
+    values, bearing = scenario.values(), auxbear.bearing("6005")["values"]
+
+    def factor(key):
+        return float(values[f"bearing.moment.{key}"])
+
+    moment = laws.palmgren(
+        float(result["speed"]),
+        float(result["radial_load"]),
+        viscous_factor=factor("f0"),
+        viscosity=float(result["viscosity"]),
+        pitch_diameter=bearing["pitch_diameter"]["value"],
+        load_factor=factor("f1_factor"),
+        load_exponent=factor("f1_exponent"),
+        static_load_rating=bearing["static_load_rating"]["value"],
+    )
+    assert float(moment.sum) == pytest.approx(float(result["friction_moment"]), rel=1e-9)
+
+
+def test_palmgren_is_odd_in_speed_and_fades_at_rest():
+    speeds = numpy.array([-300.0, 0.0, 300.0])
+    constants = dict(viscous_factor=1.5, viscosity=2e-5, pitch_diameter=36e-3)
+    more = dict(load_factor=7e-4, load_exponent=0.5, static_load_rating=6.5e3)
+    moment = laws.palmgren(speeds, 100.0, **constants, **more).sum
+    assert moment[0] == -moment[2] < 0.0 == moment[1]
+
+
+def test_a_film_grows_with_speed_and_shrinks_under_load():
+    oil = dict(viscosity=0.02, pressure_coefficient=2e-8, race="inner")
+    speed, load = numpy.array([[1.0], [2.0]]), numpy.array([50.0, 100.0, 200.0])
+    film = laws.film(speed, load, **BALL, **oil)
+    assert film.central.shape == (2, 3)
+    assert (film.minimum < film.central).all()
+    assert (numpy.diff(film.central, axis=0) > 0).all() and (numpy.diff(film.central, axis=1) < 0).all()
+
+
+def test_a_driven_race_accelerates_by_the_moment_that_is_left():
+    moments = numpy.array([0.0, 0.5, 1.0])
+    given = dict(race_inertia=3e-5, set_inertia=1e-5, drive_moment=0.4)
+    found = laws.race_acceleration(**given, steady_moment=0.4 * moments)
+    numpy.testing.assert_allclose(found, [1e4, 5e3, 0.0], rtol=1e-12, atol=1e-9)
+
+
+def test_what_makes_no_contact_is_refused():
+    with pytest.raises(ValueError, match="groove"):
+        laws.hertz(1.0, **{**BALL, "groove_curvature": 0.49}, race="inner")
+    with pytest.raises(ValueError, match="inner"):
+        laws.hertz(1.0, **BALL, race="middle")

@@ -1,0 +1,126 @@
+//! Guard: the Python package imports, and its tests pass.
+
+use crate::repository::{Outcome, Repository};
+use crate::shipped::build_in;
+use crate::toolchain::{cargo, quiet};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// What the tests of the package need beside it.
+const PACKAGES: [&str; 4] = ["numpy", "polars", "pyarrow", "pytest"];
+
+/// Builds the native part as the tests are built, puts the package together in a folder of its own, and runs its tests there.
+/// Where there is no Python, or nowhere to install from, it says so.
+pub fn check(repository: &Repository) -> Outcome {
+    let has_python = quiet(Command::new("python3").args(["-c", "import venv, ensurepip"]));
+    if !has_python.findings.is_empty() {
+        return Outcome::new("not run: no python3 with venv here", Vec::new());
+    }
+    let built = native(repository).and_then(|native| Ok((native, build_in(repository, "test")?)));
+    let (native, command) = match built {
+        Ok(built) => built,
+        Err(findings) => return Outcome::new("", findings),
+    };
+    let folder = std::env::temp_dir().join(format!("auxbear-python-{}", std::process::id()));
+    let outcome = match put_together(repository, &native, &folder) {
+        Ok(()) => tested(repository, &folder, &command),
+        Err(error) => Outcome::new("", vec![format!("{}: {error}", folder.display())]),
+    };
+    // Nothing depends on the folder any more; one that stays behind is no fault of the product.
+    let _ = std::fs::remove_dir_all(&folder);
+    outcome
+}
+
+/// Builds the native part and returns its library.
+fn native(repository: &Repository) -> Result<PathBuf, Vec<String>> {
+    let mut command = cargo(repository);
+    command.args(["build", "--quiet", "--profile", "test", "--locked"]);
+    command.args(["--package", "auxbear-python"]);
+    command.args(["--message-format", "json-render-diagnostics"]);
+    let output =
+        (command.output()).map_err(|error| vec![format!("cargo could not be started: {error}")])?;
+    if !output.status.success() {
+        let printed = String::from_utf8_lossy(&output.stderr);
+        return Err(printed.lines().map(str::to_owned).collect());
+    }
+    library(&String::from_utf8_lossy(&output.stdout))
+        .ok_or_else(|| vec!["the build made no library named _auxbear".to_owned()])
+}
+
+/// The library among cargo's messages, one JSON object a line.
+fn library(messages: &str) -> Option<PathBuf> {
+    messages
+        .lines()
+        .filter_map(|line| serde_json::from_str::<Value>(line).ok())
+        .filter(|message| message["target"]["name"] == "_auxbear")
+        .find_map(|message| message["filenames"][0].as_str().map(PathBuf::from))
+}
+
+/// The package as it is installed.
+fn put_together(repository: &Repository, native: &Path, folder: &Path) -> std::io::Result<()> {
+    let package = folder.join("auxbear");
+    std::fs::create_dir_all(&package)?;
+    std::fs::copy(native, package.join("_auxbear.abi3.so"))?;
+    for file in repository.below("python/auxbear/", "") {
+        let name = file.trim_start_matches("python/auxbear/");
+        std::fs::copy(repository.root.join(file), package.join(name))?;
+    }
+    Ok(())
+}
+
+fn tested(repository: &Repository, folder: &Path, command: &Path) -> Outcome {
+    let made = quiet(
+        Command::new("python3")
+            .args(["-m", "venv", "environment"])
+            .current_dir(folder),
+    );
+    if !made.findings.is_empty() {
+        return made;
+    }
+    let python = folder.join("environment/bin/python");
+    let mut install = Command::new(&python);
+    install.args([
+        "-m",
+        "pip",
+        "install",
+        "--quiet",
+        "--disable-pip-version-check",
+    ]);
+    if !quiet(install.args(PACKAGES).current_dir(folder))
+        .findings
+        .is_empty()
+    {
+        let packages = PACKAGES.join(", ");
+        return Outcome::new(
+            format!("not run: {packages} cannot be installed here"),
+            Vec::new(),
+        );
+    }
+    let mut tests = Command::new(&python);
+    tests
+        .args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"])
+        .arg(repository.root.join("python/tests"))
+        .current_dir(folder)
+        .env("PYTHONPATH", folder)
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .env("AUXBEAR_COMMAND", command);
+    let mut outcome = quiet(&mut tests);
+    outcome.seen = "tests of the package pass".to_owned();
+    outcome
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_library_is_found_among_the_messages() {
+        let messages = "{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"auxbear\"},\"filenames\":[\"a.rlib\"]}\n{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"_auxbear\"},\"filenames\":[\"target/debug/lib_auxbear.so\"]}\n";
+        assert_eq!(
+            library(messages),
+            Some(PathBuf::from("target/debug/lib_auxbear.so"))
+        );
+        assert_eq!(library("{\"reason\":\"build-finished\"}"), None);
+    }
+}
