@@ -6,10 +6,12 @@ use crate::exit::Exit;
 use crate::{console, run};
 use auxbear::problem::{Code, Problem};
 use auxbear::report::directory::free_path;
-use auxbear::report::study::{Directory, Done};
+use auxbear::report::study::{Directory, Done, chosen};
 use auxbear::run::Options;
 use auxbear::scenario::StudyFile;
 use auxbear::study::Study;
+use auxbear::study::answer::Answer;
+use auxbear::study::selection::Candidate;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -141,6 +143,46 @@ impl Pace {
     }
 }
 
+/// The best candidates of a selection, and what is said of the first.
+fn ranking(study: &Study, answer: &Answer) -> String {
+    const FIRST: usize = 6;
+    let Some((name, ..)) = study
+        .file
+        .rank
+        .as_ref()
+        .filter(|_| !answer.ranking.is_empty())
+    else {
+        return String::new();
+    };
+    let known = study.known.iter().find(|known| known.name == *name);
+    let unit = known.map_or("", |known| known.unit);
+    let row = |(place, one): (usize, &Candidate)| {
+        let values: Vec<&str> = one.values.iter().map(|(_, value)| value.as_str()).collect();
+        let broken = one.broken().next();
+        [
+            format!("  {}. {}", place + 1, one.verdict.word()),
+            values.join(", "),
+            (one.quantile).map_or("–".to_string(), |value| readable(value, unit)),
+            broken.map_or(String::new(), |judged| {
+                judged.limit.quantity.replace('_', " ")
+            }),
+        ]
+    };
+    let rows: Vec<[String; 4]> = answer
+        .ranking
+        .iter()
+        .enumerate()
+        .take(FIRST)
+        .map(row)
+        .collect();
+    format!(
+        "by {}, of which 95 % of the draws are not worse:\n{}{}\n",
+        name.replace(['_', '.'], " "),
+        console::table(&rows),
+        chosen(study, answer)
+    )
+}
+
 /// The verdicts and the results that are shown.
 fn text(path: &Path, study: &Study, done: &Done) -> String {
     let answer = &done.answer;
@@ -177,6 +219,7 @@ fn text(path: &Path, study: &Study, done: &Done) -> String {
     if !limits.is_empty() {
         text.push_str(&format!("limits:\n{}", console::table(&limits)));
     }
+    text.push_str(&ranking(study, answer));
     let shown = study.shown();
     let mut rows = vec![["  result", "mean", "deviation", "5 %", "95 %"].map(str::to_string)];
     for (name, unit, spread) in answer

@@ -143,6 +143,9 @@ const OF_TESTS: &[&str] = &[
 /// What an identification ends with.
 const NEXT_TESTS: &str = "next_tests";
 
+/// Ice point, K.
+const ICE_POINT: f64 = 273.15;
+
 /// The text printed after a run.
 pub fn text(path: &Path, outcome: &Outcome) -> String {
     let mut rows = Vec::new();
@@ -292,6 +295,10 @@ fn steady(outcome: &Outcome) -> Vec<[String; 2]> {
 
 fn value(quantity: &Quantity) -> String {
     let text = match &quantity.value {
+        // a temperature, not a rise
+        Value::Number(kelvin) if quantity.name.ends_with("_temperature") => {
+            format!("{:.1} °C", kelvin - ICE_POINT)
+        }
         Value::Number(number) => readable(*number, quantity.unit),
         Value::List(list) => format!("{} values", list.len()),
         Value::Text(text) => text.clone(),

@@ -234,3 +234,111 @@ fn the_starting_file_is_a_study_of_the_starting_drop() {
     let page = fs::read_to_string(place.path("runs/study/report.html")).unwrap();
     assert!(page.contains("<svg") && !page.contains("NaN") && !page.contains("inf"));
 }
+
+/// Bearings of one bore and two clearances, each with the same four draws.
+const SELECTION: &str = r#"format = "auxbear.study/1"
+scenario = "drop.toml"
+set = ["run.duration=8 ms", "run.accuracy=screening"]
+seed = 3
+
+[design]
+kind = "selection"
+draws = 4
+
+[[input]]
+path = "bearing.name"
+catalogue = { bore_diameter = "25 mm", outer_diameter = ["40 mm", "47 mm"], type = "deep groove", ball_material = "steel" }
+
+[[input]]
+path = "contact.friction_coefficient"
+uniform = [0.1, 0.3]
+
+[[input]]
+path = "contact.radial_air_clearance"
+choice = ["0.2 mm", "0.3 mm"]
+
+[[limit]]
+quantity = "first_impact_force"
+most = "650 N"
+
+[question]
+rank = "time_to_first_contact"
+best = "most"
+"#;
+
+#[test]
+fn candidates_meet_the_same_draws_and_are_ranked_with_their_reasons() {
+    let place = place(SELECTION);
+    let called = place.call(&["study", "study.toml", "--out", "s"]).done();
+    assert!(called.out.contains("candidates"), "{}", called.out);
+    let summary = place.summary("s");
+    let ranking = summary["ranking"].as_array().unwrap();
+    let names = ranking
+        .iter()
+        .map(|one| one["candidate"]["bearing.name"].as_str().unwrap());
+    let mut names: Vec<&str> = names.collect();
+    names.sort_unstable();
+    names.dedup();
+    assert!(
+        names.contains(&"6005") && names.len() * 2 == ranking.len(),
+        "{names:?}"
+    );
+    // the draws of each candidate are those of the first
+    let table = table(&place, "s");
+    let mut rows = table
+        .lines()
+        .map(|line| line.split(',').collect::<Vec<_>>());
+    let head = rows.next().unwrap();
+    let at = head
+        .iter()
+        .position(|name| name.contains("friction_coefficient"))
+        .unwrap();
+    let drawn: Vec<&str> = rows.map(|row| row[at]).collect();
+    assert_eq!(drawn.len(), 4 * ranking.len());
+    assert!(drawn.chunks(4).all(|part| part == &drawn[..4]) && drawn[0] != drawn[1]);
+    // passing ones first, the larger clearance, which takes longer to fall through, before the smaller one
+    let mut last = f64::INFINITY;
+    for one in ranking.iter().filter(|one| one["verdict"] == "pass") {
+        let value = one["quantile_95_percent"].as_f64().unwrap();
+        assert!(value <= last);
+        last = value;
+    }
+    let failing: Vec<&Value> = ranking
+        .iter()
+        .filter(|one| one["verdict"] == "fail")
+        .collect();
+    for one in &failing {
+        assert!(one["limits"][0]["hold"].as_u64().unwrap() < 4);
+    }
+    assert!(!failing.is_empty() && failing.len() < ranking.len());
+    let ends: Vec<bool> = ranking.iter().map(|one| one["verdict"] == "fail").collect();
+    assert!(ends.windows(2).all(|pair| pair[0] <= pair[1]));
+    let page = fs::read_to_string(place.path("s/report.html")).unwrap();
+    assert!(page.contains("<h2>Ranking</h2>"));
+    // the study that stands in the directory is the same study
+    place.call(&["study", "study.toml", "--out", "s"]).done();
+}
+
+#[test]
+fn what_is_no_selection_is_refused() {
+    for (old, new, words) in [
+        ("rank = \"time_to_first_contact\"\n", "", "rank = "),
+        (
+            "rank = \"time_to_first_contact\"",
+            "rank = \"beauty\"",
+            "no number among the results",
+        ),
+        ("best = \"most\"", "best = \"nicest\"", "least, most"),
+        (
+            "\"25 mm\"",
+            "\"25.3 mm\"",
+            "no bearing of the built-in catalogue",
+        ),
+        ("draws = 4", "members = 4", "draws"),
+    ] {
+        let place = place(&SELECTION.replace(old, new));
+        place
+            .call(&["study", "study.toml", "--out", "s"])
+            .refused(&[words]);
+    }
+}

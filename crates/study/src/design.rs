@@ -7,6 +7,7 @@
 //!   latin hypercube  a block has one member in each of its n slices of every input
 //!   sobol            a scrambled sequence that fills evenly; best with powers of two
 //!   morris           a block is a trajectory: one input after the other moves by half its range
+//!   selection        every combination of the levels of some inputs, each with the same draws of the others
 //!   saltelli         a block is two points A and B, and A with each input of B in turn
 //! ```
 //! Sources: McKay, Beckman, Conover, Technometrics 21 (1979) 239 (Latin hypercube); Burley, J. Comput. Graph. Tech. 9 (2020)
@@ -41,6 +42,8 @@ pub enum Design {
     Morris(usize, usize),
     /// Blocks for Sobol indices: number of inputs, of blocks.
     Saltelli(usize, usize),
+    /// Candidates: levels of each input, 0 of one that is drawn; number of draws, which all candidates share.
+    Selection(Vec<usize>, usize),
 }
 
 /// Where a member stands in one input.
@@ -64,13 +67,18 @@ impl Design {
             Design::LatinHypercube(_, members, blocks) => members.checked_mul(*blocks),
             Design::Morris(inputs, blocks) => blocks.checked_mul(inputs + 1),
             Design::Saltelli(inputs, blocks) => blocks.checked_mul(inputs + 2),
+            Design::Selection(levels, draws) => {
+                let candidates = levels.iter().filter(|count| **count > 0);
+                let all = |n: usize, count: &usize| n.checked_mul(*count);
+                candidates.clone().try_fold(*draws, all)
+            }
         }
     }
 
     /// The design with so many blocks more; none where it is complete as it is.
     pub fn extended(&self, more: usize) -> Option<Design> {
         Some(match *self {
-            Design::Factorial(_) | Design::Sweep(_) => return None,
+            Design::Factorial(_) | Design::Sweep(_) | Design::Selection(..) => return None,
             Design::MonteCarlo(inputs, n) => Design::MonteCarlo(inputs, n.checked_add(more)?),
             Design::Sobol(inputs, n) => Design::Sobol(inputs, n.checked_add(more)?),
             Design::LatinHypercube(inputs, n, blocks) => {
@@ -84,7 +92,10 @@ impl Design {
     /// Whether a member is one of a sample of the distributions, of which shares and means can be asked.
     pub fn is_sample(&self, k: usize) -> bool {
         match self {
-            Design::Factorial(_) | Design::Sweep(_) | Design::Morris(..) => false,
+            Design::Factorial(_)
+            | Design::Sweep(_)
+            | Design::Morris(..)
+            | Design::Selection(..) => false,
             Design::MonteCarlo(..) | Design::LatinHypercube(..) | Design::Sobol(..) => true,
             Design::Saltelli(inputs, _) => k % (inputs + 2) < 2,
         }
@@ -94,16 +105,15 @@ impl Design {
     pub fn member(&self, seed: u64, k: usize) -> Vec<Coordinate> {
         let share = Coordinate::Share;
         match self {
-            Design::Factorial(levels) => {
-                let mut left = k;
-                let mut coordinates: Vec<Coordinate> = (levels.iter().rev())
-                    .map(|count| {
-                        let at = left % count;
-                        left /= count;
-                        Coordinate::Level(at, *count)
-                    })
-                    .collect();
-                coordinates.reverse();
+            Design::Factorial(levels) => combination(levels, k),
+            Design::Selection(levels, draws) => {
+                let counts: Vec<usize> = levels.iter().map(|count| (*count).max(1)).collect();
+                let mut coordinates = combination(&counts, k / draws);
+                let drawn = coordinates.iter_mut().zip(levels);
+                let drawn = drawn.filter(|(_, count)| **count == 0);
+                for (dimension, (coordinate, _)) in drawn.enumerate() {
+                    *coordinate = share(sobol(seed, k % draws, dimension));
+                }
                 coordinates
             }
             Design::Sweep(levels) => {
@@ -144,6 +154,20 @@ impl Design {
             }
         }
     }
+}
+
+/// A combination of levels, the last input fastest.
+fn combination(levels: &[usize], k: usize) -> Vec<Coordinate> {
+    let mut left = k;
+    let mut coordinates: Vec<Coordinate> = (levels.iter().rev())
+        .map(|count| {
+            let at = left % count;
+            left /= count;
+            Coordinate::Level(at, *count)
+        })
+        .collect();
+    coordinates.reverse();
+    coordinates
 }
 
 /// Keeps the places inside slices apart from the order of the slices.
@@ -214,6 +238,21 @@ mod tests {
         assert_eq!(all[2], [Level(1, 2), Given]);
         assert_eq!(all[3], [Given, Level(0, 3)]);
         assert_eq!(all[5], [Given, Level(2, 3)]);
+    }
+
+    #[test]
+    fn candidates_share_their_draws() {
+        let design = Design::Selection(vec![2, 0, 3, 0], 8);
+        assert_eq!(design.members(), Some(48));
+        for k in 0..48 {
+            let (own, first) = (design.member(5, k), design.member(5, k % 8));
+            assert_eq!([own[1], own[3]], [first[1], first[3]]);
+            let candidate = k / 8;
+            assert_eq!(own[0], Coordinate::Level(candidate / 3, 2));
+            assert_eq!(own[2], Coordinate::Level(candidate % 3, 3));
+        }
+        assert_ne!(design.member(5, 0)[1], design.member(6, 0)[1]);
+        assert_eq!(design.extended(1), None);
     }
 
     #[test]

@@ -399,7 +399,7 @@ impl Document {
             }
             (key, raw) => {
                 if key.is_none()
-                    && let Some(absent) = not_modelled::of(&dotted)
+                    && let Some(absent) = not_modelled::of(&dotted, self.system)
                 {
                     let found = "a key of what is not modelled yet".to_string();
                     let told = problem(Code::NotModelled, found, absent.allowed());

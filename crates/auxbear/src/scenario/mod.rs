@@ -37,6 +37,7 @@ pub(crate) mod several;
 pub(crate) mod signals;
 pub(crate) mod spin_up;
 pub(crate) mod study_file;
+mod study_inputs;
 pub(crate) mod study_section;
 pub(crate) mod system;
 pub(crate) mod table;
@@ -81,7 +82,8 @@ pub use signals::{
     TorqueSignal,
 };
 pub use spin_up::{Course, Drive, SpeedCourse, SpinUp};
-pub use study_file::{STUDY_FORMAT, StudyFile, StudyInput};
+pub use study_file::{STUDY_FORMAT, StudyFile};
+pub use study_inputs::StudyInput;
 pub use system::SystemName;
 pub use table::{FORMAT, keys, keys_of, presence, sections, sections_of, systems};
 pub use template::template;

@@ -7,7 +7,7 @@
 //! seed = 1
 //!
 //! [design]
-//! kind = "monte carlo"          # latin hypercube, sobol, factorial, sweep, morris, saltelli
+//! kind = "monte carlo"          # latin hypercube, sobol, factorial, sweep, morris, saltelli, selection
 //! members = 1000                # blocks of morris and saltelli
 //!
 //! [[input]]
@@ -27,8 +27,9 @@ use crate::problem::{Code, Place, Problem};
 use crate::scenario::document::Raw;
 use crate::scenario::key::quoted;
 use crate::scenario::raw::{Written, collect, raw, tables};
+use crate::scenario::study_inputs::{StudyInput, inputs_of};
 use crate::scenario::study_section::{Page, Section};
-use crate::scenario::{BuiltIn, Limit, Scenario, System, Vary, read_text};
+use crate::scenario::{BuiltIn, Limit, Scenario, System, read_text};
 use std::path::{Path, PathBuf};
 use study::correlation::Correlation;
 use study::design::{Design, MOST_SOBOL, MOST_SOBOL_INPUTS};
@@ -38,9 +39,7 @@ use toml::de::DeTable;
 pub const STUDY_FORMAT: &str = "auxbear.study/1";
 /// Members of a study, at most: each is a row in memory.
 const MOST_MEMBERS: usize = 1_000_000;
-/// Levels of an input of a factorial or a sweep, unless given.
-const LEVELS: usize = 5;
-const DESIGNS: [&str; 7] = [
+const DESIGNS: [&str; 8] = [
     "monte carlo",
     "latin hypercube",
     "sobol",
@@ -48,8 +47,8 @@ const DESIGNS: [&str; 7] = [
     "sweep",
     "morris",
     "saltelli",
+    "selection",
 ];
-const WORDS: [&str; 5] = ["lognormal", "normal", "uniform", "triangular", "choice"];
 
 /// A study that was read and checked.
 #[derive(Clone, Debug)]
@@ -80,17 +79,8 @@ pub struct StudyFile {
     pub limits: Vec<Limit>,
     /// Results that the page shows; all limits' where none are named.
     pub results: Vec<(String, Place)>,
-}
-
-/// An input of a study.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StudyInput {
-    /// Its path and distribution.
-    pub vary: Vary,
-    /// Levels in a factorial or a sweep.
-    pub levels: usize,
-    /// Whether the file gives them.
-    levels_given: bool,
+    /// The result that candidates of a selection are ranked by, and whether most of it is best.
+    pub rank: Option<(String, bool, Place)>,
 }
 
 impl StudyFile {
@@ -183,7 +173,7 @@ impl StudyFile {
         let (shape, asked, added) = shape(&mut design, kind, &inputs)?;
         let pairs = pairs_of(&page, correlations, &inputs)?;
         let correlation = correlation_of(&page, &pairs, inputs.len(), kind)?;
-        question.known(&["results"], &[])?;
+        let rank = rank(&mut question, kind)?;
         let results = question.texts("results")?;
         let mut limits = scenario.limits_of(file, limits)?;
         limits.extend(scenario.limits.iter().cloned());
@@ -204,6 +194,7 @@ impl StudyFile {
             correlation,
             limits,
             results,
+            rank,
         })
     }
 
@@ -239,7 +230,9 @@ impl StudyFile {
             self.seed
         ));
         out.push_str(&format!("\n[design]\nkind = \"{}\"\n", self.kind));
-        if !matches!(self.design, Design::Factorial(_) | Design::Sweep(_)) {
+        if let Design::Selection(_, draws) = self.design {
+            out.push_str(&format!("draws = {draws}\n"));
+        } else if !matches!(self.design, Design::Factorial(_) | Design::Sweep(_)) {
             out.push_str(&format!(
                 "{} = {}\nadded = {}\n",
                 count_key(self.kind),
@@ -253,7 +246,7 @@ impl StudyFile {
                 quoted(&input.vary.path),
                 input.vary.distribution_toml()
             ));
-            if input.levels_given {
+            if input.has_levels() {
                 out.push_str(&format!("levels = {}\n", input.levels));
             }
         }
@@ -273,6 +266,18 @@ impl StudyFile {
         if !self.results.is_empty() {
             let names: Vec<String> = self.results.iter().map(|(name, _)| quoted(name)).collect();
             out.push_str(&format!("\n[question]\nresults = [{}]\n", names.join(", ")));
+        }
+        if let Some((name, most, _)) = &self.rank {
+            let section = if self.results.is_empty() {
+                "\n[question]\n"
+            } else {
+                ""
+            };
+            let best = if *most { "most" } else { "least" };
+            out.push_str(&format!(
+                "{section}rank = {}\nbest = \"{best}\"\n",
+                quoted(name)
+            ));
         }
         out
     }
@@ -299,10 +304,30 @@ fn single(scenario: &Scenario) -> Result<(), String> {
     }
 }
 
+/// The result that candidates are ranked by.
+fn rank(question: &mut Section, kind: &str) -> Result<Option<(String, bool, Place)>, Box<Problem>> {
+    if kind != "selection" {
+        question.known(&["results"], &[])?;
+        return Ok(None);
+    }
+    question.known(&["results", "rank", "best"], &[])?;
+    let Some((name, place)) = question.text("rank")? else {
+        let allowed =
+            "rank = \"peak_contact_force\" is needed: the result that candidates are ranked by";
+        return Err(question.wrong(Code::MissingKey, Place::Whole, "rank", "nothing", allowed));
+    };
+    let most = match question.text("best")? {
+        None => false,
+        Some(_) => question.word("best", &["least", "most"])? == "most",
+    };
+    Ok(Some((name, most, place)))
+}
+
 /// The word for the number of members, or of blocks.
 fn count_key(kind: &str) -> &'static str {
     match kind {
         "morris" | "saltelli" => "blocks",
+        "selection" => "draws",
         _ => "members",
     }
 }
@@ -332,9 +357,10 @@ fn shape(
         _ => None,
     };
     let key = count_key(kind);
-    match complete {
-        Some(_) => section.known(&["kind"], &[])?,
-        None => section.known(&["kind", key, "added"], &[])?,
+    match (&complete, kind) {
+        (Some(_), _) => section.known(&["kind"], &[])?,
+        (None, "selection") => section.known(&["kind", key], &[])?,
+        (None, _) => section.known(&["kind", key, "added"], &[])?,
     }
     let number = section.count(key)?;
     let (added, _) = section.count("added")?.unwrap_or((0, Place::Whole));
@@ -354,6 +380,7 @@ fn shape(
         "latin hypercube" => Some(Design::LatinHypercube(count, asked, 1)),
         "sobol" => Some(Design::Sobol(count, asked)),
         "morris" => Some(Design::Morris(count, asked)),
+        "selection" => Some(Design::Selection(levels(), asked)),
         _ => Some(Design::Saltelli(count, asked)),
     });
     let design = design.and_then(|design| {
@@ -380,103 +407,6 @@ fn shape(
             ))
         }
     }
-}
-
-fn inputs_of(
-    page: &Page,
-    scenario: &Scenario,
-    tables: Vec<Vec<Written>>,
-    kind: &str,
-) -> Result<Vec<StudyInput>, Box<Problem>> {
-    let mut inputs: Vec<StudyInput> = Vec::new();
-    for list in tables {
-        let mut section = Section::new(page, "input");
-        section.list = list;
-        let mut keys = vec!["path", "levels"];
-        keys.extend(WORDS);
-        section.known(&keys, &[])?;
-        let begin = section
-            .list
-            .first()
-            .map_or(Place::Whole, |(.., place)| *place);
-        let (path, place) = section.text("path")?.ok_or_else(|| {
-            let allowed = "path = \"contact.friction_coefficient\" is needed: the dotted path of a key of the scenario";
-            section.wrong(Code::MissingKey, begin, "path", "nothing", allowed)
-        })?;
-        if inputs.iter().any(|known| known.vary.path == path) {
-            return Err(section.wrong(
-                Code::Conflict,
-                place,
-                "path",
-                quoted(&path),
-                "each input once is needed",
-            ));
-        }
-        let given: Vec<&Written> = section
-            .list
-            .iter()
-            .filter(|(key, ..)| WORDS.contains(&key.as_str()))
-            .collect();
-        let [(word, value, at)] = given.as_slice() else {
-            let found = format!("{} distributions of {}", given.len(), quoted(&path));
-            let allowed = format!("one of {} is needed", WORDS.join(", "));
-            return Err(section.wrong(Code::Conflict, place, "path", found, allowed));
-        };
-        let distribution = Raw::Table(vec![(word.clone(), value.clone())]);
-        let vary = scenario
-            .varied(&path, &distribution, *at)
-            .map_err(|mut problem| {
-                problem.file = page.file.to_string();
-                problem.key = Some(format!("input.{word} of {path}"));
-                problem
-            })?;
-        let levelled = ["factorial", "sweep"].contains(&kind);
-        let given = section.count("levels")?;
-        let levels = match (&vary.distribution, given) {
-            (_, Some((_, place))) if !levelled => {
-                let allowed = "levels are those of a factorial or a sweep";
-                return Err(section.wrong(
-                    Code::UnusedKey,
-                    place,
-                    "levels",
-                    "a key that has no effect",
-                    allowed,
-                ));
-            }
-            (crate::scenario::Distribution::Choice(_), Some((_, place))) => {
-                let allowed = "a choice has its texts as levels";
-                return Err(section.wrong(
-                    Code::UnusedKey,
-                    place,
-                    "levels",
-                    "a key that has no effect",
-                    allowed,
-                ));
-            }
-            (crate::scenario::Distribution::Choice(texts), None) => texts.len(),
-            (_, Some((levels, place))) if !(2..=1000).contains(&levels) => {
-                let allowed = "a whole number from 2 to 1000 is needed";
-                return Err(section.wrong(
-                    Code::OutOfRange,
-                    place,
-                    "levels",
-                    levels.to_string(),
-                    allowed,
-                ));
-            }
-            (_, given) => given.map_or(LEVELS, |(levels, _)| levels),
-        };
-        inputs.push(StudyInput {
-            vary,
-            levels,
-            levels_given: given.is_some(),
-        });
-    }
-    if inputs.is_empty() {
-        let allowed = "a table [[input]] with path and distribution is needed for each value that differs from run to run";
-        return Err(page.problem(Code::MissingKey, Place::Whole, "input", "nothing", allowed));
-    }
-    Ok(inputs)
 }
 
 type Pair = (usize, usize, f64, Place);
@@ -558,7 +488,7 @@ fn correlation_of(
     let Some((.., place)) = pairs.first() else {
         return Ok(None);
     };
-    if ["factorial", "sweep", "morris", "saltelli"].contains(&kind) {
+    if ["factorial", "sweep", "morris", "saltelli", "selection"].contains(&kind) {
         let found = format!("correlated inputs of a {kind} design");
         let allowed = "its effects and indices belong to independent inputs; monte carlo, latin hypercube and sobol take correlated ones";
         return Err(page.problem(

@@ -1,6 +1,7 @@
 //! What the members of a study say: spread of each result, limits with their verdicts, which input matters.
 
 use super::Study;
+use super::selection::Candidate;
 use super::table::Table;
 use crate::result::limits;
 use crate::result::outcome::{Judged, Spread, Value, Verdict};
@@ -24,6 +25,8 @@ pub struct Answer {
     pub spreads: Vec<(String, &'static str, Option<Spread>)>,
     /// Limits with their verdicts.
     pub limits: Vec<StudyLimit>,
+    /// Candidates of a selection, the best first.
+    pub ranking: Vec<Candidate>,
     /// What each result that is shown owes to each input.
     pub sensitivity: Vec<(String, &'static str, Sensitivity)>,
 }
@@ -92,7 +95,12 @@ impl Study {
             let values = of(&known.name).into_iter().flatten().collect();
             (known.name.clone(), known.unit, Spread::of(values))
         });
-        let limits = self.file.limits.iter().map(|limit| {
+        // those of a selection are judged candidate by candidate
+        let judged = match design {
+            Design::Selection(..) => &[],
+            _ => self.file.limits.as_slice(),
+        };
+        let limits = judged.iter().map(|limit| {
             let unit = named.clone().find(|known| known.name == limit.quantity);
             let values = of(&limit.quantity);
             limit_of(
@@ -119,6 +127,7 @@ impl Study {
             asked: self.members(),
             spreads: spreads.collect(),
             limits: limits.collect(),
+            ranking: self.ranking(table),
             sensitivity: sensitivity.collect(),
         }
     }
@@ -149,7 +158,8 @@ impl Study {
             Design::Factorial(_)
             | Design::MonteCarlo(..)
             | Design::LatinHypercube(..)
-            | Design::Sobol(..) => None,
+            | Design::Sobol(..)
+            | Design::Selection(..) => None,
         }
     }
 }

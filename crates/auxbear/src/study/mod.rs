@@ -4,9 +4,11 @@
 //! |---|---|
 //! | here | a study ready to run; its members, one after the other in parts of [`PART`] |
 //! | [`table`] | drawn inputs beside results, a row a member |
+//! | [`selection`] | candidates judged by their limits and ranked |
 //! | [`answer`] | spread, limits and sensitivity from that table |
 
 pub mod answer;
+pub mod selection;
 pub mod table;
 
 use crate::problem::Problem;
@@ -52,7 +54,13 @@ impl Study {
             problem.file.clone_from(&file.file);
             problem
         })?;
-        for (name, place) in &file.results {
+        let rank = file
+            .rank
+            .iter()
+            .map(|(name, _, place)| ("question.rank", name, place));
+        let shown = file.results.iter();
+        let shown = shown.map(|(name, place)| ("question.results", name, place));
+        for (key, name, place) in shown.chain(rank) {
             let number = |known: &&Quantity| {
                 known.name == *name && matches!(known.value, Value::Number(_) | Value::None { .. })
             };
@@ -65,7 +73,7 @@ impl Study {
                     format!("\"{name}\", which is no number among the results of this scenario"),
                     "the name of a result is needed; summary.json of any such run lists them",
                 );
-                let problem = problem.at(*place).on_key("question.results");
+                let problem = problem.at(*place).on_key(key);
                 return Err(Box::new(problem.with_hint(did_you_mean(name, names))));
             }
         }

@@ -475,19 +475,19 @@ fn other_formats_and_systems_are_named() {
     );
     assert_eq!(
         message("system = \"drop\"", "system = \"mount\""),
-        "error[AB0112]: drop.toml:2: system: found \"mount\", which is planned but not built yet; one of \"drop\", \"spin_up\", \"torque\", \"signals\", \"rig\", \"identify\", \"rotor\", \"machine\" is needed"
+        "error[AB0112]: drop.toml:2: system: found \"mount\", which is planned but not built yet; one of \"drop\", \"spin_up\", \"torque\", \"signals\", \"rig\", \"identify\", \"rotor\", \"machine\", \"coast_down\" is needed"
     );
     assert_eq!(
         set_message("system=dorp"),
-        "error[AB0108]: drop.toml, --set: system: found \"dorp\"; one of \"drop\", \"spin_up\", \"torque\", \"signals\", \"rig\", \"identify\", \"rotor\", \"machine\" is needed. Did you mean \"drop\"?"
+        "error[AB0108]: drop.toml, --set: system: found \"dorp\"; one of \"drop\", \"spin_up\", \"torque\", \"signals\", \"rig\", \"identify\", \"rotor\", \"machine\", \"coast_down\" is needed. Did you mean \"drop\"?"
     );
     assert_eq!(
         message("system = \"drop\"", ""),
-        "error[AB0107]: drop.toml: system: found no value; one of \"drop\", \"spin_up\", \"torque\", \"signals\", \"rig\", \"identify\", \"rotor\", \"machine\" is needed"
+        "error[AB0107]: drop.toml: system: found no value; one of \"drop\", \"spin_up\", \"torque\", \"signals\", \"rig\", \"identify\", \"rotor\", \"machine\", \"coast_down\" is needed"
     );
     assert_eq!(
         message("system = \"drop\"", "system = 3"),
-        "error[AB0102]: drop.toml:2: system: found the number 3; one of \"drop\", \"spin_up\", \"torque\", \"signals\", \"rig\", \"identify\", \"rotor\", \"machine\" is needed"
+        "error[AB0102]: drop.toml:2: system: found the number 3; one of \"drop\", \"spin_up\", \"torque\", \"signals\", \"rig\", \"identify\", \"rotor\", \"machine\", \"coast_down\" is needed"
     );
 }
 

@@ -86,6 +86,11 @@ pub fn base(system: SystemName, path: &str) -> String {
 
 /// A run-out in which the key has a meaning; what is about the moment stands there already.
 fn run_out(path: &str) -> String {
+    // a speed that is tried is a small one
+    let slow = match path {
+        "rotor.speed" => "[coast_down]\nstop_speed = \"1e-9 rad/s\"\n",
+        _ => "",
+    };
     let points = match path {
         "bearing.moment.viscosity_points" => "",
         _ => {
@@ -93,7 +98,7 @@ fn run_out(path: &str) -> String {
         }
     };
     format!(
-        "[rotor]\nmass = \"8 kg\"\npolar_inertia = \"0.01 kg m^2\"\nspeed = \"-12000 rpm\"\n{points}"
+        "[rotor]\nmass = \"8 kg\"\npolar_inertia = \"0.01 kg m^2\"\nspeed = \"-12000 rpm\"\n{slow}{points}"
     )
 }
 

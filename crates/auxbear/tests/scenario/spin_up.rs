@@ -116,11 +116,11 @@ fn speeds_and_torques_are_read() {
 fn keys_and_sections_of_another_system_are_refused() {
     assert_eq!(
         set_message("rotor.mass=8 kg"),
-        "error[AB0110]: spin_up.toml, --set: rotor.mass: found a key that has no effect; it is used only with system = \"drop\"; here it is \"spin_up\""
+        "error[AB0110]: spin_up.toml, --set: rotor.mass: found a key that has no effect; it is used only with system = \"drop\" or \"coast_down\"; here it is \"spin_up\""
     );
     assert_eq!(
         message("[drive]", "[rotor]"),
-        "error[AB0110]: spin_up.toml:4: rotor: found a section that has no effect; it is used only with system = \"drop\" or \"rotor\" or \"machine\"; here it is \"spin_up\""
+        "error[AB0110]: spin_up.toml:4: rotor: found a section that has no effect; it is used only with system = \"drop\" or \"rotor\" or \"machine\" or \"coast_down\"; here it is \"spin_up\""
     );
     assert_eq!(
         set_message("contact.friction_coefficient=0.2"),

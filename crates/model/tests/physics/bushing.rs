@@ -114,8 +114,8 @@ fn turning_or_mirroring_the_machine_turns_or_mirrors_the_answer() {
         Vec2::new(c * v.x - s * v.y, s * v.x + c * v.y)
     };
     let mirrored = |v: Vec2<f64>| Vec2::new(-v.x, v.y);
-    let changes: [(&dyn Fn(Vec2<f64>) -> Vec2<f64>, f64, f64); 2] =
-        [(&turned, 1.0, 0.7), (&mirrored, -1.0, std::f64::consts::PI)];
+    type Change<'a> = (&'a dyn Fn(Vec2<f64>) -> Vec2<f64>, f64, f64);
+    let changes: [Change; 2] = [(&turned, 1.0, 0.7), (&mirrored, -1.0, std::f64::consts::PI)];
     let end = |constants: MachineConstants| {
         let machine = RotorMachine::new(constants);
         let start = machine.start();

@@ -5,7 +5,10 @@
 
 mod page;
 mod part;
+mod ranking;
 mod summary;
+
+pub use ranking::verdict as chosen;
 
 use super::directory::{REPORT, SCENARIO, SUMMARY, aside, exists, locked, misplaced};
 use crate::problem::{Code, Problem};

@@ -1,5 +1,6 @@
 //! The page of a study: inputs and verdicts first, then what each result does, and which input matters.
 
+use super::ranking;
 use crate::report::page::{STYLE, escape_text as plain};
 use crate::report::picture::{Panel, line, text};
 use crate::result::outcome::Verdict;
@@ -29,6 +30,7 @@ pub(super) fn html(study: &Study, table: &Table, answer: &Answer) -> String {
         plain(&subtitle(study, table, answer))
     );
     body.push_str(&inputs(study));
+    body.push_str(&ranking::html(study, answer));
     body.push_str(&verdicts(answer));
     body.push_str(&spreads(study, answer));
     for name in study.shown() {
@@ -66,7 +68,7 @@ fn subtitle(study: &Study, table: &Table, answer: &Answer) -> String {
     text
 }
 
-fn rows(head: &[&str], body: &[Vec<String>]) -> String {
+pub(super) fn rows(head: &[&str], body: &[Vec<String>]) -> String {
     let cells = |tag: &str, row: &[String]| {
         row.iter()
             .map(|cell| format!("<{tag}>{cell}</{tag}>"))
@@ -577,13 +579,13 @@ fn bars(rows: &[Bars], title: &str, label: &str) -> String {
 }
 
 /// A number to four digits.
-fn short(value: f64) -> String {
+pub(super) fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
     units::number_text(rounded)
 }
 
 /// A number with its unit, for people.
-fn amount(value: f64, unit: &str) -> String {
+pub(super) fn amount(value: f64, unit: &str) -> String {
     let (factor, label) = scaled("", unit, [value].into_iter());
     format!(
         "{} {}",

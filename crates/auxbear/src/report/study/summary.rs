@@ -1,8 +1,9 @@
 //! `summary.json` of a study.
 
-use crate::result::outcome::Spread;
+use crate::result::outcome::{Judged, Spread};
 use crate::study::Study;
 use crate::study::answer::{Answer, Sensitivity};
+use crate::study::selection::Candidate;
 use crate::study::table::Table;
 use serde_json::{Map, Value, json};
 
@@ -35,6 +36,8 @@ pub(super) fn json(study: &Study, table: &Table, answer: &Answer, complete: bool
         "members_failed": table.failed.len(),
         "inputs": inputs,
         "limits": limits,
+        "ranking": answer.ranking.iter().map(candidate).collect::<Vec<_>>(),
+        "ranked_by": study.file.rank.as_ref().map(|(name, most, _)| json!({"quantity": name, "best": if *most { "most" } else { "least" }})),
         "quantities": quantities,
         "sensitivity": sensitivity,
         "failed": failed,
@@ -58,8 +61,35 @@ fn quantity(unit: &str, spread: Option<&Spread>) -> Value {
     }
 }
 
+fn candidate(one: &Candidate) -> Value {
+    let values: Map<String, Value> = (one.values.iter())
+        .map(|(path, value)| (path.clone(), Value::String(value.clone())))
+        .collect();
+    json!({
+        "candidate": values,
+        "verdict": one.verdict.word(),
+        "quantile_95_percent": one.quantile,
+        "mean": one.mean,
+        "first_in_share_of_repetitions": one.first,
+        "first_member": one.member,
+        "draws": one.draws[0],
+        "draws_failed": one.draws[1],
+        "failed_why": one.why,
+        "limits": one.limits.iter().map(judged).collect::<Vec<_>>(),
+    })
+}
+
 fn limit(limit: &crate::study::answer::StudyLimit) -> Value {
-    let judged = &limit.judged;
+    let mut all = judged(&limit.judged);
+    all["share_beyond"] = json!(
+        limit
+            .beyond
+            .map(|(value, band)| json!({"value": value, "band_95_percent": band}))
+    );
+    all
+}
+
+fn judged(judged: &Judged) -> Value {
     json!({
         "quantity": judged.limit.quantity,
         "side": judged.limit.side.word(),
@@ -71,7 +101,6 @@ fn limit(limit: &crate::study::answer::StudyLimit) -> Value {
         "hold": judged.hold,
         "verdict": judged.verdict.word(),
         "why": judged.why,
-        "share_beyond": limit.beyond.map(|(value, band)| json!({"value": value, "band_95_percent": band})),
     })
 }
 

@@ -76,8 +76,10 @@ pub struct CoastDown {
     pub ball_material: BallMaterial,
     /// Diametral internal clearance as mounted, at the start temperature, m; negative is preload.
     pub operating_diametral_clearance: f64,
-    /// Groove radii of inner and outer race over ball diameter.
-    pub groove_curvatures: [f64; 2],
+    /// Groove radius of the inner race over ball diameter.
+    pub inner_groove_curvature: f64,
+    /// Groove radius of the outer race over ball diameter.
+    pub outer_groove_curvature: f64,
     /// Static load rating, N.
     pub static_load_rating: Option<f64>,
     /// Dynamic load rating, N.
@@ -175,10 +177,8 @@ impl CoastDown {
             pitch_diameter: bearing.number("pitch_diameter"),
             ball_material: ball_material(&bearing),
             operating_diametral_clearance: bearing.number("operating_diametral_clearance"),
-            groove_curvatures: [
-                bearing.number("inner_groove_curvature"),
-                bearing.number("outer_groove_curvature"),
-            ],
+            inner_groove_curvature: bearing.number("inner_groove_curvature"),
+            outer_groove_curvature: bearing.number("outer_groove_curvature"),
             static_load_rating: bearing.maybe("static_load_rating"),
             dynamic_load_rating: bearing.maybe("dynamic_load_rating"),
             limiting_speed: bearing.maybe("limiting_speed"),

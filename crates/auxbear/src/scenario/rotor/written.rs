@@ -94,7 +94,7 @@ pub(crate) fn is_part(system: SystemName, kind: &PartKind, value: &DeValue<'_>) 
 
 /// What is said of a part in a file of another system.
 fn no_effect(kind: &PartKind, file: &str) -> Problem {
-    if let Some(absent) = not_modelled::of(&kind.path()) {
+    if let Some(absent) = not_modelled::of(&kind.path(), SystemName::Rotor) {
         let found = "a key of what is not modelled yet";
         let problem = Problem::new(Code::NotModelled, file, found, absent.allowed());
         return problem.with_hint(absent.hint());

@@ -59,10 +59,9 @@ pub(crate) fn run_out(run: &CoastDown) -> Result<Built, Box<Problem>> {
         PointContact::new(shape.curvature(), modulus)
             .map_err(|why| problem("bearing", why.to_string(), "another groove is needed"))
     };
-    let [inner_groove, outer_groove] = run.groove_curvatures;
     let contacts = [
-        contact(Race::Inner, inner_groove)?,
-        contact(Race::Outer, outer_groove)?,
+        contact(Race::Inner, run.inner_groove_curvature)?,
+        contact(Race::Outer, run.outer_groove_curvature)?,
     ];
     let stiffness = joint_stiffness(contacts[0].stiffness, contacts[1].stiffness);
     let is_hybrid = run.ball_material == crate::scenario::BallMaterial::SiliconNitride;

@@ -9,7 +9,7 @@ use thermal::coast_down::{CoastDown as Coast, Coasting, Endless};
 use thermal::steady_speed::SteadySpeed;
 
 /// Largest ln(1/r) of a step: the conductances of its start hold for it.
-const LONGEST_STEP: f64 = 0.05;
+const LONGEST_STEP: f64 = 0.03;
 /// Capacity of a node that is held over its own.
 const HELD: f64 = 1e7;
 /// Temperature above which nothing of the model holds, °C: hardened steel is soft, oil and grease are gone.
@@ -96,7 +96,7 @@ pub(super) fn follow(
         if interrupt.load(Ordering::Relaxed) {
             break End::Interrupted;
         }
-        if state.temperatures.iter().any(|now| !(now.abs() < BEYOND)) {
+        if !state.temperatures.iter().all(|now| now.abs() < BEYOND) {
             break End::Beyond;
         }
         let machine = Coast {

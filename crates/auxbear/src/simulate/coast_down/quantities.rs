@@ -198,7 +198,7 @@ fn used(ran: &Ran, rating: f64) -> f64 {
         rating,
         ball_count: run.ball_count as f64,
         gamma,
-        grooves: run.groove_curvatures,
+        grooves: [run.inner_groove_curvature, run.outer_groove_curvature],
         contact_angle: 0.0,
     };
     let passages = passages_per_turn(run.ball_count as f64, gamma);
