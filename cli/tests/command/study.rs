@@ -320,6 +320,47 @@ fn candidates_meet_the_same_draws_and_are_ranked_with_their_reasons() {
 }
 
 #[test]
+fn members_near_a_limit_are_confirmed_at_design_accuracy_and_design_decides() {
+    let study = (STUDY.replace("members = 130", "members = 12"))
+        .replace("results = [", "confirm = 3\nresults = [");
+    let place = place(&study);
+    place.call(&["study", "study.toml", "--out", "s"]).done();
+    let text = table(&place, "s");
+    let mut rows = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let head = rows.next().unwrap();
+    let at = |name: &str| head.iter().position(|cell| cell.starts_with(name)).unwrap();
+    let (screening, design) = (at("first_impact_force"), at("confirmed.first_impact_force"));
+    let mut apart = Vec::new();
+    for row in rows {
+        let value: f64 = row[screening].parse().unwrap();
+        let confirmed = row[design].parse::<f64>().ok();
+        apart.push(((value - 700.0).abs(), confirmed.is_some()));
+        if let Some(design) = confirmed {
+            assert!(
+                (design / value - 1.0).abs() < 1e-2 && design != value,
+                "{design} {value}"
+            );
+        }
+    }
+    apart.sort_by(|a, b| a.0.total_cmp(&b.0));
+    assert!(
+        apart
+            .iter()
+            .enumerate()
+            .all(|(k, (_, confirmed))| *confirmed == (k < 3))
+    );
+    // going on changes nothing
+    place.call(&["study", "study.toml", "--out", "s"]).done();
+    assert_eq!(table(&place, "s"), text);
+    // nothing is confirmed of what is at design accuracy already
+    let design = study.replace(", \"run.accuracy=screening\"", "");
+    fs::write(place.path("study.toml"), design).unwrap();
+    place
+        .call(&["study", "study.toml", "--out", "t"])
+        .refused(&["AB2201", "question.confirm"]);
+}
+
+#[test]
 fn what_is_no_selection_is_refused() {
     for (old, new, words) in [
         ("rank = \"time_to_first_contact\"\n", "", "rank = "),

@@ -29,7 +29,7 @@ use crate::scenario::key::quoted;
 use crate::scenario::raw::{Written, collect, raw, tables};
 use crate::scenario::study_inputs::{StudyInput, inputs_of};
 use crate::scenario::study_section::{Page, Section};
-use crate::scenario::{BuiltIn, Limit, Scenario, System, read_text};
+use crate::scenario::{Accuracy, BuiltIn, Limit, Scenario, System, read_text};
 use std::path::{Path, PathBuf};
 use study::correlation::Correlation;
 use study::design::{Design, MOST_SOBOL, MOST_SOBOL_INPUTS};
@@ -79,6 +79,8 @@ pub struct StudyFile {
     pub limits: Vec<Limit>,
     /// Results that the page shows; all limits' where none are named.
     pub results: Vec<(String, Place)>,
+    /// Members nearest to each limit that are run again at design accuracy.
+    pub confirm: usize,
     /// The result that candidates of a selection are ranked by, and whether most of it is best.
     pub rank: Option<(String, bool, Place)>,
 }
@@ -174,9 +176,23 @@ impl StudyFile {
         let pairs = pairs_of(&page, correlations, &inputs)?;
         let correlation = correlation_of(&page, &pairs, inputs.len(), kind)?;
         let rank = rank(&mut question, kind)?;
+        let confirm = question.count("confirm")?;
         let results = question.texts("results")?;
         let mut limits = scenario.limits_of(file, limits)?;
         limits.extend(scenario.limits.iter().cloned());
+        if let Some((1.., place)) = confirm {
+            let at_screening = matches!(&scenario.system, System::Drop(drop) if drop.run.accuracy == Accuracy::Screening);
+            if !at_screening || limits.is_empty() {
+                let allowed = "a limit, and members at screening accuracy (set = [\"run.accuracy=screening\"]), are needed: those nearest to a limit are run again at design accuracy";
+                return Err(question.wrong(
+                    Code::StudyDesign,
+                    place,
+                    "confirm",
+                    "nothing to confirm",
+                    allowed,
+                ));
+            }
+        }
         Ok(StudyFile {
             file: file.to_string(),
             title: head.text("title")?.map(|(title, _)| title),
@@ -194,6 +210,7 @@ impl StudyFile {
             correlation,
             limits,
             results,
+            confirm: confirm.map_or(0, |(count, _)| count),
             rank,
         })
     }
@@ -267,17 +284,15 @@ impl StudyFile {
             let names: Vec<String> = self.results.iter().map(|(name, _)| quoted(name)).collect();
             out.push_str(&format!("\n[question]\nresults = [{}]\n", names.join(", ")));
         }
+        if self.results.is_empty() && (self.confirm > 0 || self.rank.is_some()) {
+            out.push_str("\n[question]\n");
+        }
+        if self.confirm > 0 {
+            out.push_str(&format!("confirm = {}\n", self.confirm));
+        }
         if let Some((name, most, _)) = &self.rank {
-            let section = if self.results.is_empty() {
-                "\n[question]\n"
-            } else {
-                ""
-            };
             let best = if *most { "most" } else { "least" };
-            out.push_str(&format!(
-                "{section}rank = {}\nbest = \"{best}\"\n",
-                quoted(name)
-            ));
+            out.push_str(&format!("rank = {}\nbest = \"{best}\"\n", quoted(name)));
         }
         out
     }
@@ -307,10 +322,10 @@ fn single(scenario: &Scenario) -> Result<(), String> {
 /// The result that candidates are ranked by.
 fn rank(question: &mut Section, kind: &str) -> Result<Option<(String, bool, Place)>, Box<Problem>> {
     if kind != "selection" {
-        question.known(&["results"], &[])?;
+        question.known(&["results", "confirm"], &[])?;
         return Ok(None);
     }
-    question.known(&["results", "rank", "best"], &[])?;
+    question.known(&["results", "confirm", "rank", "best"], &[])?;
     let Some((name, place)) = question.text("rank")? else {
         let allowed =
             "rank = \"peak_contact_force\" is needed: the result that candidates are ranked by";

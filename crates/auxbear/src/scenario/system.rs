@@ -96,6 +96,16 @@ pub(crate) const FALLING: &[SystemName] = &[SystemName::Drop, SystemName::Machin
 /// Systems whose rotor is a shaft of parts.
 pub(crate) const SHAFT: &[SystemName] = &[SystemName::Rotor, SystemName::Machine];
 
+/// Systems in which a cage turns as a body, or its inertia counts.
+pub(crate) const WITH_CAGE: &[SystemName] = &[
+    SystemName::Drop,
+    SystemName::SpinUp,
+    SystemName::Torque,
+    SystemName::Rig,
+    SystemName::Identify,
+    SystemName::Machine,
+];
+
 /// Systems whose balls carry loads by their contacts.
 pub(crate) const WITH_BALLS: &[SystemName] = &[
     SystemName::Drop,

@@ -102,7 +102,8 @@ impl Study {
         };
         let limits = judged.iter().map(|limit| {
             let unit = named.clone().find(|known| known.name == limit.quantity);
-            let values = of(&limit.quantity);
+            let decisive = self.decisive(table, &limit.quantity);
+            let values: Vec<Option<f64>> = some.iter().map(|at| decisive[*at]).collect();
             limit_of(
                 limit,
                 unit.map_or("", |known| known.unit),

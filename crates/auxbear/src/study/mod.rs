@@ -5,9 +5,11 @@
 //! | here | a study ready to run; its members, one after the other in parts of [`PART`] |
 //! | [`table`] | drawn inputs beside results, a row a member |
 //! | [`selection`] | candidates judged by their limits and ranked |
+//! | [`confirm`] | members near a limit, once more at design accuracy |
 //! | [`answer`] | spread, limits and sensitivity from that table |
 
 pub mod answer;
+pub mod confirm;
 pub mod selection;
 pub mod table;
 
@@ -120,8 +122,21 @@ impl Study {
 
     /// Runs some members. None where this was interrupted.
     pub fn run(&self, members: Range<usize>, options: &Options) -> Option<Table> {
-        let drawn: Vec<Drawn> = members.clone().map(|k| self.drawn(k)).collect();
-        let read = |drawn: &Drawn| self.file.scenario.with(&drawn.values);
+        self.run_with(&members.collect::<Vec<_>>(), &[], options)
+    }
+
+    /// Runs some members with values that all of them have besides. None where this was interrupted.
+    fn run_with(
+        &self,
+        members: &[usize],
+        all: &[(String, String)],
+        options: &Options,
+    ) -> Option<Table> {
+        let drawn: Vec<Drawn> = members.iter().map(|k| self.drawn(*k)).collect();
+        let read = |drawn: &Drawn| {
+            let values = drawn.values.iter().chain(all).cloned();
+            self.file.scenario.with(&values.collect::<Vec<_>>())
+        };
         let scenarios: Vec<_> = {
             use rayon::prelude::*;
             drawn.par_iter().map(read).collect()
@@ -130,8 +145,9 @@ impl Study {
         if options.interrupt.load(std::sync::atomic::Ordering::Relaxed) {
             return None;
         }
-        let rows = (members.zip(drawn).zip(singles)).map(|((member, drawn), single)| Row {
-            member,
+        let members = members.iter().zip(drawn).zip(singles);
+        let rows = members.map(|((member, drawn), single)| Row {
+            member: *member,
             inputs: drawn.numbers,
             whole: single.stop.complete(),
             why: (!single.stop.complete()).then_some(single.stop.text),

@@ -68,7 +68,7 @@ impl Study {
             let own = members.filter(|(_, member)| **member / draws == candidate);
             own.map(|(row, _)| row).collect()
         };
-        let ranked = table.values(name);
+        let ranked = self.decisive(table, name);
         let count = self.members() / draws;
         let all: Vec<Vec<usize>> = (0..count).map(rows).collect();
         let mut found: Vec<Candidate> = (all.iter().enumerate())
@@ -115,7 +115,7 @@ impl Study {
         };
         let limits: Vec<Judged> = (self.file.limits.iter())
             .map(|limit| {
-                let values = of(&table.values(&limit.quantity));
+                let values = of(&self.decisive(table, &limit.quantity));
                 limits::judge(limit, self.unit_of(&limit.quantity), &values, LACKING)
             })
             .collect();
@@ -177,9 +177,11 @@ impl Study {
 fn quantile(mut values: Vec<f64>, most: bool) -> Option<f64> {
     values.retain(|value| value.is_finite());
     values.sort_by(f64::total_cmp);
+    if most {
+        values.reverse();
+    }
     let last = values.len().checked_sub(1)?;
-    let share = if most { 1.0 - QUANTILE } else { QUANTILE };
-    let place = share * last as f64;
+    let place = QUANTILE * last as f64;
     let below = place as usize;
     let above = (below + 1).min(last);
     Some(values[below] + (place - below as f64) * (values[above] - values[below]))

@@ -128,7 +128,7 @@ fn keys_and_sections_of_another_system_are_refused() {
     );
     assert_eq!(
         set_message("rotor.speed=800 rad/s"),
-        "error[AB0110]: spin_up.toml, --set: rotor.speed: found a key that has no effect; it is used only with system = \"drop\" or \"rotor\" or \"machine\"; here it is \"spin_up\". Did you mean \"drive.rotor_speed\"?"
+        "error[AB0110]: spin_up.toml, --set: rotor.speed: found a key that has no effect; it is used only with system = \"drop\" or \"rotor\" or \"machine\" or \"coast_down\"; here it is \"spin_up\". Did you mean \"drive.rotor_speed\"?"
     );
     let shown = set_message("repeat.count=8");
     assert!(shown.starts_with("error[AB0110]: spin_up.toml, --set: repeat.count: found a key that has no effect; it is used only with system = \"drop\" or \"machine\"; here it is \"spin_up\". Only drops are repeated"), "{shown}");

@@ -509,9 +509,9 @@ fn examples_and_defaults_are_right_values() {
                     "catalogue",
                     "bearing.lubricant_state.kind",
                 ];
-                // the one law of a run-out, whose viscosity is that of two points
-                let law = *system == SystemName::CoastDown
-                    && ["bearing.moment.law", "bearing.moment.viscosity"].contains(&key.path);
+                // a run-out has one law, and its viscosity by two points
+                let law =
+                    *system == SystemName::CoastDown && key.path.starts_with("bearing.moment.");
                 let needs_more = law
                     || alone.contains(&key.path)
                     || ["palmgren", "proportional", "inner land", "outer land"].contains(&text);

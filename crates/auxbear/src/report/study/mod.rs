@@ -166,7 +166,34 @@ impl Directory {
             done += count;
             progress(done as f64);
         }
+        self.confirm(options)?;
         self.told()
+    }
+
+    /// Runs the members nearest to the limits again, once all members are there.
+    fn confirm(&self, options: &Options) -> Result<(), Box<Problem>> {
+        if self.study.file.confirm == 0 {
+            return Ok(());
+        }
+        let table = screened(&self.path, &self.study)?;
+        let near = self.study.nearest(&table);
+        if near.is_empty() || table.members.len() < self.study.members() {
+            return Ok(());
+        }
+        let place = confirmed_path(&self.path);
+        if place.exists() && part::read(&place, &self.study)?.members == near {
+            return Ok(());
+        }
+        let quiet = Options {
+            progress: &|_| {},
+            ..*options
+        };
+        match self.study.confirmed(&near, &quiet) {
+            None => Ok(()),
+            Some(table) => aside(&place, |file| {
+                part::write(&file, &table).map_err(super::directory::io_error)
+            }),
+        }
     }
 
     /// Some parts, computed together where they follow each other. None where this was interrupted.
@@ -223,8 +250,18 @@ pub fn read(path: &Path) -> Result<(Study, Table), Box<Problem>> {
     Ok((study, table))
 }
 
-/// The members that are there, with results in the order of a run.
+/// The members that are there, with what was confirmed of them.
 fn table_of(path: &Path, study: &Study) -> Result<Table, Box<Problem>> {
+    let mut table = screened(path, study)?;
+    let confirmed = confirmed_path(path);
+    if confirmed.exists() {
+        study.with_confirmed(&mut table, &part::read(&confirmed, study)?);
+    }
+    Ok(table)
+}
+
+/// The members that are there, with results in the order of a run.
+fn screened(path: &Path, study: &Study) -> Result<Table, Box<Problem>> {
     let mut table = Table::default();
     for part in 0..part_count(study) {
         let place = part_path(path, part);
@@ -316,6 +353,11 @@ fn members_of(study: &Study, part: usize) -> std::ops::Range<usize> {
 
 fn part_path(path: &Path, part: usize) -> PathBuf {
     path.join(MEMBERS).join(format!("{part:04}.parquet"))
+}
+
+/// Members at design accuracy.
+fn confirmed_path(path: &Path) -> PathBuf {
+    path.join(MEMBERS).join("confirmed.parquet")
 }
 
 /// Writes a text, whole or not at all.

@@ -9,7 +9,7 @@ use crate::scenario::bearing::kind::Modelled;
 use crate::scenario::bearing::separation::SeparationKind;
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
 use crate::scenario::system::{
-    FALLING, FREE_RACE, MOVING, RACE_MASS, SystemName, WITH_BALLS as LOADED, WITH_MOMENT,
+    FALLING, FREE_RACE, MOVING, RACE_MASS, SystemName, WITH_BALLS as LOADED, WITH_CAGE, WITH_MOMENT,
 };
 use crate::scenario::words::Words;
 
@@ -250,7 +250,8 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .positive()
     .derived("cage_mass (pitch_diameter/2)^2: a thin ring at the pitch circle")
-    .when(CAGE),
+    .when(CAGE)
+    .only(WITH_CAGE),
     Key::new(
         "bearing.ball_mass",
         Kind::Quantity("kg"),

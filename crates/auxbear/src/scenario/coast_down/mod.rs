@@ -4,9 +4,9 @@ pub(crate) mod checks;
 pub(crate) mod derive;
 pub(crate) mod keys;
 
+use crate::scenario::bearing::ball_material;
 use crate::scenario::bearing::kind::{BallMaterial, BearingType};
 use crate::scenario::bearing::moment::{Moment, RatedBearing};
-use crate::scenario::bearing::{ball_material, cage_ring_mass};
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
 use crate::scenario::words::words;
@@ -183,7 +183,7 @@ impl CoastDown {
             dynamic_load_rating: bearing.maybe("dynamic_load_rating"),
             limiting_speed: bearing.maybe("limiting_speed"),
             inner_race_mass: bearing.number("inner_race_mass"),
-            cage_mass: cage_ring_mass(&bearing),
+            cage_mass: bearing.maybe("cage_mass").unwrap_or(0.0),
             ball_mass: bearing.maybe("ball_mass"),
             moment: Moment::from_values(values),
             viscosity_points: values
