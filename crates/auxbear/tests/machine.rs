@@ -348,8 +348,8 @@ fn what_cannot_be_is_refused_with_its_place() {
         ),
         (
             "[[rotor.support]]\nat = \"0.05 m\"",
-            "[[rotor.seal]]\nat = \"0.05 m\"",
-            "a seal in a run",
+            "[[rotor.seal]]\nat = \"0.05 m\"\nadded_mass = \"1 kg\"",
+            "a seal with mass in a run",
         ),
         (
             "radial_air_clearance = \"0.25 mm\"",
@@ -521,4 +521,44 @@ fn the_rotor_of_a_machine_is_analysed() {
     );
     near(number(&outcome, "rated_speed"), 942.477_796, 1e-8);
     assert!(rotor.rotor_alone().is_none());
+}
+
+/// A seal at mid-span of the shipped expander.
+fn sealed(cross: &str) -> Outcome {
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../scenarios/machine_expander.toml"
+    );
+    let text = std::fs::read_to_string(path).unwrap();
+    let seal = format!(
+        "\n[[rotor.seal]]\nname = \"labyrinth\"\nat = \"0.2 m\"\nstiffness = \"2e5 N/m\"\nstiffness_xy = \"{cross}\"\ndamping = \"300 N s/m\"\n"
+    );
+    let sets = ["run.duration=60 ms".to_string()];
+    let scenario = Scenario::parse(&(text + &seal), "sealed.toml", &sets, &BuiltIn).unwrap();
+    let never = AtomicBool::new(false);
+    run(&scenario, &Options::unwatched(&never)).unwrap()
+}
+
+#[test]
+fn a_seal_acts_on_after_the_release_and_the_ledger_closes() {
+    let value = |outcome: &Outcome, name: &str| {
+        let quantity = outcome.quantities.iter().find(|q| q.name == name).unwrap();
+        match quantity.value {
+            Value::Number(value) => value,
+            ref other => panic!("{name}: {other:?}"),
+        }
+    };
+    let [plain, coupled] = ["0 N/m", "4e5 N/m"].map(sealed);
+    for outcome in [&plain, &coupled] {
+        assert!(outcome.stop.complete(), "{:?}", outcome.stop);
+        assert!(value(outcome, "energy_residual").abs() < 1e-6);
+        assert!(value(outcome, "angular_momentum_residual").abs() < 1e-6);
+        let damped = outcome
+            .history
+            .iter()
+            .find(|c| c.name == "energy.heat.seal_damping");
+        assert!(*damped.unwrap().values.last().unwrap() > 0.0);
+    }
+    let force = |outcome: &_| value(outcome, "wheel_end.peak_contact_force");
+    assert_ne!(force(&plain), force(&coupled));
 }

@@ -1,6 +1,6 @@
 //! Parts and systems.
 //!
-//! A *part* ([`bearing`], [`contact`], [`mount`], [`levitation`], [`rotor`]) turns a motion into a reaction and
+//! A *part* ([`bearing`], [`contact`], [`mount`], [`levitation`], [`seal`], [`rotor`]) turns a motion into a reaction and
 //! reports the heat it makes. A *system* ([`system`]) unpacks motions from its state, lets its parts react, and
 //! accelerates its bodies: one page that reads like the equations.
 //!
@@ -17,6 +17,7 @@ pub mod motion;
 pub mod mount;
 pub mod rotor;
 pub mod schedule;
+pub mod seal;
 pub mod sensor;
 pub mod surface_heat;
 pub mod system;

@@ -91,6 +91,12 @@ impl Coefficients {
         }
     }
 
+    /// Rows of (speed rad/s, block), one of what is the same at every speed.
+    #[must_use]
+    pub fn rows(&self) -> &[(f64, Block)] {
+        &self.rows
+    }
+
     /// First and last speed of a table, rad/s; `None` of constants.
     #[must_use]
     pub fn range(&self) -> Option<(f64, f64)> {

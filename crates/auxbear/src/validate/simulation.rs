@@ -225,6 +225,7 @@ pub(super) fn falling_machine(
             carried: Vec2::zero(),
         },
         magnets: Vec::new(),
+        seals: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
             node: vec![1.0],
@@ -299,6 +300,7 @@ pub(super) fn constants(
             carried: -(gravity * machine.rotor_mass),
         },
         magnets: Vec::new(),
+        seals: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
             node: vec![1.0],

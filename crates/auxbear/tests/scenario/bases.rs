@@ -86,9 +86,10 @@ pub fn base(system: SystemName, path: &str) -> String {
 
 /// A run-out in which the key has a meaning; what is about the moment stands there already.
 fn run_out(path: &str) -> String {
-    // a speed that is tried is a small one
-    let slow = match path {
+    // a speed that is tried is a small one, and a vacuum needs a way out for the heat
+    let beside = match path {
         "rotor.speed" => "[coast_down]\nstop_speed = \"1e-9 rad/s\"\n",
+        "heat.atmosphere" => "[heat]\nsurroundings = \"1 W/K\"\n",
         _ => "",
     };
     let points = match path {
@@ -98,7 +99,7 @@ fn run_out(path: &str) -> String {
         }
     };
     format!(
-        "[rotor]\nmass = \"8 kg\"\npolar_inertia = \"0.01 kg m^2\"\nspeed = \"-12000 rpm\"\n{slow}{points}"
+        "[rotor]\nmass = \"8 kg\"\npolar_inertia = \"0.01 kg m^2\"\nspeed = \"-12000 rpm\"\n{beside}{points}"
     )
 }
 

@@ -4,11 +4,12 @@ use crate::machines::bent::bent;
 use crate::machines::{Blind, by, settings, vec2};
 use model::levitation::{Fade, FadingMagnet};
 use model::mount::{FrictionRing, HardStop, Housing, MaxwellBranch, MountParts, SqueezeFilm};
+use model::seal::SealConstants;
 use model::system::machine::simulate::Steps;
 use model::system::machine::{MachineConstants, RotorMachine};
 use solve::Stop;
 
-/// A drop with everything that a rotor may have, gyroscopic moments, both dampings, drive, drag, magnets that fade, gravity, and
+/// A drop with everything that a rotor may have, gyroscopic moments, both dampings, drive, drag, magnets that fade, a seal, gravity, and
 /// with a mount of every part.
 fn loaded() -> (MachineConstants, Vec<f64>) {
     let (mut constants, start) = bent(3e4);
@@ -24,6 +25,15 @@ fn loaded() -> (MachineConstants, Vec<f64>) {
             decay_rate: 500.0,
             cut: 0.0,
         },
+    }];
+    constants.seals = vec![SealConstants {
+        node: constants.bearings[1].node.clone(),
+        centre: vec2(2e-5, -1e-5),
+        rows: vec![
+            (0.0, [2e5, 5e4, -3e4, 1e5], [200.0, 30.0, 10.0, 100.0]),
+            (500.0, [3e5, 9e4, -7e4, 2e5], [300.0, 30.0, 10.0, 200.0]),
+            (1500.0, [1e5, 2e5, -2e5, 1e5], [300.0, 0.0, 0.0, 300.0]),
+        ],
     }];
     constants.bearings[1].mount_parts = MountParts {
         branches: vec![MaxwellBranch {

@@ -285,6 +285,7 @@ pub fn reference() -> MachineConstants {
             carried: vec2(0.0, rotor_mass * G),
         },
         magnets: Vec::new(),
+        seals: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
             node: vec![1.0],

@@ -10,6 +10,7 @@ mod lubricant;
 mod oil;
 mod relatives;
 mod rest;
+mod seals;
 mod separation;
 mod several;
 mod spin_up;

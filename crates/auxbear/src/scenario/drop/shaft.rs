@@ -45,19 +45,39 @@ impl Shaft {
     pub(crate) fn of(document: &Document, all: &[Values]) -> Result<Shaft, Box<Problem>> {
         let values = &all[0];
         let parts = parts::resolve(document, values)?;
-        for part in &parts {
-            if ["seal", "housing"].contains(&part.kind.word) {
-                let found = format!("a {} in a run", part.kind.word);
-                let allowed = "it is computed with system = \"rotor\" alone";
-                return Err(Box::new(part.problem(
-                    Code::NotModelled,
-                    "",
-                    found,
-                    allowed,
-                )));
-            }
+        let not_in_runs = |part: &parts::Part, key: &'static str, found: &str, allowed: &str| {
+            Err(Box::new(part.problem(
+                Code::NotModelled,
+                key,
+                found,
+                allowed,
+            )))
+        };
+        const ALONE: &str = "it is computed with system = \"rotor\" alone";
+        if let Some(part) = parts.iter().find(|part| part.kind.word == "housing") {
+            return not_in_runs(part, "", "a housing in a run", ALONE);
         }
         let model = build::model(&parts, values)?;
+        let seals = parts.iter().filter(|part| part.kind.word == "seal");
+        let supports = model.rotor.supports.iter().filter(|support| support.seal);
+        for (part, support) in seals.zip(supports) {
+            for (_, block) in support.coefficients.rows() {
+                let [[xx, xy], [yx, yy]] = block.damping;
+                let across = 0.5 * (xy + yx);
+                if block.mass != [[0.0; 2]; 2] {
+                    return not_in_runs(part, "", "a seal with mass in a run", ALONE);
+                }
+                if xx < 0.0 || yy < 0.0 || xx * yy < across * across {
+                    let found = "a seal in a run whose damping makes energy";
+                    return not_in_runs(
+                        part,
+                        "",
+                        found,
+                        "damping that takes energy from every motion is needed, in every row",
+                    );
+                }
+            }
+        }
         let support = parts.iter().find(|part| part.kind.word == "support");
         match (support, &model.levitation) {
             (Some(part), Some(_)) => {

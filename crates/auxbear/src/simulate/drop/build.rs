@@ -74,6 +74,7 @@ pub fn drop(drop: &Drop) -> Result<Built, Box<Problem>> {
     if let Some(built) = &shaft {
         constants.rotor = built.rotor.clone();
         constants.magnets = built.magnets.clone();
+        constants.seals = built.seals.clone();
     }
     Ok(Built {
         constants,
@@ -206,6 +207,7 @@ fn constants(drop: &Drop, bearings: Vec<AuxiliaryBearingConstants>) -> MachineCo
             carried: -(gravity * mass),
         },
         magnets: Vec::new(),
+        seals: Vec::new(),
         bearings,
         gravity,
         speed: drop.rotor.speed,

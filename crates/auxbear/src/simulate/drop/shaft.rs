@@ -9,6 +9,7 @@ use levitation::response::{equilibrium, start};
 use levitation::{ClosedLoop, Plant, weight};
 use model::levitation::{Fade, FadingMagnet};
 use model::rotor::{Coordinate, RotorConstants, Unbalance};
+use model::seal::SealConstants;
 use nalgebra::{DMatrix, DVector};
 use number::Vec2;
 use physics::magnet::Magnet;
@@ -26,6 +27,8 @@ pub struct BuiltShaft {
     pub places: Vec<usize>,
     /// Magnets whose currents decay.
     pub magnets: Vec<FadingMagnet>,
+    /// Seals.
+    pub seals: Vec<SealConstants>,
     /// Where its coordinates are at the release, m √kg.
     pub position: Vec<Vec2<f64>>,
     /// Their rates, m √kg/s.
@@ -79,15 +82,18 @@ pub(crate) fn build(
     let basis = basis(shaft, rotor, &matrices)?;
     let within = Analysis::new(rotor, &matrices, basis);
     let loads = weight(rotor, &within, [gravity.x, gravity.y]);
-    let ((position, velocity), currents, mut held) = match &shaft.model.levitation {
+    let Held {
+        steady: (position, velocity),
+        still,
+        currents,
+        modes: mut held,
+    } = match &shaft.model.levitation {
         Some(_) => on_magnets(drop, shaft, &within, &loads)?,
-        None => {
-            let (steady, held) = on_supports(drop, rotor, &matrices, &within, &loads)?;
-            (steady, Vec::new(), held)
-        }
+        None => on_supports(drop, rotor, &matrices, &within, &loads)?,
     };
     held.sort_by(|a, b| a.frequency.abs().total_cmp(&b.frequency.abs()));
     let magnets = fading(shaft, &within.basis, &position, &currents);
+    let seals = seals(rotor, &within.basis, &still);
     let places = places(shaft);
     let mut constants = constants(drop, shaft, &matrices, &within.basis);
     if constants.polar_inertia.partial_cmp(&0.0) != Some(Ordering::Greater) {
@@ -107,6 +113,7 @@ pub(crate) fn build(
         nodes,
         places,
         magnets,
+        seals,
         position,
         velocity,
         held,
@@ -230,13 +237,23 @@ pub(crate) fn planes(rotor: &Rotor, basis: &Basis) -> Vec<Unbalance> {
 /// Coordinates and their rates.
 type Steady = (Vec<Vec2<f64>>, Vec<Vec2<f64>>);
 
+/// A rotor as it is held until the release.
+struct Held {
+    steady: Steady,
+    /// Coordinates at which its seals are centred.
+    still: Vec<Vec2<f64>>,
+    /// Control currents of the magnet axes, A.
+    currents: Vec<f64>,
+    modes: Vec<HeldMode>,
+}
+
 /// The steady motion on magnets, which must hold the rotor.
 fn on_magnets(
     drop: &Drop,
     shaft: &Shaft,
     within: &Analysis,
     loads: &DVector<f64>,
-) -> Result<(Steady, Vec<f64>, Vec<HeldMode>), Box<Problem>> {
+) -> Result<Held, Box<Problem>> {
     let Some(model) = &shaft.model.levitation else {
         return Err(failed("no magnets"));
     };
@@ -272,11 +289,13 @@ fn on_magnets(
             .map(|k| Vec2::new(list[k], list[size + k]))
             .collect()
     };
-    Ok((
-        (pairs(&start.coordinates), pairs(&start.rates)),
-        start.currents,
-        held,
-    ))
+    Ok(Held {
+        steady: (pairs(&start.coordinates), pairs(&start.rates)),
+        // the loop holds the rotor about the middle of its magnets
+        still: vec![Vec2::zero(); size],
+        currents: start.currents,
+        modes: held,
+    })
 }
 
 /// The steady motion on springs and dampers that also carry the weight, as a levitation does: at rest no support is displaced.
@@ -286,10 +305,11 @@ fn on_supports(
     matrices: &Matrices,
     within: &Analysis,
     loads: &DVector<f64>,
-) -> Result<(Steady, Vec<HeldMode>), Box<Problem>> {
+) -> Result<Held, Box<Problem>> {
     let basis = &within.basis;
     let size = basis.len();
-    let mut nodes: Vec<usize> = (rotor.supports.iter())
+    // a seal carries no weight
+    let mut nodes: Vec<usize> = (rotor.supports.iter().filter(|support| !support.seal))
         .filter_map(|support| match support.at {
             Place::Node(node) => Some(node),
             Place::Housing(_) => None,
@@ -338,7 +358,36 @@ fn on_supports(
             plane(spin * (with - against)),
         )
     });
-    Ok((steady.unzip(), held))
+    Ok(Held {
+        steady: steady.unzip(),
+        still: (0..size).map(|k| Vec2::new(x[k], y[k])).collect(),
+        currents: Vec::new(),
+        modes: held,
+    })
+}
+
+/// The seals, centred where the rotor is held at rest.
+fn seals(rotor: &Rotor, basis: &Basis, still: &[Vec2<f64>]) -> Vec<SealConstants> {
+    let seals = rotor.supports.iter().filter(|support| support.seal);
+    seals
+        .filter_map(|seal| {
+            let Place::Node(node) = seal.at else {
+                return None;
+            };
+            let node = row(basis, node);
+            let pairs = node.iter().zip(still);
+            let centre = pairs.fold(Vec2::zero(), |sum, (share, own)| sum + *own * *share);
+            let axes = |m: [[f64; 2]; 2]| [m[0][0], m[0][1], m[1][0], m[1][1]];
+            let rows = seal.coefficients.rows().iter();
+            let rows =
+                rows.map(|(speed, block)| (*speed, axes(block.stiffness), axes(block.damping)));
+            Some(SealConstants {
+                centre,
+                rows: rows.collect(),
+                node,
+            })
+        })
+        .collect()
 }
 
 /// The magnets as their currents decay: force and k_s about the release.

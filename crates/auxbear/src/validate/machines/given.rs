@@ -253,6 +253,7 @@ pub(super) fn machine(
             carried: Vec2::zero(),
         },
         magnets: Vec::new(),
+        seals: Vec::new(),
         bearings: bearings.collect::<Result<_, _>>()?,
         gravity,
         speed,

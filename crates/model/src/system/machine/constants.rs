@@ -4,6 +4,7 @@ use crate::auxiliary_bearing::AuxiliaryBearingConstants;
 use crate::levitation::{FadingMagnet, Levitation};
 use crate::rotor::RotorConstants;
 use crate::schedule::Schedule;
+use crate::seal::SealConstants;
 use number::Vec2;
 
 /// Constants of one machine.
@@ -15,6 +16,8 @@ pub struct MachineConstants {
     pub levitation: Levitation<f64>,
     /// Magnets whose currents decay after the release.
     pub magnets: Vec<FadingMagnet>,
+    /// Seals, before and after the release.
+    pub seals: Vec<SealConstants>,
     /// The auxiliary bearings, one at least.
     pub bearings: Vec<AuxiliaryBearingConstants>,
     /// Gravity, m/s².
@@ -38,7 +41,8 @@ impl MachineConstants {
     /// Why a machine cannot be computed.
     pub(super) fn fault(&self) -> Option<&'static str> {
         let rows = self.bearings.iter().map(|part| &part.node);
-        let mut rows = rows.chain(self.magnets.iter().map(|magnet| &magnet.node));
+        let rows = rows.chain(self.magnets.iter().map(|magnet| &magnet.node));
+        let mut rows = rows.chain(self.seals.iter().map(|seal| &seal.node));
         let count = self.rotor.coordinates.len();
         let still = |row: &[f64]| row.iter().all(|shape| *shape == 0.0);
         if self.bearings.is_empty() {

@@ -37,6 +37,10 @@ pub struct RotorLedger {
     pub drag: Option<usize>,
     /// Work of the fading magnets.
     pub magnets: Option<usize>,
+    /// Work of the stiffness of seals.
+    pub seals: Option<usize>,
+    /// Heat of the damping of seals.
+    pub seal_damping: Option<usize>,
 }
 
 /// Gravity that scales speeds where there is less, m/s²: a rotor in a vertical machine still touches.
@@ -89,10 +93,15 @@ impl Layout {
             damping_rotating: heat(!own.damping_rotating.is_empty(), "shaft_damping_rotating"),
             drag: heat(own.drag != 0.0 || own.drag_square != 0.0, "rotor_drag"),
             magnets: None,
+            seals: None,
+            seal_damping: heat(!constants.seals.is_empty(), "seal_damping"),
         };
         channels.sources_of("", ROTOR_SOURCES);
         if !constants.magnets.is_empty() {
             of_rotor.magnets = Some(channels.sources_of("", ["magnets"]));
+        }
+        if !constants.seals.is_empty() {
+            of_rotor.seals = Some(channels.sources_of("", ["seals"]));
         }
         let mut probes = parts.len() * probe::COUNT;
         let mut bearings = Vec::with_capacity(parts.len());
@@ -205,14 +214,17 @@ impl Layout {
         }
         scale[self.source(0)..self.source(ROTOR_SOURCES.len())].fill(energy);
         let own = self.of_rotor;
-        for heat in [own.damping, own.damping_rotating, own.drag]
-            .into_iter()
-            .flatten()
-        {
+        let heats = [
+            own.damping,
+            own.damping_rotating,
+            own.drag,
+            own.seal_damping,
+        ];
+        for heat in heats.into_iter().flatten() {
             scale[self.heat(heat)] = energy;
         }
-        if let Some(magnets) = own.magnets {
-            scale[self.source(magnets)] = energy;
+        for source in [own.magnets, own.seals].into_iter().flatten() {
+            scale[self.source(source)] = energy;
         }
         scale[self.angular_impulse()] = impulse;
         scale

@@ -10,8 +10,8 @@ use number::Vec2;
 use solve::Machine;
 
 impl RotorMachine {
-    /// Energies and angular momentum at a state: of the rotor about the origin, of each bearing about its datum. Levitation and
-    /// magnets are sources: they store nothing.
+    /// Energies and angular momentum at a state: of the rotor about the origin, of each bearing about its datum. Levitation,
+    /// magnets and seals are sources: they store nothing.
     pub fn content(&self, state: &[f64]) -> Content {
         let c = &self.constants;
         let motion = self.layout().rotor.motion(state);

@@ -1,7 +1,7 @@
 //! A levitated rotor falls onto its auxiliary bearings.
 //!
 //! ```text
-//!        rotor η, φ ──(levitation, until t = 0; magnets whose currents decay)
+//!        rotor η, φ ──(levitation, until t = 0; magnets whose currents decay; seals)
 //!          │ ... at each auxiliary bearing:
 //!          │ contact: clearance c0, N, friction
 //!        inner race c_i, φ_i ── drive torque
@@ -39,6 +39,7 @@ pub mod tangents;
 use crate::auxiliary_bearing::AuxiliaryBearing;
 use crate::levitation::{Fade, Levitation};
 use crate::rotor::{GeometricCentre, Node, Rotor};
+use crate::seal::Seal;
 pub use constants::{Event, MachineConstants};
 use layout::Layout;
 use number::{Gather, Real, Vec2};
@@ -82,6 +83,7 @@ pub struct Machines<R: Real> {
     /// Of a point rotor, with its only node.
     levitation: Option<(Node<R>, Levitation<R>)>,
     magnets: Vec<(Node<R>, Fade<R>)>,
+    seals: Vec<(Node<R>, Seal<R>)>,
     gravity: Vec2<R>,
     bearings: Vec<AuxiliaryBearing<R>>,
     /// The rotor's node in each.
@@ -151,6 +153,13 @@ impl<R: Real> Machines<R> {
             let fade = Gather::<R>::gather(&|lane| &constants(lane).magnets[k].fade);
             (node, fade)
         };
+        let seal = |k: usize| {
+            let node = Node::gather(&|lane| {
+                let of = constants(lane);
+                (&of.rotor, &of.seals[k].node[..], Vec2::zero())
+            });
+            (node, Seal::gather(&|lane| &constants(lane).seals[k]))
+        };
         let point = constants(0).rotor.coordinates.len() == 1;
         Machines {
             rotor: Rotor::gather(&|lane| &constants(lane).rotor),
@@ -162,6 +171,7 @@ impl<R: Real> Machines<R> {
                 )
             }),
             magnets: (0..constants(0).magnets.len()).map(magnet).collect(),
+            seals: (0..constants(0).seals.len()).map(seal).collect(),
             nodes: bearings.clone().map(node).collect(),
             gravity: Gather::<R>::gather(&|lane| &constants(lane).gravity),
             bearings: bearings
@@ -240,6 +250,11 @@ impl<R: Real> Batch<R> for Machines<R> {
             assert!(machine(lane).layout == *layout, "lanes share their layout");
             let magnets = |lane: usize| machine(lane).constants.magnets.len();
             assert!(magnets(lane) == magnets(0), "lanes share their magnets");
+            let rows = |lane: usize| {
+                let seals = machine(lane).constants.seals.iter();
+                seals.map(|seal| seal.rows.len()).collect::<Vec<_>>()
+            };
+            assert!(rows(lane) == rows(0), "lanes share the rows of their seals");
             let held = |lane: usize| machine(lane).constants.rotor.spin_held;
             assert!(held(lane) == held(0), "lanes share switches");
         }

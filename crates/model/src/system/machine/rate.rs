@@ -81,6 +81,16 @@ impl<R: Real> Machines<R> {
             magnets += force.dot(centre.velocity);
             pulled += centre.position.cross(force);
         }
+        let (mut sealing, mut seal_heat) = (zero, zero);
+        for (node, seal) in &self.seals {
+            let centre = node.centre(&rotor);
+            let reaction = seal.react(centre.position, centre.velocity, rotor.spin);
+            node.push(reaction.force, [&mut *force_x, &mut *force_y]);
+            moment += centre.arm.cross(reaction.force);
+            sealing += reaction.work;
+            seal_heat += reaction.heat;
+            pulled += centre.position.cross(reaction.force);
+        }
         let braking = mode.brake.greater(zero);
         let brake = if braking.any() {
             R::select(braking, self.rotor.brake_moment(rotor.spin), zero)
@@ -105,6 +115,7 @@ impl<R: Real> Machines<R> {
             (of_rotor.damping, shaft.heats[0]),
             (of_rotor.damping_rotating, shaft.heats[1]),
             (of_rotor.drag, torques.drag * rotor.spin),
+            (of_rotor.seal_damping, seal_heat),
         ] {
             if let Some(heat) = heat {
                 rate[layout.heat(heat)] = value;
@@ -115,6 +126,9 @@ impl<R: Real> Machines<R> {
         debug_assert!(ROTOR_SOURCES.len() == 2);
         if let Some(source) = of_rotor.magnets {
             rate[layout.source(source)] = magnets;
+        }
+        if let Some(source) = of_rotor.seals {
+            rate[layout.source(source)] = sealing;
         }
 
         // auxiliary bearings: what they say of angular momentum is about their datum

@@ -11,7 +11,7 @@
 //! w over the node's velocity, spin and race. L is the radius of the first bore: it makes the spin a speed. Every element acts on
 //! both of its bodies.
 //!
-//! Left out: levitation, magnets, gyroscopic moments, what damping and spin do from one coordinate to another, drive, drag, brake, how rotor friction follows the load, how the contact's direction turns with the whirl.
+//! Left out: levitation, magnets, seals, gyroscopic moments, what damping and spin do from one coordinate to another, drive, drag, brake, how rotor friction follows the load, how the contact's direction turns with the whirl.
 
 use super::rotor_rows::RotorRows;
 use super::symmetric::{factor, solve};
