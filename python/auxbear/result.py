@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import numpy
     import numpy.typing
     import pandas
+    import plotly.graph_objects
 
 
 class ModelWarning(UserWarning):
@@ -212,6 +213,14 @@ class Result(Mapping[str, Quantity]):
     def to_pandas(self) -> pandas.DataFrame:
         """The history as a data frame."""
         return self.history.to_pandas()
+
+    def figure(self, picture: str, bearing: str | None = None) -> plotly.graph_objects.Figure:
+        """A standard picture as a Plotly figure: ``orbit``, ``force``, ``speed``, ``load``, ``moment``, ``clearance``,
+        ``temperature`` or ``heat``; ``bearing`` names one of several auxiliary bearings. Needs Plotly.
+        """
+        from auxbear.figures import figure
+
+        return figure(self, picture, bearing)
 
     def write(self, directory: str | PathLike[str]) -> None:
         """Writes the run directory, as ``auxbear run --out`` does. What exists is never overwritten."""

@@ -128,7 +128,7 @@ pub struct Key {
     pub example: &'static str,
     /// What it is, in one or two sentences.
     pub doc: &'static str,
-    /// The key has a meaning only under all of these conditions, and those of [`Key::conditions`].
+    /// The key has a meaning only under all of these conditions, and, of a rolling bearing, where there are balls.
     pub when: &'static [Condition],
     /// The other key that gives the same thing.
     pub excludes: Option<&'static str>,

@@ -3,6 +3,7 @@
 //! Each part of the members is a file that gets its name when it is whole, so whatever ends the program, the next call goes on
 //! where files are missing. The directory is locked while a process works on it.
 
+mod cells;
 mod page;
 mod part;
 mod ranking;

@@ -1,5 +1,6 @@
 //! The page of a study: inputs and verdicts first, then what each result does, and which input matters.
 
+use super::cells::{amount, rows, scaled, short};
 use super::ranking;
 use crate::report::page::{STYLE, escape_text as plain};
 use crate::report::picture::{Panel, line, text};
@@ -66,23 +67,6 @@ fn subtitle(study: &Study, table: &Table, answer: &Answer) -> String {
         );
     }
     text
-}
-
-pub(super) fn rows(head: &[&str], body: &[Vec<String>]) -> String {
-    let cells = |tag: &str, row: &[String]| {
-        row.iter()
-            .map(|cell| format!("<{tag}>{cell}</{tag}>"))
-            .collect::<String>()
-    };
-    let head: Vec<String> = head.iter().map(|text| plain(text)).collect();
-    let body: String = body
-        .iter()
-        .map(|row| format!("<tr>{}</tr>\n", cells("td", row)))
-        .collect();
-    format!(
-        "<div class=\"wide\"><table class=\"quantities\"><thead><tr>{}</tr></thead><tbody>\n{body}</tbody></table></div>\n",
-        cells("th", &head)
-    )
 }
 
 fn inputs(study: &Study) -> String {
@@ -300,28 +284,6 @@ fn label(column: &Column) -> (f64, String) {
         &column.unit,
         column.values.iter().copied(),
     )
-}
-
-/// A factor that gives numbers for people, and the label of an axis with its unit.
-fn scaled(name: &str, unit: &str, values: impl Iterator<Item = f64>) -> (f64, String) {
-    let most = values
-        .filter(|v| v.is_finite())
-        .fold(0.0_f64, |most, v| most.max(v.abs()));
-    let power = match unit {
-        "" | "1" => return (1.0, plain(name)),
-        "s" | "m" | "N" | "J" | "W" | "Pa" | "N m" if most > 0.0 => {
-            (most.log10() / 3.0 - 0.1).floor().clamp(-3.0, 3.0) as i32
-        }
-        _ => 0,
-    };
-    let prefix = ["n", "µ", "m", "", "k", "M", "G"][(power + 3) as usize];
-    match power {
-        1.. if unit == "s" || unit == "m" => (1.0, format!("{}, {unit}", plain(name))),
-        _ => (
-            1000_f64.powi(-power),
-            format!("{}, {prefix}{}", plain(name), plain(unit)),
-        ),
-    }
 }
 
 fn histogram(column: &Column, limits: &[&Limit]) -> String {
@@ -576,22 +538,4 @@ fn bars(rows: &[Bars], title: &str, label: &str) -> String {
             }
         }
     })
-}
-
-/// A number to four digits.
-pub(super) fn short(value: f64) -> String {
-    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
-    units::number_text(rounded)
-}
-
-/// A number with its unit, for people.
-pub(super) fn amount(value: f64, unit: &str) -> String {
-    let (factor, label) = scaled("", unit, [value].into_iter());
-    format!(
-        "{} {}",
-        short(factor * value),
-        label.trim_start_matches(", ")
-    )
-    .trim()
-    .to_string()
 }

@@ -1,6 +1,6 @@
 //! The ranking of a selection: as a table of the page, and as lines of a terminal.
 
-use super::page::{amount, rows, short};
+use super::cells::{amount, rows, short};
 use crate::report::page::escape_text as plain;
 use crate::result::outcome::Verdict;
 use crate::study::Study;

@@ -10,6 +10,7 @@
 pub(crate) mod build;
 mod course;
 mod quantities;
+mod ran;
 mod warnings;
 
 use crate::options::Options;
@@ -19,48 +20,10 @@ use crate::result::outcome::{Column, Members, Outcome, Picture, Stop, Work};
 use crate::scenario::{CoastDown, Scenario};
 use crate::simulate::coast_down::build::{Built, ICE_POINT};
 use crate::simulate::coast_down::course::{BEYOND, Course, End, Row};
+use crate::simulate::coast_down::ran::Ran;
 use std::time::Instant;
 use thermal::bearing_network::NODES;
 use thermal::coast_down::Endless;
-
-/// A run-out, and the same with its nodes held at their limits where one is passed.
-struct Ran<'a> {
-    run: &'a CoastDown,
-    built: &'a Built,
-    free: Course,
-    held: Option<Course>,
-    limits: [Option<f64>; 7],
-}
-
-impl Ran<'_> {
-    /// The hottest a node gets: temperature in °C and time.
-    fn peak(&self, node: usize) -> (f64, f64) {
-        let rows = self.free.rows.iter();
-        rows.fold((f64::NEG_INFINITY, 0.0), |(most, at), row| {
-            match row.temperatures[node] > most {
-                true => (row.temperatures[node], row.time),
-                false => (most, at),
-            }
-        })
-    }
-
-    /// First time at which a quantity of the rows passes zero upwards, s.
-    fn first(&self, of: impl Fn(&Row) -> f64) -> Option<f64> {
-        let rows = &self.free.rows;
-        if of(&rows[0]) > 0.0 {
-            return Some(0.0);
-        }
-        let at = rows.iter().position(|row| of(row) > 0.0)?;
-        let (before, after) = (&rows[at - 1], &rows[at]);
-        let share = -of(before) / (of(after) - of(before));
-        Some(before.time + share * (after.time - before.time))
-    }
-
-    /// Whether a node is there: a full complement has no cage.
-    fn is_there(&self, node: usize) -> bool {
-        node != thermal::bearing_network::CAGE || self.run.cage_mass > 0.0
-    }
-}
 
 /// Computes it and names what it finds.
 pub(crate) fn run(

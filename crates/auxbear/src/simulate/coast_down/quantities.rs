@@ -2,9 +2,9 @@
 
 use crate::result::list::{List, NOT_GIVEN, Origin, relative};
 use crate::result::outcome::Value;
-use crate::simulate::coast_down::Ran;
 use crate::simulate::coast_down::build::{ICE_POINT, energy, turns};
 use crate::simulate::coast_down::course::End;
+use crate::simulate::coast_down::ran::Ran;
 use physics::life::{
     RatedBearing, bearing_damage, passages_per_turn, reference_viscosity, repetitions, ring_damage,
 };

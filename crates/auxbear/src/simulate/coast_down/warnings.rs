@@ -1,9 +1,9 @@
 //! What the user should know before trusting a run-out, the gravest first.
 
 use crate::result::outcome::{Warning, warning};
-use crate::simulate::coast_down::Ran;
 use crate::simulate::coast_down::build::ICE_POINT;
 use crate::simulate::coast_down::course::End;
+use crate::simulate::coast_down::ran::Ran;
 use thermal::bearing_network::{LUBRICANT, NODES};
 
 pub(super) fn of(ran: &Ran) -> Vec<Warning> {

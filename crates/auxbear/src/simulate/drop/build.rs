@@ -6,9 +6,9 @@ use crate::scenario::{AuxiliaryBearing, Drop, Spin};
 use crate::simulate::bearing;
 use crate::simulate::bearing::pressure::PressureFactors;
 use crate::simulate::bearing::steady::{SteadyFinding, SteadyPoint};
+use crate::simulate::drop::layers;
 use crate::simulate::drop::mount;
 use crate::simulate::drop::shaft::{self, BuiltShaft};
-use crate::simulate::drop::surfaces;
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::bearing::{BearingConstants, RollingConstants};
 use model::contact::JournalContact;
@@ -169,7 +169,7 @@ fn around(
             free_position: Vec2::zero(),
         },
         mount_parts: mount::parts(&part.mount.parts),
-        surfaces: surfaces::built(part),
+        surfaces: layers::built(part),
     }
 }
 
