@@ -1,7 +1,7 @@
-//! A linear seal at a node of the rotor: stiffness and damping of two axes, coupled and over speed.
+//! A linear seal or support at a node of the rotor: stiffness and damping of two axes, coupled and over speed.
 //!
 //! ```text
-//!   F = -K(|Ω|) s - C(|Ω|) ṡ        s = C - C_0, C the geometric centre, C_0 where the seal is centred
+//!   F = F_0 - K(|Ω|) s - C(|Ω|) ṡ   s = C - C_0, C the geometric centre, C_0 where it is centred; F_0 what it carries there
 //! ```
 //! It acts before and after the release. Cross-coupled stiffness drives a whirl, so its work is a signed source and it stores
 //! nothing; ṡᵀ C ṡ is heat. Tables are over the amount of the speed, straight between their rows and constant beyond them.
@@ -20,6 +20,8 @@ pub struct SealConstants {
     pub node: Vec<f64>,
     /// Where it is centred, m.
     pub centre: Vec2<f64>,
+    /// Force that it carries there, N; of seals none.
+    pub carried: Vec2<f64>,
     /// Speed, rad/s, rising; stiffness, N/m; damping, N s/m. One row at least.
     pub rows: Vec<(f64, Axes<f64>, Axes<f64>)>,
 }
@@ -37,6 +39,7 @@ struct Piece<R> {
 #[derive(Clone, Debug)]
 pub struct Seal<R> {
     centre: Vec2<R>,
+    carried: Vec2<R>,
     first: [Axes<R>; 2],
     pieces: Vec<Piece<R>>,
 }
@@ -46,7 +49,7 @@ pub struct Seal<R> {
 pub struct SealReaction<R> {
     /// Force on the rotor, N.
     pub force: Vec2<R>,
-    /// Power of its stiffness on the rotor, W.
+    /// Power of what it carries and of its stiffness on the rotor, W.
     pub work: R,
     /// Heat of its damping, W.
     pub heat: R,
@@ -71,6 +74,10 @@ impl<R: Real> Seal<R> {
             centre: Vec2::new(
                 R::from_lanes(|lane| seal(lane).centre.x),
                 R::from_lanes(|lane| seal(lane).centre.y),
+            ),
+            carried: Vec2::new(
+                R::from_lanes(|lane| seal(lane).carried.x),
+                R::from_lanes(|lane| seal(lane).carried.y),
             ),
             first: [axes(&|lane| row(lane, 0).1), axes(&|lane| row(lane, 0).2)],
             pieces: (0..seal(0).rows.len() - 1)
@@ -104,7 +111,7 @@ impl<R: Real> Seal<R> {
         let [stiffness, damping] = self.coefficients(speed);
         let times =
             |m: &Axes<R>, v: Vec2<R>| Vec2::new(m[0] * v.x + m[1] * v.y, m[2] * v.x + m[3] * v.y);
-        let elastic = -times(&stiffness, centre - self.centre);
+        let elastic = self.carried - times(&stiffness, centre - self.centre);
         let damping = times(&damping, velocity);
         SealReaction {
             force: elastic - damping,
@@ -122,6 +129,7 @@ mod tests {
         let constants = SealConstants {
             node: vec![1.0],
             centre: Vec2::new(1e-5, 0.0),
+            carried: Vec2::zero(),
             rows: vec![
                 (100.0, [1e6, 2e5, -2e5, 1e6], [300.0, 10.0, -10.0, 300.0]),
                 (300.0, [3e6, 6e5, -6e5, 3e6], [500.0, 30.0, -30.0, 500.0]),

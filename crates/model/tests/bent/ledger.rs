@@ -29,6 +29,7 @@ fn loaded() -> (MachineConstants, Vec<f64>) {
     constants.seals = vec![SealConstants {
         node: constants.bearings[1].node.clone(),
         centre: vec2(2e-5, -1e-5),
+        carried: vec2(0.0, 0.0),
         rows: vec![
             (0.0, [2e5, 5e4, -3e4, 1e5], [200.0, 30.0, 10.0, 100.0]),
             (500.0, [3e5, 9e4, -7e4, 2e5], [300.0, 30.0, 10.0, 200.0]),

@@ -17,6 +17,7 @@ fn whirl(damping: f64, cross: f64, end: f64) -> ([f64; 2], C64) {
     constants.seals = vec![SealConstants {
         node: vec![1.0],
         centre: vec2(0.0, 0.0),
+        carried: vec2(0.0, 0.0),
         rows: vec![(
             0.0,
             [STIFFNESS, cross, -cross, STIFFNESS],

@@ -4,6 +4,7 @@ use crate::problem::{Code, Problem, did_you_mean};
 use crate::scenario::document::Document;
 use crate::scenario::key::quoted;
 use crate::scenario::rotor::build::{self, RotorModel};
+use crate::scenario::rotor::part_keys::STAYS;
 use crate::scenario::rotor::parts;
 use crate::scenario::values::Values;
 use rotor::{Properties, properties};
@@ -58,32 +59,41 @@ impl Shaft {
             return not_in_runs(part, "", "a housing in a run", ALONE);
         }
         let model = build::model(&parts, values)?;
-        let seals = parts.iter().filter(|part| part.kind.word == "seal");
-        let supports = model.rotor.supports.iter().filter(|support| support.seal);
-        for (part, support) in seals.zip(supports) {
+        // supports first, then seals, as the rotor has them
+        let of = |word: &'static str| parts.iter().filter(move |part| part.kind.word == word);
+        let staying = of("support").chain(of("seal")).zip(&model.rotor.supports);
+        let staying = staying.zip(&model.stays).filter(|(_, stays)| **stays);
+        for ((part, support), _) in staying {
             for (_, block) in support.coefficients.rows() {
                 let [[xx, xy], [yx, yy]] = block.damping;
                 let across = 0.5 * (xy + yx);
                 if block.mass != [[0.0; 2]; 2] {
-                    return not_in_runs(part, "", "a seal with mass in a run", ALONE);
+                    let found = format!("a {} with mass in a run", part.kind.word);
+                    return not_in_runs(part, "", &found, ALONE);
                 }
                 if xx < 0.0 || yy < 0.0 || xx * yy < across * across {
-                    let found = "a seal in a run whose damping makes energy";
-                    return not_in_runs(
-                        part,
-                        "",
-                        found,
-                        "damping that takes energy from every motion is needed, in every row",
-                    );
+                    let found = format!("a {} in a run whose damping makes energy", part.kind.word);
+                    let allowed =
+                        "damping that takes energy from every motion is needed, in every row";
+                    return not_in_runs(part, "", &found, allowed);
                 }
             }
         }
-        let support = parts.iter().find(|part| part.kind.word == "support");
+        let is_support = |part: &&parts::Part| part.kind.word == "support";
+        let lets_go =
+            |part: &&parts::Part| is_support(part) && part.word("after_release") != Some(STAYS);
+        let first = parts.iter().find(is_support);
+        let support = parts.iter().find(lets_go);
+        if let (None, None, Some(part)) = (support, &model.levitation, first) {
+            let found = "supports that all stay";
+            let allowed = "one that lets go, or magnets, are needed: nothing else is released";
+            let problem = part.problem(Code::Conflict, "after_release", found, allowed);
+            return Err(Box::new(problem));
+        }
         match (support, &model.levitation) {
             (Some(part), Some(_)) => {
                 let found = "a support beside magnets";
-                let allowed =
-                    "one of the two is needed: what holds the rotor until the release and lets go";
+                let allowed = "one of the two is needed as what holds the rotor until the release and lets go; a support beside magnets has after_release = \"stays\"";
                 return Err(Box::new(part.problem(Code::Conflict, "", found, allowed)));
             }
             (None, None) => {

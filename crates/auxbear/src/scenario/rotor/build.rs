@@ -3,6 +3,7 @@
 use crate::problem::{Code, Problem, did_you_mean};
 use crate::scenario::key::quoted;
 use crate::scenario::rotor::levitation::{self, LevitationModel};
+use crate::scenario::rotor::part_keys::STAYS;
 use crate::scenario::rotor::parts::Part;
 use crate::scenario::values::Values;
 use rotor::{
@@ -24,6 +25,8 @@ pub struct RotorModel {
     pub disk_sizes: Vec<(Option<f64>, Option<f64>)>,
     /// Names of supports and seals, in the order of the rotor: mounts of housings last.
     pub supports: Vec<String>,
+    /// Whether each of them acts on after the release of a machine's rotor; mounts of housings last.
+    pub stays: Vec<bool>,
     /// Names of unbalances.
     pub unbalance: Vec<String>,
     /// Named nodes with their index.
@@ -143,6 +146,9 @@ pub(crate) fn model(parts: &[Part], values: &Values) -> Built<RotorModel> {
         disks: named(&of("disk")),
         disk_sizes: disk_sizes
             .map(|part| (part.number("outer_diameter"), part.number("width")))
+            .collect(),
+        stays: ([supports.as_slice(), &seals, &housings].concat().iter())
+            .map(|part| part.kind.word != "support" || part.word("after_release") == Some(STAYS))
             .collect(),
         supports: named(&[supports, seals, housings].concat()),
         unbalance: named(&of("unbalance")),

@@ -64,6 +64,9 @@ macro_rules! lev {
 const FOUR: &str = "Coefficients are constant, or one for each of speeds.";
 
 /// Stiffness and damping of a support, over speed where a table is given.
+/// Of a support: it acts on after the release.
+pub(crate) const STAYS: &str = "stays";
+
 macro_rules! coefficients {
     ($part:literal, $($more:expr),* $(,)?) => {
         &[
@@ -193,6 +196,7 @@ pub(crate) const PARTS: &[PartKind] = &[
             name!("support", "drive_end_bearing"),
             at!("support"),
             key!("support", "on", Kind::Text, "pedestal", "Name of the [[rotor.housing]] that it stands on.").optional("it stands on the ground"),
+            key!("support", "after_release", Kind::Word(&["lets go", STAYS]), "stays", "What it does when a machine's rotor is released: it lets go with the levitation, or stays and goes on carrying its share of the weight.").default("lets go", "it stands for the levitation that is lost"),
         ],
         starting: &[
             &[("name", "bearing_1"), ("at", "drive_end"), ("stiffness", "1e7 N/m"), ("damping", "500 N s/m")],

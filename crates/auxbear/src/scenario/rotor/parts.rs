@@ -31,6 +31,13 @@ impl Part {
         self.number(name).unwrap_or_default()
     }
 
+    pub(crate) fn word(&self, name: &str) -> Option<&'static str> {
+        match &self.known.get(name)?.value {
+            Value::Word(word) => Some(word),
+            _ => None,
+        }
+    }
+
     pub(crate) fn text(&self, name: &str) -> Option<&str> {
         match &self.known.get(name)?.value {
             Value::Text(text) => Some(text),

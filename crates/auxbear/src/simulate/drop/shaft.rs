@@ -3,7 +3,7 @@
 use crate::catalogue::geometry::millimetres;
 use crate::problem::{Code, Problem};
 use crate::scenario::several::path_of;
-use crate::scenario::{Drop, Shaft, Spin, UNNAMED};
+use crate::scenario::{Drop, RotorModel, Shaft, Spin, UNNAMED};
 use crate::simulate::levitated;
 use levitation::response::{equilibrium, start};
 use levitation::{ClosedLoop, Plant, weight};
@@ -85,6 +85,7 @@ pub(crate) fn build(
     let Held {
         steady: (position, velocity),
         still,
+        carried,
         currents,
         modes: mut held,
     } = match &shaft.model.levitation {
@@ -93,7 +94,7 @@ pub(crate) fn build(
     };
     held.sort_by(|a, b| a.frequency.abs().total_cmp(&b.frequency.abs()));
     let magnets = fading(shaft, &within.basis, &position, &currents);
-    let seals = seals(rotor, &within.basis, &still);
+    let seals = staying(&shaft.model, &within.basis, &still, &carried);
     let places = places(shaft);
     let mut constants = constants(drop, shaft, &matrices, &within.basis);
     if constants.polar_inertia.partial_cmp(&0.0) != Some(Ordering::Greater) {
@@ -242,6 +243,8 @@ struct Held {
     steady: Steady,
     /// Coordinates at which its seals are centred.
     still: Vec<Vec2<f64>>,
+    /// Nodes with what supports carry there, N.
+    carried: Vec<(usize, Vec2<f64>)>,
     /// Control currents of the magnet axes, A.
     currents: Vec<f64>,
     modes: Vec<HeldMode>,
@@ -293,6 +296,7 @@ fn on_magnets(
         steady: (pairs(&start.coordinates), pairs(&start.rates)),
         // the loop holds the rotor about the middle of its magnets
         still: vec![Vec2::zero(); size],
+        carried: Vec::new(),
         currents: start.currents,
         modes: held,
     })
@@ -361,28 +365,47 @@ fn on_supports(
     Ok(Held {
         steady: steady.unzip(),
         still: (0..size).map(|k| Vec2::new(x[k], y[k])).collect(),
+        // the multipliers of their places pull against the weight
+        carried: (nodes.iter().enumerate())
+            .map(|(s, node)| (*node, Vec2::new(-x[size + s], -y[size + s])))
+            .collect(),
         currents: Vec::new(),
         modes: held,
     })
 }
 
-/// The seals, centred where the rotor is held at rest.
-fn seals(rotor: &Rotor, basis: &Basis, still: &[Vec2<f64>]) -> Vec<SealConstants> {
-    let seals = rotor.supports.iter().filter(|support| support.seal);
-    seals
-        .filter_map(|seal| {
-            let Place::Node(node) = seal.at else {
+/// Seals and supports that stay, centred where the rotor is held at rest; supports carry there what they did.
+fn staying(
+    model: &RotorModel,
+    basis: &Basis,
+    still: &[Vec2<f64>],
+    carried: &[(usize, Vec2<f64>)],
+) -> Vec<SealConstants> {
+    let supports = &model.rotor.supports;
+    let beside = |node: usize| {
+        let own = |other: &&rotor::Support| !other.seal && other.at == Place::Node(node);
+        supports.iter().filter(own).count().max(1) as f64
+    };
+    let all = supports.iter().zip(&model.stays);
+    all.filter(|(_, stays)| **stays)
+        .filter_map(|(support, _)| {
+            let Place::Node(at) = support.at else {
                 return None;
             };
-            let node = row(basis, node);
+            let node = row(basis, at);
             let pairs = node.iter().zip(still);
             let centre = pairs.fold(Vec2::zero(), |sum, (share, own)| sum + *own * *share);
+            let load = carried
+                .iter()
+                .find(|(node, _)| *node == at && !support.seal);
             let axes = |m: [[f64; 2]; 2]| [m[0][0], m[0][1], m[1][0], m[1][1]];
-            let rows = seal.coefficients.rows().iter();
+            let rows = support.coefficients.rows().iter();
             let rows =
                 rows.map(|(speed, block)| (*speed, axes(block.stiffness), axes(block.damping)));
             Some(SealConstants {
                 centre,
+                // supports of one place share what it carries
+                carried: load.map_or(Vec2::zero(), |(_, load)| *load * (1.0 / beside(at))),
                 rows: rows.collect(),
                 node,
             })
