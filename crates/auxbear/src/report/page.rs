@@ -67,6 +67,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("page/histories.js"),
     include_str!("page/closely.js"),
     include_str!("page/orbit.js"),
+    include_str!("page/orders.js"),
     include_str!("page/maps.js"),
     include_str!("page/energy.js"),
     include_str!("page/spin_up.js"),

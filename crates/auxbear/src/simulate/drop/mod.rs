@@ -9,6 +9,7 @@ mod layers;
 pub(crate) mod members;
 pub(crate) mod method;
 mod mount;
+pub(crate) mod orders;
 pub(crate) mod quantities;
 pub mod shaft;
 pub(crate) mod shaft_results;
@@ -87,6 +88,8 @@ pub(crate) fn run(
                 && !quantity.name.ends_with("residual");
         }
     }
+    let history = columns::history(first);
+    named.extend(orders::named(&history, first.parts()));
     Outcome {
         system: scenario.system.name().word(),
         title: scenario
@@ -94,7 +97,7 @@ pub(crate) fn run(
             .clone()
             .unwrap_or_else(|| "Drop of a levitated rotor".to_string()),
         quantities: named,
-        history: columns::history(first),
+        history,
         contacts: contacts(first),
         warnings: warnings::of(scenario, &contexts),
         stop: worst_stop(&finished),

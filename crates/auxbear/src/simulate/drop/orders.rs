@@ -1,0 +1,234 @@
+//! The orders of the whirl: what the orbit at a bearing holds of each multiple of the spin, forward and backward, in windows of time.
+//!
+//! ```text
+//!   A(n) = |Σ w z e^(−jnφ)| / Σ w        z = x + jy less its mean, φ = ∫Ω dt, w a Hann window over eight turns
+//! ```
+//! n > 0 turns as the rotor spins, 1 is unbalance, n < 0 runs backward. The phase is that of the rotor itself, so that lines stay
+//! lines while it slows down.
+
+use crate::result::list::{List, Origin};
+use crate::result::outcome::{Column, Quantity, Value};
+use model::system::layout::of_part;
+use std::f64::consts::{PI, TAU};
+
+/// Turns of a window, and windows at most.
+const TURNS: f64 = 8.0;
+const MOST_WINDOWS: usize = 60;
+/// Largest order, and the distance of two.
+const LARGEST: f64 = 3.0;
+const STEP: f64 = 0.05;
+/// Orders nearer to rest are where the orbit lies.
+const LEAST: f64 = 0.1;
+/// Rows of a window at least.
+const LEAST_ROWS: usize = 32;
+
+/// Orders over time at one bearing.
+struct Spectrum {
+    orders: Vec<f64>,
+    times: Vec<f64>,
+    /// Of each window, of each order, m.
+    amplitudes: Vec<f64>,
+}
+
+/// Names the orders at every bearing from the columns of a run.
+pub(crate) fn named<'a>(history: &[Column], parts: impl Iterator<Item = &'a str>) -> Vec<Quantity> {
+    let mut list = List(Vec::new());
+    for part in parts {
+        let found = spectrum(history, part);
+        let lists =
+            |of: &dyn Fn(&Spectrum) -> Vec<f64>| Value::List(found.as_ref().map_or(Vec::new(), of));
+        list.push(
+            &of_part(part, "whirl_orders"),
+            "1",
+            lists(&|s| s.orders.clone()),
+            &ORDERS,
+        );
+        list.push(
+            &of_part(part, "whirl_order_times"),
+            "s",
+            lists(&|s| s.times.clone()),
+            &ORDERS,
+        );
+        list.push(
+            &of_part(part, "whirl_order_amplitudes"),
+            "m",
+            lists(&|s| s.amplitudes.clone()),
+            &ORDERS,
+        );
+        // lists, since members of repeated runs and studies keep no rows
+        let largest = |of: fn((f64, f64)) -> f64| {
+            lists(&|s| {
+                [1.0, -1.0]
+                    .iter()
+                    .filter_map(|sign| s.largest(*sign))
+                    .map(of)
+                    .collect()
+            })
+        };
+        list.push(
+            &of_part(part, "largest_whirl_orders"),
+            "1",
+            largest(|(order, _)| order),
+            &LAST,
+        );
+        list.push(
+            &of_part(part, "largest_whirl_amplitudes"),
+            "m",
+            largest(|(_, size)| size),
+            &LAST,
+        );
+    }
+    list.0
+}
+
+impl Spectrum {
+    /// The order of this sign with the largest amplitude in the last window.
+    fn largest(&self, sign: f64) -> Option<(f64, f64)> {
+        let last = self.amplitudes.len().checked_sub(self.orders.len())?;
+        let sizes = self.orders.iter().zip(&self.amplitudes[last..]);
+        let own = sizes.filter(|(order, _)| **order * sign > 0.0);
+        let most = own.max_by(|a, b| a.1.total_cmp(b.1))?;
+        Some((*most.0, *most.1))
+    }
+}
+
+fn spectrum(history: &[Column], part: &str) -> Option<Spectrum> {
+    let column = |name: &str| {
+        let found = history.iter().find(|column| column.name == name);
+        found.map(|column| column.values.as_slice())
+    };
+    let of = |axis: &str| {
+        column(&of_part(part, &format!("rotor.{axis}")))
+            .or_else(|| column(&format!("rotor.{axis}")))
+    };
+    let (time, speed) = (column("time")?, column("rotor.speed")?);
+    let (x, y) = (of("x")?, of("y")?);
+    let rows = time.len();
+    let fastest = speed.first()?.abs();
+    if rows < LEAST_ROWS || fastest == 0.0 {
+        return None;
+    }
+    let step = (time[rows - 1] - time[0]) / (rows - 1) as f64;
+    let width = ((TAU * TURNS / fastest) / step).round() as usize;
+    if width < LEAST_ROWS || width > rows {
+        return None;
+    }
+    // the rotor's own angle, by trapezoids
+    let mut angle = vec![0.0; rows];
+    for k in 1..rows {
+        angle[k] = angle[k - 1] + 0.5 * (speed[k] + speed[k - 1]) * (time[k] - time[k - 1]);
+    }
+    // below the rate of the rows with room to spare
+    let highest = LARGEST.min(0.8 * PI / (step * fastest));
+    let steps = (highest / STEP) as i32;
+    let orders: Vec<f64> = (-steps..=steps)
+        .map(|k| f64::from(k) * STEP)
+        .filter(|order| order.abs() >= LEAST)
+        .collect();
+    let windows = (2 * (rows - width) / width + 1).clamp(1, MOST_WINDOWS);
+    let hop = if windows > 1 {
+        (rows - width) as f64 / (windows - 1) as f64
+    } else {
+        0.0
+    };
+    let hann: Vec<f64> = (0..width)
+        .map(|k| 0.5 - 0.5 * (TAU * (k as f64 + 0.5) / width as f64).cos())
+        .collect();
+    let whole: f64 = hann.iter().sum();
+    let (mut times, mut amplitudes) = (Vec::new(), Vec::new());
+    for window in 0..windows {
+        let from = (window as f64 * hop) as usize;
+        let mean = |values: &[f64]| {
+            let weighed = values[from..from + width].iter().zip(&hann);
+            weighed.map(|(value, weight)| value * weight).sum::<f64>() / whole
+        };
+        let (mean_x, mean_y) = (mean(x), mean(y));
+        times.push(time[from + width / 2]);
+        for order in &orders {
+            let (mut re, mut im) = (0.0, 0.0);
+            for (k, weight) in (from..from + width).zip(&hann) {
+                let (sine, cosine) = (order * angle[k]).sin_cos();
+                let (px, py) = (weight * (x[k] - mean_x), weight * (y[k] - mean_y));
+                re += px * cosine + py * sine;
+                im += py * cosine - px * sine;
+            }
+            amplitudes.push(re.hypot(im) / whole);
+        }
+    }
+    Some(Spectrum {
+        orders,
+        times,
+        amplitudes,
+    })
+}
+
+const ORDERS: Origin = Origin {
+    law: "|Σ w z e^(−jnφ)|/Σ w of the orbit at the bearing in windows of eight turns (Hann), n from −3 to 3; amplitudes window by window",
+    source: "definition; crates/auxbear/src/simulate/drop/orders.rs",
+    valid: "from the rows of the history: what is quicker than half their rate folds down",
+};
+const LAST: Origin = Origin {
+    law: "the largest amplitude of the last window and its order: forward, then backward, whose orders are negative",
+    source: "crates/auxbear/src/simulate/drop/orders.rs",
+    valid: "as whirl_orders; orders are told apart from 0.25 on",
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A rotor that slows down, with unbalance, a backward whirl at 0.55 of its speed, and an offset.
+    fn columns() -> Vec<Column> {
+        let column = |name: &str, values: Vec<f64>| Column {
+            name: name.to_string(),
+            unit: "",
+            meaning: String::new(),
+            values,
+        };
+        let time: Vec<f64> = (0..4000).map(|k| 1e-4 * f64::from(k)).collect();
+        let angle = |t: f64| 1200.0 * t - 300.0 * t * t;
+        let at = |f: &dyn Fn(f64) -> f64| time.iter().map(|t| f(*t)).collect::<Vec<_>>();
+        vec![
+            column("time", time.clone()),
+            column("rotor.speed", at(&|t| 1200.0 - 600.0 * t)),
+            column(
+                "a.rotor.x",
+                at(&|t| 1e-4 + 5e-5 * angle(t).cos() + 2e-5 * (0.55 * angle(t)).cos()),
+            ),
+            column(
+                "a.rotor.y",
+                at(&|t| -2e-4 + 5e-5 * angle(t).sin() - 2e-5 * (0.55 * angle(t)).sin()),
+            ),
+        ]
+    }
+
+    #[test]
+    fn lines_stay_lines_while_the_rotor_slows_down_and_backward_is_negative() {
+        let history = columns();
+        let found = spectrum(&history, "a").unwrap();
+        let (order, size) = found.largest(1.0).unwrap();
+        assert!(
+            (order - 1.0).abs() < 1e-9 && (size / 5e-5 - 1.0).abs() < 1e-3,
+            "{order} {size}"
+        );
+        let (order, size) = found.largest(-1.0).unwrap();
+        assert!(
+            (order + 0.55).abs() < 1e-9 && (size / 2e-5 - 1.0).abs() < 1e-2,
+            "{order} {size}"
+        );
+        assert_eq!(
+            found.amplitudes.len(),
+            found.orders.len() * found.times.len()
+        );
+        let named = named(&history, ["a"].into_iter());
+        assert!(named.iter().any(|q| q.name == "a.largest_whirl_orders"));
+        // too short for eight turns
+        let short: Vec<Column> = (history.into_iter())
+            .map(|c| Column {
+                values: c.values[..100].to_vec(),
+                ..c
+            })
+            .collect();
+        assert!(spectrum(&short, "a").is_none());
+    }
+}
