@@ -207,6 +207,7 @@ fn what_cannot_be_is_refused_with_its_key() {
             "less than rotor.speed",
         ),
         (&["bearing.moment.law=skf"], "\"palmgren\""),
+        (&["bearing.name=SNFA SEA 35"], "radial contacts alone"),
         (&["heat.outer_diameter=20 mm"], "heat.bore_diameter"),
     ] {
         let found = refused(sets);

@@ -1,6 +1,7 @@
 //! Checks of a run-out.
 
 use crate::problem::Code;
+use crate::scenario::bearing::kind::BearingType;
 use crate::scenario::bearing::moment::Moment;
 use crate::scenario::checks::{Check, Context};
 use crate::scenario::coast_down::CoastDown;
@@ -19,6 +20,11 @@ impl Context<'_> {
             )))
         };
         let heat = &run.heat;
+        if run.kind != BearingType::DeepGroove {
+            let path = "bearing.type";
+            let needed = "\"deep groove\" is needed: a run-out knows radial contacts alone, not an angle and its axial preload";
+            return refuse(Code::NotModelled, path, self.text(path), needed);
+        }
         if !matches!(
             run.moment,
             Moment::Palmgren {
