@@ -207,7 +207,16 @@ fn what_cannot_be_is_refused_with_its_key() {
             "less than rotor.speed",
         ),
         (&["bearing.moment.law=skf"], "\"palmgren\""),
-        (&["bearing.name=SNFA SEA 35"], "radial contacts alone"),
+        (
+            &[
+                "bearing.name=SNFA SEA 35",
+                "bearing.moment.f0=2",
+                "bearing.moment.f1_factor=0.001",
+                "bearing.moment.f1_exponent=0.33",
+                "bearing.moment.equivalent_load=timken",
+            ],
+            "radial contacts alone",
+        ),
         (&["heat.outer_diameter=20 mm"], "heat.bore_diameter"),
     ] {
         let found = refused(sets);
