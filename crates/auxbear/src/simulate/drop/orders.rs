@@ -121,10 +121,9 @@ fn spectrum(history: &[Column], part: &str) -> Option<Spectrum> {
     // below the rate of the rows with room to spare
     let highest = LARGEST.min(0.8 * PI / (step * fastest));
     let steps = (highest / STEP) as i32;
-    let orders: Vec<f64> = (-steps..=steps)
-        .map(|k| f64::from(k) * STEP)
-        .filter(|order| order.abs() >= LEAST)
-        .collect();
+    let all: Vec<f64> = (-steps..=steps).map(|k| f64::from(k) * STEP).collect();
+    let is_kept = |order: &&f64| order.abs() >= LEAST;
+    let orders: Vec<f64> = all.iter().filter(is_kept).copied().collect();
     let windows = (2 * (rows - width) / width + 1).clamp(1, MOST_WINDOWS);
     let hop = if windows > 1 {
         (rows - width) as f64 / (windows - 1) as f64
@@ -144,16 +143,22 @@ fn spectrum(history: &[Column], part: &str) -> Option<Spectrum> {
         };
         let (mean_x, mean_y) = (mean(x), mean(y));
         times.push(time[from + width / 2]);
-        for order in &orders {
-            let (mut re, mut im) = (0.0, 0.0);
-            for (k, weight) in (from..from + width).zip(&hann) {
-                let (sine, cosine) = (order * angle[k]).sin_cos();
-                let (px, py) = (weight * (x[k] - mean_x), weight * (y[k] - mean_y));
-                re += px * cosine + py * sine;
-                im += py * cosine - px * sine;
+        // from order to order a row turns by one step of its angle
+        let mut sums = vec![(0.0, 0.0); all.len()];
+        for (k, weight) in (from..from + width).zip(&hann) {
+            let (px, py) = (weight * (x[k] - mean_x), weight * (y[k] - mean_y));
+            let turned = |order: f64| (order * angle[k]).sin_cos();
+            let (sine, cosine) = turned(all[0]);
+            let (mut re, mut im) = (px * cosine + py * sine, py * cosine - px * sine);
+            let (sine, cosine) = turned(STEP);
+            for sum in &mut sums {
+                sum.0 += re;
+                sum.1 += im;
+                (re, im) = (re * cosine + im * sine, im * cosine - re * sine);
             }
-            amplitudes.push(re.hypot(im) / whole);
         }
+        let kept = all.iter().zip(&sums).filter(|(order, _)| is_kept(order));
+        amplitudes.extend(kept.map(|(_, (re, im)): (_, &(f64, f64))| re.hypot(*im) / whole));
     }
     Some(Spectrum {
         orders,
