@@ -9,6 +9,15 @@ use crate::workspace::{Judgement, Workspace};
 use number::{Mask, Real};
 use std::sync::atomic::{AtomicBool, Ordering};
 
+/// The steps of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Steps {
+    /// Explicit: Bogacki-Shampine 3(2).
+    Explicit,
+    /// Linearly implicit: ROS34PW2, by the tangents of what is stiff.
+    Implicit,
+}
+
 /// How to integrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {

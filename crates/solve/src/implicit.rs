@@ -27,8 +27,8 @@ pub trait Tangents<R: Real>: Batch<R> {
     fn room(&self) -> Self::Room;
     /// Quadratures, by their place among them, that are summed from accepted points.
     fn at_points(&self) -> Vec<bool>;
-    /// Takes the tangents A at a state.
-    fn take(&self, mode: &Self::Mode, state: &[R], room: &mut Self::Room);
+    /// Takes the tangents A at an instant and a state.
+    fn take(&self, mode: &Self::Mode, time: R, state: &[R], room: &mut Self::Room);
     /// Factors G - A.
     fn factor(&self, room: &mut Self::Room, g: R);
     /// Solves (G - A) u = R: `side` holds R of all channels but the quadratures, then u.
@@ -103,6 +103,7 @@ impl<R: Real, B: Tangents<R>> Vectorized for Attempt<'_, R, B> {
             R::vectorized(Prepare {
                 batch,
                 mode,
+                time: w.time,
                 state: &w.state,
                 room: &mut m.room,
                 g,
@@ -168,6 +169,7 @@ impl<R: Real, B: Tangents<R>> Vectorized for Attempt<'_, R, B> {
 struct Prepare<'a, R: Real, B: Tangents<R>> {
     batch: &'a B,
     mode: &'a B::Mode,
+    time: R,
     state: &'a [R],
     room: &'a mut B::Room,
     g: R,
@@ -177,7 +179,7 @@ impl<R: Real, B: Tangents<R>> Vectorized for Prepare<'_, R, B> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        self.batch.take(self.mode, self.state, self.room);
+        self.batch.take(self.mode, self.time, self.state, self.room);
         self.batch.factor(self.room, self.g);
     }
 }

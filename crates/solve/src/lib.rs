@@ -30,7 +30,7 @@ pub mod system;
 pub mod watch;
 pub mod workspace;
 
-pub use drive::{Ending, Flow, Observer, Settings, Stop, Work, run, run_implicit};
+pub use drive::{Ending, Flow, Observer, Settings, Steps, Stop, Work, run, run_implicit};
 pub use implicit::Tangents;
 pub use step::Step;
 pub use system::{Batch, Machine};

@@ -93,6 +93,10 @@ pub(crate) const MOVING: &[SystemName] = &[
 /// Systems in which a levitated rotor falls.
 pub(crate) const FALLING: &[SystemName] = &[SystemName::Drop, SystemName::Machine];
 
+/// Systems whose runs have a choice of steps.
+pub(crate) const STEPPED: &[SystemName] =
+    &[SystemName::Drop, SystemName::SpinUp, SystemName::Machine];
+
 /// Systems whose rotor is a shaft of parts.
 pub(crate) const SHAFT: &[SystemName] = &[SystemName::Rotor, SystemName::Machine];
 

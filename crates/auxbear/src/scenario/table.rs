@@ -5,7 +5,7 @@
 
 use crate::scenario::key::{Key, Kind, Presence, Range, Section};
 use crate::scenario::run::{Accuracy, Method};
-use crate::scenario::system::{FALLING, MOVING, SystemName, WITH_BEARING};
+use crate::scenario::system::{MOVING, STEPPED, SystemName, WITH_BEARING};
 use crate::scenario::words::Words;
 
 /// Format name of the scenario files that this version writes.
@@ -180,7 +180,7 @@ const RUN: &[Key] = &[
         "design: the energy ledger closes to a millionth of what is turned over. screening: for ensembles and long runs, several times quicker; means within some 1e-4 of those of design, the ledger within 2e-4.",
     )
     .default("design", "numbers that a design may rest on")
-    .only(FALLING),
+    .only(STEPPED),
     Key::new(
         "run.tolerance",
         Kind::Coefficient,
@@ -188,7 +188,7 @@ const RUN: &[Key] = &[
         "Allowed error of a step, relative to each channel's own scale, such as a clearance, the full speed and the energy turned over.",
     )
     .within(Range::FromTo(1e-12, 1e-1))
-    .optional("1e-4, where the rotor bends 3e-5; of a drop at screening accuracy 3e-2 by linearly implicit steps, 3e-3 where the rotor bends, 1e-3 by explicit ones"),
+    .optional("1e-4, of a spin-up 5e-5, where the rotor bends 3e-5; at screening accuracy 3e-2 by linearly implicit steps, of a spin-up 2e-3, where the rotor bends 3e-3; 1e-3 by explicit ones"),
     Key::new(
         "run.output_interval",
         Kind::Quantity("s"),
@@ -212,8 +212,8 @@ const RUN: &[Key] = &[
         "run.method",
         Kind::Word(Method::WORDS),
         "auto",
-        "Time integration: explicit steps are bound by stability, implicit ones are not; auto takes implicit steps where sliding friction is too stiff for explicit ones.",
+        "Time integration: explicit steps are bound by stability, implicit ones are not; auto takes implicit steps at screening accuracy, and of a drop where sliding friction is too stiff for explicit ones.",
     )
-    .default("auto", "the quicker one at equal error, judged by the friction rate of a ball in the first impact")
-    .only(FALLING),
+    .default("auto", "the quicker one at equal error, judged by the friction rate of a ball in the first impact; of a spin-up by its accuracy")
+    .only(STEPPED),
 ];

@@ -8,6 +8,7 @@
 //! | [`rig`] | a test on a rig, and what its logger would have written |
 //! | [`coast_down`] | a rotor runs out on its warming bearings, in slow time |
 //! | `levitated` | levitations that do not hold their rotor |
+//! | `stepping` | which steps a run takes, and how exact they are |
 //! | `ending` | settings of the integration, and how a run ended |
 
 pub mod bearing;
@@ -17,3 +18,4 @@ pub(crate) mod ending;
 pub(crate) mod levitated;
 pub mod rig;
 pub mod spin_up;
+pub(crate) mod stepping;

@@ -22,10 +22,11 @@
 //! Left out: how friction follows the load (μ dQ), the tilt of the contact's normal against e_r, growth of the inner race, steady moment, rolling resistance of oil, the lubricant's slow state.
 //! For a cage that is centred on the outer race; others have no tangents here, and steps stay explicit.
 
+use super::BearingConstants;
 use super::ball::{BallConstants, BallDistances, PocketMotion, RaceMotion};
 use super::ball_states::{BallRow, distances, grouped, load_ball, race, split, split_mut};
 use super::ball_sums::BallSums;
-use super::planar_constants::PlanarConstants;
+use super::planar_constants::{PlanarConstants, Separation};
 use crate::motion::Motion;
 use number::{Mask, Real, Vec2};
 use physics::traction::{SlidingContact, TractionLaw};
@@ -34,6 +35,33 @@ use physics::traction::{SlidingContact, TractionLaw};
 pub const ROWS: usize = 6;
 /// Entries on and above the diagonal of these rows.
 pub const ENTRIES: usize = ROWS * (ROWS + 1) / 2;
+
+/// What linearly implicit steps know of what is stiff, from the most to the least.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Known {
+    /// All that presses and rubs.
+    All,
+    /// All but what keeps the balls apart, pockets of a free cage, its land, neighbours: that bounds their steps as it
+    /// does those of the explicit method.
+    Races,
+    /// Nothing: balls that roll have no states of their own.
+    Nothing,
+    /// Nothing: parts of a mount besides spring and damper have no tangents.
+    NotMounts,
+}
+
+impl BearingConstants {
+    /// How much of what is stiff here linearly implicit steps know.
+    pub fn tangents(&self) -> Known {
+        match self {
+            BearingConstants::Rolling(_) => Known::Nothing,
+            BearingConstants::Planar(bearing) => match bearing.separation {
+                Separation::CentredCage => Known::All,
+                Separation::FreeCage(_) | Separation::Neighbours(_) => Known::Races,
+            },
+        }
+    }
+}
 
 /// What is kept of each ball, in lists over the balls; some are made ready for the solutions when the balls are eliminated.
 #[derive(Clone, Copy)]

@@ -1,5 +1,6 @@
 //! Systems: one readable page each.
 
+mod border;
 pub mod cage_turns;
 pub mod energy;
 pub mod layout;

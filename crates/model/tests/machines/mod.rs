@@ -6,6 +6,7 @@
 
 pub mod bent;
 pub mod counting;
+pub mod missing;
 
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::bearing::ball::{BallConstants, BallMotion};

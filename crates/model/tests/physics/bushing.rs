@@ -1,10 +1,10 @@
 //! A plain bushing: a ring that does not turn.
 
 use crate::machines::{Blind, balance_mount, let_roll, reference, run, settings};
+use model::bearing::tangents::Known;
 use model::bearing::{BearingConstants, RollingConstants};
 use model::system::machine::layout::ROTOR;
 use model::system::machine::simulate::{Runs, Shape, Steps, simulate_on};
-use model::system::machine::tangents::Known;
 use model::system::machine::{MachineConstants, RotorMachine};
 use number::{Level, Vec2};
 use solve::{Machine, Observer};

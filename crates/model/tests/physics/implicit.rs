@@ -3,14 +3,15 @@
 use super::relatives::grease;
 use super::several::twins;
 use crate::machines::bent::bent;
+use crate::machines::missing::{Looked, missing as missing_of};
 use crate::machines::{by, inlets, oil, planar, reference, settings, tilt_contacts};
+use model::bearing::tangents::Known;
 use model::bearing::{BearingConstants, SharedMoment, SteadyMoment};
 use model::system::machine::record::Record;
 use model::system::machine::simulate::Steps;
-use model::system::machine::tangents::Known;
 use model::system::machine::{MachineConstants, Machines, RotorMachine};
 use physics::traction::{DryTraction, TanhTraction, Traction};
-use solve::{Batch, Ending, Flow, Machine, Observer, Step, Stop, Tangents};
+use solve::{Ending, Flow, Machine, Observer, Step, Stop};
 
 /// The reference machine with another reference speed of traction, m/s.
 fn with_reference_speed(reference_speed: f64) -> MachineConstants {
@@ -42,9 +43,6 @@ impl Observer<RotorMachine> for States {
 
 /// Tolerance of screening accuracy.
 const SCREENING: f64 = 3e-2;
-/// γ of the method.
-const GAMMA: f64 = solve::rosenbrock::GAMMA;
-
 /// Unit of a channel: 0.1 m/s of a centre or of a surface, spins by their radii, modes by what they move the rotor by in a bearing;
 /// positions by what that makes of them in a step.
 fn unit(machine: &RotorMachine, channel: usize, g: f64) -> f64 {
@@ -80,57 +78,19 @@ fn unit(machine: &RotorMachine, channel: usize, g: f64) -> f64 {
 /// Modes that move the bearings by less count as if they moved them so much, of coordinates made orthonormal.
 const LEAST_SHAPE: f64 = 0.1;
 
-/// Largest entry of (G - J)(G - A)⁻¹ - I at a state, all channels as speeds of one unit: what the tangents A miss of the
-/// derivatives J in a step of that length.
+/// What the tangents miss at a state in a step of that length: see [`missing`](crate::machines::missing).
 fn missing(machine: &RotorMachine, length: f64, state: &[f64]) -> (f64, String) {
-    let batch = Machines::<f64>::gather(&|_| machine);
-    let mode = machine.start_mode();
-    let active = machine.layout().ledger();
-    let g = 1.0 / (GAMMA * length);
-    let mut room = batch.room();
-    batch.take(&mode, state, &mut room);
-    batch.factor(&mut room, g);
-    let unit: Vec<f64> = (0..active).map(|k| unit(machine, k, g)).collect();
-    let rate_beside = |u: &[f64], share: f64| {
-        let mut moved = state.to_vec();
-        for (moved, u) in moved.iter_mut().zip(u) {
-            *moved += share * u;
-        }
-        let mut rate = vec![0.0; machine.dimension()];
-        machine.rate(&mode, 0.0, &moved, &mut rate, &mut []);
-        rate
-    };
-    let here = rate_beside(&vec![0.0; active], 0.0);
-    let mut worst = (0.0, String::new());
     let at = &machine.layout().bearings[0];
     let held = machine.constants.bearings[0].inner_race.centre_held;
-    for column in 0..active {
+    missing_of::<Machines<f64>>(&Looked {
+        machine,
+        active: machine.layout().ledger(),
+        length,
+        state,
+        unit: &|channel, g| unit(machine, channel, g),
         // a race that is held has no speed to be given
-        if held && (at.inner..at.inner + 4).contains(&column) {
-            continue;
-        }
-        let mut u = vec![0.0; active];
-        u[column] = g * unit[column];
-        batch.solve(&mut room, &mut u);
-        // so near that all is smooth but where a contact opens or closes in between
-        let share = 1e-4;
-        let (above, below) = (rate_beside(&u, share), rate_beside(&u, -share));
-        for row in 0..active {
-            let slopes = [above[row] - here[row], here[row] - below[row]].map(|d| d / share);
-            let of_row = g * unit[row];
-            if (slopes[0] - slopes[1]).abs() > 0.1 * of_row {
-                continue;
-            }
-            let slope = 0.5 * (slopes[0] + slopes[1]);
-            let side = if row == column { of_row } else { 0.0 };
-            let entry = ((g * u[row] - slope - side) / of_row).abs();
-            if entry > worst.0 {
-                let names = [row, column].map(|channel| machine.channel_name(channel));
-                worst = (entry, names.join(" by "));
-            }
-        }
-    }
-    worst
+        skipped: &|channel| held && (at.inner..at.inner + 4).contains(&channel),
+    })
 }
 
 /// The machines that are offered linearly implicit steps at screening accuracy: everything that presses or rubs in them, and

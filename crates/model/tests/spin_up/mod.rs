@@ -2,6 +2,7 @@
 
 mod balls;
 mod bistable;
+mod implicit;
 mod lanes;
 mod limits;
 mod lubricant;

@@ -7,7 +7,7 @@ use model::system::spin_up::simulate::simulate;
 use model::system::spin_up::{Drive, InnerRace, SpinUpConstants, SpinUpMachine};
 use model::table::Table;
 use physics::palmgren::Palmgren;
-use solve::{Ending, Observer, Settings, Stop};
+use solve::{Ending, Observer, Settings, Steps, Stop};
 use std::sync::atomic::AtomicBool;
 
 /// Grease of 100 mm²/s in a 6005 of 6.55 kN: the bearing of `rolling.json`.
@@ -85,7 +85,19 @@ pub fn observe(
     settings: &Settings,
     observer: &mut dyn Observer<SpinUpMachine>,
 ) -> Ending {
-    let ending = simulate(machine, start, settings, observer, &AtomicBool::new(false));
+    observe_by(Steps::Explicit, machine, start, settings, observer)
+}
+
+/// The same by explicit or linearly implicit steps.
+pub fn observe_by(
+    steps: Steps,
+    machine: &SpinUpMachine,
+    start: &[f64],
+    settings: &Settings,
+    observer: &mut dyn Observer<SpinUpMachine>,
+) -> Ending {
+    let never = AtomicBool::new(false);
+    let ending = simulate(machine, start, settings, steps, observer, &never);
     assert_eq!(ending.stop, Stop::Finished);
     assert!(ending.state.iter().all(|value| value.is_finite()));
     ending
@@ -93,16 +105,23 @@ pub fn observe(
 
 /// Runs a machine from its start: (start, end, record).
 pub fn run(constants: SpinUpConstants, end: f64, tolerance: f64) -> Run {
+    run_by(Steps::Explicit, constants, end, tolerance)
+}
+
+/// The same by explicit or linearly implicit steps.
+pub fn run_by(steps: Steps, constants: SpinUpConstants, end: f64, tolerance: f64) -> Run {
     let machine = SpinUpMachine::new(constants).expect("the machine can be built");
     let start = machine.start();
     let mut record = Record::new(&machine, end, end / 100.0, true);
-    let ending = observe(&machine, &start, &settings(end, tolerance), &mut record);
+    let settings = settings(end, tolerance);
+    let ending = observe_by(steps, &machine, &start, &settings, &mut record);
     record.finish(&machine, ending.time, &ending.state);
     Run {
         machine,
         start,
         end: ending.state,
         record,
+        steps: ending.work.accepted,
     }
 }
 
@@ -112,4 +131,6 @@ pub struct Run {
     pub start: Vec<f64>,
     pub end: Vec<f64>,
     pub record: Record,
+    /// Accepted steps.
+    pub steps: u64,
 }

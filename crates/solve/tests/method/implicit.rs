@@ -60,7 +60,7 @@ impl<const PERCENT: u32, const POINTS: bool> Tangents<f64> for Sloped<PERCENT, P
     fn at_points(&self) -> Vec<bool> {
         vec![POINTS; self.problem.quadratures]
     }
-    fn take(&self, mode: &f64, state: &[f64], room: &mut Slopes) {
+    fn take(&self, mode: &f64, _time: f64, state: &[f64], room: &mut Slopes) {
         let n = self.problem.dimension;
         let active = n - self.problem.quadratures;
         let rate_at = |column: usize, step: f64| {

@@ -20,14 +20,6 @@ pub(crate) const PRESENCES: &[(&str, Presence)] = &[
         }),
     ),
     (
-        "run.tolerance",
-        Presence::Default(Fallback {
-            text: "5e-5",
-            reason: "there the energies of the shipped spin-ups close to a millionth of what is turned over",
-            assumed: false,
-        }),
-    ),
-    (
         "run.output_interval",
         Presence::Default(Fallback {
             text: "0.02 ms",

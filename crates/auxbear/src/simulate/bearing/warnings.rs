@@ -80,9 +80,9 @@ pub(crate) fn cage_inertia(bearing: &Bearing) -> Option<Warning> {
     })
 }
 
-/// An energy ledger that does not close, however the run ended.
-pub(crate) fn residual(quantities: &[Quantity]) -> Option<Warning> {
-    residual_beyond(LARGEST_RESIDUAL, number(quantities, "energy_residual")?)
+/// An energy ledger that misses more than a share of what was turned over, however the run ended.
+pub(crate) fn residual(quantities: &[Quantity], most: f64) -> Option<Warning> {
+    residual_beyond(most, number(quantities, "energy_residual")?)
 }
 
 /// An energy ledger that misses more than a share of what was turned over.

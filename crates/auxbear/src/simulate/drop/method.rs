@@ -9,13 +9,13 @@
 //! clearance and is stopped by the mount. Where the slope depends on rolling, it is that of balls that do not roll yet:
 //! the largest.
 
-use crate::scenario::{Accuracy, Drop, Method};
+use crate::scenario::Drop;
 use crate::simulate::drop::build::Built;
 use crate::simulate::ending::DESIGN;
+use crate::simulate::stepping::{Asked, Stepping};
 use model::auxiliary_bearing::AuxiliaryBearingConstants;
+use model::bearing::tangents::Known;
 use model::bearing::{BearingConstants, PlanarConstants};
-use model::system::machine::simulate::Steps;
-use model::system::machine::tangents::Known;
 
 /// λ/ω above which linearly implicit steps are the quicker ones at design accuracy; measured on the reference drop with
 /// reference speeds of traction from 0.1 to 0.001 m/s.
@@ -23,64 +23,30 @@ const STIFF: f64 = 60.0;
 
 /// Tolerance of linearly implicit steps at screening accuracy.
 const SCREENING: f64 = 3e-2;
-/// Tolerance of explicit steps there: stability bounds them, a larger one hardly saves any.
-const SCREENING_EXPLICIT: f64 = 1e-3;
-
 /// Tolerances where the rotor bends: impacts reach its quick coordinates, whose energy the ledger counts. Measured on the rotor of the
 /// shipped machine: residuals of 7e-7 by explicit and 1.6e-4 by linearly implicit steps.
 const DESIGN_BENT: f64 = 3e-5;
 const SCREENING_BENT: f64 = 3e-3;
 
-/// Names of the methods, for people.
-pub(crate) const EXPLICIT: &str = "Bogacki-Shampine 3(2), explicit";
-pub(crate) const IMPLICIT: &str = "ROS34PW2, linearly implicit";
-
-/// How the steps of a drop are taken.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Stepping {
-    /// Explicit or linearly implicit.
-    pub steps: Steps,
-    /// Tolerance, where none is given.
-    pub tolerance: f64,
-}
-
-impl Stepping {
-    /// Name of the method, for people.
-    pub fn name(self) -> &'static str {
-        match self.steps {
-            Steps::Explicit => EXPLICIT,
-            Steps::Implicit => IMPLICIT,
-        }
+/// What decides the steps of a drop.
+pub(crate) fn asked(drop: &Drop, known: Known) -> Asked<'_> {
+    let bends = drop.shaft.is_some();
+    let (design, screening) = match bends {
+        true => (DESIGN_BENT, SCREENING_BENT),
+        false => (DESIGN, SCREENING),
+    };
+    Asked {
+        run: &drop.run,
+        known,
+        bends,
+        design,
+        screening,
     }
 }
 
-/// The steps of a drop. At design accuracy linearly implicit ones pay where friction is stiff; at screening accuracy wherever they
-/// know all that is stiff. Balls that roll have nothing stiff.
+/// The steps of a drop.
 pub(crate) fn stepping(drop: &Drop, built: &Built, known: Known) -> Stepping {
-    let screening = drop.run.accuracy == Accuracy::Screening;
-    let implicit = known < Known::Nothing
-        && match drop.run.method {
-            Method::Explicit => false,
-            Method::Implicit => true,
-            // linearly implicit steps that keep the energy of quick coordinates are dearer than explicit ones
-            Method::Auto => {
-                (screening && known == Known::All && drop.shaft.is_none()) || is_stiff(drop, built)
-            }
-        };
-    let steps = if implicit {
-        Steps::Implicit
-    } else {
-        Steps::Explicit
-    };
-    let bends = drop.shaft.is_some();
-    let tolerance = match (screening, steps) {
-        (false, _) if bends => DESIGN_BENT,
-        (false, _) => DESIGN,
-        (true, Steps::Implicit) if bends => SCREENING_BENT,
-        (true, Steps::Implicit) => SCREENING,
-        (true, Steps::Explicit) => SCREENING_EXPLICIT,
-    };
-    Stepping { steps, tolerance }
+    asked(drop, known).stepping(|| is_stiff(drop, built))
 }
 
 /// Whether sliding friction is too stiff for explicit steps.

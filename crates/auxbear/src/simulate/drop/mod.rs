@@ -23,8 +23,8 @@ use crate::simulate::drop::build::Built;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{Finished, Member, Plan};
 use crate::simulate::drop::members::Varied;
-use crate::simulate::drop::method::Stepping;
 use crate::simulate::ending::{settings_at, stop};
+use crate::simulate::stepping::Stepping;
 use std::time::Instant;
 
 /// Runs a drop.

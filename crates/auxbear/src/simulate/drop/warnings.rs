@@ -3,16 +3,15 @@
 use crate::result::assumptions::speed_rating;
 use crate::result::outcome::Warning;
 use crate::result::outcome::warning;
-use crate::scenario::{Accuracy, Fidelity, Method, Moment, Scenario};
+use crate::scenario::{Fidelity, Moment, Scenario};
 use crate::simulate::bearing::quantities::End;
 use crate::simulate::bearing::severity::{HOT_RACE, inner_race_rise};
 use crate::simulate::bearing::warnings as shared;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::quantities::residuals;
-use crate::simulate::drop::{shaft_results, surfaces};
-use crate::simulate::ending::DESIGN;
+use crate::simulate::drop::{method, shaft_results, surfaces};
+use crate::simulate::stepping::Asked;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
-use model::system::machine::tangents::Known;
 
 /// Contacts after which pocket and bounce chaos shows in the later ones.
 const CHAOTIC_CONTACTS: usize = 10;
@@ -21,53 +20,9 @@ const BENDING_SHARE: f64 = 0.7;
 /// Hunt-Crossley damping a·ḋ above which the law leaves its valid range.
 const LARGEST_DAMPING: f64 = 0.5;
 
-/// What the energy ledger may miss at screening accuracy.
-const SCREENING_RESIDUAL: f64 = 2e-4;
-
-/// Steps that are not those that were asked for, or coarser ones than the accuracy means.
-fn accuracy(context: &Context) -> Vec<Warning> {
-    let run = &context.drop.run;
-    let mut list: Vec<Warning> = shaft_results::few_modes(context).into_iter().collect();
-    if let (Accuracy::Design, Some(tolerance)) = (run.accuracy, run.tolerance)
-        && tolerance > DESIGN
-    {
-        list.push(warning(
-            "AB1123",
-            format!(
-                "run.tolerance = {tolerance:e} is larger than the {DESIGN:e} of design accuracy: the energy ledger may miss more than a \
-                 millionth, and first impacts more than their spread."
-            ),
-        ));
-    }
-    let known = context.machine.tangents();
-    let quick = context.drop.shaft.is_some() && run.method == Method::Auto;
-    let what = match known {
-        Known::All if quick => {
-            "the quick modes of a rotor that bends bind linearly implicit steps too"
-        }
-        Known::All => return list,
-        Known::Races => {
-            "what keeps the balls apart (a free cage, its land, neighbours) has no tangents"
-        }
-        Known::Nothing => "balls that roll have nothing stiff",
-        Known::NotMounts => "parts of a mount besides spring and damper have no tangents",
-    };
-    let text = match (run.method, run.accuracy) {
-        (Method::Implicit, _) if known >= Known::Nothing => {
-            format!(
-                "run.method = \"implicit\" was asked for, but {what}: explicit steps were taken."
-            )
-        }
-        (Method::Implicit, _) => format!(
-            "run.method = \"implicit\": {what}, so these steps are as short as explicit ones and cost several times more."
-        ),
-        (Method::Auto, Accuracy::Screening) => format!(
-            "run.accuracy = \"screening\" took explicit steps, because {what}: they are hardly quicker than those of design."
-        ),
-        _ => return list,
-    };
-    list.push(warning("AB1124", text));
-    list
+/// What decides the steps of a drop.
+fn asked<'a>(context: &Context<'a>) -> Asked<'a> {
+    method::asked(context.drop, context.machine.tangents())
 }
 
 /// A warning of one member, and how grave it is there.
@@ -162,17 +117,15 @@ pub(crate) fn of(scenario: &Scenario, contexts: &[Context]) -> Vec<Warning> {
         list.extend(of_rows(contexts, damping(context, k)));
         list
     }));
-    let most = match drop.run.accuracy {
-        Accuracy::Design => shared::LARGEST_RESIDUAL,
-        Accuracy::Screening => SCREENING_RESIDUAL,
-    };
+    let most = asked(context).largest_residual(shared::LARGEST_RESIDUAL);
     list.extend(judged(contexts, |member| {
         let residual = residuals(member).0.ok();
         let graded =
             |residual: f64| Some((residual.abs(), shared::residual_beyond(most, residual)?));
         residual.and_then(graded).into_iter().collect()
     }));
-    list.extend(accuracy(context));
+    list.extend(shaft_results::few_modes(context));
+    list.extend(asked(context).warnings());
     if drop.rotor.planes > 1 {
         list.push(warning(
             "AB1007",

@@ -18,9 +18,9 @@ pub(crate) mod warnings;
 use crate::options::Options;
 use crate::result::outcome::{Members, Outcome, Picture, Work};
 use crate::scenario::{Rig, RigProgram, Scenario};
-use crate::simulate::drop::method;
 use crate::simulate::ending::{settings, stop};
 use crate::simulate::rig::context::Context;
+use crate::simulate::stepping;
 use build::Built;
 use chain::{Happened, Sampled};
 use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
@@ -79,7 +79,7 @@ pub(crate) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
             rejected: run.ending.work.rejected,
             rate_calls: run.ending.work.rate_calls,
             seconds,
-            method: Some(method::EXPLICIT),
+            method: Some(stepping::EXPLICIT),
         },
         members: Members::default(),
         drawn: Vec::new(),

@@ -66,7 +66,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
         speed,
         context.rig.load.radial_load,
     ));
-    list.extend(shared::residual(quantities));
+    list.extend(shared::residual(quantities, shared::LARGEST_RESIDUAL));
     list.extend(shared::cage_inertia(bearing));
     list.extend(shared::rolling(bearing));
     list.extend(shared::no_moment(bearing));

@@ -9,10 +9,10 @@ pub(crate) mod warnings;
 use crate::options::Options;
 use crate::result::outcome::{Members, Outcome, Picture, Work};
 use crate::scenario::{Scenario, SpinUp};
-use crate::simulate::drop::method;
-use crate::simulate::ending::{settings, stop};
+use crate::simulate::ending::{settings_at, stop};
 use crate::simulate::spin_up::build::Built;
 use crate::simulate::spin_up::context::Context;
+use crate::simulate::stepping::{Asked, Stepping};
 use model::system::spin_up::SpinUpMachine;
 use model::system::spin_up::record::Record;
 use model::system::spin_up::simulate::simulate;
@@ -28,7 +28,8 @@ pub(crate) fn run(
 ) -> Outcome {
     let start = built.machine.start();
     let clock = Instant::now();
-    let (record, ending) = integrate(&built.machine, &start, spin_up, options);
+    let stepping = asked(spin_up, built).stepping(|| false);
+    let (record, ending) = integrate(&built.machine, &start, (spin_up, stepping), options);
     let seconds = clock.elapsed().as_secs_f64();
     let context = Context {
         spin_up,
@@ -55,7 +56,7 @@ pub(crate) fn run(
             rejected: ending.work.rejected,
             rate_calls: ending.work.rate_calls,
             seconds,
-            method: Some(method::EXPLICIT),
+            method: Some(stepping.name()),
         },
         members: Members::default(),
         drawn: Vec::new(),
@@ -71,13 +72,29 @@ pub(crate) fn run(
     }
 }
 
+/// Tolerance of design accuracy: the energies of the shipped spin-ups close to a millionth of what is turned over.
+const DESIGN: f64 = 5e-5;
+/// Tolerance of linearly implicit steps at screening accuracy: what friction takes is as small as the creep of the balls.
+const SCREENING: f64 = 2e-3;
+
+/// What decides the steps of a spin-up.
+pub(crate) fn asked<'a>(spin_up: &'a SpinUp, built: &Built) -> Asked<'a> {
+    Asked {
+        run: &spin_up.run,
+        known: built.machine.tangents(),
+        bends: false,
+        design: DESIGN,
+        screening: SCREENING,
+    }
+}
+
 fn integrate(
     machine: &SpinUpMachine,
     start: &[f64],
-    spin_up: &SpinUp,
+    (spin_up, stepping): (&SpinUp, Stepping),
     options: &Options,
 ) -> (Record, Ending) {
-    let settings = settings(&spin_up.run);
+    let settings = settings_at(&spin_up.run, stepping.tolerance);
     let end = settings.end;
     let mut watched = Watched {
         record: Record::new(machine, end, spin_up.run.output_interval, true),
@@ -85,7 +102,8 @@ fn integrate(
         reported: 0,
         end,
     };
-    let ending = simulate(machine, start, &settings, &mut watched, options.interrupt);
+    let (steps, interrupt) = (stepping.steps, options.interrupt);
+    let ending = simulate(machine, start, &settings, steps, &mut watched, interrupt);
     let mut record = watched.record;
     record.finish(machine, ending.time, &ending.state);
     (record, ending)

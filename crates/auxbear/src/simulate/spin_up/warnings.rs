@@ -5,6 +5,7 @@ use crate::result::outcome::warning;
 use crate::result::outcome::{Quantity, Warning};
 use crate::scenario::{Bearing, Scenario};
 use crate::simulate::bearing::warnings as shared;
+use crate::simulate::spin_up::asked;
 use crate::simulate::spin_up::context::Context;
 use crate::simulate::spin_up::quantities::rolling_start_to_end;
 use model::system::spin_up::layout::{APPLIED_LOAD, INNER};
@@ -38,7 +39,10 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     list.extend(preload_of_spin_up(bearing, load));
     list.extend(shared::law_range(bearing, speed, load));
     list.extend(shared::film_rise(&run));
-    list.extend(shared::residual(quantities));
+    let asked = asked(context.spin_up, context.built);
+    let most = asked.largest_residual(shared::LARGEST_RESIDUAL);
+    list.extend(shared::residual(quantities, most));
+    list.extend(asked.warnings());
     if bearing.inner_race_centre_held && load > 0.0 {
         list.push(warning(
             "AB1020",

@@ -33,7 +33,6 @@ pub mod record;
 pub mod rotor_rows;
 pub mod simulate;
 pub mod start;
-mod symmetric;
 pub mod tangents;
 
 use crate::auxiliary_bearing::AuxiliaryBearing;

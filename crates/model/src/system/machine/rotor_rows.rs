@@ -10,9 +10,9 @@
 //! ```
 //! All x, then all y. F_b is the force of the contact at node b; both forms are the same step. d is the diagonal of D_e + D_i.
 
-use super::symmetric::{factor, solve};
 use crate::bearing::tangents::ROWS;
 use crate::rotor::{Node, Rotor, RotorAt};
+use crate::system::border::{factor, solve};
 use number::{Real, Vec2};
 
 /// A row of the border that a contact touches.

@@ -4,17 +4,9 @@
 
 use super::{Machines, RotorMachine};
 use number::{Level, Real, Task};
+pub use solve::Steps;
 use solve::{Ending, Observer, Settings};
 use std::sync::atomic::AtomicBool;
-
-/// The steps of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Steps {
-    /// Explicit: Bogacki-Shampine 3(2).
-    Explicit,
-    /// Linearly implicit: ROS34PW2. Needs balls with states of their own.
-    Implicit,
-}
 
 /// What a vector register holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

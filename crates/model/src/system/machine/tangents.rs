@@ -14,27 +14,13 @@
 //! Left out: levitation, magnets, seals, gyroscopic moments, what damping and spin do from one coordinate to another, drive, drag, brake, how rotor friction follows the load, how the contact's direction turns with the whirl.
 
 use super::rotor_rows::RotorRows;
-use super::symmetric::{factor, solve};
 use super::{Machines, Mode, RotorMachine};
-use crate::bearing::tangents::{BallTangents, KnownRates, ROWS};
-use crate::bearing::{self, BearingConstants, Planar, Separation};
+use crate::bearing::tangents::{BallTangents, Known, KnownRates, ROWS};
+use crate::bearing::{self, Planar};
 use crate::rotor::RotorMotion;
+use crate::system::border::{add_bearing, factor, follow, hold, solve, turn};
 use number::{Mask, Real, Vec2};
 use solve::Tangents;
-
-/// What linearly implicit steps know of a machine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Known {
-    /// All that presses and rubs.
-    All,
-    /// All but what keeps the balls apart, pockets of a free cage, its land, neighbours: that bounds their steps as it
-    /// does those of the explicit method.
-    Races,
-    /// Nothing: balls that roll have no states of their own.
-    Nothing,
-    /// Nothing: parts of a mount besides spring and damper have no tangents.
-    NotMounts,
-}
 
 /// Heat of pocket damping among those of an auxiliary bearing; that of pocket friction follows.
 const POCKET_HEAT: usize = bearing::POCKET_FRICTION - 1;
@@ -100,15 +86,11 @@ impl RotorMachine {
     /// How much of what is stiff here linearly implicit steps know.
     pub fn tangents(&self) -> Known {
         let bearings = self.constants.bearings.iter();
-        bearings.fold(Known::All, |known, part| match &part.bearing {
-            BearingConstants::Rolling(_) => Known::Nothing,
-            _ if part.mount_parts.any() => Known::NotMounts,
-            BearingConstants::Planar(_) if known >= Known::Nothing => known,
-            BearingConstants::Planar(bearing) => match bearing.separation {
-                Separation::CentredCage => known,
-                Separation::FreeCage(_) | Separation::Neighbours(_) => Known::Races,
-            },
-        })
+        let each = bearings.map(|part| match part.bearing.tangents() {
+            known if known < Known::Nothing && part.mount_parts.any() => Known::NotMounts,
+            known => known,
+        });
+        each.max().unwrap_or(Known::All)
     }
 }
 
@@ -197,7 +179,7 @@ impl<R: Real> Tangents<R> for Machines<R> {
     }
 
     #[inline(always)]
-    fn take(&self, _mode: &Mode<R>, state: &[R], room: &mut Room<R>) {
+    fn take(&self, _mode: &Mode<R>, _time: R, state: &[R], room: &mut Room<R>) {
         let rotor = self.layout.rotor.motion(state);
         for k in 0..self.bearings.len() {
             let at = &self.layout.bearings[k];
@@ -233,13 +215,7 @@ impl<R: Real> Tangents<R> for Machines<R> {
             let own = rows.of_bearing(k);
             let (auxiliary, planar) = (&self.bearings[k], self.planar(k));
             let entries = planar.factor(&mut part.balls, [g, inverse_g]);
-            let mut entry = 0;
-            for row in 0..ROWS {
-                for column in row..ROWS {
-                    border[(own + column) * n + own + row] = entries[entry];
-                    entry += 1;
-                }
-            }
+            add_bearing(border, n, own, &entries);
             let race = &auxiliary.inner_race;
             let scales = planar.border();
             let mount =
@@ -400,30 +376,4 @@ impl<R: Real> Tangents<R> for Machines<R> {
             }
         }
     }
-}
-
-/// u of a body's velocities, and of its position, whose right-hand sides stand there.
-#[inline(always)]
-fn follow<R: Real>(side: &mut [R], body: usize, velocity: [R; 2], inverse_g: R) {
-    for i in 0..2 {
-        side[body + i] = (side[body + i] + velocity[i]) * inverse_g;
-        side[body + 2 + i] = velocity[i];
-    }
-}
-
-/// u of an angle and of its spin, which stands behind it.
-#[inline(always)]
-fn turn<R: Real>(side: &mut [R], angle: usize, spin: R, inverse_g: R) {
-    side[angle] = (side[angle] + spin) * inverse_g;
-    side[angle + 1] = spin;
-}
-
-/// Takes a row that does not move out of the border.
-#[inline(always)]
-fn hold<R: Real>(border: &mut [R], n: usize, held: usize) {
-    for other in 0..n {
-        let (row, column) = (held.max(other), held.min(other));
-        border[row * n + column] = R::zero();
-    }
-    border[held * (n + 1)] = R::one();
 }

@@ -16,6 +16,7 @@
 //! | [`ledger`] | energies, momentum, what closes; the energy by the outer race, (21) |
 //! | [`record`] | what is watched and kept of a run |
 //! | [`simulate`] | a run |
+//! | [`tangents`] | what is stiff, for linearly implicit steps |
 //! | [`capacity`] | whether traction can turn the balls against the steady moment |
 //!
 //! The inner race may move in the plane under its load and weight, or be held in the middle: the concentric rig of the
@@ -31,6 +32,7 @@ pub mod ledger;
 pub mod rate;
 pub mod record;
 pub mod simulate;
+pub mod tangents;
 
 pub use super::refusal::Refusal;
 use crate::bearing::Bearing;

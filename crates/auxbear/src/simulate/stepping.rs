@@ -1,0 +1,137 @@
+//! Which steps a run takes, explicit or linearly implicit, how large an error it allows, and what its user should know of that.
+
+use crate::result::outcome::{Warning, warning};
+use crate::scenario::{Accuracy, Method, Run};
+use model::bearing::tangents::Known;
+use solve::Steps;
+
+/// Tolerance of explicit steps there: stability bounds them, a larger one hardly saves any.
+const SCREENING_EXPLICIT: f64 = 1e-3;
+
+/// Names of the methods, for people.
+pub(crate) const EXPLICIT: &str = "Bogacki-Shampine 3(2), explicit";
+pub(crate) const IMPLICIT: &str = "ROS34PW2, linearly implicit";
+
+/// What the energy ledger may miss at screening accuracy.
+pub(crate) const SCREENING_RESIDUAL: f64 = 2e-4;
+
+/// How the steps of a run are taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Stepping {
+    /// Explicit or linearly implicit.
+    pub steps: Steps,
+    /// Tolerance, where none is given.
+    pub tolerance: f64,
+}
+
+/// What of a system decides its steps.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Asked<'a> {
+    /// Accuracy, tolerance and method that were asked for.
+    pub run: &'a Run,
+    /// How much of what is stiff linearly implicit steps know.
+    pub known: Known,
+    /// Whether its rotor bends.
+    pub bends: bool,
+    /// Tolerance of design accuracy.
+    pub design: f64,
+    /// Tolerance of linearly implicit steps at screening accuracy.
+    pub screening: f64,
+}
+
+impl Stepping {
+    /// Name of the method, for people.
+    pub fn name(self) -> &'static str {
+        match self.steps {
+            Steps::Explicit => EXPLICIT,
+            Steps::Implicit => IMPLICIT,
+        }
+    }
+}
+
+impl Asked<'_> {
+    /// The steps. At design accuracy linearly implicit ones pay where friction is stiff; at screening accuracy wherever they
+    /// know all that is stiff. Balls that roll have nothing stiff.
+    pub fn stepping(&self, is_stiff: impl FnOnce() -> bool) -> Stepping {
+        let Asked {
+            run, known, bends, ..
+        } = *self;
+        let screening = run.accuracy == Accuracy::Screening;
+        let implicit = known < Known::Nothing
+            && match run.method {
+                Method::Explicit => false,
+                Method::Implicit => true,
+                // linearly implicit steps that keep the energy of quick coordinates are dearer than explicit ones
+                Method::Auto => (screening && known == Known::All && !bends) || is_stiff(),
+            };
+        let steps = if implicit {
+            Steps::Implicit
+        } else {
+            Steps::Explicit
+        };
+        let tolerance = match (screening, steps) {
+            (false, _) => self.design,
+            (true, Steps::Implicit) => self.screening,
+            (true, Steps::Explicit) => SCREENING_EXPLICIT,
+        };
+        Stepping { steps, tolerance }
+    }
+
+    /// Steps that are not those that were asked for, or coarser ones than the accuracy means.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let Asked {
+            run,
+            known,
+            bends,
+            design,
+            ..
+        } = *self;
+        let mut list = Vec::new();
+        if let (Accuracy::Design, Some(tolerance)) = (run.accuracy, run.tolerance)
+            && tolerance > design
+        {
+            list.push(warning(
+                "AB1123",
+                format!(
+                    "run.tolerance = {tolerance:e} is larger than the {design:e} of design accuracy: the energy ledger may miss more than a \
+                     millionth, and first impacts more than their spread."
+                ),
+            ));
+        }
+        let what = match known {
+            Known::All if bends && run.method == Method::Auto => {
+                "the quick modes of a rotor that bends bind linearly implicit steps too"
+            }
+            Known::All => return list,
+            Known::Races => {
+                "what keeps the balls apart (a free cage, its land, neighbours) has no tangents"
+            }
+            Known::Nothing => "balls that roll have nothing stiff",
+            Known::NotMounts => "parts of a mount besides spring and damper have no tangents",
+        };
+        let text = match (run.method, run.accuracy) {
+            (Method::Implicit, _) if known >= Known::Nothing => {
+                format!(
+                    "run.method = \"implicit\" was asked for, but {what}: explicit steps were taken."
+                )
+            }
+            (Method::Implicit, _) => format!(
+                "run.method = \"implicit\": {what}, so these steps are as short as explicit ones and cost several times more."
+            ),
+            (Method::Auto, Accuracy::Screening) => format!(
+                "run.accuracy = \"screening\" took explicit steps, because {what}: they are hardly quicker than those of design."
+            ),
+            _ => return list,
+        };
+        list.push(warning("AB1124", text));
+        list
+    }
+
+    /// What the energy ledger may miss.
+    pub fn largest_residual(&self, at_design: f64) -> f64 {
+        match self.run.accuracy {
+            Accuracy::Design => at_design,
+            Accuracy::Screening => SCREENING_RESIDUAL,
+        }
+    }
+}
