@@ -11,16 +11,19 @@ Numbers are in SI; a quantity that is given is a text with a unit, such as ``"0.
 from auxbear._auxbear import version as _version
 from auxbear._problem import Problem
 from auxbear.catalogue import bearing, bearings
-from auxbear.result import ModelWarning, Quantity, Result, RunWarning, Spread, Table
+from auxbear.recording import Recording
+from auxbear.result import Evaluated, ModelWarning, Quantity, Result, RunWarning, Spread, Table
 from auxbear.scenario import Scenario, explain, schema, template
 from auxbear.study import Study, StudyResult
 
 __version__: str = _version()
 
 __all__ = [
+    "Evaluated",
     "ModelWarning",
     "Problem",
     "Quantity",
+    "Recording",
     "Result",
     "RunWarning",
     "Scenario",

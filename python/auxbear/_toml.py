@@ -25,6 +25,8 @@ def value(of: Any) -> str:
         return "[" + ", ".join(map(value, of)) + "]"
     if hasattr(of, "__fspath__"):
         return value(of.__fspath__())
+    if hasattr(of, "_as_file"):
+        return value(of._as_file())
     raise TypeError(f"a text with a unit, number, switch, list or dict is needed, not {type(of).__name__}")
 
 

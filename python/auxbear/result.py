@@ -151,6 +151,15 @@ class Table:
         return f"<auxbear.Table {len(self)} rows, {len(self.columns)} columns>"
 
 
+class Evaluated(NamedTuple):
+    """What a list of changes gave."""
+
+    #: Results, a row each
+    table: Table
+    #: Reasons of the rows that failed, by their places; their results are empty
+    failed: dict[int, str]
+
+
 class Result(Mapping[str, Quantity]):
     """Everything known after a run: named results as in a dict, and what stands in its run directory."""
 

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import re
+import shutil
+import tempfile
 import warnings
-from collections.abc import Mapping
+import weakref
+from collections.abc import Mapping, Sequence
 from os import PathLike
+from pathlib import Path
 from typing import Any
 
 from auxbear import _auxbear, _progress, _toml
 from auxbear._progress import Progress
-from auxbear.result import ModelWarning, Result, RunWarning
+from auxbear.result import Evaluated, ModelWarning, Result, RunWarning, Table
 
 
 class Scenario:
@@ -23,10 +28,12 @@ class Scenario:
     Raises ``Problem`` for whatever a file with these values would be refused.
     """
 
-    __slots__ = ("_native",)
+    __slots__ = ("_native", "_kept", "__weakref__")
 
     def __init__(self, values: Mapping[str, Any] | None = None, /, **more: Any) -> None:
         given = {"format": "auxbear.scenario/1", **(values or {}), **more}
+        # recordings among the values live as long as what names them
+        self._kept: list[Any] = [given]
         self._native = _auxbear.Scenario.parse(_toml.document(given), "scenario from Python")
 
     @classmethod
@@ -43,6 +50,7 @@ class Scenario:
     def _of(cls, native: _auxbear.Scenario) -> Scenario:
         scenario = cls.__new__(cls)
         scenario._native = native
+        scenario._kept = []
         return scenario
 
     def set(self, path: str, value: Any) -> Scenario:
@@ -51,11 +59,14 @@ class Scenario:
         What is refused raises ``Problem`` and leaves the scenario as it was. ``copy()`` first, to keep the one that was.
         """
         self._native = self._native.changed([(path, _toml.value(value))])
+        self._kept.append(value)
         return self
 
     def copy(self) -> Scenario:
         """Another scenario with these values."""
-        return self._of(self._native)
+        copy = self._of(self._native)
+        copy._kept = list(self._kept)
+        return copy
 
     __copy__ = copy
 
@@ -68,6 +79,15 @@ class Scenario:
     def title(self) -> str | None:
         """Title of the report."""
         return self._native.title()
+
+    def _as_file(self) -> str:
+        """A file of these values, for a scenario that names it."""
+        folder = tempfile.mkdtemp(prefix="auxbear-")
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+        name = re.sub(r"[^\w .-]", "-", self.title or self.system)
+        path = Path(folder) / f"{name[:100]}.toml"
+        path.write_text(self.toml(), encoding="utf-8")
+        return str(path)
 
     def toml(self) -> str:
         """The resolved file: every value with its unit, and defaults."""
@@ -117,6 +137,26 @@ class Scenario:
         for warning in result.warnings:
             warnings.warn(f"{warning.code}: {warning.text}", ModelWarning, stacklevel=2)
         return result
+
+    def evaluate(
+        self,
+        changes: Sequence[Mapping[str, Any]],
+        *,
+        threads: int | None = None,
+        progress: bool | Progress | None = None,
+    ) -> Evaluated:
+        """Simulates it once with each of these changes, dicts of paths and values, many side by side.
+
+        Returns a table of results, a row each, and the reasons of the rows that failed; changes that are refused fail so too. The
+        numbers of a row depend on its changes alone.
+        """
+        given = [[(path, _toml.value(value)) for path, value in change.items()] for change in changes]
+        tell, end = _progress.shown(self.system, progress)
+        try:
+            table, failed = self._native.evaluate(given, threads, tell)
+        finally:
+            end()
+        return Evaluated(Table(table), failed)
 
     def __repr__(self) -> str:
         title = f": {self.title}" if self.title else ""

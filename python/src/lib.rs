@@ -8,7 +8,8 @@
 //! | `table` | columns of numbers as an Arrow stream |
 //! | `scenario` | what is simulated |
 //! | `outcome` | what comes out |
-//! | `study` | many runs |
+//! | `study` | many runs, here or in parts elsewhere |
+//! | `recording` | channels from memory, as a file that the readers take |
 //! | `laws` | laws over arrays |
 
 #![forbid(unsafe_code)]
@@ -16,6 +17,7 @@
 mod laws;
 mod outcome;
 mod problem;
+mod recording;
 mod scenario;
 mod study;
 mod table;
@@ -30,11 +32,13 @@ mod _auxbear {
     #[pymodule_export]
     use super::outcome::Outcome;
     #[pymodule_export]
+    use super::recording::write_recording;
+    #[pymodule_export]
     use super::scenario::{
-        Scenario, bearing_json, bearings_json, explain, schema, template, version,
+        Scenario, bearing_json, bearings_json, explain, number_in, schema, template, version,
     };
     #[pymodule_export]
-    use super::study::{Study, read_study};
+    use super::study::{Parts, Study, read_study};
     #[pymodule_export]
     use super::table::Table;
 }

@@ -2,12 +2,18 @@
 
 use crate::outcome::Outcome;
 use crate::problem::raised;
+use crate::study::columns_of;
+use crate::table::Table;
 use crate::watched::watched;
 use auxbear::catalogue::{self, Catalogue, Filter, FilterTexts};
 use auxbear::problem::explain::explain as page_of;
 use auxbear::run::build;
 use auxbear::scenario::{self, BuiltIn};
+use auxbear::study::evaluate;
+use auxbear::units;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -85,6 +91,24 @@ impl Scenario {
             found.map_err(|problem| raised(py, problem))?,
         )
     }
+
+    /// Runs it with each of these lists of changes: results, a row each, and the reasons of the rows that failed.
+    #[pyo3(signature = (changes, threads, progress))]
+    fn evaluate(
+        &self,
+        py: Python<'_>,
+        changes: Vec<Vec<(String, String)>>,
+        threads: Option<NonZeroUsize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(Table, BTreeMap<usize, String>)> {
+        let found = watched(py, threads, progress, |options, _| {
+            evaluate(&self.0, &changes, options)
+        })?;
+        // only Ctrl-C interrupts, and that was raised
+        let table = found.unwrap_or_default();
+        let failed = table.failed.clone();
+        Ok((Table::of(columns_of(table))?, failed))
+    }
 }
 
 fn of(
@@ -110,6 +134,19 @@ pub fn schema(kind: &str) -> Option<String> {
 #[pyfunction]
 pub fn explain(py: Python<'_>, code: &str) -> PyResult<String> {
     page_of(code).map_err(|problem| raised(py, problem))
+}
+
+/// A text with unit, in a unit of SI.
+#[pyfunction]
+pub fn number_in(text: &str, unit: &str) -> PyResult<f64> {
+    let refused = |found: String| PyValueError::new_err(found);
+    let quantity = units::parse_quantity(text).map_err(|error| refused(error.to_string()))?;
+    let one = if unit == "1" { "" } else { unit };
+    let wanted = units::parse_quantity(&format!("1 {one}"));
+    if wanted.map(|one| one.dimension) != Ok(quantity.dimension) {
+        return Err(refused(format!("\"{text}\" is no quantity in {unit}")));
+    }
+    Ok(quantity.value_si)
 }
 
 #[pyfunction]

@@ -4,12 +4,13 @@ use crate::problem::raised;
 use crate::scenario::Scenario;
 use crate::table::{Column, Table};
 use crate::watched::watched;
-use auxbear::report::study::{Directory, read};
+use auxbear::report::study::{Directory, part as part_of, read};
 use auxbear::scenario::StudyFile;
 use auxbear::study;
 use auxbear::study::table::Table as Members;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -71,6 +72,25 @@ impl Study {
         }
     }
 
+    /// Computes a part: the bytes of its file.
+    fn part<'py>(
+        &self,
+        py: Python<'py>,
+        part: usize,
+        threads: Option<NonZeroUsize>,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let file = self.0.clone();
+        let done = watched(py, threads, None, |options, _| {
+            let study = study::Study::new(file)?;
+            // only Ctrl-C interrupts, and that is raised
+            part_of(&study, part, options).unwrap_or_else(|| Ok(Vec::new()))
+        })?;
+        match done {
+            Ok(bytes) => Ok(PyBytes::new(py, &bytes)),
+            Err(problem) => Err(raised(py, problem)),
+        }
+    }
+
     /// Begins the study of a directory or goes on with it.
     #[pyo3(signature = (path, add, threads, progress))]
     fn run(
@@ -91,6 +111,43 @@ impl Study {
     }
 }
 
+/// A study directory that this process alone works on, whose parts are computed elsewhere.
+#[pyclass(frozen)]
+pub struct Parts(Directory);
+
+#[pymethods]
+impl Parts {
+    #[staticmethod]
+    fn open(py: Python<'_>, study: &Study, path: PathBuf, add: usize) -> PyResult<Parts> {
+        let file = study.0.clone();
+        let opened = py.detach(|| Directory::open(&path, study::Study::new(file)?, add));
+        opened.map(Parts).map_err(|problem| raised(py, problem))
+    }
+
+    /// The study as it stands in its directory, and its scenario, as texts.
+    fn texts(&self) -> (String, String) {
+        let file = &self.0.study.file;
+        (file.toml(), file.scenario.resolved.toml())
+    }
+
+    /// Numbers of the parts that are not there.
+    fn missing(&self, py: Python<'_>) -> PyResult<Vec<usize>> {
+        let missing = py.detach(|| self.0.open_parts());
+        missing.map_err(|problem| raised(py, problem))
+    }
+
+    fn put(&self, py: Python<'_>, part: usize, bytes: &[u8]) -> PyResult<()> {
+        let put = py.detach(|| self.0.put(part, bytes));
+        put.map_err(|problem| raised(py, problem))
+    }
+
+    /// Writes what the members say that are there.
+    fn finish(&self, py: Python<'_>) -> PyResult<()> {
+        let done = watched(py, None, None, |options, _| self.0.finish(options))?;
+        done.map(|_| ()).map_err(|problem| raised(py, problem))
+    }
+}
+
 /// The study of a directory with its members: inputs first, then results.
 #[pyfunction]
 pub fn read_study(py: Python<'_>, path: PathBuf) -> PyResult<(Study, Table)> {
@@ -100,7 +157,7 @@ pub fn read_study(py: Python<'_>, path: PathBuf) -> PyResult<(Study, Table)> {
     Ok((Study(study.file), Table::of(columns_of(members))?))
 }
 
-fn columns_of(members: Members) -> Vec<Column> {
+pub fn columns_of(members: Members) -> Vec<Column> {
     let numbers = members.members.iter().map(|member| *member as f64);
     let mut columns = vec![Column {
         name: "member".to_string(),

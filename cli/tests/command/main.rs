@@ -4,6 +4,7 @@ mod bad_input;
 mod bearings;
 mod export;
 mod limits;
+mod kills;
 mod lists;
 mod place;
 mod rig;

@@ -34,5 +34,6 @@ pub mod simulate;
 pub mod study;
 pub mod validate;
 
+pub use measure;
 pub use physics;
 pub use units;

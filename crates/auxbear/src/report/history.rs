@@ -18,6 +18,7 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 use serde::Serialize;
 use std::fs::File;
+use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -55,7 +56,7 @@ pub(super) fn write(file: &File, columns: &[Column]) -> Result<(), ParquetError>
 
 /// Writes columns of equal length, and more under keys of the file.
 pub(super) fn write_table(
-    file: &File,
+    file: impl Write + Send,
     name: &str,
     columns: &[View],
     more: Vec<KeyValue>,

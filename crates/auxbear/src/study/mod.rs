@@ -19,11 +19,48 @@ use crate::result::outcome::{Quantity, Value};
 use crate::run::{self, Options};
 use crate::scenario::{Scenario, StudyFile};
 use ::study::design::Coordinate;
+use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::atomic::Ordering;
 use table::{Column, Row, Table};
 
 /// Members of a part, which is kept when all of it is computed.
 pub const PART: usize = 64;
+
+/// Runs a scenario with each of these lists of changes, paths with their values as an override has them: a row each, results
+/// alone. What a scenario with those changes is refused for is the reason of a failed row. None where this was interrupted.
+pub fn evaluate(
+    scenario: &Scenario,
+    changes: &[Vec<(String, String)>],
+    options: &Options,
+) -> Option<Table> {
+    let scenarios: Vec<_> = (changes.par_iter())
+        .map(|changes| scenario.with(changes))
+        .collect();
+    let numbered = (0..changes.len()).map(|k| (k, Vec::new()));
+    table_of(&scenarios, numbered, Vec::new(), options)
+}
+
+/// Runs scenarios; each with its number and its inputs becomes a row.
+fn table_of(
+    scenarios: &[Result<Scenario, Box<Problem>>],
+    numbered: impl Iterator<Item = (usize, Vec<f64>)>,
+    inputs: Vec<Column>,
+    options: &Options,
+) -> Option<Table> {
+    let singles = run::each(scenarios, options);
+    if options.interrupt.load(Ordering::Relaxed) {
+        return None;
+    }
+    let rows = numbered.zip(singles).map(|((member, inputs), single)| Row {
+        member,
+        inputs,
+        whole: single.stop.complete(),
+        why: (!single.stop.complete()).then_some(single.stop.text),
+        results: single.quantities,
+    });
+    Some(Table::of(inputs, rows.collect()))
+}
 
 /// A study that is ready to run.
 pub struct Study {
@@ -137,23 +174,10 @@ impl Study {
             let values = drawn.values.iter().chain(all).cloned();
             self.file.scenario.with(&values.collect::<Vec<_>>())
         };
-        let scenarios: Vec<_> = {
-            use rayon::prelude::*;
-            drawn.par_iter().map(read).collect()
-        };
-        let singles = run::each(&scenarios, options);
-        if options.interrupt.load(std::sync::atomic::Ordering::Relaxed) {
-            return None;
-        }
-        let members = members.iter().zip(drawn).zip(singles);
-        let rows = members.map(|((member, drawn), single)| Row {
-            member: *member,
-            inputs: drawn.numbers,
-            whole: single.stop.complete(),
-            why: (!single.stop.complete()).then_some(single.stop.text),
-            results: single.quantities,
-        });
-        Some(Table::of(self.input_columns(), rows.collect()))
+        let scenarios: Vec<_> = drawn.par_iter().map(read).collect();
+        let inputs = drawn.into_iter().map(|drawn| drawn.numbers);
+        let numbered = members.iter().copied().zip(inputs);
+        table_of(&scenarios, numbered, self.input_columns(), options)
     }
 
     /// Columns of the inputs, without values.

@@ -128,16 +128,7 @@ impl Directory {
         options: &Options,
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Done, Box<Problem>> {
-        // a part that the design has grown beyond is computed anew, with the same numbers
-        let mut open: Vec<usize> = Vec::new();
-        for part in 0..part_count(&self.study) {
-            let wanted = members_of(&self.study, part);
-            let place = part_path(&self.path, part);
-            let whole = place.exists() && part::count(&place)? == wanted.len();
-            if !whole {
-                open.push(part);
-            }
-        }
+        let open = self.open_parts()?;
         let threads = options.threads.unwrap_or_else(rayon::current_num_threads);
         let at_once = (threads * A_THREAD).div_ceil(PART).max(1);
         let mut done = self.study.members()
@@ -158,7 +149,7 @@ impl Directory {
                 let (part, table) = tables;
                 let place = part_path(&self.path, part);
                 aside(&place, |file| {
-                    part::write(&file, &table).map_err(super::directory::io_error)
+                    part::write(file, &table).map_err(super::directory::io_error)
                 })?;
             }
             if options.interrupt.load(Ordering::Relaxed) {
@@ -167,6 +158,53 @@ impl Directory {
             done += count;
             progress(done as f64);
         }
+        self.finish(options)
+    }
+
+    /// Parts that are not there. One that the design has grown beyond is computed anew, with the same numbers.
+    ///
+    /// # Errors
+    /// Parts that cannot be read.
+    pub fn open_parts(&self) -> Result<Vec<usize>, Box<Problem>> {
+        let mut open: Vec<usize> = Vec::new();
+        for part in 0..part_count(&self.study) {
+            let wanted = members_of(&self.study, part);
+            let place = part_path(&self.path, part);
+            let whole = place.exists() && part::count(&place)? == wanted.len();
+            if !whole {
+                open.push(part);
+            }
+        }
+        Ok(open)
+    }
+
+    /// Takes a part as [`part`] computed it elsewhere.
+    ///
+    /// # Errors
+    /// What cannot be written, and what is no such part.
+    pub fn put(&self, part: usize, bytes: &[u8]) -> Result<(), Box<Problem>> {
+        let place = part_path(&self.path, part);
+        aside(&place, |mut file| file.write_all(bytes))?;
+        let found = part::read(&place, &self.study);
+        let wanted = members_of(&self.study, part);
+        let fits = |table: &Table| table.members.iter().copied().eq(wanted);
+        match found {
+            Ok(table) if fits(&table) => Ok(()),
+            other => {
+                let _ = fs::remove_file(&place);
+                Err(match other {
+                    Err(problem) => problem,
+                    Ok(_) => part::damaged(&place, "other members than those of this part"),
+                })
+            }
+        }
+    }
+
+    /// Confirms what the study asks to, and writes what the members say that are there.
+    ///
+    /// # Errors
+    /// What cannot be written, and parts that cannot be read.
+    pub fn finish(&self, options: &Options) -> Result<Done, Box<Problem>> {
         self.confirm(options)?;
         self.told()
     }
@@ -192,7 +230,7 @@ impl Directory {
         match self.study.confirmed(&near, &quiet) {
             None => Ok(()),
             Some(table) => aside(&place, |file| {
-                part::write(&file, &table).map_err(super::directory::io_error)
+                part::write(file, &table).map_err(super::directory::io_error)
             }),
         }
     }
@@ -239,6 +277,22 @@ impl Directory {
             complete,
         })
     }
+}
+
+/// Computes a part, on whatever machine: the bytes of its file. None where this was interrupted.
+///
+/// # Errors
+/// What cannot be written as a file.
+pub fn part(
+    study: &Study,
+    part: usize,
+    options: &Options,
+) -> Option<Result<Vec<u8>, Box<Problem>>> {
+    let table = study.run(members_of(study, part), options)?;
+    let table = table.part(0..table.members.len());
+    let mut bytes = Vec::new();
+    let written = part::write(&mut bytes, &table).map(|()| bytes);
+    Some(written.map_err(|error| part::damaged(Path::new(MEMBERS), error.to_string())))
 }
 
 /// Reads a study directory back: the study, and the members that are there.

@@ -11,6 +11,7 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use std::collections::BTreeMap;
 use std::fs::File;
+use std::io::Write;
 use std::path::Path;
 
 /// The key of the file under which the reasons of failed members stand, as JSON.
@@ -18,7 +19,7 @@ const FAILED: &str = "auxbear.failed";
 const MEMBER: &str = "member";
 
 /// Writes a part.
-pub(super) fn write(file: &File, table: &Table) -> Result<(), ParquetError> {
+pub(super) fn write(file: impl Write + Send, table: &Table) -> Result<(), ParquetError> {
     let members: Vec<f64> = table.members.iter().map(|k| *k as f64).collect();
     let mut views = vec![View {
         name: MEMBER,
@@ -126,7 +127,7 @@ pub(super) fn csv(study: &Study, table: &Table) -> String {
 }
 
 /// A part that is not what this study wrote.
-fn damaged(path: &Path, found: impl Into<String>) -> Box<Problem> {
+pub(super) fn damaged(path: &Path, found: impl Into<String>) -> Box<Problem> {
     let allowed = "a part as auxbear study writes it is needed; without the file its members are computed again";
     Box::new(Problem::at_path(Code::StudyDamaged, path, found, allowed))
 }
