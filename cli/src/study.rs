@@ -239,7 +239,11 @@ fn text(path: &Path, study: &Study, done: &Done) -> String {
         ]);
     }
     if rows.len() > 1 {
-        text.push_str(&format!("results:\n{}", console::table(&rows)));
+        let of = match study.file.kind {
+            "widened" => " of the wider distributions, which are not those of the machine",
+            _ => "",
+        };
+        text.push_str(&format!("results{of}:\n{}", console::table(&rows)));
     }
     text
 }

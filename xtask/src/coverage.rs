@@ -112,6 +112,20 @@ const TABLES: &[Table] = &[
         tests: &["right_as_often", "fit::the_probability"],
         seeds: 100,
     },
+    Table {
+        subject: "Rare events",
+        package: "auxbear-study",
+        module: "rare",
+        tests: &["a_known"],
+        seeds: 200,
+    },
+    Table {
+        subject: "Studies that are killed",
+        package: "auxbear-cli",
+        module: "kills",
+        tests: &[""],
+        seeds: 200,
+    },
 ];
 
 /// Runs the tables, or those whose subject or module contains a word, and writes the page; sections that do not run stay.
@@ -176,7 +190,7 @@ fn measured(repository: &Repository, table: &Table) -> Result<(String, bool), St
     let names = (table.tests.iter()).map(|name| format!("{}::{name}", table.module));
     let output = cargo(repository)
         .args(["test", "--release", "--locked"])
-        .args(["-p", table.package, "--test", "suite", "--"])
+        .args(["-p", table.package, "--tests", "--"])
         .args(["--nocapture", "--test-threads=1", "--format=pretty"])
         .args(names)
         .env("AUXBEAR_SEEDS", table.seeds.to_string())

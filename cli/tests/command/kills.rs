@@ -45,24 +45,29 @@ fn kills_at_random_instants_change_no_byte_of_the_table() {
     let begin = Instant::now();
     let words = |out: &'static str| ["study", "study.toml", "--out", out, "--quiet"];
     place.call(&words("straight")).done();
-    let whole = begin.elapsed();
+    // instants to kill at, from the start to about the end: where that is follows from calls that ended before
+    let mut longest = begin.elapsed();
     let read = |out: &str, file: &str| fs::read(place.path(out).join(file)).unwrap();
     let (mut kills, mut studies) = (0, 0);
+    let mut draws = 0;
     while kills < wanted {
         studies += 1;
         let out: &'static str = format!("killed-{studies}").leak();
         // more often than not before the end, until one call comes through
         loop {
             let mut child = place.command(&words(out)).spawn().unwrap();
-            sleep(whole.mul_f64(0.9 * share(kills)));
+            sleep(longest.mul_f64(share(draws)));
+            draws += 1;
             let ended = child.try_wait().unwrap().is_some();
             child.kill().unwrap();
             let status = child.wait().unwrap();
             if ended {
                 assert!(status.success());
+                longest = longest.mul_f64(0.7);
                 break;
             }
             kills += 1;
+            longest = longest.mul_f64(1.1);
             if kills.is_multiple_of(4) {
                 place.call(&words(out)).done();
                 break;

@@ -3,8 +3,8 @@
 mod bad_input;
 mod bearings;
 mod export;
-mod limits;
 mod kills;
+mod limits;
 mod lists;
 mod place;
 mod rig;

@@ -44,12 +44,16 @@ impl Correlation {
     pub fn apply(&self, coordinates: &[f64]) -> Vec<f64> {
         let normal: Vec<f64> = coordinates.iter().map(|u| quantile(*u)).collect();
         let mixed = |row: &Vec<f64>| row.iter().zip(&normal).map(|(l, z)| l * z).sum::<f64>();
-        let inside = |u: f64| u.clamp(f64::EPSILON, 1.0 - f64::EPSILON);
         self.factor
             .iter()
             .map(|row| inside(below(mixed(row))))
             .collect()
     }
+}
+
+/// A share that every distribution has a value for.
+pub(crate) fn inside(share: f64) -> f64 {
+    share.clamp(f64::EPSILON, 1.0 - f64::EPSILON)
 }
 
 #[cfg(test)]

@@ -4,17 +4,20 @@
 //!   factorial        every combination of levels, the last input fastest
 //!   sweep            the machine as given, then each input alone over its levels
 //!   monte carlo      independent
+//!   widened          independent, from normal numbers that scatter more: rare events are met, and weighed by what they are
 //!   latin hypercube  a block has one member in each of its n slices of every input
 //!   sobol            a scrambled sequence that fills evenly; best with powers of two
 //!   morris           a block is a trajectory: one input after the other moves by half its range
 //!   selection        every combination of the levels of some inputs, each with the same draws of the others
 //!   saltelli         a block is two points A and B, and A with each input of B in turn
 //! ```
-//! Sources: McKay, Beckman, Conover, Technometrics 21 (1979) 239 (Latin hypercube); Burley, J. Comput. Graph. Tech. 9 (2020)
+//! Sources: Rubinstein, Simulation and the Monte Carlo Method (1981), section 4.3 (weights); McKay, Beckman, Conover, Technometrics 21 (1979) 239 (Latin hypercube); Burley, J. Comput. Graph. Tech. 9 (2020)
 //! no. 4, 1 (scrambled Sobol numbers); Morris, Technometrics 33 (1991) 161; Saltelli et al., Comput. Phys. Commun. 181 (2010) 259
 //! (all from memory).
 
+use crate::correlation::inside;
 use crate::random::{below, bits, permuted, uniform};
+use measure::normal::{below as below_normal, quantile};
 
 /// Members of a scrambled Sobol sequence, at most.
 pub const MOST_SOBOL: usize = 1 << 16;
@@ -26,7 +29,7 @@ const LEVELS: usize = 4;
 pub const MOVE: f64 = 0.5;
 
 /// Which values the members take.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Design {
     /// Every combination of levels: their numbers, an input each.
     Factorial(Vec<usize>),
@@ -34,6 +37,8 @@ pub enum Design {
     Sweep(Vec<usize>),
     /// Independent members: number of inputs, of members.
     MonteCarlo(usize, usize),
+    /// Independent members whose normal numbers scatter so many times as much: number of inputs, of members, the factor.
+    Widened(usize, usize, f64),
     /// Latin hypercubes: number of inputs, of members in a block, of blocks.
     LatinHypercube(usize, usize, usize),
     /// A scrambled Sobol sequence: number of inputs, of members.
@@ -63,7 +68,9 @@ impl Design {
         match self {
             Design::Factorial(levels) => levels.iter().try_fold(1_usize, |n, l| n.checked_mul(*l)),
             Design::Sweep(levels) => levels.iter().try_fold(1_usize, |n, l| n.checked_add(*l)),
-            Design::MonteCarlo(_, members) | Design::Sobol(_, members) => Some(*members),
+            Design::MonteCarlo(_, members)
+            | Design::Widened(_, members, _)
+            | Design::Sobol(_, members) => Some(*members),
             Design::LatinHypercube(_, members, blocks) => members.checked_mul(*blocks),
             Design::Morris(inputs, blocks) => blocks.checked_mul(inputs + 1),
             Design::Saltelli(inputs, blocks) => blocks.checked_mul(inputs + 2),
@@ -80,6 +87,9 @@ impl Design {
         Some(match *self {
             Design::Factorial(_) | Design::Sweep(_) | Design::Selection(..) => return None,
             Design::MonteCarlo(inputs, n) => Design::MonteCarlo(inputs, n.checked_add(more)?),
+            Design::Widened(inputs, n, factor) => {
+                Design::Widened(inputs, n.checked_add(more)?, factor)
+            }
             Design::Sobol(inputs, n) => Design::Sobol(inputs, n.checked_add(more)?),
             Design::LatinHypercube(inputs, n, blocks) => {
                 Design::LatinHypercube(inputs, n, blocks.checked_add(more)?)
@@ -94,10 +104,26 @@ impl Design {
         match self {
             Design::Factorial(_)
             | Design::Sweep(_)
+            | Design::Widened(..)
             | Design::Morris(..)
             | Design::Selection(..) => false,
             Design::MonteCarlo(..) | Design::LatinHypercube(..) | Design::Sobol(..) => true,
             Design::Saltelli(inputs, _) => k % (inputs + 2) < 2,
+        }
+    }
+
+    /// What member k counts for: the density of its numbers over that from which they were drawn,
+    ///
+    /// ```text
+    ///   w = Π s e^(-z² (s² - 1)/2)        of a number s z, z standard normal;  mean 1
+    /// ```
+    pub fn weight(&self, seed: u64, k: usize) -> f64 {
+        match *self {
+            Design::Widened(inputs, _, factor) => (0..inputs)
+                .map(|input| normal(seed, k, input))
+                .map(|z| factor * (-0.5 * z * z * (factor * factor - 1.0)).exp())
+                .product(),
+            _ => 1.0,
         }
     }
 
@@ -132,6 +158,9 @@ impl Design {
             }
             Design::MonteCarlo(inputs, _) => (0..*inputs)
                 .map(|input| share(uniform(seed, k as u64, input as u64)))
+                .collect(),
+            Design::Widened(inputs, _, factor) => (0..*inputs)
+                .map(|input| share(inside(below_normal(factor * normal(seed, k, input)))))
                 .collect(),
             Design::LatinHypercube(inputs, members, _) => {
                 let (block, at) = ((k / members) as u64, k % members);
@@ -168,6 +197,11 @@ fn combination(levels: &[usize], k: usize) -> Vec<Coordinate> {
         .collect();
     coordinates.reverse();
     coordinates
+}
+
+/// A standard normal number.
+fn normal(seed: u64, k: usize, input: usize) -> f64 {
+    quantile(uniform(seed, k as u64, input as u64))
 }
 
 /// Keeps the places inside slices apart from the order of the slices.

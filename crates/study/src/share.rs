@@ -30,6 +30,27 @@ pub fn wilson(count: usize, members: usize) -> [f64; 2] {
     ]
 }
 
+/// Members that count for something other than one that must show an event for its probability to be told.
+pub const FEWEST: usize = 10;
+
+/// Probability of an event and both ends of its 95 % interval, from members of which each counts for its weight (of mean 1) where it
+/// shows the event and for nothing where it does not. None where fewer than [`FEWEST`] show it.
+///
+/// ```text
+///   p = Σ w/n,   s² = Σ (w - p)²/(n (n - 1)),   p e^(±1.96 s/p)        the logarithm of p scatters evenly
+/// ```
+pub fn weighted(shown: &[f64]) -> Option<(f64, [f64; 2])> {
+    let n = shown.len() as f64;
+    if shown.iter().filter(|weight| **weight > 0.0).count() < FEWEST {
+        return None;
+    }
+    let p = shown.iter().sum::<f64>() / n;
+    let squares: f64 = shown.iter().map(|weight| (weight - p).powi(2)).sum();
+    let spread = (squares / (n * (n - 1.0))).sqrt();
+    let factor = (TWO_SIDED * spread / p).exp();
+    Some((p.min(1.0), [p / factor, (p * factor).min(1.0)]))
+}
+
 /// Whether so many that hold show that the share of all is reached.
 pub fn shows_reached(share: f64, hold: usize, members: usize) -> bool {
     chance_of_as_many(share, hold, members) <= 1.0 - CONFIDENCE

@@ -7,7 +7,7 @@
 //! seed = 1
 //!
 //! [design]
-//! kind = "monte carlo"          # latin hypercube, sobol, factorial, sweep, morris, saltelli, selection
+//! kind = "monte carlo"          # widened, latin hypercube, sobol, factorial, sweep, morris, saltelli, selection
 //! members = 1000                # blocks of morris and saltelli
 //!
 //! [[input]]
@@ -24,7 +24,6 @@
 //! ```
 
 use crate::problem::{Code, Place, Problem};
-use crate::scenario::document::Raw;
 use crate::scenario::key::quoted;
 use crate::scenario::raw::{Written, collect, raw, tables};
 use crate::scenario::study_inputs::{StudyInput, inputs_of};
@@ -39,8 +38,13 @@ use toml::de::DeTable;
 pub const STUDY_FORMAT: &str = "auxbear.study/1";
 /// Members of a study, at most: each is a row in memory.
 const MOST_MEMBERS: usize = 1_000_000;
-const DESIGNS: [&str; 8] = [
+/// Factor of a widened design where none is given: probabilities about a thousandth, of few inputs.
+const WIDENING: f64 = 2.0;
+/// Largest one: beyond it hardly a member counts.
+const MOST_WIDENING: f64 = 4.0;
+const DESIGNS: [&str; 9] = [
     "monte carlo",
+    "widened",
     "latin hypercube",
     "sobol",
     "factorial",
@@ -257,6 +261,9 @@ impl StudyFile {
                 self.added
             ));
         }
+        if let Design::Widened(_, _, factor) = self.design {
+            out.push_str(&format!("widen = {}\n", units::number_text(factor)));
+        }
         for input in &self.inputs {
             out.push_str(&format!(
                 "\n[[input]]\npath = {}\n{}\n",
@@ -338,6 +345,20 @@ fn rank(question: &mut Section, kind: &str) -> Result<Option<(String, bool, Plac
     Ok(Some((name, most, place)))
 }
 
+/// The factor by which the normal numbers of a widened design scatter more.
+fn widening(section: &Section) -> Result<f64, Box<Problem>> {
+    let Some((value, place)) = section.number("widen")? else {
+        return Ok(WIDENING);
+    };
+    match (1.0..=MOST_WIDENING).contains(&value) && value > 1.0 {
+        true => Ok(value),
+        false => {
+            let allowed = format!("a number above 1 and up to {MOST_WIDENING} is needed");
+            Err(section.wrong(Code::OutOfRange, place, "widen", value.to_string(), allowed))
+        }
+    }
+}
+
 /// The word for the number of members, or of blocks.
 fn count_key(kind: &str) -> &'static str {
     match kind {
@@ -375,6 +396,7 @@ fn shape(
     match (&complete, kind) {
         (Some(_), _) => section.known(&["kind"], &[])?,
         (None, "selection") => section.known(&["kind", key], &[])?,
+        (None, "widened") => section.known(&["kind", key, "added", "widen"], &[])?,
         (None, _) => section.known(&["kind", key, "added"], &[])?,
     }
     let number = section.count(key)?;
@@ -392,6 +414,7 @@ fn shape(
     };
     let design = complete.or(match kind {
         "monte carlo" => Some(Design::MonteCarlo(count, asked)),
+        "widened" => Some(Design::Widened(count, asked, widening(section)?)),
         "latin hypercube" => Some(Design::LatinHypercube(count, asked, 1)),
         "sobol" => Some(Design::Sobol(count, asked)),
         "morris" => Some(Design::Morris(count, asked)),
@@ -471,12 +494,7 @@ fn pairs_of(
                 needed,
             ));
         }
-        let coefficient = section.list.iter().find(|(key, ..)| key == "coefficient");
-        let value = coefficient.and_then(|(_, raw, _)| match raw {
-            Raw::Float(value) => Some(*value),
-            Raw::Integer(_, Some(value)) => Some(*value as f64),
-            _ => None,
-        });
+        let value = section.number("coefficient")?.map(|(value, _)| value);
         match value.filter(|value| value.abs() < 1.0) {
             Some(value) => pairs.push((a, b, value, begin)),
             None => {
@@ -505,7 +523,7 @@ fn correlation_of(
     };
     if ["factorial", "sweep", "morris", "saltelli", "selection"].contains(&kind) {
         let found = format!("correlated inputs of a {kind} design");
-        let allowed = "its effects and indices belong to independent inputs; monte carlo, latin hypercube and sobol take correlated ones";
+        let allowed = "its effects and indices belong to independent inputs; monte carlo, widened, latin hypercube and sobol take correlated ones";
         return Err(page.problem(
             Code::StudyCorrelation,
             *place,

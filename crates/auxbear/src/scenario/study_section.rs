@@ -125,6 +125,19 @@ impl<'a> Section<'a> {
         }
     }
 
+    /// A bare number.
+    pub(super) fn number(&self, key: &str) -> Result<Option<(f64, Place)>, Box<Problem>> {
+        match self.get(key) {
+            None => Ok(None),
+            Some((Raw::Float(value), place)) => Ok(Some((*value, place))),
+            Some((Raw::Integer(_, Some(value)), place)) => Ok(Some((*value as f64, place))),
+            Some((other, place)) => {
+                let allowed = "a bare number is needed";
+                Err(self.wrong(Code::WrongType, place, key, other.text(), allowed))
+            }
+        }
+    }
+
     pub(super) fn word(
         &self,
         key: &str,

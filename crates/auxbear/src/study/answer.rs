@@ -104,12 +104,15 @@ impl Study {
             let unit = named.clone().find(|known| known.name == limit.quantity);
             let decisive = self.decisive(table, &limit.quantity);
             let values: Vec<Option<f64>> = some.iter().map(|at| decisive[*at]).collect();
-            limit_of(
-                limit,
-                unit.map_or("", |known| known.unit),
-                &values,
-                is_sample,
-            )
+            let unit = unit.map_or("", |known| known.unit);
+            match design {
+                Design::Widened(..) => {
+                    let members = some.iter().map(|at| table.members[*at]);
+                    let weights = members.map(|k| design.weight(self.file.seed, k));
+                    rare(limit, unit, &values, &weights.collect::<Vec<_>>())
+                }
+                _ => limit_of(limit, unit, &values, is_sample),
+            }
         });
         let sensitivity = self.shown().into_iter().filter_map(|name| {
             let unit = named.clone().find(|known| known.name == name)?.unit;
@@ -158,12 +161,62 @@ impl Study {
             }
             Design::Factorial(_)
             | Design::MonteCarlo(..)
+            | Design::Widened(..)
             | Design::LatinHypercube(..)
             | Design::Sobol(..)
             | Design::Selection(..) => None,
         }
     }
 }
+
+/// A limit judged by members that were drawn from wider distributions: each that breaks it counts for its weight.
+fn rare(limit: &Limit, unit: &'static str, values: &[Option<f64>], weights: &[f64]) -> StudyLimit {
+    let mut judged = limits::judge(limit, unit, values, LACKING);
+    let breaks = |value: &f64| !limit.side.holds(*value, limit.bound);
+    let shown: Vec<f64> = (values.iter().zip(weights))
+        .map(|(value, weight)| match value.filter(breaks) {
+            Some(_) => *weight,
+            None => 0.0,
+        })
+        .collect();
+    let open = values.iter().filter(|value| value.is_none()).count();
+    let beyond = share::weighted(&shown).filter(|_| open == 0);
+    let broken = shown.iter().filter(|weight| **weight > 0.0).count();
+    let allowed = 1.0 - limit.share;
+    // by what the members count for, not by their number
+    judged.value = None;
+    (judged.verdict, judged.why) = match beyond {
+        None if open > 0 => (
+            Verdict::Undecided,
+            format!("{open} members have no value: {LACKING}"),
+        ),
+        None => (
+            Verdict::Undecided,
+            format!(
+                "{broken} of {} members of the widened design break it, and {} are needed for a probability: more members or a larger \
+                 design.widen",
+                values.len(),
+                share::FEWEST
+            ),
+        ),
+        Some((p, [low, high])) => {
+            let verdict = match () {
+                () if high <= allowed => Verdict::Pass,
+                () if low >= allowed => Verdict::Fail,
+                () => Verdict::Undecided,
+            };
+            let why = format!(
+                "{broken} members of the widened design break it: a probability of {p:.2e}, from {low:.2e} to {high:.2e} with 95 %; \
+                 {allowed:.2e} is allowed"
+            );
+            (verdict, why)
+        }
+    };
+    StudyLimit { judged, beyond }
+}
+
+/// Why a member has no value.
+const LACKING: &str = "they failed, or have no such result";
 
 /// A limit judged: by the bounds of a share where members are a sample, else by counting.
 fn limit_of(
@@ -172,7 +225,6 @@ fn limit_of(
     values: &[Option<f64>],
     is_sample: bool,
 ) -> StudyLimit {
-    const LACKING: &str = "they failed, or have no such result";
     let mut judged = limits::judge(limit, unit, values, LACKING);
     let known = values.iter().flatten().count();
     if !is_sample {

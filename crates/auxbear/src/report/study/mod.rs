@@ -5,6 +5,7 @@
 
 mod cells;
 mod page;
+mod parallel;
 mod part;
 mod ranking;
 mod summary;

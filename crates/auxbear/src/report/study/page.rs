@@ -1,7 +1,7 @@
 //! The page of a study: inputs and verdicts first, then what each result does, and which input matters.
 
 use super::cells::{amount, rows, scaled, short};
-use super::ranking;
+use super::{parallel, ranking};
 use crate::report::page::{STYLE, escape_text as plain};
 use crate::report::picture::{Panel, line, text};
 use crate::result::outcome::Verdict;
@@ -9,6 +9,7 @@ use crate::scenario::{Limit, Side};
 use crate::study::Study;
 use crate::study::answer::{Answer, Sensitivity};
 use crate::study::table::{Column, Table};
+use ::study::design::Design;
 use std::fmt::Write;
 
 const BAR: &str = "#9db8d6";
@@ -18,7 +19,7 @@ const TOTAL: &str = "#c2571a";
 /// Dots of a picture, at most: every so-manieth member is drawn.
 const MOST_DOTS: usize = 1500;
 
-/// The page as one self-contained text without scripts.
+/// The page as one self-contained text.
 pub(super) fn html(study: &Study, table: &Table, answer: &Answer) -> String {
     let title = study
         .file
@@ -34,13 +35,14 @@ pub(super) fn html(study: &Study, table: &Table, answer: &Answer) -> String {
     body.push_str(&ranking::html(study, answer));
     body.push_str(&verdicts(answer));
     body.push_str(&spreads(study, answer));
+    body.push_str(&parallel::html(study, table));
     for name in study.shown() {
         body.push_str(&result(study, table, answer, &name));
     }
     body.push_str(&failed(table));
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:\">\n\
          <title>{} · auxbear study</title>\n<style>\n{}\nfigure svg {{ max-width: 100%; height: auto; }}\n</style>\n</head>\n<body>\n<main>\n{body}</main>\n</body>\n</html>\n",
         plain(&title),
         STYLE.concat()
@@ -182,8 +184,15 @@ fn spreads(study: &Study, answer: &Answer) -> String {
             .filter_map(row)
             .collect()
     };
+    let wider = match study.file.design {
+        Design::Widened(..) => {
+            "<p><b>Members are drawn from wider distributions than those given: means and spreads are not those of the machine. \
+             The probabilities of the limits are.</b></p>\n"
+        }
+        _ => "",
+    };
     format!(
-        "<h2>Results</h2>\n{}<details><summary>All other results</summary>\n{}</details>\n",
+        "<h2>Results</h2>\n{wider}{}<details><summary>All other results</summary>\n{}</details>\n",
         rows(&head, &of(true)),
         rows(&head, &of(false))
     )
