@@ -382,7 +382,7 @@ impl Document {
                 ))),
             };
         }
-        let key = table::keys().find(|key| key.path == dotted);
+        let key = table::key(&dotted);
         if let Some(key) = key
             && !table::systems(key).contains(&self.system)
         {
@@ -528,7 +528,7 @@ fn flatten(system: SystemName, table: &DeTable<'_>, prefix: &[String], entries: 
         }
         let Range { start, .. } = key.span();
         match value.get_ref() {
-            DeValue::Table(inner) if table::keys().any(|key| key.path == dotted) => {
+            DeValue::Table(inner) if table::key(&dotted).is_some() => {
                 let raw = table_raw(inner);
                 entries.push(Entry {
                     path,

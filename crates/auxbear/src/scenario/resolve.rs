@@ -113,7 +113,7 @@ impl Values {
     /// The condition that keeps a key from having a meaning, followed to its root.
     pub(crate) fn unmet(&self, key: &Key) -> Option<Condition> {
         key.conditions().find_map(|condition| {
-            if let Some(parent) = table::keys().find(|other| other.path == condition.path) {
+            if let Some(parent) = table::key(condition.path) {
                 if !table::systems(parent).contains(&self.system) {
                     // there is no choice to be made in this system
                     return None;

@@ -110,7 +110,7 @@ impl Resolved {
                     ));
                 }
             }
-            let Some(key) = table::keys().find(|key| key.path == value.path) else {
+            let Some(key) = table::key(value.path) else {
                 continue;
             };
             if key.section() != section {

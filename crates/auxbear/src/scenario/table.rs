@@ -7,6 +7,8 @@ use crate::scenario::key::{Key, Kind, Presence, Range, Section};
 use crate::scenario::run::{Accuracy, Method};
 use crate::scenario::system::{MOVING, STEPPED, SystemName, WITH_BEARING};
 use crate::scenario::words::Words;
+use std::collections::HashMap;
+use std::sync::LazyLock;
 
 /// Format name of the scenario files that this version writes.
 pub const FORMAT: &str = "auxbear.scenario/1";
@@ -63,16 +65,36 @@ pub fn sections_of(system: SystemName) -> impl Iterator<Item = &'static Section>
 
 /// The keys of a system, in order.
 pub fn keys_of(system: SystemName) -> impl Iterator<Item = &'static Key> {
-    keys().filter(move |key| systems(key).contains(&system))
+    // every member of a study asks for them again
+    static KEYS: LazyLock<Vec<Vec<&Key>>> = LazyLock::new(|| {
+        let of = |system: &SystemName| keys().filter(|key| systems(key).contains(system)).collect();
+        SystemName::ALL.iter().map(of).collect()
+    });
+    KEYS[system as usize].iter().copied()
+}
+
+/// The key of a path; none where there is no such key.
+pub fn key(path: &str) -> Option<&'static Key> {
+    static KEYS: LazyLock<HashMap<&str, &Key>> =
+        LazyLock::new(|| first_of_each(keys().map(|key| (key.path, key))));
+    KEYS.get(path).copied()
+}
+
+/// The first value of each name.
+fn first_of_each<T>(all: impl Iterator<Item = (&'static str, T)>) -> HashMap<&'static str, T> {
+    let mut found = HashMap::new();
+    for (name, value) in all {
+        found.entry(name).or_insert(value);
+    }
+    found
 }
 
 /// The systems that have a key.
 pub fn systems(key: &Key) -> &'static [SystemName] {
-    let of_section = || {
-        let section = sections().find(|section| section.path == key.section());
-        section.map_or(SystemName::ALL, |section| section.systems)
-    };
-    key.systems.unwrap_or_else(of_section)
+    static OF_SECTION: LazyLock<HashMap<&str, &[SystemName]>> =
+        LazyLock::new(|| first_of_each(sections().map(|section| (section.path, section.systems))));
+    let of_section = || OF_SECTION.get(key.section()).copied();
+    (key.systems.or_else(of_section)).unwrap_or(SystemName::ALL)
 }
 
 /// What a system does without a key: mostly what all systems do.

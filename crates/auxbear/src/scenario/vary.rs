@@ -240,7 +240,7 @@ pub(crate) fn of_drop(
 }
 
 fn by_repeat(path: &str, distribution: Distribution, all: &[Values]) -> Option<Vary> {
-    let key = table::keys().find(|key| key.path == path)?;
+    let key = table::key(path)?;
     let targets: Option<Vec<_>> = all.iter().map(|values| target(key, values)).collect();
     Some(Vary {
         path: path.to_string(),

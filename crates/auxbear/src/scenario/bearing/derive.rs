@@ -485,7 +485,7 @@ impl Values {
     }
 
     pub(crate) fn put_derived(&mut self, path: &'static str, value: Value, how: &str) -> Done {
-        let Some(key) = table::keys().find(|key| key.path == path) else {
+        let Some(key) = table::key(path) else {
             return Ok(());
         };
         let text = match &value {

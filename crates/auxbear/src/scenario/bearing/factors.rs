@@ -48,9 +48,7 @@ impl Values {
 
     /// What factors by the tables need, all of it; else what is to be given by hand.
     pub(super) fn no_factor(&self, path: &str) -> Problem {
-        let needed = table::keys()
-            .find(|key| key.path == path)
-            .map_or(String::new(), Key::needed);
+        let needed = table::key(path).map_or(String::new(), Key::needed);
         let kind = self.bearing_type().factor_type();
         let angle = self.number(ANGLE).or_else(|| self.number(CONTACT_ANGLE));
         let degrees = angle.map(f64::to_degrees);

@@ -33,7 +33,7 @@ impl Values {
         &self,
         document: &Document,
     ) -> Result<Option<Catalogue>, Box<Problem>> {
-        let key = table::keys().find(|key| key.path == CATALOGUE);
+        let key = table::key(CATALOGUE);
         let (Some(key), Some(given)) = (key, document.values.get(CATALOGUE)) else {
             return Ok(None);
         };

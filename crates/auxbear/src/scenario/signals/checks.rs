@@ -188,7 +188,7 @@ impl Context<'_> {
         if self.values.is_given(path) {
             return Ok(());
         }
-        let key = table::keys().find(|key| key.path == path);
+        let key = table::key(path);
         let needed = key.map_or(String::new(), |key| key.needed());
         self.refuse(
             Code::MissingKey,
