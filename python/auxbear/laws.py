@@ -150,6 +150,57 @@ def palmgren(
     return Moment(*_each(_auxbear.palmgren, given))
 
 
+def skf(
+    speed: Numbers,
+    radial_load: Numbers,
+    axial_load: Numbers = 0.0,
+    *,
+    mean_diameter: Numbers,
+    viscosity: Numbers,
+    rolling_factors: tuple[Numbers, ...],
+    sliding_factors: tuple[Numbers, ...],
+    static_load_rating: Numbers | None = None,
+    starvation: Numbers = 0.0,
+    boundary_friction: Numbers = 0.12,
+    film_friction: Numbers = 0.05,
+    drag: Numbers = 0.0,
+    seal_moment: Numbers = 0.0,
+) -> Moment:
+    """The SKF model of the moment of a ball bearing: rolling and drag follow the speed, sliding and seals the load.
+
+    - ``speed``: rad/s, either sign
+    - ``radial_load``, ``axial_load``: N
+    - ``mean_diameter``: (d + D)/2, m
+    - ``viscosity``: kinematic ν, m²/s
+    - ``rolling_factors``, ``sliding_factors``: R1, R2 and S1, S2 of a deep groove bearing, whose ``static_load_rating`` C0, N, is needed;
+      R1, R2, R3 and S1, S2, S3 of an angular contact bearing
+    - ``starvation``: K_rs (d + D) √(K_z/(2 (D - d))), per mm²/s and rpm
+    - ``boundary_friction``, ``film_friction``: sliding friction μ_bl, μ_EHL
+    - ``drag``: of an oil bath per squared speed, N mm/rpm²
+    - ``seal_moment``: of both seals, N m
+    """
+    factors = (*rolling_factors, *sliding_factors)
+    is_deep_groove = static_load_rating is not None
+    if is_deep_groove and len(factors) == 4:
+        factors = (*factors, static_load_rating, 0.0)
+    elif is_deep_groove or len(factors) != 6:
+        raise ValueError("R1, R2, S1, S2 with static_load_rating, or R1, R2, R3, S1, S2, S3 without it, are needed")
+    given = (
+        speed,
+        radial_load,
+        axial_load,
+        mean_diameter,
+        viscosity,
+        starvation,
+        boundary_friction,
+        film_friction,
+        drag,
+        seal_moment,
+        *factors,
+    )
+    return Moment(*_each(_auxbear.skf, given, is_deep_groove))
+
+
 def race_acceleration(
     *,
     race_inertia: Numbers,

@@ -4,6 +4,7 @@ use auxbear::physics::film::{EntrainedContact, FilmThickness};
 use auxbear::physics::hertz::{BallRace, PointContact, Race, maximum_pressure};
 use auxbear::physics::palmgren::Palmgren;
 use auxbear::physics::rolling;
+use auxbear::physics::skf::{SkfAngularContact, SkfContacts, SkfDeepGroove, SkfMoment};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -108,6 +109,60 @@ pub fn palmgren<'py>(py: Python<'py>, given: Given<'py>) -> PyResult<Arrays<'py>
             static_load_rating: rating,
         };
         let parts = law.parts(speed, load);
+        Ok([parts.speed_dependent, parts.load_dependent])
+    })
+}
+
+/// Speed, radial and axial load, mean diameter, viscosity, starvation, friction of boundary and of film, drag, moment of the seals, then
+/// the load factors of the type: R1, R2, R3, S1, S2, S3, or R1, R2, S1, S2 and the static load rating of a deep groove bearing.
+#[pyfunction]
+pub fn skf<'py>(py: Python<'py>, given: Given<'py>, is_deep_groove: bool) -> PyResult<Arrays<'py>> {
+    each(py, &given, |values| {
+        let [
+            speed,
+            radial,
+            axial,
+            mean_diameter,
+            viscosity,
+            starvation,
+            boundary_friction,
+            film_friction,
+            drag,
+            seal_moment,
+            a,
+            b,
+            c,
+            d,
+            e,
+            f,
+        ] = values;
+        let law = SkfMoment {
+            contacts: match is_deep_groove {
+                true => SkfContacts::DeepGroove(SkfDeepGroove {
+                    r1: a,
+                    r2: b,
+                    s1: c,
+                    s2: d,
+                    static_load_rating: e,
+                }),
+                false => SkfContacts::AngularContact(SkfAngularContact {
+                    r1: a,
+                    r2: b,
+                    r3: c,
+                    s1: d,
+                    s2: e,
+                    s3: f,
+                }),
+            },
+            mean_diameter,
+            viscosity,
+            starvation,
+            boundary_friction,
+            film_friction,
+            drag,
+            seal_moment,
+        };
+        let parts = law.parts(speed, radial, axial);
         Ok([parts.speed_dependent, parts.load_dependent])
     })
 }

@@ -28,7 +28,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _auxbear {
     #[pymodule_export]
-    use super::laws::{film, hertz, palmgren, race_acceleration};
+    use super::laws::{film, hertz, palmgren, race_acceleration, skf};
     #[pymodule_export]
     use super::outcome::Outcome;
     #[pymodule_export]

@@ -2,7 +2,7 @@
 
 use crate::problem::raised;
 use crate::table::{Column, Table};
-use auxbear::report::directory::{page_run, write};
+use auxbear::report::directory::{page_run, summary_text, write};
 use auxbear::report::page;
 use auxbear::result::outcome::{self, Quantity, Value};
 use auxbear::scenario::Scenario;
@@ -127,8 +127,8 @@ impl Outcome {
 
     /// The text of `summary.json`.
     fn summary(&self, py: Python<'_>) -> PyResult<String> {
-        let run = py.detach(|| page_run("", &self.scenario, &self.found));
-        Ok(run.map_err(|problem| raised(py, problem))?.summary_json)
+        let text = py.detach(|| summary_text(&self.scenario, &self.found));
+        text.map_err(|problem| raised(py, problem))
     }
 
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {

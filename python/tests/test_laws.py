@@ -72,3 +72,18 @@ def test_what_makes_no_contact_is_refused():
         laws.hertz(1.0, **{**BALL, "groove_curvature": 0.49}, race="inner")
     with pytest.raises(ValueError, match="inner"):
         laws.hertz(1.0, **BALL, race="middle")
+
+
+def test_skf_has_its_powers_and_signs():
+    bearing = dict(mean_diameter=36e-3, rolling_factors=(4.1e-7, 1.7), sliding_factors=(3.73e-3, 14.6), static_load_rating=6550.0)
+    speed = numpy.array([10.0, -10.0, 20.0])
+    found = laws.skf(speed, 300.0, viscosity=20e-6, seal_moment=0.01, **bearing)
+    assert found.speed_dependent[0] == -found.speed_dependent[1] > 0.0
+    assert found.load_dependent[0] == -found.load_dependent[1] > 0.01
+    # rolling grows with (ν n)^0.6 where the inlet does not warm
+    assert found.speed_dependent[2] / found.speed_dependent[0] == pytest.approx(2.0**0.6, rel=2e-3)
+    # a slow bearing rubs as its boundaries do, in proportion to μ_bl
+    slow = [laws.skf(1e-3, 300.0, viscosity=20e-6, boundary_friction=mu, **bearing).load_dependent for mu in (0.1, 0.2)]
+    assert slow[1] / slow[0] == pytest.approx(2.0, rel=1e-3)
+    with pytest.raises(ValueError, match="static_load_rating"):
+        laws.skf(1.0, 300.0, mean_diameter=36e-3, viscosity=20e-6, rolling_factors=(4.1e-7, 1.7), sliding_factors=(3.73e-3, 14.6))

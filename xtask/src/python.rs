@@ -8,7 +8,15 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What the tests of the package need beside it.
-const PACKAGES: [&str; 5] = ["numpy", "plotly", "polars", "pyarrow", "pytest"];
+const PACKAGES: [&str; 7] = [
+    "distributed",
+    "numpy",
+    "optuna",
+    "plotly",
+    "polars",
+    "pyarrow",
+    "pytest",
+];
 
 /// Builds the native part as the tests are built, puts the package together in a folder of its own, and runs its tests there.
 /// Where there is no Python, or nowhere to install from, it says so.

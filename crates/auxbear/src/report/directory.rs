@@ -111,8 +111,8 @@ impl NewDirectory {
             };
             let name = self.partial.join(SUMMARY);
             if name.exists()
-                && let Ok(text) = summary::json(scenario, outcome, &stop)
-                && fs::write(&name, text).is_err()
+                && File::create(&name)
+                    .is_ok_and(|file| summary::write(file, scenario, outcome, &stop).is_err())
             {
                 // one that says that all is there would be worse than none
                 let _ = fs::remove_file(name);
@@ -142,12 +142,14 @@ impl NewDirectory {
     fn fill(&self, scenario: &Scenario, outcome: &Outcome) -> Result<(), Box<Problem>> {
         // somebody may have removed it while the run was computed
         let _ = fs::create_dir(&self.partial);
-        let summary_json = summary::json(scenario, outcome, &outcome.stop)
+        let summary_json = summary::of_page(scenario, outcome)
             .map_err(|error| failed(&self.partial.join(SUMMARY), &error.into()))?;
         let scenario_toml = scenario.resolved.toml();
         let mut written = vec![
             self.file(SCENARIO, |file| file.write_all(scenario_toml.as_bytes())),
-            self.file(SUMMARY, |file| file.write_all(summary_json.as_bytes())),
+            self.file(SUMMARY, |file| {
+                summary::write(file, scenario, outcome, &outcome.stop).map_err(Into::into)
+            }),
             self.file(HISTORY, |file| {
                 history::write(file, &outcome.history).map_err(io_error)
             }),
@@ -247,7 +249,7 @@ pub fn page_run(
     scenario: &Scenario,
     outcome: &Outcome,
 ) -> Result<PageRun, Box<Problem>> {
-    let summary_json = summary::json(scenario, outcome, &outcome.stop)
+    let summary_json = summary::of_page(scenario, outcome)
         .map_err(|error| failed(Path::new(SUMMARY), &error.into()))?;
     Ok(PageRun {
         name: name.to_string(),
@@ -256,6 +258,18 @@ pub fn page_run(
         scenario_toml: scenario.resolved.toml(),
         columns: columns_of(outcome),
     })
+}
+
+/// The text of `summary.json` of a finished run.
+///
+/// # Errors
+/// What cannot be told as JSON.
+pub fn summary_text(scenario: &Scenario, outcome: &Outcome) -> Result<String, Box<Problem>> {
+    let mut text = Vec::new();
+    summary::write(&mut text, scenario, outcome, &outcome.stop)
+        .map_err(|error| failed(Path::new(SUMMARY), &error.into()))?;
+    // JSON is UTF-8
+    Ok(String::from_utf8(text).unwrap_or_default())
 }
 
 fn columns_of(outcome: &Outcome) -> Vec<PageColumn> {

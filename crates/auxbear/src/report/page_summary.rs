@@ -1,11 +1,9 @@
 //! The summary as the page carries it: of very many members the first, with how many there are.
 
+use super::summary::OF_PAGE as MEMBER_LIMIT;
 use serde_json::value::RawValue;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-
-/// Members that the page carries: a thousandth of what a repetition can have weighs as much as the rest of the page.
-const MEMBER_LIMIT: usize = 500;
 
 /// A summary for the page; one that has few members, or cannot be read, as it is.
 pub(super) fn for_page(summary: &str) -> Cow<'_, str> {

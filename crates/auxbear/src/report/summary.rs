@@ -8,20 +8,43 @@ use crate::result::outcome::{
 use crate::scenario::{Provenance, ResolvedValue, Scenario};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
+use std::io::{BufWriter, Write};
 
 const FORMAT: &str = "auxbear.summary/1";
 
-/// The summary of a run as JSON text; `stop` says how it ended.
-pub(super) fn json(
+/// Members that the page carries: a thousandth of what a repetition can have weighs as much as the rest of the page.
+pub(super) const OF_PAGE: usize = 500;
+
+/// Writes the summary of a run as JSON; `stop` says how it ended. Of very many members none stands in memory as text.
+pub(super) fn write(
+    writer: impl Write,
     scenario: &Scenario,
     outcome: &Outcome,
     stop: &outcome::Stop,
-) -> Result<String, serde_json::Error> {
+) -> Result<(), serde_json::Error> {
+    let mut writer = BufWriter::new(writer);
+    serde_json::to_writer_pretty(&mut writer, &told(scenario, outcome, stop, usize::MAX))?;
+    writer.write_all(b"\n").map_err(serde_json::Error::io)?;
+    writer.flush().map_err(serde_json::Error::io)
+}
+
+/// The summary as text, of very many members with the first and how many there are: as the page carries it.
+pub(super) fn of_page(scenario: &Scenario, outcome: &Outcome) -> Result<String, serde_json::Error> {
+    serde_json::to_string(&told(scenario, outcome, &outcome.stop, OF_PAGE))
+}
+
+fn told<'a>(
+    scenario: &'a Scenario,
+    outcome: &'a Outcome,
+    stop: &'a outcome::Stop,
+    most: usize,
+) -> Summary<'a> {
     let quantities = outcome
         .quantities
         .iter()
         .map(|quantity| (quantity.name.as_str(), result(quantity)));
-    let summary = Summary {
+    let members = outcome.members.len();
+    Summary {
         format: FORMAT,
         system: outcome.system,
         title: &outcome.title,
@@ -37,8 +60,9 @@ pub(super) fn json(
         warnings: outcome.warnings.iter().map(warning).collect(),
         contacts: outcome.contacts.iter().map(contact).collect(),
         inputs: scenario.resolved.values.iter().map(input).collect(),
-        members: &outcome.members,
-        drawn: (outcome.drawn.iter())
+        members: First(&outcome.members, members.min(most)),
+        members_total: (members > most).then_some(members),
+        drawn: (outcome.drawn.iter().take(most))
             .map(|draws| {
                 let draws = draws.iter();
                 Named(
@@ -61,10 +85,7 @@ pub(super) fn json(
             wall_s: finite(outcome.work.seconds),
             method: outcome.work.method,
         },
-    };
-    let mut text = serde_json::to_string_pretty(&summary)?;
-    text.push('\n');
-    Ok(text)
+    }
 }
 
 /// Name and value in the order given: a JSON object.
@@ -94,11 +115,11 @@ struct Summary<'a> {
     warnings: Vec<Message<'a>>,
     contacts: Vec<Touch>,
     inputs: Vec<Input<'a>>,
-    #[serde(
-        skip_serializing_if = "Members::is_empty",
-        serialize_with = "one_by_one"
-    )]
-    members: &'a Members,
+    #[serde(skip_serializing_if = "First::is_empty")]
+    members: First<'a>,
+    /// Number of members, where only the first are here.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    members_total: Option<usize>,
     /// What each of these members drew.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     drawn: Vec<Named<'a, &'a str>>,
@@ -111,9 +132,19 @@ struct Summary<'a> {
     work: Work,
 }
 
-/// Members as objects, of which one exists at a time.
-fn one_by_one<S: Serializer>(members: &&Members, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq((0..members.len()).map(|k| Named(members.member(k).collect())))
+/// The first so many members as objects, of which one exists at a time.
+struct First<'a>(&'a Members, usize);
+
+impl First<'_> {
+    fn is_empty(&self) -> bool {
+        self.1 == 0
+    }
+}
+
+impl Serialize for First<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq((0..self.1).map(|k| Named(self.0.member(k).collect())))
+    }
 }
 
 /// What pictures need of a bearing.
