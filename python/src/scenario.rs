@@ -2,7 +2,6 @@
 
 use crate::outcome::Outcome;
 use crate::problem::raised;
-use crate::study::columns_of;
 use crate::table::Table;
 use crate::watched::watched;
 use auxbear::catalogue::{self, Catalogue, Filter, FilterTexts};
@@ -107,7 +106,7 @@ impl Scenario {
         // only Ctrl-C interrupts, and that was raised
         let table = found.unwrap_or_default();
         let failed = table.failed.clone();
-        Ok((Table::of(columns_of(table))?, failed))
+        Ok((Table::of_members(table)?, failed))
     }
 }
 

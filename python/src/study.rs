@@ -2,12 +2,11 @@
 
 use crate::problem::raised;
 use crate::scenario::Scenario;
-use crate::table::{Column, Table};
+use crate::table::Table;
 use crate::watched::watched;
 use auxbear::report::study::{Directory, part as part_of, read};
 use auxbear::scenario::StudyFile;
 use auxbear::study;
-use auxbear::study::table::Table as Members;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -154,22 +153,5 @@ pub fn read_study(py: Python<'_>, path: PathBuf) -> PyResult<(Study, Table)> {
     let (study, members) = py
         .detach(|| read(&path))
         .map_err(|problem| raised(py, problem))?;
-    Ok((Study(study.file), Table::of(columns_of(members))?))
-}
-
-pub fn columns_of(members: Members) -> Vec<Column> {
-    let numbers = members.members.iter().map(|member| *member as f64);
-    let mut columns = vec![Column {
-        name: "member".to_string(),
-        unit: "1".to_string(),
-        meaning: "number of the member".to_string(),
-        values: numbers.collect(),
-    }];
-    columns.extend(members.columns.into_iter().map(|column| Column {
-        name: column.name,
-        unit: column.unit,
-        meaning: column.meaning,
-        values: column.values,
-    }));
-    columns
+    Ok((Study(study.file), Table::of_members(members)?))
 }

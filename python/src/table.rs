@@ -5,6 +5,7 @@ use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch, RecordBatchIterator};
 use arrow_buffer::{NullBuffer, ScalarBuffer};
 use arrow_schema::{ArrowError, DataType, Field, Schema};
+use auxbear::study::table::Table as Members;
 use numpy::PyArray1;
 use pyo3::exceptions::{PyKeyError, PyRuntimeError};
 use pyo3::prelude::*;
@@ -34,6 +35,24 @@ impl Table {
             false => RecordBatch::try_new(schema, arrays),
         };
         batch.map(Table).map_err(refused)
+    }
+
+    /// Members of a study: their numbers, then their columns.
+    pub fn of_members(members: Members) -> PyResult<Table> {
+        let numbers = members.members.iter().map(|member| *member as f64);
+        let first = Column {
+            name: "member".to_string(),
+            unit: "1".to_string(),
+            meaning: "number of the member".to_string(),
+            values: numbers.collect(),
+        };
+        let columns = members.columns.into_iter().map(|column| Column {
+            name: column.name,
+            unit: column.unit,
+            meaning: column.meaning,
+            values: column.values,
+        });
+        Table::of(std::iter::once(first).chain(columns))
     }
 
     /// The values of each column, copied.

@@ -506,6 +506,54 @@ fn severity_follows_from_forces_pressures_and_heats() {
     assert!(rise > 100.0 && told, "{rise}");
 }
 
+/// Members with other modes take lanes of their own, and give what they give alone.
+#[test]
+fn members_of_other_modes_run_beside_each_other() {
+    let varied = "run.duration=7 ms";
+    let given = shipped();
+    let parsed = parsed(&given, &[varied]).unwrap();
+    let never = AtomicBool::new(false);
+    let change = |cutoff: &str| vec![("rotor.cutoff".to_string(), format!("\"{cutoff}\""))];
+    let changes = [
+        change("30000 rad/s"),
+        change("60000 rad/s"),
+        change("120000 rad/s"),
+    ];
+    let options = Options::unwatched(&never);
+    let table = auxbear::study::evaluate(&parsed, &changes, &options).unwrap();
+    assert!(table.failed.is_empty());
+    let name = "drive_end.first_impact_force";
+    let alone = ran(&given, &[varied, "rotor.cutoff=120000 rad/s"]);
+    assert_eq!(table.values(name)[2], Some(number(&alone, name)));
+    // and in a repetition whose members differ
+    let vary = "[vary]\n\"rotor.cutoff\" = { uniform = [\"20000 rad/s\", \"120000 rad/s\"] }\n";
+    let outcome = ran(&format!("{given}\n{vary}"), &[varied, "repeat.count=6"]);
+    assert!(outcome.stop.complete());
+    assert_eq!(outcome.members.len(), 6);
+}
+
+/// Twice the cutoff is tried on request, and the change is that of two runs.
+#[test]
+fn what_the_modes_left_out_change_is_told() {
+    let outcome = ran(
+        &shipped(),
+        &["run.duration=7 ms", "rotor.cutoff_check=8 ms"],
+    );
+    let twice = ran(
+        &shipped(),
+        &["run.duration=8 ms", "rotor.cutoff=120000 rad/s"],
+    );
+    let once = ran(&shipped(), &["run.duration=8 ms"]);
+    for end in ["drive_end", "other_end"] {
+        let name = format!("{end}.first_impact_force");
+        let change = number(&outcome, &format!("cutoff_change.{name}"));
+        assert_eq!(change, number(&twice, &name) / number(&once, &name) - 1.0);
+        assert!(change != 0.0 && change.abs() < 0.02, "{change}");
+    }
+    let silent = |name: &str| once.quantities.iter().all(|q| !q.name.starts_with(name));
+    assert!(silent("cutoff_change"));
+}
+
 /// The rotor of a machine is analysed as it stands in the machine's file.
 #[test]
 fn the_rotor_of_a_machine_is_analysed() {

@@ -6,6 +6,7 @@
 //! `simulate` integrates motions, `analyse` reads measurements, `evaluate` computes laws without motion.
 
 mod before;
+mod cutoff;
 mod each;
 
 use crate::analyse::{identify, signals};
@@ -103,7 +104,7 @@ impl Machine<'_> {
 
     fn computed(&self, options: &Options) -> Outcome {
         match &self.system {
-            Built::Drop(of, built, varied) => drop::run(self.scenario, of, built, varied, options),
+            Built::Drop(of, built, varied) => self.dropped(of, built, varied, options),
             Built::SpinUp(of, built) => spin_up::run(self.scenario, of, built, options),
             Built::Torque(asked) => torque::run(self.scenario, asked),
             Built::Signals(asked) => signals::run(self.scenario, asked, options),
@@ -114,6 +115,21 @@ impl Machine<'_> {
         }
     }
 
+    fn dropped(
+        &self,
+        of: &Drop,
+        built: &drop::build::Built,
+        varied: &[drop::members::Varied],
+        options: &Options,
+    ) -> Outcome {
+        let mut outcome = drop::run(self.scenario, of, built, varied, options);
+        if let Some(shaft) = &of.shaft {
+            let changes = cutoff::changes(self.scenario, shaft, &outcome.quantities, options);
+            outcome.quantities.extend(changes);
+        }
+        outcome
+    }
+
     /// Names and units of what a run will find: a run that is interrupted before its first step has them all.
     pub(crate) fn results_without_values(&self) -> Vec<Quantity> {
         let at_once = AtomicBool::new(true);
@@ -122,7 +138,7 @@ impl Machine<'_> {
             Built::Drop(of, built, _) => {
                 let mut once = (*of).clone();
                 once.repeat.count = 1;
-                drop::run(self.scenario, &once, built, &[], &options)
+                self.dropped(&once, built, &[], &options)
             }
             _ => self.computed(&options),
         };

@@ -169,6 +169,7 @@ fn what_cannot_be_a_rotor_is_refused() {
             "outer_diameter = 50",
             "AB0103",
         ),
+        ("\"81.2 GPa\"", "\"200 GPa\"", "Poisson's ratio"),
         ("modes = 4", "modes = 60", "AB2003"),
         (SUPPORT, "", "AB2004"),
         ("width = \"70 mm\"\n", "", "a disk without width"),

@@ -184,6 +184,15 @@ pub(crate) const KEYS: &[Key] = &[
     .default("60000 rad/s", "first impacts of a rotor whose first mode bends at 655 rad/s within half a percent of those of all modes")
     .only(MACHINE),
     Key::new(
+        "rotor.cutoff_check",
+        Kind::Quantity("s"),
+        "20 ms",
+        "The drop until then is run twice more, as it is and with twice rotor.cutoff: the change of first impacts and displacements is told.",
+    )
+    .positive()
+    .optional("what the modes left out would change is not told")
+    .only(MACHINE),
+    Key::new(
         "rotor.planes",
         Kind::Count,
         "2",

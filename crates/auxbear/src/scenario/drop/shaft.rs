@@ -16,6 +16,8 @@ pub struct Shaft {
     pub model: RotorModel,
     /// Modes of the free rotor up to this frequency are coordinates, rad/s.
     pub cutoff: f64,
+    /// Until when twice the cutoff is tried, s.
+    pub cutoff_check: Option<f64>,
     /// Torque of a drive at standstill, N m.
     pub drive_torque: f64,
     /// Its fall with speed, N m s.
@@ -135,6 +137,7 @@ impl Shaft {
         Ok(Shaft {
             model,
             cutoff: number(values, "rotor.cutoff"),
+            cutoff_check: values.number("rotor.cutoff_check"),
             drive_torque: number(values, "rotor.drive_torque"),
             drive_slope: number(values, "rotor.drive_slope"),
             drag: number(values, "rotor.drag"),

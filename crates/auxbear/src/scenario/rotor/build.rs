@@ -279,6 +279,9 @@ fn divided<'a>(layers: impl Iterator<Item = &'a Layer>, values: &Values) -> f64 
 /// Elements of a whole shaft that does not say how long they are.
 const ELEMENTS: f64 = 40.0;
 
+/// Young's modulus below which a material carries no load of a rotor, Pa: shrunk-on masses are often given so.
+const NO_STIFFNESS: f64 = 1e6;
+
 /// A material by name: the file's own, or one that is known.
 fn material(part: &Part, own: &[&Part]) -> Built<Material> {
     let name = part.text("material").unwrap_or_default();
@@ -289,7 +292,9 @@ fn material(part: &Part, own: &[&Part]) -> Built<Material> {
         if let Some(shear) = given.number("shear_modulus") {
             material.shear = shear;
             let poisson = material.poisson();
-            if !(0.0..0.5).contains(&poisson) {
+            // a layer that only adds mass has a stiffness that means nothing
+            let least = if young < NO_STIFFNESS { -1.0 } else { 0.0 };
+            if !(least..0.5).contains(&poisson) || poisson == -1.0 {
                 let found = format!("a shear modulus that means a Poisson's ratio of {poisson:.3}");
                 let allowed = "one from E/3 to E/2 is needed";
                 return Err(Box::new(given.problem(

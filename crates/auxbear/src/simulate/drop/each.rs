@@ -7,7 +7,7 @@ use crate::scenario::{Drop, Scenario};
 use crate::simulate::drop::build::{self, Built};
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
-use crate::simulate::drop::members::{Kind, kind_of};
+use crate::simulate::drop::members::{Kind, kind_of, share_lanes};
 use crate::simulate::drop::method::stepping;
 use crate::simulate::drop::quantities;
 use crate::simulate::ending::{settings_at, stop};
@@ -48,6 +48,7 @@ pub(crate) fn run(all: &[One], options: &Options) -> Vec<(Vec<Quantity>, Stop)> 
             first.kind == one.kind
                 && first.stepping == one.stepping
                 && first.drop.run == one.drop.run
+                && share_lanes(&first.machine, &one.machine)
         };
         match groups.iter_mut().find(fits) {
             Some(group) => group.push(k),

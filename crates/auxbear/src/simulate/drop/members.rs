@@ -28,7 +28,8 @@ pub(crate) fn varied(scenario: &Scenario, drop: &Drop) -> Result<Vec<Varied>, Bo
     if scenario.vary.is_empty() {
         return Ok(Vec::new());
     }
-    let mut kinds = vec![kind_of(scenario)];
+    let given = build::drop(drop).map(|built| RotorMachine::new(built.constants))?;
+    let mut kinds = vec![(kind_of(scenario), given)];
     (1..count)
         .map(|k| {
             let mut random = numbers(drop.repeat.seed ^ MACHINES, k);
@@ -42,10 +43,12 @@ pub(crate) fn varied(scenario: &Scenario, drop: &Drop) -> Result<Vec<Varied>, Bo
             };
             let built = build::drop(of).map_err(blame)?;
             let kind = kind_of(&member);
-            let known = kinds.iter().position(|known| *known == kind);
+            let machine = RotorMachine::new(built.constants.clone());
+            let known =
+                (kinds.iter()).position(|(of, first)| *of == kind && share_lanes(first, &machine));
             Ok(Varied {
                 kind: known.unwrap_or_else(|| {
-                    kinds.push(kind);
+                    kinds.push((kind, machine));
                     kinds.len() - 1
                 }),
                 drop: of.clone(),
@@ -54,6 +57,18 @@ pub(crate) fn varied(scenario: &Scenario, drop: &Drop) -> Result<Vec<Varied>, Bo
             })
         })
         .collect()
+}
+
+/// Whether machines of one kind have the same states: another rotor or cutoff has other modes.
+pub(crate) fn share_lanes(a: &RotorMachine, b: &RotorMachine) -> bool {
+    let rows = |machine: &RotorMachine| -> Vec<usize> {
+        let seals = machine.constants.seals.iter();
+        seals.map(|seal| seal.rows.len()).collect()
+    };
+    a.layout() == b.layout()
+        && a.constants.magnets.len() == b.constants.magnets.len()
+        && a.constants.rotor.spin_held == b.constants.rotor.spin_held
+        && rows(a) == rows(b)
 }
 
 /// Values that are no real numbers, by their paths.

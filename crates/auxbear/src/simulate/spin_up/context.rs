@@ -3,6 +3,7 @@
 use crate::scenario::SpinUp;
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::spin_up::build::Built;
+use crate::simulate::stepping::Asked;
 use model::system::spin_up::SpinUpMachine;
 use model::system::spin_up::layout::{
     DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
@@ -35,5 +36,21 @@ impl<'a> Context<'a> {
             motion: Box::new(race_motion),
             rows: self.record.rows().collect(),
         }
+    }
+}
+
+/// Tolerance of design accuracy: the energies of the shipped spin-ups close to a millionth of what is turned over.
+const DESIGN: f64 = 5e-5;
+/// Tolerance of linearly implicit steps at screening accuracy: what friction takes is as small as the creep of the balls.
+const SCREENING: f64 = 2e-3;
+
+/// What decides the steps of a spin-up.
+pub(crate) fn asked<'a>(spin_up: &'a SpinUp, built: &Built) -> Asked<'a> {
+    Asked {
+        run: &spin_up.run,
+        known: built.machine.tangents(),
+        bends: false,
+        design: DESIGN,
+        screening: SCREENING,
     }
 }

@@ -11,8 +11,8 @@ use crate::result::outcome::{Members, Outcome, Picture, Work};
 use crate::scenario::{Scenario, SpinUp};
 use crate::simulate::ending::{settings_at, stop};
 use crate::simulate::spin_up::build::Built;
-use crate::simulate::spin_up::context::Context;
-use crate::simulate::stepping::{Asked, Stepping};
+use crate::simulate::spin_up::context::{Context, asked};
+use crate::simulate::stepping::Stepping;
 use model::system::spin_up::SpinUpMachine;
 use model::system::spin_up::record::Record;
 use model::system::spin_up::simulate::simulate;
@@ -69,22 +69,6 @@ pub(crate) fn run(
             balls: spin_up.bearing.ball_count,
         }],
         files: Vec::new(),
-    }
-}
-
-/// Tolerance of design accuracy: the energies of the shipped spin-ups close to a millionth of what is turned over.
-const DESIGN: f64 = 5e-5;
-/// Tolerance of linearly implicit steps at screening accuracy: what friction takes is as small as the creep of the balls.
-const SCREENING: f64 = 2e-3;
-
-/// What decides the steps of a spin-up.
-pub(crate) fn asked<'a>(spin_up: &'a SpinUp, built: &Built) -> Asked<'a> {
-    Asked {
-        run: &spin_up.run,
-        known: built.machine.tangents(),
-        bends: false,
-        design: DESIGN,
-        screening: SCREENING,
     }
 }
 

@@ -5,8 +5,7 @@ use crate::result::outcome::warning;
 use crate::result::outcome::{Quantity, Warning};
 use crate::scenario::{Bearing, Scenario};
 use crate::simulate::bearing::warnings as shared;
-use crate::simulate::spin_up::asked;
-use crate::simulate::spin_up::context::Context;
+use crate::simulate::spin_up::context::{Context, asked};
 use crate::simulate::spin_up::quantities::rolling_start_to_end;
 use model::system::spin_up::layout::{APPLIED_LOAD, INNER};
 
