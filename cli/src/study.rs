@@ -70,6 +70,14 @@ pub fn perform(wish: &Wish) -> Result<Exit, Box<Problem>> {
     if !wish.quiet {
         console::print(&text(&path, &directory.study, &done))?;
     }
+    for warned in done.warned.iter().filter(|warned| !warned.is_remark()) {
+        console::report(&format!(
+            "warning[{}]: {}: {}",
+            warned.code,
+            warned.title,
+            warned.share(done.answer.members)
+        ));
+    }
     if done.failed > 0 {
         console::report(&format!(
             "{} members failed: summary.json says why",

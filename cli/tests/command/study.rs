@@ -221,6 +221,44 @@ fn a_failed_member_is_kept_with_its_reason() {
 }
 
 #[test]
+fn a_study_tells_what_its_members_warn_of() {
+    let study = r#"format = "auxbear.study/1"
+scenario = "drop.toml"
+set = ["run.duration=8 ms", "run.accuracy=screening", "rotor.first_bending_frequency=655 rad/s"]
+
+[design]
+kind = "factorial"
+
+[[input]]
+path = "rotor.speed"
+choice = ["3000 rpm", "12000 rpm"]
+
+[[input]]
+path = "contact.friction_coefficient"
+choice = ["0.05", "0.1"]
+"#;
+    let place = place(study);
+    let called = place
+        .call(&["study", "study.toml", "--out", "s", "--quiet"])
+        .done();
+    // the slow rotors are rigid enough
+    let summary = place.summary("s");
+    let bends = |warning: &&Value| warning["code"] == "AB1001";
+    let warnings = summary["warnings"].as_array().unwrap();
+    let bends = warnings.iter().find(bends).unwrap();
+    assert_eq!(bends["members"], 2);
+    let table = table(&place, "s");
+    let names: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    let column = names.iter().position(|name| *name == "warning.AB1001");
+    let ones = |row: &str| row.split(',').nth(column.unwrap()) == Some("1");
+    assert_eq!(table.lines().skip(1).filter(|row| ones(row)).count(), 2);
+    let said = "warning[AB1001]: A rotor near its bending speed: 2 of 4 members";
+    assert!(called.err.contains(said), "{}", called.err);
+    let page = fs::read_to_string(place.path("s/report.html")).unwrap();
+    assert!(page.contains("<li class=\"grave\"><code>AB1001</code>"));
+}
+
+#[test]
 fn the_starting_file_is_a_study_of_the_starting_drop() {
     let place = Place::new();
     place.call(&["new", "study", "study.toml"]).done();

@@ -21,6 +21,13 @@ pub fn explain(code: &str) -> Result<String, Box<Problem>> {
     ))
 }
 
+/// The title of a code, which its section begins with in bold; empty for a code without a section.
+pub fn title(code: &str) -> &'static str {
+    let section = sections().find(|(known, _)| *known == code);
+    let bold = section.and_then(|(_, text)| text.split("**").nth(1));
+    bold.unwrap_or("").trim_end_matches('.')
+}
+
 /// Every code of the page with its section.
 fn sections() -> impl Iterator<Item = (&'static str, &'static str)> {
     let parts = PAGE.split("\n## ").skip(1);

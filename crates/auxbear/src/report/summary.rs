@@ -2,6 +2,7 @@
 //!
 //! No number in it is infinite or not-a-number: such a quantity is `null` with the reason.
 
+use crate::result::graveness::graveness;
 use crate::result::outcome::{
     self, Contact, Judged, Members, Outcome, Picture, Quantity, Spread, Value, Warning,
 };
@@ -28,9 +29,11 @@ pub(super) fn write(
     writer.flush().map_err(serde_json::Error::io)
 }
 
-/// The summary as text, of very many members with the first and how many there are: as the page carries it.
+/// The summary as text, of very many members with the first and how many there are: as the page carries it. Of few members it is the
+/// text of the file, so that a page drawn again is the same page.
 pub(super) fn of_page(scenario: &Scenario, outcome: &Outcome) -> Result<String, serde_json::Error> {
-    serde_json::to_string(&told(scenario, outcome, &outcome.stop, OF_PAGE))
+    let told = told(scenario, outcome, &outcome.stop, OF_PAGE);
+    Ok(serde_json::to_string_pretty(&told)? + "\n")
 }
 
 fn told<'a>(
@@ -220,6 +223,7 @@ struct Held<'a> {
 #[derive(Serialize)]
 struct Message<'a> {
     code: &'static str,
+    graveness: u8,
     text: &'a str,
 }
 
@@ -318,6 +322,7 @@ fn limit(judged: &Judged) -> Held<'_> {
 fn warning(warning: &Warning) -> Message<'_> {
     Message {
         code: warning.code,
+        graveness: graveness(warning.code),
         text: &warning.text,
     }
 }

@@ -276,6 +276,17 @@ pub(crate) fn warning(code: &'static str, text: String) -> Warning {
     Warning { code, text }
 }
 
+/// What came out of one of many runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Single {
+    /// Named results; none of one that could not be built.
+    pub quantities: Vec<Quantity>,
+    /// What it warns of.
+    pub warnings: Vec<Warning>,
+    /// How it ended.
+    pub stop: Stop,
+}
+
 /// A limit with its verdict.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judged {

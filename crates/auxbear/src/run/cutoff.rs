@@ -2,8 +2,8 @@
 
 use crate::options::Options;
 use crate::result::outcome::{Quantity, Value};
-use crate::run::each;
-use crate::scenario::{Scenario, Shaft};
+use crate::scenario::{Scenario, Shaft, System};
+use crate::simulate::drop::each;
 
 /// What is compared: the impact that high modes feel most, and where the rotor goes.
 const COMPARED: [&str; 2] = ["first_impact_force", "max_rotor_displacement"];
@@ -33,11 +33,24 @@ pub(super) fn changes(
         progress: &|_| {},
         ..*options
     };
-    let found = each(&[with(shaft.cutoff), with(2.0 * shaft.cutoff)], &quiet);
+    let scenarios = [with(shaft.cutoff), with(2.0 * shaft.cutoff)];
+    let drops = scenarios.iter().map(|scenario| match scenario {
+        Ok(scenario) => match &scenario.system {
+            System::Drop(drop) => each::one(scenario, drop),
+            _ => unreachable!("a cutoff makes no other system of a drop"),
+        },
+        Err(problem) => Err(problem.clone()),
+    });
+    let drops: Result<Vec<_>, _> = drops.collect();
+    let (found, refused) = match drops {
+        Ok(drops) => (each::run(&drops, &quiet), None),
+        Err(problem) => (Vec::new(), Some(problem.to_string())),
+    };
     let value = |k: usize, name: &str| {
-        let quantity = found[k].quantities.iter().find(|q| q.name == name)?;
+        let single = found.get(k)?;
+        let quantity = single.quantities.iter().find(|q| q.name == name)?;
         match quantity.value {
-            Value::Number(value) if found[k].stop.complete() => Some(value),
+            Value::Number(value) if single.stop.complete() => Some(value),
             _ => None,
         }
     };
@@ -55,6 +68,7 @@ pub(super) fn changes(
             _ => {
                 let whole = found.iter().find(|single| !single.stop.complete());
                 let why = whole.map(|single| single.stop.text.clone());
+                let why = refused.clone().or(why);
                 Value::None {
                     why: why.unwrap_or_else(|| {
                         "one of the two runs has no such result; a longer rotor.cutoff_check may".to_string()

@@ -2,32 +2,22 @@
 
 use crate::options::Options;
 use crate::problem::Problem;
-use crate::result::outcome::{Quantity, Stop};
+use crate::result::outcome::{Single, Stop};
 use crate::run::build;
 use crate::scenario::{Scenario, System};
 use crate::simulate::drop::each::{self, One};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// What came out of one of many: its results, and how it ended.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Single {
-    /// Named results; none of one that could not be built.
-    pub quantities: Vec<Quantity>,
-    /// How it ended.
-    pub stop: Stop,
-}
-
-impl Single {
-    fn not_built(problem: &Problem) -> Single {
-        Single {
-            quantities: Vec::new(),
-            stop: Stop {
-                reason: "not built",
-                time: 0.0,
-                text: problem.to_string(),
-            },
-        }
+fn not_built(problem: &Problem) -> Single {
+    Single {
+        quantities: Vec::new(),
+        warnings: Vec::new(),
+        stop: Stop {
+            reason: "not built",
+            time: 0.0,
+            text: problem.to_string(),
+        },
     }
 }
 
@@ -44,8 +34,8 @@ pub fn each(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> 
 }
 
 /// A scenario on its way.
-enum Stage {
-    Drop(Box<One>),
+enum Stage<'a> {
+    Drop(Box<One<'a>>),
     Done(Single),
 }
 
@@ -83,22 +73,22 @@ fn of_pool(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> V
         progress: &progress,
         ..*options
     };
-    for (place, (quantities, stop)) in places.into_iter().zip(each::run(&drops, &plan)) {
-        list[place] = Some(Single { quantities, stop });
+    for (place, single) in places.into_iter().zip(each::run(&drops, &plan)) {
+        list[place] = Some(single);
     }
     list.into_iter().flatten().collect()
 }
 
 /// Builds a drop; runs anything else at once, on the thread that has it.
-fn staged(scenario: &Result<Scenario, Box<Problem>>, options: &Options) -> Stage {
+fn staged<'a>(scenario: &'a Result<Scenario, Box<Problem>>, options: &Options) -> Stage<'a> {
     let scenario = match scenario {
         Ok(scenario) => scenario,
-        Err(problem) => return Stage::Done(Single::not_built(problem)),
+        Err(problem) => return Stage::Done(not_built(problem)),
     };
     if let System::Drop(drop) = &scenario.system {
         return match each::one(scenario, drop) {
             Ok(one) => Stage::Drop(Box::new(one)),
-            Err(problem) => Stage::Done(Single::not_built(&scenario.locate(problem))),
+            Err(problem) => Stage::Done(not_built(&scenario.locate(problem))),
         };
     }
     let unwatched = Options {
@@ -111,9 +101,10 @@ fn staged(scenario: &Result<Scenario, Box<Problem>>, options: &Options) -> Stage
             let outcome = machine.run(&unwatched);
             Single {
                 quantities: outcome.quantities,
+                warnings: outcome.warnings,
                 stop: outcome.stop,
             }
         }
-        Err(problem) => Single::not_built(&problem),
+        Err(problem) => not_built(&problem),
     })
 }

@@ -58,6 +58,7 @@ fn table_of(
         whole: single.stop.complete(),
         why: (!single.stop.complete()).then_some(single.stop.text),
         results: single.quantities,
+        warnings: single.warnings,
     });
     Some(Table::of(inputs, rows.collect()))
 }

@@ -1,6 +1,8 @@
 //! Drawn inputs beside results: a row a member, a column with unit an input or result.
 
-use crate::result::outcome::{Quantity, Value};
+use crate::problem::explain;
+use crate::result::graveness::{graveness, graver};
+use crate::result::outcome::{Quantity, Value, Warning};
 use std::collections::BTreeMap;
 
 /// Members with what they drew and gave; what a member does not have is not a number.
@@ -36,6 +38,41 @@ pub(super) struct Row {
     pub whole: bool,
     pub why: Option<String>,
     pub results: Vec<Quantity>,
+    pub warnings: Vec<Warning>,
+}
+
+/// What a column begins with that is 1 for members with a warning of that code.
+const WARNING: &str = "warning.";
+
+/// What some members warn of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Warned {
+    /// Its code.
+    pub code: String,
+    /// What the book calls it.
+    pub title: String,
+    /// Members that have it.
+    pub members: usize,
+    /// The first of them.
+    pub first: usize,
+}
+
+impl Warned {
+    /// Whether it says no more than what is left out or assumed.
+    pub fn is_remark(&self) -> bool {
+        graveness(&self.code) > 1
+    }
+
+    /// Which of so many members have it, in words.
+    pub fn share(&self, all: usize) -> String {
+        match self.members == all {
+            true => "all members".to_string(),
+            false => format!(
+                "{} of {all} members, the first is {}",
+                self.members, self.first
+            ),
+        }
+    }
 }
 
 impl Table {
@@ -78,12 +115,53 @@ impl Table {
                 table.columns[at].values.resize(before, f64::NAN);
                 table.columns[at].values.push(value);
             }
+            for warning in &row.warnings {
+                table.warn(warning.code);
+            }
             let count = table.members.len();
             for column in &mut table.columns {
                 column.values.resize(count, f64::NAN);
             }
         }
         table
+    }
+
+    /// The last member has a warning.
+    fn warn(&mut self, code: &str) {
+        let name = format!("{WARNING}{code}");
+        let known = self.columns.iter().position(|column| column.name == name);
+        let at = known.unwrap_or_else(|| {
+            self.columns.push(Column {
+                name,
+                unit: String::new(),
+                meaning: explain::title(code).to_string(),
+                values: Vec::new(),
+            });
+            self.columns.len() - 1
+        });
+        let values = &mut self.columns[at].values;
+        values.resize(self.members.len() - 1, f64::NAN);
+        values.push(1.0);
+    }
+
+    /// What members warn of, the gravest first.
+    pub fn warned(&self) -> Vec<Warned> {
+        let of = |column: &Column| {
+            let code = column.name.strip_prefix(WARNING)?;
+            let mut members = (self.members.iter().zip(&column.values))
+                .filter(|(_, value)| !value.is_nan())
+                .map(|(member, _)| *member);
+            let first = members.next()?;
+            Some(Warned {
+                code: code.to_string(),
+                title: column.meaning.clone(),
+                members: 1 + members.count(),
+                first,
+            })
+        };
+        let mut list: Vec<Warned> = self.columns.iter().filter_map(of).collect();
+        list.sort_by(|a, b| graver(&a.code, &b.code));
+        list
     }
 
     /// The same with results in the order of these names, others behind them by their names: however parts were computed

@@ -168,15 +168,11 @@ function spreadOrigin(run) {
   return `spread of starts perturbed by ${by || "tiny amounts"} (see repeat.*): shows numerical chaos, not tolerances of the machine`;
 }
 
-// How grave a warning is: 0 the result is that of another machine, or destruction; 2 what is left out or to be kept in mind; 1 all
-// between, and every code that no list names.
-const GRAVE = new Set(["AB1001", "AB1002", "AB1005", "AB1006", "AB1014", "AB1017", "AB1029", "AB1032", "AB1042", "AB1044", "AB1060", "AB1070", "AB1090", "AB1092", "AB1094", "AB1095", "AB1096", "AB1127", "AB1128", "AB2021", "AB2030", "AB2032", "AB2300", "AB2301", "AB2302"]);
-const REMARKS = new Set(["AB1007", "AB1008", "AB1010", "AB1011", "AB1012", "AB1020", "AB1022", "AB1023", "AB1052", "AB1062", "AB1071", "AB1093", "AB1126"]);
+// How grave a warning is: 0 the result is that of another machine, or destruction; 3 inputs that were assumed.
 const ASSUMED = "AB1013";
 
-function graveness({ code }) {
-  if (code === ASSUMED) return 3;
-  return GRAVE.has(code) || !code ? 0 : REMARKS.has(code) ? 2 : 1;
+function graveness({ graveness }) {
+  return isNumber(graveness) ? graveness : 1;
 }
 
 // The assumptions on which results hang most, first the most: what sets the speed-up and the first impact before what only forms them.

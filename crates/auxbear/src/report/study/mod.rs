@@ -17,7 +17,7 @@ use crate::problem::{Code, Problem};
 use crate::run::Options;
 use crate::scenario::StudyFile;
 use crate::study::answer::Answer;
-use crate::study::table::Table;
+use crate::study::table::{Table, Warned};
 use crate::study::{PART, Study};
 use std::fs::{self, File, TryLockError};
 use std::io::Write;
@@ -46,6 +46,8 @@ pub struct Done {
     pub answer: Answer,
     /// Members that did not end as planned.
     pub failed: usize,
+    /// What they warn of, the gravest first.
+    pub warned: Vec<Warned>,
     /// Whether all members are there.
     pub complete: bool,
 }
@@ -274,6 +276,7 @@ impl Directory {
         )?;
         Ok(Done {
             failed: table.failed.len(),
+            warned: table.warned(),
             answer,
             complete,
         })

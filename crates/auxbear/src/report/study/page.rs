@@ -4,11 +4,12 @@ use super::cells::{amount, rows, scaled, short};
 use super::{parallel, ranking};
 use crate::report::page::{STYLE, escape_text as plain};
 use crate::report::picture::{Panel, line, text};
+use crate::result::graveness::graveness;
 use crate::result::outcome::Verdict;
 use crate::scenario::{Limit, Side};
 use crate::study::Study;
 use crate::study::answer::{Answer, Sensitivity};
-use crate::study::table::{Column, Table};
+use crate::study::table::{Column, Table, Warned};
 use ::study::design::Design;
 use std::fmt::Write;
 
@@ -31,6 +32,7 @@ pub(super) fn html(study: &Study, table: &Table, answer: &Answer) -> String {
         plain(&title),
         plain(&subtitle(study, table, answer))
     );
+    body.push_str(&warned(table));
     body.push_str(&inputs(study));
     body.push_str(&ranking::html(study, answer));
     body.push_str(&verdicts(answer));
@@ -69,6 +71,30 @@ fn subtitle(study: &Study, table: &Table, answer: &Answer) -> String {
         );
     }
     text
+}
+
+/// What the members warn of, before any of their numbers.
+fn warned(table: &Table) -> String {
+    let all = table.members.len();
+    let row = |warned: &Warned| {
+        let class = match graveness(&warned.code) {
+            0 => " class=\"grave\"",
+            _ => "",
+        };
+        format!(
+            "<li{class}><code>{}</code> {}: {}</li>\n",
+            plain(&warned.code),
+            plain(&warned.title),
+            warned.share(all)
+        )
+    };
+    let list: String = table.warned().iter().map(row).collect();
+    match list.is_empty() {
+        true => list,
+        false => format!(
+            "<div class=\"warnings\"><strong>What the runs warn of, the gravest first; run a member alone for its text</strong><ul>\n{list}</ul></div>\n"
+        ),
+    }
 }
 
 fn inputs(study: &Study) -> String {

@@ -24,6 +24,11 @@ pub(super) fn json(study: &Study, table: &Table, answer: &Answer, complete: bool
             json!({"path": input.vary.path, "distribution": input.vary.distribution_toml(), "unit": input.vary.unit()})
         })
         .collect();
+    let warnings: Vec<Value> = (table.warned().iter())
+        .map(|warned| {
+            json!({"code": warned.code, "title": warned.title, "members": warned.members, "first_member": warned.first})
+        })
+        .collect();
     let all = json!({
         "format": "auxbear.study_summary/1",
         "version": env!("CARGO_PKG_VERSION"),
@@ -35,6 +40,7 @@ pub(super) fn json(study: &Study, table: &Table, answer: &Answer, complete: bool
         "members_asked": answer.asked,
         "members_failed": table.failed.len(),
         "inputs": inputs,
+        "warnings": warnings,
         "limits": limits,
         "ranking": answer.ranking.iter().map(candidate).collect::<Vec<_>>(),
         "ranked_by": study.file.rank.as_ref().map(|(name, most, _)| json!({"quantity": name, "best": if *most { "most" } else { "least" }})),

@@ -2,14 +2,14 @@
 
 use crate::options::Options;
 use crate::problem::Problem;
-use crate::result::outcome::{Quantity, Stop};
+use crate::result::outcome::Single;
 use crate::scenario::{Drop, Scenario};
 use crate::simulate::drop::build::{self, Built};
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
 use crate::simulate::drop::members::{Kind, kind_of, share_lanes};
 use crate::simulate::drop::method::stepping;
-use crate::simulate::drop::quantities;
+use crate::simulate::drop::{quantities, warnings};
 use crate::simulate::ending::{settings_at, stop};
 use crate::simulate::stepping::Stepping;
 use model::system::machine::RotorMachine;
@@ -17,7 +17,8 @@ use rayon::prelude::*;
 use std::sync::{Arc, Mutex};
 
 /// A drop that is ready to run.
-pub(crate) struct One {
+pub(crate) struct One<'a> {
+    scenario: &'a Scenario,
     drop: Drop,
     built: Built,
     machine: Arc<RotorMachine>,
@@ -26,10 +27,11 @@ pub(crate) struct One {
 }
 
 /// Builds a drop of its scenario.
-pub(crate) fn one(scenario: &Scenario, drop: &Drop) -> Result<One, Box<Problem>> {
+pub(crate) fn one<'a>(scenario: &'a Scenario, drop: &Drop) -> Result<One<'a>, Box<Problem>> {
     let built = build::drop(drop)?;
     let machine = Arc::new(RotorMachine::new(built.constants.clone()));
     Ok(One {
+        scenario,
         stepping: stepping(drop, &built, machine.tangents()),
         kind: kind_of(scenario),
         drop: drop.clone(),
@@ -38,8 +40,8 @@ pub(crate) fn one(scenario: &Scenario, drop: &Drop) -> Result<One, Box<Problem>>
     })
 }
 
-/// Runs all of them; results and endings stand in their order.
-pub(crate) fn run(all: &[One], options: &Options) -> Vec<(Vec<Quantity>, Stop)> {
+/// Runs all of them; they stand in their order.
+pub(crate) fn run(all: &[One], options: &Options) -> Vec<Single> {
     // those that can share lanes and settings
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (k, one) in all.iter().enumerate() {
@@ -65,9 +67,8 @@ pub(crate) fn run(all: &[One], options: &Options) -> Vec<(Vec<Quantity>, Stop)> 
         };
         together(all, group, options, &progress)
     };
-    let finished: Vec<Vec<(Vec<Quantity>, Stop)>> =
-        groups.par_iter().enumerate().map(of_group).collect();
-    let mut list: Vec<Option<(Vec<Quantity>, Stop)>> = all.iter().map(|_| None).collect();
+    let finished: Vec<Vec<Single>> = groups.par_iter().enumerate().map(of_group).collect();
+    let mut list: Vec<Option<Single>> = all.iter().map(|_| None).collect();
     for (place, result) in groups
         .into_iter()
         .flatten()
@@ -84,7 +85,7 @@ fn together(
     group: &[usize],
     options: &Options,
     progress: &(dyn Fn(f64) + Sync),
-) -> Vec<(Vec<Quantity>, Stop)> {
+) -> Vec<Single> {
     let members: Vec<Member> = group.iter().map(|k| member(&all[*k])).collect();
     let first = &all[group[0]];
     let finished = ensemble::run(
@@ -108,7 +109,11 @@ fn together(
             finished,
             members: 1,
         };
-        (quantities::name(&context), stop(&finished.ending))
+        Single {
+            quantities: quantities::name(&context),
+            warnings: warnings::of(one.scenario, &[context]),
+            stop: stop(&finished.ending),
+        }
     };
     group.iter().zip(&finished).map(named).collect()
 }

@@ -1,0 +1,32 @@
+//! How grave a warning is: few of them decide whether a result may be used at all.
+
+use std::cmp::Ordering;
+
+/// The result is that of another machine, or what it shows is destruction.
+const GRAVE: &[&str] = &[
+    "AB1001", "AB1002", "AB1005", "AB1006", "AB1014", "AB1017", "AB1029", "AB1032", "AB1042",
+    "AB1044", "AB1060", "AB1070", "AB1090", "AB1092", "AB1094", "AB1095", "AB1096", "AB1127",
+    "AB1128", "AB2021", "AB2030", "AB2032", "AB2300", "AB2301", "AB2302",
+];
+/// What is left out, or to be kept in mind.
+const REMARKS: &[&str] = &[
+    "AB1007", "AB1008", "AB1010", "AB1011", "AB1012", "AB1020", "AB1022", "AB1023", "AB1052",
+    "AB1062", "AB1071", "AB1093", "AB1126",
+];
+/// Inputs that were assumed: every run has some.
+const ASSUMED: &str = "AB1013";
+
+/// 0 the gravest, 3 the least; 1 is what no list names.
+pub fn graveness(code: &str) -> u8 {
+    match code {
+        ASSUMED => 3,
+        code if GRAVE.contains(&code) => 0,
+        code if REMARKS.contains(&code) => 2,
+        _ => 1,
+    }
+}
+
+/// The graver first, then by the code.
+pub fn graver(a: &str, b: &str) -> Ordering {
+    graveness(a).cmp(&graveness(b)).then_with(|| a.cmp(b))
+}
