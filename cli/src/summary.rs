@@ -16,6 +16,11 @@ const OF_DROP: &[&str] = &[
     "peak_hertz_pressure",
     "dissipated_energy",
     "energy_residual",
+    "run_out.start_time",
+    "run_out.stop_time",
+    "run_out.peak_inner_race_temperature",
+    "run_out.peak_lubricant_temperature",
+    "run_out.smallest_clearance",
 ];
 /// The same in a spin-up.
 const OF_SPIN_UP: &[&str] = &[

@@ -13,6 +13,7 @@ mod measurement_file;
 mod reference_scenario;
 mod rig_to_verdict;
 mod rotor_friction;
+mod run_out;
 mod scenario;
 mod signals;
 mod signals_analysis;

@@ -20,7 +20,9 @@
 //! Assumes: the outer race does not turn. Does not model: tilt and axial motion of the races, a sleeve that slips on its race.
 
 use crate::bearing::{self, Bearing, BearingConstants, BearingReaction, POCKET_FRICTION};
+use crate::bearing_heat::WarmBearing;
 use crate::contact::{ContactReaction, JournalContact};
+pub use crate::heats::{HEATS, OWN_HEATS};
 use crate::motion::{Body, Motion};
 use crate::mount::{Mount, MountParts, MountReaction, WholeMount};
 use crate::rotor::GeometricCentre;
@@ -66,6 +68,8 @@ pub struct AuxiliaryBearingConstants {
     pub mount_parts: MountParts,
     /// Surfaces of rotor and race, where their heat is followed; it acts on nothing.
     pub surfaces: Option<Surfaces>,
+    /// What warms of it, where that is followed; it acts on nothing.
+    pub warm: Option<Box<WarmBearing>>,
 }
 
 impl AuxiliaryBearingConstants {
@@ -94,10 +98,6 @@ impl AuxiliaryBearingConstants {
     }
 }
 
-/// Kinds of heat of an auxiliary bearing besides those of its bearing.
-pub const OWN_HEATS: [&str; 3] = ["mount_damping", "rotor_race_damping", "rotor_race_friction"];
-/// Number of kinds of heat of an auxiliary bearing.
-pub const HEATS: usize = bearing::HEATS.len() + OWN_HEATS.len();
 /// Kinds of source of an auxiliary bearing.
 pub const SOURCES: [&str; 2] = ["inner_race_torque", "inner_race_growth"];
 

@@ -11,7 +11,9 @@
 
 pub mod auxiliary_bearing;
 pub mod bearing;
+pub mod bearing_heat;
 pub mod contact;
+pub mod heats;
 pub mod levitation;
 pub mod motion;
 pub mod mount;

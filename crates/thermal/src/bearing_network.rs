@@ -131,35 +131,38 @@ impl BearingNetwork {
     /// # Errors
     /// A capacity or conductance that is none.
     pub fn at(&self, operation: Operation<'_>) -> Result<Network, NetworkError> {
+        together(&[(self, operation)])
+    }
+
+    /// Its links and grounds, with nodes counted from a first one.
+    fn links(&self, operation: Operation<'_>, from: usize) -> (Vec<Link>, Vec<Ground>) {
         let link = |a: usize, b: usize, conductance: f64| Link {
-            nodes: [a, b],
+            nodes: [from + a, from + b],
             conductance,
         };
         let [inner, outer] = self.races(operation);
         let [to_inner, to_balls, to_cage, to_outer] = self.lubricant(operation);
         let ground = |node: usize, conductance: f64| Ground {
-            node,
+            node: from + node,
             conductance,
             temperature: self.ambient,
         };
-        Network::new(
-            &self.capacities,
-            &[
-                link(ROTOR, INNER_RACE, self.landing(operation.speed.abs())),
-                link(INNER_RACE, BALLS, inner),
-                link(BALLS, OUTER_RACE, outer),
-                link(BALLS, CAGE, POCKET * self.balls),
-                link(INNER_RACE, LUBRICANT, to_inner),
-                link(BALLS, LUBRICANT, to_balls),
-                link(CAGE, LUBRICANT, to_cage),
-                link(OUTER_RACE, LUBRICANT, to_outer),
-                link(OUTER_RACE, HOUSING, self.outer_seat),
-            ],
-            &[
-                ground(HOUSING, self.surroundings),
-                ground(ROTOR, self.rotor_surroundings),
-            ],
-        )
+        let links = vec![
+            link(ROTOR, INNER_RACE, self.landing(operation.speed.abs())),
+            link(INNER_RACE, BALLS, inner),
+            link(BALLS, OUTER_RACE, outer),
+            link(BALLS, CAGE, POCKET * self.balls),
+            link(INNER_RACE, LUBRICANT, to_inner),
+            link(BALLS, LUBRICANT, to_balls),
+            link(CAGE, LUBRICANT, to_cage),
+            link(OUTER_RACE, LUBRICANT, to_outer),
+            link(OUTER_RACE, HOUSING, self.outer_seat),
+        ];
+        let grounds = vec![
+            ground(HOUSING, self.surroundings),
+            ground(ROTOR, self.rotor_surroundings),
+        ];
+        (links, grounds)
     }
 
     /// All balls to the inner and to the outer race, W/K.
@@ -223,6 +226,21 @@ impl BearingNetwork {
             }
         }
     }
+}
+
+/// The networks of several bearings at an instant as one, the nodes of each behind those before; they exchange nothing.
+///
+/// # Errors
+/// A capacity or conductance that is none.
+pub fn together(parts: &[(&BearingNetwork, Operation<'_>)]) -> Result<Network, NetworkError> {
+    let (mut capacities, mut links, mut grounds) = (Vec::new(), Vec::new(), Vec::new());
+    for (part, operation) in parts {
+        let (own, to_surroundings) = part.links(*operation, capacities.len());
+        capacities.extend(part.capacities);
+        links.extend(own);
+        grounds.extend(to_surroundings);
+    }
+    Network::new(&capacities, &links, &grounds)
 }
 
 #[cfg(test)]

@@ -82,8 +82,13 @@ struct Attempt {
 impl Coasting {
     /// A start at a speed in rad/s, with the nodes at temperatures in °C.
     pub fn start(speed: f64, temperatures: Vec<f64>, losses: &impl Losses) -> Self {
+        Coasting::at(0.0, speed, temperatures, losses)
+    }
+
+    /// The same at a time in s, after another part of a run.
+    pub fn at(time: f64, speed: f64, temperatures: Vec<f64>, losses: &impl Losses) -> Self {
         Coasting {
-            time: 0.0,
+            time,
             speed,
             temperatures,
             heats: vec![0.0; losses.count()],

@@ -9,6 +9,7 @@
 //! | [`coast_down`] | a rotor that runs out, in steps of its speed |
 //! | [`steady_speed`] | warming at constant speed; runaway |
 //! | [`warm_bearing`] | the losses of bearings whose oil and rings are warm |
+//! | [`warm_machine`] | the losses of a machine whose bearings differ |
 //! | [`clearance`] | the clearance of a warm bearing, its preload once closed |
 //! | [`layer`] | the heated layer of a body: surface above mean, stepped exactly |
 //! | [`rubbing_contact`] | two layers that rub: friction power shared so that both sides of the patch are equally hot |
@@ -25,3 +26,4 @@ pub mod network;
 pub mod rubbing_contact;
 pub mod steady_speed;
 pub mod warm_bearing;
+pub mod warm_machine;

@@ -26,6 +26,8 @@ const LEAST_VISCOSITY: f64 = 2e-6;
 pub struct WarmBearings {
     /// How many brake.
     pub count: f64,
+    /// Speed of their inner races over that of the rotor, which rolls in their wider bores: 1 − c0/R.
+    pub ratio: f64,
     /// Moment of one; its viscosity is not used.
     pub moment: Palmgren<f64>,
     /// Oil.
@@ -92,7 +94,13 @@ impl WarmBearings {
         Some((open, preload(stiffness, open)))
     }
 
-    /// M0 and M1 of one bearing, N m.
+    /// M0 and M1 of all of them as the rotor feels them, N m: less by the ratio of the speeds, so that the power is theirs.
+    pub fn on_rotor(&self, speed: f64, temperatures: &[f64]) -> [f64; 2] {
+        let each = self.of_one(self.ratio * speed, temperatures);
+        each.map(|moment| self.count * self.ratio * moment)
+    }
+
+    /// M0 and M1 of one bearing at the speed of its inner race, N m.
     pub fn of_one(&self, speed: f64, temperatures: &[f64]) -> [f64; 2] {
         let kelvin = temperatures[self.lubricant] + ICE_POINT;
         let viscosity = match kelvin > 0.0 {
@@ -139,9 +147,9 @@ impl Losses for WarmBearings {
         3
     }
     fn moments(&self, speed: f64, temperatures: &[f64], moments: &mut [f64]) {
-        let [first, second] = self.of_one(speed, temperatures);
-        moments[0] = self.count * first;
-        moments[1] = self.count * second;
+        let [first, second] = self.on_rotor(speed, temperatures);
+        moments[0] = first;
+        moments[1] = second;
         moments[2] = self.windage * speed * speed.abs();
     }
     fn share(&self, loss: usize, node: usize) -> f64 {

@@ -49,7 +49,8 @@ impl Machine<'_> {
                 list
             }
             Built::CoastDown(run, _) => {
-                let load = above_the_rating(run.static_load_rating, run.radial_load);
+                let load =
+                    above_the_rating(run.bearing.static_load_rating, run.bearing.radial_load);
                 load.into_iter().collect()
             }
             Built::Signals(_) | Built::Identify(_) | Built::Rotor(_) => Vec::new(),

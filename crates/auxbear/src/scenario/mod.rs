@@ -14,6 +14,7 @@ pub(crate) mod checks;
 pub(crate) mod coast_down;
 pub(crate) mod document;
 pub(crate) mod drop;
+pub(crate) mod heat;
 pub(crate) mod identify;
 pub(crate) mod key;
 pub(crate) mod limit;
@@ -55,11 +56,12 @@ pub use bearing::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 pub use bearing::separation::{Cage, FullComplement, Guidance, Land, Separation};
 pub use bearing::source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
 pub use bearing::{Bearing, Drag, OilFilm, Traction};
-pub use coast_down::{Atmosphere, CageMaterial, CoastDown, Feedback, Heat};
+pub use coast_down::{CoastDown, RunOut};
 pub use drop::{
     AuxiliaryBearing, BearingPlace, Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor,
     Shaft, Spin,
 };
+pub use heat::{Atmosphere, CageMaterial, Feedback, Heat, Warm};
 pub use identify::{Explanations, Identify, RotorFriction};
 pub(crate) use key::quoted;
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};

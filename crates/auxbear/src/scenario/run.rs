@@ -32,6 +32,16 @@ pub enum Accuracy {
 }
 
 words! {
+/// When a run ends.
+pub enum Until {
+    /// At its duration.
+    Duration = "duration",
+    /// When the rotor stands.
+    Standstill = "standstill",
+}
+}
+
+words! {
 /// How steps are taken.
 pub enum Method {
     /// By the stiffness of friction.

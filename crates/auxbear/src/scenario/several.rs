@@ -5,7 +5,7 @@
 pub(crate) const AUXILIARY_BEARING: &str = "auxiliary_bearing";
 
 /// Sections that each of several auxiliary bearings may have of its own; in the head of the file they hold for all.
-const OF_EACH_BEARING: [&str; 3] = ["contact", "mount", "bearing"];
+const OF_EACH_BEARING: [&str; 4] = ["contact", "mount", "bearing", "heat"];
 
 /// Whether a key or section may belong to one of several auxiliary bearings.
 pub(crate) fn of_each_bearing(path: &str) -> bool {

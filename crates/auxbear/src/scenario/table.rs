@@ -4,8 +4,8 @@
 //! Each system has some of the sections, and of a section all keys that name no other system.
 
 use crate::scenario::key::{Key, Kind, Presence, Range, Section};
-use crate::scenario::run::{Accuracy, Method};
-use crate::scenario::system::{MOVING, STEPPED, SystemName, WITH_BEARING};
+use crate::scenario::run::{Accuracy, Method, Until};
+use crate::scenario::system::{FALLING, MOVING, STEPPED, SystemName, WITH_BEARING};
 use crate::scenario::words::Words;
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -29,8 +29,9 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
         .chain(crate::scenario::bearing::keys::TRACTION_SECTIONS)
         .chain(crate::scenario::bearing::keys_moment::SECTIONS)
         .chain(crate::scenario::bearing::keys_lubricant_state::SECTIONS)
-        .chain(crate::scenario::coast_down::keys::SECTIONS)
         .chain(RUN_SECTIONS)
+        .chain(crate::scenario::coast_down::keys::SECTIONS)
+        .chain(crate::scenario::heat::keys::SECTIONS)
         .chain(crate::scenario::drop::keys::REPEAT_SECTIONS)
 }
 
@@ -53,8 +54,9 @@ pub fn keys() -> impl Iterator<Item = &'static Key> {
         .chain(crate::scenario::bearing::keys::TRACTION)
         .chain(crate::scenario::bearing::keys_moment::KEYS)
         .chain(crate::scenario::bearing::keys_lubricant_state::KEYS)
-        .chain(crate::scenario::coast_down::keys::KEYS)
         .chain(RUN)
+        .chain(crate::scenario::coast_down::keys::KEYS)
+        .chain(crate::scenario::heat::keys::KEYS)
         .chain(crate::scenario::drop::keys::REPEAT)
 }
 
@@ -195,6 +197,14 @@ const RUN: &[Key] = &[
         "0.5 s",
         "long enough for the first impacts and the spin-up of a small inner race",
     ),
+    Key::new(
+        "run.until",
+        Kind::Word(Until::WORDS),
+        "standstill",
+        "duration: the run ends at run.duration. standstill: once the rotor has rolled for 20 turns of every cage it runs out in slow time, on bearings that warm, until it stands.",
+    )
+    .default("duration", "a drop decides itself in its first second")
+    .only(FALLING),
     Key::new(
         "run.accuracy",
         Kind::Word(Accuracy::WORDS),

@@ -114,6 +114,7 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.type=angular contact",
             "bearing.contact_angle=15 deg",
         ],
+        "heat.atmosphere" => &["heat.surroundings=0.8 W/K"],
         "bearing.inner_race_growth" => &["bearing.fits.bore_diameter=25 mm"],
         "bearing.unmounted_diametral_clearance" => &["bearing.fits.shaft_interference=5 um"],
         _ if path.starts_with("bearing.fits.housing_") || path == "bearing.fits.outer_diameter" => {
@@ -330,14 +331,32 @@ const MOUNT: [(&str, &[&str]); 5] = [
 ];
 
 /// The choices that the system has.
+/// What a run-out after a drop needs.
+const RUN_OUT: &[&str] = &[
+    "heat.network=on",
+    "run.until=standstill",
+    "bearing.moment.law=palmgren",
+    "bearing.moment.lubrication=grease",
+    "bearing.moment.temperature=60 degC",
+    "bearing.moment.viscosity_points=[[\"40 degC\", \"100 mm^2/s\"], [\"100 degC\", \"11 mm^2/s\"]]",
+];
+
 fn choices_of(system: SystemName, path: &str) -> Vec<String> {
     let known =
         |set: &String| keys_of(system).any(|key| set.starts_with(&format!("{}=", key.path)));
     let beside = MOUNT.iter().filter(|(part, _)| path.starts_with(part));
     let beside = beside.flat_map(|(_, sets)| sets.iter().map(|set| (*set).to_string()));
     let own = format!("{path}=");
+    let runs_out = path.starts_with("coast_down.") || path == "run.until";
+    let warms: &[&str] = match runs_out {
+        true => RUN_OUT,
+        false if path.starts_with("heat.") && path != "heat.network" => &RUN_OUT[..1],
+        false => &[],
+    };
+    let warms = (warms.iter()).filter(|_| system != SystemName::CoastDown);
     choices(path)
         .into_iter()
+        .chain(warms.map(|set| (*set).to_string()))
         .chain(beside.filter(|set| !set.starts_with(&own)))
         .filter(known)
         // the viscosity of a run-out is that of two points

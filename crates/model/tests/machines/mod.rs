@@ -315,6 +315,7 @@ pub fn reference() -> MachineConstants {
             },
             mount_parts: MountParts::NONE,
             surfaces: None,
+            warm: None,
         }],
         gravity: vec2(0.0, -G),
         speed: 400.0 * PI,

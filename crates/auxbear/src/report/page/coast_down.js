@@ -132,6 +132,39 @@ function runOutLine(run) {
   return element("p", { class: "machine" }, facts.filter(Boolean).join(" · "));
 }
 
+// The run-out that followed a drop, as a run of its own with its own times; null where there is none.
+function runOutOf(run) {
+  const start = "run_out.";
+  const own = Object.entries(run.quantities).filter(([name]) => name.startsWith(start));
+  const quantities = Object.fromEntries(own.map(([name, quantity]) => [name.slice(start.length), quantity]));
+  const course = "over_time.";
+  const lists = Object.entries(quantities).filter(([name, { value }]) => name.startsWith(course) && Array.isArray(value) && value.length);
+  const columns = new Map(lists.map(([name, { value, unit }]) => [name.slice(course.length), { name: name.slice(course.length), unit, values: value }]));
+  return columns.has("time") ? { ...run, quantities, columns, time: columns.get("time").values } : null;
+}
+
+function asksForRunOut(run) {
+  return Object.keys(run.quantities).some((name) => name.startsWith("run_out."));
+}
+
+function runOutFigures(run, runs) {
+  const slow = runOutOf(run);
+  if (!slow) return [notInThisRun(quantityOf(run, "run_out.stop_time").why || "there is no run-out", run)];
+  return [...temperatureFigures(slow, runs), ...closingFigures(slow, runs), ...heatFigures(slow, runs)];
+}
+
+function runOutSection(runs) {
+  const lead = element("p", { class: "lead" }, "From where the rotor rolls in its bearings: in slow time, rolling until it stands. Times count from the release.");
+  return section("run-out", "Run-out until standstill", lead, runs.map((run) => runOutFigures(run, runs)));
+}
+
+// How warm the bodies of a bearing become while the rotor still bounces and slides.
+function warmingSection(runs) {
+  return section("warming", "Temperatures during the drop", runs.map((run) => temperatureFigures(run, runs)[0]));
+}
+
+const WARM_SECTIONS = (runs) => [[82, warmingSection, runs.filter((run) => nodesOf(run).length)], [83, runOutSection, runs.filter(asksForRunOut)]];
+
 register("coast_down", {
   line: runOutLine,
   verdict: runOutVerdict,

@@ -122,6 +122,7 @@ function verdict(run) {
     quantityTile(run, "Inner race at 95 % speed", "inner_race_time_to_95_percent", () => spinUpNote(run)),
     whirlTile(run),
     displacementTile(run),
+    asksForRunOut(run) ? quantityTile(run, "Stands after", "run_out.stop_time", () => "rolls from " + engineeringText(numberOf(run, "run_out.start_time"), "s", 3) + " on") : null,
     quantityTile(
       run,
       "Energy residual",

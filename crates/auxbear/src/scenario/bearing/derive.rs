@@ -4,6 +4,7 @@ use crate::problem::{Code, Place, Problem};
 use crate::scenario::bearing::kind::{BallMaterial, BearingType, Modelled};
 use crate::scenario::bearing::lubricant::Lubricant;
 use crate::scenario::bearing::moment::{EquivalentLoad, Lubricated, MomentLaw};
+use crate::scenario::heat::Network;
 use crate::scenario::key::quoted;
 use crate::scenario::provenance::Provenance;
 use crate::scenario::system::{FALLING, SystemName};
@@ -94,8 +95,10 @@ impl Values {
         if self.system() == SystemName::Torque {
             self.torque()?;
         }
-        if self.system() == SystemName::CoastDown {
-            self.run_out()?;
+        if self.system() == SystemName::CoastDown
+            || self.chosen("heat.network") == Some(Network::On)
+        {
+            self.warm()?;
         }
         if let Some(preload) = self.number(PRELOAD)
             && self.number(AXIAL_LOAD).is_some()

@@ -5,7 +5,7 @@ use crate::problem::Code;
 use crate::scenario::bearing::Bearing;
 use crate::scenario::bearing::separation::Separation;
 use crate::scenario::checks::{Check, Context};
-use crate::scenario::drop::{AuxiliaryBearing, Drop};
+use crate::scenario::drop::{AuxiliaryBearing, Drop, Spin};
 use crate::scenario::values::Values;
 use physics::unbalance::whirl;
 
@@ -26,6 +26,7 @@ impl Context<'_> {
                 own.bearing(bearing, Some(("contact.bore_diameter", bore)), true)?;
             }
             own.air_clearance(part)?;
+            own.warms(drop, part)?;
             own.mount(part)?;
             if let Some(bearing) = &part.bearing {
                 own.perturbed_balls(drop, bearing)?;
@@ -38,6 +39,40 @@ impl Context<'_> {
         let bearings = drop.auxiliary_bearings.iter();
         let bearings = bearings.filter_map(|part| part.bearing.as_ref());
         self.output(&drop.run, bearings.map(|bearing| bearing.ball_count).sum())
+    }
+
+    /// What temperatures need, and what a run-out needs that follows the drop.
+    fn warms(&self, drop: &Drop, part: &AuxiliaryBearing) -> Check {
+        let refuse = |path: &str, found: String, needed: &str| {
+            let needed = needed.to_string();
+            Err(Box::new(self.problem(Code::Conflict, path, found, needed)))
+        };
+        if let Some(warm) = &part.warm {
+            if part.bearing.is_none() {
+                let needed = "\"off\" is needed beside bearing.fidelity = \"bushing\": the network is one of balls and races";
+                return refuse("heat.network", self.text("heat.network"), needed);
+            }
+            self.warm(warm)?;
+        }
+        let Some(end) = &drop.run_out else {
+            return Ok(());
+        };
+        if drop.rotor.spin == Spin::Held {
+            let needed = "run.until = \"duration\", or a rotor whose spin is not held: this one never stands";
+            return refuse("run.until", self.text("run.until"), needed);
+        }
+        if end.stop_speed >= drop.rotor.speed.abs() {
+            let needed = "less than rotor.speed is needed";
+            let path = "coast_down.stop_speed";
+            return refuse(path, self.text(path), needed);
+        }
+        match &part.warm {
+            Some(warm) => self.brakes(warm),
+            None => {
+                let needed = "heat.network = \"on\" is needed of every bearing that the rotor runs out on: what brakes it depends on their temperatures";
+                refuse("run.until", self.text("run.until"), needed)
+            }
+        }
     }
 
     /// Planes count bearings that are alike; bearings with names are counted by their names.

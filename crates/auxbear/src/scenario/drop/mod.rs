@@ -11,13 +11,15 @@ mod shaft;
 use crate::problem::Problem;
 use crate::scenario::bearing::kind::Modelled;
 use crate::scenario::bearing::{Bearing, bearing};
+use crate::scenario::coast_down::RunOut;
 use crate::scenario::document::Document;
-use crate::scenario::run::Run;
+use crate::scenario::heat::{Network, Warm};
+use crate::scenario::run::{Run, Until};
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
 use kinds::{SpinKind, UnbalanceAngle};
 use mount::MountParts;
-use physics::heat_conduction::ThermalMaterial;
+use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 pub use shaft::{BearingPlace, Shaft};
 
 /// A levitated rotor that is released onto its auxiliary bearings. All values are SI.
@@ -35,6 +37,8 @@ pub struct Drop {
     pub auxiliary_bearings: Vec<AuxiliaryBearing>,
     /// The simulation.
     pub run: Run,
+    /// How the rotor runs out after it, where the run goes on until it stands.
+    pub run_out: Option<RunOut>,
     /// Repeated runs.
     pub repeat: Repeat,
 }
@@ -50,6 +54,8 @@ pub struct AuxiliaryBearing {
     pub mount: Mount,
     /// The rolling bearing; none where it is a plain bushing.
     pub bearing: Option<Bearing>,
+    /// What warms of it, where that is followed.
+    pub warm: Option<Box<Warm>>,
 }
 
 /// The rotor as a whole, shared by all planes.
@@ -231,7 +237,21 @@ impl Drop {
                 },
                 all,
             )
-        })
+        }
+        .loaded())
+    }
+
+    /// With the weight on each bearing that warms, and the rotor's part that warms with it.
+    fn loaded(mut self) -> Drop {
+        for k in 0..self.auxiliary_bearings.len() {
+            let load = self.weight(k);
+            let capacity = self.rotor.mass * self.share(k) * STEEL_HEAT.specific_heat;
+            if let Some(warm) = &mut self.auxiliary_bearings[k].warm {
+                warm.radial_load = load;
+                warm.heat.rotor_capacity.get_or_insert(capacity);
+            }
+        }
+        self
     }
 
     /// Of the values of each auxiliary bearing.
@@ -248,7 +268,7 @@ impl Drop {
             offset_y: levitation.number("offset_y"),
         };
         let path = "rotor";
-        Drop::of_rotor(rotor(&Section { values, path }), levitation, all)
+        Drop::of_rotor(rotor(&Section { values, path }), levitation, all).loaded()
     }
 
     fn of_rotor(rotor: Rotor, levitation: Levitation, all: &[Values]) -> Drop {
@@ -256,8 +276,10 @@ impl Drop {
         let section = |path| Section { values, path };
         let gravity = section("gravity");
         let repeat = section("repeat");
+        let until = values.chosen("run.until");
         Drop {
             rotor,
+            run_out: (until == Some(Until::Standstill)).then(|| RunOut::from_values(values)),
             shaft: None,
             gravity: Gravity {
                 acceleration: gravity.number("acceleration"),
@@ -282,6 +304,7 @@ impl Drop {
 }
 
 fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
+    let followed = values.chosen("heat.network") == Some(Network::On);
     let section = |path| Section { values, path };
     let mount = section("mount");
     AuxiliaryBearing {
@@ -295,6 +318,8 @@ fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
         },
         bearing: (values.chosen("bearing.fidelity") != Some(Modelled::Bushing))
             .then(|| bearing(values)),
+        // what it carries is known when the whole rotor is
+        warm: followed.then(|| Box::new(Warm::from_values(values, 0.0))),
     }
 }
 

@@ -1,7 +1,7 @@
-//! A run-out's machine: the network of one bearing, its losses, and the loads of its balls.
+//! Bearings that warm, and the machine that runs out on them: networks, losses, and the loads of the balls.
 
 use crate::problem::{Code, Problem};
-use crate::scenario::{CoastDown, Feedback, Moment, UNNAMED};
+use crate::scenario::{CoastDown, Feedback, Moment, RunOut, UNNAMED, Warm};
 use physics::heat_conduction::{SILICON_NITRIDE_HEAT, STEEL_HEAT};
 use physics::hertz::{BallRace, PointContact, Race};
 use physics::load_zone::joint_stiffness;
@@ -15,9 +15,10 @@ use thermal::bearing_network::{
 use thermal::clearance::ThermalClearance;
 use thermal::load_zone::LoadZone;
 use thermal::warm_bearing::{BearingLoad, WarmBearings};
+use thermal::warm_machine::{RotorDrag, WarmMachine};
 
 /// Ice point, K.
-pub(super) const ICE_POINT: f64 = 273.15;
+pub(crate) const ICE_POINT: f64 = 273.15;
 /// Expansion of bearing steel and of silicon nitride, 1/K. Source: heat-and-life, section 9.
 const EXPANSION: [f64; 2] = [11.5e-6, 3.2e-6];
 /// Specific heat of oil and grease, J/(kg K). Source: mineral oils, 1800 to 2000.
@@ -27,9 +28,13 @@ const NO_CAGE: f64 = 0.1;
 /// Shares of the heat of M1: sliding at ball and race, half to each side. Source: heat-and-life, section 3.
 const SLIDING: [(usize, f64); 3] = [(INNER_RACE, 0.25), (BALLS, 0.5), (OUTER_RACE, 0.25)];
 
-/// The machine of a run-out.
+/// A bearing of a run-out.
 #[derive(Clone, Debug)]
-pub(crate) struct Built {
+pub(crate) struct Part {
+    /// Its name; empty for an only bearing.
+    pub name: String,
+    /// What it was built from.
+    pub warm: Warm,
     pub network: BearingNetwork,
     pub losses: WarmBearings,
     pub zone: LoadZone,
@@ -39,11 +44,106 @@ pub(crate) struct Built {
     pub viscosity: Viscosity,
 }
 
-/// Builds it.
+/// The machine of a run-out.
+#[derive(Clone, Debug)]
+pub(crate) struct Built {
+    /// Bearings that differ.
+    pub parts: Vec<Part>,
+    /// Equal bearings that each of them stands for.
+    pub sides: u32,
+    /// What turns, kg m².
+    pub inertia: f64,
+    /// What brakes the rotor besides.
+    pub rotor: RotorDrag,
+    /// When its brake begins, s.
+    pub brake_start: f64,
+    /// How it ends.
+    pub end: RunOut,
+    /// Where it starts.
+    pub start: Start,
+}
+
+/// Where a run-out starts.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Start {
+    /// s.
+    pub time: f64,
+    /// rad/s, 0 or more.
+    pub speed: f64,
+    /// Of the nodes of all bearings, °C.
+    pub temperatures: Vec<f64>,
+}
+
+impl Built {
+    /// The losses of the machine at a time.
+    pub fn losses(&self, time: f64) -> WarmMachine {
+        let mut rotor = self.rotor;
+        if time < self.brake_start {
+            rotor.torque = 0.0;
+        }
+        WarmMachine {
+            bearings: self.parts.iter().map(|part| part.losses.clone()).collect(),
+            rotor,
+        }
+    }
+
+    /// Kinetic energy of what turns at the start, J.
+    pub fn energy(&self) -> f64 {
+        0.5 * self.inertia * self.start.speed * self.start.speed
+    }
+}
+
+/// Builds a run-out by itself.
 pub(crate) fn run_out(run: &CoastDown) -> Result<Built, Box<Problem>> {
-    let problem = |key: &str, found: String, needed: &str| {
-        Box::new(Problem::new(Code::Impossible, UNNAMED, found, needed.to_string()).on_key(key))
-    };
+    let part = part(&run.bearing, String::new(), run.planes)?;
+    let start = part.warm.heat.start_temperature - ICE_POINT;
+    Ok(Built {
+        parts: vec![part],
+        sides: run.planes,
+        inertia: run.polar_inertia,
+        rotor: RotorDrag {
+            drag_square: run.windage,
+            ..RotorDrag::default()
+        },
+        brake_start: 0.0,
+        end: run.end,
+        start: Start {
+            time: 0.0,
+            speed: run.speed.abs(),
+            temperatures: vec![start; NODES.len()],
+        },
+    })
+}
+
+/// A bearing of a run-out, of which there are so many.
+pub(crate) fn part(warm: &Warm, name: String, sides: u32) -> Result<Part, Box<Problem>> {
+    let (network, zone) = network(warm)?;
+    let points = &warm.viscosity_points;
+    let [one, other] = [points[0], points[1]];
+    let viscosity = Viscosity::through((one[0], one[1]), (other[0], other[1])).map_err(|why| {
+        problem(
+            "bearing.moment.viscosity_points",
+            why.to_string(),
+            "two points of one oil are needed",
+        )
+    })?;
+    Ok(Part {
+        name,
+        losses: losses(warm, &zone, Some(viscosity), sides)?,
+        network,
+        zone,
+        closes: warm.heat.feedback == Feedback::Full,
+        viscosity,
+        warm: warm.clone(),
+    })
+}
+
+fn problem(key: &str, found: String, needed: &str) -> Box<Problem> {
+    Box::new(Problem::new(Code::Impossible, UNNAMED, found, needed.to_string()).on_key(key))
+}
+
+/// The network of a bearing, and its balls under their load.
+pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Problem>> {
     let heat = &run.heat;
     let celsius = |kelvin: f64| kelvin - ICE_POINT;
     let material = run.ball_material.data();
@@ -88,16 +188,6 @@ pub(crate) fn run_out(run: &CoastDown) -> Result<Built, Box<Problem>> {
         },
         nodes: [INNER_RACE, BALLS, OUTER_RACE],
     };
-    let points = &run.viscosity_points;
-    let [one, other] = [points[0], points[1]];
-    let viscosity = Viscosity::through((one[0], one[1]), (other[0], other[1])).map_err(|why| {
-        problem(
-            "bearing.moment.viscosity_points",
-            why.to_string(),
-            "two points of one oil are needed",
-        )
-    })?;
-    let losses = losses(run, &zone, viscosity)?;
     // rings share the annulus between bore and outside at the pitch circle's shoulders
     let shoulder = |side: f64| run.pitch_diameter + side * 0.6 * run.ball_diameter;
     let annulus = |outer: f64, inner: f64| outer * outer - inner * inner;
@@ -115,10 +205,10 @@ pub(crate) fn run_out(run: &CoastDown) -> Result<Built, Box<Problem>> {
         true => SILICON_NITRIDE_HEAT,
         false => STEEL_HEAT,
     };
-    let cage = (run.cage_mass * heat.cage_material.specific_heat()).max(NO_CAGE);
+    let cage = (run.cage_mass * heat.cage_material.heat().specific_heat).max(NO_CAGE);
     let network = BearingNetwork {
         capacities: [
-            heat.rotor_capacity,
+            heat.rotor_capacity.unwrap_or(f64::INFINITY),
             run.inner_race_mass * steel,
             balls * ball_mass * ball.specific_heat,
             cage,
@@ -151,20 +241,15 @@ pub(crate) fn run_out(run: &CoastDown) -> Result<Built, Box<Problem>> {
         rotor_surroundings: heat.rotor_surroundings,
         ambient: celsius(heat.ambient_temperature),
     };
-    Ok(Built {
-        network,
-        losses,
-        zone,
-        closes: heat.feedback == Feedback::Full,
-        viscosity,
-    })
+    Ok((network, zone))
 }
 
 /// Palmgren's two moments, the second by the loads of the balls where the rings may close.
-fn losses(
-    run: &CoastDown,
+pub(crate) fn losses(
+    run: &Warm,
     zone: &LoadZone,
-    viscosity: Viscosity,
+    viscosity: Option<Viscosity>,
+    sides: u32,
 ) -> Result<WarmBearings, Box<Problem>> {
     let missing = |key: &str, needed: &str| {
         Box::new(Problem::new(Code::NoLawData, UNNAMED, "no value", needed.to_string()).on_key(key))
@@ -186,10 +271,10 @@ fn losses(
         ));
     };
     let moment = Palmgren {
-        viscous_factor: *f0,
+        viscous_factor: run.moment_scale * f0,
         viscosity: *at_start,
         pitch_diameter: run.pitch_diameter,
-        load_factor: *f1_factor,
+        load_factor: run.moment_scale * f1_factor,
         load_exponent: *f1_exponent,
         static_load_rating: rating,
     };
@@ -203,12 +288,12 @@ fn losses(
         },
         Feedback::Viscosity | Feedback::None => BearingLoad::Radial(run.radial_load),
     };
-    let oil = match run.heat.feedback {
-        Feedback::None => WaltherLine {
+    let oil = match (run.heat.feedback, viscosity) {
+        (Feedback::Full | Feedback::Viscosity, Some(viscosity)) => viscosity.line(),
+        _ => WaltherLine {
             a: (1e6 * at_start + 0.7).log10().log10(),
             b: 0.0,
         },
-        Feedback::Full | Feedback::Viscosity => viscosity.line(),
     };
     let mut viscous = vec![0.0; NODES.len()];
     viscous[LUBRICANT] = 1.0;
@@ -217,19 +302,15 @@ fn losses(
         sliding[node] = share;
     }
     Ok(WarmBearings {
-        count: f64::from(run.planes),
+        count: f64::from(sides),
+        ratio: 1.0,
         moment,
         oil,
         load,
-        windage: run.windage,
+        windage: 0.0,
         lubricant: LUBRICANT,
         shares: [viscous, sliding],
     })
-}
-
-/// Energy of the spin, J.
-pub(super) fn energy(run: &CoastDown) -> f64 {
-    0.5 * run.polar_inertia * run.speed * run.speed
 }
 
 /// Turns of a speed over a time.

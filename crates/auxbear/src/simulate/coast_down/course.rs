@@ -1,11 +1,13 @@
 //! A run-out step by step, and the same with nodes that are held at their limits.
 
 use crate::problem::Problem;
-use crate::scenario::CoastDown;
-use crate::simulate::coast_down::build::{Built, ICE_POINT};
+use crate::simulate::coast_down::build::{Built, ICE_POINT, Part};
 use std::sync::atomic::{AtomicBool, Ordering};
-use thermal::bearing_network::{BALLS, CAGE, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, Operation};
+use thermal::bearing_network::{
+    BALLS, BearingNetwork, CAGE, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, Operation, together,
+};
 use thermal::coast_down::{CoastDown as Coast, Coasting, Endless};
+use thermal::network::Network;
 use thermal::steady_speed::SteadySpeed;
 
 /// Largest ln(1/r) of a step: the conductances of its start hold for it.
@@ -17,28 +19,43 @@ pub(super) const BEYOND: f64 = 350.0;
 
 /// What is known at the end of a step. Moments and powers are those of all bearings.
 #[derive(Clone, Debug)]
-pub(super) struct Row {
+pub(crate) struct Row {
     pub time: f64,
     pub speed: f64,
-    /// °C.
+    /// Of the nodes of all bearings, °C.
     pub temperatures: Vec<f64>,
-    /// M0, M1, windage, N m.
+    /// M0 and M1 of all bearings, and what brakes the rotor besides, N m.
     pub moments: [f64; 3],
-    /// Diametral, m.
-    pub clearance: f64,
-    /// Of the most and of the least loaded ball, N.
-    pub ball_loads: [f64; 2],
-    /// Third powers of the ball loads, their mean over a turn, N³.
-    pub cubes: f64,
+    /// Of each bearing.
+    pub bearings: Vec<RowOfBearing>,
     /// Largest growth rate of the temperatures, 1/s.
     pub growth: f64,
-    /// Power that is taken from each node to hold it, W, all bearings.
+    /// Power that is taken from each node to hold it, W, of all equal bearings.
     pub taken: Vec<f64>,
+}
+
+/// What is known of a bearing at the end of a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RowOfBearing {
+    /// M0 and M1 of all equal bearings together, N m.
+    pub moment: f64,
+    /// Diametral, m.
+    pub clearance: f64,
+    /// Of the most loaded ball, N.
+    pub largest_ball_load: f64,
+}
+
+impl Row {
+    /// Smallest clearance of all bearings, m.
+    pub fn clearance(&self) -> f64 {
+        let each = self.bearings.iter().map(|bearing| bearing.clearance);
+        each.fold(f64::INFINITY, f64::min)
+    }
 }
 
 /// How a run-out ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum End {
+pub(crate) enum End {
     Stands,
     Late,
     Interrupted,
@@ -48,7 +65,7 @@ pub(super) enum End {
 
 /// A run-out.
 #[derive(Clone, Debug)]
-pub(super) struct Course {
+pub(crate) struct Course {
     pub rows: Vec<Row>,
     pub state: Coasting,
     pub end: End,
@@ -58,39 +75,49 @@ pub(super) struct Course {
     pub stored: f64,
 }
 
-/// Limits of the nodes, °C; none of what has none.
-pub(super) fn limits(run: &CoastDown) -> [Option<f64>; 7] {
-    let mut limits = [None; 7];
-    let heat = &run.heat;
-    for node in [INNER_RACE, BALLS, OUTER_RACE] {
-        limits[node] = Some(heat.race_limit - ICE_POINT);
-    }
-    if run.cage_mass > 0.0 {
-        limits[CAGE] = Some(heat.cage_limit - ICE_POINT);
-    }
-    limits[LUBRICANT] = Some(heat.lubricant_limit - ICE_POINT);
-    limits
+/// Limits of the nodes of all bearings, °C; none of what has none.
+pub(super) fn limits(built: &Built) -> Vec<Option<f64>> {
+    let of_part = |part: &Part| {
+        let mut limits = [None; NODES.len()];
+        let heat = &part.warm.heat;
+        for node in [INNER_RACE, BALLS, OUTER_RACE] {
+            limits[node] = Some(heat.race_limit - ICE_POINT);
+        }
+        if part.warm.cage_mass > 0.0 {
+            limits[CAGE] = Some(heat.cage_limit - ICE_POINT);
+        }
+        limits[LUBRICANT] = Some(heat.lubricant_limit - ICE_POINT);
+        limits
+    };
+    built.parts.iter().flat_map(of_part).collect()
 }
 
 /// Follows it; with limits the nodes are held at them from the moment they get there.
 pub(super) fn follow(
-    run: &CoastDown,
     built: &Built,
-    limits: &[Option<f64>; 7],
+    limits: Option<&[Option<f64>]>,
     interrupt: &AtomicBool,
 ) -> Result<Course, Box<Problem>> {
-    let start = run.heat.start_temperature - ICE_POINT;
-    let sides = f64::from(run.planes);
-    let capacities = built.network.capacities;
-    let mut held = [false; 7];
-    let mut taken = vec![0.0; NODES.len()];
-    let mut state = Coasting::start(run.speed.abs(), vec![start; NODES.len()], &built.losses);
-    let mut rows = vec![row(built, &state, &[0.0; 7])];
+    let start = &built.start;
+    let sides = f64::from(built.sides);
+    let capacities: Vec<f64> = (built.parts.iter())
+        .flat_map(|part| part.network.capacities)
+        .collect();
+    let nodes = capacities.len();
+    let mut held = vec![false; nodes];
+    let mut taken = vec![0.0; nodes];
+    let mut state = Coasting::at(
+        start.time,
+        start.speed,
+        start.temperatures.clone(),
+        &built.losses(start.time),
+    );
+    let mut rows = vec![row(built, &state, &taken)];
     let end = loop {
-        if state.speed <= run.stop_speed {
+        if state.speed <= built.end.stop_speed {
             break End::Stands;
         }
-        if state.time >= run.longest {
+        if state.time >= built.end.longest {
             break End::Late;
         }
         if interrupt.load(Ordering::Relaxed) {
@@ -101,21 +128,30 @@ pub(super) fn follow(
         }
         let machine = Coast {
             network: network(built, &state, &held)?,
-            losses: built.losses.clone(),
-            inertia: run.polar_inertia,
+            losses: built.losses(state.time),
+            inertia: built.inertia,
             sides,
-            tolerance: run.tolerance,
+            tolerance: built.end.tolerance,
         };
         let (before, stop) = (
             state.time,
-            run.stop_speed.max(state.speed * (-LONGEST_STEP).exp()),
+            built
+                .end
+                .stop_speed
+                .max(state.speed * (-LONGEST_STEP).exp()),
         );
-        if let Err(endless) = machine.step(&mut state, stop, run.longest) {
+        let until = match state.time < built.brake_start {
+            true => built.end.longest.min(built.brake_start),
+            false => built.end.longest,
+        };
+        if let Err(endless) = machine.step(&mut state, stop, until) {
             break End::Endless(endless);
         }
-        let mut powers = [0.0; 7];
-        for node in 0..NODES.len() {
-            let Some(limit) = limits[node] else { continue };
+        let mut powers = vec![0.0; nodes];
+        for node in 0..nodes {
+            let Some(limit) = limits.and_then(|limits| limits[node]) else {
+                continue;
+            };
             let above = state.temperatures[node] - limit;
             if !held[node] && above <= 0.0 {
                 continue;
@@ -129,10 +165,11 @@ pub(super) fn follow(
         }
         rows.push(row(built, &state, &powers));
     };
-    let stored = capacities.iter().zip(&state.temperatures);
+    let rises = state.temperatures.iter().zip(&start.temperatures);
+    let stored = capacities.iter().zip(rises);
     let stored = sides
         * stored
-            .map(|(capacity, now)| capacity * (now - start))
+            .map(|(capacity, (now, before))| capacity * (now - before))
             .sum::<f64>();
     Ok(Course {
         rows,
@@ -143,31 +180,42 @@ pub(super) fn follow(
     })
 }
 
-/// The clearance at an instant, m.
-fn clearance(built: &Built, temperatures: &[f64]) -> f64 {
-    match built.closes {
-        true => built.zone.clearance_at(temperatures),
-        false => built.zone.clearance.at_reference,
+/// The clearance of a bearing at the temperatures of its nodes, m.
+fn clearance(part: &Part, temperatures: &[f64]) -> f64 {
+    match part.closes {
+        true => part.zone.clearance_at(temperatures),
+        false => part.zone.clearance.at_reference,
     }
 }
 
-fn network(
-    built: &Built,
-    state: &Coasting,
-    held: &[bool; 7],
-) -> Result<thermal::network::Network, Box<Problem>> {
-    let mut network = built.network.clone();
-    for (capacity, held) in network.capacities.iter_mut().zip(held) {
+fn network(built: &Built, state: &Coasting, held: &[bool]) -> Result<Network, Box<Problem>> {
+    let each = built
+        .parts
+        .iter()
+        .zip(state.temperatures.chunks(NODES.len()));
+    let loads: Vec<Vec<f64>> = each
+        .clone()
+        .map(|(part, temperatures)| part.zone.loads(clearance(part, temperatures)))
+        .collect();
+    let mut networks: Vec<BearingNetwork> = (built.parts.iter())
+        .map(|part| part.network.clone())
+        .collect();
+    let capacities = networks
+        .iter_mut()
+        .flat_map(|network| &mut network.capacities);
+    for (capacity, held) in capacities.zip(held) {
         *capacity *= if *held { HELD } else { 1.0 };
     }
-    let loads = built.zone.loads(clearance(built, &state.temperatures));
-    let kelvin = state.temperatures[LUBRICANT] + ICE_POINT;
-    let operation = Operation {
-        speed: state.speed,
-        loads: &loads,
-        viscosity: built.losses.oil.viscosity(kelvin).max(1e-6),
-    };
-    network.at(operation).map_err(|why| {
+    let operations = each.zip(&loads).map(|((part, temperatures), loads)| {
+        let kelvin = temperatures[LUBRICANT] + ICE_POINT;
+        Operation {
+            speed: part.losses.ratio * state.speed,
+            loads,
+            viscosity: part.losses.oil.viscosity(kelvin).max(1e-6),
+        }
+    });
+    let all: Vec<_> = networks.iter().zip(operations).collect();
+    together(&all).map_err(|why| {
         use crate::problem::Code;
         use crate::scenario::UNNAMED;
         let needed = "finite capacities and conductances are needed";
@@ -175,35 +223,42 @@ fn network(
     })
 }
 
-fn row(built: &Built, state: &Coasting, taken: &[f64; 7]) -> Row {
-    use thermal::losses::Losses;
-    let temperatures = &state.temperatures;
-    let mut moments = [0.0; 3];
-    (built.losses).moments(state.speed, temperatures, &mut moments);
-    let clearance = clearance(built, temperatures);
-    let loads = built.zone.loads(clearance);
-    let count = loads.len() as f64;
-    let growth = match network(built, state, &[false; 7]) {
+fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
+    let losses = built.losses(state.time);
+    let mut moments = [0.0, 0.0, losses.rotor.moment(state.speed)];
+    let of_part = |(part, temperatures): (&Part, &[f64])| {
+        let own = part.losses.on_rotor(state.speed, temperatures);
+        moments[0] += own[0];
+        moments[1] += own[1];
+        let clearance = clearance(part, temperatures);
+        let loads = part.zone.loads(clearance);
+        RowOfBearing {
+            moment: own[0] + own[1],
+            clearance,
+            largest_ball_load: loads.iter().copied().fold(0.0, f64::max),
+        }
+    };
+    let each = built
+        .parts
+        .iter()
+        .zip(state.temperatures.chunks(NODES.len()));
+    let bearings = each.map(of_part).collect();
+    let growth = match network(built, state, &vec![false; taken.len()]) {
         Ok(network) => SteadySpeed {
             network,
-            losses: built.losses.clone(),
+            losses,
             speed: state.speed,
             tolerance: 1.0,
         }
-        .growth(temperatures),
+        .growth(&state.temperatures),
         Err(_) => f64::NAN,
     };
     Row {
         time: state.time,
         speed: state.speed,
-        temperatures: temperatures.clone(),
+        temperatures: state.temperatures.clone(),
         moments,
-        clearance,
-        ball_loads: [
-            loads.iter().copied().fold(0.0, f64::max),
-            loads.iter().copied().fold(f64::INFINITY, f64::min),
-        ],
-        cubes: loads.iter().map(|load| load.powi(3)).sum::<f64>() / count,
+        bearings,
         growth,
         taken: taken.to_vec(),
     }

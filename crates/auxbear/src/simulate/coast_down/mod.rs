@@ -8,10 +8,10 @@
 //! Source: heat-and-life, sections 2, 3, 5, 6 and 8.
 
 pub(crate) mod build;
-mod course;
-mod quantities;
-mod ran;
-mod warnings;
+pub(crate) mod course;
+pub(crate) mod quantities;
+pub(crate) mod ran;
+pub(crate) mod warnings;
 
 use crate::options::Options;
 use crate::problem::Problem;
@@ -21,8 +21,8 @@ use crate::scenario::{CoastDown, Scenario};
 use crate::simulate::coast_down::build::{Built, ICE_POINT};
 use crate::simulate::coast_down::course::{BEYOND, Course, End, Row};
 use crate::simulate::coast_down::ran::Ran;
+use model::system::layout::of_part;
 use std::time::Instant;
-use thermal::bearing_network::NODES;
 use thermal::coast_down::Endless;
 
 /// Computes it and names what it finds.
@@ -33,27 +33,8 @@ pub(crate) fn run(
     options: &Options,
 ) -> Outcome {
     let clock = Instant::now();
-    let limits = course::limits(run);
-    let found = course::follow(run, built, &[None; 7], options.interrupt).and_then(|free| {
-        let passes = |row: &Row| {
-            let nodes = row.temperatures.iter().zip(&limits);
-            nodes
-                .into_iter()
-                .any(|(now, limit)| limit.is_some_and(|limit| *now > limit))
-        };
-        let held = match free.rows.iter().any(passes) {
-            true => Some(course::follow(run, built, &limits, options.interrupt)?),
-            false => None,
-        };
-        Ok(Ran {
-            run,
-            built,
-            free,
-            held,
-            limits,
-        })
-    });
-    let named = run.name.as_deref().unwrap_or("bearing");
+    let found = ran::ran(built, options.interrupt);
+    let named = run.bearing.name.as_deref().unwrap_or("bearing");
     let mut outcome = Outcome {
         system: "coast_down",
         title: (scenario.title.clone()).unwrap_or_else(|| format!("Run-out on a {named}")),
@@ -78,7 +59,7 @@ pub(crate) fn run(
             clearance: None,
             pressure_limit: None,
             rolling_cage_ratio: f64::NAN,
-            balls: run.ball_count,
+            balls: run.bearing.ball_count,
         }],
         files: Vec::new(),
     };
@@ -109,7 +90,8 @@ fn failed(problem: &Problem) -> Stop {
     }
 }
 
-fn stop(course: &Course) -> Stop {
+/// How it ended, in words.
+pub(crate) fn stop(course: &Course) -> Stop {
     let time = course.state.time;
     let speed = course.state.speed;
     let (reason, text) = match course.end {
@@ -146,7 +128,7 @@ fn stop(course: &Course) -> Stop {
 }
 
 /// Columns over time.
-fn history(ran: &Ran) -> Vec<Column> {
+pub(crate) fn history(ran: &Ran) -> Vec<Column> {
     let rows = &ran.free.rows;
     let mut columns = Vec::new();
     let mut add = |name: String, unit, meaning: String, value: &dyn Fn(&Row) -> f64| {
@@ -166,13 +148,14 @@ fn history(ran: &Ran) -> Vec<Column> {
         "speed of rotor and inner races".into(),
         &|row| row.speed,
     );
-    for (node, name) in NODES.iter().enumerate() {
-        if ran.is_there(node) {
+    for (k, part) in ran.parts() {
+        for node in ran.nodes(k) {
+            let name = node.name();
             add(
-                format!("{name}.temperature"),
+                of_part(&part.name, &format!("{name}.temperature")),
                 "K",
                 format!("temperature of the {}", name.replace('_', " ")),
-                &|row| row.temperatures[node] + ICE_POINT,
+                &|row| row.temperatures[node.place()] + ICE_POINT,
             );
         }
     }
@@ -197,18 +180,20 @@ fn history(ran: &Ran) -> Vec<Column> {
         "heat made in all bearings".into(),
         &|row| row.speed * (row.moments[0] + row.moments[1]),
     );
-    add(
-        "bearing.clearance".into(),
-        "m",
-        "diametral clearance; negative is preload".into(),
-        &|row| row.clearance,
-    );
-    add(
-        "bearing.largest_ball_load".into(),
-        "N",
-        "load of the most loaded ball".into(),
-        &|row| row.ball_loads[0],
-    );
+    for (k, part) in ran.parts() {
+        add(
+            of_part(&part.name, "bearing.clearance"),
+            "m",
+            "diametral clearance; negative is preload".into(),
+            &|row| row.bearings[k].clearance,
+        );
+        add(
+            of_part(&part.name, "bearing.largest_ball_load"),
+            "N",
+            "load of the most loaded ball".into(),
+            &|row| row.bearings[k].largest_ball_load,
+        );
+    }
     add(
         "heat.growth_rate".into(),
         "1/s",

@@ -2,25 +2,35 @@
 
 use crate::result::list::{List, NOT_GIVEN, Origin, relative};
 use crate::result::outcome::Value;
-use crate::simulate::coast_down::build::{ICE_POINT, energy, turns};
-use crate::simulate::coast_down::course::End;
+use crate::simulate::coast_down::build::{ICE_POINT, Part, turns};
+use crate::simulate::coast_down::course::{End, Row};
 use crate::simulate::coast_down::ran::Ran;
+use model::system::layout::of_part;
 use physics::life::{
     RatedBearing, bearing_damage, passages_per_turn, reference_viscosity, repetitions, ring_damage,
 };
-use thermal::bearing_network::NODES;
+use thermal::bearing_network::{LUBRICANT, NODES};
 
 /// Places of the outer ring that its life is summed over.
 const PLACES: usize = 180;
 
 /// Names the results.
-pub(super) fn name(ran: &Ran, list: &mut List) {
+pub(crate) fn name(ran: &Ran, list: &mut List) {
     motion(ran, list);
     heats(ran, list);
-    temperatures(ran, list);
+    for (k, _) in ran.parts() {
+        temperatures(ran, k, list);
+    }
     held(ran, list);
-    clearance(ran, list);
-    life(ran, list);
+    for (k, part) in ran.parts() {
+        clearance(ran, k, list);
+        let growth = ran.free.rows.iter().map(|row| row.growth);
+        if k == 0 {
+            let most = growth.fold(f64::NEG_INFINITY, f64::max);
+            list.number("peak_growth_rate", "1/s", Ok(most), &GROWTH);
+        }
+        life(ran, k, part, list);
+    }
 }
 
 fn motion(ran: &Ran, list: &mut List) {
@@ -30,50 +40,53 @@ fn motion(ran: &Ran, list: &mut List) {
         _ => Err("the rotor did not come to stand in this run".to_string()),
     };
     list.awaited("stop_time", stands, &STOP);
-    list.number("turns", "", Ok(all_turns(ran)), &TURNS);
+    let all = pairs(&free.rows).map(|(_, _, turned)| turned).sum();
+    list.number("turns", "", Ok(all), &TURNS);
     let first = &free.rows[0].moments;
     list.number("start_moment", "N m", Ok(first.iter().sum()), &MOMENT);
     let power = first.iter().sum::<f64>() * free.rows[0].speed;
     list.number("start_power", "W", Ok(power), &MOMENT);
 }
 
-/// Turns of the rotor.
-fn all_turns(ran: &Ran) -> f64 {
-    let pairs = ran.free.rows.windows(2);
-    let each = pairs.map(|pair| {
-        turns(
-            0.5 * (pair[0].speed + pair[1].speed),
-            pair[1].time - pair[0].time,
+/// Neighbouring rows with the turns of the rotor between them.
+fn pairs(rows: &[Row]) -> impl Iterator<Item = (&Row, &Row, f64)> {
+    rows.windows(2).map(|pair| {
+        let speed = 0.5 * (pair[0].speed + pair[1].speed);
+        (
+            &pair[0],
+            &pair[1],
+            turns(speed, pair[1].time - pair[0].time),
         )
-    });
-    each.sum()
+    })
 }
 
 fn heats(ran: &Ran, list: &mut List) {
     let free = &ran.free;
     let heats = &free.state.heats;
-    list.number("rotor_energy", "J", Ok(energy(ran.run)), &ENERGY);
-    for (at, name) in [
-        "speed_dependent_heat",
-        "load_dependent_heat",
-        "windage_heat",
-    ]
-    .into_iter()
-    .enumerate()
-    {
-        list.number(name, "J", Ok(heats[at]), &HEAT);
+    let sides = f64::from(ran.built.sides);
+    list.number("rotor_energy", "J", Ok(ran.built.energy()), &ENERGY);
+    let (of_rotor, of_bearings) = heats.split_last().unwrap_or((&0.0, &[]));
+    let sum = |loss: usize| of_bearings.iter().skip(loss).step_by(2).sum::<f64>();
+    let (speed_dependent, load_dependent) = (sum(0), sum(1));
+    for (name, heat) in [
+        ("speed_dependent_heat", speed_dependent),
+        ("load_dependent_heat", load_dependent),
+        ("windage_heat", *of_rotor),
+    ] {
+        list.number(name, "J", Ok(heat), &HEAT);
     }
     list.number("stored_heat", "J", Ok(free.stored), &HEAT);
-    let start = ran.run.heat.start_temperature - ICE_POINT;
-    for (node, name) in NODES.iter().enumerate() {
-        if ran.is_there(node) {
-            let capacity = f64::from(ran.run.planes) * ran.built.network.capacities[node];
-            let kept = capacity * (free.state.temperatures[node] - start);
-            list.number(&format!("stored_heat_in_{name}"), "J", Ok(kept), &HEAT);
+    for (k, part) in ran.parts() {
+        for node in ran.nodes(k) {
+            let before = ran.built.start.temperatures[node.place()];
+            let rise = free.state.temperatures[node.place()] - before;
+            let kept = sides * part.network.capacities[node.node] * rise;
+            let name = format!("stored_heat_in_{}", node.name());
+            list.number(&of_part(&part.name, &name), "J", Ok(kept), &HEAT);
         }
     }
     list.number("heat_to_surroundings", "J", Ok(free.state.given), &HEAT);
-    let made = heats[0] + heats[1];
+    let made = speed_dependent + load_dependent;
     let left = made - free.stored - free.state.given;
     list.number(
         "relative_heat_residual",
@@ -83,43 +96,28 @@ fn heats(ran: &Ran, list: &mut List) {
     );
 }
 
-fn temperatures(ran: &Ran, list: &mut List) {
-    for (node, name) in NODES.iter().enumerate() {
-        if !ran.is_there(node) {
-            continue;
-        }
+fn temperatures(ran: &Ran, k: usize, list: &mut List) {
+    let part = &ran.built.parts[k].name;
+    for node in ran.nodes(k) {
+        let of = |words: &str| of_part(part, &words.replace('#', node.name()));
         let (peak, at) = ran.peak(node);
-        list.number(
-            &format!("peak_{name}_temperature"),
-            "K",
-            Ok(peak + ICE_POINT),
-            &PEAK,
-        );
-        list.number(&format!("peak_{name}_time"), "s", Ok(at), &PEAK);
-        let Some(limit) = ran.limits[node] else {
+        list.number(&of("peak_#_temperature"), "K", Ok(peak + ICE_POINT), &PEAK);
+        list.number(&of("peak_#_time"), "s", Ok(at), &PEAK);
+        let Some(limit) = ran.limits[node.place()] else {
             continue;
         };
-        let passed = ran.first(|row| row.temperatures[node] - limit);
+        let passed = ran.first(|row| row.temperatures[node.place()] - limit);
         let never = || format!("it stays {:.1} K below its limit", limit - peak);
-        list.awaited(
-            &format!("{name}_limit_time"),
-            passed.ok_or_else(never),
-            &LIMIT,
-        );
-        let held = ran.held.as_ref().filter(|held| held.taken[node] > 0.0);
+        list.awaited(&of("#_limit_time"), passed.ok_or_else(never), &LIMIT);
+        let held = (ran.held.as_ref()).filter(|held| held.taken[node.place()] > 0.0);
         let most = held.map(|held| {
             let rows = held.rows.iter();
-            rows.map(|row| row.taken[node]).fold(0.0, f64::max)
+            rows.map(|row| row.taken[node.place()]).fold(0.0, f64::max)
         });
+        list.number(&of("#_heat_to_take"), "W", most.ok_or_else(never), &TAKE);
+        let energy = held.map(|held| held.taken[node.place()]);
         list.number(
-            &format!("{name}_heat_to_take"),
-            "W",
-            most.ok_or_else(never),
-            &TAKE,
-        );
-        let energy = held.map(|held| held.taken[node]);
-        list.number(
-            &format!("{name}_energy_to_take"),
+            &of("#_energy_to_take"),
             "J",
             energy.ok_or_else(never),
             &TAKE,
@@ -133,91 +131,87 @@ fn held(ran: &Ran, list: &mut List) {
     let times = rows().map(|row| row.time).collect();
     list.push("held_times", "s", Value::List(times), &TAKE);
     let Some(held) = &ran.held else { return };
-    for (node, name) in NODES.iter().enumerate() {
-        if held.taken[node] > 0.0 {
-            let powers = rows().map(|row| row.taken[node]).collect();
-            list.push(
-                &format!("{name}_powers_to_take"),
-                "W",
-                Value::List(powers),
-                &TAKE,
-            );
+    for (k, part) in ran.parts() {
+        for (node, name) in NODES.iter().enumerate() {
+            let place = k * NODES.len() + node;
+            if held.taken[place] > 0.0 {
+                let powers = rows().map(|row| row.taken[place]).collect();
+                list.push(
+                    &of_part(&part.name, &format!("{name}_powers_to_take")),
+                    "W",
+                    Value::List(powers),
+                    &TAKE,
+                );
+            }
         }
     }
 }
 
-fn clearance(ran: &Ran, list: &mut List) {
-    let rows = &ran.free.rows;
-    let least = rows
-        .iter()
-        .map(|row| row.clearance)
-        .fold(f64::INFINITY, f64::min);
-    list.number("smallest_clearance", "m", Ok(least), &CLEARANCE);
-    let closes = ran.first(|row| -row.clearance);
+fn clearance(ran: &Ran, k: usize, list: &mut List) {
+    let of = |words: &str| of_part(&ran.built.parts[k].name, words);
+    let least = ran.rows(k).map(|row| row.clearance);
+    let least = least.fold(f64::INFINITY, f64::min);
+    list.number(&of("smallest_clearance"), "m", Ok(least), &CLEARANCE);
+    let closes = ran.first(|row| -row.bearings[k].clearance);
     let open = || "the bearing stays open".to_string();
-    list.awaited("closing_time", closes.ok_or_else(open), &CLEARANCE);
-    let most = rows.iter().map(|row| row.ball_loads[0]).fold(0.0, f64::max);
-    list.number("peak_ball_load", "N", Ok(most), &BALLS);
-    let growth = rows
-        .iter()
-        .map(|row| row.growth)
-        .fold(f64::NEG_INFINITY, f64::max);
-    list.number("peak_growth_rate", "1/s", Ok(growth), &GROWTH);
+    list.awaited(&of("closing_time"), closes.ok_or_else(open), &CLEARANCE);
+    let most = ran.rows(k).map(|row| row.largest_ball_load);
+    list.number(
+        &of("peak_ball_load"),
+        "N",
+        Ok(most.fold(0.0, f64::max)),
+        &BALLS,
+    );
 }
 
-fn life(ran: &Ran, list: &mut List) {
-    let run = ran.run;
-    let rows = &ran.free.rows;
-    let viscosity = |row: &crate::simulate::coast_down::course::Row| {
-        let kelvin = row.temperatures[thermal::bearing_network::LUBRICANT] + ICE_POINT;
+fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
+    let of = |words: &str| of_part(&part.name, words);
+    let ratio = |row: &Row| {
+        let kelvin = row.temperatures[k * NODES.len() + LUBRICANT] + ICE_POINT;
         let rpm = row.speed * 60.0 / std::f64::consts::TAU;
-        1e6 * ran.built.losses.oil.viscosity(kelvin)
-            / reference_viscosity(rpm, 1e3 * run.pitch_diameter)
+        1e6 * part.losses.oil.viscosity(kelvin)
+            / reference_viscosity(rpm, 1e3 * part.warm.pitch_diameter)
     };
-    let least = rows.iter().map(viscosity).fold(f64::INFINITY, f64::min);
-    list.number("smallest_viscosity_ratio", "1", Ok(least), &KAPPA);
-    let share = (run.dynamic_load_rating)
+    let least = ran.free.rows.iter().map(ratio);
+    let least = least.fold(f64::INFINITY, f64::min);
+    list.number(&of("smallest_viscosity_ratio"), "1", Ok(least), &KAPPA);
+    let share = (part.warm.dynamic_load_rating)
         .ok_or_else(|| format!("bearing.dynamic_load_rating{NOT_GIVEN}"))
-        .map(|rating| used(ran, rating));
-    list.number("life_share", "1", share.clone(), &LIFE);
+        .map(|rating| used(ran, k, part, rating));
+    list.number(&of("life_share"), "1", share.clone(), &LIFE);
     for (name, survival) in [
         ("runs_until_one_percent_fail", 0.99),
         ("runs_until_ten_percent_fail", 0.9),
         ("runs_until_half_fail", 0.5),
     ] {
         let count = share.clone().map(|share| repetitions(share, survival));
-        list.number(name, "1", count, &LIFE);
+        list.number(&of(name), "1", count, &LIFE);
     }
 }
 
 /// Share of the rating life of one bearing that the run-out uses.
-fn used(ran: &Ran, rating: f64) -> f64 {
-    let run = ran.run;
-    let gamma = run.ball_diameter / run.pitch_diameter;
+fn used(ran: &Ran, k: usize, part: &Part, rating: f64) -> f64 {
+    let warm = &part.warm;
+    let gamma = warm.ball_diameter / warm.pitch_diameter;
     let bearing = RatedBearing {
         rating,
-        ball_count: run.ball_count as f64,
+        ball_count: warm.ball_count as f64,
         gamma,
-        grooves: [run.inner_groove_curvature, run.outer_groove_curvature],
+        grooves: [warm.inner_groove_curvature, warm.outer_groove_curvature],
         contact_angle: 0.0,
     };
-    let passages = passages_per_turn(run.ball_count as f64, gamma);
+    let passages = passages_per_turn(warm.ball_count as f64, gamma);
     let loads = bearing.ball_rating_loads();
     // Σ turns of the mean cube, and of the cube at each place of the outer ring
     let mut inner = 0.0;
     let mut outer = vec![0.0; PLACES];
-    for pair in ran.free.rows.windows(2) {
-        let turned = turns(
-            0.5 * (pair[0].speed + pair[1].speed),
-            pair[1].time - pair[0].time,
-        );
-        inner += turned * 0.5 * (pair[0].cubes + pair[1].cubes);
-        let zone = ran
-            .built
-            .zone
-            .loads(0.5 * (pair[0].clearance + pair[1].clearance));
+    for (before, after, turned) in pairs(&ran.free.rows) {
+        let clearance = [before, after].map(|row| row.bearings[k].clearance);
+        let zone = (part.zone).all_round(0.5 * (clearance[0] + clearance[1]), PLACES);
         for (sum, load) in outer.iter_mut().zip(zone) {
-            *sum += turned * load.powi(3);
+            let cube = turned * load.powi(3);
+            *sum += cube;
+            inner += cube / PLACES as f64;
         }
     }
     let of_inner = ring_damage(&[inner * passages[0]], passages[0], loads[0]);

@@ -1,44 +1,98 @@
 //! A run-out as it was computed, and what its rows say.
 
-use crate::scenario::CoastDown;
-use crate::simulate::coast_down::build::Built;
-use crate::simulate::coast_down::course::{Course, Row};
+use crate::problem::Problem;
+use crate::simulate::coast_down::build::{Built, Part};
+use crate::simulate::coast_down::course::{self, Course, Row, RowOfBearing};
+use std::sync::atomic::AtomicBool;
+use thermal::bearing_network::{CAGE, NODES};
 
 /// A run-out, and the same with its nodes held at their limits where one is passed.
-pub(super) struct Ran<'a> {
-    pub run: &'a CoastDown,
+pub(crate) struct Ran<'a> {
     pub built: &'a Built,
     pub free: Course,
     pub held: Option<Course>,
-    pub limits: [Option<f64>; 7],
+    /// Of the nodes of all bearings, °C.
+    pub limits: Vec<Option<f64>>,
+}
+
+/// Computes a run-out.
+pub(crate) fn ran<'a>(built: &'a Built, interrupt: &AtomicBool) -> Result<Ran<'a>, Box<Problem>> {
+    let limits = course::limits(built);
+    let free = course::follow(built, None, interrupt)?;
+    let passes = |row: &Row| {
+        let mut nodes = row.temperatures.iter().zip(&limits);
+        nodes.any(|(now, limit)| limit.is_some_and(|limit| *now > limit))
+    };
+    let held = match free.rows.iter().any(passes) {
+        true => Some(course::follow(built, Some(&limits), interrupt)?),
+        false => None,
+    };
+    Ok(Ran {
+        built,
+        free,
+        held,
+        limits,
+    })
+}
+
+/// A node of a bearing, with its place among those of all.
+#[derive(Clone, Copy)]
+pub(crate) struct NodeOf {
+    pub bearing: usize,
+    pub node: usize,
+}
+
+impl NodeOf {
+    /// Its place among the nodes of all bearings.
+    pub fn place(self) -> usize {
+        self.bearing * NODES.len() + self.node
+    }
+    /// Its name: `inner_race`.
+    pub fn name(self) -> &'static str {
+        NODES[self.node]
+    }
 }
 
 impl Ran<'_> {
+    /// The bearings with their places.
+    pub fn parts(&self) -> impl Iterator<Item = (usize, &Part)> {
+        self.built.parts.iter().enumerate()
+    }
+
+    /// The nodes of a bearing that are there: a full complement has no cage.
+    pub fn nodes(&self, bearing: usize) -> impl Iterator<Item = NodeOf> {
+        let with_cage = self.built.parts[bearing].warm.cage_mass > 0.0;
+        (0..NODES.len())
+            .filter(move |node| *node != CAGE || with_cage)
+            .map(move |node| NodeOf { bearing, node })
+    }
+
     /// The hottest a node gets: temperature in °C and time.
-    pub fn peak(&self, node: usize) -> (f64, f64) {
+    pub fn peak(&self, node: NodeOf) -> (f64, f64) {
         let rows = self.free.rows.iter();
         rows.fold((f64::NEG_INFINITY, 0.0), |(most, at), row| {
-            match row.temperatures[node] > most {
-                true => (row.temperatures[node], row.time),
+            match row.temperatures[node.place()] > most {
+                true => (row.temperatures[node.place()], row.time),
                 false => (most, at),
             }
         })
+    }
+
+    /// Rows of a bearing.
+    pub fn rows(&self, bearing: usize) -> impl Iterator<Item = &RowOfBearing> {
+        let rows = self.free.rows.iter();
+        rows.map(move |row| &row.bearings[bearing])
     }
 
     /// First time at which a quantity of the rows passes zero upwards, s.
     pub fn first(&self, of: impl Fn(&Row) -> f64) -> Option<f64> {
         let rows = &self.free.rows;
         if of(&rows[0]) > 0.0 {
-            return Some(0.0);
+            return Some(rows[0].time);
         }
         let at = rows.iter().position(|row| of(row) > 0.0)?;
         let (before, after) = (&rows[at - 1], &rows[at]);
         let share = -of(before) / (of(after) - of(before));
         Some(before.time + share * (after.time - before.time))
-    }
-
-    /// Whether a node is there: a full complement has no cage.
-    pub fn is_there(&self, node: usize) -> bool {
-        node != thermal::bearing_network::CAGE || self.run.cage_mass > 0.0
     }
 }

@@ -3,22 +3,35 @@
 use crate::result::outcome::{Warning, warning};
 use crate::simulate::coast_down::build::ICE_POINT;
 use crate::simulate::coast_down::course::End;
-use crate::simulate::coast_down::ran::Ran;
-use thermal::bearing_network::{LUBRICANT, NODES};
+use crate::simulate::coast_down::ran::{NodeOf, Ran};
+use thermal::bearing_network::LUBRICANT;
 
+/// Of a run-out by itself.
 pub(super) fn of(ran: &Ran) -> Vec<Warning> {
-    [
-        runs_away(ran),
-        limits(ran),
-        stays_closed(ran).filter(|_| runs_away(ran).is_none()),
-        viscosity(ran).filter(|_| runs_away(ran).is_none()),
-        too_fast(ran),
-        turns_on(ran),
-        Some(only_rolling()),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+    let mut list = of_course(ran);
+    list.push(only_rolling());
+    list
+}
+
+/// Of its course, whatever went before.
+pub(crate) fn of_course(ran: &Ran) -> Vec<Warning> {
+    let mut list: Vec<Warning> = runs_away(ran).into_iter().collect();
+    list.extend(limits(ran));
+    for (k, part) in ran.parts() {
+        let found = match runs_away(ran) {
+            Some(_) => [None, None, too_fast(ran, k)],
+            None => [stays_closed(ran, k), viscosity(ran, k), too_fast(ran, k)],
+        };
+        list.extend(found.into_iter().flatten().map(|found| Warning {
+            text: match part.name.is_empty() {
+                true => found.text,
+                false => format!("{}: {}", part.name, found.text),
+            },
+            ..found
+        }));
+    }
+    list.extend(turns_on(ran));
+    list
 }
 
 /// A time for people.
@@ -34,7 +47,7 @@ fn runs_away(ran: &Ran) -> Option<Warning> {
     let rows = ran.free.rows.iter();
     let row = rows
         .clone()
-        .find(|row| row.growth > 0.0 && row.clearance < 0.0)?;
+        .find(|row| row.growth > 0.0 && row.clearance() < 0.0)?;
     let most = rows.map(|row| row.growth).fold(0.0, f64::max);
     Some(warning(
         "AB2311",
@@ -50,17 +63,27 @@ fn runs_away(ran: &Ran) -> Option<Warning> {
 }
 
 fn limits(ran: &Ran) -> Option<Warning> {
-    let nodes = NODES.iter().enumerate().filter_map(|(node, name)| {
-        let limit = ran.limits[node]?;
-        let at = ran.first(|row| row.temperatures[node] - limit)?;
-        Some((at, node, name, limit))
-    });
+    let nodes = ran
+        .parts()
+        .flat_map(|(k, _)| ran.nodes(k))
+        .filter_map(|node| {
+            let limit = ran.limits[node.place()]?;
+            let at = ran.first(|row| row.temperatures[node.place()] - limit)?;
+            Some((at, node, limit))
+        });
     let mut passed: Vec<_> = nodes.collect();
     passed.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let &(at, node, name, limit) = passed.first()?;
+    let &(at, node, limit) = passed.first()?;
+    let words_of = |node: NodeOf| {
+        let name = node.name().replace('_', " ");
+        match ran.built.parts[node.bearing].name.as_str() {
+            "" => name,
+            part => format!("{name} of {part}"),
+        }
+    };
     let others: Vec<String> = passed[1..]
         .iter()
-        .map(|(at, _, name, _)| format!("{} at {}", name.replace('_', " "), words(*at)))
+        .map(|(at, node, _)| format!("{} at {}", words_of(*node), words(*at)))
         .collect();
     let others = match others.is_empty() {
         true => String::new(),
@@ -82,7 +105,7 @@ fn limits(ran: &Ran) -> Option<Warning> {
         format!(
             "Too hot: {} above {limit:.0} °C after {}{others}, up to {:.0} °C. Hardness, size, cage and lubricant may change there; \
              this run does not follow that.{}",
-            name.replace('_', " "),
+            words_of(node),
             words(at),
             ran.peak(node).0,
             taken.unwrap_or_default()
@@ -90,30 +113,34 @@ fn limits(ran: &Ran) -> Option<Warning> {
     ))
 }
 
-fn stays_closed(ran: &Ran) -> Option<Warning> {
-    let at = ran.first(|row| -row.clearance)?;
-    if ran.free.rows[0].clearance < 0.0 {
+fn stays_closed(ran: &Ran, k: usize) -> Option<Warning> {
+    let at = ran.first(|row| -row.bearings[k].clearance)?;
+    if ran.free.rows[0].bearings[k].clearance < 0.0 {
         return None;
     }
-    let rows = ran.free.rows.iter();
-    let most = rows.map(|row| row.ball_loads[0]).fold(0.0, f64::max);
+    let most = ran.rows(k).map(|row| row.largest_ball_load);
+    let most = most.fold(0.0, f64::max);
     Some(warning(
         "AB2312",
         format!(
             "The clearance closes {}: rings that warm unequally load the balls with up to {most:.0} N. The difference of the \
              rings' temperatures is known within a factor of two; so is the clearance that is needed.",
             match at {
-                0.0 => "from the start".to_string(),
+                at if at == ran.built.start.time => "from the start".to_string(),
                 at => format!("after {}", words(at)),
             }
         ),
     ))
 }
 
-fn viscosity(ran: &Ran) -> Option<Warning> {
-    let (least, largest) = ran.built.viscosity.range();
-    let (hottest, at) = ran.peak(LUBRICANT);
-    let start = ran.free.rows[0].temperatures[LUBRICANT] + ICE_POINT;
+fn viscosity(ran: &Ran, bearing: usize) -> Option<Warning> {
+    let (least, largest) = ran.built.parts[bearing].viscosity.range();
+    let lubricant = NodeOf {
+        bearing,
+        node: LUBRICANT,
+    };
+    let (hottest, at) = ran.peak(lubricant);
+    let start = ran.free.rows[0].temperatures[lubricant.place()] + ICE_POINT;
     let hot = hottest + ICE_POINT > largest;
     if !hot && start >= least {
         return None;
@@ -133,11 +160,9 @@ fn viscosity(ran: &Ran) -> Option<Warning> {
     ))
 }
 
-fn too_fast(ran: &Ran) -> Option<Warning> {
-    let limit = ran
-        .run
-        .limiting_speed
-        .filter(|limit| ran.run.speed.abs() > *limit)?;
+fn too_fast(ran: &Ran, k: usize) -> Option<Warning> {
+    let limit =
+        (ran.built.parts[k].warm.limiting_speed).filter(|limit| ran.built.start.speed > *limit)?;
     let rows = ran.free.rows.iter();
     let until = rows
         .map(|row| (row.time, row.speed))

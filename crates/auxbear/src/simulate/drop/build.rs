@@ -8,6 +8,7 @@ use crate::simulate::bearing::pressure::PressureFactors;
 use crate::simulate::bearing::steady::{SteadyFinding, SteadyPoint};
 use crate::simulate::drop::layers;
 use crate::simulate::drop::mount;
+use crate::simulate::drop::networks;
 use crate::simulate::drop::shaft::{self, BuiltShaft};
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::bearing::{BearingConstants, RollingConstants};
@@ -120,7 +121,11 @@ fn auxiliary_bearing(
         centre_held: given.inner_race_centre_held,
         torque: given.inner_race_torque,
     };
-    Ok((around(part, inner_race, constants), built))
+    let around = AuxiliaryBearingConstants {
+        warm: networks::built(part)?,
+        ..around(part, inner_race, constants)
+    };
+    Ok((around, built))
 }
 
 /// A plain bushing: its ring is the mass on the mount.
@@ -170,6 +175,7 @@ fn around(
         },
         mount_parts: mount::parts(&part.mount.parts),
         surfaces: layers::built(part),
+        warm: None,
     }
 }
 

@@ -4,7 +4,7 @@ use crate::result::outcome::Column;
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::shaft_results;
+use crate::simulate::drop::{shaft_results, warm};
 use model::auxiliary_bearing::probe::{
     BEARING_LOAD, FRICTION_FORCE, MOUNT_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED,
 };
@@ -140,5 +140,6 @@ fn of_bearing(context: &Context, k: usize, run: &BearingRun) -> Vec<Column> {
         at.probe(MOUNT_FORCE),
     );
     table.bearing();
+    warm::columns(context, k, &mut table);
     table.columns
 }

@@ -9,7 +9,7 @@ use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
 use crate::simulate::drop::members::{Kind, kind_of, share_lanes};
 use crate::simulate::drop::method::stepping;
-use crate::simulate::drop::{quantities, warnings};
+use crate::simulate::drop::{quantities, run_out, warnings};
 use crate::simulate::ending::{settings_at, stop};
 use crate::simulate::stepping::Stepping;
 use model::system::machine::RotorMachine;
@@ -94,6 +94,7 @@ fn together(
             settings: settings_at(&first.drop.run, first.stepping.tolerance),
             steps: first.stepping.steps,
             interval: first.drop.run.output_interval,
+            until_rolling: first.drop.run_out.is_some(),
             // those of the pool in which this is called
             threads: None,
             interrupt: options.interrupt,
@@ -109,10 +110,17 @@ fn together(
             finished,
             members: 1,
         };
+        let after = run_out::after(&context, options.interrupt);
+        let mut quantities = quantities::name(&context);
+        quantities.extend(after.iter().flat_map(|after| after.quantities.clone()));
+        let ended = match &after {
+            Some(after) => after.stop.clone(),
+            None => stop(&finished.ending),
+        };
         Single {
-            quantities: quantities::name(&context),
-            warnings: warnings::of(one.scenario, &[context]),
-            stop: stop(&finished.ending),
+            quantities,
+            warnings: warnings::of(one.scenario, &[context], &[after]),
+            stop: ended,
         }
     };
     group.iter().zip(&finished).map(named).collect()

@@ -44,6 +44,8 @@ pub struct Plan<'a> {
     pub steps: Steps,
     /// Time between rows, s.
     pub interval: f64,
+    /// Whether a run ends once its rotor rolls.
+    pub until_rolling: bool,
     /// Number of threads; all cores if none.
     pub threads: Option<usize>,
     /// Stops everything when true.
@@ -154,8 +156,12 @@ struct Watched<'a> {
 impl<'a> Watched<'a> {
     fn of(member: &Member, plan: &Plan, report: &'a Report<'a>) -> Self {
         let end = plan.settings.end;
+        let record = Record::new(&member.machine, end, plan.interval, member.keep_rows);
         Watched {
-            record: Record::new(&member.machine, end, plan.interval, member.keep_rows),
+            record: match plan.until_rolling {
+                true => record.until_rolling(),
+                false => record,
+            },
             report,
             reported: 0,
             end,

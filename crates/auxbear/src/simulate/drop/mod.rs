@@ -9,11 +9,14 @@ mod layers;
 pub(crate) mod members;
 pub(crate) mod method;
 mod mount;
+mod networks;
 pub(crate) mod orders;
 pub(crate) mod quantities;
+pub(crate) mod run_out;
 pub mod shaft;
 pub(crate) mod shaft_results;
 pub(crate) mod surfaces;
+pub(crate) mod warm;
 pub(crate) mod warnings;
 
 use crate::options::Options;
@@ -23,8 +26,10 @@ use crate::simulate::drop::build::Built;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{Finished, Member, Plan};
 use crate::simulate::drop::members::Varied;
+use crate::simulate::drop::run_out::After;
 use crate::simulate::ending::{settings_at, stop};
 use crate::simulate::stepping::Stepping;
+use rayon::prelude::*;
 use std::time::Instant;
 
 /// Runs a drop.
@@ -45,6 +50,7 @@ pub(crate) fn run(
             settings: settings_at(&drop.run, stepping.tolerance),
             steps: stepping.steps,
             interval: drop.run.output_interval,
+            until_rolling: drop.run_out.is_some(),
             threads: options.threads,
             interrupt: options.interrupt,
             progress: options.progress,
@@ -65,18 +71,30 @@ pub(crate) fn run(
     };
     let contexts: Vec<Context> = (0..count).map(context).collect();
     let first = &contexts[0];
-    let mut named = quantities::name(first);
+    let after: Vec<Option<After>> = (contexts.par_iter())
+        .map(|context| run_out::after(context, options.interrupt))
+        .collect();
+    let stop_of = |k: usize| match &after[k] {
+        Some(after) => after.stop.clone(),
+        None => stop(&finished[k].ending),
+    };
+    let name = |k: usize| {
+        let mut named = quantities::name(&contexts[k]);
+        named.extend(after[k].iter().flat_map(|after| after.quantities.clone()));
+        named
+    };
+    let mut named = name(0);
     let mut table = Members::ended_at(drop.run.duration);
     let mut drawn = Vec::new();
     if count > 1 {
         // a member that did not end as planned would pull every mean
-        let whole = || (0..count).filter(|k| stop(&finished[*k].ending).complete());
+        let whole = || (0..count).filter(|k| stop_of(*k).complete());
         if !varied.is_empty() {
             let draws = |k: usize| k.checked_sub(1).map(|k| varied[k].drawn.clone());
             drawn = whole().map(|k| draws(k).unwrap_or_default()).collect();
         }
         for k in whole() {
-            table.push(quantities::name(&contexts[k]));
+            table.push(name(k));
         }
         let least = chaotic_from(scenario, drop);
         for quantity in &mut named {
@@ -99,9 +117,9 @@ pub(crate) fn run(
         quantities: named,
         history,
         contacts: contacts(first),
-        warnings: warnings::of(scenario, &contexts),
-        stop: worst_stop(&finished),
-        work: work(&finished, seconds, stepping),
+        warnings: warnings::of(scenario, &contexts, &after),
+        stop: worst_stop(count, &stop_of),
+        work: work(&finished, &after, seconds, stepping),
         members: table,
         drawn,
         limits: Vec::new(),
@@ -163,26 +181,18 @@ fn contacts(context: &Context) -> Vec<Contact> {
 }
 
 /// The ending of the unperturbed run; if that is whole, of the first member that is not.
-fn worst_stop(finished: &[Finished]) -> Stop {
-    let first = stop(&finished[0].ending);
-    if !first.complete() {
+fn worst_stop(members: usize, stop_of: &dyn Fn(usize) -> Stop) -> Stop {
+    let first = stop_of(0);
+    if !first.complete() || members == 1 {
         return first;
     }
-    match finished
-        .iter()
-        .map(|member| stop(&member.ending))
-        .enumerate()
-        .find(|(_, s)| !s.complete())
-    {
+    let all = || (0..members).map(stop_of);
+    match all().enumerate().find(|(_, stop)| !stop.complete()) {
         Some((k, mut stop)) => {
-            let whole = finished
-                .iter()
-                .filter(|member| self::stop(&member.ending).complete());
             stop.text = format!(
-                "Member {k} of the repetition: {} {} of {} members are whole; only these enter the spread.",
+                "Member {k} of the repetition: {} {} of {members} members are whole; only these enter the spread.",
                 stop.text,
-                whole.count(),
-                finished.len()
+                all().filter(Stop::complete).count(),
             );
             stop
         }
@@ -190,13 +200,14 @@ fn worst_stop(finished: &[Finished]) -> Stop {
     }
 }
 
-fn work(finished: &[Finished], seconds: f64, stepping: Stepping) -> Work {
+fn work(finished: &[Finished], after: &[Option<After>], seconds: f64, stepping: Stepping) -> Work {
     let mut work = Work {
         members: finished.len(),
         seconds,
         method: Some(stepping.name()),
         ..Work::default()
     };
+    work.steps = after.iter().flatten().map(|after| after.steps).sum();
     for member in finished {
         work.steps += member.ending.work.accepted;
         work.rejected += member.ending.work.rejected;

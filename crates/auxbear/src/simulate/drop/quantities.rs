@@ -6,7 +6,7 @@ use crate::result::outcome::{Quantity, Value};
 use crate::result::static_safety::StaticLoad;
 use crate::simulate::bearing::quantities::{End, LargestForces};
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::{shaft_results, surfaces};
+use crate::simulate::drop::{shaft_results, surfaces, warm};
 use model::system::layout::of_part;
 use std::f64::consts::PI;
 
@@ -202,6 +202,7 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
         &PER_AREA,
     );
     surfaces::name(context, k, list);
+    warm::name(context, k, list);
 }
 
 /// What is turned over must exceed this share of the kinetic energy at the start to be compared with.

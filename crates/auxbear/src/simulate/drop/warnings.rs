@@ -9,7 +9,8 @@ use crate::simulate::bearing::severity::{HOT_RACE, inner_race_rise};
 use crate::simulate::bearing::warnings as shared;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::quantities::residuals;
-use crate::simulate::drop::{method, shaft_results, surfaces};
+use crate::simulate::drop::run_out::After;
+use crate::simulate::drop::{method, shaft_results, surfaces, warm};
 use crate::simulate::stepping::Asked;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 
@@ -67,7 +68,11 @@ fn of_rows(contexts: &[Context], mut list: Vec<Warning>) -> Vec<Warning> {
 }
 
 /// All warnings of a run, the gravest first; `contexts` are its members.
-pub(crate) fn of(scenario: &Scenario, contexts: &[Context]) -> Vec<Warning> {
+pub(crate) fn of(
+    scenario: &Scenario,
+    contexts: &[Context],
+    after: &[Option<After>],
+) -> Vec<Warning> {
     let context = &contexts[0];
     // what follows from the machine alone is the same in all members where none is varied
     let machines = match scenario.vary.is_empty() {
@@ -97,8 +102,16 @@ pub(crate) fn of(scenario: &Scenario, contexts: &[Context]) -> Vec<Warning> {
     list.extend(each(&|k| {
         let mut list = judged(contexts, |member| hot(member, k).into_iter().collect());
         list.extend(judged(contexts, |member| surfaces::judged(member, k)));
+        list.extend(judged(contexts, |member| warm::judged(member, k)));
         list
     }));
+    // of repeated runs those of the unperturbed run-out
+    list.extend(of_rows(
+        contexts,
+        (after[0].iter())
+            .flat_map(|after| after.warnings.clone())
+            .collect(),
+    ));
     list.extend(each(&|k| {
         judged(machines, |member| beyond_speeds(member, k))
     }));

@@ -31,6 +31,7 @@ fn machine(
     Ok(CoastDown {
         network: warm::network(inputs, names)?,
         losses: WarmBearings {
+            ratio: 1.0,
             count: SIDES,
             moment: warm::palmgren(inputs)?,
             oil: warm::oil(inputs)?,

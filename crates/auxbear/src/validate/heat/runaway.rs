@@ -44,6 +44,7 @@ fn machine(inputs: &Value, names: &[&str]) -> Result<SteadySpeed<WarmBearings>, 
     Ok(SteadySpeed {
         network: warm::network(inputs, names)?,
         losses: WarmBearings {
+            ratio: 1.0,
             count: 1.0,
             moment: warm::palmgren(inputs)?,
             oil: warm::oil(inputs)?,

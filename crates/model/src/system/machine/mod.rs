@@ -25,6 +25,7 @@
 //! a datum of its own. On a point rotor all see the same motion; equal bearings there may be computed as one that carries its
 //! share of the rotor's mass, polar inertia and torques.
 
+pub mod bearing_record;
 pub mod constants;
 pub mod layout;
 pub mod ledger;

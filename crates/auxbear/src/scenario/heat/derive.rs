@@ -1,7 +1,8 @@
-//! What of a run-out with heat follows from other values.
+//! What of a bearing that warms follows from other values.
 
 use crate::problem::Problem;
-use crate::scenario::coast_down::Atmosphere;
+use crate::scenario::heat::Atmosphere;
+use crate::scenario::system::SystemName;
 use crate::scenario::values::{Value, Values};
 use physics::heat_conduction::STEEL_HEAT;
 use physics::heat_exchange::{pressed_joint, to_surroundings};
@@ -21,18 +22,24 @@ type Done = Result<(), Box<Problem>>;
 
 impl Values {
     /// Fills what follows from weight and geometry.
-    pub(crate) fn run_out(&mut self) -> Done {
+    pub(crate) fn warm(&mut self) -> Done {
         let planes = self.number("rotor.planes").unwrap_or(1.0);
         if let Some(mass) = self.number("rotor.mass") {
             let share = mass / planes;
-            let load = "mass / planes times 9.80665 m/s²";
-            self.fill("coast_down.radial_load", share * GRAVITY, load)?;
+            if self.system() == SystemName::CoastDown {
+                let load = "mass / planes times 9.80665 m/s²";
+                self.fill("coast_down.radial_load", share * GRAVITY, load)?;
+            }
             let capacity = share * STEEL_HEAT.specific_heat;
             let how = "mass / planes times 460 J/(kg K): all of the rotor";
             self.fill("heat.rotor_capacity", capacity, how)?;
         }
         if let Some(temperature) = self.number("bearing.moment.temperature") {
             let how = "bearing.moment.temperature";
+            self.fill("heat.start_temperature", temperature, how)?;
+        }
+        if let Some(temperature) = self.number("heat.ambient_temperature") {
+            let how = "heat.ambient_temperature";
             self.fill("heat.start_temperature", temperature, how)?;
         }
         let size = |name: &str| self.number(&format!("heat.{name}"));
@@ -50,7 +57,8 @@ impl Values {
             ring * STEEL_HEAT.specific_heat,
             how,
         )?;
-        if self.number("heat.rotor_contact").is_none() {
+        let with_clearance = self.system() == SystemName::CoastDown;
+        if with_clearance && self.number("heat.rotor_contact").is_none() {
             let how = "1 % of bore_diameter; assumed";
             self.fill("heat.radial_air_clearance", AIR_CLEARANCE * bore, how)?;
         }

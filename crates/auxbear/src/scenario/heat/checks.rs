@@ -1,0 +1,74 @@
+//! Checks of a bearing that warms.
+
+use crate::problem::Code;
+use crate::scenario::bearing::kind::BearingType;
+use crate::scenario::bearing::moment::Moment;
+use crate::scenario::checks::{Check, Context};
+use crate::scenario::heat::Warm;
+
+impl Context<'_> {
+    fn refuse_warm(&self, code: Code, path: &str, found: String, needed: &str) -> Check {
+        Err(Box::new(self.problem(
+            code,
+            path,
+            found,
+            needed.to_string(),
+        )))
+    }
+
+    /// What its network needs.
+    pub(crate) fn warm(&self, bearing: &Warm) -> Check {
+        let heat = &bearing.heat;
+        if heat.outer_diameter <= heat.bore_diameter {
+            let path = "heat.outer_diameter";
+            let needed = "more than heat.bore_diameter is needed";
+            return self.refuse_warm(Code::OutOfRange, path, self.text(path), needed);
+        }
+        if heat.surroundings.is_none() {
+            let path = "heat.surroundings";
+            let needed = "a conductance is needed in vacuum, where no rule of the trade holds: through the housing's flange, or by radiation (about 6 W/(m² K) of its surface between black walls at room temperature)";
+            return self.refuse_warm(Code::MissingKey, path, "no value".to_string(), needed);
+        }
+        for (path, limit) in [
+            ("heat.race_limit", heat.race_limit),
+            ("heat.cage_limit", heat.cage_limit),
+            ("heat.lubricant_limit", heat.lubricant_limit),
+        ] {
+            if limit <= heat.start_temperature {
+                let start = self.text("heat.start_temperature");
+                let needed = format!(
+                    "more than heat.start_temperature = {start} is needed: it is passed before anything turns"
+                );
+                return self.refuse_warm(Code::OutOfRange, path, self.text(path), &needed);
+            }
+        }
+        Ok(())
+    }
+
+    /// What a run-out needs to know besides: what brakes it, and how that follows warmth and clearance.
+    pub(crate) fn brakes(&self, bearing: &Warm) -> Check {
+        if bearing.kind != BearingType::DeepGroove {
+            let path = "bearing.type";
+            let needed = "\"deep groove\" is needed: a run-out knows radial contacts alone, not an angle and its axial preload";
+            return self.refuse_warm(Code::NotModelled, path, self.text(path), needed);
+        }
+        if !matches!(
+            bearing.moment,
+            Moment::Palmgren {
+                printed: false,
+                axial_load: 0.0,
+                ..
+            }
+        ) {
+            let path = "bearing.moment.law";
+            let needed = "\"palmgren\" without an axial load is needed: warmth and clearance act on its two parts";
+            return self.refuse_warm(Code::Conflict, path, self.text(path), needed);
+        }
+        if bearing.viscosity_points.len() != 2 {
+            let path = "bearing.moment.viscosity";
+            let needed = "bearing.moment.viscosity_points, two temperatures with their viscosities, are needed: the lubricant warms";
+            return self.refuse_warm(Code::Conflict, path, self.text(path), needed);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,249 @@
+//! The part of the table of keys that describes what warms of a bearing, and what the heat passes through.
+
+use crate::scenario::coast_down::keys::RUNNING_OUT;
+use crate::scenario::heat::{Atmosphere, CageMaterial, Feedback, Network};
+use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Section};
+use crate::scenario::system::{FALLING, SystemName};
+use crate::scenario::words::Words;
+
+pub(crate) const SECTIONS: &[Section] = &[Section {
+    path: "heat",
+    doc: "What warms and where the heat goes, of one bearing with its part of the rotor and its housing. What is not given follows from geometry and common surfaces, within a factor of two.",
+    systems: RUNNING_OUT,
+}];
+
+const IS_FOLLOWED: Condition = Condition {
+    path: "heat.network",
+    values: &["on"],
+    reason: "",
+};
+
+const FOLLOWED: &[Condition] = &[IS_FOLLOWED];
+
+const FOLLOWED_WITH_CAGE: &[Condition] = &[
+    IS_FOLLOWED,
+    Condition {
+        path: "bearing.separation",
+        values: &["cage"],
+        reason: "",
+    },
+];
+
+const POLYAMIDE: Condition = Condition {
+    path: "heat.cage_material",
+    values: &["PA66"],
+    reason: "",
+};
+
+pub(crate) const KEYS: &[Key] = &[
+    Key::new(
+        "heat.network",
+        Kind::Word(Network::WORDS),
+        "on",
+        "Whether the temperatures of rotor, races, balls, cage, lubricant and housing are followed. They change nothing of the motion.",
+    )
+    .default_when(
+        Condition {
+            path: "run.until",
+            values: &["standstill"],
+            reason: "",
+        },
+        Fallback {
+            text: "on",
+            reason: "what brakes a rotor for minutes depends on the temperatures",
+            assumed: false,
+        },
+        Otherwise::Fallback(Fallback {
+            text: "off",
+            reason: "a drop onto bearings that roll warms nothing to speak of",
+            assumed: false,
+        }),
+    )
+    .only(FALLING),
+    Key::new(
+        "heat.ambient_temperature",
+        Kind::Quantity("K"),
+        "25 degC",
+        "Temperature of what stands around housing and rotor.",
+    )
+    .positive()
+    .assumed("25 degC", "room temperature")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.start_temperature",
+        Kind::Quantity("K"),
+        "40 degC",
+        "Temperature of everything at the start; the clearance is that of this temperature.",
+    )
+    .positive()
+    .derived("bearing.moment.temperature")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.atmosphere",
+        Kind::Word(Atmosphere::WORDS),
+        "vacuum",
+        "What surrounds the bearing: in vacuum heat.surroundings has no default.",
+    )
+    .assumed("air", "most machines; a vacuum takes far less heat away")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.feedback",
+        Kind::Word(Feedback::WORDS),
+        "viscosity",
+        "What follows the temperatures in a run-out: viscosity and clearance of the bearing, viscosity alone, or nothing.",
+    )
+    .default("viscosity and clearance", "a warm bearing brakes less, and one that closes brakes more")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.bore_diameter",
+        Kind::Quantity("m"),
+        "25 mm",
+        "Bore of the bearing.",
+    )
+    .positive()
+    .catalogued()
+    .when(FOLLOWED),
+    Key::new(
+        "heat.outer_diameter",
+        Kind::Quantity("m"),
+        "47 mm",
+        "Outer diameter of the bearing.",
+    )
+    .positive()
+    .catalogued()
+    .when(FOLLOWED),
+    Key::new("heat.width", Kind::Quantity("m"), "12 mm", "Width of the bearing.")
+        .positive()
+        .catalogued()
+    .when(FOLLOWED),
+    Key::new(
+        "heat.cage_material",
+        Kind::Word(CageMaterial::WORDS),
+        "PA66",
+        "Material of the cage: its heat capacity, and its limit.",
+    )
+    .assumed("steel", "a pressed steel cage, the usual one of deep groove bearings")
+    .when(FOLLOWED_WITH_CAGE),
+    Key::new(
+        "heat.lubricant_mass",
+        Kind::Quantity("kg"),
+        "2.8 g",
+        "Mass of oil or grease in the bearing.",
+    )
+    .positive()
+    .derived("0.005 g/mm² times outer diameter and width, a usual filling of grease")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.film_thickness",
+        Kind::Quantity("m"),
+        "0.3 um",
+        "Film between balls and races, which their heat passes; 0 of a dry bearing.",
+    )
+    .not_negative()
+    .assumed("0.3 um", "usual of an oiled bearing of this size; decides inner against outer race within a factor of two")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.rotor_capacity",
+        Kind::Quantity("J/K"),
+        "1840 J/K",
+        "Heat capacity of the part of the rotor that warms with one bearing.",
+    )
+    .positive()
+    .derived("rotor.mass over rotor.planes at 460 J/(kg K): all of it")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.housing_capacity",
+        Kind::Quantity("J/K"),
+        "220 J/K",
+        "Heat capacity of the housing of one bearing.",
+    )
+    .positive()
+    .derived("a ring of steel around the bearing, twice as large and as wide")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.rotor_contact",
+        Kind::Quantity("W/K"),
+        "0.15 W/K",
+        "Conductance from rotor to inner race.",
+    )
+    .not_negative()
+    .optional("that of two rough ground surfaces of steel along the width of the bearing, rolling on each other with heat.radial_air_clearance")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.radial_air_clearance",
+        Kind::Quantity("m"),
+        "0.25 mm",
+        "Radial clearance of the rotor in the inner race: how wide the line is that they touch along.",
+    )
+    .positive()
+    .derived("1 % of heat.bore_diameter, assumed")
+    .only(&[SystemName::CoastDown])
+    .excludes("heat.rotor_contact")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.outer_seat",
+        Kind::Quantity("W/K"),
+        "6 W/K",
+        "Conductance from outer race to housing. A loose ring in vacuum has a thousandth of a pressed one; O-rings and wire mesh have what their maker says.",
+    )
+    .not_negative()
+    .derived("ground steel pressed with 1 MPa, 3.6 kW/(m² K) of the ring's outside: assumed")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.surroundings",
+        Kind::Quantity("W/K"),
+        "0.87 W/K",
+        "Conductance from the housing to its surroundings.",
+    )
+    .not_negative()
+    .derived("ISO 15312: 320 W/(m² K) of π width (outer_diameter + bore_diameter), in air")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.rotor_surroundings",
+        Kind::Quantity("W/K"),
+        "0.3 W/K",
+        "Conductance from the rotor to its surroundings.",
+    )
+    .not_negative()
+    .assumed("0 W/K", "the rotor gives its heat to the bearings alone, as in vacuum")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.race_limit",
+        Kind::Quantity("K"),
+        "150 degC",
+        "Temperature that no race may pass: above it rings grow and soften.",
+    )
+    .positive()
+    .default("120 degC", "rings that are not stabilised, makers' catalogues; S0 150 degC, S1 200 degC")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.cage_limit",
+        Kind::Quantity("K"),
+        "120 degC",
+        "Temperature that the cage may not pass.",
+    )
+    .positive()
+    .default_when(
+        POLYAMIDE,
+        Fallback {
+            text: "120 degC",
+            reason: "PA66 in continuous running, makers' catalogues",
+            assumed: false,
+        },
+        Otherwise::Fallback(Fallback {
+            text: "200 degC",
+            reason: "PEEK and metal, makers' catalogues; PEEK at high speed 150 degC",
+            assumed: false,
+        }),
+    )
+    .when(FOLLOWED),
+    Key::new(
+        "heat.lubricant_limit",
+        Kind::Quantity("K"),
+        "130 degC",
+        "Temperature that the lubricant may not pass.",
+    )
+    .positive()
+    .default("130 degC", "lithium grease works to 130 degC, makers' catalogues; its life halves with each 10 K")
+    .when(FOLLOWED),
+];

@@ -1,0 +1,235 @@
+//! An auxiliary bearing that warms: what its network is built from, as typed values in SI.
+
+pub(crate) mod checks;
+pub(crate) mod derive;
+pub(crate) mod keys;
+
+use crate::scenario::bearing::ball_material;
+use crate::scenario::bearing::kind::{BallMaterial, BearingType};
+use crate::scenario::bearing::moment::{Moment, RatedBearing};
+use crate::scenario::section::Section;
+use crate::scenario::values::Values;
+use crate::scenario::words::words;
+use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
+
+words! {
+    /// Whether temperatures are followed.
+    pub enum Network {
+        /// They are not.
+        Off = "off",
+        /// They are.
+        On = "on",
+    }
+}
+
+words! {
+    /// What surrounds a bearing.
+    pub enum Atmosphere {
+        /// Air, which takes heat away.
+        Air = "air",
+        /// Vacuum, in which only what is given does.
+        Vacuum = "vacuum",
+    }
+}
+
+words! {
+    /// What follows the temperatures.
+    pub enum Feedback {
+        /// Viscosity of the lubricant and clearance of the bearing.
+        Full = "viscosity and clearance",
+        /// Viscosity alone.
+        Viscosity = "viscosity",
+        /// Nothing.
+        None = "none",
+    }
+}
+
+words! {
+    /// Material of a cage.
+    pub enum CageMaterial {
+        /// Pressed steel.
+        Steel = "steel",
+        /// Brass.
+        Brass = "brass",
+        /// Polyamide.
+        Polyamide = "PA66",
+        /// Polyether ether ketone.
+        Peek = "PEEK",
+    }
+}
+
+impl CageMaterial {
+    /// What it is as a body that conducts. Source: heat-and-life, section 9.
+    pub fn heat(self) -> ThermalMaterial {
+        let material = |conductivity, density, specific_heat| ThermalMaterial {
+            conductivity,
+            density,
+            specific_heat,
+        };
+        match self {
+            CageMaterial::Steel => STEEL_HEAT,
+            CageMaterial::Brass => material(110.0, 8500.0, 380.0),
+            CageMaterial::Polyamide => material(0.25, 1140.0, 1700.0),
+            CageMaterial::Peek => material(0.25, 1300.0, 1340.0),
+        }
+    }
+}
+
+/// A bearing that warms. All values are SI, temperatures in K.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Warm {
+    /// Name in the catalogue.
+    pub name: Option<String>,
+    /// Type.
+    pub kind: BearingType,
+    /// Number of balls.
+    pub ball_count: usize,
+    /// Diameter of a ball, m.
+    pub ball_diameter: f64,
+    /// Diameter of the circle through the ball centres, m.
+    pub pitch_diameter: f64,
+    /// Material of the balls.
+    pub ball_material: BallMaterial,
+    /// Diametral internal clearance as mounted, at the start temperature, m; negative is preload.
+    pub operating_diametral_clearance: f64,
+    /// Groove radius of the inner race over ball diameter.
+    pub inner_groove_curvature: f64,
+    /// Groove radius of the outer race over ball diameter.
+    pub outer_groove_curvature: f64,
+    /// Static load rating, N.
+    pub static_load_rating: Option<f64>,
+    /// Dynamic load rating, N.
+    pub dynamic_load_rating: Option<f64>,
+    /// Limiting speed in continuous running, rad/s.
+    pub limiting_speed: Option<f64>,
+    /// Mass of the inner race with its sleeve, kg.
+    pub inner_race_mass: f64,
+    /// Mass of the cage, kg; 0 where there is none.
+    pub cage_mass: f64,
+    /// Mass of one ball, kg; derived from diameter and material where it is `None`.
+    pub ball_mass: Option<f64>,
+    /// Steady friction moment.
+    pub moment: Moment,
+    /// Factor on it.
+    pub moment_scale: f64,
+    /// Viscosity of the lubricant at two temperatures, K and m²/s.
+    pub viscosity_points: Vec<[f64; 2]>,
+    /// Radial load on it, N.
+    pub radial_load: f64,
+    /// What warms.
+    pub heat: Heat,
+}
+
+/// What warms, and where the heat goes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Heat {
+    /// Of the surroundings, K.
+    pub ambient_temperature: f64,
+    /// Of everything at the start, K.
+    pub start_temperature: f64,
+    /// What surrounds the bearing.
+    pub atmosphere: Atmosphere,
+    /// What follows the temperatures.
+    pub feedback: Feedback,
+    /// Bore of the bearing, m.
+    pub bore_diameter: f64,
+    /// Outer diameter of the bearing, m.
+    pub outer_diameter: f64,
+    /// Width of the bearing, m.
+    pub width: f64,
+    /// Material of the cage; steel where there is none.
+    pub cage_material: CageMaterial,
+    /// Mass of the lubricant, kg.
+    pub lubricant_mass: f64,
+    /// Film between balls and races, m.
+    pub film_thickness: f64,
+    /// Of the rotor's part, J/K.
+    pub rotor_capacity: Option<f64>,
+    /// Of the housing, J/K.
+    pub housing_capacity: f64,
+    /// Rotor to inner race, W/K, where it is given.
+    pub rotor_contact: Option<f64>,
+    /// Radial clearance of the rotor in the race, m, where no conductance is given.
+    pub radial_air_clearance: Option<f64>,
+    /// Outer race to housing, W/K.
+    pub outer_seat: f64,
+    /// Housing to its surroundings, W/K; none in vacuum where it is not given.
+    pub surroundings: Option<f64>,
+    /// Rotor to its surroundings, W/K.
+    pub rotor_surroundings: f64,
+    /// Limit of the races, K.
+    pub race_limit: f64,
+    /// Limit of the cage, K.
+    pub cage_limit: f64,
+    /// Limit of the lubricant, K.
+    pub lubricant_limit: f64,
+}
+
+impl Warm {
+    /// Of the values of a bearing under a radial load, N.
+    pub(crate) fn from_values(values: &Values, radial_load: f64) -> Warm {
+        let section = |path| Section { values, path };
+        let bearing = section("bearing");
+        Warm {
+            name: values.text("bearing.name"),
+            kind: bearing.choice("type"),
+            ball_count: bearing.count("ball_count") as usize,
+            ball_diameter: bearing.number("ball_diameter"),
+            pitch_diameter: bearing.number("pitch_diameter"),
+            ball_material: ball_material(&bearing),
+            operating_diametral_clearance: bearing.number("operating_diametral_clearance"),
+            inner_groove_curvature: bearing.number("inner_groove_curvature"),
+            outer_groove_curvature: bearing.number("outer_groove_curvature"),
+            static_load_rating: bearing.maybe("static_load_rating"),
+            dynamic_load_rating: bearing.maybe("dynamic_load_rating"),
+            limiting_speed: bearing.maybe("limiting_speed"),
+            inner_race_mass: bearing.number("inner_race_mass"),
+            cage_mass: bearing.maybe("cage_mass").unwrap_or(0.0),
+            ball_mass: bearing.maybe("ball_mass"),
+            moment: Moment::from_values(values),
+            moment_scale: bearing.maybe("moment.scale").unwrap_or(1.0),
+            viscosity_points: values
+                .rows("bearing.moment.viscosity_points")
+                .unwrap_or_default(),
+            radial_load,
+            heat: Heat::from_values(&section("heat")),
+        }
+    }
+
+    /// What a friction law needs to know of the bearing.
+    pub fn rated(&self) -> RatedBearing {
+        RatedBearing {
+            kind: self.kind,
+            pitch_diameter: self.pitch_diameter,
+            static_load_rating: self.static_load_rating,
+            ball_material: self.ball_material,
+        }
+    }
+}
+
+impl Heat {
+    fn from_values(heat: &Section<'_>) -> Heat {
+        Heat {
+            ambient_temperature: heat.number("ambient_temperature"),
+            start_temperature: heat.number("start_temperature"),
+            atmosphere: heat.choice("atmosphere"),
+            feedback: heat.choice("feedback"),
+            bore_diameter: heat.number("bore_diameter"),
+            outer_diameter: heat.number("outer_diameter"),
+            width: heat.number("width"),
+            cage_material: heat.chosen("cage_material").unwrap_or(CageMaterial::Steel),
+            lubricant_mass: heat.number("lubricant_mass"),
+            film_thickness: heat.number("film_thickness"),
+            rotor_capacity: heat.maybe("rotor_capacity"),
+            housing_capacity: heat.number("housing_capacity"),
+            rotor_contact: heat.maybe("rotor_contact"),
+            radial_air_clearance: heat.maybe("radial_air_clearance"),
+            outer_seat: heat.number("outer_seat"),
+            surroundings: heat.maybe("surroundings"),
+            rotor_surroundings: heat.number("rotor_surroundings"),
+            race_limit: heat.number("race_limit"),
+            cage_limit: heat.number("cage_limit"),
+            lubricant_limit: heat.number("lubricant_limit"),
+        }
+    }
+}

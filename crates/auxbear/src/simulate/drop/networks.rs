@@ -1,0 +1,50 @@
+//! The networks of auxiliary bearings that warm.
+
+use crate::problem::Problem;
+use crate::scenario::{AuxiliaryBearing, BallMaterial, Guidance, Moment, Separation};
+use crate::simulate::coast_down::build::{ICE_POINT, losses, network};
+use model::bearing_heat::{WarmBearing, shares};
+use physics::heat_conduction::{SILICON_NITRIDE_HEAT, STEEL_HEAT};
+use physics::viscosity::Viscosity;
+use thermal::bearing_network::{INNER_RACE, OUTER_RACE};
+
+/// Viscosity of a lubricant of which nothing is given, m²/s: grease or oil of 50 mm²/s.
+const ASSUMED_VISCOSITY: f64 = 50e-6;
+
+/// A bearing that warms; none where its temperatures are not followed.
+pub(crate) fn built(part: &AuxiliaryBearing) -> Result<Option<Box<WarmBearing>>, Box<Problem>> {
+    let (Some(warm), Some(bearing)) = (&part.warm, &part.bearing) else {
+        return Ok(None);
+    };
+    let (network, zone) = network(warm)?;
+    let ball = match warm.ball_material {
+        BallMaterial::SiliconNitride => SILICON_NITRIDE_HEAT,
+        BallMaterial::Steel => STEEL_HEAT,
+    };
+    let land = match &bearing.separation {
+        Separation::Cage(cage) if matches!(cage.guidance, Guidance::InnerLand(_)) => INNER_RACE,
+        _ => OUTER_RACE,
+    };
+    let oil = match warm.viscosity_points.as_slice() {
+        [one, other] => Viscosity::through((one[0], one[1]), (other[0], other[1])).ok(),
+        _ => None,
+    };
+    let at_start = match &warm.moment {
+        Moment::Palmgren { viscosity, .. } | Moment::Skf { viscosity, .. } => *viscosity,
+        Moment::None | Moment::Measured { .. } => ASSUMED_VISCOSITY,
+    };
+    let moment = match &warm.moment {
+        Moment::Palmgren { .. } => Some(losses(warm, &zone, oil, 1)?.moment),
+        _ => None,
+    };
+    Ok(Some(Box::new(WarmBearing {
+        start: warm.heat.start_temperature - ICE_POINT,
+        loads: zone.loads(zone.clearance.at_reference),
+        radial_load: warm.radial_load,
+        oil: oil.map(|oil| oil.line()),
+        viscosity: at_start,
+        moment,
+        shares: shares(ball, warm.heat.cage_material.heat(), land),
+        network,
+    })))
+}

@@ -1,0 +1,137 @@
+//! Temperatures in a drop, and its way on until the rotor stands.
+
+use auxbear::result::outcome::{Outcome, Value};
+use auxbear::run::{Options, run};
+use auxbear::scenario::{BuiltIn, Scenario};
+use std::sync::atomic::AtomicBool;
+
+const SHIPPED: &str = include_str!("../../../scenarios/drop_until_standstill.toml");
+
+fn parsed(text: &str, sets: &[&str]) -> Result<Scenario, String> {
+    let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
+    Scenario::parse(text, "drop.toml", &sets, &BuiltIn).map_err(|problem| problem.to_string())
+}
+
+fn ran(sets: &[&str]) -> Outcome {
+    let scenario = parsed(SHIPPED, sets).unwrap();
+    let never = AtomicBool::new(false);
+    run(&scenario, &Options::unwatched(&never)).unwrap()
+}
+
+fn number(outcome: &Outcome, name: &str) -> f64 {
+    let found = outcome.quantities.iter().find(|q| q.name == name);
+    match found.unwrap_or_else(|| panic!("{name}")).value {
+        Value::Number(value) => value,
+        ref other => panic!("{name}: {other:?}"),
+    }
+}
+
+fn list<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
+    let found = outcome.quantities.iter().find(|q| q.name == name);
+    match &found.unwrap_or_else(|| panic!("{name}")).value {
+        Value::List(values) => values,
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+#[test]
+fn the_network_changes_nothing_of_the_motion_and_loses_no_heat() {
+    let short = ["run.until=duration", "run.duration=0.3 s"];
+    let with = ran(&short);
+    let without = ran(&[short[0], short[1], "heat.network=off"]);
+    for column in &without.history {
+        let same = with.history.iter().find(|other| other.name == column.name);
+        let bits = |values: &[f64]| -> Vec<u64> { values.iter().map(|v| v.to_bits()).collect() };
+        assert_eq!(
+            bits(&same.unwrap().values),
+            bits(&column.values),
+            "{}",
+            column.name
+        );
+    }
+    assert!(number(&with, "relative_heat_residual") < 1e-9);
+    // all that the ledger books for bearing, rotor and mount
+    let made = number(&with, "heat_made");
+    assert!((made / number(&with, "dissipated_energy") - 1.0).abs() < 1e-9);
+    assert!(
+        number(&with, "peak_lubricant_temperature") > number(&with, "peak_housing_temperature")
+    );
+    let column = |name: &str| with.history.iter().find(|c| c.name == name).unwrap();
+    let race = &column("inner_race.temperature").values;
+    assert!((race[0] - 298.15).abs() < 1e-9 && race.last().unwrap() > &298.2);
+}
+
+#[test]
+fn slow_time_goes_on_as_ball_by_ball_would() {
+    // without feedback both have one moment: the rotor loses as much in the seconds that follow
+    let slow = ran(&["heat.feedback=none"]);
+    let motion = ran(&["run.until=duration"]);
+    let (start, first) = (
+        number(&slow, "run_out.start_time"),
+        number(&slow, "run_out.start_speed"),
+    );
+    assert!((0.3..2.0).contains(&start), "{start}");
+    let (times, speeds) = (
+        list(&slow, "run_out.over_time.time"),
+        list(&slow, "run_out.over_time.rotor.speed"),
+    );
+    let next = times.partition_point(|time| *time < 3.0);
+    let share = (3.0 - times[next - 1]) / (times[next] - times[next - 1]);
+    let at = speeds[next - 1] + share * (speeds[next] - speeds[next - 1]);
+    let lost = first - number(&motion, "rotor_final_speed");
+    assert!(((first - at) / lost - 1.0).abs() < 0.01, "{at} {lost}");
+    // what turned is heat at the end, to the last joule
+    let heats = number(&slow, "run_out.speed_dependent_heat")
+        + number(&slow, "run_out.load_dependent_heat")
+        + number(&slow, "run_out.windage_heat");
+    let left = number(&slow, "run_out.rotor_energy") * (1.0 / (first * first));
+    assert!(((heats + left) / number(&slow, "run_out.rotor_energy") - 1.0).abs() < 1e-9);
+    assert!(number(&slow, "run_out.relative_heat_residual") < 1e-9);
+    // warmth thins the oil: it runs longer
+    let warm = ran(&[]);
+    assert!(warm.stop.complete() && slow.stop.complete());
+    assert!(number(&warm, "run_out.stop_time") > 1.1 * number(&slow, "run_out.stop_time"));
+    let codes: Vec<&str> = warm.warnings.iter().map(|warning| warning.code).collect();
+    assert!(
+        codes.contains(&"AB2317") && !codes.contains(&"AB2316"),
+        "{codes:?}"
+    );
+}
+
+#[test]
+fn what_cannot_run_out_is_refused() {
+    for (sets, code, words) in [
+        (&["heat.network=off"][..], "AB0109", "heat.network = \"on\""),
+        (&["rotor.spin=held"], "AB0109", "never stands"),
+        (
+            &["coast_down.stop_speed=20000 rpm"],
+            "AB0109",
+            "rotor.speed",
+        ),
+        (&["heat.race_limit=20 degC"], "AB0106", "start_temperature"),
+        (&["heat.atmosphere=vacuum"], "AB0107", "heat.surroundings"),
+        (
+            &["heat.radial_air_clearance=0.2 mm"],
+            "AB0",
+            "radial_air_clearance",
+        ),
+        (
+            &["run.until=duration", "coast_down.longest=1 h"],
+            "AB0",
+            "run.until",
+        ),
+    ] {
+        let said = parsed(SHIPPED, sets).unwrap_err();
+        assert!(
+            said.contains(code) && said.contains(words),
+            "{sets:?}: {said}"
+        );
+    }
+    let unknown = SHIPPED.replace(
+        "viscosity_points = [[\"40 degC\", \"22 mm^2/s\"], [\"100 degC\", \"4.6 mm^2/s\"]]\n",
+        "viscosity = \"40 mm^2/s\"\n",
+    );
+    let unknown = unknown.replace("temperature = \"25 degC\"\n", "");
+    let said = parsed(&unknown, &[]).unwrap_err();
+    assert!(said.contains("viscosity_points"), "{said}");
+}

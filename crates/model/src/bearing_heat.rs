@@ -1,0 +1,315 @@
+//! How warm an auxiliary bearing becomes in a run: an observer, which changes nothing of it.
+//!
+//! ```text
+//!   heats of the ledger ──shares──► nodes of the bearing's network ──► surroundings
+//! ```
+//! Every heat that the ledger books for the bearing goes to nodes by shares that add to one, so that what the nodes store and the
+//! surroundings take is the heat made, to rounding. Friction of rotor and race is shared as the surfaces that rub have shared it,
+//! where they are followed.
+//!
+//! | loss | to |
+//! |---|---|
+//! | sliding and damping of ball and race | both sides by their effusivity √(kρc); half each of one material |
+//! | pockets, cage on its land | both sides by their effusivity |
+//! | orbit drag, inlets, the viscous part of the steady moment | lubricant |
+//! | the load-dependent part of the steady moment | balls half, races a quarter each |
+//! | rotor on race | half each, or as the surfaces shared it |
+//! | mount damping | housing |
+//!
+//! The network takes the heat in spans of 10 ms, long beside a contact and short beside its own times; conductances are those
+//! of the weight on the bearing, as it has it when it has come to rest.
+//!
+//! Source: heat-and-life, sections 2 and 3. Range: a body is one temperature only after about 0.1 s; before that the surfaces
+//! tell more.
+
+use crate::bearing;
+use crate::heats::{HEATS, OWN_HEATS};
+use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
+use physics::palmgren::Palmgren;
+use physics::viscosity::WaltherLine;
+use thermal::bearing_network::{
+    BALLS, BearingNetwork, CAGE, HOUSING, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, Operation,
+    ROTOR,
+};
+
+/// A number per node.
+pub type OfNodes = [f64; NODES.len()];
+
+/// Span of heat that the network takes at once, s.
+const SPAN: f64 = 10e-3;
+/// Ice point, K.
+const ICE_POINT: f64 = 273.15;
+/// Least viscosity, m²/s.
+const LEAST_VISCOSITY: f64 = 2e-6;
+/// What carries the load-dependent part of the steady moment. Source: heat-and-life, section 3.
+const SLIDING: [(usize, f64); 3] = [(INNER_RACE, 0.25), (BALLS, 0.5), (OUTER_RACE, 0.25)];
+
+/// Constants of a bearing that warms.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WarmBearing {
+    /// Its network.
+    pub network: BearingNetwork,
+    /// Temperature of all nodes at the start, °C.
+    pub start: f64,
+    /// Load of each ball under the weight, N.
+    pub loads: Vec<f64>,
+    /// That weight, N.
+    pub radial_load: f64,
+    /// Its lubricant; none where no oil is given, which then has the viscosity of [`Self::viscosity`].
+    pub oil: Option<WaltherLine<f64>>,
+    /// Viscosity of the lubricant at the start, m²/s.
+    pub viscosity: f64,
+    /// The law that divides the steady moment; all of it heats the lubricant where there is none.
+    pub moment: Option<Palmgren<f64>>,
+    /// Shares of each heat of the ledger over the nodes.
+    pub shares: [OfNodes; HEATS],
+}
+
+/// What has become of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Warmth {
+    /// Of the nodes, °C.
+    pub temperatures: Vec<f64>,
+    /// The hottest that each node was, °C, and when, s.
+    pub peaks: [(f64, f64); NODES.len()],
+    /// Heat made until now, J.
+    pub made: f64,
+    /// Heat given to the surroundings until now, J.
+    pub given: f64,
+    /// Time and temperatures at the end of each span, where they are kept.
+    pub course: Vec<(f64, OfNodes)>,
+    keep: bool,
+    /// Until when they are known, s.
+    until: f64,
+    heats: [f64; HEATS],
+    taken: [f64; 2],
+}
+
+/// What a run shows at an instant.
+pub(crate) struct Seen {
+    /// s.
+    pub time: f64,
+    /// Heats of the ledger so far, J.
+    pub heats: [f64; HEATS],
+    /// Spin of the inner race, rad/s.
+    pub spin: f64,
+    /// Friction heat that rotor and race have taken so far, where it is followed, J.
+    pub taken: Option<[f64; 2]>,
+}
+
+/// Shares of every heat of the ledger: of balls and a cage of these materials, which is guided by the land of a node.
+///
+/// Source: heat-and-life, section 3.
+/// Valid: races, rotor and sleeve of steel.
+pub fn shares(ball: ThermalMaterial, cage: ThermalMaterial, land: usize) -> [OfNodes; HEATS] {
+    let between = |(one, first): (usize, ThermalMaterial),
+                   (other, second): (usize, ThermalMaterial)| {
+        let [a, b] = [first, second].map(|material| material.effusivity());
+        let share = a / (a + b);
+        of(&[(one, share), (other, 1.0 - share)])
+    };
+    let steel = |node: usize| (node, STEEL_HEAT);
+    let kinds = bearing::HEATS.into_iter().chain(OWN_HEATS);
+    let mut list = [[0.0; NODES.len()]; HEATS];
+    for (row, kind) in list.iter_mut().zip(kinds) {
+        *row = match kind {
+            "inner_contact_damping" | "inner_ball_slip" => {
+                between((BALLS, ball), steel(INNER_RACE))
+            }
+            "outer_contact_damping" | "outer_ball_slip" => {
+                between((BALLS, ball), steel(OUTER_RACE))
+            }
+            "pocket_damping" | "pocket_friction" => between((BALLS, ball), (CAGE, cage)),
+            "cage_land_damping" | "cage_land_friction" => between((CAGE, cage), steel(land)),
+            "ball_ball_damping" | "ball_ball_friction" => of(&[(BALLS, 1.0)]),
+            "mount_damping" => of(&[(HOUSING, 1.0)]),
+            "rotor_race_damping" | "rotor_race_friction" => of(&[(ROTOR, 0.5), (INNER_RACE, 0.5)]),
+            // drag, inlet_rolling, steady_moment as far as it is viscous
+            _ => of(&[(LUBRICANT, 1.0)]),
+        };
+    }
+    list
+}
+
+fn of(parts: &[(usize, f64)]) -> OfNodes {
+    let mut row = [0.0; NODES.len()];
+    for (node, share) in parts {
+        row[*node] += share;
+    }
+    row
+}
+
+/// Place of a heat among those of an auxiliary bearing.
+fn place(kind: &str) -> usize {
+    let mut kinds = bearing::HEATS.into_iter().chain(OWN_HEATS);
+    kinds.position(|known| known == kind).unwrap_or(HEATS)
+}
+
+impl WarmBearing {
+    /// Share of the steady moment that is viscous, at a speed of the inner race.
+    fn viscous(&self, spin: f64, temperature: f64) -> f64 {
+        let Some(moment) = &self.moment else {
+            return 1.0;
+        };
+        let moment = Palmgren {
+            viscosity: self.viscosity_at(temperature),
+            ..*moment
+        };
+        let parts = moment.parts(spin.abs(), self.radial_load);
+        let sum = parts.speed_dependent + parts.load_dependent;
+        match sum > 0.0 {
+            true => parts.speed_dependent / sum,
+            false => 1.0,
+        }
+    }
+
+    /// Viscosity of the lubricant at a temperature in °C, m²/s.
+    pub fn viscosity_at(&self, temperature: f64) -> f64 {
+        let oil = self.oil.as_ref();
+        let of =
+            |oil: &WaltherLine<f64>| oil.viscosity(temperature + ICE_POINT).max(LEAST_VISCOSITY);
+        oil.map_or(self.viscosity, of)
+    }
+
+    /// Heats of a span over the nodes, J.
+    fn to_nodes(&self, heats: &[f64; HEATS], viscous: f64, rubbing: Option<f64>) -> OfNodes {
+        let (steady, friction) = (place("steady_moment"), place("rotor_race_friction"));
+        let mut nodes = [0.0; NODES.len()];
+        for (k, heat) in heats.iter().enumerate() {
+            let mut shares = self.shares[k];
+            if k == steady {
+                shares = [0.0; NODES.len()];
+                for (node, share) in SLIDING {
+                    shares[node] = share * (1.0 - viscous);
+                }
+                shares[LUBRICANT] = viscous;
+            }
+            if let (true, Some(rotor)) = (k == friction, rubbing) {
+                shares = of(&[(ROTOR, rotor), (INNER_RACE, 1.0 - rotor)]);
+            }
+            for (node, share) in nodes.iter_mut().zip(shares) {
+                *node += share * heat;
+            }
+        }
+        nodes
+    }
+
+    /// Heat that the nodes hold above the start, J.
+    pub fn stored(&self, temperatures: &[f64]) -> f64 {
+        let capacities = self.network.capacities.iter();
+        let each = capacities.zip(temperatures);
+        each.map(|(capacity, now)| capacity * (now - self.start))
+            .sum()
+    }
+}
+
+impl Warmth {
+    /// At the start of a run; `keep` says whether its course is kept.
+    pub fn new(part: &WarmBearing, keep: bool) -> Self {
+        Warmth {
+            temperatures: vec![part.start; NODES.len()],
+            peaks: [(part.start, 0.0); NODES.len()],
+            made: 0.0,
+            given: 0.0,
+            course: Vec::new(),
+            keep,
+            until: 0.0,
+            heats: [0.0; HEATS],
+            taken: [0.0; 2],
+        }
+    }
+
+    /// Whether a span is over.
+    pub(crate) fn is_due(&self, time: f64) -> bool {
+        time >= self.until + SPAN
+    }
+
+    /// Lets the network take the heat since the last span.
+    pub(crate) fn take(&mut self, part: &WarmBearing, seen: &Seen) {
+        let span = seen.time - self.until;
+        if span <= 0.0 {
+            return;
+        }
+        let mut heats = seen.heats;
+        for (heat, before) in heats.iter_mut().zip(self.heats) {
+            *heat -= before;
+        }
+        let rubbing = seen.taken.and_then(|taken| {
+            let [rotor, race] = [taken[0] - self.taken[0], taken[1] - self.taken[1]];
+            (rotor + race > 0.0).then(|| rotor / (rotor + race))
+        });
+        let lubricant = self.temperatures[LUBRICANT];
+        let viscous = part.viscous(seen.spin, lubricant);
+        let nodes = part.to_nodes(&heats, viscous, rubbing);
+        let operation = Operation {
+            speed: seen.spin,
+            loads: &part.loads,
+            viscosity: part.viscosity_at(lubricant),
+        };
+        // a state that is none ends the run elsewhere
+        let Ok(network) = part.network.at(operation) else {
+            return;
+        };
+        let powers: Vec<f64> = nodes.iter().map(|heat| heat / span).collect();
+        let given = network.advance(&mut self.temperatures, &powers, span);
+        self.given += given.iter().sum::<f64>();
+        self.made += nodes.iter().sum::<f64>();
+        self.until = seen.time;
+        self.heats = seen.heats;
+        self.taken = seen.taken.unwrap_or(self.taken);
+        let mut row = [0.0; NODES.len()];
+        for (node, (now, peak)) in self.temperatures.iter().zip(&mut self.peaks).enumerate() {
+            row[node] = *now;
+            if *now > peak.0 {
+                *peak = (*now, seen.time);
+            }
+        }
+        if self.keep {
+            self.course.push((seen.time, row));
+        }
+    }
+
+    /// Temperature of a node at an instant, °C: between the ends of spans along a straight line.
+    pub fn at(&self, part: &WarmBearing, node: usize, time: f64) -> f64 {
+        let next = self.course.partition_point(|(end, _)| *end < time);
+        let (from, before) = match next.checked_sub(1) {
+            Some(last) => (self.course[last].0, self.course[last].1[node]),
+            None => (0.0, part.start),
+        };
+        match self.course.get(next) {
+            Some((to, row)) if *to > from => {
+                before + (row[node] - before) * (time - from) / (to - from)
+            }
+            _ => before,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use physics::heat_conduction::SILICON_NITRIDE_HEAT;
+
+    #[test]
+    fn shares_add_to_one_and_every_heat_has_a_place() {
+        for ball in [STEEL_HEAT, SILICON_NITRIDE_HEAT] {
+            for row in shares(ball, STEEL_HEAT, OUTER_RACE) {
+                assert_eq!(row.iter().sum::<f64>(), 1.0);
+                assert!(row.iter().all(|share| (0.0..=1.0).contains(share)));
+            }
+        }
+        assert!(place("steady_moment") < HEATS && place("rotor_race_friction") < HEATS);
+        // steel on steel half and half; a ring takes 0.58 beside a ceramic ball
+        let of = |ball| shares(ball, STEEL_HEAT, OUTER_RACE)[place("inner_ball_slip")];
+        assert_eq!(of(STEEL_HEAT)[INNER_RACE], 0.5);
+        assert!((of(SILICON_NITRIDE_HEAT)[INNER_RACE] - 0.58).abs() < 0.005);
+        // of a polyamide cage's friction the cage takes 5 %
+        let polyamide = ThermalMaterial {
+            conductivity: 0.25,
+            density: 1140.0,
+            specific_heat: 1700.0,
+        };
+        let pocket = shares(STEEL_HEAT, polyamide, OUTER_RACE)[place("pocket_friction")];
+        assert!((pocket[CAGE] - 0.05).abs() < 0.006, "{}", pocket[CAGE]);
+    }
+}

@@ -1,0 +1,522 @@
+//! What is watched and kept of one auxiliary bearing of a machine.
+//!
+//! Contacts begin, end and peak on dense output, not on the steps; largest forces between steps where they may peak there. Only
+//! the list of contacts may grow during a run.
+
+use super::RotorMachine;
+use crate::auxiliary_bearing::BearingAt;
+use crate::auxiliary_bearing::probe::{
+    BEARING_LOAD, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
+    MOUNT_FORCE, NORMAL_FORCE, NORMAL_FORCE_RATE, PENETRATION, PENETRATION_SPEED, SLIP_SPEED,
+};
+use crate::bearing::BearingConstants;
+use crate::bearing_heat::{Seen as WarmthSeen, Warmth};
+use crate::contact::ContactReaction;
+use crate::surface_heat::{Motions, Seen, SurfaceHeat};
+use crate::system::sampling::{Peak, Rise};
+use number::Vec2;
+use solve::Step;
+use solve::watch::{maximum, root};
+use std::f64::consts::PI;
+
+/// One contact of rotor and inner race.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Begin, s.
+    pub start: f64,
+    /// End, s; none while it lasts.
+    pub end: Option<f64>,
+    /// Largest normal force, N.
+    pub peak_force: f64,
+    /// Its instant, s.
+    pub peak_time: f64,
+    /// Largest temperature rise of the patch, K; 0 where surfaces are not followed.
+    pub peak_rise: f64,
+}
+
+/// Everything kept of one auxiliary bearing.
+#[derive(Clone, Debug)]
+pub struct BearingRecord {
+    at: BearingAt,
+    bearing: usize,
+    /// Contacts in order.
+    pub contacts: Vec<Contact>,
+    /// Largest ball load at the inner race, N.
+    pub largest_inner_load: Peak,
+    /// Largest ball load at the outer race, N.
+    pub largest_outer_load: Peak,
+    /// Largest force between a ball and its pocket, or between two balls without a cage, N.
+    pub largest_pocket_force: Peak,
+    /// Largest force between cage and land, N.
+    pub largest_land_force: Peak,
+    /// Largest load on the bearing as a whole, N.
+    pub largest_bearing_load: Peak,
+    /// Largest force on the mount, N.
+    pub largest_mount_force: Peak,
+    /// Largest distance of the rotor's geometric centre from the inner race's centre, m.
+    pub rotor_race_displacement: Peak,
+    /// Largest distance of the rotor's geometric centre from the origin while it touches the race, m.
+    pub rotor_displacement: Peak,
+    /// Largest displacement of the outer race, m.
+    pub mount_displacement: Peak,
+    /// Turns of the rotor about the inner race while it is out of the middle half of its clearance.
+    pub whirl_turns: f64,
+    pub(super) rises: Vec<Rise>,
+    /// The watched forces at the start of the last step, N, and its length, s.
+    last_forces: ([f64; WATCHED.len()], f64),
+    clearance: f64,
+    /// Of the rotor's mass centre at the node, m.
+    eccentricity: f64,
+    whirl_angle: Option<f64>,
+    limits: Limits,
+    /// How hot its surfaces became, where they are given.
+    pub heat: Option<Box<SurfaceHeat>>,
+    /// Channel of the friction heat of rotor and race.
+    friction_heat: usize,
+    /// How warm it became, where that is followed.
+    pub warmth: Option<Box<Warmth>>,
+    /// First channel of its heats.
+    first_heat: usize,
+    /// Turns of the cage since the rotor rolls.
+    rolled: f64,
+}
+
+/// Where the equations stop being true.
+#[derive(Clone, Copy, Debug)]
+struct Limits {
+    mount_displacement: f64,
+    penetration: f64,
+}
+
+/// Forces whose largest values are kept.
+const WATCHED: [usize; 6] = [
+    LARGEST_INNER_LOAD,
+    LARGEST_OUTER_LOAD,
+    BEARING_LOAD,
+    MOUNT_FORCE,
+    LARGEST_POCKET_FORCE,
+    LAND_FORCE,
+];
+
+/// So many of the first of them are searched for between the steps as well. The load on the bearing peaks with that of a ball, a
+/// mount swings slowly against the steps, and the forces on a cage are chaotic.
+const SEARCHED: usize = 2;
+
+/// A peak is searched for inside a step when a value comes this near to the record.
+const NEAR_RECORD: f64 = 0.9;
+/// A peak that rises above both ends of its step by less than this share of the record is not worth searching.
+const STEADY: f64 = 1e-4;
+/// Slip below which a contact counts as rolling, over its speed.
+const ROLLING_SLIP: f64 = 0.01;
+/// Turns of every cage that a rotor must have rolled before it counts as rolling.
+pub(super) const ROLLING_TURNS: f64 = 20.0;
+/// Contacts for which room is made before the run.
+const CONTACTS: usize = 4096;
+
+impl BearingRecord {
+    pub(super) fn new(machine: &RotorMachine, bearing: usize, keep_rows: bool) -> Self {
+        let speed = machine.constants.speed;
+        let part = &machine.constants.bearings[bearing];
+        let at = machine.layout().bearings[bearing];
+        let mut rises = vec![
+            Rise::through(at.inner + 5, 0.5 * speed),
+            Rise::through(at.inner + 5, 0.95 * speed),
+        ];
+        if matches!(part.bearing, BearingConstants::Planar(_)) {
+            let ratio = part.bearing.rolling_cage_ratio();
+            rises.push(Rise::through(at.bearing + 1, 0.95 * speed * ratio));
+        }
+        BearingRecord {
+            at,
+            bearing,
+            contacts: Vec::with_capacity(CONTACTS),
+            largest_inner_load: Peak::NONE,
+            largest_outer_load: Peak::NONE,
+            largest_pocket_force: Peak::NONE,
+            largest_land_force: Peak::NONE,
+            largest_bearing_load: Peak::NONE,
+            largest_mount_force: Peak::NONE,
+            rotor_race_displacement: Peak::NONE,
+            rotor_displacement: Peak::NONE,
+            mount_displacement: Peak::NONE,
+            whirl_turns: 0.0,
+            rises,
+            last_forces: ([0.0; WATCHED.len()], f64::INFINITY),
+            clearance: part.contact.radial_clearance,
+            eccentricity: machine.constants.rotor.eccentricity(&part.node),
+            whirl_angle: None,
+            limits: Limits {
+                mount_displacement: 0.1 * part.bearing.pitch_radius(),
+                penetration: 0.1 * part.contact.bore_radius,
+            },
+            heat: part.surfaces.as_ref().map(|_| Box::default()),
+            friction_heat: machine.layout().flows().start + at.rotor_race_friction(),
+            warmth: (part.warm.as_ref()).map(|warm| Box::new(Warmth::new(warm, keep_rows))),
+            first_heat: machine.layout().heat(at.heat),
+            rolled: 0.0,
+        }
+    }
+
+    /// First instant the inner race reaches half the rotor's release speed, s.
+    pub fn inner_race_time_to_50_percent(&self) -> Option<f64> {
+        self.rises[0].time
+    }
+    /// First instant the inner race reaches 95 % of the rotor's release speed, s.
+    pub fn inner_race_time_to_95_percent(&self) -> Option<f64> {
+        self.rises[1].time
+    }
+    /// First instant the cage reaches 95 % of the rolling cage speed of the rotor's release speed, s.
+    pub fn cage_time_to_95_percent(&self) -> Option<f64> {
+        // where balls roll the cage follows the race
+        self.rises.get(2).unwrap_or(&self.rises[1]).time
+    }
+    /// The largest normal force of all contacts.
+    pub fn peak_contact_force(&self) -> Option<Peak> {
+        let peaks = self.contacts.iter().map(|c| Peak {
+            value: c.peak_force,
+            time: c.peak_time,
+        });
+        peaks.reduce(|a, b| if b.value > a.value { b } else { a })
+    }
+    pub(super) fn contacts_of(&mut self, step: &mut Step<RotorMachine>) {
+        let (at, bearing) = (self.at, self.bearing);
+        let (start, end) = (
+            step.start_probe(at.probe(PENETRATION)),
+            step.end_probe(at.probe(PENETRATION)),
+        );
+        let rates = (
+            step.start_probe(at.probe(PENETRATION_SPEED)),
+            step.end_probe(at.probe(PENETRATION_SPEED)),
+        );
+        let length = step.end - step.start;
+        // the extremum of the penetration inside the step, where its rate changes sign
+        let turning = if (rates.0 > 0.0) != (rates.1 > 0.0) {
+            // Hermite estimate of the bulge beyond the ends; searched only where it matters
+            let bulge = 0.125 * length * (rates.0 - rates.1);
+            let middle = 0.5 * (start + end) + bulge;
+            let flips = (start > 0.0) == (end > 0.0) && (middle + bulge > 0.0) != (end > 0.0);
+            let record = rates.0 > 0.0
+                && middle + self.clearance + bulge > self.rotor_race_displacement.value;
+            (flips || record).then(|| {
+                let theta = root(step, (0.0, rates.0), (1.0, rates.1), |step, theta| {
+                    contact_at(step, bearing, theta).penetration_speed
+                });
+                (theta, contact_at(step, bearing, theta).penetration)
+            })
+        } else {
+            None
+        };
+        if let Some((theta, value)) = turning {
+            let time = step.time(theta);
+            self.rotor_race_displacement
+                .raise(value + self.clearance, time);
+        }
+        self.rotor_race_displacement
+            .raise(end + self.clearance, step.end);
+        if end > 0.0 {
+            // nearer than this, the eccentric centre cannot be farther than ever before
+            let least = (self.rotor_displacement.value - self.eccentricity).max(0.0);
+            if mass_centre_at_end(step, bearing).length_squared() >= least * least {
+                let centre = centre_at_end(step, bearing);
+                self.rotor_displacement
+                    .raise(centre.length_squared().sqrt(), step.end);
+            }
+        }
+
+        if start > 0.0 && self.contacts.is_empty() {
+            // a start in contact: it began before the run
+            self.contacts.push(Contact {
+                start: step.start,
+                end: None,
+                peak_force: step.start_probe(at.probe(NORMAL_FORCE)),
+                peak_time: step.start,
+                peak_rise: 0.0,
+            });
+        }
+        let mut from = (0.0, start);
+        for to in turning.into_iter().chain([(1.0, end)]) {
+            let crosses = (from.1 > 0.0) != (to.1 > 0.0);
+            let event = crosses.then(|| {
+                root(step, from, to, |step, theta| {
+                    contact_at(step, bearing, theta).penetration
+                })
+            });
+            if let (Some(begin), true) = (event, to.1 > 0.0) {
+                self.contacts.push(Contact {
+                    start: step.time(begin),
+                    end: None,
+                    peak_force: 0.0,
+                    peak_time: step.time(begin),
+                    peak_rise: 0.0,
+                });
+                self.force_peak(step, begin, to.0);
+            } else if from.1 > 0.0 {
+                self.force_peak(step, from.0, event.unwrap_or(to.0));
+                if let (Some(open), Some(contact)) = (event, self.contacts.last_mut()) {
+                    contact.end = Some(step.time(open));
+                }
+            }
+            from = to;
+        }
+    }
+
+    /// The largest normal force between two fractions of a step raises the peak of the current contact.
+    fn force_peak(&mut self, step: &mut Step<RotorMachine>, low: f64, high: f64) {
+        let (at, bearing) = (self.at, self.bearing);
+        let Some(contact) = self.contacts.last_mut() else {
+            return;
+        };
+        let mut peak = Peak {
+            value: contact.peak_force,
+            time: contact.peak_time,
+        };
+        if high == 1.0 {
+            peak.raise(step.end_probe(at.probe(NORMAL_FORCE)), step.end);
+        }
+        let force = (
+            step.start_probe(at.probe(NORMAL_FORCE)),
+            step.end_probe(at.probe(NORMAL_FORCE)),
+        );
+        let rate = (
+            step.start_probe(at.probe(NORMAL_FORCE_RATE)),
+            step.end_probe(at.probe(NORMAL_FORCE_RATE)),
+        );
+        let whole = low == 0.0 && high == 1.0;
+        if whole && rate.0 > 0.0 && rate.1 < 0.0 {
+            let bulge = 0.125 * (step.end - step.start) * (rate.0 - rate.1);
+            if force.0.max(force.1) + 2.0 * bulge > peak.value {
+                let (theta, value) = maximum(step, 0.0, 1.0, |step, theta| {
+                    contact_at(step, bearing, theta).normal_force
+                });
+                peak.raise(value, step.time(theta));
+            }
+        } else if !whole {
+            // begin or end inside the step: a few points decide whether the peak is here too
+            for i in 1..8 {
+                let theta = low + (high - low) * f64::from(i) / 8.0;
+                let value = contact_at(step, bearing, theta).normal_force;
+                peak.raise(value, step.time(theta));
+            }
+        }
+        contact.peak_force = peak.value;
+        contact.peak_time = peak.time;
+    }
+
+    /// Records of the watched forces, in their order.
+    fn forces(&mut self) -> [&mut Peak; WATCHED.len()] {
+        [
+            &mut self.largest_inner_load,
+            &mut self.largest_outer_load,
+            &mut self.largest_bearing_load,
+            &mut self.largest_mount_force,
+            &mut self.largest_pocket_force,
+            &mut self.largest_land_force,
+        ]
+    }
+
+    pub(super) fn forces_of(&mut self, step: &mut Step<RotorMachine>) {
+        let at = self.at;
+        let start = WATCHED.map(|probe| step.start_probe(at.probe(probe)));
+        let end = WATCHED.map(|probe| step.end_probe(at.probe(probe)));
+        let time = step.end;
+        let length = step.end - step.start;
+        let (last, last_length) = self.last_forces;
+        let mut search = false;
+        for (k, record) in self.forces().into_iter().enumerate() {
+            record.raise(end[k], time);
+            if k < SEARCHED && start[k].max(end[k]) > NEAR_RECORD * record.value {
+                let last_slope = (start[k] - last[k]) / last_length;
+                let slope = (end[k] - start[k]) / length;
+                search |= may_peak(last_slope, slope, length, STEADY * record.value);
+            }
+        }
+        self.last_forces = (start, length);
+        if search {
+            for theta in [0.25, 0.5, 0.75] {
+                let time = step.time(theta);
+                let (_, probe) = step.evaluate(theta);
+                let values = WATCHED.map(|kind| probe[at.probe(kind)]);
+                for (record, value) in self.forces().into_iter().zip(values) {
+                    record.raise(value, time);
+                }
+            }
+        }
+    }
+
+    pub(super) fn mount_of(&mut self, step: &mut Step<RotorMachine>) {
+        let outer = self.at.outer;
+        let end = |k: usize| step.end_state(outer + k);
+        let square = end(0) * end(0) + end(1) * end(1);
+        let record = self.mount_displacement.value;
+        if square < (NEAR_RECORD * record).powi(2) {
+            return;
+        }
+        let start = |k: usize| step.start_state(outer + k);
+        let outward = (
+            start(0) * start(2) + start(1) * start(3),
+            end(0) * end(2) + end(1) * end(3),
+        );
+        self.mount_displacement.raise(square.sqrt(), step.end);
+        if outward.0 > 0.0 && outward.1 < 0.0 {
+            for i in 1..8 {
+                let theta = f64::from(i) / 8.0;
+                let time = step.time(theta);
+                let state = step.leading_state(theta, outer + 2);
+                self.mount_displacement
+                    .raise(state[outer].hypot(state[outer + 1]), time);
+            }
+        }
+    }
+
+    /// Follows the heat of the surfaces that rub.
+    pub(super) fn heat_of(&mut self, step: &mut Step<RotorMachine>) {
+        let machine = step.machine;
+        let part = &machine.constants.bearings[self.bearing];
+        let (Some(heat), Some(surfaces)) = (&mut self.heat, &part.surfaces) else {
+            return;
+        };
+        let at = self.at;
+        let both = |kind| {
+            [
+                step.start_probe(at.probe(kind)),
+                step.end_probe(at.probe(kind)),
+            ]
+        };
+        let seen = Seen {
+            times: [step.start, step.end],
+            forces: both(NORMAL_FORCE),
+            slips: both(SLIP_SPEED),
+            heats: [
+                step.start_state(self.friction_heat),
+                step.end_state(self.friction_heat),
+            ],
+        };
+        let contact = &part.contact;
+        if !heat.watch(surfaces, contact.bore_radius, &seen) {
+            return;
+        }
+        let channels = machine.layout().rotor.channels();
+        let state = step.leading_state(1.0, channels.max(at.inner + 6));
+        let rotor = machine.layout().rotor.motion(state);
+        let centre = machine.one.nodes[self.bearing].centre(&rotor);
+        let pair = |at: usize| Vec2::new(state[at], state[at + 1]);
+        let motions = Motions {
+            offset: centre.position - pair(at.inner),
+            velocity: centre.velocity - pair(at.inner + 2),
+            spins: [rotor.spin, state[at.inner + 5]],
+        };
+        let sizes = [contact.bore_radius, contact.radial_clearance];
+        heat.take(surfaces, sizes, &seen, &motions);
+        if let Some(contact) = self.contacts.last_mut() {
+            contact.peak_rise = heat.of_touch;
+        }
+    }
+
+    /// Follows the temperatures of the bearing.
+    pub(super) fn warmth_of(&mut self, step: &Step<RotorMachine>) {
+        if (self.warmth.as_ref()).is_some_and(|warmth| warmth.is_due(step.end)) {
+            self.warm(step.machine, step.end, &|channel| step.end_state(channel));
+        }
+    }
+
+    pub(super) fn warm(&mut self, machine: &RotorMachine, time: f64, state: &dyn Fn(usize) -> f64) {
+        let part = &machine.constants.bearings[self.bearing];
+        let (Some(warmth), Some(warm)) = (&mut self.warmth, &part.warm) else {
+            return;
+        };
+        let seen = WarmthSeen {
+            time,
+            heats: std::array::from_fn(|k| state(self.first_heat + k)),
+            spin: state(self.at.inner + 5),
+            taken: self.heat.as_ref().map(|heat| heat.taken()),
+        };
+        warmth.take(warm, &seen);
+    }
+
+    /// Whether the rotor has rolled in this bearing for [`ROLLING_TURNS`]: it presses on the race, neither slips there nor does
+    /// the cage, within a hundredth.
+    pub(super) fn rolling_of(&mut self, step: &Step<RotorMachine>) -> bool {
+        let (machine, at) = (step.machine, self.at);
+        let part = &machine.constants.bearings[self.bearing];
+        let spin = step.end_state(at.inner + 5);
+        let cage = spin * part.bearing.rolling_cage_ratio();
+        let slip = step.end_probe(at.probe(SLIP_SPEED));
+        let slow = |error: f64, speed: f64| error.abs() < ROLLING_SLIP * speed.abs();
+        let with_cage = matches!(part.bearing, BearingConstants::Planar(_));
+        let rolls = step.end_probe(at.probe(NORMAL_FORCE)) > 0.0
+            && slow(slip, spin * part.contact.bore_radius)
+            && (!with_cage || slow(step.end_state(at.bearing + 1) - cage, cage));
+        match rolls {
+            true => self.rolled += cage.abs() * (step.end - step.start) / (2.0 * PI),
+            false => self.rolled = 0.0,
+        }
+        // a bushing does not turn
+        part.is_bushing() || self.rolled >= ROLLING_TURNS
+    }
+
+    /// Follows the whirl of the rotor about the inner race.
+    pub(super) fn whirl_of(&mut self, step: &mut Step<RotorMachine>) {
+        let gap = -step.end_probe(self.at.probe(PENETRATION));
+        if gap > 0.5 * self.clearance {
+            self.whirl_angle = None;
+            return;
+        }
+        let inner = self.at.inner;
+        let race = Vec2::new(step.end_state(inner), step.end_state(inner + 1));
+        let offset = centre_at_end(step, self.bearing) - race;
+        let angle = offset.y.atan2(offset.x);
+        if let Some(last) = self.whirl_angle {
+            let turn = (angle - last) / (2.0 * PI);
+            self.whirl_turns += turn - turn.round();
+        }
+        self.whirl_angle = Some(angle);
+    }
+
+    /// True where the equations are not true any more.
+    pub(super) fn too_far(&self, step: &Step<RotorMachine>) -> bool {
+        self.mount_displacement.value > self.limits.mount_displacement
+            || step.end_probe(self.at.probe(PENETRATION)) > self.limits.penetration
+    }
+}
+
+/// Whether a value with these mean slopes over the last and this step may have a peak inside this step that rises
+/// above both ends by more than `least`: judged by the parabola through the three values, taken half as curved again.
+fn may_peak(last_slope: f64, slope: f64, length: f64, least: f64) -> bool {
+    let curving = 1.5 * (slope - last_slope);
+    let (at_start, at_end) = (slope - 0.5 * curving, slope + 0.5 * curving);
+    at_start > 0.0 && at_end < 0.0 && -0.125 * curving * length > least
+}
+
+/// Position of the rotor's mass centre at the node in a bearing at the end of a step, from its datum.
+fn mass_centre_at_end(step: &Step<RotorMachine>, bearing: usize) -> Vec2<f64> {
+    let rotor = step.machine.layout().rotor;
+    let node = &step.machine.one.nodes[bearing];
+    let channels = rotor.block(0).zip(rotor.block(1));
+    let sum = (node.row.iter().zip(channels)).fold(Vec2::zero(), |sum, (shape, (x, y))| {
+        sum + Vec2::new(step.end_state(x), step.end_state(y)) * *shape
+    });
+    sum - node.datum
+}
+
+/// Position of its geometric centre there.
+fn centre_at_end(step: &mut Step<RotorMachine>, bearing: usize) -> Vec2<f64> {
+    let machine = step.machine;
+    let state = step.leading_state(1.0, machine.layout().rotor.channels());
+    machine.node(bearing, state).position
+}
+
+/// The contact of rotor and race at a fraction of a step; inlined, so that nothing is computed but what is asked for.
+#[inline(always)]
+fn contact_at(step: &mut Step<RotorMachine>, bearing: usize, theta: f64) -> ContactReaction<f64> {
+    let machine = step.machine;
+    let at = &machine.layout().bearings[bearing];
+    // both races; the one ring of a bushing ends behind its spin
+    let state = step.leading_state(theta, (at.outer + 4).max(at.inner + 6));
+    let rotor = machine.layout().rotor.motion(state);
+    let centre = machine.one.nodes[bearing].centre(&rotor);
+    (machine.constants.bearings[bearing].contact).react(
+        &centre,
+        rotor.spin,
+        &at.motion(state).inner,
+    )
+}
