@@ -12,8 +12,11 @@ fn parsed(text: &str, sets: &[&str]) -> Result<Scenario, String> {
     Scenario::parse(text, "drop.toml", &sets, &BuiltIn).map_err(|problem| problem.to_string())
 }
 
+/// With so little unbalance that it rolls in a second.
+const CALM: [&str; 2] = ["rotor.unbalance_eccentricity=0.5 um", "run.duration=3 s"];
+
 fn ran(sets: &[&str]) -> Outcome {
-    let scenario = parsed(SHIPPED, sets).unwrap();
+    let scenario = parsed(SHIPPED, &[&CALM, sets].concat()).unwrap();
     let never = AtomicBool::new(false);
     run(&scenario, &Options::unwatched(&never)).unwrap()
 }
@@ -96,6 +99,50 @@ fn slow_time_goes_on_as_ball_by_ball_would() {
         codes.contains(&"AB2317") && !codes.contains(&"AB2316"),
         "{codes:?}"
     );
+}
+
+#[test]
+fn a_rotor_that_bounces_goes_on_in_windows_until_it_rolls() {
+    let bounces = ["rotor.unbalance_eccentricity=5 um", "run.duration=0.5 s"];
+    let found = ran(&bounces);
+    assert!(found.stop.complete(), "{}", found.stop.text);
+    assert!(
+        found.stop.text.contains("windows ball by ball"),
+        "{}",
+        found.stop.text
+    );
+    assert!(number(&found, "run_out.windows") > 3.0);
+    assert!(number(&found, "run_out.window_scatter") < 0.05);
+    // the ledger closes over windows, slow time and the run-out by laws
+    let energy = number(&found, "run_out.rotor_energy");
+    let speed = list(&found, "run_out.over_time.rotor.speed")[0];
+    let heats = number(&found, "run_out.speed_dependent_heat")
+        + number(&found, "run_out.load_dependent_heat")
+        + number(&found, "run_out.windage_heat");
+    let left = energy / (speed * speed);
+    assert!(
+        ((heats + left) / energy - 1.0).abs() < 1e-9,
+        "{heats} {energy}"
+    );
+    assert!(number(&found, "run_out.relative_heat_residual") < 1e-9);
+    let times = list(&found, "run_out.over_time.time");
+    assert!(times.windows(2).all(|pair| pair[1] > pair[0]));
+    // what bounces loses more than what rolls, and no jump in the moment is left where the laws take over
+    let other = list(&found, "run_out.over_time.load_dependent.moment");
+    let steady = list(&found, "run_out.over_time.speed_dependent.moment");
+    let start = times.partition_point(|time| *time < number(&found, "run_out.start_time"));
+    assert!(
+        other[0] > 5.0 * other[start],
+        "{} {}",
+        other[0],
+        other[start]
+    );
+    let change = steady[start] / steady[start - 1] - 1.0;
+    assert!(change.abs() < 0.05, "{change}");
+    // nothing depends on threads or company
+    let again = ran(&bounces);
+    let bits = |outcome: &Outcome| number(outcome, "run_out.stop_time").to_bits();
+    assert_eq!(bits(&again), bits(&found));
 }
 
 #[test]

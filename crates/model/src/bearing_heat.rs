@@ -139,6 +139,11 @@ fn of(parts: &[(usize, f64)]) -> OfNodes {
     row
 }
 
+/// The heat of the steady moment among those of an auxiliary bearing.
+pub fn steady_moment(heats: &[f64; HEATS]) -> f64 {
+    heats[place("steady_moment")]
+}
+
 /// Place of a heat among those of an auxiliary bearing.
 fn place(kind: &str) -> usize {
     let mut kinds = bearing::HEATS.into_iter().chain(OWN_HEATS);
@@ -169,6 +174,11 @@ impl WarmBearing {
         let of =
             |oil: &WaltherLine<f64>| oil.viscosity(temperature + ICE_POINT).max(LEAST_VISCOSITY);
         oil.map_or(self.viscosity, of)
+    }
+
+    /// Mean heats, W, over the nodes, at a spin of the inner race (rad/s) and a temperature of the lubricant (°C).
+    pub fn over_nodes(&self, heats: &[f64; HEATS], spin: f64, lubricant: f64) -> OfNodes {
+        self.to_nodes(heats, self.viscous(spin, lubricant), None)
     }
 
     /// Heats of a span over the nodes, J.

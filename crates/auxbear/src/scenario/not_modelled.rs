@@ -78,9 +78,9 @@ const TABLE: &[Absent] = &[
     Absent {
         paths: "heat thermal temperature coolant cooling *.coolant *.heat rotor.temperature contact.temperature mount.temperature \
                 bearing.temperature *.heat_capacity *.thermal_conductivity *.thermal_expansion",
-        what: "heat acts on nothing here: nothing fades or expands",
+        what: "heat acts on nothing while the rotor falls: nothing fades or expands",
         point: 5,
-        instead: "Surfaces that rub warm with contact.width and contact.surface, and system = \"coast_down\" follows temperatures until standstill; the temperature of the lubricant is bearing.moment.temperature; its slow state, with films that warm, is [bearing.lubricant_state]",
+        instead: "heat.network = \"on\" follows the temperatures of a drop or machine, run.until = \"standstill\" goes on until the rotor stands, and surfaces that rub warm with contact.width and contact.surface; the temperature of the lubricant is bearing.moment.temperature; its slow state, with films that warm, is [bearing.lubricant_state]",
     },
     Absent {
         paths: "life wear fatigue *.life *.wear *.l10 *.drops \

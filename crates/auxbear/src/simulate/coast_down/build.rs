@@ -2,6 +2,7 @@
 
 use crate::problem::{Code, Problem};
 use crate::scenario::{CoastDown, Feedback, Moment, RunOut, UNNAMED, Warm};
+use crate::simulate::coast_down::rows::{End, Row};
 use physics::heat_conduction::{SILICON_NITRIDE_HEAT, STEEL_HEAT};
 use physics::hertz::{BallRace, PointContact, Race};
 use physics::load_zone::joint_stiffness;
@@ -59,12 +60,16 @@ pub(crate) struct Built {
     pub brake_start: f64,
     /// How it ends.
     pub end: RunOut,
-    /// Where it starts.
+    /// Kinetic energy of what turns at its beginning, J.
+    pub energy: f64,
+    /// Temperatures at its beginning, °C.
+    pub warm_from: Vec<f64>,
+    /// Where the run-out by laws starts.
     pub start: Start,
 }
 
 /// Where a run-out starts.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(crate) struct Start {
     /// s.
     pub time: f64,
@@ -72,6 +77,62 @@ pub(crate) struct Start {
     pub speed: f64,
     /// Of the nodes of all bearings, °C.
     pub temperatures: Vec<f64>,
+    /// Heat of each loss before it, J.
+    pub heats: Vec<f64>,
+    /// Heat given to the surroundings before it, J.
+    pub given: f64,
+    /// What is known of the way to there.
+    pub rows: Vec<Row>,
+    /// Why it ended on that way.
+    pub ended: Option<End>,
+    /// The state of the last window: its step is taken again when its end is known.
+    kept: Option<Kept>,
+}
+
+/// What a step in slow time changes.
+#[derive(Clone, Debug, PartialEq)]
+struct Kept {
+    time: f64,
+    speed: f64,
+    temperatures: Vec<f64>,
+    heats: Vec<f64>,
+    given: f64,
+}
+
+impl Start {
+    /// A start at a time (s), speed (rad/s) and temperatures of the nodes of so many bearings (°C).
+    pub fn at(time: f64, speed: f64, temperatures: Vec<f64>, bearings: usize) -> Self {
+        Start {
+            time,
+            speed,
+            temperatures,
+            heats: vec![0.0; 2 * bearings + 1],
+            given: 0.0,
+            rows: Vec::new(),
+            ended: None,
+            kept: None,
+        }
+    }
+    /// Keeps where it stands.
+    pub fn keep(&mut self) {
+        self.kept = Some(Kept {
+            time: self.time,
+            speed: self.speed,
+            temperatures: self.temperatures.clone(),
+            heats: self.heats.clone(),
+            given: self.given,
+        });
+    }
+    /// Goes back to what was kept.
+    pub fn undo(&mut self) {
+        if let Some(kept) = self.kept.take() {
+            self.time = kept.time;
+            self.speed = kept.speed;
+            self.temperatures = kept.temperatures;
+            self.heats = kept.heats;
+            self.given = kept.given;
+        }
+    }
 }
 
 impl Built {
@@ -85,11 +146,6 @@ impl Built {
             bearings: self.parts.iter().map(|part| part.losses.clone()).collect(),
             rotor,
         }
-    }
-
-    /// Kinetic energy of what turns at the start, J.
-    pub fn energy(&self) -> f64 {
-        0.5 * self.inertia * self.start.speed * self.start.speed
     }
 }
 
@@ -107,11 +163,9 @@ pub(crate) fn run_out(run: &CoastDown) -> Result<Built, Box<Problem>> {
         },
         brake_start: 0.0,
         end: run.end,
-        start: Start {
-            time: 0.0,
-            speed: run.speed.abs(),
-            temperatures: vec![start; NODES.len()],
-        },
+        energy: 0.5 * run.polar_inertia * run.speed * run.speed,
+        warm_from: vec![start; NODES.len()],
+        start: Start::at(0.0, run.speed.abs(), vec![start; NODES.len()], 1),
     })
 }
 

@@ -2,11 +2,12 @@
 
 use crate::problem::Problem;
 use crate::simulate::coast_down::build::{Built, ICE_POINT, Part};
+use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
 use std::sync::atomic::{AtomicBool, Ordering};
 use thermal::bearing_network::{
     BALLS, BearingNetwork, CAGE, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, Operation, together,
 };
-use thermal::coast_down::{CoastDown as Coast, Coasting, Endless};
+use thermal::coast_down::{CoastDown as Coast, Coasting};
 use thermal::network::Network;
 use thermal::steady_speed::SteadySpeed;
 
@@ -15,53 +16,7 @@ const LONGEST_STEP: f64 = 0.03;
 /// Capacity of a node that is held over its own.
 const HELD: f64 = 1e7;
 /// Temperature above which nothing of the model holds, °C: hardened steel is soft, oil and grease are gone.
-pub(super) const BEYOND: f64 = 350.0;
-
-/// What is known at the end of a step. Moments and powers are those of all bearings.
-#[derive(Clone, Debug)]
-pub(crate) struct Row {
-    pub time: f64,
-    pub speed: f64,
-    /// Of the nodes of all bearings, °C.
-    pub temperatures: Vec<f64>,
-    /// M0 and M1 of all bearings, and what brakes the rotor besides, N m.
-    pub moments: [f64; 3],
-    /// Of each bearing.
-    pub bearings: Vec<RowOfBearing>,
-    /// Largest growth rate of the temperatures, 1/s.
-    pub growth: f64,
-    /// Power that is taken from each node to hold it, W, of all equal bearings.
-    pub taken: Vec<f64>,
-}
-
-/// What is known of a bearing at the end of a step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct RowOfBearing {
-    /// M0 and M1 of all equal bearings together, N m.
-    pub moment: f64,
-    /// Diametral, m.
-    pub clearance: f64,
-    /// Of the most loaded ball, N.
-    pub largest_ball_load: f64,
-}
-
-impl Row {
-    /// Smallest clearance of all bearings, m.
-    pub fn clearance(&self) -> f64 {
-        let each = self.bearings.iter().map(|bearing| bearing.clearance);
-        each.fold(f64::INFINITY, f64::min)
-    }
-}
-
-/// How a run-out ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum End {
-    Stands,
-    Late,
-    Interrupted,
-    Beyond,
-    Endless(Endless),
-}
+pub(crate) const BEYOND: f64 = 350.0;
 
 /// A run-out.
 #[derive(Clone, Debug)]
@@ -112,8 +67,16 @@ pub(super) fn follow(
         start.temperatures.clone(),
         &built.losses(start.time),
     );
-    let mut rows = vec![row(built, &state, &taken)];
+    state.heats.clone_from(&start.heats);
+    state.given = start.given;
+    let mut rows = start.rows.clone();
+    if start.ended.is_none() || rows.is_empty() {
+        rows.push(row(built, &state, &taken));
+    }
     let end = loop {
+        if let Some(end) = start.ended {
+            break end;
+        }
         if state.speed <= built.end.stop_speed {
             break End::Stands;
         }
@@ -165,7 +128,7 @@ pub(super) fn follow(
         }
         rows.push(row(built, &state, &powers));
     };
-    let rises = state.temperatures.iter().zip(&start.temperatures);
+    let rises = state.temperatures.iter().zip(&built.warm_from);
     let stored = capacities.iter().zip(rises);
     let stored = sides
         * stored

@@ -11,6 +11,7 @@ pub(crate) mod build;
 pub(crate) mod course;
 pub(crate) mod quantities;
 pub(crate) mod ran;
+pub(crate) mod rows;
 pub(crate) mod warnings;
 
 use crate::options::Options;
@@ -19,8 +20,9 @@ use crate::result::list::List;
 use crate::result::outcome::{Column, Members, Outcome, Picture, Stop, Work};
 use crate::scenario::{CoastDown, Scenario};
 use crate::simulate::coast_down::build::{Built, ICE_POINT};
-use crate::simulate::coast_down::course::{BEYOND, Course, End, Row};
+use crate::simulate::coast_down::course::{BEYOND, Course};
 use crate::simulate::coast_down::ran::Ran;
+use crate::simulate::coast_down::rows::{End, Row};
 use model::system::layout::of_part;
 use std::time::Instant;
 use thermal::coast_down::Endless;
@@ -115,6 +117,10 @@ pub(crate) fn stop(course: &Course) -> Stop {
             format!(
                 "Stopped at {time:.4} s: nothing brakes the rotor at {speed:.4} rad/s, so that it never stands."
             ),
+        ),
+        End::Lost(why) => (
+            "left the model",
+            format!("Stopped at {time:.4} s, with {speed:.4} rad/s: {why}."),
         ),
         End::Endless(Endless::Steps) => (
             "step limit",

@@ -3,8 +3,8 @@
 use crate::result::list::{List, NOT_GIVEN, Origin, relative};
 use crate::result::outcome::Value;
 use crate::simulate::coast_down::build::{ICE_POINT, Part, turns};
-use crate::simulate::coast_down::course::{End, Row};
 use crate::simulate::coast_down::ran::Ran;
+use crate::simulate::coast_down::rows::{End, Row};
 use model::system::layout::of_part;
 use physics::life::{
     RatedBearing, bearing_damage, passages_per_turn, reference_viscosity, repetitions, ring_damage,
@@ -64,7 +64,7 @@ fn heats(ran: &Ran, list: &mut List) {
     let free = &ran.free;
     let heats = &free.state.heats;
     let sides = f64::from(ran.built.sides);
-    list.number("rotor_energy", "J", Ok(ran.built.energy()), &ENERGY);
+    list.number("rotor_energy", "J", Ok(ran.built.energy), &ENERGY);
     let (of_rotor, of_bearings) = heats.split_last().unwrap_or((&0.0, &[]));
     let sum = |loss: usize| of_bearings.iter().skip(loss).step_by(2).sum::<f64>();
     let (speed_dependent, load_dependent) = (sum(0), sum(1));
@@ -78,7 +78,7 @@ fn heats(ran: &Ran, list: &mut List) {
     list.number("stored_heat", "J", Ok(free.stored), &HEAT);
     for (k, part) in ran.parts() {
         for node in ran.nodes(k) {
-            let before = ran.built.start.temperatures[node.place()];
+            let before = ran.built.warm_from[node.place()];
             let rise = free.state.temperatures[node.place()] - before;
             let kept = sides * part.network.capacities[node.node] * rise;
             let name = format!("stored_heat_in_{}", node.name());

@@ -2,7 +2,8 @@
 
 use crate::problem::Problem;
 use crate::simulate::coast_down::build::{Built, Part};
-use crate::simulate::coast_down::course::{self, Course, Row, RowOfBearing};
+use crate::simulate::coast_down::course::{self, Course};
+use crate::simulate::coast_down::rows::{Row, RowOfBearing};
 use std::sync::atomic::AtomicBool;
 use thermal::bearing_network::{CAGE, NODES};
 

@@ -2,8 +2,8 @@
 
 use crate::result::outcome::{Warning, warning};
 use crate::simulate::coast_down::build::ICE_POINT;
-use crate::simulate::coast_down::course::End;
 use crate::simulate::coast_down::ran::{NodeOf, Ran};
+use crate::simulate::coast_down::rows::End;
 use thermal::bearing_network::LUBRICANT;
 
 /// Of a run-out by itself.
@@ -126,7 +126,7 @@ fn stays_closed(ran: &Ran, k: usize) -> Option<Warning> {
             "The clearance closes {}: rings that warm unequally load the balls with up to {most:.0} N. The difference of the \
              rings' temperatures is known within a factor of two; so is the clearance that is needed.",
             match at {
-                at if at == ran.built.start.time => "from the start".to_string(),
+                at if at == ran.free.rows[0].time => "from the start".to_string(),
                 at => format!("after {}", words(at)),
             }
         ),

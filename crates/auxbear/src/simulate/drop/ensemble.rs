@@ -81,6 +81,21 @@ pub fn run(members: &[Member], plan: &Plan) -> Vec<Finished> {
     all.into_iter().flatten().collect()
 }
 
+/// Runs one member alone.
+pub(crate) fn one(member: &Member, plan: &Plan) -> Finished {
+    let done = AtomicU64::new(0);
+    let report = Report {
+        done: &done,
+        members: 1,
+        progress: plan.progress,
+    };
+    let mut found = side_by_side(std::slice::from_ref(member), plan, &report);
+    match found.pop() {
+        Some(finished) => finished,
+        None => unreachable!("each member has an ending"),
+    }
+}
+
 /// Runs members that lanes may share.
 fn run_of_a_kind(members: &[Member], plan: &Plan) -> Vec<Finished> {
     let done = AtomicU64::new(0);

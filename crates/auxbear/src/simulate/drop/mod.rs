@@ -18,6 +18,7 @@ pub(crate) mod shaft_results;
 pub(crate) mod surfaces;
 pub(crate) mod warm;
 pub(crate) mod warnings;
+mod windows;
 
 use crate::options::Options;
 use crate::result::outcome::{Contact, Members, Outcome, Picture, Spread, Stop, Work};
@@ -56,7 +57,6 @@ pub(crate) fn run(
             progress: options.progress,
         },
     );
-    let seconds = clock.elapsed().as_secs_f64();
 
     let given = |k: usize| match k.checked_sub(1).and_then(|k| varied.get(k)) {
         Some(varied) => (&varied.drop, &varied.built),
@@ -74,6 +74,7 @@ pub(crate) fn run(
     let after: Vec<Option<After>> = (contexts.par_iter())
         .map(|context| run_out::after(context, options.interrupt))
         .collect();
+    let seconds = clock.elapsed().as_secs_f64();
     let stop_of = |k: usize| match &after[k] {
         Some(after) => after.stop.clone(),
         None => stop(&finished[k].ending),

@@ -1,0 +1,51 @@
+//! What is known at the instants of a run-out, and how it ended.
+
+use thermal::coast_down::Endless;
+
+/// What is known at the end of a step. Moments and powers are those of all bearings.
+#[derive(Clone, Debug)]
+pub(crate) struct Row {
+    pub time: f64,
+    pub speed: f64,
+    /// Of the nodes of all bearings, °C.
+    pub temperatures: Vec<f64>,
+    /// M0 and M1 of all bearings, and what brakes the rotor besides, N m.
+    pub moments: [f64; 3],
+    /// Of each bearing.
+    pub bearings: Vec<RowOfBearing>,
+    /// Largest growth rate of the temperatures, 1/s.
+    pub growth: f64,
+    /// Power that is taken from each node to hold it, W, of all equal bearings.
+    pub taken: Vec<f64>,
+}
+
+/// What is known of a bearing at the end of a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RowOfBearing {
+    /// M0 and M1 of all equal bearings together, N m.
+    pub moment: f64,
+    /// Diametral, m.
+    pub clearance: f64,
+    /// Of the most loaded ball, N.
+    pub largest_ball_load: f64,
+}
+
+impl Row {
+    /// Smallest clearance of all bearings, m.
+    pub fn clearance(&self) -> f64 {
+        let each = self.bearings.iter().map(|bearing| bearing.clearance);
+        each.fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// How a run-out ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum End {
+    Stands,
+    Late,
+    Interrupted,
+    Beyond,
+    Endless(Endless),
+    /// For this reason.
+    Lost(&'static str),
+}

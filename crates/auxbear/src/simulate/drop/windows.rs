@@ -1,0 +1,435 @@
+//! A rotor that does not roll yet while it slows down: windows ball by ball at speeds that fall, and slow time between them.
+//!
+//! ```text
+//!   window at Ω_j    spin held, oil and clearance as warm as they are; settle, then mean heats over whole turns
+//!   between          dt = I ln(1/r) ½ (Ω_j/M_j + Ω_j+1/M_j+1),  M = P/Ω;  kinetic energy lost is heat by the means' proportions
+//! ```
+//! It ends where the rotor rolls, or loses no more than by rolling in two windows: the run-out by laws goes on from there. Unbalance of a few micrometres lifts a fast rotor from
+//! rolling again and again (e Ω² near g), so that this is how most drops go on.
+//!
+//! The spread of the means is that of batches; what scatters more than a tenth is told.
+//!
+//! Source: heat-and-life, section 6.
+
+use crate::scenario::{Drop, Feedback, Moment};
+use crate::simulate::coast_down::build::{Built, ICE_POINT, Part};
+use crate::simulate::coast_down::course::BEYOND;
+use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
+use crate::simulate::drop::build;
+use crate::simulate::drop::context::Context;
+use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
+use crate::simulate::drop::method;
+use crate::simulate::ending::settings_at;
+use model::auxiliary_bearing::HEATS;
+use model::bearing_heat::OfNodes;
+use model::system::machine::RotorMachine;
+use model::system::machine::record::ROLLS;
+use solve::Settings;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use thermal::bearing_network::{BearingNetwork, LUBRICANT, NODES, Operation, together};
+
+/// Speed of a window over that before.
+const RATIO: f64 = 0.95;
+/// Turns of the rotor in which a window settles, more than the turns of the cage after which it counts as rolling, and in each of its
+/// batches; and the longest that either takes, s.
+const SETTLING: (f64, f64) = (60.0, 1.0);
+const BATCH: (f64, f64) = (10.0, 0.2);
+/// Batches of a window: neighbours correlate, so that fewer say little of the scatter.
+const BATCHES: usize = 8;
+
+/// Windows one after the other in which the rotor loses no more than by rolling, within so much of that.
+const AGREEING: usize = 2;
+const AGREES: f64 = 0.02;
+
+/// What was found at a speed.
+struct Window {
+    /// Mean power of the losses: of each bearing its steady moment and its other losses, then of the rotor, W.
+    powers: Vec<f64>,
+    /// Over the nodes of all bearings, W.
+    nodes: Vec<f64>,
+    /// Standard error of the whole power over it.
+    scatter: f64,
+}
+
+/// The same of one batch.
+struct Batch {
+    powers: Vec<f64>,
+    nodes: Vec<f64>,
+}
+
+/// How the windows went.
+#[derive(Default)]
+pub(super) struct Bounced {
+    /// Relative standard error of the power of each window.
+    pub scatter: Vec<f64>,
+    /// Steps of all of them.
+    pub steps: u64,
+}
+
+/// What one more part of a window says.
+enum Piece {
+    Rolls,
+    Whole,
+    Lost(&'static str),
+}
+
+/// A rotor on its way down.
+struct Way<'a> {
+    context: &'a Context<'a>,
+    interrupt: &'a AtomicBool,
+    machine: Arc<RotorMachine>,
+    state: Vec<f64>,
+    time: f64,
+    steps: u64,
+}
+
+/// Follows the rotor until it rolls, or until there is a reason to end; `built` starts there afterwards.
+pub(super) fn follow(context: &Context, built: &mut Built, interrupt: &AtomicBool) -> Bounced {
+    let mut way = Way {
+        context,
+        interrupt,
+        machine: Arc::new(context.machine.clone()),
+        state: context.finished.ending.state.clone(),
+        time: context.finished.ending.time,
+        steps: 0,
+    };
+    let mut scatter = Vec::new();
+    let mut before: Option<Window> = None;
+    let mut agreeing = 0;
+    let end = loop {
+        if interrupt.load(Ordering::Relaxed) {
+            break Some(End::Interrupted);
+        }
+        if built.start.speed <= built.end.stop_speed {
+            break Some(End::Stands);
+        }
+        if built.start.time >= built.end.longest {
+            break Some(End::Late);
+        }
+        if !(built.start.temperatures.iter()).all(|now| now.abs() < BEYOND) {
+            break Some(End::Beyond);
+        }
+        let window = match way.window(built) {
+            Ok(Some(window)) => window,
+            Ok(None) => break None,
+            Err(_) if interrupt.load(Ordering::Relaxed) => break Some(End::Interrupted),
+            Err(why) => break Some(End::Lost(why)),
+        };
+        if window.powers.iter().sum::<f64>() <= 0.0 {
+            break Some(End::Lost("nothing brakes the rotor"));
+        }
+        scatter.push(window.scatter);
+        if let Some(last) = &before {
+            // the step that led here, with what is known at both of its ends
+            built.start.undo();
+            if let Err(why) = step(built, last, &window) {
+                break Some(End::Lost(why));
+            }
+        }
+        agreeing = match rolling(built, &window) {
+            true => agreeing + 1,
+            false => 0,
+        };
+        if agreeing == AGREEING {
+            break None;
+        }
+        built.start.rows.push(row(built, &window));
+        built.start.keep();
+        if let Err(why) = step(built, &window, &window) {
+            break Some(End::Lost(why));
+        }
+        before = Some(window);
+    };
+    built.start.ended = end;
+    Bounced {
+        scatter,
+        steps: way.steps,
+    }
+}
+
+/// Whether the bearings take what the laws of a rotor that rolls say.
+fn rolling(built: &Built, window: &Window) -> bool {
+    let start = &built.start;
+    let (_, bearings) = window.powers.split_last().unwrap_or((&0.0, &[]));
+    let found = f64::from(built.sides) * bearings.iter().sum::<f64>();
+    let parts = built
+        .parts
+        .iter()
+        .zip(start.temperatures.chunks(NODES.len()));
+    let law: f64 = parts
+        .flat_map(|(part, temperatures)| part.losses.on_rotor(start.speed, temperatures))
+        .sum();
+    (found / (law * start.speed) - 1.0).abs() < AGREES
+}
+
+impl Way<'_> {
+    /// Means at the speed and the temperatures that the run-out has come to; none where the rotor rolls.
+    fn window(&mut self, built: &Built) -> Result<Option<Window>, &'static str> {
+        let speed = built.start.speed;
+        let drop = conditioned(self.context.drop, built);
+        let made =
+            build::drop(&drop).map_err(|_| "no machine could be built at these temperatures")?;
+        let mut constants = made.constants.clone();
+        constants.rotor.spin_held = true;
+        for bearing in &mut constants.bearings {
+            (bearing.warm, bearing.surfaces) = (None, None);
+        }
+        let stepping = method::stepping(
+            &drop,
+            &made,
+            RotorMachine::new(constants.clone()).tangents(),
+        );
+        self.machine = Arc::new(RotorMachine::new(constants));
+        let layout = self.machine.layout().clone();
+        let spin = layout.rotor.spin();
+        self.state[spin] = speed * self.state[spin].signum();
+        let turn = TAU / speed;
+        let settings = settings_at(&drop.run, stepping.tolerance);
+        let plan = |settings: Settings| Plan {
+            settings,
+            steps: stepping.steps,
+            interval: f64::INFINITY,
+            until_rolling: true,
+            threads: Some(1),
+            interrupt: self.interrupt,
+            progress: &|_| {},
+        };
+        let mut pieces = Vec::new();
+        let plans: Vec<Plan> = (0..=BATCHES)
+            .map(|batch| {
+                let (turns, longest) = if batch == 0 { SETTLING } else { BATCH };
+                plan(Settings {
+                    end: (turns * turn).min(longest),
+                    ..settings
+                })
+            })
+            .collect();
+        let (machine, mut state, mut time) = (self.machine.clone(), self.state.clone(), self.time);
+        let mut steps = 0;
+        let mut rolls = false;
+        for (batch, mut plan) in plans.into_iter().enumerate() {
+            plan.settings.start = time;
+            plan.settings.end += time;
+            state[layout.ledger()..].fill(0.0);
+            let finished = piece(&machine, &state, &plan);
+            steps += finished.ending.work.accepted;
+            state.clone_from(&finished.ending.state);
+            match outcome(&finished) {
+                Piece::Rolls => {
+                    rolls = true;
+                    break;
+                }
+                Piece::Lost(why) => return Err(why),
+                Piece::Whole => {}
+            }
+            if batch > 0 {
+                let span = finished.ending.time - time;
+                pieces.push(self.heats(built, &state, span));
+            }
+            time = finished.ending.time;
+        }
+        self.state = state;
+        self.time = time;
+        self.steps += steps;
+        if rolls {
+            return Ok(None);
+        }
+        Ok(Some(mean(&pieces)))
+    }
+
+    /// Powers of the losses and of the nodes over a span, from the ledger that began with it, W.
+    fn heats(&self, built: &Built, state: &[f64], span: f64) -> Batch {
+        let layout = self.machine.layout();
+        let (mut powers, mut nodes) = (Vec::new(), Vec::new());
+        for (k, at) in layout.bearings.iter().enumerate() {
+            let heats: [f64; HEATS] =
+                std::array::from_fn(|kind| state[layout.heat(at.heat + kind)] / span);
+            let steady = model::bearing_heat::steady_moment(&heats);
+            powers.extend([steady, heats.iter().sum::<f64>() - steady]);
+            let of_nodes: OfNodes = match &self.context.machine.constants.bearings[k].warm {
+                Some(warm) => {
+                    let lubricant = built.start.temperatures[k * NODES.len() + LUBRICANT];
+                    warm.over_nodes(&heats, state[at.inner + 5], lubricant)
+                }
+                None => [0.0; NODES.len()],
+            };
+            nodes.extend(of_nodes);
+        }
+        let own = layout.of_rotor;
+        let others = [own.damping, own.damping_rotating, own.seal_damping];
+        let others: f64 = (others.into_iter().flatten())
+            .map(|heat| state[layout.heat(heat)] / span)
+            .sum();
+        let speed = built.start.speed;
+        let mut rotor = built.rotor;
+        if built.start.time < built.brake_start {
+            rotor.torque = 0.0;
+        }
+        powers.push(others + speed * rotor.moment(speed) / f64::from(built.sides));
+        Batch { powers, nodes }
+    }
+}
+
+fn piece(machine: &Arc<RotorMachine>, state: &[f64], plan: &Plan) -> Finished {
+    let member = Member {
+        machine: machine.clone(),
+        start: state.to_vec(),
+        keep_rows: false,
+        kind: 0,
+    };
+    ensemble::one(&member, plan)
+}
+
+fn outcome(finished: &Finished) -> Piece {
+    match finished.ending.stop {
+        solve::Stop::Finished => Piece::Whole,
+        solve::Stop::Halted(ROLLS) => Piece::Rolls,
+        solve::Stop::Interrupted => Piece::Lost("it was interrupted"),
+        _ => Piece::Lost("a window ball by ball did not end as planned"),
+    }
+}
+
+/// Means of batches, and the standard error of their sum over it.
+fn mean(batches: &[Batch]) -> Window {
+    let count = batches.len() as f64;
+    let of = |each: Vec<&Vec<f64>>| -> Vec<f64> {
+        let length = each.first().map_or(0, |one| one.len());
+        let mean = |k: usize| each.iter().map(|one| one[k]).sum::<f64>() / count;
+        (0..length).map(mean).collect()
+    };
+    let powers = of(batches.iter().map(|batch| &batch.powers).collect());
+    let whole: f64 = powers.iter().sum();
+    let squares = batches.iter().map(|batch| {
+        let apart = batch.powers.iter().sum::<f64>() - whole;
+        apart * apart
+    });
+    let deviation = (squares.sum::<f64>() / (count - 1.0)).sqrt();
+    Window {
+        nodes: of(batches.iter().map(|batch| &batch.nodes).collect()),
+        scatter: deviation / (count.sqrt() * whole),
+        powers,
+    }
+}
+
+/// The drop with oil and clearance as warm as the run-out has made them.
+fn conditioned(drop: &Drop, built: &Built) -> Drop {
+    let mut warm = drop.clone();
+    warm.rotor.speed = built.start.speed * drop.rotor.speed.signum();
+    let parts = warm.auxiliary_bearings.iter_mut().zip(&built.parts);
+    for ((bearing, part), temperatures) in parts.zip(built.start.temperatures.chunks(NODES.len())) {
+        let Some(bearing) = &mut bearing.bearing else {
+            continue;
+        };
+        if let Moment::Palmgren { viscosity, .. } = &mut bearing.moment {
+            *viscosity = (part.losses.oil)
+                .viscosity(temperatures[LUBRICANT] + ICE_POINT)
+                .max(2e-6);
+        }
+        if part.warm.heat.feedback == Feedback::Full {
+            bearing.operating_diametral_clearance = part.zone.clearance_at(temperatures);
+        }
+    }
+    warm
+}
+
+/// One step in slow time from the speed of a window, with the powers of its start and of its end.
+fn step(built: &mut Built, from: &Window, to: &Window) -> Result<(), &'static str> {
+    let speed = built.start.speed;
+    let after = (RATIO * speed).max(built.end.stop_speed);
+    let sides = f64::from(built.sides);
+    let whole = |window: &Window| sides * window.powers.iter().sum::<f64>();
+    // I ln(1/r) ½ (Ω/M + Ω'/M'), M = P/Ω
+    let inverse = |speed: f64, power: f64| speed * speed / power;
+    let end_power = match std::ptr::eq(from, to) {
+        // what is not known yet: the moment of the start
+        true => whole(to) * after / speed,
+        false => whole(to),
+    };
+    let time = built.inertia
+        * (speed / after).ln()
+        * 0.5
+        * (inverse(speed, whole(from)) + inverse(after, end_power));
+    if !(time.is_finite() && time > 0.0) {
+        return Err("nothing brakes the rotor");
+    }
+    let lost = 0.5 * built.inertia * (speed - after) * (speed + after);
+    let weight = |k: usize| from.powers[k] + to.powers[k];
+    let sum: f64 = (0..from.powers.len()).map(weight).sum();
+    for (k, heat) in built.start.heats.iter_mut().enumerate() {
+        *heat += lost * weight(k) / sum;
+    }
+    // what reaches the nodes keeps its part of the whole
+    let scale = lost / (sides * time * 0.5 * sum);
+    let powers: Vec<f64> = (from.nodes.iter().zip(&to.nodes))
+        .map(|(a, b)| 0.5 * (a + b) * scale)
+        .collect();
+    let network = network(built)?;
+    let given = network.advance(&mut built.start.temperatures, &powers, time);
+    built.start.given += sides * given.iter().sum::<f64>();
+    built.start.time += time;
+    built.start.speed = after;
+    Ok(())
+}
+
+fn network(built: &Built) -> Result<thermal::network::Network, &'static str> {
+    let each = || {
+        let temperatures = built.start.temperatures.chunks(NODES.len());
+        built.parts.iter().zip(temperatures)
+    };
+    let loads: Vec<Vec<f64>> = each()
+        .map(|(part, temperatures)| part.zone.loads(part.zone.clearance_at(temperatures)))
+        .collect();
+    let operation =
+        |((part, temperatures), loads): ((&Part, &[f64]), &'_ Vec<f64>)| -> (f64, f64, Vec<f64>) {
+            let kelvin = temperatures[LUBRICANT] + ICE_POINT;
+            (
+                part.losses.ratio * built.start.speed,
+                part.losses.oil.viscosity(kelvin).max(1e-6),
+                loads.clone(),
+            )
+        };
+    let states: Vec<(f64, f64, Vec<f64>)> = each().zip(&loads).map(operation).collect();
+    let all: Vec<(&BearingNetwork, Operation)> = (built.parts.iter().zip(&states))
+        .map(|(part, (speed, viscosity, loads))| {
+            let operation = Operation {
+                speed: *speed,
+                loads,
+                viscosity: *viscosity,
+            };
+            (&part.network, operation)
+        })
+        .collect();
+    together(&all).map_err(|_| "the network of a bearing has no finite values")
+}
+
+/// What is known at a window.
+fn row(built: &Built, window: &Window) -> Row {
+    let start = &built.start;
+    let sides = f64::from(built.sides);
+    let moment = |power: f64| sides * power / start.speed;
+    let (rotor, bearings) = window.powers.split_last().unwrap_or((&0.0, &[]));
+    let sum = |kind: usize| bearings.iter().skip(kind).step_by(2).sum::<f64>();
+    let each = built
+        .parts
+        .iter()
+        .zip(start.temperatures.chunks(NODES.len()));
+    let of_part = |(k, (part, temperatures)): (usize, (&Part, &[f64]))| {
+        let clearance = part.zone.clearance_at(temperatures);
+        RowOfBearing {
+            moment: moment(bearings[2 * k] + bearings[2 * k + 1]),
+            clearance,
+            largest_ball_load: f64::NAN,
+        }
+    };
+    Row {
+        time: start.time,
+        speed: start.speed,
+        temperatures: start.temperatures.clone(),
+        moments: [moment(sum(0)), moment(sum(1)), moment(*rotor)],
+        bearings: each.enumerate().map(of_part).collect(),
+        growth: f64::NAN,
+        taken: vec![0.0; start.temperatures.len()],
+    }
+}
